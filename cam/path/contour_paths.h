@@ -1,0 +1,45 @@
+// Offset contours: level lines of the centre height h (ALGORITHMS 3, 11), spaced for the scallop.
+#pragma once
+
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/location/locator.h"
+#include "cam/path/pass_params.h"
+#include "cam/toolpath/cutter_path.h"
+#include "core/base/diagnostic.h"
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+struct ContourParams : PassParams {
+  double resolution = 0.1;  // mm: every loop or hole that holds a disc of this diameter is found
+};
+
+// One level c of h: the border between {h > c} (forbidden) and {h <= c}, as closed loops, material (forbidden
+// side) on the RIGHT of the motion (climb with M3). Vertices lie on the border to 1e-9 mm, corners between
+// two contacts are exact, chords are certified (T2 / two discs) to the chord tolerance on both sides. Nothing
+// is clipped yet.
+struct LevelContours {
+  double z = 0.0;  // centre height actually used (a level at a flat moves up by up to 1e-3 mm steps)
+  std::vector<CutterPath> loops;
+  int ambiguous_cells = 0;  // cells below the resolution left undecided, closed on the safe side
+};
+LevelContours TraceLevel(const Locator& locator, double z, const ContourParams& params,
+                         const RunContext& run);
+
+struct ContourResult {
+  std::vector<CutterPath>
+      paths;             // clipped to what is a pass (see below); `line` is the level's index, 0 highest
+  Diagnostics findings;  // CONTOUR_AMBIGUOUS with place and size
+};
+// Levels spaced so that dz = CenterStep sin(slope) holds on all contacts in the window, partial levels where
+// only a spot needs them, one level exactly at each flat, silhouette bottom and lower end. A part of a loop
+// is a pass where its contact lies in the slope window (dilated by half a step along the loop), has z <= c,
+// and is interior or lies on an edge or vertex with (c - p)/R inside the normal cone there; all else is
+// clipped with the clip points solved (ALGORITHMS 3, "which part of the zero set is a pass").
+absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const ContourParams& params,
+                                           const RunContext& run);
+
+}  // namespace patchmill

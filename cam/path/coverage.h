@@ -1,0 +1,30 @@
+// Closing the loop on P2 while planning: where would passes leave more than the scallop, and what passes mend
+// it.
+#pragma once
+
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/location/locator.h"
+#include "cam/path/pass_params.h"
+#include "cam/toolpath/cutter_path.h"
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+struct CoverageParams : PassParams {
+  double limit = 0.02;      // mm: leftover above this at a reachable point is a spot to mend
+  double tolerance = 0.01;  // mm: reachable means free for a ball of radius - tolerance
+  int max_rounds = 6;
+};
+
+// Crease passes and rest passes: finds reachable surface points whose distance to the paths exceeds radius +
+// limit (adaptive sampling with proven second-order bounds), follows the ridges of the leftover (creases: the
+// two-contact curve itself) and adds certified passes there, until nothing reachable is above the limit or
+// max_rounds is up. Returns the added passes only.
+absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,
+                                                  const std::vector<CutterPath>& paths,
+                                                  const CoverageParams& params, const RunContext& run);
+
+}  // namespace patchmill

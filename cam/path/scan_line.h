@@ -1,0 +1,25 @@
+// One certified scan line of h (ALGORITHMS 2.4): the gouge-free curve of centres above a straight segment in
+// plan.
+#pragma once
+
+#include <vector>
+
+#include "cam/location/locator.h"
+#include "cam/path/pass_params.h"
+#include "cam/toolpath/cutter_path.h"
+
+namespace patchmill {
+
+// A maximal run without a gap (where h does not exist the line breaks). Vertical drops are two points over
+// one xy.
+struct ScanRun {
+  std::vector<CutterPoint> points;  // from a to b
+};
+
+// Certified chords: gouge <= chord_tolerance (T2), excess normal to the path <= chord_tolerance (T3); contact
+// switches solved to 1e-9 mm and kept as vertices with both contacts; drops at vertical walls and open
+// borders placed to 1e-7 mm; flat runs merged by swept-ball queries. Heights are h (or the floor, whichever
+// is higher), certified and raised by their gap.
+std::vector<ScanRun> ScanLine(const Locator& locator, const Vec2& a, const Vec2& b, const PassParams& params);
+
+}  // namespace patchmill

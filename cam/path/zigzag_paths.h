@@ -1,0 +1,25 @@
+// Zig-zag passes over the gentle ground: parallel scan lines, spaced for the scallop by the centre formula.
+#pragma once
+
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/path/scan_line.h"
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+struct ZigzagParams : PassParams {
+  double angle = 0.0;  // rad, direction of the lines in plan, from +x
+};
+
+// Lines cover every contact whose slope lies in the window, each clipped to the window dilated by half a step
+// along the centre curve; lines end at a sheet's outer border and roll over rims and creases that are locally
+// highest (MACHINING A.12). Local narrow spots get partial lines; no step falls below min_step_fraction of
+// the flat one. Ordered by line, then along the line; every path runs in +angle direction (linking turns
+// them). Deterministic; parallel over lines.
+absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, const ZigzagParams& params,
+                                                    const RunContext& run);
+
+}  // namespace patchmill

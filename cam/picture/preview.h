@@ -1,0 +1,34 @@
+// The part from above and isometric as SVG: regions, unreachable parts, passes by kind, links, open edges,
+// scale, legend.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cam/toolpath/toolpath.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+struct PreviewRegion {
+  std::string name;   // "mountain steep 412.3 mm2"
+  std::string color;  // CSS
+  bool unreachable = false;
+  std::vector<std::vector<Vec3>> border;
+};
+
+struct PreviewInput {
+  const Surface* surface = nullptr;    // required
+  const Toolpath* toolpath = nullptr;  // optional
+  std::vector<PreviewRegion> regions;
+  // Region index of a point of a piece (into `regions`, -1 none); empty function: shade by slope only.
+  std::function<int(const SurfacePoint&)> region_of;
+  std::string title;
+  std::vector<std::string> notes;  // lines under the title: outcome, gouge, leftover, ...
+};
+
+// At most about `max_bytes` (moves are thinned for display, never in the program).
+std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes = 8'000'000);
+
+}  // namespace patchmill

@@ -1,0 +1,83 @@
+// One job as values: what is asked, and what is answered. The wire's Job, resolved (server/convert does the
+// conversion).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cam/link/link_paths.h"
+#include "cam/post/program_writer.h"
+#include "cam/region/region_map.h"
+#include "cam/tool/tool.h"
+#include "cam/verify/verify.h"
+#include "core/network/patch_model.h"
+
+namespace patchmill {
+
+enum class Strategy { kAuto, kContour, kZigzag };
+enum class EdgeRule { kStop, kRoll, kExtend };
+
+struct Setup {
+  Placement placement;
+  // Exactly what MACHINING A.3 offers: a point of the placed model, or one of its box's named points.
+  enum class Zero { kPoint, kTopCenter, kBottomCorner };
+  Zero zero = Zero::kPoint;
+  Vec3 zero_point = Vec3::Zero();     // for kPoint, placed frame; default the model's own origin
+  std::optional<double> stock_top_z;  // PROGRAM frame, default model top + allowance
+  double allowance = 0.5;
+};
+
+struct Operation {
+  Tool tool;
+  double scallop = 0.01;
+  double tolerance = 0.01;  // the whole budget
+  double leave = 0.0;
+  double steep_angle = Radians(45.0);
+  Strategy strategy = Strategy::kAuto;
+  double zigzag_angle = 0.0;
+  CutDirection contour_direction = CutDirection::kClimb;
+  EdgeRule edge_rule = EdgeRule::kStop;
+  // PROGRAM frame, tip heights.
+  std::optional<double> clearance_z, floor_z;
+  double approach_gap = 1.0;
+};
+
+struct Job {
+  Setup setup;
+  Operation operation;
+  std::string dialect = "linuxcnc";
+  std::string work_offset = "G54";
+  std::vector<std::string> header;    // extra comment lines (request hash, version, model name)
+  bool default_cutting_data = false;  // the client used defaults: warn (MACHINING A.5)
+  bool unitless_file = false;         // warn when the extent looks wrong (A.14)
+};
+
+enum class Outcome { kComplete, kCompleteWhereReachable, kNothingToCut, kVerificationFailed };
+
+struct StageTime {
+  std::string name;
+  double seconds = 0.0;
+};
+
+struct JobReport {
+  Outcome outcome = Outcome::kNothingToCut;
+  VerifyReport verify;
+  LinkStats motion;
+  double min_concave_radius = kInfinity;  // mm, smallest on the reachable side; infinity: none
+  double controller_tolerance = 0.0;      // mm
+  int point_count = 0;
+  std::vector<Region> regions;
+  Diagnostics diagnostics;
+  std::vector<StageTime> stages;
+};
+
+struct JobResult {
+  JobReport report;
+  std::string program;  // empty unless the outcome carries one
+  LinkResult motion;    // for PATHS and pictures
+  RegionMap regions;
+  Vec3 program_zero = Vec3::Zero();
+};
+
+}  // namespace patchmill

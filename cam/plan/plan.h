@@ -1,0 +1,38 @@
+// The whole chain as one function: read this first.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include "cam/plan/job.h"
+#include "core/base/run_context.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+// Places the model and builds the surface. INVALID_ARGUMENT for a model that cannot be used.
+absl::StatusOr<Surface> BuildPlacedSurface(const PatchModel& model, const Setup& setup,
+                                           const RunContext& run);
+
+// Model findings of CheckModel: network, curvature against the tool, size warnings.
+struct ModelCheck {
+  Diagnostics findings;
+  Box3 box;                               // placed
+  double min_concave_radius = kInfinity;  // mm, upward side
+};
+absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool,
+                                      const RunContext& run);
+
+// Checks ranges of the job itself; INVALID_ARGUMENT with field path, value and constraint.
+absl::Status ValidateJob(const Job& job);
+
+absl::StatusOr<RegionMap> PlanRegions(const Surface& surface, const Job& job, const RunContext& run);
+
+// surface -> regions -> passes -> links -> program text -> verification. No program unless verified.
+absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run);
+
+// Verification of any program text against the surface.
+absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
+                                               std::string_view text, const VerifyParams& params,
+                                               const RunContext& run);
+
+}  // namespace patchmill

@@ -1,0 +1,64 @@
+// The surface split by what it is: mountain, basin, neutral x steep, gentle; and what no ball of this size
+// reaches. ALGORITHMS 4 and 12; METHODS 1.9, 1.10.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/location/locator.h"
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+enum class RegionKind { kMountain, kBasin, kNeutral, kUnreachable };
+enum class SlopeClass { kUnspecified, kSteep, kGentle };
+enum class UnreachableReason { kNone, kUndercut, kConcave, kFloor, kAvoided, kStrategy, kHolder };
+
+const char* Name(RegionKind kind);
+const char* Name(SlopeClass slope);
+const char* Name(UnreachableReason reason);
+
+struct RegionParams {
+  double radius = 3.0;      // mm, ball + stock to leave
+  double tolerance = 0.01;  // mm: reachable means free for a ball of radius - tolerance
+  double steep_angle = Radians(45.0);
+  double floor_z = -kInfinity;     // mm, lowest tip
+  double border_tolerance = 0.01;  // mm, sagitta of border polylines on the true loci
+  double min_area = 0.0;           // mm^2, regions below are merged; 0: two tool discs, 2 pi R^2
+};
+
+struct Region {
+  int id = 0;
+  RegionKind kind = RegionKind::kNeutral;
+  SlopeClass slope = SlopeClass::kGentle;
+  UnreachableReason reason = UnreachableReason::kNone;
+  double area = 0.0;           // mm^2 on the surface
+  Vec3 inside = Vec3::Zero();  // a point of the region
+  double z_min = 0.0, z_max = 0.0;
+  double deepest_leftover = 0.0;          // mm, unreachable regions: estimate of how much stays
+  double largest_tool_diameter = 0.0;     // mm, unreachable CONCAVE regions: what would reach it (0: none)
+  std::vector<std::vector<Vec3>> border;  // closed polylines on the surface
+};
+
+struct RegionMap {
+  std::vector<Region>
+      regions;  // ids are positions; reachable ones first, by falling area; then unreachable ones
+  // Labels for lookup: per piece a grid of cells x cells, label of the cell's centre (id into regions, -1
+  // none).
+  int cells = 0;
+  std::vector<std::vector<int>> labels;  // [piece][i * cells + j], i along u
+
+  int At(const SurfacePoint& p) const {
+    const int i = std::min(cells - 1, static_cast<int>(p.u * cells)),
+              j = std::min(cells - 1, static_cast<int>(p.v * cells));
+    return labels[p.piece.index()][static_cast<std::size_t>(i * cells + j)];
+  }
+};
+
+absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParams& params,
+                                       const RunContext& run);
+
+}  // namespace patchmill

@@ -1,0 +1,32 @@
+// A pass: the polyline of ball centres with the contacts under it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+enum class PassKind { kZigzag, kContour, kCrease, kRest };
+
+// A ball centre, gouge-free, and what it touches.
+struct CutterPoint {
+  Vec3 center = Vec3::Zero();
+  std::optional<SurfacePoint> contact;        // absent where the floor holds the ball
+  std::optional<SurfacePoint> other_contact;  // the second one at a switch or corner vertex
+};
+
+// Consecutive centres are joined by straight moves, each certified: gouge and excess within the path's chord
+// tolerance.
+struct CutterPath {
+  PassKind kind = PassKind::kZigzag;
+  bool closed = false;  // the last point joins the first (not repeated)
+  int region = -1;      // RegionMap id of most of its length, -1: none
+  int line = 0;         // index of the scan line or level it came from; orders passes within a region
+  std::vector<CutterPoint> points;
+};
+
+double Length(const CutterPath& path);  // mm, closing move included
+
+}  // namespace patchmill

@@ -1,0 +1,53 @@
+// The whole motion: what is posted, drawn and streamed. Positions are of the ball CENTRE in the placed
+// model's frame (mm); the post subtracts radius (tip) and program zero.
+#pragma once
+
+#include <vector>
+
+#include "core/base/vec.h"
+
+namespace patchmill {
+
+enum class MoveKind { kRapid, kApproach, kPlunge, kLead, kCut, kLink, kRetract };
+
+// Straight move from the previous move's `to` (the first one: from machine zero above everything,
+// vertical-safe).
+struct Move {
+  MoveKind kind = MoveKind::kRapid;
+  Vec3 to = Vec3::Zero();
+  double feed = 0.0;  // mm/min; ignored for kRapid
+  int region = -1;
+  int pass = -1;  // index of the pass in the linked order, -1 between passes
+  bool has_contact = false;
+  Vec3 contact = Vec3::Zero();
+};
+
+struct Toolpath {
+  std::vector<Move> moves;
+  double ball_radius = 0.0;
+};
+
+// What a program text means, as read back from it: TIP positions in the program frame, mm.
+struct ProgramMove {
+  enum class Kind { kRapid, kFeed };
+  Kind kind = Kind::kRapid;
+  Vec3 from = Vec3::Zero();
+  Vec3 to = Vec3::Zero();
+  double feed = 0.0;         // mm/min
+  int line = 0;              // 1-based line of the text
+  bool from_above = false;   // starts at machine Z zero ("above everything"): from.z() means +infinity
+  bool to_above = false;     // ends there
+  double chord_error = 0.0;  // mm, when the move is one chord of an arc
+};
+
+struct ProgramMotion {
+  std::vector<ProgramMove> moves;
+  int tool_number = 0;
+  double controller_tolerance = 0.0;  // mm, largest G64 P in force while feeding; kInfinity for a bare G64
+  bool ends_with_spindle_off = false;
+  bool ends_with_coolant_off = false;
+  bool first_motion_is_up = false;
+  bool last_motion_is_up = false;
+};
+
+}  // namespace patchmill

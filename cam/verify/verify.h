@@ -1,0 +1,68 @@
+// The independent judge (ALGORITHMS 7 A, DESIGN 2): program motion against the exact surface. Sees tool,
+// toolpath and core only.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include <absl/status/statusor.h>
+
+#include "cam/tool/tool.h"
+#include "cam/toolpath/toolpath.h"
+#include "core/base/diagnostic.h"
+#include "core/base/run_context.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+enum class ForcedStrategy { kNone, kContour, kZigzag };
+
+struct VerifyParams {
+  double tolerance = 0.01;           // mm, P1 and P2
+  std::optional<double> scallop;     // mm; absent: leftover is measured, not judged
+  double leave = 0.0;                // mm: judged against the offset surface
+  double certainty = 1e-3;           // mm: how exactly maxima are known
+  double floor_z = -kInfinity;       // mm, tip, placed frame
+  Vec3 program_zero = Vec3::Zero();  // placed point that is X0 Y0 Z0
+  double stock_top_z = 0.0;          // mm, placed frame: highest material
+  double allowance = 0.5;            // mm, stock along the normal, for the rapid check
+  ForcedStrategy strategy =
+      ForcedStrategy::kNone;  // excuses (reason STRATEGY) what a forced strategy cannot finish
+  double zigzag_angle = 0.0;  // rad, for kZigzag
+  double min_step_fraction = 0.25;
+};
+
+struct VerifyPlace {
+  Vec3 point = Vec3::Zero();  // on the surface, placed frame
+  int patch_index = -1;
+  std::string patch_id;
+  int line = 0;  // of the program: the move that did it, or the nearest one
+};
+
+// Index: UnreachableReason order UNDERCUT, CONCAVE, FLOOR, AVOIDED, STRATEGY.
+struct VerifyReport {
+  bool gouge_ok = false, finish_ok = false, motion_ok = false;  // P1, P2, P3
+  double max_gouge = 0.0;
+  VerifyPlace max_gouge_at;
+  double max_leftover = 0.0;  // at reachable points
+  VerifyPlace max_leftover_at;
+  double reachable_area = 0.0, total_area = 0.0;  // mm^2
+  std::array<double, 5> unreachable_area{};       // mm^2 by reason
+  std::array<double, 5> deepest_unreachable{};    // mm of leftover by reason
+  std::array<VerifyPlace, 5> deepest_unreachable_at;
+  double leftover_above_limit_area = 0.0;  // mm^2, reachable and above scallop + tolerance
+  double required_stickout = 0.0;          // mm: highest material near the tool minus the tip
+  double steepest_descent = 0.0;           // rad, of feed moves
+  double tip_z_min = 0.0;
+  Box3 tip_box;  // program frame, all moves that are not "above everything"
+  double cut_length = 0.0, rapid_length = 0.0;
+  Diagnostics findings;  // GOUGE, LEFTOVER, RAPID_IN_STOCK, SHANK_GOUGE, ...
+  bool ok() const { return gouge_ok && finish_ok && motion_ok; }
+};
+
+// Certain to params.certainty. `surface` is placed. Parallel over pieces, deterministic.
+absl::StatusOr<VerifyReport> Verify(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
+                                    const VerifyParams& params, const RunContext& run);
+
+}  // namespace patchmill

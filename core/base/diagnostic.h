@@ -1,0 +1,34 @@
+// Findings about untrusted input: coded, all at once, never a status.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/vec.h"
+
+namespace patchmill {
+
+enum class Severity { kInfo, kWarning, kError };
+
+// Where a finding is. Everything optional; what is set is printed.
+struct Where {
+  std::string patch_id;            // the client's own id
+  std::optional<int> patch_index;  // 0-based, order of the model
+  std::optional<Vec2> uv;          // native parameters of that patch
+  std::optional<Vec3> point;       // mm, frame of the stage that found it
+  std::optional<int> region_id;
+  std::optional<int> line;  // 1-based, of a file or program
+  std::string field;        // path of a request field
+};
+
+struct Diagnostic {
+  std::string code;  // UPPER_SNAKE_CASE, stable: clients switch on it
+  Severity severity = Severity::kInfo;
+  std::string message;  // one sentence with value and constraint
+  Where where;
+};
+
+using Diagnostics = std::vector<Diagnostic>;
+
+}  // namespace patchmill

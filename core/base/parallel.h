@@ -1,0 +1,20 @@
+// Parallel loops whose results do not depend on the number of threads: slot i is written by the call with i
+// only.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include <absl/status/status.h>
+
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+// Calls body(i) for i in [0,count) on up to run.threads() threads. Stops early when cancelled and returns
+// that status; otherwise OK. `body` must not throw. Reports run.Progress(stage, done/count) when `stage` is
+// not null.
+absl::Status ParallelFor(const RunContext& run, const char* stage, std::size_t count,
+                         const std::function<void(std::size_t)>& body);
+
+}  // namespace patchmill

@@ -1,0 +1,12 @@
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+absl::Status RunContext::Check() const {
+  if (cancelled_.load(std::memory_order_relaxed)) return absl::CancelledError("cancelled by the caller");
+  if (has_deadline_ && Clock::now() >= deadline_)
+    return absl::DeadlineExceededError("the deadline has passed");
+  return absl::OkStatus();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,50 @@
+// Progress and cancel as one small handle passed down to every long computation.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <string_view>
+
+#include <absl/status/status.h>
+
+namespace patchmill {
+
+// Shared by all threads of one job. Cheap to poll: Cancelled() is one relaxed load and, rarely, a clock read.
+class RunContext {
+ public:
+  using Clock = std::chrono::steady_clock;
+  // stage, fraction in [0,1] of that stage. Called from the thread that works; must be quick and thread-safe.
+  using ProgressSink = std::function<void(std::string_view stage, double fraction)>;
+
+  RunContext() = default;
+  explicit RunContext(int threads) : threads_(threads) {}
+
+  // 0: as many as the machine has. Results never depend on it (P5).
+  int threads() const { return threads_; }
+  void set_threads(int threads) { threads_ = threads; }
+  void set_progress(ProgressSink sink) { sink_ = std::move(sink); }
+  void set_deadline(Clock::time_point deadline) {
+    deadline_ = deadline;
+    has_deadline_ = true;
+  }
+
+  void Cancel() { cancelled_.store(true, std::memory_order_relaxed); }  // any thread, any number of times
+  bool Cancelled() const {
+    return cancelled_.load(std::memory_order_relaxed) || (has_deadline_ && Clock::now() >= deadline_);
+  }
+  // OK, CANCELLED or DEADLINE_EXCEEDED.
+  absl::Status Check() const;
+  void Progress(std::string_view stage, double fraction) const {
+    if (sink_) sink_(stage, fraction);
+  }
+
+ private:
+  int threads_ = 0;
+  std::atomic<bool> cancelled_{false};
+  bool has_deadline_ = false;
+  Clock::time_point deadline_{};
+  ProgressSink sink_;
+};
+
+}  // namespace patchmill

@@ -1,0 +1,48 @@
+// One algebra for all patches (ALGORITHMS 1): every patch is cut into pieces, each a rational Bernstein
+// rectangle.
+//   Bezier: 1 piece. B-spline: one per non-empty knot rectangle. Gregory: 1. Triangle of degree n: 3
+//   rectangles of bidegree (n,n) around its centroid (a bilinear map of the rectangle into the triangle; no
+//   collapsed edge).
+// Algorithms that plan, bound and measure see pieces only.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/base/typed_id.h"
+#include "core/patch/patch.h"
+
+namespace patchmill {
+
+// Homogeneous control points (w x, w y, w z, w) of a tensor Bernstein form; points[i * (degree_v + 1) + j], i
+// along u. A polynomial net has all w = 1. A point with w = 0 is zero altogether (singular Gregory corner,
+// ALGORITHMS 1) and does not belong to the hull: the surface lies in the convex hull of {xyz / w : w > 0}.
+struct BernsteinNet {
+  int degree_u = 0;
+  int degree_v = 0;
+  bool rational = false;
+  std::vector<Vec4> points;
+};
+
+// The part u in [u0,u1], v in [v0,v1] of a net, by de Casteljau on homogeneous points. Cost O(degree^3).
+BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, double v1);
+
+struct Piece {
+  PatchId patch;
+  BernsteinNet net;  // exact for every kind
+  // Gregory pieces are evaluated natively (faster, and right at the corners); others from the net.
+  std::optional<GregoryPatch> gregory;
+  // Native parameters of the piece's corners (0,0) (1,0) (0,1) (1,1); bilinear in between, exactly.
+  std::array<Vec2, 4> native;
+};
+
+// Never empty for a valid patch. Pieces of a B-spline in order of u span, then v span.
+std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape);
+
+// Jet in the piece's own parameters (u,v) in [0,1]^2.
+SurfaceJet Evaluate(const Piece& piece, double u, double v);
+Vec3 Position(const Piece& piece, double u, double v);
+Vec2 NativeParameters(const Piece& piece, double u, double v);
+
+}  // namespace patchmill

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Installs everything Patchmill needs on a bare Debian 12. Safe to run again: what is there already is left alone.
+# Used by scripts/demo.sh, scripts/test.sh, CI and the Dockerfile. Needs root, or sudo.
+#
+#   scripts/setup.sh            all that building and testing needs
+#   scripts/setup.sh build      compiler and libraries only (what the container's build stage uses)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+what="${1:-all}"
+build_packages=(
+  g++ cmake ninja-build ccache pkg-config git ca-certificates
+  libgrpc++-dev libgrpc-dev protobuf-compiler-grpc protobuf-compiler libprotobuf-dev libabsl-dev
+  libeigen3-dev libopenmesh-dev libcgal-dev libtbb-dev libcli11-dev libfmt-dev libspdlog-dev
+)
+test_packages=(
+  libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
+  python3 clang-format-14 linuxcnc-uspace librsvg2-bin
+)
+case "$what" in
+  all) packages=("${build_packages[@]}" "${test_packages[@]}") ;;
+  build) packages=("${build_packages[@]}") ;;
+  *) echo "setup.sh: unknown argument '$what' (all, build)" >&2; exit 2 ;;
+esac
+# Node.js and npm carry buf, the linter of the contract; a newer Node.js than Debian's brings its own npm.
+if [ "$what" = all ]; then
+  command -v node >/dev/null || packages+=(nodejs)
+  command -v npm >/dev/null || packages+=(npm)
+fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "setup.sh: run as root, or install sudo" >&2; exit 1; }
+  as_root=(sudo)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  [ "$(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null || true)" = "ii " ] || missing+=("$package")
+done
+if [ "${#missing[@]}" -gt 0 ]; then
+  echo "setup: installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+fi
+
+if [ "$what" = all ] && [ ! -x node_modules/.bin/buf ]; then
+  echo "setup: installing buf (version pinned in package.json)"
+  npm install --no-save --no-package-lock --no-audit --no-fund --loglevel=error
+fi
+echo "setup: done"

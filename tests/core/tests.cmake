@@ -1,0 +1,3 @@
+foreach(folder base math patch diffgeo network surface io)
+  patchmill_test(core/${folder} DEPS core/${folder})
+endforeach()
