@@ -4,13 +4,22 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/diagnostic.h"
 #include "core/patch/patch.h"
 
 namespace patchmill {
 
+// What a model may hold at most. Beyond them ValidateModel refuses it.
+inline constexpr int kMaxPatches = 100'000;
+inline constexpr int kMaxControlPoints = 10'000'000;  // of all patches together
+inline constexpr double kMaxCoordinate = 1e9;         // |x|, |y|, |z|
+inline constexpr double kMinWeight = 1e-9;  // homogeneous sums keep 1e-12 relative between these two
+inline constexpr double kMaxWeight = 1e9;
+inline constexpr double kMinKnotSpan = 1e-9;  // of the domain: distinct knots closer than that are a fault
+
 struct PatchModel {
   std::vector<Patch> patches;
-  std::optional<double> join_tolerance;  // mm; default 1e-5 of the box diagonal
+  std::optional<double> join_tolerance;  // length unit of the points; default 1e-5 of the box diagonal
 };
 
 // How the model lies on the machine: scale first, then `up`, then translation (DESIGN 5).
@@ -21,11 +30,15 @@ struct Placement {
   Vec3 translation = Vec3::Zero();
 };
 Vec3 Place(const Placement& placement, const Vec3& p);
+// All control points placed, and join_tolerance scaled with them. The kinds are affine-invariant: exact.
 PatchModel Place(const Placement& placement, const PatchModel& model);
 
 // Everything that makes a single patch unusable: sizes, degrees, knots, weights, finite numbers, magnitude.
-// One error diagnostic per fault with patch index and reason; empty when the model is sound. Cost O(points).
-std::vector<struct Diagnostic> ValidateModel(const PatchModel& model);
+// One error diagnostic per kind of fault and patch, with patch index, field path and reason (the first bad
+// point of a patch stands for all of them), at most 1000; empty when the model is sound. Cost O(points).
+// Codes: PATCH_COUNT, POINT_COUNT, WEIGHT_COUNT, INVALID_DEGREE, INVALID_KNOTS, INVALID_WEIGHT, NOT_FINITE,
+// TOO_LARGE, ZERO_EXTENT, DUPLICATE_ID, INVALID_JOIN_TOLERANCE.
+Diagnostics ValidateModel(const PatchModel& model);
 
 Box3 ControlBox(const PatchModel& model);  // of all control points
 

@@ -1,0 +1,18 @@
+// The control points of any kind of patch as one span.
+#pragma once
+
+#include <span>
+#include <variant>
+
+#include "core/patch/patch.h"
+
+namespace patchmill {
+
+inline std::span<Vec3> ControlPoints(PatchShape& shape) {
+  return std::visit([](auto& s) { return std::span<Vec3>(s.points); }, shape);
+}
+inline std::span<const Vec3> ControlPoints(const PatchShape& shape) {
+  return std::visit([](const auto& s) { return std::span<const Vec3>(s.points); }, shape);
+}
+
+}  // namespace patchmill

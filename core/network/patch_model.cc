@@ -1,0 +1,46 @@
+#include "core/network/patch_model.h"
+
+#include <span>
+
+#include "core/network/control_points.h"
+
+namespace patchmill {
+
+Vec3 Place(const Placement& placement, const Vec3& p) {
+  const Vec3 q = placement.scale * p;
+  const Vec3& t = placement.translation;
+  switch (placement.up) {
+    case UpAxis::kZ:
+      return t + q;
+    case UpAxis::kY:
+      return t + Vec3(q.x(), -q.z(), q.y());
+    case UpAxis::kX:
+      return t + Vec3(-q.z(), q.y(), q.x());
+    case UpAxis::kNegZ:
+      return t + Vec3(q.x(), -q.y(), -q.z());
+    case UpAxis::kNegY:
+      return t + Vec3(q.x(), q.z(), -q.y());
+    case UpAxis::kNegX:
+      return t + Vec3(q.z(), q.y(), -q.x());
+  }
+  return t + q;
+}
+
+PatchModel Place(const Placement& placement, const PatchModel& model) {
+  PatchModel placed = model;
+  for (Patch& patch : placed.patches) {
+    for (Vec3& p : ControlPoints(patch.shape)) p = Place(placement, p);
+  }
+  if (placed.join_tolerance) *placed.join_tolerance *= placement.scale;
+  return placed;
+}
+
+Box3 ControlBox(const PatchModel& model) {
+  Box3 box;
+  for (const Patch& patch : model.patches) {
+    for (const Vec3& p : ControlPoints(patch.shape)) box.Add(p);
+  }
+  return box;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "core/network/control_points.h"
+#include "core/network/patch_model.h"
+
+namespace patchmill {
+namespace {
+
+constexpr std::size_t kMaxFaults = 1000;
+
+// Collects the faults of one model; knows which patch it is at.
+class Faults {
+ public:
+  void Enter(const Patch& patch, std::size_t index, std::string_view kind) {
+    patch_ = &patch;
+    index_ = static_cast<int>(index);
+    kind_ = kind;
+  }
+  // `field` within the patch, may be empty; the message becomes "<path> <text>".
+  void Add(std::string_view code, std::string_view field, std::string_view text) {
+    Where where;
+    where.patch_id = patch_->id;
+    where.patch_index = index_;
+    where.field = fmt::format("patches[{}].{}{}{}", index_, kind_, field.empty() ? "" : ".", field);
+    AddAt(code, std::move(where), text);
+  }
+  void AddToModel(std::string_view code, std::string_view field, std::string_view text) {
+    Where where;
+    where.field = field;
+    AddAt(code, std::move(where), text);
+  }
+  bool full() const { return found_.size() >= kMaxFaults; }
+  Diagnostics Take() { return std::move(found_); }
+
+ private:
+  void AddAt(std::string_view code, Where where, std::string_view text) {
+    if (full()) return;
+    std::string message = fmt::format("{} {}", where.field, text);
+    found_.push_back({std::string(code), Severity::kError, std::move(message), std::move(where)});
+  }
+
+  Diagnostics found_;
+  const Patch* patch_ = nullptr;
+  int index_ = 0;
+  std::string_view kind_;
+};
+
+bool CheckDegree(int degree, std::string_view field, Faults& faults) {
+  if (degree >= 1 && degree <= kMaxDegree) return true;
+  faults.Add("INVALID_DEGREE", field, fmt::format("= {}; must be in [1, {}]", degree, kMaxDegree));
+  return false;
+}
+
+void CheckPoints(std::span<const Vec3> points, Faults& faults) {
+  Box3 box;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3& p = points[i];
+    const std::string field = "points";
+    if (!p.allFinite()) {
+      faults.Add("NOT_FINITE", field, fmt::format("has a number that is not finite in point {}", i));
+      return;
+    }
+    if (!(p.cwiseAbs().maxCoeff() <= kMaxCoordinate)) {
+      faults.Add("TOO_LARGE", field,
+                 fmt::format("has {:g} in point {}; must be in [-{:g}, {:g}]", p.cwiseAbs().maxCoeff(), i,
+                             kMaxCoordinate, kMaxCoordinate));
+      return;
+    }
+    box.Add(p);
+  }
+  if (!points.empty() && !(box.Diagonal() > 0.0)) {
+    faults.Add("ZERO_EXTENT", "points", "are all the same; the patch has no extent");
+  }
+}
+
+void CheckWeights(const std::vector<double>& weights, std::size_t points, Faults& faults) {
+  if (weights.empty()) return;
+  if (weights.size() != points) {
+    faults.Add("WEIGHT_COUNT", "weights",
+               fmt::format("has {} numbers; must have none or one per point, {}", weights.size(), points));
+    return;
+  }
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (weights[i] >= kMinWeight && weights[i] <= kMaxWeight) continue;
+    faults.Add(
+        "INVALID_WEIGHT", "weights",
+        fmt::format("has {:g} at point {}; must be in [{:g}, {:g}]", weights[i], i, kMinWeight, kMaxWeight));
+    return;
+  }
+}
+
+void CheckPointCount(std::size_t have, std::size_t want, Faults& faults) {
+  if (have == want) return;
+  faults.Add("POINT_COUNT", "points", fmt::format("has {} points; must have {}", have, want));
+}
+
+// What is wrong with a knot vector, or empty.
+std::string KnotFault(std::span<const double> knots, int degree) {
+  const auto p = static_cast<std::size_t>(degree);
+  if (knots.size() < 2 * (p + 1)) {
+    return fmt::format("has {} knots; degree {} needs at least {}", knots.size(), degree, 2 * (p + 1));
+  }
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    if (!std::isfinite(knots[i]) || std::abs(knots[i]) > kMaxCoordinate) {
+      return fmt::format("has {:g} at index {}; must be in [-{:g}, {:g}]", knots[i], i, kMaxCoordinate,
+                         kMaxCoordinate);
+    }
+    if (i > 0 && knots[i] < knots[i - 1]) {
+      return fmt::format("decreases from {:g} to {:g} at index {}", knots[i - 1], knots[i], i);
+    }
+  }
+  const double begin = knots[p];
+  const double end = knots[knots.size() - 1 - p];
+  const double domain = end - begin;
+  if (!(domain > 0.0)) return fmt::format("has an empty domain [{:g}, {:g}]", begin, end);
+  if (domain < kMinKnotSpan * std::max(std::abs(begin), std::abs(end))) {
+    return fmt::format("has a domain [{:g}, {:g}] too short for its offset", begin, end);
+  }
+  for (std::size_t i = 0; i < knots.size();) {
+    std::size_t j = i;
+    while (j < knots.size() && knots[j] == knots[i]) ++j;
+    const bool inner = knots[i] > begin && knots[i] < end;
+    const std::size_t most = inner ? p : p + 1;
+    if (j - i > most) {
+      return fmt::format("repeats {:g} {} times; at most {} for {} knot of degree {}", knots[i], j - i, most,
+                         inner ? "an inner" : "an outer", degree);
+    }
+    if (j < knots.size() && knots[j] - knots[i] < kMinKnotSpan * domain) {
+      return fmt::format("has knots {:g} apart at index {}; distinct knots must be {:g} of the domain apart",
+                         knots[j] - knots[i], j, kMinKnotSpan);
+    }
+    i = j;
+  }
+  return "";
+}
+
+bool CheckKnots(std::span<const double> knots, int degree, std::string_view field, Faults& faults) {
+  const std::string fault = KnotFault(knots, degree);
+  if (fault.empty()) return true;
+  faults.Add("INVALID_KNOTS", field, fault);
+  return false;
+}
+
+std::string_view KindName(const PatchShape& shape) {
+  static constexpr std::string_view kNames[] = {"bezier", "bspline", "gregory", "triangle"};
+  return kNames[shape.index()];
+}
+
+void CheckShape(const BezierPatch& b, Faults& faults) {
+  const bool u = CheckDegree(b.degree_u, "degree_u", faults);
+  const bool v = CheckDegree(b.degree_v, "degree_v", faults);
+  if (u && v) {
+    CheckPointCount(b.points.size(), static_cast<std::size_t>((b.degree_u + 1) * (b.degree_v + 1)), faults);
+  }
+  CheckPoints(b.points, faults);
+  CheckWeights(b.weights, b.points.size(), faults);
+}
+
+void CheckShape(const BsplinePatch& b, Faults& faults) {
+  bool sound = CheckDegree(b.degree_u, "degree_u", faults);
+  sound = CheckDegree(b.degree_v, "degree_v", faults) && sound;
+  if (sound) {
+    sound = CheckKnots(b.knots_u, b.degree_u, "knots_u", faults);
+    sound = CheckKnots(b.knots_v, b.degree_v, "knots_v", faults) && sound;
+  }
+  if (sound) {
+    const std::size_t nu = b.knots_u.size() - static_cast<std::size_t>(b.degree_u) - 1;
+    const std::size_t nv = b.knots_v.size() - static_cast<std::size_t>(b.degree_v) - 1;
+    CheckPointCount(b.points.size(), nu * nv, faults);
+  }
+  CheckPoints(b.points, faults);
+  CheckWeights(b.weights, b.points.size(), faults);
+}
+
+void CheckShape(const GregoryPatch& g, Faults& faults) { CheckPoints(g.points, faults); }
+
+void CheckShape(const BezierTriangle& t, Faults& faults) {
+  if (CheckDegree(t.degree, "degree", faults)) {
+    CheckPointCount(t.points.size(), static_cast<std::size_t>((t.degree + 1) * (t.degree + 2) / 2), faults);
+  }
+  CheckPoints(t.points, faults);
+  CheckWeights(t.weights, t.points.size(), faults);
+}
+
+void CheckIds(const PatchModel& model, Faults& faults) {
+  std::unordered_map<std::string_view, std::size_t> first;
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    const Patch& patch = model.patches[i];
+    if (patch.id.empty()) continue;
+    const auto [it, fresh] = first.emplace(patch.id, i);
+    if (fresh) continue;
+    faults.Enter(patch, i, "id");
+    faults.Add(
+        "DUPLICATE_ID", "",
+        fmt::format("= \"{}\" is also the id of patches[{}]; must be unique or empty", patch.id, it->second));
+  }
+}
+
+void CheckExtent(const PatchModel& model, Faults& faults) {
+  const Box3 box = ControlBox(model);
+  const double diagonal = box.Diagonal();
+  const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  if (diagonal < 1e-9 * largest) {
+    faults.AddToModel(
+        "ZERO_EXTENT", "patches",
+        fmt::format("extend over {:g} only, {:g} away from the origin; doubles cannot resolve that", diagonal,
+                    largest));
+  }
+  if (model.join_tolerance && !(*model.join_tolerance > 0.0 && *model.join_tolerance <= 0.01 * diagonal)) {
+    faults.AddToModel("INVALID_JOIN_TOLERANCE", "join_tolerance",
+                      fmt::format("= {:g}; must be above 0 and at most 1 % of the box diagonal, {:g}",
+                                  *model.join_tolerance, 0.01 * diagonal));
+  }
+}
+
+}  // namespace
+
+Diagnostics ValidateModel(const PatchModel& model) {
+  Faults faults;
+  const std::size_t count = model.patches.size();
+  if (count < 1 || count > static_cast<std::size_t>(kMaxPatches)) {
+    faults.AddToModel("PATCH_COUNT", "patches",
+                      fmt::format("has {} patches; must have 1 to {}", count, kMaxPatches));
+    return faults.Take();
+  }
+  std::size_t points = 0;
+  for (const Patch& patch : model.patches) points += ControlPoints(patch.shape).size();
+  if (points > static_cast<std::size_t>(kMaxControlPoints)) {
+    faults.AddToModel("POINT_COUNT", "patches",
+                      fmt::format("have {} control points together; at most {}", points, kMaxControlPoints));
+    return faults.Take();
+  }
+  for (std::size_t i = 0; i < count && !faults.full(); ++i) {
+    const Patch& patch = model.patches[i];
+    faults.Enter(patch, i, KindName(patch.shape));
+    std::visit([&](const auto& shape) { CheckShape(shape, faults); }, patch.shape);
+  }
+  CheckIds(model, faults);
+  Diagnostics found = faults.Take();
+  if (!found.empty()) return found;
+  Faults extent;  // only sound numbers have an extent
+  CheckExtent(model, extent);
+  return extent.Take();
+}
+
+}  // namespace patchmill
