@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include "cam/plan/plan.h"
+#include "core/base/status.h"
+#include "core/surface/extent.h"
+
+namespace patchmill {
+
+absl::StatusOr<Surface> BuildPlacedSurface(const PatchModel& model, const Setup& setup,
+                                           const RunContext& run) {
+  const Placement& p = setup.placement;
+  if (!(p.scale > 0.0) || !(p.scale <= 1e9)) {
+    return absl::InvalidArgumentError(fmt::format("setup.scale = {:.6g}; must be in (0, 1e9]", p.scale));
+  }
+  if (!p.translation.allFinite() || p.translation.norm() > 1e6) {
+    return absl::InvalidArgumentError("setup.translation_mm; must be finite and within 1e6 mm");
+  }
+  PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(Place(p, model)));
+  PM_RETURN_IF_ERROR(run.Check());
+  return BuildSurface(std::move(network), SurfaceParams{}, run);
+}
+
+absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool,
+                                      const RunContext& run) {
+  ModelCheck check;
+  check.findings = surface.network.findings;
+  check.box = TightBox(surface);
+  const ConcaveSpot spot = SmallestConcaveRadius(surface, run);
+  PM_RETURN_IF_ERROR(run.Check());
+  check.min_concave_radius = spot.radius;
+  if (tool && spot.radius < BallRadius(*tool)) {
+    Diagnostic d;
+    d.code = "CONCAVE_RADIUS_BELOW_TOOL";
+    d.severity = Severity::kWarning;
+    d.message = fmt::format(
+        "smallest concave radius {:.4g} mm is below the ball radius {:.4g} mm: what lies there is left",
+        spot.radius, BallRadius(*tool));
+    const Piece& piece = surface.piece(spot.at.piece);
+    d.where.patch_index = piece.patch.value;
+    d.where.patch_id = surface.network.model.patches[piece.patch.index()].id;
+    d.where.uv = NativeParameters(piece, spot.at.u, spot.at.v);
+    d.where.point = spot.at.p;
+    check.findings.push_back(std::move(d));
+  }
+  return check;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,27 @@
+// Which passes a job needs: the strategies put together and checked for coverage.
+#pragma once
+
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/plan/resolve.h"
+#include "cam/region/region_map.h"
+#include "cam/toolpath/cutter_path.h"
+
+namespace patchmill {
+
+struct PlannedPasses {
+  std::vector<CutterPath> paths;
+  Diagnostics findings;
+};
+
+PassParams MakePassParams(const Job& job, const Resolved& resolved);
+
+// Contours over the steep ground, zig-zag lines over the gentle one (or one of them over all, when forced),
+// then crease and rest passes wherever more than the scallop would stay; each labelled with the region most
+// of it lies in.
+absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions, const Job& job,
+                                         const Resolved& resolved, const RunContext& run);
+
+}  // namespace patchmill

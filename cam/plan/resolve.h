@@ -1,0 +1,35 @@
+// A job's open choices made definite: heights, zero, budget shares. Placed frame unless said otherwise.
+#pragma once
+
+#include <absl/status/statusor.h>
+
+#include "cam/plan/job.h"
+
+namespace patchmill {
+
+// The tolerance is the whole budget (MACHINING A.8).
+struct Budget {
+  double chord = 0.0;        // straight moves against the exact path
+  double rounding = 0.0;     // four decimals need 5e-5 mm
+  double certificate = 0.0;  // height certificates; the gap itself is a tenth of it
+  double controller = 0.0;   // what the control may smooth: P of G64
+};
+Budget SplitBudget(double tolerance);
+
+struct Resolved {
+  Box3 box;  // of the surface
+  Vec3 program_zero = Vec3::Zero();
+  std::string zero_name;
+  double stock_top_z = 0.0;
+  double floor_z = 0.0;      // tip
+  double clearance_z = 0.0;  // tip
+  double radius = 0.0;       // ball
+  double plan_radius = 0.0;  // ball + stock to leave: what is planned with
+  Budget budget;
+};
+
+// INVALID_ARGUMENT when heights contradict each other (clearance below model or stock, stock top below the
+// model).
+absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job);
+
+}  // namespace patchmill

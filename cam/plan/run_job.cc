@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "cam/path/scan_line.h"
+#include "cam/plan/plan.h"
+#include "cam/plan/plan_passes.h"
+#include "cam/plan/resolve.h"
+#include "cam/post/program_reader.h"
+#include "core/base/status.h"
+#include "core/surface/extent.h"
+
+namespace patchmill {
+namespace {
+
+class StageClock {
+ public:
+  explicit StageClock(std::vector<StageTime>& out) : out_(out), start_(std::chrono::steady_clock::now()) {}
+  void Done(std::string name) {
+    const auto now = std::chrono::steady_clock::now();
+    out_.push_back({std::move(name), std::chrono::duration<double>(now - start_).count()});
+    start_ = now;
+  }
+
+ private:
+  std::vector<StageTime>& out_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+RegionParams MakeRegionParams(const Job& job, const Resolved& resolved) {
+  RegionParams p;
+  p.radius = resolved.plan_radius;
+  p.tolerance = job.operation.tolerance;
+  p.steep_angle = job.operation.steep_angle;
+  p.floor_z = resolved.floor_z - job.operation.leave;
+  return p;
+}
+
+LinkParams MakeLinkParams(const Job& job, const Resolved& resolved) {
+  LinkParams p;
+  p.radius = resolved.radius;
+  p.clearance_z = resolved.clearance_z;
+  p.stock_top_z = resolved.stock_top_z;
+  p.allowance = job.setup.allowance;
+  p.approach_gap = job.operation.approach_gap;
+  p.feed = job.operation.tool.feed;
+  p.plunge_feed = job.operation.tool.plunge_feed;
+  p.contour_direction = job.operation.contour_direction;
+  p.pass = MakePassParams(job, resolved);
+  return p;
+}
+
+VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved) {
+  VerifyParams p;
+  p.tolerance = job.operation.tolerance;
+  p.scallop = job.operation.scallop;
+  p.leave = job.operation.leave;
+  p.certainty = std::min(1e-3, 0.1 * job.operation.tolerance);
+  p.floor_z = resolved.floor_z;
+  p.program_zero = resolved.program_zero;
+  p.stock_top_z = resolved.stock_top_z;
+  p.allowance = job.setup.allowance;
+  p.zigzag_angle = job.operation.zigzag_angle;
+  if (job.operation.strategy == Strategy::kContour) p.strategy = ForcedStrategy::kContour;
+  if (job.operation.strategy == Strategy::kZigzag) p.strategy = ForcedStrategy::kZigzag;
+  return p;
+}
+
+Diagnostic Warning(std::string code, std::string message) {
+  Diagnostic d;
+  d.code = std::move(code);
+  d.severity = Severity::kWarning;
+  d.message = std::move(message);
+  return d;
+}
+
+// What the machinist must know before pressing start (MACHINING A.1, A.5, A.9, A.14).
+Diagnostics Assumptions(const Job& job, const Resolved& r) {
+  Diagnostics list;
+  const double zero_z = r.program_zero.z();
+  list.push_back(
+      Warning("STOCK_ASSUMED",
+              fmt::format("assumed: at most {:.3g} mm of material on the surface, nothing above Z{:.4f}",
+                          job.setup.allowance, r.stock_top_z - zero_z)));
+  list.push_back(Warning("HOLDER_NOT_CHECKED", "the holder is not checked; see required_stickout_mm"));
+  if (job.default_cutting_data) {
+    list.push_back(Warning(
+        "DEFAULT_CUTTING_DATA",
+        fmt::format(
+            "spindle {:.0f} rpm, feed {:.0f} and plunge feed {:.0f} mm/min are defaults, not made for "
+            "this material",
+            job.operation.tool.spindle_rpm, job.operation.tool.feed, job.operation.tool.plunge_feed)));
+  }
+  const double extent = (r.box.max - r.box.min).maxCoeff();
+  if (job.unitless_file && (extent < 4.0 * r.radius || extent > 2000.0)) {
+    list.push_back(
+        Warning("SUSPICIOUS_SIZE",
+                fmt::format("the model is {:.4g} mm large for a ball of diameter {:.4g} mm and its file "
+                            "states no unit: is --scale right?",
+                            extent, 2.0 * r.radius)));
+  }
+  return list;
+}
+
+std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnostics& assumptions) {
+  std::vector<std::string> lines = job.header;
+  lines.push_back(fmt::format("zero: {}", r.zero_name));
+  lines.push_back(
+      fmt::format("tolerance {:.4g} = chord {:.4g} + rounding {:.4g} + certificate {:.4g} + control {:.4g}, "
+                  "scallop {:.4g}, "
+                  "leave {:.4g}",
+                  job.operation.tolerance, r.budget.chord, r.budget.rounding, r.budget.certificate,
+                  r.budget.controller, job.operation.scallop, job.operation.leave));
+  for (const Diagnostic& d : assumptions) lines.push_back(fmt::format("{}: {}", d.code, d.message));
+  return lines;
+}
+
+}  // namespace
+
+absl::StatusOr<RegionMap> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
+  PM_RETURN_IF_ERROR(ValidateJob(job));
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+  return SplitRegions(surface, MakeRegionParams(job, resolved), run);
+}
+
+absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
+                                               std::string_view text, const VerifyParams& params,
+                                               const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(const ProgramMotion motion, ReadProgram(text));
+  return Verify(surface, tool, motion, params, run);
+}
+
+absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run) {
+  PM_RETURN_IF_ERROR(ValidateJob(job));
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+  JobResult result;
+  JobReport& report = result.report;
+  StageClock clock(report.stages);
+  result.program_zero = resolved.program_zero;
+  report.controller_tolerance = resolved.budget.controller;
+  report.diagnostics = Assumptions(job, resolved);
+  const Diagnostics assumptions = report.diagnostics;
+
+  PM_ASSIGN_OR_RETURN(const ModelCheck check, CheckModel(surface, job.operation.tool, run));
+  report.min_concave_radius = check.min_concave_radius;
+  report.diagnostics.insert(report.diagnostics.end(), check.findings.begin(), check.findings.end());
+  clock.Done("check");
+
+  PM_ASSIGN_OR_RETURN(result.regions, SplitRegions(surface, MakeRegionParams(job, resolved), run));
+  report.regions = result.regions.regions;
+  clock.Done("regions");
+
+  const Locator locator(surface, resolved.plan_radius);
+  PM_ASSIGN_OR_RETURN(PlannedPasses planned, PlanPasses(locator, result.regions, job, resolved, run));
+  report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
+  clock.Done("passes");
+  if (planned.paths.empty()) {
+    report.outcome = Outcome::kNothingToCut;
+    report.diagnostics.push_back(Warning(
+        "NOTHING_TO_CUT",
+        fmt::format("no point of the model can be reached with a ball of diameter {:.4g} mm: check --scale "
+                    "({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor",
+                    2.0 * resolved.radius, resolved.box.max.x() - resolved.box.min.x(),
+                    resolved.box.max.y() - resolved.box.min.y(),
+                    resolved.box.max.z() - resolved.box.min.z())));
+    return result;
+  }
+
+  PM_ASSIGN_OR_RETURN(result.motion, LinkPaths(locator, result.regions, std::move(planned.paths),
+                                               MakeLinkParams(job, resolved), run));
+  report.motion = result.motion.stats;
+  report.point_count = static_cast<int>(result.motion.toolpath.moves.size());
+  clock.Done("link");
+
+  PostParams post;
+  post.dialect = job.dialect;
+  post.work_offset = job.work_offset;
+  post.program_zero = resolved.program_zero;
+  post.zero_name = resolved.zero_name;
+  post.controller_tolerance = resolved.budget.controller;
+  post.clearance_z = resolved.clearance_z;
+  post.header = Header(job, resolved, assumptions);
+  PM_ASSIGN_OR_RETURN(std::string program, WriteProgram(result.motion.toolpath, job.operation.tool, post));
+  clock.Done("post");
+
+  PM_ASSIGN_OR_RETURN(report.verify, VerifyProgramText(surface, job.operation.tool, program,
+                                                       MakeVerifyParams(job, resolved), run));
+  clock.Done("verify");
+  report.diagnostics.insert(report.diagnostics.end(), report.verify.findings.begin(),
+                            report.verify.findings.end());
+  if (!report.verify.ok()) {
+    report.outcome = Outcome::kVerificationFailed;
+    return result;
+  }
+  double unreachable = 0.0;
+  for (const double area : report.verify.unreachable_area) unreachable += area;
+  report.outcome = unreachable > 0.0 ? Outcome::kCompleteWhereReachable : Outcome::kComplete;
+  result.program = std::move(program);
+  return result;
+}
+
+}  // namespace patchmill

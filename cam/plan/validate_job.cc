@@ -1,0 +1,97 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cam/plan/plan.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+// Nothing sensible lies beyond; keeps coordinates far from where doubles lose 1e-9 mm.
+constexpr double kMaxLength = 1e5;   // mm
+constexpr double kMinRadius = 0.01;  // mm
+constexpr double kMaxRadius = 500.0;
+constexpr double kMinTolerance = 1e-4;  // mm: four decimals of the program take 5e-5 of it
+
+absl::Status Range(const char* field, double value, bool ok, const std::string& constraint) {
+  if (ok && std::isfinite(value)) return absl::OkStatus();
+  return absl::InvalidArgumentError(fmt::format("{} = {:.6g}; must be {}", field, value, constraint));
+}
+
+}  // namespace
+
+absl::Status ValidateJob(const Job& job) {
+  const Operation& op = job.operation;
+  const Tool& tool = op.tool;
+  const double r = BallRadius(tool);
+  const auto check = [](const char* field, double value, bool ok, std::string constraint) {
+    return Range(field, value, ok, constraint);
+  };
+  PM_RETURN_IF_ERROR(check("tool.ball_end.diameter_mm", 2 * r, r >= kMinRadius && r <= kMaxRadius,
+                           fmt::format("in [{}, {}]", 2 * kMinRadius, 2 * kMaxRadius)));
+  PM_RETURN_IF_ERROR(check("tool.spindle_rpm", tool.spindle_rpm,
+                           tool.spindle_rpm > 0 && tool.spindle_rpm <= 1e6, "in (0, 1e6]"));
+  PM_RETURN_IF_ERROR(
+      check("tool.feed_mm_per_min", tool.feed, tool.feed > 0 && tool.feed <= 1e6, "in (0, 1e6]"));
+  PM_RETURN_IF_ERROR(check("tool.plunge_feed_mm_per_min", tool.plunge_feed,
+                           tool.plunge_feed > 0 && tool.plunge_feed <= 1e6, "in (0, 1e6]"));
+  PM_RETURN_IF_ERROR(
+      check("tool.number", tool.number, tool.number >= 1 && tool.number <= 99999, "in [1, 99999]"));
+  if (tool.flute_length) {
+    PM_RETURN_IF_ERROR(check("tool.flute_length_mm", *tool.flute_length, *tool.flute_length > 0, "above 0"));
+  }
+  if (tool.shank_diameter) {
+    PM_RETURN_IF_ERROR(
+        check("tool.shank_diameter_mm", *tool.shank_diameter, *tool.shank_diameter > 0, "above 0"));
+    if (*tool.shank_diameter > 2 * r + 1e-9 && !tool.flute_length) {
+      return absl::InvalidArgumentError(
+          fmt::format("tool.flute_length_mm is missing; required when shank_diameter_mm = {:.6g} is wider "
+                      "than the cutter",
+                      *tool.shank_diameter));
+    }
+  }
+  if (tool.stickout)
+    PM_RETURN_IF_ERROR(check("tool.stickout_mm", *tool.stickout, *tool.stickout > 0, "above 0"));
+  PM_RETURN_IF_ERROR(check("scallop_mm", op.scallop, op.scallop > 0 && op.scallop < r,
+                           fmt::format("in (0, ball radius = {:.6g})", r)));
+  PM_RETURN_IF_ERROR(check("tolerance_mm", op.tolerance,
+                           op.tolerance >= kMinTolerance && op.tolerance <= 0.5 * r,
+                           fmt::format("in [{}, half the ball radius = {:.6g}]", kMinTolerance, 0.5 * r)));
+  PM_RETURN_IF_ERROR(check("stock_to_leave_mm", op.leave, op.leave >= 0 && op.leave <= 100, "in [0, 100]"));
+  PM_RETURN_IF_ERROR(check("steep_angle_deg", Degrees(op.steep_angle),
+                           op.steep_angle >= Radians(5) && op.steep_angle <= Radians(85), "in [5, 85]"));
+  PM_RETURN_IF_ERROR(check("zigzag_angle_deg", Degrees(op.zigzag_angle), std::abs(op.zigzag_angle) <= 2 * kPi,
+                           "in [-360, 360]"));
+  PM_RETURN_IF_ERROR(check("heights.approach_gap_mm", op.approach_gap,
+                           op.approach_gap > 0 && op.approach_gap <= 100, "in (0, 100]"));
+  PM_RETURN_IF_ERROR(check("setup.stock.allowance_mm", job.setup.allowance,
+                           job.setup.allowance >= 0 && job.setup.allowance <= 100, "in [0, 100]"));
+  if (job.setup.allowance < op.leave) {
+    return absl::InvalidArgumentError(
+        fmt::format("setup.stock.allowance_mm = {:.6g}; must be at least stock_to_leave_mm = {:.6g}",
+                    job.setup.allowance, op.leave));
+  }
+  const auto height = [&](const char* field, const std::optional<double>& z) {
+    return z ? check(field, *z, std::abs(*z) <= kMaxLength, fmt::format("in [-{0}, {0}]", kMaxLength))
+             : absl::OkStatus();
+  };
+  PM_RETURN_IF_ERROR(height("heights.clearance_z_mm", op.clearance_z));
+  PM_RETURN_IF_ERROR(height("heights.floor_z_mm", op.floor_z));
+  PM_RETURN_IF_ERROR(height("setup.stock.top_z_mm", job.setup.stock_top_z));
+  PM_RETURN_IF_ERROR(check("setup.program_zero", job.setup.zero_point.norm(),
+                           job.setup.zero_point.allFinite() && job.setup.zero_point.norm() <= kMaxLength,
+                           fmt::format("finite and within {} mm", kMaxLength)));
+  bool known = false;
+  std::string list;
+  for (const std::string& dialect : KnownDialects()) {
+    known = known || dialect == job.dialect;
+    list += (list.empty() ? "" : ", ") + dialect;
+  }
+  if (!known)
+    return absl::InvalidArgumentError(
+        fmt::format("post.dialect = \"{}\"; must be one of: {}", job.dialect, list));
+  return absl::OkStatus();
+}
+
+}  // namespace patchmill
