@@ -1,0 +1,202 @@
+// Bicubic Gregory quads with corner and edge blend.
+//
+// Both are the bicubic net that uses the second point of each inner pair, plus, at each corner c,
+//   lambda_c(u,v) B_i(u) B_j(v) D_c,   D_c = first point - second point of the pair, (i,j) in {1,2}^2,
+// with lambda_c = a/(a+b), a and b the distances from the corner along u and v (kCorner), or
+// lambda = p/(p+q), p = u(1-u), q = v(1-v), at all four corners (kEdge, METHODS (13)). The sum of scalar jets
+// keeps the evaluation short and free of cancellation.
+#include "core/math/jet2.h"
+#include "core/math/tensor_bernstein.h"
+#include "core/patch/kinds.h"
+#include "core/patch/tensor_kernel.h"
+
+namespace patchmill::internal {
+namespace {
+
+constexpr double kCornerRadius = 1e-6;  // second derivatives have no limit: METHODS 1.6's values inside
+
+struct Corner {
+  int i, j;  // its inner point in the bicubic net
+  int first,
+      second;  // the pair: weights (distance along u, distance along v) of kCorner; net 1, net 2 of kEdge
+};
+constexpr Corner kCorners[4] = {{1, 1, 3, 4}, {2, 1, 9, 8}, {2, 2, 13, 14}, {1, 2, 19, 18}};
+// kNet[4 i + j]: number of point (i,j) of the bicubic net, the second one of each inner pair.
+constexpr int kNet[16] = {0, 2, 16, 15, 1, 4, 18, 17, 7, 8, 14, 11, 5, 6, 12, 10};
+
+// a/(a+b) and the like with derivatives; 1/2 and flat at the singular point itself, where its factor vanishes
+// to second order.
+Jet2 Ratio(const Jet2& a, const Jet2& b) {
+  const Jet2 sum = a + b;
+  return sum.f > 0.0 ? a / sum : Jet2::Constant(0.5);
+}
+
+Jet2 CornerRatio(const Corner& c, double u, double v) {
+  const Jet2 ju = Jet2::U(u), jv = Jet2::V(v), one = Jet2::Constant(1.0);
+  return Ratio(c.i == 1 ? ju : one - ju, c.j == 1 ? jv : one - jv);
+}
+
+Jet2 EdgeRatio(double u, double v) {
+  const Jet2 p{u * (1.0 - u), 1.0 - 2.0 * u, 0.0, -2.0, 0.0, 0.0};
+  const Jet2 q{v * (1.0 - v), 0.0, 1.0 - 2.0 * v, 0.0, 0.0, -2.0};
+  return Ratio(p, q);
+}
+
+bool NearCorner(const Corner& c, double u, double v) {
+  return (c.i == 1 ? u : 1.0 - u) < kCornerRadius && (c.j == 1 ? v : 1.0 - v) < kCornerRadius;
+}
+
+}  // namespace
+
+SurfaceJet EvaluateShape(const GregoryPatch& patch, double u, double v) {
+  BasisJet bu, bv;
+  AllBernsteinJet(3, u, bu);
+  AllBernsteinJet(3, v, bv);
+  const HomogeneousJet h = TensorJet(3, 3, bu, bv, [&](int i, int j) {
+    const Vec3& p = patch.points[static_cast<std::size_t>(kNet[4 * i + j])];
+    return Vec4(p.x(), p.y(), p.z(), 1.0);
+  });
+  SurfaceJet s = PolynomialJet(h);
+  Jet2 ratio;
+  if (patch.blend == GregoryPatch::Blend::kEdge) ratio = EdgeRatio(u, v);
+  for (const Corner& c : kCorners) {
+    if (patch.blend == GregoryPatch::Blend::kCorner) ratio = CornerRatio(c, u, v);
+    const Jet2 basis{bu.f[c.i] * bv.f[c.j],  bu.d[c.i] * bv.f[c.j], bu.f[c.i] * bv.d[c.j],
+                     bu.dd[c.i] * bv.f[c.j], bu.d[c.i] * bv.d[c.j], bu.f[c.i] * bv.dd[c.j]};
+    Jet2 phi = ratio * basis;
+    if (NearCorner(c, u, v)) {  // S_uu, S_vv of the boundary curves, S_uv the mean of the two twists
+      phi.uu = phi.vv = 0.0;
+      phi.uv = 0.5 * basis.uv;
+    }
+    const Vec3 d =
+        patch.points[static_cast<std::size_t>(c.first)] - patch.points[static_cast<std::size_t>(c.second)];
+    s.p += phi.f * d;
+    s.du += phi.u * d;
+    s.dv += phi.v * d;
+    s.duu += phi.uu * d;
+    s.duv += phi.uv * d;
+    s.dvv += phi.vv * d;
+  }
+  return s;
+}
+
+Vec3 ShapePosition(const GregoryPatch& patch, double u, double v) {
+  double bu[kMaxBasisDegree + 1], bv[kMaxBasisDegree + 1];
+  AllBernstein(3, u, bu);
+  AllBernstein(3, v, bv);
+  Vec3 s = Vec3::Zero();
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) s += bu[i] * bv[j] * patch.points[static_cast<std::size_t>(kNet[4 * i + j])];
+  }
+  const double p = u * (1.0 - u), q = v * (1.0 - v);
+  for (const Corner& c : kCorners) {
+    double a = p, b = q;
+    if (patch.blend == GregoryPatch::Blend::kCorner) {
+      a = c.i == 1 ? u : 1.0 - u;
+      b = c.j == 1 ? v : 1.0 - v;
+    }
+    const double ratio = a + b > 0.0 ? a / (a + b) : 0.5;
+    s += ratio * bu[c.i] * bv[c.j] *
+         (patch.points[static_cast<std::size_t>(c.first)] - patch.points[static_cast<std::size_t>(c.second)]);
+  }
+  return s;
+}
+
+namespace {
+
+using Scalar = ScaledBernstein<double>;
+using Points = ScaledBernstein<Vec4>;
+
+Scalar Product(const Scalar& a, const Scalar& b) {
+  Scalar c(a.m + b.m, a.n + b.n, 0.0);
+  a.MultiplyInto(b, c);
+  return c;
+}
+
+Scalar Linear(double c00, double c01, double c10, double c11) {  // values at (0,0) (0,1) (1,0) (1,1)
+  Scalar s(1, 1, 0.0);
+  s(0, 0) = c00;
+  s(0, 1) = c01;
+  s(1, 0) = c10;
+  s(1, 1) = c11;
+  return s;
+}
+
+// The bicubic with the given choice of inner points, or with none of them; homogeneous with w = 1, scaled.
+Points Bicubic(const GregoryPatch& patch, bool inner, bool first) {
+  Points net(3, 3, Vec4::Zero());
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      int number = kNet[4 * i + j];
+      for (const Corner& c : kCorners) {
+        if (first && c.i == i && c.j == j) number = c.first;
+      }
+      const bool is_inner = (i == 1 || i == 2) && (j == 1 || j == 2);
+      if (is_inner && !inner) continue;
+      const Vec3& p = patch.points[static_cast<std::size_t>(number)];
+      net(i, j) = Vec4(p.x(), p.y(), p.z(), 1.0) * (Binomial(3, i) * Binomial(3, j));
+    }
+  }
+  return net;
+}
+
+// (p S1 + q S2) / (p + q), times one where needed to reach bidegree (5,5).
+Points EdgeNet(const GregoryPatch& patch) {
+  Scalar p(2, 2, 0.0), q(2, 2, 0.0);  // scaled: u(1-u) (1-v+v)^2 and likewise
+  for (int k = 0; k < 3; ++k) p(1, k) = q(k, 1) = Binomial(2, k);
+  Points net(5, 5, Vec4::Zero());
+  Bicubic(patch, true, true).MultiplyInto(p, net);
+  Bicubic(patch, true, false).MultiplyInto(q, net);
+  return net;
+}
+
+// Multiplied by the product of the four corner denominators: bidegree (7,7).
+Points CornerNet(const GregoryPatch& patch) {
+  const Scalar from_u[2] = {Linear(0, 0, 1, 1), Linear(1, 1, 0, 0)};  // u, 1-u
+  const Scalar from_v[2] = {Linear(0, 1, 0, 1), Linear(1, 0, 1, 0)};  // v, 1-v
+  const auto distance_sum = [&](const Corner& c) {
+    Scalar sum = from_u[c.i - 1];
+    for (std::size_t k = 0; k < 4; ++k) sum.c[k] += from_v[c.j - 1].c[k];
+    return sum;
+  };
+  // Product of the denominators of all corners but `without`.
+  const auto denominators = [&](int without) {
+    Scalar w(0, 0, 1.0);
+    for (int k = 0; k < 4; ++k) {
+      if (k != without) w = Product(w, distance_sum(kCorners[k]));
+    }
+    return w;
+  };
+  Points net(7, 7, Vec4::Zero());
+  Bicubic(patch, false, false).MultiplyInto(denominators(-1), net);
+  for (int k = 0; k < 4; ++k) {
+    const Corner& c = kCorners[k];
+    const Scalar others = denominators(k);
+    const auto add = [&](int number, const Scalar& distance) {
+      Points single(3, 3, Vec4::Zero());
+      const Vec3& p = patch.points[static_cast<std::size_t>(number)];
+      single(c.i, c.j) = Vec4(p.x(), p.y(), p.z(), 1.0) * (Binomial(3, c.i) * Binomial(3, c.j));
+      single.MultiplyInto(Product(distance, others), net);
+    };
+    add(c.first, from_u[c.i - 1]);
+    add(c.second, from_v[c.j - 1]);
+  }
+  return net;
+}
+
+}  // namespace
+
+std::vector<Piece> ShapePieces(const GregoryPatch& patch) {
+  const Points form = patch.blend == GregoryPatch::Blend::kEdge ? EdgeNet(patch) : CornerNet(patch);
+  std::vector<Piece> pieces(1);
+  Piece& piece = pieces[0];
+  piece.net.degree_u = form.m;
+  piece.net.degree_v = form.n;
+  piece.net.rational = true;
+  piece.net.points = form.Unscaled();
+  piece.gregory = patch;
+  piece.native = NativeRectangle(0, 1, 0, 1);
+  return pieces;
+}
+
+}  // namespace patchmill::internal

@@ -1,0 +1,82 @@
+#include "core/patch/piece.h"
+
+#include "core/patch/kinds.h"
+#include "core/patch/tensor_kernel.h"
+
+namespace patchmill {
+namespace {
+
+using internal::HomogeneousJet;
+
+// The common degrees as constants, so that the compiler unrolls; -1: any.
+template <int kU, int kV>
+HomogeneousJet NetJet(const BernsteinNet& net, double u, double v) {
+  const int degree_u = kU < 0 ? net.degree_u : kU, degree_v = kV < 0 ? net.degree_v : kV;
+  BasisJet bu, bv;
+  AllBernsteinJet(degree_u, u, bu);
+  AllBernsteinJet(degree_v, v, bv);
+  const Vec4* points = net.points.data();
+  return internal::TensorJet(degree_u, degree_v, bu, bv,
+                             [&](int i, int j) -> const Vec4& { return points[i * (degree_v + 1) + j]; });
+}
+
+HomogeneousJet NetJet(const BernsteinNet& net, double u, double v) {
+  if (net.degree_u == 3 && net.degree_v == 3) return NetJet<3, 3>(net, u, v);
+  if (net.degree_u == 2 && net.degree_v == 2) return NetJet<2, 2>(net, u, v);
+  return NetJet<-1, -1>(net, u, v);
+}
+
+}  // namespace
+
+BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, double v1) {
+  BernsteinNet sub = net;
+  const int row = net.degree_v + 1;
+  // [x0,1] first, then [x0,x1] as a part of it; parameters stay in [0,1], so every step is convex.
+  if (u0 > 0.0) {
+    for (int j = 0; j < row; ++j) KeepRight(&sub.points[static_cast<std::size_t>(j)], net.degree_u, row, u0);
+  }
+  if (u1 < 1.0) {
+    const double t = (u1 - u0) / (1.0 - u0);
+    for (int j = 0; j < row; ++j) KeepLeft(&sub.points[static_cast<std::size_t>(j)], net.degree_u, row, t);
+  }
+  for (int i = 0; i <= net.degree_u; ++i) {
+    Vec4* first = &sub.points[static_cast<std::size_t>(i * row)];
+    if (v0 > 0.0) KeepRight(first, net.degree_v, 1, v0);
+    if (v1 < 1.0) KeepLeft(first, net.degree_v, 1, (v1 - v0) / (1.0 - v0));
+  }
+  if (!sub.rational) {
+    for (Vec4& p : sub.points) p.w() = 1.0;
+  }
+  return sub;
+}
+
+std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape) {
+  std::vector<Piece> pieces = std::visit([](const auto& s) { return internal::ShapePieces(s); }, shape);
+  for (Piece& piece : pieces) piece.patch = id;
+  return pieces;
+}
+
+SurfaceJet Evaluate(const Piece& piece, double u, double v) {
+  if (piece.gregory) return internal::EvaluateShape(*piece.gregory, u, v);
+  const HomogeneousJet h = NetJet(piece.net, u, v);
+  return piece.net.rational ? internal::RationalJet(h) : internal::PolynomialJet(h);
+}
+
+Vec3 Position(const Piece& piece, double u, double v) {
+  if (piece.gregory) return internal::ShapePosition(*piece.gregory, u, v);
+  const BernsteinNet& net = piece.net;
+  double bu[kMaxBasisDegree + 1], bv[kMaxBasisDegree + 1];
+  AllBernstein(net.degree_u, u, bu);
+  AllBernstein(net.degree_v, v, bv);
+  const Vec4 p = internal::TensorPoint(net.degree_u, net.degree_v, bu, bv, [&](int i, int j) -> const Vec4& {
+    return net.points[static_cast<std::size_t>(i * (net.degree_v + 1) + j)];
+  });
+  return net.rational ? Vec3(p.head<3>() / p.w()) : Vec3(p.head<3>());
+}
+
+Vec2 NativeParameters(const Piece& piece, double u, double v) {
+  const auto& c = piece.native;
+  return (1.0 - v) * ((1.0 - u) * c[0] + u * c[1]) + v * ((1.0 - u) * c[2] + u * c[3]);
+}
+
+}  // namespace patchmill
