@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Sets up, builds, and mills the Newell teapot: leaves a program, a report and a picture in out/demo/.
+#   scripts/demo.sh [MODEL [patchmill mill options]]     mill a model of your own instead
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh
+cmake --preset release
+cmake --build --preset release --target patchmill patchmilld
+out=out/demo
+mkdir -p "$out"
+if [ "$#" -eq 0 ]; then
+  set -- examples/teapot.bpt --up y --scale 50 --tool-diameter 6 --scallop 0.02
+fi
+model="$1"
+shift
+name="$(basename "${model%.*}")"
+build/release/bin/patchmill mill "$model" -o "$out/$name.ngc" --report "$out/$name.json" --preview "$out/$name.svg" "$@"
+echo
+echo "program: $out/$name.ngc"
+echo "report:  $out/$name.json"
+echo "picture: $out/$name.svg"
