@@ -21,13 +21,16 @@ struct SurfacePoint {
 };
 
 // A sub-rectangle of a piece with outer bounds, all proven from the Bernstein net (ALGORITHMS 1, 2.2).
+// About 150 bytes; control points are not kept (SubNet of the piece gives them again).
 struct SurfaceLeaf {
   PieceId piece;
   float u0 = 0, u1 = 1, v0 = 0, v1 = 1;  // dyadic, hence exact
-  // Oriented box: |(x - center) . axis[k]| <= half[k]; axis[2] is the leaf's mean normal.
+  // Oriented box: |(x - center) . axis.col(k)| <= half[k] for every x of the leaf, rounded outward by a few
+  // ulps of the coordinates. axis is orthonormal to 1e-15 and right-handed; col(2) is the leaf's mean normal
+  // (along du x dv), col(0) runs along its longer side.
   Vec3 center = Vec3::Zero();
-  Eigen::Matrix3f axis = Eigen::Matrix3f::Identity();  // columns
-  Eigen::Vector3f half = Eigen::Vector3f::Zero();      // rounded outward
+  Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();
+  Vec3 half = Vec3::Zero();
 };
 
 // Node of a binary tree in depth-first order. Inner: left child is the next node, right child is `right`.
@@ -50,12 +53,17 @@ struct Surface {
 };
 
 struct SurfaceParams {
-  double leaf_thickness = 0.02;  // mm: leaves are split until their control points lie this close to a plane
-  int max_depth = 10;            // halvings of a piece per direction
+  double leaf_thickness = 0.02;  // mm, > 0: leaves are split until half[2] is at most this
+  int max_depth = 10;            // halvings of a piece per direction, 0..20
+  // Bounds memory (about 300 B a leaf with its nodes): when more would be needed, the thickness is raised by
+  // factors of 4 until they suffice. Coarse leaves cost time, never correctness. At least one per piece.
+  int max_leaves = 1'000'000;
 };
 
-// Builds pieces, leaves and tree. The network must be placed (mm, machine axes). Deterministic, parallel over
-// pieces.
+// Builds pieces, leaves and tree. The network must be placed (mm, machine axes) and its model sound
+// (ValidateModel). Deterministic, parallel over pieces. Cost about 1 us a leaf. INVALID_ARGUMENT for a model
+// without patches or bad params; CANCELLED and DEADLINE_EXCEEDED from `run`. Stage names for progress:
+// "pieces", "bounds".
 absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& params,
                                      const RunContext& run);
 
@@ -63,11 +71,12 @@ inline SurfaceJet Evaluate(const Surface& s, PieceId id, double u, double v) {
   return Evaluate(s.piece(id), u, v);
 }
 
-// Outer bounds of any sub-rectangle, computed afresh from its net: what certificates subdivide with.
+// Outer bounds of any sub-rectangle, computed afresh from its net: what certificates subdivide with. Meaning
+// of center, axis and half as in SurfaceLeaf; box is axis-parallel. Cost O(points).
 struct RectBounds {
   Box3 box;
   Vec3 center = Vec3::Zero();
-  Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();  // columns; axis.col(2) the mean normal
+  Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();
   Vec3 half = Vec3::Zero();
 };
 RectBounds BoundNet(const BernsteinNet& net);

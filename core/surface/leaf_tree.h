@@ -1,0 +1,14 @@
+// A binary tree over boxes, in depth-first order.
+#pragma once
+
+#include <vector>
+
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+// Nodes over `boxes` (one per leaf, none empty), split where the surface area heuristic finds it cheapest, at
+// the median where it finds nothing. Depth at most about 2 log2(n) + 30. Deterministic; cost O(n log n).
+std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes);
+
+}  // namespace patchmill

@@ -1,0 +1,42 @@
+// Bernstein nets as plain arrays: what the bounds hierarchy and the closest-point search subdivide without
+// touching the heap.
+//
+// A net of degrees (du, dv) is (du+1)(dv+1) homogeneous points, v fastest, as in BernsteinNet.
+#pragma once
+
+#include <array>
+
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+struct NetShape {
+  int degree_u = 0, degree_v = 0;
+  int count() const { return (degree_u + 1) * (degree_v + 1); }
+};
+
+inline constexpr int kMaxNetPoints = (kMaxDegree + 1) * (kMaxDegree + 1);
+
+// The halves [0,1/2] and [1/2,1] of a net along u or v. `low`, `high` and `points` do not overlap.
+void HalveNet(NetShape shape, const Vec4* points, bool along_u, Vec4* low, Vec4* high);
+
+// Replaces a net by its part [u0,u1] x [v0,v1].
+void RestrictNet(NetShape shape, Vec4* points, double u0, double u1, double v0, double v1);
+
+// Cartesian points of the hull; points without weight (ALGORITHMS 1) are left out. Returns how many.
+int HullPoints(NetShape shape, const Vec4* points, Vec3* hull);
+
+// Bounds of a net. `hull` and `hull_count` as from HullPoints.
+RectBounds BoundPoints(NetShape shape, const Vec4* points, const Vec3* hull, int hull_count);
+
+// How much a net bends, to choose where to cut it: largest |second difference . normal| of the Cartesian net
+// along u and v, as a bound on the distance from a chord; and the largest length of a row along u and v with
+// what it exceeds its chord by, as a fraction.
+struct NetBend {
+  double normal_u = 0.0, normal_v = 0.0;  // mm
+  double length_u = 0.0, length_v = 0.0;  // mm
+  double curl_u = 0.0, curl_v = 0.0;      // 1 - chord / length of the most curled row that is not tiny
+};
+NetBend MeasureBend(NetShape shape, const Vec4* points, const Vec3& normal, double tiny);
+
+}  // namespace patchmill

@@ -1,0 +1,211 @@
+#include "core/surface/surface.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <absl/strings/str_cat.h>
+
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+#include "core/surface/leaf_tree.h"
+#include "core/surface/net_kernel.h"
+
+namespace patchmill {
+namespace {
+
+// A planar leaf may be large, but not curled: the box of an arc longer than a quarter circle holds mostly
+// air.
+constexpr double kMaxCurl = 0.1;
+
+struct PieceLeaves {
+  std::vector<SurfaceLeaf> leaves;
+  std::vector<Box3> boxes;
+};
+
+// Shared by the pieces of one attempt: gives up as soon as the sum of leaves is beyond the budget. Whether it
+// is does not depend on the order of work.
+struct Budget {
+  double thickness;
+  int max_depth;
+  std::int64_t max_leaves;
+  const RunContext& run;
+  std::atomic<std::int64_t> leaves{0};
+  std::atomic<bool> exceeded{false};
+};
+
+class LeafSplitter {
+ public:
+  LeafSplitter(PieceId id, const BernsteinNet& net, Budget& budget)
+      : id_(id), shape_{net.degree_u, net.degree_v}, budget_(budget) {
+    // Two halves per level of the recursion.
+    buffer_.resize(static_cast<std::size_t>(2 * (2 * budget.max_depth) * shape_.count()));
+    Split(net.points.data(), {}, 0);
+  }
+  PieceLeaves Take() { return std::move(out_); }
+
+ private:
+  struct Rect {
+    double u0 = 0, u1 = 1, v0 = 0, v1 = 1;
+    int depth_u = 0, depth_v = 0;
+  };
+  enum class Cut { kNone, kU, kV };
+
+  Cut Choose(const Vec4* points, const RectBounds& bounds, const Rect& rect) const {
+    const bool thick = bounds.half.z() > budget_.thickness;
+    const NetBend bend = MeasureBend(shape_, points, bounds.axis.col(2), 8.0 * budget_.thickness);
+    bool u = bend.curl_u > kMaxCurl, v = bend.curl_v > kMaxCurl;
+    if (thick) {
+      u = v = true;
+    } else if (!u && !v) {
+      return Cut::kNone;
+    }
+    u = u && rect.depth_u < budget_.max_depth;
+    v = v && rect.depth_v < budget_.max_depth;
+    if (!u && !v) return Cut::kNone;
+    if (u != v) {
+      // The other direction has reached max_depth or is straight: cutting this one must still help.
+      const double help = u ? bend.normal_u : bend.normal_v;
+      const double curl = u ? bend.curl_u : bend.curl_v;
+      const bool twisted = bend.normal_u + bend.normal_v < budget_.thickness;
+      if (thick && !(help > 0.5 * budget_.thickness) && !twisted && !(curl > kMaxCurl)) return Cut::kNone;
+      return u ? Cut::kU : Cut::kV;
+    }
+    // Twist alone (no bend of the lines) is halved by either cut: take the longer side.
+    if (!thick || std::max(bend.normal_u, bend.normal_v) < 0.25 * bounds.half.z()) {
+      return bend.length_u >= bend.length_v ? Cut::kU : Cut::kV;
+    }
+    return bend.normal_u >= bend.normal_v ? Cut::kU : Cut::kV;
+  }
+
+  void Split(const Vec4* points, const Rect& rect, int level) {
+    if (budget_.exceeded.load(std::memory_order_relaxed)) return;
+    std::array<Vec3, kMaxNetPoints> hull;
+    const RectBounds bounds =
+        BoundPoints(shape_, points, hull.data(), HullPoints(shape_, points, hull.data()));
+    const Cut cut = Choose(points, bounds, rect);
+    if (cut == Cut::kNone) {
+      Keep(bounds, rect);
+      return;
+    }
+    Vec4* low = buffer_.data() + 2 * level * shape_.count();
+    Vec4* high = low + shape_.count();
+    HalveNet(shape_, points, cut == Cut::kU, low, high);
+    Rect first = rect, second = rect;
+    if (cut == Cut::kU) {
+      first.u1 = second.u0 = 0.5 * (rect.u0 + rect.u1);
+      first.depth_u = second.depth_u = rect.depth_u + 1;
+    } else {
+      first.v1 = second.v0 = 0.5 * (rect.v0 + rect.v1);
+      first.depth_v = second.depth_v = rect.depth_v + 1;
+    }
+    Split(low, first, level + 1);
+    Split(high, second, level + 1);
+  }
+
+  void Keep(const RectBounds& bounds, const Rect& rect) {
+    SurfaceLeaf leaf;
+    leaf.piece = id_;
+    leaf.u0 = static_cast<float>(rect.u0);
+    leaf.u1 = static_cast<float>(rect.u1);
+    leaf.v0 = static_cast<float>(rect.v0);
+    leaf.v1 = static_cast<float>(rect.v1);
+    leaf.center = bounds.center;
+    leaf.axis = bounds.axis;
+    leaf.half = bounds.half;
+    out_.leaves.push_back(leaf);
+    out_.boxes.push_back(bounds.box);
+    const bool poll = out_.leaves.size() % 256 == 0;
+    if (budget_.leaves.fetch_add(1, std::memory_order_relaxed) >= budget_.max_leaves ||
+        (poll && budget_.run.Cancelled())) {
+      budget_.exceeded.store(true, std::memory_order_relaxed);
+    }
+  }
+
+  PieceId id_;
+  NetShape shape_;
+  Budget& budget_;
+  std::vector<Vec4> buffer_;
+  PieceLeaves out_;
+};
+
+absl::Status CheckParams(const PatchNetwork& network, const SurfaceParams& params) {
+  if (network.model.patches.empty())
+    return absl::InvalidArgumentError("model.patches is empty; must hold at least 1 patch");
+  if (!(params.leaf_thickness > 0.0)) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("leaf_thickness = ", params.leaf_thickness, " mm; must be > 0"));
+  }
+  if (params.max_depth < 0 || params.max_depth > 20) {
+    return absl::InvalidArgumentError(absl::StrCat("max_depth = ", params.max_depth, "; must be in [0, 20]"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status MakePieces(Surface& surface, const RunContext& run) {
+  const std::vector<Patch>& patches = surface.network.model.patches;
+  std::vector<std::vector<Piece>> parts(patches.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, "pieces", patches.size(), [&](std::size_t i) {
+    parts[i] = SplitIntoPieces(PatchId(i), patches[i].shape);
+  }));
+  std::size_t count = 0;
+  for (const auto& part : parts) count += part.size();
+  surface.pieces.reserve(count);
+  surface.first_piece.reserve(patches.size());
+  for (auto& part : parts) {
+    surface.first_piece.emplace_back(surface.pieces.size());
+    std::move(part.begin(), part.end(), std::back_inserter(surface.pieces));
+  }
+  return absl::OkStatus();
+}
+
+// One attempt; false when the budget does not suffice.
+absl::StatusOr<bool> MakeLeaves(Surface& surface, Budget& budget, std::vector<PieceLeaves>& parts) {
+  parts.assign(surface.pieces.size(), {});
+  PM_RETURN_IF_ERROR(ParallelFor(budget.run, "bounds", surface.pieces.size(), [&](std::size_t i) {
+    if (!budget.exceeded.load(std::memory_order_relaxed)) {
+      parts[i] = LeafSplitter(PieceId(i), surface.pieces[i].net, budget).Take();
+    }
+  }));
+  return !budget.exceeded.load();
+}
+
+}  // namespace
+
+absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& params,
+                                     const RunContext& run) {
+  PM_RETURN_IF_ERROR(CheckParams(network, params));
+  Surface surface;
+  surface.network = std::move(network);
+  PM_RETURN_IF_ERROR(MakePieces(surface, run));
+
+  const auto pieces = static_cast<std::int64_t>(surface.pieces.size());
+  const std::int64_t max_leaves = std::max<std::int64_t>(params.max_leaves, pieces);
+  double thickness = params.leaf_thickness;
+  std::vector<PieceLeaves> parts;
+  for (int max_depth = params.max_depth;;) {
+    Budget budget{thickness, max_depth, max_leaves, run};
+    PM_ASSIGN_OR_RETURN(const bool fits, MakeLeaves(surface, budget, parts));
+    if (fits) break;
+    thickness *= 4.0;
+    if (max_depth > 0 && thickness > 1e3 * params.leaf_thickness) --max_depth;  // ends in one leaf a piece
+  }
+
+  std::size_t count = 0;
+  for (const PieceLeaves& part : parts) count += part.leaves.size();
+  std::vector<Box3> boxes;
+  boxes.reserve(count);
+  surface.leaves.reserve(count);
+  for (PieceLeaves& part : parts) {
+    surface.leaves.insert(surface.leaves.end(), part.leaves.begin(), part.leaves.end());
+    boxes.insert(boxes.end(), part.boxes.begin(), part.boxes.end());
+    part = {};
+  }
+  surface.nodes = BuildLeafTree(boxes);
+  PM_RETURN_IF_ERROR(run.Check());
+  surface.box = surface.nodes.front().box;
+  surface.scale = std::max(surface.box.min.cwiseAbs().maxCoeff(), surface.box.max.cwiseAbs().maxCoeff());
+  return surface;
+}
+
+}  // namespace patchmill
