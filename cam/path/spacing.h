@@ -11,7 +11,8 @@ namespace patchmill {
 // kappa -> 0: 2 sqrt(2 R s - s^2). kappa >= 1/R (the ball does not fit): 0. 0 < scallop < radius.
 double CenterStep(double radius, double scallop, double kappa);
 
-// What a given centre step leaves: the inverse of CenterStep.
+// What a given centre step leaves: the inverse of CenterStep. Infinity where the two balls do not meet (or
+// meet only beyond the ball's own height).
 double ScallopOfStep(double radius, double center_step, double kappa);
 
 }  // namespace patchmill
