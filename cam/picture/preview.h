@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cam/toolpath/cutter_path.h"
 #include "cam/toolpath/toolpath.h"
 #include "core/surface/surface.h"
 
@@ -21,9 +22,11 @@ struct PreviewRegion {
 struct PreviewInput {
   const Surface* surface = nullptr;    // required
   const Toolpath* toolpath = nullptr;  // optional
+  std::vector<PassKind> pass_kinds;    // by Move::pass
   std::vector<PreviewRegion> regions;
   // Region index of a point of a piece (into `regions`, -1 none); empty function: shade by slope only.
   std::function<int(const SurfacePoint&)> region_of;
+  Vec3 program_zero = Vec3::Zero();  // marked with a cross
   std::string title;
   std::vector<std::string> notes;  // lines under the title: outcome, gouge, leftover, ...
 };
