@@ -7,8 +7,8 @@
 
 namespace patchmill {
 
-// Unit normal S_u x S_v / |S_u x S_v|; nullopt where |S_u x S_v| <= 1e-12 |S_u||S_v| (degenerate
-// parametrisation).
+// Unit normal S_u x S_v / |S_u x S_v|; nullopt where |S_u x S_v| <= 1e-12 max(|S_u|,|S_v|)^2: a degenerate
+// parametrisation, be it parallel tangents or, at a pole, a tangent that is rounding noise.
 std::optional<Vec3> UnitNormal(const SurfaceJet& jet);
 // The same, turned so that its z component is >= 0 (what 3-axis work sees; +-normal when z == 0).
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet);
