@@ -24,43 +24,43 @@ constexpr Corner kCorners[4] = {{1, 1, 3, 4}, {2, 1, 9, 8}, {2, 2, 13, 14}, {1, 
 // kNet[4 i + j]: number of point (i,j) of the bicubic net, the second one of each inner pair.
 constexpr int kNet[16] = {0, 2, 16, 15, 1, 4, 18, 17, 7, 8, 14, 11, 5, 6, 12, 10};
 
-// a/(a+b) and the like with derivatives; 1/2 and flat at the singular point itself, where its factor vanishes
-// to second order.
-Jet2 Ratio(const Jet2& a, const Jet2& b) {
-  const Jet2 sum = a + b;
-  return sum.f > 0.0 ? a / sum : Jet2::Constant(0.5);
-}
-
-Jet2 CornerRatio(const Corner& c, double u, double v) {
-  const Jet2 ju = Jet2::U(u), jv = Jet2::V(v), one = Jet2::Constant(1.0);
-  return Ratio(c.i == 1 ? ju : one - ju, c.j == 1 ? jv : one - jv);
-}
-
+// The blend of METHODS (13); 1/2 and flat at a corner, where its factor vanishes to second order.
 Jet2 EdgeRatio(double u, double v) {
   const Jet2 p{u * (1.0 - u), 1.0 - 2.0 * u, 0.0, -2.0, 0.0, 0.0};
   const Jet2 q{v * (1.0 - v), 0.0, 1.0 - 2.0 * v, 0.0, 0.0, -2.0};
-  return Ratio(p, q);
+  const Jet2 sum = p + q;
+  return sum.f > 0.0 ? p / sum : Jet2::Constant(0.5);
+}
+
+// a/(a+b) with a, b the distances from the corner along u and v; the derivatives in closed form.
+Jet2 CornerRatio(const Corner& c, double u, double v) {
+  const double a = c.i == 1 ? u : 1.0 - u, b = c.j == 1 ? v : 1.0 - v;
+  if (!(a + b > 0.0)) return Jet2::Constant(0.5);
+  const double su = c.i == 1 ? 1.0 : -1.0, sv = c.j == 1 ? 1.0 : -1.0;
+  const double r = 1.0 / (a + b), r2 = r * r, r3 = r2 * r;
+  return {a * r, su * b * r2, -sv * a * r2, -2.0 * b * r3, su * sv * (a - b) * r3, 2.0 * a * r3};
 }
 
 bool NearCorner(const Corner& c, double u, double v) {
   return (c.i == 1 ? u : 1.0 - u) < kCornerRadius && (c.j == 1 ? v : 1.0 - v) < kCornerRadius;
 }
 
-}  // namespace
-
-SurfaceJet EvaluateShape(const GregoryPatch& patch, double u, double v) {
+template <GregoryPatch::Blend kBlend>
+SurfaceJet EvaluateBlend(const GregoryPatch& patch, double u, double v) {
   BasisJet bu, bv;
   AllBernsteinJet(3, u, bu);
   AllBernsteinJet(3, v, bv);
-  const HomogeneousJet h = TensorJet(3, 3, bu, bv, [&](int i, int j) {
-    const Vec3& p = patch.points[static_cast<std::size_t>(kNet[4 * i + j])];
-    return Vec4(p.x(), p.y(), p.z(), 1.0);
-  });
-  SurfaceJet s = PolynomialJet(h);
+  // Four lanes are faster than three; the last is not used.
+  Vec4 points[20];
+  for (int k = 0; k < 20; ++k) points[k] << patch.points[static_cast<std::size_t>(k)], 0.0;
+  const auto point = [&](int number) -> const Vec4& { return points[number]; };
+  HomogeneousJet h = TensorJet(3, 3, bu, bv, [&](int i, int j) { return point(kNet[4 * i + j]); });
   Jet2 ratio;
-  if (patch.blend == GregoryPatch::Blend::kEdge) ratio = EdgeRatio(u, v);
-  for (const Corner& c : kCorners) {
-    if (patch.blend == GregoryPatch::Blend::kCorner) ratio = CornerRatio(c, u, v);
+  if (kBlend == GregoryPatch::Blend::kEdge) ratio = EdgeRatio(u, v);
+#pragma GCC unroll 4
+  for (int k = 0; k < 4; ++k) {
+    const Corner& c = kCorners[k];
+    if (kBlend == GregoryPatch::Blend::kCorner) ratio = CornerRatio(c, u, v);
     const Jet2 basis{bu.f[c.i] * bv.f[c.j],  bu.d[c.i] * bv.f[c.j], bu.f[c.i] * bv.d[c.j],
                      bu.dd[c.i] * bv.f[c.j], bu.d[c.i] * bv.d[c.j], bu.f[c.i] * bv.dd[c.j]};
     Jet2 phi = ratio * basis;
@@ -68,16 +68,22 @@ SurfaceJet EvaluateShape(const GregoryPatch& patch, double u, double v) {
       phi.uu = phi.vv = 0.0;
       phi.uv = 0.5 * basis.uv;
     }
-    const Vec3 d =
-        patch.points[static_cast<std::size_t>(c.first)] - patch.points[static_cast<std::size_t>(c.second)];
-    s.p += phi.f * d;
-    s.du += phi.u * d;
-    s.dv += phi.v * d;
-    s.duu += phi.uu * d;
-    s.duv += phi.uv * d;
-    s.dvv += phi.vv * d;
+    const Vec4 d = point(c.first) - point(c.second);
+    h.p += phi.f * d;
+    h.du += phi.u * d;
+    h.dv += phi.v * d;
+    h.duu += phi.uu * d;
+    h.duv += phi.uv * d;
+    h.dvv += phi.vv * d;
   }
-  return s;
+  return PolynomialJet(h);
+}
+
+}  // namespace
+
+SurfaceJet EvaluateShape(const GregoryPatch& patch, double u, double v) {
+  using enum GregoryPatch::Blend;
+  return patch.blend == kCorner ? EvaluateBlend<kCorner>(patch, u, v) : EvaluateBlend<kEdge>(patch, u, v);
 }
 
 Vec3 ShapePosition(const GregoryPatch& patch, double u, double v) {

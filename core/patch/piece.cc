@@ -26,6 +26,23 @@ HomogeneousJet NetJet(const BernsteinNet& net, double u, double v) {
   return NetJet<-1, -1>(net, u, v);
 }
 
+template <int kU, int kV>
+Vec4 NetPoint(const BernsteinNet& net, double u, double v) {
+  const int degree_u = kU < 0 ? net.degree_u : kU, degree_v = kV < 0 ? net.degree_v : kV;
+  double bu[kMaxBasisDegree + 1], bv[kMaxBasisDegree + 1];
+  AllBernstein(degree_u, u, bu);
+  AllBernstein(degree_v, v, bv);
+  const Vec4* points = net.points.data();
+  return internal::TensorPoint(degree_u, degree_v, bu, bv,
+                               [&](int i, int j) -> const Vec4& { return points[i * (degree_v + 1) + j]; });
+}
+
+Vec4 NetPoint(const BernsteinNet& net, double u, double v) {
+  if (net.degree_u == 3 && net.degree_v == 3) return NetPoint<3, 3>(net, u, v);
+  if (net.degree_u == 2 && net.degree_v == 2) return NetPoint<2, 2>(net, u, v);
+  return NetPoint<-1, -1>(net, u, v);
+}
+
 }  // namespace
 
 BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, double v1) {
@@ -64,14 +81,8 @@ SurfaceJet Evaluate(const Piece& piece, double u, double v) {
 
 Vec3 Position(const Piece& piece, double u, double v) {
   if (piece.gregory) return internal::ShapePosition(*piece.gregory, u, v);
-  const BernsteinNet& net = piece.net;
-  double bu[kMaxBasisDegree + 1], bv[kMaxBasisDegree + 1];
-  AllBernstein(net.degree_u, u, bu);
-  AllBernstein(net.degree_v, v, bv);
-  const Vec4 p = internal::TensorPoint(net.degree_u, net.degree_v, bu, bv, [&](int i, int j) -> const Vec4& {
-    return net.points[static_cast<std::size_t>(i * (net.degree_v + 1) + j)];
-  });
-  return net.rational ? Vec3(p.head<3>() / p.w()) : Vec3(p.head<3>());
+  const Vec4 p = NetPoint(piece.net, u, v);
+  return piece.net.rational ? Vec3(p.head<3>() / p.w()) : Vec3(p.head<3>());
 }
 
 Vec2 NativeParameters(const Piece& piece, double u, double v) {
