@@ -9,16 +9,25 @@ namespace patchmill {
 
 struct ClosestPoint {
   SurfacePoint at;
-  double distance = 0.0;  // mm; within `tolerance` of the true minimum, never below it by more than that
+  double distance = 0.0;  // mm, of the surface point `at`: at most `tolerance` above the true minimum
 };
 
-// Nearest point of the surface to the upward vertical ray {c + s e_z, s >= 0}, if nearer than `limit`. Branch
-// and bound over the leaves with Newton inside; the answer's distance is within `tolerance` (mm) of the true
-// minimum.
+// Nearest point of the surface to the upward vertical ray {c + s e_z, s >= 0}, if nearer than `limit` (mm,
+// may be infinite). nullopt proves that nothing is nearer than limit - tolerance. Every kind of patch, open
+// edges and degenerate places included.
+//
+// Branch and bound over the leaves: their boxes, then the polynomial of the squared distance over the leaf
+// (core/surface/distance_form.h), halved until proven. `tolerance` (mm) is raised to 1e-12 of the largest
+// coordinate, which is the rounding slack. A tight `limit` is the best help: leaves beyond it are not opened.
+// Thread-safe.
 std::optional<ClosestPoint> ClosestToUpwardRay(const Surface& surface, const Vec3& c, double limit,
                                                double tolerance);
-// Nearest point of the surface to the point c, if nearer than `limit`.
+// Nearest point of the surface to the point c, if nearer than `limit`; otherwise as above.
 std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c, double limit,
                                            double tolerance);
+
+// Whether some point of the surface is nearer than `limit` to the upward ray: true with such a point found
+// (the first one, not the nearest), false proves that nothing is nearer than limit - tolerance.
+bool AnythingNearUpwardRay(const Surface& surface, const Vec3& c, double limit, double tolerance);
 
 }  // namespace patchmill

@@ -1,0 +1,248 @@
+#include "core/surface/closest.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/status.h"
+#include "core/surface/box_distance.h"
+#include "core/surface/distance_form.h"
+#include "core/surface/net_kernel.h"
+
+namespace patchmill {
+namespace {
+
+// A cell is halved at most this often below its leaf; the sides are then below rounding.
+constexpr int kMaxHalvings = 90;
+// Nets with more points than this get the distance polynomial only after so many halvings: its cost grows
+// with the square of the points.
+constexpr int kLargeNet = 64;
+constexpr int kHalvingsBeforeLargeForm = 3;
+
+// Two nets per halving, reused by every query of a thread.
+Vec4* CellBuffer(int halving, int count) {
+  thread_local std::array<std::vector<Vec4>, kMaxHalvings + 1> buffers;
+  std::vector<Vec4>& buffer = buffers[static_cast<std::size_t>(halving)];
+  if (buffer.size() < 2 * static_cast<std::size_t>(count)) buffer.resize(2 * static_cast<std::size_t>(count));
+  return buffer.data();
+}
+
+template <Reach kReach>
+class Search {
+ public:
+  Search(const Surface& surface, const Vec3& c, double limit, double tolerance, bool any)
+      : surface_(surface), c_(c), any_(any), limit_(limit) {
+    tolerance_ = std::max(tolerance, 1e-12 * (surface.scale + c.cwiseAbs().maxCoeff()));
+  }
+
+  std::optional<ClosestPoint> Run() {
+    if (!c_.allFinite() || surface_.nodes.empty()) return std::nullopt;
+    struct Open {
+      double squared;
+      std::int32_t node;
+    };
+    std::array<Open, 256> stack;  // BuildLeafTree: depth < 30 + log2(leaves)
+    std::size_t size = 0;
+    stack[size++] = {SquaredDistance<kReach>(surface_.nodes.front().box, c_), 0};
+    while (size > 0) {
+      const Open open = stack[--size];
+      if (Done()) break;
+      if (Excluded(open.squared)) continue;
+      const SurfaceNode& node = surface_.nodes[static_cast<std::size_t>(open.node)];
+      if (node.leaf >= 0) {
+        VisitLeaf(surface_.leaves[static_cast<std::size_t>(node.leaf)], node.box);
+        continue;
+      }
+      Open left{0.0, open.node + 1}, right{0.0, node.right};
+      left.squared = SquaredDistance<kReach>(surface_.nodes[static_cast<std::size_t>(left.node)].box, c_);
+      right.squared = SquaredDistance<kReach>(surface_.nodes[static_cast<std::size_t>(right.node)].box, c_);
+      if (left.squared < right.squared) std::swap(left, right);  // the nearer one on top
+      PM_CHECK(size + 2 <= stack.size());
+      if (!Excluded(left.squared)) stack[size++] = left;
+      if (!Excluded(right.squared)) stack[size++] = right;
+    }
+    return best_;
+  }
+
+ private:
+  struct Cell {
+    const Vec4* points;  // relative to c_
+    double u0, u1, v0, v1;
+    int halvings;
+  };
+
+  // What is not nearer than this need not be looked at.
+  double Target() const { return std::min(limit_, best_ ? best_->distance : kInfinity) - tolerance_; }
+  bool Excluded(double squared) const {
+    const double target = Target();
+    return target <= 0.0 || squared >= target * target;
+  }
+  bool Done() const { return Target() <= 0.0 || (any_ && best_.has_value()); }
+
+  static double OrientedSquared(const RectBounds& b, const Vec3& c, const Box3& box) {
+    // A ray passes a box that lies below its start as its start does.
+    return kReach == Reach::kPoint || box.max.z() <= c.z()
+               ? SquaredDistanceToPoint(b.center, b.axis, b.half, c)
+               : SquaredDistanceToUpwardRay(b.center, b.axis, b.half, c);
+  }
+
+  void VisitLeaf(const SurfaceLeaf& leaf, const Box3& box) {
+    const RectBounds bounds{box, leaf.center, leaf.axis, leaf.half};
+    if (Excluded(OrientedSquared(bounds, c_, box))) return;
+    piece_ = leaf.piece;
+    const BernsteinNet& net = surface_.piece(leaf.piece).net;
+    shape_ = {net.degree_u, net.degree_v};
+    rational_ = net.rational;
+    if (!(Target() < kInfinity)) Improve(0.5 * (leaf.u0 + leaf.u1), 0.5 * (leaf.v0 + leaf.v1));
+    Vec4* points = CellBuffer(0, shape_.count());
+    for (int i = 0; i < shape_.count(); ++i) {
+      points[i] = net.points[static_cast<std::size_t>(i)];
+      points[i].head<3>() -= points[i].w() * c_;
+    }
+    RestrictNet(shape_, points, leaf.u0, leaf.u1, leaf.v0, leaf.v1);
+    VisitCell({points, leaf.u0, leaf.u1, leaf.v0, leaf.v1, 0}, box.max.z() - c_.z());
+  }
+
+  // The cell's boxes have not excluded it. z_max bounds its height relative to c.
+  void VisitCell(const Cell& cell, double z_max) {
+    bool along_u = true;
+    if (shape_.count() > kLargeNet && cell.halvings < kHalvingsBeforeLargeForm) {
+      const NetBend bend = MeasureBend(shape_, cell.points, Vec3::UnitZ(), kInfinity);
+      along_u = bend.length_u >= bend.length_v;
+    } else if (ExcludedByForm(cell, z_max, along_u)) {
+      return;
+    }
+    if (Done() || cell.halvings >= kMaxHalvings) return;
+    VisitHalves(cell, along_u);
+  }
+
+  // True when the distance polynomial proves the cell free of nearer points, if need be after finding a
+  // nearer one. Otherwise says along which parameter to halve.
+  bool ExcludedByForm(const Cell& cell, double z_max, bool& along_u) {
+    // Above its start the ray is a vertical line; the line is never farther than the ray.
+    const bool horizontal = kReach == Reach::kUpwardRay && z_max > 0.0;
+    DistanceForm form;
+    for (int attempt = 0; attempt < 8; ++attempt) {
+      if (Done()) return true;
+      MakeDistanceForm(shape_, cell.points, rational_, horizontal, Target(), form);
+      const FormMinimum minimum = SmallestCoefficient(form);
+      if (minimum.value >= 0.0) return true;
+      const FormBend bend = BoundSecondDerivatives(form);
+      along_u = bend.max_uu >= bend.max_vv;
+      std::optional<Vec2> nearer;
+      if (bend.convex) {
+        const ConvexVerdict verdict = DecideConvex(form, minimum.place);
+        if (verdict.nonnegative) return true;
+        nearer = verdict.negative_at;
+      } else if (Evaluate(form, minimum.place.x(), minimum.place.y()).f < 0.0) {
+        nearer = minimum.place;
+      }
+      // With the vertical line (horizontal) a point nearer to the line need not be nearer to the ray.
+      if (!nearer || !Improve(cell.u0 + nearer->x() * (cell.u1 - cell.u0),
+                              cell.v0 + nearer->y() * (cell.v1 - cell.v0))) {
+        break;
+      }
+    }
+    return false;
+  }
+
+  void VisitHalves(const Cell& cell, bool along_u) {
+    const int halvings = cell.halvings + 1, count = shape_.count();
+    std::array<Cell, 2> part{cell, cell};
+    Vec4* low = CellBuffer(halvings, count);
+    Vec4* high = low + count;
+    HalveNet(shape_, cell.points, along_u, low, high);
+    part[0].points = low;
+    part[1].points = high;
+    (along_u ? part[0].u1 : part[0].v1) = (along_u ? part[1].u0 : part[1].v0) =
+        along_u ? 0.5 * (cell.u0 + cell.u1) : 0.5 * (cell.v0 + cell.v1);
+    std::array<double, 2> squared;
+    std::array<Box3, 2> box;
+    for (std::size_t k = 0; k < 2; ++k) {
+      part[k].halvings = halvings;
+      std::array<Vec3, kMaxNetPoints> hull;
+      const int hull_count = HullPoints(shape_, part[k].points, hull.data());
+      const RectBounds bounds = BoundPoints(shape_, part[k].points, hull.data(), hull_count);
+      box[k] = bounds.box;
+      squared[k] = std::max(SquaredDistance<kReach>(box[k], Vec3::Zero()),
+                            OrientedSquared(bounds, Vec3::Zero(), box[k]));
+    }
+    const std::size_t first = squared[1] < squared[0] ? 1 : 0;
+    for (const std::size_t k : {first, 1 - first}) {
+      if (!Excluded(squared[k])) VisitCell(part[k], box[k].max.z());
+    }
+  }
+
+  // Descends from (u,v) over the whole piece and keeps what it finds if that is nearer. Says whether it was.
+  bool Improve(double u, double v) {
+    constexpr int kMaxSteps = 40;
+    const Piece& piece = surface_.piece(piece_);
+    SurfaceJet jet = Evaluate(piece, u, v);
+    Vec3 d = FromSet<kReach>(jet.p - c_);
+    double f = 0.5 * d.squaredNorm();
+    for (int step = 0; step < kMaxSteps; ++step) {
+      const Vec2 g(d.dot(jet.du), d.dot(jet.dv));
+      // Above the start of the ray height does not count.
+      const double kz = kReach == Reach::kUpwardRay && jet.p.z() > c_.z() ? 0.0 : 1.0;
+      const Vec3 du(jet.du.x(), jet.du.y(), kz * jet.du.z()), dv(jet.dv.x(), jet.dv.y(), kz * jet.dv.z());
+      const Sym2 first{du.dot(jet.du), du.dot(jet.dv), dv.dot(jet.dv)};
+      Sym2 h{first.uu + d.dot(jet.duu), first.uv + d.dot(jet.duv), first.vv + d.dot(jet.dvv)};
+      if (!h.PositiveDefinite()) h = first;
+      const double ridge = 1e-14 * (h.uu + h.vv);
+      h.uu += ridge;
+      h.vv += ridge;
+      const Vec2 full = MinimizeInBox(g, h, Vec2(-u, -v), Vec2(1.0 - u, 1.0 - v));
+      double scale = 1.0, new_f = f;
+      double new_u = u, new_v = v;
+      for (; scale > 1e-3; scale *= 0.5) {
+        new_u = std::clamp(u + scale * full.x(), 0.0, 1.0);
+        new_v = std::clamp(v + scale * full.y(), 0.0, 1.0);
+        new_f = 0.5 * FromSet<kReach>(Position(piece, new_u, new_v) - c_).squaredNorm();
+        if (new_f < f) break;
+      }
+      if (!(new_f < f)) break;
+      const double gain = f - new_f;
+      u = new_u;
+      v = new_v;
+      jet = Evaluate(piece, u, v);
+      d = FromSet<kReach>(jet.p - c_);
+      f = 0.5 * d.squaredNorm();
+      // distance^2 / 2 changes by distance * change: far below the tolerance.
+      if (gain < 1e-3 * tolerance_ * std::sqrt(f)) break;
+    }
+    const double distance = d.norm();
+    const double known = std::min(limit_, best_ ? best_->distance : kInfinity);
+    if (!(distance < known)) return false;
+    best_ = ClosestPoint{{piece_, u, v, jet.p}, distance};
+    return true;
+  }
+
+  const Surface& surface_;
+  const Vec3 c_;
+  const bool any_;
+  const double limit_;
+  double tolerance_;
+  std::optional<ClosestPoint> best_;
+  // Of the leaf at hand.
+  PieceId piece_;
+  NetShape shape_;
+  bool rational_ = false;
+};
+
+}  // namespace
+
+std::optional<ClosestPoint> ClosestToUpwardRay(const Surface& surface, const Vec3& c, double limit,
+                                               double tolerance) {
+  return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, false).Run();
+}
+
+std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c, double limit,
+                                           double tolerance) {
+  return Search<Reach::kPoint>(surface, c, limit, tolerance, false).Run();
+}
+
+bool AnythingNearUpwardRay(const Surface& surface, const Vec3& c, double limit, double tolerance) {
+  return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, true).Run().has_value();
+}
+
+}  // namespace patchmill
