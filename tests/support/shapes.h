@@ -63,9 +63,13 @@ struct RandomBsplineParams {
 };
 PatchModel RandomBspline(std::uint64_t seed, const RandomBsplineParams& params = {});
 
-// A random smooth-looking Gregory quad over about [0,size]^2, and one that shares the other blend's points.
+// --- Single patches of every kind, random, over about [0,size]^2 in the plan; weights in [0.5,2) or none ---
+BezierPatch RandomBezier(std::uint64_t seed, int degree_u, int degree_v, bool rational, double size = 20.0);
+// Five spans each way, uneven, an inner knot of full multiplicity (a crease); clamped along u, not along v.
+BsplinePatch RandomKnots(std::uint64_t seed, int degree_u, int degree_v, bool rational, double size = 20.0);
+// Gregory points depend on the seed only, not on the blend.
 GregoryPatch RandomGregory(std::uint64_t seed, GregoryPatch::Blend blend, double size = 20.0);
-// A random triangle of any degree over the plan triangle (0,0) (size,0) (0,size); weights in [0.5,2) or none.
+// Over the plan triangle (0,0) (size,0) (0,size).
 BezierTriangle RandomTriangle(std::uint64_t seed, int degree, bool rational, double size = 20.0);
 
 }  // namespace patchmill::testing

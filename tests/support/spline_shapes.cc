@@ -109,33 +109,4 @@ PatchModel RandomBspline(std::uint64_t seed, const RandomBsplineParams& params) 
   return Single(std::move(patch));
 }
 
-GregoryPatch RandomGregory(std::uint64_t seed, GregoryPatch::Blend blend, double size) {
-  // Places in the plan, in thirds of the side, of the twenty points.
-  constexpr int kPlan[20][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {1, 1}, {3, 0}, {3, 1},
-                                {2, 0}, {2, 1}, {2, 1}, {3, 3}, {2, 3}, {3, 2}, {2, 2},
-                                {2, 2}, {0, 3}, {0, 2}, {1, 3}, {1, 2}, {1, 2}};
-  Random random(seed);
-  GregoryPatch patch;
-  patch.blend = blend;
-  for (int k = 0; k < 20; ++k) {
-    const Vec3 place(kPlan[k][0] * size / 3.0, kPlan[k][1] * size / 3.0, 0.0);
-    patch.points[k] = place + random.Point(-0.08 * size, 0.08 * size);
-  }
-  return patch;
-}
-
-BezierTriangle RandomTriangle(std::uint64_t seed, int degree, bool rational, double size) {
-  Random random(seed);
-  BezierTriangle patch;
-  patch.degree = degree;
-  for (int r = 0; r <= degree; ++r) {
-    for (int k = 0; k <= degree - r; ++k) {
-      patch.points.push_back(Vec3(k * size / degree, r * size / degree, 0.0) +
-                             random.Point(-0.1 * size, 0.1 * size) / degree);
-      if (rational) patch.weights.push_back(random.Uniform(0.5, 2.0));
-    }
-  }
-  return patch;
-}
-
 }  // namespace patchmill::testing

@@ -1,73 +1,15 @@
 // Pieces against native evaluation, for every kind.
 #include "core/patch/piece.h"
 
-#include <random>
-
 #include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
 
 namespace patchmill {
 namespace {
 
-std::mt19937 rng(7);
-double Unit() { return static_cast<double>(rng()) / 4294967295.0; }
-Vec3 Any() { return Vec3(Unit(), Unit(), Unit()); }
-
-PatchShape RandomGregory(GregoryPatch::Blend blend) {
-  GregoryPatch g;
-  g.blend = blend;
-  for (Vec3& p : g.points) p = Any();
-  return g;
-}
-
-PatchShape RandomBezier(int p, int q, bool rational) {
-  BezierPatch b;
-  b.degree_u = p;
-  b.degree_v = q;
-  for (int k = 0; k < (p + 1) * (q + 1); ++k) {
-    b.points.push_back(Any());
-    if (rational) b.weights.push_back(0.2 + Unit());
-  }
-  return b;
-}
-
-PatchShape RandomTriangle(int n, bool rational) {
-  BezierTriangle b;
-  b.degree = n;
-  for (int k = 0; k < (n + 1) * (n + 2) / 2; ++k) {
-    b.points.push_back(Any());
-    if (rational) b.weights.push_back(0.2 + Unit());
-  }
-  return b;
-}
-
-PatchShape RandomNurbs(int p, int q, bool rational) {
-  BsplinePatch b;
-  b.degree_u = p;
-  b.degree_v = q;
-  const auto knots = [](int degree, bool clamped) {
-    std::vector<double> k;
-    double t = -3.0;
-    for (int i = 0; i < degree + 1; ++i) k.push_back(clamped ? t : t += Unit());
-    for (int i = 0; i < 4; ++i) {
-      t += 0.2 + Unit();
-      k.push_back(t);
-      if (i == 1) {
-        for (int m = 1; m < degree; ++m) k.push_back(t);  // a crease: multiplicity = degree
-      }
-    }
-    t += 0.3;
-    for (int i = 0; i < degree + 1; ++i) k.push_back(clamped ? t : t += 0.1 + Unit());
-    return k;
-  };
-  b.knots_u = knots(p, true);
-  b.knots_v = knots(q, false);
-  const std::size_t count = (b.knots_u.size() - p - 1) * (b.knots_v.size() - q - 1);
-  for (std::size_t k = 0; k < count; ++k) {
-    b.points.push_back(Any());
-    if (rational) b.weights.push_back(0.2 + Unit());
-  }
-  return b;
-}
+using testing::Random;
 
 Vec3 NetPoint(const BernsteinNet& net, double u, double v) {
   Piece piece;
@@ -78,11 +20,12 @@ Vec3 NetPoint(const BernsteinNet& net, double u, double v) {
 // The piece's own jet is the native one by the chain rule through the bilinear parameter map.
 void ExpectPiecesMatch(const PatchShape& shape, int tries) {
   const std::vector<Piece> pieces = SplitIntoPieces(PatchId(3), shape);
+  Random random(5);
   ASSERT_FALSE(pieces.empty());
   for (const Piece& piece : pieces) {
     EXPECT_EQ(piece.patch, PatchId(3));
     for (int k = 0; k < tries; ++k) {
-      const double u = Unit(), v = Unit();
+      const double u = random.Unit(), v = random.Unit();
       const Vec2 q = NativeParameters(piece, u, v);
       const SurfaceJet native = Evaluate(shape, q.x(), q.y());
       ASSERT_LE((NetPoint(piece.net, u, v) - native.p).norm(), 1e-12);
@@ -112,10 +55,10 @@ void ExpectPiecesMatch(const PatchShape& shape, int tries) {
 TEST(Pieces, BezierAreOne) {
   for (int p : {1, 2, 3, 5, 15}) {
     for (bool rational : {false, true}) {
-      const PatchShape shape = RandomBezier(p, 16 - p, rational);
+      const PatchShape shape = testing::RandomBezier(p, p, 16 - p, rational, 1.0);
       EXPECT_EQ(SplitIntoPieces(PatchId(0), shape).size(), 1u);
       ExpectPiecesMatch(shape, 100);
-      ExpectPiecesMatch(RandomBezier(p, p, rational), 100);
+      ExpectPiecesMatch(testing::RandomBezier(p, p, p, rational, 1.0), 100);
     }
   }
 }
@@ -123,7 +66,7 @@ TEST(Pieces, BezierAreOne) {
 TEST(Pieces, BsplineOnePerKnotRectangle) {
   for (int p : {1, 2, 3, 6}) {
     for (bool rational : {false, true}) {
-      const PatchShape shape = RandomNurbs(p, 3, rational);
+      const PatchShape shape = testing::RandomKnots(p, p, 3, rational, 1.0);
       EXPECT_EQ(SplitIntoPieces(PatchId(0), shape).size(), 25u);
       ExpectPiecesMatch(shape, 30);
     }
@@ -133,7 +76,7 @@ TEST(Pieces, BsplineOnePerKnotRectangle) {
 TEST(Pieces, TrianglesAreThree) {
   for (int n : {1, 2, 3, 4, 9, 15}) {
     for (bool rational : {false, true}) {
-      const PatchShape shape = RandomTriangle(n, rational);
+      const PatchShape shape = testing::RandomTriangle(n, n, rational, 1.0);
       EXPECT_EQ(SplitIntoPieces(PatchId(0), shape).size(), 3u);
       ExpectPiecesMatch(shape, 100);
     }
@@ -142,7 +85,7 @@ TEST(Pieces, TrianglesAreThree) {
 
 TEST(Pieces, GregoryNetsEqualTheBlend) {
   for (auto blend : {GregoryPatch::Blend::kCorner, GregoryPatch::Blend::kEdge}) {
-    const PatchShape shape = RandomGregory(blend);
+    const PatchShape shape = testing::RandomGregory(1, blend, 1.0);
     ExpectPiecesMatch(shape, 10000);
     const Piece piece = SplitIntoPieces(PatchId(0), shape)[0];
     int zeros = 0;
@@ -161,13 +104,14 @@ TEST(Pieces, GregoryNetsEqualTheBlend) {
 
 TEST(SubNet, IsThePartOfTheNet) {
   for (auto blend : {GregoryPatch::Blend::kCorner, GregoryPatch::Blend::kEdge}) {
-    const BernsteinNet net = SplitIntoPieces(PatchId(0), RandomGregory(blend))[0].net;
+    Random random(6);
+    const BernsteinNet net = SplitIntoPieces(PatchId(0), testing::RandomGregory(1, blend, 1.0))[0].net;
     for (int k = 0; k < 1000; ++k) {
-      const double u0 = 0.9 * Unit(), v0 = 0.9 * Unit(), u1 = u0 + (1 - u0) * Unit(),
-                   v1 = v0 + (1 - v0) * Unit();
+      const double u0 = 0.9 * random.Unit(), v0 = 0.9 * random.Unit(), u1 = u0 + (1 - u0) * random.Unit(),
+                   v1 = v0 + (1 - v0) * random.Unit();
       const BernsteinNet sub = SubNet(net, u0, u1, v0, v1);
       for (const Vec4& p : sub.points) ASSERT_GT(p.w(), 0.0);
-      const double a = Unit(), b = Unit();
+      const double a = random.Unit(), b = random.Unit();
       const Vec3 expected = NetPoint(net, u0 + a * (u1 - u0), v0 + b * (v1 - v0));
       ASSERT_LE((NetPoint(sub, a, b) - expected).norm(), 1e-12);
     }
