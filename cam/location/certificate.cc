@@ -1,0 +1,109 @@
+// The proof behind CertifiedHeight: what local searches alone cannot exclude is subdivided until hulls,
+// oriented boxes or convexity (ALGORITHMS T6) exclude it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cam/location/locator_impl.h"
+
+namespace patchmill {
+namespace {
+
+using internal::Ball;
+using internal::Contact;
+using internal::LeafModel;
+using internal::LowerModel;
+using internal::Rect;
+
+constexpr int kBudget = 20000;  // parts of one query
+constexpr int kMaxLevel = 60;   // halvings of one leaf
+
+struct Prover {
+  const Surface& surface;
+  const Ball& ball;
+  double eps;
+  Contact& best;
+  int budget = kBudget;
+  double top = -kInfinity;  // everything handled so far is proven to lie below this centre height
+  std::vector<Vec4>& buffer;
+
+  // Excludes a part for a centre at height z, and notes z as proven.
+  bool Excluded(const RectBounds& bounds, double z) {
+    const Vec3 c = Lift(ball.q, z);
+    const double limit2 = 2.0 * ball.FreeF();
+    if (!internal::BoxOutside(bounds.box, c, limit2) &&
+        !internal::OrientedBoxOutside(bounds.center, bounds.axis, bounds.half, c, limit2)) {
+      return false;
+    }
+    top = std::max(top, z);
+    return true;
+  }
+  bool Excluded(const LowerModel& low, double z) {
+    if (!low.convex || !low.minorant) return false;
+    if (low.f0 + MinimizeOnBox(low.q, {-0.5, 0.5, -0.5, 0.5}).value < ball.FreeF()) return false;
+    top = std::max(top, z);
+    return true;
+  }
+
+  void Prove(const Piece& piece, int piece_index, const Rect& rect, const Vec4* points, int level) {
+    const NetShape shape{piece.net.degree_u, piece.net.degree_v};
+    std::array<Vec3, kMaxNetPoints> hull;
+    const int hull_count = HullPoints(shape, points, hull.data());
+    const RectBounds bounds = BoundPoints(shape, points, hull.data(), hull_count);
+    if (Excluded(bounds, best.z) || Excluded(bounds, best.z + eps)) return;
+    if (--budget < 0 || level >= kMaxLevel) {
+      const double rim2 = ball.radius * ball.radius - internal::PlanDistance2(bounds.box, ball.q);
+      if (rim2 > 0.0) top = std::max(top, bounds.box.max.z() + std::sqrt(rim2));
+      return;
+    }
+
+    const double mu = 0.5 * (rect.u0 + rect.u1), mv = 0.5 * (rect.v0 + rect.v1);
+    const LeafModel model = internal::MakeLeafModel(shape, points, piece.net.rational, hull.data(),
+                                                    hull_count, Evaluate(piece, mu, mv), rect);
+    LowerModel low = internal::BoundBelow(model, Lift(ball.q, best.z));
+    if (Excluded(low, best.z)) return;
+    if (low.convex || level <= 2) {
+      const Vec3 c = Lift(ball.q, best.z);
+      const BoxMinimum guess = internal::GuessMinimum(model, c);
+      const internal::SearchResult found =
+          internal::RaiseOnPiece(piece, piece_index, rect, mu + guess.x * (rect.u1 - rect.u0),
+                                 mv + guess.y * (rect.v1 - rect.v0), ball, {}, best);
+      if (found.improved) low = internal::BoundBelow(model, Lift(ball.q, best.z));
+      if (low.convex && found.out_if_convex) {
+        top = std::max(top, best.z);
+        return;
+      }
+    }
+    if (Excluded(internal::BoundBelow(model, Lift(ball.q, best.z + eps)), best.z + eps)) return;
+
+    const bool along_u = model.a.squaredNorm() >= model.b.squaredNorm();
+    Vec4* low_half = buffer.data() + 2 * level * kMaxNetPoints;
+    Vec4* high_half = low_half + kMaxNetPoints;
+    HalveNet(shape, points, along_u, low_half, high_half);
+    Rect first = rect, second = rect;
+    (along_u ? first.u1 : first.v1) = along_u ? mu : mv;
+    (along_u ? second.u0 : second.v0) = along_u ? mu : mv;
+    Prove(piece, piece_index, first, low_half, level + 1);
+    Prove(piece, piece_index, second, high_half, level + 1);
+  }
+};
+
+}  // namespace
+
+double Locator::Impl::Certify(const Ball& ball, const OpenLeaves& open, double eps, Contact& best) const {
+  if (open.empty()) return slack;
+  thread_local std::vector<Vec4> buffer(2 * kMaxLevel * kMaxNetPoints);
+  Prover prover{surface, ball, eps, best, kBudget, best.z, buffer};
+  std::array<Vec4, kMaxNetPoints> points;
+  for (const std::int32_t index : open) {
+    const internal::SearchLeaf& leaf = leaves[static_cast<std::size_t>(index)];
+    const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
+    const NetShape shape{piece.net.degree_u, piece.net.degree_v};
+    std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
+    RestrictNet(shape, points.data(), leaf.rect.u0, leaf.rect.u1, leaf.rect.v0, leaf.rect.v1);
+    prover.Prove(piece, leaf.piece, leaf.rect, points.data(), 0);
+  }
+  return std::max(0.0, prover.top - best.z) + slack;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,50 @@
+// Newton on one piece: raises the ball where the surface is in its way (ALGORITHMS 2.2, 2.3).
+#pragma once
+
+#include "cam/location/leaf_model.h"
+#include "cam/location/ray_distance.h"
+
+namespace patchmill::internal {
+
+// The highest contact so far. `slope` is the derivative of -f with respect to the piece's (u, v) at the
+// contact (zero in free directions): its signs are the KKT conditions at the rectangle that gave it.
+struct Contact {
+  double z = -kInfinity;  // centre height
+  int piece = -1;         // -1: none yet, z is only a lower bound
+  double u = 0.0, v = 0.0;
+  Vec3 p = Vec3::Zero();
+  Vec2 slope = Vec2::Zero();
+};
+
+struct Ball {
+  Vec2 q;
+  double radius;
+  double slack;  // mm: rounding of coordinates, 1e-12 of the model's scale
+  // f = 1/2 dist^2 counts as outside from here on.
+  double FreeF() const { return radius * (0.5 * radius - slack); }
+};
+
+struct SearchOptions {
+  double max_step = kInfinity;  // mm, longest move on the surface per iteration
+  const LowerModel* lower =
+      nullptr;  // with `rect` as its rectangle: gives up when it proves the rectangle out
+};
+
+// What a search proved: whether f stays outside the ball under the final contact on all of `rect`, given that
+// f is convex there.
+struct SearchResult {
+  bool improved = false;
+  bool out_if_convex = false;
+};
+
+// Minimises f(u,v) = 1/2 dist^2(S, upward ray from (q, best.z)) on `rect` from (u,v); whenever the surface
+// comes closer than R the ball is raised to touch it (best.z = g) and the search goes on: it ends at a local
+// maximum of g, or where nothing within reach lies in the way. Exact Hessian, exact quadratic step on the
+// box, line search. best.z must be finite. The contact's g is exact to about 1e-12 mm.
+SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect, double u, double v,
+                          const Ball& ball, const SearchOptions& options, Contact& best);
+
+// Smallest value over `rect` of the linear minorant f + grad.(x - x0) of a convex f with -grad = slope.
+double LinearMinimum(double f, const Vec2& slope, const Rect& rect, double u, double v);
+
+}  // namespace patchmill::internal

@@ -1,0 +1,211 @@
+#include "cam/location/locator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cam/location/locator_impl.h"
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+
+using internal::Ball;
+using internal::Contact;
+using internal::LowerModel;
+using internal::Rect;
+using internal::SearchOptions;
+using internal::SearchResult;
+
+namespace {
+
+float RoundDown(double x) { return std::nextafterf(static_cast<float>(x), -HUGE_VALF); }
+float RoundUp(double x) { return std::nextafterf(static_cast<float>(x), HUGE_VALF); }
+
+// Height up to which a node can lift the ball over q; -infinity when it is not under the ball.
+double NodeBound(const internal::SearchNode& n, const Ball& ball) {
+  const double dx = std::max({n.min_x - ball.q.x(), ball.q.x() - n.max_x, 0.0});
+  const double dy = std::max({n.min_y - ball.q.y(), ball.q.y() - n.max_y, 0.0});
+  const double rim = ball.radius * ball.radius - (dx * dx + dy * dy);
+  return rim > 0.0 ? n.max_z + std::sqrt(rim) : -kInfinity;
+}
+
+struct Pending {
+  std::int32_t node;
+  double bound;
+};
+
+std::vector<Pending>& SearchStack() {
+  thread_local std::vector<Pending> stack;
+  stack.clear();
+  return stack;
+}
+
+bool IsKkt(const Contact& c, const Rect& r) {
+  return (c.slope.x() <= 0.0 || c.u == r.u1) && (c.slope.x() >= 0.0 || c.u == r.u0) &&
+         (c.slope.y() <= 0.0 || c.v == r.v1) && (c.slope.y() >= 0.0 || c.v == r.v0);
+}
+
+bool Holds(const Rect& r, double u, double v) { return u >= r.u0 && u <= r.u1 && v >= r.v0 && v <= r.v1; }
+
+}  // namespace
+
+Locator::Impl::Impl(const Surface& s, double r) : surface(s), radius(r), slack(1e-12 * s.scale) {
+  PM_CHECK(radius > 0.0);
+  nodes.reserve(surface.nodes.size());
+  for (const SurfaceNode& n : surface.nodes) {
+    nodes.push_back({RoundDown(n.box.min.x()), RoundDown(n.box.min.y()), RoundUp(n.box.max.x()),
+                     RoundUp(n.box.max.y()), RoundUp(n.box.max.z()), n.right, n.leaf});
+  }
+  leaves.resize(surface.leaves.size());
+  constexpr std::size_t kChunk = 64;
+  const RunContext run;
+  const absl::Status status =
+      ParallelFor(run, nullptr, (leaves.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+        std::array<Vec4, kMaxNetPoints> points;
+        std::array<Vec3, kMaxNetPoints> hull;
+        for (std::size_t i = chunk * kChunk; i < std::min(leaves.size(), (chunk + 1) * kChunk); ++i) {
+          const SurfaceLeaf& given = surface.leaves[i];
+          const Piece& piece = surface.piece(given.piece);
+          const NetShape shape{piece.net.degree_u, piece.net.degree_v};
+          internal::SearchLeaf& leaf = leaves[i];
+          leaf.rect = {given.u0, given.u1, given.v0, given.v1};
+          leaf.piece = given.piece.value;
+          const Rect& rect = leaf.rect;
+          std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
+          RestrictNet(shape, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
+          const int hull_count = HullPoints(shape, points.data(), hull.data());
+          leaf.model = internal::MakeLeafModel(
+              shape, points.data(), piece.net.rational, hull.data(), hull_count,
+              Evaluate(piece, 0.5 * (rect.u0 + rect.u1), 0.5 * (rect.v0 + rect.v1)), rect);
+        }
+      });
+  PM_CHECK(status.ok());
+}
+
+void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Contact& best) const {
+  const std::size_t piece = hint.piece.index();
+  if (hint.piece.value < 0 || piece >= surface.pieces.size()) return;
+  const Vec2 d = Plan(hint.p) - ball.q;
+  if (!(d.squaredNorm() < 4.0 * radius * radius)) return;  // too far to help
+  internal::RaiseOnPiece(surface.pieces[piece], hint.piece.value, Rect{}, hint.u, hint.v, ball, {}, best);
+}
+
+void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenLeaves* open) const {
+  std::vector<Pending>& stack = SearchStack();
+  const auto beats = [&](double bound) { return bound > best.z + slack; };
+  const auto push = [&](std::int32_t node, double bound) {
+    if (beats(bound)) stack.push_back({node, bound});
+  };
+  push(0, NodeBound(nodes[0], ball));
+  while (!stack.empty() && !(best.z > enough)) {
+    const Pending top = stack.back();
+    stack.pop_back();
+    if (!beats(top.bound)) continue;
+    const internal::SearchNode& node = nodes[static_cast<std::size_t>(top.node)];
+    if (node.leaf >= 0) {
+      VisitLeaf(node.leaf, ball, best, open);
+      continue;
+    }
+    const std::int32_t left = top.node + 1;
+    const double bound_left = NodeBound(nodes[static_cast<std::size_t>(left)], ball);
+    const double bound_right = NodeBound(nodes[static_cast<std::size_t>(node.right)], ball);
+    if (bound_left > bound_right) {
+      push(node.right, bound_right);
+      push(left, bound_left);
+    } else {
+      push(left, bound_left);
+      push(node.right, bound_right);
+    }
+  }
+}
+
+void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& best, OpenLeaves* open) const {
+  const SurfaceLeaf& bounds = surface.leaves[static_cast<std::size_t>(index)];
+  const internal::SearchLeaf& leaf = leaves[static_cast<std::size_t>(index)];
+  const double free_f = ball.FreeF();
+  const Vec3 c = Lift(ball.q, best.z);
+  if (internal::OrientedBoxOutside(bounds.center, bounds.axis, bounds.half, c, 2.0 * free_f)) return;
+
+  const LowerModel lower = internal::BoundBelow(leaf.model, c);
+  if (lower.convex) {
+    if (best.piece == leaf.piece && Holds(leaf.rect, best.u, best.v) && IsKkt(best, leaf.rect)) return;
+    if (lower.minorant && lower.f0 + MinimizeOnBox(lower.q, {-0.5, 0.5, -0.5, 0.5}).value >= free_f) {
+      return;
+    }
+  }
+
+  const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
+  const Rect& rect = leaf.rect;
+  const auto at = [&](double x, double y) {
+    return Vec2(rect.u0 + (0.5 + x) * (rect.u1 - rect.u0), rect.v0 + (0.5 + y) * (rect.v1 - rect.v0));
+  };
+  const BoxMinimum guess = internal::GuessMinimum(leaf.model, c);
+  SearchOptions options;
+  options.lower = &lower;
+  const Vec2 start = at(guess.x, guess.y);
+  const SearchResult found =
+      internal::RaiseOnPiece(piece, leaf.piece, rect, start.x(), start.y(), ball, options, best);
+  // One maximum, proven? Then the search has found it.
+  const bool convex =
+      found.improved ? internal::BoundBelow(leaf.model, Lift(ball.q, best.z)).convex : lower.convex;
+  if (convex) {
+    if (!found.out_if_convex && open != nullptr) open->push_back(index);
+    return;
+  }
+  options.lower = nullptr;
+  for (const double x : {-0.5, 0.5}) {
+    for (const double y : {-0.5, 0.5}) {
+      const Vec2 corner = at(x, y);
+      internal::RaiseOnPiece(piece, leaf.piece, rect, corner.x(), corner.y(), ball, options, best);
+    }
+  }
+  if (open != nullptr) open->push_back(index);
+}
+
+Locator::Locator(const Surface& surface, double radius) : impl_(std::make_unique<Impl>(surface, radius)) {}
+Locator::~Locator() = default;
+Locator::Locator(Locator&&) noexcept = default;
+
+const Surface& Locator::surface() const { return impl_->surface; }
+double Locator::radius() const { return impl_->radius; }
+std::uint64_t Locator::defect_count() const { return impl_->defects.load(); }
+
+std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hint) const {
+  const Ball ball = impl_->BallAt(q);
+  Contact best;
+  best.z = impl_->Lowest();
+  if (hint != nullptr) impl_->StartFromHint(ball, *hint, best);
+  impl_->Search(ball, kInfinity, best, nullptr);
+  if (best.piece < 0) return std::nullopt;
+  return CenterPoint{best.z, impl_->PointOf(best)};
+}
+
+bool Locator::Free(const Vec3& c, double slack) const {
+  const double limit = c.z() + slack;
+  Contact best;
+  best.z = std::max(limit, impl_->Lowest());
+  impl_->Search(impl_->BallAt(Plan(c)), limit, best, nullptr);
+  return best.piece < 0 || !(best.z > limit);
+}
+
+std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double eps,
+                                                        const SurfacePoint* hint) const {
+  thread_local Impl::OpenLeaves open;
+  open.clear();
+  const Ball ball = impl_->BallAt(q);
+  Contact best;
+  best.z = impl_->Lowest();
+  if (hint != nullptr) impl_->StartFromHint(ball, *hint, best);
+  impl_->Search(ball, kInfinity, best, &open);
+  const double found = best.z;
+  const bool had = best.piece >= 0;
+  const double gap = impl_->Certify(ball, open, std::max(eps, 1e-7), best);
+  if (best.z > found + 1e-9 || (!had && best.piece >= 0)) {
+    impl_->defects.fetch_add(1, std::memory_order_relaxed);
+  }
+  if (best.piece < 0) return std::nullopt;
+  return CertifiedCenter{best.z, gap, impl_->PointOf(best)};
+}
+
+}  // namespace patchmill

@@ -1,0 +1,62 @@
+// What the files of Locator share.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "cam/location/leaf_model.h"
+#include "cam/location/local_search.h"
+#include "cam/location/locator.h"
+
+namespace patchmill {
+
+namespace internal {
+
+// Everything a search visits, packed: boxes rounded outward to floats.
+struct SearchNode {
+  float min_x, min_y, max_x, max_y, max_z;
+  std::int32_t right;  // right child; the left one is the next node
+  std::int32_t leaf;   // >= 0: index of a leaf, no children
+};
+
+struct SearchLeaf {
+  LeafModel model;
+  Rect rect;
+  std::int32_t piece;
+};
+
+}  // namespace internal
+
+struct Locator::Impl {
+  Impl(const Surface& surface, double radius);
+
+  // Leaves a search could not prove, for the certificate.
+  using OpenLeaves = std::vector<std::int32_t>;
+
+  internal::Ball BallAt(const Vec2& q) const { return {q, radius, slack}; }
+  // A centre height below every contact: c = (q, lowest) makes the upward ray a vertical line.
+  double Lowest() const { return surface.box.min.z() - radius - 1.0; }
+
+  // Raises best.z to h(q) by branch and bound over the leaves. best.z >= Lowest(); stops at the first contact
+  // above `enough`. open (may be null) receives the leaves whose bound rests on local searches alone.
+  void Search(const internal::Ball& ball, double enough, internal::Contact& best, OpenLeaves* open) const;
+  void VisitLeaf(std::int32_t leaf, const internal::Ball& ball, internal::Contact& best,
+                 OpenLeaves* open) const;
+  void StartFromHint(const internal::Ball& ball, const SurfacePoint& hint, internal::Contact& best) const;
+
+  // Proves the open leaves of a finished search, or improves `best`, by subdividing their nets. Returns the
+  // gap: h <= best.z + gap. At most eps unless the budget of parts ran out; then the honest rest.
+  double Certify(const internal::Ball& ball, const OpenLeaves& open, double eps,
+                 internal::Contact& best) const;
+
+  SurfacePoint PointOf(const internal::Contact& c) const { return {PieceId(c.piece), c.u, c.v, c.p}; }
+
+  const Surface& surface;
+  double radius;
+  double slack;  // mm, 1e-12 of the scale
+  std::vector<internal::SearchNode> nodes;
+  std::vector<internal::SearchLeaf> leaves;
+  mutable std::atomic<std::uint64_t> defects{0};
+};
+
+}  // namespace patchmill

@@ -1,0 +1,54 @@
+// The ball with everything above it, seen from the surface: a point p lies in its way iff the distance from p
+// to the upward ray {c + s e_z, s >= 0} is less than R (ALGORITHMS T1).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/surface/surface.h"
+
+namespace patchmill::internal {
+
+// From p to the nearest point of the ray.
+inline Vec3 ToRay(const Vec3& p, const Vec3& c) {
+  return {c.x() - p.x(), c.y() - p.y(), std::max(0.0, c.z() - p.z())};
+}
+
+inline double PlanDistance2(const Box3& box, const Vec2& q) {
+  const double dx = std::max({box.min.x() - q.x(), q.x() - box.max.x(), 0.0});
+  const double dy = std::max({box.min.y() - q.y(), q.y() - box.max.y(), 0.0});
+  return dx * dx + dy * dy;
+}
+
+// True when the box is at least sqrt(limit2) away from the ray.
+inline bool BoxOutside(const Box3& box, const Vec3& c, double limit2) {
+  const double dz = std::max(0.0, c.z() - box.max.z());
+  return PlanDistance2(box, Plan(c)) + dz * dz >= limit2;
+}
+
+// The same for an oriented box |(x - center) . axis.col(k)| <= half[k]. Proof: the plane through the box
+// point nearest to c, square to the shortest connection, separates the box from c by the distance; where it
+// does not rise towards the box, from the whole ray. Otherwise its horizontal part is tried.
+inline bool OrientedBoxOutside(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half,
+                               const Vec3& c, double limit2) {
+  const Vec3 m = c - center;
+  Vec3 out = Vec3::Zero();  // from the nearest box point to c
+  double distance2 = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double y = axis.col(k).dot(m);
+    const double e = std::abs(y) - half[k];
+    if (e > 0.0) {
+      distance2 += e * e;
+      out += std::copysign(e, y) * axis.col(k);
+    }
+  }
+  if (distance2 < limit2) return false;
+  if (out.z() >= 0.0) return true;
+  const double length2 = out.x() * out.x() + out.y() * out.y();
+  if (!(length2 > 0.0)) return false;
+  double gap = out.x() * m.x() + out.y() * m.y();
+  for (int k = 0; k < 3; ++k) gap -= half[k] * std::abs(out.x() * axis(0, k) + out.y() * axis(1, k));
+  return gap > 0.0 && gap * gap >= limit2 * length2;
+}
+
+}  // namespace patchmill::internal
