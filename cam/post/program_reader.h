@@ -10,8 +10,8 @@
 namespace patchmill {
 
 struct ReaderParams {
-  double arc_chord_error = 1e-4;  // mm: arcs become chords this close
-  std::size_t max_moves = 20'000'000;
+  double arc_chord_error = 1e-4;      // mm: arcs become chords this close
+  std::size_t max_moves = 5'000'000;  // 400 MB
   std::size_t max_line_length = 1000;
 };
 

@@ -43,7 +43,8 @@ struct ProgramMove {
 struct ProgramMotion {
   std::vector<ProgramMove> moves;
   int tool_number = 0;
-  double controller_tolerance = 0.0;  // mm, largest G64 P in force while feeding; kInfinity for a bare G64
+  double controller_tolerance =
+      0.0;  // mm, largest G64 P + Q in force while feeding (Q absent: P); kInfinity for a bare G64
   bool ends_with_spindle_off = false;
   bool ends_with_coolant_off = false;
   bool first_motion_is_up = false;

@@ -1,0 +1,117 @@
+#include "cam/post/gcode_modes.h"
+
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "core/base/status.h"
+
+namespace patchmill {
+
+namespace {
+
+BlockModes::Code* GroupOfG(BlockModes& modes, int code) {
+  switch (code) {
+    case 0:
+    case 10:
+    case 20:
+    case 30:
+    case 800:
+      return &modes.motion;
+    case 40:
+    case 530:
+      return &modes.once;
+    case 170:
+    case 180:
+    case 190:
+      return &modes.plane;
+    case 200:
+    case 210:
+      return &modes.units;
+    case 400:
+      return &modes.compensation;
+    case 430:
+    case 490:
+      return &modes.tool_length;
+    case 540:
+    case 550:
+    case 560:
+    case 570:
+    case 580:
+    case 590:
+      return &modes.work_offset;
+    case 610:
+    case 611:
+    case 640:
+      return &modes.path;
+    case 900:
+    case 910:
+      return &modes.distance;
+    case 901:
+    case 911:
+      return &modes.arc_distance;
+    case 940:
+      return &modes.feed_mode;
+    default:
+      return nullptr;
+  }
+}
+
+BlockModes::Code* GroupOfM(BlockModes& modes, int code) {
+  switch (code) {
+    case 0:
+    case 10:
+    case 20:
+    case 300:
+      return &modes.stop;
+    case 60:
+      return &modes.tool_change;
+    case 30:
+    case 40:
+    case 50:
+      return &modes.spindle;
+    case 70:
+    case 80:
+    case 90:
+      return &modes.coolant;
+    default:
+      return nullptr;
+  }
+}
+
+std::string Spell(const GcodeWord& word) { return fmt::format("{}{:.10g}", word.letter, word.number); }
+
+}  // namespace
+
+absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block) {
+  BlockModes modes;
+  for (const GcodeWord& word : block.words) {
+    if (word.letter == 'G' || word.letter == 'M') {
+      const double tenfold = word.number * 10.0;
+      BlockModes::Code* group = nullptr;
+      int code = -1;
+      if (tenfold >= 0.0 && tenfold < 1e5 && std::abs(tenfold - std::round(tenfold)) < 1e-6) {
+        code = static_cast<int>(std::lround(tenfold));
+        group = word.letter == 'G' ? GroupOfG(modes, code) : GroupOfM(modes, code);
+      }
+      if (group == nullptr) return absl::InvalidArgumentError(Spell(word) + " is not supported");
+      if (group->has_value()) {
+        return absl::InvalidArgumentError(Spell(word) +
+                                          ": another word of its modal group is in the same line");
+      }
+      *group = code;
+      continue;
+    }
+    constexpr std::string_view kKnown = "FHIJKPQRSTXYZ";
+    if (kKnown.find(word.letter) == std::string_view::npos) {
+      return absl::InvalidArgumentError(Spell(word) + " is not supported");
+    }
+    auto& value = modes.value[static_cast<std::size_t>(word.letter - 'A')];
+    if (value) return absl::InvalidArgumentError(fmt::format("{} is given twice", word.letter));
+    value = word.number;
+  }
+  return modes;
+}
+
+}  // namespace patchmill

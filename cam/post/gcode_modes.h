@@ -1,0 +1,42 @@
+// The words of one block sorted into modal groups (RS274/NGC tables 4 and 5).
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <absl/status/statusor.h>
+
+#include "cam/post/gcode_block.h"
+
+namespace patchmill {
+
+// Codes as ten times their number: G90.1 is 901. 0 is a code (G0, M0), absence is std::nullopt.
+struct BlockModes {
+  using Code = std::optional<int>;
+  Code motion;                                  // G0 G1 G2 G3 G80
+  Code plane;                                   // G17 G18 G19
+  Code units;                                   // G20 G21
+  Code distance;                                // G90 G91
+  Code arc_distance;                            // G90.1 G91.1
+  Code tool_length;                             // G43 G49
+  Code work_offset;                             // G54 .. G59
+  Code path;                                    // G61 G61.1 G64
+  Code once;                                    // G4 G53
+  Code compensation;                            // G40
+  Code feed_mode;                               // G94
+  Code stop;                                    // M0 M1 M2 M30
+  Code tool_change;                             // M6
+  Code spindle;                                 // M3 M4 M5
+  Code coolant;                                 // M7 M8 M9
+  std::array<std::optional<double>, 26> value;  // of the other letters, by letter - 'A'
+
+  const std::optional<double>& operator[](char letter) const {
+    return value[static_cast<std::size_t>(letter - 'A')];
+  }
+};
+
+// INVALID_ARGUMENT (without the line number) for codes and letters that are not known here, for two codes of
+// one group and for a letter given twice.
+absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block);
+
+}  // namespace patchmill

@@ -1,0 +1,324 @@
+#include "cam/post/program_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cam/post/arc_chords.h"
+#include "cam/post/gcode_block.h"
+#include "cam/post/gcode_modes.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+
+namespace {
+
+constexpr double kInch = 25.4;
+constexpr double kLargestCoordinate = 1e6;  // mm
+constexpr std::array<char, 3> kAxis = {'X', 'Y', 'Z'};
+constexpr std::array<char, 3> kOffset = {'I', 'J', 'K'};
+
+absl::Status Bad(const std::string& message) { return absl::InvalidArgumentError(message); }
+
+// The control's state and what it has done so far.
+class Interpreter {
+ public:
+  explicit Interpreter(const ReaderParams& params) : params_(params) {}
+
+  absl::Status Run(const BlockModes& block, int line);
+  bool ended() const { return ended_; }
+  ProgramMotion Take();
+
+ private:
+  absl::Status CheckUse(const BlockModes& block) const;
+  absl::Status SetModes(const BlockModes& block);
+  absl::Status SetPathMode(const BlockModes& block);
+  absl::Status SetTool(const BlockModes& block);
+  absl::Status SetOffsets(const BlockModes& block);
+  absl::Status Home(const BlockModes& block);
+  absl::Status Straight(const BlockModes& block);
+  absl::Status Arc(const BlockModes& block);
+  // Where the axis words lead to. Axes whose place is not known yet start where they are first sent.
+  absl::StatusOr<Vec3> Target(const BlockModes& block);
+  absl::Status Emit(ProgramMove::Kind kind, const Vec3& to, bool to_above, double chord_error);
+
+  ReaderParams params_;
+  ProgramMotion motion_;
+  int line_ = 0;
+  int motion_mode_ = 800;
+  int plane_ = 170;
+  double unit_ = 1.0;  // mm
+  bool incremental_ = false;
+  bool arc_absolute_ = false;
+  Vec3 at_ = Vec3::Zero();
+  std::array<bool, 3> known_{};
+  bool above_ = true;  // at machine zero, or at a Z that nothing has told yet
+  double feed_ = 0.0;
+  double smoothing_ = 0.0;
+  int tool_ = -1, loaded_ = -1;
+  int work_offset_ = 0;   // 0: none named yet
+  int tool_length_ = 0;   // 0: none named yet
+  bool shifted_ = false;  // the tool length changed where Z counts
+  bool moved_ = false, moved_below_ = false;
+  bool spindle_on_ = false, coolant_on_ = false, ended_ = false;
+};
+
+bool HasAxis(const BlockModes& block) { return block['X'] || block['Y'] || block['Z']; }
+bool HasCenter(const BlockModes& block) { return block['I'] || block['J'] || block['K'] || block['R']; }
+
+// Every word must have somebody who uses it; one that has none was meant for something we do not know.
+absl::Status Interpreter::CheckUse(const BlockModes& block) const {
+  const bool dwell = block.once == 40;
+  const bool smooth = block.path == 640;
+  const int mode = block.motion.value_or(motion_mode_);
+  const bool arc = mode == 20 || mode == 30;
+  if (block['P'] && !dwell && !smooth) return Bad("P without G4 or G64");
+  if (block['Q'] && !smooth) return Bad("Q without G64");
+  if (block['H'] && block.tool_length != 430) return Bad("H without G43");
+  if (dwell && (!block['P'] || smooth || HasAxis(block))) return Bad("G4 needs P and no coordinates");
+  if (HasCenter(block) && !arc) return Bad("I, J, K or R without G2 or G3");
+  if (HasAxis(block) && mode == 800) return Bad("coordinates while no motion is in force");
+  for (const char letter : {'F', 'P', 'Q', 'H', 'S', 'T'}) {
+    if (block[letter] && *block[letter] < 0.0) return Bad(fmt::format("{} is negative", letter));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Interpreter::SetPathMode(const BlockModes& block) {
+  if (!block.path) return absl::OkStatus();
+  if (*block.path != 640) {
+    smoothing_ = 0.0;
+  } else if (!block['P']) {
+    smoothing_ = kInfinity;
+  } else {
+    // Blending within P of moves that were merged within Q; LinuxCNC takes Q = P when it is left out.
+    smoothing_ = unit_ * (*block['P'] + block['Q'].value_or(*block['P']));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Interpreter::SetTool(const BlockModes& block) {
+  if (block['T']) {
+    if (!(*block['T'] <= 1e6) || *block['T'] != std::floor(*block['T'])) return Bad("T is not a tool number");
+    tool_ = static_cast<int>(*block['T']);
+  }
+  if (block.tool_change && tool_ >= 0) {
+    if (loaded_ >= 0 && loaded_ != tool_) {
+      return Bad(fmt::format("M6: tool {} after tool {}; one tool per program", tool_, loaded_));
+    }
+    loaded_ = tool_;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Interpreter::SetOffsets(const BlockModes& block) {
+  if (block.tool_length) {
+    if (!above_ && *block.tool_length != tool_length_) shifted_ = true;
+    tool_length_ = *block.tool_length;
+  }
+  if (block.work_offset) {
+    if (moved_below_ && *block.work_offset != (work_offset_ == 0 ? 540 : work_offset_)) {
+      return Bad(fmt::format("G{}: one work offset per program", *block.work_offset / 10));
+    }
+    work_offset_ = *block.work_offset;
+    known_[0] = known_[0] && moved_below_;
+    known_[1] = known_[1] && moved_below_;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Interpreter::SetModes(const BlockModes& block) {
+  if (block.units) unit_ = *block.units == 200 ? kInch : 1.0;
+  if (block['F']) feed_ = *block['F'] * unit_;
+  PM_RETURN_IF_ERROR(SetTool(block));
+  if (block.spindle) spindle_on_ = *block.spindle != 50;
+  if (block.coolant) coolant_on_ = *block.coolant != 90;
+  if (block.plane) plane_ = *block.plane;
+  PM_RETURN_IF_ERROR(SetOffsets(block));
+  PM_RETURN_IF_ERROR(SetPathMode(block));
+  if (block.distance) incremental_ = *block.distance == 910;
+  if (block.arc_distance) arc_absolute_ = *block.arc_distance == 901;
+  if (block.motion) motion_mode_ = *block.motion;
+  return absl::OkStatus();
+}
+
+absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_above, double chord_error) {
+  if (motion_.moves.size() >= params_.max_moves) {
+    return Bad(fmt::format("more than {} moves", params_.max_moves));
+  }
+  if (!(to.cwiseAbs().maxCoeff() <= kLargestCoordinate)) {
+    return Bad(fmt::format("beyond {} mm", kLargestCoordinate));
+  }
+  ProgramMove move;
+  move.kind = kind;
+  move.from = at_;
+  move.to = to;
+  move.feed = kind == ProgramMove::Kind::kFeed ? feed_ : 0.0;
+  move.line = line_;
+  move.from_above = above_;
+  move.to_above = to_above;
+  move.chord_error = chord_error;
+  if (kind == ProgramMove::Kind::kFeed) {
+    motion_.controller_tolerance = std::max(motion_.controller_tolerance, smoothing_);
+  }
+  if (!(above_ && to_above)) {
+    const bool straight_up = Plan(to) == Plan(at_) && !above_ && (to_above || to.z() > at_.z());
+    if (to != at_ || above_ != to_above) motion_.last_motion_is_up = straight_up;
+    moved_below_ = true;
+  }
+  motion_.moves.push_back(move);
+  moved_ = true;
+  at_ = to;
+  above_ = to_above;
+  return absl::OkStatus();
+}
+
+absl::Status Interpreter::Home(const BlockModes& block) {
+  const auto& z = block['Z'];
+  if (block['X'] || block['Y'] || !z) return Bad("G53 is supported with Z alone");
+  if (motion_mode_ != 0 && motion_mode_ != 10) return Bad("G53 needs G0 or G1 in force");
+  if (incremental_) return Bad("G53 while G91 is in force");
+  if (*z < 0.0) return Bad("G53 with Z below machine zero: it is not known to be above everything");
+  if (!moved_) motion_.first_motion_is_up = true;
+  shifted_ = false;
+  const auto kind = motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed;
+  PM_RETURN_IF_ERROR(Emit(kind, at_, true, 0.0));
+  motion_.last_motion_is_up = true;
+  return absl::OkStatus();
+}
+
+absl::StatusOr<Vec3> Interpreter::Target(const BlockModes& block) {
+  if (shifted_) {
+    return Bad("motion after a change of the tool length offset below machine zero: Z is not known");
+  }
+  Vec3 to = at_;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& word = block[kAxis[k]];
+    if (!word) continue;
+    const auto i = static_cast<Eigen::Index>(k);
+    const bool known = known_[k] && (k < 2 || !above_);
+    if (incremental_) {
+      if (!known) return Bad(fmt::format("{} is incremental from an unknown place", kAxis[k]));
+      to[i] = at_[i] + *word * unit_;
+    } else {
+      to[i] = *word * unit_;
+      if (!known) at_[i] = to[i];
+      known_[k] = true;
+    }
+  }
+  return to;
+}
+
+absl::Status Interpreter::Straight(const BlockModes& block) {
+  PM_ASSIGN_OR_RETURN(const Vec3 to, Target(block));
+  return Emit(motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed, to,
+              above_ && !block['Z'], 0.0);
+}
+
+absl::Status Interpreter::Arc(const BlockModes& block) {
+  if (above_ && (plane_ != 170 || block['Z'])) return Bad("arc from an unknown or machine-zero Z");
+  const Eigen::Index first = plane_ == 170 ? 0 : plane_ == 180 ? 2 : 1;
+  const Eigen::Index second = (first + 1) % 3, normal = (first + 2) % 3;
+  PM_ASSIGN_OR_RETURN(const Vec3 to, Target(block));
+  const auto in_plane = [&](const Vec3& p) { return Vec3(p[first], p[second], p[normal]); };
+  PlaneArc arc;
+  arc.from = in_plane(at_);
+  arc.to = in_plane(to);
+  arc.clockwise = motion_mode_ == 20;
+  const auto& i = block[kOffset[static_cast<std::size_t>(first)]];
+  const auto& j = block[kOffset[static_cast<std::size_t>(second)]];
+  if (block[kOffset[static_cast<std::size_t>(normal)]])
+    return Bad("arc centre word outside the plane in force");
+  if (block['R']) {
+    if (i || j) return Bad("arc with both R and a centre");
+    PM_ASSIGN_OR_RETURN(arc.center,
+                        CenterFromRadius(Plan(arc.from), Plan(arc.to), *block['R'] * unit_, arc.clockwise));
+  } else {
+    if (!i && !j) return Bad("arc without a centre or R");
+    if (arc_absolute_ && !(i && j)) return Bad("G90.1 needs both centre words");
+    arc.center = unit_ * Vec2(i.value_or(0.0), j.value_or(0.0));
+    if (!arc_absolute_) arc.center += Plan(arc.from);
+  }
+  if (!(arc.to.cwiseAbs().maxCoeff() <= kLargestCoordinate) ||
+      !(arc.center.cwiseAbs().maxCoeff() <= kLargestCoordinate)) {
+    return Bad(fmt::format("beyond {} mm", kLargestCoordinate));
+  }
+  PM_ASSIGN_OR_RETURN(const ArcChords chords,
+                      ChordArc(arc, params_.arc_chord_error, params_.max_moves - motion_.moves.size()));
+  for (const Vec3& p : chords.points) {
+    Vec3 q;
+    q[first] = p.x();
+    q[second] = p.y();
+    q[normal] = p.z();
+    PM_RETURN_IF_ERROR(Emit(ProgramMove::Kind::kFeed, q, above_, chords.chord_error));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Interpreter::Run(const BlockModes& block, int line) {
+  line_ = line;
+  PM_RETURN_IF_ERROR(CheckUse(block));
+  PM_RETURN_IF_ERROR(SetModes(block));
+  const bool arc = motion_mode_ == 20 || motion_mode_ == 30;
+  const bool explicit_arc = arc && block.motion.has_value();
+  if (block.once == 530) {
+    PM_RETURN_IF_ERROR(Home(block));
+  } else if (HasAxis(block) || HasCenter(block) || explicit_arc) {
+    if (motion_mode_ != 0 && !(feed_ > 0.0)) return Bad("feed move without a feed rate");
+    PM_RETURN_IF_ERROR(arc ? Arc(block) : Straight(block));
+  }
+  if (block.stop == 20 || block.stop == 300) {
+    spindle_on_ = coolant_on_ = false;  // so it is on every RS274 control
+    ended_ = true;
+  }
+  return absl::OkStatus();
+}
+
+ProgramMotion Interpreter::Take() {
+  motion_.tool_number = loaded_ >= 0 ? loaded_ : std::max(tool_, 0);
+  motion_.ends_with_spindle_off = !spindle_on_;
+  motion_.ends_with_coolant_off = !coolant_on_;
+  return std::move(motion_);
+}
+
+absl::Status AtLine(int line, const absl::Status& status) {
+  return absl::Status(status.code(), fmt::format("line {}: {}", line, std::string(status.message())));
+}
+
+}  // namespace
+
+absl::StatusOr<ProgramMotion> ReadProgram(std::string_view text, const ReaderParams& params) {
+  if (!(params.arc_chord_error > 0.0)) return Bad("arc_chord_error must be > 0 mm");
+  Interpreter interpreter(params);
+  GcodeBlock block;
+  bool percent_opened = false, begun = false;
+  int line = 0;
+  for (std::size_t begin = 0; begin < text.size() && !interpreter.ended();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view code = text.substr(begin, end - begin);
+    begin = end + 1;
+    ++line;
+    if (!code.empty() && code.back() == '\r') code.remove_suffix(1);
+    if (code.size() > params.max_line_length) {
+      return AtLine(line, Bad(fmt::format("longer than {} characters", params.max_line_length)));
+    }
+    if (const absl::Status parsed = ParseGcodeLine(code, block); !parsed.ok()) return AtLine(line, parsed);
+    if (block.percent) {
+      if (percent_opened) break;  // the end of the tape
+      if (begun) return AtLine(line, Bad("% within the program"));
+      percent_opened = begun = true;
+      continue;
+    }
+    if (block.words.empty()) continue;
+    begun = true;
+    const auto modes = SortModes(block);
+    const absl::Status done = modes.ok() ? interpreter.Run(*modes, line) : modes.status();
+    if (!done.ok()) return AtLine(line, done);
+  }
+  return interpreter.Take();
+}
+
+}  // namespace patchmill

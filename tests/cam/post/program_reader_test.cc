@@ -1,0 +1,280 @@
+#include "cam/post/program_reader.h"
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace patchmill {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+ProgramMotion Read(const std::string& text, double chord_error = 1e-4) {
+  ReaderParams params;
+  params.arc_chord_error = chord_error;
+  auto motion = ReadProgram(text, params);
+  EXPECT_TRUE(motion.ok()) << text << "\n" << motion.status();
+  return motion.ok() ? *motion : ProgramMotion{};
+}
+
+std::string Refusal(const std::string& text) {
+  const auto motion = ReadProgram(text);
+  EXPECT_FALSE(motion.ok()) << text;
+  EXPECT_EQ(motion.status().code(), absl::StatusCode::kInvalidArgument);
+  return std::string(motion.status().message());
+}
+
+TEST(ProgramReader, StraightMovesAndModes) {
+  const ProgramMotion m = Read(
+      "%\n(header) ; more\nN10 g21 g90 T2 M6\nG53 G0 Z0\ns1000m3\ng0 x 1 0 y-2.5\nZ5.\nG1 Z-1 F100\nX20\n"
+      "G91 X1 Y1\nG90 G0 Z50\nM5 M9\nG53 G0 Z0\nM30\nthis is not read\n%\n");
+  ASSERT_EQ(m.moves.size(), 8u);
+  EXPECT_TRUE(m.first_motion_is_up && m.last_motion_is_up);
+  EXPECT_TRUE(m.ends_with_spindle_off && m.ends_with_coolant_off);
+  EXPECT_EQ(m.tool_number, 2);
+  EXPECT_EQ(m.moves[1].to.x(), 10.0);
+  EXPECT_TRUE(m.moves[1].from_above && m.moves[1].to_above);
+  EXPECT_EQ(m.moves[1].from.head<2>(), m.moves[1].to.head<2>()) << "its start is not known";
+  EXPECT_TRUE(m.moves[2].from_above && !m.moves[2].to_above);
+  EXPECT_EQ(m.moves[3].kind, ProgramMove::Kind::kFeed);
+  EXPECT_EQ(m.moves[3].feed, 100.0);
+  EXPECT_EQ(m.moves[4].line, 9);
+  EXPECT_EQ(m.moves[5].to, Vec3(21, -1.5, -1));
+  EXPECT_TRUE(m.moves[7].to_above);
+}
+
+TEST(ProgramReader, InchesAreConverted) {
+  const ProgramMotion m = Read("G20\nG0 Z1\nG0 X1 Y2\nG1 Z-.5 F10\nG64 P0.001 Q0\nX2\n");
+  EXPECT_EQ(m.moves.back().to, Vec3(50.8, 50.8, -12.7));
+  EXPECT_EQ(m.moves.back().feed, 254.0);
+  EXPECT_DOUBLE_EQ(m.controller_tolerance, 0.0254);
+}
+
+TEST(ProgramReader, PathModes) {
+  const std::string start = "G0 Z1\nG1 X0 Y0 F10\n";
+  EXPECT_EQ(Read(start).controller_tolerance, 0.0);
+  EXPECT_EQ(Read(start + "G61\nX1\n").controller_tolerance, 0.0);
+  EXPECT_EQ(Read(start + "G64\nX1\n").controller_tolerance, kInfinity);
+  EXPECT_DOUBLE_EQ(Read(start + "G64 P.003 Q.001\nX1\nG61\nX2\n").controller_tolerance, 0.004);
+  EXPECT_DOUBLE_EQ(Read(start + "G64 P.003\nX1\n").controller_tolerance, 0.006);  // Q = P
+  EXPECT_EQ(Read(start + "X1\nG64 P.003\n").controller_tolerance, 0.0) << "nothing is fed under it";
+}
+
+// Every vertex lies on the circle, the chords are as close as asked, the way round is right.
+void ExpectArc(const ProgramMotion& m, const Vec3& center, double radius, int u, int v, double sweep,
+               double chord_error) {
+  double total = 0.0;
+  for (const ProgramMove& move : m.moves) {
+    if (move.chord_error == 0.0) continue;
+    const Vec3 a = move.from - center, b = move.to - center;
+    EXPECT_NEAR(std::hypot(a[u], a[v]), radius, 1e-9);
+    EXPECT_NEAR(std::hypot(b[u], b[v]), radius, 1e-9);
+    const Vec3 middle = 0.5 * (a + b);
+    EXPECT_LE(radius - std::hypot(middle[u], middle[v]), move.chord_error + 1e-12);
+    EXPECT_LE(move.chord_error, chord_error * (1 + 1e-9));
+    total += std::atan2(a[u] * b[v] - a[v] * b[u], a[u] * b[u] + a[v] * b[v]);
+  }
+  EXPECT_NEAR(total, sweep, 1e-9);
+}
+
+TEST(ProgramReader, ArcsInThreePlanes) {
+  ExpectArc(Read("G17 G1 X0 Y20 F200\nG2 X20 Y0 I0 J-20\n"), Vec3::Zero(), 20, 0, 1, -kPi / 2, 1e-4);
+  ExpectArc(Read("G17 G1 X20 Y0 F200\nG3 X0 Y20 I-20 J0\n"), Vec3::Zero(), 20, 0, 1, kPi / 2, 1e-4);
+  ExpectArc(Read("G17 G1 X20 Y0 F200\nG3 X0 Y-20 R-20\n", 1e-3), Vec3::Zero(), 20, 0, 1, 1.5 * kPi, 1e-3);
+  ExpectArc(Read("G17 G1 X20 Y0 F200\nG2 X0 Y-20 R20\n"), Vec3::Zero(), 20, 0, 1, -kPi / 2, 1e-4);
+  // G18: the first axis is Z, the second X; G2 turns from X to Z.
+  ExpectArc(Read("G18 G1 X0 Z20 F200\nG2 X20 Z0 I0 K-20\n"), Vec3::Zero(), 20, 2, 0, -1.5 * kPi, 1e-4);
+  ExpectArc(Read("G18 G1 X0 Z20 F200\nG3 X20 Z0 I0 K-20\n"), Vec3::Zero(), 20, 2, 0, kPi / 2, 1e-4);
+  ExpectArc(Read("G19 G1 Y0 Z20 F200\nG2 Y20 Z0 J0 K-20\n"), Vec3::Zero(), 20, 1, 2, -kPi / 2, 1e-4);
+  ExpectArc(Read("G17 G90.1 G1 X30 Y5 Z0 F200\nG3 X10 Y25 I10 J5\n"), Vec3(10, 5, 0), 20, 0, 1, kPi / 2,
+            1e-4);
+  ExpectArc(Read("G17 G1 X5 Y0 Z0 F200\nG2 I-5\n"), Vec3::Zero(), 5, 0, 1, -2 * kPi, 1e-4);
+}
+
+TEST(ProgramReader, HelixRisesEvenly) {
+  const ProgramMotion m = Read("G17 G1 X5 Y0 Z0 F200\nG3 X5 Y0 Z2 I-5 J0\n");
+  for (const ProgramMove& move : m.moves) {
+    if (move.chord_error == 0.0) continue;
+    double angle = std::atan2(move.to.y(), move.to.x());
+    if (angle <= 1e-9) angle += 2 * kPi;
+    EXPECT_NEAR(move.to.z(), 2.0 * angle / (2 * kPi), 1e-9);
+  }
+  EXPECT_EQ(m.moves.back().to, Vec3(5, 0, 2));
+}
+
+TEST(ProgramReader, RefusesWithTheLine) {
+  const std::string start = "G21 G90\nG0 X0 Y0 Z5\nG1 Z0 F100\n";
+  for (const auto& [code, word] : std::vector<std::pair<std::string, std::string>>{
+           {"X[1+2]", "expressions"},
+           {"X#1", "parameters"},
+           {"#1=5", "parameters"},
+           {"o100 sub", "O-words"},
+           {"G41 D1", "G41"},
+           {"G42.1 D2", "G42.1"},
+           {"G81 Z-1 R2", "G81"},
+           {"G28", "G28"},
+           {"G92 X0", "G92"},
+           {"G10 L2 P1 X0", "G10"},
+           {"G5 X1 Y1", "G5"},
+           {"G38.2 Z-5", "G38.2"},
+           {"G33 Z-1 K1", "G33"},
+           {"G95", "G95"},
+           {"G2 X1 Y1", "centre"},
+           {"G2 X9 Y9 I1 J0", "radii"},
+           {"G2 X9 R1", "radius"},
+           {"G3 R5", "equal"},
+           {"G2 X1 K3", "plane"},
+           {"A90", "A90"},
+           {"U1", "U1"},
+           {"B1", "B1"},
+           {"E5", "E5"},
+           {"L3", "L3"},
+           {"M98 P1", "M98"},
+           {"M19", "M19"},
+           {"G53 G0 X0", "G53"},
+           {"G53 G0 Z-10", "G53"},
+           {"G53 G0 Z0 Y1", "G53"},
+           {"/X1", "block delete"},
+           {"X1 X2", "twice"},
+           {"G0 G1 X1", "modal group"},
+           {"G17 G18", "modal group"},
+           {"M3 M5", "modal group"},
+           {"X", "without a number"},
+           {"X--1", "without a number"},
+           {"X1..2", "unexpected"},
+           {"X1e3", "E3"},
+           {"(open", "unclosed"},
+           {"(a (b) c)", "comment"},
+           {"X1 N5", "N within"},
+           {"%", "%"},
+           {"I5", "without G2"},
+           {"P5", "without G4"},
+           {"G55 X1", "work offset"},
+           {"X2000000", "beyond"},
+           {"H3", "without G43"},
+           {"\x80", "0x80"},
+           {"G43 H1\nX1", "tool length"},
+           {"F-1", "negative"},
+           {"G0.5", "G0.5"},
+           {"G1.05", "G1.05"},
+           {"G80\nX1", "no motion"},
+           {"G61 P1", "without G4"},
+           {"G4 X1", "G4"},
+           {"T2 M6\nT3 M6", "tool 3"},
+       }) {
+    const std::string message = Refusal(start + code + "\n");
+    EXPECT_THAT(message, HasSubstr(word)) << code;
+    const int line = code.find('\n') == std::string::npos ? 4 : 5;
+    EXPECT_THAT(message, HasSubstr("line " + std::to_string(line) + ": ")) << code;
+  }
+  EXPECT_THAT(Refusal("G1 X1 Z1\n"), HasSubstr("line 1: feed move without a feed rate"));
+  EXPECT_THAT(Refusal("G91\nG0 X1\n"), HasSubstr("line 2: X is incremental from an unknown place"));
+  EXPECT_THAT(Refusal("X1\n"), HasSubstr("line 1: coordinates while no motion"));
+  EXPECT_THAT(Refusal("G53 G0 Z0\nG18 G2 X1 Z1 I1 F10"), HasSubstr("line 2: arc"));
+  EXPECT_THAT(Refusal(std::string(2000, 'G')), HasSubstr("line 1: longer"));
+}
+
+TEST(ProgramReader, AcceptsWhatMovesNothing) {
+  Read("G43 H1\nG0 Z5\nG4 P1\nM0\nM7\nM4 S100\nG94 G40\nG61.1\n");
+  Read("");
+  Read("\n\n%\n%\n");
+  Read("G43 H1 Z5 G0\n");
+  EXPECT_TRUE(Read("M3 S5\nM8\n").moves.empty());
+  EXPECT_FALSE(Read("M3 S5\nM8\n").ends_with_spindle_off);
+  EXPECT_FALSE(Read("M3 S5\nM8\n").ends_with_coolant_off);
+}
+
+TEST(ProgramReader, UpAtBothEnds) {
+  EXPECT_FALSE(Read("G0 Z5\nG53 G0 Z0\n").first_motion_is_up);
+  EXPECT_TRUE(Read("G53 G0 Z0\nG0 X1\n").first_motion_is_up);
+  EXPECT_FALSE(Read("G53 G0 Z0\nG0 X1\nZ5\n").last_motion_is_up);
+  EXPECT_TRUE(Read("G53 G0 Z0\nG0 X1\nZ5\nZ9\n").last_motion_is_up);
+  EXPECT_TRUE(Read("G53 G0 Z0\nG0 X1\nZ5\nG53 Z0\nX0 Y0\n").last_motion_is_up) << "parking at machine zero";
+  EXPECT_FALSE(Read("G53 G0 Z0\nG0 X1\nZ5\nX5 Z9\n").last_motion_is_up);
+}
+
+TEST(ProgramReader, LimitsHold) {
+  ReaderParams params;
+  params.max_moves = 100;
+  const auto many = ReadProgram("G0 Z5\nG1 X1 Y0 F5\nG2 I-1\nG2 I-1\n", params);
+  ASSERT_FALSE(many.ok());
+  EXPECT_THAT(std::string(many.status().message()), HasSubstr("line 3"));
+  params.max_moves = 2;
+  EXPECT_FALSE(ReadProgram("G0 Z5\nX1\nX2\n", params).ok());
+}
+
+// Any bytes: an answer, quickly.
+TEST(ProgramReader, RandomBytesAndMutations) {
+  const std::string seed =
+      "%\nG21 G90 G17\nG53 G0 Z0\nT1 M6\nG43 H1\nG0 X1.5 Y-2\nZ5\nG1 Z-1 F100\nG2 X3.5 Y2 I1 J2\nG3 X1 "
+      "R5\n(c)\nM30\n";
+  const std::string alphabet = "GXYZIJKRFMTSPQN0123456789.-+()%;#[]oO \n/*=";
+  std::mt19937 random(5);
+  ReaderParams params;
+  params.max_moves = 10000;
+  int accepted = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = seed;
+    for (unsigned k = 0, n = random() % 6; k < n; ++k) {
+      const std::size_t at = random() % text.size();
+      switch (random() % 4) {
+        case 0:
+          text[at] = static_cast<char>(random() % 256);
+          break;
+        case 1:
+          text[at] = alphabet[random() % alphabet.size()];
+          break;
+        case 2:
+          text.erase(at, random() % 5);
+          break;
+        default:
+          text.insert(at, 1, alphabet[random() % alphabet.size()]);
+      }
+    }
+    const auto motion = ReadProgram(text, params);
+    if (!motion.ok()) {
+      EXPECT_THAT(std::string(motion.status().message()), HasSubstr("line "));
+      continue;
+    }
+    ++accepted;
+    for (const ProgramMove& move : motion->moves) {
+      EXPECT_TRUE(move.from.allFinite() && move.to.allFinite());
+    }
+  }
+  EXPECT_GT(accepted, 1000);
+}
+
+// Programs of other people, when they are there.
+TEST(ProgramReader, SharedPrograms) {
+  const fs::path folder = fs::path(PATCHMILL_SOURCE_DIR) / "../shared/data/gcode";
+  if (!fs::exists(folder)) GTEST_SKIP() << "../shared/data/gcode is not there";
+  const auto load = [&](const std::string& name) {
+    std::ifstream in(folder / name);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+  };
+  for (const char* name : {"programs/arc-xy-plane.gcode", "programs/arc-xz-plane.gcode",
+                           "programs/arc-yz-plane.gcode", "programs/arcspiral.ngc", "programs/flower_mold.nc",
+                           "programs/scorpion.nc", "programs/slant_test.nc"}) {
+    const auto motion = ReadProgram(load(name));
+    EXPECT_TRUE(motion.ok()) << name << ": " << motion.status();
+    EXPECT_GT(motion.ok() ? motion->moves.size() : 0u, 1u) << name;
+  }
+  for (const auto& [name, line] : std::vector<std::pair<std::string, std::string>>{
+           {"programs/3D_Chips.ngc", "line 8: "},
+           {"programs/helical-thread-milling.gcode", "line 4: "},
+           {"rs274ngc_programs/inside-corners.ngc", "line 9: "},
+           {"programs/full-circle-without-xyz.gcode", "line 11: "},
+           {"rs274ngc_good/good-arc.big.imperial.center-format.ngc", "line 4: "}}) {
+    EXPECT_THAT(Refusal(load(name)), ::testing::StartsWith(line)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
