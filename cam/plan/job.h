@@ -15,6 +15,8 @@
 
 namespace patchmill {
 
+inline constexpr double kDefaultClearanceAbove = 5.0;  // mm, above the highest of model and stock
+
 enum class Strategy { kAuto, kContour, kZigzag };
 enum class EdgeRule { kStop, kRoll, kExtend };
 
@@ -40,6 +42,7 @@ struct Operation {
   EdgeRule edge_rule = EdgeRule::kStop;
   // PROGRAM frame, tip heights.
   std::optional<double> clearance_z, floor_z;
+  std::optional<double> clearance_above;  // mm; kDefaultClearanceAbove when neither is given
   double approach_gap = 1.0;
 };
 

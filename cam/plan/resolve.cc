@@ -6,10 +6,6 @@
 
 namespace patchmill {
 
-namespace {
-constexpr double kDefaultClearance = 5.0;  // mm above the highest of model and stock
-}
-
 Budget SplitBudget(double tolerance) {
   return {.chord = 0.5 * tolerance,
           .rounding = 0.1 * tolerance,
@@ -50,7 +46,8 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
   }
   r.floor_z = op.floor_z ? *op.floor_z + zero_z : r.box.min.z();
   const double highest = std::max(top, r.stock_top_z);
-  r.clearance_z = op.clearance_z ? *op.clearance_z + zero_z : highest + kDefaultClearance;
+  r.clearance_z = op.clearance_z ? *op.clearance_z + zero_z
+                                 : highest + op.clearance_above.value_or(kDefaultClearanceAbove);
   if (r.clearance_z < highest) {
     return absl::InvalidArgumentError(fmt::format(
         "operations[0].heights.clearance_z_mm = {:.6g}; must be at least {:.6g}, the highest point of model "
@@ -58,6 +55,22 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
         r.clearance_z - zero_z, highest - zero_z));
   }
   return r;
+}
+
+VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved) {
+  VerifyParams p;
+  p.tolerance = job.operation.tolerance;
+  p.scallop = job.operation.scallop;
+  p.leave = job.operation.leave;
+  p.certainty = std::min(1e-3, 0.1 * job.operation.tolerance);
+  p.floor_z = resolved.floor_z;
+  p.program_zero = resolved.program_zero;
+  p.stock_top_z = resolved.stock_top_z;
+  p.allowance = job.setup.allowance;
+  p.zigzag_angle = job.operation.zigzag_angle;
+  if (job.operation.strategy == Strategy::kContour) p.strategy = ForcedStrategy::kContour;
+  if (job.operation.strategy == Strategy::kZigzag) p.strategy = ForcedStrategy::kZigzag;
+  return p;
 }
 
 }  // namespace patchmill

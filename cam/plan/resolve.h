@@ -32,4 +32,7 @@ struct Resolved {
 // model).
 absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job);
 
+// By what a program of this job is judged.
+VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved);
+
 }  // namespace patchmill

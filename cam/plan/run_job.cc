@@ -51,22 +51,6 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved) {
   return p;
 }
 
-VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved) {
-  VerifyParams p;
-  p.tolerance = job.operation.tolerance;
-  p.scallop = job.operation.scallop;
-  p.leave = job.operation.leave;
-  p.certainty = std::min(1e-3, 0.1 * job.operation.tolerance);
-  p.floor_z = resolved.floor_z;
-  p.program_zero = resolved.program_zero;
-  p.stock_top_z = resolved.stock_top_z;
-  p.allowance = job.setup.allowance;
-  p.zigzag_angle = job.operation.zigzag_angle;
-  if (job.operation.strategy == Strategy::kContour) p.strategy = ForcedStrategy::kContour;
-  if (job.operation.strategy == Strategy::kZigzag) p.strategy = ForcedStrategy::kZigzag;
-  return p;
-}
-
 Diagnostic Warning(std::string code, std::string message) {
   Diagnostic d;
   d.code = std::move(code);
