@@ -49,6 +49,7 @@ class Merger {
       FuseEqual(into, &queue);
       queue.insert({nodes_[static_cast<std::size_t>(into)].area, into});
     }
+    LumpIslands();
     LumpUnreachable();
     MergedRegions merged;
     std::map<int, int> index;
@@ -65,6 +66,30 @@ class Merger {
   int Root(int i) {
     while (parent_[static_cast<std::size_t>(i)] != i) i = parent_[static_cast<std::size_t>(i)];
     return i;
+  }
+
+  // Small reachable islands in unreachable ground have nothing to merge with: they go with the largest region
+  // of their own label, or the largest of all.
+  void LumpIslands() {
+    const auto largest = [&](const SplitLabel* label) {
+      int best = -1;
+      for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const Node& n = nodes_[i];
+        if (!n.alive || n.label.reason != UnreachableReason::kNone ||
+            (label != nullptr && !(n.label == *label)))
+          continue;
+        if (best < 0 || n.area > nodes_[static_cast<std::size_t>(best)].area) best = static_cast<int>(i);
+      }
+      return best;
+    };
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const Node& node = nodes_[i];
+      if (!node.alive || node.label.reason != UnreachableReason::kNone || node.area >= params_.min_area)
+        continue;
+      int into = largest(&node.label);
+      if (into == static_cast<int>(i)) into = largest(nullptr);
+      if (into >= 0 && into != static_cast<int>(i)) Join(into, static_cast<int>(i));
+    }
   }
 
   // Small unreachable spots, wherever they are, count as one region per reason.

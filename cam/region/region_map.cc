@@ -17,6 +17,9 @@ namespace {
 // A region that bends less than this in all is neither mountain nor basin (ALGORITHMS 4, S0).
 constexpr double kMinCurvature = 0.5;  // mm
 
+// Shapes below this part of the ball's radius are too small for it to feel.
+constexpr double kMinCell = 0.06;
+
 int Find(std::vector<int>& parent, int i) {
   while (parent[static_cast<std::size_t>(i)] != i) {
     parent[static_cast<std::size_t>(i)] =
@@ -217,6 +220,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   mesh_params.cos_steep = std::cos(params.steep_angle);
   mesh_params.border_tolerance = params.border_tolerance;
   mesh_params.max_cell = std::max(0.6 * params.radius, 0.02 * surface.box.Diagonal());
+  mesh_params.min_cell = kMinCell * params.radius;
   std::vector<SplitMesh> meshes(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions", meshes.size(), [&](std::size_t i) {
     meshes[i] = BuildSplitMesh(surface.pieces[i], reach, mesh_params);

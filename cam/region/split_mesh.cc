@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMaxLevel = 7;           // cells down to 1/128 of a piece
 constexpr int kExtraLevels = 2;        // finer than the shape asks for where a border passes
-constexpr double kMaxTurn = 0.25;      // rad, of the normal across a cell
+constexpr double kMaxTurn = 0.35;      // rad, of the normal across a cell
 constexpr int kGrid = 1 << kMaxLevel;  // vertices sit on this grid before any is cut in
 
 int Sign(double x) { return x > kFieldNoise ? 1 : x < -kFieldNoise ? -1 : 0; }
@@ -24,10 +24,10 @@ class Builder {
       : piece_(piece), reach_(reach), params_(params) {}
 
   SplitMesh Build() {
-    const int start = StartLevel();
-    const int cells = 1 << start;
+    const Levels levels = ChooseLevels();
+    const int cells = 1 << levels.start;
     for (int i = 0; i < cells; ++i) {
-      for (int j = 0; j < cells; ++j) Refine(start, i, j, std::min(kMaxLevel, start + kExtraLevels));
+      for (int j = 0; j < cells; ++j) Refine(levels.start, i, j, levels.finest);
     }
     for (const Cell& cell : cells_) Fan(cell);
     for (int k = 0; k < kFieldCount; ++k) Cut(static_cast<Field>(k));
@@ -40,7 +40,10 @@ class Builder {
     int level, i, j;
   };
 
-  int StartLevel() const {
+  struct Levels {
+    int start = 1, finest = 1;
+  };
+  Levels ChooseLevels() const {
     // Turn of the normal and length of the sides, seen on a 5 x 5 grid.
     constexpr int n = 4;
     double turn = 0.0, side = 0.0;
@@ -66,7 +69,15 @@ class Builder {
       }
     }
     const double cells = std::max({1.0, turn / kMaxTurn, side / params_.max_cell});
-    return std::clamp(static_cast<int>(std::ceil(std::log2(cells))), 1, kMaxLevel - kExtraLevels);
+    const int fine_enough = std::clamp(
+        static_cast<int>(std::floor(std::log2(std::max(2.0, side / params_.min_cell)))), 1, kMaxLevel);
+    Levels levels;
+    levels.start =
+        std::min({static_cast<int>(std::ceil(std::log2(cells))), fine_enough, kMaxLevel - kExtraLevels});
+    levels.start = std::max(levels.start, 1);
+    levels.finest =
+        std::clamp(levels.start + kExtraLevels, levels.start, std::max(levels.start, fine_enough));
+    return levels;
   }
 
   int GridVertex(int gi, int gj) {

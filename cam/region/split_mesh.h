@@ -42,6 +42,7 @@ struct SplitMeshParams {
   double cos_steep = 0.7;
   double border_tolerance = 0.01;  // mm, of bisected limits of reach
   double max_cell = 1.0;           // mm, largest side of a cell
+  double min_cell = 0.1;           // mm: cells are not divided below about this side
 };
 
 // A quadtree over the piece, finer where a field changes sign, fanned into triangles, which are then cut
