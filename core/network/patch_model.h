@@ -15,6 +15,8 @@ inline constexpr int kMaxControlPoints = 10'000'000;  // of all patches together
 inline constexpr double kMaxCoordinate = 1e9;         // |x|, |y|, |z|
 inline constexpr double kMinWeight = 1e-9;  // homogeneous sums keep 1e-12 relative between these two
 inline constexpr double kMaxWeight = 1e9;
+inline constexpr double kMinJoinTolerance = 1e-9;  // of the box diagonal
+inline constexpr double kMaxJoinTolerance = 1e-2;
 inline constexpr double kMinKnotSpan = 1e-9;  // of the domain: distinct knots closer than that are a fault
 
 struct PatchModel {

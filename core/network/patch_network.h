@@ -11,6 +11,7 @@
 #include <absl/status/statusor.h>
 
 #include "core/base/diagnostic.h"
+#include "core/base/run_context.h"
 #include "core/base/typed_id.h"
 #include "core/network/patch_model.h"
 
@@ -22,28 +23,49 @@ struct PatchEdge {
   auto operator<=>(const PatchEdge&) const = default;
 };
 
-// One edge of one patch and its neighbour, if it has one.
+// One edge of one patch and its neighbour, if it has one. Neighbours are mutual except where a finding says
+// NON_MANIFOLD_EDGE or DUPLICATE_PATCH: there a further edge names one of the two that are linked.
 struct EdgeLink {
   PatchEdge self;
   std::optional<PatchEdge> neighbor;
-  bool reversed = false;       // the neighbour's parameter runs the other way
-  bool collapsed = false;      // shorter than the join tolerance: a point
-  bool on_t_junction = false;  // an open edge that lies along a longer edge of another patch
-  double gap = 0.0;            // mm, largest distance found between the two edges
-  double max_angle = 0.0;      // rad, largest angle between the (upward) normals found along the edge
+  bool reversed = false;   // the neighbour's parameter runs the other way
+  bool collapsed = false;  // stays within the join tolerance of its start: a point
+  // Has no single neighbour and yet no border: lies along a longer edge of another patch, or is covered all
+  // along by shorter ones.
+  bool on_t_junction = false;
+  double gap = 0.0;        // mm, largest distance found between the two edges
+  double max_angle = 0.0;  // rad, largest angle found between the two patches' normals along the edge, both
+                           // turned to one side of the joined sheet: 0 smooth, pi folded back
 };
 
 struct PatchNetwork {
   PatchModel model;
   double join_tolerance = 0.0;  // mm, resolved
   std::vector<EdgeLink> edges;  // 4 (triangle 3) per patch, in order of patch, then edge index
-  Diagnostics findings;  // OPEN_EDGE, COLLAPSED_EDGE, NEARLY_COLLAPSED_EDGE, GAP, T_JUNCTION, TANGENT_BREAK,
-                         // NON_MANIFOLD_EDGE, DUPLICATE_PATCH, INCONSISTENT_ORIENTATION, ...
-  int open_edge_count = 0;
+  // What is remarkable, by code, then by edge; at most 1000 of a code and one line that counts the rest.
+  //   OPEN_EDGE              no neighbour: a border (info)
+  //   COLLAPSED_EDGE         a point, a pole (info)
+  //   NEARLY_COLLAPSED_EDGE  longer than the join tolerance, but negligible beside its patch; kept as given
+  //   GAP                    two open edges run side by side, farther apart than the join tolerance
+  //   T_JUNCTION             a long edge meets shorter ones (info)
+  //   TANGENT_BREAK          max_angle above kTangentBreak: a crease (info)
+  //   NON_MANIFOLD_EDGE      three or more patches share an edge;  NON_MANIFOLD_VERTEX: fans touch in a point
+  //   DUPLICATE_PATCH        the same surface as an earlier patch
+  //   INCONSISTENT_ORIENTATION  neighbours run u x v to opposite sides (info; no algorithm needs a side)
+  //   SEARCH_LIMITED         too many open edges lie together; gaps and T-junctions were not all looked for
+  Diagnostics findings;
+  int open_edge_count = 0;       // edges with an OPEN_EDGE finding
+  int t_junction_count = 0;      // long edges with a T_JUNCTION finding
+  int vertex_count = 0;          // corners after joining
+  int boundary_loop_count = 0;   // closed chains of unlinked edges
+  int component_count = 0;       // pieces joined by edges
+  int euler_characteristic = 0;  // vertices - edges + faces: 2 a sphere, 0 a torus, 1 a sheet
 
   const EdgeLink& Link(PatchEdge edge) const;
   std::vector<int> first_edge;  // index into `edges` of each patch's edge 0
 };
+
+inline constexpr double kTangentBreak = Radians(0.5);
 
 // Point of edge `edge` of `shape` at parameter t in [0,1], as native (u,v).
 Vec2 EdgeParameters(const PatchShape& shape, int edge, double t);
@@ -51,6 +73,9 @@ int EdgeCount(const PatchShape& shape);
 
 // Fails with INVALID_ARGUMENT (message: the first fault and how many more) only when ValidateModel finds a
 // fault; topology is never an error, only a finding. Cost O(n log n).
+// Two edges are joined when every point tried on either one lies within the join tolerance of the other:
+// their ends and at least 7 points between, compared with the closest point, so parametrisations may differ.
 absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model);
+absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& run);  // run's threads, cancel
 
 }  // namespace patchmill

@@ -213,11 +213,13 @@ void CheckExtent(const PatchModel& model, Faults& faults) {
         fmt::format("extend over {:g} only, {:g} away from the origin; doubles cannot resolve that", diagonal,
                     largest));
   }
-  if (model.join_tolerance && !(*model.join_tolerance > 0.0 && *model.join_tolerance <= 0.01 * diagonal)) {
-    faults.AddToModel("INVALID_JOIN_TOLERANCE", "join_tolerance",
-                      fmt::format("= {:g}; must be above 0 and at most 1 % of the box diagonal, {:g}",
-                                  *model.join_tolerance, 0.01 * diagonal));
-  }
+  if (!model.join_tolerance) return;
+  const double least = kMinJoinTolerance * diagonal;
+  const double most = kMaxJoinTolerance * diagonal;
+  if (*model.join_tolerance >= least && *model.join_tolerance <= most) return;
+  faults.AddToModel("INVALID_JOIN_TOLERANCE", "join_tolerance",
+                    fmt::format("= {:g}; must be in [{:g}, {:g}] for a box diagonal of {:g}",
+                                *model.join_tolerance, least, most, diagonal));
 }
 
 }  // namespace

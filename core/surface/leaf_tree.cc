@@ -17,7 +17,6 @@ double HalfArea(const Box3& box) {
 
 struct Builder {
   const std::vector<Box3>& boxes;
-  const RunContext& run;
   std::vector<Vec3> centers;
   std::vector<std::int32_t> order;
   std::vector<SurfaceNode> nodes;
@@ -103,7 +102,6 @@ struct Builder {
       nodes[self].leaf = items.front();
       return;
     }
-    if (items.size() > 256 && run.Cancelled()) return;
     const std::size_t left = Part(items, spread, depth);
     Build(items.first(left), depth + 1);
     nodes[self].right = static_cast<std::int32_t>(nodes.size());
@@ -113,8 +111,8 @@ struct Builder {
 
 }  // namespace
 
-std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const RunContext& run) {
-  Builder builder{boxes, run, {}, {}, {}};
+std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes) {
+  Builder builder{boxes, {}, {}, {}};
   if (boxes.empty()) return {};
   builder.centers.reserve(boxes.size());
   for (const Box3& box : boxes) builder.centers.push_back(box.Center());

@@ -177,8 +177,8 @@ TEST(ValidateModel, RefusesIdsUsedTwiceButNotEmptyOnes) {
               HasSubstr("DUPLICATE_ID patches[3].id = \"lid\" is also the id of patches[1]"));
 }
 
-TEST(ValidateModel, WantsAJoinToleranceBetweenZeroAndAHundredthOfTheModel) {
-  for (const double bad : {0.0, -1.0, 1.0, kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
+TEST(ValidateModel, WantsAJoinToleranceThatFitsTheModel) {
+  for (const double bad : {0.0, -1.0, 1e-10, 1.0, kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THAT(OnlyFault({{Flat()}, bad}), HasSubstr("INVALID_JOIN_TOLERANCE join_tolerance"));
   }
   EXPECT_THAT(ValidateModel({{Flat()}, 1e-3}), IsEmpty());

@@ -1,0 +1,19 @@
+// Patch corners within the join tolerance of each other become one vertex.
+#pragma once
+
+#include <vector>
+
+#include "core/base/vec.h"
+
+namespace patchmill {
+
+struct CornerVertices {
+  std::vector<int> vertex_of;  // of each point given
+  std::vector<Vec3> position;  // of each vertex: the first point that made it
+};
+
+// Each point joins the first vertex within `tolerance`, else makes a new one. Expected cost O(n): a hash over
+// cells as wide as the tolerance, in which vertices cannot crowd.
+CornerVertices MergeCorners(const std::vector<Vec3>& points, double tolerance);
+
+}  // namespace patchmill

@@ -1,0 +1,72 @@
+#include "core/network/findings.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace patchmill {
+namespace {
+constexpr std::size_t kMaxPerCode = 1000;
+}
+
+std::string NetworkFindings::Name(PatchId patch) const {
+  const std::string& id = model_.patches[patch.index()].id;
+  return id.empty() ? fmt::format("patch {}", patch.value) : fmt::format("patch {} ({})", patch.value, id);
+}
+
+std::string NetworkFindings::Name(int edge) const {
+  const PatchEdge e = curves_.edge(edge);
+  return fmt::format("edge {} of {}", e.edge, Name(e.patch));
+}
+
+void NetworkFindings::AtEdge(std::string_view code, Severity severity, int edge, std::string message) {
+  const PatchEdge e = curves_.edge(edge);
+  Where where;
+  where.patch_id = model_.patches[e.patch.index()].id;
+  where.patch_index = e.patch.value;
+  where.uv = EdgeParameters(curves_.shape(edge), e.edge, 0.5);
+  where.point = curves_.Point(edge, 0.5);
+  Add(code, severity, std::move(where), std::move(message));
+}
+
+void NetworkFindings::AtPatch(std::string_view code, Severity severity, PatchId patch, std::string message) {
+  const Patch& p = model_.patches[patch.index()];
+  Where where;
+  where.patch_id = p.id;
+  where.patch_index = patch.value;
+  where.uv = IsTriangle(p.shape) ? Vec2::Constant(1.0 / 3.0) : Vec2::Constant(0.5);
+  where.point = Position(p.shape, where.uv->x(), where.uv->y());
+  Add(code, severity, std::move(where), std::move(message));
+}
+
+void NetworkFindings::AtPoint(std::string_view code, Severity severity, const Vec3& point,
+                              std::string message) {
+  Where where;
+  where.point = point;
+  Add(code, severity, std::move(where), std::move(message));
+}
+
+void NetworkFindings::Add(std::string_view code, Severity severity, Where where, std::string message) {
+  auto it = by_code_.find(code);
+  if (it == by_code_.end()) it = by_code_.emplace(code, List{}).first;
+  if (it->second.kept.size() >= kMaxPerCode) {
+    ++it->second.dropped;
+    return;
+  }
+  it->second.kept.push_back({std::string(code), severity, std::move(message), std::move(where)});
+}
+
+Diagnostics NetworkFindings::Take() {
+  Diagnostics all;
+  for (auto& [code, list] : by_code_) {
+    const Severity severity = list.kept.front().severity;
+    for (Diagnostic& d : list.kept) all.push_back(std::move(d));
+    if (list.dropped > 0) {
+      all.push_back({code, severity, fmt::format("and {} more of this kind", list.dropped), {}});
+    }
+  }
+  by_code_.clear();
+  return all;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,38 @@
+// Collects coded findings about edges and patches, at most 1000 of each code.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "core/base/diagnostic.h"
+#include "core/network/edge_curves.h"
+
+namespace patchmill {
+
+class NetworkFindings {
+ public:
+  NetworkFindings(const PatchModel& model, const EdgeCurves& curves) : model_(model), curves_(curves) {}
+
+  // "edge 2 of patch 7" or, with an id, "edge 2 of patch 7 (lid)".
+  std::string Name(int edge) const;
+  std::string Name(PatchId patch) const;
+  void AtEdge(std::string_view code, Severity severity, int edge, std::string message);
+  void AtPatch(std::string_view code, Severity severity, PatchId patch, std::string message);
+  void AtPoint(std::string_view code, Severity severity, const Vec3& point, std::string message);
+
+  Diagnostics Take();  // by code, then in order of arrival
+
+ private:
+  void Add(std::string_view code, Severity severity, Where where, std::string message);
+
+  const PatchModel& model_;
+  const EdgeCurves& curves_;
+  struct List {
+    Diagnostics kept;
+    int dropped = 0;
+  };
+  std::map<std::string, List, std::less<>> by_code_;
+};
+
+}  // namespace patchmill

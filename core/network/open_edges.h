@@ -1,0 +1,34 @@
+// What open edges have to do with each other: T-junctions, gaps, and matches that corner merging missed.
+#pragma once
+
+#include <vector>
+
+#include "core/network/edge_curves.h"
+#include "core/network/edge_links.h"
+
+namespace patchmill {
+
+struct TJunction {
+  int long_edge = 0;
+  std::vector<int> short_edges;  // lie along it; may be empty when edges only overlap in part
+};
+struct EdgeGap {
+  int edge = 0, other = 0;
+  bool reversed = false;
+  double distance = 0.0;  // mm; within the join tolerance: a neighbour after all
+};
+struct OpenEdgeReport {
+  std::vector<TJunction> t_junctions;  // by long edge
+  std::vector<bool> covered;           // of each edge: on a T-junction all along
+  std::vector<EdgeGap> gaps;           // by edge; each edge in at most one
+  bool limited = false;                // the search budget ran out
+};
+
+// `open`: edges without neighbour that are neither collapsed nor nearly so. `gap_limit`: how far apart two
+// edges may run and still be meant to meet (mm); never more than a tenth of the shorter one. Cost O(n log n)
+// for models whose open edges do not pile up; the search gives up (limited) after a budget of some seconds.
+OpenEdgeReport InspectOpenEdges(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
+                                const std::vector<int>& open, double tolerance, double gap_limit,
+                                const RunContext& run);
+
+}  // namespace patchmill

@@ -1,0 +1,234 @@
+#include "core/network/patch_network.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <absl/strings/str_cat.h>
+#include <fmt/format.h>
+
+#include "core/base/status.h"
+#include "core/network/corner_vertices.h"
+#include "core/network/edge_angles.h"
+#include "core/network/edge_links.h"
+#include "core/network/findings.h"
+#include "core/network/half_edges.h"
+#include "core/network/open_edges.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kDefaultJoinTolerance = 1e-5;  // of the box diagonal
+// An edge is negligible when it is shorter than both: this share of its patch's longest edge and of the
+// model.
+constexpr double kNearlyCollapsedOfPatch = 1e-2;
+constexpr double kNearlyCollapsedOfModel = 1e-3;
+constexpr double kGapOfModel =
+    1e-3;  // edges farther apart than this share of the diagonal are not meant to meet
+
+std::size_t At(int i) { return static_cast<std::size_t>(i); }
+
+absl::Status FaultsAsStatus(const Diagnostics& faults) {
+  const std::string more =
+      faults.size() > 1 ? absl::StrCat(" (and ", faults.size() - 1, " more faults)") : "";
+  return absl::InvalidArgumentError(absl::StrCat(faults.front().message, more));
+}
+
+std::vector<bool> NearlyCollapsed(const EdgeCurves& curves, const std::vector<EdgeLink>& links,
+                                  double diagonal) {
+  std::vector<bool> nearly(links.size());
+  for (int e = 0; e < curves.count();) {
+    double longest = 0.0;
+    int end = e;
+    for (; end < curves.count() && curves.edge(end).patch == curves.edge(e).patch; ++end) {
+      longest = std::max(longest, curves.length(end));
+    }
+    const double limit = std::min(kNearlyCollapsedOfPatch * longest, kNearlyCollapsedOfModel * diagonal);
+    for (; e < end; ++e) nearly[At(e)] = !links[At(e)].collapsed && curves.length(e) < limit;
+  }
+  return nearly;
+}
+
+void Join(const EdgeCurves& curves, const EdgeGap& match, std::vector<EdgeLink>& links) {
+  for (const auto& [from, to] : {std::pair(match.edge, match.other), std::pair(match.other, match.edge)}) {
+    links[At(from)].neighbor = curves.edge(to);
+    links[At(from)].reversed = match.reversed;
+    links[At(from)].gap = match.distance;
+  }
+}
+
+// Everything BuildNetwork knows before it speaks.
+struct Facts {
+  const EdgeCurves& curves;
+  const std::vector<EdgeEnds>& ends;
+  const CornerVertices& corners;
+  const EdgeClusters& clusters;
+  const std::vector<std::optional<PatchId>>& duplicate_of;
+  const std::vector<bool>& nearly_collapsed;
+  const OpenEdgeReport& open;
+  const Topology& topology;
+};
+
+void ReportEdges(const Facts& facts, PatchNetwork& network, NetworkFindings& findings) {
+  for (int e = 0; e < facts.curves.count(); ++e) {
+    const EdgeLink& link = network.edges[At(e)];
+    const std::string name = findings.Name(e);
+    if (link.collapsed) {
+      findings.AtEdge("COLLAPSED_EDGE", Severity::kInfo, e, name + " is a point");
+    } else if (facts.nearly_collapsed[At(e)]) {
+      findings.AtEdge("NEARLY_COLLAPSED_EDGE", Severity::kWarning, e,
+                      fmt::format("{} is only {:.3g} mm long{}", name, facts.curves.length(e),
+                                  link.neighbor ? "" : " and has no neighbour"));
+    } else if (!link.neighbor && !link.on_t_junction) {
+      ++network.open_edge_count;
+      findings.AtEdge("OPEN_EDGE", Severity::kInfo, e,
+                      fmt::format("{} has no neighbour ({:.4g} mm long)", name, facts.curves.length(e)));
+    }
+    if (!link.neighbor || link.max_angle <= kTangentBreak) continue;
+    const int other = network.first_edge[link.neighbor->patch.index()] + link.neighbor->edge;
+    const auto& back = network.edges[At(other)].neighbor;
+    if (back && *back == link.self && other < e) continue;  // told by the other side
+    findings.AtEdge("TANGENT_BREAK", Severity::kInfo, e,
+                    fmt::format("{} meets {} at an angle of up to {:.4g} degrees", name, findings.Name(other),
+                                Degrees(link.max_angle)));
+  }
+}
+
+void ReportMeetings(const Facts& facts, PatchNetwork& network, NetworkFindings& findings) {
+  for (const TJunction& t : facts.open.t_junctions) {
+    ++network.t_junction_count;
+    findings.AtEdge("T_JUNCTION", Severity::kInfo, t.long_edge,
+                    t.short_edges.empty()
+                        ? fmt::format("{} runs along parts of other edges", findings.Name(t.long_edge))
+                        : fmt::format("{} meets {} shorter edge{}, first {}", findings.Name(t.long_edge),
+                                      t.short_edges.size(), t.short_edges.size() > 1 ? "s" : "",
+                                      findings.Name(t.short_edges.front())));
+  }
+  for (const EdgeGap& gap : facts.open.gaps) {
+    if (gap.distance <= network.join_tolerance) continue;
+    findings.AtEdge(
+        "GAP", Severity::kWarning, gap.edge,
+        fmt::format("{} and {} are up to {:.4g} mm apart; the join tolerance is {:.4g} mm",
+                    findings.Name(gap.edge), findings.Name(gap.other), gap.distance, network.join_tolerance));
+  }
+  for (const std::vector<int>& members : facts.clusters.members) {
+    if (members.size() < 3) continue;
+    findings.AtEdge("NON_MANIFOLD_EDGE", Severity::kWarning, members[2],
+                    fmt::format("{} is shared by {} edges, first {}", findings.Name(members[2]),
+                                members.size(), findings.Name(members[0])));
+  }
+  if (facts.open.limited) {
+    findings.AtPoint("SEARCH_LIMITED", Severity::kWarning, facts.corners.position.front(),
+                     "too many open edges lie together; gaps and T-junctions were not all looked for");
+  }
+}
+
+// Fans that a T-junction or a gap keeps apart are not worth a word of their own.
+void ReportVertices(const Facts& facts, const PatchNetwork& network, NetworkFindings& findings) {
+  std::vector<bool> excused(facts.corners.position.size());
+  for (int e = 0; e < facts.curves.count(); ++e) {
+    const EdgeLink& link = network.edges[At(e)];
+    const bool many = facts.clusters.cluster_of[At(e)] >= 0 &&
+                      facts.clusters.members[At(facts.clusters.cluster_of[At(e)])].size() > 2;
+    if (!many && !link.on_t_junction && (link.neighbor || link.gap == 0.0)) continue;
+    excused[At(facts.ends[At(e)].start)] = excused[At(facts.ends[At(e)].end)] = true;
+  }
+  for (const TJunction& t : facts.open.t_junctions) {
+    excused[At(facts.ends[At(t.long_edge)].start)] = excused[At(facts.ends[At(t.long_edge)].end)] = true;
+  }
+  for (const int v : facts.topology.split_vertices) {
+    if (excused[At(v)]) continue;
+    findings.AtPoint("NON_MANIFOLD_VERTEX", Severity::kInfo, facts.corners.position[At(v)],
+                     "patches touch in this corner without sharing an edge");
+  }
+}
+
+void ReportPatches(const Facts& facts, NetworkFindings& findings) {
+  for (std::size_t k = 0; k < facts.duplicate_of.size(); ++k) {
+    if (!facts.duplicate_of[k]) continue;
+    findings.AtPatch("DUPLICATE_PATCH", Severity::kWarning, PatchId(k),
+                     fmt::format("{} is the same surface as {}", findings.Name(PatchId(k)),
+                                 findings.Name(*facts.duplicate_of[k])));
+  }
+  for (const Component& c : facts.topology.components) {
+    if (c.one_sided) {
+      findings.AtPatch("INCONSISTENT_ORIENTATION", Severity::kInfo, c.first,
+                       fmt::format("the {} patches joined to {} form a one-sided surface (Moebius strip)",
+                                   c.patches, findings.Name(c.first)));
+    } else if (c.odd) {
+      findings.AtPatch("INCONSISTENT_ORIENTATION", Severity::kInfo, *c.odd,
+                       fmt::format("{} of the {} patches joined to {} look to the other side, first {}",
+                                   c.turned, c.patches, findings.Name(c.first), findings.Name(*c.odd)));
+    }
+  }
+}
+
+}  // namespace
+
+const EdgeLink& PatchNetwork::Link(PatchEdge edge) const {
+  return edges[At(first_edge[edge.patch.index()] + edge.edge)];
+}
+
+absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& run) {
+  const Diagnostics faults = ValidateModel(model);
+  if (!faults.empty()) return FaultsAsStatus(faults);
+  PatchNetwork network;
+  network.model = std::move(model);
+  const double diagonal = ControlBox(network.model).Diagonal();
+  const double tolerance = network.model.join_tolerance.value_or(kDefaultJoinTolerance * diagonal);
+  network.join_tolerance = tolerance;
+
+  const EdgeCurves curves(network.model, run);
+  PM_RETURN_IF_ERROR(run.Check());
+  network.first_edge = curves.first_edge();
+  std::vector<Vec3> edge_ends;
+  for (int e = 0; e < curves.count(); ++e) {
+    edge_ends.push_back(curves.start(e));
+    edge_ends.push_back(curves.end(e));
+  }
+  const CornerVertices corners = MergeCorners(edge_ends, tolerance);
+  const std::vector<EdgeEnds> ends = EdgeEndVertices(curves, corners);
+  const EdgeClusters clusters = ClusterEdges(curves, ends, tolerance, run);
+  PM_RETURN_IF_ERROR(run.Check());
+  const auto duplicate_of = FindDuplicates(network.model, curves, clusters, tolerance);
+  network.edges = LinkEdges(curves, clusters, duplicate_of, tolerance);
+
+  const std::vector<bool> nearly = NearlyCollapsed(curves, network.edges, diagonal);
+  std::vector<int> open;
+  for (int e = 0; e < curves.count(); ++e) {
+    const EdgeLink& link = network.edges[At(e)];
+    if (!link.neighbor && !link.collapsed && !nearly[At(e)]) open.push_back(e);
+  }
+  const double gap_limit = std::max(10.0 * tolerance, kGapOfModel * diagonal);
+  const OpenEdgeReport meetings = InspectOpenEdges(curves, ends, open, tolerance, gap_limit, run);
+  PM_RETURN_IF_ERROR(run.Check());
+  for (const int e : open) network.edges[At(e)].on_t_junction = meetings.covered[At(e)];
+  for (const EdgeGap& gap : meetings.gaps) {
+    if (gap.distance <= tolerance) {
+      Join(curves, gap, network.edges);
+    } else {
+      network.edges[At(gap.edge)].gap = network.edges[At(gap.other)].gap = gap.distance;
+    }
+  }
+  MeasureAngles(curves, run, network.edges);
+  PM_RETURN_IF_ERROR(run.Check());
+  const Topology topology = InspectTopology(curves, ends, network.edges, duplicate_of);
+  network.vertex_count = topology.vertex_count;
+  network.boundary_loop_count = topology.boundary_loop_count;
+  network.component_count = static_cast<int>(topology.components.size());
+  network.euler_characteristic = topology.euler_characteristic;
+
+  const Facts facts{curves, ends, corners, clusters, duplicate_of, nearly, meetings, topology};
+  NetworkFindings findings(network.model, curves);
+  ReportEdges(facts, network, findings);
+  ReportMeetings(facts, network, findings);
+  ReportVertices(facts, network, findings);
+  ReportPatches(facts, findings);
+  network.findings = findings.Take();
+  return network;
+}
+
+absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model) {
+  return BuildNetwork(std::move(model), RunContext(1));
+}
+
+}  // namespace patchmill
