@@ -103,6 +103,15 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
   s.jet = Evaluate(piece, s.u, s.v);
   touch(s.jet.p, s.u, s.v);
   Measure(ball, best.z, s);
+  const auto end = [&] {
+    if (result.improved) {
+      result.u = best.u, result.v = best.v, result.p = best.p;
+    } else {
+      result.u = s.u, result.v = s.v, result.p = s.jet.p;
+    }
+    result.f = s.f;
+    return result;
+  };
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const Box2 box{rect.u0 - s.u, rect.u1 - s.u, rect.v0 - s.v, rect.v1 - s.v};
     const Step step = NewtonStep(s, box);
@@ -122,7 +131,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
         if (touch(p, std::clamp(s.u + x, rect.u0, rect.u1), std::clamp(s.v + y, rect.v0, rect.v1))) {
           best.slope = KktSlope(step, box);
           result.out_if_convex = true;
-          return result;
+          return end();
         }
         best.slope = KktSlope(step, box);
         break;
@@ -131,7 +140,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
       if (options.lower != nullptr && !result.improved && options.lower->convex) {
         if (LinearMinimum(s.f, Vec2(-step.model.gx, -step.model.gy), rect, s.u, s.v) >= ball.FreeF()) {
           result.out_if_convex = true;
-          return result;
+          return end();
         }
       }
       if (!(promise > 1e-15 * (s.f + ball.radius * ball.radius))) break;
@@ -167,7 +176,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
   }
   const Vec2 slope(s.d.dot(s.jet.du), s.d.dot(s.jet.dv));
   result.out_if_convex = LinearMinimum(s.f, slope, rect, s.u, s.v) >= ball.FreeF();
-  return result;
+  return end();
 }
 
 }  // namespace patchmill::internal

@@ -35,6 +35,9 @@ struct SearchOptions {
 struct SearchResult {
   bool improved = false;
   bool out_if_convex = false;
+  double u = 0.0, v = 0.0;  // where the search ended, and f there
+  Vec3 p = Vec3::Zero();
+  double f = 0.0;
 };
 
 // Minimises f(u,v) = 1/2 dist^2(S, upward ray from (q, best.z)) on `rect` from (u,v); whenever the surface

@@ -13,6 +13,9 @@
 namespace patchmill::internal {
 namespace {
 
+// Below this distance from a corner the blended term, of second order, is nothing and its ratio would
+// overflow.
+constexpr double kNothing = 1e-90;
 constexpr double kCornerRadius = 1e-6;  // second derivatives have no limit: METHODS 1.6's values inside
 
 struct Corner {
@@ -29,13 +32,13 @@ Jet2 EdgeRatio(double u, double v) {
   const Jet2 p{u * (1.0 - u), 1.0 - 2.0 * u, 0.0, -2.0, 0.0, 0.0};
   const Jet2 q{v * (1.0 - v), 0.0, 1.0 - 2.0 * v, 0.0, 0.0, -2.0};
   const Jet2 sum = p + q;
-  return sum.f > 0.0 ? p / sum : Jet2::Constant(0.5);
+  return sum.f > kNothing ? p / sum : Jet2::Constant(0.5);
 }
 
 // a/(a+b) with a, b the distances from the corner along u and v; the derivatives in closed form.
 Jet2 CornerRatio(const Corner& c, double u, double v) {
   const double a = c.i == 1 ? u : 1.0 - u, b = c.j == 1 ? v : 1.0 - v;
-  if (!(a + b > 0.0)) return Jet2::Constant(0.5);
+  if (!(a + b > kNothing)) return Jet2::Constant(0.5);
   const double su = c.i == 1 ? 1.0 : -1.0, sv = c.j == 1 ? 1.0 : -1.0;
   const double r = 1.0 / (a + b), r2 = r * r, r3 = r2 * r;
   return {a * r, su * b * r2, -sv * a * r2, -2.0 * b * r3, su * sv * (a - b) * r3, 2.0 * a * r3};

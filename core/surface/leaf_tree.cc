@@ -17,6 +17,7 @@ double HalfArea(const Box3& box) {
 
 struct Builder {
   const std::vector<Box3>& boxes;
+  const RunContext& run;
   std::vector<Vec3> centers;
   std::vector<std::int32_t> order;
   std::vector<SurfaceNode> nodes;
@@ -102,6 +103,7 @@ struct Builder {
       nodes[self].leaf = items.front();
       return;
     }
+    if (items.size() > 256 && run.Cancelled()) return;
     const std::size_t left = Part(items, spread, depth);
     Build(items.first(left), depth + 1);
     nodes[self].right = static_cast<std::int32_t>(nodes.size());
@@ -111,8 +113,8 @@ struct Builder {
 
 }  // namespace
 
-std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes) {
-  Builder builder{boxes, {}, {}, {}};
+std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const RunContext& run) {
+  Builder builder{boxes, run, {}, {}, {}};
   if (boxes.empty()) return {};
   builder.centers.reserve(boxes.size());
   for (const Box3& box : boxes) builder.centers.push_back(box.Center());

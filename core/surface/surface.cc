@@ -170,6 +170,21 @@ absl::StatusOr<bool> MakeLeaves(Surface& surface, Budget& budget, std::vector<Pi
   return !budget.exceeded.load();
 }
 
+// Leaves wanted at a thickness, from how the nets of the whole pieces bend; rather too many.
+double EstimateLeaves(const std::vector<Piece>& pieces, double thickness, int max_depth) {
+  const auto parts = [&](double bend) {
+    return std::clamp(std::sqrt(bend / thickness), 1.0, std::ldexp(1.0, max_depth));
+  };
+  double sum = 0.0;
+  for (const Piece& piece : pieces) {
+    const NetShape shape{piece.net.degree_u, piece.net.degree_v};
+    const NetBend bend =
+        MeasureBend(shape, piece.net.points.data(), BoundNet(piece.net).axis.col(2), kInfinity);
+    sum += parts(bend.normal_u) * parts(bend.normal_v);
+  }
+  return sum;
+}
+
 }  // namespace
 
 absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& params,
@@ -187,8 +202,12 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
     Budget budget{thickness, max_depth, max_leaves, run};
     PM_ASSIGN_OR_RETURN(const bool fits, MakeLeaves(surface, budget, parts));
     if (fits) break;
-    thickness *= 4.0;
-    if (max_depth > 0 && thickness > 1e3 * params.leaf_thickness) --max_depth;  // ends in one leaf a piece
+    // Skip what is hopeless even if the estimate is 16 times too high.
+    do {
+      PM_RETURN_IF_ERROR(run.Check());
+      thickness *= 4.0;
+      if (max_depth > 0 && thickness > 1e3 * params.leaf_thickness) --max_depth;  // ends in one leaf a piece
+    } while (EstimateLeaves(surface.pieces, thickness, max_depth) > 16.0 * static_cast<double>(max_leaves));
   }
 
   std::size_t count = 0;
@@ -201,7 +220,7 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
     boxes.insert(boxes.end(), part.boxes.begin(), part.boxes.end());
     part = {};
   }
-  surface.nodes = BuildLeafTree(boxes);
+  surface.nodes = BuildLeafTree(boxes, run);
   PM_RETURN_IF_ERROR(run.Check());
   surface.box = surface.nodes.front().box;
   surface.scale = std::max(surface.box.min.cwiseAbs().maxCoeff(), surface.box.max.cwiseAbs().maxCoeff());

@@ -20,8 +20,9 @@ struct Tessellation {
   };
   std::vector<PieceMesh> meshes;
 };
-// Uniform grid per piece, fine enough that chords deviate by at most about `chord` mm (estimated from second
-// derivatives), at most `max_cells` a side.
+// Uniform grid per piece, fine enough that its triangles deviate by at most about `chord` mm (> 0; estimated
+// from sampled second derivatives), at most `max_cells` (>= 1) a side. Neighbouring pieces may differ in
+// their grids: no promise of a closed mesh. Cost 0.1 us a vertex.
 Tessellation Tessellate(const Surface& surface, double chord, int max_cells);
 
 }  // namespace patchmill

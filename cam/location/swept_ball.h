@@ -1,0 +1,26 @@
+// Distances to a straight move of the ball's centre with everything above it, and to its plan view.
+#pragma once
+
+#include "core/base/vec.h"
+
+namespace patchmill::internal {
+
+double PlanDistance(const Vec2& p, const Vec2& a, const Vec2& b);    // point to segment
+double PlanDistance(const Box3& box, const Vec2& a, const Vec2& b);  // plan view of a box to segment
+
+// The convex set K = {a + t (b - a) + s e_z : 0 <= t <= 1, s >= 0}.
+class SweptBall {
+ public:
+  SweptBall(const Vec3& a, const Vec3& b) : a_(a), b_(b) {}
+  Vec3 Nearest(const Vec3& p) const;  // point of K
+  double Distance(const Vec3& p) const { return (p - Nearest(p)).norm(); }
+  // A lower bound of the distance from K to the box |(x - center) . axis.col(k)| <= half[k], by separating
+  // planes: square to the connection of the box's centre, and along its third axis. Second-order tight on
+  // flat boxes.
+  double DistanceBelow(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half) const;
+
+ private:
+  Vec3 a_, b_;
+};
+
+}  // namespace patchmill::internal

@@ -1,0 +1,52 @@
+#include "cam/region/reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diffgeo/forms.h"
+#include "core/surface/closest.h"
+
+namespace patchmill {
+
+UnreachableReason ReachTest::At(const Vec3& p, const Vec3& normal) const {
+  const Vec3 c = p + params_.radius * normal;
+  if (!free_ball_.Free(c)) {
+    const auto blocking = free_ball_.Height(Plan(c));
+    const bool above = blocking && blocking->contact.p.z() > c.z();
+    return above ? UnreachableReason::kUndercut : UnreachableReason::kConcave;
+  }
+  // The floor is where the model ends: rounding must not make its lowest point unreachable.
+  const double tip = c.z() - params_.radius;
+  return tip < params_.floor_z - params_.tolerance ? UnreachableReason::kFloor : UnreachableReason::kNone;
+}
+
+UnreachableReason ReachTest::operator()(const Piece& piece, double u, double v) const {
+  constexpr double kVertical = 1e-9;  // |e_z| below this: no side is the upper one
+  const SurfaceJet jet = Evaluate(piece, u, v);
+  const auto normal = UpwardNormal(jet);
+  if (!normal) return UnreachableReason::kNone;
+  const UnreachableReason reason = At(jet.p, *normal);
+  if (reason != UnreachableReason::kNone && std::abs(normal->z()) < kVertical) return At(jet.p, -*normal);
+  return reason;
+}
+
+double ReachTest::LeftoverAbove(const Vec3& p) const {
+  const auto above = free_ball_.Height(Plan(p));
+  if (!above) return 0.0;
+  const double center = std::max(above->z, params_.floor_z + params_.radius);
+  return std::max(0.0, center - p.z() - params_.radius);
+}
+
+double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,
+                         double tolerance) {
+  double low = 0.0, high = limit;
+  for (int i = 0; i < 12; ++i) {
+    const double r = 0.5 * (low + high);
+    const bool free =
+        r <= tolerance || !ClosestToUpwardRay(surface, p + r * normal, r - tolerance, 0.1 * tolerance);
+    (free ? low : high) = r;
+  }
+  return low;
+}
+
+}  // namespace patchmill

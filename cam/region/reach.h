@@ -1,0 +1,32 @@
+// Can the ball touch this point of the surface? DESIGN 2's definition, by exact cutter location.
+#pragma once
+
+#include "cam/location/locator.h"
+#include "cam/region/region_map.h"
+
+namespace patchmill {
+
+class ReachTest {
+ public:
+  // `free_ball`: locator of radius params.radius - params.tolerance.
+  ReachTest(const Locator& free_ball, const RegionParams& params) : free_ball_(free_ball), params_(params) {}
+
+  // kNone: reachable. kUndercut: something hangs above the ball. kConcave: the ball does not fit. kFloor: the
+  // tip would sink below the floor. On vertical faces either side may do. Where there is no normal: kNone (a
+  // point has no area).
+  UnreachableReason operator()(const Piece& piece, double u, double v) const;
+
+  // Rough depth of material left over p when it is unreachable: from the ball that comes down right above it.
+  double LeftoverAbove(const Vec3& p) const;
+
+ private:
+  UnreachableReason At(const Vec3& p, const Vec3& normal) const;
+  const Locator& free_ball_;
+  const RegionParams& params_;
+};
+
+// Largest ball (mm, radius) that touches p from the side of `normal` and is free upward, at most `limit`.
+double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,
+                         double tolerance);
+
+}  // namespace patchmill

@@ -1,0 +1,147 @@
+#include "cam/region/region_border.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace patchmill {
+namespace {
+
+// The smooth field on whose zero curve both ends lie.
+std::optional<Field> CommonField(const SplitVertex& a, const SplitVertex& b) {
+  for (const Field field : {Field::kTurn, Field::kSlope, Field::kCurvature}) {
+    const auto bit = static_cast<unsigned>(field);
+    if (((a.on & b.on) >> bit) & 1u) return field;
+  }
+  return std::nullopt;
+}
+
+const SplitVertex& End(const SplitMesh& mesh, const TriangleSide& side, int which) {
+  const auto& v = mesh.triangles[static_cast<std::size_t>(side.triangle)].vertex;
+  return mesh.vertices[static_cast<std::size_t>(v[static_cast<std::size_t>((side.side + which) % 3)])];
+}
+
+std::vector<Vec2> ArcOf(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
+                        double cos_steep, double tolerance) {
+  const SplitVertex& a = End(mesh, side, 0);
+  const SplitVertex& b = End(mesh, side, 1);
+  const auto field = CommonField(a, b);
+  if (!field) return {};
+  return RefineArc(surface.pieces[static_cast<std::size_t>(side.piece)], *field, a, b, cos_steep, tolerance);
+}
+
+// Directed strands of one region's outline -> closed loops. Strands are matched end to start exactly first,
+// then to the nearest.
+std::vector<std::vector<Vec3>> Chain(std::vector<std::vector<Vec3>> strands, double weld) {
+  std::vector<std::vector<Vec3>> loops;
+  // Starts sorted by x, so that an end finds the starts near it without looking at all.
+  std::vector<std::size_t> by_x(strands.size());
+  for (std::size_t i = 0; i < by_x.size(); ++i) by_x[i] = i;
+  std::sort(by_x.begin(), by_x.end(), [&](std::size_t i, std::size_t j) {
+    return std::make_pair(strands[i].front().x(), i) < std::make_pair(strands[j].front().x(), j);
+  });
+  std::vector<bool> used(strands.size(), false);
+  const auto follow = [&](const Vec3& end) {
+    const auto first = std::lower_bound(by_x.begin(), by_x.end(), end.x() - weld,
+                                        [&](std::size_t i, double x) { return strands[i].front().x() < x; });
+    std::size_t best = strands.size();
+    double nearest = weld;
+    for (auto it = first; it != by_x.end() && strands[*it].front().x() <= end.x() + weld; ++it) {
+      const double d = (strands[*it].front() - end).norm();
+      if (!used[*it] && d <= nearest) {
+        nearest = d;
+        best = *it;
+      }
+    }
+    return best;
+  };
+  std::vector<std::vector<Vec3>> open;
+  for (std::size_t i = 0; i < strands.size(); ++i) {
+    if (used[i]) continue;
+    used[i] = true;
+    std::vector<Vec3> loop = strands[i];
+    for (std::size_t next = follow(loop.back()); next != strands.size(); next = follow(loop.back())) {
+      used[next] = true;
+      loop.insert(loop.end(), strands[next].begin() + 1, strands[next].end());
+      if ((loop.back() - loop.front()).norm() <= weld) break;
+    }
+    if ((loop.back() - loop.front()).norm() <= weld) {
+      loop.pop_back();
+      if (loop.size() > 2) loops.push_back(std::move(loop));
+    } else {
+      open.push_back(std::move(loop));
+    }
+  }
+  // What is left open: join each end to the nearest open start until the loop's own start is nearest.
+  std::vector<bool> taken(open.size(), false);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (taken[i]) continue;
+    taken[i] = true;
+    std::vector<Vec3> loop = open[i];
+    while (true) {
+      double nearest = (loop.front() - loop.back()).norm();
+      std::size_t best = open.size();
+      for (std::size_t j = i + 1; j < open.size(); ++j) {
+        const double d = (open[j].front() - loop.back()).norm();
+        if (!taken[j] && d < nearest) {
+          nearest = d;
+          best = j;
+        }
+      }
+      if (best == open.size()) break;
+      taken[best] = true;
+      loop.insert(loop.end(), open[best].begin(), open[best].end());
+    }
+    if (loop.size() > 2) loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::vector<Vec3>>> RegionBorders(
+    const Surface& surface, const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency,
+    const std::vector<std::vector<int>>& region_of, int region_count, double cos_steep, double tolerance) {
+  std::vector<std::vector<std::vector<Vec3>>> strands(static_cast<std::size_t>(region_count));
+  const auto region = [&](int piece, int triangle) {
+    return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
+  };
+  for (const Adjacency& a : adjacency) {
+    const int own = region(a.side.piece, a.side.triangle);
+    if (own < 0 || own == region(a.other_piece, a.other_triangle)) continue;
+    const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
+    const Piece& piece = surface.pieces[static_cast<std::size_t>(a.side.piece)];
+    std::vector<Vec3> strand{End(mesh, a.side, 0).p};
+    for (const Vec2& q : ArcOf(surface, mesh, a.side, cos_steep, tolerance))
+      strand.push_back(Position(piece, q.x(), q.y()));
+    strand.push_back(End(mesh, a.side, 1).p);
+    if ((strand.back() - strand.front()).norm() > 0.0 || strand.size() > 2)
+      strands[static_cast<std::size_t>(own)].push_back(std::move(strand));
+  }
+  const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
+  std::vector<std::vector<std::vector<Vec3>>> borders;
+  for (auto& s : strands) borders.push_back(Chain(std::move(s), weld));
+  return borders;
+}
+
+double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side, double cos_steep,
+                double tolerance) {
+  const std::vector<Vec2> arc = ArcOf(surface, mesh, side, cos_steep, tolerance);
+  if (arc.empty()) return 0.0;
+  const SplitVertex& a = End(mesh, side, 0);
+  const SplitVertex& b = End(mesh, side, 1);
+  const Vec2 from(a.u, a.v), to(b.u, b.v);
+  double twice = 0.0;
+  Vec2 at = from;
+  for (const Vec2& q : arc) {
+    twice += Cross(at - from, q - from);
+    at = q;
+  }
+  twice += Cross(at - from, to - from);
+  const Vec2 mid = arc[arc.size() / 2];
+  const SurfaceJet jet = Evaluate(surface.pieces[static_cast<std::size_t>(side.piece)], mid.x(), mid.y());
+  // The triangle lies on the left of its side (counter-clockwise): an arc to the right, with positive area
+  // here, adds to it.
+  return 0.5 * twice * jet.du.cross(jet.dv).norm();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,24 @@
+// Outlines of regions: sides between triangles of different regions, put together and bent onto the true
+// curves.
+#pragma once
+
+#include <vector>
+
+#include "cam/region/seams.h"
+
+namespace patchmill {
+
+// Closed polylines on the surface for every region (`region_of[piece][triangle]`, -1 none), the region on the
+// left in the sense of the triangles. Sides on the zero curve of a field are refined to `tolerance` (mm).
+// Pieces of outline that do not meet end to end (seams cut differently on their two sides) are joined to the
+// nearest open end.
+std::vector<std::vector<std::vector<Vec3>>> RegionBorders(
+    const Surface& surface, const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency,
+    const std::vector<std::vector<int>>& region_of, int region_count, double cos_steep, double tolerance);
+
+// Area (mm^2) between the chord of a side that lies on a zero curve and the curve itself, counted positive
+// when the curve bulges out of the triangle the side belongs to. 0 for sides that are no border.
+double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side, double cos_steep,
+                double tolerance);
+
+}  // namespace patchmill

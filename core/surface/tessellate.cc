@@ -1,0 +1,82 @@
+#include "core/surface/tessellate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patchmill {
+namespace {
+
+// Largest second derivatives over a grid of parameters.
+struct SecondDerivatives {
+  double uu = 0.0, uv = 0.0, vv = 0.0;
+};
+
+SecondDerivatives SampleSecondDerivatives(const Piece& piece) {
+  // A polynomial of degree n bends at most n - 2 times: n + 2 samples see every bend.
+  const int nu = piece.net.degree_u + 1, nv = piece.net.degree_v + 1;
+  SecondDerivatives max;
+  for (int i = 0; i <= nu; ++i) {
+    for (int j = 0; j <= nv; ++j) {
+      const SurfaceJet jet = Evaluate(piece, static_cast<double>(i) / nu, static_cast<double>(j) / nv);
+      max.uu = std::max(max.uu, jet.duu.norm());
+      max.uv = std::max(max.uv, jet.duv.norm());
+      max.vv = std::max(max.vv, jet.dvv.norm());
+    }
+  }
+  return max;
+}
+
+struct Cells {
+  int u = 1, v = 1;
+};
+
+// A triangle over a cell of sides a, b in parameters deviates by at most
+// (a^2 |S_uu| + 2 a b |S_uv| + b^2 |S_vv|) / 8: a third of `chord` for each term.
+Cells CellsFor(const Piece& piece, double chord, int max_cells) {
+  const SecondDerivatives d = SampleSecondDerivatives(piece);
+  double u = std::max(1.0, std::sqrt(3.0 * d.uu / (8.0 * chord)));
+  double v = std::max(1.0, std::sqrt(3.0 * d.vv / (8.0 * chord)));
+  const double twist = 6.0 * d.uv / (8.0 * chord);  // at most u * v
+  if (twist > u * v) {
+    const double more = std::sqrt(twist / (u * v));
+    u *= more;
+    v *= more;
+  }
+  const auto whole = [&](double x) {
+    return static_cast<int>(std::ceil(std::min(x, static_cast<double>(max_cells))));
+  };
+  return {whole(u), whole(v)};
+}
+
+// Zero where a tangent vanishes but for rounding (collapsed edges) or both have one direction.
+Vec3 UpwardNormal(const SurfaceJet& jet, double scale) {
+  const Vec3 n = jet.du.cross(jet.dv);
+  const double length = n.norm(), u = jet.du.norm(), v = jet.dv.norm();
+  if (std::min(u, v) <= 1e-12 * scale || length <= 1e-9 * u * v) return Vec3::Zero();
+  return n / (n.z() < 0.0 ? -length : length);
+}
+
+}  // namespace
+
+Tessellation Tessellate(const Surface& surface, double chord, int max_cells) {
+  Tessellation out;
+  out.meshes.reserve(surface.pieces.size());
+  for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
+    const Piece& piece = surface.pieces[i];
+    const Cells cells = CellsFor(piece, std::max(chord, 1e-12 * surface.scale), std::max(1, max_cells));
+    Tessellation::PieceMesh mesh{PieceId(i), cells.u, cells.v, {}};
+    mesh.vertices.reserve(static_cast<std::size_t>((cells.u + 1) * (cells.v + 1)));
+    for (int k = 0; k <= cells.u; ++k) {
+      for (int l = 0; l <= cells.v; ++l) {
+        const double u = static_cast<double>(k) / cells.u, v = static_cast<double>(l) / cells.v;
+        const SurfaceJet jet = Evaluate(piece, u, v);
+        mesh.vertices.push_back(
+            {jet.p, UpwardNormal(jet, surface.scale), static_cast<float>(u), static_cast<float>(v)});
+      }
+    }
+    out.meshes.push_back(std::move(mesh));
+  }
+  return out;
+}
+
+}  // namespace patchmill

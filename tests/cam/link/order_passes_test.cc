@@ -1,0 +1,88 @@
+#include "cam/link/order_passes.h"
+
+#include <gtest/gtest.h>
+
+namespace patchmill {
+namespace {
+
+CutterPath Path(PassKind kind, int line, std::vector<Vec3> centers, bool closed = false) {
+  CutterPath path;
+  path.kind = kind;
+  path.line = line;
+  path.closed = closed;
+  for (const Vec3& c : centers) path.points.push_back({c, std::nullopt, std::nullopt});
+  return path;
+}
+
+CutterPath Square(int level, double x, double z) {
+  return Path(PassKind::kContour, level, {{x, 0, z}, {x + 4, 0, z}, {x + 4, 4, z}, {x, 4, z}}, true);
+}
+
+TEST(OrderPasses, ZigzagLinesGoToAndFro) {
+  std::vector<CutterPath> lines;
+  for (int i = 0; i < 6; ++i)
+    lines.push_back(Path(PassKind::kZigzag, i, {{0, 0.5 * i, 0}, {30, 0.5 * i, 0}}));
+  const auto out = OrderPasses({}, lines, {});
+  ASSERT_EQ(out.size(), 6u);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(out[static_cast<std::size_t>(i)].line, i);
+    EXPECT_EQ(out[static_cast<std::size_t>(i)].points.front().center.x(), i % 2 == 0 ? 0.0 : 30.0);
+  }
+}
+
+TEST(OrderPasses, EachMountainIsCutFromTheTopBeforeTheNext) {
+  std::vector<CutterPath> loops;
+  for (int level = 0; level < 5; ++level) {
+    loops.push_back(Square(level, 0, 10 - level));
+    loops.push_back(Square(level, 40, 10 - level));
+  }
+  const auto out = OrderPasses({}, loops, {});
+  ASSERT_EQ(out.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(out[i].line, static_cast<int>(i % 5));
+    EXPECT_EQ(out[i].points.front().center.x() < 20, out[i < 5 ? 0 : 5].points.front().center.x() < 20);
+  }
+  EXPECT_NE(out[0].points.front().center.x() < 20, out[5].points.front().center.x() < 20);
+}
+
+TEST(OrderPasses, ContoursKeepTheirDirectionUnlessFree) {
+  std::vector<CutterPath> paths{Path(PassKind::kContour, 0, {{0, 0, 5}, {30, 0, 5}}),
+                                Path(PassKind::kContour, 1, {{0, 1, 4}, {30, 1, 4}})};
+  const auto fixed = OrderPasses({}, paths, {});
+  EXPECT_EQ(fixed[1].points.front().center.x(), 0.0);
+  const auto free = OrderPasses({}, paths, {.neighbor_distance = 3.0, .reversible_contours = true});
+  EXPECT_EQ(free[1].points.front().center.x(), 30.0);
+}
+
+TEST(OrderPasses, SteepBeforeGentleBeforeRest) {
+  const auto out = OrderPasses(
+      {},
+      {Path(PassKind::kRest, 0, {{0, 0, 0}, {1, 0, 0}}), Path(PassKind::kZigzag, 0, {{0, 0, 0}, {1, 0, 0}}),
+       Path(PassKind::kCrease, 0, {{0, 0, 0}, {1, 0, 0}}), Square(0, 0, 0)},
+      {});
+  ASSERT_EQ(out.size(), 4u);
+  EXPECT_EQ(out[0].kind, PassKind::kContour);
+  EXPECT_EQ(out[1].kind, PassKind::kZigzag);
+  EXPECT_EQ(out[2].kind, PassKind::kCrease);
+  EXPECT_EQ(out[3].kind, PassKind::kRest);
+}
+
+TEST(OrderPasses, LosesNothingAndKeepsEveryVertex) {
+  std::vector<CutterPath> paths;
+  for (int i = 0; i < 40; ++i) paths.push_back(Square(i % 7, 5.0 * (i * 37 % 11), 9 - i % 7));
+  const auto out = OrderPasses({}, paths, {});
+  ASSERT_EQ(out.size(), paths.size());
+  for (const CutterPath& p : out) EXPECT_EQ(p.points.size(), 4u);
+}
+
+TEST(Reverse, SwapsTheTwoSidesOfACorner) {
+  CutterPath path = Path(PassKind::kZigzag, 0, {{0, 0, 0}, {1, 0, 0}});
+  path.points[0].contact = SurfacePoint{PieceId(1), 0, 0, Vec3::Zero()};
+  path.points[0].other_contact = SurfacePoint{PieceId(2), 0, 0, Vec3::Zero()};
+  Reverse(path);
+  EXPECT_EQ(path.points[1].contact->piece, PieceId(2));
+  EXPECT_EQ(path.points[1].other_contact->piece, PieceId(1));
+}
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,145 @@
+// MaxHeight and SweptGouge: closed forms and sampled truth.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/location/locator.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Random;
+using testing::SurfaceOf;
+
+// Largest h over a stadium by samples: never above the truth.
+double SampledMaximum(const Locator& locator, const Vec2& a, const Vec2& b, double half_width, int n) {
+  const Vec2 d = b - a, e = d.norm() > 0 ? Vec2(d.normalized()) : Vec2(1, 0), across(-e.y(), e.x());
+  double best = -kInfinity;
+  const double length = d.norm() + 2 * half_width;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const double s = -half_width + length * i / n, t = half_width * (2.0 * j / n - 1.0);
+      const Vec2 q = a + s * e + t * across;
+      const double over = std::max({-s, s - d.norm(), 0.0});
+      if (over * over + t * t > half_width * half_width) continue;
+      if (const auto h = locator.Height(q)) best = std::max(best, h->z);
+    }
+  }
+  return best;
+}
+
+TEST(MaxHeight, OfAPlaneAndNothing) {
+  const double sx = 0.5;
+  const Surface surface = SurfaceOf(testing::Plane(30.0, 1.0, sx, 0.0));
+  const Locator locator(surface, 3.0);
+  const double truth = 1.0 + sx * 12.0 + 3.0 * std::sqrt(1 + sx * sx);  // highest at x = 10 + 2
+  const double got = locator.MaxHeight({-5, 3}, {10, -4}, 2.0, 0.01);
+  EXPECT_GE(got, truth - 1e-9);
+  EXPECT_LE(got, truth + 0.01);
+  EXPECT_EQ(locator.MaxHeight({100, 0}, {120, 0}, 5.0), -kInfinity);
+  // A stadium that just reaches the border.
+  EXPECT_GT(locator.MaxHeight({35.9, 0}, {50, 0}, 3.0), -kInfinity);
+  EXPECT_EQ(locator.MaxHeight({36.1, 0}, {50, 0}, 3.0), -kInfinity);
+}
+
+TEST(MaxHeight, IsAboveAllSamplesAndTight) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Surface surface = SurfaceOf(testing::RandomBspline(seed));
+    const Locator locator(surface, 2.0);
+    Random random(seed);
+    for (int i = 0; i < 8; ++i) {
+      const Vec2 a(random.Uniform(0, 40), random.Uniform(0, 40)),
+          b(random.Uniform(0, 40), random.Uniform(0, 40));
+      const double w = i % 3 == 0 ? 0.0 : random.Uniform(0.0, 4.0);
+      const double bound = locator.MaxHeight(a, b, w, 0.02);
+      const double sampled = SampledMaximum(locator, a, b, w, 60);
+      EXPECT_GE(bound, sampled - 1e-9);
+      EXPECT_LE(bound, sampled + 0.02 + 0.1) << "seed " << seed;  // 0.1: what 60 samples a side may miss
+    }
+  }
+}
+
+TEST(SweptGouge, AlongAPlane) {
+  const Surface surface = SurfaceOf(testing::Plane(30.0, 1.0, 0.3, -0.2));
+  const double r = 3.0, secant = std::sqrt(1 + 0.3 * 0.3 + 0.2 * 0.2);
+  const Locator locator(surface, r);
+  const auto above = [&](double x, double y, double gap) {
+    return Vec3(x, y, 1.0 + 0.3 * x - 0.2 * y + (r + gap) * secant);
+  };
+  for (const double gap : {0.5, 0.0, -0.01, -0.3}) {
+    const double got = locator.SweptGouge(above(-10, 3, gap), above(12, -8, gap), 1e-6);
+    EXPECT_NEAR(got, std::max(0.0, -gap), 1.1e-6) << gap;
+  }
+  // One end deeper than the other: the deeper one counts.
+  EXPECT_NEAR(locator.SweptGouge(above(-10, 3, -0.1), above(12, -8, -0.2), 1e-6), 0.2, 1.1e-6);
+}
+
+TEST(SweptGouge, TheShankCounts) {
+  // The ball passes below the top of a block: everything above it is cut.
+  const Surface surface = SurfaceOf(testing::Block(10.0, 8.0, 40.0));
+  const Locator locator(surface, 3.0);
+  EXPECT_NEAR(locator.SweptGouge({12.5, -30, 3.0}, {12.5, 30, 3.0}, 1e-6), 0.5, 1e-5);
+  EXPECT_NEAR(locator.SweptGouge({13.0, -30, 3.0}, {13.0, 30, 3.0}, 1e-6), 0.0, 1e-5);
+  EXPECT_NEAR(locator.SweptGouge({13.0, -30, 2.75}, {13.0, 30, 2.75}, 1e-6), 0.25, 1e-5);
+  EXPECT_NEAR(locator.SweptGouge({0, 0, 11.0}, {0, 0, 10.5}, 1e-6), 0.5, 1e-5);  // a vertical move
+}
+
+TEST(SweptGouge, ChordBetweenFreeCentresNeverBeyondT2) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Surface surface = SurfaceOf(testing::RandomBspline(seed));
+    const double r = 3.0;
+    const Locator locator(surface, r);
+    Random random(seed);
+    for (int i = 0; i < 40; ++i) {
+      const Vec2 a(random.Uniform(2, 38), random.Uniform(2, 38));
+      const double length = random.Uniform(0.05, 1.5), phi = random.Uniform(0, 2 * kPi);
+      const Vec2 b = a + length * Vec2(std::cos(phi), std::sin(phi));
+      const auto ha = locator.Height(a), hb = locator.Height(b);
+      if (!ha || !hb) continue;
+      const Vec3 ca = Lift(a, ha->z), cb = Lift(b, hb->z);
+      const double chord = (cb - ca).norm();
+      if (chord > 2 * r) continue;
+      EXPECT_LE(locator.SweptGouge(ca, cb, 1e-5), r - std::sqrt(r * r - 0.25 * chord * chord) + 1.1e-5);
+    }
+  }
+}
+
+TEST(SweptGouge, AgreesWithSampledPoints) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const PatchModel model = testing::RandomBspline(seed);
+    const Surface surface = SurfaceOf(model);
+    const double r = 2.5;
+    const Locator locator(surface, r);
+    Random random(seed);
+    std::vector<Vec3> points;
+    for (int i = 0; i <= 250; ++i) {
+      for (int j = 0; j <= 250; ++j) points.push_back(Position(model.patches[0].shape, i / 250.0, j / 250.0));
+    }
+    for (int i = 0; i < 10; ++i) {
+      const Vec3 a(random.Uniform(0, 40), random.Uniform(0, 40), random.Uniform(2, 7));
+      const Vec3 b(random.Uniform(0, 40), random.Uniform(0, 40), random.Uniform(2, 7));
+      double sampled = 0.0;
+      for (const Vec3& p : points) {  // nearest of many points of the swept set, in place of a formula
+        const Vec2 d = Plan(b) - Plan(a);
+        const double t0 = std::clamp((Plan(p) - Plan(a)).dot(d) / d.squaredNorm(), 0.0, 1.0);
+        if ((Plan(a) + t0 * d - Plan(p)).norm() > r) continue;
+        double nearest = kInfinity;
+        for (int k = -40; k <= 40; ++k) {
+          const double t = std::clamp(t0 + k * 0.5 * r / 40.0 / d.norm(), 0.0, 1.0);
+          const Vec3 c = a + t * (b - a);
+          nearest = std::min(nearest, (p - Vec3(c.x(), c.y(), std::max(c.z(), p.z()))).norm());
+        }
+        sampled = std::max(sampled, r - nearest);
+      }
+      const double got = locator.SweptGouge(a, b, 1e-4);
+      EXPECT_GE(got, sampled - 2e-3);
+      EXPECT_LE(got, sampled + 0.05);  // spacing of the samples
+    }
+  }
+}
+
+}  // namespace
+}  // namespace patchmill

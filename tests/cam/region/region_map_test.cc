@@ -1,0 +1,201 @@
+#include "cam/region/region_map.h"
+
+#include <cmath>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "core/surface/surface.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Half;
+
+Surface Build(const PatchModel& model) {
+  PatchNetwork network;
+  network.model = model;
+  network.join_tolerance = 1e-4;
+  auto surface = BuildSurface(std::move(network), SurfaceParams{}, RunContext{});
+  EXPECT_TRUE(surface.ok()) << surface.status();
+  return *std::move(surface);
+}
+
+RegionMap Split(const Surface& surface, const RegionParams& params, int threads = 0) {
+  auto map = SplitRegions(surface, params, RunContext(threads));
+  EXPECT_TRUE(map.ok()) << map.status();
+  return *std::move(map);
+}
+
+double Area(const RegionMap& map, RegionKind kind) {
+  double sum = 0.0;
+  for (const Region& r : map.regions) sum += r.kind == kind ? r.area : 0.0;
+  return sum;
+}
+
+double Area(const RegionMap& map, UnreachableReason reason) {
+  double sum = 0.0;
+  for (const Region& r : map.regions) sum += r.reason == reason ? r.area : 0.0;
+  return sum;
+}
+
+double Total(const RegionMap& map) {
+  double sum = 0.0;
+  for (const Region& r : map.regions) sum += r.area;
+  return sum;
+}
+
+RegionParams Unmerged() {
+  RegionParams p;
+  p.min_area = 1e-6;
+  p.border_tolerance = 1e-4;
+  return p;
+}
+
+TEST(SplitRegions, TorusHasAnOuterMountainAndAnInnerBasin) {
+  const Surface surface = Build(testing::Torus(Vec3::Zero(), 20, 6, Half::kUpper));
+  const RegionMap map = Split(surface, Unmerged());
+  EXPECT_NEAR(Area(map, RegionKind::kMountain), kPi * 6 * (kPi * 20 + 2 * 6), 0.05);
+  EXPECT_NEAR(Area(map, RegionKind::kBasin), kPi * 6 * (kPi * 20 - 2 * 6), 0.05);
+  EXPECT_EQ(Area(map, RegionKind::kUnreachable), 0.0);
+  // Mountain and basin, each steep below and gentle above: four bands.
+  EXPECT_EQ(map.regions.size(), 4u);
+  for (const Region& r : map.regions) EXPECT_GE(r.border.size(), 1u) << r.id;
+}
+
+TEST(SplitRegions, SteepAndGentleMeetAtTheSplitAngle) {
+  const Surface surface = Build(testing::Sphere(Vec3::Zero(), 10, Half::kUpper));
+  for (const double degrees : {30.0, 45.0, 70.0}) {
+    RegionParams params = Unmerged();
+    params.steep_angle = Radians(degrees);
+    const RegionMap map = Split(surface, params);
+    double steep = 0.0, gentle = 0.0;
+    for (const Region& r : map.regions) (r.slope == SlopeClass::kSteep ? steep : gentle) += r.area;
+    // The cap above the polar angle t has the area 2 pi r^2 (1 - cos t).
+    EXPECT_NEAR(gentle, 2 * kPi * 100 * (1 - std::cos(Radians(degrees))), 0.02) << degrees;
+    EXPECT_NEAR(steep, 2 * kPi * 100 * std::cos(Radians(degrees)), 0.02) << degrees;
+    for (const Region& r : map.regions) {
+      EXPECT_EQ(r.kind, RegionKind::kMountain);
+      if (r.slope != SlopeClass::kGentle) continue;
+      ASSERT_EQ(r.border.size(), 1u);
+      for (const Vec3& p : r.border[0]) EXPECT_NEAR(p.z(), 10 * std::cos(Radians(degrees)), 2e-4);
+    }
+  }
+}
+
+TEST(SplitRegions, SaddleHasFourSectors) {
+  // z = .05 x^2 - .03 y^2: D = 0 on y = sqrt(a/b) x, both signs.
+  const double a = 0.05, b = 0.03;
+  const Surface surface = Build(testing::Saddle(a, b, 8));
+  RegionParams params = Unmerged();
+  params.radius = 1.0;
+  params.steep_angle = Radians(85);
+  const RegionMap map = Split(surface, params);
+  int mountains = 0, basins = 0;
+  for (const Region& r : map.regions) {
+    mountains += r.kind == RegionKind::kMountain;
+    basins += r.kind == RegionKind::kBasin;
+    for (const auto& loop : r.border) {
+      for (const Vec3& p : loop) {
+        const bool outer = std::max(std::abs(p.x()), std::abs(p.y())) > 8 - 1e-9;
+        const double off = std::abs(std::abs(p.y()) - std::sqrt(a / b) * std::abs(p.x()));
+        EXPECT_TRUE(outer || off < 2e-3) << p.transpose();
+      }
+    }
+  }
+  EXPECT_EQ(mountains, 2);
+  EXPECT_EQ(basins, 2);
+}
+
+TEST(SplitRegions, PlaneIsNeutralAndWhole) {
+  const Surface surface = Build(testing::Plane(20, 0, 0.3, 0.1));
+  const RegionMap map = Split(surface, RegionParams{});
+  ASSERT_EQ(map.regions.size(), 1u);
+  EXPECT_EQ(map.regions[0].kind, RegionKind::kNeutral);
+  EXPECT_EQ(map.regions[0].slope, SlopeClass::kGentle);
+  EXPECT_NEAR(map.regions[0].area, 1600 * std::sqrt(1 + 0.09 + 0.01), 1e-9);
+  ASSERT_EQ(map.regions[0].border.size(), 1u);
+}
+
+TEST(SplitRegions, HemisphereOnAPlaneLeavesWhatTheBallCannotTouch) {
+  const double r = 8, R = 3, tol = 0.01;
+  const PatchModel model =
+      testing::Join({testing::Plane(20), testing::Sphere(Vec3::Zero(), r, Half::kUpper)});
+  const Surface surface = Build(model);
+  RegionParams params = Unmerged();
+  params.tolerance = tol;
+  const RegionMap map = Split(surface, params);
+  EXPECT_NEAR(Total(map), 1600 + 2 * kPi * r * r, 0.05);
+  // Plane: everything nearer to the axis than a ball of R - tol that stands R high and touches the sphere.
+  // Sphere: everything lower than where a ball that touches it comes down to R - tol.
+  const double ring = kPi * ((r + R - tol) * (r + R - tol) - R * R);
+  const double band = 2 * kPi * r * (R - tol) * r / (r + R);
+  EXPECT_NEAR(Area(map, RegionKind::kUnreachable), ring + band, 0.005 * (ring + band));
+  EXPECT_GT(Area(map, UnreachableReason::kUndercut), 0.0);
+  EXPECT_GT(Area(map, UnreachableReason::kConcave), band * 0.99);
+}
+
+TEST(SplitRegions, FloorTakesWhatLiesTooDeep) {
+  const Surface surface = Build(testing::Sphere(Vec3::Zero(), 10, Half::kUpper));
+  RegionParams params = Unmerged();
+  params.floor_z = 0.0;
+  params.tolerance = 0.01;
+  const RegionMap map = Split(surface, params);
+  // Tip = p_z + R e_z - R with p_z = 10 e_z; below the floor by more than the tolerance for e_z < (R - tol) /
+  // (10 + R).
+  const double e_z = (3 - 0.01) / 13.0;
+  EXPECT_NEAR(Area(map, UnreachableReason::kFloor), 2 * kPi * 100 * e_z, 0.5);
+}
+
+TEST(SplitRegions, AreasAddUpAndLabelsAgreeOnARandomPart) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const Surface surface = Build(testing::RandomBspline(seed));
+    const RegionMap map = Split(surface, RegionParams{});
+    double area = 0.0;
+    for (const Piece& piece : surface.pieces) {
+      constexpr int n = 24;
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+          const SurfaceJet jet = Evaluate(piece, (i + 0.5) / n, (j + 0.5) / n);
+          area += jet.du.cross(jet.dv).norm() / (n * n);
+        }
+      }
+    }
+    EXPECT_NEAR(Total(map), area, 1e-3 * area) << seed;
+    for (const Region& r : map.regions) {
+      EXPECT_GT(r.area, 0.0);
+      if (r.kind != RegionKind::kUnreachable && map.regions.size() > 1) {
+        EXPECT_GE(r.area, 2 * kPi * 9 * 0.5) << seed;
+      }
+      for (const auto& loop : r.border) EXPECT_GE(loop.size(), 3u);
+    }
+    for (const auto& labels : map.labels) {
+      for (const int label : labels) {
+        ASSERT_GE(label, 0);
+        ASSERT_LT(label, static_cast<int>(map.regions.size()));
+      }
+    }
+  }
+}
+
+TEST(SplitRegions, DoesNotDependOnThreads) {
+  const Surface surface = Build(testing::RandomBspline(7));
+  const RegionMap one = Split(surface, RegionParams{}, 1), two = Split(surface, RegionParams{}, 2);
+  ASSERT_EQ(one.regions.size(), two.regions.size());
+  for (std::size_t i = 0; i < one.regions.size(); ++i) {
+    EXPECT_EQ(one.regions[i].area, two.regions[i].area);
+    EXPECT_EQ(one.regions[i].border, two.regions[i].border);
+  }
+  EXPECT_EQ(one.labels, two.labels);
+}
+
+TEST(SplitRegions, CancelIsObeyed) {
+  const Surface surface = Build(testing::RandomBspline(7));
+  RunContext run;
+  run.Cancel();
+  EXPECT_EQ(SplitRegions(surface, RegionParams{}, run).status().code(), absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace patchmill

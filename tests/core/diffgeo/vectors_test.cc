@@ -1,0 +1,112 @@
+// METHODS 1.9 and 1.10 vectors: curvatures and ball centres on a patch of bidegree (4,2).
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/diffgeo/forms.h"
+#include "core/math/bernstein.h"
+#include "tests/support/json.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Json;
+
+constexpr double kTolerance = 1e-12;
+
+// z = (0.35 a - 3 a^2 + 0.05)(1 - 4 b), a = (u-1/2)^2, b = (v-1/2)^2, x = u, y = v.
+PatchShape InflectionSurface() {
+  const std::vector<double> square = {0.25, -0.25, 0.25};  // (t-1/2)^2
+  const auto fourth = BernsteinProduct(square, square);
+  const auto second = BernsteinElevate(BernsteinElevate(square));
+  BezierPatch patch;
+  patch.degree_u = 4;
+  patch.degree_v = 2;
+  for (int i = 0; i <= 4; ++i) {
+    for (int j = 0; j <= 2; ++j) {
+      patch.points.emplace_back(i / 4.0, j / 2.0,
+                                (0.35 * second[i] - 3 * fourth[i] + 0.05) * (1 - 4 * square[j]));
+    }
+  }
+  return patch;
+}
+
+void ExpectNear(const Vec3& a, const Vec3& b, const char* what) {
+  EXPECT_LE((a - b).norm(), kTolerance) << what << ": " << a.transpose() << " / " << b.transpose();
+}
+
+TEST(ContourInflection, PointsOfTheFile) {
+  const Json data = testing::LoadJson(PATCHMILL_SOURCE_DIR "/tests/vectors/contour_inflection.json");
+  const PatchShape surface = InflectionSurface();
+  ASSERT_GE(data["points"].Items().size(), 4u);
+  for (const Json& at : data["points"].Items()) {
+    const SurfaceJet s = Evaluate(surface, at["u"].Number(), at["v"].Number());
+    ExpectNear(s.p, at["S"].Vector(), "S");
+    ExpectNear(s.du, at["Su"].Vector(), "Su");
+    ExpectNear(s.dv, at["Sv"].Vector(), "Sv");
+    ExpectNear(s.duu, at["Suu"].Vector(), "Suu");
+    ExpectNear(s.duv, at["Suv"].Vector(), "Suv");
+    ExpectNear(s.dvv, at["Svv"].Vector(), "Svv");
+    const Vec3 normal = UpwardNormal(s).value();
+    ExpectNear(normal, at["e"].Vector(), "e");
+    const FundamentalForms f = Forms(s, normal);
+    EXPECT_NEAR(f.E, at["E"].Number(), kTolerance);
+    EXPECT_NEAR(f.F, at["F"].Number(), kTolerance);
+    EXPECT_NEAR(f.G, at["G"].Number(), kTolerance);
+    EXPECT_NEAR(f.L, at["L"].Number(), kTolerance);
+    EXPECT_NEAR(f.M, at["M"].Number(), kTolerance);
+    EXPECT_NEAR(f.N, at["N"].Number(), kTolerance);
+    const PrincipalCurvatures k = Principal(f);
+    EXPECT_NEAR(k.k_min, at["kmin"].Number(), kTolerance);
+    EXPECT_NEAR(k.k_max, at["kmax"].Number(), kTolerance);
+    EXPECT_NEAR(k.k_min * k.k_max, at["K"].Number(), kTolerance);
+    EXPECT_NEAR(0.5 * (k.k_min + k.k_max), at["H"].Number(), kTolerance);
+    EXPECT_NEAR(ContourDeterminant(s, f), at["D"].Number(), kTolerance);
+    EXPECT_NEAR(ContourCurvature(s, f), at["kappa_contour_dir"].Number(), kTolerance);
+    EXPECT_NEAR(NormalCurvature(f, -s.dv.z(), s.du.z()), at["kappa_contour_dir"].Number(), kTolerance);
+    EXPECT_NEAR(NormalCurvature(f, s, Vec3::UnitZ().cross(normal)), at["kappa_contour_dir"].Number(),
+                kTolerance);
+  }
+}
+
+TEST(ContourInflection, SignsAndZeros) {
+  const Json data = testing::LoadJson(PATCHMILL_SOURCE_DIR "/tests/vectors/contour_inflection.json");
+  const PatchShape surface = InflectionSurface();
+  const auto contour = [&](double u, double v) {
+    const SurfaceJet s = Evaluate(surface, u, v);
+    return ContourDeterminant(s, Forms(s, UpwardNormal(s).value()));
+  };
+  for (int j = 0; j < 12; ++j) {
+    for (int i = 0; i < 12; ++i) {
+      EXPECT_GT(contour((i + 0.5) / 12, (j + 0.5) / 12) * data["sign_grid"][j][i].Number(), 0.0);
+    }
+  }
+  ASSERT_FALSE(data["zeros"].Items().empty());
+  for (const Json& zero : data["zeros"].Items())
+    EXPECT_NEAR(contour(zero[0].Number(), zero[1].Number()), 0, 1e-12);
+  const SurfaceJet saddle = Evaluate(surface, 0.5, 0.5);
+  EXPECT_EQ(ContourCurvature(saddle, Forms(saddle, UnitNormal(saddle).value())), 0.0);
+}
+
+TEST(ToolpathOffset, ContactNormalAndBallCentre) {
+  const Json data = testing::LoadJson(PATCHMILL_SOURCE_DIR "/tests/vectors/toolpath_offset.json");
+  const PatchShape surface = InflectionSurface();
+  const double radius = data["R"].Number();
+  for (const Json& at : data["points"].Items()) {
+    const SurfaceJet s = Evaluate(surface, at["u"].Number(), at["v"].Number());
+    const Vec3 e = UpwardNormal(s).value();
+    ExpectNear(s.p, at["contact"].Vector(), "contact");
+    ExpectNear(s.p + radius * e, at["center"].Vector(), "center");
+    ExpectNear(s.p + radius * (e - Vec3::UnitZ()), at["tip"].Vector(), "tip");
+    EXPECT_NEAR(Degrees(std::acos(e.z())), at["slope_deg"].Number(), 1e-10);
+    const FundamentalForms f = Forms(s, e);
+    EXPECT_EQ(Principal(f).k_max <= 1 / radius, at["gouge_free"].Bool());
+    // Weingarten: e_u = alpha S_u + beta S_v with (E F; F G)(alpha, beta) = -(L, M).
+    const double w2 = f.E * f.G - f.F * f.F;
+    const double alpha = (f.F * f.M - f.G * f.L) / w2, beta = (f.F * f.L - f.E * f.M) / w2;
+    ExpectNear(s.du + radius * (alpha * s.du + beta * s.dv), at["center_u"].Vector(), "center_u");
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
