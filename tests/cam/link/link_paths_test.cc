@@ -1,0 +1,161 @@
+#include "cam/link/link_paths.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Half;
+
+constexpr double kRadius = 3.0;
+
+Surface Build(const PatchModel& model) {
+  PatchNetwork network;
+  network.model = model;
+  network.join_tolerance = 1e-4;
+  auto surface = BuildSurface(std::move(network), SurfaceParams{}, RunContext{});
+  EXPECT_TRUE(surface.ok()) << surface.status();
+  return *std::move(surface);
+}
+
+// A line of centres above the segment a b, every 0.2 mm on h.
+CutterPath Line(const Locator& locator, int line, const Vec2& a, const Vec2& b) {
+  CutterPath path;
+  path.kind = PassKind::kZigzag;
+  path.line = line;
+  const int n = static_cast<int>((b - a).norm() / 0.2);
+  for (int i = 0; i <= n; ++i) {
+    const Vec2 q = a + (b - a) * i / n;
+    const auto h = locator.Height(q);
+    if (h) path.points.push_back({Lift(q, h->z), h->contact, std::nullopt});
+  }
+  return path;
+}
+
+// The circle of centres of a ball that touches a sphere of radius r at centre height z, clockwise seen from
+// above (climb).
+CutterPath Circle(const Surface& surface, int line, double r, double z) {
+  CutterPath path;
+  path.kind = PassKind::kContour;
+  path.line = line;
+  path.closed = true;
+  const double rho = std::sqrt((r + kRadius) * (r + kRadius) - z * z);
+  for (int i = 0; i < 120; ++i) {
+    const double t = -2 * kPi * i / 120;
+    const Vec3 c(rho * std::cos(t), rho * std::sin(t), z);
+    path.points.push_back(
+        {c, SurfacePoint{PieceId(surface.pieces.size() - 1), 0, 0, c * (r / (r + kRadius))}, std::nullopt});
+  }
+  return path;
+}
+
+LinkParams Params() {
+  LinkParams p;
+  p.radius = kRadius;
+  p.clearance_z = 16;
+  p.stock_top_z = 9;
+  p.feed = 1200;
+  p.plunge_feed = 400;
+  p.pass.chord_tolerance = 0.005;
+  return p;
+}
+
+// P1 and P3 on the motion itself: nothing gouged on any move, rapids clear of the stock or at the clearance
+// plane, descents slow.
+void CheckMotion(const Surface& surface, const LinkResult& result, const LinkParams& params) {
+  const double tolerance = 0.01;
+  const Locator ball(surface, kRadius - tolerance), stock(surface, kRadius + params.allowance);
+  const auto& moves = result.toolpath.moves;
+  ASSERT_GT(moves.size(), 3u);
+  EXPECT_EQ(moves.front().kind, MoveKind::kRapid);
+  EXPECT_GE(moves.front().to.z(), params.clearance_z + kRadius - 1e-9);
+  EXPECT_GE(moves.back().to.z(), params.clearance_z + kRadius - 1e-9);
+  for (std::size_t i = 1; i < moves.size(); ++i) {
+    const Vec3 a = moves[i - 1].to, d = moves[i].to - a;
+    const int n = 1 + static_cast<int>(d.norm() / 0.3);
+    for (int k = 0; k <= n; ++k) {
+      const Vec3 c = a + d * k / n;
+      ASSERT_TRUE(ball.Free(c, 1e-9)) << "move " << i << " gouges at " << c.transpose();
+      if (moves[i].kind == MoveKind::kRapid) {
+        EXPECT_TRUE(c.z() >= params.clearance_z + kRadius - 1e-9 || stock.Free(c))
+            << "rapid in stock, move " << i;
+      }
+    }
+    if (moves[i].kind != MoveKind::kRapid) {
+      const double descent = std::atan2(-d.z(), Plan(d).norm());
+      EXPECT_EQ(moves[i].feed, descent > params.plunge_angle ? params.plunge_feed : params.feed)
+          << "move " << i;
+    }
+  }
+}
+
+TEST(LinkPaths, LinesOverAHillAreJoinedAndSafe) {
+  const Surface surface =
+      Build(testing::Join({testing::Plane(20), testing::Sphere(Vec3(0, 0, -4), 12, Half::kUpper)}));
+  const Locator locator(surface, kRadius);
+  std::vector<CutterPath> paths;
+  for (int i = 0; i < 12; ++i) paths.push_back(Line(locator, i, {-18, -6.0 + i}, {18, -6.0 + i}));
+  const auto result = LinkPaths(locator, {}, paths, Params(), RunContext{});
+  ASSERT_TRUE(result.ok()) << result.status();
+  CheckMotion(surface, *result, Params());
+  EXPECT_EQ(result->passes.size(), 12u);
+  EXPECT_LE(result->stats.retract_count, 1);  // neighbouring lines stay down; one retract at the end
+}
+
+TEST(LinkPaths, ContoursAreEnteredFromBesideTheWall) {
+  const Surface surface =
+      Build(testing::Join({testing::Plane(30), testing::Sphere(Vec3::Zero(), 8, Half::kUpper)}));
+  const Locator locator(surface, kRadius);
+  std::vector<CutterPath> paths;
+  for (int i = 0; i < 4; ++i) paths.push_back(Circle(surface, i, 8, 6.0 - i));
+  const LinkParams params = Params();
+  const auto result = LinkPaths(locator, {}, paths, params, RunContext{});
+  ASSERT_TRUE(result.ok()) << result.status();
+  CheckMotion(surface, *result, params);
+  const auto& moves = result->toolpath.moves;
+  std::size_t lead = 0;
+  while (lead < moves.size() && moves[lead].kind != MoveKind::kLead) ++lead;
+  ASSERT_LT(lead, moves.size());
+  const Vec3 in = moves[lead].to - moves[lead - 1].to;
+  EXPECT_EQ(in.z(), 0.0);
+  EXPECT_NEAR(in.norm(), params.allowance + params.approach_gap, 1e-9);
+  EXPECT_LT(in.dot(moves[lead].to), 0.0) << "the lead comes from outside";
+  EXPECT_EQ(result->stats.retract_count, 1);  // level to level without a retract
+  for (std::size_t i = 1; i < result->passes.size(); ++i)
+    EXPECT_LT(result->passes[i].points[0].center.z(), result->passes[i - 1].points[0].center.z());
+}
+
+TEST(LinkPaths, FarPassesRetractAndConventionalTurnsContours) {
+  const Surface surface =
+      Build(testing::Join({testing::Plane(60), testing::Sphere(Vec3::Zero(), 8, Half::kUpper)}));
+  const Locator locator(surface, kRadius);
+  LinkParams params = Params();
+  params.contour_direction = CutDirection::kConventional;
+  const auto result = LinkPaths(
+      locator, {},
+      {Circle(surface, 0, 8, 5), Line(locator, 0, {40, -5}, {40, 5}), Line(locator, 9, {-40, -5}, {-40, 5})},
+      params, RunContext{});
+  ASSERT_TRUE(result.ok()) << result.status();
+  CheckMotion(surface, *result, params);
+  EXPECT_EQ(result->stats.retract_count, 3);
+  const auto& loop = result->passes.front().points;
+  double area = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    area += Cross(Plan(loop[i].center), Plan(loop[(i + 1) % loop.size()].center));
+  EXPECT_GT(area, 0.0) << "conventional runs counter-clockwise around a mountain";
+}
+
+TEST(LinkPaths, NothingInNothingOut) {
+  const Surface surface = Build(testing::Plane(10));
+  const Locator locator(surface, kRadius);
+  const auto result = LinkPaths(locator, {}, {}, Params(), RunContext{});
+  ASSERT_TRUE(result.ok());
+  EXPECT_TRUE(result->toolpath.moves.empty());
+}
+
+}  // namespace
+}  // namespace patchmill
