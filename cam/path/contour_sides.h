@@ -1,0 +1,69 @@
+// How the four sides of every piece of a surface continue: smoothly, over a crease, or not at all.
+//
+// Contacts on a side that is not smooth are contacts with a curve, not with a tangent plane; both the search
+// for contours and the question which part of a contour is a pass need to know.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+// Sides of a piece, in its own parameters: 0: v=0, 1: u=1, 2: v=1, 3: u=0; 0 and 2 run along u, 1 and 3 along
+// v.
+enum class SideKind { kSmooth, kCrease, kOpen };
+
+struct PieceSide {
+  SideKind kind = SideKind::kOpen;
+  double angle = 0.0;  // rad, kSmooth: largest angle between the tangent planes found along it
+};
+
+// A side counts as smooth when the surface goes on across it within this angle (rad), sampled.
+inline constexpr double kSmoothSideAngle = 0.03;
+
+// Sides of all pieces: joints between patches come from the network, joints between the pieces of one patch
+// from their common corners. Collapsed sides are kOpen (they are points).
+class PieceSides {
+ public:
+  explicit PieceSides(const Surface& surface);  // keeps a reference; cost O(n log n)
+
+  const PieceSide& At(PieceId piece, int side) const {
+    return sides_[piece.index()][static_cast<std::size_t>(side)];
+  }
+  // The same place on the piece across side `side` at parameter t in [0,1] of that side; nullopt at open
+  // sides.
+  std::optional<SurfacePoint> Across(PieceId piece, int side, double t) const;
+
+ private:
+  struct EdgePart {  // a side of a piece on an edge of its patch, from t = t0 to t1 of that edge
+    PieceId piece;
+    int side = 0;
+    double t0 = 0.0, t1 = 1.0;
+  };
+  using Place = std::tuple<std::int32_t, std::int64_t, std::int64_t>;  // patch, native middle of a side
+  Place MiddleOf(PieceId piece, int side) const;
+  std::optional<SurfacePoint> OnEdge(PatchEdge edge, double t) const;
+  std::optional<double> TurnAt(PieceId piece, int side, double t) const;
+  PieceSide Classify(PieceId piece, int side) const;
+
+  const Surface* surface_;
+  std::map<PatchEdge, std::vector<EdgePart>> edges_;
+  std::map<Place, std::vector<std::pair<PieceId, int>>> inner_;
+  std::vector<std::array<PieceSide, 4>> sides_;
+};
+
+// Parameters (u,v) of the point t of a side.
+Vec2 SideParameters(int side, double t);
+
+// Unit vector in the tangent plane at a point of the side, square to it and pointing out of the piece;
+// nullopt where the parametrisation is degenerate.
+std::optional<Vec3> OutwardTangent(const Surface& surface, PieceId piece, int side, double t);
+
+}  // namespace patchmill

@@ -1,0 +1,71 @@
+// Cells of one level that the contour may cross, each with the directions it can have there (T8a-T8c).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cam/path/level_items.h"
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+// Plan positions as integers on the finest grid.
+struct LevelGrid {
+  Vec2 origin = Vec2::Zero();
+  double unit = 1.0;  // mm, side of the smallest cell
+  int levels = 0;     // the root cell has side 2^levels units
+  Vec2 At(std::int32_t x, std::int32_t y) const { return origin + unit * Vec2(x, y); }
+};
+
+inline std::uint64_t GridKey(std::int32_t x, std::int32_t y) {
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) | static_cast<std::uint32_t>(y);
+}
+
+// Keys to int32, open addressing. Never iterated, so its order does not matter.
+class GridMap {
+ public:
+  GridMap();
+  // The slot of a key, new ones hold -1. Valid until the next call.
+  std::int32_t& operator[](std::uint64_t key);
+  bool Contains(std::uint64_t key) const;
+
+ private:
+  std::size_t Find(std::uint64_t key) const;
+  void Grow();
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::int32_t> values_;
+  std::size_t used_ = 0;
+};
+
+struct LevelCell {
+  std::int32_t x = 0, y = 0;  // lower left corner
+  std::int32_t side = 1;      // units
+  bool ambiguous = false;     // no cone found at the smallest size
+  Vec2 free = Vec2::Zero();   // unit direction in which h falls through c, where the cell is not ambiguous
+  std::int32_t first_item = 0, last_item = 0;  // into LevelCells::items
+};
+
+struct LevelCells {
+  LevelGrid grid;
+  std::vector<LevelCell> cells;     // only those that can hold a part of the contour
+  std::vector<std::int32_t> items;  // candidates, slices by cell
+  GridMap vertices;                 // corners of all cells ever looked at (T-junctions)
+  int ambiguous = 0;
+  bool overflow = false;  // more ambiguous cells (or cells at all) than allowed: nothing here is usable
+  bool cancelled = false;
+};
+
+struct LevelCellLimits {
+  double smallest = 0.0125;  // mm, side of the finest cells
+  int max_ambiguous = 4000;
+  int max_cells = 400000;  // looked at
+};
+
+// The quadtree over the plan box of the surface widened by R. Every loop or hole of the level that is not in
+// the cells returned is smaller than `smallest`. Polls run.Cancelled().
+LevelCells FindCells(LevelItems& items, const Locator& locator, double z, const LevelCellLimits& limits,
+                     const RunContext& run);
+
+PlanCell PlanOf(const LevelGrid& grid, const LevelCell& cell);
+
+}  // namespace patchmill

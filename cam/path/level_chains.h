@@ -1,0 +1,24 @@
+// Crossings of the contour with the edges of its cells, joined to closed loops.
+#pragma once
+
+#include <vector>
+
+#include "cam/path/level_cells.h"
+#include "cam/path/level_oracle.h"
+
+namespace patchmill {
+
+struct ChainPoint {
+  LevelPoint point;
+  Vec2 free = Vec2::Zero();  // unit direction to the free side on the way to the next point; zero: unknown
+  bool ambiguous = false;    // the way to the next point runs through a cell without a cone
+};
+using Chain = std::vector<ChainPoint>;  // closed, forbidden side on the right
+
+// Every edge of a cell is cut at all vertices on it, its crossings are found once and shared by both cells.
+// Inside a cell with a cone the crossings are joined in their order along the contour; in an ambiguous cell
+// each free stretch of the rim is cut off on its own (the safe side). Loops always close.
+std::vector<Chain> BuildChains(LevelCells& cells, const LevelItems& items, const LevelOracle& oracle,
+                               const RunContext& run);
+
+}  // namespace patchmill

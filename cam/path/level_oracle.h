@@ -1,0 +1,62 @@
+// The border of {h > c} at one level c, point by point; h is the only judge.
+#pragma once
+
+#include <optional>
+
+#include "cam/location/locator.h"
+
+namespace patchmill {
+
+// A point of the border: its contact forbids a disc on whose rim it lies, and h <= c (to 1e-9).
+struct LevelPoint {
+  Vec2 q = Vec2::Zero();
+  SurfacePoint contact;
+  std::optional<SurfacePoint> other;  // the second contact at a corner
+};
+
+class LevelOracle {
+ public:
+  LevelOracle(const Locator& locator, double z) : locator_(locator), z_(z), radius_(locator.radius()) {}
+
+  double z() const { return z_; }
+  double radius() const { return radius_; }
+  Vec3 Center(const Vec2& q) const { return Lift(q, z_); }
+
+  std::optional<CenterPoint> Height(const Vec2& q, const SurfacePoint* hint) const {
+    return locator_.Height(q, hint);
+  }
+  std::optional<CenterPoint> Follow(const SurfacePoint& from, const Vec2& q) const {
+    return locator_.Follow(from, q);
+  }
+  bool Forbidden(const std::optional<CenterPoint>& h) const { return h && h->z > z_; }
+
+  // Radius of the disc that a surface point forbids at this level (0 when it is too low).
+  double Rho(const Vec3& p) const;
+  // Distance of the centre (q, c) from a contact, beyond the radius: what stays standing on it.
+  double Excess(const Vec2& q, const Vec3& contact) const;
+
+  // How far from q, inside the disc of a contact, it is to the disc's rim along the unit vector `direction`;
+  // 0 outside of the disc.
+  double ExitLength(const Vec2& q, const Vec3& contact, const Vec2& direction) const;
+
+  // From a forbidden point with its contact, straight along the unit vector `direction`: the first point of
+  // the border. Every step is the exit from a disc that truly is forbidden, so no free stretch is skipped
+  // (ALGORITHMS 11). Stops at `reach` (mm), which the caller knows to be free, at the latest.
+  LevelPoint Exit(Vec2 q, SurfacePoint contact, const Vec2& direction, double reach) const;
+
+  // A border point on the line through m along `direction` (pointing to the free side), near m: from m
+  // outward when m is forbidden, else from the nearest disc of the two contacts behind m.
+  std::optional<LevelPoint> RootOnLine(const Vec2& m, const Vec2& direction, const SurfacePoint& a,
+                                       const SurfacePoint& b, double reach) const;
+
+  // The corner between the branches of two contacts, nearest to the chord a b: both discs at once,
+  // re-localised until they stand still (quadratic). nullopt when the branches are one, the corner is covered
+  // by a third contact, or is farther than `reach` from the chord's middle.
+  std::optional<LevelPoint> Corner(const LevelPoint& a, const LevelPoint& b, double reach) const;
+
+ private:
+  const Locator& locator_;
+  double z_, radius_;
+};
+
+}  // namespace patchmill

@@ -1,0 +1,91 @@
+#include "cam/path/level_slopes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patchmill {
+namespace {
+
+struct Cone {
+  Vec3 axis = Vec3::Zero();
+  double angle = kPi;  // half angle; pi: no bound
+};
+
+// Smallest cone about the mean direction that holds all vectors; vectors that vanish have no direction.
+Cone ConeOf(const std::vector<Vec3>& vectors) {
+  double longest = 0.0;
+  for (const Vec3& v : vectors) longest = std::max(longest, v.norm());
+  const double tiny = 1e-12 * longest;
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& v : vectors) {
+    if (v.norm() > tiny) sum += v.normalized();
+  }
+  if (longest == 0.0 || sum.norm() < 1e-6) return {};
+  Cone cone{sum.normalized(), 0.0};
+  for (const Vec3& v : vectors) {
+    if (v.norm() > tiny)
+      cone.angle = std::max(cone.angle, std::atan2(cone.axis.cross(v).norm(), cone.axis.dot(v)));
+  }
+  return cone;
+}
+
+double Binomial(int n, int k) {
+  double b = 1.0;
+  for (int i = 1; i <= k; ++i) b = b * (n - k + i) / i;
+  return b;
+}
+
+// Control vectors of a positive multiple of S_u (or S_v).
+std::vector<Vec3> Hodograph(const BernsteinNet& net, bool along_u) {
+  const int nu = net.degree_u, nv = net.degree_v, row = nv + 1;
+  const int du = along_u ? nu - 1 : nu, dv = along_u ? nv : nv - 1;
+  const auto at = [&](int i, int j) -> const Vec4& {
+    return net.points[static_cast<std::size_t>(i * row + j)];
+  };
+  const auto difference = [&](int i, int j) -> Vec4 {
+    return along_u ? Vec4(at(i + 1, j) - at(i, j)) : Vec4(at(i, j + 1) - at(i, j));
+  };
+  std::vector<Vec3> out;
+  if (!net.rational) {
+    for (int i = 0; i <= du; ++i) {
+      for (int j = 0; j <= dv; ++j) out.push_back(difference(i, j).head<3>());
+    }
+    return out;
+  }
+  // Product of Bernstein forms; the binomials of the result's own degree are a positive factor per
+  // coefficient and do not change its direction.
+  const int rows = nu + du + 1, columns = nv + dv + 1;
+  out.assign(static_cast<std::size_t>(rows * columns), Vec3::Zero());
+  for (int i = 0; i <= du; ++i) {
+    for (int j = 0; j <= dv; ++j) {
+      const Vec4 d = Binomial(du, i) * Binomial(dv, j) * difference(i, j);
+      for (int k = 0; k <= nu; ++k) {
+        for (int l = 0; l <= nv; ++l) {
+          const Vec4& p = at(k, l);
+          out[static_cast<std::size_t>((i + k) * columns + j + l)] +=
+              Binomial(nu, k) * Binomial(nv, l) * (d.head<3>() * p.w() - p.head<3>() * d.w());
+        }
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+SlopeRange BoundSlopes(const BernsteinNet& net) {
+  if (net.degree_u < 1 || net.degree_v < 1) return {};
+  const Cone u = ConeOf(Hodograph(net, true)), v = ConeOf(Hodograph(net, false));
+  if (u.angle + v.angle >= kPi / 2.0) return {};
+  const Vec3 normal = u.axis.cross(v.axis);
+  const double between = std::atan2(normal.norm(), u.axis.dot(v.axis));
+  if (between <= u.angle + v.angle || kPi - between <= u.angle + v.angle) return {};
+  const double su = std::sin(u.angle), sv = std::sin(v.angle), sb = std::sin(between);
+  const double s = std::sqrt(su * su + 2.0 * su * sv * std::abs(std::cos(between)) + sv * sv) / sb;
+  if (!(s < 1.0)) return {};
+  const double half = std::asin(s);
+  const double slope = std::atan2(std::hypot(normal.x(), normal.y()), std::abs(normal.z()));
+  return {std::max(0.0, slope - half), std::min(kPi / 2.0, slope + half)};
+}
+
+}  // namespace patchmill

@@ -1,0 +1,82 @@
+#include "cam/path/level_trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cam/path/level_cells.h"
+#include "cam/path/level_chains.h"
+#include "cam/path/loop_refine.h"
+#include "core/base/parallel.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kCellsPerResolution = 8.0;  // finest cells; ALGORITHMS 11's table: 0.0125 for 0.1 mm
+constexpr double kShift = 1e-3;              // mm upward, away from a flat at the level
+constexpr int kMostShifts = 3;               // then the finest cells grow instead
+
+double SignedArea(const std::vector<LevelPoint>& loop) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    twice += Cross(loop[i].q - loop[0].q, loop[(i + 1) % loop.size()].q - loop[0].q);
+  return 0.5 * twice;
+}
+
+}  // namespace
+
+LevelContext::LevelContext(const Locator& locator_in, const RunContext& run) : LevelContext(locator_in) {
+  const Surface& surface = locator.surface();
+  constexpr std::size_t kBlock = 256;
+  slopes.resize(surface.leaves.size());
+  const absl::Status status =
+      ParallelFor(run, nullptr, (slopes.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+        for (std::size_t i = block * kBlock; i < std::min(slopes.size(), (block + 1) * kBlock); ++i) {
+          const SurfaceLeaf& leaf = surface.leaves[i];
+          slopes[i] = BoundSlopes(SubNet(surface.piece(leaf.piece).net, leaf.u0, leaf.u1, leaf.v0, leaf.v1));
+        }
+      });
+  if (!status.ok()) slopes.clear();
+}
+
+LevelContours TraceLevel(const LevelContext& context, double z, const ContourParams& params,
+                         const RunContext& run) {
+  LevelContours level;
+  level.z = z;
+  LevelCellLimits limits;
+  limits.smallest = params.resolution / kCellsPerResolution;
+  for (int attempt = 0; !run.Cancelled(); ++attempt) {
+    LevelItems items(context.locator, context.sides, context.slopes, level.z);
+    LevelCells cells = FindCells(items, context.locator, level.z, limits, run);
+    if (cells.cancelled) return level;
+    if (cells.overflow) {
+      level.z += kShift;
+      if (attempt >= kMostShifts) limits.smallest *= 2.0;
+      continue;
+    }
+    const LevelOracle oracle(context.locator, level.z);
+    const LoopTolerance tolerance{
+        std::max(params.chord_tolerance - params.certificate_gap, 0.5 * params.chord_tolerance),
+        params.chord_tolerance};
+    level.ambiguous_cells = cells.ambiguous;
+    for (const Chain& chain : BuildChains(cells, items, oracle, run)) {
+      if (run.Cancelled()) return level;
+      const std::vector<LevelPoint> points = RefineLoop(oracle, chain, tolerance);
+      const bool undecided =
+          std::all_of(chain.begin(), chain.end(), [](const ChainPoint& p) { return p.ambiguous; });
+      if (points.size() < 3 ||
+          (undecided && std::abs(SignedArea(points)) < limits.smallest * limits.smallest)) {
+        continue;
+      }
+      CutterPath path;
+      path.kind = PassKind::kContour;
+      path.closed = true;
+      path.points.reserve(points.size());
+      for (const LevelPoint& p : points) path.points.push_back({oracle.Center(p.q), p.contact, p.other});
+      level.loops.push_back(std::move(path));
+    }
+    return level;
+  }
+  return level;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,24 @@
+// All loops of one level from what is shared between levels.
+#pragma once
+
+#include "cam/path/contour_paths.h"
+#include "cam/path/level_items.h"
+
+namespace patchmill {
+
+// What does not depend on the level. References are kept by those who use it; const after construction.
+struct LevelContext {
+  explicit LevelContext(const Locator& locator_in) : locator(locator_in), sides(locator_in.surface()) {}
+  // With the slopes of all leaves, made in parallel: worth it for more than a few levels.
+  LevelContext(const Locator& locator_in, const RunContext& run);
+
+  const Locator& locator;
+  PieceSides sides;
+  std::vector<SlopeRange> slopes;  // by leaf, or empty
+};
+
+// TraceLevel on a shared context.
+LevelContours TraceLevel(const LevelContext& context, double z, const ContourParams& params,
+                         const RunContext& run);
+
+}  // namespace patchmill

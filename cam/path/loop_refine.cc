@@ -1,0 +1,153 @@
+#include "cam/path/loop_refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patchmill {
+namespace {
+
+constexpr int kMaxDepth = 30;
+
+class Refiner {
+ public:
+  Refiner(const LevelOracle& oracle, const LoopTolerance& tolerance, std::vector<LevelPoint>& out)
+      : oracle_(oracle),
+        tolerance_(tolerance),
+        longest_(LongestChord(oracle.radius(), tolerance.gouge)),
+        out_(out) {}
+
+  // Appends the points after a up to b.
+  void Way(const LevelPoint& a, const LevelPoint& b, const Vec2& free, int depth) {
+    const double length = (b.q - a.q).norm();
+    const double excess = ChordExcess(oracle_, a, b);
+    if ((length <= longest_ && excess <= tolerance_.excess) || depth >= kMaxDepth || length < 1e-9) {
+      out_.push_back(b);
+      return;
+    }
+    // Beyond a corner each side has its own contact.
+    const double reach = 1.5 * length;
+    if (excess > tolerance_.excess && !OneBranch(a, b)) {
+      const std::optional<LevelPoint> corner = oracle_.Corner(a, b, reach);
+      if (corner && Between(corner->q, a.q, b.q)) {
+        LevelPoint before = *corner, after = *corner;
+        before.other.reset();
+        after.contact = *corner->other;
+        after.other.reset();
+        Way(a, before, free, depth + 1);
+        out_.back() = *corner;
+        Way(after, b, free, depth + 1);
+        return;
+      }
+    }
+    const Vec2 m = 0.5 * (a.q + b.q);
+    for (const Vec2& direction : {free, Vec2(Vec2(a.q.y() - b.q.y(), b.q.x() - a.q.x()) / length)}) {
+      if (direction.squaredNorm() == 0.0) continue;
+      const std::optional<LevelPoint> root = oracle_.RootOnLine(m, direction, a.contact, b.contact, reach);
+      if (!root || (root->q - a.q).norm() < 1e-9 || (root->q - b.q).norm() < 1e-9) continue;
+      Way(a, *root, free, depth + 1);
+      Way(*root, b, free, depth + 1);
+      return;
+    }
+    // No border point found beside the chord (a cell without a cone): its ends are free, so it stays.
+    out_.push_back(b);
+  }
+
+ private:
+  // Do both contacts belong to one smooth branch? Then following one to the other's place arrives there.
+  bool OneBranch(const LevelPoint& a, const LevelPoint& b) const {
+    const std::optional<CenterPoint> there = oracle_.Follow(a.contact, b.q);
+    return there && (there->contact.p - b.contact.p).norm() < 1e-4 * oracle_.radius();
+  }
+
+  static bool Between(const Vec2& q, const Vec2& a, const Vec2& b) {
+    const double da = (q - a).norm(), db = (q - b).norm();
+    return da > 1e-9 && db > 1e-9;
+  }
+
+  const LevelOracle& oracle_;
+  const LoopTolerance& tolerance_;
+  double longest_;
+  std::vector<LevelPoint>& out_;
+};
+
+// Distance from a point to the straight move between two centres, all at one level.
+double DistanceToChord(const Vec3& p, double z, const Vec2& a, const Vec2& b) {
+  const Vec2 d = b - a, r = Plan(p) - a;
+  const double t = d.squaredNorm() > 0.0 ? std::clamp(r.dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
+  const Vec2 gap = r - t * d;
+  return std::hypot(gap.x(), gap.y(), std::max(0.0, z - p.z()));
+}
+
+// Leaves out points where one chord serves: it is short enough for T2, its ends' discs bound the excess, and
+// the contacts passed over stay within the tolerance too.
+std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelPoint>& points,
+                             const LoopTolerance& tolerance) {
+  constexpr std::size_t kMostSkipped = 24;
+  const std::size_t n = points.size();
+  if (n < 4) return points;
+  const double longest = LongestChord(oracle.radius(), tolerance.gouge);
+  std::vector<LevelPoint> kept;
+  std::size_t i = 0;
+  while (i < n) {
+    kept.push_back(points[i]);
+    std::size_t best = i + 1;
+    for (std::size_t k = i + 2; k <= n && k <= i + kMostSkipped; ++k) {
+      if (points[k - 1].other) break;  // corners stay
+      const LevelPoint& end = points[k % n];
+      if ((end.q - points[i].q).norm() > longest) break;
+      LevelPoint start = points[i];
+      if (start.other) start.contact = *start.other;
+      bool good = ChordExcess(oracle, start, end) <= tolerance.excess;
+      for (std::size_t s = i + 1; good && s < k; ++s) {
+        const double left =
+            DistanceToChord(points[s].contact.p, oracle.z(), start.q, end.q) - oracle.radius();
+        // Neither may the polyline move away from the points it passes over in plan.
+        const Vec2 way = end.q - start.q, to = points[s].q - start.q;
+        const double t = way.squaredNorm() > 0.0 ? to.dot(way) / way.squaredNorm() : -1.0;
+        good = left <= tolerance.excess && t > 0.0 && t < 1.0;
+      }
+      if (good) best = k;
+    }
+    i = best;
+  }
+  // A loop as small as the tolerance keeps its shape.
+  constexpr std::size_t kFewest = 6;
+  return kept.size() < kFewest ? points : kept;
+}
+
+}  // namespace
+
+double LongestChord(double radius, double gouge) {
+  gouge = std::min(gouge, radius);
+  return 2.0 * std::sqrt(2.0 * radius * gouge - gouge * gouge);
+}
+
+double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b) {
+  // Squared distances to the two contacts differ by a linear function along the chord: the caps cross once.
+  const double z = oracle.z();
+  const auto square = [&](const Vec2& q, const Vec3& k) {
+    const double below = std::max(0.0, z - k.z());
+    return (q - Plan(k)).squaredNorm() + below * below;
+  };
+  const double at_a = square(a.q, a.contact.p) - square(a.q, b.contact.p);
+  const double at_b = square(b.q, a.contact.p) - square(b.q, b.contact.p);
+  double t = 0.5;
+  if (at_a != at_b) t = std::clamp(at_a / (at_a - at_b), 0.0, 1.0);
+  const Vec2 split = a.q + t * (b.q - a.q);
+  return std::max({0.0, oracle.Excess(split, a.contact.p), oracle.Excess(split, b.contact.p)});
+}
+
+std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain,
+                                   const LoopTolerance& tolerance) {
+  std::vector<LevelPoint> points;
+  Refiner refiner(oracle, tolerance, points);
+  for (std::size_t i = 0; i < chain.size(); ++i)
+    refiner.Way(chain[i].point, chain[(i + 1) % chain.size()].point, chain[i].free, 0);
+  // Start at a corner if there is one, so that thinning cannot cross it.
+  const auto corner =
+      std::find_if(points.begin(), points.end(), [](const LevelPoint& p) { return p.other.has_value(); });
+  if (corner != points.end()) std::rotate(points.begin(), corner, points.end());
+  return Thin(oracle, points, tolerance);
+}
+
+}  // namespace patchmill

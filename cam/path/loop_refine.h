@@ -1,0 +1,28 @@
+// From the crossings of a contour to certified chords.
+#pragma once
+
+#include <vector>
+
+#include "cam/path/level_chains.h"
+#include "cam/path/level_oracle.h"
+
+namespace patchmill {
+
+struct LoopTolerance {
+  double gouge = 0.005;   // mm, of every chord (T2)
+  double excess = 0.005;  // mm, normal to the surface (two discs, as T3)
+};
+
+// Largest move between two free centres that cannot cut deeper than `gouge` (T2): 2 sqrt(2 R t - t^2).
+double LongestChord(double radius, double gouge);
+
+// What a straight move a b leaves at most above the contacts of its ends: min over the split of the larger
+// end cap (T3), closed form.
+double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b);
+
+// Closed polyline of border points, forbidden side on the right, every chord within tolerance; corners
+// between two contacts are vertices with both contacts. Points that the tolerance does not need are left out.
+std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain,
+                                   const LoopTolerance& tolerance);
+
+}  // namespace patchmill
