@@ -8,6 +8,10 @@
 namespace patchmill {
 namespace {
 
+// In tolerances. Wide enough that most points ask one or two cells, small enough that vertices, which keep a
+// tolerance apart, cannot crowd in one.
+constexpr double kCellWidth = 8.0;
+
 using Cell = std::array<std::int64_t, 3>;
 
 struct CellHash {
@@ -27,29 +31,37 @@ struct CellHash {
 CornerVertices MergeCorners(const std::vector<Vec3>& points, double tolerance) {
   Box3 box;
   for (const Vec3& p : points) box.Add(p);
+  const double width = kCellWidth * tolerance;
   std::unordered_map<Cell, int, CellHash> newest;  // vertex made last in a cell
-  std::vector<int> previous;                       // vertex made before it in the same cell, or -1
+  newest.reserve(points.size() / 2);
+  std::vector<int> previous;  // vertex made before it in the same cell, or -1
   CornerVertices merged;
   merged.vertex_of.reserve(points.size());
+  const auto cell_of = [&](const Vec3& p) {
+    const Vec3 c = (p - box.min) / width;
+    return Cell{static_cast<std::int64_t>(std::floor(c.x())), static_cast<std::int64_t>(std::floor(c.y())),
+                static_cast<std::int64_t>(std::floor(c.z()))};
+  };
   for (const Vec3& p : points) {
-    Cell cell;
-    for (int k = 0; k < 3; ++k) {
-      cell[static_cast<std::size_t>(k)] =
-          static_cast<std::int64_t>(std::floor((p[k] - box.min[k]) / tolerance));
-    }
+    const Cell lo = cell_of(p - Vec3::Constant(tolerance)), hi = cell_of(p + Vec3::Constant(tolerance));
     int found = -1;
-    for (int n = 0; n < 27; ++n) {
-      const auto it = newest.find({cell[0] + n / 9 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n % 3 - 1});
-      if (it == newest.end()) continue;
-      for (int v = it->second; v >= 0; v = previous[static_cast<std::size_t>(v)]) {
-        const bool near = (merged.position[static_cast<std::size_t>(v)] - p).norm() <= tolerance;
-        if (near && (found < 0 || v < found)) found = v;
+    Cell cell;
+    for (cell[0] = lo[0]; cell[0] <= hi[0]; ++cell[0]) {
+      for (cell[1] = lo[1]; cell[1] <= hi[1]; ++cell[1]) {
+        for (cell[2] = lo[2]; cell[2] <= hi[2]; ++cell[2]) {
+          const auto it = newest.find(cell);
+          if (it == newest.end()) continue;
+          for (int v = it->second; v >= 0; v = previous[static_cast<std::size_t>(v)]) {
+            const bool near = (merged.position[static_cast<std::size_t>(v)] - p).norm() <= tolerance;
+            if (near && (found < 0 || v < found)) found = v;
+          }
+        }
       }
     }
     if (found < 0) {
       found = static_cast<int>(merged.position.size());
       merged.position.push_back(p);
-      const auto [it, fresh] = newest.emplace(cell, found);
+      const auto [it, fresh] = newest.emplace(cell_of(p), found);
       previous.push_back(fresh ? -1 : it->second);
       it->second = found;
     }

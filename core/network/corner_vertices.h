@@ -13,7 +13,7 @@ struct CornerVertices {
 };
 
 // Each point joins the first vertex within `tolerance`, else makes a new one. Expected cost O(n): a hash over
-// cells as wide as the tolerance, in which vertices cannot crowd.
+// cells in which vertices cannot crowd.
 CornerVertices MergeCorners(const std::vector<Vec3>& points, double tolerance);
 
 }  // namespace patchmill

@@ -68,17 +68,16 @@ double PolylineFoot(std::span<const Vec3> samples, const Vec3& p) {
   return best_t;
 }
 
-double OneSidedDistance(const EdgeCurves& curves, int a, int b, bool reversed, double limit) {
+// Distances of points of equal parameter up to `enough` are taken as they are.
+double OneSidedDistance(const EdgeCurves& curves, int a, int b, bool reversed, double limit, double enough) {
   const std::span<const Vec3> from = curves.samples(a);
   const std::span<const Vec3> onto = curves.samples(b);
   const bool aligned = from.size() == onto.size();
-  // Equal parametrisation agrees far below the limit; then no foot has to be looked for.
-  const double negligible = 1e-3 * limit;
   double worst = 0.0;
   for (std::size_t i = 0; i < from.size(); ++i) {
     const std::size_t j = reversed ? from.size() - 1 - i : i;
     double d = aligned ? (from[i] - onto[j]).norm() : kInfinity;
-    if (!(d <= negligible)) d = std::min(d, ClosestOnEdge(curves, b, from[i]).distance);
+    if (!(d <= enough)) d = std::min(d, ClosestOnEdge(curves, b, from[i]).distance);
     worst = std::max(worst, d);
     if (worst > limit) break;
   }
@@ -195,10 +194,15 @@ EdgeFoot ClosestOnEdge(const EdgeCurves& curves, int e, const Vec3& p) {
   return slow.distance < best.distance ? slow : best;
 }
 
+bool EdgesAgree(const EdgeCurves& curves, int a, int b, bool reversed, double tolerance) {
+  return OneSidedDistance(curves, a, b, reversed, tolerance, tolerance) <= tolerance &&
+         OneSidedDistance(curves, b, a, reversed, tolerance, tolerance) <= tolerance;
+}
+
 double EdgeDistance(const EdgeCurves& curves, int a, int b, bool reversed, double limit) {
-  const double there = OneSidedDistance(curves, a, b, reversed, limit);
+  const double there = OneSidedDistance(curves, a, b, reversed, limit, 0.1 * limit);
   if (there > limit) return there;
-  return std::max(there, OneSidedDistance(curves, b, a, reversed, limit));
+  return std::max(there, OneSidedDistance(curves, b, a, reversed, limit, 0.1 * limit));
 }
 
 }  // namespace patchmill

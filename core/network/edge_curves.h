@@ -44,8 +44,14 @@ struct EdgeFoot {
 // when p lies on the edge), golden section where the edge's derivative vanishes.
 EdgeFoot ClosestOnEdge(const EdgeCurves& curves, int e, const Vec3& p);
 
+// Is EdgeDistance within `tolerance`? Quicker: points of equal parameter settle it when they lie close
+// enough.
+bool EdgesAgree(const EdgeCurves& curves, int a, int b, bool reversed, double tolerance);
+
 // Largest distance from a sample of either edge to the other one; `limit` ends the search early: any result
 // above it only says "more than limit". `reversed`: the parameters run against each other.
+// Where points of equal parameter are closer than a tenth of `limit`, their distance is taken as it is (an
+// upper bound).
 double EdgeDistance(const EdgeCurves& curves, int a, int b, bool reversed, double limit);
 
 }  // namespace patchmill

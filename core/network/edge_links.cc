@@ -45,7 +45,9 @@ void Link(const EdgeCurves& curves, const EdgeClusters& clusters, int from, int 
   EdgeLink& link = links[At(from)];
   link.neighbor = curves.edge(to);
   link.reversed = clusters.reversed[At(from)] != clusters.reversed[At(to)];
-  link.gap = EdgeDistance(curves, from, to, link.reversed, 2.0 * tolerance);
+  const EdgeLink& back = links[At(to)];
+  const bool known = back.neighbor && *back.neighbor == link.self;
+  link.gap = known ? back.gap : EdgeDistance(curves, from, to, link.reversed, tolerance);
 }
 
 }  // namespace
@@ -83,7 +85,7 @@ EdgeClusters ClusterEdges(const EdgeCurves& curves, const std::vector<EdgeEnds>&
         const int other = clusters.members[c].front();
         const bool reversed =
             loop ? LoopsBackwards(curves, other, e) : ends[At(e)].start != ends[At(other)].start;
-        if (EdgeDistance(curves, e, other, reversed, tolerance) > tolerance) continue;
+        if (!EdgesAgree(curves, e, other, reversed, tolerance)) continue;
         found = static_cast<int>(c);
         clusters.reversed[At(e)] = reversed;
       }
@@ -134,13 +136,15 @@ std::vector<std::optional<PatchId>> FindDuplicates(const PatchModel& model, cons
 }
 
 std::vector<EdgeLink> LinkEdges(const EdgeCurves& curves, const EdgeClusters& clusters,
-                                const std::vector<std::optional<PatchId>>& duplicate_of, double tolerance) {
+                                const std::vector<std::optional<PatchId>>& duplicate_of, double tolerance,
+                                const RunContext& run) {
   std::vector<EdgeLink> links(At(curves.count()));
   for (int e = 0; e < curves.count(); ++e) {
     links[At(e)].self = curves.edge(e);
     links[At(e)].collapsed = clusters.cluster_of[At(e)] < 0;
   }
   for (const std::vector<int>& members : clusters.members) {
+    if (run.Cancelled()) break;
     std::vector<int> own, copies;
     for (const int e : members) (duplicate_of[curves.edge(e).patch.index()] ? copies : own).push_back(e);
     if (own.empty()) continue;  // not possible: the original of a copy lies in the same cluster

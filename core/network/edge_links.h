@@ -32,6 +32,7 @@ std::vector<std::optional<PatchId>> FindDuplicates(const PatchModel& model, cons
 
 // The link table; see EdgeLink for what happens where more than two edges meet.
 std::vector<EdgeLink> LinkEdges(const EdgeCurves& curves, const EdgeClusters& clusters,
-                                const std::vector<std::optional<PatchId>>& duplicate_of, double tolerance);
+                                const std::vector<std::optional<PatchId>>& duplicate_of, double tolerance,
+                                const RunContext& run);
 
 }  // namespace patchmill

@@ -19,40 +19,44 @@ std::string NetworkFindings::Name(int edge) const {
   return fmt::format("edge {} of {}", e.edge, Name(e.patch));
 }
 
-void NetworkFindings::AtEdge(std::string_view code, Severity severity, int edge, std::string message) {
+Where NetworkFindings::WhereIs(int edge) const {
   const PatchEdge e = curves_.edge(edge);
   Where where;
   where.patch_id = model_.patches[e.patch.index()].id;
   where.patch_index = e.patch.value;
   where.uv = EdgeParameters(curves_.shape(edge), e.edge, 0.5);
   where.point = curves_.Point(edge, 0.5);
-  Add(code, severity, std::move(where), std::move(message));
+  return where;
 }
 
-void NetworkFindings::AtPatch(std::string_view code, Severity severity, PatchId patch, std::string message) {
+Where NetworkFindings::WhereIs(PatchId patch) const {
   const Patch& p = model_.patches[patch.index()];
   Where where;
   where.patch_id = p.id;
   where.patch_index = patch.value;
   where.uv = IsTriangle(p.shape) ? Vec2::Constant(1.0 / 3.0) : Vec2::Constant(0.5);
   where.point = Position(p.shape, where.uv->x(), where.uv->y());
-  Add(code, severity, std::move(where), std::move(message));
+  return where;
 }
 
 void NetworkFindings::AtPoint(std::string_view code, Severity severity, const Vec3& point,
                               std::string message) {
+  if (!HasRoom(code)) return;
   Where where;
   where.point = point;
   Add(code, severity, std::move(where), std::move(message));
 }
 
+bool NetworkFindings::HasRoom(std::string_view code) {
+  const auto it = by_code_.find(code);
+  if (it == by_code_.end() || it->second.kept.size() < kMaxPerCode) return true;
+  ++it->second.dropped;
+  return false;
+}
+
 void NetworkFindings::Add(std::string_view code, Severity severity, Where where, std::string message) {
   auto it = by_code_.find(code);
   if (it == by_code_.end()) it = by_code_.emplace(code, List{}).first;
-  if (it->second.kept.size() >= kMaxPerCode) {
-    ++it->second.dropped;
-    return;
-  }
   it->second.kept.push_back({std::string(code), severity, std::move(message), std::move(where)});
 }
 

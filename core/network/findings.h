@@ -17,13 +17,23 @@ class NetworkFindings {
   // "edge 2 of patch 7" or, with an id, "edge 2 of patch 7 (lid)".
   std::string Name(int edge) const;
   std::string Name(PatchId patch) const;
-  void AtEdge(std::string_view code, Severity severity, int edge, std::string message);
-  void AtPatch(std::string_view code, Severity severity, PatchId patch, std::string message);
+  // `message` is a function that makes the text: it is asked only while there is room.
+  template <class Message>
+  void AtEdge(std::string_view code, Severity severity, int edge, const Message& message) {
+    if (HasRoom(code)) Add(code, severity, WhereIs(edge), message());
+  }
+  template <class Message>
+  void AtPatch(std::string_view code, Severity severity, PatchId patch, const Message& message) {
+    if (HasRoom(code)) Add(code, severity, WhereIs(patch), message());
+  }
   void AtPoint(std::string_view code, Severity severity, const Vec3& point, std::string message);
 
   Diagnostics Take();  // by code, then in order of arrival
 
  private:
+  bool HasRoom(std::string_view code);  // counts one that has not
+  Where WhereIs(int edge) const;        // its middle
+  Where WhereIs(PatchId patch) const;   // its middle
   void Add(std::string_view code, Severity severity, Where where, std::string message);
 
   const PatchModel& model_;

@@ -52,8 +52,8 @@ std::span<const Side> Boundary(int edge_count) {
 class Builder {
  public:
   Builder(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends, const std::vector<EdgeLink>& links,
-          const std::vector<std::optional<PatchId>>& duplicate_of)
-      : curves_(curves), ends_(ends), links_(links), duplicate_of_(duplicate_of) {
+          const std::vector<std::optional<PatchId>>& duplicate_of, const RunContext& run)
+      : curves_(curves), ends_(ends), links_(links), duplicate_of_(duplicate_of), run_(run) {
     partner_.assign(links.size(), -1);
     for (int e = 0; e < curves.count(); ++e) {
       const auto& neighbor = links[At(e)].neighbor;
@@ -101,6 +101,7 @@ class Builder {
   const std::vector<EdgeEnds>& ends_;
   const std::vector<EdgeLink>& links_;
   const std::vector<std::optional<PatchId>>& duplicate_of_;
+  const RunContext& run_;
   std::vector<int> joined_;   // mutual neighbour of each edge, -1 without
   std::vector<int> partner_;  // the same, cut where no orientation fits
   std::vector<bool> turned_;  // of each patch
@@ -235,6 +236,7 @@ void Builder::BuildMesh() {
   fan_vertex_.resize(fan_.size());
   middle_.resize(2 * links_.size());
   for (int patch = 0; patch < Patches(); ++patch) {
+    if (run_.Cancelled()) return;
     if (!Left(patch)) AddPatch(patch);
   }
   std::vector<bool> seen(mesh_.n_halfedges());
@@ -253,8 +255,8 @@ void Builder::BuildMesh() {
 
 Topology InspectTopology(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
                          const std::vector<EdgeLink>& links,
-                         const std::vector<std::optional<PatchId>>& duplicate_of) {
-  return Builder(curves, ends, links, duplicate_of).Run();
+                         const std::vector<std::optional<PatchId>>& duplicate_of, const RunContext& run) {
+  return Builder(curves, ends, links, duplicate_of, run).Run();
 }
 
 }  // namespace patchmill

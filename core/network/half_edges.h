@@ -24,9 +24,9 @@ struct Topology {
   int euler_characteristic = 0;  // vertices - edges + faces, all components together
 };
 
-// `links` as LinkEdges gives them; only mutual links join.
+// `links` as LinkEdges gives them; only mutual links join. Meaningless when the run was cancelled meanwhile.
 Topology InspectTopology(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
                          const std::vector<EdgeLink>& links,
-                         const std::vector<std::optional<PatchId>>& duplicate_of);
+                         const std::vector<std::optional<PatchId>>& duplicate_of, const RunContext& run);
 
 }  // namespace patchmill

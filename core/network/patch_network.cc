@@ -71,50 +71,55 @@ struct Facts {
 void ReportEdges(const Facts& facts, PatchNetwork& network, NetworkFindings& findings) {
   for (int e = 0; e < facts.curves.count(); ++e) {
     const EdgeLink& link = network.edges[At(e)];
-    const std::string name = findings.Name(e);
     if (link.collapsed) {
-      findings.AtEdge("COLLAPSED_EDGE", Severity::kInfo, e, name + " is a point");
+      findings.AtEdge("COLLAPSED_EDGE", Severity::kInfo, e, [&] { return findings.Name(e) + " is a point"; });
     } else if (facts.nearly_collapsed[At(e)]) {
-      findings.AtEdge("NEARLY_COLLAPSED_EDGE", Severity::kWarning, e,
-                      fmt::format("{} is only {:.3g} mm long{}", name, facts.curves.length(e),
-                                  link.neighbor ? "" : " and has no neighbour"));
+      findings.AtEdge("NEARLY_COLLAPSED_EDGE", Severity::kWarning, e, [&] {
+        return fmt::format("{} is only {:.3g} mm long{}", findings.Name(e), facts.curves.length(e),
+                           link.neighbor ? "" : " and has no neighbour");
+      });
     } else if (!link.neighbor && !link.on_t_junction) {
       ++network.open_edge_count;
-      findings.AtEdge("OPEN_EDGE", Severity::kInfo, e,
-                      fmt::format("{} has no neighbour ({:.4g} mm long)", name, facts.curves.length(e)));
+      findings.AtEdge("OPEN_EDGE", Severity::kInfo, e, [&] {
+        return fmt::format("{} has no neighbour ({:.4g} mm long)", findings.Name(e), facts.curves.length(e));
+      });
     }
     if (!link.neighbor || link.max_angle <= kTangentBreak) continue;
     const int other = network.first_edge[link.neighbor->patch.index()] + link.neighbor->edge;
     const auto& back = network.edges[At(other)].neighbor;
     if (back && *back == link.self && other < e) continue;  // told by the other side
-    findings.AtEdge("TANGENT_BREAK", Severity::kInfo, e,
-                    fmt::format("{} meets {} at an angle of up to {:.4g} degrees", name, findings.Name(other),
-                                Degrees(link.max_angle)));
+    findings.AtEdge("TANGENT_BREAK", Severity::kInfo, e, [&] {
+      return fmt::format("{} meets {} at an angle of up to {:.4g} degrees", findings.Name(e), findings.Name(other),
+                         Degrees(link.max_angle));
+    });
   }
 }
 
 void ReportMeetings(const Facts& facts, PatchNetwork& network, NetworkFindings& findings) {
   for (const TJunction& t : facts.open.t_junctions) {
     ++network.t_junction_count;
-    findings.AtEdge("T_JUNCTION", Severity::kInfo, t.long_edge,
-                    t.short_edges.empty()
-                        ? fmt::format("{} runs along parts of other edges", findings.Name(t.long_edge))
-                        : fmt::format("{} meets {} shorter edge{}, first {}", findings.Name(t.long_edge),
-                                      t.short_edges.size(), t.short_edges.size() > 1 ? "s" : "",
-                                      findings.Name(t.short_edges.front())));
+    findings.AtEdge("T_JUNCTION", Severity::kInfo, t.long_edge, [&] {
+      const bool alone = t.short_edges.empty();
+      return alone ? fmt::format("{} runs along parts of other edges", findings.Name(t.long_edge))
+                   : fmt::format("{} meets {} shorter edge{}, first {}", findings.Name(t.long_edge),
+                                 t.short_edges.size(), t.short_edges.size() > 1 ? "s" : "",
+                                 findings.Name(t.short_edges.front()));
+    });
   }
   for (const EdgeGap& gap : facts.open.gaps) {
     if (gap.distance <= network.join_tolerance) continue;
-    findings.AtEdge(
-        "GAP", Severity::kWarning, gap.edge,
-        fmt::format("{} and {} are up to {:.4g} mm apart; the join tolerance is {:.4g} mm",
-                    findings.Name(gap.edge), findings.Name(gap.other), gap.distance, network.join_tolerance));
+    findings.AtEdge("GAP", Severity::kWarning, gap.edge, [&] {
+      return fmt::format("{} and {} are up to {:.4g} mm apart; the join tolerance is {:.4g} mm",
+                         findings.Name(gap.edge), findings.Name(gap.other), gap.distance,
+                         network.join_tolerance);
+    });
   }
   for (const std::vector<int>& members : facts.clusters.members) {
     if (members.size() < 3) continue;
-    findings.AtEdge("NON_MANIFOLD_EDGE", Severity::kWarning, members[2],
-                    fmt::format("{} is shared by {} edges, first {}", findings.Name(members[2]),
-                                members.size(), findings.Name(members[0])));
+    findings.AtEdge("NON_MANIFOLD_EDGE", Severity::kWarning, members[2], [&] {
+      return fmt::format("{} is shared by {} edges, first {}", findings.Name(members[2]), members.size(),
+                         findings.Name(members[0]));
+    });
   }
   if (facts.open.limited) {
     findings.AtPoint("SEARCH_LIMITED", Severity::kWarning, facts.corners.position.front(),
@@ -145,19 +150,22 @@ void ReportVertices(const Facts& facts, const PatchNetwork& network, NetworkFind
 void ReportPatches(const Facts& facts, NetworkFindings& findings) {
   for (std::size_t k = 0; k < facts.duplicate_of.size(); ++k) {
     if (!facts.duplicate_of[k]) continue;
-    findings.AtPatch("DUPLICATE_PATCH", Severity::kWarning, PatchId(k),
-                     fmt::format("{} is the same surface as {}", findings.Name(PatchId(k)),
-                                 findings.Name(*facts.duplicate_of[k])));
+    findings.AtPatch("DUPLICATE_PATCH", Severity::kWarning, PatchId(k), [&] {
+      return fmt::format("{} is the same surface as {}", findings.Name(PatchId(k)),
+                         findings.Name(*facts.duplicate_of[k]));
+    });
   }
   for (const Component& c : facts.topology.components) {
     if (c.one_sided) {
-      findings.AtPatch("INCONSISTENT_ORIENTATION", Severity::kInfo, c.first,
-                       fmt::format("the {} patches joined to {} form a one-sided surface (Moebius strip)",
-                                   c.patches, findings.Name(c.first)));
+      findings.AtPatch("INCONSISTENT_ORIENTATION", Severity::kInfo, c.first, [&] {
+        return fmt::format("the {} patches joined to {} form a one-sided surface (Moebius strip)", c.patches,
+                           findings.Name(c.first));
+      });
     } else if (c.odd) {
-      findings.AtPatch("INCONSISTENT_ORIENTATION", Severity::kInfo, *c.odd,
-                       fmt::format("{} of the {} patches joined to {} look to the other side, first {}",
-                                   c.turned, c.patches, findings.Name(c.first), findings.Name(*c.odd)));
+      findings.AtPatch("INCONSISTENT_ORIENTATION", Severity::kInfo, *c.odd, [&] {
+        return fmt::format("{} of the {} patches joined to {} look to the other side, first {}", c.turned,
+                           c.patches, findings.Name(c.first), findings.Name(*c.odd));
+      });
     }
   }
 }
@@ -190,7 +198,8 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
   const EdgeClusters clusters = ClusterEdges(curves, ends, tolerance, run);
   PM_RETURN_IF_ERROR(run.Check());
   const auto duplicate_of = FindDuplicates(network.model, curves, clusters, tolerance);
-  network.edges = LinkEdges(curves, clusters, duplicate_of, tolerance);
+  network.edges = LinkEdges(curves, clusters, duplicate_of, tolerance, run);
+  PM_RETURN_IF_ERROR(run.Check());
 
   const std::vector<bool> nearly = NearlyCollapsed(curves, network.edges, diagonal);
   std::vector<int> open;
@@ -211,7 +220,8 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
   }
   MeasureAngles(curves, run, network.edges);
   PM_RETURN_IF_ERROR(run.Check());
-  const Topology topology = InspectTopology(curves, ends, network.edges, duplicate_of);
+  const Topology topology = InspectTopology(curves, ends, network.edges, duplicate_of, run);
+  PM_RETURN_IF_ERROR(run.Check());
   network.vertex_count = topology.vertex_count;
   network.boundary_loop_count = topology.boundary_loop_count;
   network.component_count = static_cast<int>(topology.components.size());

@@ -16,8 +16,8 @@ namespace {
 constexpr int kMaxHalvings = 90;
 // Nets with more points than this get the distance polynomial only after so many halvings: its cost grows
 // with the square of the points.
-constexpr int kLargeNet = 64;
-constexpr int kHalvingsBeforeLargeForm = 3;
+constexpr int kLargeNet = 40;
+constexpr int kHalvingsBeforeLargeForm = 1;
 
 // Two nets per halving, reused by every query of a thread.
 Vec4* CellBuffer(int halving, int count) {
@@ -32,7 +32,8 @@ class Search {
  public:
   Search(const Surface& surface, const Vec3& c, double limit, double tolerance, bool any)
       : surface_(surface), c_(c), any_(any), limit_(limit) {
-    tolerance_ = std::max(tolerance, 1e-12 * (surface.scale + c.cwiseAbs().maxCoeff()));
+    rounding_ = 1e-12 * (surface.scale + c.cwiseAbs().maxCoeff());
+    tolerance_ = std::max(tolerance, rounding_);
   }
 
   std::optional<ClosestPoint> Run() {
@@ -119,8 +120,9 @@ class Search {
   // True when the distance polynomial proves the cell free of nearer points, if need be after finding a
   // nearer one. Otherwise says along which parameter to halve.
   bool ExcludedByForm(const Cell& cell, double z_max, bool& along_u) {
-    // Above its start the ray is a vertical line; the line is never farther than the ray.
-    const bool horizontal = kReach == Reach::kUpwardRay && z_max > 0.0;
+    // Above its start the ray is a vertical line; the line is never farther than the ray. (A rim at the very
+    // height of the start counts as below: the two distances differ by less than the rounding slack.)
+    const bool horizontal = kReach == Reach::kUpwardRay && z_max > 0.5 * rounding_;
     DistanceForm form;
     for (int attempt = 0; attempt < 8; ++attempt) {
       if (Done()) return true;
@@ -221,6 +223,7 @@ class Search {
   const Vec3 c_;
   const bool any_;
   const double limit_;
+  double rounding_;
   double tolerance_;
   std::optional<ClosestPoint> best_;
   // Of the leaf at hand.

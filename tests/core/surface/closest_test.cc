@@ -1,6 +1,7 @@
 #include "core/surface/closest.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -244,6 +245,28 @@ TEST(Closest, RayAlongAVerticalWall) {
   const auto corner = ClosestToPoint(s, {11.0, 12.0, 10.0}, kInfinity, kTight);
   ASSERT_TRUE(corner);
   EXPECT_NEAR(corner->distance, 3.0, 2.0 * kTight);  // 1-2-2
+}
+
+// The ball in a bowl of its own radius under a wall: a half sphere and a cylinder of nearest points, which a
+// search by boxes would cut into millions.
+TEST(Closest, BallInItsOwnBowl) {
+  const double r = 5.0;
+  PatchModel bowl = testing::Transformed(testing::Sphere(Vec3::Zero(), r, testing::Half::kUpper),
+                                         Eigen::Affine3d(Eigen::AngleAxisd(kPi, Vec3::UnitX())));
+  PatchModel wall = testing::Transformed(testing::Cylinder(Vec3::Zero(), r, 4.0),
+                                         Eigen::Affine3d(Eigen::AngleAxisd(kPi / 2, Vec3::UnitX())));
+  wall = testing::Transformed(wall, Eigen::Affine3d(Eigen::Translation3d(0, 0, 4.0)));
+  const Surface s = MakeSurface(testing::Join({bowl, wall}));
+  const auto start = std::chrono::steady_clock::now();
+  for (const double z : {0.0, 1e-6, 1e-3, 0.5, -1e-6, -1e-3, -0.5}) {
+    for (const double tolerance : {1e-3, 1e-6}) {
+      const auto found = ClosestToUpwardRay(s, {0, 0, z}, kInfinity, tolerance);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(found->distance, z < 0.0 ? r + z : r, 2.0 * tolerance) << z;
+      EXPECT_FALSE(AnythingNearUpwardRay(s, {0, 0, z}, std::min(r, r + z) - 2.0 * tolerance, tolerance));
+    }
+  }
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 2.0);
 }
 
 TEST(Closest, APointOfTheSurfaceIsAtDistanceZero) {

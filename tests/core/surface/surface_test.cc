@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/surface/surface_models.h"
+#include "tests/support/random.h"
 
 namespace patchmill {
 namespace {
