@@ -1,0 +1,55 @@
+#include "cam/path/chord_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patchmill {
+namespace {
+
+// Where along the chord (0..1) both supports are equally far; any value is a valid split, this one is the
+// best.
+double BestSplit(double radius, const Vec3& a, const Vec3& b, const Support& at_a, const Support& at_b) {
+  if (at_a.contact && at_b.contact) {
+    // |x - p|^2 - |x - q|^2 is linear in x.
+    const Vec3 pq = *at_a.contact - *at_b.contact;
+    const double rise = -2.0 * (b - a).dot(pq);
+    const double at0 = (a - *at_a.contact).squaredNorm() - (a - *at_b.contact).squaredNorm();
+    return rise == 0.0 ? 0.5 : std::clamp(-at0 / rise, 0.0, 1.0);
+  }
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 40; ++i) {
+    const double mid = 0.5 * (low + high);
+    const Vec3 x = a + mid * (b - a);
+    (at_a.Clearance(x, radius) < at_b.Clearance(x, radius) ? low : high) = mid;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+double ChordGouge(double radius, double length) {
+  if (length >= 2.0 * radius) return radius;
+  const double quarter = 0.25 * length * length;
+  return quarter / (radius + std::sqrt(radius * radius - quarter));
+}
+
+double LongestChord(double radius, double tolerance) {
+  const double t = std::clamp(tolerance, 0.0, radius);
+  return 2.0 * std::sqrt(t * (2.0 * radius - t));
+}
+
+double ChordExcess(double radius, const Vec3& a, const Vec3& b, const Support& at_a, const Support& at_b) {
+  const double split = BestSplit(radius, a, b, at_a, at_b);
+  const Vec3 x = a + split * (b - a);
+  return std::max({at_a.Clearance(a, radius), at_a.Clearance(x, radius), at_b.Clearance(x, radius),
+                   at_b.Clearance(b, radius)});
+}
+
+double SegmentDistance(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 ab = b - a;
+  const double l2 = ab.squaredNorm();
+  const double s = l2 > 0.0 ? std::clamp((p - a).dot(ab) / l2, 0.0, 1.0) : 0.0;
+  return (p - (a + s * ab)).norm();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,38 @@
+// Certified bounds for a straight move of the ball centre (ALGORITHMS 2.1): closed forms, no surface
+// evaluation.
+#pragma once
+
+#include <optional>
+
+#include "core/base/vec.h"
+
+namespace patchmill {
+
+// T2: two gouge-free centres `length` apart (mm) are joined by a chord that gouges at most this much.
+// `radius` when length > 2 radius: nothing is known there.
+double ChordGouge(double radius, double length);
+
+// The longest chord with ChordGouge <= tolerance; tolerance clamped to [0, radius].
+double LongestChord(double radius, double tolerance);
+
+// What a ball resting somewhere touches: a surface point, or (absent) the floor plane that carries its
+// centre.
+struct Support {
+  std::optional<Vec3> contact;
+  double floor_center = -kInfinity;  // centre height on the floor, used when `contact` is absent
+
+  // How far a ball centred at x is from touching this support, mm; negative inside.
+  double Clearance(const Vec3& x, double radius) const {
+    return contact ? (x - *contact).norm() - radius : x.z() - floor_center;
+  }
+};
+
+// T3 in space: every point x of the chord a b is within the returned distance (mm) of touching one of the two
+// supports, whatever lies between. Exact for this pair up to the choice of one split point; both clearances
+// are convex along the chord, so their values at the ends and at the split bound them. May be negative.
+double ChordExcess(double radius, const Vec3& a, const Vec3& b, const Support& at_a, const Support& at_b);
+
+// Distance of p to the segment a b.
+double SegmentDistance(const Vec3& p, const Vec3& a, const Vec3& b);
+
+}  // namespace patchmill

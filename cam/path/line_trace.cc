@@ -1,0 +1,349 @@
+#include "cam/path/line_trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cam/path/chord_bounds.h"
+
+namespace patchmill {
+namespace {
+
+// Two heights closer than this belong to one branch: a hundred times the error of a local maximum.
+constexpr double kSameHeight = 1e-7;
+// Stations beside a drop stand this far from the wall's exact place, clear of rounding.
+constexpr double kDropOffset = 1e-8;
+// Stations closer than this in plan are the ends of a drop that could not be placed otherwise.
+constexpr double kSmallestAdvance = 1e-7;
+constexpr double kSwitchAccuracy = 1e-11;
+constexpr int kMaxIterations = 80;
+
+struct BranchPoint {
+  double z = 0.0;
+  std::optional<SurfacePoint> contact;  // absent: the floor
+};
+
+class LineTracer {
+ public:
+  LineTracer(const Locator& locator, const PlanLine& line, const LineTraceParams& params)
+      : locator_(locator), line_(line), params_(params), radius_(locator.radius()) {}
+
+  std::vector<std::vector<LineStation>> Run();
+
+ private:
+  std::optional<LineStation> Query(double t, const std::optional<SurfacePoint>& hint) const;
+  std::optional<BranchPoint> Branch(const std::optional<SurfacePoint>& contact, double t) const;
+  Vec3 Center(const LineStation& s) const { return Lift(line_.At(s.t), s.z); }
+  Support SupportOf(const std::optional<SurfacePoint>& contact) const {
+    return contact ? Support{contact->p, params_.floor_center} : Support{{}, params_.floor_center};
+  }
+  double DiscExit(const SurfacePoint& contact, double sign) const;
+  double NextAdvance(const LineStation& s) const;
+  // Two contacts that make a corner worth a vertex of its own.
+  bool Apart(const std::optional<SurfacePoint>& p, const std::optional<SurfacePoint>& q) const {
+    return p.has_value() != q.has_value() || (p && (p->p - q->p).norm() > 1e-3 * radius_);
+  }
+  bool ChordIsGood(const LineStation& a, const LineStation& b) const;
+
+  void Emit(const LineStation& s);
+  void BreakRun();
+  void Refine(LineStation a, LineStation b, int depth);
+  bool RefineAtSwitch(const LineStation& a, const LineStation& b, const BranchPoint& a_at_b,
+                      const BranchPoint& b_at_a, int depth);
+  bool RefineAtDrop(const LineStation& a, const LineStation& b, bool from_a, int depth);
+  LineStation LastBeforeGap(const LineStation& from, double gap_t) const;
+
+  const Locator& locator_;
+  const PlanLine& line_;
+  const LineTraceParams& params_;
+  const double radius_;
+  std::vector<std::vector<LineStation>> runs_;
+};
+
+std::optional<LineStation> LineTracer::Query(double t, const std::optional<SurfacePoint>& hint) const {
+  const auto h = locator_.Height(line_.At(t), hint ? &*hint : nullptr);
+  if (!h) return std::nullopt;
+  LineStation s{.t = t, .z = h->z, .at = t, .left = h->contact, .right = h->contact, .hint = h->contact};
+  if (h->z < params_.floor_center) {
+    s.z = params_.floor_center;
+    s.left.reset();
+    s.right.reset();
+  }
+  return s;
+}
+
+std::optional<BranchPoint> LineTracer::Branch(const std::optional<SurfacePoint>& contact, double t) const {
+  if (!contact) return BranchPoint{params_.floor_center, {}};
+  const auto c = locator_.Follow(*contact, line_.At(t));
+  if (!c) return std::nullopt;
+  return BranchPoint{c->z, c->contact};
+}
+
+// Where the line leaves the disc of radius R around the contact, going in direction `sign`.
+double LineTracer::DiscExit(const SurfacePoint& contact, double sign) const {
+  const Vec2 d = Plan(contact.p) - line_.start;
+  const double along = d.dot(line_.direction), across = Cross(line_.direction, d);
+  return along + sign * std::sqrt(std::max(0.0, radius_ * radius_ - across * across));
+}
+
+// The plan advance that makes the next chord just as long as T2 allows, from the slope under the ball.
+double LineTracer::NextAdvance(const LineStation& s) const {
+  const double chord = LongestChord(radius_, 0.97 * params_.chord_tolerance);
+  if (!s.right) return chord;
+  const Vec3 n = Center(s) - s.right->p;
+  const double along = Plan(n).dot(line_.direction);
+  const double cosine = n.z() / std::hypot(along, n.z());
+  // The slope may grow over the chord by about its length over R; what fails is halved anyway.
+  return chord * std::clamp(cosine - 0.02, 0.05, 1.0);
+}
+
+bool LineTracer::ChordIsGood(const LineStation& a, const LineStation& b) const {
+  const Vec3 ca = Center(a), cb = Center(b);
+  return ChordGouge(radius_, (cb - ca).norm()) <= params_.chord_tolerance &&
+         ChordExcess(radius_, ca, cb, SupportOf(a.right), SupportOf(b.left)) <= params_.chord_tolerance;
+}
+
+void LineTracer::Emit(const LineStation& s) {
+  if (runs_.empty()) runs_.emplace_back();
+  runs_.back().push_back(s);
+}
+
+void LineTracer::BreakRun() {
+  if (runs_.empty() || !runs_.back().empty()) runs_.emplace_back();
+}
+
+// Emits everything after a up to and including b.
+void LineTracer::Refine(LineStation a, LineStation b, int depth) {
+  if (b.t - a.t < kSmallestAdvance) {
+    if (std::abs(a.z - b.z) > params_.chord_tolerance) b.keep = true;
+    Emit(b);
+    return;
+  }
+  if (ChordIsGood(a, b)) {
+    Emit(b);
+    return;
+  }
+  if (depth < kMaxIterations) {
+    const auto a_at_b = Branch(a.right, b.t);
+    const auto b_at_a = Branch(b.left, a.t);
+    if (a_at_b && b_at_a) {
+      const bool a_reaches_b = a_at_b->z >= b.z - kSameHeight;
+      const bool b_reaches_a = b_at_a->z >= a.z - kSameHeight;
+      if (!a_reaches_b && !b_reaches_a) {
+        if (RefineAtSwitch(a, b, *a_at_b, *b_at_a, depth)) return;
+      } else if (a_reaches_b != b_reaches_a) {
+        // One end stands exactly on a switch: give it the support of this side.
+        if (a_reaches_b) b.left = a_at_b->contact;
+        if (b_reaches_a) {
+          a.right = b_at_a->contact;
+          runs_.back().back().right = a.right;  // a is what was emitted last
+          runs_.back().back().keep |= Apart(a.left, a.right);
+        }
+        b.keep |= Apart(b.left, b.right);
+        if (ChordIsGood(a, b)) {
+          Emit(b);
+          return;
+        }
+      }
+    } else {
+      if (!a_at_b && RefineAtDrop(a, b, true, depth)) return;
+      if (!b_at_a && RefineAtDrop(a, b, false, depth)) return;
+    }
+  }
+  const double mid = 0.5 * (a.t + b.t);
+  const auto m = Query(mid, a.hint);
+  if (m) {
+    Refine(a, *m, depth + 1);
+    Refine(*m, b, depth + 1);
+    return;
+  }
+  const LineStation end = LastBeforeGap(a, mid), begin = LastBeforeGap(b, mid);
+  Refine(a, end, depth + 1);
+  BreakRun();
+  Emit(begin);
+  Refine(begin, b, depth + 1);
+}
+
+// Solves branch a = branch b. True when it was the switch (or a third branch above it) and all is emitted.
+bool LineTracer::RefineAtSwitch(const LineStation& a, const LineStation& b, const BranchPoint& a_at_b,
+                                const BranchPoint& b_at_a, int depth) {
+  double t0 = a.t, t1 = b.t;
+  double f0 = a.z - b_at_a.z, f1 = a_at_b.z - b.z;  // f0 > 0 > f1
+  std::optional<SurfacePoint> on_a = a.right, on_b = b.left;
+  double t = t0, z = 0.0;
+  bool solved = false;
+  for (int i = 0, side = 0; i < kMaxIterations; ++i) {
+    t = (t0 * f1 - t1 * f0) / (f1 - f0);
+    if (!(t > t0 && t < t1)) t = 0.5 * (t0 + t1);
+    const auto pa = Branch(on_a, t), pb = Branch(on_b, t);
+    if (!pa || !pb) return false;
+    on_a = pa->contact;
+    on_b = pb->contact;
+    const double f = pa->z - pb->z;
+    z = std::max(pa->z, pb->z);
+    if (std::abs(f) < 1e-13 * std::max(1.0, std::abs(z)) || t1 - t0 < kSwitchAccuracy) {
+      solved = std::abs(f) < kSameHeight;
+      break;
+    }
+    if (f > 0) {
+      t0 = t;
+      f0 = f;
+      if (side == 1) f1 *= 0.5;
+      side = 1;
+    } else {
+      t1 = t;
+      f1 = f;
+      if (side == -1) f0 *= 0.5;
+      side = -1;
+    }
+  }
+  if (!solved || t - a.t < kSwitchAccuracy || b.t - t < kSwitchAccuracy) return false;
+  auto k = Query(t, a.hint);
+  if (!k) return false;
+  if (k->z <= z + kSameHeight) {
+    k->z = std::max(k->z, z);
+    k->left = on_a;
+    k->right = on_b;
+    k->keep = Apart(on_a, on_b);
+    // Both sides are smooth now, unless a third branch rises inside one of them.
+  }
+  Refine(a, *k, depth + 1);
+  Refine(*k, b, depth + 1);
+  return true;
+}
+
+// The higher branch ends where its contact leaves the disc: goes there and puts both ends of the drop.
+bool LineTracer::RefineAtDrop(const LineStation& a, const LineStation& b, bool from_a, int depth) {
+  const LineStation& high = from_a ? a : b;
+  const double sign = from_a ? 1.0 : -1.0, far = from_a ? b.t : a.t;
+  const std::optional<SurfacePoint>& start = from_a ? a.right : b.left;
+  if (!start) return false;
+  SurfacePoint contact = *start;
+  double wall = high.t;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const double exit = DiscExit(contact, sign);
+    if (sign * (far - exit) <= 2.0 * kDropOffset) return false;
+    const bool converged = sign * (exit - wall) < 1e-10;
+    if (sign * (exit - wall) > 0.0) wall = exit;
+    if (converged) break;
+    const auto next = locator_.Follow(contact, line_.At(wall - sign * 1e-10));
+    if (!next) break;
+    contact = next->contact;
+  }
+  if (sign * (wall - high.t) <= 2.0 * kDropOffset) return false;
+  auto top = Query(wall - sign * kDropOffset, contact);
+  if (!top) return false;
+  const auto foot = Query(wall + sign * kDropOffset, contact);
+  if (!foot) {
+    // The surface itself ends here; it begins again before the other side.
+    const LineStation other = LastBeforeGap(from_a ? b : a, wall + sign * kDropOffset);
+    top->keep = true;
+    if (from_a) {
+      Refine(a, *top, depth + 1);
+      BreakRun();
+      Emit(other);
+      Refine(other, b, depth + 1);
+    } else {
+      Refine(a, other, depth + 1);
+      BreakRun();
+      Emit(*top);
+      Refine(*top, b, depth + 1);
+    }
+    return true;
+  }
+  LineStation foot_station = *foot;
+  if (top->z - foot->z > params_.chord_tolerance) {
+    // Both over the foot's place, which is outside the wall.
+    top->t = foot->t;
+    top->keep = foot_station.keep = true;
+    if (from_a) {
+      Refine(a, *top, depth + 1);
+      Emit(foot_station);
+      Refine(foot_station, b, depth + 1);
+    } else {
+      Refine(a, foot_station, depth + 1);
+      Emit(*top);
+      Refine(*top, b, depth + 1);
+    }
+    return true;
+  }
+  // Something else carries the ball past that place: an ordinary station.
+  if (top->t - a.t < kSmallestAdvance || b.t - top->t < kSmallestAdvance) return false;
+  Refine(a, *top, depth + 1);
+  Refine(*top, b, depth + 1);
+  return true;
+}
+
+// The end of the run that holds `from`, when h does not exist at gap_t.
+LineStation LineTracer::LastBeforeGap(const LineStation& from, double gap_t) const {
+  const double sign = gap_t > from.t ? 1.0 : -1.0;
+  LineStation inside = from;
+  double outside = gap_t;
+  for (int i = 0; i < 2 * kMaxIterations && sign * (outside - inside.t) > 2.0 * kDropOffset; ++i) {
+    double t = 0.5 * (inside.t + outside);
+    if (i < kMaxIterations) {
+      const double exit = DiscExit(*inside.hint, sign);
+      // First to the edge of the contact's own disc, then just past it: one of the two brackets the end.
+      const double edge = exit - sign * kDropOffset;
+      t = sign * (edge - inside.t) > 0.5 * kDropOffset ? edge : exit + sign * kDropOffset;
+      if (sign * (outside - t) <= 0.0 || sign * (t - inside.t) <= 0.0) t = 0.5 * (inside.t + outside);
+    }
+    if (auto s = Query(t, inside.hint)) {
+      inside = *s;
+    } else {
+      outside = t;
+    }
+  }
+  inside.keep = true;
+  return inside;
+}
+
+std::vector<std::vector<LineStation>> LineTracer::Run() {
+  auto at = Query(0.0, std::nullopt);
+  double t = 0.0;
+  if (at) {
+    at->keep = true;
+    Emit(*at);
+  }
+  while (t < line_.length) {
+    double advance = at ? NextAdvance(*at) : LongestChord(radius_, params_.chord_tolerance);
+    // The last two chords share what is left.
+    const double rest = line_.length - t;
+    if (rest < advance * 1.0000001) {
+      advance = rest;
+    } else if (rest < 2.0 * advance) {
+      advance = 0.5 * rest;
+    }
+    const double next_t = advance == rest ? line_.length : t + advance;
+    auto next = Query(next_t, at ? at->hint : std::nullopt);
+    if (next && next_t == line_.length) next->keep = true;
+    if (at && next) {
+      Refine(*at, *next, 0);
+    } else if (at) {
+      Refine(*at, LastBeforeGap(*at, next_t), 0);
+      BreakRun();
+    } else if (next) {
+      BreakRun();
+      const LineStation begin = LastBeforeGap(*next, t);
+      Emit(begin);
+      Refine(begin, *next, 0);
+    }
+    at = next;
+    t = next_t;
+  }
+  std::erase_if(runs_, [](const auto& run) { return run.empty(); });
+  return std::move(runs_);
+}
+
+}  // namespace
+
+PlanLine PlanLine::Through(const Vec2& a, const Vec2& b) {
+  const double length = (b - a).norm();
+  return {a, length > 0.0 ? Vec2((b - a) / length) : Vec2(Vec2::UnitX()), length};
+}
+
+std::vector<std::vector<LineStation>> TraceLine(const Locator& locator, const PlanLine& line,
+                                                const LineTraceParams& params) {
+  return LineTracer(locator, line, params).Run();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,43 @@
+// The curve of h above a straight segment in plan, as stations dense enough that no feature hides between two
+// (ALGORITHMS 2.4): contact switches and vertical drops are solved, the rest is sampled.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cam/location/locator.h"
+
+namespace patchmill {
+
+// A centre on the curve. Left and right support differ at a switch; absent: the floor carries the ball there.
+struct LineStation {
+  double t = 0.0;   // mm along the segment
+  double z = 0.0;   // centre height, not yet certified
+  double at = 0.0;  // where z is h: t, but just inside the wall for the top of a drop
+  std::optional<SurfacePoint> left, right;
+  std::optional<SurfacePoint> hint;  // the surface's own contact, set on the floor too
+  bool keep = false;                 // ends, switches, both ends of a drop
+};
+
+struct LineTraceParams {
+  double chord_tolerance = 0.005;    // mm, T2 and T3 between neighbouring stations
+  double floor_center = -kInfinity;  // mm, lowest centre height
+};
+
+// The segment in plan, by arc length.
+struct PlanLine {
+  Vec2 start = Vec2::Zero();
+  Vec2 direction = Vec2::UnitX();
+  double length = 0.0;
+
+  static PlanLine Through(const Vec2& a, const Vec2& b);
+  Vec2 At(double t) const { return start + t * direction; }
+};
+
+// Runs where h exists, in order of t. Neighbouring stations are joined by a chord with T2 gouge and T3 excess
+// within the tolerance, or are the two ends of a vertical drop (same t). Switches to 1e-10 mm in t, drops and
+// ends of runs to 1e-8 mm. One exact height per station, a few branch followings per switch.
+std::vector<std::vector<LineStation>> TraceLine(const Locator& locator, const PlanLine& line,
+                                                const LineTraceParams& params);
+
+}  // namespace patchmill

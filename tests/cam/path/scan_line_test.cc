@@ -1,0 +1,222 @@
+#include "cam/path/scan_line.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using namespace patchmill::testing;
+
+std::size_t CountPoints(const std::vector<ScanRun>& runs) {
+  std::size_t n = 0;
+  for (const auto& r : runs) n += r.points.size();
+  return n;
+}
+
+// Everything a run promises, measured densely against the exact heights of slightly smaller and larger balls:
+// the gouge is below the tolerance iff the ball of R - tolerance is free, the excess iff the ball of R +
+// tolerance is not.
+void ExpectCertified(const Surface& surface, double radius, const std::vector<ScanRun>& runs,
+                     const PassParams& params, int probes_per_chord = 7) {
+  const double slack = 1e-7;
+  const Locator smaller(surface, radius - params.chord_tolerance - slack);
+  const Locator larger(surface, radius + params.chord_tolerance + slack);
+  const Locator exact(surface, radius);
+  int bad_gouge = 0, bad_excess = 0;
+  for (const auto& run : runs) {
+    ASSERT_GE(run.points.size(), 2u);
+    for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
+      const Vec3 &a = run.points[i].center, &b = run.points[i + 1].center;
+      const bool vertical = (Plan(a) - Plan(b)).norm() < 1e-6;
+      for (int k = 0; k <= probes_per_chord; ++k) {
+        const Vec3 x = a + (static_cast<double>(k) / probes_per_chord) * (b - a);
+        bad_gouge += !smaller.Free(x, 1e-9);
+        if (!vertical && k > 0 && k < probes_per_chord &&
+            x.z() > params.floor_z + radius + params.chord_tolerance) {
+          bad_excess += larger.Free(x, -1e-9);
+        }
+      }
+      const auto h = exact.Height(Plan(a));
+      if (h && !vertical && (i == 0 || (Plan(run.points[i - 1].center) - Plan(a)).norm() > 1e-6)) {
+        EXPECT_GE(a.z() - h->z, -1e-8);
+      }
+    }
+  }
+  EXPECT_EQ(bad_gouge, 0);
+  EXPECT_EQ(bad_excess, 0);
+}
+
+TEST(ScanLine, PlaneIsOneChord) {
+  for (double slope : {0.0, 0.3, 2.0}) {
+    const Surface surface = SurfaceOf(Plane(30, 1.0, slope, 0.2));
+    const Locator locator(surface, 3.0);
+    const auto runs = ScanLine(locator, {-20, 3}, {20, -5}, {});
+    ASSERT_EQ(runs.size(), 1u);
+    EXPECT_EQ(runs[0].points.size(), 2u) << slope;
+    const double nz = 1.0 / std::sqrt(1 + slope * slope + 0.04);
+    for (const auto& p : runs[0].points) {
+      const double truth = 1.0 + slope * p.center.x() + 0.2 * p.center.y() + 3.0 / nz;
+      EXPECT_GE(p.center.z(), truth - 1e-9);
+      EXPECT_LE(p.center.z(), truth + 1.1e-4);
+      ASSERT_TRUE(p.contact);
+    }
+  }
+}
+
+TEST(ScanLine, ValleyKinkIsAVertexWithBothContacts) {
+  const double radius = 3.0;
+  for (double degrees : {5.0, 30.0, 60.0, 80.0}) {
+    const double angle = Radians(degrees);
+    const Surface surface = SurfaceOf(TwoPlanes(angle, 40));
+    const Locator locator(surface, radius);
+    for (double heading : {0.0, 0.4, 1.2}) {
+      const Vec2 d(std::cos(heading), std::sin(heading));
+      const Vec2 from = Vec2(0.0, 1.7) - 8.123 * d, to = Vec2(0.0, 1.7) + 7.71 * d;
+      const auto runs = ScanLine(locator, from, to, {});
+      ASSERT_EQ(runs.size(), 1u);
+      EXPECT_EQ(runs[0].points.size(), 3u) << degrees << " " << heading;
+      const CutterPoint& kink = runs[0].points[1];
+      EXPECT_NEAR(kink.center.x(), 0.0, 1e-9) << degrees;
+      EXPECT_NEAR(kink.center.y(), 1.7, 1e-9) << degrees;
+      EXPECT_GE(kink.center.z(), radius / std::cos(angle) - 1e-9);
+      EXPECT_LE(kink.center.z(), radius / std::cos(angle) + 1.1e-4);
+      ASSERT_TRUE(kink.contact && kink.other_contact);
+      EXPECT_NEAR(kink.contact->p.x(), -radius * std::sin(angle), 1e-6);
+      EXPECT_NEAR(kink.other_contact->p.x(), radius * std::sin(angle), 1e-6);
+    }
+  }
+}
+
+TEST(ScanLine, WallOfABlockIsADropInItsPlace) {
+  const double radius = 3.0;
+  const Surface surface = SurfaceOf(Block(10, 8, 40));
+  const Locator locator(surface, radius);
+  for (double heading : {0.0, 0.3}) {
+    const Vec2 d(std::cos(heading), std::sin(heading));
+    const auto runs = ScanLine(locator, -25.0 * d, 25.3 * d, {});
+    ASSERT_EQ(runs.size(), 1u);
+    const auto& points = runs[0].points;
+    int drops = 0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const Vec3 &a = points[i].center, &b = points[i + 1].center;
+      if ((Plan(a) - Plan(b)).norm() > 0.0 || std::abs(a.z() - b.z()) < 1.0) continue;
+      ++drops;
+      EXPECT_NEAR(std::abs(a.x()), 10 + radius, 1e-7);
+      EXPECT_NEAR(std::max(a.z(), b.z()), 8.0, 4e-4);
+      EXPECT_GE(std::max(a.z(), b.z()), 8.0 - 1e-9);
+      EXPECT_NEAR(std::min(a.z(), b.z()), radius, 1.1e-4);
+    }
+    EXPECT_EQ(drops, 2);
+    EXPECT_LT(points.size(), 60u);  // two quarter circles of 14 chords or so, no micro segments
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      EXPECT_GT((points[i + 1].center - points[i].center).norm(), 1e-3) << i;
+    }
+    ExpectCertified(surface, radius, runs, {});
+  }
+}
+
+TEST(ScanLine, BreaksWhereNothingIsAndEndsExactly) {
+  const double radius = 2.0;
+  // Two plates 6 mm apart: the ball of 2 mm hangs over each border by its radius.
+  const Surface surface =
+      SurfaceOf(Join({Single(Bilinear({-20, -9, 0}, {-3, -9, 0}, {-20, 9, 0}, {-3, 9, 0})),
+                      Single(Bilinear({3, -9, 1}, {20, -9, 1}, {3, 9, 1}, {20, 9, 1}))}));
+  const Locator locator(surface, radius);
+  const auto runs = ScanLine(locator, {-30, 0}, {30, 0}, {});
+  ASSERT_EQ(runs.size(), 2u);
+  const double ends[4] = {-22, -1, 1, 22};
+  EXPECT_NEAR(runs[0].points.front().center.x(), ends[0], 1e-7);
+  EXPECT_NEAR(runs[0].points.back().center.x(), ends[1], 1e-7);
+  EXPECT_NEAR(runs[1].points.front().center.x(), ends[2], 1e-7);
+  EXPECT_NEAR(runs[1].points.back().center.x(), ends[3], 1e-7);
+  EXPECT_NEAR(runs[0].points.back().center.z(), 0.0, 4e-4);
+  EXPECT_NEAR(runs[1].points.front().center.z(), 1.0, 4e-4);
+  ExpectCertified(surface, radius, runs, {});
+}
+
+TEST(ScanLine, FloorCarriesTheBallAndTheSwitchIsSolved) {
+  const double radius = 3.0, ball = 10.0, floor_z = 2.0;
+  const Surface surface = SurfaceOf(Sphere(Vec3::Zero(), ball, Half::kUpper));
+  const Locator locator(surface, radius);
+  PassParams params;
+  params.floor_z = floor_z;
+  const double off = 1.0;
+  const auto runs = ScanLine(locator, {-20, off}, {20, off}, params);
+  ASSERT_EQ(runs.size(), 1u);
+  const double where =
+      std::sqrt((ball + radius) * (ball + radius) - (floor_z + radius) * (floor_z + radius) - off * off);
+  int found = 0;
+  for (const auto& p : runs[0].points) {
+    EXPECT_GE(p.center.z(), floor_z + radius);
+    const double d2 = Plan(p.center).squaredNorm();
+    if (!p.contact || !p.other_contact) {
+      if (std::abs(std::abs(p.center.x()) - where) < 1e-9) ++found;
+    }
+    const double sphere = std::sqrt(std::max(0.0, (ball + radius) * (ball + radius) - d2));
+    EXPECT_NEAR(p.center.z(), std::max(sphere, floor_z + radius), 2e-4);
+  }
+  EXPECT_EQ(found, 2);
+  ExpectCertified(surface, radius, runs, params);
+}
+
+TEST(ScanLine, SphereHoldsBothTolerances) {
+  const Surface surface = SurfaceOf(Sphere(Vec3::Zero(), 10.0, Half::kUpper));
+  const Locator locator(surface, 3.0);
+  for (double tolerance : {0.02, 0.005, 0.001}) {
+    PassParams params;
+    params.chord_tolerance = tolerance;
+    const auto runs = ScanLine(locator, {-20, 2.5}, {20, 4.0}, params);
+    ASSERT_EQ(runs.size(), 1u);
+    ExpectCertified(surface, 3.0, runs, params, 11);
+    // Chords of a circle of radius 13 with as much sagitta; within a factor 3 of the fewest there can be.
+    const double fewest = kPi * 12.5 / std::sqrt(8 * 13.0 * 2 * tolerance);
+    EXPECT_LT(static_cast<double>(CountPoints(runs)), 3 * fewest + 10) << tolerance;
+  }
+}
+
+TEST(ScanLine, RandomSplinesHoldBothTolerances) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const bool folds = seed > 4;
+    const Surface surface = SurfaceOf(RandomBspline(seed, {.folds = folds, .rational = seed % 2 == 0}));
+    for (double radius : {3.0, 1.1}) {
+      const Locator locator(surface, radius);
+      PassParams params;
+      params.chord_tolerance = seed % 3 == 0 ? 0.002 : 0.005;
+      Random random(seed);
+      std::vector<ScanRun> runs;
+      for (int i = 0; i < 3; ++i) {
+        const Vec2 a(random.Uniform(0, 40), random.Uniform(0, 40)),
+            b(random.Uniform(0, 40), random.Uniform(0, 40));
+        for (auto& r : ScanLine(locator, a, b, params)) runs.push_back(std::move(r));
+      }
+      SCOPED_TRACE(::testing::Message() << "seed " << seed << " radius " << radius);
+      ExpectCertified(surface, radius, runs, params);
+      for (const auto& run : runs) {
+        for (const auto& p : run.points) {
+          if (!p.contact) continue;
+          EXPECT_NEAR((p.center - p.contact->p).norm(), radius, 3e-4);
+          if (p.other_contact) {
+            EXPECT_NEAR((p.center - p.other_contact->p).norm(), radius, 3e-4);
+          }
+        }
+      }
+      EXPECT_EQ(locator.defect_count(), 0u);
+    }
+  }
+}
+
+TEST(ScanLine, DegenerateLineIsOnePointOrNothing) {
+  const Surface surface = SurfaceOf(Plane(10));
+  const Locator locator(surface, 3.0);
+  EXPECT_LE(CountPoints(ScanLine(locator, {1, 1}, {1, 1}, {})), 1u);
+  EXPECT_TRUE(ScanLine(locator, {20, 20}, {30, 20}, {}).empty());
+}
+
+}  // namespace
+}  // namespace patchmill
