@@ -1,0 +1,159 @@
+#include "cam/path/line_clip.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patchmill {
+namespace {
+
+constexpr double kSolved = 1e-9;  // mm
+
+class Clipper {
+ public:
+  Clipper(const LineProber& prober, double y) : prober_(prober), y_(y), flat_(prober.flat_step()) {}
+
+  std::vector<LineProbe> Stations(const Interval& range) const;
+  std::vector<Interval> Keep(const std::vector<LineProbe>& stations) const;
+
+ private:
+  LineProbe Probe(double t, const LineProbe& near) const {
+    return prober_.Probe(t, y_, near.contact ? &*near.contact : nullptr);
+  }
+  void Subdivide(const LineProbe& a, const LineProbe& b, std::vector<LineProbe>& out) const;
+  bool WantedBeside(const LineProbe& s) const;
+  template <class Predicate>
+  LineProbe Limit(LineProbe yes, LineProbe no, Predicate holds) const;
+  double Extend(const std::vector<LineProbe>& stations, std::size_t next, const LineProbe& from,
+                int direction) const;
+
+  const LineProber& prober_;
+  const double y_;
+  const double flat_;
+};
+
+void Clipper::Subdivide(const LineProbe& a, const LineProbe& b, std::vector<LineProbe>& out) const {
+  const bool far = a.exists() && b.exists() && (a.center - b.center).norm() > 1.2 * flat_;
+  if (far && b.t - a.t > 0.04 * flat_) {
+    const LineProbe m = Probe(0.5 * (a.t + b.t), a);
+    Subdivide(a, m, out);
+    Subdivide(m, b, out);
+    return;
+  }
+  out.push_back(b);
+}
+
+std::vector<LineProbe> Clipper::Stations(const Interval& range) const {
+  std::vector<LineProbe> out;
+  const double length = range.end - range.begin;
+  const int count = std::max(1, static_cast<int>(std::ceil(length / (0.6 * flat_))));
+  out.push_back(prober_.Probe(range.begin, y_));
+  for (int i = 1; i <= count; ++i) {
+    const double t = i == count ? range.end : range.begin + length * i / count;
+    const LineProbe last = out.back();
+    Subdivide(last, Probe(t, last), out);
+  }
+  return out;
+}
+
+// Dilation across the line: the window begins within half a step beside this place.
+bool Clipper::WantedBeside(const LineProbe& s) const {
+  for (int side : {-1, 1}) {
+    const LineProbe beside = prober_.Probe(s.t, y_ + side * s.lateral, s.contact ? &*s.contact : nullptr);
+    if (beside.wanted && (beside.center - s.center).norm() <= 1.5 * s.half_step) return true;
+  }
+  return false;
+}
+
+// The last place, going from `yes` to `no`, where the predicate holds.
+template <class Predicate>
+LineProbe Clipper::Limit(LineProbe yes, LineProbe no, Predicate holds) const {
+  while (std::abs(no.t - yes.t) > kSolved) {
+    const double mid = 0.5 * (yes.t + no.t);
+    if (mid == yes.t || mid == no.t) break;  // no number between them any more
+    const LineProbe m = Probe(mid, yes);
+    (holds(m) ? yes : no) = m;
+  }
+  return yes;
+}
+
+// From `from` on through allowed places until half a step of centre curve is used up; `next` indexes the
+// first station beyond. Stops at borders, gaps and drops, solved.
+double Clipper::Extend(const std::vector<LineProbe>& stations, std::size_t next, const LineProbe& from,
+                       int direction) const {
+  double left = std::max(0.5 * flat_, from.half_step) * 1.01;
+  LineProbe at = from;
+  for (std::size_t i = next; i < stations.size(); i += static_cast<std::size_t>(direction)) {
+    LineProbe to = stations[i];
+    if (!to.allowed) to = Limit(at, to, [](const LineProbe& p) { return p.allowed; });
+    double d = (to.center - at.center).norm();
+    while (d > left) {  // too far: come back, half the way each time
+      if (std::abs(to.t - at.t) < 1e-3 * flat_) return at.t;
+      const LineProbe m = Probe(0.5 * (at.t + to.t), at);
+      const double dm = (m.center - at.center).norm();
+      if (m.allowed && dm <= left) {
+        left -= dm;
+        at = m;
+      } else {
+        to = m;
+      }
+      d = to.allowed ? (to.center - at.center).norm() : kInfinity;
+    }
+    left -= d;
+    at = to;
+    if (to.t != stations[i].t) return at.t;  // a border, or used up
+  }
+  return at.t;
+}
+
+std::vector<Interval> Clipper::Keep(const std::vector<LineProbe>& stations) const {
+  std::vector<Interval> keep;
+  const auto wanted = [](const LineProbe& p) { return p.wanted; };
+  const auto allowed = [](const LineProbe& p) { return p.allowed; };
+  const std::size_t n = stations.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const LineProbe& s = stations[i];
+    if (!s.allowed) continue;
+    if (!s.wanted) {
+      if (!WantedBeside(s)) continue;
+      const auto reach = [&](std::size_t j) {
+        return stations[j].allowed ? 0.5 * (s.t + stations[j].t) : Limit(s, stations[j], allowed).t;
+      };
+      keep.push_back({i > 0 ? reach(i - 1) : s.t, i + 1 < n ? reach(i + 1) : s.t});
+      continue;
+    }
+    std::size_t last = i;
+    while (last + 1 < n && stations[last + 1].wanted) ++last;
+    Interval part{stations[i].t, stations[last].t};
+    if (i > 0) part.begin = Extend(stations, i - 1, Limit(stations[i], stations[i - 1], wanted), -1);
+    if (last + 1 < n)
+      part.end = Extend(stations, last + 1, Limit(stations[last], stations[last + 1], wanted), 1);
+    keep.push_back(part);
+    i = last;
+  }
+  return keep;
+}
+
+}  // namespace
+
+std::vector<Interval> Union(std::vector<Interval> intervals, double gap) {
+  std::sort(intervals.begin(), intervals.end(),
+            [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+  std::vector<Interval> out;
+  for (const Interval& i : intervals) {
+    if (!out.empty() && i.begin <= out.back().end + gap) {
+      out.back().end = std::max(out.back().end, i.end);
+    } else {
+      out.push_back(i);
+    }
+  }
+  return out;
+}
+
+ClippedLine ClipLine(const LineProber& prober, double y, const Interval& range) {
+  const Clipper clipper(prober, y);
+  ClippedLine line{y, {}, clipper.Stations(range)};
+  line.keep = Union(clipper.Keep(line.probes), 0.0);
+  return line;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,28 @@
+// Where the zig-zag lines lie: as far apart as the scallop allows, the first and the last at the limits of
+// what is wanted.
+#pragma once
+
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/path/line_clip.h"
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+// The extent of everything a line can touch, in the frame of the lines: bounds of the leaves plus the ball
+// radius.
+struct FrameExtent {
+  Interval t, y;
+};
+FrameExtent ExtentInFrame(const Surface& surface, const LineFrame& frame, double margin);
+
+// Positions of full lines, rising. Rows 1.5 flat steps apart are sampled every 2 flat steps; between two rows
+// the step is the one that makes lines plus the partial lines at narrow spots shortest. Gaps without anything
+// wanted stay empty; their limits are found to 1e-3 of the flat step at the sampling's resolution along the
+// lines.
+absl::StatusOr<std::vector<double>> LinePositions(const LineProber& prober, const FrameExtent& extent,
+                                                  double min_step, const RunContext& run);
+
+}  // namespace patchmill

@@ -1,0 +1,70 @@
+#include "cam/path/line_probe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cam/path/spacing.h"
+#include "core/diffgeo/forms.h"
+
+namespace patchmill {
+
+LineFrame LineFrame::At(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {{c, s}, {-s, c}};
+}
+
+LineProber::LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
+                       const PassParams& params)
+    : locator_(locator),
+      border_(border),
+      frame_(frame),
+      params_(params),
+      flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
+
+LineProbe LineProber::Probe(double t, double y, const SurfacePoint* hint) const {
+  LineProbe probe;
+  probe.t = t;
+  const Vec2 q = frame_.At(t, y);
+  const auto h = locator_.Height(q, hint);
+  if (!h) return probe;
+  const double radius = locator_.radius();
+  const double floor_center = params_.floor_z + radius;
+  probe.half_step = 0.5 * flat_step_;
+  probe.lateral = probe.half_step;
+  if (h->z < floor_center) {
+    probe.center = Lift(q, floor_center);
+    probe.allowed = true;
+    return probe;
+  }
+  probe.center = Lift(q, h->z);
+  probe.contact = h->contact;
+  const Vec3 normal = (probe.center - h->contact.p) / radius;
+  probe.allowed = border_.Allowed(h->contact, normal);
+  const double slope = std::atan2(Plan(normal).norm(), normal.z());
+  constexpr double kSlack = 1e-9;  // rad: a plane at the limit itself belongs to it
+  probe.wanted =
+      probe.allowed && slope >= params_.window.min - kSlack && slope <= params_.window.max + kSlack;
+
+  // Across the feed on the centre surface: square to the feed in the common tangent plane. Its part in plan
+  // across the line is sqrt(1 - n_y^2).
+  const double nt = Plan(normal).dot(frame_.along), ny = Plan(normal).dot(frame_.across);
+  const double cosine = std::sqrt(std::max(0.0, 1.0 - ny * ny));
+  const SurfaceJet jet = Evaluate(locator_.surface(), h->contact.piece, h->contact.u, h->contact.v);
+  const auto surface_normal = UpwardNormal(jet);
+  if (surface_normal && surface_normal->cross(normal).norm() < 1e-4) {
+    const double in_plane = std::hypot(nt, normal.z());
+    const Vec3 across = in_plane > 1e-9
+                            ? Vec3(Lift((-nt * ny / in_plane) * frame_.along + in_plane * frame_.across,
+                                        -ny * normal.z() / in_plane))
+                            : Vec3(Vec3::UnitZ());
+    const double kappa = NormalCurvature(Forms(jet, *surface_normal), jet, across);
+    const double step = std::clamp(CenterStep(radius, params_.scallop, kappa),
+                                   params_.min_step_fraction * flat_step_, 4.0 * flat_step_);
+    probe.need = step * cosine;
+    probe.half_step = 0.5 * step;
+  }
+  probe.lateral = probe.half_step * cosine;
+  return probe;
+}
+
+}  // namespace patchmill

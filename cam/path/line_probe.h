@@ -1,0 +1,55 @@
+// What a zig-zag line needs to know about one place: does the ball belong there, and how far may the next
+// line be?
+#pragma once
+
+#include <optional>
+
+#include "cam/location/locator.h"
+#include "cam/path/pass_params.h"
+#include "cam/path/sheet_border.h"
+
+namespace patchmill {
+
+// The plan frame of parallel lines: t along them, y across.
+struct LineFrame {
+  Vec2 along = Vec2::UnitX();
+  Vec2 across = Vec2::UnitY();
+
+  static LineFrame At(double angle);
+  Vec2 At(double t, double y) const { return t * along + y * across; }
+};
+
+struct LineProbe {
+  double t = 0.0;
+  Vec3 center = Vec3::Zero();
+  std::optional<SurfacePoint> contact;  // absent: h does not exist here, or the floor carries the ball
+  bool allowed = false;                 // exists and is not rolled off a border
+  bool wanted = false;                  // allowed, touched, and its slope lies in the window
+  double need = kInfinity;  // mm: largest distance in plan to the next line that keeps the scallop
+  double half_step = 0.0;   // mm on the centre surface, half the step across the line
+  double lateral = 0.0;     // the same in plan
+
+  bool exists() const { return half_step > 0.0; }
+};
+
+// Probes along and beside lines of one direction. Thread-safe.
+class LineProber {
+ public:
+  LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
+             const PassParams& params);
+
+  // Cost: one exact height and one surface evaluation. `hint`: a contact nearby.
+  LineProbe Probe(double t, double y, const SurfacePoint* hint = nullptr) const;
+
+  double flat_step() const { return flat_step_; }
+  const LineFrame& frame() const { return frame_; }
+
+ private:
+  const Locator& locator_;
+  const SheetBorder& border_;
+  const LineFrame frame_;
+  const PassParams params_;
+  const double flat_step_;
+};
+
+}  // namespace patchmill

@@ -1,0 +1,41 @@
+// Where a ball may go at the open edges of a sheet (MACHINING A.12).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+// Which sides of the pieces are open edges of the network (no neighbour, not collapsed, not a T-junction).
+// Immutable; keeps a reference to the surface. Cost of the constructor O(pieces), of a question O(log open
+// vertices).
+class SheetBorder {
+ public:
+  explicit SheetBorder(const Surface& surface);
+
+  // True where the ball touching `contact` in the direction `normal` ((centre - contact)/R) belongs to a
+  // pass: inside the sheet, over creases, up to the surface normal at an outer border. A border from which
+  // the surface descends is a rim: there the ball may roll on until it stands right above it, on both sides
+  // of a wall.
+  bool Allowed(const SurfacePoint& contact, const Vec3& normal) const;
+
+  // True where the direction is that of the surface itself, not that of a ball rolling over an edge or a
+  // crease. Tolerance 1e-5 rad.
+  bool OnSurfaceNormal(const SurfacePoint& contact, const Vec3& normal) const;
+
+ private:
+  bool AtOpenVertex(const Vec3& p) const;
+
+  const Surface& surface_;
+  // [piece][side]; sides 0: v=0, 1: u=1, 2: v=1, 3: u=0.
+  std::vector<std::array<bool, 4>> open_;
+  std::vector<Vec3> open_vertices_;  // ends of open edges, by x
+  double same_point_ = 0.0;
+};
+
+// Unit normal of the surface at the point with z >= 0; at a degenerate corner that of a point just inside.
+Vec3 UpwardNormalNear(const Surface& surface, const SurfacePoint& at);
+
+}  // namespace patchmill

@@ -1,0 +1,297 @@
+#include "cam/path/zigzag_paths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "cam/path/spacing.h"
+#include "core/diffgeo/forms.h"
+#include "tests/support/joined_surface.h"
+#include "tests/support/leftover.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace patchmill::testing;
+
+std::vector<CutterPath> Zigzag(const Locator& locator, const ZigzagParams& params, int threads = 1) {
+  auto paths = ZigzagPaths(locator, params, RunContext(threads));
+  EXPECT_TRUE(paths.ok()) << paths.status();
+  return std::move(*paths);
+}
+
+ZigzagParams Params(double scallop, double max_slope_degrees, double angle = 0.0) {
+  ZigzagParams params;
+  params.scallop = scallop;
+  params.chord_tolerance = 0.002;
+  params.window = {0.0, Radians(max_slope_degrees)};
+  params.angle = angle;
+  return params;
+}
+
+struct Leftover {
+  double worst = 0.0;
+  Vec3 where = Vec3::Zero();
+  int samples = 0;
+};
+
+// Largest leftover over random points of the surface in the slope window that a ball touches from above
+// without being in anything's way; points nearer than `margin` to a piece's border in parameters are left
+// out.
+Leftover Measure(const Surface& surface, const Locator& locator, const std::vector<CutterPath>& paths,
+                 const SlopeWindow& window, int samples, double margin = 0.0) {
+  const PathDistance distance(paths);
+  const double radius = locator.radius();
+  Random random(7);
+  Leftover out;
+  for (int k = 0; k < samples; ++k) {
+    const PieceId piece(random.Int(static_cast<int>(surface.pieces.size())));
+    const double u = random.Uniform(margin, 1 - margin), v = random.Uniform(margin, 1 - margin);
+    const SurfaceJet jet = Evaluate(surface, piece, u, v);
+    const auto e = UpwardNormal(jet);
+    if (!e) continue;
+    const double slope = std::acos(std::min(1.0, e->z()));
+    if (slope < window.min || slope > window.max) continue;
+    if (!locator.Free(jet.p + radius * *e, 1e-7)) continue;
+    ++out.samples;
+    const double left = distance.At(jet.p, radius + 1.0) - radius;
+    if (left > out.worst) {
+      out.worst = left;
+      out.where = jet.p;
+    }
+  }
+  return out;
+}
+
+TEST(ZigzagPaths, PlaneHasLinesAtItsBordersAndTheFlatStep) {
+  const double radius = 3.0, scallop = 0.01, half = 10.0;
+  const Surface surface = JoinedSurface(Plane(half));
+  const Locator locator(surface, radius);
+  const auto paths = Zigzag(locator, Params(scallop, 45));
+  const double flat = CenterStep(radius, scallop, 0.0);
+  ASSERT_EQ(paths.size(), static_cast<std::size_t>(std::ceil(2 * half / flat)) + 1);
+  EXPECT_NEAR(paths.front().points.front().center.y(), -half, 2e-3 * flat);
+  EXPECT_NEAR(paths.back().points.front().center.y(), half, 2e-3 * flat);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    EXPECT_EQ(paths[i].line, static_cast<int>(i));
+    EXPECT_EQ(paths[i].points.size(), 2u);
+    EXPECT_NEAR(paths[i].points.front().center.x(), -half, 1e-4);
+    EXPECT_NEAR(paths[i].points.back().center.x(), half, 1e-4);
+  }
+  const Leftover left = Measure(surface, locator, paths, {0, Radians(45)}, 20000);
+  EXPECT_GT(left.samples, 19000);
+  EXPECT_LE(left.worst, scallop + 0.002);
+  EXPECT_GE(left.worst, 0.8 * scallop);  // not finer than asked
+}
+
+TEST(ZigzagPaths, TiltedPlaneStopsAtLowBordersAndCrownsHighOnes) {
+  const double radius = 3.0, half = 8.0;
+  const Vec3 n = Vec3(-0.5, 0.3, 1).normalized();  // falls towards -x and +y
+  const Surface surface = JoinedSurface(Plane(half, 0, 0.5, -0.3));
+  const Locator locator(surface, radius);
+  for (double angle : {0.0, 0.5, kPi / 2}) {
+    const auto paths = Zigzag(locator, Params(0.02, 45, angle));
+    ASSERT_FALSE(paths.empty());
+    double low_x = kInfinity, high_x = -kInfinity, low_y = kInfinity, high_y = -kInfinity;
+    for (const auto& path : paths) {
+      for (const auto& p : path.points) {
+        ASSERT_TRUE(p.contact);
+        const Vec3& c = p.contact->p;
+        const bool rim = c.x() > half - 1e-9 || c.y() < -half + 1e-9;
+        if (!rim) {
+          EXPECT_LT((p.center - c - radius * n).norm(), 3e-4);
+        }
+        low_x = std::min(low_x, p.center.x());
+        high_x = std::max(high_x, p.center.x());
+        low_y = std::min(low_y, p.center.y());
+        high_y = std::max(high_y, p.center.y());
+      }
+    }
+    // Stops on the surface normal below; at the corners it may lean along the rim as far as the rim's own
+    // fall.
+    EXPECT_LE(low_x, -half + radius * n.x() + 1e-3);
+    EXPECT_GE(low_x, -half - radius * 0.5 / std::sqrt(1.25) - 1e-3);
+    EXPECT_GE(high_y, half + radius * n.y() - 1e-3);
+    EXPECT_LE(high_y, half + radius * 0.3 / std::sqrt(1.09) + 1e-3);
+    // Stands right above the edge on top.
+    EXPECT_LE(high_x, half + 1e-3);
+    EXPECT_LE(-low_y, half + 1e-3);
+    if (angle == 0.0) {
+      EXPECT_NEAR(high_x, half, 1e-3);
+    }
+  }
+}
+
+TEST(ZigzagPaths, EveryPathRunsAlongTheAngleInOrderOfLines) {
+  const Surface surface = JoinedSurface(Saddle(0.02, 0.02, 12));
+  const Locator locator(surface, 3.0);
+  for (double angle : {0.0, 0.7, kPi / 2, 3.0}) {
+    const auto paths = Zigzag(locator, Params(0.02, 45, angle));
+    ASSERT_GT(paths.size(), 20u);
+    const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
+    double last_y = -kInfinity;
+    int last_line = -1;
+    for (const auto& path : paths) {
+      const double y = Plan(path.points.front().center).dot(across);
+      EXPECT_GE(y, last_y - 1e-9);
+      EXPECT_GE(path.line, last_line);
+      last_y = y;
+      last_line = path.line;
+      EXPECT_EQ(path.kind, PassKind::kZigzag);
+      for (std::size_t i = 0; i < path.points.size(); ++i) {
+        EXPECT_NEAR(Plan(path.points[i].center).dot(across), y, 1e-9);
+        if (i > 0) {
+          EXPECT_GE(Plan(path.points[i].center - path.points[i - 1].center).dot(along), -1e-12);
+        }
+      }
+    }
+    const Leftover left = Measure(surface, locator, paths, {0, Radians(45)}, 20000, 0.05);
+    EXPECT_GT(left.samples, 15000);
+    EXPECT_LE(left.worst, 0.02 + 0.003) << angle << " at " << left.where.transpose();
+    EXPECT_GE(left.worst, 0.01);
+  }
+}
+
+TEST(ZigzagPaths, CurvedGroundKeepsTheScallop) {
+  const double scallop = 0.02;
+  struct Case {
+    const char* name;
+    PatchModel model;
+    double radius;
+  };
+  const Case cases[] = {{"dome", Sphere(Vec3::Zero(), 9, Half::kUpper), 3.0},
+                        {"roof", Cylinder(Vec3::Zero(), 7, 12, Half::kUpper), 3.0},
+                        {"ring", Torus(Vec3::Zero(), 14, 4, Half::kUpper), 2.0},
+                        {"dish", Paraboloid(0.03, 10), 3.0},
+                        {"valley 1.2 R", ParabolicValley(0.5 / 3.6, 8), 3.0}};
+  for (const Case& c : cases) {
+    const Surface surface = JoinedSurface(c.model);
+    const Locator locator(surface, c.radius);
+    for (double angle : {0.0, 0.9}) {
+      const auto paths = Zigzag(locator, Params(scallop, 45, angle));
+      const Leftover left = Measure(surface, locator, paths, {0, Radians(45)}, 20000, 0.08);
+      EXPECT_GT(left.samples, 1500) << c.name;
+      EXPECT_LE(left.worst, 1.25 * scallop + 0.002)
+          << c.name << " " << angle << " at " << left.where.transpose();
+      EXPECT_GE(left.worst, 0.6 * scallop) << c.name << " " << angle;
+    }
+  }
+}
+
+TEST(ZigzagPaths, WindowIsDilatedByHalfAStepAndNoMore) {
+  const double radius = 3.0, ball = 10.0, scallop = 0.01;
+  const Surface surface = JoinedSurface(Sphere(Vec3::Zero(), ball, Half::kUpper));
+  const Locator locator(surface, radius);
+  const ZigzagParams params = Params(scallop, 30);
+  const auto paths = Zigzag(locator, params);
+  const double step = CenterStep(radius, scallop, -1.0 / ball);
+  const double limit = Radians(30);
+  double steepest = 0;
+  for (const auto& path : paths) {
+    for (const auto& p : path.points) {
+      const double slope = std::acos(p.center.z() / p.center.norm());
+      steepest = std::max(steepest, slope);
+    }
+  }
+  // Along the line by half a step, beside it by the next line at most.
+  EXPECT_GE(steepest, limit + 0.45 * step / (ball + radius));
+  EXPECT_LE(steepest, limit + 1.1 * step / (ball + radius));
+}
+
+TEST(ZigzagPaths, DomeStopsDishRollsToVertical) {
+  const double radius = 2.0, half = 8.0;
+  for (double a : {0.03, -0.03}) {
+    const Surface surface = JoinedSurface(Paraboloid(a, half));
+    const Locator locator(surface, radius);
+    const auto paths = Zigzag(locator, Params(0.02, 60));
+    // The line nearest to y = 0.
+    const CutterPath* middle = nullptr;
+    for (const auto& p : paths) {
+      if (!middle || std::abs(p.points[0].center.y()) < std::abs(middle->points[0].center.y())) middle = &p;
+    }
+    ASSERT_TRUE(middle);
+    const CutterPoint& end = middle->points.back();
+    ASSERT_TRUE(end.contact);
+    EXPECT_NEAR(end.contact->p.x(), half, 1e-6);
+    if (a > 0) {
+      EXPECT_NEAR(end.center.x(), half, 1e-3);  // stands right above the rim
+    } else {
+      const double slope = std::atan(2 * -a * half);  // stops on the surface normal, leaning outwards
+      EXPECT_NEAR(end.center.x(), half + radius * std::sin(slope), 2e-3);
+    }
+  }
+}
+
+TEST(ZigzagPaths, NarrowSpotsGetPartialLines) {
+  // A tilted gutter among flat ground: the step across the flat is too wide on the gutter's flanks only.
+  const auto height = [](double x, double y) {
+    return -4.0 * std::exp(-((x - 15) * (x - 15) + (y - 15) * (y - 15)) / 18);
+  };
+  const Surface surface = JoinedSurface(Single(InterpolatedHeights(height, 0, 30, 0, 30, 30, 30)));
+  const Locator locator(surface, 2.0);
+  const ZigzagParams params = Params(0.005, 60);
+  const auto paths = Zigzag(locator, params);
+  const double flat = CenterStep(2.0, 0.005, 0.0);
+  std::set<double> full, partial;
+  for (const auto& p : paths) {
+    (p.points.back().center.x() - p.points.front().center.x() > 29 ? full : partial)
+        .insert(p.points[0].center.y());
+  }
+  EXPECT_GT(full.size(), 20u);
+  double last = -kInfinity;
+  std::set<double> all = full;
+  all.insert(partial.begin(), partial.end());
+  for (double y : all) {
+    EXPECT_GE(y - last, 0.999 * params.min_step_fraction * flat);
+    last = y;
+  }
+  const Leftover left = Measure(surface, locator, paths, params.window, 30000);
+  EXPECT_LE(left.worst, 0.005 * 1.3 + 0.002) << left.where.transpose();
+}
+
+TEST(ZigzagPaths, FloorHeldPlacesAreNoPasses) {
+  const Surface surface = JoinedSurface(Sphere(Vec3::Zero(), 10, Half::kUpper));
+  const Locator locator(surface, 3.0);
+  ZigzagParams params = Params(0.01, 90);
+  params.floor_z = 4.0;
+  for (const auto& path : Zigzag(locator, params)) {
+    for (const auto& p : path.points) {
+      EXPECT_GE(p.center.z(), 7.0);
+      if (p.contact) continue;
+      // Within half a step of the circle where the sphere takes over.
+      EXPECT_LE(Plan(p.center).norm(), std::sqrt(13.0 * 13 - 49) + 0.6);
+    }
+  }
+}
+
+TEST(ZigzagPaths, SameBytesForAnyThreadCount) {
+  const Surface surface = JoinedSurface(RandomBspline(3));
+  const Locator locator(surface, 2.0);
+  const auto one = Zigzag(locator, Params(0.02, 45, 0.3), 1), two = Zigzag(locator, Params(0.02, 45, 0.3), 2);
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    ASSERT_EQ(one[i].points.size(), two[i].points.size());
+    EXPECT_EQ(one[i].line, two[i].line);
+    for (std::size_t k = 0; k < one[i].points.size(); ++k) {
+      EXPECT_EQ(one[i].points[k].center, two[i].points[k].center);
+    }
+  }
+}
+
+TEST(ZigzagPaths, CancelIsObeyedAndEmptyWindowsGiveNothing) {
+  const Surface surface = JoinedSurface(Plane(10));
+  const Locator locator(surface, 3.0);
+  RunContext run(1);
+  run.Cancel();
+  EXPECT_EQ(ZigzagPaths(locator, Params(0.01, 45), run).status().code(), absl::StatusCode::kCancelled);
+  ZigzagParams steep = Params(0.01, 90);
+  steep.window.min = Radians(45);
+  EXPECT_TRUE(Zigzag(locator, steep).empty());
+}
+
+}  // namespace
+}  // namespace patchmill
