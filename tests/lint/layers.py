@@ -30,7 +30,7 @@ for name in SERVER:
     ALLOWED[name] = BELOW_SERVER | set(SERVER)
 # Clients speak proto. The command line may start the server inside its own process, through these headers, and nothing else.
 ALLOWED["clients/cli"] = set(PROTO)
-EXTRA_FILES = {"clients/cli": {"server/server.h", "server/options.h"}}
+EXTRA_FILES = {"clients/cli": {"server/server.h", "server/options.h", "server/serve_flags.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 

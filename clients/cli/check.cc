@@ -1,0 +1,81 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "clients/cli/commands.h"
+#include "clients/cli/job_options.h"
+#include "clients/cli/text.h"
+#include "patchmill/v1/model_service.grpc.pb.h"
+
+namespace patchmill::cli {
+namespace {
+
+struct CheckOptions {
+  CommonOptions common;
+  SetupOptions setup;
+  std::string model;
+  double tool_diameter = 6.0;
+};
+
+void Print(const CheckOptions& options, const v1::CheckModelResponse& response) {
+  fmt::print("patches      {}\n", response.patch_count());
+  if (response.has_box()) {
+    fmt::print("box          {} to {} mm\n", Line(response.box().min()), Line(response.box().max()));
+    fmt::print("edges        {} joined, {} open (join tolerance {:.3g} mm)\n", response.joined_edge_count(),
+               response.open_edge_count(), response.join_tolerance_mm());
+    fmt::print("continuity   gaps up to {:.3g} mm, normals up to {:.3f} degrees apart\n",
+               response.max_gap_mm(), response.max_angle_deg());
+    const double radius = 0.5 * options.tool_diameter;
+    if (!response.has_min_concave_radius_mm()) {
+      fmt::print("concave      nowhere\n");
+    } else {
+      fmt::print("concave      smallest radius {:.4g} mm, {} the ball's {:.4g} mm\n",
+                 response.min_concave_radius_mm(),
+                 response.min_concave_radius_mm() < radius ? "TIGHTER than" : "not tighter than", radius);
+    }
+  }
+  fmt::print("findings     {}\n", response.diagnostics_size());
+  for (const v1::Diagnostic& finding : response.diagnostics()) fmt::print("  {}\n", Line(finding));
+}
+
+absl::Status Run(const CheckOptions& options, InterruptWatch& watch) {
+  v1::CheckModelRequest request;
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  if (!source.ok()) return source.status();
+  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
+  if (!setup.ok()) return setup.status();
+  *request.mutable_source() = *std::move(source);
+  *request.mutable_setup() = *std::move(setup);
+  request.mutable_tool()->mutable_ball_end()->set_diameter_mm(options.tool_diameter);
+  request.set_max_threads(options.common.threads);
+  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
+  absl::StatusOr<Connection> connection = Connect(options.common);
+  if (!connection.ok()) return connection.status();
+
+  CallScope call(options.common, watch);
+  v1::CheckModelResponse response;
+  const grpc::Status status =
+      v1::ModelService::NewStub(connection->channel)->CheckModel(call.context(), request, &response);
+  if (!status.ok()) return FromGrpc(status, options.common, watch);
+  Print(options, response);
+  int errors = 0;
+  for (const v1::Diagnostic& finding : response.diagnostics()) {
+    if (finding.severity() == v1::SEVERITY_ERROR) ++errors;
+  }
+  if (errors == 0) return absl::OkStatus();
+  return absl::FailedPreconditionError(
+      fmt::format("{}: {} errors; the model cannot be milled", options.model, errors));
+}
+
+}  // namespace
+
+Command AddCheck(CLI::App& app) {
+  auto options = std::make_shared<CheckOptions>();
+  app.add_option("MODEL", options->model, "model file: .json, .pb, .bpt, .bv, .patches")->required();
+  AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter to judge curvature by, mm");
+  AddSetupOptions(app, options->setup);
+  AddCommonOptions(app, options->common);
+  return [options](InterruptWatch& watch) { return Run(*options, watch); };
+}
+
+}  // namespace patchmill::cli

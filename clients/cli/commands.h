@@ -1,0 +1,20 @@
+// One function per command: adds its options, and returns what runs it once they are parsed.
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+#include "clients/cli/connection.h"
+
+namespace patchmill::cli {
+
+// Runs a parsed command; the status decides the exit status, its message goes to stderr.
+using Command = std::function<absl::Status(InterruptWatch&)>;
+
+Command AddMill(CLI::App& app);
+Command AddCheck(CLI::App& app);
+Command AddRegions(CLI::App& app);
+Command AddVerify(CLI::App& app);
+
+}  // namespace patchmill::cli

@@ -1,0 +1,164 @@
+#include "clients/cli/connection.h"
+
+#include <chrono>
+#include <csignal>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <grpcpp/channel.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/security/credentials.h>
+#include <grpcpp/support/channel_arguments.h>
+
+#include "patchmill/v1/status.pb.h"
+
+namespace patchmill::cli {
+namespace {
+
+constexpr std::size_t kMaxMessageBytes = std::size_t{64} << 20;  // the contract's, both ends
+
+constexpr struct {
+  const char* field;
+  const char* option;
+} kOptions[] = {
+    {"ball_end.diameter_mm", "--tool-diameter"},
+    {"scallop_mm", "--scallop"},
+    {"tolerance_mm", "--tolerance"},
+    {"stock_to_leave_mm", "--leave"},
+    {"steep_angle_deg", "--steep-angle"},
+    {"zigzag_angle_deg", "--zigzag-angle"},
+    {"setup.scale", "--scale"},
+    {"setup.translation.x_mm", "--translate"},
+    {"setup.translation.y_mm", "--translate"},
+    {"setup.translation.z_mm", "--translate"},
+    {"setup.program_zero.x_mm", "--zero"},
+    {"setup.program_zero.y_mm", "--zero"},
+    {"setup.program_zero.z_mm", "--zero"},
+    {"floor_z_mm", "--floor"},
+    {"clearance_above_mm", "--clearance"},
+    {"stock.top_z_mm", "--stock-top"},
+    {"stock.allowance_mm", "--allowance"},
+    {"plunge_feed_mm_per_min", "--plunge-feed"},
+    {"feed_mm_per_min", "--feed"},
+    {"spindle_rpm", "--spindle"},
+    {"tool.number", "--tool-number"},
+    {"post.work_offset", "--work-offset"},
+    {"post.dialect", "--post"},
+};
+
+const char* OptionOf(std::string_view text) {
+  const std::string_view path = text.substr(0, text.find(' '));
+  for (const auto& entry : kOptions) {
+    const std::string_view field = entry.field;
+    if (path.size() >= field.size() && path.substr(path.size() - field.size()) == field &&
+        (path.size() == field.size() || path[path.size() - field.size() - 1] == '.')) {
+      return entry.option;
+    }
+  }
+  return nullptr;
+}
+
+std::string InWords(const grpc::Status& status) {
+  const std::string& message = status.error_message();
+  const char* option = OptionOf(message);
+  return option != nullptr ? fmt::format("{}: {}", option, message) : message;
+}
+
+}  // namespace
+
+absl::StatusOr<Connection> Connect(const CommonOptions& options) {
+  Connection connection;
+  if (options.server.empty()) {
+    ServerOptions server;
+    server.threads = options.threads;
+    server.max_job_seconds = 7 * 86400.0;  // one's own machine: --timeout decides
+    connection.embedded = StartEmbeddedServer(server);
+    connection.channel = connection.embedded->InProcessChannel();
+    return connection;
+  }
+  auto credentials = ClientCredentials(options.ca_file, options.cert_file, options.key_file);
+  if (!credentials.ok()) return credentials.status();
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
+  arguments.SetMaxSendMessageSize(static_cast<int>(kMaxMessageBytes));
+  connection.channel = grpc::CreateCustomChannel(options.server, *credentials, arguments);
+  return connection;
+}
+
+InterruptWatch::InterruptWatch() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  thread_ = std::thread([this, signals] {
+    const timespec tick{0, 50'000'000};
+    while (!stop_.load()) {
+      if (sigtimedwait(&signals, nullptr, &tick) < 0) continue;
+      interrupted_.store(true);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (context_ != nullptr) context_->TryCancel();
+    }
+  });
+}
+
+InterruptWatch::~InterruptWatch() {
+  stop_.store(true);
+  thread_.join();
+}
+
+void InterruptWatch::Attach(grpc::ClientContext* context) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  context_ = context;
+  if (context_ != nullptr && interrupted()) context_->TryCancel();
+}
+
+CallScope::CallScope(const CommonOptions& options, InterruptWatch& watch) : watch_(watch) {
+  if (options.timeout) {
+    context_.set_deadline(std::chrono::system_clock::now() +
+                          std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * *options.timeout)));
+  }
+  watch_.Attach(&context_);
+}
+
+absl::Status FromGrpc(const grpc::Status& status, const CommonOptions& options, const InterruptWatch& watch) {
+  if (status.ok()) return absl::OkStatus();
+  const auto code = static_cast<absl::StatusCode>(status.error_code());
+  if (watch.interrupted()) return absl::CancelledError("interrupted");
+  switch (status.error_code()) {
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+      return absl::DeadlineExceededError(
+          options.timeout ? fmt::format("not done within --timeout {:g} s", *options.timeout)
+                          : status.error_message());
+    case grpc::StatusCode::UNAVAILABLE:
+      return absl::UnavailableError(options.server.empty()
+                                        ? status.error_message()
+                                        : fmt::format("{}: {}", options.server, status.error_message()));
+    case grpc::StatusCode::INTERNAL:
+      return absl::InternalError("a bug of Patchmill: " + status.error_message());
+    default:
+      return {code, InWords(status)};
+  }
+}
+
+int ExitStatus(const absl::Status& status) {
+  switch (status.code()) {
+    case absl::StatusCode::kOk:
+      return 0;
+    case absl::StatusCode::kInvalidArgument:
+    case absl::StatusCode::kUnimplemented:
+    case absl::StatusCode::kNotFound:
+      return 2;
+    default:
+      return 1;
+  }
+}
+
+absl::Status CheckRequestSize(std::size_t bytes) {
+  if (bytes <= kMaxMessageBytes) return absl::OkStatus();
+  return absl::InvalidArgumentError(fmt::format("the request has {:.1f} MiB; the limit is {} MiB",
+                                                static_cast<double>(bytes) / (1 << 20),
+                                                kMaxMessageBytes >> 20));
+}
+
+}  // namespace patchmill::cli

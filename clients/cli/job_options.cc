@@ -1,0 +1,208 @@
+#include "clients/cli/job_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+namespace patchmill::cli {
+namespace {
+
+std::string FiniteFault(const std::string& text) {
+  double value = 0.0;
+  if (CLI::detail::lexical_cast(text, value) && std::isfinite(value)) return "";
+  return fmt::format("\"{}\" is not a finite number", text);
+}
+
+const CLI::Validator kFinite(FiniteFault, "NUMBER", "finite");
+
+template <class Value>
+CLI::Option* AddNumberOf(CLI::App& app, const std::string& name, Value& value, const std::string& help) {
+  CLI::Option* option = app.add_option(name, value, help);
+  return option->check(kFinite)->capture_default_str();
+}
+
+absl::StatusOr<v1::Point3> ReadPoint(const std::string& text, const char* option) {
+  std::array<double, 3> xyz{};
+  std::istringstream in(text);
+  std::string part;
+  std::size_t count = 0;
+  while (std::getline(in, part, ',')) {
+    if (count == 3 || !CLI::detail::lexical_cast(part, xyz[count]) || !std::isfinite(xyz[count])) {
+      count = 4;
+      break;
+    }
+    ++count;
+  }
+  if (count != 3) {
+    return absl::InvalidArgumentError(fmt::format("{} {}; must be X,Y,Z", option, text));
+  }
+  v1::Point3 point;
+  point.set_x_mm(xyz[0]);
+  point.set_y_mm(xyz[1]);
+  point.set_z_mm(xyz[2]);
+  return point;
+}
+
+v1::UpAxis MakeUp(const std::string& name) {
+  if (name == "y") return v1::UP_AXIS_Y;
+  if (name == "x") return v1::UP_AXIS_X;
+  if (name == "-z") return v1::UP_AXIS_NEG_Z;
+  if (name == "-y") return v1::UP_AXIS_NEG_Y;
+  if (name == "-x") return v1::UP_AXIS_NEG_X;
+  return v1::UP_AXIS_Z;
+}
+
+v1::CutDirection MakeDirection(const std::string& name) {
+  if (name == "conventional") return v1::CUT_DIRECTION_CONVENTIONAL;
+  if (name == "either") return v1::CUT_DIRECTION_EITHER;
+  return v1::CUT_DIRECTION_CLIMB;
+}
+
+v1::Coolant MakeCoolant(const std::string& name) {
+  if (name == "flood") return v1::COOLANT_FLOOD;
+  if (name == "mist") return v1::COOLANT_MIST;
+  if (name == "air") return v1::COOLANT_AIR;
+  return v1::COOLANT_OFF;
+}
+
+// 12000 rpm, 1200 and 400 mm/min at D 6; the same cutting speed for larger tools, the same share of the
+// diameter per turn for smaller ones, never above 12000 rpm.
+void SetCuttingData(const OperationOptions& options, v1::Tool& tool) {
+  const double larger = std::min(1.0, 6.0 / options.tool_diameter);
+  const double smaller = std::min(1.0, options.tool_diameter / 6.0);
+  const double feed = options.feed.value_or(std::round(1200.0 * smaller));
+  tool.set_spindle_rpm(options.spindle.value_or(std::max(1.0, std::round(12000.0 * larger))));
+  tool.set_feed_mm_per_min(options.feed ? feed : std::max(1.0, feed));
+  tool.set_plunge_feed_mm_per_min(options.plunge_feed.value_or(std::max(1.0, std::round(feed / 3.0))));
+  tool.set_cutting_data_is_default(!options.spindle || !options.feed || !options.plunge_feed);
+}
+
+}  // namespace
+
+CLI::Option* AddNumber(CLI::App& app, const std::string& name, double& value, const std::string& help) {
+  return AddNumberOf(app, name, value, help);
+}
+
+CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>& value,
+                       const std::string& help) {
+  return app.add_option(name, value, help)->check(kFinite);
+}
+
+void AddCommonOptions(CLI::App& app, CommonOptions& options) {
+  app.add_option("--server", options.server, "HOST:PORT of a patchmilld; default: inside this process");
+  app.add_option("--ca", options.ca_file, "TLS: authority of the server's certificate (PEM)");
+  app.add_option("--cert", options.cert_file, "TLS: own certificate (PEM)");
+  app.add_option("--key", options.key_file, "TLS: its key (PEM)");
+  app.add_option("--threads", options.threads, "0: all; the result does not depend on it")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+  AddNumber(app, "--timeout", options.timeout, "give up after this many seconds")
+      ->check(CLI::Range(0.001, 1e6));
+  app.add_flag("--quiet", options.quiet, "errors and warnings only");
+}
+
+void AddSetupOptions(CLI::App& app, SetupOptions& options) {
+  AddNumber(app, "--scale", options.scale, "factor of the model's numbers");
+  app.add_option("--up", options.up, "the model's axis that points up on the machine")
+      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+      ->capture_default_str();
+  app.add_option("--translate", options.translate, "X,Y,Z added after scaling and turning, mm")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(kFinite);
+  app.add_option("--zero", options.zero, "program zero: X,Y,Z | origin | top-center | bottom-corner")
+      ->capture_default_str();
+}
+
+void AddStockOptions(CLI::App& app, SetupOptions& options) {
+  AddNumber(app, "--stock-top", options.stock_top, "highest material, mm; default: model top + allowance");
+  AddNumber(app, "--allowance", options.allowance, "material on the surface, mm");
+}
+
+absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
+  v1::Setup setup;
+  setup.set_up(MakeUp(options.up));
+  setup.set_scale(options.scale);
+  if (!options.translate.empty()) {
+    setup.mutable_translation()->set_x_mm(options.translate[0]);
+    setup.mutable_translation()->set_y_mm(options.translate[1]);
+    setup.mutable_translation()->set_z_mm(options.translate[2]);
+  }
+  if (options.zero == "origin") {
+    setup.set_zero_anchor(v1::ZERO_ANCHOR_ORIGIN);
+  } else if (options.zero == "top-center") {
+    setup.set_zero_anchor(v1::ZERO_ANCHOR_TOP_CENTER);
+  } else if (options.zero == "bottom-corner") {
+    setup.set_zero_anchor(v1::ZERO_ANCHOR_BOTTOM_CORNER);
+  } else {
+    absl::StatusOr<v1::Point3> point = ReadPoint(options.zero, "--zero");
+    if (!point.ok()) {
+      return absl::InvalidArgumentError(std::string(point.status().message()) +
+                                        ", origin, top-center or bottom-corner");
+    }
+    *setup.mutable_program_zero() = *point;
+  }
+  if (options.stock_top) setup.mutable_stock()->set_top_z_mm(*options.stock_top);
+  setup.mutable_stock()->set_allowance_mm(options.allowance);
+  return setup;
+}
+
+v1::Strategy MakeStrategy(const std::string& name) {
+  if (name == "contour") return v1::STRATEGY_CONTOUR;
+  if (name == "zigzag") return v1::STRATEGY_ZIGZAG;
+  return v1::STRATEGY_AUTO;
+}
+
+v1::Operation MakeOperation(const OperationOptions& options) {
+  v1::Operation op;
+  v1::Tool& tool = *op.mutable_tool();
+  tool.set_number(options.tool_number);
+  tool.mutable_ball_end()->set_diameter_mm(options.tool_diameter);
+  tool.set_coolant(MakeCoolant(options.coolant));
+  SetCuttingData(options, tool);
+  op.set_scallop_mm(options.scallop);
+  op.set_tolerance_mm(options.tolerance);
+  op.set_stock_to_leave_mm(options.leave);
+  op.set_steep_angle_deg(options.steep_angle);
+  op.set_strategy(MakeStrategy(options.strategy));
+  op.set_zigzag_angle_deg(options.zigzag_angle);
+  op.set_contour_direction(MakeDirection(options.direction));
+  op.mutable_heights()->set_clearance_above_mm(options.clearance);
+  if (options.floor) op.mutable_heights()->set_floor_z_mm(*options.floor);
+  return op;
+}
+
+absl::StatusOr<std::string> ReadWholeFile(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return absl::InvalidArgumentError(fmt::format("{} is a directory", path));
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return absl::InvalidArgumentError(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  if (in.bad()) return absl::InvalidArgumentError(fmt::format("cannot read {}", path));
+  return bytes.str();
+}
+
+absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path) {
+  absl::StatusOr<std::string> bytes = ReadWholeFile(path);
+  if (!bytes.ok()) return bytes.status();
+  v1::ModelSource source;
+  v1::ModelFile& file = *source.mutable_file();
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".bpt" || ending == ".bv" || ending == ".patches") file.set_format(ending.substr(1));
+  file.set_content(*std::move(bytes));
+  return source;
+}
+
+}  // namespace patchmill::cli

@@ -1,0 +1,52 @@
+// The options of the commands as values, and the requests they become.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <absl/status/statusor.h>
+
+#include "clients/cli/connection.h"
+#include "patchmill/v1/job.pb.h"
+
+namespace patchmill::cli {
+
+// How the model lies on the machine.
+struct SetupOptions {
+  double scale = 1.0;
+  std::string up = "z";
+  std::vector<double> translate;
+  std::string zero = "origin";
+  std::optional<double> stock_top;
+  double allowance = 0.5;
+};
+
+struct OperationOptions {
+  double tool_diameter = 6.0, scallop = 0.01, tolerance = 0.01, leave = 0.0, steep_angle = 45.0;
+  std::string strategy = "auto", direction = "climb", coolant = "off";
+  double zigzag_angle = 0.0, clearance = 5.0;
+  std::optional<double> floor, feed, plunge_feed, spindle;
+  int tool_number = 1;
+};
+
+// A number option: finite, or the command line is wrong.
+CLI::Option* AddNumber(CLI::App& app, const std::string& name, double& value, const std::string& help);
+CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>& value,
+                       const std::string& help);
+
+void AddCommonOptions(CLI::App& app, CommonOptions& options);
+void AddSetupOptions(CLI::App& app, SetupOptions& options);
+void AddStockOptions(CLI::App& app, SetupOptions& options);
+
+absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options);
+v1::Operation MakeOperation(const OperationOptions& options);
+v1::Strategy MakeStrategy(const std::string& name);
+
+// The bytes of a model file and how to read them: text formats are told by their ending, JSON and protobuf by
+// content.
+absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path);
+absl::StatusOr<std::string> ReadWholeFile(const std::string& path);
+
+}  // namespace patchmill::cli

@@ -1,0 +1,55 @@
+// patchmill: the command line.
+#include <cstdio>
+#include <map>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "clients/cli/commands.h"
+#include "server/serve_flags.h"
+#include "server/server.h"
+
+namespace patchmill::cli {
+namespace {
+
+int Main(int argc, char** argv) {
+  CLI::App app("patchmill: verified ball-end-mill programs from free-form patch models");
+  app.set_version_flag("--version", "patchmill " PATCHMILL_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 done; 1 the job could not be done, or a verification failed; 2 wrong usage or "
+      "unreadable "
+      "input.");
+  std::map<CLI::App*, Command> commands;
+  const auto add = [&](const char* name, const char* help, Command (*add_command)(CLI::App&)) {
+    CLI::App* command = app.add_subcommand(name, help);
+    commands[command] = add_command(*command);
+  };
+  add("mill", "make a verified program", AddMill);
+  add("check", "what is good and bad about a model", AddCheck);
+  add("regions", "mountains, basins, walls, and what cannot be reached", AddRegions);
+  add("verify", "measure any program against the exact surface", AddVerify);
+  CLI::App* serve = app.add_subcommand("serve", "run the service (also as patchmilld)");
+  ServerOptions server;
+  AddServeFlags(*serve, server);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (serve->parsed()) return Serve(server);
+  InterruptWatch watch;
+  for (const auto& [command, run] : commands) {
+    if (!command->parsed()) continue;
+    const absl::Status status = run(watch);
+    if (!status.ok()) fmt::print(stderr, "patchmill: {}\n", std::string(status.message()));
+    return ExitStatus(status);
+  }
+  return 2;
+}
+
+}  // namespace
+}  // namespace patchmill::cli
+
+int main(int argc, char** argv) { return patchmill::cli::Main(argc, argv); }

@@ -1,0 +1,194 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "clients/cli/commands.h"
+#include "clients/cli/job_options.h"
+#include "clients/cli/output_file.h"
+#include "clients/cli/progress_bar.h"
+#include "clients/cli/text.h"
+#include "patchmill/v1/toolpath_service.grpc.pb.h"
+
+namespace patchmill::cli {
+namespace {
+
+struct MillOptions {
+  CommonOptions common;
+  SetupOptions setup;
+  OperationOptions operation;
+  std::string model, program, report, preview, post = "linuxcnc", work_offset = "G54";
+};
+
+// What a stream has brought so far; on disk only after the report.
+struct Received {
+  OutputFile program, report_file, preview;
+  v1::Report report;
+  bool complete = false;  // the report came: a stream without it is void
+};
+
+absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& options) {
+  v1::GenerateProgramRequest request;
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  if (!source.ok()) return source.status();
+  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
+  if (!setup.ok()) return setup.status();
+  v1::Job& job = *request.mutable_job();
+  *job.mutable_source() = *std::move(source);
+  *job.mutable_setup() = *std::move(setup);
+  *job.add_operations() = MakeOperation(options.operation);
+  job.set_name(std::filesystem::path(options.model).filename().string().substr(0, 100));
+  request.mutable_post()->set_dialect(options.post);
+  request.mutable_post()->set_work_offset(options.work_offset);
+  for (const v1::Output output : {v1::OUTPUT_PROGRESS, v1::OUTPUT_PROGRAM, v1::OUTPUT_REPORT}) {
+    request.add_outputs(output);
+  }
+  if (!options.preview.empty()) request.add_outputs(v1::OUTPUT_PICTURE);
+  request.set_max_threads(options.common.threads);
+  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
+  return request;
+}
+
+void Take(const v1::GenerateProgramResponse& response, ProgressBar& bar, Received& received) {
+  switch (response.event_case()) {
+    case v1::GenerateProgramResponse::kProgress:
+      bar.Show(response.progress());
+      break;
+    case v1::GenerateProgramResponse::kProgram:
+      received.program.Append(response.program().data());
+      break;
+    case v1::GenerateProgramResponse::kArtifact:
+      received.preview.Append(response.artifact().data());
+      break;
+    case v1::GenerateProgramResponse::kReport:
+      received.report = response.report();
+      received.complete = true;
+      break;
+    default:
+      break;
+  }
+}
+
+bool CarriesProgram(const v1::Report& report) {
+  return report.outcome() == v1::OUTCOME_COMPLETE || report.outcome() == v1::OUTCOME_COMPLETE_WHERE_REACHABLE;
+}
+
+// The report and the picture of a failed job are worth having; a program is not.
+absl::Status WriteFiles(const MillOptions& options, Received& received) {
+  received.report_file.Set(Json(received.report));
+  for (OutputFile* file : {&received.report_file, &received.preview}) {
+    if (!file->wanted()) continue;
+    if (const absl::Status written = file->Commit(); !written.ok()) return written;
+  }
+  if (!CarriesProgram(received.report)) {
+    std::string message = fmt::format("{}: {}", options.model, Short(received.report.outcome()));
+    for (const v1::Diagnostic& finding : received.report.diagnostics()) {
+      if (finding.severity() == v1::SEVERITY_ERROR || finding.code() == Short(received.report.outcome())) {
+        message += "\n  " + Line(finding);
+      }
+    }
+    return absl::FailedPreconditionError(message + "\n  no program was written");
+  }
+  if (received.program.size() != static_cast<std::size_t>(received.report.program_size_bytes())) {
+    return absl::DataLossError("the program did not arrive whole; nothing was written");
+  }
+  return received.program.Commit();
+}
+
+void PrintSummary(const MillOptions& options, const v1::Report& report) {
+  const std::string left = UnreachableLine(report);
+  if (!left.empty()) fmt::print(stderr, "patchmill: not reached: {}\n", left);
+  if (options.common.quiet) return;
+  const v1::SetupSheet& sheet = report.setup_sheet();
+  fmt::print(stderr, "{}: {}, verified\n", options.program, Short(report.outcome()));
+  fmt::print(stderr, "  gouge     {:.4f} mm at {}\n", report.max_gouge_mm(), Line(report.max_gouge_at()));
+  fmt::print(stderr, "  tip       lowest Z {:.4f}; box {} to {}\n", report.tip_z_min_mm(),
+             Line(report.tip_box().min()), Line(report.tip_box().max()));
+  fmt::print(stderr, "  set-up    T{} D {:g}, {}, stick-out at least {:.1f} mm, clearance Z {:.3f}\n",
+             sheet.tool_number(), sheet.tool_diameter_mm(), sheet.work_offset(),
+             report.required_stickout_mm(), sheet.clearance_z_mm());
+  fmt::print(stderr, "  leftover  {:.4f} mm at {}\n", report.max_leftover_mm(),
+             Line(report.max_leftover_at()));
+  fmt::print(stderr, "  motion    {:.1f} min ({}), {} points, {} retracts\n",
+             report.estimated_time_s() / 60.0, report.time_basis(), report.point_count(),
+             report.retract_count());
+  for (const v1::Diagnostic& finding : report.diagnostics()) {
+    if (finding.severity() != v1::SEVERITY_INFO && !finding.where().has_patch_index()) {
+      fmt::print(stderr, "  {}\n", Line(finding));
+    }
+  }
+}
+
+absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
+  Received received;
+  received.program = OutputFile(options.program);
+  received.report_file = OutputFile(options.report);
+  received.preview = OutputFile(options.preview);
+  for (const OutputFile* file : {&received.program, &received.report_file, &received.preview}) {
+    if (!file->wanted()) continue;
+    if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
+  }
+  absl::StatusOr<v1::GenerateProgramRequest> request = MakeRequest(options);
+  if (!request.ok()) return request.status();
+  absl::StatusOr<Connection> connection = Connect(options.common);
+  if (!connection.ok()) return connection.status();
+
+  CallScope call(options.common, watch);
+  const auto stub = v1::ToolpathService::NewStub(connection->channel);
+  ProgressBar bar(options.common.quiet);
+  const auto reader = stub->GenerateProgram(call.context(), *request);
+  v1::GenerateProgramResponse response;
+  while (reader->Read(&response)) Take(response, bar, received);
+  const grpc::Status status = reader->Finish();
+  bar.Clear();
+  if (!status.ok()) return FromGrpc(status, options.common, watch);
+  if (!received.complete)
+    return absl::DataLossError("the answer ended without a report; nothing was written");
+  if (const absl::Status written = WriteFiles(options, received); !written.ok()) return written;
+  PrintSummary(options, received.report);
+  return absl::OkStatus();
+}
+
+void AddOperationOptions(CLI::App& app, OperationOptions& op) {
+  AddNumber(app, "--tool-diameter", op.tool_diameter, "ball diameter, mm");
+  AddNumber(app, "--scallop", op.scallop, "largest ridge between passes, mm");
+  AddNumber(app, "--tolerance", op.tolerance, "whole error budget, mm");
+  AddNumber(app, "--leave", op.leave, "material left along the normal, mm");
+  AddNumber(app, "--steep-angle", op.steep_angle, "walls steeper than this are cut by contours, degrees");
+  app.add_option("--strategy", op.strategy, "")
+      ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
+      ->capture_default_str();
+  AddNumber(app, "--zigzag-angle", op.zigzag_angle, "direction of the lines from +X, degrees");
+  app.add_option("--direction", op.direction, "of closed contours")
+      ->check(CLI::IsMember({"climb", "conventional", "either"}))
+      ->capture_default_str();
+  AddNumber(app, "--floor", op.floor, "lowest tip, mm, program frame; default: the model's lowest point");
+  AddNumber(app, "--clearance", op.clearance,
+            "tip height of rapids above the highest of model and stock, mm");
+  AddNumber(app, "--feed", op.feed, "mm/min; default 1200 at D 6, with a warning");
+  AddNumber(app, "--plunge-feed", op.plunge_feed, "mm/min; default a third of the feed, with a warning");
+  AddNumber(app, "--spindle", op.spindle, "rpm; default 12000 at D 6, with a warning");
+  app.add_option("--coolant", op.coolant, "")
+      ->check(CLI::IsMember({"off", "flood", "mist", "air"}))
+      ->capture_default_str();
+  app.add_option("--tool-number", op.tool_number, "T word")->capture_default_str();
+}
+
+}  // namespace
+
+Command AddMill(CLI::App& app) {
+  auto options = std::make_shared<MillOptions>();
+  app.add_option("MODEL", options->model, "model file: .json, .pb, .bpt, .bv, .patches")->required();
+  app.add_option("-o,--output", options->program, "where the program goes, once it is verified")->required();
+  AddOperationOptions(app, options->operation);
+  AddSetupOptions(app, options->setup);
+  AddStockOptions(app, options->setup);
+  app.add_option("--work-offset", options->work_offset, "G54 to G59")->capture_default_str();
+  app.add_option("--post", options->post, "dialect of the program")->capture_default_str();
+  app.add_option("--report", options->report, "write the report here (.json)");
+  app.add_option("--preview", options->preview, "write a picture here (.svg)");
+  AddCommonOptions(app, options->common);
+  return [options](InterruptWatch& watch) { return Run(*options, watch); };
+}
+
+}  // namespace patchmill::cli

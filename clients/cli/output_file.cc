@@ -1,0 +1,73 @@
+#include "clients/cli/output_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace patchmill::cli {
+namespace {
+
+std::string Directory(const std::string& path) {
+  const std::string parent = std::filesystem::path(path).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
+
+bool IsSpecial(const std::string& path) {
+  struct stat info {};
+  return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode);
+}
+
+absl::Status Fault(const std::string& path) {
+  return absl::FailedPreconditionError(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
+}
+
+bool WriteAll(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = write(file, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return true;
+}
+
+// mkstemp makes files only their owner can read; a result is like any other file.
+mode_t UsualMode() {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+}  // namespace
+
+absl::Status OutputFile::CheckWritable() const {
+  if (std::filesystem::is_directory(path_)) {
+    return absl::InvalidArgumentError(fmt::format("{} is a directory", path_));
+  }
+  const std::string target = IsSpecial(path_) ? path_ : Directory(path_);
+  return access(target.c_str(), W_OK) == 0 ? absl::OkStatus() : Fault(path_);
+}
+
+absl::Status OutputFile::Commit() const {
+  if (IsSpecial(path_)) {
+    const int file = open(path_.c_str(), O_WRONLY);
+    if (file < 0) return Fault(path_);
+    const bool written = WriteAll(file, bytes_);
+    return close(file) == 0 && written ? absl::OkStatus() : Fault(path_);
+  }
+  std::string temporary = path_ + ".XXXXXX";
+  const int file = mkstemp(temporary.data());
+  if (file < 0) return Fault(path_);
+  const bool written = WriteAll(file, bytes_) && fchmod(file, UsualMode()) == 0 && fsync(file) == 0;
+  if (close(file) == 0 && written && rename(temporary.c_str(), path_.c_str()) == 0) return absl::OkStatus();
+  const absl::Status fault = Fault(path_);
+  unlink(temporary.c_str());
+  return fault;
+}
+
+}  // namespace patchmill::cli

@@ -1,0 +1,29 @@
+// Answers in words, for people.
+#pragma once
+
+#include <string>
+
+#include <google/protobuf/message.h>
+
+#include "patchmill/v1/diagnostic.pb.h"
+#include "patchmill/v1/report.pb.h"
+
+namespace patchmill::cli {
+
+// An enum's value without its prefix: "COMPLETE".
+std::string Short(v1::Outcome value);
+std::string Short(v1::UnreachableReason value);
+std::string Short(v1::CheckState value);
+
+// "WARNING OPEN_EDGE patch 3: ...".
+std::string Line(const v1::Diagnostic& finding);
+// "X 1.000 Y 2.000 Z 3.000".
+std::string Line(const v1::Point3& point);
+std::string Line(const v1::Place& place);
+// "UNDERCUT 12.3 mm2, CONCAVE 4.5 mm2"; empty when nothing is left out.
+std::string UnreachableLine(const v1::Report& report);
+
+// The proto's own field names, zeros printed, one field a line.
+std::string Json(const google::protobuf::Message& message);
+
+}  // namespace patchmill::cli

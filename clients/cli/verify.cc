@@ -1,0 +1,125 @@
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "clients/cli/commands.h"
+#include "clients/cli/job_options.h"
+#include "clients/cli/output_file.h"
+#include "clients/cli/progress_bar.h"
+#include "clients/cli/text.h"
+#include "patchmill/v1/toolpath_service.grpc.pb.h"
+
+namespace patchmill::cli {
+namespace {
+
+struct VerifyOptions {
+  CommonOptions common;
+  SetupOptions setup;
+  std::string model, program, report, strategy = "auto";
+  double tool_diameter = 0.0, tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0;
+  std::optional<double> scallop, floor;
+};
+
+absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& options) {
+  v1::VerifyProgramRequest request;
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  if (!source.ok()) return source.status();
+  absl::StatusOr<std::string> program = ReadWholeFile(options.program);
+  if (!program.ok()) return program.status();
+  if (program->empty()) return absl::InvalidArgumentError(fmt::format("{} is empty", options.program));
+  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
+  if (!setup.ok()) return setup.status();
+  *request.mutable_source() = *std::move(source);
+  *request.mutable_setup() = *std::move(setup);
+  request.set_program(*std::move(program));
+  request.add_tools()->mutable_ball_end()->set_diameter_mm(options.tool_diameter);
+  request.set_tolerance_mm(options.tolerance);
+  if (options.scallop) request.set_scallop_mm(*options.scallop);
+  request.set_stock_to_leave_mm(options.leave);
+  if (options.floor) request.set_floor_z_mm(*options.floor);
+  request.set_strategy(MakeStrategy(options.strategy));
+  request.set_zigzag_angle_deg(options.zigzag_angle);
+  request.set_max_threads(options.common.threads);
+  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
+  return request;
+}
+
+void Print(const VerifyOptions& options, const v1::Report& report) {
+  fmt::print("outcome   {}\n", Short(report.outcome()));
+  fmt::print("gouge     {:<11} {:.4f} mm (limit {:g}) at {}\n", Short(report.gouge_check()),
+             report.max_gouge_mm(), options.tolerance, Line(report.max_gouge_at()));
+  fmt::print("finish    {:<11} {:.4f} mm left{} at {}\n", Short(report.finish_check()),
+             report.max_leftover_mm(),
+             options.scallop ? fmt::format(" (limit {:g})", *options.scallop + options.tolerance) : "",
+             Line(report.max_leftover_at()));
+  fmt::print("motion    {:<11} steepest descent {:.1f} degrees\n", Short(report.motion_check()),
+             report.steepest_descent_deg());
+  fmt::print("stock     {}\n", Short(report.stock_check()));
+  fmt::print("tip       lowest Z {:.4f}; box {} to {}\n", report.tip_z_min_mm(), Line(report.tip_box().min()),
+             Line(report.tip_box().max()));
+  const std::string left = UnreachableLine(report);
+  fmt::print("uncut     {}\n", left.empty() ? "nothing" : left);
+  for (const v1::Diagnostic& finding : report.diagnostics()) fmt::print("  {}\n", Line(finding));
+}
+
+absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
+  OutputFile report_file(options.report);
+  if (report_file.wanted()) {
+    if (const absl::Status writable = report_file.CheckWritable(); !writable.ok()) return writable;
+  }
+  absl::StatusOr<v1::VerifyProgramRequest> request = MakeRequest(options);
+  if (!request.ok()) return request.status();
+  absl::StatusOr<Connection> connection = Connect(options.common);
+  if (!connection.ok()) return connection.status();
+
+  CallScope call(options.common, watch);
+  const auto stub = v1::ToolpathService::NewStub(connection->channel);
+  const auto reader = stub->VerifyProgram(call.context(), *request);
+  ProgressBar bar(options.common.quiet);
+  v1::VerifyProgramResponse response;
+  v1::Report report;
+  bool complete = false;
+  while (reader->Read(&response)) {
+    if (response.has_progress()) bar.Show(response.progress());
+    if (!response.has_report()) continue;
+    report = response.report();
+    complete = true;
+  }
+  const grpc::Status status = reader->Finish();
+  bar.Clear();
+  if (!status.ok()) return FromGrpc(status, options.common, watch);
+  if (!complete) return absl::DataLossError("the answer ended without a report");
+  if (report_file.wanted()) {
+    report_file.Set(Json(report));
+    if (const absl::Status written = report_file.Commit(); !written.ok()) return written;
+  }
+  Print(options, report);
+  if (report.outcome() != v1::OUTCOME_VERIFICATION_FAILED) return absl::OkStatus();
+  return absl::FailedPreconditionError(fmt::format("{}: VERIFICATION_FAILED", options.program));
+}
+
+}  // namespace
+
+Command AddVerify(CLI::App& app) {
+  auto options = std::make_shared<VerifyOptions>();
+  app.add_option("MODEL", options->model, "model file: .json, .pb, .bpt, .bv, .patches")->required();
+  app.add_option("PROGRAM", options->program, "program text, ours or another's")->required();
+  AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter, mm")->required();
+  AddNumber(app, "--tolerance", options->tolerance, "largest gouge, mm");
+  AddNumber(app, "--scallop", options->scallop,
+            "largest ridge, mm; default: leftover is measured, not judged");
+  AddNumber(app, "--leave", options->leave, "material meant to be left, mm");
+  AddNumber(app, "--floor", options->floor,
+            "lowest tip, mm, program frame; default: the model's lowest point");
+  app.add_option("--strategy", options->strategy, "what the program was forced to")
+      ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
+      ->capture_default_str();
+  AddNumber(app, "--zigzag-angle", options->zigzag_angle, "degrees, for --strategy zigzag");
+  AddSetupOptions(app, options->setup);
+  AddStockOptions(app, options->setup);
+  app.add_option("--report", options->report, "write the report here (.json)");
+  AddCommonOptions(app, options->common);
+  return [options](InterruptWatch& watch) { return Run(*options, watch); };
+}
+
+}  // namespace patchmill::cli

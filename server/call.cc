@@ -1,0 +1,102 @@
+#include "server/call.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+using Clock = RunContext::Clock;
+
+// The newest progress and whether the work is done, between the thread that works and the one that talks.
+struct Board {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::string stage;
+  double fraction = 0.0;
+  bool done = false;
+  absl::Status status;
+};
+
+absl::Status Guarded(const std::function<absl::Status(const RunContext&)>& work, const RunContext& run) {
+  try {
+    return work(run);
+  } catch (const std::bad_alloc&) {
+    return absl::ResourceExhaustedError("the job needs more memory than there is");
+  } catch (const std::exception& e) {
+    return absl::InternalError(fmt::format("unexpected: {}", e.what()));
+  }
+}
+
+int Threads(int server, int request) {
+  const int most = server > 0 ? server : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return std::min({request > 0 ? request : most, most, limits::kMaxThreads});
+}
+
+Clock::time_point Deadline(const Call& call) {
+  auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>(call.env->options.max_job_seconds));
+  if (call.time_left) left = std::min(left, *call.time_left);
+  return Clock::now() + left;
+}
+
+}  // namespace
+
+absl::Status RunJobThread(const Call& call, int max_threads, const Beat& beat,
+                          const std::function<absl::Status(const RunContext&)>& work) {
+  Board board;
+  RunContext run(Threads(call.env->options.threads, max_threads));
+  run.set_deadline(Deadline(call));
+  run.set_progress([&board](std::string_view stage, double fraction) {
+    const std::lock_guard<std::mutex> lock(board.mutex);
+    board.stage = stage;
+    board.fraction = std::clamp(fraction, 0.0, 1.0);
+  });
+  std::thread worker([&] {
+    absl::Status status = Guarded(work, run);
+    const std::lock_guard<std::mutex> lock(board.mutex);
+    board.status = std::move(status);
+    board.done = true;
+    board.changed.notify_all();
+  });
+
+  Clock::time_point next_beat = Clock::now() + std::chrono::milliseconds(limits::kHeartbeatMs);
+  std::unique_lock<std::mutex> lock(board.mutex);
+  while (!board.done) {
+    board.changed.wait_for(lock, std::chrono::milliseconds(limits::kCancelPollMs));
+    if (board.done) break;
+    if (call.cancelled()) run.Cancel();
+    if (!beat || run.Cancelled() || Clock::now() < next_beat) continue;
+    next_beat = Clock::now() + std::chrono::milliseconds(limits::kHeartbeatMs);
+    const std::string stage = board.stage;
+    const double fraction = board.fraction;
+    lock.unlock();  // a slow reader must not hold up the work
+    if (!beat(stage, fraction)) run.Cancel();
+    lock.lock();
+  }
+  lock.unlock();
+  worker.join();
+  // The last word is the caller's: work that finished just as it was cancelled is cancelled.
+  if (call.cancelled()) run.Cancel();
+  const absl::Status late = run.Check();
+  return late.ok() ? board.status : late;
+}
+
+absl::Status CheckThreads(int max_threads, std::string_view field) {
+  if (max_threads >= 0 && max_threads <= limits::kMaxThreads) return absl::OkStatus();
+  FieldErrors errors;
+  errors.Add(std::string(field), fmt::format("= {}; must be in [0, {}]", max_threads, limits::kMaxThreads));
+  return errors.ToStatus();
+}
+
+const char* ServerVersion() { return PATCHMILL_VERSION; }
+
+}  // namespace patchmill

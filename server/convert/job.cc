@@ -1,0 +1,190 @@
+#include "server/convert/job.h"
+
+#include <fmt/format.h>
+
+#include "server/convert/enums.h"
+#include "server/convert/fields.h"
+#include "server/convert/setup.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+void ReadHeights(const v1::Heights& proto, const std::string& at, Operation& op, FieldErrors& errors) {
+  constexpr double kMost = limits::kMaxCoordinateMm;
+  const auto height = [&](const char* name, double z) {
+    Require(errors, At(at, name), z, std::abs(z) <= kMost, fmt::format("in [{}, {}]", -kMost, kMost));
+    return z;
+  };
+  if (proto.has_clearance_z_mm()) op.clearance_z = height("clearance_z_mm", proto.clearance_z_mm());
+  if (proto.has_floor_z_mm()) op.floor_z = height("floor_z_mm", proto.floor_z_mm());
+  if (proto.has_clearance_above_mm()) {
+    const double above = proto.clearance_above_mm();
+    Require(errors, At(at, "clearance_above_mm"), above, above > 0.0 && above <= limits::kMaxClearanceAboveMm,
+            fmt::format("in (0, {}]", limits::kMaxClearanceAboveMm));
+    if (proto.has_clearance_z_mm()) {
+      errors.Add(At(at, "clearance_above_mm"), "is set together with clearance_z_mm; set at most one");
+    }
+    op.clearance_above = above;
+  }
+  if (proto.has_approach_gap_mm()) {
+    op.approach_gap = proto.approach_gap_mm();
+    Require(errors, At(at, "approach_gap_mm"), op.approach_gap,
+            op.approach_gap > 0.0 && op.approach_gap <= limits::kMaxApproachGapMm,
+            fmt::format("in (0, {}]", limits::kMaxApproachGapMm));
+  }
+  if (proto.has_top_z_mm()) errors.NotYet(At(at, "top_z_mm"), "leave it unset");
+}
+
+void RefuseWhatIsNotThere(const v1::Operation& proto, std::string_view at, FieldErrors& errors) {
+  if (proto.has_selection()) errors.NotYet(At(at, "selection"), "send only the patches to cut");
+  if (!proto.regions_sha256().empty()) errors.NotYet(At(at, "regions_sha256"), "leave it empty");
+  if (!proto.region_overrides().empty()) errors.NotYet(At(at, "region_overrides"), "leave it empty");
+  if (proto.edge_rule() == v1::EDGE_RULE_ROLL || proto.edge_rule() == v1::EDGE_RULE_EXTEND) {
+    errors.NotYet(At(at, "edge_rule"), "leave it unset: STOP at outer borders, ROLL over rims and creases");
+  }
+}
+
+void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
+  if (!proto.dialect().empty()) {
+    bool known = false;
+    std::string list;
+    for (const std::string& dialect : KnownDialects()) {
+      known = known || dialect == proto.dialect();
+      list += (list.empty() ? "" : ", ") + dialect;
+    }
+    if (!known) {
+      errors.Add("post.dialect",
+                 fmt::format("= \"{}\"; must be one of: {}", proto.dialect().substr(0, 50), list));
+    }
+    job.dialect = proto.dialect();
+  }
+  if (proto.arcs()) errors.NotYet("post.arcs", "programs have straight moves only");
+  if (proto.unit() != v1::LENGTH_UNIT_UNSPECIFIED && proto.unit() != v1::LENGTH_UNIT_MILLIMETER) {
+    errors.NotYet("post.unit", "programs are in millimetres");
+  }
+  if (!proto.work_offset().empty()) {
+    const std::string& w = proto.work_offset();
+    if (!(w.size() == 3 && w[0] == 'G' && w[1] == '5' && w[2] >= '4' && w[2] <= '9')) {
+      errors.Add("post.work_offset", fmt::format("= \"{}\"; must be one of G54 to G59", w.substr(0, 50)));
+    }
+    job.work_offset = w;
+  }
+  if (proto.program_number() != 0) errors.NotYet("post.program_number", "no dialect numbers its programs");
+  if (proto.has_spindle_dwell_s()) errors.NotYet("post.spindle_dwell_s", "leave it unset");
+}
+
+}  // namespace
+
+Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors& errors) {
+  Operation op;
+  RequireBytes(errors, At(at, "id"), proto.id(), limits::kMaxIdBytes);
+  if (proto.has_tool()) {
+    op.tool = FromProto(proto.tool(), At(at, "tool"), CuttingData::kRequired, errors);
+  } else {
+    errors.Missing(At(at, "tool"));
+  }
+  const double radius = BallRadius(op.tool);
+  op.scallop = proto.scallop_mm();
+  Require(errors, At(at, "scallop_mm"), op.scallop, op.scallop > 0.0 && op.scallop < radius,
+          fmt::format("in (0, ball radius = {:.10g})", radius));
+  op.tolerance = proto.tolerance_mm();
+  Require(errors, At(at, "tolerance_mm"), op.tolerance,
+          op.tolerance >= limits::kMinToleranceMm && op.tolerance <= 0.5 * radius,
+          fmt::format("in [{}, half the ball radius = {:.10g}]", limits::kMinToleranceMm, 0.5 * radius));
+  if (proto.has_stock_to_leave_mm()) {
+    op.leave = proto.stock_to_leave_mm();
+    if (op.leave < 0.0 && op.leave > -radius) {
+      errors.NotYet(At(at, "stock_to_leave_mm"),
+                    fmt::format("{:.10g} is a spark gap; must be in [0, {}]", op.leave, limits::kMaxLeaveMm));
+    } else {
+      Require(errors, At(at, "stock_to_leave_mm"), op.leave,
+              op.leave >= 0.0 && op.leave <= limits::kMaxLeaveMm,
+              fmt::format("in [0, {}]", limits::kMaxLeaveMm));
+    }
+  }
+  if (proto.has_steep_angle_deg()) {
+    const double angle = proto.steep_angle_deg();
+    Require(errors, At(at, "steep_angle_deg"), angle,
+            angle >= limits::kMinSteepDeg && angle <= limits::kMaxSteepDeg,
+            fmt::format("in [{}, {}]", limits::kMinSteepDeg, limits::kMaxSteepDeg));
+    op.steep_angle = Radians(angle);
+  }
+  op.strategy = FromProto(proto.strategy(), At(at, "strategy"), errors);
+  if (proto.has_zigzag_angle_deg()) {
+    const double angle = proto.zigzag_angle_deg();
+    Require(errors, At(at, "zigzag_angle_deg"), angle, std::abs(angle) <= 360.0, "in [-360, 360]");
+    op.zigzag_angle = Radians(angle);
+  }
+  op.contour_direction = FromProto(proto.contour_direction(), At(at, "contour_direction"), errors);
+  op.edge_rule = FromProto(proto.edge_rule(), At(at, "edge_rule"), errors);
+  ReadHeights(proto.heights(), At(at, "heights"), op, errors);
+  RefuseWhatIsNotThere(proto, at, errors);
+  return op;
+}
+
+Job FromProto(const v1::Job& proto, const v1::Post& post, std::string_view at, FieldErrors& errors) {
+  Job job;
+  job.setup = FromProto(proto.setup(), At(at, "setup"), errors);
+  if (proto.operations().empty()) {
+    errors.Missing(At(at, "operations"));
+  } else {
+    const std::string path = At(at, "operations[0]");
+    job.operation = FromProto(proto.operations(0), path, errors);
+    job.default_cutting_data = proto.operations(0).tool().cutting_data_is_default();
+    if (job.setup.allowance < job.operation.leave) {
+      errors.Add(At(at, "setup.stock.allowance_mm"),
+                 fmt::format("= {:.10g}; must be at least stock_to_leave_mm = {:.10g}", job.setup.allowance,
+                             job.operation.leave));
+    }
+  }
+  if (proto.operations_size() > 1) {
+    errors.NotYet(At(at, "operations[1]"), "send one operation a job");
+  }
+  RequireBytes(errors, At(at, "name"), proto.name(), limits::kMaxNameBytes);
+  ReadPost(post, job, errors);
+  return job;
+}
+
+v1::Operation ToProto(const Job& job, const Operation& op) {
+  v1::Operation proto;
+  *proto.mutable_tool() = ToProto(op.tool);
+  proto.mutable_tool()->set_cutting_data_is_default(job.default_cutting_data);
+  proto.set_scallop_mm(op.scallop);
+  proto.set_tolerance_mm(op.tolerance);
+  proto.set_stock_to_leave_mm(op.leave);
+  proto.set_steep_angle_deg(Degrees(op.steep_angle));
+  proto.set_strategy(ToProto(op.strategy));
+  proto.set_zigzag_angle_deg(Degrees(op.zigzag_angle));
+  proto.set_contour_direction(ToProto(op.contour_direction));
+  proto.set_edge_rule(ToProto(op.edge_rule));
+  v1::Heights& heights = *proto.mutable_heights();
+  if (op.clearance_z) {
+    heights.set_clearance_z_mm(*op.clearance_z);
+  } else {
+    heights.set_clearance_above_mm(op.clearance_above.value_or(kDefaultClearanceAbove));
+  }
+  heights.set_approach_gap_mm(op.approach_gap);
+  if (op.floor_z) heights.set_floor_z_mm(*op.floor_z);
+  return proto;
+}
+
+v1::Job ToProto(const Job& job, std::string_view model_digest, std::string_view name) {
+  v1::Job proto;
+  proto.mutable_source()->set_model_sha256(std::string(model_digest));
+  *proto.mutable_setup() = ToProto(job.setup);
+  *proto.add_operations() = ToProto(job, job.operation);
+  proto.set_name(Utf8(name));
+  return proto;
+}
+
+v1::Post PostToProto(const Job& job) {
+  v1::Post proto;
+  proto.set_dialect(job.dialect);
+  proto.set_arcs(false);
+  proto.set_unit(v1::LENGTH_UNIT_MILLIMETER);
+  proto.set_work_offset(job.work_offset);
+  return proto;
+}
+
+}  // namespace patchmill

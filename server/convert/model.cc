@@ -1,0 +1,260 @@
+#include "server/convert/model.h"
+
+#include <set>
+
+#include "core/base/status.h"
+#include "server/convert/fields.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+using Numbers = google::protobuf::RepeatedField<double>;
+
+std::size_t Count(const Numbers& numbers) { return static_cast<std::size_t>(numbers.size()); }
+
+struct Sizes {
+  std::size_t points = 0, knots = 0;
+};
+
+Sizes SizesOf(const v1::Patch& patch) {
+  switch (patch.shape_case()) {
+    case v1::Patch::kBezier:
+      return {Count(patch.bezier().points()) / 3, 0};
+    case v1::Patch::kBspline:
+      return {Count(patch.bspline().points()) / 3,
+              Count(patch.bspline().knots_u()) + Count(patch.bspline().knots_v())};
+    case v1::Patch::kGregory:
+      return {Count(patch.gregory().points()) / 3, 0};
+    case v1::Patch::kTriangle:
+      return {Count(patch.triangle().points()) / 3, 0};
+    case v1::Patch::SHAPE_NOT_SET:
+      break;
+  }
+  return {};
+}
+
+absl::Status CheckLimits(const v1::PatchModel& proto) {
+  const auto patches = static_cast<std::size_t>(proto.patches_size());
+  if (patches > limits::kMaxPatches) {
+    return LimitError("model.patch_count", limits::kMaxPatches, static_cast<double>(patches));
+  }
+  Sizes all;
+  for (const v1::Patch& patch : proto.patches()) {
+    const Sizes sizes = SizesOf(patch);
+    all.points += sizes.points;
+    all.knots += sizes.knots;
+  }
+  if (all.points > limits::kMaxControlPoints) {
+    return LimitError("model.control_point_count", limits::kMaxControlPoints,
+                      static_cast<double>(all.points));
+  }
+  if (all.knots > limits::kMaxKnots) {
+    return LimitError("model.knot_count", limits::kMaxKnots, static_cast<double>(all.knots));
+  }
+  return absl::OkStatus();
+}
+
+// Converts one patch; what only the wire can get wrong is a fault here, the rest is ValidateModel's.
+class PatchReader {
+ public:
+  PatchReader(double unit, int index, Diagnostics& faults) : unit_(unit), index_(index), faults_(faults) {}
+
+  Patch Read(const v1::Patch& proto) {
+    Patch patch;
+    patch.id = id_ = proto.id();
+    if (proto.id().size() > limits::kMaxIdBytes) {
+      Fault("INVALID_ID", "id",
+            fmt::format("has {} bytes; must have at most {}", proto.id().size(), limits::kMaxIdBytes));
+    }
+    switch (proto.shape_case()) {
+      case v1::Patch::kBezier: {
+        const v1::BezierPatch& from = proto.bezier();
+        patch.shape = BezierPatch{from.degree_u(),
+                                  from.degree_v(),
+                                  Points("bezier.points", from.points()),
+                                  {from.weights().begin(), from.weights().end()}};
+        break;
+      }
+      case v1::Patch::kBspline: {
+        const v1::BsplinePatch& from = proto.bspline();
+        patch.shape = BsplinePatch{from.degree_u(),
+                                   from.degree_v(),
+                                   {from.knots_u().begin(), from.knots_u().end()},
+                                   {from.knots_v().begin(), from.knots_v().end()},
+                                   Points("bspline.points", from.points()),
+                                   {from.weights().begin(), from.weights().end()}};
+        break;
+      }
+      case v1::Patch::kGregory:
+        patch.shape = Gregory(proto.gregory());
+        break;
+      case v1::Patch::kTriangle: {
+        const v1::BezierTriangle& from = proto.triangle();
+        patch.shape = BezierTriangle{from.degree(),
+                                     Points("triangle.points", from.points()),
+                                     {from.weights().begin(), from.weights().end()}};
+        break;
+      }
+      case v1::Patch::SHAPE_NOT_SET:
+        Fault("NO_SHAPE", "shape", "is missing; one of bezier, bspline, gregory, triangle is required");
+        break;
+    }
+    return patch;
+  }
+
+ private:
+  void Fault(std::string_view code, std::string_view field, std::string_view text) {
+    Diagnostic fault;
+    fault.code = code;
+    fault.severity = Severity::kError;
+    fault.where.patch_id = id_;
+    fault.where.patch_index = index_;
+    fault.where.field = fmt::format("patches[{}].{}", index_, field);
+    fault.message = fmt::format("{} {}", fault.where.field, text);
+    faults_.push_back(std::move(fault));
+  }
+
+  std::vector<Vec3> Points(std::string_view field, const Numbers& numbers) {
+    if (numbers.size() % 3 != 0) {
+      Fault("POINT_COUNT", field, fmt::format("has {} numbers; must be packed x y z", numbers.size()));
+    }
+    std::vector<Vec3> points(Count(numbers) / 3);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int k = static_cast<int>(3 * i);
+      points[i] = unit_ * Vec3(numbers[k], numbers[k + 1], numbers[k + 2]);
+    }
+    return points;
+  }
+
+  GregoryPatch Gregory(const v1::GregoryPatch& from) {
+    GregoryPatch to;
+    const std::vector<Vec3> points = Points("gregory.points", from.points());
+    if (points.size() == to.points.size()) {
+      std::copy(points.begin(), points.end(), to.points.begin());
+    } else {
+      Fault("POINT_COUNT", "gregory.points", fmt::format("has {} points; must have 20", points.size()));
+    }
+    switch (from.blend()) {
+      case v1::GREGORY_BLEND_CORNER:
+        to.blend = GregoryPatch::Blend::kCorner;
+        break;
+      case v1::GREGORY_BLEND_EDGE:
+        to.blend = GregoryPatch::Blend::kEdge;
+        break;
+      default:
+        Fault("NO_BLEND", "gregory.blend",
+              fmt::format("= {}; must be GREGORY_BLEND_CORNER or GREGORY_BLEND_EDGE",
+                          static_cast<int>(from.blend())));
+    }
+    return to;
+  }
+
+  double unit_;
+  int index_;
+  Diagnostics& faults_;
+  std::string id_;
+};
+
+void AddPoints(const auto& from, Numbers* to) {
+  to->Reserve(static_cast<int>(3 * from.size()));
+  for (const Vec3& p : from) {
+    for (int k = 0; k < 3; ++k) to->Add(p[k]);
+  }
+}
+
+void Fill(const BezierPatch& from, v1::Patch& to) {
+  v1::BezierPatch& shape = *to.mutable_bezier();
+  shape.set_degree_u(from.degree_u);
+  shape.set_degree_v(from.degree_v);
+  AddPoints(from.points, shape.mutable_points());
+  shape.mutable_weights()->Add(from.weights.begin(), from.weights.end());
+}
+
+void Fill(const BsplinePatch& from, v1::Patch& to) {
+  v1::BsplinePatch& shape = *to.mutable_bspline();
+  shape.set_degree_u(from.degree_u);
+  shape.set_degree_v(from.degree_v);
+  shape.mutable_knots_u()->Add(from.knots_u.begin(), from.knots_u.end());
+  shape.mutable_knots_v()->Add(from.knots_v.begin(), from.knots_v.end());
+  AddPoints(from.points, shape.mutable_points());
+  shape.mutable_weights()->Add(from.weights.begin(), from.weights.end());
+}
+
+void Fill(const GregoryPatch& from, v1::Patch& to) {
+  v1::GregoryPatch& shape = *to.mutable_gregory();
+  AddPoints(from.points, shape.mutable_points());
+  shape.set_blend(from.blend == GregoryPatch::Blend::kCorner ? v1::GREGORY_BLEND_CORNER
+                                                             : v1::GREGORY_BLEND_EDGE);
+}
+
+void Fill(const BezierTriangle& from, v1::Patch& to) {
+  v1::BezierTriangle& shape = *to.mutable_triangle();
+  shape.set_degree(from.degree);
+  AddPoints(from.points, shape.mutable_points());
+  shape.mutable_weights()->Add(from.weights.begin(), from.weights.end());
+}
+
+}  // namespace
+
+std::optional<double> MillimetersPer(v1::LengthUnit unit) {
+  switch (unit) {
+    case v1::LENGTH_UNIT_MILLIMETER:
+      return 1.0;
+    case v1::LENGTH_UNIT_INCH:
+      return 25.4;
+    case v1::LENGTH_UNIT_METER:
+      return 1000.0;
+    default:
+      return std::nullopt;
+  }
+}
+
+absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_view at) {
+  PM_RETURN_IF_ERROR(CheckLimits(proto));
+  FieldErrors errors;
+  const std::optional<double> unit = MillimetersPer(proto.length_unit());
+  if (!unit) {
+    errors.Add(At(at, "length_unit"),
+               fmt::format("= {}; must be LENGTH_UNIT_MILLIMETER, LENGTH_UNIT_INCH or LENGTH_UNIT_METER",
+                           static_cast<int>(proto.length_unit())));
+  }
+  if (proto.patches().empty()) errors.Missing(At(at, "patches"));
+  CheckedModel checked;
+  if (proto.has_join_tolerance_mm()) {
+    const double tolerance = proto.join_tolerance_mm();
+    Require(errors, At(at, "join_tolerance_mm"), tolerance,
+            tolerance > 0.0 && tolerance <= limits::kMaxJoinToleranceMm,
+            fmt::format("in (0, {}]", limits::kMaxJoinToleranceMm));
+    checked.model.join_tolerance = tolerance;
+  }
+  PM_RETURN_IF_ERROR(errors.ToStatus());
+
+  checked.model.patches.reserve(static_cast<std::size_t>(proto.patches_size()));
+  for (int i = 0; i < proto.patches_size(); ++i) {
+    checked.model.patches.push_back(PatchReader(*unit, i, checked.faults).Read(proto.patches(i)));
+  }
+  // A patch the wire already got wrong is not reported twice.
+  std::set<int> reported;
+  for (const Diagnostic& fault : checked.faults) reported.insert(fault.where.patch_index.value_or(-1));
+  for (Diagnostic& fault : ValidateModel(checked.model)) {
+    if (fault.where.patch_index && reported.contains(*fault.where.patch_index)) continue;
+    checked.faults.push_back(std::move(fault));
+  }
+  return checked;
+}
+
+v1::PatchModel ToProto(const PatchModel& model) {
+  v1::PatchModel proto;
+  proto.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  if (model.join_tolerance) proto.set_join_tolerance_mm(*model.join_tolerance);
+  proto.mutable_patches()->Reserve(static_cast<int>(model.patches.size()));
+  for (const Patch& patch : model.patches) {
+    v1::Patch& to = *proto.add_patches();
+    to.set_id(Utf8(patch.id));
+    std::visit([&](const auto& shape) { Fill(shape, to); }, patch.shape);
+  }
+  return proto;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,257 @@
+#include "server/convert/report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "server/convert/enums.h"
+#include "server/convert/setup.h"
+#include "server/digest.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+// JSON has no NaN and no infinity: what does not exist is zero, or left out where the field can be.
+double Number(double x) { return std::isfinite(x) ? x : 0.0; }
+
+v1::CheckState State(bool ok) { return ok ? v1::CHECK_STATE_PASSED : v1::CHECK_STATE_FAILED; }
+
+v1::Place PlaceToProto(const VerifyPlace& place, const Vec3& zero) {
+  v1::Place proto;
+  *proto.mutable_point() = ToProto(Vec3(place.point - zero));
+  proto.set_patch_id(Utf8(place.patch_id));
+  proto.set_patch_index(place.patch_index);
+  proto.set_line(place.line);
+  return proto;
+}
+
+constexpr UnreachableReason kReasons[] = {UnreachableReason::kUndercut, UnreachableReason::kConcave,
+                                          UnreachableReason::kFloor, UnreachableReason::kAvoided,
+                                          UnreachableReason::kStrategy};
+
+// When nothing was cut nothing was verified; the regions know what is out of reach.
+void FillUnreachableFromRegions(const std::vector<Region>& regions, const Vec3& zero, v1::Report* report) {
+  double unreachable = 0.0, reachable = 0.0;
+  for (const UnreachableReason reason : kReasons) {
+    v1::UnreachablePart part;
+    for (const Region& region : regions) {
+      if (region.kind != RegionKind::kUnreachable || region.reason != reason) continue;
+      part.set_area_mm2(part.area_mm2() + Number(region.area));
+      if (region.deepest_leftover >= part.deepest_leftover_mm()) {
+        part.set_deepest_leftover_mm(Number(region.deepest_leftover));
+        *part.mutable_deepest_at()->mutable_point() = ToProto(Vec3(region.inside - zero));
+        part.mutable_deepest_at()->set_patch_index(-1);
+      }
+    }
+    if (part.area_mm2() <= 0.0) continue;
+    part.set_reason(ToProto(reason));
+    unreachable += part.area_mm2();
+    *report->add_unreachable() = std::move(part);
+  }
+  for (const Region& region : regions) {
+    if (region.kind != RegionKind::kUnreachable) reachable += Number(region.area);
+  }
+  report->set_unreachable_area_mm2(unreachable);
+  report->set_reachable_area_mm2(reachable);
+  report->set_total_area_mm2(unreachable + reachable);
+}
+
+}  // namespace
+
+v1::Diagnostic ToProto(const Diagnostic& diagnostic, const Vec3& zero) {
+  v1::Diagnostic proto;
+  proto.set_code(Utf8(diagnostic.code));
+  proto.set_severity(ToProto(diagnostic.severity));
+  proto.set_message(Utf8(diagnostic.message));
+  const Where& from = diagnostic.where;
+  v1::Where& where = *proto.mutable_where();
+  where.set_patch_id(Utf8(from.patch_id));
+  if (from.patch_index) where.set_patch_index(*from.patch_index);
+  if (from.uv && from.uv->allFinite()) {
+    where.set_u(from.uv->x());
+    where.set_v(from.uv->y());
+  }
+  if (from.point && from.point->allFinite()) *where.mutable_point() = ToProto(Vec3(*from.point - zero));
+  if (from.region_id) where.set_region_id(*from.region_id);
+  if (from.line) where.set_line(*from.line);
+  where.set_field(Utf8(from.field));
+  return proto;
+}
+
+void AddDiagnostics(const Diagnostics& from, const Vec3& zero,
+                    google::protobuf::RepeatedPtrField<v1::Diagnostic>* to) {
+  const std::size_t count = std::min(from.size(), limits::kMaxDiagnostics);
+  for (std::size_t i = 0; i < count; ++i) *to->Add() = ToProto(from[i], zero);
+  if (count < from.size()) {
+    Diagnostic more;
+    more.code = "MORE_FINDINGS";
+    more.message = fmt::format("{} more findings are not listed", from.size() - count);
+    *to->Add() = ToProto(more, zero);
+  }
+}
+
+v1::Box ToProto(const Box3& box, const Vec3& zero) {
+  v1::Box proto;
+  if (box.Empty()) return proto;
+  *proto.mutable_min() = ToProto(Vec3(box.min - zero));
+  *proto.mutable_max() = ToProto(Vec3(box.max - zero));
+  return proto;
+}
+
+v1::Region ToProto(const Region& region, Strategy strategy, const Vec3& zero, Borders borders) {
+  v1::Region proto;
+  proto.set_id(region.id);
+  proto.set_kind(ToProto(region.kind));
+  proto.set_area_mm2(Number(region.area));
+  *proto.mutable_inside_point() = ToProto(Vec3(region.inside - zero));
+  proto.set_min_z_mm(Number(region.z_min - zero.z()));
+  proto.set_max_z_mm(Number(region.z_max - zero.z()));
+  if (region.kind == RegionKind::kUnreachable) {
+    proto.set_unreachable_reason(ToProto(region.reason));
+    proto.set_largest_tool_diameter_mm(Number(region.largest_tool_diameter));
+    proto.set_deepest_leftover_mm(Number(region.deepest_leftover));
+  } else {
+    proto.set_slope(ToProto(region.slope));
+    if (strategy == Strategy::kAuto) {
+      strategy = region.slope == SlopeClass::kSteep ? Strategy::kContour : Strategy::kZigzag;
+    }
+    proto.set_strategy(ToProto(strategy));
+  }
+  if (borders == Borders::kDrop) return proto;
+  for (const std::vector<Vec3>& loop : region.border) {
+    auto* points = proto.add_border()->mutable_points_mm();
+    points->Reserve(static_cast<int>(3 * loop.size()));
+    for (const Vec3& p : loop) {
+      for (int k = 0; k < 3; ++k) points->Add(Number(p[k] - zero[k]));
+    }
+  }
+  return proto;
+}
+
+v1::RegionMap ToProto(const RegionMap& map, Strategy strategy, const Vec3& zero) {
+  v1::RegionMap proto;
+  proto.set_regions_sha256(RegionsDigest(map));
+  for (const Region& region : map.regions) {
+    *proto.add_regions() = ToProto(region, strategy, zero, Borders::kKeep);
+  }
+  return proto;
+}
+
+v1::SetupSheet ToProto(const Resolved& resolved, const Job& job) {
+  const Vec3& zero = resolved.program_zero;
+  v1::SetupSheet sheet;
+  *sheet.mutable_program_zero() = ToProto(zero);
+  sheet.set_work_offset(job.work_offset);
+  sheet.set_tool_number(job.operation.tool.number);
+  sheet.set_tool_diameter_mm(2.0 * resolved.radius);
+  sheet.set_clearance_z_mm(Number(resolved.clearance_z - zero.z()));
+  sheet.set_floor_z_mm(Number(resolved.floor_z - zero.z()));
+  sheet.set_stock_top_z_mm(Number(resolved.stock_top_z - zero.z()));
+  sheet.set_stock_allowance_mm(job.setup.allowance);
+  *sheet.mutable_model_box() = ToProto(resolved.box, zero);
+  return sheet;
+}
+
+void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop_judged, v1::Report* report) {
+  report->set_gouge_check(State(verify.gouge_ok));
+  report->set_finish_check(scallop_judged ? State(verify.finish_ok) : v1::CHECK_STATE_NOT_CHECKED);
+  report->set_motion_check(State(verify.motion_ok));
+  report->set_holder_check(v1::CHECK_STATE_NOT_CHECKED);
+  const bool in_stock = std::any_of(verify.findings.begin(), verify.findings.end(),
+                                    [](const Diagnostic& d) { return d.code == "RAPID_IN_STOCK"; });
+  report->set_stock_check(State(!in_stock));
+  report->set_max_gouge_mm(Number(verify.max_gouge));
+  *report->mutable_max_gouge_at() = PlaceToProto(verify.max_gouge_at, zero);
+  report->set_max_leftover_mm(Number(verify.max_leftover));
+  *report->mutable_max_leftover_at() = PlaceToProto(verify.max_leftover_at, zero);
+  report->set_leftover_above_limit_area_mm2(Number(verify.leftover_above_limit_area));
+  report->set_tip_z_min_mm(Number(verify.tip_z_min));
+  if (!verify.tip_box.Empty()) *report->mutable_tip_box() = ToProto(verify.tip_box, Vec3::Zero());
+  report->set_required_stickout_mm(Number(verify.required_stickout));
+  report->set_reachable_area_mm2(Number(verify.reachable_area));
+  report->set_total_area_mm2(Number(verify.total_area));
+  double unreachable = 0.0;
+  for (std::size_t i = 0; i < verify.unreachable_area.size(); ++i) {
+    const double area = Number(verify.unreachable_area[i]);
+    if (area <= 0.0) continue;
+    unreachable += area;
+    v1::UnreachablePart& part = *report->add_unreachable();
+    part.set_reason(ToProto(kReasons[i]));
+    part.set_area_mm2(area);
+    part.set_deepest_leftover_mm(Number(verify.deepest_unreachable[i]));
+    *part.mutable_deepest_at() = PlaceToProto(verify.deepest_unreachable_at[i], zero);
+  }
+  report->set_unreachable_area_mm2(unreachable);
+  report->set_cut_length_mm(Number(verify.cut_length));
+  report->set_rapid_length_mm(Number(verify.rapid_length));
+  report->set_steepest_descent_deg(Number(Degrees(verify.steepest_descent)));
+}
+
+v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolved,
+                   std::string_view program) {
+  v1::Report report;
+  const Vec3& zero = resolved.program_zero;
+  report.set_outcome(ToProto(from.outcome));
+  if (from.outcome == Outcome::kNothingToCut) {
+    report.set_gouge_check(v1::CHECK_STATE_NOT_CHECKED);
+    report.set_finish_check(v1::CHECK_STATE_NOT_CHECKED);
+    report.set_motion_check(v1::CHECK_STATE_NOT_CHECKED);
+    report.set_holder_check(v1::CHECK_STATE_NOT_CHECKED);
+    report.set_stock_check(v1::CHECK_STATE_NOT_CHECKED);
+    FillUnreachableFromRegions(from.regions, zero, &report);
+  } else {
+    FillFromVerifier(from.verify, zero, /*scallop_judged=*/true, &report);
+  }
+  *report.mutable_setup_sheet() = ToProto(resolved, job);
+  if (std::isfinite(from.min_concave_radius)) report.set_min_concave_radius_mm(from.min_concave_radius);
+  report.set_estimated_time_s(Number(from.motion.time));
+  report.set_time_basis("feeds only");
+  report.set_point_count(from.point_count);
+  report.set_retract_count(from.motion.retract_count);
+  for (const Region& region : from.regions) {
+    *report.add_regions() = ToProto(region, job.operation.strategy, zero, Borders::kDrop);
+  }
+  AddDiagnostics(from.diagnostics, zero, report.mutable_diagnostics());
+  for (const StageTime& stage : from.stages) {
+    v1::Stage& to = *report.add_stages();
+    to.set_name(stage.name);
+    to.set_seconds(Number(stage.seconds));
+  }
+  report.set_program_size_bytes(static_cast<int>(program.size()));
+  if (!program.empty()) report.set_program_sha256(Sha256(program));
+  report.set_controller_tolerance_mm(Number(from.controller_tolerance));
+  return report;
+}
+
+bool EmitPaths(const Toolpath& toolpath, const Vec3& zero, const std::function<bool(v1::PathChunk)>& emit) {
+  const Vec3 tip_offset = zero + Vec3(0.0, 0.0, toolpath.ball_radius);
+  v1::PathChunk chunk;
+  const Move* first = nullptr;
+  const auto flush = [&] {
+    if (first == nullptr) return true;
+    first = nullptr;
+    return emit(std::exchange(chunk, {}));
+  };
+  for (const Move& move : toolpath.moves) {
+    const bool same = first != nullptr && move.kind == first->kind && move.region == first->region &&
+                      move.pass == first->pass && move.feed == first->feed &&
+                      move.has_contact == first->has_contact &&
+                      chunk.tip_mm_size() < static_cast<int>(3 * limits::kPathChunkPoints);
+    if (!same) {
+      if (!flush()) return false;
+      first = &move;
+      chunk.set_region_id(move.region);
+      chunk.set_pass_index(move.pass);
+      chunk.set_kind(ToProto(move.kind));
+      chunk.set_feed_mm_per_min(move.kind == MoveKind::kRapid ? 0.0 : move.feed);
+    }
+    for (int k = 0; k < 3; ++k) chunk.add_tip_mm(move.to[k] - tip_offset[k]);
+    if (!move.has_contact) continue;
+    for (int k = 0; k < 3; ++k) chunk.add_contact_mm(move.contact[k] - zero[k]);
+  }
+  return flush();
+}
+
+}  // namespace patchmill

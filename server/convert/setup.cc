@@ -1,0 +1,159 @@
+#include "server/convert/setup.h"
+
+#include <fmt/format.h>
+
+#include "server/convert/enums.h"
+#include "server/convert/fields.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+void CheckPoint(const v1::Point3& p, const std::string& at, FieldErrors& errors) {
+  constexpr double kMost = limits::kMaxCoordinateMm;
+  const auto check = [&](const char* name, double x) {
+    Require(errors, At(at, name), x, std::abs(x) <= kMost, fmt::format("in [{}, {}]", -kMost, kMost));
+  };
+  check("x_mm", p.x_mm());
+  check("y_mm", p.y_mm());
+  check("z_mm", p.z_mm());
+}
+
+std::optional<double> Positive(bool has, double value, std::string field, FieldErrors& errors) {
+  if (!has) return std::nullopt;
+  Require(errors, std::move(field), value, value > 0.0 && value <= limits::kMaxCoordinateMm,
+          fmt::format("in (0, {}]", limits::kMaxCoordinateMm));
+  return value;
+}
+
+void CheckCuttingData(const v1::Tool& proto, std::string_view at, CuttingData needed, FieldErrors& errors) {
+  const auto check = [&](const char* name, double value, double most) {
+    if (needed == CuttingData::kOptional && value == 0.0) return;
+    Require(errors, At(at, name), value, value > 0.0 && value <= most, fmt::format("in (0, {:g}]", most));
+  };
+  check("spindle_rpm", proto.spindle_rpm(), limits::kMaxRpm);
+  check("feed_mm_per_min", proto.feed_mm_per_min(), limits::kMaxFeed);
+  check("plunge_feed_mm_per_min", proto.plunge_feed_mm_per_min(), limits::kMaxFeed);
+}
+
+}  // namespace
+
+Vec3 FromProto(const v1::Point3& proto) { return {proto.x_mm(), proto.y_mm(), proto.z_mm()}; }
+
+v1::Point3 ToProto(const Vec3& p) {
+  v1::Point3 proto;
+  proto.set_x_mm(p.x());
+  proto.set_y_mm(p.y());
+  proto.set_z_mm(p.z());
+  return proto;
+}
+
+Setup FromProto(const v1::Setup& proto, std::string_view at, FieldErrors& errors) {
+  Setup setup;
+  setup.placement.up = FromProto(proto.up(), At(at, "up"), errors);
+  if (proto.has_scale()) {
+    setup.placement.scale = proto.scale();
+    Require(errors, At(at, "scale"), proto.scale(),
+            proto.scale() >= limits::kMinScale && proto.scale() <= limits::kMaxScale,
+            fmt::format("in [{:g}, {:g}]", limits::kMinScale, limits::kMaxScale));
+  }
+  if (proto.has_translation()) {
+    CheckPoint(proto.translation(), At(at, "translation"), errors);
+    setup.placement.translation = FromProto(proto.translation());
+  }
+  if (proto.has_program_zero()) {
+    CheckPoint(proto.program_zero(), At(at, "program_zero"), errors);
+    setup.zero_point = FromProto(proto.program_zero());
+  } else {
+    setup.zero = FromProto(proto.zero_anchor(), At(at, "zero_anchor"), errors);
+  }
+  const v1::Stock& stock = proto.stock();
+  if (stock.has_top_z_mm()) {
+    constexpr double kMost = limits::kMaxCoordinateMm;
+    Require(errors, At(at, "stock.top_z_mm"), stock.top_z_mm(), std::abs(stock.top_z_mm()) <= kMost,
+            fmt::format("in [{}, {}]", -kMost, kMost));
+    setup.stock_top_z = stock.top_z_mm();
+  }
+  if (stock.has_allowance_mm()) {
+    Require(errors, At(at, "stock.allowance_mm"), stock.allowance_mm(),
+            stock.allowance_mm() >= 0.0 && stock.allowance_mm() <= limits::kMaxAllowanceMm,
+            fmt::format("in [0, {}]", limits::kMaxAllowanceMm));
+    setup.allowance = stock.allowance_mm();
+  }
+  if (!proto.obstacles().empty())
+    errors.NotYet(At(at, "obstacles"), "leave it empty and keep clamps out of the way");
+  return setup;
+}
+
+Tool FromProto(const v1::Tool& proto, std::string_view at, CuttingData cutting_data, FieldErrors& errors) {
+  Tool tool;
+  const bool number_needed = cutting_data == CuttingData::kRequired || proto.number() != 0;
+  if (number_needed) {
+    Require(errors, At(at, "number"), proto.number(),
+            proto.number() >= 1 && proto.number() <= limits::kMaxToolNumber,
+            fmt::format("in [1, {}]", limits::kMaxToolNumber));
+    tool.number = proto.number();
+  }
+  RequireBytes(errors, At(at, "name"), proto.name(), limits::kMaxNameBytes);
+  tool.name = proto.name();
+  if (proto.has_ball_end()) {
+    const double diameter = proto.ball_end().diameter_mm();
+    Require(errors, At(at, "ball_end.diameter_mm"), diameter,
+            diameter >= limits::kMinDiameterMm && diameter <= limits::kMaxDiameterMm,
+            fmt::format("in [{}, {}]", limits::kMinDiameterMm, limits::kMaxDiameterMm));
+    tool.cutter = BallEnd{0.5 * diameter};
+  } else {
+    errors.Missing(At(at, "ball_end"));
+  }
+  tool.flute_length =
+      Positive(proto.has_flute_length_mm(), proto.flute_length_mm(), At(at, "flute_length_mm"), errors);
+  tool.shank_diameter =
+      Positive(proto.has_shank_diameter_mm(), proto.shank_diameter_mm(), At(at, "shank_diameter_mm"), errors);
+  tool.stickout = Positive(proto.has_stickout_mm(), proto.stickout_mm(), At(at, "stickout_mm"), errors);
+  if (tool.shank_diameter && !tool.flute_length && *tool.shank_diameter > 2.0 * BallRadius(tool)) {
+    errors.Add(At(at, "flute_length_mm"),
+               fmt::format("is missing; required when shank_diameter_mm = {:.10g} is wider "
+                           "than the cutter",
+                           *tool.shank_diameter));
+  }
+  if (!proto.holder().empty())
+    errors.NotYet(At(at, "holder"), "leave it empty; the report says what stick-out is needed");
+  CheckCuttingData(proto, at, cutting_data, errors);
+  tool.spindle_rpm = proto.spindle_rpm();
+  tool.feed = proto.feed_mm_per_min();
+  tool.plunge_feed = proto.plunge_feed_mm_per_min();
+  tool.coolant = FromProto(proto.coolant(), At(at, "coolant"), errors);
+  return tool;
+}
+
+v1::Setup ToProto(const Setup& setup) {
+  v1::Setup proto;
+  proto.set_up(ToProto(setup.placement.up));
+  proto.set_scale(setup.placement.scale);
+  *proto.mutable_translation() = ToProto(setup.placement.translation);
+  if (setup.zero == Setup::Zero::kPoint) {
+    *proto.mutable_program_zero() = ToProto(setup.zero_point);
+  } else {
+    proto.set_zero_anchor(ToProto(setup.zero));
+  }
+  if (setup.stock_top_z) proto.mutable_stock()->set_top_z_mm(*setup.stock_top_z);
+  proto.mutable_stock()->set_allowance_mm(setup.allowance);
+  return proto;
+}
+
+v1::Tool ToProto(const Tool& tool) {
+  v1::Tool proto;
+  proto.set_number(tool.number);
+  proto.set_name(Utf8(tool.name));
+  proto.mutable_ball_end()->set_diameter_mm(2.0 * BallRadius(tool));
+  if (tool.flute_length) proto.set_flute_length_mm(*tool.flute_length);
+  if (tool.shank_diameter) proto.set_shank_diameter_mm(*tool.shank_diameter);
+  if (tool.stickout) proto.set_stickout_mm(*tool.stickout);
+  proto.set_spindle_rpm(tool.spindle_rpm);
+  proto.set_feed_mm_per_min(tool.feed);
+  proto.set_plunge_feed_mm_per_min(tool.plunge_feed);
+  proto.set_coolant(ToProto(tool.coolant));
+  return proto;
+}
+
+}  // namespace patchmill

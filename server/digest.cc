@@ -1,0 +1,144 @@
+#include "server/digest.h"
+
+#include <bit>
+#include <cstdint>
+
+#include <openssl/evp.h>
+
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+void AddOptional(const std::optional<double>& value, Canonical& out) {
+  out.Add(std::int64_t{value.has_value()}).Add(value.value_or(0.0));
+}
+
+void AddPoint(const Vec3& p, Canonical& out) { out.Add(p.x()).Add(p.y()).Add(p.z()); }
+
+void AddPoints(const auto& points, Canonical& out) {
+  out.Add(static_cast<std::int64_t>(points.size()));
+  for (const Vec3& p : points) AddPoint(p, out);
+}
+
+void AddNumbers(const std::vector<double>& numbers, Canonical& out) {
+  out.Add(static_cast<std::int64_t>(numbers.size()));
+  for (const double x : numbers) out.Add(x);
+}
+
+void AddShape(const BezierPatch& p, Canonical& out) {
+  out.Add("bezier").Add(std::int64_t{p.degree_u}).Add(std::int64_t{p.degree_v});
+  AddPoints(p.points, out);
+  AddNumbers(p.weights, out);
+}
+
+void AddShape(const BsplinePatch& p, Canonical& out) {
+  out.Add("bspline").Add(std::int64_t{p.degree_u}).Add(std::int64_t{p.degree_v});
+  AddNumbers(p.knots_u, out);
+  AddNumbers(p.knots_v, out);
+  AddPoints(p.points, out);
+  AddNumbers(p.weights, out);
+}
+
+void AddShape(const GregoryPatch& p, Canonical& out) {
+  out.Add(p.blend == GregoryPatch::Blend::kCorner ? "gregory-corner" : "gregory-edge");
+  AddPoints(p.points, out);
+}
+
+void AddShape(const BezierTriangle& p, Canonical& out) {
+  out.Add("triangle").Add(std::int64_t{p.degree});
+  AddPoints(p.points, out);
+  AddNumbers(p.weights, out);
+}
+
+}  // namespace
+
+std::string Sha256(std::string_view bytes) {
+  std::string digest(32, '\0');
+  unsigned int size = 0;
+  PM_CHECK(EVP_Digest(bytes.data(), bytes.size(), reinterpret_cast<unsigned char*>(digest.data()), &size,
+                      EVP_sha256(), nullptr) == 1);
+  PM_CHECK(size == digest.size());
+  return digest;
+}
+
+std::string Hex(std::string_view bytes) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  text.reserve(2 * bytes.size());
+  for (const char c : bytes) {
+    const auto b = static_cast<unsigned char>(c);
+    text += kDigits[b >> 4];
+    text += kDigits[b & 15];
+  }
+  return text;
+}
+
+Canonical& Canonical::Add(std::int64_t value) {
+  const auto bits = static_cast<std::uint64_t>(value);
+  for (int i = 0; i < 8; ++i) bytes_ += static_cast<char>((bits >> (8 * i)) & 0xff);
+  return *this;
+}
+
+Canonical& Canonical::Add(double value) {
+  return Add(std::bit_cast<std::int64_t>(value == 0.0 ? 0.0 : value));
+}
+
+Canonical& Canonical::Add(std::string_view value) {
+  Add(static_cast<std::int64_t>(value.size()));
+  bytes_ += value;
+  return *this;
+}
+
+std::string ModelDigest(const PatchModel& model) {
+  Canonical out;
+  out.Add("patchmill model 1").Add(model.join_tolerance.value_or(-1.0));
+  out.Add(static_cast<std::int64_t>(model.patches.size()));
+  for (const Patch& patch : model.patches) {
+    out.Add(patch.id);
+    std::visit([&](const auto& shape) { AddShape(shape, out); }, patch.shape);
+  }
+  return out.Digest();
+}
+
+std::string JobDigest(const Job& job, std::string_view model_digest, std::string_view name) {
+  Canonical out;
+  out.Add("patchmill job 1").Add(model_digest).Add(name);
+  const Setup& setup = job.setup;
+  out.Add(setup.placement.scale).Add(static_cast<std::int64_t>(setup.placement.up));
+  AddPoint(setup.placement.translation, out);
+  out.Add(static_cast<std::int64_t>(setup.zero));
+  AddPoint(setup.zero_point, out);
+  AddOptional(setup.stock_top_z, out);
+  out.Add(setup.allowance);
+  const Operation& op = job.operation;
+  const Tool& tool = op.tool;
+  out.Add(std::int64_t{tool.number}).Add(tool.name).Add(BallRadius(tool));
+  AddOptional(tool.flute_length, out);
+  AddOptional(tool.shank_diameter, out);
+  AddOptional(tool.stickout, out);
+  out.Add(tool.spindle_rpm).Add(tool.feed).Add(tool.plunge_feed).Add(static_cast<std::int64_t>(tool.coolant));
+  out.Add(op.scallop).Add(op.tolerance).Add(op.leave).Add(op.steep_angle);
+  out.Add(static_cast<std::int64_t>(op.strategy)).Add(op.zigzag_angle);
+  out.Add(static_cast<std::int64_t>(op.contour_direction)).Add(static_cast<std::int64_t>(op.edge_rule));
+  AddOptional(op.clearance_z, out);
+  AddOptional(op.clearance_above, out);
+  AddOptional(op.floor_z, out);
+  out.Add(op.approach_gap).Add(job.dialect).Add(job.work_offset);
+  out.Add(std::int64_t{job.default_cutting_data}).Add(std::int64_t{job.unitless_file});
+  return out.Digest();
+}
+
+std::string RegionsDigest(const RegionMap& map) {
+  Canonical out;
+  out.Add("patchmill regions 1").Add(static_cast<std::int64_t>(map.regions.size()));
+  for (const Region& region : map.regions) {
+    out.Add(std::int64_t{region.id}).Add(static_cast<std::int64_t>(region.kind));
+    out.Add(static_cast<std::int64_t>(region.slope)).Add(static_cast<std::int64_t>(region.reason));
+    out.Add(static_cast<std::int64_t>(region.border.size()));
+    for (const auto& loop : region.border) AddPoints(loop, out);
+  }
+  return out.Digest();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,183 @@
+#include "server/errors.h"
+
+#include <algorithm>
+
+#include <absl/strings/cord.h>
+#include <fmt/format.h>
+
+#include "patchmill/v1/status.pb.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+constexpr char kInfoUrl[] = "type.googleapis.com/patchmill.v1.ErrorInfo";
+constexpr std::size_t kMaxViolationBytes = 300;
+
+std::string Cut(std::string text, std::size_t bytes) {
+  if (text.size() > bytes) text = text.substr(0, bytes - 3) + "...";
+  return Utf8(text);
+}
+
+absl::Status WithInfo(absl::StatusCode code, std::string message, const v1::ErrorInfo& info) {
+  absl::Status status(code, Cut(std::move(message), limits::kMaxStatusMessageBytes));
+  status.SetPayload(kInfoUrl, absl::Cord(info.SerializeAsString()));
+  return status;
+}
+
+absl::Status WithReason(absl::StatusCode code, std::string reason, std::string message) {
+  v1::ErrorInfo info;
+  info.set_reason(std::move(reason));
+  return WithInfo(code, std::move(message), info);
+}
+
+const char* DefaultReason(absl::StatusCode code) {
+  switch (code) {
+    case absl::StatusCode::kInvalidArgument:
+      return "INVALID_FIELDS";
+    case absl::StatusCode::kUnimplemented:
+      return "NOT_IMPLEMENTED";
+    case absl::StatusCode::kResourceExhausted:
+      return "LIMIT_EXCEEDED";
+    case absl::StatusCode::kCancelled:
+      return "CANCELLED";
+    case absl::StatusCode::kDeadlineExceeded:
+      return "DEADLINE_EXCEEDED";
+    default:
+      return "INTERNAL";
+  }
+}
+
+std::string More(std::size_t count) {
+  return count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string();
+}
+
+}  // namespace
+
+void FieldErrors::Add(std::string field, std::string text) {
+  faults_.push_back({std::move(field), std::move(text), false});
+}
+
+void FieldErrors::NotYet(std::string field, std::string what) {
+  faults_.push_back({std::move(field), "is not there yet: " + std::move(what), true});
+}
+
+absl::Status FieldErrors::ToStatus() const {
+  if (faults_.empty()) return absl::OkStatus();
+  const bool all_not_yet =
+      std::all_of(faults_.begin(), faults_.end(), [](const Fault& f) { return f.not_yet; });
+  v1::ErrorInfo info;
+  info.set_reason(all_not_yet ? "NOT_IMPLEMENTED" : "INVALID_FIELDS");
+  info.set_violation_count(static_cast<int>(faults_.size()));
+  for (const Fault& fault : faults_) {
+    if (info.field_violations_size() == limits::kMaxViolations) break;
+    v1::FieldViolation& violation = *info.add_field_violations();
+    violation.set_field(Cut(fault.field, kMaxViolationBytes));
+    violation.set_description(Cut(fault.text, kMaxViolationBytes));
+  }
+  const Fault& first = faults_.front();
+  return WithInfo(all_not_yet ? absl::StatusCode::kUnimplemented : absl::StatusCode::kInvalidArgument,
+                  first.field + " " + first.text + More(faults_.size()), info);
+}
+
+absl::Status LimitError(std::string_view limit, double limit_value, double actual_value) {
+  v1::ErrorInfo info;
+  info.set_reason("LIMIT_EXCEEDED");
+  info.set_limit(std::string(limit));
+  info.set_limit_value(limit_value);
+  info.set_actual_value(actual_value);
+  return WithInfo(absl::StatusCode::kResourceExhausted,
+                  fmt::format("{} = {:.10g}; the limit is {:.10g}", limit, actual_value, limit_value), info);
+}
+
+absl::Status TooManyJobsError(int limit) {
+  v1::ErrorInfo info;
+  info.set_reason("TOO_MANY_JOBS");
+  info.set_limit("concurrent_jobs");
+  info.set_limit_value(limit);
+  info.set_actual_value(limit + 1);
+  return WithInfo(absl::StatusCode::kResourceExhausted,
+                  fmt::format("the server runs {} jobs, as many as it may; try again later", limit), info);
+}
+
+absl::Status DrainingError() {
+  return WithReason(absl::StatusCode::kUnavailable, "DRAINING",
+                    "the server is shutting down; try another one");
+}
+
+absl::Status ModelNotCachedError() {
+  return WithReason(absl::StatusCode::kNotFound, "MODEL_NOT_CACHED",
+                    "source.model_sha256 names a model this server does not hold; send it inline");
+}
+
+absl::Status ModelUnreadableError(std::string_view why) {
+  return WithReason(absl::StatusCode::kInvalidArgument, "MODEL_UNREADABLE", std::string(why));
+}
+
+absl::Status ProgramUnreadableError(std::string_view why) {
+  return WithReason(absl::StatusCode::kInvalidArgument, "PROGRAM_UNREADABLE", std::string(why));
+}
+
+absl::Status ModelInvalidError(const Diagnostics& faults) {
+  v1::ErrorInfo info;
+  info.set_reason("MODEL_INVALID");
+  info.set_violation_count(static_cast<int>(faults.size()));
+  for (const Diagnostic& fault : faults) {
+    if (info.field_violations_size() == limits::kMaxViolations) break;
+    v1::FieldViolation& violation = *info.add_field_violations();
+    violation.set_field(Cut(fault.where.field, kMaxViolationBytes));
+    violation.set_description(Cut(fault.message, kMaxViolationBytes));
+  }
+  return WithInfo(absl::StatusCode::kInvalidArgument,
+                  "model: " + faults.front().message + More(faults.size()), info);
+}
+
+grpc::Status ToGrpcStatus(const absl::Status& status) {
+  if (status.ok()) return grpc::Status::OK;
+  v1::ErrorInfo info;
+  if (const auto payload = status.GetPayload(kInfoUrl)) {
+    info.ParseFromString(std::string(*payload));
+  } else {
+    info.set_reason(DefaultReason(status.code()));
+  }
+  v1::Status wire;
+  wire.set_code(static_cast<int>(status.code()));
+  wire.set_message(Cut(std::string(status.message()), limits::kMaxStatusMessageBytes));
+  wire.add_details()->PackFrom(info);
+  while (wire.ByteSizeLong() > limits::kMaxStatusBytes && info.field_violations_size() > 0) {
+    info.mutable_field_violations()->RemoveLast();
+    wire.mutable_details(0)->PackFrom(info);
+  }
+  return {static_cast<grpc::StatusCode>(status.code()), wire.message(), wire.SerializeAsString()};
+}
+
+std::string Utf8(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+    const unsigned char lead = byte(i);
+    std::size_t more = lead < 0x80                   ? 0
+                       : lead >= 0xC2 && lead < 0xE0 ? 1
+                       : lead >= 0xE0 && lead < 0xF0 ? 2
+                       : lead >= 0xF0 && lead < 0xF5 ? 3
+                                                     : 9;
+    bool good = more < 9 && i + more < text.size();
+    for (std::size_t k = 1; good && k <= more; ++k) good = (byte(i + k) & 0xC0) == 0x80;
+    // Overlong forms, surrogates and what lies beyond U+10FFFF.
+    if (good && more == 2)
+      good = !(lead == 0xE0 && byte(i + 1) < 0xA0) && !(lead == 0xED && byte(i + 1) > 0x9F);
+    if (good && more == 3)
+      good = !(lead == 0xF0 && byte(i + 1) < 0x90) && !(lead == 0xF4 && byte(i + 1) > 0x8F);
+    if (good) {
+      out += text.substr(i, more + 1);
+      i += more + 1;
+    } else {
+      out += '?';
+      ++i;
+    }
+  }
+  return out;
+}
+
+}  // namespace patchmill

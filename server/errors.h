@@ -1,0 +1,51 @@
+// Errors of the wire: every one carries a reason a program can switch on, and where it is a field, its path.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <absl/status/status.h>
+#include <grpcpp/support/status.h>
+
+#include "core/base/diagnostic.h"
+
+namespace patchmill {
+
+// Collects all wrong fields of a request. Fields that only have their place reserved are UNIMPLEMENTED, wrong
+// ones INVALID_ARGUMENT; a request with both is INVALID_ARGUMENT.
+class FieldErrors {
+ public:
+  // Reads "<field> <text>": Add("job.scallop_mm", "= -1; must be in (0, 3)").
+  void Add(std::string field, std::string text);
+  void Missing(std::string field) { Add(std::move(field), "is missing; required"); }
+  void NotYet(std::string field, std::string what);
+
+  bool empty() const { return faults_.empty(); }
+  absl::Status ToStatus() const;  // OK when empty
+
+ private:
+  struct Fault {
+    std::string field, text;
+    bool not_yet = false;
+  };
+  std::vector<Fault> faults_;
+};
+
+// One factory per kind of error.
+absl::Status LimitError(std::string_view limit, double limit_value, double actual_value);
+absl::Status TooManyJobsError(int limit);
+absl::Status DrainingError();
+absl::Status ModelNotCachedError();
+absl::Status ModelUnreadableError(std::string_view why);
+absl::Status ProgramUnreadableError(std::string_view why);
+absl::Status ModelInvalidError(const Diagnostics& faults);  // at least one
+
+// The status as gRPC sends it: message at most 1,000 bytes, details (v1.Status with one v1.ErrorInfo) under 4
+// KiB.
+grpc::Status ToGrpcStatus(const absl::Status& status);
+
+// Text that may come from a file, made valid UTF-8 for the wire: other bytes become '?'.
+std::string Utf8(std::string_view text);
+
+}  // namespace patchmill

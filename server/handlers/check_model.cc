@@ -1,0 +1,80 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cam/plan/plan.h"
+#include "cam/plan/resolve.h"
+#include "core/base/status.h"
+#include "server/convert/report.h"
+#include "server/convert/setup.h"
+#include "server/handlers/handlers.h"
+#include "server/handlers/prepare.h"
+
+namespace patchmill {
+namespace {
+
+// A file without a unit is taken as millimetres; say so, and louder when the size looks wrong (MACHINING
+// A.14).
+Diagnostic UnitFinding(const Box3& box, const std::optional<Tool>& tool) {
+  const double extent = (box.max - box.min).maxCoeff();
+  const bool wrong = extent > 2000.0 || (tool && extent < 4.0 * BallRadius(*tool));
+  Diagnostic d;
+  d.code = wrong ? "SUSPICIOUS_SIZE" : "UNIT_ASSUMED";
+  d.severity = wrong ? Severity::kWarning : Severity::kInfo;
+  d.message = fmt::format("the file states no unit, millimetres are assumed: the model is {:.4g} mm large{}",
+                          extent, wrong ? "; is the scale right?" : "");
+  return d;
+}
+
+void FillNetwork(const PatchNetwork& network, v1::CheckModelResponse* response) {
+  int joined = 0;
+  double gap = 0.0, angle = 0.0;
+  for (const EdgeLink& link : network.edges) {
+    if (!link.neighbor) continue;
+    if (link.self < *link.neighbor) ++joined;
+    gap = std::max(gap, link.gap);
+    angle = std::max(angle, link.max_angle);
+  }
+  response->set_patch_count(static_cast<int>(network.model.patches.size()));
+  response->set_open_edge_count(network.open_edge_count);
+  response->set_joined_edge_count(joined);
+  response->set_max_gap_mm(std::isfinite(gap) ? gap : 0.0);
+  response->set_max_angle_deg(std::isfinite(angle) ? Degrees(angle) : 0.0);
+  response->set_join_tolerance_mm(network.join_tolerance);
+}
+
+}  // namespace
+
+absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& request,
+                              v1::CheckModelResponse* response) {
+  PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
+  PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
+  FieldErrors errors;
+  Job job;
+  job.setup = FromProto(request.setup(), "setup", errors);
+  std::optional<Tool> tool;
+  if (request.has_tool()) tool = FromProto(request.tool(), "tool", CuttingData::kOptional, errors);
+  PM_RETURN_IF_ERROR(errors.ToStatus());
+  PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source"));
+  response->set_model_sha256(model.digest);
+  if (!model.faults.empty()) {
+    response->set_patch_count(static_cast<int>(model.model.patches.size()));
+    AddDiagnostics(model.faults, Vec3::Zero(), response->mutable_diagnostics());
+    return absl::OkStatus();
+  }
+  if (tool) job.operation.tool = *tool;
+  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
+    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, job.setup, run));
+    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+    PM_ASSIGN_OR_RETURN(ModelCheck check, CheckModel(surface, tool, run));
+    if (model.unitless) check.findings.push_back(UnitFinding(check.box, tool));
+    AddDiagnostics(check.findings, resolved.program_zero, response->mutable_diagnostics());
+    *response->mutable_box() = ToProto(check.box, resolved.program_zero);
+    if (std::isfinite(check.min_concave_radius))
+      response->set_min_concave_radius_mm(check.min_concave_radius);
+    FillNetwork(surface.network, response);
+    return absl::OkStatus();
+  });
+}
+
+}  // namespace patchmill

@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cam/plan/job_preview.h"
+#include "cam/plan/plan.h"
+#include "cam/plan/resolve.h"
+#include "core/base/status.h"
+#include "server/convert/job.h"
+#include "server/convert/report.h"
+#include "server/handlers/handlers.h"
+#include "server/handlers/outputs.h"
+#include "server/handlers/prepare.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+using Response = v1::GenerateProgramResponse;
+
+const Outputs kPossible = {v1::OUTPUT_PROGRESS, v1::OUTPUT_REGIONS, v1::OUTPUT_PATHS,
+                           v1::OUTPUT_PROGRAM,  v1::OUTPUT_REPORT,  v1::OUTPUT_PICTURE};
+const Outputs kDefaults = {v1::OUTPUT_PROGRESS, v1::OUTPUT_PROGRAM, v1::OUTPUT_REPORT};
+
+absl::Status CheckRequestId(const std::string& id) {
+  const bool printable = std::all_of(id.begin(), id.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  if (id.size() <= limits::kMaxRequestIdBytes && printable) return absl::OkStatus();
+  FieldErrors errors;
+  errors.Add("request_id",
+             fmt::format("must be at most {} printable ASCII characters", limits::kMaxRequestIdBytes));
+  return errors.ToStatus();
+}
+
+Response MakeAccepted(const PreparedJob& prepared) {
+  Response response;
+  v1::Accepted& accepted = *response.mutable_accepted();
+  accepted.set_request_sha256(prepared.digest);
+  accepted.set_server_version(ServerVersion());
+  *accepted.mutable_resolved_job() = ToProto(prepared.job, prepared.model.digest, prepared.name);
+  *accepted.mutable_resolved_post() = PostToProto(prepared.job);
+  return response;
+}
+
+// Everything the worker thread leaves behind for the answer.
+struct Made {
+  Resolved resolved;
+  JobResult result;
+  std::string picture;
+};
+
+absl::Status Make(const PreparedJob& prepared, bool with_picture, const RunContext& run, Made* made) {
+  PM_ASSIGN_OR_RETURN(const Surface surface,
+                      BuildPlacedSurface(prepared.model.model, prepared.job.setup, run));
+  PM_ASSIGN_OR_RETURN(made->resolved, Resolve(surface, prepared.job));
+  PM_ASSIGN_OR_RETURN(made->result, RunJob(surface, prepared.job, run));
+  if (made->result.program.size() > limits::kMaxProgramBytes) {
+    return LimitError("program_size_bytes", static_cast<double>(limits::kMaxProgramBytes),
+                      static_cast<double>(made->result.program.size()));
+  }
+  if (with_picture) made->picture = DrawJob(surface, made->result, prepared.name);
+  return absl::OkStatus();
+}
+
+// Everything that can be checked without planning.
+absl::Status Validate(const PreparedJob& prepared, const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(const Surface surface,
+                      BuildPlacedSurface(prepared.model.model, prepared.job.setup, run));
+  PM_RETURN_IF_ERROR(ValidateJob(prepared.job));
+  return Resolve(surface, prepared.job).status();
+}
+
+// Calls send(offset, piece) for pieces of at most limits::kChunkBytes.
+bool InChunks(std::string_view bytes, const std::function<bool(std::size_t, std::string_view)>& send) {
+  for (std::size_t at = 0; at < bytes.size(); at += limits::kChunkBytes) {
+    if (!send(at, bytes.substr(at, limits::kChunkBytes))) return false;
+  }
+  return true;
+}
+
+bool SendPaths(const JobResult& result, const Sink<Response>& sink) {
+  return EmitPaths(result.motion.toolpath, result.program_zero, [&](v1::PathChunk chunk) {
+    Response response;
+    *response.mutable_paths() = std::move(chunk);
+    return sink(response);
+  });
+}
+
+bool SendPicture(std::string_view picture, const Sink<Response>& sink) {
+  return InChunks(picture, [&](std::size_t at, std::string_view piece) {
+    Response response;
+    v1::ArtifactChunk& chunk = *response.mutable_artifact();
+    chunk.set_name("preview.svg");
+    chunk.set_media_type("image/svg+xml");
+    chunk.set_offset_bytes(static_cast<std::int64_t>(at));
+    chunk.set_data(std::string(piece));
+    return sink(response);
+  });
+}
+
+bool SendProgram(std::string_view program, const Sink<Response>& sink) {
+  return InChunks(program, [&](std::size_t at, std::string_view piece) {
+    Response response;
+    response.mutable_program()->set_offset_bytes(static_cast<std::int64_t>(at));
+    response.mutable_program()->set_data(std::string(piece));
+    return sink(response);
+  });
+}
+
+// The order on the wire: regions, paths, artifacts, program, report. No path and no program of a job that
+// failed.
+bool SendResult(const PreparedJob& prepared, const Made& made, const Outputs& outputs,
+                const Sink<Response>& sink) {
+  const JobResult& result = made.result;
+  const bool verified = !result.program.empty();
+  if (outputs.contains(v1::OUTPUT_REGIONS)) {
+    Response response;
+    *response.mutable_regions() =
+        ToProto(result.regions, prepared.job.operation.strategy, made.resolved.program_zero);
+    if (!sink(response)) return false;
+  }
+  if (outputs.contains(v1::OUTPUT_PATHS) && verified && !SendPaths(result, sink)) return false;
+  if (!SendPicture(made.picture, sink)) return false;
+  if (outputs.contains(v1::OUTPUT_PROGRAM) && !SendProgram(result.program, sink)) return false;
+  Response response;
+  *response.mutable_report() = ToProto(result.report, prepared.job, made.resolved, result.program);
+  return sink(response);
+}
+
+}  // namespace
+
+absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRequest& request,
+                                   const Sink<Response>& sink) {
+  PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
+  PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
+  PM_RETURN_IF_ERROR(CheckRequestId(request.request_id()));
+  PM_ASSIGN_OR_RETURN(const Outputs outputs, ReadOutputs(request.outputs(), kPossible, kDefaults));
+  PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), request.post()));
+  const auto gone = [] { return absl::CancelledError("the client has gone"); };
+  if (request.validate_only()) {
+    const absl::Status valid = RunJobThread(call, request.max_threads(), {},
+                                            [&](const RunContext& run) { return Validate(prepared, run); });
+    PM_RETURN_IF_ERROR(valid);
+    return sink(MakeAccepted(prepared)) ? absl::OkStatus() : gone();
+  }
+  if (!sink(MakeAccepted(prepared))) return gone();
+
+  const auto beat = [&](std::string_view stage, double fraction) {
+    Response response;
+    response.mutable_progress()->set_stage(std::string(stage));
+    response.mutable_progress()->set_fraction(fraction);
+    return sink(response);
+  };
+  Made made;
+  PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(),
+                                  outputs.contains(v1::OUTPUT_PROGRESS) ? Beat(beat) : Beat(),
+                                  [&](const RunContext& run) {
+                                    return Make(prepared, outputs.contains(v1::OUTPUT_PICTURE), run, &made);
+                                  }));
+  return SendResult(prepared, made, outputs, sink) ? absl::OkStatus() : gone();
+}
+
+}  // namespace patchmill

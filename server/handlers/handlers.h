@@ -1,0 +1,25 @@
+// One free function per RPC: convert, call, convert. Streams go into a sink, so that tests can capture them.
+#pragma once
+
+#include <absl/status/status.h>
+
+#include "patchmill/v1/analysis_service.pb.h"
+#include "patchmill/v1/model_service.pb.h"
+#include "patchmill/v1/toolpath_service.pb.h"
+#include "server/call.h"
+
+namespace patchmill {
+
+absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& request,
+                              v1::CheckModelResponse* response);
+
+absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest& request,
+                                v1::SplitRegionsResponse* response);
+
+absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRequest& request,
+                                   const Sink<v1::GenerateProgramResponse>& sink);
+
+absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramRequest& request,
+                                 const Sink<v1::VerifyProgramResponse>& sink);
+
+}  // namespace patchmill

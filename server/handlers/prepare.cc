@@ -1,0 +1,59 @@
+#include "server/handlers/prepare.h"
+
+#include <fmt/format.h>
+
+#include "cam/path/spacing.h"
+#include "core/base/status.h"
+#include "server/call.h"
+#include "server/convert/job.h"
+#include "server/digest.h"
+#include "server/limits.h"
+#include "server/unknown_fields.h"
+
+namespace patchmill {
+namespace {
+
+// Passes over the plan of the control points' box at the flat step-over: an estimate that costs nothing.
+absl::Status CheckCutLength(const Job& job, const PatchModel& model) {
+  const Box3 box = ControlBox(Place(job.setup.placement, model));
+  const Vec3 size = box.max - box.min;
+  const double radius = BallRadius(job.operation.tool) + job.operation.leave;
+  const double h = job.operation.scallop;
+  const double step = 2.0 * std::sqrt(h * (2.0 * radius - h));
+  const double length = size.x() * size.y() / step;
+  if (length <= limits::kMaxCutLengthMm) return absl::OkStatus();
+  return LimitError("estimated_cut_length_mm", limits::kMaxCutLengthMm, length);
+}
+
+}  // namespace
+
+absl::Status RefuseUnknownFields(const google::protobuf::Message& request) {
+  const std::string unknown = UnknownField(request);
+  if (unknown.empty()) return absl::OkStatus();
+  FieldErrors errors;
+  errors.Add(unknown, fmt::format("is a field that server version {} does not know", ServerVersion()));
+  return errors.ToStatus();
+}
+
+absl::Status RequireSound(const LoadedModel& model) {
+  return model.faults.empty() ? absl::OkStatus() : ModelInvalidError(model.faults);
+}
+
+absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post) {
+  PreparedJob prepared;
+  FieldErrors errors;
+  prepared.job = FromProto(job, post, "job", errors);
+  prepared.name = job.name();
+  PM_RETURN_IF_ERROR(errors.ToStatus());
+  PM_ASSIGN_OR_RETURN(prepared.model, LoadModel(job.source(), "job.source"));
+  PM_RETURN_IF_ERROR(RequireSound(prepared.model));
+  prepared.job.unitless_file = prepared.model.unitless;
+  PM_RETURN_IF_ERROR(CheckCutLength(prepared.job, prepared.model.model));
+  prepared.digest = JobDigest(prepared.job, prepared.model.digest, prepared.name);
+  if (!prepared.name.empty()) prepared.job.header.push_back("part: " + prepared.name);
+  prepared.job.header.push_back(fmt::format("made by Patchmill {}", ServerVersion()));
+  prepared.job.header.push_back("request sha256: " + Hex(prepared.digest));
+  return prepared;
+}
+
+}  // namespace patchmill

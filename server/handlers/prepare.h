@@ -1,0 +1,31 @@
+// What the handlers share: a request's job checked, its model loaded, its size estimated.
+#pragma once
+
+#include <string>
+
+#include <absl/status/statusor.h>
+
+#include "cam/plan/job.h"
+#include "patchmill/v1/job.pb.h"
+#include "server/model_source.h"
+
+namespace patchmill {
+
+struct PreparedJob {
+  Job job;
+  LoadedModel model;
+  std::string digest;  // of the whole request, 32 bytes
+  std::string name;    // what the part is called
+};
+
+// All field errors of job and post together with those of the model. RESOURCE_EXHAUSTED when the estimated
+// path is longer than limits::kMaxCutLengthMm.
+absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post);
+
+// INVALID_ARGUMENT for a field this version does not know: refused, never silently ignored.
+absl::Status RefuseUnknownFields(const google::protobuf::Message& request);
+
+// OK for a usable model, MODEL_INVALID with the faults for another.
+absl::Status RequireSound(const LoadedModel& model);
+
+}  // namespace patchmill

@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include "cam/plan/job_preview.h"
+#include "cam/plan/plan.h"
+#include "cam/plan/resolve.h"
+#include "core/base/status.h"
+#include "server/convert/report.h"
+#include "server/handlers/handlers.h"
+#include "server/handlers/outputs.h"
+#include "server/handlers/prepare.h"
+
+namespace patchmill {
+
+absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest& request,
+                                v1::SplitRegionsResponse* response) {
+  PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
+  PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
+  PM_ASSIGN_OR_RETURN(
+      const Outputs outputs,
+      ReadOutputs(request.outputs(), {v1::OUTPUT_REGIONS, v1::OUTPUT_PICTURE}, {v1::OUTPUT_REGIONS}));
+  PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post()));
+  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
+    const Job& job = prepared.job;
+    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(prepared.model.model, job.setup, run));
+    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+    PM_ASSIGN_OR_RETURN(const RegionMap map, PlanRegions(surface, job, run));
+    AddDiagnostics(surface.network.findings, resolved.program_zero, response->mutable_diagnostics());
+    if (outputs.contains(v1::OUTPUT_REGIONS)) {
+      *response->mutable_regions() = ToProto(map, job.operation.strategy, resolved.program_zero);
+    }
+    if (outputs.contains(v1::OUTPUT_PICTURE)) {
+      v1::ArtifactChunk& picture = *response->mutable_picture();
+      picture.set_name("regions.svg");
+      picture.set_media_type("image/svg+xml");
+      picture.set_data(DrawRegions(surface, map, prepared.name));
+    }
+    return absl::OkStatus();
+  });
+}
+
+}  // namespace patchmill

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include "cam/plan/plan.h"
+#include "cam/plan/resolve.h"
+#include "cam/post/program_reader.h"
+#include "core/base/status.h"
+#include "server/convert/enums.h"
+#include "server/convert/fields.h"
+#include "server/convert/report.h"
+#include "server/convert/setup.h"
+#include "server/handlers/handlers.h"
+#include "server/handlers/prepare.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+using Response = v1::VerifyProgramResponse;
+
+// What to judge by, as a job: set-up, tool, tolerance, leave, floor, strategy.
+Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
+  Job job;
+  Operation& op = job.operation;
+  job.setup = FromProto(request.setup(), "setup", errors);
+  if (request.tools().empty()) {
+    errors.Missing("tools");
+  } else {
+    op.tool = FromProto(request.tools(0), "tools[0]", CuttingData::kOptional, errors);
+  }
+  if (request.tools_size() > 1) errors.NotYet("tools[1]", "send the one tool of the program");
+  const double radius = BallRadius(op.tool);
+  op.tolerance = request.tolerance_mm();
+  Require(errors, "tolerance_mm", op.tolerance,
+          op.tolerance >= limits::kMinToleranceMm && op.tolerance <= 0.5 * radius,
+          fmt::format("in [{}, half the ball radius = {:.10g}]", limits::kMinToleranceMm, 0.5 * radius));
+  if (request.has_scallop_mm()) {
+    op.scallop = request.scallop_mm();
+    Require(errors, "scallop_mm", op.scallop, op.scallop > 0.0 && op.scallop < radius,
+            fmt::format("in (0, ball radius = {:.10g})", radius));
+  }
+  op.leave = request.stock_to_leave_mm();
+  Require(errors, "stock_to_leave_mm", op.leave, op.leave >= 0.0 && op.leave <= limits::kMaxLeaveMm,
+          fmt::format("in [0, {}]", limits::kMaxLeaveMm));
+  if (request.has_floor_z_mm()) {
+    op.floor_z = request.floor_z_mm();
+    constexpr double kMost = limits::kMaxCoordinateMm;
+    Require(errors, "floor_z_mm", *op.floor_z, std::abs(*op.floor_z) <= kMost,
+            fmt::format("in [{}, {}]", -kMost, kMost));
+  }
+  op.strategy = FromProto(request.strategy(), "strategy", errors);
+  Require(errors, "zigzag_angle_deg", request.zigzag_angle_deg(),
+          std::abs(request.zigzag_angle_deg()) <= 360.0, "in [-360, 360]");
+  op.zigzag_angle = Radians(request.zigzag_angle_deg());
+  if (request.program().empty()) errors.Missing("program");
+  if (!request.dialect().empty() && request.dialect() != "linuxcnc") {
+    errors.Add("dialect", fmt::format("= \"{}\"; must be one of: linuxcnc", request.dialect().substr(0, 50)));
+  }
+  job.work_offset.clear();  // a verified program may use any
+  return job;
+}
+
+v1::Outcome Judge(const v1::Report& report) {
+  const bool ok = report.gouge_check() == v1::CHECK_STATE_PASSED &&
+                  report.motion_check() == v1::CHECK_STATE_PASSED &&
+                  report.finish_check() != v1::CHECK_STATE_FAILED;
+  if (!ok) return v1::OUTCOME_VERIFICATION_FAILED;
+  return report.unreachable_area_mm2() > 0.0 ? v1::OUTCOME_COMPLETE_WHERE_REACHABLE : v1::OUTCOME_COMPLETE;
+}
+
+absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const LoadedModel& model,
+                  const RunContext& run, v1::Report* report) {
+  absl::StatusOr<ProgramMotion> motion = ReadProgram(request.program());
+  if (!motion.ok()) {
+    if (motion.status().code() != absl::StatusCode::kInvalidArgument) return motion.status();
+    return ProgramUnreadableError("program: " + std::string(motion.status().message()));
+  }
+  PM_RETURN_IF_ERROR(run.Check());
+  PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, job.setup, run));
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+  VerifyParams params = MakeVerifyParams(job, resolved);
+  if (!request.has_scallop_mm()) params.scallop.reset();
+  PM_ASSIGN_OR_RETURN(const VerifyReport verify, Verify(surface, job.operation.tool, *motion, params, run));
+  FillFromVerifier(verify, resolved.program_zero, request.has_scallop_mm(), report);
+  report->set_outcome(Judge(*report));
+  *report->mutable_setup_sheet() = ToProto(resolved, job);
+  report->mutable_setup_sheet()->set_tool_number(motion->tool_number);
+  report->mutable_setup_sheet()->clear_clearance_z_mm();
+  report->set_point_count(static_cast<int>(motion->moves.size()));
+  if (std::isfinite(motion->controller_tolerance))
+    report->set_controller_tolerance_mm(motion->controller_tolerance);
+  report->set_time_basis("not estimated");
+  AddDiagnostics(verify.findings, resolved.program_zero, report->mutable_diagnostics());
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramRequest& request,
+                                 const Sink<Response>& sink) {
+  PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
+  PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
+  FieldErrors errors;
+  const Job job = ReadJob(request, errors);
+  PM_RETURN_IF_ERROR(errors.ToStatus());
+  PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source"));
+  PM_RETURN_IF_ERROR(RequireSound(model));
+  const auto beat = [&](std::string_view stage, double fraction) {
+    Response response;
+    response.mutable_progress()->set_stage(std::string(stage));
+    response.mutable_progress()->set_fraction(fraction);
+    return sink(response);
+  };
+  Response last;
+  PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(), beat, [&](const RunContext& run) {
+    return Make(request, job, model, run, last.mutable_report());
+  }));
+  return sink(last) ? absl::OkStatus() : absl::CancelledError("the client has gone");
+}
+
+}  // namespace patchmill

@@ -1,0 +1,62 @@
+#include <chrono>
+
+#include <fmt/format.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
+
+#include "core/base/status.h"
+#include "server/server.h"
+#include "server/tls_files.h"
+
+namespace patchmill {
+
+absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> ClientCredentials(const std::string& ca_file,
+                                                                            const std::string& cert_file,
+                                                                            const std::string& key_file) {
+  if (ca_file.empty() && cert_file.empty() && key_file.empty()) return grpc::InsecureChannelCredentials();
+  if (cert_file.empty() != key_file.empty()) {
+    return absl::InvalidArgumentError("--cert and --key belong together");
+  }
+  grpc::SslCredentialsOptions ssl;
+  if (!ca_file.empty()) {
+    PM_ASSIGN_OR_RETURN(ssl.pem_root_certs, ReadPemFile(ca_file));
+  }
+  if (!cert_file.empty()) {
+    PM_ASSIGN_OR_RETURN(ssl.pem_cert_chain, ReadPemFile(cert_file));
+    PM_ASSIGN_OR_RETURN(ssl.pem_private_key, ReadPemFile(key_file));
+  }
+  return grpc::SslCredentials(ssl);
+}
+
+int CheckHealth(const std::string& target, const std::shared_ptr<grpc::ChannelCredentials>& credentials) {
+  // grpc.health.v1 is not packaged as a library; its request for the whole server is an empty message, and a
+  // server that serves answers field 1 = 1.
+  constexpr char kServing[] = {0x08, 0x01};
+  grpc::TemplatedGenericStub<grpc::ByteBuffer, grpc::ByteBuffer> stub(
+      grpc::CreateChannel(target, credentials));
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(3));
+  grpc::Slice empty;
+  const grpc::ByteBuffer request(&empty, 1);
+  grpc::CompletionQueue queue;
+  auto reader = stub.PrepareUnaryCall(&context, "/grpc.health.v1.Health/Check", request, &queue);
+  reader->StartCall();
+  grpc::ByteBuffer response;
+  grpc::Status status;
+  reader->Finish(&response, &status, nullptr);
+  void* tag = nullptr;
+  bool ok = false;
+  queue.Next(&tag, &ok);
+  std::string bytes;
+  std::vector<grpc::Slice> slices;
+  if (status.ok() && response.Dump(&slices).ok()) {
+    for (const grpc::Slice& slice : slices)
+      bytes.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
+  }
+  if (bytes == std::string_view(kServing, sizeof kServing)) return 0;
+  fmt::print(stderr, "patchmill: {} is not serving{}{}\n", target, status.ok() ? "" : ": ",
+             status.error_message());
+  return 1;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,54 @@
+// Every limit of the service, with its unit. All are checked before the cost they bound is paid.
+#pragma once
+
+#include <cstddef>
+
+namespace patchmill::limits {
+
+// Wire.
+inline constexpr std::size_t kMaxMessageBytes = std::size_t{64} << 20;  // either way, both ends
+inline constexpr std::size_t kChunkBytes = std::size_t{256} << 10;      // of program and artifact pieces
+inline constexpr std::size_t kPathChunkPoints = 4096;                   // of one PathChunk
+inline constexpr std::size_t kMaxStatusBytes = 4096;  // of grpc-status-details-bin; trailers stop at 8 KiB
+inline constexpr std::size_t kMaxStatusMessageBytes = 1000;
+inline constexpr int kMaxViolations = 20;
+inline constexpr std::size_t kMaxPictureBytes = std::size_t{8} << 20;
+inline constexpr std::size_t kMaxDiagnostics = 2000;  // of one answer; the rest is counted
+
+// Models.
+inline constexpr std::size_t kMaxPatches = 100'000;
+inline constexpr std::size_t kMaxControlPoints =
+    2'500'000;  // all patches together; 100,000 bicubic ones have 1.6 million
+inline constexpr std::size_t kMaxKnots = 2'500'000;  // all patches together
+inline constexpr std::size_t kMaxIdBytes = 200;
+inline constexpr std::size_t kMaxNameBytes = 100;
+inline constexpr std::size_t kMaxRequestIdBytes = 128;
+
+// Jobs.
+inline constexpr int kMaxThreads = 64;            // of one job
+inline constexpr int kMaxJobs = 64;               // at once, of one server
+inline constexpr double kMaxJobSeconds = 3600.0;  // default of the server
+inline constexpr double kMaxCutLengthMm = 5e6;    // estimated before planning: plan area / step-over
+inline constexpr std::size_t kMaxProgramBytes = std::size_t{512} << 20;  // of a made program
+
+// Times of the service itself.
+inline constexpr int kCancelPollMs = 50;  // a cancel is seen after at most this
+inline constexpr int kHeartbeatMs = 250;  // Progress is sent this often
+inline constexpr int kDrainSeconds = 10;  // from SIGTERM until running calls are cut off
+
+// Ranges of single fields; the messages name them.
+inline constexpr double kMinDiameterMm = 0.02, kMaxDiameterMm = 1000.0;
+inline constexpr double kMinToleranceMm = 1e-4;
+inline constexpr double kMaxLeaveMm = 100.0;
+inline constexpr double kMaxAllowanceMm = 100.0;
+inline constexpr double kMaxApproachGapMm = 100.0;
+inline constexpr double kMaxClearanceAboveMm = 1e4;
+inline constexpr double kMaxCoordinateMm = 1e5;
+inline constexpr double kMinSteepDeg = 5.0, kMaxSteepDeg = 85.0;
+inline constexpr double kMaxRpm = 1e6;
+inline constexpr double kMaxFeed = 1e6;  // mm/min
+inline constexpr int kMaxToolNumber = 99'999;
+inline constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
+inline constexpr double kMaxJoinToleranceMm = 10.0;
+
+}  // namespace patchmill::limits

@@ -1,0 +1,144 @@
+#include "server/model_source.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
+
+#include "core/base/status.h"
+#include "core/io/model_text.h"
+#include "core/network/control_points.h"
+#include "server/convert/fields.h"
+#include "server/convert/model.h"
+#include "server/digest.h"
+#include "server/limits.h"
+#include "server/unknown_fields.h"
+
+namespace patchmill {
+namespace {
+
+constexpr std::string_view kTextFormats[] = {"bpt", "bv", "patches"};
+
+// Commas of a JSON text bound its values: coordinates, weights, knots, and the names of patches.
+constexpr std::size_t kMaxJsonCommas =
+    4 * limits::kMaxControlPoints + limits::kMaxKnots + 10 * limits::kMaxPatches;
+
+bool LooksLikeJson(std::string_view content) {
+  const std::size_t first = content.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && content[first] == '{';
+}
+
+absl::StatusOr<v1::PatchModel> ParseJson(const std::string& content) {
+  const auto commas = static_cast<std::size_t>(std::count(content.begin(), content.end(), ','));
+  if (commas > kMaxJsonCommas) {
+    return LimitError("model.json_value_count", static_cast<double>(kMaxJsonCommas),
+                      static_cast<double>(commas));
+  }
+  v1::PatchModel model;
+  const auto status = google::protobuf::util::JsonStringToMessage(content, &model);
+  if (!status.ok()) {
+    return ModelUnreadableError(
+        fmt::format("model file: not a PatchModel in JSON: {}", std::string(status.message())));
+  }
+  return model;
+}
+
+absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::string_view format) {
+  v1::PatchModel model;
+  const bool parsed = model.ParseFromString(content);
+  if (parsed && model.patches_size() > 0) {
+    if (const std::string unknown = UnknownField(model); !unknown.empty()) {
+      return ModelUnreadableError(
+          fmt::format("model file: {} is a field this server does not know", unknown));
+    }
+    return model;
+  }
+  if (format == "pb") {
+    return ModelUnreadableError(parsed ? "model file: a binary PatchModel without patches"
+                                       : "model file: not a binary PatchModel, or truncated");
+  }
+  return ModelUnreadableError(
+      "model file: neither JSON nor a binary PatchModel; text formats (bpt, bv, patches) are told by the "
+      "file's ending");
+}
+
+absl::StatusOr<LoadedModel> FromChecked(absl::StatusOr<CheckedModel> checked) {
+  PM_RETURN_IF_ERROR(checked.status());
+  LoadedModel loaded;
+  loaded.model = std::move(checked->model);
+  loaded.faults = std::move(checked->faults);
+  return loaded;
+}
+
+absl::StatusOr<LoadedModel> LoadText(const v1::ModelFile& file, std::string_view at) {
+  absl::StatusOr<PatchModel> model = ReadModelText(file.format(), file.content());
+  if (!model.ok()) {
+    if (model.status().code() != absl::StatusCode::kInvalidArgument) return model.status();
+    return ModelUnreadableError(fmt::format("model file: {}", std::string(model.status().message())));
+  }
+  LoadedModel loaded;
+  loaded.model = *std::move(model);
+  if (file.length_unit() == v1::LENGTH_UNIT_UNSPECIFIED) {
+    loaded.unitless = true;
+  } else if (const std::optional<double> unit = MillimetersPer(file.length_unit())) {
+    for (Patch& patch : loaded.model.patches) {
+      for (Vec3& p : ControlPoints(patch.shape)) p *= *unit;
+    }
+  } else {
+    FieldErrors errors;
+    errors.Add(At(at, "length_unit"), fmt::format("= {}; this server does not know that value",
+                                                  static_cast<int>(file.length_unit())));
+    return errors.ToStatus();
+  }
+  loaded.faults = ValidateModel(loaded.model);
+  return loaded;
+}
+
+absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::string& at) {
+  if (file.content().empty()) return ModelUnreadableError("model file: empty");
+  const std::string& format = file.format();
+  if (std::find(std::begin(kTextFormats), std::end(kTextFormats), format) != std::end(kTextFormats)) {
+    return LoadText(file, at);
+  }
+  if (!(format.empty() || format == "json" || format == "pb")) {
+    FieldErrors errors;
+    errors.Add(At(at, "format"), fmt::format("= \"{}\"; must be one of bpt, bv, patches, json, pb",
+                                             Utf8(format.substr(0, 50))));
+    return errors.ToStatus();
+  }
+  PM_ASSIGN_OR_RETURN(const v1::PatchModel model, LooksLikeJson(file.content()) || format == "json"
+                                                      ? ParseJson(file.content())
+                                                      : ParseBinary(file.content(), format));
+  if (file.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED && file.length_unit() != model.length_unit()) {
+    FieldErrors errors;
+    errors.Add(At(at, "length_unit"), "differs from the file's own length_unit; leave it unset");
+    return errors.ToStatus();
+  }
+  return FromChecked(FromProto(model, At(at, "content")));
+}
+
+absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view at) {
+  switch (source.source_case()) {
+    case v1::ModelSource::kModel:
+      return FromChecked(FromProto(source.model(), At(at, "model")));
+    case v1::ModelSource::kFile:
+      return LoadFile(source.file(), At(at, "file"));
+    case v1::ModelSource::kModelSha256:
+      return ModelNotCachedError();
+    case v1::ModelSource::SOURCE_NOT_SET:
+      break;
+  }
+  FieldErrors errors;
+  errors.Missing(std::string(at));
+  return errors.ToStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at) {
+  PM_ASSIGN_OR_RETURN(LoadedModel loaded, Load(source, at));
+  loaded.digest = ModelDigest(loaded.model);
+  return loaded;
+}
+
+}  // namespace patchmill

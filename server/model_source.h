@@ -1,0 +1,26 @@
+// v1.ModelSource -> PatchModel in millimetres, whatever it came as.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <absl/status/statusor.h>
+
+#include "core/base/diagnostic.h"
+#include "core/network/patch_model.h"
+#include "patchmill/v1/model.pb.h"
+
+namespace patchmill {
+
+struct LoadedModel {
+  PatchModel model;
+  Diagnostics faults;     // everything wrong with the patches; the model may be used only when empty
+  bool unitless = false;  // a file that states no unit, and the request did not either
+  std::string digest;     // SHA-256, 32 bytes
+};
+
+// INVALID_ARGUMENT for what cannot be read (with line and reason), NOT_FOUND for a digest, RESOURCE_EXHAUSTED
+// for a limit. Limits are checked before the cost is paid. `at` is the path of the source in its request.
+absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at);
+
+}  // namespace patchmill

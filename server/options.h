@@ -1,0 +1,18 @@
+// How a server is run. Seen by the command line too, so nothing of the domain stands here.
+#pragma once
+
+#include <string>
+
+namespace patchmill {
+
+struct ServerOptions {
+  std::string listen = "127.0.0.1:50051";  // HOST:PORT; loopback unless told otherwise; port 0: any free one
+  int threads = 0;                         // of one job; 0: as many as the machine has
+  int max_jobs = 4;                        // at once; more are RESOURCE_EXHAUSTED
+  double max_job_seconds = 3600.0;         // then the job is DEADLINE_EXCEEDED
+  std::string ca_file, cert_file,
+      key_file;              // PEM; cert and key: TLS; ca too: clients must show a certificate
+  bool log_requests = true;  // one line per call on stderr
+};
+
+}  // namespace patchmill
