@@ -39,7 +39,7 @@ struct Prover {
     return true;
   }
   bool Excluded(const LowerModel& low, double z) {
-    if (!low.convex || !low.minorant) return false;
+    if (!low.minorant) return false;
     if (low.f0 + MinimizeOnBox(low.q, {-0.5, 0.5, -0.5, 0.5}).value < ball.FreeF()) return false;
     top = std::max(top, z);
     return true;
@@ -96,7 +96,7 @@ double Locator::Impl::Certify(const Ball& ball, const OpenLeaves& open, double e
   Prover prover{surface, ball, eps, best, kBudget, best.z, buffer};
   std::array<Vec4, kMaxNetPoints> points;
   for (const std::int32_t index : open) {
-    const internal::SearchLeaf& leaf = leaves[static_cast<std::size_t>(index)];
+    const internal::SearchLeaf& leaf = tree.leaves[static_cast<std::size_t>(index)];
     const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
     std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());

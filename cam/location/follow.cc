@@ -93,10 +93,11 @@ std::optional<CenterPoint> Locator::Follow(const SurfacePoint& from, const Vec2&
     while (!stack.empty()) {
       const std::int32_t id = stack.back();
       stack.pop_back();
-      const SurfaceNode& node = surface.nodes[static_cast<std::size_t>(id)];
-      const Vec3 reach = Vec3::Constant(tolerance);
-      if (!((now.at.p + reach).array() >= node.box.min.array()).all() ||
-          !((now.at.p - reach).array() <= node.box.max.array()).all()) {
+      const internal::SearchNode& node = impl_->tree.nodes[static_cast<std::size_t>(id)];
+      const Vec3& p = now.at.p;
+      if (p.x() < node.min_x - tolerance || p.x() > node.max_x + tolerance ||
+          p.y() < node.min_y - tolerance || p.y() > node.max_y + tolerance ||
+          p.z() < node.min_z - tolerance || p.z() > node.max_z + tolerance) {
         continue;
       }
       if (node.leaf < 0) {
@@ -104,7 +105,7 @@ std::optional<CenterPoint> Locator::Follow(const SurfacePoint& from, const Vec2&
         stack.push_back(node.right);
         continue;
       }
-      const internal::SearchLeaf& leaf = impl_->leaves[static_cast<std::size_t>(node.leaf)];
+      const internal::SearchLeaf& leaf = impl_->tree.leaves[static_cast<std::size_t>(node.leaf)];
       const Rect& r = leaf.rect;
       const BoxMinimum guess = internal::GuessMinimum(leaf.model, now.at.p);
       const Spot start =

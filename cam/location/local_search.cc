@@ -39,14 +39,44 @@ struct Step {
   BoxMinimum to;
 };
 
+// Makes the Hessian positive definite against the metric e, f, g: its eigenvalues by their absolute values,
+// at least kFloor. True curvatures are kept, so convex directions converge as before.
+void MakeDefinite(double e, double f, double g, Quadratic2& m) {
+  constexpr double kFloor = 0.05;
+  const double tiny = 1e-14 * (e + g) + 1e-300;
+  const double l11 = std::sqrt(e + tiny), l21 = f / l11,
+               l22 = std::sqrt(std::max(g + tiny - l21 * l21, tiny));
+  // A = L^-1 H L^-T
+  const double a = m.a / (l11 * l11), b = (m.b - l21 * l11 * a) / (l11 * l22);
+  const double c = (m.c - l21 * (l21 * a + 2.0 * l22 * b)) / (l22 * l22);
+  const double middle = 0.5 * (a + c), half = 0.5 * (a - c), radius = std::sqrt(half * half + b * b);
+  const double high = std::max(std::abs(middle + radius), kFloor);
+  const double low = std::max(std::abs(middle - radius), kFloor);
+  // high w w^T + low (1 - w w^T), w the eigenvector of middle + radius
+  double ww = 1.0, wx = 0.0;  // cos^2, sin cos of its angle
+  if (radius > 0.0) {
+    ww = 0.5 * (1.0 + half / radius);
+    wx = 0.5 * b / radius;
+  }
+  const double na = high * ww + low * (1.0 - ww), nb = (high - low) * wx, nc = high * (1.0 - ww) + low * ww;
+  m.a = l11 * l11 * na;
+  m.b = l11 * (l21 * na + l22 * nb);
+  m.c = l21 * (l21 * na + 2.0 * l22 * nb) + l22 * l22 * nc;
+}
+
+// Along one parameter line, the other variable held by its bound.
+double LineStep(double curvature, double metric, double slope, double lo, double hi, double& used) {
+  used = std::max(std::abs(curvature), 0.05 * metric + 1e-300);
+  return std::clamp(-slope / used, lo, hi);
+}
+
 Step NewtonStep(const State& s, const Box2& box) {
   Step step;
   const SurfaceJet& j = s.jet;
   const Vec3& d = s.d;
-  const bool above = !(d.z() > 0.0);
   const double e = j.du.squaredNorm(), f = j.du.dot(j.dv), g = j.dv.squaredNorm();
   double ge = e, gf = f, gg = g;  // first form of what f measures: without z above the centre
-  if (above) {
+  if (!(d.z() > 0.0)) {
     ge -= j.du.z() * j.du.z();
     gf -= j.du.z() * j.dv.z();
     gg -= j.dv.z() * j.dv.z();
@@ -57,15 +87,30 @@ Step NewtonStep(const State& s, const Box2& box) {
   m.a = ge - d.dot(j.duu);
   m.b = gf - d.dot(j.duv);
   m.c = gg - d.dot(j.dvv);
+  // A bound that pushes back holds its variable: what is left is a problem of one variable with its own
+  // curvature, however hollow the surface is across.
+  const bool holds_u = (box.x0 == 0.0 && m.gx > 0.0) || (box.x1 == 0.0 && m.gx < 0.0);
+  const bool holds_v = (box.y0 == 0.0 && m.gy > 0.0) || (box.y1 == 0.0 && m.gy < 0.0);
+  if (holds_u || holds_v) {
+    if (holds_u && holds_v) return step;
+    double used = 0.0;
+    if (holds_u) {
+      step.exact = m.c > 1e-2 * g;
+      step.to.y = LineStep(m.c, g, m.gy, box.y0, box.y1, used);
+      step.to.value = step.to.y * (m.gy + 0.5 * used * step.to.y);
+    } else {
+      step.exact = m.a > 1e-2 * e;
+      step.to.x = LineStep(m.a, e, m.gx, box.x0, box.x1, used);
+      step.to.value = step.to.x * (m.gx + 0.5 * used * step.to.x);
+    }
+    return step;
+  }
   constexpr double kSmall = 1e-9;
   const double det = m.a * m.c - m.b * m.b;
-  if (!(m.a > kSmall * e && m.c > kSmall * g && det > kSmall * e * g)) {
-    const double tiny = 1e-14 * (e + g) + 1e-300;
-    m.a = e + tiny;
-    m.b = f;
-    m.c = g + tiny;
-  } else {
+  if (m.a > kSmall * e && m.c > kSmall * g && det > kSmall * e * g) {
     step.exact = det > 1e-2 * (e * g - f * f);
+  } else {
+    MakeDefinite(e, f, g, m);
   }
   step.to = MinimizeOnBox(m, box);
   return step;

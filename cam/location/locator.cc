@@ -1,11 +1,9 @@
 #include "cam/location/locator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "cam/location/locator_impl.h"
-#include "core/base/parallel.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -18,9 +16,6 @@ using internal::SearchOptions;
 using internal::SearchResult;
 
 namespace {
-
-float RoundDown(double x) { return std::nextafterf(static_cast<float>(x), -HUGE_VALF); }
-float RoundUp(double x) { return std::nextafterf(static_cast<float>(x), HUGE_VALF); }
 
 // Height up to which a node can lift the ball over q; -infinity when it is not under the ball.
 double NodeBound(const internal::SearchNode& n, const Ball& ball) {
@@ -50,37 +45,9 @@ bool Holds(const Rect& r, double u, double v) { return u >= r.u0 && u <= r.u1 &&
 
 }  // namespace
 
-Locator::Impl::Impl(const Surface& s, double r) : surface(s), radius(r), slack(1e-12 * s.scale) {
+Locator::Impl::Impl(const Surface& s, double r)
+    : surface(s), radius(r), slack(1e-12 * s.scale), tree(internal::BuildSearchTree(s, r)) {
   PM_CHECK(radius > 0.0);
-  nodes.reserve(surface.nodes.size());
-  for (const SurfaceNode& n : surface.nodes) {
-    nodes.push_back({RoundDown(n.box.min.x()), RoundDown(n.box.min.y()), RoundUp(n.box.max.x()),
-                     RoundUp(n.box.max.y()), RoundUp(n.box.max.z()), n.right, n.leaf});
-  }
-  leaves.resize(surface.leaves.size());
-  constexpr std::size_t kChunk = 64;
-  const RunContext run;
-  const absl::Status status =
-      ParallelFor(run, nullptr, (leaves.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-        std::array<Vec4, kMaxNetPoints> points;
-        std::array<Vec3, kMaxNetPoints> hull;
-        for (std::size_t i = chunk * kChunk; i < std::min(leaves.size(), (chunk + 1) * kChunk); ++i) {
-          const SurfaceLeaf& given = surface.leaves[i];
-          const Piece& piece = surface.piece(given.piece);
-          const NetShape shape{piece.net.degree_u, piece.net.degree_v};
-          internal::SearchLeaf& leaf = leaves[i];
-          leaf.rect = {given.u0, given.u1, given.v0, given.v1};
-          leaf.piece = given.piece.value;
-          const Rect& rect = leaf.rect;
-          std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
-          RestrictNet(shape, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
-          const int hull_count = HullPoints(shape, points.data(), hull.data());
-          leaf.model = internal::MakeLeafModel(
-              shape, points.data(), piece.net.rational, hull.data(), hull_count,
-              Evaluate(piece, 0.5 * (rect.u0 + rect.u1), 0.5 * (rect.v0 + rect.v1)), rect);
-        }
-      });
-  PM_CHECK(status.ok());
 }
 
 void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Contact& best) const {
@@ -97,19 +64,19 @@ void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenL
   const auto push = [&](std::int32_t node, double bound) {
     if (beats(bound)) stack.push_back({node, bound});
   };
-  push(0, NodeBound(nodes[0], ball));
+  push(0, NodeBound(tree.nodes[0], ball));
   while (!stack.empty() && !(best.z > enough)) {
     const Pending top = stack.back();
     stack.pop_back();
     if (!beats(top.bound)) continue;
-    const internal::SearchNode& node = nodes[static_cast<std::size_t>(top.node)];
+    const internal::SearchNode& node = tree.nodes[static_cast<std::size_t>(top.node)];
     if (node.leaf >= 0) {
       VisitLeaf(node.leaf, ball, best, open);
       continue;
     }
     const std::int32_t left = top.node + 1;
-    const double bound_left = NodeBound(nodes[static_cast<std::size_t>(left)], ball);
-    const double bound_right = NodeBound(nodes[static_cast<std::size_t>(node.right)], ball);
+    const double bound_left = NodeBound(tree.nodes[static_cast<std::size_t>(left)], ball);
+    const double bound_right = NodeBound(tree.nodes[static_cast<std::size_t>(node.right)], ball);
     if (bound_left > bound_right) {
       push(node.right, bound_right);
       push(left, bound_left);
@@ -121,19 +88,17 @@ void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenL
 }
 
 void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& best, OpenLeaves* open) const {
-  const SurfaceLeaf& bounds = surface.leaves[static_cast<std::size_t>(index)];
-  const internal::SearchLeaf& leaf = leaves[static_cast<std::size_t>(index)];
+  const internal::SearchLeaf& leaf = tree.leaves[static_cast<std::size_t>(index)];
   const double free_f = ball.FreeF();
   const Vec3 c = Lift(ball.q, best.z);
-  if (internal::OrientedBoxOutside(bounds.center, bounds.axis, bounds.half, c, 2.0 * free_f)) return;
+  if (internal::OrientedBoxOutside(leaf.center, leaf.axis, leaf.half, c, 2.0 * free_f)) return;
 
   const LowerModel lower = internal::BoundBelow(leaf.model, c);
-  if (lower.convex) {
-    if (best.piece == leaf.piece && Holds(leaf.rect, best.u, best.v) && IsKkt(best, leaf.rect)) return;
-    if (lower.minorant && lower.f0 + MinimizeOnBox(lower.q, {-0.5, 0.5, -0.5, 0.5}).value >= free_f) {
-      return;
-    }
+  if (lower.convex && best.piece == leaf.piece && Holds(leaf.rect, best.u, best.v) &&
+      IsKkt(best, leaf.rect)) {
+    return;
   }
+  if (lower.minorant && lower.f0 + MinimizeOnBox(lower.q, {-0.5, 0.5, -0.5, 0.5}).value >= free_f) return;
 
   const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
   const Rect& rect = leaf.rect;

@@ -29,8 +29,8 @@ struct CertifiedCenter {
 
 class Locator {
  public:
-  // Keeps a reference to `surface`. radius > 0, mm (tool radius + stock to leave). Cost O(1); per-leaf data
-  // are made on demand or in parallel here, deterministic.
+  // Keeps a reference to `surface`. radius > 0, mm (tool radius + stock to leave). Makes second-order models
+  // of all leaves, in parallel, deterministic: about 5 us and 400 bytes a leaf.
   Locator(const Surface& surface, double radius);
   ~Locator();
   Locator(Locator&&) noexcept;

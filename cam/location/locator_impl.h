@@ -4,28 +4,11 @@
 #include <atomic>
 #include <vector>
 
-#include "cam/location/leaf_model.h"
 #include "cam/location/local_search.h"
 #include "cam/location/locator.h"
+#include "cam/location/search_tree.h"
 
 namespace patchmill {
-
-namespace internal {
-
-// Everything a search visits, packed: boxes rounded outward to floats.
-struct SearchNode {
-  float min_x, min_y, max_x, max_y, max_z;
-  std::int32_t right;  // right child; the left one is the next node
-  std::int32_t leaf;   // >= 0: index of a leaf, no children
-};
-
-struct SearchLeaf {
-  LeafModel model;
-  Rect rect;
-  std::int32_t piece;
-};
-
-}  // namespace internal
 
 struct Locator::Impl {
   Impl(const Surface& surface, double radius);
@@ -54,8 +37,7 @@ struct Locator::Impl {
   const Surface& surface;
   double radius;
   double slack;  // mm, 1e-12 of the scale
-  std::vector<internal::SearchNode> nodes;
-  std::vector<internal::SearchLeaf> leaves;
+  internal::SearchTree tree;
   mutable std::atomic<std::uint64_t> defects{0};
 };
 

@@ -1,4 +1,4 @@
-// Exact minimum of a convex quadratic of two variables over a rectangle.
+// Exact minimum of a quadratic of two variables over a rectangle.
 #pragma once
 
 #include <algorithm>
@@ -24,19 +24,19 @@ struct BoxMinimum {
 };
 
 namespace internal {
-// The minimum over [lo, hi] of 1/2 a t^2 + g t, a >= 0.
+// Where 1/2 a t^2 + g t is smallest on [lo, hi].
 inline double MinimumOnSegment(double a, double g, double lo, double hi) {
   if (a > 0.0) return std::clamp(-g / a, lo, hi);
-  return g > 0.0 ? lo : g < 0.0 ? hi : std::clamp(0.0, lo, hi);
+  return lo * (0.5 * a * lo + g) <= hi * (0.5 * a * hi + g) ? lo : hi;
 }
 }  // namespace internal
 
-// Needs a, c >= 0 and a c - b^2 >= 0, x0 <= x1, y0 <= y1. Where the free minimum is outside, the minimum lies
-// on the border: each edge fixes one variable, the other is solved and clamped, the best of the four is kept
+// Needs x0 <= x1, y0 <= y1; f need not be convex. Where there is no free minimum inside, the minimum lies on
+// the border: each edge fixes one variable, the other is solved and clamped, the best of the four is kept
 // (ALGORITHMS 2.3: clamping the free minimum component-wise is not a descent step).
 inline BoxMinimum MinimizeOnBox(const Quadratic2& f, const Box2& box) {
   const double det = f.a * f.c - f.b * f.b;
-  if (det > 0.0) {
+  if (det > 0.0 && f.a > 0.0) {
     const double x = (f.b * f.gy - f.c * f.gx) / det, y = (f.b * f.gx - f.a * f.gy) / det;
     if (x >= box.x0 && x <= box.x1 && y >= box.y0 && y <= box.y1) return {x, y, f(x, y)};
   }
