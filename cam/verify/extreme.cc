@@ -1,0 +1,42 @@
+#include "cam/verify/extreme.h"
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+
+absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const Extreme& known, double limit,
+                                     double certainty, const MakeRootSearch& make, const RunContext& run,
+                                     const char* stage) {
+  constexpr std::size_t kFirst = 8, kChunk = 32;
+  std::vector<std::size_t> first, second;
+  for (std::size_t i = 0; i < roots.size(); ++i) (i % kFirst == 0 ? first : second).push_back(i);
+  std::vector<Extreme> found(roots.size());
+  Extremes result;
+  result.worst = known;
+  for (const std::vector<std::size_t>* round : {&first, &second}) {
+    const Threshold threshold{result.worst.value, limit, certainty};
+    const std::size_t chunks = (round->size() + kChunk - 1) / kChunk;
+    PM_RETURN_IF_ERROR(ParallelFor(run, round == &second ? stage : nullptr, chunks, [&](std::size_t chunk) {
+      const RootSearch search = make();
+      const std::size_t end = std::min(round->size(), (chunk + 1) * kChunk);
+      for (std::size_t k = chunk * kChunk; k < end && !run.Cancelled(); ++k) {
+        const std::size_t i = (*round)[k];
+        found[i] = search(roots[i], threshold);
+      }
+    }));
+    for (const std::size_t i : *round) {
+      if (found[i].value > result.worst.value) result.worst = found[i];
+    }
+  }
+  for (const Extreme& e : found) {
+    if (e.value > limit) result.violations.push_back(e);
+  }
+  std::stable_sort(result.violations.begin(), result.violations.end(),
+                   [](const Extreme& a, const Extreme& b) { return a.value > b.value; });
+  return result;
+}
+
+}  // namespace patchmill

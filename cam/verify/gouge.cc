@@ -1,0 +1,117 @@
+#include "cam/verify/gouge.h"
+
+#include <memory>
+
+namespace patchmill {
+
+namespace {
+
+class GougeSearch {
+ public:
+  GougeSearch(const Surface& surface, const SegmentTree& tree, const GougeParams& params,
+              const RunContext& run)
+      : walker_(surface), tree_(tree), radius_(params.radius + params.chord_error), run_(run) {
+    candidates_.resize(kMaxCellDepth + 2);
+  }
+
+  Extreme Run(const CellRect& root, const Threshold& threshold) {
+    Extreme here;
+    walker_.Walk(root, [&](const SurfaceCell& cell) { return Visit(cell, threshold, here); });
+    return here;
+  }
+
+ private:
+  bool Visit(const SurfaceCell& cell, const Threshold& threshold, Extreme& here) {
+    if (run_.Cancelled()) return false;
+    const auto depth = static_cast<std::size_t>(cell.depth);
+    std::vector<int>& from = candidates_[depth];
+    std::vector<int>& to = candidates_[depth + 1];
+    if (depth == 0) tree_.FindWithin(cell.middle, radius_ - threshold.Drop(0.0) + cell.radius, from);
+    to.clear();
+    double lowest = kInfinity;
+    for (const int i : from) {
+      const double far_enough = radius_ - threshold.Drop(here.value) + cell.radius;
+      const MetricValue f = SweptDistanceAndGradient(tree_.segment(i), cell.middle);
+      if (f.distance >= far_enough) continue;
+      to.push_back(i);
+      if (radius_ - f.distance > here.value) {
+        here = {radius_ - f.distance, cell.middle, cell.rect.piece, tree_.segment(i).move};
+      }
+      double least = kInfinity;
+      for (int k = 0; k < cell.hull_count; ++k) {
+        least = std::min(least, f.gradient.dot(cell.hull[k] - cell.middle));
+      }
+      // Slope 1 bounds it as well; the gradient of a segment through the point is unknown.
+      lowest =
+          std::min(lowest, f.distance + (f.distance > 0.0 ? std::max(least, -cell.radius) : -cell.radius));
+    }
+    return radius_ - lowest > threshold.Drop(here.value);
+  }
+
+  CellWalker walker_;
+  const SegmentTree& tree_;
+  double radius_;
+  const RunContext& run_;
+  std::vector<std::vector<int>> candidates_;  // by depth: what the parent has left
+};
+
+class ShankSearch {
+ public:
+  ShankSearch(const Surface& surface, const SegmentTree& tree, double shank_radius, const GougeParams& params,
+              const RunContext& run)
+      : walker_(surface), tree_(tree), reach_(shank_radius + params.chord_error), run_(run) {}
+
+  Extreme Run(const CellRect& root, const Threshold& threshold) {
+    Extreme here;
+    walker_.Walk(root, [&](const SurfaceCell& cell) {
+      if (run_.Cancelled()) return false;
+      const auto nearest =
+          tree_.FindNearest(cell.middle, reach_ - threshold.Floor(here.value) + cell.radius, hint_);
+      if (nearest.segment < 0) return false;
+      hint_ = nearest.segment;
+      const double depth = reach_ - nearest.distance;
+      if (depth > here.value) {
+        here = {depth, cell.middle, cell.rect.piece, tree_.segment(nearest.segment).move};
+      }
+      return depth + cell.radius > threshold.Drop(here.value);
+    });
+    return here;
+  }
+
+ private:
+  CellWalker walker_;
+  const SegmentTree& tree_;
+  double reach_;
+  const RunContext& run_;
+  int hint_ = -1;
+};
+
+}  // namespace
+
+absl::StatusOr<Extremes> FindGouge(const Surface& surface, const std::vector<CellRect>& roots,
+                                   const SegmentTree& tree, const GougeParams& params,
+                                   const RunContext& run) {
+  if (tree.empty()) return Extremes{};
+  const MakeRootSearch make = [&]() -> RootSearch {
+    auto search = std::make_shared<GougeSearch>(surface, tree, params, run);
+    return
+        [search](const CellRect& root, const Threshold& threshold) { return search->Run(root, threshold); };
+  };
+  return SearchRoots(roots, Extreme{}, params.limit, params.certainty, make, run, "verify: gouge");
+}
+
+absl::StatusOr<Extremes> FindShankGouge(const Surface& surface, const std::vector<CellRect>& roots,
+                                        const SegmentTree& tree, double shank_radius,
+                                        const GougeParams& params, const RunContext& run) {
+  constexpr double kShankCertainty = 0.02;  // mm
+  if (tree.empty()) return Extremes{};
+  const MakeRootSearch make = [&]() -> RootSearch {
+    auto search = std::make_shared<ShankSearch>(surface, tree, shank_radius, params, run);
+    return
+        [search](const CellRect& root, const Threshold& threshold) { return search->Run(root, threshold); };
+  };
+  return SearchRoots(roots, Extreme{}, params.limit, std::max(params.certainty, kShankCertainty), make, run,
+                     "verify: shank");
+}
+
+}  // namespace patchmill

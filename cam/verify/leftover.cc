@@ -1,0 +1,151 @@
+#include "cam/verify/leftover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/base/status.h"
+
+namespace patchmill {
+
+namespace {
+
+constexpr double kBorderCell = 0.01;     // of the radius: unreachable cells are not halved below
+constexpr double kSmallestCell = 0.001;  // of the radius: nor any others
+constexpr double kStrategyCell = 0.1;    // of the radius: excused cells are judged by their middle
+constexpr double kFarSlack = 0.02;
+
+class LeftoverSearch {
+ public:
+  LeftoverSearch(const Surface& surface, const SegmentTree& tree, const LeftoverParams& params,
+                 const RunContext& run)
+      : surface_(surface), walker_(surface), tree_(tree), params_(params), run_(run) {}
+
+  Extreme Run(const CellRect& root, const Threshold& threshold) {
+    Extreme here;
+    walker_.Walk(root, [&](const SurfaceCell& cell) { return Visit(cell, threshold, here); });
+    return here;
+  }
+
+ private:
+  double Leftover(double distance) const {
+    return std::min(params_.most, distance + params_.chord_error - params_.reach.radius);
+  }
+
+  bool Visit(const SurfaceCell& cell, const Threshold& threshold, Extreme& here) {
+    if (run_.Cancelled()) return false;
+    SegmentTree::Nearest nearest = tree_.FindNearest(cell.middle, kInfinity, hint_, kFarSlack);
+    const double rough = Leftover(nearest.distance * (1.0 - kFarSlack));
+    // Far from all cuts and surely unreachable: the common case of an inner wall.
+    std::optional<bool> reachable;
+    if (rough > threshold.Floor(here.value) + 0.1 * params_.reach.radius) {
+      reachable = IsReachable(cell);
+      if (!*reachable && Closed(cell)) return false;
+    }
+    nearest = tree_.FindNearest(cell.middle, kInfinity, nearest.segment);
+    hint_ = nearest.segment;
+    const double left = Leftover(nearest.distance);
+    const double upper = Leftover(UpperDistance(cell, nearest.segment, threshold.Drop(here.value)));
+    if (upper <= threshold.Drop(here.value)) return false;
+    if (left > threshold.Floor(here.value)) {
+      const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
+      const auto facing = FacingAt(jet);
+      if (facing && left > params_.limit && BeyondStrategy(jet, facing->e, params_)) {
+        return cell.radius > kStrategyCell * params_.reach.radius;
+      }
+      if (!reachable) reachable = IsReachable(cell);
+      if (*reachable) {
+        const int move = nearest.segment < 0 ? -1 : tree_.segment(nearest.segment).move;
+        here = {left, cell.middle, cell.rect.piece, move};
+      } else if (cell.radius < kBorderCell * params_.reach.radius || Closed(cell)) {
+        return false;
+      }
+    }
+    return upper > threshold.Drop(here.value) && cell.radius > kSmallestCell * params_.reach.radius;
+  }
+
+  // Upper bound of the distance to the moves over the whole cell; at most one more segment is tried when the
+  // nearest one alone does not keep it below what would count.
+  double UpperDistance(const SurfaceCell& cell, int nearest, double enough) {
+    if (nearest < 0) return kInfinity;
+    const auto n = static_cast<std::size_t>(cell.hull_count);
+    first_.resize(n);
+    second_.resize(n);
+    std::size_t farthest = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      first_[k] = PathDistance(tree_.segment(nearest), cell.hull[k]);
+      if (first_[k] > first_[farthest]) farthest = k;
+    }
+    const double one = first_[farthest];
+    if (Leftover(one) <= enough) return one;
+    const auto other = tree_.FindNearest(cell.hull[farthest], one, other_hint_);
+    if (other.segment < 0 || other.segment == nearest) return one;
+    other_hint_ = other.segment;
+    for (std::size_t k = 0; k < n; ++k) second_[k] = PathDistance(tree_.segment(other.segment), cell.hull[k]);
+    const auto at = [&](double share) {
+      double most = 0.0;
+      for (std::size_t k = 0; k < n; ++k)
+        most = std::max(most, (1.0 - share) * first_[k] + share * second_[k]);
+      return most;
+    };
+    // Convex in the share: narrow it down.
+    double low = 0.0, high = 1.0, best = one;
+    for (int i = 0; i < 10; ++i) {
+      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+      const double fa = at(a), fb = at(b);
+      best = std::min({best, fa, fb});
+      (fa < fb ? high : low) = fa < fb ? b : a;
+    }
+    return best;
+  }
+
+  bool IsReachable(const SurfaceCell& cell) const {
+    const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
+    const auto facing = FacingAt(jet);
+    return facing && Reach(surface_, jet.p, *facing, params_.reach) == ReachClass::kReachable;
+  }
+
+  // No point of the cell is reachable, as the centre over it cannot move far enough from the one over its
+  // middle. Normals are taken near the corners and widened by a quarter.
+  bool Closed(const SurfaceCell& cell) const {
+    const CellRect& r = cell.rect;
+    const auto middle = FacingAt(Evaluate(surface_, r.piece, r.u(), r.v()));
+    if (!middle) return false;
+    Facing facing = *middle;
+    double turn = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      const double s = k / 2 == 0 ? 0.01 : 0.99, t = k % 2 == 0 ? 0.01 : 0.99;
+      const auto corner =
+          FacingAt(Evaluate(surface_, r.piece, r.u0 + s * (r.u1 - r.u0), r.v0 + t * (r.v1 - r.v0)));
+      if (!corner) return false;
+      if (corner->both || corner->e.dot(facing.e) < 0.0) facing.both = true;  // a silhouette runs through it
+      turn = std::max(turn, std::min((corner->e - facing.e).norm(), (corner->e + facing.e).norm()));
+    }
+    const double spread = cell.radius + 1.25 * turn * params_.reach.radius;
+    if (spread > params_.reach.radius) return false;
+    return BlockedDepth(surface_, cell.middle, facing, params_.reach) > spread;
+  }
+
+  const Surface& surface_;
+  CellWalker walker_;
+  const SegmentTree& tree_;
+  const LeftoverParams& params_;
+  const RunContext& run_;
+  int hint_ = -1, other_hint_ = -1;
+  std::vector<double> first_, second_;
+};
+
+}  // namespace
+
+absl::StatusOr<Extremes> FindLeftover(const Surface& surface, const std::vector<CellRect>& roots,
+                                      const SegmentTree& tree, const LeftoverParams& params,
+                                      const Extreme& known, const RunContext& run) {
+  const MakeRootSearch make = [&]() -> RootSearch {
+    auto search = std::make_shared<LeftoverSearch>(surface, tree, params, run);
+    return
+        [search](const CellRect& root, const Threshold& threshold) { return search->Run(root, threshold); };
+  };
+  return SearchRoots(roots, known, params.limit, params.certainty, make, run, "verify: leftover");
+}
+
+}  // namespace patchmill

@@ -1,0 +1,53 @@
+// P2: what the feed moves leave standing at reachable points, and how much area is reachable at all.
+#pragma once
+
+#include <array>
+
+#include "cam/verify/extreme.h"
+#include "cam/verify/reach.h"
+#include "cam/verify/segment_tree.h"
+
+namespace patchmill {
+
+struct LeftoverParams {
+  ReachParams reach;
+  double chord_error = 0.0;       // mm: what the segments may be off
+  double certainty = 1e-3;        // mm
+  double limit = kInfinity;       // mm: more is a violation; infinity: not judged
+  std::optional<double> scallop;  // mm
+  ForcedStrategy strategy = ForcedStrategy::kNone;
+  double zigzag_angle = 0.0;  // rad
+  double min_step_fraction = 0.25;
+  double most = kInfinity;  // mm: reported where nothing is cut at all
+};
+
+// What a point is to the finish. Order of the unreachable ones: VerifyReport's.
+enum class FinishClass { kDone, kAboveLimit, kUndercut, kConcave, kFloor, kStrategy };
+inline constexpr std::size_t kFinishClasses = 6;
+
+struct AreaReport {
+  std::array<double, kFinishClasses> area{};    // mm^2
+  std::array<Extreme, kFinishClasses> deepest;  // largest leftover among the samples of each class
+};
+
+// Areas by sampling: five points in every root cell; cells whose points differ are quartered, four times.
+// `tree` has Metric::kPath and holds the feed moves.
+absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vector<CellRect>& roots,
+                                        const SegmentTree& tree, const LeftoverParams& params,
+                                        const RunContext& run);
+
+// Largest dist(p, feed moves) - R over the reachable points. The distance to one segment is convex in p, and
+// so is every mean of two: over a cell's hull it is nowhere above its largest value at the control points.
+// Two segments, one from each side, make the bound second-order at the crest between two passes. A cell is
+// judged by the reachability of its middle and left as unreachable when no centre over it can become free; at
+// the border of the reachable set this goes down to cells of 1 % of the radius.
+// `known` is attained already (from MeasureAreas).
+absl::StatusOr<Extremes> FindLeftover(const Surface& surface, const std::vector<CellRect>& roots,
+                                      const SegmentTree& tree, const LeftoverParams& params,
+                                      const Extreme& known, const RunContext& run);
+
+// True when a forced strategy cannot finish here: the centre step it would need (ALGORITHMS 5) is below
+// min_step_fraction of the flat one, with a margin of 10 %.
+bool BeyondStrategy(const SurfaceJet& jet, const Vec3& e, const LeftoverParams& params);
+
+}  // namespace patchmill

@@ -1,0 +1,25 @@
+// What the motion alone tells: lengths, box, descents; and how far the tool must stick out.
+#pragma once
+
+#include "cam/tool/tool.h"
+#include "cam/toolpath/toolpath.h"
+#include "cam/verify/verify.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+struct MotionFigures {
+  Box3 tip_box;  // program frame, moves below machine zero; empty if there are none
+  double cut_length = 0.0, rapid_length = 0.0;
+  double steepest_descent = 0.0;  // rad, of feed moves longer than rounding
+  int steep_move = -1;            // first feed move steeper than 30 degrees and faster than plunge feed
+};
+MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool);
+
+// Highest material within tool or shank radius of a move minus the lowest tip of that move, largest over all
+// moves. Material is taken as highest_surface + allowance, no higher than the stock, on a square grid over
+// the plan: an estimate from above, by at most the height the surface gains within two grid steps.
+double RequiredStickout(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
+                        const VerifyParams& params);
+
+}  // namespace patchmill

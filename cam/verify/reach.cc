@@ -1,0 +1,63 @@
+#include "cam/verify/reach.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/diffgeo/forms.h"
+#include "core/surface/closest.h"
+
+namespace patchmill {
+
+namespace {
+
+constexpr double kVertical = 1e-6;    // e_z below this: a vertical face
+constexpr double kProof = 0.02;       // of the tolerance: how exactly "free" is decided
+constexpr double kCoarse = 0.02;      // of the radius: how exactly a blocking depth is known
+constexpr double kFloorSlack = 1e-6;  // mm: rounding of a floor at the surface itself
+
+std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) {
+  return {p + radius * facing.e, p - radius * facing.e};
+}
+
+}  // namespace
+
+std::optional<Facing> FacingAt(const SurfaceJet& jet) {
+  const std::optional<Vec3> normal = UpwardNormal(jet);
+  if (!normal) return std::nullopt;
+  return Facing{*normal, normal->z() < kVertical};
+}
+
+ReachClass Reach(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params) {
+  const double limit = params.radius - params.tolerance;
+  const auto centers = Centers(p, facing, params.radius);
+  ReachClass worst = ReachClass::kReachable;
+  for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
+    const Vec3& c = centers[static_cast<std::size_t>(side)];
+    ReachClass found = ReachClass::kReachable;
+    if (AnythingNearUpwardRay(surface, c, limit, kProof * params.tolerance)) {
+      const auto nearest = ClosestToUpwardRay(surface, c, limit, kCoarse * params.tolerance);
+      found = nearest && nearest->at.p.z() > c.z() ? ReachClass::kUndercut : ReachClass::kConcave;
+    } else if (c.z() < params.floor_z - kFloorSlack) {
+      found = ReachClass::kFloor;
+    }
+    if (found == ReachClass::kReachable) return found;
+    if (side == 0) worst = found;
+  }
+  return worst;
+}
+
+double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params) {
+  const double limit = params.radius - params.tolerance;
+  const auto centers = Centers(p, facing, params.radius);
+  double depth = kInfinity;
+  for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
+    const Vec3& c = centers[static_cast<std::size_t>(side)];
+    double here = params.floor_z - kFloorSlack - c.z();
+    const auto nearest = ClosestToUpwardRay(surface, c, limit, kCoarse * params.radius);
+    if (nearest) here = std::max(here, limit - nearest->distance);
+    depth = std::min(depth, here);
+  }
+  return std::max(0.0, depth);
+}
+
+}  // namespace patchmill

@@ -1,0 +1,34 @@
+// Whether the tool can stand at a surface point (DESIGN 2), and if not, why.
+#pragma once
+
+#include <optional>
+
+#include "cam/verify/verify.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+enum class ReachClass { kReachable, kUndercut, kConcave, kFloor };
+
+struct ReachParams {
+  double radius = 0.0;          // mm: ball and stock to leave
+  double tolerance = 0.0;       // mm: how deep the surface may lie inside the ball
+  double floor_z = -kInfinity;  // mm: lowest centre height
+};
+
+// Unit normal with e_z >= 0. On a vertical face both sides count and `both` is set. nullopt where the
+// parametrisation is degenerate.
+struct Facing {
+  Vec3 e = Vec3::UnitZ();
+  bool both = false;
+};
+std::optional<Facing> FacingAt(const SurfaceJet& jet);
+
+// The ball centred at p + R e is free of the surface, the shank above it too, and not below the floor.
+ReachClass Reach(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);
+
+// How far the centre may move and the point still cannot be reached: > 0 only for an unreachable point; a
+// lower bound (mm).
+double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);
+
+}  // namespace patchmill

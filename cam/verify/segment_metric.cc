@@ -1,0 +1,73 @@
+#include "cam/verify/segment_metric.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace patchmill {
+
+namespace {
+
+Vec3 NearestOnPath(const PathSegment& s, const Vec3& p) {
+  const Vec3 d = s.b - s.a;
+  const double length2 = d.squaredNorm();
+  if (!(length2 > 0.0)) return s.a;
+  return s.a + std::clamp((p - s.a).dot(d) / length2, 0.0, 1.0) * d;
+}
+
+double NearestInPlan(const PathSegment& s, const Vec3& p) {
+  const double dx = s.b.x() - s.a.x(), dy = s.b.y() - s.a.y();
+  const double length2 = dx * dx + dy * dy;
+  if (!(length2 > 0.0)) return s.b.z() < s.a.z() ? 1.0 : 0.0;
+  return std::clamp(((p.x() - s.a.x()) * dx + (p.y() - s.a.y()) * dy) / length2, 0.0, 1.0);
+}
+
+// The squared distance at parameter t is plan^2 + max(0, z(t) - p_z)^2, convex in t. Where the segment lies
+// below p at its nearest point in plan, the plan distance is reached. Otherwise the nearest point of the
+// segment itself decides, if it is above p; if it is not, the minimum is where the segment passes p's height.
+Vec3 NearestOnSwept(const PathSegment& s, const Vec3& p) {
+  const double t = NearestInPlan(s, p);
+  const Vec3 q = s.a + t * (s.b - s.a);
+  if (q.z() <= p.z()) return {q.x(), q.y(), p.z()};
+  const Vec3 nearest = NearestOnPath(s, p);
+  if (nearest.z() >= p.z()) return nearest;
+  const double dz = s.b.z() - s.a.z();  // not zero: q lies above p, `nearest` below
+  const double crossing = std::clamp((p.z() - s.a.z()) / dz, 0.0, 1.0);
+  const Vec3 c = s.a + crossing * (s.b - s.a);
+  return {c.x(), c.y(), p.z()};
+}
+
+MetricValue From(const Vec3& nearest, const Vec3& p) {
+  MetricValue value;
+  const Vec3 d = p - nearest;
+  value.distance = d.norm();
+  if (value.distance > 0.0) value.gradient = d / value.distance;
+  return value;
+}
+
+}  // namespace
+
+double PathDistance(const PathSegment& s, const Vec3& p) { return (p - NearestOnPath(s, p)).norm(); }
+double SweptDistance(const PathSegment& s, const Vec3& p) { return (p - NearestOnSwept(s, p)).norm(); }
+MetricValue PathDistanceAndGradient(const PathSegment& s, const Vec3& p) {
+  return From(NearestOnPath(s, p), p);
+}
+MetricValue SweptDistanceAndGradient(const PathSegment& s, const Vec3& p) {
+  return From(NearestOnSwept(s, p), p);
+}
+
+double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius) {
+  const Vec3 d = s.b - s.a;
+  const auto plan = [&](double t) { return Plan(Vec3(s.a + t * d - p)).norm(); };
+  const auto rise = [&](double t) { return shank_radius - (p.z() - s.a.z() - t * d.z()); };
+  double near = NearestInPlan(s, p);
+  if (plan(near) >= rise(near)) return plan(near);
+  double low = d.z() < 0.0 ? 1.0 : 0.0;
+  if (rise(low) >= plan(low)) return rise(low);
+  for (int i = 0; i < 50; ++i) {  // between them the two terms cross
+    const double middle = 0.5 * (near + low);
+    (plan(middle) >= rise(middle) ? low : near) = middle;
+  }
+  return std::max(plan(low), rise(low));
+}
+
+}  // namespace patchmill

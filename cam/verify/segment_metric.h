@@ -1,0 +1,33 @@
+// Distances from a point to a straight move and to what its tool sweeps upwards. All are convex functions of
+// the point, with slope at most 1.
+#pragma once
+
+#include "core/base/vec.h"
+
+namespace patchmill {
+
+struct PathSegment {
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // ball centres, placed frame, mm
+  int move = 0;                             // index into ProgramMotion::moves
+};
+
+enum class Metric {
+  kPath,   // to the segment
+  kSwept,  // to the half strip {c + s e_z : c on the segment, s >= 0}: ball and the shank above it
+  kShank,  // max(plan distance, shank radius - height above the segment), smallest over the segment:
+           // shank radius minus this is how deep the point sits in a cylinder that begins at the segment
+};
+
+// Value and, for the first two, the unit vector in which it grows.
+struct MetricValue {
+  double distance = 0.0;
+  Vec3 gradient = Vec3::Zero();  // zero where the distance is zero
+};
+
+double PathDistance(const PathSegment& s, const Vec3& p);
+double SweptDistance(const PathSegment& s, const Vec3& p);
+double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius);
+MetricValue PathDistanceAndGradient(const PathSegment& s, const Vec3& p);
+MetricValue SweptDistanceAndGradient(const PathSegment& s, const Vec3& p);
+
+}  // namespace patchmill

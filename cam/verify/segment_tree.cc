@@ -1,0 +1,250 @@
+#include "cam/verify/segment_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/status.h"
+
+namespace patchmill {
+
+namespace {
+
+constexpr std::size_t kLeafSize = 4;
+constexpr int kBins = 16;
+constexpr int kDeepestBinned = 40;         // below, the list is halved: depth stays under 40 + log2(count)
+constexpr double kMostPieces = 2'000'000;  // of cut segments
+constexpr float kFar = 1e30F;
+
+float Down(double x) {
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
+}
+float Up(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
+
+std::vector<PathSegment> CutLong(std::vector<PathSegment> segments, double longest) {
+  double total = 0.0;
+  for (const PathSegment& s : segments) total += (s.b - s.a).norm();
+  longest = std::max(longest, total / kMostPieces);
+  std::vector<PathSegment> cut;
+  cut.reserve(segments.size());
+  for (const PathSegment& s : segments) {
+    const auto parts = static_cast<int>(std::ceil((s.b - s.a).norm() / longest));
+    if (parts <= 1) {
+      cut.push_back(s);
+      continue;
+    }
+    Vec3 from = s.a;
+    for (int i = 1; i <= parts; ++i) {
+      const Vec3 to = i == parts ? s.b : Vec3(s.a + (s.b - s.a) * (static_cast<double>(i) / parts));
+      cut.push_back({from, to, s.move});
+      from = to;
+    }
+  }
+  return cut;
+}
+
+}  // namespace
+
+SegmentTree::SegmentTree(std::vector<PathSegment> segments, Metric metric, double longest,
+                         double shank_radius)
+    : metric_(metric), shank_radius_(shank_radius), segments_(CutLong(std::move(segments), longest)) {
+  if (segments_.empty()) return;
+  std::vector<std::int32_t> order(segments_.size());
+  std::iota(order.begin(), order.end(), 0);
+  nodes_.reserve(segments_.size() / 2 + 2);
+  nodes_.emplace_back();  // the root holds the whole tree as its first child
+  const Range all = Build(order, 0, order.size(), 0);
+  nodes_[0].box[0] = all.box;
+  nodes_[0].child[0] = all.child;
+  nodes_[0].count[0] = all.count;
+  nodes_[0].count[1] = 0;
+  nodes_[0].child[1] = -1;  // an empty leaf, never entered: its box is infinitely far
+  nodes_[0].box[1] = {{kFar, kFar, kFar}, {kFar, kFar, kFar}};
+  std::vector<PathSegment> sorted;
+  sorted.reserve(segments_.size());
+  for (const std::int32_t i : order) sorted.push_back(segments_[static_cast<std::size_t>(i)]);
+  segments_ = std::move(sorted);
+}
+
+SegmentTree::Box SegmentTree::BoxOf(const std::vector<std::int32_t>& order, std::size_t begin,
+                                    std::size_t end) const {
+  Box3 box;
+  for (std::size_t i = begin; i < end; ++i) {
+    const PathSegment& s = segments_[static_cast<std::size_t>(order[i])];
+    box.Add(s.a);
+    box.Add(s.b);
+  }
+  return {{Down(box.min.x()), Down(box.min.y()), Down(box.min.z())},
+          {Up(box.max.x()), Up(box.max.y()), Up(box.max.z())}};
+}
+
+SegmentTree::Range SegmentTree::Build(std::vector<std::int32_t>& order, std::size_t begin, std::size_t end,
+                                      int depth) {
+  const Box box = BoxOf(order, begin, end);
+  if (end - begin <= kLeafSize) {
+    return {-static_cast<std::int32_t>(begin) - 1, static_cast<std::int32_t>(end - begin), box};
+  }
+  const auto middle = [&](std::int32_t i, int axis) {
+    const PathSegment& s = segments_[static_cast<std::size_t>(i)];
+    return 0.5 * (s.a[axis] + s.b[axis]);
+  };
+  Box3 centres;
+  for (std::size_t i = begin; i < end; ++i) {
+    centres.Add(Vec3(middle(order[i], 0), middle(order[i], 1), middle(order[i], 2)));
+  }
+  int axis = 0;
+  const double width = (centres.max - centres.min).maxCoeff(&axis);
+  const double low = centres.min[axis];
+  std::size_t cut = begin;
+  if (depth < kDeepestBinned && width > 0.0) {
+    // Binned surface area heuristic along the widest axis.
+    const auto bin_of = [&](std::int32_t i) {
+      return std::min(kBins - 1, static_cast<int>((middle(i, axis) - low) / width * kBins));
+    };
+    std::array<Box3, kBins> bins;
+    std::array<double, kBins> counts{};
+    for (std::size_t i = begin; i < end; ++i) {
+      const PathSegment& s = segments_[static_cast<std::size_t>(order[i])];
+      const auto b = static_cast<std::size_t>(bin_of(order[i]));
+      bins[b].Add(s.a);
+      bins[b].Add(s.b);
+      counts[b] += 1.0;
+    }
+    const auto area = [](const Box3& b) {
+      if (b.Empty()) return 0.0;
+      const Vec3 d = b.max - b.min;
+      return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+    };
+    std::array<double, kBins> right_cost{};
+    Box3 right;
+    double right_count = 0.0;
+    for (int b = kBins - 1; b > 0; --b) {
+      right.Add(bins[static_cast<std::size_t>(b)]);
+      right_count += counts[static_cast<std::size_t>(b)];
+      right_cost[static_cast<std::size_t>(b)] = area(right) * right_count;
+    }
+    Box3 left;
+    double left_count = 0.0, best = kInfinity;
+    int best_bin = 0;
+    for (int b = 1; b < kBins; ++b) {
+      left.Add(bins[static_cast<std::size_t>(b - 1)]);
+      left_count += counts[static_cast<std::size_t>(b - 1)];
+      const double cost = area(left) * left_count + right_cost[static_cast<std::size_t>(b)];
+      if (left_count > 0.0 && left_count < static_cast<double>(end - begin) && cost < best) {
+        best = cost;
+        best_bin = b;
+      }
+    }
+    if (best_bin > 0) {
+      const auto split = std::stable_partition(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                                               order.begin() + static_cast<std::ptrdiff_t>(end),
+                                               [&](std::int32_t i) { return bin_of(i) < best_bin; });
+      cut = static_cast<std::size_t>(split - order.begin());
+    }
+  }
+  if (cut == begin || cut == end) cut = begin + (end - begin) / 2;
+
+  const auto at = static_cast<std::int32_t>(nodes_.size());
+  nodes_.emplace_back();
+  const Range left = Build(order, begin, cut, depth + 1);
+  const Range right = Build(order, cut, end, depth + 1);
+  Node& node = nodes_[static_cast<std::size_t>(at)];
+  node = {{left.box, right.box}, {left.child, right.child}, {left.count, right.count}};
+  return {at, 0, box};
+}
+
+double SegmentTree::BoxDistance(const Box& box, const Vec3& p) const {
+  const double dx = std::max({0.0, box.low[0] - p.x(), p.x() - box.high[0]});
+  const double dy = std::max({0.0, box.low[1] - p.y(), p.y() - box.high[1]});
+  const double above = box.low[2] - p.z();
+  switch (metric_) {
+    case Metric::kPath: {
+      const double dz = std::max({0.0, above, p.z() - box.high[2]});
+      return std::sqrt(dx * dx + dy * dy + dz * dz);
+    }
+    case Metric::kSwept: {
+      const double dz = std::max(0.0, above);
+      return std::sqrt(dx * dx + dy * dy + dz * dz);
+    }
+    case Metric::kShank:
+      return std::max(std::sqrt(dx * dx + dy * dy), shank_radius_ + above);
+  }
+  return 0.0;
+}
+
+double SegmentTree::Distance(int i, const Vec3& p) const {
+  switch (metric_) {
+    case Metric::kPath:
+      return PathDistance(segment(i), p);
+    case Metric::kSwept:
+      return SweptDistance(segment(i), p);
+    case Metric::kShank:
+      return ShankDistance(segment(i), p, shank_radius_);
+  }
+  return 0.0;
+}
+
+SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int hint, double slack) const {
+  Nearest best{limit, -1};
+  if (segments_.empty()) return best;
+  if (hint >= 0) {
+    const double d = Distance(hint, p);
+    if (d < best.distance) best = {d, hint};
+  }
+  struct Open {
+    double distance;
+    std::int32_t node;
+  };
+  std::array<Open, 128> stack;
+  std::size_t size = 0;
+  stack[size++] = {0.0, 0};
+  const double keep = 1.0 - slack;
+  while (size > 0) {
+    const Open open = stack[--size];
+    if (open.distance >= best.distance * keep) continue;
+    const Node& node = nodes_[static_cast<std::size_t>(open.node)];
+    const std::array<double, 2> distance = {BoxDistance(node.box[0], p), BoxDistance(node.box[1], p)};
+    const std::size_t near = distance[1] < distance[0] ? 1 : 0;
+    for (const std::size_t k : {1 - near, near}) {  // inner nodes: the nearer one on top of the stack
+      if (node.child[k] >= 0 && distance[k] < best.distance * keep) {
+        PM_CHECK(size < stack.size());
+        stack[size++] = {distance[k], node.child[k]};
+      }
+    }
+    for (const std::size_t k : {near, 1 - near}) {
+      if (node.child[k] >= 0 || !(distance[k] < best.distance * keep)) continue;
+      const int first = -node.child[k] - 1;
+      for (int i = first; i < first + node.count[k]; ++i) {
+        const double d = Distance(i, p);
+        if (d < best.distance) best = {d, i};
+      }
+    }
+  }
+  return best;
+}
+
+void SegmentTree::FindWithin(const Vec3& p, double limit, std::vector<int>& found) const {
+  found.clear();
+  if (segments_.empty()) return;
+  std::array<std::int32_t, 128> stack;
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const Node& node = nodes_[static_cast<std::size_t>(stack[--size])];
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!(BoxDistance(node.box[k], p) < limit)) continue;
+      if (node.child[k] >= 0) {
+        PM_CHECK(size < stack.size());
+        stack[size++] = node.child[k];
+        continue;
+      }
+      const int first = -node.child[k] - 1;
+      for (int i = first; i < first + node.count[k]; ++i) {
+        if (Distance(i, p) < limit) found.push_back(i);
+      }
+    }
+  }
+}
+
+}  // namespace patchmill

@@ -1,0 +1,55 @@
+// A tree over the moves of a program: which one is nearest to a point, which ones are near.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cam/verify/segment_metric.h"
+
+namespace patchmill {
+
+class SegmentTree {
+ public:
+  // Long segments are cut, so that their boxes are slim: no longer than `longest` mm, or more when that would
+  // make more than about two million of them. `shank_radius` only for Metric::kShank.
+  SegmentTree(std::vector<PathSegment> segments, Metric metric, double longest, double shank_radius = 0.0);
+
+  struct Nearest {
+    double distance = kInfinity;  // of the metric
+    int segment = -1;             // -1: nothing nearer than the limit
+  };
+  // The smallest metric value at p, if below `limit`. `hint`: a segment that is probably near, or -1.
+  // `slack` in [0,1): the answer may be too large by that fraction.
+  Nearest FindNearest(const Vec3& p, double limit, int hint = -1, double slack = 0.0) const;
+  // Indices of all segments with metric value < `limit` at p, in tree order. Replaces `found`.
+  void FindWithin(const Vec3& p, double limit, std::vector<int>& found) const;
+
+  bool empty() const { return segments_.empty(); }
+  const PathSegment& segment(int i) const { return segments_[static_cast<std::size_t>(i)]; }
+  double Distance(int i, const Vec3& p) const;
+
+ private:
+  struct Box {
+    float low[3], high[3];  // rounded outward
+  };
+  struct Node {
+    Box box[2];
+    // >= 0: inner node. < 0: leaf of the segments [-child - 1, -child - 1 + count).
+    std::int32_t child[2] = {0, 0};
+    std::int32_t count[2] = {0, 0};
+  };
+  struct Range {
+    std::int32_t child, count;
+    Box box;
+  };
+  Range Build(std::vector<std::int32_t>& order, std::size_t begin, std::size_t end, int depth);
+  Box BoxOf(const std::vector<std::int32_t>& order, std::size_t begin, std::size_t end) const;
+  double BoxDistance(const Box& box, const Vec3& p) const;
+
+  Metric metric_;
+  double shank_radius_ = 0.0;
+  std::vector<PathSegment> segments_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace patchmill

@@ -1,0 +1,275 @@
+#include "cam/verify/verify.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cam/verify/gouge.h"
+#include "cam/verify/leftover.h"
+#include "cam/verify/motion_figures.h"
+#include "cam/verify/motion_sets.h"
+#include "cam/verify/rapid.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+
+namespace {
+
+constexpr std::size_t kMostFindings = 20;  // per code
+constexpr double kHeightSlack = 1e-4;      // mm: four decimals
+constexpr double kRapidSlack = 1e-3;       // mm
+
+class Judge {
+ public:
+  Judge(const Surface& surface, const Tool& tool, const ProgramMotion& motion, const VerifyParams& params,
+        const RunContext& run)
+      : surface_(surface), tool_(tool), motion_(motion), params_(params), run_(run) {
+    ball_ = BallRadius(tool);
+    radius_ = ball_ + params.leave;
+  }
+
+  absl::StatusOr<VerifyReport> Run() {
+    sets_ = CollectMotion(motion_, params_.program_zero + Vec3(0, 0, ball_), params_.stock_top_z + ball_);
+    roots_ =
+        RootCells(surface_, std::clamp(std::sqrt(RoughArea(surface_) / 12000.0), 0.02 * radius_, radius_));
+    PM_RETURN_IF_ERROR(run_.Check());
+    PM_RETURN_IF_ERROR(JudgeGouge());
+    PM_RETURN_IF_ERROR(JudgeFinish());
+    PM_RETURN_IF_ERROR(JudgeMotion());
+    run_.Progress("verify", 1.0);
+    return std::move(report_);
+  }
+
+ private:
+  int Line(int move) const { return move < 0 ? 0 : motion_.moves[static_cast<std::size_t>(move)].line; }
+
+  VerifyPlace Place(const Extreme& e) const {
+    VerifyPlace place;
+    if (e.value <= 0.0) return place;
+    place.point = e.point;
+    place.patch_index = surface_.piece(e.piece).patch.value;
+    place.patch_id = surface_.network.model.patches[static_cast<std::size_t>(place.patch_index)].id;
+    place.line = Line(e.move);
+    return place;
+  }
+
+  void Report(const std::string& code, const std::string& message) {
+    Diagnostic d;
+    d.code = code;
+    d.severity = Severity::kError;
+    d.message = message;
+    report_.findings.push_back(std::move(d));
+  }
+
+  // The worst ones, each of another line or at another place.
+  void ReportPlaces(const std::string& code, const std::vector<Extreme>& found, const char* what) {
+    std::vector<const Extreme*> kept;
+    for (const Extreme& e : found) {
+      if (kept.size() >= kMostFindings) break;
+      const bool known = std::any_of(kept.begin(), kept.end(), [&](const Extreme* k) {
+        return Line(k->move) == Line(e.move) || (k->point - e.point).norm() < radius_;
+      });
+      if (known) continue;
+      kept.push_back(&e);
+      const VerifyPlace place = Place(e);
+      Report(code,
+             fmt::format("line {}: {} by {:.4f} mm at X{:.4f} Y{:.4f} Z{:.4f}", place.line, what, e.value,
+                         e.point.x() - params_.program_zero.x(), e.point.y() - params_.program_zero.y(),
+                         e.point.z() - params_.program_zero.z()));
+      Where& where = report_.findings.back().where;
+      where.patch_id = place.patch_id;
+      where.patch_index = place.patch_index;
+      where.point = e.point;
+      where.line = place.line;
+    }
+  }
+
+  absl::Status JudgeGouge() {
+    GougeParams p;
+    p.radius = radius_;
+    p.chord_error = sets_.chord_error;
+    p.certainty = params_.certainty;
+    // The control's own smoothing may deepen every gouge (P1).
+    const double smoothing = motion_.controller_tolerance;
+    p.limit = std::max(0.0, params_.tolerance - smoothing);
+    const SegmentTree tree(sets_.swept, Metric::kSwept, radius_);
+    PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge(surface_, roots_, tree, p, run_));
+    report_.max_gouge = gouge.worst.value;
+    report_.max_gouge_at = Place(gouge.worst);
+    ReportPlaces("GOUGE", gouge.violations, "the ball or the shank above it cuts into the surface");
+    PM_RETURN_IF_ERROR(JudgeShank(p));
+    report_.gouge_ok = report_.max_gouge + smoothing <= params_.tolerance;
+    if (!std::isfinite(smoothing)) {
+      Report("CONTROL_SMOOTHING", "G64 without P: how far the control may leave the path is not bounded");
+    } else if (!report_.gouge_ok && report_.max_gouge <= params_.tolerance) {
+      Report(
+          "CONTROL_SMOOTHING",
+          fmt::format("gouge {:.4f} mm and the control's smoothing {:.4f} mm together exceed the tolerance "
+                      "{:.4f} mm",
+                      report_.max_gouge, smoothing, params_.tolerance));
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status JudgeShank(GougeParams p) {
+    const double shank = 0.5 * tool_.shank_diameter.value_or(0.0);
+    if (!(shank > ball_) || sets_.swept.empty()) return absl::OkStatus();
+    std::vector<PathSegment> raised = sets_.swept;
+    const Vec3 up(0, 0, *tool_.flute_length - ball_);
+    for (PathSegment& s : raised) {
+      s.a += up;
+      s.b += up;
+    }
+    p.limit = params_.tolerance;
+    const SegmentTree tree(std::move(raised), Metric::kShank, radius_, shank);
+    PM_ASSIGN_OR_RETURN(const Extremes found,
+                        FindShankGouge(surface_, roots_, tree, shank + params_.leave, p, run_));
+    if (found.worst.value > report_.max_gouge) {
+      report_.max_gouge = found.worst.value;
+      report_.max_gouge_at = Place(found.worst);
+    }
+    ReportPlaces("SHANK_GOUGE", found.violations, "the shank stands in the surface");
+    return absl::OkStatus();
+  }
+
+  absl::Status JudgeFinish() {
+    LeftoverParams p;
+    p.reach = {radius_, params_.tolerance, params_.floor_z + ball_};
+    p.chord_error = sets_.chord_error;
+    p.certainty = params_.certainty;
+    p.scallop = params_.scallop;
+    if (params_.scallop) p.limit = *params_.scallop + params_.tolerance;
+    p.strategy = params_.strategy;
+    p.zigzag_angle = params_.zigzag_angle;
+    p.min_step_fraction = params_.min_step_fraction;
+    p.most = surface_.box.Diagonal();
+    const SegmentTree tree(sets_.cut, Metric::kPath, radius_);
+    PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, roots_, tree, p, run_));
+    const auto at = [](FinishClass kind) { return static_cast<std::size_t>(kind); };
+    const auto take = [&](FinishClass kind, std::size_t reason) {
+      report_.unreachable_area[reason] = areas.area[at(kind)];
+      report_.deepest_unreachable[reason] = areas.deepest[at(kind)].value;
+      report_.deepest_unreachable_at[reason] = Place(areas.deepest[at(kind)]);
+    };
+    take(FinishClass::kUndercut, 0);
+    take(FinishClass::kConcave, 1);
+    take(FinishClass::kFloor, 2);
+    take(FinishClass::kStrategy, 4);
+    for (const double area : areas.area) report_.total_area += area;
+    report_.reachable_area = areas.area[at(FinishClass::kDone)] + areas.area[at(FinishClass::kAboveLimit)];
+    report_.leftover_above_limit_area = areas.area[at(FinishClass::kAboveLimit)];
+
+    const Extreme& done = areas.deepest[at(FinishClass::kDone)];
+    const Extreme& above = areas.deepest[at(FinishClass::kAboveLimit)];
+    PM_ASSIGN_OR_RETURN(const Extremes left, FindLeftover(surface_, roots_, tree, p,
+                                                          above.value > done.value ? above : done, run_));
+    report_.max_leftover = left.worst.value;
+    report_.max_leftover_at = Place(left.worst);
+    report_.finish_ok = !params_.scallop || report_.max_leftover <= p.limit;
+    if (!report_.finish_ok) {
+      std::vector<Extreme> places = left.violations;
+      places.insert(places.begin(), left.worst);
+      ReportPlaces("LEFTOVER", places, "reachable material is left standing");
+    }
+    return absl::OkStatus();
+  }
+
+  absl::Status JudgeMotion() {
+    report_.motion_ok = true;
+    const auto fail = [&](const std::string& code, const std::string& message, int line) {
+      report_.motion_ok = false;
+      Report(code, message);
+      if (line > 0) report_.findings.back().where.line = line;
+    };
+    const SegmentTree tree(sets_.rapid, Metric::kSwept, radius_);
+    PM_ASSIGN_OR_RETURN(
+        const std::vector<Extreme> rapids,
+        FindRapidsInStock(surface_, roots_, tree, ball_ + params_.allowance - kRapidSlack, run_));
+    if (!rapids.empty()) report_.motion_ok = false;
+    ReportPlaces("RAPID_IN_STOCK", rapids, "a rapid enters the stock");
+
+    const MotionFigures figures = MeasureMotion(motion_, tool_);
+    report_.tip_box = figures.tip_box;
+    report_.cut_length = figures.cut_length;
+    report_.rapid_length = figures.rapid_length;
+    report_.steepest_descent = figures.steepest_descent;
+    if (!figures.tip_box.Empty()) report_.tip_z_min = figures.tip_box.min.z();
+    report_.required_stickout = RequiredStickout(surface_, tool_, motion_, params_);
+
+    const int last_line = motion_.moves.empty() ? 0 : motion_.moves.back().line;
+    const int first_line = motion_.moves.empty() ? 0 : motion_.moves.front().line;
+    if (!motion_.first_motion_is_up)
+      fail("FIRST_MOTION_NOT_UP", "the first motion is not straight up to machine zero", first_line);
+    if (!motion_.last_motion_is_up)
+      fail("LAST_MOTION_NOT_UP", "the last motion is not straight up", last_line);
+    if (!motion_.ends_with_spindle_off)
+      fail("SPINDLE_LEFT_ON", "the program ends with the spindle on", last_line);
+    if (!motion_.ends_with_coolant_off)
+      fail("COOLANT_LEFT_ON", "the program ends with the coolant on", last_line);
+    const double floor = params_.floor_z - params_.program_zero.z();
+    if (!figures.tip_box.Empty() && report_.tip_z_min < floor - kHeightSlack) {
+      const auto lowest = std::find_if(motion_.moves.begin(), motion_.moves.end(), [&](const ProgramMove& m) {
+        return !m.to_above && m.to.z() == report_.tip_z_min;
+      });
+      fail("BELOW_FLOOR",
+           fmt::format("the tip goes down to Z{:.4f}, below the floor Z{:.4f}", report_.tip_z_min, floor),
+           lowest == motion_.moves.end() ? 0 : lowest->line);
+    }
+    if (figures.steep_move >= 0) {
+      const ProgramMove& move = motion_.moves[static_cast<std::size_t>(figures.steep_move)];
+      fail("STEEP_DESCENT",
+           fmt::format(
+               "line {}: a descent steeper than 30 degrees at {:.6g} mm/min; the plunge feed is {:.6g}",
+               move.line, move.feed, tool_.plunge_feed),
+           move.line);
+    }
+    return absl::OkStatus();
+  }
+
+  const Surface& surface_;
+  const Tool& tool_;
+  const ProgramMotion& motion_;
+  const VerifyParams& params_;
+  const RunContext& run_;
+  double ball_ = 0.0, radius_ = 0.0;
+  MotionSets sets_;
+  std::vector<CellRect> roots_;
+  VerifyReport report_;
+};
+
+absl::Status Validate(const Tool& tool, const ProgramMotion& motion, const VerifyParams& params) {
+  const auto bad = [](const char* field, double value, const char* constraint) {
+    return absl::InvalidArgumentError(fmt::format("{} = {:.6g} mm; must be {}", field, value, constraint));
+  };
+  const double radius = BallRadius(tool);
+  if (!(radius > 0.0) || !std::isfinite(radius)) return bad("tool.ball.radius", radius, "> 0");
+  if (!(params.tolerance > 0.0) || !(params.tolerance < radius))
+    return bad("tolerance", params.tolerance, "in (0, ball radius)");
+  if (!(params.certainty > 0.0)) return bad("certainty", params.certainty, "> 0");
+  if (!(params.leave >= 0.0) || !std::isfinite(params.leave)) return bad("leave", params.leave, ">= 0");
+  if (!(params.allowance >= 0.0) || !std::isfinite(params.allowance))
+    return bad("allowance", params.allowance, ">= 0");
+  if (params.scallop && (!(*params.scallop > 0.0) || !(*params.scallop < radius))) {
+    return bad("scallop", *params.scallop, "in (0, ball radius)");
+  }
+  if (!params.program_zero.allFinite() || !std::isfinite(params.stock_top_z) || std::isnan(params.floor_z)) {
+    return absl::InvalidArgumentError("program zero, stock top or floor is not a number");
+  }
+  if (tool.shank_diameter && *tool.shank_diameter > 2.0 * radius && !tool.flute_length) {
+    return bad("tool.shank_diameter", *tool.shank_diameter,
+               "no wider than the ball unless flute_length says where the shank begins");
+  }
+  if (motion.moves.empty()) return absl::InvalidArgumentError("program: no motion");
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<VerifyReport> Verify(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
+                                    const VerifyParams& params, const RunContext& run) {
+  PM_RETURN_IF_ERROR(Validate(tool, motion, params));
+  return Judge(surface, tool, motion, params, run).Run();
+}
+
+}  // namespace patchmill
