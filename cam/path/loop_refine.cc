@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/path/chord_bounds.h"
+
 namespace patchmill {
 namespace {
 
@@ -116,11 +118,6 @@ std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelP
 }
 
 }  // namespace
-
-double LongestChord(double radius, double gouge) {
-  gouge = std::min(gouge, radius);
-  return 2.0 * std::sqrt(2.0 * radius * gouge - gouge * gouge);
-}
 
 double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b) {
   // Squared distances to the two contacts differ by a linear function along the chord: the caps cross once.

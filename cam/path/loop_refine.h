@@ -13,9 +13,6 @@ struct LoopTolerance {
   double excess = 0.005;  // mm, normal to the surface (two discs, as T3)
 };
 
-// Largest move between two free centres that cannot cut deeper than `gouge` (T2): 2 sqrt(2 R t - t^2).
-double LongestChord(double radius, double gouge);
-
 // What a straight move a b leaves at most above the contacts of its ends: min over the split of the larger
 // end cap (T3), closed form.
 double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b);
