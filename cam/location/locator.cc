@@ -147,11 +147,10 @@ std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hi
 }
 
 bool Locator::Free(const Vec3& c, double slack) const {
-  const double limit = c.z() + slack;
   Contact best;
-  best.z = std::max(limit, impl_->Lowest());
-  impl_->Search(impl_->BallAt(Plan(c)), limit, best, nullptr);
-  return best.piece < 0 || !(best.z > limit);
+  best.z = std::max(c.z() + slack, impl_->Lowest());  // below Lowest() nothing changes
+  impl_->Search(impl_->BallAt(Plan(c)), best.z, best, nullptr);
+  return best.piece < 0;
 }
 
 std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double eps,

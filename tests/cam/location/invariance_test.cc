@@ -1,0 +1,225 @@
+// h depends on the surface only: not on how it is cut, parametrised, ordered or shifted, nor on the hint.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/location/locator.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Random;
+using testing::SurfaceOf;
+
+// Every piece of a model as a Bezier patch of its own.
+PatchModel AsBezier(const PatchModel& model) {
+  PatchModel out;
+  for (std::size_t k = 0; k < model.patches.size(); ++k) {
+    for (const Piece& piece : SplitIntoPieces(PatchId(k), model.patches[k].shape)) {
+      BezierPatch b;
+      b.degree_u = piece.net.degree_u;
+      b.degree_v = piece.net.degree_v;
+      for (const Vec4& p : piece.net.points) {
+        b.points.push_back(p.head<3>() / p.w());
+        if (piece.net.rational) b.weights.push_back(p.w());
+      }
+      out.patches.push_back({"", b});
+    }
+  }
+  return out;
+}
+
+// u and v exchanged, u reversed.
+BezierPatch Turned(const BezierPatch& b) {
+  BezierPatch t;
+  t.degree_u = b.degree_v;
+  t.degree_v = b.degree_u;
+  for (int j = 0; j <= b.degree_v; ++j) {
+    for (int i = b.degree_u; i >= 0; --i) {
+      const auto k = static_cast<std::size_t>(i * (b.degree_v + 1) + j);
+      t.points.push_back(b.points[k]);
+      if (!b.weights.empty()) t.weights.push_back(b.weights[k]);
+    }
+  }
+  return t;
+}
+
+PatchModel TurnedAndShuffled(const PatchModel& bezier, std::uint64_t seed) {
+  PatchModel out = bezier;
+  for (Patch& patch : out.patches) patch.shape = Turned(std::get<BezierPatch>(patch.shape));
+  Random random(seed);
+  for (std::size_t k = out.patches.size(); k > 1; --k) {
+    std::swap(out.patches[k - 1], out.patches[static_cast<std::size_t>(random.Int(static_cast<int>(k)))]);
+  }
+  return out;
+}
+
+// Each Bezier patch cut at an uneven place.
+PatchModel Cut(const PatchModel& bezier, double at) {
+  PatchModel out;
+  for (const Patch& patch : bezier.patches) {
+    for (const Piece& piece : SplitIntoPieces(PatchId(0), patch.shape)) {
+      for (const auto& [u0, u1] : {std::pair(0.0, at), std::pair(at, 1.0)}) {
+        const BernsteinNet net = SubNet(piece.net, u0, u1, 0.0, 1.0);
+        BezierPatch b;
+        b.degree_u = net.degree_u;
+        b.degree_v = net.degree_v;
+        for (const Vec4& p : net.points) {
+          b.points.push_back(p.head<3>() / p.w());
+          if (net.rational) b.weights.push_back(p.w());
+        }
+        out.patches.push_back({"", b});
+      }
+    }
+  }
+  return out;
+}
+
+void ExpectSameHeights(const Locator& one, const Locator& other, const Vec2& shift, double rise,
+                       std::uint64_t seed) {
+  Random random(seed);
+  const Box3& box = one.surface().box;
+  int both = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const Vec2 q(random.Uniform(box.min.x() - 2, box.max.x() + 2),
+                 random.Uniform(box.min.y() - 2, box.max.y() + 2));
+    const auto a = one.Height(q), b = other.Height(q + shift);
+    ASSERT_EQ(a.has_value(), b.has_value()) << q.transpose();
+    if (!a) continue;
+    ++both;
+    ASSERT_NEAR(a->z + rise, b->z, 1e-9) << q.transpose();
+  }
+  EXPECT_GT(both, 500);
+}
+
+std::vector<PatchModel> Models() {
+  testing::RandomBsplineParams folded;
+  folded.folds = true;
+  folded.rational = true;
+  return {testing::RandomBspline(1), testing::RandomBspline(2, folded), testing::Torus(Vec3(0, 0, 0), 12, 4),
+          testing::TwoPlanes(Radians(30), 12)};
+}
+
+TEST(Invariance, LayoutOrderAndParametrisation) {
+  for (const PatchModel& model : Models()) {
+    const PatchModel bezier = AsBezier(model);
+    const Surface surface = SurfaceOf(model);
+    const Locator locator(surface, 2.5);
+    for (const PatchModel& variant : {bezier, TurnedAndShuffled(bezier, 5), Cut(bezier, 0.37)}) {
+      const Surface other = SurfaceOf(variant);
+      ExpectSameHeights(locator, Locator(other, 2.5), Vec2::Zero(), 0.0, 3);
+    }
+    // Coarser and finer leaves.
+    for (const double thickness : {0.2, 0.002}) {
+      SurfaceParams params;
+      params.leaf_thickness = thickness;
+      const Surface other = SurfaceOf(model, params);
+      ExpectSameHeights(locator, Locator(other, 2.5), Vec2::Zero(), 0.0, 4);
+    }
+  }
+}
+
+TEST(Invariance, TranslationAndRotationAboutZ) {
+  for (const PatchModel& model : Models()) {
+    const Surface surface = SurfaceOf(model);
+    const Locator locator(surface, 2.5);
+    const Vec3 shift(137.25, -41.5, 12.75);
+    const Surface moved =
+        SurfaceOf(testing::Transformed(model, Eigen::Affine3d(Eigen::Translation3d(shift))));
+    ExpectSameHeights(locator, Locator(moved, 2.5), Plan(shift), shift.z(), 6);
+
+    const double angle = 0.7;
+    const Surface turned =
+        SurfaceOf(testing::Transformed(model, Eigen::Affine3d(Eigen::AngleAxisd(angle, Vec3::UnitZ()))));
+    const Locator other(turned, 2.5);
+    const Eigen::Rotation2Dd rotation(angle);
+    Random random(9);
+    const Box3& box = surface.box;
+    for (int i = 0; i < 800; ++i) {
+      const Vec2 q(random.Uniform(box.min.x(), box.max.x()), random.Uniform(box.min.y(), box.max.y()));
+      const auto a = locator.Height(q), b = other.Height(rotation * q);
+      ASSERT_EQ(a.has_value(), b.has_value());
+      if (a) {
+        ASSERT_NEAR(a->z, b->z, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Invariance, AnyHintGivesTheSameValue) {
+  for (const PatchModel& model : Models()) {
+    const Surface surface = SurfaceOf(model);
+    const Locator locator(surface, 2.5);
+    Random random(12);
+    const Box3& box = surface.box;
+    for (int i = 0; i < 1500; ++i) {
+      const Vec2 q(random.Uniform(box.min.x() - 2, box.max.x() + 2),
+                   random.Uniform(box.min.y() - 2, box.max.y() + 2));
+      const auto plain = locator.Height(q);
+      SurfacePoint hint;
+      hint.piece = PieceId(static_cast<std::size_t>(random.Int(static_cast<int>(surface.pieces.size()))));
+      hint.u = random.Unit();
+      hint.v = random.Unit();
+      hint.p = Lift(q, 0.0);  // pretends to be near, so that it is used
+      const auto hinted = locator.Height(q, &hint);
+      ASSERT_EQ(plain.has_value(), hinted.has_value());
+      if (!plain) continue;
+      ASSERT_NEAR(plain->z, hinted->z, 1e-9);
+      const auto again = locator.Height(q, &plain->contact);
+      ASSERT_NEAR(plain->z, again->z, 1e-9);
+      // The same call gives the same bits.
+      ASSERT_EQ(locator.Height(q, &hint)->z, hinted->z);
+    }
+  }
+}
+
+TEST(Invariance, LargerBallsRideHigher) {
+  for (const PatchModel& model : Models()) {
+    const Surface surface = SurfaceOf(model);
+    const double r1 = 1.5, r2 = 2.5;
+    const Locator small(surface, r1), large(surface, r2);
+    Random random(13);
+    const Box3& box = surface.box;
+    for (int i = 0; i < 1500; ++i) {
+      const Vec2 q(random.Uniform(box.min.x(), box.max.x()), random.Uniform(box.min.y(), box.max.y()));
+      const auto a = small.Height(q), b = large.Height(q);
+      if (!a) continue;
+      ASSERT_TRUE(b.has_value());
+      // Centres and tips both: R - sqrt(R^2 - d^2) falls with R.
+      ASSERT_GE(b->z, a->z - 1e-9);
+      ASSERT_GE(b->z - r2, a->z - r1 - 1e-9);
+    }
+  }
+}
+
+TEST(Invariance, FreeIsTheSignOfHeight) {
+  for (const PatchModel& model : Models()) {
+    const Surface surface = SurfaceOf(model);
+    const Locator locator(surface, 2.5);
+    Random random(14);
+    const Box3& box = surface.box;
+    int free = 0, blocked = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Vec2 q(random.Uniform(box.min.x() - 3, box.max.x() + 3),
+                   random.Uniform(box.min.y() - 3, box.max.y() + 3));
+      const auto h = locator.Height(q);
+      const double near = h ? h->z : 0.0;
+      const double offset = std::pow(10.0, random.Uniform(-8.0, 1.0)) * (i % 2 == 0 ? 1 : -1);
+      const bool got = locator.Free(Lift(q, near + offset));
+      ASSERT_EQ(got, !h || offset > 0) << q.transpose() << " offset " << offset;
+      (got ? free : blocked)++;
+      if (h && offset < 0) {
+        ASSERT_TRUE(locator.Free(Lift(q, near + offset), -offset + 1e-9));
+      }
+    }
+    EXPECT_GT(free, 1000);
+    EXPECT_GT(blocked, 1000);
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
