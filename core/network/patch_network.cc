@@ -85,12 +85,13 @@ void ReportEdges(const Facts& facts, PatchNetwork& network, NetworkFindings& fin
       });
     }
     if (!link.neighbor || link.max_angle <= kTangentBreak) continue;
+    if (facts.duplicate_of[link.self.patch.index()]) continue;  // its original has told it
     const int other = network.first_edge[link.neighbor->patch.index()] + link.neighbor->edge;
     const auto& back = network.edges[At(other)].neighbor;
     if (back && *back == link.self && other < e) continue;  // told by the other side
     findings.AtEdge("TANGENT_BREAK", Severity::kInfo, e, [&] {
-      return fmt::format("{} meets {} at an angle of up to {:.4g} degrees", findings.Name(e), findings.Name(other),
-                         Degrees(link.max_angle));
+      return fmt::format("{} meets {} at an angle of up to {:.4g} degrees", findings.Name(e),
+                         findings.Name(other), Degrees(link.max_angle));
     });
   }
 }
@@ -220,6 +221,10 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
   }
   MeasureAngles(curves, run, network.edges);
   PM_RETURN_IF_ERROR(run.Check());
+  for (EdgeLink& link : network.edges) {  // a copy does not fold back onto its original
+    const auto& original = duplicate_of[link.self.patch.index()];
+    if (original && link.neighbor && link.neighbor->patch == *original) link.max_angle = 0.0;
+  }
   const Topology topology = InspectTopology(curves, ends, network.edges, duplicate_of, run);
   PM_RETURN_IF_ERROR(run.Check());
   network.vertex_count = topology.vertex_count;

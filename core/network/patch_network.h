@@ -54,12 +54,13 @@ struct PatchNetwork {
   //   INCONSISTENT_ORIENTATION  neighbours run u x v to opposite sides (info; no algorithm needs a side)
   //   SEARCH_LIMITED         too many open edges lie together; gaps and T-junctions were not all looked for
   Diagnostics findings;
-  int open_edge_count = 0;       // edges with an OPEN_EDGE finding
-  int t_junction_count = 0;      // long edges with a T_JUNCTION finding
-  int vertex_count = 0;          // corners after joining
-  int boundary_loop_count = 0;   // closed chains of unlinked edges
-  int component_count = 0;       // pieces joined by edges
-  int euler_characteristic = 0;  // vertices - edges + faces: 2 a sphere, 0 a torus, 1 a sheet
+  int open_edge_count = 0;      // edges with an OPEN_EDGE finding
+  int t_junction_count = 0;     // long edges with a T_JUNCTION finding
+  int vertex_count = 0;         // corners after joining
+  int boundary_loop_count = 0;  // closed chains of unlinked edges
+  int component_count = 0;      // pieces joined by edges
+  int euler_characteristic =
+      0;  // vertices - edges + faces: 2 a sphere, 0 a torus, 1 a sheet; one-sided: cut open
 
   const EdgeLink& Link(PatchEdge edge) const;
   std::vector<int> first_edge;  // index into `edges` of each patch's edge 0

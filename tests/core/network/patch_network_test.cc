@@ -327,6 +327,7 @@ TEST(BuildNetwork, ReportsDuplicatesAndLinksTheRestAsIfTheyWereNotThere) {
     EXPECT_EQ(network.Link({PatchId(3), 3}).neighbor, (PatchEdge{PatchId(1), 1}));
     EXPECT_EQ(network.component_count, 1);
     EXPECT_EQ(network.boundary_loop_count, 1);
+    EXPECT_EQ(Codes(network).count("TANGENT_BREAK"), 0u);
   }
 }
 
