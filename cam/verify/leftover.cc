@@ -102,7 +102,7 @@ class LeftoverSearch {
   bool IsReachable(const SurfaceCell& cell) const {
     const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
     const auto facing = FacingAt(jet);
-    return facing && Reach(surface_, jet.p, *facing, params_.reach) == ReachClass::kReachable;
+    return facing && ReachAt(surface_, jet.p, *facing, params_.reach) == ReachClass::kReachable;
   }
 
   // No point of the cell is reachable, as the centre over it cannot move far enough from the one over its

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <unordered_map>
 
 #include "cam/verify/leftover.h"
 #include "core/base/parallel.h"
@@ -11,52 +14,90 @@ namespace patchmill {
 
 namespace {
 
-constexpr int kDeepestQuarter = 4;
-constexpr double kFarSlack = 0.02;  // how exactly the distance of far unreachable points is known
-constexpr double kNear = 2.0;       // of the radius: nearer ones are measured exactly
+constexpr int kDeepestReason = 2;        // quarterings between two reasons
+constexpr int kDeepestBorder = 5;        // and at most between reachable and not
+constexpr double kBorderCells = 60'000;  // about as many cells are spent on the border
+constexpr double kFarSlack = 0.02;       // how exactly the distance of far unreachable points is known
+constexpr double kNear = 2.0;            // of the radius: nearer ones are measured exactly
+
+// One point of the surface as the areas need it.
+struct Sample {
+  std::optional<FinishClass> kind;  // nullopt where the surface has no normal: of no area
+  double element = 0.0;             // |S_u x S_v|
+};
+
+bool Unreachable(FinishClass kind) {
+  return kind == FinishClass::kUndercut || kind == FinishClass::kConcave || kind == FinishClass::kFloor;
+}
 
 class AreaSampler {
  public:
-  AreaSampler(const Surface& surface, const SegmentTree& tree, const LeftoverParams& params)
-      : surface_(surface), tree_(tree), params_(params) {}
+  // Cells are quartered `deepest` times where the border of the reachable set runs.
+  AreaSampler(const Surface& surface, const SegmentTree& tree, const LeftoverParams& params, int deepest)
+      : surface_(surface), tree_(tree), params_(params), deepest_(deepest) {}
 
-  void Add(const CellRect& cell, int depth, AreaReport& sums) {
-    // The middle and near the corners: a border that crosses the cell shows. The weights make the area exact
-    // for a cubic area element.
-    constexpr double kInset = 0.02, kMiddleWeight = 2.0 / 3.0, kCornerWeight = 1.0 / 12.0;
-    std::array<std::optional<FinishClass>, 5> kinds;
-    std::array<double, 5> areas{};
-    for (std::size_t k = 0; k < 5; ++k) {
-      const double s = k == 4 ? 0.5 : k / 2 == 0 ? kInset : 1.0 - kInset;
-      const double t = k == 4 ? 0.5 : k % 2 == 0 ? kInset : 1.0 - kInset;
-      const SurfaceJet jet = Evaluate(surface_, cell.piece, cell.u0 + s * (cell.u1 - cell.u0),
-                                      cell.v0 + t * (cell.v1 - cell.v0));
-      areas[k] = (cell.u1 - cell.u0) * (cell.v1 - cell.v0) * (k == 4 ? kMiddleWeight : kCornerWeight) *
-                 jet.du.cross(jet.dv).norm();
-      kinds[k] = Classify(jet, cell.piece, sums);
+  // Returns whether the border runs through the cell.
+  bool Add(const CellRect& cell, int depth, AreaReport& sums) {
+    // The middle and the corners: a border that crosses the cell shows. The weights make the area exact for
+    // a cubic area element.
+    constexpr double kMiddleWeight = 2.0 / 3.0, kCornerWeight = 1.0 / 12.0;
+    const std::array<const Sample*, 5> samples = {
+        &At(cell.piece, cell.u0, cell.v0, sums), &At(cell.piece, cell.u0, cell.v1, sums),
+        &At(cell.piece, cell.u1, cell.v0, sums), &At(cell.piece, cell.u1, cell.v1, sums),
+        &At(cell.piece, cell.u(), cell.v(), sums)};
+    const std::optional<FinishClass> middle = samples[4]->kind;
+    bool border = false, reasons = false;
+    for (const Sample* sample : samples) {
+      if (!middle || !sample->kind || *sample->kind == *middle) continue;
+      (Unreachable(*middle) && Unreachable(*sample->kind) ? reasons : border) = true;
     }
-    const auto other = [&](const std::optional<FinishClass>& c) { return c && kinds[4] && *c != *kinds[4]; };
-    if (depth < kDeepestQuarter && std::any_of(kinds.begin(), kinds.end(), other)) {
+    if ((border && depth < deepest_) || (reasons && depth < std::min(deepest_, kDeepestReason))) {
       for (int k = 0; k < 4; ++k) {
         CellRect part = cell;
         (k / 2 == 0 ? part.u1 : part.u0) = cell.u();
         (k % 2 == 0 ? part.v1 : part.v0) = cell.v();
         Add(part, depth + 1, sums);
       }
-      return;
+      return border;
     }
+    const double size = (cell.u1 - cell.u0) * (cell.v1 - cell.v0);
     for (std::size_t k = 0; k < 5; ++k) {
-      if (kinds[k]) sums.area[static_cast<std::size_t>(*kinds[k])] += areas[k];
+      if (!samples[k]->kind) continue;
+      sums.area[static_cast<std::size_t>(*samples[k]->kind)] +=
+          size * (k == 4 ? kMiddleWeight : kCornerWeight) * samples[k]->element;
     }
+    return border;
   }
 
  private:
-  // nullopt where the surface has no normal: of no area.
+  struct Key {
+    int piece;
+    double u, v;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& k) const {
+      auto h = static_cast<std::uint64_t>(k.piece);
+      for (const double x : {k.u, k.v}) h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
+      return static_cast<std::size_t>(h ^ (h >> 32));
+    }
+  };
+
+  // Cells share corners; halving keeps parameters exact, so equal ones are equal.
+  const Sample& At(PieceId piece, double u, double v, AreaReport& sums) {
+    const auto [at, added] = samples_.try_emplace(Key{piece.value, u, v});
+    if (added) {
+      const SurfaceJet jet = Evaluate(surface_, piece, u, v);
+      at->second = {Classify(jet, piece, sums), jet.du.cross(jet.dv).norm()};
+    }
+    return at->second;
+  }
+
   std::optional<FinishClass> Classify(const SurfaceJet& jet, PieceId piece, AreaReport& sums) {
     const auto facing = FacingAt(jet);
     if (!facing) return std::nullopt;
     FinishClass kind = FinishClass::kDone;
-    switch (Reach(surface_, jet.p, *facing, params_.reach)) {
+    switch (ReachAt(surface_, jet.p, *facing, params_.reach)) {
       case ReachClass::kReachable:
         break;
       case ReachClass::kUndercut:
@@ -89,7 +130,9 @@ class AreaSampler {
   const Surface& surface_;
   const SegmentTree& tree_;
   const LeftoverParams& params_;
+  int deepest_;
   int hint_ = -1;
+  std::unordered_map<Key, Sample, KeyHash> samples_;
 };
 
 }  // namespace
@@ -124,16 +167,42 @@ bool BeyondStrategy(const SurfaceJet& jet, const Vec3& e, const LeftoverParams& 
 absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vector<CellRect>& roots,
                                         const SegmentTree& tree, const LeftoverParams& params,
                                         const RunContext& run) {
-  constexpr std::size_t kChunk = 32;
+  constexpr std::size_t kChunk = 64;
   const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
   std::vector<AreaReport> parts(chunks);
-  PM_RETURN_IF_ERROR(ParallelFor(run, "verify: reach", chunks, [&](std::size_t chunk) {
-    AreaSampler sampler(surface, tree, params);
-    const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) {
-      sampler.Add(roots[i], 0, parts[chunk]);
-    }
-  }));
+  std::vector<std::vector<std::size_t>> borders(chunks);
+  const auto sample = [&](int deepest, const char* stage) {
+    return ParallelFor(run, stage, chunks, [&](std::size_t chunk) {
+      AreaSampler sampler(surface, tree, params, deepest);
+      AreaReport& sums = parts[chunk];
+      const std::vector<std::size_t> again = std::move(borders[chunk]);
+      borders[chunk].clear();
+      const auto add = [&](std::size_t i) {
+        AreaReport root;
+        root.deepest = sums.deepest;
+        const bool border = sampler.Add(roots[i], 0, root);
+        sums.deepest = root.deepest;
+        if (border && deepest == 0) {
+          borders[chunk].push_back(i);
+          return;
+        }
+        for (std::size_t k = 0; k < kFinishClasses; ++k) sums.area[k] += root.area[k];
+      };
+      if (deepest > 0) {
+        for (std::size_t k = 0; k < again.size() && !run.Cancelled(); ++k) add(again[k]);
+        return;
+      }
+      const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
+      for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) add(i);
+    });
+  };
+  // First all roots as they are, then the border as finely as its length allows.
+  PM_RETURN_IF_ERROR(sample(0, "verify: reach"));
+  double cells = 1.0;
+  for (const auto& border : borders) cells += static_cast<double>(border.size());
+  int deepest = 1;
+  while (deepest < kDeepestBorder && cells * std::exp2(deepest + 1) <= kBorderCells) ++deepest;
+  PM_RETURN_IF_ERROR(sample(deepest, nullptr));
   AreaReport sums;
   for (const AreaReport& part : parts) {
     for (std::size_t k = 0; k < kFinishClasses; ++k) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kVertical = 1e-6;    // e_z below this: a vertical face
 constexpr double kProof = 0.02;       // of the tolerance: how exactly "free" is decided
-constexpr double kCoarse = 0.02;      // of the radius: how exactly a blocking depth is known
+constexpr double kCoarse = 0.02;      // of the radius: how exactly the blocking point is known
 constexpr double kFloorSlack = 1e-6;  // mm: rounding of a floor at the surface itself
 
 std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) {
@@ -27,7 +27,7 @@ std::optional<Facing> FacingAt(const SurfaceJet& jet) {
   return Facing{*normal, normal->z() < kVertical};
 }
 
-ReachClass Reach(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params) {
+ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params) {
   const double limit = params.radius - params.tolerance;
   const auto centers = Centers(p, facing, params.radius);
   ReachClass worst = ReachClass::kReachable;
@@ -35,7 +35,7 @@ ReachClass Reach(const Surface& surface, const Vec3& p, const Facing& facing, co
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
     if (AnythingNearUpwardRay(surface, c, limit, kProof * params.tolerance)) {
-      const auto nearest = ClosestToUpwardRay(surface, c, limit, kCoarse * params.tolerance);
+      const auto nearest = ClosestToUpwardRay(surface, c, limit, kCoarse * params.radius);
       found = nearest && nearest->at.p.z() > c.z() ? ReachClass::kUndercut : ReachClass::kConcave;
     } else if (c.z() < params.floor_z - kFloorSlack) {
       found = ReachClass::kFloor;

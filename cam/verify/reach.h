@@ -25,7 +25,7 @@ struct Facing {
 std::optional<Facing> FacingAt(const SurfaceJet& jet);
 
 // The ball centred at p + R e is free of the surface, the shank above it too, and not below the floor.
-ReachClass Reach(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);
+ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);
 
 // How far the centre may move and the point still cannot be reached: > 0 only for an unreachable point; a
 // lower bound (mm).

@@ -32,7 +32,7 @@ class Judge {
   absl::StatusOr<VerifyReport> Run() {
     sets_ = CollectMotion(motion_, params_.program_zero + Vec3(0, 0, ball_), params_.stock_top_z + ball_);
     roots_ =
-        RootCells(surface_, std::clamp(std::sqrt(RoughArea(surface_) / 12000.0), 0.02 * radius_, radius_));
+        RootCells(surface_, std::clamp(std::sqrt(RoughArea(surface_) / 9000.0), 0.02 * radius_, radius_));
     PM_RETURN_IF_ERROR(run_.Check());
     PM_RETURN_IF_ERROR(JudgeGouge());
     PM_RETURN_IF_ERROR(JudgeFinish());

@@ -152,7 +152,7 @@ TEST(VerifyRandom, MaximaBoundDenseSamples) {
           gouge = std::max(gouge, r - d_swept);
           const double area = jet.du.cross(jet.dv).norm() / (n * n);
           total += area;
-          if (Reach(surface, jet.p, *facing, {r, params.tolerance}) != ReachClass::kReachable) continue;
+          if (ReachAt(surface, jet.p, *facing, {r, params.tolerance}) != ReachClass::kReachable) continue;
           reachable += area;
           leftover = std::max(leftover, d_cut - r);
         }
@@ -177,7 +177,7 @@ TEST(VerifyRandom, MaximaBoundDenseSamples) {
     EXPECT_LE(at->distance, 1e-8);
     const auto facing = FacingAt(Evaluate(surface, at->at.piece, at->at.u, at->at.v));
     ASSERT_TRUE(facing.has_value());
-    EXPECT_EQ(Reach(surface, at->at.p, *facing, {r, params.tolerance * 1.001}), ReachClass::kReachable)
+    EXPECT_EQ(ReachAt(surface, at->at.p, *facing, {r, params.tolerance * 1.001}), ReachClass::kReachable)
         << seed;
   }
 }
