@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/diffgeo/forms.h"
+
 namespace patchmill {
 namespace {
 
@@ -48,14 +50,6 @@ Cells CellsFor(const Piece& piece, double chord, int max_cells) {
   return {whole(u), whole(v)};
 }
 
-// Zero where a tangent vanishes but for rounding (collapsed edges) or both have one direction.
-Vec3 UpwardNormal(const SurfaceJet& jet, double scale) {
-  const Vec3 n = jet.du.cross(jet.dv);
-  const double length = n.norm(), u = jet.du.norm(), v = jet.dv.norm();
-  if (std::min(u, v) <= 1e-12 * scale || length <= 1e-9 * u * v) return Vec3::Zero();
-  return n / (n.z() < 0.0 ? -length : length);
-}
-
 }  // namespace
 
 Tessellation Tessellate(const Surface& surface, double chord, int max_cells) {
@@ -71,7 +65,7 @@ Tessellation Tessellate(const Surface& surface, double chord, int max_cells) {
         const double u = static_cast<double>(k) / cells.u, v = static_cast<double>(l) / cells.v;
         const SurfaceJet jet = Evaluate(piece, u, v);
         mesh.vertices.push_back(
-            {jet.p, UpwardNormal(jet, surface.scale), static_cast<float>(u), static_cast<float>(v)});
+            {jet.p, UpwardNormal(jet).value_or(Vec3::Zero()), static_cast<float>(u), static_cast<float>(v)});
       }
     }
     out.meshes.push_back(std::move(mesh));
