@@ -58,6 +58,9 @@ LevelContours TraceLevel(const LevelContext& context, double z, const ContourPar
         std::max(params.chord_tolerance - params.certificate_gap, 0.5 * params.chord_tolerance),
         params.chord_tolerance};
     level.ambiguous_cells = cells.ambiguous;
+    const auto first = std::find_if(cells.cells.begin(), cells.cells.end(),
+                                    [](const LevelCell& cell) { return cell.ambiguous; });
+    if (first != cells.cells.end()) level.ambiguous_at = oracle.Center(PlanOf(cells.grid, *first).mid);
     for (const Chain& chain : BuildChains(cells, items, oracle, run)) {
       if (run.Cancelled()) return level;
       const std::vector<LevelPoint> points = RefineLoop(oracle, chain, tolerance);

@@ -1,0 +1,23 @@
+// At which heights contours run.
+#pragma once
+
+#include <vector>
+
+#include "cam/path/contour_samples.h"
+
+namespace patchmill {
+
+struct PlannedLevel {
+  double z = 0.0;           // mm, centre height
+  double gap = 0.0;         // mm, to the level below (or above, for the lowest)
+  bool partial = false;     // only near `spots`
+  std::vector<Vec3> spots;  // centres of samples that the full levels alone would leave too far apart
+};
+
+// Levels from the top down. Between the heights where steep faces end on a common level (floors, flats, level
+// rims: those get a level of their own) levels share the way evenly in units of the step the ground needs, so
+// that nine in ten samples have their step; the others get partial levels in between. No step falls below
+// min_step_fraction of the flat one, no level below floor_z + radius. Cost O(n log n).
+std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourParams& params, double radius);
+
+}  // namespace patchmill

@@ -1,0 +1,36 @@
+// The ground that contours must cover, as sample points with the level spacing each of them needs.
+#pragma once
+
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/path/level_trace.h"
+
+namespace patchmill {
+
+struct ContourSample {
+  Vec3 center = Vec3::Zero();   // ball centre over the sample
+  double up = 0.0, down = 0.0;  // mm: it stands for the ground from center.z() - down to center.z() + up
+  double step = 0.0;            // mm, dz = CenterStep(across the feed) sin(slope)
+};
+
+// Where a steep face ends downward: the lowest centre that still touches it and is free.
+struct LowerEnd {
+  double z = 0.0;
+  double length = 0.0;  // mm of border it stands for
+};
+
+struct ContourGround {
+  std::vector<ContourSample> samples;
+  std::vector<LowerEnd> lower_ends;
+  double spacing = 0.0;  // mm between samples
+};
+
+// A grid on every piece; only points whose slope lies in the window and whose ball is free (not below the
+// floor) count. Lower ends are solved on the grid's edges, to 1e-7 mm where
+// enough of them gather at one height to matter. Deterministic, parallel over pieces.
+absl::StatusOr<ContourGround> SampleGround(const LevelContext& context, const ContourParams& params,
+                                           const RunContext& run);
+
+}  // namespace patchmill

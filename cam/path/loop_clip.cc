@@ -1,0 +1,194 @@
+#include "cam/path/loop_clip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cam/path/level_oracle.h"
+#include "core/diffgeo/forms.h"
+#include "core/surface/closest.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kOnSide = 1e-6;     // parameter distance at which a contact lies on a side of its piece
+constexpr double kEndPlace = 1e-6;   // mm: how exactly the ends of a part are placed
+constexpr double kWallPlace = 1e-6;  // mm: how far a wall may be from vertical below its shank contact
+constexpr double kAtLimit = 1e-5;    // rad: a rim contact this close to the face's normal is the face's own
+constexpr double kRimRise = 0.05;    // least rise of a face towards an open rim that counts as highest there
+
+enum class Ground { kNone, kAllowed, kWanted };  // no pass; pass ground outside the window; in the window
+
+class Clipper {
+ public:
+  Clipper(const LevelContext& context, const CutterPath& loop, const ClipParams& params)
+      : context_(context),
+        surface_(context.locator.surface()),
+        oracle_(context.locator, loop.points.front().center.z()),
+        loop_(loop),
+        params_(params) {
+    spots_ = params.spots;
+    std::sort(spots_.begin(), spots_.end(), [](const Vec3& a, const Vec3& b) {
+      return std::array{a.x(), a.y(), a.z()} < std::array{b.x(), b.y(), b.z()};
+    });
+  }
+
+  std::vector<CutterPath> Run() {
+    const std::size_t n = loop_.points.size();
+    for (std::size_t i = 0; i < n; ++i) AddSegment(loop_.points[i], loop_.points[(i + 1) % n]);
+    return Parts();
+  }
+
+ private:
+  // A stretch of the loop with one kind of ground throughout.
+  struct Piece {
+    CutterPoint from, to;
+    Ground ground;
+  };
+
+  // Judges one contact under the centre over q.
+  Ground Judge(const Vec2& q, const SurfacePoint& contact) const {
+    const double radius = oracle_.radius(), z = oracle_.z();
+    SurfacePoint at = contact;
+    double cosine = (z - contact.p.z()) / radius;
+    if (cosine < 0.0) {
+      // The shank: a pass only when a vertical wall goes down to the centre's height.
+      if (cosine < -1e-9) {
+        const auto wall = ClosestToPoint(surface_, Lift(Plan(contact.p), z), kWallPlace, 0.1 * kWallPlace);
+        if (!wall) return Ground::kNone;
+        at = wall->at;
+      }
+      cosine = 0.0;
+    }
+    const Vec2 plan = q - Plan(contact.p);
+    const Vec3 e = Lift(plan, std::max(0.0, z - contact.p.z())).normalized();
+    if (!Holds(at, e)) return Ground::kNone;
+    const double slope = std::acos(std::min(1.0, cosine));
+    if (slope < params_.window.min || slope > params_.window.max + 1e-9) return Ground::kAllowed;
+    return NearSpot(Lift(q, z)) ? Ground::kWanted : Ground::kAllowed;
+  }
+
+  // May the ball rest on this surface point from direction e?
+  bool Holds(const SurfacePoint& at, const Vec3& e) const {
+    const std::array<bool, 4> on = {at.v<kOnSide, at.u> 1.0 - kOnSide, at.v > 1.0 - kOnSide, at.u < kOnSide};
+    for (int side = 0; side < 4; ++side) {
+      if (!on[static_cast<std::size_t>(side)]) continue;
+      if (context_.sides.At(at.piece, side).kind != SideKind::kOpen) continue;
+      const std::optional<Vec3> out = OutwardTangent(surface_, at.piece, side, side % 2 == 0 ? at.u : at.v);
+      if (!out) continue;  // a collapsed side: the point of a cone or the pole of a dome
+      const std::optional<Vec3> up = UpwardNormal(Evaluate(surface_, at.piece, at.u, at.v));
+      if (!up) continue;
+      const Vec3 normal = up->dot(e) < 0.0 && up->z() < 1e-6 ? Vec3(-*up) : *up;
+      if (std::atan2(normal.cross(e).norm(), normal.dot(e)) <= kAtLimit) continue;
+      const bool highest = out->z() > kRimRise && Plan(normal).dot(Plan(e)) >= 0.0;
+      if (!highest) return false;
+    }
+    return true;
+  }
+
+  bool NearSpot(const Vec3& center) const {
+    if (params_.spots.empty()) return true;
+    auto spot = std::lower_bound(spots_.begin(), spots_.end(), center.x() - params_.near,
+                                 [](const Vec3& a, double x) { return a.x() < x; });
+    for (; spot != spots_.end() && spot->x() <= center.x() + params_.near; ++spot) {
+      if ((*spot - center).squaredNorm() <= params_.near * params_.near) return true;
+    }
+    return false;
+  }
+
+  static SurfacePoint After(const CutterPoint& p) { return p.other_contact ? *p.other_contact : *p.contact; }
+
+  void AddSegment(const CutterPoint& a, const CutterPoint& b) {
+    const Ground ga = Judge(Plan(a.center), After(a)), gb = Judge(Plan(b.center), *b.contact);
+    Split(a, After(a), ga, b, gb, 0);
+  }
+
+  // Cuts a chord where the ground changes between its ends.
+  void Split(const CutterPoint& a, const SurfacePoint& contact_a, Ground ga, const CutterPoint& b, Ground gb,
+             int depth) {
+    const double length = (b.center - a.center).norm();
+    if (ga == gb) {
+      pieces_.push_back({a, b, ga});
+      return;
+    }
+    const Vec2 qa = Plan(a.center), qb = Plan(b.center);
+    if (length > kEndPlace && depth < 40) {
+      const Vec2 left = Vec2(qa.y() - qb.y(), qb.x() - qa.x()) / length;
+      const std::optional<LevelPoint> root =
+          oracle_.RootOnLine(0.5 * (qa + qb), left, contact_a, *b.contact, length);
+      if (root && (root->q - qa).norm() < 0.9 * length && (root->q - qb).norm() < 0.9 * length) {
+        const CutterPoint m{oracle_.Center(root->q), root->contact, root->other};
+        const Ground gm = Judge(root->q, root->contact);
+        Split(a, contact_a, ga, m, gm, depth + 1);
+        Split(m, root->contact, gm, b, gb, depth + 1);
+        return;
+      }
+    }
+    // Too short to cut: it goes with its better end.
+    pieces_.push_back({a, b, std::max(ga, gb)});
+  }
+
+  std::vector<CutterPath> Parts() {
+    const std::size_t n = pieces_.size();
+    std::vector<char> keep(n, 0);
+    for (std::size_t i = 0; i < n; ++i) keep[i] = pieces_[i].ground == Ground::kWanted;
+    Dilate(keep);
+    if (std::find(keep.begin(), keep.end(), 1) == keep.end()) return {};
+    const auto gap = std::find(keep.begin(), keep.end(), 0);
+    if (gap == keep.end()) return {loop_};
+    std::vector<CutterPath> parts;
+    const auto start = static_cast<std::size_t>(gap - keep.begin());
+    bool open = false;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = (start + k) % n;
+      if (!keep[i]) {
+        open = false;
+        continue;
+      }
+      if (!open) {
+        CutterPath part = loop_;
+        part.closed = false;
+        part.points = {pieces_[i].from};
+        parts.push_back(std::move(part));
+        open = true;
+      }
+      parts.back().points.push_back(pieces_[i].to);
+    }
+    return parts;
+  }
+
+  // Walks the overlap from every wanted end, both ways, over ground that allows a pass.
+  void Dilate(std::vector<char>& keep) {
+    const std::size_t n = pieces_.size();
+    const std::vector<char> wanted = keep;
+    for (const bool forward : {true, false}) {
+      const auto neighbor = [&](std::size_t i) { return forward ? (i + 1) % n : (i + n - 1) % n; };
+      for (std::size_t i = 0; i < n; ++i) {
+        if (!wanted[i] || wanted[neighbor(i)]) continue;
+        double left = params_.overlap;
+        for (std::size_t k = neighbor(i); left > 0.0 && !wanted[k] && pieces_[k].ground != Ground::kNone;
+             k = neighbor(k)) {
+          keep[k] = 1;
+          left -= (pieces_[k].to.center - pieces_[k].from.center).norm();
+        }
+      }
+    }
+  }
+
+  const LevelContext& context_;
+  const Surface& surface_;
+  LevelOracle oracle_;
+  const CutterPath& loop_;
+  const ClipParams& params_;
+  std::vector<Vec3> spots_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace
+
+std::vector<CutterPath> ClipLoop(const LevelContext& context, const CutterPath& loop,
+                                 const ClipParams& params) {
+  return Clipper(context, loop, params).Run();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,25 @@
+// Which part of a contour is a pass (ALGORITHMS 3, MACHINING A.12).
+#pragma once
+
+#include <vector>
+
+#include "cam/path/contour_levels.h"
+#include "cam/path/level_trace.h"
+
+namespace patchmill {
+
+struct ClipParams {
+  SlopeWindow window;
+  double overlap = 0.0;  // mm along the loop, added at both ends of what lies in the window
+  // Not empty: only within `near` (mm, in space) of one of these centres.
+  std::vector<Vec3> spots;
+  double near = 0.0;
+};
+
+// The parts of a closed loop whose contact has z <= c, is interior or lies on a crease, or on an open rim
+// that is locally highest, and whose slope lies in the window; dilated by the overlap where the ground allows
+// it. Ends are solved on the contour to 1e-6 mm. A loop that stays whole stays closed.
+std::vector<CutterPath> ClipLoop(const LevelContext& context, const CutterPath& loop,
+                                 const ClipParams& params);
+
+}  // namespace patchmill
