@@ -32,7 +32,7 @@ class LineTracer {
  private:
   std::optional<LineStation> Query(double t, const std::optional<SurfacePoint>& hint) const;
   std::optional<BranchPoint> Branch(const std::optional<SurfacePoint>& contact, double t) const;
-  Vec3 Center(const LineStation& s) const { return Lift(line_.At(s.t), s.z); }
+  Vec3 Center(const LineStation& s) const { return Lift(s.q, s.z); }
   Support SupportOf(const std::optional<SurfacePoint>& contact) const {
     return contact ? Support{contact->p, params_.floor_center} : Support{{}, params_.floor_center};
   }
@@ -62,7 +62,9 @@ class LineTracer {
 std::optional<LineStation> LineTracer::Query(double t, const std::optional<SurfacePoint>& hint) const {
   const auto h = locator_.Height(line_.At(t), hint ? &*hint : nullptr);
   if (!h) return std::nullopt;
-  LineStation s{.t = t, .z = h->z, .at = t, .left = h->contact, .right = h->contact, .hint = h->contact};
+  const Vec2 q = line_.At(t);
+  LineStation s{
+      .t = t, .q = q, .z = h->z, .at = q, .left = h->contact, .right = h->contact, .hint = h->contact};
   if (h->z < params_.floor_center) {
     s.z = params_.floor_center;
     s.left.reset();
@@ -254,6 +256,7 @@ bool LineTracer::RefineAtDrop(const LineStation& a, const LineStation& b, bool f
   if (top->z - foot->z > params_.chord_tolerance) {
     // Both over the foot's place, which is outside the wall.
     top->t = foot->t;
+    top->q = foot->q;
     top->keep = foot_station.keep = true;
     if (from_a) {
       Refine(a, *top, depth + 1);

@@ -11,9 +11,10 @@ namespace patchmill {
 
 // A centre on the curve. Left and right support differ at a switch; absent: the floor carries the ball there.
 struct LineStation {
-  double t = 0.0;   // mm along the segment
-  double z = 0.0;   // centre height, not yet certified
-  double at = 0.0;  // where z is h: t, but just inside the wall for the top of a drop
+  double t = 0.0;          // mm along the segment, or any curve in plan, by arc length
+  Vec2 q = Vec2::Zero();   // the place in plan
+  double z = 0.0;          // centre height, not yet certified
+  Vec2 at = Vec2::Zero();  // where z is h: q, but just inside the wall for the top of a drop
   std::optional<SurfacePoint> left, right;
   std::optional<SurfacePoint> hint;  // the surface's own contact, set on the floor too
   bool keep = false;                 // ends, switches, both ends of a drop

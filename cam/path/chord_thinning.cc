@@ -1,0 +1,163 @@
+#include "cam/path/chord_thinning.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cam/path/chord_bounds.h"
+
+namespace patchmill {
+namespace {
+
+// Picks vertices out of the stations of one run: as few as the chord tolerance allows, every one certified.
+class Thinner {
+ public:
+  Thinner(const Locator& locator, const std::vector<LineStation>& stations, const PassParams& params,
+          double gap)
+      : locator_(locator),
+        stations_(stations),
+        radius_(locator.radius()),
+        tolerance_(params.chord_tolerance),
+        gap_(gap),
+        floor_center_(params.floor_z + locator.radius()),
+        middle_(stations.size()) {}
+
+  std::vector<CutterPoint> Thin();
+
+ private:
+  struct Middle {
+    bool known = false;
+    std::optional<Support> support;
+  };
+
+  Support SupportOf(const std::optional<SurfacePoint>& contact) const {
+    Support s{{}, floor_center_};
+    if (contact) s.contact = contact->p;
+    return s;
+  }
+  const std::optional<Support>& MiddleOf(std::size_t k);
+  bool Fits(std::size_t i, std::size_t j);
+  std::size_t Farthest(std::size_t i, std::size_t barrier);
+  CutterPoint Certify(const LineStation& s) const;
+
+  const Locator& locator_;
+  const std::vector<LineStation>& stations_;
+  const double radius_, tolerance_, gap_, floor_center_;
+  std::vector<Middle> middle_;
+};
+
+// A support half way between stations k and k+1: one branch following, and any surface point is a valid lower
+// bound of h.
+const std::optional<Support>& Thinner::MiddleOf(std::size_t k) {
+  Middle& m = middle_[k];
+  if (!m.known) {
+    m.known = true;
+    const LineStation &a = stations_[k], &b = stations_[k + 1];
+    if (a.right) {
+      if (const auto c = locator_.Follow(*a.right, 0.5 * (a.q + b.q))) {
+        m.support = SupportOf(c->contact);
+      }
+    }
+  }
+  return m.support;
+}
+
+// Closed-form test of the chord from station i to j against every support between: excess proven (T3), gouge
+// predicted (proven afterwards by the swept query).
+bool Thinner::Fits(std::size_t i, std::size_t j) {
+  const LineStation &first = stations_[i], &last = stations_[j];
+  const Vec3 a = Lift(first.q, first.z), b = Lift(last.q, last.z);
+  const double span = last.t - first.t;
+  const double excess_limit = tolerance_ - gap_, gouge_limit = 0.9 * tolerance_;
+  const auto on_chord = [&](double t) -> Vec3 { return a + (t - first.t) / span * (b - a); };
+  const auto gouges = [&](const Support& s) {
+    return s.contact && radius_ - SegmentDistance(*s.contact, a, b) > gouge_limit;
+  };
+  for (std::size_t k = i; k < j; ++k) {
+    const LineStation &s = stations_[k], &e = stations_[k + 1];
+    const Support left = SupportOf(s.right), right = SupportOf(e.left);
+    if (gouges(left) || gouges(right)) return false;
+    const Vec3 x = on_chord(s.t), y = on_chord(e.t);
+    if (left.Clearance(x, radius_) > excess_limit || right.Clearance(y, radius_) > excess_limit) return false;
+    const auto& middle = MiddleOf(k);
+    if (!middle) {
+      if (ChordExcess(radius_, x, y, left, right) > excess_limit) return false;
+      continue;
+    }
+    if (gouges(*middle)) return false;
+    const Vec3 m = 0.5 * (x + y);
+    if (ChordExcess(radius_, x, m, left, *middle) > excess_limit ||
+        ChordExcess(radius_, m, y, *middle, right) > excess_limit) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::size_t Thinner::Farthest(std::size_t i, std::size_t barrier) {
+  std::size_t good = i + 1, bad = barrier + 1;
+  for (std::size_t step = 2; good < barrier; step *= 2) {
+    const std::size_t j = std::min(i + step, barrier);
+    if (!Fits(i, j)) {
+      bad = j;
+      break;
+    }
+    good = j;
+  }
+  while (bad - good > 1 && bad <= barrier) {
+    const std::size_t mid = (good + bad) / 2;
+    (Fits(i, mid) ? good : bad) = mid;
+  }
+  return good;
+}
+
+CutterPoint Thinner::Certify(const LineStation& s) const {
+  CutterPoint p{Lift(s.q, s.z), s.left, {}};
+  if (s.left && s.right && (s.left->p - s.right->p).norm() > 1e-3 * radius_) p.other_contact = s.right;
+  if (!s.left) p.other_contact = s.right;
+  const auto c = locator_.CertifiedHeight(s.at, gap_, s.hint ? &*s.hint : nullptr);
+  if (!c) return p;  // the rim of the domain of h, within rounding
+  const double z = c->z + c->gap;
+  if (z >= p.center.z()) {
+    p.center.z() = z;
+    if (c->z > s.z + 1e-7) {  // the search had missed a branch
+      p.contact = c->contact;
+      p.other_contact.reset();
+    }
+  }
+  return p;
+}
+
+std::vector<CutterPoint> Thinner::Thin() {
+  std::vector<CutterPoint> points;
+  const std::size_t n = stations_.size();
+  points.push_back(Certify(stations_[0]));
+  std::size_t i = 0;
+  while (i + 1 < n) {
+    std::size_t barrier = i + 1;
+    while (barrier + 1 < n && !stations_[barrier].keep) ++barrier;
+    std::size_t j = Farthest(i, barrier);
+    CutterPoint next = Certify(stations_[j]);
+    while (j > i + 1 &&
+           locator_.SweptGouge(points.back().center, next.center, 0.05 * tolerance_) > tolerance_) {
+      j = i + (j - i) / 2;
+      next = Certify(stations_[j]);
+    }
+    points.push_back(next);
+    i = j;
+  }
+  return points;
+}
+
+}  // namespace
+
+double CertificateGap(const PassParams& params) {
+  return std::clamp(params.certificate_gap, 1e-7, std::max(1e-7, 0.1 * params.chord_tolerance));
+}
+
+std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
+                                      const PassParams& params) {
+  if (stations.empty()) return {};
+  return Thinner(locator, stations, params, CertificateGap(params)).Thin();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,51 @@
+#include "cam/path/coverage.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "cam/path/leftover_spots.h"
+#include "cam/path/path_tree.h"
+#include "cam/path/spot_passes.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+
+absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,
+                                                  const std::vector<CutterPath>& paths,
+                                                  const CoverageParams& params, const RunContext& run) {
+  const Locator reach(locator.surface(),
+                      std::max(locator.radius() - params.tolerance, 0.5 * locator.radius()));
+  std::vector<SurfaceRect> rects;
+  rects.reserve(locator.surface().leaves.size());
+  for (const SurfaceLeaf& leaf : locator.surface().leaves) {
+    rects.push_back({leaf.piece, leaf.u0, leaf.u1, leaf.v0, leaf.v1});
+  }
+  std::vector<std::unique_ptr<PathTree>> owned;
+  std::vector<const PathTree*> trees;
+  const auto grow = [&](const std::vector<CutterPath>& more) {
+    owned.push_back(std::make_unique<PathTree>(more));
+    trees.push_back(owned.back().get());
+  };
+  grow(paths);
+  std::vector<CutterPath> added;
+  for (int round = 0; round < params.max_rounds; ++round) {
+    run.Progress("coverage", static_cast<double>(round) / params.max_rounds);
+    PM_ASSIGN_OR_RETURN(const std::vector<LeftoverSpot> spots,
+                        FindSpots(locator, reach, trees, rects, params, run));
+    if (spots.empty()) break;
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> mended, MendSpots(locator, spots, params, run));
+    if (mended.empty()) break;
+    // A pass never uncovers anything: only the rectangles of the spots need another look.
+    rects.clear();
+    for (const LeftoverSpot& s : spots) rects.push_back(s.rect);
+    grow(mended);
+    for (CutterPath& p : mended) {
+      p.line = static_cast<int>(added.size());
+      added.push_back(std::move(p));
+    }
+  }
+  run.Progress("coverage", 1.0);
+  return added;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,196 @@
+#include "cam/path/crease_trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cam/path/chord_bounds.h"
+#include "cam/path/chord_thinning.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kSmallestAngle = 0.1;  // rad between the two contact directions
+constexpr double kSteepest = 0.05;  // n_z of a contact direction below which a branch is too steep to follow
+constexpr double kThirdBranch = 1e-6;  // mm by which another branch must rise above
+constexpr std::size_t kMostStations = 20000;
+
+class CreaseTracer {
+ public:
+  CreaseTracer(const Locator& locator, const SheetBorder& border, const PassParams& params)
+      : locator_(locator),
+        border_(border),
+        radius_(locator.radius()),
+        tolerance_(params.chord_tolerance - CertificateGap(params)),
+        floor_center_(params.floor_z + locator.radius()) {}
+
+  // The crease point on the line q + s m nearest to s = 0, from contacts near it.
+  std::optional<CreasePoint> Correct(const Vec2& q, const Vec2& m, const CreasePoint& near,
+                                     double reach) const;
+  bool Valid(const CreasePoint& p) const;
+  std::optional<Vec2> Direction(const CreasePoint& p) const;
+  std::optional<CreasePoint> Advance(const CreasePoint& from, const Vec2& heading, double step) const;
+  bool ChordIsGood(const CreasePoint& a, const CreasePoint& b) const;
+  std::vector<CreasePoint> Follow(const CreasePoint& seed, double sign, double patience,
+                                  const std::function<bool(const Vec3&)>& wanted) const;
+
+ private:
+  Vec3 DirectionTo(const CreasePoint& p, const SurfacePoint& contact) const {
+    return (p.center - contact.p) / radius_;
+  }
+  // Gradient in plan of the branch's centre height.
+  Vec2 Gradient(const Vec3& center, const SurfacePoint& contact) const {
+    const Vec3 n = center - contact.p;
+    return -Plan(n) / n.z();
+  }
+
+  const Locator& locator_;
+  const SheetBorder& border_;
+  const double radius_;
+  const double tolerance_;
+  const double floor_center_;
+};
+
+std::optional<CreasePoint> CreaseTracer::Correct(const Vec2& q, const Vec2& m, const CreasePoint& near,
+                                                 double reach) const {
+  SurfacePoint a = near.first, b = near.second;
+  double s = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    const Vec2 at = q + s * m;
+    const auto ca = locator_.Follow(a, at), cb = locator_.Follow(b, at);
+    if (!ca || !cb) return std::nullopt;
+    a = ca->contact;
+    b = cb->contact;
+    const CreasePoint p{Lift(at, std::max(ca->z, cb->z)), a, b};
+    const double f = ca->z - cb->z;
+    const double slope = (Gradient(Lift(at, ca->z), a) - Gradient(Lift(at, cb->z), b)).dot(m);
+    if (std::abs(f) <= 1e-12 * std::max(1.0, std::abs(p.center.z()))) return p;
+    const double move = -f / slope;
+    if (!(std::abs(s + move) <= reach)) return std::nullopt;
+    s += move;
+    if (std::abs(move) < 1e-10) return p;
+  }
+  return std::nullopt;
+}
+
+bool CreaseTracer::Valid(const CreasePoint& p) const {
+  const Vec3 na = DirectionTo(p, p.first), nb = DirectionTo(p, p.second);
+  if (na.cross(nb).norm() < kSmallestAngle || na.z() < kSteepest || nb.z() < kSteepest) return false;
+  if (p.center.z() < floor_center_) return false;
+  if (!border_.Allowed(p.first, na) || !border_.Allowed(p.second, nb)) return false;
+  const auto h = locator_.Height(Plan(p.center), &p.first);
+  return h && h->z <= p.center.z() + kThirdBranch;
+}
+
+std::optional<Vec2> CreaseTracer::Direction(const CreasePoint& p) const {
+  const Vec2 d = Gradient(p.center, p.first) - Gradient(p.center, p.second);
+  const double length = d.norm();
+  if (!(length > 1e-6)) return std::nullopt;
+  return Vec2(-d.y() / length, d.x() / length);
+}
+
+std::optional<CreasePoint> CreaseTracer::Advance(const CreasePoint& from, const Vec2& heading,
+                                                 double step) const {
+  const double rise = Gradient(from.center, from.first).dot(heading);
+  const Vec2 q = Plan(from.center) + step / std::sqrt(1.0 + rise * rise) * heading;
+  auto next = Correct(q, {-heading.y(), heading.x()}, from, step);
+  if (!next || !Valid(*next) || !ChordIsGood(from, *next)) return std::nullopt;
+  return next;
+}
+
+bool CreaseTracer::ChordIsGood(const CreasePoint& a, const CreasePoint& b) const {
+  if (ChordGouge(radius_, (b.center - a.center).norm()) > tolerance_) return false;
+  const auto excess = [&](const SurfacePoint& p, const SurfacePoint& q) {
+    return ChordExcess(radius_, a.center, b.center, {p.p, floor_center_}, {q.p, floor_center_});
+  };
+  return std::min(excess(a.first, b.first), excess(a.second, b.second)) <= tolerance_;
+}
+
+std::vector<CreasePoint> CreaseTracer::Follow(const CreasePoint& seed, double sign, double patience,
+                                              const std::function<bool(const Vec3&)>& wanted) const {
+  std::vector<CreasePoint> out;
+  const auto start = Direction(seed);
+  if (!start) return out;
+  const double full = LongestChord(radius_, 0.95 * tolerance_);
+  Vec2 heading = sign * *start;
+  CreasePoint at = seed;
+  std::size_t keep = 0;
+  double unwanted = 0.0, step = full;
+  while (out.size() < kMostStations && unwanted <= patience) {
+    const auto next = Advance(at, heading, step);
+    if (!next) {
+      step *= 0.5;
+      if (step < 1e-3 * full) break;
+      continue;
+    }
+    unwanted += (next->center - at.center).norm();
+    if ((next->center - seed.center).norm() < 0.5 * step && out.size() > 4) break;  // round a ring
+    out.push_back(*next);
+    if (wanted(next->center)) {
+      unwanted = 0.0;
+      keep = out.size();
+    }
+    const auto turn = Direction(*next);
+    if (!turn) break;
+    heading = turn->dot(heading) >= 0 ? *turn : Vec2(-*turn);
+    at = *next;
+    step = std::min(full, 2.0 * step);
+  }
+  out.resize(keep);
+  return out;
+}
+
+}  // namespace
+
+std::optional<CreasePoint> FindCrease(const Locator& locator, const Vec2& q, double reach,
+                                      const PassParams& params) {
+  std::optional<CreasePoint> best;
+  double best_distance = reach;
+  // Two directions that are unlikely to be those of a part's own edges.
+  constexpr double kHeading = 0.4;
+  for (double heading : {kHeading, kHeading + kPi / 2}) {
+    const Vec2 d(std::cos(heading), std::sin(heading));
+    const PlanLine line = PlanLine::Through(q - 1.5 * reach * d, q + 1.5 * reach * d);
+    const LineTraceParams trace{params.chord_tolerance, params.floor_z + locator.radius()};
+    for (const auto& run : TraceLine(locator, line, trace)) {
+      for (const LineStation& s : run) {
+        if (!s.keep || !s.left || !s.right) continue;
+        const CreasePoint p{Lift(s.q, s.z), *s.left, *s.right};
+        const Vec3 na = (p.center - p.first.p).normalized(), nb = (p.center - p.second.p).normalized();
+        if (na.cross(nb).norm() < kSmallestAngle) continue;
+        const double distance = (s.q - q).norm();
+        if (distance < best_distance) {
+          best_distance = distance;
+          best = p;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+std::vector<LineStation> TraceCrease(const Locator& locator, const SheetBorder& border,
+                                     const CreasePoint& seed, const PassParams& params, double patience,
+                                     const std::function<bool(const Vec3&)>& wanted) {
+  const CreaseTracer tracer(locator, border, params);
+  std::vector<CreasePoint> points = tracer.Follow(seed, -1.0, patience, wanted);
+  std::reverse(points.begin(), points.end());
+  points.push_back(seed);
+  for (const CreasePoint& p : tracer.Follow(seed, 1.0, patience, wanted)) points.push_back(p);
+  std::vector<LineStation> stations;
+  double t = 0.0;
+  for (const CreasePoint& p : points) {
+    const Vec2 q = Plan(p.center);
+    if (!stations.empty()) t += (q - stations.back().q).norm();
+    LineStation s;
+    s.t = t;
+    s.q = s.at = q;
+    s.z = p.center.z();
+    s.left = p.first;
+    s.right = p.second;
+    s.hint = p.first;
+    stations.push_back(s);
+  }
+  return stations;
+}
+
+}  // namespace patchmill

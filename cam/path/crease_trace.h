@@ -1,0 +1,34 @@
+// The curve of two contacts along a re-entrant crease (ALGORITHMS 2.4, pencil lines).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "cam/path/line_trace.h"
+#include "cam/path/pass_params.h"
+#include "cam/path/sheet_border.h"
+
+namespace patchmill {
+
+// A centre that touches both sides of a crease.
+struct CreasePoint {
+  Vec3 center = Vec3::Zero();
+  SurfacePoint first, second;
+};
+
+// The kink of h nearest to q within `reach` (mm), looked for along two crossing lines through q; nothing
+// where the directions of its contacts differ by less than 0.1 rad.
+std::optional<CreasePoint> FindCrease(const Locator& locator, const Vec2& q, double reach,
+                                      const PassParams& params);
+
+// Follows the crease from `seed` both ways (predictor along the curve of equal heights, Newton back onto it)
+// as long as `wanted` says so of the centres, through at most `patience` mm where it does not. Ends where a
+// third contact takes over, the two contacts merge, the curve turns upright or the sheet ends. Stations are
+// on the crease to 1e-9 mm in plan and joined by chords within the tolerance (T2, T3); unwanted tails are cut
+// off. May hold one station only.
+std::vector<LineStation> TraceCrease(const Locator& locator, const SheetBorder& border,
+                                     const CreasePoint& seed, const PassParams& params, double patience,
+                                     const std::function<bool(const Vec3&)>& wanted);
+
+}  // namespace patchmill

@@ -1,0 +1,297 @@
+#include "cam/path/spot_passes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "cam/path/chord_bounds.h"
+#include "cam/path/chord_thinning.h"
+#include "cam/path/crease_trace.h"
+#include "cam/path/level_trace.h"
+#include "cam/path/scan_line.h"
+#include "cam/path/spacing.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+const double kSteep = std::cos(Radians(60.0));  // walls: scan lines over them would climb at every turn
+
+// Spots by place of their centres.
+class SpotGrid {
+ public:
+  SpotGrid(const std::vector<LeftoverSpot>& spots, double cell) : spots_(spots), cell_(cell) {
+    for (std::size_t i = 0; i < spots.size(); ++i) cells_[KeyOf(spots[i].center)].push_back(i);
+  }
+  // Calls visit(i) for every spot whose centre may lie within `reach` of c.
+  template <class Visit>
+  void Near(const Vec3& c, double reach, Visit visit) const {
+    const Key lo = KeyOf(c - Vec3::Constant(reach)), hi = KeyOf(c + Vec3::Constant(reach));
+    for (int i = lo[0]; i <= hi[0]; ++i) {
+      for (int j = lo[1]; j <= hi[1]; ++j) {
+        for (int k = lo[2]; k <= hi[2]; ++k) {
+          const auto it = cells_.find({i, j, k});
+          if (it == cells_.end()) continue;
+          for (std::size_t s : it->second) {
+            if ((spots_[s].center - c).norm() <= reach) visit(s);
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  using Key = std::array<int, 3>;
+  Key KeyOf(const Vec3& c) const {
+    return {static_cast<int>(std::floor(c.x() / cell_)), static_cast<int>(std::floor(c.y() / cell_)),
+            static_cast<int>(std::floor(c.z() / cell_))};
+  }
+  const std::vector<LeftoverSpot>& spots_;
+  double cell_;
+  std::map<Key, std::vector<std::size_t>> cells_;
+};
+
+class Mender {
+ public:
+  Mender(const Locator& locator, const std::vector<LeftoverSpot>& spots, const CoverageParams& params,
+         const RunContext& run)
+      : locator_(locator),
+        spots_(spots),
+        params_(params),
+        run_(run),
+        radius_(locator.radius()),
+        flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
+        border_(locator.surface()),
+        grid_(spots, flat_),
+        open_(spots.size(), true) {}
+
+  absl::StatusOr<std::vector<CutterPath>> Run();
+
+ private:
+  bool Gentle(std::size_t i) const { return spots_[i].normal.z() > kSteep; }
+  bool Needed(const Vec3& c, double reach) const;
+  bool AlongCrease(std::size_t i);
+  bool AlongRidge(std::size_t i);
+  bool AlongLevel(std::size_t i);
+  void FromAbove(std::size_t i);
+  std::size_t NextOnRidge(const Vec3& from, const Vec3& heading, const std::vector<bool>& used) const;
+  bool Add(PassKind kind, std::vector<CutterPoint> points);
+
+  const Locator& locator_;
+  const std::vector<LeftoverSpot>& spots_;
+  const CoverageParams& params_;
+  const RunContext& run_;
+  const double radius_;
+  const double flat_;
+  const SheetBorder border_;
+  const SpotGrid grid_;
+  std::vector<bool> open_;  // not mended yet
+  std::optional<LevelContext> levels_;
+  std::vector<CutterPath> paths_;
+};
+
+bool Mender::Needed(const Vec3& c, double reach) const {
+  bool needed = false;
+  grid_.Near(c, reach, [&](std::size_t i) { needed |= open_[i]; });
+  return needed;
+}
+
+// Keeps the pass when it mends something, and closes what it mends.
+bool Mender::Add(PassKind kind, std::vector<CutterPoint> points) {
+  if (points.size() < 2) return false;
+  bool useful = false;
+  const double limit = radius_ + params_.limit;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    const Vec3 &a = points[k].center, &b = points[k + 1].center;
+    const double length = (b - a).norm();
+    // A ball that finishes p stands near p's own centre; that is where to look.
+    grid_.Near(0.5 * (a + b), 0.5 * length + flat_, [&](std::size_t i) {
+      if (open_[i] && SegmentDistance(spots_[i].at.p, a, b) <= limit) {
+        open_[i] = false;
+        useful = true;
+      }
+    });
+  }
+  if (!useful) return false;
+  paths_.push_back({.kind = kind, .line = static_cast<int>(paths_.size()), .points = std::move(points)});
+  return true;
+}
+
+bool Mender::AlongCrease(std::size_t i) {
+  const auto seed = FindCrease(locator_, Plan(spots_[i].center), 0.75 * flat_, params_);
+  if (!seed || (seed->center - spots_[i].center).norm() > flat_) return false;
+  const auto stations = TraceCrease(locator_, border_, *seed, params_, 3.0 * flat_,
+                                    [&](const Vec3& c) { return Needed(c, 0.75 * flat_); });
+  if (stations.size() < 2) return false;
+  Add(PassKind::kCrease, ThinStations(locator_, stations, params_));
+  return !open_[i];
+}
+
+// The open gentle spot one step on in this direction that leaves most; spots_.size() when there is none.
+std::size_t Mender::NextOnRidge(const Vec3& from, const Vec3& heading, const std::vector<bool>& used) const {
+  std::size_t best = spots_.size();
+  double best_score = -kInfinity;
+  grid_.Near(from, 1.6 * flat_, [&](std::size_t i) {
+    if (!open_[i] || used[i] || !Gentle(i)) return;
+    const Vec3 d = spots_[i].center - from;
+    const double length = d.norm();
+    if (length < 0.4 * flat_) return;
+    const double straight = heading.isZero() ? 1.0 : d.dot(heading) / length;
+    if (straight < 0.6) return;
+    const double score = spots_[i].leftover * straight;
+    if (score > best_score || (score == best_score && i < best)) {
+      best_score = score;
+      best = i;
+    }
+  });
+  return best;
+}
+
+bool Mender::AlongRidge(std::size_t i) {
+  std::vector<bool> used(spots_.size(), false);
+  used[i] = true;
+  std::vector<std::size_t> chain{i};
+  constexpr std::size_t kLongest = 2000;
+  for (int end = 0; end < 2; ++end) {
+    Vec3 heading = Vec3::Zero();
+    if (chain.size() > 1)
+      heading =
+          (spots_[chain[chain.size() - 1]].center - spots_[chain[chain.size() - 2]].center).normalized();
+    while (chain.size() < kLongest) {
+      const std::size_t next = NextOnRidge(spots_[chain.back()].center, heading, used);
+      if (next == spots_.size()) break;
+      heading = (spots_[next].center - spots_[chain.back()].center).normalized();
+      used[next] = true;
+      // What lies beside the step is served by it.
+      grid_.Near(0.5 * (spots_[next].center + spots_[chain.back()].center), 0.8 * flat_,
+                 [&](std::size_t k) { used[k] = true; });
+      chain.push_back(next);
+    }
+    std::reverse(chain.begin(), chain.end());
+  }
+  std::vector<Vec2> corners;
+  for (std::size_t k : chain) corners.push_back(Plan(spots_[k].center));
+  // Half a step more at both ends, so that what lies between the samples is covered too.
+  const Vec2 n = Plan(spots_[i].normal);
+  const Vec2 level = n.norm() > 1e-3 ? Vec2(Vec2(-n.y(), n.x()).normalized()) : Vec2(Vec2::UnitX());
+  const auto beyond = [&](const Vec2& end, const Vec2& before) -> Vec2 {
+    const Vec2 d = end - before;
+    return end + 0.3 * flat_ * (d.norm() > 1e-6 ? Vec2(d.normalized()) : level);
+  };
+  corners.insert(corners.begin(),
+                 beyond(corners.front(), corners.size() > 1 ? corners[1] : Vec2(corners[0] + level)));
+  corners.push_back(beyond(corners.back(), corners[corners.size() - 2]));
+  std::vector<CutterPoint> points;
+  bool added = false;
+  for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+    for (ScanRun& run : ScanLine(locator_, corners[k], corners[k + 1], params_)) {
+      if (run.points.empty()) continue;
+      const bool joined = !points.empty() && (points.back().center - run.points.front().center).norm() < 1e-9;
+      if (!joined) {
+        added |= Add(PassKind::kRest, std::move(points));
+        points.clear();
+      }
+      points.insert(points.end(), run.points.begin() + (joined ? 1 : 0), run.points.end());
+    }
+  }
+  added |= Add(PassKind::kRest, std::move(points));
+  return added && !open_[i];
+}
+
+// The parts of the level through a wall spot that run past open spots.
+bool Mender::AlongLevel(std::size_t i) {
+  if (!levels_) levels_.emplace(locator_, run_);
+  ContourParams contour;
+  static_cast<PassParams&>(contour) = params_;
+  const LevelContours level = TraceLevel(*levels_, spots_[i].center.z(), contour, run_);
+  const double reach = 0.75 * flat_;
+  for (const CutterPath& loop : level.loops) {
+    const std::size_t n = loop.points.size();
+    if (n < 2) continue;
+    const std::size_t moves = loop.closed ? n : n - 1;
+    // Chords cut short, so that a part is not much longer than what it is for.
+    std::vector<CutterPoint> fine;
+    for (std::size_t k = 0; k < moves; ++k) {
+      const CutterPoint &a = loop.points[k], &b = loop.points[(k + 1) % n];
+      const int parts = 1 + static_cast<int>((b.center - a.center).norm() / flat_);
+      for (int j = 0; j < parts; ++j) {
+        CutterPoint p = a;
+        if (j > 0) {
+          p.center += (b.center - a.center) * (static_cast<double>(j) / parts);
+          p.other_contact.reset();
+        }
+        fine.push_back(p);
+      }
+    }
+    if (!loop.closed) fine.push_back(loop.points.back());
+    const std::size_t m = fine.size();
+    std::vector<bool> wanted(m);
+    bool any = false, all = true;
+    for (std::size_t k = 0; k < m; ++k) {
+      wanted[k] = Needed(fine[k].center, reach);
+      any |= wanted[k];
+      all &= wanted[k];
+    }
+    if (!any) continue;
+    std::size_t start = 0;  // of a closed loop: where nothing is wanted
+    if (loop.closed && !all) {
+      while (wanted[start]) ++start;
+    }
+    std::vector<CutterPoint> part;
+    const std::size_t count = loop.closed ? m + 1 : m;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t at = (start + k) % m;
+      if (wanted[at]) {
+        part.push_back(fine[at]);
+      } else if (!part.empty()) {
+        Add(PassKind::kRest, std::move(part));
+        part.clear();
+      }
+    }
+    Add(PassKind::kRest, std::move(part));
+  }
+  return !open_[i];
+}
+
+// A short plunge to the spot's own centre, which is free, or as near to it as the ball gets along the normal.
+void Mender::FromAbove(std::size_t i) {
+  const LeftoverSpot& s = spots_[i];
+  for (int k = 0; k <= 8; ++k) {
+    const Vec3 c = s.center + (1e-7 + 0.25 * params_.tolerance * k) * s.normal;
+    if (!locator_.Free(c)) continue;
+    CutterPoint top{c + Vec3(0, 0, 0.1 * flat_), s.at, {}}, foot{c, s.at, {}};
+    Add(PassKind::kRest, {top, foot});
+    break;
+  }
+  open_[i] = false;
+}
+
+absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
+  std::vector<std::size_t> order(spots_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return spots_[a].leftover > spots_[b].leftover; });
+  for (std::size_t i : order) {
+    if (!open_[i]) continue;
+    PM_RETURN_IF_ERROR(run_.Check());
+    if (Gentle(i)) {
+      if (AlongCrease(i) || AlongRidge(i)) continue;
+    } else if (AlongLevel(i)) {
+      continue;
+    }
+    FromAbove(i);
+  }
+  return std::move(paths_);
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<CutterPath>> MendSpots(const Locator& locator,
+                                                  const std::vector<LeftoverSpot>& spots,
+                                                  const CoverageParams& params, const RunContext& run) {
+  return Mender(locator, spots, params, run).Run();
+}
+
+}  // namespace patchmill
