@@ -26,25 +26,14 @@ const Binomials& BinomialTable() {
 template <int kM, int kComponents>
 inline void AddRowProduct(int degree, double factor, const double (*a)[kMaxDegree + 1],
                           const double (*b)[kMaxDegree + 1], double* out) {
-  // As Eigen arrays: their packets are used where the compiler's own vectorizer gives up.
-  constexpr int kSize = kM < 0 ? Eigen::Dynamic : kM + 1;
-  using Row = Eigen::Map<Eigen::Array<double, kSize, 1>>;
-  using ConstRow = Eigen::Map<const Eigen::Array<double, kSize, 1>>;
   const int m = kM < 0 ? degree : kM;
   for (int j = 0; j <= m; ++j) {
-    Row to(out + j, m + 1);
-    const ConstRow x(b[0], m + 1), y(b[1], m + 1);
-    if constexpr (kComponents == 2) {
-      to += (factor * a[0][j]) * x + (factor * a[1][j]) * y;
-    } else {
-      const ConstRow z(b[2], m + 1);
-      if constexpr (kComponents == 3) {
-        to += (factor * a[0][j]) * x + (factor * a[1][j]) * y + (factor * a[2][j]) * z;
-      } else {
-        const ConstRow w(b[3], m + 1);
-        to +=
-            (factor * a[0][j]) * x + (factor * a[1][j]) * y + (factor * a[2][j]) * z + (factor * a[3][j]) * w;
-      }
+    double s[kComponents];
+    for (int k = 0; k < kComponents; ++k) s[k] = factor * a[k][j];
+    for (int l = 0; l <= m; ++l) {
+      double sum = s[0] * b[0][l];
+      for (int k = 1; k < kComponents; ++k) sum += s[k] * b[k][l];
+      out[j + l] += sum;
     }
   }
 }
