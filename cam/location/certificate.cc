@@ -21,6 +21,7 @@ constexpr int kMaxLevel = 60;   // halvings of one leaf
 struct Prover {
   const Surface& surface;
   const Ball& ball;
+  double free_f;  // f from which a part counts as outside
   double eps;
   Contact& best;
   int budget = kBudget;
@@ -30,7 +31,7 @@ struct Prover {
   // Excludes a part for a centre at height z, and notes z as proven.
   bool Excluded(const RectBounds& bounds, double z) {
     const Vec3 c = Lift(ball.q, z);
-    const double limit2 = 2.0 * ball.FreeF();
+    const double limit2 = 2.0 * free_f;
     if (!internal::BoxOutside(bounds.box, c, limit2) &&
         !internal::OrientedBoxOutside(bounds.center, bounds.axis, bounds.half, c, limit2)) {
       return false;
@@ -40,7 +41,7 @@ struct Prover {
   }
   bool Excluded(const LowerModel& low, double z) {
     if (!low.minorant) return false;
-    if (low.f0 + MinimizeOnBox(low.q, {-0.5, 0.5, -0.5, 0.5}).value < ball.FreeF()) return false;
+    if (low.f0 + MinimizeOnBox(low.q, {-0.5, 0.5, -0.5, 0.5}).value < free_f) return false;
     top = std::max(top, z);
     return true;
   }
@@ -69,7 +70,7 @@ struct Prover {
           internal::RaiseOnPiece(piece, piece_index, rect, mu + guess.x * (rect.u1 - rect.u0),
                                  mv + guess.y * (rect.v1 - rect.v0), ball, {}, best);
       if (found.improved) low = internal::BoundBelow(model, Lift(ball.q, best.z));
-      if (low.convex && found.out_if_convex) {
+      if (low.convex && found.convex_minimum >= free_f) {
         top = std::max(top, best.z);
         return;
       }
@@ -93,7 +94,7 @@ struct Prover {
 double Locator::Impl::Certify(const Ball& ball, const OpenLeaves& open, double eps, Contact& best) const {
   if (open.empty()) return slack;
   thread_local std::vector<Vec4> buffer(2 * kMaxLevel * kMaxNetPoints);
-  Prover prover{surface, ball, eps, best, kBudget, best.z, buffer};
+  Prover prover{surface, ball, ProofF(), eps, best, kBudget, best.z, buffer};
   std::array<Vec4, kMaxNetPoints> points;
   for (const std::int32_t index : open) {
     const internal::SearchLeaf& leaf = tree.leaves[static_cast<std::size_t>(index)];

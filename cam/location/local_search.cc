@@ -6,7 +6,7 @@
 namespace patchmill::internal {
 namespace {
 
-constexpr int kMaxIterations = 60;
+constexpr int kMaxIterations = 200;
 constexpr int kMaxHalvings = 30;
 // Stop when the model promises less (mm of height); the last step is then taken on the Taylor polynomial,
 // whose error is of third order in a step of about 1e-4 mm.
@@ -42,7 +42,7 @@ struct Step {
 // Makes the Hessian positive definite against the metric e, f, g: its eigenvalues by their absolute values,
 // at least kFloor. True curvatures are kept, so convex directions converge as before.
 void MakeDefinite(double e, double f, double g, Quadratic2& m) {
-  constexpr double kFloor = 0.05;
+  constexpr double kFloor = 1e-3;
   const double tiny = 1e-14 * (e + g) + 1e-300;
   const double l11 = std::sqrt(e + tiny), l21 = f / l11,
                l22 = std::sqrt(std::max(g + tiny - l21 * l21, tiny));
@@ -66,7 +66,7 @@ void MakeDefinite(double e, double f, double g, Quadratic2& m) {
 
 // Along one parameter line, the other variable held by its bound.
 double LineStep(double curvature, double metric, double slope, double lo, double hi, double& used) {
-  used = std::max(std::abs(curvature), 0.05 * metric + 1e-300);
+  used = std::max(std::abs(curvature), 1e-3 * metric + 1e-300);
   return std::clamp(-slope / used, lo, hi);
 }
 
@@ -175,7 +175,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
         const Vec3 p = j.p + x * (j.du + 0.5 * x * j.duu + y * j.duv) + y * (j.dv + 0.5 * y * j.dvv);
         if (touch(p, std::clamp(s.u + x, rect.u0, rect.u1), std::clamp(s.v + y, rect.v0, rect.v1))) {
           best.slope = KktSlope(step, box);
-          result.out_if_convex = true;
+          result.convex_minimum = 0.5 * ball.radius * ball.radius;
           return end();
         }
         best.slope = KktSlope(step, box);
@@ -183,10 +183,8 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
       }
     } else {
       if (options.lower != nullptr && !result.improved && options.lower->convex) {
-        if (LinearMinimum(s.f, Vec2(-step.model.gx, -step.model.gy), rect, s.u, s.v) >= ball.FreeF()) {
-          result.out_if_convex = true;
-          return end();
-        }
+        result.convex_minimum = LinearMinimum(s.f, Vec2(-step.model.gx, -step.model.gy), rect, s.u, s.v);
+        if (result.convex_minimum >= ball.FreeF()) return end();
       }
       if (!(promise > 1e-15 * (s.f + ball.radius * ball.radius))) break;
     }
@@ -220,7 +218,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
     if (touch(s.jet.p, s.u, s.v)) Measure(ball, best.z, s);
   }
   const Vec2 slope(s.d.dot(s.jet.du), s.d.dot(s.jet.dv));
-  result.out_if_convex = LinearMinimum(s.f, slope, rect, s.u, s.v) >= ball.FreeF();
+  result.convex_minimum = LinearMinimum(s.f, slope, rect, s.u, s.v);
   return end();
 }
 

@@ -19,7 +19,7 @@ struct Contact {
 struct Ball {
   Vec2 q;
   double radius;
-  double slack;  // mm: rounding of coordinates, 1e-12 of the model's scale
+  double slack;  // mm: differences below mean nothing
   // f = 1/2 dist^2 counts as outside from here on.
   double FreeF() const { return radius * (0.5 * radius - slack); }
 };
@@ -30,11 +30,10 @@ struct SearchOptions {
       nullptr;  // with `rect` as its rectangle: gives up when it proves the rectangle out
 };
 
-// What a search proved: whether f stays outside the ball under the final contact on all of `rect`, given that
-// f is convex there.
+// How a search ended. Where f is convex on `rect` (for the final best.z), it is nowhere below convex_minimum.
 struct SearchResult {
   bool improved = false;
-  bool out_if_convex = false;
+  double convex_minimum = -kInfinity;
   double u = 0.0, v = 0.0;  // where the search ended, and f there
   Vec3 p = Vec3::Zero();
   double f = 0.0;

@@ -46,7 +46,11 @@ bool Holds(const Rect& r, double u, double v) { return u >= r.u0 && u <= r.u1 &&
 }  // namespace
 
 Locator::Impl::Impl(const Surface& s, double r)
-    : surface(s), radius(r), slack(1e-12 * s.scale), tree(internal::BuildSearchTree(s, r)) {
+    : surface(s),
+      radius(r),
+      rounding(1e-14 * s.scale),
+      slack(1e-12 * s.scale),
+      tree(internal::BuildSearchTree(s, r)) {
   PM_CHECK(radius > 0.0);
 }
 
@@ -60,7 +64,7 @@ void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Co
 
 void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenLeaves* open) const {
   std::vector<Pending>& stack = SearchStack();
-  const auto beats = [&](double bound) { return bound > best.z + slack; };
+  const auto beats = [&](double bound) { return bound > best.z + rounding; };
   const auto push = [&](std::int32_t node, double bound) {
     if (beats(bound)) stack.push_back({node, bound});
   };
@@ -115,7 +119,7 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
   const bool convex =
       found.improved ? internal::BoundBelow(leaf.model, Lift(ball.q, best.z)).convex : lower.convex;
   if (convex) {
-    if (!found.out_if_convex && open != nullptr) open->push_back(index);
+    if (found.convex_minimum < ProofF() && open != nullptr) open->push_back(index);
     return;
   }
   options.lower = nullptr;
@@ -163,9 +167,11 @@ std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double ep
   if (hint != nullptr) impl_->StartFromHint(ball, *hint, best);
   impl_->Search(ball, kInfinity, best, &open);
   const double found = best.z;
+  // Where the contact is about to leave the disc, h answers a rounding of the surface with a multiple of it.
+  const double steepness = impl_->radius / std::max(best.z - best.p.z(), 1e-12);
   const bool had = best.piece >= 0;
   const double gap = impl_->Certify(ball, open, std::max(eps, 1e-7), best);
-  if (best.z > found + 1e-9 || (!had && best.piece >= 0)) {
+  if (best.z > found + 1e-9 + 4.0 * impl_->rounding * steepness || (!had && best.piece >= 0)) {
     impl_->defects.fetch_add(1, std::memory_order_relaxed);
   }
   if (best.piece < 0) return std::nullopt;

@@ -66,8 +66,8 @@ class Locator {
   // `eps`. For merging flat runs.
   double SweptGouge(const Vec3& a, const Vec3& b, double eps) const;
 
-  // Certificates that improved the value found by search by more than 1e-9 mm (an internal defect; tests
-  // demand 0).
+  // Certificates that improved the value found by search by more than 1e-9 mm and what rounding explains (an
+  // internal defect; tests demand 0).
   std::uint64_t defect_count() const;
 
  private:

@@ -16,7 +16,8 @@ struct Locator::Impl {
   // Leaves a search could not prove, for the certificate.
   using OpenLeaves = std::vector<std::int32_t>;
 
-  internal::Ball BallAt(const Vec2& q) const { return {q, radius, slack}; }
+  internal::Ball BallAt(const Vec2& q) const { return {q, radius, rounding}; }
+  double ProofF() const { return radius * (0.5 * radius - slack); }  // f a proof accepts as outside
   // A centre height below every contact: c = (q, lowest) makes the upward ray a vertical line.
   double Lowest() const { return surface.box.min.z() - radius - 1.0; }
 
@@ -36,7 +37,8 @@ struct Locator::Impl {
 
   const Surface& surface;
   double radius;
-  double slack;  // mm, 1e-12 of the scale
+  double rounding;  // mm, of coordinates: 1e-14 of the scale, what a search tells apart
+  double slack;     // mm: 1e-12 of the scale, what a proof allows itself
   internal::SearchTree tree;
   mutable std::atomic<std::uint64_t> defects{0};
 };

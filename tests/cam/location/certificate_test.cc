@@ -1,7 +1,6 @@
 // The certificate closes and never has to correct the search, where searches have it hard: at open borders,
 // near contacts about to leave the disc, at patch borders, at switches, where the ball just fits.
 #include <cmath>
-#include <fstream>
 
 #include <gtest/gtest.h>
 
