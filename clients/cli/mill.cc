@@ -13,6 +13,8 @@
 namespace patchmill::cli {
 namespace {
 
+constexpr int kMaxReasons = 5;  // lines on the terminal
+
 struct MillOptions {
   CommonOptions common;
   SetupOptions setup;
@@ -82,11 +84,14 @@ absl::Status WriteFiles(const MillOptions& options, Received& received) {
   }
   if (!CarriesProgram(received.report)) {
     std::string message = fmt::format("{}: {}", options.model, Short(received.report.outcome()));
+    int reasons = 0;
     for (const v1::Diagnostic& finding : received.report.diagnostics()) {
-      if (finding.severity() == v1::SEVERITY_ERROR || finding.code() == Short(received.report.outcome())) {
-        message += "\n  " + Line(finding);
-      }
+      if (finding.severity() != v1::SEVERITY_ERROR && finding.code() != Short(received.report.outcome()))
+        continue;
+      if (++reasons <= kMaxReasons) message += "\n  " + Line(finding);
     }
+    if (reasons > kMaxReasons)
+      message += fmt::format("\n  and {} more; --report has them", reasons - kMaxReasons);
     return absl::FailedPreconditionError(message + "\n  no program was written");
   }
   if (received.program.size() != static_cast<std::size_t>(received.report.program_size_bytes())) {

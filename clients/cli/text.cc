@@ -41,9 +41,11 @@ std::string Line(const v1::Diagnostic& finding) {
   } else if (where.has_patch_index()) {
     text += fmt::format(" patch {}", where.patch_index());
   }
-  if (where.has_line()) text += fmt::format(" line {}", where.line());
+  const bool line_said = finding.message().rfind("line ", 0) == 0;
+  if (where.has_line() && !line_said) text += fmt::format(" line {}", where.line());
   text += ": " + finding.message();
-  if (where.has_point()) text += " (at " + Line(where.point()) + ")";
+  const bool place_said = finding.message().find(" at X") != std::string::npos;
+  if (where.has_point() && !place_said) text += " (at " + Line(where.point()) + ")";
   return text;
 }
 

@@ -1,0 +1,304 @@
+// One test per way a job can be wrong: code and message.
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <google/protobuf/util/field_comparator.h>
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include "server/convert/job.h"
+#include "server/convert/setup.h"
+#include "server/digest.h"
+#include "tests/service/requests.h"
+#include "tests/service/status_matchers.h"
+
+namespace patchmill {
+namespace {
+
+using testing::BumpRequest;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using testing::StatusIs;
+using Request = v1::GenerateProgramRequest;
+
+v1::Setup& SetupOf(Request& r) { return *r.mutable_job()->mutable_setup(); }
+v1::Operation& OperationOf(Request& r) { return *r.mutable_job()->mutable_operations(0); }
+v1::Tool& ToolOf(Request& r) { return *OperationOf(r).mutable_tool(); }
+v1::Heights& HeightsOf(Request& r) { return *OperationOf(r).mutable_heights(); }
+
+absl::Status Convert(const Request& request) {
+  FieldErrors errors;
+  FromProto(request.job(), request.post(), "job", errors);
+  return errors.ToStatus();
+}
+
+TEST(Job, ACompleteOneIsAccepted) { EXPECT_TRUE(Convert(BumpRequest()).ok()) << Convert(BumpRequest()); }
+
+struct Wrong {
+  const char* name;
+  void (*spoil)(Request&);
+  const char* message;  // how it starts
+  absl::StatusCode code = absl::StatusCode::kInvalidArgument;
+};
+
+class WrongJobs : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongJobs, AreRefusedWithFieldValueAndConstraint) {
+  Request request = BumpRequest();
+  GetParam().spoil(request);
+  EXPECT_THAT(Convert(request), StatusIs(GetParam().code, StartsWith(GetParam().message)));
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr auto kNext = absl::StatusCode::kUnimplemented;
+const auto kName = [](const auto& wrong) { return std::string(wrong.param.name); };
+
+INSTANTIATE_TEST_SUITE_P(
+    Operations, WrongJobs,
+    ::testing::Values(
+        Wrong{"NoOperation", [](Request& r) { r.mutable_job()->clear_operations(); },
+              "job.operations is missing"},
+        Wrong{"NoTool", [](Request& r) { OperationOf(r).clear_tool(); }, "job.operations[0].tool is missing"},
+        Wrong{"ScallopNegative", [](Request& r) { OperationOf(r).set_scallop_mm(-1); },
+              "job.operations[0].scallop_mm = -1; must be in (0, ball radius = 3)"},
+        Wrong{"ScallopMissing", [](Request& r) { OperationOf(r).clear_scallop_mm(); },
+              "job.operations[0].scallop_mm = 0; must be"},
+        Wrong{"ScallopAboveRadius", [](Request& r) { OperationOf(r).set_scallop_mm(3.1); },
+              "job.operations[0].scallop_mm = 3.1; must be in (0, ball radius = 3)"},
+        Wrong{"ScallopNan", [](Request& r) { OperationOf(r).set_scallop_mm(kNan); },
+              "job.operations[0].scallop_mm = nan; must be"},
+        Wrong{"ToleranceMissing", [](Request& r) { OperationOf(r).clear_tolerance_mm(); },
+              "job.operations[0].tolerance_mm = 0; must be in [0.0001, half the ball radius = 1.5]"},
+        Wrong{"ToleranceHuge", [](Request& r) { OperationOf(r).set_tolerance_mm(2); },
+              "job.operations[0].tolerance_mm = 2; must be"},
+        Wrong{"ToleranceInfinite", [](Request& r) { OperationOf(r).set_tolerance_mm(kInf); },
+              "job.operations[0].tolerance_mm = inf; must be"},
+        Wrong{"LeaveHuge", [](Request& r) { OperationOf(r).set_stock_to_leave_mm(101); },
+              "job.operations[0].stock_to_leave_mm = 101; must be in [0, 100]"},
+        Wrong{"LeaveAboveAllowance", [](Request& r) { OperationOf(r).set_stock_to_leave_mm(0.6); },
+              "job.setup.stock.allowance_mm = 0.5; must be at least stock_to_leave_mm = 0.6"},
+        Wrong{"LeaveNegative", [](Request& r) { OperationOf(r).set_stock_to_leave_mm(-0.1); },
+              "job.operations[0].stock_to_leave_mm is not there yet", kNext},
+        Wrong{"SteepAngle", [](Request& r) { OperationOf(r).set_steep_angle_deg(90); },
+              "job.operations[0].steep_angle_deg = 90; must be in [5, 85]"},
+        Wrong{"SteepAngleNan", [](Request& r) { OperationOf(r).set_steep_angle_deg(kNan); },
+              "job.operations[0].steep_angle_deg = nan"},
+        Wrong{"ZigzagAngle", [](Request& r) { OperationOf(r).set_zigzag_angle_deg(361); },
+              "job.operations[0].zigzag_angle_deg = 361; must be in [-360, 360]"},
+        Wrong{"Strategy", [](Request& r) { OperationOf(r).set_strategy(static_cast<v1::Strategy>(77)); },
+              "job.operations[0].strategy = 77; this server does not know that value"},
+        Wrong{"Direction",
+              [](Request& r) { OperationOf(r).set_contour_direction(static_cast<v1::CutDirection>(9)); },
+              "job.operations[0].contour_direction = 9"},
+        Wrong{"Id", [](Request& r) { OperationOf(r).set_id(std::string(201, 'i')); },
+              "job.operations[0].id has 201 bytes"},
+        Wrong{"Name", [](Request& r) { r.mutable_job()->set_name(std::string(101, 'n')); },
+              "job.name has 101 bytes"},
+        Wrong{"ApproachGap", [](Request& r) { HeightsOf(r).set_approach_gap_mm(0); },
+              "job.operations[0].heights.approach_gap_mm = 0; must be in (0, 100]"},
+        Wrong{"ClearanceNan", [](Request& r) { HeightsOf(r).set_clearance_z_mm(kNan); },
+              "job.operations[0].heights.clearance_z_mm = nan"},
+        Wrong{"ClearanceAboveZero", [](Request& r) { HeightsOf(r).set_clearance_above_mm(0); },
+              "job.operations[0].heights.clearance_above_mm = 0; must be in (0, 10000]"},
+        Wrong{"ClearanceTwice",
+              [](Request& r) {
+                HeightsOf(r).set_clearance_above_mm(5);
+                HeightsOf(r).set_clearance_z_mm(50);
+              },
+              "job.operations[0].heights.clearance_above_mm is set together with clearance_z_mm"},
+        Wrong{"Floor", [](Request& r) { HeightsOf(r).set_floor_z_mm(1e9); },
+              "job.operations[0].heights.floor_z_mm = 1000000000; must be in"}),
+    kName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Tools, WrongJobs,
+    ::testing::Values(
+        Wrong{"NoCutter", [](Request& r) { ToolOf(r).clear_cutter(); },
+              "job.operations[0].tool.ball_end is missing"},
+        Wrong{"DiameterZero", [](Request& r) { ToolOf(r).mutable_ball_end()->set_diameter_mm(0); },
+              "job.operations[0].tool.ball_end.diameter_mm = 0; must be in [0.02, 1000]"},
+        Wrong{"DiameterNegative", [](Request& r) { ToolOf(r).mutable_ball_end()->set_diameter_mm(-6); },
+              "job.operations[0].tool.ball_end.diameter_mm = -6"},
+        Wrong{"DiameterAbsurd", [](Request& r) { ToolOf(r).mutable_ball_end()->set_diameter_mm(1e6); },
+              "job.operations[0].tool.ball_end.diameter_mm = 1000000; must be in [0.02, 1000]"},
+        Wrong{"NumberMissing", [](Request& r) { ToolOf(r).clear_number(); },
+              "job.operations[0].tool.number = 0; must be in [1, 99999]"},
+        Wrong{"SpindleMissing", [](Request& r) { ToolOf(r).clear_spindle_rpm(); },
+              "job.operations[0].tool.spindle_rpm = 0; must be in (0, 1e+06]"},
+        Wrong{"FeedNegative", [](Request& r) { ToolOf(r).set_feed_mm_per_min(-5); },
+              "job.operations[0].tool.feed_mm_per_min = -5; must be"},
+        Wrong{"PlungeMissing", [](Request& r) { ToolOf(r).clear_plunge_feed_mm_per_min(); },
+              "job.operations[0].tool.plunge_feed_mm_per_min = 0; must be"},
+        Wrong{"Flute", [](Request& r) { ToolOf(r).set_flute_length_mm(0); },
+              "job.operations[0].tool.flute_length_mm = 0; must be"},
+        Wrong{"ShankWithoutFlute", [](Request& r) { ToolOf(r).set_shank_diameter_mm(8); },
+              "job.operations[0].tool.flute_length_mm is missing; required when shank_diameter_mm = 8"},
+        Wrong{"Stickout", [](Request& r) { ToolOf(r).set_stickout_mm(kInf); },
+              "job.operations[0].tool.stickout_mm = inf"},
+        Wrong{"Coolant", [](Request& r) { ToolOf(r).set_coolant(static_cast<v1::Coolant>(50)); },
+              "job.operations[0].tool.coolant = 50"},
+        Wrong{"ToolName", [](Request& r) { ToolOf(r).set_name(std::string(101, 'n')); },
+              "job.operations[0].tool.name has 101 bytes"}),
+    kName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Setups, WrongJobs,
+    ::testing::Values(
+        Wrong{"ScaleZero", [](Request& r) { SetupOf(r).set_scale(0); },
+              "job.setup.scale = 0; must be in [1e-06, 1e+06]"},
+        Wrong{"ScaleNegative", [](Request& r) { SetupOf(r).set_scale(-2); }, "job.setup.scale = -2"},
+        Wrong{"ScaleNan", [](Request& r) { SetupOf(r).set_scale(kNan); }, "job.setup.scale = nan"},
+        Wrong{"Up", [](Request& r) { SetupOf(r).set_up(static_cast<v1::UpAxis>(12)); }, "job.setup.up = 12"},
+        Wrong{"Anchor", [](Request& r) { SetupOf(r).set_zero_anchor(static_cast<v1::ZeroAnchor>(9)); },
+              "job.setup.zero_anchor = 9"},
+        Wrong{"ZeroNan", [](Request& r) { SetupOf(r).mutable_program_zero()->set_y_mm(kNan); },
+              "job.setup.program_zero.y_mm = nan"},
+        Wrong{"Translation", [](Request& r) { SetupOf(r).mutable_translation()->set_z_mm(1e7); },
+              "job.setup.translation.z_mm = 10000000; must be in [-100000, 100000]"},
+        Wrong{"StockTop", [](Request& r) { SetupOf(r).mutable_stock()->set_top_z_mm(kNan); },
+              "job.setup.stock.top_z_mm = nan"},
+        Wrong{"Allowance", [](Request& r) { SetupOf(r).mutable_stock()->set_allowance_mm(-1); },
+              "job.setup.stock.allowance_mm = -1; must be in [0, 100]"}),
+    kName);
+
+INSTANTIATE_TEST_SUITE_P(
+    Posts, WrongJobs,
+    ::testing::Values(Wrong{"Dialect", [](Request& r) { r.mutable_post()->set_dialect("heidenhain"); },
+                            "post.dialect = \"heidenhain\"; must be one of: linuxcnc"},
+                      Wrong{"WorkOffset", [](Request& r) { r.mutable_post()->set_work_offset("G60"); },
+                            "post.work_offset = \"G60\"; must be one of G54 to G59"}),
+    kName);
+
+// Places that are only reserved: refused by name, never silently ignored.
+INSTANTIATE_TEST_SUITE_P(
+    Next, WrongJobs,
+    ::testing::Values(Wrong{"Obstacles", [](Request& r) { SetupOf(r).add_obstacles(); },
+                            "job.setup.obstacles is not there yet", kNext},
+                      Wrong{"Holder", [](Request& r) { ToolOf(r).add_holder(); },
+                            "job.operations[0].tool.holder is not there yet", kNext},
+                      Wrong{"Selection", [](Request& r) { OperationOf(r).mutable_selection(); },
+                            "job.operations[0].selection is not there yet", kNext},
+                      Wrong{"Overrides", [](Request& r) { OperationOf(r).add_region_overrides(); },
+                            "job.operations[0].region_overrides is not there yet", kNext},
+                      Wrong{"RegionsHash", [](Request& r) { OperationOf(r).set_regions_sha256("x"); },
+                            "job.operations[0].regions_sha256 is not there yet", kNext},
+                      Wrong{"EdgeRule",
+                            [](Request& r) { OperationOf(r).set_edge_rule(v1::EDGE_RULE_EXTEND); },
+                            "job.operations[0].edge_rule is not there yet", kNext},
+                      Wrong{"TopZ", [](Request& r) { HeightsOf(r).set_top_z_mm(3); },
+                            "job.operations[0].heights.top_z_mm is not there yet", kNext},
+                      Wrong{"SecondOperation",
+                            [](Request& r) { *r.mutable_job()->add_operations() = OperationOf(r); },
+                            "job.operations[1] is not there yet", kNext},
+                      Wrong{"Arcs", [](Request& r) { r.mutable_post()->set_arcs(true); },
+                            "post.arcs is not there yet", kNext},
+                      Wrong{"Inch", [](Request& r) { r.mutable_post()->set_unit(v1::LENGTH_UNIT_INCH); },
+                            "post.unit is not there yet", kNext},
+                      Wrong{"ProgramNumber", [](Request& r) { r.mutable_post()->set_program_number(7); },
+                            "post.program_number is not there yet", kNext},
+                      Wrong{"Dwell", [](Request& r) { r.mutable_post()->set_spindle_dwell_s(2); },
+                            "post.spindle_dwell_s is not there yet", kNext}),
+    kName);
+
+TEST(Job, AllErrorsAreCounted) {
+  Request request = BumpRequest();
+  OperationOf(request).set_scallop_mm(-1);
+  ToolOf(request).set_spindle_rpm(kNan);
+  SetupOf(request).set_scale(0);
+  EXPECT_THAT(Convert(request), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("(and 2 more)")));
+}
+
+// Every field set to something that is not its default.
+Request Unusual() {
+  Request r = BumpRequest();
+  SetupOf(r).set_up(v1::UP_AXIS_NEG_Y);
+  SetupOf(r).set_scale(2.5);
+  SetupOf(r).set_zero_anchor(v1::ZERO_ANCHOR_BOTTOM_CORNER);
+  SetupOf(r).mutable_translation()->set_x_mm(1);
+  SetupOf(r).mutable_translation()->set_y_mm(-2);
+  SetupOf(r).mutable_translation()->set_z_mm(3);
+  SetupOf(r).mutable_stock()->set_top_z_mm(40);
+  SetupOf(r).mutable_stock()->set_allowance_mm(0.75);
+  v1::Tool& tool = ToolOf(r);
+  tool.set_number(7);
+  tool.set_name("ball 6");
+  tool.set_flute_length_mm(12);
+  tool.set_shank_diameter_mm(8);
+  tool.set_stickout_mm(40);
+  tool.set_coolant(v1::COOLANT_MIST);
+  tool.set_cutting_data_is_default(true);
+  v1::Operation& op = OperationOf(r);
+  op.set_stock_to_leave_mm(0.125);
+  op.set_steep_angle_deg(60);
+  op.set_strategy(v1::STRATEGY_CONTOUR);
+  op.set_zigzag_angle_deg(90);
+  op.set_contour_direction(v1::CUT_DIRECTION_EITHER);
+  op.set_edge_rule(v1::EDGE_RULE_STOP);
+  op.mutable_heights()->set_clearance_z_mm(70);
+  op.mutable_heights()->set_approach_gap_mm(2);
+  op.mutable_heights()->set_floor_z_mm(-3);
+  r.mutable_post()->set_dialect("linuxcnc");
+  r.mutable_post()->set_arcs(false);
+  r.mutable_post()->set_unit(v1::LENGTH_UNIT_MILLIMETER);
+  r.mutable_post()->set_work_offset("G57");
+  return r;
+}
+
+TEST(JobRoundTrip, EveryFieldComesBack) {
+  const Request request = Unusual();
+  FieldErrors errors;
+  const Job job = FromProto(request.job(), request.post(), "job", errors);
+  ASSERT_TRUE(errors.empty()) << errors.ToStatus();
+  v1::Job back = ToProto(job, "0123", "");
+  back.clear_source();
+  v1::Job expected = request.job();
+  expected.clear_source();
+  std::string difference;
+  google::protobuf::util::MessageDifferencer differencer;
+  google::protobuf::util::DefaultFieldComparator degrees;  // there and back through radians
+  degrees.set_float_comparison(google::protobuf::util::DefaultFieldComparator::APPROXIMATE);
+  degrees.SetDefaultFractionAndMargin(1e-14, 0.0);
+  differencer.set_field_comparator(&degrees);
+  differencer.ReportDifferencesToString(&difference);
+  EXPECT_TRUE(differencer.Compare(back, expected)) << difference;
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(PostToProto(job), request.post()));
+}
+
+// The digest covers resolved values: a default said aloud changes nothing, any other value does.
+TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
+  const auto digest = [](const Request& r) {
+    FieldErrors errors;
+    return JobDigest(FromProto(r.job(), r.post(), "job", errors), "model", r.job().name());
+  };
+  const std::string base = digest(BumpRequest());
+  Request aloud = BumpRequest();
+  SetupOf(aloud).set_up(v1::UP_AXIS_Z);
+  SetupOf(aloud).set_scale(1.0);
+  OperationOf(aloud).set_steep_angle_deg(45);
+  aloud.mutable_post()->set_dialect("linuxcnc");
+  EXPECT_EQ(digest(aloud), base);
+
+  const Request unusual = Unusual();
+  const auto differs = [&](auto change) {
+    Request r = BumpRequest();
+    change(r);
+    return digest(r) != base;
+  };
+  EXPECT_TRUE(differs([&](Request& r) { SetupOf(r) = unusual.job().setup(); }));
+  EXPECT_TRUE(differs([](Request& r) { SetupOf(r).set_zero_anchor(v1::ZERO_ANCHOR_TOP_CENTER); }));
+  EXPECT_TRUE(differs([](Request& r) { SetupOf(r).mutable_stock()->set_top_z_mm(9); }));
+  EXPECT_TRUE(differs([](Request& r) { ToolOf(r).set_flute_length_mm(9); }));
+  EXPECT_TRUE(differs([](Request& r) { ToolOf(r).set_coolant(v1::COOLANT_AIR); }));
+  EXPECT_TRUE(differs([](Request& r) { ToolOf(r).set_cutting_data_is_default(true); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_strategy(v1::STRATEGY_ZIGZAG); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_contour_direction(v1::CUT_DIRECTION_EITHER); }));
+  EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_floor_z_mm(-1); }));
+  EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_clearance_above_mm(9); }));
+  EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_clearance_z_mm(9); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_work_offset("G55"); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_job()->set_name("part"); }));
+}
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,62 @@
+// A server inside the test, with stubs for all its services.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include <grpcpp/grpcpp.h>
+
+#include "patchmill/v1/analysis_service.grpc.pb.h"
+#include "patchmill/v1/model_service.grpc.pb.h"
+#include "patchmill/v1/toolpath_service.grpc.pb.h"
+#include "server/server.h"
+
+namespace patchmill::testing {
+
+struct Embedded {
+  explicit Embedded(ServerOptions options = {})
+      : server(StartEmbeddedServer(options)),
+        channel(server->InProcessChannel()),
+        model(v1::ModelService::NewStub(channel)),
+        analysis(v1::AnalysisService::NewStub(channel)),
+        toolpath(v1::ToolpathService::NewStub(channel)) {}
+
+  std::unique_ptr<RunningServer> server;
+  std::shared_ptr<grpc::Channel> channel;
+  std::unique_ptr<v1::ModelService::Stub> model;
+  std::unique_ptr<v1::AnalysisService::Stub> analysis;
+  std::unique_ptr<v1::ToolpathService::Stub> toolpath;
+
+  struct Stream {
+    std::vector<v1::GenerateProgramResponse> events;
+    grpc::Status status;
+
+    std::string Program() const {
+      std::string text;
+      for (const auto& event : events) text += event.program().data();
+      return text;
+    }
+    const v1::Report* Report() const {
+      return !events.empty() && events.back().has_report() ? &events.back().report() : nullptr;
+    }
+  };
+  Stream Generate(const v1::GenerateProgramRequest& request, grpc::ClientContext* context) const {
+    Stream stream;
+    const auto reader = toolpath->GenerateProgram(context, request);
+    v1::GenerateProgramResponse response;
+    while (reader->Read(&response)) stream.events.push_back(response);
+    stream.status = reader->Finish();
+    return stream;
+  }
+  Stream Generate(const v1::GenerateProgramRequest& request) const {
+    grpc::ClientContext context;
+    return Generate(request, &context);
+  }
+  grpc::Status Check(const v1::CheckModelRequest& request, v1::CheckModelResponse* response) const {
+    grpc::ClientContext context;
+    return model->CheckModel(&context, request, response);
+  }
+};
+
+}  // namespace patchmill::testing

@@ -1,0 +1,150 @@
+#include "server/model_source.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include "server/digest.h"
+#include "tests/service/requests.h"
+#include "tests/service/status_matchers.h"
+#include "tests/support/files.h"
+
+namespace patchmill {
+namespace {
+
+using ::testing::_;
+using testing::Bump;
+using ::testing::HasSubstr;
+using testing::StatusIs;
+constexpr auto kInvalid = absl::StatusCode::kInvalidArgument;
+
+v1::ModelSource File(const std::string& format, std::string content) {
+  v1::ModelSource source;
+  source.mutable_file()->set_format(format);
+  source.mutable_file()->set_content(std::move(content));
+  return source;
+}
+
+absl::Status LoadStatus(const v1::ModelSource& source) { return LoadModel(source, "source").status(); }
+
+std::string JsonOf(const v1::PatchModel& model) {
+  std::string json;
+  EXPECT_TRUE(google::protobuf::util::MessageToJsonString(model, &json).ok());
+  return json;
+}
+
+TEST(LoadModel, MessageJsonAndBinaryAreTheSameModel) {
+  v1::ModelSource message;
+  *message.mutable_model() = Bump();
+  const auto base = LoadModel(message, "source");
+  ASSERT_TRUE(base.ok()) << base.status();
+  EXPECT_TRUE(base->faults.empty());
+  EXPECT_FALSE(base->unitless);
+  for (const auto& source :
+       {File("json", JsonOf(Bump())), File("", JsonOf(Bump())), File("pb", JsonOf(Bump())),
+        File("pb", Bump().SerializeAsString()), File("", Bump().SerializeAsString())}) {
+    const auto loaded = LoadModel(source, "source");
+    ASSERT_TRUE(loaded.ok()) << loaded.status();
+    EXPECT_EQ(Hex(loaded->digest), Hex(base->digest));
+  }
+}
+
+TEST(LoadModel, TextFilesHaveNoUnitUnlessTheRequestSaysOne) {
+  v1::ModelSource source = File("bpt", testing::ReadRepositoryFile("examples/teapot.bpt"));
+  const auto loaded = LoadModel(source, "source");
+  ASSERT_TRUE(loaded.ok()) << loaded.status();
+  EXPECT_EQ(loaded->model.patches.size(), 28u);
+  EXPECT_TRUE(loaded->unitless);
+  source.mutable_file()->set_length_unit(v1::LENGTH_UNIT_INCH);
+  const auto inches = LoadModel(source, "source");
+  ASSERT_TRUE(inches.ok());
+  EXPECT_FALSE(inches->unitless);
+  EXPECT_NEAR(ControlBox(inches->model).Diagonal(), 25.4 * ControlBox(loaded->model).Diagonal(), 1e-9);
+}
+
+TEST(LoadModel, NothingEmptyAndUnknown) {
+  EXPECT_THAT(LoadStatus({}), StatusIs(kInvalid, "source is missing; required"));
+  v1::ModelSource digest;
+  digest.set_model_sha256(std::string(32, 'x'));
+  EXPECT_THAT(LoadStatus(digest), StatusIs(absl::StatusCode::kNotFound, HasSubstr("send it inline")));
+  for (const char* format : {"", "json", "pb", "bpt", "bv", "patches"}) {
+    EXPECT_THAT(LoadStatus(File(format, "")), StatusIs(kInvalid, HasSubstr("empty"))) << format;
+  }
+  EXPECT_THAT(LoadStatus(File("stl", "solid")),
+              StatusIs(kInvalid,
+                       HasSubstr("source.file.format = \"stl\"; must be one of bpt, bv, patches, json, pb")));
+}
+
+TEST(LoadModel, WrongKindsSayWhatTheyAreNot) {
+  const std::string bpt = testing::ReadRepositoryFile("examples/teapot.bpt");
+  EXPECT_THAT(LoadStatus(File("json", bpt)), StatusIs(kInvalid, HasSubstr("JSON")));
+  EXPECT_THAT(LoadStatus(File("pb", bpt)), StatusIs(kInvalid, HasSubstr("binary PatchModel")));
+  EXPECT_THAT(LoadStatus(File("", bpt)), StatusIs(kInvalid, HasSubstr("told by the file's ending")));
+  EXPECT_THAT(LoadStatus(File("", std::string(1000, '\0'))), StatusIs(kInvalid, _));
+  EXPECT_THAT(LoadStatus(File("bpt", JsonOf(Bump()))), StatusIs(kInvalid, HasSubstr("line 1")));
+  EXPECT_THAT(LoadStatus(File("bv", Bump().SerializeAsString())), StatusIs(kInvalid, HasSubstr("line ")));
+}
+
+TEST(LoadModel, TruncatedAnywhereIsAnErrorAndNeverACrash) {
+  const std::string json = JsonOf(Bump()), binary = Bump().SerializeAsString();
+  for (std::size_t n = 1; n + 1 < json.size(); n += 7) {
+    EXPECT_THAT(LoadStatus(File("json", json.substr(0, n))), StatusIs(kInvalid, _)) << n;
+  }
+  for (std::size_t n = 1; n < binary.size(); ++n) {
+    const auto loaded = LoadModel(File("pb", binary.substr(0, n)), "source");
+    EXPECT_TRUE(!loaded.ok() || !loaded->faults.empty()) << n;
+  }
+  const std::string bpt = testing::ReadRepositoryFile("examples/teapot.bpt");
+  for (std::size_t n = 10; n + 10 < bpt.size(); n += 501) {
+    EXPECT_THAT(LoadStatus(File("bpt", bpt.substr(0, n))), StatusIs(kInvalid, HasSubstr("line "))) << n;
+  }
+}
+
+TEST(LoadModel, JsonFaultsCarryTheReason) {
+  EXPECT_THAT(LoadStatus(File("json", R"({"length_unit": "LENGTH_UNIT_FURLONG"})")),
+              StatusIs(kInvalid, HasSubstr("LENGTH_UNIT_FURLONG")));
+  EXPECT_THAT(LoadStatus(File("json", R"({"no_such_field": 1})")),
+              StatusIs(kInvalid, HasSubstr("no_such_field")));
+  EXPECT_THAT(LoadStatus(File("json", R"({"patches": [{"bezier": {"points": ["x"]}}]})")),
+              StatusIs(kInvalid, _));
+  EXPECT_THAT(LoadStatus(File("json", R"({"patches": []})")), StatusIs(kInvalid, HasSubstr("length_unit")));
+}
+
+TEST(LoadModel, NotFiniteNumbersOfAJsonAreFaultsWithTheirPlace) {
+  std::string json = JsonOf(Bump());
+  json.replace(json.find("4,"), 1, "\"NaN\"");
+  const auto loaded = LoadModel(File("json", json), "source");
+  ASSERT_TRUE(loaded.ok()) << loaded.status();
+  ASSERT_EQ(loaded->faults.size(), 1u);
+  EXPECT_THAT(loaded->faults[0].message, HasSubstr("not finite"));
+}
+
+// Small inputs that ask for much: depth, counts, numbers.
+TEST(LoadModel, AbsurdInputsCostLittle) {
+  std::string deep = R"({"patches": )";
+  for (int i = 0; i < 100000; ++i) deep += '[';
+  EXPECT_THAT(LoadStatus(File("json", deep)), StatusIs(kInvalid, _));
+  EXPECT_FALSE(LoadStatus(File("bpt", "2000000000\n3 3\n")).ok());
+  EXPECT_FALSE(LoadStatus(File("bv", "4 2000000000\n1 1 1\n")).ok());
+  const std::string commas =
+      R"({"patches": [{"bezier": {"points": [)" + std::string(20'000'000, ',') + "]}}]}";
+  EXPECT_THAT(LoadStatus(File("json", commas)),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("json_value_count")));
+}
+
+TEST(LoadModel, AFieldOfANewerContractIsRefused) {
+  v1::PatchModel model = Bump();
+  model.mutable_patches(0)->GetReflection()->MutableUnknownFields(model.mutable_patches(0))->AddVarint(99, 1);
+  EXPECT_THAT(LoadStatus(File("pb", model.SerializeAsString())),
+              StatusIs(kInvalid, HasSubstr("patches[0].#99")));
+}
+
+TEST(LoadModel, UnitsOfFileAndRequestMustAgree) {
+  v1::ModelSource source = File("json", JsonOf(Bump()));
+  source.mutable_file()->set_length_unit(v1::LENGTH_UNIT_INCH);
+  EXPECT_THAT(LoadStatus(source), StatusIs(kInvalid, HasSubstr("source.file.length_unit differs")));
+}
+
+}  // namespace
+}  // namespace patchmill
