@@ -13,6 +13,7 @@ namespace patchmill {
 inline constexpr int kMaxPatches = 100'000;
 inline constexpr int kMaxControlPoints = 10'000'000;  // of all patches together
 inline constexpr double kMaxCoordinate = 1e9;         // |x|, |y|, |z|
+inline constexpr double kMinExtent = 1e-9;  // of the box diagonal; also 1e-9 of the largest coordinate
 inline constexpr double kMinWeight = 1e-9;  // homogeneous sums keep 1e-12 relative between these two
 inline constexpr double kMaxWeight = 1e9;
 inline constexpr double kMinJoinTolerance = 1e-9;  // of the box diagonal

@@ -207,11 +207,13 @@ void CheckExtent(const PatchModel& model, Faults& faults) {
   const Box3 box = ControlBox(model);
   const double diagonal = box.Diagonal();
   const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
-  if (diagonal < 1e-9 * largest) {
+  const double least_extent = kMinExtent * std::max(1.0, largest);
+  if (diagonal < least_extent) {
     faults.AddToModel(
         "ZERO_EXTENT", "patches",
-        fmt::format("extend over {:g} only, {:g} away from the origin; doubles cannot resolve that", diagonal,
-                    largest));
+        fmt::format("extend over {:g} only, up to {:g} away from the origin; must be at least {:g}", diagonal,
+                    largest, least_extent));
+    return;
   }
   if (!model.join_tolerance) return;
   const double least = kMinJoinTolerance * diagonal;

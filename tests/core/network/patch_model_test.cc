@@ -167,6 +167,9 @@ TEST(ValidateModel, RefusesAModelWithoutExtent) {
   PatchModel far{{Flat()}, {}};
   for (Vec3& p : ControlPoints(far.patches[0].shape)) p = p * 1e-3 + Vec3::Constant(9e8);
   EXPECT_THAT(OnlyFault(far), HasSubstr("ZERO_EXTENT"));
+  PatchModel speck{{Flat()}, {}};
+  for (Vec3& p : ControlPoints(speck.patches[0].shape)) p *= 1e-10;
+  EXPECT_THAT(OnlyFault(speck), HasSubstr("ZERO_EXTENT patches extend over 1.41421e-10 only"));
 }
 
 TEST(ValidateModel, RefusesIdsUsedTwiceButNotEmptyOnes) {
