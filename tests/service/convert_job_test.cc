@@ -293,7 +293,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { ToolOf(r).set_cutting_data_is_default(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_strategy(v1::STRATEGY_ZIGZAG); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_contour_direction(v1::CUT_DIRECTION_EITHER); }));
-  EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_floor_z_mm(-1); }));
+  EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_floor_z_mm(-2); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_clearance_above_mm(9); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_clearance_z_mm(9); }));
   EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_work_offset("G55"); }));

@@ -1,8 +1,9 @@
-// A server inside the test, with stubs for all its services.
+// A server inside the test, with stubs for all its services: without a port, or on a free one.
 #pragma once
 
 #include <chrono>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <grpcpp/grpcpp.h>
@@ -15,9 +16,11 @@
 namespace patchmill::testing {
 
 struct Embedded {
-  explicit Embedded(ServerOptions options = {})
-      : server(StartEmbeddedServer(options)),
-        channel(server->InProcessChannel()),
+  explicit Embedded(ServerOptions options = {}) : Embedded(StartEmbeddedServer(options), "") {}
+  Embedded(std::unique_ptr<RunningServer> running, const std::string& target)
+      : server(std::move(running)),
+        channel(target.empty() ? server->InProcessChannel()
+                               : grpc::CreateChannel(target, grpc::InsecureChannelCredentials())),
         model(v1::ModelService::NewStub(channel)),
         analysis(v1::AnalysisService::NewStub(channel)),
         toolpath(v1::ToolpathService::NewStub(channel)) {}

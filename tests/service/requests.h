@@ -45,6 +45,8 @@ inline v1::Job BumpJob(double size = 12.0) {
   *op.mutable_tool() = BallTool();
   op.set_scallop_mm(0.05);
   op.set_tolerance_mm(0.02);
+  op.mutable_heights()->set_floor_z_mm(
+      -1.0);  // low enough to finish the slopes at the border: nothing is out of reach
   return job;
 }
 

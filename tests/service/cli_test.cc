@@ -1,0 +1,317 @@
+// The programs as a user meets them: exit statuses, messages, and what lies on disk afterwards.
+#include <algorithm>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include "patchmill/v1/analysis_service.pb.h"
+#include "tests/service/process.h"
+#include "tests/service/requests.h"
+
+namespace patchmill {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using testing::Finished;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using testing::Process;
+using testing::Slurp;
+using testing::TempDir;
+using ::testing::UnorderedElementsAre;
+
+const std::string kPatchmill = PATCHMILL_BIN "/patchmill";
+const std::string kDaemon = PATCHMILL_BIN "/patchmilld";
+
+std::string Json(const v1::PatchModel& model) {
+  std::string json;
+  EXPECT_TRUE(google::protobuf::util::MessageToJsonString(model, &json).ok());
+  return json;
+}
+
+Finished Patchmill(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), kPatchmill);
+  return testing::Run(arguments);
+}
+
+class Cli : public ::testing::Test {
+ protected:
+  // `patchmill mill MODEL -o OUT/part.ngc ...` with coarse settings.
+  Finished Mill(const std::string& model, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"mill", model, "-o", out_ / "part.ngc"};
+    // Coarse, and with a floor low enough that nothing is out of reach.
+    const std::pair<const char*, const char*> defaults[] = {
+        {"--scallop", "0.05"}, {"--tolerance", "0.02"}, {"--floor", "-1"}};
+    for (const auto& [option, value] : defaults) {
+      if (std::find(more.begin(), more.end(), option) == more.end()) {
+        arguments.insert(arguments.end(), {option, value});
+      }
+    }
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Patchmill(arguments);
+  }
+  TempDir in_, out_;
+  std::string bump_ = in_.Write("bump.json", Json(testing::Bump()));
+  // Hours of work.
+  std::string long_ = in_.Write("long.pb", testing::Bump(600.0).SerializeAsString());
+  std::vector<std::string> fine_ = {"--scallop", "0.002", "--tolerance", "0.001", "--tool-diameter", "2"};
+};
+
+TEST_F(Cli, MillWritesProgramReportAndPicture) {
+  const Finished run = Mill(bump_, {"--report", out_ / "part.json", "--preview", out_ / "part.svg"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(out_.Names(), UnorderedElementsAre("part.ngc", "part.json", "part.svg"));
+  const std::string program = Slurp(out_ / "part.ngc");
+  EXPECT_THAT(program, AllOf(HasSubstr("G53 G0 Z0"), HasSubstr("G21"), HasSubstr("bump.json")));
+  v1::Report report;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out_ / "part.json"), &report).ok());
+  EXPECT_EQ(report.outcome(), v1::OUTCOME_COMPLETE);
+  EXPECT_EQ(report.program_size_bytes(), static_cast<int>(program.size()));
+  EXPECT_THAT(Slurp(out_ / "part.json"), HasSubstr("\"unreachable_area_mm2\": 0"));
+  EXPECT_THAT(Slurp(out_ / "part.svg"), HasSubstr("<svg"));
+  EXPECT_THAT(run.out, IsEmpty());
+  EXPECT_THAT(run.err, AllOf(HasSubstr("COMPLETE, verified"), HasSubstr("DEFAULT_CUTTING_DATA")));
+  EXPECT_THAT(run.err, Not(HasSubstr("\r"))) << "a progress bar in a pipe";
+}
+
+TEST_F(Cli, QuietSaysNothingOfASuccess) {
+  const Finished run = Mill(bump_, {"--quiet"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.err + run.out, IsEmpty());
+}
+
+TEST_F(Cli, VerifyAcceptsWhatMillMadeAndRefusesWhatWasTamperedWith) {
+  ASSERT_EQ(Mill(bump_).status, 0);
+  const std::vector<std::string> verify = {
+      "verify",  bump_, out_ / "part.ngc", "--tool-diameter", "6", "--tolerance", "0.02", "--scallop", "0.05",
+      "--floor", "-1",  "--report",        out_ / "v.json"};
+  const Finished good = Patchmill(verify);
+  EXPECT_EQ(good.status, 0) << good.out << good.err;
+  EXPECT_THAT(good.out, HasSubstr("outcome   COMPLETE"));
+  EXPECT_THAT(Slurp(out_ / "v.json"), HasSubstr("OUTCOME_COMPLETE"));
+  // One cutting move two millimetres lower.
+  std::string program = Slurp(out_ / "part.ngc");
+  const std::size_t middle = program.find('\n', program.size() / 2) + 1;
+  program.insert(middle, "G91\nG1 Z-2\nG90\n");
+  in_.Write("bad.ngc", program);
+  const Finished bad =
+      Patchmill({"verify", bump_, in_ / "bad.ngc", "--tool-diameter", "6", "--tolerance", "0.02"});
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_THAT(bad.out, AllOf(HasSubstr("VERIFICATION_FAILED"), HasSubstr("gouge     FAILED")));
+  EXPECT_THAT(bad.err, HasSubstr("VERIFICATION_FAILED"));
+}
+
+TEST_F(Cli, CheckPrintsTheModelAndFailsOnErrors) {
+  const Finished good = Patchmill({"check", bump_});
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_THAT(good.out,
+              AllOf(HasSubstr("patches      1"), HasSubstr("4 open"), HasSubstr("OPEN_EDGE patch bump")));
+  v1::PatchModel model = testing::Bump();
+  model.mutable_patches(0)->mutable_bezier()->set_points(0, 1e300);
+  const Finished bad = Patchmill({"check", in_.Write("bad.pb", model.SerializeAsString())});
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_THAT(bad.out, HasSubstr("ERROR TOO_LARGE patch bump"));
+}
+
+TEST_F(Cli, RegionsWritesJsonOrPicture) {
+  ASSERT_EQ(Patchmill({"regions", bump_, "-o", out_ / "r.json"}).status, 0);
+  v1::SplitRegionsResponse response;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out_ / "r.json"), &response).ok());
+  EXPECT_GE(response.regions().regions_size(), 1);
+  ASSERT_EQ(Patchmill({"regions", bump_, "-o", out_ / "r.svg"}).status, 0);
+  EXPECT_THAT(Slurp(out_ / "r.svg"), HasSubstr("<svg"));
+  const Finished other = Patchmill({"regions", bump_, "-o", out_ / "r.png"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("must end in .json or .svg"));
+}
+
+struct Wrong {
+  const char* name;
+  std::vector<std::string> options;
+  const char* message;
+};
+
+class WrongUsage : public Cli, public ::testing::WithParamInterface<Wrong> {};
+
+TEST_P(WrongUsage, IsStatusTwoWithAReasonAndNoFile) {
+  const Finished run = Mill(bump_, GetParam().options);
+  EXPECT_EQ(run.status, 2) << run.err;
+  EXPECT_THAT(run.err, HasSubstr(GetParam().message));
+  EXPECT_THAT(out_.Names(), IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongUsage,
+    ::testing::Values(
+        Wrong{"UnknownOption", {"--no-such-option", "3"}, "--no-such-option"},
+        Wrong{
+            "UnknownPost", {"--post", "fanuc"}, "--post: post.dialect = \"fanuc\"; must be one of: linuxcnc"},
+        Wrong{"ToolZero",
+              {"--tool-diameter", "0"},
+              "--tool-diameter: job.operations[0].tool.ball_end.diameter_mm = 0"},
+        Wrong{"ToolAbsurd", {"--tool-diameter", "1e9"}, "must be in [0.02, 1000]"},
+        Wrong{"ScallopAboveRadius",
+              {"--tool-diameter", "1", "--scallop", "0.6"},
+              "--scallop: job.operations[0].scallop_mm = 0.6; must be in (0, ball radius = 0.5)"},
+        Wrong{"ScallopNan", {"--leave", "nan"}, "--leave: \"nan\" is not a finite number"},
+        Wrong{"Infinite", {"--floor", "inf"}, "not a finite number"},
+        Wrong{"NotANumber", {"--allowance", "abc"}, "--allowance"},
+        Wrong{"LeaveNegative",
+              {"--leave", "-0.1"},
+              "--leave: job.operations[0].stock_to_leave_mm is not there yet"},
+        Wrong{"Zero",
+              {"--zero", "middle"},
+              "--zero middle; must be X,Y,Z, origin, top-center or bottom-corner"},
+        Wrong{"ZeroNan", {"--zero", "0,nan,0"}, "--zero"},
+        Wrong{"Translate", {"--translate", "1,2"}, "--translate"}, Wrong{"Up", {"--up", "w"}, "--up"},
+        Wrong{"Strategy", {"--strategy", "spiral"}, "--strategy"},
+        Wrong{"Coolant", {"--coolant", "beer"}, "--coolant"},
+        Wrong{"WorkOffset", {"--work-offset", "G99"}, "--work-offset: post.work_offset"},
+        Wrong{"StockBelowModel", {"--stock-top", "-5"}, "stock.top_z_mm = -5"},
+        Wrong{"Threads", {"--threads", "1000"}, "--threads"},
+        Wrong{"Timeout", {"--timeout", "0"}, "--timeout"},
+        Wrong{"HalfATlsPair",
+              {"--server", "127.0.0.1:1", "--cert", "x.pem"},
+              "--cert and --key belong together"},
+        Wrong{"ScaleZero", {"--scale", "0"}, "--scale: job.setup.scale = 0"}),
+    [](const auto& wrong) { return std::string(wrong.param.name); });
+
+TEST_F(Cli, NoCommandOrAnUnknownOneIsWrongUsage) {
+  EXPECT_EQ(Patchmill({}).status, 2);
+  EXPECT_EQ(Patchmill({"lathe"}).status, 2);
+  EXPECT_EQ(Patchmill({"mill"}).status, 2);
+  EXPECT_EQ(Patchmill({"--help"}).status, 0);
+  EXPECT_EQ(Patchmill({"mill", "--help"}).status, 0);
+  EXPECT_TRUE(std::regex_search(Patchmill({"--version"}).out, std::regex("^patchmill [0-9]+\\.[0-9]+")));
+  const std::string help = Patchmill({"--help"}).out;
+  for (const char* name : {"mill", "check", "regions", "verify", "serve"}) EXPECT_THAT(help, HasSubstr(name));
+  for (const char* name : {"lines", "fair", "convert"})
+    EXPECT_THAT(help, Not(HasSubstr(std::string("  ") + name)));
+}
+
+TEST_F(Cli, UnreadableModelsAreStatusTwoWithAReason) {
+  const std::string good = Json(testing::Bump());
+  const struct {
+    const char* name;
+    std::string content;
+    const char* message;
+  } cases[] = {
+      {"empty.bpt", "", "empty"},
+      {"empty.json", "", "empty"},
+      {"truncated.json", good.substr(0, good.size() / 2), "not a PatchModel in JSON"},
+      {"truncated.pb", testing::Bump().SerializeAsString().substr(0, 200), "PatchModel"},
+      {"truncated.bpt", "1\n3 3\n0 0 0\n1 0 0\n", "line "},
+      {"surplus.bpt", "1\n1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n7 7 7\n", "line "},
+      {"nan.bpt", "1\n1 1\n0 0 0\nnan 0 0\n0 1 0\n1 1 0\n", "line 4"},
+      {"huge.bpt", "1\n1 1\n0 0 0\n1e300 0 0\n0 1 0\n1 1 0\n", ""},
+      {"count.bpt", "2000000000\n1 1\n0 0 0\n", "line "},
+      {"kind.bv", "1\n4 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n", "line "},
+      {"wrong.bv", good, "line 1"},
+      {"wrong.stl", "solid x\nendsolid x\n", "told by the file's ending"},
+      {"nounit.json", "{\"patches\": [{}]}", "length_unit"},
+  };
+  for (const auto& c : cases) {
+    const Finished run = Mill(in_.Write(c.name, c.content));
+    EXPECT_EQ(run.status, 2) << c.name << ": " << run.err;
+    EXPECT_THAT(run.err, HasSubstr(c.message)) << c.name;
+    EXPECT_THAT(out_.Names(), IsEmpty()) << c.name;
+  }
+  EXPECT_THAT(Mill(in_ / "missing.bpt").err, HasSubstr("No such file"));
+  EXPECT_EQ(Mill(in_ / "missing.bpt").status, 2);
+}
+
+TEST_F(Cli, AProgramThatCannotBeWrittenIsSaidBeforeTheJob) {
+  const Finished run = Patchmill({"mill", bump_, "-o", out_ / "no/such/dir/part.ngc"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.err, HasSubstr("cannot write"));
+}
+
+TEST_F(Cli, WhenNothingCanBeReachedTheReportIsWrittenAndNoProgram) {
+  const Finished run = Mill(bump_, {"--floor", "50", "--report", out_ / "part.json"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.err,
+              AllOf(HasSubstr("NOTHING_TO_CUT"), HasSubstr("--scale"), HasSubstr("no program was written")));
+  EXPECT_THAT(out_.Names(), ElementsAre("part.json"));
+}
+
+TEST_F(Cli, ATimeoutLeavesNothingBehind) {
+  std::vector<std::string> options = fine_;
+  for (const char* word : {"--timeout", "0.7", "--report"}) options.emplace_back(word);
+  options.push_back(out_ / "part.json");
+  const Finished run = Mill(long_, options);
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.err, HasSubstr("--timeout 0.7 s"));
+  EXPECT_THAT(out_.Names(), IsEmpty());
+}
+
+TEST_F(Cli, AnInterruptLeavesNothingBehind) {
+  for (const int number : {SIGINT, SIGTERM}) {
+    std::vector<std::string> command = {kPatchmill, "mill", long_, "-o", out_ / "part.ngc"};
+    command.insert(command.end(), fine_.begin(), fine_.end());
+    Process process(command);
+    std::this_thread::sleep_for(700ms);
+    process.Signal(number);
+    EXPECT_EQ(process.Wait(), 1);
+    EXPECT_THAT(process.Err(), HasSubstr("interrupted"));
+    EXPECT_THAT(out_.Names(), IsEmpty());
+  }
+}
+
+// A daemon on a free port, and the port it says.
+class Daemon {
+ public:
+  Daemon() : process_({kDaemon, "--listen", "127.0.0.1:0"}) {
+    for (int i = 0; i < 200 && port_.empty(); ++i) {
+      std::this_thread::sleep_for(25ms);
+      std::smatch match;
+      const std::string log = process_.Err();
+      if (std::regex_search(log, match, std::regex("port ([0-9]+)\n"))) port_ = match[1];
+    }
+    EXPECT_FALSE(port_.empty()) << process_.Err();
+  }
+  std::string target() const { return "127.0.0.1:" + port_; }
+  Process& process() { return process_; }
+
+ private:
+  Process process_;
+  std::string port_;
+};
+
+TEST_F(Cli, TheDaemonMakesTheSameBytesAnswersHealthAndDrains) {
+  ASSERT_EQ(Mill(bump_).status, 0);
+  const std::string embedded = Slurp(out_ / "part.ngc");
+  Daemon daemon;
+  const Finished run = Mill(bump_, {"--server", daemon.target(), "--threads", "1"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(Slurp(out_ / "part.ngc"), embedded);
+  EXPECT_EQ(testing::Run({kDaemon, "--healthcheck", "--listen", daemon.target()}).status, 0);
+  const Finished taken = testing::Run({kDaemon, "--listen", daemon.target()});
+  EXPECT_EQ(taken.status, 2);
+  EXPECT_THAT(taken.err, HasSubstr("cannot listen"));
+  daemon.process().Signal(SIGTERM);
+  EXPECT_EQ(daemon.process().Wait(), 0);
+  EXPECT_EQ(testing::Run({kDaemon, "--healthcheck", "--listen", daemon.target()}).status, 1);
+  const Finished gone = Mill(bump_, {"--server", daemon.target()});
+  EXPECT_EQ(gone.status, 1);
+  EXPECT_THAT(gone.err, HasSubstr(daemon.target()));
+}
+
+TEST_F(Cli, AKilledServerLeavesNoNewProgram) {
+  Daemon daemon;
+  std::vector<std::string> command = {kPatchmill,        "mill",     long_,          "-o",
+                                      out_ / "part.ngc", "--server", daemon.target()};
+  command.insert(command.end(), fine_.begin(), fine_.end());
+  Process client(command);
+  std::this_thread::sleep_for(700ms);
+  daemon.process().Signal(SIGKILL);
+  EXPECT_EQ(client.Wait(), 1);
+  EXPECT_THAT(out_.Names(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,348 @@
+// CheckModel, SplitRegions, VerifyProgram, health, limits and draining, through the wire.
+#include <future>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <gtest/gtest.h>
+
+#include "server/limits.h"
+#include "tests/service/embedded.h"
+#include "tests/service/requests.h"
+#include "tests/service/status_matchers.h"
+#include "tests/support/files.h"
+
+namespace patchmill {
+namespace {
+
+using namespace std::chrono_literals;
+using grpc::StatusCode;
+using testing::BumpJob;
+using testing::Embedded;
+using ::testing::HasSubstr;
+using testing::InfoOf;
+using testing::RpcStatusIs;
+
+v1::CheckModelRequest CheckBump() {
+  v1::CheckModelRequest request;
+  *request.mutable_source()->mutable_model() = testing::Bump();
+  return request;
+}
+
+TEST(CheckModel, ASoundModelHasABoxAndItsEdges) {
+  Embedded embedded;
+  v1::CheckModelRequest request = CheckBump();
+  request.mutable_setup()->mutable_program_zero()->set_x_mm(2.0);
+  request.mutable_tool()->mutable_ball_end()->set_diameter_mm(6);
+  v1::CheckModelResponse response;
+  ASSERT_TRUE(embedded.Check(request, &response).ok());
+  EXPECT_EQ(response.patch_count(), 1);
+  EXPECT_EQ(response.open_edge_count(), 4);
+  EXPECT_EQ(response.joined_edge_count(), 0);
+  EXPECT_EQ(response.model_sha256().size(), 32u);
+  // The program frame: the model's [0, 12] shifted by program zero. The bump's top is at (27/64 + ...) = 9/16
+  // height.
+  EXPECT_NEAR(response.box().min().x_mm(), -2.0, 1e-6);
+  EXPECT_NEAR(response.box().max().x_mm(), 10.0, 1e-6);
+  EXPECT_NEAR(response.box().max().z_mm(), 2.0 * 9.0 / 16.0, 1e-6);
+}
+
+TEST(CheckModel, FindingsAreDataNeverAStatus) {
+  Embedded embedded;
+  v1::CheckModelRequest request = CheckBump();
+  request.mutable_source()->mutable_model()->mutable_patches(0)->mutable_bezier()->set_degree_u(99);
+  v1::CheckModelResponse response;
+  ASSERT_TRUE(embedded.Check(request, &response).ok());
+  ASSERT_GE(response.diagnostics_size(), 1);
+  EXPECT_EQ(response.diagnostics(0).code(), "INVALID_DEGREE");
+  EXPECT_EQ(response.diagnostics(0).severity(), v1::SEVERITY_ERROR);
+  EXPECT_EQ(response.diagnostics(0).where().patch_index(), 0);
+  EXPECT_EQ(response.diagnostics(0).where().patch_id(), "bump");
+  EXPECT_FALSE(response.has_box());
+}
+
+TEST(CheckModel, AThousandFaultsFitAnAnswer) {
+  Embedded embedded;
+  v1::CheckModelRequest request;
+  v1::PatchModel& model = *request.mutable_source()->mutable_model();
+  model.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  for (int i = 0; i < 3000; ++i) model.add_patches();
+  v1::CheckModelResponse response;
+  ASSERT_TRUE(embedded.Check(request, &response).ok());
+  EXPECT_EQ(response.diagnostics_size(), static_cast<int>(limits::kMaxDiagnostics) + 1);
+  EXPECT_THAT(response.diagnostics().rbegin()->message(), HasSubstr("1000 more"));
+}
+
+TEST(CheckModel, AFileWithoutAUnitIsSaidToBeMillimeters) {
+  Embedded embedded;
+  v1::CheckModelRequest request;
+  request.mutable_source()->mutable_file()->set_format("bpt");
+  request.mutable_source()->mutable_file()->set_content(testing::ReadRepositoryFile("examples/teapot.bpt"));
+  const auto code = [&](double scale) {
+    request.mutable_setup()->set_scale(scale);
+    request.mutable_tool()->mutable_ball_end()->set_diameter_mm(6);
+    v1::CheckModelResponse response;
+    EXPECT_TRUE(embedded.Check(request, &response).ok());
+    return response.diagnostics_size() == 0 ? "" : response.diagnostics().rbegin()->code();
+  };
+  EXPECT_EQ(code(1.0), "SUSPICIOUS_SIZE");
+  EXPECT_EQ(code(50.0), "UNIT_ASSUMED");
+}
+
+TEST(CheckModel, WrongRequestsAreAStatusWithDetails) {
+  Embedded embedded;
+  v1::CheckModelResponse response;
+  v1::CheckModelRequest request = CheckBump();
+  request.mutable_setup()->set_scale(-1);
+  request.mutable_tool();
+  const grpc::Status status = embedded.Check(request, &response);
+  EXPECT_THAT(status, RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("setup.scale = -1")));
+  EXPECT_EQ(InfoOf(status).reason(), "INVALID_FIELDS");
+  EXPECT_EQ(InfoOf(status).violation_count(), 2);
+
+  request = CheckBump();
+  request.mutable_source()->set_model_sha256("x");
+  EXPECT_EQ(InfoOf(embedded.Check(request, &response)).reason(), "MODEL_NOT_CACHED");
+  request.mutable_source()->mutable_file()->set_format("bpt");
+  request.mutable_source()->mutable_file()->set_content("1\n3 3\n0 0 0\n");
+  EXPECT_EQ(InfoOf(embedded.Check(request, &response)).reason(), "MODEL_UNREADABLE");
+  request = CheckBump();
+  request.set_max_threads(65);
+  EXPECT_THAT(embedded.Check(request, &response),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("max_threads = 65")));
+}
+
+TEST(CheckModel, AFieldOfANewerContractIsRefused) {
+  Embedded embedded;
+  v1::CheckModelRequest request = CheckBump();
+  v1::Setup& setup = *request.mutable_setup();
+  setup.GetReflection()->MutableUnknownFields(&setup)->AddVarint(77, 1);
+  v1::CheckModelResponse response;
+  EXPECT_THAT(
+      embedded.Check(request, &response),
+      RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("setup.#77 is a field that server version")));
+}
+
+class SplitRegions : public ::testing::Test {
+ protected:
+  grpc::Status Split(const v1::SplitRegionsRequest& request) {
+    grpc::ClientContext context;
+    return embedded_.analysis->SplitRegions(&context, request, &response_);
+  }
+  Embedded embedded_;
+  v1::SplitRegionsResponse response_;
+};
+
+TEST_F(SplitRegions, CoversTheSurface) {
+  v1::SplitRegionsRequest request;
+  *request.mutable_job() = BumpJob();
+  ASSERT_TRUE(Split(request).ok());
+  double area = 0.0;
+  for (const v1::Region& region : response_.regions().regions()) {
+    area += region.area_mm2();
+    EXPECT_NE(region.kind(), v1::REGION_KIND_UNSPECIFIED);
+    EXPECT_GE(region.border_size(), 1);
+  }
+  EXPECT_GT(area, 144.0);  // more than its plan
+  EXPECT_LT(area, 1.2 * 144.0);
+  EXPECT_EQ(response_.regions().regions_sha256().size(), 32u);
+  EXPECT_FALSE(response_.has_picture());
+}
+
+TEST_F(SplitRegions, DrawsWhenAsked) {
+  v1::SplitRegionsRequest request;
+  *request.mutable_job() = BumpJob();
+  request.add_outputs(v1::OUTPUT_PICTURE);
+  ASSERT_TRUE(Split(request).ok());
+  EXPECT_THAT(response_.picture().data(), HasSubstr("<svg"));
+  EXPECT_FALSE(response_.has_regions());
+}
+
+TEST_F(SplitRegions, HasNoProgram) {
+  v1::SplitRegionsRequest request;
+  *request.mutable_job() = BumpJob();
+  request.add_outputs(v1::OUTPUT_PROGRAM);
+  EXPECT_THAT(Split(request), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("outputs[0] = 4")));
+}
+
+class VerifyProgram : public ::testing::Test {
+ protected:
+  VerifyProgram() {
+    *request_.mutable_source()->mutable_model() = testing::Bump();
+    *request_.add_tools() = testing::BallTool();
+    request_.set_tolerance_mm(0.02);
+    request_.set_program(
+        "G21 G90 G17\nG53 G0 Z0\nT1 M6\nG43 H1\nG64 P0.001\nS9000 M3\nG0 X-1 Y6\nG0 Z9\n"
+        "G1 Z7 F400\nG1 X13 F900\nG0 Z9\nG53 G0 Z0\nM5\nM9\nM2\n");
+  }
+  grpc::Status Verify() {
+    grpc::ClientContext context;
+    const auto reader = embedded_.toolpath->VerifyProgram(&context, request_);
+    v1::VerifyProgramResponse response;
+    while (reader->Read(&response)) last_ = response;
+    return reader->Finish();
+  }
+  Embedded embedded_;
+  v1::VerifyProgramRequest request_;
+  v1::VerifyProgramResponse last_;
+};
+
+TEST_F(VerifyProgram, AFeedHighAboveThePartIsSafeButFinishesNothing) {
+  request_.set_scallop_mm(0.05);
+  const grpc::Status status = Verify();
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  const v1::Report& report = last_.report();
+  EXPECT_EQ(report.outcome(), v1::OUTCOME_VERIFICATION_FAILED);
+  EXPECT_EQ(report.gouge_check(), v1::CHECK_STATE_PASSED);
+  EXPECT_EQ(report.finish_check(), v1::CHECK_STATE_FAILED);
+  EXPECT_DOUBLE_EQ(report.max_gouge_mm(), 0.0);
+  EXPECT_NEAR(report.tip_z_min_mm(), 7.0, 1e-9);
+}
+
+TEST_F(VerifyProgram, WithoutAScallopLeftoverIsMeasuredNotJudged) {
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_EQ(last_.report().finish_check(), v1::CHECK_STATE_NOT_CHECKED);
+  EXPECT_GT(last_.report().max_leftover_mm(), 1.0);
+  EXPECT_NE(last_.report().outcome(), v1::OUTCOME_VERIFICATION_FAILED);
+}
+
+TEST_F(VerifyProgram, AGougeIsFoundWithItsLine) {
+  std::string program = request_.program();
+  program.replace(program.find("G1 Z7"), 5, "G1 Z0");  // 1.125 mm below the bump's top
+  request_.set_program(program);
+  ASSERT_TRUE(Verify().ok());
+  const v1::Report& report = last_.report();
+  EXPECT_EQ(report.outcome(), v1::OUTCOME_VERIFICATION_FAILED);
+  EXPECT_EQ(report.gouge_check(), v1::CHECK_STATE_FAILED);
+  EXPECT_NEAR(report.max_gouge_mm(), 1.125, 0.1);
+  EXPECT_EQ(report.max_gouge_at().line(), 10);
+  EXPECT_EQ(report.max_gouge_at().patch_id(), "bump");
+}
+
+TEST_F(VerifyProgram, AWordThatCouldMoveIsAnErrorWithItsLine) {
+  request_.set_program("G21\nG90\nG5.1 X1 Y1\n");
+  const grpc::Status status = Verify();
+  EXPECT_THAT(status, RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("line 3")));
+  EXPECT_EQ(InfoOf(status).reason(), "PROGRAM_UNREADABLE");
+}
+
+TEST_F(VerifyProgram, WrongFields) {
+  const v1::VerifyProgramRequest good = request_;
+  const auto message = [&](auto spoil) {
+    request_ = good;
+    spoil(request_);
+    const grpc::Status status = Verify();
+    EXPECT_NE(status.error_code(), StatusCode::OK);
+    return status.error_message();
+  };
+  EXPECT_THAT(message([](auto& r) { r.clear_tools(); }), HasSubstr("tools is missing"));
+  EXPECT_THAT(message([](auto& r) { *r.add_tools() = r.tools(0); }), HasSubstr("tools[1] is not there yet"));
+  EXPECT_THAT(message([](auto& r) { r.clear_program(); }), HasSubstr("program is missing"));
+  EXPECT_THAT(message([](auto& r) { r.clear_tolerance_mm(); }), HasSubstr("tolerance_mm = 0"));
+  EXPECT_THAT(message([](auto& r) { r.set_scallop_mm(4); }),
+              HasSubstr("scallop_mm = 4; must be in (0, ball radius = 3)"));
+  EXPECT_THAT(message([](auto& r) { r.set_stock_to_leave_mm(-1); }), HasSubstr("stock_to_leave_mm = -1"));
+  EXPECT_THAT(message([](auto& r) { r.set_floor_z_mm(1e9); }), HasSubstr("floor_z_mm = 1000000000"));
+  EXPECT_THAT(message([](auto& r) { r.set_dialect("fanuc"); }), HasSubstr("dialect = \"fanuc\""));
+  EXPECT_THAT(message([](auto& r) { r.clear_source(); }), HasSubstr("source is missing"));
+  EXPECT_THAT(
+      message([](auto& r) { r.mutable_source()->mutable_model()->mutable_patches(0)->clear_shape(); }),
+      HasSubstr("patches[0].shape is missing"));
+}
+
+// grpc.health.v1 by hand: 0x0A len name; the answer of one that serves is 08 01.
+grpc::Status AskHealth(const std::shared_ptr<grpc::Channel>& channel, const std::string& service,
+                       std::string* answer) {
+  grpc::TemplatedGenericStub<grpc::ByteBuffer, grpc::ByteBuffer> stub(channel);
+  grpc::ClientContext context;
+  std::string bytes;
+  if (!service.empty()) bytes = std::string("\x0A") + static_cast<char>(service.size()) + service;
+  grpc::Slice slice(bytes);
+  const grpc::ByteBuffer request(&slice, 1);
+  grpc::CompletionQueue queue;
+  auto reader = stub.PrepareUnaryCall(&context, "/grpc.health.v1.Health/Check", request, &queue);
+  reader->StartCall();
+  grpc::ByteBuffer response;
+  grpc::Status status;
+  reader->Finish(&response, &status, nullptr);
+  void* tag = nullptr;
+  bool ok = false;
+  queue.Next(&tag, &ok);
+  std::vector<grpc::Slice> slices;
+  answer->clear();
+  if (status.ok() && response.Dump(&slices).ok()) {
+    for (const grpc::Slice& s : slices) answer->append(reinterpret_cast<const char*>(s.begin()), s.size());
+  }
+  return status;
+}
+
+TEST(Health, AnswersForTheServerAndEachService) {
+  Embedded embedded;
+  std::string answer;
+  for (const char* name :
+       {"", "patchmill.v1.ModelService", "patchmill.v1.AnalysisService", "patchmill.v1.ToolpathService"}) {
+    EXPECT_TRUE(AskHealth(embedded.channel, name, &answer).ok()) << name;
+    EXPECT_EQ(answer, std::string("\x08\x01")) << name;
+  }
+  EXPECT_EQ(AskHealth(embedded.channel, "no.such.Service", &answer).error_code(), StatusCode::NOT_FOUND);
+}
+
+TEST(Limits, AMessageBeyond64MebibytesIsRefusedWithItsSize) {
+  Embedded embedded;
+  v1::CheckModelRequest request = CheckBump();
+  request.mutable_source()->mutable_file()->set_content(std::string(limits::kMaxMessageBytes + 1, ' '));
+  v1::CheckModelResponse response;
+  EXPECT_THAT(embedded.Check(request, &response),
+              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("67108864")));
+}
+
+TEST(Limits, JobsAtOnceAreCountedAndOneEndedMakesRoom) {
+  ServerOptions options;
+  options.max_jobs = 1;
+  Embedded embedded(options);
+  grpc::ClientContext context;
+  const auto reader = embedded.toolpath->GenerateProgram(&context, testing::LongRequest());
+  v1::GenerateProgramResponse event;
+  ASSERT_TRUE(reader->Read(&event));  // accepted: it runs
+  v1::CheckModelResponse response;
+  const grpc::Status refused = embedded.Check(CheckBump(), &response);
+  EXPECT_EQ(refused.error_code(), StatusCode::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(InfoOf(refused).reason(), "TOO_MANY_JOBS");
+  context.TryCancel();
+  while (reader->Read(&event)) {
+  }
+  EXPECT_EQ(reader->Finish().error_code(), StatusCode::CANCELLED);
+  grpc::Status status = embedded.Check(CheckBump(), &response);
+  for (int i = 0; i < 100 && !status.ok(); ++i) {
+    std::this_thread::sleep_for(20ms);
+    status = embedded.Check(CheckBump(), &response);
+  }
+  EXPECT_TRUE(status.ok()) << status.error_message();
+}
+
+// Over a port: the in-process transport knows no gentle end.
+TEST(Drain, LetsARunningCallEndAndRefusesNewOnes) {
+  ServerOptions options;
+  options.listen = "127.0.0.1:0";
+  options.log_requests = false;
+  auto started = StartServer(options);
+  ASSERT_TRUE(started.ok()) << started.status();
+  const std::string target = "127.0.0.1:" + std::to_string((*started)->port());
+  const Embedded embedded(*std::move(started), target);
+  grpc::ClientContext context;
+  const auto reader = embedded.toolpath->GenerateProgram(&context, testing::LongRequest());
+  v1::GenerateProgramResponse event;
+  ASSERT_TRUE(reader->Read(&event));
+  std::future<void> drained = std::async(std::launch::async, [&] { embedded.server->Drain(0.7); });
+  std::this_thread::sleep_for(200ms);
+  EXPECT_NE(drained.wait_for(0s), std::future_status::ready);  // the job is still running
+  v1::CheckModelResponse response;
+  EXPECT_EQ(embedded.Check(CheckBump(), &response).error_code(), StatusCode::UNAVAILABLE);
+  while (reader->Read(&event)) {
+  }
+  EXPECT_NE(reader->Finish().error_code(), StatusCode::OK);  // cut off after its time
+  EXPECT_EQ(drained.wait_for(2s), std::future_status::ready);
+}
+
+}  // namespace
+}  // namespace patchmill
