@@ -17,6 +17,7 @@ namespace patchmill {
 namespace {
 
 constexpr double kInch = 25.4;
+constexpr int kLinesBetweenPolls = 4096;
 constexpr double kLargestCoordinate = 1e6;  // mm
 constexpr std::array<char, 3> kAxis = {'X', 'Y', 'Z'};
 constexpr std::array<char, 3> kOffset = {'I', 'J', 'K'};
@@ -301,6 +302,7 @@ absl::StatusOr<ProgramMotion> ReadProgram(std::string_view text, const ReaderPar
     std::string_view code = text.substr(begin, end - begin);
     begin = end + 1;
     ++line;
+    if (params.run != nullptr && line % kLinesBetweenPolls == 0) PM_RETURN_IF_ERROR(params.run->Check());
     if (!code.empty() && code.back() == '\r') code.remove_suffix(1);
     if (code.size() > params.max_line_length) {
       return AtLine(line, Bad(fmt::format("longer than {} characters", params.max_line_length)));

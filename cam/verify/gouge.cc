@@ -28,24 +28,27 @@ class GougeSearch {
     std::vector<int>& to = candidates_[depth + 1];
     if (depth == 0) tree_.FindWithin(cell.middle, radius_ - threshold.Drop(0.0) + cell.radius, from);
     to.clear();
-    double lowest = kInfinity;
+    bool open = false;
     for (const int i : from) {
-      const double far_enough = radius_ - threshold.Drop(here.value) + cell.radius;
       const MetricValue f = SweptDistanceAndGradient(tree_.segment(i), cell.middle);
-      if (f.distance >= far_enough) continue;
-      to.push_back(i);
+      if (f.distance >= radius_ - threshold.Drop(here.value) + cell.radius) continue;
       if (radius_ - f.distance > here.value) {
         here = {radius_ - f.distance, cell.middle, cell.rect.piece, tree_.segment(i).move};
       }
-      double least = kInfinity;
-      for (int k = 0; k < cell.hull_count; ++k) {
-        least = std::min(least, f.gradient.dot(cell.hull[k] - cell.middle));
-      }
       // Slope 1 bounds it as well; the gradient of a segment through the point is unknown.
-      lowest =
-          std::min(lowest, f.distance + (f.distance > 0.0 ? std::max(least, -cell.radius) : -cell.radius));
+      double least = -cell.radius;
+      if (f.distance > 0.0) {
+        double lowest = kInfinity;
+        for (int k = 0; k < cell.hull_count; ++k) {
+          lowest = std::min(lowest, f.gradient.dot(cell.hull[k] - cell.middle));
+        }
+        least = std::max(least, lowest);
+      }
+      if (f.distance + least >= radius_ - threshold.Drop(here.value)) continue;  // nor anywhere in its parts
+      to.push_back(i);
+      open = true;
     }
-    return radius_ - lowest > threshold.Drop(here.value);
+    return open;
   }
 
   CellWalker walker_;

@@ -10,9 +10,13 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kBorderCell = 0.01;     // of the radius: unreachable cells are not halved below
+constexpr double kBorderCell = 0.025;    // of the radius: unreachable cells are not halved below
+constexpr double kSteepCell = 0.005;     // the same where the leftover may still rise by more than
+constexpr double kBorderRise = 5.0;      // this many times the certainty
+constexpr double kListedCell = 0.1;      // the same where only one more violation could be found
 constexpr double kSmallestCell = 0.001;  // of the radius: nor any others
 constexpr double kStrategyCell = 0.1;    // of the radius: excused cells are judged by their middle
+constexpr double kFar = 1.2;             // of the radius
 constexpr double kFarSlack = 0.02;
 
 class LeftoverSearch {
@@ -32,17 +36,30 @@ class LeftoverSearch {
     return std::min(params_.most, distance + params_.chord_error - params_.reach.radius);
   }
 
+  // How small an unreachable cell must be to be left at the border of the reachable set.
+  double BorderCell(double upper, const Threshold& threshold, const Extreme& here) const {
+    const double known = std::max(threshold.known, here.value);
+    if (upper <= known) return kListedCell * params_.reach.radius;
+    // The steeper the leftover, the more a sample between the last ones could add.
+    return (upper - known > kBorderRise * params_.certainty ? kSteepCell : kBorderCell) *
+           params_.reach.radius;
+  }
+
   bool Visit(const SurfaceCell& cell, const Threshold& threshold, Extreme& here) {
     if (run_.Cancelled()) return false;
-    SegmentTree::Nearest nearest = tree_.FindNearest(cell.middle, kInfinity, hint_, kFarSlack);
-    const double rough = Leftover(nearest.distance * (1.0 - kFarSlack));
-    // Far from all cuts and surely unreachable: the common case of an inner wall.
+    SegmentTree::Nearest nearest;
     std::optional<bool> reachable;
-    if (rough > threshold.Floor(here.value) + 0.1 * params_.reach.radius) {
-      reachable = IsReachable(cell);
-      if (!*reachable && Closed(cell)) return false;
+    // Far from all cuts and surely unreachable: the common case of an inner wall. No need to know how far.
+    if (hint_ < 0 || tree_.Distance(hint_, cell.middle) > kFar * params_.reach.radius) {
+      nearest = tree_.FindNearest(cell.middle, kInfinity, hint_, kFarSlack);
+      const double least = Leftover(nearest.distance * (1.0 - kFarSlack));
+      if (least > threshold.Floor(here.value) + 0.1 * params_.reach.radius) {
+        reachable = IsReachable(cell);
+        if (!*reachable && Closed(cell)) return false;
+      }
+      hint_ = nearest.segment;
     }
-    nearest = tree_.FindNearest(cell.middle, kInfinity, nearest.segment);
+    nearest = tree_.FindNearest(cell.middle, kInfinity, hint_);
     hint_ = nearest.segment;
     const double left = Leftover(nearest.distance);
     const double upper = Leftover(UpperDistance(cell, nearest.segment, threshold.Drop(here.value)));
@@ -57,7 +74,7 @@ class LeftoverSearch {
       if (*reachable) {
         const int move = nearest.segment < 0 ? -1 : tree_.segment(nearest.segment).move;
         here = {left, cell.middle, cell.rect.piece, move};
-      } else if (cell.radius < kBorderCell * params_.reach.radius || Closed(cell)) {
+      } else if (cell.radius < BorderCell(upper, threshold, here) || Closed(cell)) {
         return false;
       }
     }

@@ -47,20 +47,16 @@ std::vector<PathSegment> CutLong(std::vector<PathSegment> segments, double longe
 }  // namespace
 
 SegmentTree::SegmentTree(std::vector<PathSegment> segments, Metric metric, double longest,
-                         double shank_radius)
+                         const RunContext& run, double shank_radius)
     : metric_(metric), shank_radius_(shank_radius), segments_(CutLong(std::move(segments), longest)) {
   if (segments_.empty()) return;
   std::vector<std::int32_t> order(segments_.size());
   std::iota(order.begin(), order.end(), 0);
   nodes_.reserve(segments_.size() / 2 + 2);
   nodes_.emplace_back();  // the root holds the whole tree as its first child
-  const Range all = Build(order, 0, order.size(), 0);
-  nodes_[0].box[0] = all.box;
-  nodes_[0].child[0] = all.child;
-  nodes_[0].count[0] = all.count;
-  nodes_[0].count[1] = 0;
-  nodes_[0].child[1] = -1;  // an empty leaf, never entered: its box is infinitely far
-  nodes_[0].box[1] = {{kFar, kFar, kFar}, {kFar, kFar, kFar}};
+  const Range all = Build(order, 0, order.size(), 0, run);
+  SetChild(0, 0, all);
+  SetChild(0, 1, {-1, 0, {{kFar, kFar, kFar}, {kFar, kFar, kFar}}});  // empty, never near
   std::vector<PathSegment> sorted;
   sorted.reserve(segments_.size());
   for (const std::int32_t i : order) sorted.push_back(segments_[static_cast<std::size_t>(i)]);
@@ -80,9 +76,9 @@ SegmentTree::Box SegmentTree::BoxOf(const std::vector<std::int32_t>& order, std:
 }
 
 SegmentTree::Range SegmentTree::Build(std::vector<std::int32_t>& order, std::size_t begin, std::size_t end,
-                                      int depth) {
+                                      int depth, const RunContext& run) {
   const Box box = BoxOf(order, begin, end);
-  if (end - begin <= kLeafSize) {
+  if (end - begin <= kLeafSize || run.Cancelled()) {
     return {-static_cast<std::int32_t>(begin) - 1, static_cast<std::int32_t>(end - begin), box};
   }
   const auto middle = [&](std::int32_t i, int axis) {
@@ -147,30 +143,41 @@ SegmentTree::Range SegmentTree::Build(std::vector<std::int32_t>& order, std::siz
 
   const auto at = static_cast<std::int32_t>(nodes_.size());
   nodes_.emplace_back();
-  const Range left = Build(order, begin, cut, depth + 1);
-  const Range right = Build(order, cut, end, depth + 1);
-  Node& node = nodes_[static_cast<std::size_t>(at)];
-  node = {{left.box, right.box}, {left.child, right.child}, {left.count, right.count}};
+  const Range left = Build(order, begin, cut, depth + 1, run);
+  const Range right = Build(order, cut, end, depth + 1, run);
+  SetChild(at, 0, left);
+  SetChild(at, 1, right);
   return {at, 0, box};
 }
 
-double SegmentTree::BoxDistance(const Box& box, const Vec3& p) const {
-  const double dx = std::max({0.0, box.low[0] - p.x(), p.x() - box.high[0]});
-  const double dy = std::max({0.0, box.low[1] - p.y(), p.y() - box.high[1]});
-  const double above = box.low[2] - p.z();
-  switch (metric_) {
-    case Metric::kPath: {
-      const double dz = std::max({0.0, above, p.z() - box.high[2]});
-      return std::sqrt(dx * dx + dy * dy + dz * dz);
-    }
-    case Metric::kSwept: {
-      const double dz = std::max(0.0, above);
-      return std::sqrt(dx * dx + dy * dy + dz * dz);
-    }
-    case Metric::kShank:
-      return std::max(std::sqrt(dx * dx + dy * dy), shank_radius_ + above);
+void SegmentTree::SetChild(std::int32_t node, int side, const Range& range) {
+  Node& n = nodes_[static_cast<std::size_t>(node)];
+  for (int k = 0; k < 3; ++k) {
+    n.low[k][side] = range.box.low[k];
+    n.high[k][side] = range.box.high[k];
   }
-  return 0.0;
+  n.child[side] = range.child;
+  n.count[side] = range.count;
+}
+
+std::array<double, 2> SegmentTree::ChildDistances(const Node& node, const Vec3& p) const {
+  std::array<double, 2> result;
+  const bool shank = metric_ == Metric::kShank;
+  // No upper end in z: the swept sets go up for ever.
+  const double down = metric_ == Metric::kPath ? 1.0 : 0.0;
+  for (int k = 0; k < 2; ++k) {
+    const double dx = std::max(0.0, std::max(node.low[0][k] - p.x(), p.x() - node.high[0][k]));
+    const double dy = std::max(0.0, std::max(node.low[1][k] - p.y(), p.y() - node.high[1][k]));
+    const double above = node.low[2][k] - p.z();
+    const double plan = dx * dx + dy * dy;
+    if (shank) {
+      result[static_cast<std::size_t>(k)] = std::max(std::sqrt(plan), shank_radius_ + above);
+      continue;
+    }
+    const double dz = std::max(0.0, std::max(above, down * (p.z() - node.high[2][k])));
+    result[static_cast<std::size_t>(k)] = std::sqrt(plan + dz * dz);
+  }
+  return result;
 }
 
 double SegmentTree::Distance(int i, const Vec3& p) const {
@@ -204,7 +211,7 @@ SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int h
     const Open open = stack[--size];
     if (open.distance >= best.distance * keep) continue;
     const Node& node = nodes_[static_cast<std::size_t>(open.node)];
-    const std::array<double, 2> distance = {BoxDistance(node.box[0], p), BoxDistance(node.box[1], p)};
+    const std::array<double, 2> distance = ChildDistances(node, p);
     const std::size_t near = distance[1] < distance[0] ? 1 : 0;
     for (const std::size_t k : {1 - near, near}) {  // inner nodes: the nearer one on top of the stack
       if (node.child[k] >= 0 && distance[k] < best.distance * keep) {
@@ -232,8 +239,9 @@ void SegmentTree::FindWithin(const Vec3& p, double limit, std::vector<int>& foun
   stack[size++] = 0;
   while (size > 0) {
     const Node& node = nodes_[static_cast<std::size_t>(stack[--size])];
+    const std::array<double, 2> distance = ChildDistances(node, p);
     for (std::size_t k = 0; k < 2; ++k) {
-      if (!(BoxDistance(node.box[k], p) < limit)) continue;
+      if (!(distance[k] < limit)) continue;
       if (node.child[k] >= 0) {
         PM_CHECK(size < stack.size());
         stack[size++] = node.child[k];

@@ -1,5 +1,7 @@
 #include "cam/verify/surface_cells.h"
 
+#include "core/base/parallel.h"
+
 namespace patchmill {
 
 namespace {
@@ -74,19 +76,27 @@ void CellWalker::Choose(int depth, int which) {
   in_use_[d + 1] = nets_[d + 1].data() + which * shape_.count();
 }
 
-std::vector<CellRect> RootCells(const Surface& surface, double size) {
-  std::vector<CellRect> roots;
-  CellWalker walker(surface);
+std::vector<CellRect> RootCells(const Surface& surface, double size, const RunContext& run) {
   constexpr int kDeepest = 30;
-  for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
-    CellRect whole;
-    whole.piece = PieceId(i);
-    walker.Walk(whole, [&](const SurfaceCell& cell) {
-      if (cell.radius > 0.5 * size && cell.depth < kDeepest) return true;
-      roots.push_back(cell.rect);
-      return false;
-    });
-  }
+  constexpr std::size_t kChunk = 64;  // pieces
+  const std::size_t chunks = (surface.pieces.size() + kChunk - 1) / kChunk;
+  std::vector<std::vector<CellRect>> parts(chunks);
+  const absl::Status done = ParallelFor(run, nullptr, chunks, [&](std::size_t chunk) {
+    CellWalker walker(surface);
+    const std::size_t end = std::min(surface.pieces.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) {
+      CellRect whole;
+      whole.piece = PieceId(i);
+      walker.Walk(whole, [&](const SurfaceCell& cell) {
+        if (cell.radius > 0.5 * size && cell.depth < kDeepest && !run.Cancelled()) return true;
+        parts[chunk].push_back(cell.rect);
+        return false;
+      });
+    }
+  });
+  std::vector<CellRect> roots;
+  if (!done.ok()) return roots;
+  for (const auto& part : parts) roots.insert(roots.end(), part.begin(), part.end());
   return roots;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/surface/net_kernel.h"
 #include "core/surface/surface.h"
 
@@ -72,8 +73,8 @@ class CellWalker {
   std::vector<Vec3> hull_;
 };
 
-// Roots: every piece, halved until no cell is wider than `size` mm. In order of piece.
-std::vector<CellRect> RootCells(const Surface& surface, double size);
+// Roots: every piece, halved until no cell is wider than `size` mm. In order of piece. Cancelled: incomplete.
+std::vector<CellRect> RootCells(const Surface& surface, double size, const RunContext& run);
 
 // Area estimated from one 4 x 4 sampling per piece, for choosing sizes only.
 double RoughArea(const Surface& surface);

@@ -31,8 +31,10 @@ class Judge {
 
   absl::StatusOr<VerifyReport> Run() {
     sets_ = CollectMotion(motion_, params_.program_zero + Vec3(0, 0, ball_), params_.stock_top_z + ball_);
-    roots_ =
-        RootCells(surface_, std::clamp(std::sqrt(RoughArea(surface_) / 9000.0), 0.02 * radius_, radius_));
+    // Fine enough for areas, no wider than the ball, and not without end.
+    const double area = RoughArea(surface_);
+    const double size = std::clamp(std::sqrt(area / 9e3), 0.02 * radius_, radius_);
+    roots_ = RootCells(surface_, std::max(size, std::sqrt(area / 4e5)), run_);
     PM_RETURN_IF_ERROR(run_.Check());
     PM_RETURN_IF_ERROR(JudgeGouge());
     PM_RETURN_IF_ERROR(JudgeFinish());
@@ -93,7 +95,7 @@ class Judge {
     // The control's own smoothing may deepen every gouge (P1).
     const double smoothing = motion_.controller_tolerance;
     p.limit = std::max(0.0, params_.tolerance - smoothing);
-    const SegmentTree tree(sets_.swept, Metric::kSwept, radius_);
+    const SegmentTree tree(sets_.swept, Metric::kSwept, radius_, run_);
     PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge(surface_, roots_, tree, p, run_));
     report_.max_gouge = gouge.worst.value;
     report_.max_gouge_at = Place(gouge.worst);
@@ -122,7 +124,7 @@ class Judge {
       s.b += up;
     }
     p.limit = params_.tolerance;
-    const SegmentTree tree(std::move(raised), Metric::kShank, radius_, shank);
+    const SegmentTree tree(std::move(raised), Metric::kShank, radius_, run_, shank);
     PM_ASSIGN_OR_RETURN(const Extremes found,
                         FindShankGouge(surface_, roots_, tree, shank + params_.leave, p, run_));
     if (found.worst.value > report_.max_gouge) {
@@ -144,7 +146,7 @@ class Judge {
     p.zigzag_angle = params_.zigzag_angle;
     p.min_step_fraction = params_.min_step_fraction;
     p.most = surface_.box.Diagonal();
-    const SegmentTree tree(sets_.cut, Metric::kPath, radius_);
+    const SegmentTree tree(sets_.cut, Metric::kPath, radius_, run_);
     PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, roots_, tree, p, run_));
     const auto at = [](FinishClass kind) { return static_cast<std::size_t>(kind); };
     const auto take = [&](FinishClass kind, std::size_t reason) {
@@ -182,7 +184,7 @@ class Judge {
       Report(code, message);
       if (line > 0) report_.findings.back().where.line = line;
     };
-    const SegmentTree tree(sets_.rapid, Metric::kSwept, radius_);
+    const SegmentTree tree(sets_.rapid, Metric::kSwept, radius_, run_);
     PM_ASSIGN_OR_RETURN(
         const std::vector<Extreme> rapids,
         FindRapidsInStock(surface_, roots_, tree, ball_ + params_.allowance - kRapidSlack, run_));

@@ -75,7 +75,7 @@ TEST(SegmentTree, EqualsBruteForce) {
   Random random(12);
   for (const Metric metric : {Metric::kPath, Metric::kSwept, Metric::kShank}) {
     for (const int n : {1, 2, 5, 300}) {
-      const SegmentTree tree(RandomSegments(random, n), metric, 1.0, 2.0);
+      const SegmentTree tree(RandomSegments(random, n), metric, 1.0, RunContext(1), 2.0);
       std::vector<int> within;
       for (int i = 0; i < 300; ++i) {
         const Vec3 p = random.Point(-14, 14);
