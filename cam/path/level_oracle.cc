@@ -50,6 +50,12 @@ LevelPoint LevelOracle::Exit(Vec2 q, SurfacePoint contact, const Vec2& direction
       contact = next->contact;
     }
     if (gone >= reach) return {start + reach * direction, contact, std::nullopt};
+    if (contact.p.z() >= z_ && nudge == kStill) {
+      // h jumps at the rim of a wall: rounding must not decide on which side q lies.
+      gone += nudge;
+      nudge *= 2.0;
+      q = start + gone * direction;
+    }
     const std::optional<CenterPoint> h = locator_.Height(q, &contact);
     if (!h || h->z <= z_ + kHeightSlack) return {q, contact, std::nullopt};
     const double t = ExitLength(q, h->contact.p, direction);

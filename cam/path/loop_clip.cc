@@ -6,7 +6,6 @@
 
 #include "cam/path/level_oracle.h"
 #include "core/diffgeo/forms.h"
-#include "core/surface/closest.h"
 
 namespace patchmill {
 namespace {
@@ -54,9 +53,9 @@ class Clipper {
     if (cosine < 0.0) {
       // The shank: a pass only when a vertical wall goes down to the centre's height.
       if (cosine < -1e-9) {
-        const auto wall = ClosestToPoint(surface_, Lift(Plan(contact.p), z), kWallPlace, 0.1 * kWallPlace);
+        const std::optional<SurfacePoint> wall = WallAt(contact, Lift(Plan(contact.p), z));
         if (!wall) return Ground::kNone;
-        at = wall->at;
+        at = *wall;
       }
       cosine = 0.0;
     }
@@ -66,6 +65,66 @@ class Clipper {
     const double slope = std::acos(std::min(1.0, cosine));
     if (slope < params_.window.min || slope > params_.window.max + 1e-9) return Ground::kAllowed;
     return NearSpot(Lift(q, z)) ? Ground::kWanted : Ground::kAllowed;
+  }
+
+  // The surface point at `place`, on the piece of `contact` or on one that meets it there.
+  std::optional<SurfacePoint> WallAt(const SurfacePoint& contact, const Vec3& place) const {
+    constexpr std::size_t kMostPieces = 8;
+    std::vector<SurfacePoint> starts = {contact};
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      const SurfacePoint start = starts[i];
+      if (const std::optional<SurfacePoint> wall = Descend(start, place)) return wall;
+      const std::array<bool, 4> on = OnSides(start);
+      for (int side = 0; side < 4 && starts.size() < kMostPieces; ++side) {
+        if (!on[static_cast<std::size_t>(side)]) continue;
+        const std::optional<SurfacePoint> next =
+            context_.sides.Across(start.piece, side, side % 2 == 0 ? start.u : start.v);
+        const bool known = next && std::any_of(starts.begin(), starts.end(),
+                                               [&](const SurfacePoint& s) { return s.piece == next->piece; });
+        if (next && !known) starts.push_back(*next);
+      }
+    }
+    return std::nullopt;
+  }
+
+  static std::array<bool, 4> OnSides(const SurfacePoint& at) {
+    return {at.v<kOnSide, at.u> 1.0 - kOnSide, at.v > 1.0 - kOnSide, at.u < kOnSide};
+  }
+
+  // Gauss-Newton towards `place` over the wall and its joints.
+  std::optional<SurfacePoint> Descend(SurfacePoint from, const Vec3& place) const {
+    constexpr int kSteps = 60;
+    for (int step = 0; step < kSteps; ++step) {
+      const SurfaceJet jet = Evaluate(surface_, from.piece, from.u, from.v);
+      const Vec3 gap = place - jet.p;
+      from.p = jet.p;
+      if (gap.norm() <= kWallPlace) return from;
+      const double e = jet.du.squaredNorm(), f = jet.du.dot(jet.dv), g = jet.dv.squaredNorm();
+      const double a = gap.dot(jet.du), b = gap.dot(jet.dv), determinant = e * g - f * f;
+      if (!(determinant > 1e-18 * e * g)) return std::nullopt;
+      // Inside the piece, or along the side that holds the point back.
+      Vec2 way((g * a - f * b) / determinant, (e * b - f * a) / determinant);
+      const bool held_u = (from.u <= 0.0 && way.x() < 0.0) || (from.u >= 1.0 && way.x() > 0.0);
+      const bool held_v = (from.v <= 0.0 && way.y() < 0.0) || (from.v >= 1.0 && way.y() > 0.0);
+      if (held_u) way = Vec2(0.0, b / g);
+      if (held_v) way = held_u ? Vec2(0.0, 0.0) : Vec2(a / e, 0.0);
+      const Vec2 to(std::clamp(from.u + way.x(), 0.0, 1.0), std::clamp(from.v + way.y(), 0.0, 1.0));
+      const bool moves =
+          (to.x() - from.u) * (to.x() - from.u) * e + (to.y() - from.v) * (to.y() - from.v) * g >
+          0.01 * kWallPlace * kWallPlace;
+      if (moves) {
+        from.u = to.x();
+        from.v = to.y();
+        continue;
+      }
+      if (!held_u && !held_v) return std::nullopt;
+      const int side = held_v ? (from.v <= 0.0 ? 0 : 2) : (from.u <= 0.0 ? 3 : 1);
+      const std::optional<SurfacePoint> next =
+          context_.sides.Across(from.piece, side, side % 2 == 0 ? from.u : from.v);
+      if (!next) return std::nullopt;
+      from = *next;
+    }
+    return std::nullopt;
   }
 
   // May the ball rest on this surface point from direction e?
