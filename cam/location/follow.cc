@@ -93,19 +93,19 @@ std::optional<CenterPoint> Locator::Follow(const SurfacePoint& from, const Vec2&
     while (!stack.empty()) {
       const std::int32_t id = stack.back();
       stack.pop_back();
-      const internal::SearchNode& node = impl_->tree.nodes[static_cast<std::size_t>(id)];
-      const Vec3& p = now.at.p;
-      if (p.x() < node.min_x - tolerance || p.x() > node.max_x + tolerance ||
-          p.y() < node.min_y - tolerance || p.y() > node.max_y + tolerance ||
-          p.z() < node.min_z - tolerance || p.z() > node.max_z + tolerance) {
+      if (id >= 0) {
+        const internal::SearchNode& node = impl_->tree.nodes[static_cast<std::size_t>(id)];
+        const Vec3& p = now.at.p;
+        for (int k = 0; k < 4; ++k) {
+          if (p.x() >= node.min_x[k] - tolerance && p.x() <= node.max_x[k] + tolerance &&
+              p.y() >= node.min_y[k] - tolerance && p.y() <= node.max_y[k] + tolerance &&
+              p.z() >= node.min_z[k] - tolerance && p.z() <= node.max_z[k] + tolerance) {
+            stack.push_back(node.child[k]);
+          }
+        }
         continue;
       }
-      if (node.leaf < 0) {
-        stack.push_back(id + 1);
-        stack.push_back(node.right);
-        continue;
-      }
-      const internal::SearchLeaf& leaf = impl_->tree.leaves[static_cast<std::size_t>(node.leaf)];
+      const internal::SearchLeaf& leaf = impl_->tree.leaves[static_cast<std::size_t>(~id)];
       const Rect& r = leaf.rect;
       const BoxMinimum guess = internal::GuessMinimum(leaf.model, now.at.p);
       const Spot start =

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace patchmill::internal {
 namespace {
 
 constexpr int kMaxIterations = 200;
 constexpr int kMaxHalvings = 30;
+constexpr int kPatience = 6;  // iterations after which every other step models g instead of f
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 // Stop when the model promises less (mm of height); the last step is then taken on the Taylor polynomial,
 // whose error is of third order in a step of about 1e-4 mm.
 constexpr double kFinishGain = 1e-9;
@@ -41,9 +44,9 @@ struct Step {
 
 // Makes the Hessian positive definite against the metric e, f, g: its eigenvalues by their absolute values,
 // at least kFloor. True curvatures are kept, so convex directions converge as before.
-void MakeDefinite(double e, double f, double g, Quadratic2& m) {
+void MakeDefinite(double e, double f, double g, double tiny, Quadratic2& m) {
   constexpr double kFloor = 1e-3;
-  const double tiny = 1e-14 * (e + g) + 1e-300;
+  tiny = std::max(tiny, 1e-300);
   const double l11 = std::sqrt(e + tiny), l21 = f / l11,
                l22 = std::sqrt(std::max(g + tiny - l21 * l21, tiny));
   // A = L^-1 H L^-T
@@ -70,23 +73,43 @@ double LineStep(double curvature, double metric, double slope, double lo, double
   return std::clamp(-slope / used, lo, hi);
 }
 
+// The model of f = 1/2 dist^2 crawls where the ball touches a steep wall near its own equator: f hardly falls
+// along the wall, yet g rises with z. This is the exact second-order model of -s g, s = d_z, in its place; it
+// may be unbounded and then leads to the border.
+Step RiseStep(const State& s, const Box2& box) {
+  Step step;
+  const SurfaceJet& j = s.jet;
+  const Vec3& d = s.d;
+  const double qu = d.x() * j.du.x() + d.y() * j.du.y(), qv = d.x() * j.dv.x() + d.y() * j.dv.y();
+  const double scale = 1.0 / (d.z() * d.z());
+  Quadratic2& m = step.model;
+  m.gx = -d.dot(j.du);
+  m.gy = -d.dot(j.dv);
+  m.a = j.du.head<2>().squaredNorm() + qu * qu * scale - d.dot(j.duu);
+  m.b = j.du.head<2>().dot(j.dv.head<2>()) + qu * qv * scale - d.dot(j.duv);
+  m.c = j.dv.head<2>().squaredNorm() + qv * qv * scale - d.dot(j.dvv);
+  step.to = MinimizeOnBox(m, box);
+  return step;
+}
+
 Step NewtonStep(const State& s, const Box2& box) {
   Step step;
   const SurfaceJet& j = s.jet;
   const Vec3& d = s.d;
-  const double e = j.du.squaredNorm(), f = j.du.dot(j.dv), g = j.dv.squaredNorm();
-  double ge = e, gf = f, gg = g;  // first form of what f measures: without z above the centre
+  // First form of what f measures: without z above the centre.
+  double e = j.du.squaredNorm(), f = j.du.dot(j.dv), g = j.dv.squaredNorm();
+  const double tiny = 1e-14 * (e + g);
   if (!(d.z() > 0.0)) {
-    ge -= j.du.z() * j.du.z();
-    gf -= j.du.z() * j.dv.z();
-    gg -= j.dv.z() * j.dv.z();
+    e = std::max(j.du.head<2>().squaredNorm(), tiny);
+    f = j.du.head<2>().dot(j.dv.head<2>());
+    g = std::max(j.dv.head<2>().squaredNorm(), tiny);
   }
   Quadratic2& m = step.model;
   m.gx = -d.dot(j.du);
   m.gy = -d.dot(j.dv);
-  m.a = ge - d.dot(j.duu);
-  m.b = gf - d.dot(j.duv);
-  m.c = gg - d.dot(j.dvv);
+  m.a = e - d.dot(j.duu);
+  m.b = f - d.dot(j.duv);
+  m.c = g - d.dot(j.dvv);
   // A bound that pushes back holds its variable: what is left is a problem of one variable with its own
   // curvature, however hollow the surface is across.
   const bool holds_u = (box.x0 == 0.0 && m.gx > 0.0) || (box.x1 == 0.0 && m.gx < 0.0);
@@ -110,7 +133,7 @@ Step NewtonStep(const State& s, const Box2& box) {
   if (m.a > kSmall * e && m.c > kSmall * g && det > kSmall * e * g) {
     step.exact = det > 1e-2 * (e * g - f * f);
   } else {
-    MakeDefinite(e, f, g, m);
+    MakeDefinite(e, f, g, tiny, m);
   }
   step.to = MinimizeOnBox(m, box);
   return step;
@@ -140,7 +163,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
   const auto touch = [&](const Vec3& p, double at_u, double at_v) {
     const double g = TouchingHeight(p, ball);
     if (!(g > best.z)) return false;
-    best = {g, piece_index, at_u, at_v, p, Vec2::Zero()};
+    best = {g, piece_index, at_u, at_v, p, Vec2::Constant(kNotKnown)};
     result.improved = true;
     return true;
   };
@@ -159,12 +182,16 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
   };
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const Box2 box{rect.u0 - s.u, rect.u1 - s.u, rect.v0 - s.v, rect.v1 - s.v};
-    const Step step = NewtonStep(s, box);
-    const double promise = -step.to.value;  // decrease of f
     const bool touching = result.improved && best.u == s.u && best.v == s.v;
+    const bool rise =
+        touching && iteration >= kPatience && iteration % 2 == 0 && s.d.z() > 1e-9 * ball.radius;
+    const Step step = rise ? RiseStep(s, box) : NewtonStep(s, box);
+    const double promise = -step.to.value;  // decrease of f
 
     const double gain = std::sqrt(s.d.z() * s.d.z() + 2.0 * std::max(0.0, promise)) - s.d.z();
-    if (touching) {
+    if (rise) {
+      if (!(promise > 0.0)) continue;
+    } else if (touching) {
       if (gain < kStopGain) {
         best.slope = KktSlope(step, box);
         break;
@@ -205,19 +232,20 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
                                                  : std::clamp(s.v + t * step.to.y, rect.v0, rect.v1);
       next.jet = Evaluate(piece, next.u, next.v);
       Measure(ball, best.z, next);
-      if (next.f <= s.f - 1e-4 * t * promise) {
+      if (next.f <= s.f - 1e-4 * t * promise ||
+          (rise && TouchingHeight(next.jet.p, ball) >= best.z + 1e-4 * t * promise / s.d.z())) {
         accepted = true;
         break;
       }
     }
-    if (!accepted) {
-      if (touching) best.slope = Vec2(-step.model.gx, -step.model.gy);
-      break;
-    }
+    if (!accepted && rise) continue;
+    if (!accepted) break;
     s = next;
     if (touch(s.jet.p, s.u, s.v)) Measure(ball, best.z, s);
   }
+  // Not finished: the slope as it is.
   const Vec2 slope(s.d.dot(s.jet.du), s.d.dot(s.jet.dv));
+  if (result.improved && best.u == s.u && best.v == s.v && std::isnan(best.slope.x())) best.slope = slope;
   result.convex_minimum = LinearMinimum(s.f, slope, rect, s.u, s.v);
   return end();
 }

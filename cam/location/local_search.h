@@ -7,7 +7,7 @@
 namespace patchmill::internal {
 
 // The highest contact so far. `slope` is the derivative of -f with respect to the piece's (u, v) at the
-// contact (zero in free directions): its signs are the KKT conditions at the rectangle that gave it.
+// contact (zero in free directions, NaN where the search ended early): its signs are the KKT conditions.
 struct Contact {
   double z = -kInfinity;  // centre height
   int piece = -1;         // -1: none yet, z is only a lower bound

@@ -10,6 +10,7 @@ namespace patchmill {
 
 using internal::Ball;
 using internal::Contact;
+using internal::Float4;
 using internal::LowerModel;
 using internal::Rect;
 using internal::SearchOptions;
@@ -17,17 +18,11 @@ using internal::SearchResult;
 
 namespace {
 
-// Height up to which a node can lift the ball over q; -infinity when it is not under the ball.
-double NodeBound(const internal::SearchNode& n, const Ball& ball) {
-  const double dx = std::max({n.min_x - ball.q.x(), ball.q.x() - n.max_x, 0.0});
-  const double dy = std::max({n.min_y - ball.q.y(), ball.q.y() - n.max_y, 0.0});
-  const double rim = ball.radius * ball.radius - (dx * dx + dy * dy);
-  return rim > 0.0 ? n.max_z + std::sqrt(rim) : -kInfinity;
-}
-
+// A node or leaf still to visit: its squared distance in plan, and how high it reaches.
 struct Pending {
-  std::int32_t node;
-  double bound;
+  std::int32_t child;
+  float distance2;
+  float max_z;
 };
 
 std::vector<Pending>& SearchStack() {
@@ -35,6 +30,9 @@ std::vector<Pending>& SearchStack() {
   stack.clear();
   return stack;
 }
+
+Float4 Splat(float x) { return Float4{x, x, x, x}; }
+Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
 
 bool IsKkt(const Contact& c, const Rect& r) {
   return (c.slope.x() <= 0.0 || c.u == r.u1) && (c.slope.x() >= 0.0 || c.u == r.u0) &&
@@ -50,6 +48,7 @@ Locator::Impl::Impl(const Surface& s, double r)
       radius(r),
       rounding(1e-14 * s.scale),
       slack(1e-12 * s.scale),
+      reach(s.scale + r),
       tree(internal::BuildSearchTree(s, r)) {
   PM_CHECK(radius > 0.0);
 }
@@ -62,31 +61,45 @@ void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Co
   internal::RaiseOnPiece(surface.pieces[piece], hint.piece.value, Rect{}, hint.u, hint.v, ball, {}, best);
 }
 
+// A box is out of the ball's way iff plan distance^2 + max(0, z - max_z)^2 >= R^2, for the current centre
+// height z. In floats, with a margin for their rounding.
 void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenLeaves* open) const {
   std::vector<Pending>& stack = SearchStack();
-  const auto beats = [&](double bound) { return bound > best.z + rounding; };
-  const auto push = [&](std::int32_t node, double bound) {
-    if (beats(bound)) stack.push_back({node, bound});
+  const auto limit = static_cast<float>(radius * radius + 1e-6 * radius * radius + 1e-6 * radius * reach);
+  const auto qx = static_cast<float>(ball.q.x()), qy = static_cast<float>(ball.q.y());
+  const Float4 zero = Splat(0.0F), all_qx = Splat(qx), all_qy = Splat(qy);
+  const auto out = [&](const Pending& p) {
+    const float below = std::max(0.0F, static_cast<float>(best.z) - p.max_z);
+    return p.distance2 + below * below >= limit;
   };
-  push(0, NodeBound(tree.nodes[0], ball));
-  while (!stack.empty() && !(best.z > enough)) {
-    const Pending top = stack.back();
-    stack.pop_back();
-    if (!beats(top.bound)) continue;
-    const internal::SearchNode& node = tree.nodes[static_cast<std::size_t>(top.node)];
-    if (node.leaf >= 0) {
-      VisitLeaf(node.leaf, ball, best, open);
-      continue;
+  std::int32_t next = 0;
+  for (;;) {
+    const internal::SearchNode& node = tree.nodes[static_cast<std::size_t>(next)];
+    const Float4 dx = Max(Max(node.min_x - all_qx, all_qx - node.max_x), zero);
+    const Float4 dy = Max(Max(node.min_y - all_qy, all_qy - node.max_y), zero);
+    const Float4 below = Max(Splat(static_cast<float>(best.z)) - node.max_z, zero);
+    const Float4 distance2 = dx * dx + dy * dy, all = distance2 + below * below;
+    // The most promising child comes last, on top of the stack.
+    const std::size_t first = stack.size();
+    for (int k = 0; k < 4; ++k) {
+      if (!(all[k] < limit)) continue;
+      const Pending p{node.child[k], distance2[k], node.max_z[k]};
+      stack.push_back(p);
+      const auto promise = [&](const Pending& x) { return x.max_z - x.distance2; };
+      for (std::size_t i = stack.size() - 1; i > first && promise(stack[i - 1]) > promise(stack[i]); --i) {
+        std::swap(stack[i - 1], stack[i]);
+      }
     }
-    const std::int32_t left = top.node + 1;
-    const double bound_left = NodeBound(tree.nodes[static_cast<std::size_t>(left)], ball);
-    const double bound_right = NodeBound(tree.nodes[static_cast<std::size_t>(node.right)], ball);
-    if (bound_left > bound_right) {
-      push(node.right, bound_right);
-      push(left, bound_left);
-    } else {
-      push(left, bound_left);
-      push(node.right, bound_right);
+    for (next = -1; next < 0;) {
+      if (stack.empty() || best.z > enough) return;
+      const Pending top = stack.back();
+      stack.pop_back();
+      if (out(top)) continue;
+      if (top.child >= 0) {
+        next = top.child;
+      } else {
+        VisitLeaf(~top.child, ball, best, open);
+      }
     }
   }
 }

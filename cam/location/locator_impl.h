@@ -36,9 +36,10 @@ struct Locator::Impl {
   SurfacePoint PointOf(const internal::Contact& c) const { return {PieceId(c.piece), c.u, c.v, c.p}; }
 
   const Surface& surface;
-  double radius;
-  double rounding;  // mm, of coordinates: 1e-14 of the scale, what a search tells apart
-  double slack;     // mm: 1e-12 of the scale, what a proof allows itself
+  double radius = 0.0;
+  double rounding = 0.0;  // mm, of coordinates: 1e-14 of the scale, what a search tells apart
+  double slack = 0.0;     // mm: 1e-12 of the scale, what a proof allows itself
+  double reach = 0.0;     // mm: largest coordinate of a centre that touches anything
   internal::SearchTree tree;
   mutable std::atomic<std::uint64_t> defects{0};
 };

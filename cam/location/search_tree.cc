@@ -16,16 +16,12 @@ constexpr std::size_t kChunk = 64;  // leaves per task
 float RoundDown(double x) { return std::nextafterf(static_cast<float>(x), -HUGE_VALF); }
 float RoundUp(double x) { return std::nextafterf(static_cast<float>(x), HUGE_VALF); }
 
-SearchNode Node(const Box3& box) {
-  return {RoundDown(box.min.x()),
-          RoundDown(box.min.y()),
-          RoundDown(box.min.z()),
-          RoundUp(box.max.x()),
-          RoundUp(box.max.y()),
-          RoundUp(box.max.z()),
-          0,
-          -1};
-}
+// The binary tree below one leaf of the surface, in depth-first order as SurfaceNode; indices count from its
+// own first node and leaf.
+struct LeafTree {
+  std::vector<SurfaceNode> nodes;
+  std::vector<SearchLeaf> leaves;
+};
 
 // Could the ball rest somewhere inside the leaf, without its convexity being proven?
 bool NeedsSplit(const LeafModel& m, double radius) {
@@ -45,10 +41,9 @@ bool NeedsSplit(const LeafModel& m, double radius) {
   return high_a > 0.0 && high_c > 0.0 && high_a * high_c > b * b;
 }
 
-// The tree below one leaf of the surface; indices count from its own first node and leaf.
 class LeafRefiner {
  public:
-  LeafRefiner(const Piece& piece, std::int32_t piece_index, const Rect& rect, double radius, SearchTree& out)
+  LeafRefiner(const Piece& piece, std::int32_t piece_index, const Rect& rect, double radius, LeafTree& out)
       : piece_(piece),
         piece_index_(piece_index),
         shape_{piece.net.degree_u, piece.net.degree_v},
@@ -69,7 +64,7 @@ class LeafRefiner {
     const LeafModel model = MakeLeafModel(shape_, points, piece_.net.rational, hull.data(), hull_count,
                                           Evaluate(piece_, mu, mv), rect);
     const std::size_t self = out_.nodes.size();
-    out_.nodes.push_back(Node(bounds.box));
+    out_.nodes.push_back({bounds.box, 0, -1});
     if (level == kMaxHalvings || !NeedsSplit(model, radius_)) {
       out_.nodes[self].leaf = static_cast<std::int32_t>(out_.leaves.size());
       out_.leaves.push_back({bounds.center, bounds.axis, bounds.half, model, rect, piece_index_});
@@ -91,72 +86,118 @@ class LeafRefiner {
   std::int32_t piece_index_;
   NetShape shape_;
   double radius_;
-  SearchTree& out_;
+  LeafTree& out_;
   std::array<std::array<Vec4, kMaxNetPoints>, 2 * kMaxHalvings + 1> levels_;
 };
 
-// The parts of one chunk of leaves, each with its own tree.
-struct ChunkTrees {
-  SearchTree all;
-  std::vector<std::int32_t> first_node;  // of each leaf of the chunk
-  std::vector<std::int32_t> first_leaf;
+// Writes nodes of four children: each takes the binary node's children and opens the largest ones.
+class Collapser {
+ public:
+  Collapser(const Surface& surface, const std::vector<LeafTree>& parts, SearchTree& out)
+      : surface_(surface), parts_(parts), out_(out) {
+    const Item root = Resolve({-1, 0});
+    if (IsLeaf(root)) {  // a single leaf: a root with one child
+      out_.nodes.emplace_back();
+      Fill(0, {root});
+    } else {
+      Emit(root);
+    }
+  }
+
+ private:
+  // A node of the surface's tree (part < 0) or of one leaf's.
+  struct Item {
+    std::int32_t part;
+    std::int32_t node;
+  };
+
+  const SurfaceNode& Node(const Item& i) const {
+    return i.part < 0 ? surface_.nodes[static_cast<std::size_t>(i.node)]
+                      : parts_[static_cast<std::size_t>(i.part)].nodes[static_cast<std::size_t>(i.node)];
+  }
+  // A leaf of the surface is the root of its own tree.
+  Item Resolve(const Item& i) const { return i.part < 0 && Node(i).leaf >= 0 ? Item{Node(i).leaf, 0} : i; }
+  bool IsLeaf(const Item& i) const { return Node(i).leaf >= 0; }
+
+  static double Size(const Box3& box) {
+    const Vec3 d = box.max - box.min;
+    return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+  }
+
+  std::int32_t Emit(const Item& item) {
+    std::vector<Item> children = {item};
+    while (children.size() < 4) {
+      std::size_t largest = children.size();
+      for (std::size_t k = 0; k < children.size(); ++k) {
+        if (IsLeaf(children[k])) continue;
+        if (largest == children.size() || Size(Node(children[k]).box) > Size(Node(children[largest]).box)) {
+          largest = k;
+        }
+      }
+      if (largest == children.size()) break;
+      const Item open = children[largest];
+      children[largest] = Resolve({open.part, open.node + 1});
+      children.insert(children.begin() + static_cast<std::ptrdiff_t>(largest) + 1,
+                      Resolve({open.part, Node(open).right}));
+    }
+    const auto self = static_cast<std::int32_t>(out_.nodes.size());
+    out_.nodes.emplace_back();
+    Fill(self, children);
+    return self;
+  }
+
+  void Fill(std::int32_t self, const std::vector<Item>& children) {
+    SearchNode node;
+    for (int k = 0; k < 4; ++k) {
+      Box3 box;
+      node.child[k] = 0;
+      if (k < static_cast<int>(children.size())) box = Node(children[static_cast<std::size_t>(k)]).box;
+      node.min_x[k] = RoundDown(box.min.x());
+      node.min_y[k] = RoundDown(box.min.y());
+      node.min_z[k] = RoundDown(box.min.z());
+      node.max_x[k] = RoundUp(box.max.x());
+      node.max_y[k] = RoundUp(box.max.y());
+      node.max_z[k] = RoundUp(box.max.z());
+    }
+    for (std::size_t k = 0; k < children.size(); ++k) {
+      const Item& c = children[k];
+      if (IsLeaf(c)) {
+        const LeafTree& part = parts_[static_cast<std::size_t>(c.part)];
+        node.child[k] = ~static_cast<std::int32_t>(out_.leaves.size());
+        out_.leaves.push_back(part.leaves[static_cast<std::size_t>(Node(c).leaf)]);
+      } else {
+        node.child[k] = Emit(c);
+      }
+    }
+    out_.nodes[static_cast<std::size_t>(self)] = node;
+  }
+
+  const Surface& surface_;
+  const std::vector<LeafTree>& parts_;
+  SearchTree& out_;
 };
 
 }  // namespace
 
 SearchTree BuildSearchTree(const Surface& surface, double radius) {
   const std::size_t count = surface.leaves.size();
-  std::vector<ChunkTrees> chunks((count + kChunk - 1) / kChunk);
+  std::vector<LeafTree> parts(count);
   const RunContext run;
-  const absl::Status status = ParallelFor(run, nullptr, chunks.size(), [&](std::size_t k) {
-    ChunkTrees& chunk = chunks[k];
-    for (std::size_t i = k * kChunk; i < std::min(count, (k + 1) * kChunk); ++i) {
-      const SurfaceLeaf& leaf = surface.leaves[i];
-      SearchTree part;
-      LeafRefiner(surface.piece(leaf.piece), leaf.piece.value, {leaf.u0, leaf.u1, leaf.v0, leaf.v1}, radius,
-                  part);
-      chunk.first_node.push_back(static_cast<std::int32_t>(chunk.all.nodes.size()));
-      chunk.first_leaf.push_back(static_cast<std::int32_t>(chunk.all.leaves.size()));
-      chunk.all.nodes.insert(chunk.all.nodes.end(), part.nodes.begin(), part.nodes.end());
-      chunk.all.leaves.insert(chunk.all.leaves.end(), part.leaves.begin(), part.leaves.end());
-    }
-    chunk.first_node.push_back(static_cast<std::int32_t>(chunk.all.nodes.size()));
-    chunk.first_leaf.push_back(static_cast<std::int32_t>(chunk.all.leaves.size()));
-  });
+  const absl::Status status =
+      ParallelFor(run, nullptr, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+        for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
+          const SurfaceLeaf& leaf = surface.leaves[i];
+          LeafRefiner(surface.piece(leaf.piece), leaf.piece.value, {leaf.u0, leaf.u1, leaf.v0, leaf.v1},
+                      radius, parts[i]);
+        }
+      });
   PM_CHECK(status.ok());
-
-  // Leaves in the order the tree meets them: neighbours in space are neighbours in memory.
   SearchTree tree;
-  std::vector<std::int32_t> moved(surface.nodes.size());  // new index of each surface node
-  for (std::size_t n = 0; n < surface.nodes.size(); ++n) {
-    const SurfaceNode& node = surface.nodes[n];
-    moved[n] = static_cast<std::int32_t>(tree.nodes.size());
-    if (node.leaf < 0) {
-      tree.nodes.push_back(Node(node.box));
-      tree.nodes.back().right = node.right;  // still the old index
-      continue;
-    }
-    const std::size_t leaf = static_cast<std::size_t>(node.leaf);
-    const ChunkTrees& chunk = chunks[leaf / kChunk];
-    const std::size_t in_chunk = leaf % kChunk;
-    const auto leaf_shift = static_cast<std::int32_t>(tree.leaves.size());
-    for (std::int32_t k = chunk.first_leaf[in_chunk]; k < chunk.first_leaf[in_chunk + 1]; ++k) {
-      tree.leaves.push_back(chunk.all.leaves[static_cast<std::size_t>(k)]);
-    }
-    for (std::int32_t k = chunk.first_node[in_chunk]; k < chunk.first_node[in_chunk + 1]; ++k) {
-      SearchNode part = chunk.all.nodes[static_cast<std::size_t>(k)];
-      if (part.leaf >= 0) {
-        part.leaf += leaf_shift;
-      } else {
-        part.right = -1 - (part.right + moved[n]);  // already new: told apart by the sign
-      }
-      tree.nodes.push_back(part);
-    }
-  }
-  for (SearchNode& node : tree.nodes) {
-    if (node.leaf >= 0) continue;
-    node.right = node.right < 0 ? -1 - node.right : moved[static_cast<std::size_t>(node.right)];
-  }
+  std::size_t leaves = 0;
+  for (const LeafTree& part : parts) leaves += part.leaves.size();
+  tree.leaves.reserve(leaves);
+  tree.nodes.reserve(leaves / 2 + 1);
+  Collapser(surface, parts, tree);
   return tree;
 }
 

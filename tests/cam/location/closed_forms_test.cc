@@ -159,6 +159,21 @@ TEST(ClosedForms, BlockWithVerticalWallsOnAFloor) {
   }
 }
 
+TEST(ClosedForms, LoneSteepWallsNearTheEquator) {
+  // The contact climbs a wall that the ball touches near its equator: from any start to the upper edge.
+  const double r = 3.0, height = 10.0;
+  for (const double lean : {0.0, 1e-9, 1e-6, 1e-3}) {  // outward at the top, so that the top is nearest to q
+    const Surface surface = SurfaceOf(
+        testing::Single(testing::Bilinear({0, -20, 0}, {0, 20, 0}, {lean, -20, height}, {lean, 20, height})));
+    const Locator locator(surface, r);
+    Random random(14);
+    for (int i = 0; i < 200; ++i) {
+      const double d = r - std::pow(10.0, random.Uniform(-8.0, 0.0));
+      ExpectHeight(locator, {lean + d, random.Uniform(-19, 19)}, height + std::sqrt(r * r - d * d));
+    }
+  }
+}
+
 TEST(ClosedForms, TwoSpheresSwitchOnTheMiddlePlane) {
   const double radius = 6.0, distance = 10.0, r = 3.0;
   const Surface surface = SurfaceOf(testing::TwoSpheres(radius, distance));
