@@ -11,19 +11,19 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("patchmilld ") + patchmill::ServerVersion());
   patchmill::ServerOptions options;
   patchmill::AddServeFlags(app, options);
-  bool health = false;
-  app.add_flag("--healthcheck", health,
-               "ask the server at --listen for its health and exit: 0 serving, 1 not");
+  std::string ask;
+  app.add_option("--check-health", ask,
+                 "HOST:PORT: ask the server there for its health: status 0 serving, 1 not");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  if (!health) return patchmill::Serve(options);
+  if (ask.empty()) return patchmill::Serve(options);
   const auto credentials = patchmill::ClientCredentials(options.ca_file, options.cert_file, options.key_file);
   if (!credentials.ok()) {
     std::cerr << "patchmilld: " << credentials.status().message() << "\n";
     return 2;
   }
-  return patchmill::CheckHealth(options.listen, *credentials);
+  return patchmill::CheckHealth(ask, *credentials);
 }

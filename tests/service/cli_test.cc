@@ -289,13 +289,13 @@ TEST_F(Cli, TheDaemonMakesTheSameBytesAnswersHealthAndDrains) {
   const Finished run = Mill(bump_, {"--server", daemon.target(), "--threads", "1"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(Slurp(out_ / "part.ngc"), embedded);
-  EXPECT_EQ(testing::Run({kDaemon, "--healthcheck", "--listen", daemon.target()}).status, 0);
+  EXPECT_EQ(testing::Run({kDaemon, "--check-health", daemon.target()}).status, 0);
   const Finished taken = testing::Run({kDaemon, "--listen", daemon.target()});
   EXPECT_EQ(taken.status, 2);
   EXPECT_THAT(taken.err, HasSubstr("cannot listen"));
   daemon.process().Signal(SIGTERM);
   EXPECT_EQ(daemon.process().Wait(), 0);
-  EXPECT_EQ(testing::Run({kDaemon, "--healthcheck", "--listen", daemon.target()}).status, 1);
+  EXPECT_EQ(testing::Run({kDaemon, "--check-health", daemon.target()}).status, 1);
   const Finished gone = Mill(bump_, {"--server", daemon.target()});
   EXPECT_EQ(gone.status, 1);
   EXPECT_THAT(gone.err, HasSubstr(daemon.target()));

@@ -1,11 +1,14 @@
 #include "server/model_source.h"
 
+#include <random>
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include "server/digest.h"
+#include "tests/fuzz/model_source_contract.h"
 #include "tests/service/requests.h"
 #include "tests/service/status_matchers.h"
 #include "tests/support/files.h"
@@ -131,6 +134,23 @@ TEST(LoadModel, AbsurdInputsCostLittle) {
       R"({"patches": [{"bezier": {"points": [)" + std::string(20'000'000, ',') + "]}}]}";
   EXPECT_THAT(LoadStatus(File("json", commas)),
               StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("json_value_count")));
+}
+
+// The fuzz target's corpus as a test: bytes changed at seeded places.
+TEST(LoadModel, ChangedBytesKeepTheContract) {
+  std::mt19937 random(20261121);
+  const std::pair<const char*, std::string> seeds[] = {{"json", JsonOf(Bump())},
+                                                       {"pb", Bump().SerializeAsString()}};
+  for (const auto& [format, seed] : seeds) {
+    EXPECT_TRUE(KeepsModelSourceContract(format, seed));
+    for (int round = 0; round < 3000; ++round) {
+      std::string bytes = seed;
+      for (unsigned changes = 1 + random() % 4; changes > 0; --changes) {
+        bytes[random() % bytes.size()] = static_cast<char>(random() % 256);
+      }
+      ASSERT_TRUE(KeepsModelSourceContract(format, bytes)) << format << " round " << round;
+    }
+  }
 }
 
 TEST(LoadModel, AFieldOfANewerContractIsRefused) {
