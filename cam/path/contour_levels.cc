@@ -27,7 +27,7 @@ struct Bins {
 };
 
 // Heights at which lower ends gather: at least a ball radius of border at one height.
-std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius) {
+std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius, double nearest) {
   std::sort(ends.begin(), ends.end(), [](const LowerEnd& a, const LowerEnd& b) { return a.z < b.z; });
   std::vector<double> heights;
   for (std::size_t i = 0; i < ends.size();) {
@@ -41,7 +41,12 @@ std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius) {
       ++i;
     }
   }
-  return heights;
+  // A rim that is level only nearly gathers many such heights: the highest serves those closely below.
+  std::vector<double> apart;
+  for (std::size_t k = heights.size(); k-- > 0;) {
+    if (apart.empty() || apart.back() - heights[k] >= nearest) apart.push_back(heights[k]);
+  }
+  return apart;
 }
 
 Bins NeededSteps(const ContourGround& ground, double smallest, double width) {
@@ -142,7 +147,7 @@ std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourP
   }
   if (bins.step.back() < kInfinity)
     stops.push_back({bins.bottom + bins.width * static_cast<double>(bins.step.size()), false});
-  for (const double z : CommonEnds(ground.lower_ends, radius)) stops.push_back({z, true});
+  for (const double z : CommonEnds(ground.lower_ends, radius, 0.25 * smallest)) stops.push_back({z, true});
   std::sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) { return a.z < b.z; });
   std::vector<double> heights;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) Share(count, stops[i], stops[i + 1], heights);

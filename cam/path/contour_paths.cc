@@ -24,7 +24,7 @@ struct LevelPasses {
 
 LevelPasses PassesAt(const LevelContext& context, const PlannedLevel& planned, double spacing,
                      const ContourParams& params, const RunContext& run) {
-  const LevelContours level = TraceLevel(context, planned.z, params, run);
+  const LevelContours level = TracePasses(context, planned.z, params, run);
   LevelPasses passes{{}, level.z, level.ambiguous_cells, level.ambiguous_at};
   ClipParams clip;
   clip.window = params.window;

@@ -1,5 +1,6 @@
 #include "cam/path/level_cells.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace patchmill {
@@ -23,8 +24,8 @@ std::uint64_t Mix(std::uint64_t k) {
 class Search {
  public:
   Search(LevelItems& items, const Locator& locator, double z, const LevelCellLimits& limits,
-         const RunContext& run, LevelCells& out)
-      : items_(items), locator_(locator), z_(z), limits_(limits), run_(run), out_(out) {}
+         const RunContext& run, const SlopeWindow* wanted, LevelCells& out)
+      : items_(items), locator_(locator), z_(z), limits_(limits), run_(run), wanted_(wanted), out_(out) {}
 
   void Root() {
     const std::int32_t side = std::int32_t{1} << out_.grid.levels;
@@ -70,6 +71,11 @@ class Search {
     mine.clear();
     items_.Collect(pool_[depth], cell, width, mine);
     if (mine.empty()) return;
+    if (wanted_ != nullptr && std::none_of(mine.begin(), mine.end(), [this](std::int32_t item) {
+          return items_.Wanted(item, *wanted_);
+        })) {
+      return;
+    }
     for (const std::int32_t item : mine) {
       if (items_.Covers(item, cell)) return;
     }
@@ -111,6 +117,7 @@ class Search {
   double z_;
   const LevelCellLimits& limits_;
   const RunContext& run_;
+  const SlopeWindow* wanted_;
   LevelCells& out_;
   std::vector<std::vector<std::int32_t>> pool_;  // candidates by depth
   std::optional<SurfacePoint> hint_;
@@ -161,7 +168,7 @@ PlanCell PlanOf(const LevelGrid& grid, const LevelCell& cell) {
 }
 
 LevelCells FindCells(LevelItems& items, const Locator& locator, double z, const LevelCellLimits& limits,
-                     const RunContext& run) {
+                     const RunContext& run, const SlopeWindow* wanted) {
   LevelCells out;
   const Box3& box = locator.surface().box;
   if (box.Empty()) return out;
@@ -172,7 +179,7 @@ LevelCells FindCells(LevelItems& items, const Locator& locator, double z, const 
     ++out.grid.levels;
   out.grid.unit = std::max(out.grid.unit, extent / (std::int32_t{1} << out.grid.levels));
   out.grid.origin = Plan(box.min) - Vec2(margin + kShiftX * out.grid.unit, margin + kShiftY * out.grid.unit);
-  Search(items, locator, z, limits, run, out).Root();
+  Search(items, locator, z, limits, run, wanted, out).Root();
   return out;
 }
 

@@ -63,8 +63,10 @@ struct LevelCellLimits {
 
 // The quadtree over the plan box of the surface widened by R. Every loop or hole of the level that is not in
 // the cells returned is smaller than `smallest`. Polls run.Cancelled().
+// With `wanted`, cells whose every contact is outside of that slope window, or on the shank, are left out
+// too: the contour then comes in pieces that end at such cells.
 LevelCells FindCells(LevelItems& items, const Locator& locator, double z, const LevelCellLimits& limits,
-                     const RunContext& run);
+                     const RunContext& run, const SlopeWindow* wanted = nullptr);
 
 PlanCell PlanOf(const LevelGrid& grid, const LevelCell& cell);
 

@@ -52,18 +52,15 @@ class Builder {
     if (cell.ambiguous || !JoinInOrder(cell)) JoinAroundRim(cell);
   }
 
-  std::vector<Chain> Chains() {
-    CloseOpenEnds();
+  std::vector<Chain> Chains(bool open) {
+    if (!open) CloseOpenEnds();
     std::vector<Chain> chains;
-    std::vector<char> seen(crossings_.size(), 0);
+    seen_.assign(crossings_.size(), 0);
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
-      if (seen[i] || crossings_[i].next < 0) continue;
-      Chain chain;
-      for (std::size_t k = i; !seen[k]; k = static_cast<std::size_t>(crossings_[k].next)) {
-        seen[k] = 1;
-        chain.push_back({crossings_[k].point, crossings_[k].free, crossings_[k].ambiguous});
-      }
-      chains.push_back(std::move(chain));
+      if (crossings_[i].previous < 0 && crossings_[i].next >= 0) chains.push_back(Walk(i, false));
+    }
+    for (std::size_t i = 0; i < crossings_.size(); ++i) {
+      if (!seen_[i] && crossings_[i].next >= 0) chains.push_back(Walk(i, true));
     }
     return chains;
   }
@@ -192,6 +189,18 @@ class Builder {
     }
   }
 
+  Chain Walk(std::size_t start, bool closed) {
+    Chain chain;
+    chain.closed = closed;
+    for (std::size_t k = start; !seen_[k];) {
+      seen_[k] = 1;
+      const Crossing& c = crossings_[k];
+      chain.points.push_back({c.point, c.free, c.ambiguous});
+      if (c.next >= 0) k = static_cast<std::size_t>(c.next);
+    }
+    return chain;
+  }
+
   // Rounding may set a sign on the rim of a cell that was decided as a whole: then a stretch ends there. Its
   // end goes on at the nearest beginning.
   void CloseOpenEnds() {
@@ -222,6 +231,7 @@ class Builder {
   std::vector<Vertex> vertices_;
   std::vector<EdgeSlice> edges_;
   std::vector<Crossing> crossings_;
+  std::vector<char> seen_;
   std::vector<RimCrossing> rim_;
   std::vector<std::int32_t> mine_;
   std::optional<SurfacePoint> hint_;
@@ -231,13 +241,13 @@ class Builder {
 }  // namespace
 
 std::vector<Chain> BuildChains(LevelCells& cells, const LevelItems& items, const LevelOracle& oracle,
-                               const RunContext& run) {
+                               const RunContext& run, bool open) {
   Builder builder(cells, items, oracle);
   for (std::size_t i = 0; i < cells.cells.size(); ++i) {
     if (i % 16 == 0 && run.Cancelled()) return {};
     builder.Cell(cells.cells[i]);
   }
-  return builder.Chains();
+  return builder.Chains(open);
 }
 
 }  // namespace patchmill

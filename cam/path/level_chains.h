@@ -13,12 +13,16 @@ struct ChainPoint {
   Vec2 free = Vec2::Zero();  // unit direction to the free side on the way to the next point; zero: unknown
   bool ambiguous = false;    // the way to the next point runs through a cell without a cone
 };
-using Chain = std::vector<ChainPoint>;  // closed, forbidden side on the right
+struct Chain {
+  std::vector<ChainPoint> points;  // forbidden side on the right
+  bool closed = true;
+};
 
 // Every edge of a cell is cut at all vertices on it, its crossings are found once and shared by both cells.
 // Inside a cell with a cone the crossings are joined in their order along the contour; in an ambiguous cell
-// each free stretch of the rim is cut off on its own (the safe side). Loops always close.
+// each free stretch of the rim is cut off on its own (the safe side). Loops always close, unless the cells
+// are those of passes only (`open`).
 std::vector<Chain> BuildChains(LevelCells& cells, const LevelItems& items, const LevelOracle& oracle,
-                               const RunContext& run);
+                               const RunContext& run, bool open = false);
 
 }  // namespace patchmill

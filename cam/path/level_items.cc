@@ -8,6 +8,8 @@ namespace {
 
 // Items are never cut below this parameter width: their boxes cannot shrink much further in doubles.
 constexpr double kSmallestPart = 1e-7;
+// mm: contacts this much above the centre still count as at its height.
+constexpr double kShankSlack = 1e-6;
 // rad: slopes of contacts are compared with this slack, far above the rounding of acos near a flat.
 constexpr double kSlopeSlack = 1e-6;
 
@@ -59,6 +61,9 @@ bool LevelItems::SetBox(Item& item, const Box3& box) const {
   item.y0 = box.min.y();
   item.y1 = box.max.y();
   item.size = std::max(item.x1 - item.x0, item.y1 - item.y0);
+  item.z_min = box.min.z();
+  item.flattest = std::acos(std::clamp((z_ - box.min.z()) / radius_, 0.0, 1.0));
+  item.steepest = std::acos(std::clamp((z_ - box.max.z()) / radius_, 0.0, 1.0));
   return true;
 }
 
@@ -259,6 +264,17 @@ void LevelItems::Collect(const std::vector<std::int32_t>& items, const PlanCell&
     const Item& opened = items_[static_cast<std::size_t>(index)];
     for (std::int32_t child = opened.last; child-- > opened.first;) stack_.push_back(child);
   }
+}
+
+bool LevelItems::Wanted(std::int32_t index, const SlopeWindow& window) const {
+  const Item& item = items_[static_cast<std::size_t>(index)];
+  if (item.kind == Kind::kNode) return true;
+  double flattest = item.flattest, steepest = item.steepest;
+  if (item.kind == Kind::kRect) {
+    flattest = std::max(flattest, item.slope.min - item.slope_slack);
+    steepest = std::min(steepest, item.slope.max + item.slope_slack);
+  }
+  return item.z_min <= z_ + kShankSlack && steepest >= window.min && flattest <= window.max;
 }
 
 bool LevelItems::Covers(std::int32_t index, const PlanCell& cell) const {

@@ -12,6 +12,7 @@
 #include "cam/location/locator.h"
 #include "cam/path/contour_sides.h"
 #include "cam/path/level_slopes.h"
+#include "cam/path/pass_params.h"
 
 namespace patchmill {
 
@@ -45,6 +46,8 @@ class LevelItems {
                std::vector<std::int32_t>& out);
   // Is the cell covered by the disc of one item's middle point?
   bool Covers(std::int32_t item, const PlanCell& cell) const;
+  // Can a contact on the item be part of a pass: not above the centre, its slope in the window?
+  bool Wanted(std::int32_t item, const SlopeWindow& window) const;
   // Directions from contacts on the items to points of the cell.
   DirectionCone Directions(const std::vector<std::int32_t>& items, const PlanCell& cell) const;
 
@@ -65,7 +68,9 @@ class LevelItems {
     bool split_u = true;
     double slope_slack = 0;  // rad, by which a smooth joint may turn
     SlopeRange slope;
-    Vec2 middle = Vec2::Zero();  // plan of a surface point, with its disc
+    double z_min = -kInfinity;
+    double flattest = 0.0, steepest = kPi / 2.0;  // slopes of contacts at the heights it has
+    Vec2 middle = Vec2::Zero();                   // plan of a surface point, with its disc
     double middle_rho = -1.0;
     Vec3 center = Vec3::Zero(), half = Vec3::Zero();
     Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();

@@ -13,7 +13,9 @@ namespace {
 
 constexpr double kCellsPerResolution = 8.0;  // finest cells; ALGORITHMS 11's table: 0.0125 for 0.1 mm
 constexpr double kShift = 1e-3;              // mm upward, away from a flat at the level
-constexpr int kMostShifts = 3;               // then the finest cells grow instead
+// rad: ground this far outside of the window is still traced, for the overlap at the ends of passes.
+constexpr double kWindowMargin = Radians(15.0);
+constexpr int kMostShifts = 3;  // then the finest cells grow instead
 
 double SignedArea(const std::vector<LevelPoint>& loop) {
   double twice = 0.0;
@@ -38,15 +40,17 @@ LevelContext::LevelContext(const Locator& locator_in, const RunContext& run) : L
   if (!status.ok()) slopes.clear();
 }
 
-LevelContours TraceLevel(const LevelContext& context, double z, const ContourParams& params,
-                         const RunContext& run) {
+namespace {
+
+LevelContours Trace(const LevelContext& context, double z, const ContourParams& params,
+                    const SlopeWindow* wanted, const RunContext& run) {
   LevelContours level;
   level.z = z;
   LevelCellLimits limits;
   limits.smallest = params.resolution / kCellsPerResolution;
   for (int attempt = 0; !run.Cancelled(); ++attempt) {
     LevelItems items(context.locator, context.sides, context.slopes, level.z);
-    LevelCells cells = FindCells(items, context.locator, level.z, limits, run);
+    LevelCells cells = FindCells(items, context.locator, level.z, limits, run, wanted);
     if (cells.cancelled) return level;
     if (cells.overflow) {
       level.z += kShift;
@@ -61,18 +65,18 @@ LevelContours TraceLevel(const LevelContext& context, double z, const ContourPar
     const auto first = std::find_if(cells.cells.begin(), cells.cells.end(),
                                     [](const LevelCell& cell) { return cell.ambiguous; });
     if (first != cells.cells.end()) level.ambiguous_at = oracle.Center(PlanOf(cells.grid, *first).mid);
-    for (const Chain& chain : BuildChains(cells, items, oracle, run)) {
+    for (const Chain& chain : BuildChains(cells, items, oracle, run, wanted != nullptr)) {
       if (run.Cancelled()) return level;
       const std::vector<LevelPoint> points = RefineLoop(oracle, chain, tolerance);
-      const bool undecided =
-          std::all_of(chain.begin(), chain.end(), [](const ChainPoint& p) { return p.ambiguous; });
-      if (points.size() < 3 ||
+      const bool undecided = chain.closed && std::all_of(chain.points.begin(), chain.points.end(),
+                                                         [](const ChainPoint& p) { return p.ambiguous; });
+      if (points.size() < (chain.closed ? 3 : 2) ||
           (undecided && std::abs(SignedArea(points)) < limits.smallest * limits.smallest)) {
         continue;
       }
       CutterPath path;
       path.kind = PassKind::kContour;
-      path.closed = true;
+      path.closed = chain.closed;
       path.points.reserve(points.size());
       for (const LevelPoint& p : points) path.points.push_back({oracle.Center(p.q), p.contact, p.other});
       level.loops.push_back(std::move(path));
@@ -80,6 +84,21 @@ LevelContours TraceLevel(const LevelContext& context, double z, const ContourPar
     return level;
   }
   return level;
+}
+
+}  // namespace
+
+LevelContours TraceLevel(const LevelContext& context, double z, const ContourParams& params,
+                         const RunContext& run) {
+  return Trace(context, z, params, nullptr, run);
+}
+
+LevelContours TracePasses(const LevelContext& context, double z, const ContourParams& params,
+                          const RunContext& run) {
+  SlopeWindow wanted = params.window;
+  wanted.min -= kWindowMargin;
+  wanted.max += kWindowMargin;
+  return Trace(context, z, params, &wanted, run);
 }
 
 }  // namespace patchmill

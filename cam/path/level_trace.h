@@ -21,4 +21,9 @@ struct LevelContext {
 LevelContours TraceLevel(const LevelContext& context, double z, const ContourParams& params,
                          const RunContext& run);
 
+// The same, without the stretches whose contacts are all on the shank or far outside of params.window: loops
+// that lose some come as open paths.
+LevelContours TracePasses(const LevelContext& context, double z, const ContourParams& params,
+                          const RunContext& run);
+
 }  // namespace patchmill

@@ -34,7 +34,8 @@ class Clipper {
 
   std::vector<CutterPath> Run() {
     const std::size_t n = loop_.points.size();
-    for (std::size_t i = 0; i < n; ++i) AddSegment(loop_.points[i], loop_.points[(i + 1) % n]);
+    for (std::size_t i = 0; i + (loop_.closed ? 0 : 1) < n; ++i)
+      AddSegment(loop_.points[i], loop_.points[(i + 1) % n]);
     return Parts();
   }
 
@@ -196,7 +197,7 @@ class Clipper {
     const auto gap = std::find(keep.begin(), keep.end(), 0);
     if (gap == keep.end()) return {loop_};
     std::vector<CutterPath> parts;
-    const auto start = static_cast<std::size_t>(gap - keep.begin());
+    const std::size_t start = loop_.closed ? static_cast<std::size_t>(gap - keep.begin()) : 0;
     bool open = false;
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t i = (start + k) % n;
@@ -222,13 +223,15 @@ class Clipper {
     const std::vector<char> wanted = keep;
     for (const bool forward : {true, false}) {
       const auto neighbor = [&](std::size_t i) { return forward ? (i + 1) % n : (i + n - 1) % n; };
+      const std::size_t end = forward ? n - 1 : 0;  // of an open contour
       for (std::size_t i = 0; i < n; ++i) {
-        if (!wanted[i] || wanted[neighbor(i)]) continue;
+        if (!wanted[i] || (!loop_.closed && i == end) || wanted[neighbor(i)]) continue;
         double left = params_.overlap;
         for (std::size_t k = neighbor(i); left > 0.0 && !wanted[k] && pieces_[k].ground != Ground::kNone;
              k = neighbor(k)) {
           keep[k] = 1;
           left -= (pieces_[k].to.center - pieces_[k].from.center).norm();
+          if (!loop_.closed && k == end) break;
         }
       }
     }

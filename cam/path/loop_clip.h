@@ -16,9 +16,9 @@ struct ClipParams {
   double near = 0.0;
 };
 
-// The parts of a closed loop whose contact has z <= c, is interior or lies on a crease, or on an open rim
-// that is locally highest, and whose slope lies in the window; dilated by the overlap where the ground allows
-// it. Ends are solved on the contour to 1e-6 mm. A loop that stays whole stays closed.
+// The parts of a contour (closed or not) whose contact has z <= c, is interior or lies on a crease, or on an
+// open rim that is locally highest, and whose slope lies in the window; dilated by the overlap where the
+// ground allows it. Ends are solved on the contour to 1e-6 mm. A loop that stays whole stays closed.
 std::vector<CutterPath> ClipLoop(const LevelContext& context, const CutterPath& loop,
                                  const ClipParams& params);
 

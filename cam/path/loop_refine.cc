@@ -82,18 +82,20 @@ double DistanceToChord(const Vec3& p, double z, const Vec2& a, const Vec2& b) {
 
 // Leaves out points where one chord serves: it is short enough for T2, its ends' discs bound the excess, and
 // the contacts passed over stay within the tolerance too.
-std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelPoint>& points,
+std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelPoint>& points, bool closed,
                              const LoopTolerance& tolerance) {
   constexpr std::size_t kMostSkipped = 24;
   const std::size_t n = points.size();
   if (n < 4) return points;
   const double longest = LongestChord(oracle.radius(), tolerance.gouge);
   std::vector<LevelPoint> kept;
+  // An open polyline ends at its last point, a closed one where it began.
+  const std::size_t last = closed ? n : n - 1;
   std::size_t i = 0;
-  while (i < n) {
+  while (i < last) {
     kept.push_back(points[i]);
     std::size_t best = i + 1;
-    for (std::size_t k = i + 2; k <= n && k <= i + kMostSkipped; ++k) {
+    for (std::size_t k = i + 2; k <= last && k <= i + kMostSkipped; ++k) {
       if (points[k - 1].other) break;  // corners stay
       const LevelPoint& end = points[k % n];
       if ((end.q - points[i].q).norm() > longest) break;
@@ -114,7 +116,9 @@ std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelP
   }
   // A loop as small as the tolerance keeps its shape.
   constexpr std::size_t kFewest = 6;
-  return kept.size() < kFewest ? points : kept;
+  if (closed) return kept.size() < kFewest ? points : kept;
+  kept.push_back(points[last]);
+  return kept;
 }
 
 }  // namespace
@@ -138,13 +142,15 @@ std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain
                                    const LoopTolerance& tolerance) {
   std::vector<LevelPoint> points;
   Refiner refiner(oracle, tolerance, points);
-  for (std::size_t i = 0; i < chain.size(); ++i)
-    refiner.Way(chain[i].point, chain[(i + 1) % chain.size()].point, chain[i].free, 0);
+  const std::size_t n = chain.points.size();
+  if (!chain.closed) points.push_back(chain.points.front().point);
+  for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < n; ++i)
+    refiner.Way(chain.points[i].point, chain.points[(i + 1) % n].point, chain.points[i].free, 0);
   // Start at a corner if there is one, so that thinning cannot cross it.
   const auto corner =
       std::find_if(points.begin(), points.end(), [](const LevelPoint& p) { return p.other.has_value(); });
-  if (corner != points.end()) std::rotate(points.begin(), corner, points.end());
-  return Thin(oracle, points, tolerance);
+  if (chain.closed && corner != points.end()) std::rotate(points.begin(), corner, points.end());
+  return Thin(oracle, points, chain.closed, tolerance);
 }
 
 }  // namespace patchmill

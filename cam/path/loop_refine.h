@@ -17,8 +17,9 @@ struct LoopTolerance {
 // end cap (T3), closed form.
 double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b);
 
-// Closed polyline of border points, forbidden side on the right, every chord within tolerance; corners
-// between two contacts are vertices with both contacts. Points that the tolerance does not need are left out.
+// Polyline of border points (closed when the chain is), forbidden side on the right, every chord within
+// tolerance; corners between two contacts are vertices with both contacts. Points that the tolerance does not
+// need are left out.
 std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain,
                                    const LoopTolerance& tolerance);
 
