@@ -9,14 +9,17 @@
 #include "cam/path/spacing.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
+#include "core/diffgeo/forms.h"
 #include "core/surface/net_kernel.h"
 
 namespace patchmill {
 namespace {
 
-struct NearestMove {
+// A move near a rectangle: tree and index, to start the search of its parts from.
+struct NearMove {
+  std::size_t tree = 0;
+  std::int32_t segment = -1;
   double distance = kInfinity;
-  PathTree::Segment segment;
 };
 
 class SpotFinder {
@@ -33,10 +36,12 @@ class SpotFinder {
   void Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
 
  private:
-  void Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth,
+  void Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth, const NearMove& hint,
              std::vector<LeftoverSpot>& out) const;
-  NearestMove NearestTo(const Vec3& p, double limit) const;
-  bool Covered(const Vec3* hull, int count, const Vec3& p) const;
+  NearMove NearestTo(const Vec3& p, double limit, const NearMove& hint) const;
+  bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
+                   const NearMove& near) const;
+  bool Covered(const Vec3* hull, int count, const NearMove& move) const;
   std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e) const;
   bool OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size) const;
 
@@ -48,22 +53,22 @@ class SpotFinder {
   const double flat_;
 };
 
-NearestMove SpotFinder::NearestTo(const Vec3& p, double limit) const {
-  NearestMove best;
-  for (const PathTree* tree : trees_) {
-    if (const auto n = tree->Find(p, std::min(limit, best.distance))) {
-      best = {n->distance, tree->segment(n->segment)};
-    }
+NearMove SpotFinder::NearestTo(const Vec3& p, double limit, const NearMove& hint) const {
+  NearMove best{0, -1, limit};
+  for (std::size_t t = 0; t < trees_.size(); ++t) {
+    const std::int32_t known = hint.segment >= 0 && hint.tree == t ? hint.segment : -1;
+    if (const auto n = trees_[t]->Find(p, best.distance, known)) best = {t, n->segment, n->distance};
   }
+  if (best.segment < 0) best.distance = kInfinity;
   return best;
 }
 
-bool SpotFinder::Covered(const Vec3* hull, int count, const Vec3& p) const {
+bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) const {
+  if (move.segment < 0) return false;
   const double limit = radius_ + params_.limit;
-  const NearestMove n = NearestTo(p, limit);
-  if (n.distance >= limit) return false;
+  const PathTree::Segment& s = trees_[move.tree]->segment(move.segment);
   for (int i = 0; i < count; ++i) {
-    if (SegmentDistance(hull[i], n.segment.a, n.segment.b) > limit) return false;
+    if (SegmentDistance(hull[i], s.a, s.b) > limit) return false;
   }
   return true;
 }
@@ -81,56 +86,89 @@ std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) cons
 }
 
 bool SpotFinder::OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size) const {
-  if (e.z() < 0.02) return false;  // the other side may turn up
   double turn = 0.0;
   for (double u : {rect.u0, rect.u1}) {
     for (double v : {rect.v0, rect.v1}) {
       const Vec3 n = UpwardNormalNear(surface_, {rect.piece, u, v, p});
-      if (n.dot(e) < 0.3) return false;
-      turn = std::max(turn, (n - e).norm());
+      turn = std::max(turn, std::min((n - e).norm(), (n + e).norm()));
     }
   }
+  if (turn > 0.7) return false;
   const double shift = size + 2.0 * turn * radius_;
-  const Vec3 c = p + radius_ * e;
-  if (c.z() + shift < params_.floor_z + radius_) return true;
-  const auto h = reach_.Height(Plan(c));
-  if (!h || h->z <= c.z()) return false;
-  const Vec3& q = h->contact.p;
-  const double distance = q.z() >= c.z() ? (Plan(q) - Plan(c)).norm() : (q - c).norm();
-  return reach_.radius() - distance > shift;
+  const auto blocked = [&](const Vec3& side) {
+    const Vec3 c = p + radius_ * side;
+    if (c.z() + shift < params_.floor_z + radius_) return true;
+    const auto h = reach_.Height(Plan(c));
+    if (!h || h->z <= c.z()) return false;
+    const Vec3& q = h->contact.p;
+    const double distance = q.z() >= c.z() ? (Plan(q) - Plan(c)).norm() : (q - c).norm();
+    return reach_.radius() - distance > shift;
+  };
+  // Near upright places either side may look up.
+  return blocked(e) && (e.z() > 2.0 * turn + 1e-6 || blocked(-e));
+}
+
+// Cuts where the farthest point of the hull is out of the move's reach: across the move, or along it past its
+// end.
+bool SpotFinder::SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
+                             const NearMove& near) const {
+  const double lu = du.norm(), lv = dv.norm();
+  constexpr double kSlender = 6.0;
+  if (near.segment < 0 || lu > kSlender * lv || lv > kSlender * lu) return lu >= lv;
+  const PathTree::Segment& s = trees_[near.tree]->segment(near.segment);
+  const auto off = [&](const Vec3& x) -> Vec3 {
+    const Vec3 d = s.b - s.a;
+    const double l2 = d.squaredNorm();
+    return x - s.a - (l2 > 0.0 ? std::clamp((x - s.a).dot(d) / l2, 0.0, 1.0) : 0.0) * d;
+  };
+  Vec3 worst = off(p);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 o = off(hull[i]);
+    if (o.squaredNorm() > worst.squaredNorm()) worst = o;
+  }
+  const Vec3 grows = worst - off(p);
+  return std::abs(du.dot(grows)) >= std::abs(dv.dot(grows));
 }
 
 void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth,
-                       std::vector<LeftoverSpot>& out) const {
+                       const NearMove& hint, std::vector<LeftoverSpot>& out) const {
   std::array<Vec3, kMaxNetPoints> hull;
   const int count = HullPoints(shape, net, hull.data());
   const double u = 0.5 * (rect.u0 + rect.u1), v = 0.5 * (rect.v0 + rect.v1);
-  const Piece& piece = surface_.piece(rect.piece);
-  const Vec3 p = Position(piece, u, v);
-  if (Covered(hull.data(), count, p)) return;
-
-  double size = 0.0;  // half of it: everything lies this close to p
-  for (int i = 0; i < count; ++i) size = std::max(size, (hull[static_cast<std::size_t>(i)] - p).norm());
+  const SurfaceJet jet = Evaluate(surface_.piece(rect.piece), u, v);
+  const Vec3& p = jet.p;
   const SurfacePoint at{rect.piece, u, v, p};
+  const auto regular = UpwardNormal(jet);
+  const Vec3 e = regular ? *regular : UpwardNormalNear(surface_, at);
+  double size = 0.0;  // everything lies this close to p
+  for (int i = 0; i < count; ++i) size = std::max(size, (hull[static_cast<std::size_t>(i)] - p).norm());
+
+  // The move that covers most of the rectangle passes near the centre that finishes p; only small rectangles
+  // deserve the costlier search around p itself, which is also right where the normal turns quickly.
+  NearMove near;
+  if (size < 4.0 * flat_) {
+    near = NearestTo(p + radius_ * e, flat_, hint);
+    if (Covered(hull.data(), count, near)) return;
+  }
   if (size < 0.25 * flat_) {
-    const Vec3 e = UpwardNormalNear(surface_, at);
-    const double leftover = std::min(NearestTo(p, 2.0 * radius_).distance - radius_, radius_);
-    if (leftover > params_.limit) {
-      const double slope = std::acos(std::clamp(e.z(), -1.0, 1.0));
-      if (slope >= params_.window.min && slope <= params_.window.max) {
-        if (const auto side = ReachableSide(p, e)) {
-          out.push_back({at, *side, p + radius_ * *side, leftover, rect});
-          return;
-        }
+    const NearMove nearest = NearestTo(p, 2.0 * radius_, near);
+    if (Covered(hull.data(), count, nearest)) return;
+    const double leftover = std::min(nearest.distance - radius_, radius_);
+    const double slope = std::acos(std::clamp(e.z(), -1.0, 1.0));
+    if (leftover > params_.limit && slope >= params_.window.min && slope <= params_.window.max) {
+      if (const auto side = ReachableSide(p, e)) {
+        out.push_back({at, *side, p + radius_ * *side, leftover, rect});
+        return;
       }
+      if (near.segment >= 0 && OutOfReach(rect, p, e, size)) return;
     }
   }
   constexpr int kDeepest = 40;
   if (size < 0.05 * flat_ || depth >= kDeepest) return;
-  if (size < 8.0 * flat_ && OutOfReach(rect, p, UpwardNormalNear(surface_, at), size)) return;
+  if (near.segment < 0 && size < 8.0 * flat_ && OutOfReach(rect, p, e, size)) return;
 
-  const SurfaceJet jet = Evaluate(piece, u, v);
-  const bool along_u = jet.du.norm() * (rect.u1 - rect.u0) >= jet.dv.norm() * (rect.v1 - rect.v0);
+  const bool along_u =
+      SplitAlongU(jet.du * (rect.u1 - rect.u0), jet.dv * (rect.v1 - rect.v0), p, hull.data(), count, near);
   std::array<Vec4, kMaxNetPoints> low, high;
   HalveNet(shape, net, along_u, low.data(), high.data());
   SurfaceRect a = rect, b = rect;
@@ -139,8 +177,8 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   } else {
     a.v1 = b.v0 = v;
   }
-  Visit(a, shape, low.data(), depth + 1, out);
-  Visit(b, shape, high.data(), depth + 1, out);
+  Visit(a, shape, low.data(), depth + 1, near, out);
+  Visit(b, shape, high.data(), depth + 1, near, out);
 }
 
 void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const {
@@ -149,7 +187,7 @@ void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out)
   std::array<Vec4, kMaxNetPoints> net;
   std::copy(given.points.begin(), given.points.end(), net.begin());
   RestrictNet(shape, net.data(), rect.u0, rect.u1, rect.v0, rect.v1);
-  Visit(rect, shape, net.data(), 0, out);
+  Visit(rect, shape, net.data(), 0, {}, out);
 }
 
 }  // namespace

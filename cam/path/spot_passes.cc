@@ -75,8 +75,13 @@ class Mender {
   bool AlongCrease(std::size_t i);
   bool AlongRidge(std::size_t i);
   bool AlongLevel(std::size_t i);
+  bool AlongWall(std::size_t i);
+  std::optional<Vec3> FreeNear(std::size_t i) const;
   void FromAbove(std::size_t i);
-  std::size_t NextOnRidge(const Vec3& from, const Vec3& heading, const std::vector<bool>& used) const;
+  std::size_t NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
+                          const std::vector<bool>& used) const;
+  std::vector<std::size_t> Chain(std::size_t i, bool gentle) const;
+  std::size_t CountAtHeight(double z) const;
   bool Add(PassKind kind, std::vector<CutterPoint> points);
 
   const Locator& locator_;
@@ -129,12 +134,13 @@ bool Mender::AlongCrease(std::size_t i) {
   return !open_[i];
 }
 
-// The open gentle spot one step on in this direction that leaves most; spots_.size() when there is none.
-std::size_t Mender::NextOnRidge(const Vec3& from, const Vec3& heading, const std::vector<bool>& used) const {
+// The open spot one step on in this direction that leaves most; spots_.size() when there is none.
+std::size_t Mender::NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
+                                const std::vector<bool>& used) const {
   std::size_t best = spots_.size();
   double best_score = -kInfinity;
   grid_.Near(from, 1.6 * flat_, [&](std::size_t i) {
-    if (!open_[i] || used[i] || !Gentle(i)) return;
+    if (!open_[i] || used[i] || Gentle(i) != gentle) return;
     const Vec3 d = spots_[i].center - from;
     const double length = d.norm();
     if (length < 0.4 * flat_) return;
@@ -149,28 +155,35 @@ std::size_t Mender::NextOnRidge(const Vec3& from, const Vec3& heading, const std
   return best;
 }
 
-bool Mender::AlongRidge(std::size_t i) {
+// Spots along the ridge through i, both ways.
+std::vector<std::size_t> Mender::Chain(std::size_t i, bool gentle) const {
   std::vector<bool> used(spots_.size(), false);
   used[i] = true;
   std::vector<std::size_t> chain{i};
   constexpr std::size_t kLongest = 2000;
   for (int end = 0; end < 2; ++end) {
     Vec3 heading = Vec3::Zero();
-    if (chain.size() > 1)
+    if (chain.size() > 1) {
       heading =
           (spots_[chain[chain.size() - 1]].center - spots_[chain[chain.size() - 2]].center).normalized();
+    }
     while (chain.size() < kLongest) {
-      const std::size_t next = NextOnRidge(spots_[chain.back()].center, heading, used);
+      const Vec3 from = spots_[chain.back()].center;
+      const std::size_t next = NextOnRidge(from, heading, gentle, used);
       if (next == spots_.size()) break;
-      heading = (spots_[next].center - spots_[chain.back()].center).normalized();
+      heading = (spots_[next].center - from).normalized();
       used[next] = true;
       // What lies beside the step is served by it.
-      grid_.Near(0.5 * (spots_[next].center + spots_[chain.back()].center), 0.8 * flat_,
-                 [&](std::size_t k) { used[k] = true; });
+      grid_.Near(0.5 * (spots_[next].center + from), 0.8 * flat_, [&](std::size_t k) { used[k] = true; });
       chain.push_back(next);
     }
     std::reverse(chain.begin(), chain.end());
   }
+  return chain;
+}
+
+bool Mender::AlongRidge(std::size_t i) {
+  const std::vector<std::size_t> chain = Chain(i, true);
   std::vector<Vec2> corners;
   for (std::size_t k : chain) corners.push_back(Plan(spots_[k].center));
   // Half a step more at both ends, so that what lies between the samples is covered too.
@@ -255,17 +268,52 @@ bool Mender::AlongLevel(std::size_t i) {
   return !open_[i];
 }
 
-// A short plunge to the spot's own centre, which is free, or as near to it as the ball gets along the normal.
-void Mender::FromAbove(std::size_t i) {
-  const LeftoverSpot& s = spots_[i];
+// The spot's own centre, or as near to it as the ball gets along the normal.
+std::optional<Vec3> Mender::FreeNear(std::size_t i) const {
   for (int k = 0; k <= 8; ++k) {
-    const Vec3 c = s.center + (1e-7 + 0.25 * params_.tolerance * k) * s.normal;
-    if (!locator_.Free(c)) continue;
-    CutterPoint top{c + Vec3(0, 0, 0.1 * flat_), s.at, {}}, foot{c, s.at, {}};
-    Add(PassKind::kRest, {top, foot});
-    break;
+    const Vec3 c = spots_[i].center + (1e-7 + 0.25 * params_.tolerance * k) * spots_[i].normal;
+    if (locator_.Free(c)) return c;
+  }
+  return std::nullopt;
+}
+
+// From spot to spot over a wall, every chord proven by the swept query; the pass ends where one is not.
+bool Mender::AlongWall(std::size_t i) {
+  std::vector<CutterPoint> points;
+  for (std::size_t k : Chain(i, false)) {
+    const auto c = FreeNear(k);
+    if (!c) continue;
+    if (!points.empty()) {
+      const Vec3& last = points.back().center;
+      const bool proven =
+          ChordGouge(radius_, (*c - last).norm()) <= params_.chord_tolerance ||
+          locator_.SweptGouge(last, *c, 0.2 * params_.chord_tolerance) <= params_.chord_tolerance;
+      if (!proven) {
+        Add(PassKind::kRest, std::move(points));
+        points.clear();
+      }
+    }
+    points.push_back({*c, spots_[k].at, {}});
+  }
+  Add(PassKind::kRest, std::move(points));
+  return !open_[i];
+}
+
+// A short plunge: upward of a free place everything is free.
+void Mender::FromAbove(std::size_t i) {
+  if (const auto c = FreeNear(i)) {
+    const SurfacePoint& at = spots_[i].at;
+    Add(PassKind::kRest, {{*c + Vec3(0, 0, 0.1 * flat_), at, {}}, {*c, at, {}}});
   }
   open_[i] = false;
+}
+
+std::size_t Mender::CountAtHeight(double z) const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < spots_.size(); ++i) {
+    count += open_[i] && !Gentle(i) && std::abs(spots_[i].center.z() - z) < 0.3 * flat_;
+  }
+  return count;
 }
 
 absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
@@ -278,8 +326,11 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
     PM_RETURN_IF_ERROR(run_.Check());
     if (Gentle(i)) {
       if (AlongCrease(i) || AlongRidge(i)) continue;
-    } else if (AlongLevel(i)) {
-      continue;
+    } else {
+      // A level of its own is worth its cost where much is missing at one height.
+      constexpr std::size_t kMany = 40;
+      if (CountAtHeight(spots_[i].center.z()) >= kMany && AlongLevel(i)) continue;
+      if (!open_[i] || AlongWall(i)) continue;
     }
     FromAbove(i);
   }
