@@ -47,6 +47,8 @@ class LeftoverSearch {
 
   bool Visit(const SurfaceCell& cell, const Threshold& threshold, Extreme& here) {
     if (run_.Cancelled()) return false;
+    // Any move bounds the distance from above: often the last one will do.
+    if (hint_ >= 0 && Leftover(FarthestFrom(cell, hint_)) <= threshold.Drop(here.value)) return false;
     SegmentTree::Nearest nearest;
     std::optional<bool> reachable;
     // Far from all cuts and surely unreachable: the common case of an inner wall. No need to know how far.
@@ -79,6 +81,14 @@ class LeftoverSearch {
       }
     }
     return upper > threshold.Drop(here.value) && cell.radius > kSmallestCell * params_.reach.radius;
+  }
+
+  double FarthestFrom(const SurfaceCell& cell, int segment) const {
+    double most = 0.0;
+    for (int k = 0; k < cell.hull_count; ++k) {
+      most = std::max(most, PathDistance(tree_.segment(segment), cell.hull[k]));
+    }
+    return most;
   }
 
   // Upper bound of the distance to the moves over the whole cell; at most one more segment is tried when the

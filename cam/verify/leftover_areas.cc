@@ -110,6 +110,12 @@ class AreaSampler {
         kind = FinishClass::kFloor;
         break;
     }
+    Extreme& known = sums.deepest[static_cast<std::size_t>(kind)];
+    if (hint_ >= 0) {
+      // Any move bounds the distance from above; most points need no search.
+      const double most = tree_.Distance(hint_, jet.p) + params_.chord_error - params_.reach.radius;
+      if (most <= known.value && (kind != FinishClass::kDone || most <= params_.limit)) return kind;
+    }
     const double slack = kind == FinishClass::kDone ? 0.0 : kFarSlack;
     auto nearest = tree_.FindNearest(jet.p, kInfinity, hint_, slack);
     if (slack > 0.0 && nearest.distance < kNear * params_.reach.radius) {

@@ -1,5 +1,11 @@
 // The independent judge (ALGORITHMS 7 A, DESIGN 2): program motion against the exact surface. Sees tool,
 // toolpath and core only.
+//
+// Gouge at p: R - dist(p, all moves swept upward); leftover at a reachable p: dist(p, feed moves) - R; R is
+// the ball's radius plus the stock to leave. Both maxima are values at true surface points, and no point has
+// more than `certainty` above them. Chords of arcs count with their error. P1 adds the control's own
+// smoothing (G64 P + Q). A point is reachable or not by its own ball; along the border of the reachable set
+// this is asked at points 0.5 to 2.5 % of R apart.
 #pragma once
 
 #include <array>
@@ -52,16 +58,21 @@ struct VerifyReport {
   std::array<double, 5> deepest_unreachable{};    // mm of leftover by reason
   std::array<VerifyPlace, 5> deepest_unreachable_at;
   double leftover_above_limit_area = 0.0;  // mm^2, reachable and above scallop + tolerance
-  double required_stickout = 0.0;          // mm: highest material near the tool minus the tip
+  double required_stickout = 0.0;          // mm: highest material near the tool minus the tip, from above
   double steepest_descent = 0.0;           // rad, of feed moves
   double tip_z_min = 0.0;
   Box3 tip_box;  // program frame, all moves that are not "above everything"
   double cut_length = 0.0, rapid_length = 0.0;
-  Diagnostics findings;  // GOUGE, LEFTOVER, RAPID_IN_STOCK, SHANK_GOUGE, ...
+  // GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK (each the 20 worst, of different lines and places),
+  // CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, FIRST_MOTION_NOT_UP, LAST_MOTION_NOT_UP, SPINDLE_LEFT_ON,
+  // COOLANT_LEFT_ON. All are errors.
+  Diagnostics findings;
   bool ok() const { return gouge_ok && finish_ok && motion_ok; }
 };
 
-// Certain to params.certainty. `surface` is placed. Parallel over pieces, deterministic.
+// `surface` is placed. Parallel, the same answer for any number of threads. INVALID_ARGUMENT for a tool, a
+// parameter or a motion that cannot be judged. Cost: about 0.3 CPU-seconds per 1000 mm^2 of a part with walls
+// and undercuts at D 6, scallop 0.02; a program that fails in many places costs several times more.
 absl::StatusOr<VerifyReport> Verify(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
                                     const VerifyParams& params, const RunContext& run);
 
