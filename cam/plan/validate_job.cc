@@ -65,6 +65,11 @@ absl::Status ValidateJob(const Job& job) {
                            "in [-360, 360]"));
   PM_RETURN_IF_ERROR(check("heights.approach_gap_mm", op.approach_gap,
                            op.approach_gap > 0 && op.approach_gap <= 100, "in (0, 100]"));
+  if (op.clearance_above) {
+    PM_RETURN_IF_ERROR(check("heights.clearance_above_mm", *op.clearance_above,
+                             *op.clearance_above > 0 && *op.clearance_above <= kMaxLength,
+                             fmt::format("in (0, {}]", kMaxLength)));
+  }
   PM_RETURN_IF_ERROR(check("setup.stock.allowance_mm", job.setup.allowance,
                            job.setup.allowance >= 0 && job.setup.allowance <= 100, "in [0, 100]"));
   if (job.setup.allowance < op.leave) {
@@ -91,6 +96,9 @@ absl::Status ValidateJob(const Job& job) {
   if (!known)
     return absl::InvalidArgumentError(
         fmt::format("post.dialect = \"{}\"; must be one of: {}", job.dialect, list));
+  if (!IsWorkOffset(job.work_offset))
+    return absl::InvalidArgumentError(
+        fmt::format("post.work_offset = \"{}\"; must be G54 to G59", job.work_offset));
   return absl::OkStatus();
 }
 

@@ -29,10 +29,6 @@ std::string JoinDialects() {
   return list;
 }
 
-bool IsWorkOffset(const std::string& word) {
-  return word.size() == 3 && word[0] == 'G' && word[1] == '5' && word[2] >= '4' && word[2] <= '9';
-}
-
 absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostParams& params) {
   const auto bad = [](const std::string& message) { return absl::InvalidArgumentError(message); };
   if (FindDialect(params.dialect) == nullptr) {
@@ -190,6 +186,10 @@ const std::string& CoolantWord(const Dialect& dialect, Coolant coolant) {
 }
 
 }  // namespace
+
+bool IsWorkOffset(std::string_view word) {
+  return word.size() == 3 && word[0] == 'G' && word[1] == '5' && word[2] >= '4' && word[2] <= '9';
+}
 
 std::vector<std::string> KnownDialects() {
   std::vector<std::string> names;

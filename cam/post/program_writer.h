@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -29,5 +30,6 @@ absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& t
                                          const PostParams& params);
 
 std::vector<std::string> KnownDialects();
+bool IsWorkOffset(std::string_view word);  // G54..G59
 
 }  // namespace patchmill
