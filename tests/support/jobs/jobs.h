@@ -1,0 +1,48 @@
+// Jobs for tests of the whole chain, and what every program must keep, judged without cam/verify: from the
+// program's text, by closest points and by the plain distance to the cutting moves.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cam/plan/plan.h"
+#include "tests/support/random.h"
+
+namespace patchmill::testing {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+inline constexpr double kTestFeed = 1200.0, kTestPlungeFeed = 400.0;  // mm/min
+
+// A valid job for a ball of this radius; the floor lies far below the part when `deep`.
+inline Job BallJob(double radius, bool deep = true) {
+  Job job;
+  Operation& op = job.operation;
+  op.tool.cutter = BallEnd{radius};
+  op.tool.spindle_rpm = 12000;
+  op.tool.feed = kTestFeed;
+  op.tool.plunge_feed = kTestPlungeFeed;
+  if (deep) op.floor_z = -1000.0;
+  return job;
+}
+
+// BuildPlacedSurface, which must succeed.
+Surface PlacedSurface(const PatchModel& model, const Setup& setup = {});
+
+// RunJob, which must give an answer.
+JobResult Mill(const Surface& surface, const Job& job, int threads = 0);
+
+// "COMPLETE, gouge 0.004, leftover 0.012 ...": for messages of failing tests.
+std::string Describe(const JobResult& result);
+
+// Fails the test unless the result carries a verified program that keeps P1 to P3 at `samples` random places
+// of its moves and of the surface. Leftover is not judged for forced strategies. Program zero must be the
+// model origin and the heights the default ones (floor_z apart).
+void CheckProgram(const Surface& surface, const Job& job, const JobResult& result, Random& random,
+                  int samples);
+
+}  // namespace patchmill::testing
