@@ -1,0 +1,72 @@
+// Whole jobs, from the model to the verified program, and the verifier alone; on all cores, wall clock.
+#include <benchmark/benchmark.h>
+
+#include "cam/plan/job_preview.h"
+#include "cam/plan/plan.h"
+#include "cam/plan/resolve.h"
+#include "tests/bench/bench_parts.h"
+
+namespace patchmill::bench {
+namespace {
+
+absl::StatusOr<JobResult> RunVerified(const Surface& surface, const Job& job) {
+  absl::StatusOr<JobResult> result = RunJob(surface, job, RunContext());
+  if (result.ok() && result->program.empty()) {
+    return absl::InternalError(std::string("no program: ") + Name(result->report.outcome));
+  }
+  return result;
+}
+
+// Everything a request costs but the wire: placing, surface, RunJob. peak_MB is the process's largest
+// resident memory, other parts kept by earlier benchmarks included: run alone for a figure.
+void MeasureJob(benchmark::State& state, Part part) {
+  const PatchModel& model = ModelOf(part);
+  const Job job = JobOf(part);
+  double moves = 0.0, bytes = 0.0;
+  JobReport report;
+  ResetPeakMemory();
+  for (auto _ : state) {
+    const auto surface = BuildPlacedSurface(model, job.setup, RunContext());
+    if (!surface.ok()) return state.SkipWithError(surface.status().ToString().c_str());
+    const auto result = RunVerified(*surface, job);
+    if (!result.ok()) return state.SkipWithError(result.status().ToString().c_str());
+    moves = result->report.point_count;
+    bytes = static_cast<double>(result->program.size());
+    report = result->report;
+  }
+  state.counters["peak_MB"] = PeakMemory();
+  state.counters["moves"] = moves;
+  state.counters["program_MB"] = 1e-6 * bytes;
+  for (const StageTime& stage : report.stages) state.counters["s_" + stage.name] = stage.seconds;
+}
+BENCHMARK_CAPTURE(MeasureJob, two_hills, Part::kTwoHills)
+    ->Name("Job/two_hills")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(MeasureJob, teapot, Part::kTeapot)
+    ->Name("Job/teapot")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+// The independent judge on the program of Job/teapot; the items are the program's moves.
+void MeasureVerify(benchmark::State& state, Part part) {
+  const Surface& surface = SurfaceOf(part);
+  const Job job = JobOf(part);
+  const auto resolved = Resolve(surface, job);
+  if (!resolved.ok()) return state.SkipWithError(resolved.status().ToString().c_str());
+  const auto result = RunVerified(surface, job);
+  if (!result.ok()) return state.SkipWithError(result.status().ToString().c_str());
+  const VerifyParams params = MakeVerifyParams(job, *resolved);
+  for (auto _ : state) {
+    const auto report = VerifyProgramText(surface, job.operation.tool, result->program, params, RunContext());
+    if (!report.ok() || !report->ok()) return state.SkipWithError("the program does not verify");
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(result->report.point_count) * state.iterations());
+}
+BENCHMARK_CAPTURE(MeasureVerify, teapot, Part::kTeapot)
+    ->Name("Verify/teapot")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+}  // namespace
+}  // namespace patchmill::bench

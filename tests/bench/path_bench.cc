@@ -1,0 +1,100 @@
+// Passes and regions, on all cores (the clock is the wall's).
+#include <numeric>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "cam/path/level_trace.h"
+#include "cam/path/scan_line.h"
+#include "cam/region/region_map.h"
+#include "core/base/parallel.h"
+#include "tests/bench/bench_parts.h"
+
+namespace patchmill::bench {
+namespace {
+
+constexpr double kRadius = 3.0;
+
+// 320 certified scan lines along x; the items are their points.
+void ZigzagLines(benchmark::State& state, Part part) {
+  constexpr std::size_t kLines = 320;
+  const Surface& surface = SurfaceOf(part);
+  const Locator locator(surface, kRadius);
+  PassParams params;
+  params.chord_tolerance = 0.01;
+  std::int64_t points = 0;
+  for (auto _ : state) {
+    std::vector<std::int64_t> count(kLines, 0);
+    const absl::Status status = ParallelFor(RunContext(), nullptr, kLines, [&](std::size_t k) {
+      const double y = surface.box.min.y() +
+                       (static_cast<double>(k) + 0.5) / kLines * (surface.box.max.y() - surface.box.min.y());
+      for (const ScanRun& run :
+           ScanLine(locator, {surface.box.min.x(), y}, {surface.box.max.x(), y}, params)) {
+        count[k] += static_cast<std::int64_t>(run.points.size());
+      }
+    });
+    if (!status.ok()) state.SkipWithError(status.ToString().c_str());
+    points += std::accumulate(count.begin(), count.end(), std::int64_t{0});
+  }
+  state.SetItemsProcessed(points);
+}
+BENCHMARK_CAPTURE(ZigzagLines, bumpy, Part::kBumpy)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// 24 equally spaced levels of h with what they share; the items are the levels.
+void ContourLevels(benchmark::State& state, Part part) {
+  constexpr std::size_t kLevels = 24;
+  const Surface& surface = SurfaceOf(part);
+  const Locator locator(surface, kRadius);
+  ContourParams params;
+  params.chord_tolerance = 0.01;
+  params.resolution = 0.1;
+  std::size_t loops = 0, ambiguous = 0;
+  for (auto _ : state) {
+    const RunContext run;
+    const LevelContext context(locator, run);
+    std::vector<LevelContours> levels(kLevels);
+    const absl::Status status = ParallelFor(run, nullptr, kLevels, [&](std::size_t k) {
+      const double share = (static_cast<double>(k) + 0.5) / kLevels;
+      const double z = kRadius + surface.box.min.z() + share * (surface.box.max.z() - surface.box.min.z());
+      levels[k] = TraceLevel(context, z, params, run);
+    });
+    if (!status.ok()) state.SkipWithError(status.ToString().c_str());
+    loops = ambiguous = 0;
+    for (const LevelContours& level : levels) {
+      loops += level.loops.size();
+      ambiguous += static_cast<std::size_t>(level.ambiguous_cells);
+    }
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(kLevels) * state.iterations());
+  state.counters["loops"] = static_cast<double>(loops);
+  state.counters["ambiguous_cells"] = static_cast<double>(ambiguous);
+}
+BENCHMARK_CAPTURE(ContourLevels, bumpy, Part::kBumpy)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// Regions for a ball of diameter 6, steep above 45 degrees.
+void MeasureSplitRegions(benchmark::State& state, Part part) {
+  const Surface& surface = SurfaceOf(part);
+  RegionParams params;
+  params.radius = kRadius;
+  std::size_t regions = 0;
+  for (auto _ : state) {
+    const auto map = SplitRegions(surface, params, RunContext());
+    if (!map.ok()) {
+      state.SkipWithError(map.status().ToString().c_str());
+      break;
+    }
+    regions = map->regions.size();
+  }
+  state.counters["regions"] = static_cast<double>(regions);
+}
+BENCHMARK_CAPTURE(MeasureSplitRegions, teapot, Part::kTeapot)
+    ->Name("SplitRegions/teapot")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(MeasureSplitRegions, bumpy, Part::kBumpy)
+    ->Name("SplitRegions/bumpy")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+}  // namespace
+}  // namespace patchmill::bench
