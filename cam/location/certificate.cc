@@ -101,8 +101,9 @@ double Locator::Impl::Certify(const Ball& ball, const OpenLeaves& open, double e
     const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
     std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
-    RestrictNet(shape, points.data(), leaf.rect.u0, leaf.rect.u1, leaf.rect.v0, leaf.rect.v1);
-    prover.Prove(piece, leaf.piece, leaf.rect, points.data(), 0);
+    const Rect rect = leaf.rect();
+    RestrictNet(shape, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
+    prover.Prove(piece, leaf.piece, rect, points.data(), 0);
   }
   return std::max(0.0, prover.top - best.z) + slack;
 }

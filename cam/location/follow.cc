@@ -106,7 +106,7 @@ std::optional<CenterPoint> Locator::Follow(const SurfacePoint& from, const Vec2&
         continue;
       }
       const internal::SearchLeaf& leaf = impl_->tree.leaves[static_cast<std::size_t>(~id)];
-      const Rect& r = leaf.rect;
+      const Rect r = leaf.rect();
       const BoxMinimum guess = internal::GuessMinimum(leaf.model, now.at.p);
       const Spot start =
           Nearest(surface.pieces[static_cast<std::size_t>(leaf.piece)], leaf.piece, r,

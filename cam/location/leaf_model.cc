@@ -135,10 +135,10 @@ LeafModel MakeLeafModel(NetShape shape, const Vec4* points, bool rational, const
   m.vv = lv * lv * middle.dvv;
 
   double reach2 = 0.0, uu = 0.0, uv = 0.0, vv = 0.0, reach_a = 0.0, reach_b = 0.0;
-  m.z_max = -kInfinity;
+  double z_max = -kInfinity;
   for (int k = 0; k < hull_count; ++k) {
     const Vec3 d = hull[k] - m.s;
-    m.z_max = std::max(m.z_max, hull[k].z());
+    z_max = std::max(z_max, hull[k].z());
     reach2 = std::max(reach2, d.squaredNorm());
     reach_a = std::max(reach_a, std::abs(d.dot(m.a)));
     reach_b = std::max(reach_b, std::abs(d.dot(m.b)));
@@ -146,23 +146,24 @@ LeafModel MakeLeafModel(NetShape shape, const Vec4* points, bool rational, const
     uv = std::max(uv, std::abs(d.dot(m.uv)));
     vv = std::max(vv, std::abs(d.dot(m.vv)));
   }
-  m.reach = std::sqrt(reach2);
+  m.reach = RoundUp(std::sqrt(reach2));
+  m.z_max = RoundUp(z_max);
 
   const Net net{shape, points};
   const WeightBounds w = rational ? BoundWeights(net) : WeightBounds{};
   if (!(w.min() > 1e-3 * w.w.middle)) return m;  // a singular corner: derivatives have no useful bound
   const Deviation du = BoundFirst(net, 1, m.a, m, w, reach_a, reach_b);
   const Deviation dv = BoundFirst(net, 0, m.b, m, w, reach_a, reach_b);
-  m.drift_a = du.Length();
-  m.drift_b = dv.Length();
+  m.drift_a = RoundUp(du.Length());
+  m.drift_b = RoundUp(dv.Length());
   const Slope su{w.u, m.a, m.drift_a}, sv{w.v, m.b, m.drift_b};
-  m.drift_uu = BoundSecond(net, 2, 0, m.uu, m, w, su, su, w.uu);
-  m.drift_uv = BoundSecond(net, 1, 1, m.uv, m, w, su, sv, w.uv);
-  m.drift_vv = BoundSecond(net, 0, 2, m.vv, m, w, sv, sv, w.vv);
+  m.drift_uu = RoundUp(BoundSecond(net, 2, 0, m.uu, m, w, su, su, w.uu));
+  m.drift_uv = RoundUp(BoundSecond(net, 1, 1, m.uv, m, w, su, sv, w.uv));
+  m.drift_vv = RoundUp(BoundSecond(net, 0, 2, m.vv, m, w, sv, sv, w.vv));
   // S_u.S_u >= a.a + 2 (S_u - a).a: only the part along a can make it smaller.
-  m.gram_uu = 2.0 * du.along_a + uu;
-  m.gram_vv = 2.0 * dv.along_b + vv;
-  m.gram_uv = du.along_b + dv.along_a + m.drift_a * m.drift_b + uv;
+  m.gram_uu = RoundUp(2.0 * du.along_a + uu);
+  m.gram_vv = RoundUp(2.0 * dv.along_b + vv);
+  m.gram_uv = RoundUp(du.along_b + dv.along_a + du.Length() * dv.Length() + uv);
   return m;
 }
 
@@ -170,7 +171,7 @@ LowerModel BoundBelow(const LeafModel& m, const Vec3& c) {
   LowerModel low;
   const Vec3 d = m.s - c;
   const double distance2 = d.squaredNorm();
-  const double size = std::sqrt(distance2) + m.reach;
+  const double size = std::sqrt(distance2) + m.reach, drift_a = m.drift_a, drift_b = m.drift_b;
   const double e_uu = m.gram_uu + size * m.drift_uu, e_uv = m.gram_uv + size * m.drift_uv,
                e_vv = m.gram_vv + size * m.drift_vv;
   low.f0 = 0.5 * distance2;
@@ -188,10 +189,10 @@ LowerModel BoundBelow(const LeafModel& m, const Vec3& c) {
   const double az = std::abs(m.a.z()), bz = std::abs(m.b.z());
   const double rise = std::abs(d.z()) + m.reach;
   const double h_uu =
-      e_uu + 2.0 * az * m.drift_a + m.drift_a * m.drift_a + rise * m.drift_uu + m.reach * std::abs(m.uu.z());
+      e_uu + 2.0 * az * drift_a + drift_a * drift_a + rise * m.drift_uu + m.reach * std::abs(m.uu.z());
   const double h_vv =
-      e_vv + 2.0 * bz * m.drift_b + m.drift_b * m.drift_b + rise * m.drift_vv + m.reach * std::abs(m.vv.z());
-  const double h_uv = e_uv + az * m.drift_b + bz * m.drift_a + m.drift_a * m.drift_b + rise * m.drift_uv +
+      e_vv + 2.0 * bz * drift_b + drift_b * drift_b + rise * m.drift_vv + m.reach * std::abs(m.vv.z());
+  const double h_uv = e_uv + az * drift_b + bz * drift_a + drift_a * drift_b + rise * m.drift_uv +
                       m.reach * std::abs(m.uv.z());
   const double a = m.a.head<2>().squaredNorm() + d.head<2>().dot(m.uu.head<2>()) - h_uu - h_uv;
   const double b = m.a.head<2>().dot(m.b.head<2>()) + d.head<2>().dot(m.uv.head<2>());

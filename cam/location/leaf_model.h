@@ -6,6 +6,8 @@
 // rectangle by at most  e_ij = gram_ij + (|s - c| + reach) drift_ij  from its middle value.
 #pragma once
 
+#include <cmath>
+
 #include "core/math/box_qp.h"
 #include "core/surface/net_kernel.h"
 
@@ -17,13 +19,17 @@ struct Rect {
 
 struct LeafModel {
   Vec3 s, a, b, uu, uv, vv;
-  // Bounds, mm^2 resp. mm; infinite where the rectangle holds a singular corner.
-  double gram_uu = kInfinity, gram_uv = kInfinity, gram_vv = kInfinity;  // of S_i.S_j + (S - s).s_ij
-  double drift_uu = 0.0, drift_uv = 0.0, drift_vv = 0.0;                 // of S_ij
-  double drift_a = 0.0, drift_b = 0.0;                                   // of S_u, S_v
-  double reach = 0.0;                                                    // of S - s
-  double z_max = kInfinity;                                              // of the hull
+  // Bounds, mm^2 resp. mm, rounded up; infinite where the rectangle holds a singular corner.
+  float gram_uu = HUGE_VALF, gram_uv = HUGE_VALF, gram_vv = HUGE_VALF;  // of S_i.S_j + (S - s).s_ij
+  float drift_uu = 0.0F, drift_uv = 0.0F, drift_vv = 0.0F;              // of S_ij
+  float drift_a = 0.0F, drift_b = 0.0F;                                 // of S_u, S_v
+  float reach = HUGE_VALF;                                              // of S - s
+  float z_max = HUGE_VALF;                                              // of the hull
 };
+
+// To floats without falling below, resp. rising above.
+inline float RoundUp(double x) { return std::nextafterf(static_cast<float>(x), HUGE_VALF); }
+inline float RoundDown(double x) { return std::nextafterf(static_cast<float>(x), -HUGE_VALF); }
 
 // Model of the part `rect` of a piece; `points` is its net (already restricted), hull as from HullPoints,
 // `middle` the piece's jet at the middle of `rect` in the piece's own parameters. Cost O(points).

@@ -111,14 +111,14 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
   if (internal::OrientedBoxOutside(leaf.center, leaf.axis, leaf.half, c, 2.0 * free_f)) return;
 
   const LowerModel lower = internal::BoundBelow(leaf.model, c);
-  if (lower.convex && best.piece == leaf.piece && Holds(leaf.rect, best.u, best.v) &&
-      IsKkt(best, leaf.rect)) {
+  if (lower.convex && best.piece == leaf.piece && Holds(leaf.rect(), best.u, best.v) &&
+      IsKkt(best, leaf.rect())) {
     return;
   }
   if (lower.minorant && lower.f0 + MinimizeOnBox(lower.q, {-0.5, 0.5, -0.5, 0.5}).value >= free_f) return;
 
   const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
-  const Rect& rect = leaf.rect;
+  const Rect rect = leaf.rect();
   const auto at = [&](double x, double y) {
     return Vec2(rect.u0 + (0.5 + x) * (rect.u1 - rect.u0), rect.v0 + (0.5 + y) * (rect.v1 - rect.v0));
   };

@@ -13,9 +13,6 @@ namespace {
 constexpr int kMaxHalvings = 2;
 constexpr std::size_t kChunk = 64;  // leaves per task
 
-float RoundDown(double x) { return std::nextafterf(static_cast<float>(x), -HUGE_VALF); }
-float RoundUp(double x) { return std::nextafterf(static_cast<float>(x), HUGE_VALF); }
-
 // The binary tree below one leaf of the surface, in depth-first order as SurfaceNode; indices count from its
 // own first node and leaf.
 struct LeafTree {
@@ -43,14 +40,16 @@ bool NeedsSplit(const LeafModel& m, double radius) {
 
 class LeafRefiner {
  public:
-  LeafRefiner(const Piece& piece, std::int32_t piece_index, const Rect& rect, double radius, LeafTree& out)
-      : piece_(piece),
-        piece_index_(piece_index),
-        shape_{piece.net.degree_u, piece.net.degree_v},
+  LeafRefiner(const Surface& surface, const SurfaceLeaf& leaf, double radius, LeafTree& out)
+      : whole_(leaf),
+        piece_(surface.piece(leaf.piece)),
+        piece_index_(leaf.piece.value),
+        shape_{piece_.net.degree_u, piece_.net.degree_v},
         radius_(radius),
         out_(out) {
+    const Rect rect{leaf.u0, leaf.u1, leaf.v0, leaf.v1};
     Vec4* points = levels_[0].data();
-    std::copy(piece.net.points.begin(), piece.net.points.end(), points);
+    std::copy(piece_.net.points.begin(), piece_.net.points.end(), points);
     RestrictNet(shape_, points, rect.u0, rect.u1, rect.v0, rect.v1);
     Split(points, rect, 0);
   }
@@ -59,7 +58,13 @@ class LeafRefiner {
   void Split(const Vec4* points, const Rect& rect, int level) {
     std::array<Vec3, kMaxNetPoints> hull;
     const int hull_count = HullPoints(shape_, points, hull.data());
-    const RectBounds bounds = BoundPoints(shape_, points, hull.data(), hull_count);
+    RectBounds bounds;
+    if (level == 0) {  // the surface has them but for the box
+      bounds = {Box3{}, whole_.center, whole_.axis, whole_.half};
+      for (int k = 0; k < hull_count; ++k) bounds.box.Add(hull[static_cast<std::size_t>(k)]);
+    } else {
+      bounds = BoundPoints(shape_, points, hull.data(), hull_count);
+    }
     const double mu = 0.5 * (rect.u0 + rect.u1), mv = 0.5 * (rect.v0 + rect.v1);
     const LeafModel model = MakeLeafModel(shape_, points, piece_.net.rational, hull.data(), hull_count,
                                           Evaluate(piece_, mu, mv), rect);
@@ -67,7 +72,9 @@ class LeafRefiner {
     out_.nodes.push_back({bounds.box, 0, -1});
     if (level == kMaxHalvings || !NeedsSplit(model, radius_)) {
       out_.nodes[self].leaf = static_cast<std::int32_t>(out_.leaves.size());
-      out_.leaves.push_back({bounds.center, bounds.axis, bounds.half, model, rect, piece_index_});
+      out_.leaves.push_back({bounds.center, bounds.axis, bounds.half, model, piece_index_,
+                             static_cast<float>(rect.u0), static_cast<float>(rect.u1),
+                             static_cast<float>(rect.v0), static_cast<float>(rect.v1)});
       return;
     }
     const bool along_u = model.a.squaredNorm() >= model.b.squaredNorm();
@@ -82,6 +89,7 @@ class LeafRefiner {
     Split(high, second, level + 1);
   }
 
+  const SurfaceLeaf& whole_;
   const Piece& piece_;
   std::int32_t piece_index_;
   NetShape shape_;
@@ -93,8 +101,10 @@ class LeafRefiner {
 // Writes nodes of four children: each takes the binary node's children and opens the largest ones.
 class Collapser {
  public:
-  Collapser(const Surface& surface, const std::vector<LeafTree>& parts, SearchTree& out)
-      : surface_(surface), parts_(parts), out_(out) {
+  // first_leaf: where the leaves of each part are in `out`.
+  Collapser(const Surface& surface, const std::vector<LeafTree>& parts,
+            const std::vector<std::int32_t>& first_leaf, SearchTree& out)
+      : surface_(surface), parts_(parts), first_leaf_(first_leaf), out_(out) {
     const Item root = Resolve({-1, 0});
     if (IsLeaf(root)) {  // a single leaf: a root with one child
       out_.nodes.emplace_back();
@@ -162,9 +172,7 @@ class Collapser {
     for (std::size_t k = 0; k < children.size(); ++k) {
       const Item& c = children[k];
       if (IsLeaf(c)) {
-        const LeafTree& part = parts_[static_cast<std::size_t>(c.part)];
-        node.child[k] = ~static_cast<std::int32_t>(out_.leaves.size());
-        out_.leaves.push_back(part.leaves[static_cast<std::size_t>(Node(c).leaf)]);
+        node.child[k] = ~(first_leaf_[static_cast<std::size_t>(c.part)] + Node(c).leaf);
       } else {
         node.child[k] = Emit(c);
       }
@@ -174,6 +182,7 @@ class Collapser {
 
   const Surface& surface_;
   const std::vector<LeafTree>& parts_;
+  const std::vector<std::int32_t>& first_leaf_;
   SearchTree& out_;
 };
 
@@ -186,9 +195,7 @@ SearchTree BuildSearchTree(const Surface& surface, double radius) {
   const absl::Status status =
       ParallelFor(run, nullptr, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
         for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
-          const SurfaceLeaf& leaf = surface.leaves[i];
-          LeafRefiner(surface.piece(leaf.piece), leaf.piece.value, {leaf.u0, leaf.u1, leaf.v0, leaf.v1},
-                      radius, parts[i]);
+          LeafRefiner(surface, surface.leaves[i], radius, parts[i]);
         }
       });
   PM_CHECK(status.ok());
@@ -196,8 +203,14 @@ SearchTree BuildSearchTree(const Surface& surface, double radius) {
   std::size_t leaves = 0;
   for (const LeafTree& part : parts) leaves += part.leaves.size();
   tree.leaves.reserve(leaves);
+  std::vector<std::int32_t> first_leaf(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    first_leaf[i] = static_cast<std::int32_t>(tree.leaves.size());
+    tree.leaves.insert(tree.leaves.end(), parts[i].leaves.begin(), parts[i].leaves.end());
+    std::vector<SearchLeaf>().swap(parts[i].leaves);  // never twice in memory
+  }
   tree.nodes.reserve(leaves / 2 + 1);
-  Collapser(surface, parts, tree);
+  Collapser(surface, parts, first_leaf, tree);
   return tree;
 }
 

@@ -24,8 +24,9 @@ struct SearchLeaf {
   Eigen::Matrix3d axis;
   Vec3 half;
   LeafModel model;
-  Rect rect;
   std::int32_t piece;
+  float u0, u1, v0, v1;  // dyadic, hence exact
+  Rect rect() const { return {u0, u1, v0, v1}; }
 };
 
 struct SearchTree {
