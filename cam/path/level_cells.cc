@@ -41,17 +41,19 @@ class Search {
   bool MiddleCovers(const PlanCell& cell) {
     const double diagonal = cell.half.norm();
     if (diagonal >= locator_.radius()) return false;
+    if (hint_ && DiscCovers(hint_->p, cell)) return true;
     const std::optional<CenterPoint> h = locator_.Height(cell.mid, hint_ ? &*hint_ : nullptr);
     if (!h) return false;
     hint_ = h->contact;
-    if (h->z <= z_) return false;
-    const double below = std::max(0.0, z_ - h->contact.p.z());
+    return h->z > z_ && DiscCovers(h->contact.p, cell);
+  }
+
+  bool DiscCovers(const Vec3& p, const PlanCell& cell) const {
+    const double below = std::max(0.0, z_ - p.z());
     const double rho2 = locator_.radius() * locator_.radius() - below * below;
-    if (rho2 <= 0.0) return false;
-    const double reach = std::sqrt(rho2) * (1.0 - 1e-9);
-    const double dx = std::abs(h->contact.p.x() - cell.mid.x()) + cell.half.x();
-    const double dy = std::abs(h->contact.p.y() - cell.mid.y()) + cell.half.y();
-    return dx * dx + dy * dy < reach * reach;
+    const double dx = std::abs(p.x() - cell.mid.x()) + cell.half.x();
+    const double dy = std::abs(p.y() - cell.mid.y()) + cell.half.y();
+    return dx * dx + dy * dy < rho2 * (1.0 - 1e-9);
   }
 
   void Visit(std::int32_t x, std::int32_t y, std::int32_t side, std::size_t depth) {

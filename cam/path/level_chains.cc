@@ -10,6 +10,9 @@ namespace {
 // mm: edges are not searched for pairs of crossings closer than this (ALGORITHMS 11).
 constexpr double kFinestEdge = 2e-4;
 
+// mm: a point this far inside of a known disc is forbidden without asking h.
+constexpr double kClearlyInside = 1e-7;
+
 struct Vertex {
   bool forbidden = false;
   SurfacePoint contact;  // when forbidden
@@ -67,6 +70,7 @@ class Builder {
 
  private:
   Vertex Probe(const Vec2& q) {
+    if (hint_ && (q - Plan(hint_->p)).norm() < oracle_.Rho(hint_->p) - kClearlyInside) return {true, *hint_};
     const std::optional<CenterPoint> h = oracle_.Height(q, hint_ ? &*hint_ : nullptr);
     if (!h) return {};
     hint_ = h->contact;

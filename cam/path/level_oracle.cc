@@ -73,28 +73,38 @@ LevelPoint LevelOracle::Exit(Vec2 q, SurfacePoint contact, const Vec2& direction
 
 std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& direction, const SurfacePoint& a,
                                                   const SurfacePoint& b, double reach) const {
-  const std::optional<CenterPoint> h = locator_.Height(m, &a);
-  if (Forbidden(h)) {
-    LevelPoint root = Exit(m, h->contact, direction, reach);
-    if ((root.q - m).norm() >= reach * (1.0 - 1e-12)) return std::nullopt;
-    return root;
-  }
-  // Free: back to the first rim met.
-  double nearest = kInfinity;
+  // Inside a disc of the two: outward from m. Else from the first rim behind m; the walk passes m again if it
+  // lies in some third disc.
+  double back = kInfinity;
   const SurfacePoint* hit = nullptr;
   for (const SurfacePoint* k : {&a, &b}) {
     const Vec2 d = m - Plan(k->p);
-    const double along = d.dot(direction), rho = Rho(k->p);
-    const double square = along * along - d.squaredNorm() + rho * rho;
+    const double along = d.dot(direction), rho = Rho(k->p), outside = d.squaredNorm() - rho * rho;
+    if (outside < 0.0) {
+      back = 0.0;
+      hit = k;
+      break;
+    }
+    const double square = along * along - outside;
     if (along <= 0.0 || square <= 0.0) continue;
     const double t = std::max(0.0, along - std::sqrt(square));
-    if (t < nearest) {
-      nearest = t;
+    if (t < back) {
+      back = t;
       hit = k;
     }
   }
-  if (hit == nullptr || nearest > reach) return std::nullopt;
-  return Exit(m - nearest * direction, *hit, direction, nearest);
+  SurfacePoint start;
+  if (hit != nullptr && back <= reach) {
+    start = *hit;
+  } else {
+    const std::optional<CenterPoint> h = locator_.Height(m, &a);
+    if (!Forbidden(h)) return std::nullopt;
+    start = h->contact;
+    back = 0.0;
+  }
+  LevelPoint root = Exit(m - back * direction, start, direction, back + reach);
+  if ((root.q - m).norm() >= reach * (1.0 - 1e-12)) return std::nullopt;
+  return root;
 }
 
 std::optional<LevelPoint> LevelOracle::Corner(const LevelPoint& a, const LevelPoint& b, double reach) const {

@@ -41,7 +41,9 @@ class Refiner {
         return;
       }
     }
-    const Vec2 m = 0.5 * (a.q + b.q);
+    // As many parts as the longest chord asks for, not always halves.
+    const double parts = std::max(2.0, std::ceil(length / longest_));
+    const Vec2 m = a.q + (std::floor(0.5 * parts) / parts) * (b.q - a.q);
     for (const Vec2& direction : {free, Vec2(Vec2(a.q.y() - b.q.y(), b.q.x() - a.q.x()) / length)}) {
       if (direction.squaredNorm() == 0.0) continue;
       const std::optional<LevelPoint> root = oracle_.RootOnLine(m, direction, a.contact, b.contact, reach);
