@@ -4,37 +4,48 @@
 
 namespace patchmill {
 
-MotionSets CollectMotion(const ProgramMotion& motion, const Vec3& offset, double clear_z) {
-  MotionSets sets;
+namespace {
+
+void AddRapid(const ProgramMove& move, PathSegment s, double clear_z, std::vector<PathSegment>& out) {
+  const bool straight_up =
+      Plan(s.a) == Plan(s.b) && !move.from_above && (move.to_above || s.b.z() >= s.a.z());
+  if (straight_up || std::min(s.a.z(), s.b.z()) >= clear_z) return;
+  if (std::max(s.a.z(), s.b.z()) > clear_z) {
+    const Vec3 crossing = s.a + (clear_z - s.a.z()) / (s.b.z() - s.a.z()) * (s.b - s.a);
+    (s.a.z() > clear_z ? s.a : s.b) = crossing;
+  }
+  out.push_back(s);
+}
+
+}  // namespace
+
+std::vector<PathSegment> CollectMoves(const ProgramMotion& motion, MotionSet set, const Vec3& offset,
+                                      double clear_z) {
+  std::vector<PathSegment> segments;
   for (std::size_t i = 0; i < motion.moves.size(); ++i) {
     const ProgramMove& move = motion.moves[i];
     if (move.from_above && move.to_above) continue;
-    Vec3 a = move.from + offset, b = move.to + offset;
-    if (move.from_above) a.z() = b.z();
-    if (move.to_above) b.z() = a.z();
+    PathSegment s{move.from + offset, move.to + offset, static_cast<int>(i)};
+    if (move.from_above) s.a.z() = s.b.z();
+    if (move.to_above) s.b.z() = s.a.z();
     const bool rapid = move.kind == ProgramMove::Kind::kRapid;
-    const auto index = static_cast<int>(i);
-    sets.swept.push_back({a, b, index});
-    sets.chord_error = std::max(sets.chord_error, move.chord_error);
-    if (!rapid) {
-      // From or to machine zero: only the lower end is known to be cut.
-      if (move.from_above) {
-        sets.cut.push_back({b, b, index});
-      } else {
-        sets.cut.push_back({a, move.to_above ? a : b, index});
-      }
-      continue;
+    if (set == MotionSet::kSwept) {
+      segments.push_back(s);
+    } else if (set == MotionSet::kRapid && rapid) {
+      AddRapid(move, s, clear_z, segments);
+    } else if (set == MotionSet::kCut && !rapid) {
+      if (move.from_above) s.a = s.b;
+      if (move.to_above) s.b = s.a;
+      segments.push_back(s);
     }
-    const bool straight_up =
-        Plan(a) == Plan(b) && !move.from_above && (move.to_above || move.to.z() >= move.from.z());
-    if (straight_up || std::min(a.z(), b.z()) >= clear_z) continue;
-    if (std::max(a.z(), b.z()) > clear_z) {
-      const Vec3 crossing = a + (clear_z - a.z()) / (b.z() - a.z()) * (b - a);
-      (a.z() > clear_z ? a : b) = crossing;
-    }
-    sets.rapid.push_back({a, b, index});
   }
-  return sets;
+  return segments;
+}
+
+double ChordError(const ProgramMotion& motion) {
+  double most = 0.0;
+  for (const ProgramMove& move : motion.moves) most = std::max(most, move.chord_error);
+  return most;
 }
 
 }  // namespace patchmill

@@ -26,6 +26,10 @@ std::vector<PathSegment> CutLong(std::vector<PathSegment> segments, double longe
   double total = 0.0;
   for (const PathSegment& s : segments) total += (s.b - s.a).norm();
   longest = std::max(longest, total / kMostPieces);
+  if (std::none_of(segments.begin(), segments.end(),
+                   [&](const PathSegment& s) { return (s.b - s.a).norm() > longest; })) {
+    return segments;
+  }
   std::vector<PathSegment> cut;
   cut.reserve(segments.size());
   for (const PathSegment& s : segments) {

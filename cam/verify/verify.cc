@@ -30,7 +30,8 @@ class Judge {
   }
 
   absl::StatusOr<VerifyReport> Run() {
-    sets_ = CollectMotion(motion_, params_.program_zero + Vec3(0, 0, ball_), params_.stock_top_z + ball_);
+    offset_ = params_.program_zero + Vec3(0, 0, ball_);
+    chord_error_ = ChordError(motion_);
     // Fine enough for areas, no wider than the ball, and not without end.
     const double area = RoughArea(surface_);
     const double size = std::clamp(std::sqrt(area / 9e3), 0.02 * radius_, radius_);
@@ -90,12 +91,12 @@ class Judge {
   absl::Status JudgeGouge() {
     GougeParams p;
     p.radius = radius_;
-    p.chord_error = sets_.chord_error;
+    p.chord_error = chord_error_;
     p.certainty = params_.certainty;
     // The control's own smoothing may deepen every gouge (P1).
     const double smoothing = motion_.controller_tolerance;
     p.limit = std::max(0.0, params_.tolerance - smoothing);
-    const SegmentTree tree(sets_.swept, Metric::kSwept, radius_, run_);
+    const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
     PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge(surface_, roots_, tree, p, run_));
     report_.max_gouge = gouge.worst.value;
     report_.max_gouge_at = Place(gouge.worst);
@@ -116,15 +117,11 @@ class Judge {
 
   absl::Status JudgeShank(GougeParams p) {
     const double shank = 0.5 * tool_.shank_diameter.value_or(0.0);
-    if (!(shank > ball_) || sets_.swept.empty()) return absl::OkStatus();
-    std::vector<PathSegment> raised = sets_.swept;
+    if (!(shank > ball_)) return absl::OkStatus();
     const Vec3 up(0, 0, *tool_.flute_length - ball_);
-    for (PathSegment& s : raised) {
-      s.a += up;
-      s.b += up;
-    }
     p.limit = params_.tolerance;
-    const SegmentTree tree(std::move(raised), Metric::kShank, radius_, run_, shank);
+    const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
+                           run_, shank);
     PM_ASSIGN_OR_RETURN(const Extremes found,
                         FindShankGouge(surface_, roots_, tree, shank + params_.leave, p, run_));
     if (found.worst.value > report_.max_gouge) {
@@ -138,7 +135,7 @@ class Judge {
   absl::Status JudgeFinish() {
     LeftoverParams p;
     p.reach = {radius_, params_.tolerance, params_.floor_z + ball_};
-    p.chord_error = sets_.chord_error;
+    p.chord_error = chord_error_;
     p.certainty = params_.certainty;
     p.scallop = params_.scallop;
     if (params_.scallop) p.limit = *params_.scallop + params_.tolerance;
@@ -146,7 +143,7 @@ class Judge {
     p.zigzag_angle = params_.zigzag_angle;
     p.min_step_fraction = params_.min_step_fraction;
     p.most = surface_.box.Diagonal();
-    const SegmentTree tree(sets_.cut, Metric::kPath, radius_, run_);
+    const SegmentTree tree(CollectMoves(motion_, MotionSet::kCut, offset_), Metric::kPath, radius_, run_);
     PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, roots_, tree, p, run_));
     const auto at = [](FinishClass kind) { return static_cast<std::size_t>(kind); };
     const auto take = [&](FinishClass kind, std::size_t reason) {
@@ -184,7 +181,8 @@ class Judge {
       Report(code, message);
       if (line > 0) report_.findings.back().where.line = line;
     };
-    const SegmentTree tree(sets_.rapid, Metric::kSwept, radius_, run_);
+    const SegmentTree tree(CollectMoves(motion_, MotionSet::kRapid, offset_, params_.stock_top_z + ball_),
+                           Metric::kSwept, radius_, run_);
     PM_ASSIGN_OR_RETURN(
         const std::vector<Extreme> rapids,
         FindRapidsInStock(surface_, roots_, tree, ball_ + params_.allowance - kRapidSlack, run_));
@@ -235,7 +233,8 @@ class Judge {
   const VerifyParams& params_;
   const RunContext& run_;
   double ball_ = 0.0, radius_ = 0.0;
-  MotionSets sets_;
+  Vec3 offset_ = Vec3::Zero();  // from a tip of the program to the ball centre
+  double chord_error_ = 0.0;
   std::vector<CellRect> roots_;
   VerifyReport report_;
 };
