@@ -42,10 +42,10 @@ int Threads(int server, int request) {
 }
 
 Clock::time_point Deadline(const Call& call) {
-  auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double>(call.env->options.max_job_seconds));
-  if (call.time_left) left = std::min(left, *call.time_left);
-  return Clock::now() + left;
+  const Clock::time_point own =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                         std::chrono::duration<double>(call.env->options.max_job_seconds));
+  return call.deadline ? std::min(own, *call.deadline) : own;
 }
 
 }  // namespace

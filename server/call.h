@@ -28,7 +28,7 @@ struct ServerEnv {
 struct Call {
   ServerEnv* env = nullptr;
   std::function<bool()> cancelled = [] { return false; };
-  std::optional<std::chrono::nanoseconds> time_left;  // nothing: the server's own limit
+  std::optional<RunContext::Clock::time_point> deadline;  // nothing: only the server's own limit
 };
 
 // Where the messages of a stream go. False: the other side is gone, stop.

@@ -10,30 +10,34 @@
 
 namespace patchmill {
 
-absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> ClientCredentials(const std::string& ca_file,
-                                                                            const std::string& cert_file,
-                                                                            const std::string& key_file) {
-  if (ca_file.empty() && cert_file.empty() && key_file.empty()) return grpc::InsecureChannelCredentials();
-  if (cert_file.empty() != key_file.empty()) {
-    return absl::InvalidArgumentError("--cert and --key belong together");
-  }
+namespace {
+
+absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> Credentials(const ServerOptions& options) {
+  if (options.ca_file.empty() && options.cert_file.empty()) return grpc::InsecureChannelCredentials();
   grpc::SslCredentialsOptions ssl;
-  if (!ca_file.empty()) {
-    PM_ASSIGN_OR_RETURN(ssl.pem_root_certs, ReadPemFile(ca_file));
-  }
-  if (!cert_file.empty()) {
-    PM_ASSIGN_OR_RETURN(ssl.pem_cert_chain, ReadPemFile(cert_file));
-    PM_ASSIGN_OR_RETURN(ssl.pem_private_key, ReadPemFile(key_file));
+  // A server's own certificate is what its health check trusts when no authority is named.
+  PM_ASSIGN_OR_RETURN(ssl.pem_root_certs,
+                      ReadPemFile(options.ca_file.empty() ? options.cert_file : options.ca_file));
+  if (!options.cert_file.empty() && !options.key_file.empty()) {
+    PM_ASSIGN_OR_RETURN(ssl.pem_cert_chain, ReadPemFile(options.cert_file));
+    PM_ASSIGN_OR_RETURN(ssl.pem_private_key, ReadPemFile(options.key_file));
   }
   return grpc::SslCredentials(ssl);
 }
 
-int CheckHealth(const std::string& target, const std::shared_ptr<grpc::ChannelCredentials>& credentials) {
+}  // namespace
+
+int CheckHealth(const std::string& target, const ServerOptions& options) {
+  const auto credentials = Credentials(options);
+  if (!credentials.ok()) {
+    fmt::print(stderr, "patchmill: {}\n", std::string(credentials.status().message()));
+    return 1;
+  }
   // grpc.health.v1 is not packaged as a library; its request for the whole server is an empty message, and a
   // server that serves answers field 1 = 1.
   constexpr char kServing[] = {0x08, 0x01};
   grpc::TemplatedGenericStub<grpc::ByteBuffer, grpc::ByteBuffer> stub(
-      grpc::CreateChannel(target, credentials));
+      grpc::CreateChannel(target, *credentials));
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(3));
   grpc::Slice empty;

@@ -1,6 +1,5 @@
 // patchmilld: the service.
 #include <CLI/CLI.hpp>
-#include <grpcpp/security/credentials.h>
 
 #include "server/call.h"
 #include "server/serve_flags.h"
@@ -20,10 +19,5 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   if (ask.empty()) return patchmill::Serve(options);
-  const auto credentials = patchmill::ClientCredentials(options.ca_file, options.cert_file, options.key_file);
-  if (!credentials.ok()) {
-    std::cerr << "patchmilld: " << credentials.status().message() << "\n";
-    return 2;
-  }
-  return patchmill::CheckHealth(ask, *credentials);
+  return patchmill::CheckHealth(ask, options);
 }

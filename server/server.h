@@ -10,7 +10,6 @@
 
 namespace grpc {
 class Channel;
-class ChannelCredentials;
 }  // namespace grpc
 
 namespace patchmill {
@@ -36,14 +35,8 @@ std::unique_ptr<RunningServer> StartEmbeddedServer(ServerOptions options);
 // start.
 int Serve(const ServerOptions& options);
 
-// Asks the server at `target` (HOST:PORT) for its health: 0 when it serves, 1 otherwise, with a word on
-// stderr.
-int CheckHealth(const std::string& target, const std::shared_ptr<grpc::ChannelCredentials>& credentials);
-
-// Credentials of a client: TLS when any file is given, plain otherwise. INVALID_ARGUMENT for an unreadable
-// file.
-absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> ClientCredentials(const std::string& ca_file,
-                                                                            const std::string& cert_file,
-                                                                            const std::string& key_file);
+// Asks the server at `target` (HOST:PORT) for its health, over TLS when `options` names certificates: 0 when
+// it serves, 1 otherwise, with a word on stderr.
+int CheckHealth(const std::string& target, const ServerOptions& options);
 
 }  // namespace patchmill

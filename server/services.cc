@@ -10,6 +10,7 @@
 #include "patchmill/v1/model_service.grpc.pb.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 #include "server/handlers/handlers.h"
+#include "server/limits.h"
 
 namespace patchmill {
 namespace {
@@ -20,15 +21,22 @@ Call MakeCall(ServerEnv* env, grpc::ServerContext* context) {
   call.cancelled = [context] { return context->IsCancelled(); };
   const auto deadline = context->deadline();
   if (deadline != std::chrono::system_clock::time_point::max()) {
-    call.time_left = std::max(std::chrono::nanoseconds(0),
-                              std::chrono::nanoseconds(deadline - std::chrono::system_clock::now()));
+    call.deadline = RunContext::Clock::now() + (deadline - std::chrono::system_clock::now());
   }
   return call;
 }
 
+// One line of a log, whatever a client put into it.
+std::string OneLine(std::string text) {
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = ' ';
+  }
+  return text;
+}
+
 // Admission, the handler, the status on the wire, one line in the log.
 template <class Body>
-grpc::Status Run(ServerEnv* env, grpc::ServerContext* context, const char* method, const Body& body) {
+grpc::Status Run(ServerEnv* env, grpc::ServerContext* context, const std::string& method, const Body& body) {
   const auto begin = std::chrono::steady_clock::now();
   const absl::Status status = [&]() -> absl::Status {
     PM_ASSIGN_OR_RETURN(const Admission::Ticket ticket, env->admission.Enter());
@@ -37,7 +45,7 @@ grpc::Status Run(ServerEnv* env, grpc::ServerContext* context, const char* metho
   if (env->options.log_requests) {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     spdlog::info("{} {} {:.3f} s {} {}", method, absl::StatusCodeToString(status.code()), took.count(),
-                 context->peer(), std::string(status.message()));
+                 context->peer(), OneLine(std::string(status.message())));
   }
   return ToGrpcStatus(status);
 }
@@ -78,7 +86,8 @@ class ToolpathServiceImpl final : public v1::ToolpathService::Service {
   explicit ToolpathServiceImpl(ServerEnv* env) : env_(env) {}
   grpc::Status GenerateProgram(grpc::ServerContext* context, const v1::GenerateProgramRequest* request,
                                grpc::ServerWriter<v1::GenerateProgramResponse>* writer) override {
-    return Run(env_, context, "GenerateProgram",
+    const std::string id = OneLine(request->request_id().substr(0, limits::kMaxRequestIdBytes));
+    return Run(env_, context, id.empty() ? "GenerateProgram" : "GenerateProgram [" + id + "]",
                [&](const Call& call) { return HandleGenerateProgram(call, *request, SinkOf(writer)); });
   }
   grpc::Status VerifyProgram(grpc::ServerContext* context, const v1::VerifyProgramRequest* request,

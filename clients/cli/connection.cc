@@ -10,7 +10,7 @@
 #include <grpcpp/security/credentials.h>
 #include <grpcpp/support/channel_arguments.h>
 
-#include "patchmill/v1/status.pb.h"
+#include "clients/cli/input_file.h"
 
 namespace patchmill::cli {
 namespace {
@@ -64,6 +64,27 @@ std::string InWords(const grpc::Status& status) {
   return option != nullptr ? fmt::format("{}: {}", option, message) : message;
 }
 
+// TLS when any file is given, plain otherwise.
+absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> Credentials(const CommonOptions& options) {
+  if (options.ca_file.empty() && options.cert_file.empty() && options.key_file.empty()) {
+    return grpc::InsecureChannelCredentials();
+  }
+  if (options.cert_file.empty() != options.key_file.empty()) {
+    return absl::InvalidArgumentError("--cert and --key belong together");
+  }
+  grpc::SslCredentialsOptions ssl;
+  const std::pair<const std::string&, std::string&> files[] = {{options.ca_file, ssl.pem_root_certs},
+                                                               {options.cert_file, ssl.pem_cert_chain},
+                                                               {options.key_file, ssl.pem_private_key}};
+  for (const auto& [path, pem] : files) {
+    if (path.empty()) continue;
+    absl::StatusOr<std::string> text = ReadWholeFile(path);
+    if (!text.ok()) return text.status();
+    pem = *std::move(text);
+  }
+  return grpc::SslCredentials(ssl);
+}
+
 }  // namespace
 
 absl::StatusOr<Connection> Connect(const CommonOptions& options) {
@@ -76,7 +97,7 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options) {
     connection.channel = connection.embedded->InProcessChannel();
     return connection;
   }
-  auto credentials = ClientCredentials(options.ca_file, options.cert_file, options.key_file);
+  const auto credentials = Credentials(options);
   if (!credentials.ok()) return credentials.status();
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
+
+#include "clients/cli/input_file.h"
 
 namespace patchmill::cli {
 namespace {
@@ -177,19 +176,6 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   op.mutable_heights()->set_clearance_above_mm(options.clearance);
   if (options.floor) op.mutable_heights()->set_floor_z_mm(*options.floor);
   return op;
-}
-
-absl::StatusOr<std::string> ReadWholeFile(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return absl::InvalidArgumentError(fmt::format("{} is a directory", path));
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return absl::InvalidArgumentError(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  if (in.bad()) return absl::InvalidArgumentError(fmt::format("cannot read {}", path));
-  return bytes.str();
 }
 
 absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path) {

@@ -47,6 +47,5 @@ v1::Strategy MakeStrategy(const std::string& name);
 // The bytes of a model file and how to read them: text formats are told by their ending, JSON and protobuf by
 // content.
 absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path);
-absl::StatusOr<std::string> ReadWholeFile(const std::string& path);
 
 }  // namespace patchmill::cli

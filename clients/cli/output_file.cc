@@ -46,7 +46,8 @@ mode_t UsualMode() {
 }  // namespace
 
 absl::Status OutputFile::CheckWritable() const {
-  if (std::filesystem::is_directory(path_)) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path_, ignored)) {
     return absl::InvalidArgumentError(fmt::format("{} is a directory", path_));
   }
   const std::string target = IsSpecial(path_) ? path_ : Directory(path_);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "clients/cli/commands.h"
+#include "clients/cli/input_file.h"
 #include "clients/cli/job_options.h"
 #include "clients/cli/output_file.h"
 #include "clients/cli/progress_bar.h"

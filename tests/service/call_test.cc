@@ -65,10 +65,10 @@ TEST_F(RunJobThreadTest, ObeysACancelWithin200Milliseconds) {
 
 TEST_F(RunJobThreadTest, ObeysTheCallersDeadlineAndTheServersLimit) {
   Call call = MakeCall();
-  call.time_left = 50ms;
+  call.deadline = Clock::now() + 50ms;
   EXPECT_THAT(RunJobThread(call, 0, {}, Endless), StatusIs(absl::StatusCode::kDeadlineExceeded, _));
   env_.options.max_job_seconds = 0.05;
-  call.time_left.reset();
+  call.deadline.reset();
   EXPECT_THAT(RunJobThread(call, 0, {}, Endless), StatusIs(absl::StatusCode::kDeadlineExceeded, _));
 }
 
