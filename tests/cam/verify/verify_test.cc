@@ -1,5 +1,7 @@
 #include "cam/verify/verify.h"
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -417,6 +419,29 @@ TEST(Verify, CancelIsObeyed) {
   const auto report = Verify(SurfaceOf(Bumpy()), Ball(3.0),
                              Motion("G21\nG53 G0 Z0\nG0 X0 Y0\nZ50\nG1 X1 F5\nM2\n"), Params(50), run);
   EXPECT_EQ(report.status().code(), absl::StatusCode::kCancelled);
+}
+
+// From any stage, at once: little work is left undone between two polls.
+TEST(Verify, CancelInEveryStage) {
+  const Surface surface = SurfaceOf(TwoHills());
+  ProgramText text(60.0);
+  for (int i = 0; i <= 100; i += 2) text.Pass({{0.0, 1.0 * i, 40}, {100.0, 1.0 * i, 40}});
+  const ProgramMotion motion = Motion(text.End());
+  for (const std::string stage : {"verify: gouge", "verify: reach", "verify: leftover"}) {
+    RunContext run(2);
+    std::atomic<bool> seen = false;
+    std::chrono::steady_clock::time_point cancelled;
+    run.set_progress([&](std::string_view name, double fraction) {
+      if (name != stage || fraction > 0.5 || seen.exchange(true)) return;
+      cancelled = std::chrono::steady_clock::now();
+      run.Cancel();
+    });
+    const auto report = Verify(surface, Ball(3.0), motion, Params(50), run);
+    const std::chrono::duration<double> latency = std::chrono::steady_clock::now() - cancelled;
+    EXPECT_TRUE(seen) << stage;
+    EXPECT_EQ(report.status().code(), absl::StatusCode::kCancelled) << stage;
+    EXPECT_LT(latency.count(), 0.5) << stage;  // 0.2 s is promised; other tests run beside this one
+  }
 }
 
 }  // namespace
