@@ -15,7 +15,7 @@ constexpr int kMostPartial = 3;    // partial levels between two full ones
 constexpr double kSameHeight = 2e-4;  // mm: lower ends this close together are one
 // mm: a level at a flat lies this much above it, so that the flat itself is out of its reach.
 constexpr double kAboveFlat = 1e-6;
-constexpr double kMostBins = 4e6;
+constexpr double kMostBins = 4e5;
 
 struct Bins {
   double bottom = 0.0, width = 1.0;

@@ -15,6 +15,8 @@
 namespace patchmill {
 namespace {
 
+constexpr std::size_t kMostLevels = 50000;
+
 struct LevelPasses {
   std::vector<CutterPath> paths;
   double z = 0.0;
@@ -44,15 +46,20 @@ LevelPasses PassesAt(const LevelContext& context, const PlannedLevel& planned, d
 
 LevelContours TraceLevel(const Locator& locator, double z, const ContourParams& params,
                          const RunContext& run) {
-  return TraceLevel(LevelContext(locator), z, params, run);
+  return TraceLevel(LevelContext(locator, run, false), z, params, run);
 }
 
 absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const ContourParams& params,
                                            const RunContext& run) {
-  const LevelContext context(locator, run);
+  const LevelContext context(locator, run, true);
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(const ContourGround ground, SampleGround(context, params, run));
   const std::vector<PlannedLevel> levels = PlanLevels(ground, params, locator.radius());
+  if (levels.size() > kMostLevels) {
+    return absl::ResourceExhaustedError(
+        fmt::format("contours would need {} levels, more than {}: raise the scallop or the tool's radius",
+                    levels.size(), kMostLevels));
+  }
   std::vector<LevelPasses> passes(levels.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "contours", levels.size(), [&](std::size_t i) {
     passes[i] = PassesAt(context, levels[i], ground.spacing, params, run);

@@ -55,7 +55,7 @@ class PieceSampler {
                const Fineness& fineness)
       : context_(context), params_(params), piece_(piece), spacing_(spacing), fineness_(fineness) {}
 
-  void Run(std::vector<ContourSample>& samples, std::vector<LowerEnd>& ends) {
+  void Run(const RunContext& run, std::vector<ContourSample>& samples, std::vector<LowerEnd>& ends) {
     const auto count = [&](bool along_u) {
       double longest = 0.0;
       for (const double other : {0.0, 0.5, 1.0}) {
@@ -75,6 +75,7 @@ class PieceSampler {
     std::vector<Node> nodes(static_cast<std::size_t>((nu + 1) * (nv + 1)));
     const auto index = [&](int i, int j) { return static_cast<std::size_t>(i * (nv + 1) + j); };
     for (int i = 0; i <= nu; ++i) {
+      if (run.Cancelled()) return;
       for (int j = 0; j <= nv; ++j) nodes[index(i, j)] = MakeNode(Vec2(double(i) / nu, double(j) / nv));
     }
     for (int i = 0; i <= nu; ++i) {
@@ -104,7 +105,7 @@ class PieceSampler {
         if (n.reachable) samples.push_back({n.center, std::min(up, most), std::min(down, most), n.step});
       }
     }
-    SolveEnds(ends);
+    SolveEnds(run, ends);
   }
 
  private:
@@ -166,12 +167,16 @@ class PieceSampler {
   }
 
   // Only ends that share their height with others are worth an exact height: a level can lie there.
-  void SolveEnds(std::vector<LowerEnd>& ends) {
-    for (EndEdge& edge : ends_) Solve(edge, kRoughEnd);
+  void SolveEnds(const RunContext& run, std::vector<LowerEnd>& ends) {
+    for (EndEdge& edge : ends_) {
+      if (run.Cancelled()) return;
+      Solve(edge, kRoughEnd);
+    }
     std::vector<double> rough;
     for (const EndEdge& edge : ends_) rough.push_back(edge.good_z);
     std::sort(rough.begin(), rough.end());
     for (EndEdge& edge : ends_) {
+      if (run.Cancelled()) return;
       const auto from = std::lower_bound(rough.begin(), rough.end(), edge.good_z - kRoughEnd);
       const auto to = std::upper_bound(rough.begin(), rough.end(), edge.good_z + kRoughEnd);
       if (to - from < 2) continue;
@@ -212,7 +217,7 @@ absl::StatusOr<ContourGround> SampleGround(const LevelContext& context, const Co
   const std::vector<Fineness> fineness = BendOfPieces(context);
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, parts.size(), [&](std::size_t i) {
     PieceSampler(context, params, PieceId(i), ground.spacing, fineness[i])
-        .Run(parts[i].samples, parts[i].lower_ends);
+        .Run(run, parts[i].samples, parts[i].lower_ends);
   }));
   for (ContourGround& part : parts) {
     ground.samples.insert(ground.samples.end(), part.samples.begin(), part.samples.end());

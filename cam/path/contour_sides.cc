@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/parallel.h"
+
 namespace patchmill {
 namespace {
 
@@ -75,8 +77,10 @@ std::optional<Vec3> OutwardTangent(const Surface& surface, PieceId piece, int si
   return out.normalized();
 }
 
-PieceSides::PieceSides(const Surface& surface) : surface_(&surface) {
+PieceSides::PieceSides(const Surface& surface, const RunContext& run) : surface_(&surface) {
+  sides_.resize(surface.pieces.size());
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
+    if (i % 256 == 0 && run.Cancelled()) return;
     const Piece& piece = surface.pieces[i];
     const PatchShape& shape = surface.network.model.patches[piece.patch.index()].shape;
     for (int side = 0; side < 4; ++side) {
@@ -93,11 +97,11 @@ PieceSides::PieceSides(const Surface& surface) : surface_(&surface) {
       return std::min(a.t0, a.t1) < std::min(b.t0, b.t1);
     });
   }
-  sides_.resize(surface.pieces.size());
-  for (std::size_t i = 0; i < sides_.size(); ++i) {
+  // A cancel leaves the rest open; whoever asked finds out from the run itself.
+  (void)ParallelFor(run, nullptr, sides_.size(), [&](std::size_t i) {
     for (int side = 0; side < 4; ++side)
       sides_[i][static_cast<std::size_t>(side)] = Classify(PieceId(i), side);
-  }
+  });
 }
 
 PieceSides::Place PieceSides::MiddleOf(PieceId id, int side) const {

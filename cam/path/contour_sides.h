@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
@@ -32,7 +33,8 @@ inline constexpr double kSmoothSideAngle = 0.03;
 // from their common corners. Collapsed sides are kOpen (they are points).
 class PieceSides {
  public:
-  explicit PieceSides(const Surface& surface);  // keeps a reference; cost O(n log n)
+  // Keeps a reference. Cost O(n log n), parallel; unusable when the run was cancelled meanwhile.
+  PieceSides(const Surface& surface, const RunContext& run);
 
   const PieceSide& At(PieceId piece, int side) const {
     return sides_[piece.index()][static_cast<std::size_t>(side)];

@@ -26,7 +26,9 @@ double SignedArea(const std::vector<LevelPoint>& loop) {
 
 }  // namespace
 
-LevelContext::LevelContext(const Locator& locator_in, const RunContext& run) : LevelContext(locator_in) {
+LevelContext::LevelContext(const Locator& locator_in, const RunContext& run, bool all_slopes)
+    : locator(locator_in), sides(locator_in.surface(), run) {
+  if (!all_slopes) return;
   const Surface& surface = locator.surface();
   constexpr std::size_t kBlock = 256;
   slopes.resize(surface.leaves.size());
@@ -67,7 +69,7 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
     if (first != cells.cells.end()) level.ambiguous_at = oracle.Center(PlanOf(cells.grid, *first).mid);
     for (const Chain& chain : BuildChains(cells, items, oracle, run, wanted != nullptr)) {
       if (run.Cancelled()) return level;
-      const std::vector<LevelPoint> points = RefineLoop(oracle, chain, tolerance);
+      const std::vector<LevelPoint> points = RefineLoop(oracle, chain, tolerance, run);
       const bool undecided = chain.closed && std::all_of(chain.points.begin(), chain.points.end(),
                                                          [](const ChainPoint& p) { return p.ambiguous; });
       if (points.size() < (chain.closed ? 3 : 2) ||

@@ -8,9 +8,8 @@ namespace patchmill {
 
 // What does not depend on the level. References are kept by those who use it; const after construction.
 struct LevelContext {
-  explicit LevelContext(const Locator& locator_in) : locator(locator_in), sides(locator_in.surface()) {}
-  // With the slopes of all leaves, made in parallel: worth it for more than a few levels.
-  LevelContext(const Locator& locator_in, const RunContext& run);
+  // `all_slopes`: find the slopes of all leaves at once, in parallel; worth it for more than a few levels.
+  LevelContext(const Locator& locator_in, const RunContext& run, bool all_slopes = true);
 
   const Locator& locator;
   PieceSides sides;

@@ -141,13 +141,15 @@ double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPo
 }
 
 std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain,
-                                   const LoopTolerance& tolerance) {
+                                   const LoopTolerance& tolerance, const RunContext& run) {
   std::vector<LevelPoint> points;
   Refiner refiner(oracle, tolerance, points);
   const std::size_t n = chain.points.size();
   if (!chain.closed) points.push_back(chain.points.front().point);
-  for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < n; ++i)
+  for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < n; ++i) {
+    if (i % 16 == 0 && run.Cancelled()) return {};
     refiner.Way(chain.points[i].point, chain.points[(i + 1) % n].point, chain.points[i].free, 0);
+  }
   // Start at a corner if there is one, so that thinning cannot cross it.
   const auto corner =
       std::find_if(points.begin(), points.end(), [](const LevelPoint& p) { return p.other.has_value(); });

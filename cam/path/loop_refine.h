@@ -19,8 +19,8 @@ double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPo
 
 // Polyline of border points (closed when the chain is), forbidden side on the right, every chord within
 // tolerance; corners between two contacts are vertices with both contacts. Points that the tolerance does not
-// need are left out.
+// need are left out. Empty when the run is cancelled meanwhile.
 std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain,
-                                   const LoopTolerance& tolerance);
+                                   const LoopTolerance& tolerance, const RunContext& run);
 
 }  // namespace patchmill
