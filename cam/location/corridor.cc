@@ -26,14 +26,40 @@ struct Part {
   std::size_t net = 0;  // first point in the arena
 };
 
-// The largest of a quantity over the surface, between `lower` (attained) and the returned upper bound, which
-// is at most lower + gap unless the budget runs out.
-//   box(b), oriented(b): upper bounds of the quantity over a box; at(p): its value at a surface point.
+struct Halves {
+  Rect low_rect, high_rect;
+  std::array<Vec4, kMaxNetPoints> low, high;
+};
+
+// Across the longer side.
+void Halve(NetShape shape, const Vec4* points, const Rect& r, Halves& out) {
+  const int last_u = shape.degree_u * (shape.degree_v + 1), last_v = shape.degree_v;
+  const auto side = [&](int from, int to) {  // without the weightless corners
+    const Vec4 &p = points[from], &q = points[to];
+    if (!(p.w() > 0.0 && q.w() > 0.0)) return 0.0;
+    return Vec3(q.head<3>() / q.w() - p.head<3>() / p.w()).norm();
+  };
+  const double side_u = side(0, last_u) + side(last_v, last_u + last_v);
+  const double side_v = side(0, last_v) + side(last_u, last_u + last_v);
+  const bool along_u = side_u >= side_v;
+  const double mu = 0.5 * (r.u0 + r.u1), mv = 0.5 * (r.v0 + r.v1);
+  HalveNet(shape, points, along_u, out.low.data(), out.high.data());
+  out.low_rect = out.high_rect = r;
+  (along_u ? out.low_rect.u1 : out.low_rect.v1) = along_u ? mu : mv;
+  (along_u ? out.high_rect.u0 : out.high_rect.v0) = along_u ? mu : mv;
+}
+
+// The largest of a quantity over the surface, between `lower` (attained, or all that matters) and the
+// returned upper bound, which is at most lower + gap unless the budget runs out. Stops as soon as more than
+// `enough` is attained.
+//   box(b): upper bound of the quantity over a box; oriented(center, axis, half): over an oriented one, as in
+//   SurfaceLeaf; at(p): its value at a surface point.
 template <class BoxBound, class OrientedBound, class Value>
-double Maximize(const Surface& surface, double lower, double gap, const BoxBound& box,
+double Maximize(const Surface& surface, double lower, double gap, double enough, const BoxBound& box,
                 const OrientedBound& oriented, const Value& at) {
   thread_local std::vector<Part> heap;
   thread_local std::vector<Vec4> arena;
+  thread_local Halves halves;
   heap.clear();
   arena.clear();
   const auto worse = [](const Part& a, const Part& b) { return a.bound < b.bound; };
@@ -42,64 +68,58 @@ double Maximize(const Surface& surface, double lower, double gap, const BoxBound
     heap.push_back(part);
     std::push_heap(heap.begin(), heap.end(), worse);
   };
-  const auto push_rect = [&](const Piece& piece, std::int32_t piece_index, const Rect& rect,
-                             const Vec4* points, double parent_bound) {
+  const auto push_node = [&](std::int32_t index) {
+    const SurfaceNode& node = surface.nodes[static_cast<std::size_t>(index)];
+    Part part{box(node.box), index, -1, {}, 0};
+    if (node.leaf >= 0 && part.bound > lower) {
+      const SurfaceLeaf& leaf = surface.leaves[static_cast<std::size_t>(node.leaf)];
+      part.bound = std::min(part.bound, oriented(leaf.center, leaf.axis, leaf.half));
+    }
+    push(part);
+  };
+  const auto push_rect = [&](const Piece& piece, const Part& parent, const Rect& rect, const Vec4* points) {
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
     std::array<Vec3, kMaxNetPoints> hull;
-    const RectBounds bounds = BoundPoints(shape, points, hull.data(), HullPoints(shape, points, hull.data()));
+    const RectBounds b = BoundPoints(shape, points, hull.data(), HullPoints(shape, points, hull.data()));
+    const double bound = std::min({parent.bound, box(b.box), oriented(b.center, b.axis, b.half)});
+    if (!(bound > lower)) return;
     lower = std::max(lower, at(Position(piece, 0.5 * (rect.u0 + rect.u1), 0.5 * (rect.v0 + rect.v1))));
-    Part part{std::min({parent_bound, box(bounds.box), oriented(bounds)}), -1, piece_index, rect,
-              arena.size()};
-    if (!(part.bound > lower)) return;
+    const Part part{bound, -1, parent.piece, rect, arena.size()};
     arena.insert(arena.end(), points, points + shape.count());
     push(part);
   };
 
-  push({box(surface.nodes[0].box), 0, -1, {}, 0});
+  push_node(0);
   for (int budget = kBudget; !heap.empty(); --budget) {
     std::pop_heap(heap.begin(), heap.end(), worse);
-    const Part top = heap.back();
+    Part top = heap.back();
     heap.pop_back();
-    if (top.bound <= lower + gap || budget <= 0) return std::max(top.bound, lower);
+    if (top.bound <= lower + gap || budget <= 0 || lower > enough) return std::max(top.bound, lower);
+    std::array<Vec4, kMaxNetPoints> points;
     if (top.node >= 0) {
       const SurfaceNode& node = surface.nodes[static_cast<std::size_t>(top.node)];
       if (node.leaf < 0) {
-        for (const std::int32_t child : {top.node + 1, node.right}) {
-          push({box(surface.nodes[static_cast<std::size_t>(child)].box), child, -1, {}, 0});
-        }
+        push_node(top.node + 1);
+        push_node(node.right);
         continue;
       }
       const SurfaceLeaf& leaf = surface.leaves[static_cast<std::size_t>(node.leaf)];
       const Piece& piece = surface.piece(leaf.piece);
-      std::array<Vec4, kMaxNetPoints> points;
+      top.piece = leaf.piece.value;
+      top.rect = {leaf.u0, leaf.u1, leaf.v0, leaf.v1};
+      const Rect& r = top.rect;
+      lower = std::max(lower, at(Position(piece, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1))));
+      if (top.bound <= lower + gap) return top.bound;
       std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
-      const Rect rect{leaf.u0, leaf.u1, leaf.v0, leaf.v1};
-      RestrictNet({piece.net.degree_u, piece.net.degree_v}, points.data(), rect.u0, rect.u1, rect.v0,
-                  rect.v1);
-      push_rect(piece, leaf.piece.value, rect, points.data(), top.bound);
-      continue;
+      RestrictNet({piece.net.degree_u, piece.net.degree_v}, points.data(), r.u0, r.u1, r.v0, r.v1);
+    } else {
+      const auto& net = surface.pieces[static_cast<std::size_t>(top.piece)].net;
+      std::copy_n(arena.begin() + static_cast<std::ptrdiff_t>(top.net), net.points.size(), points.begin());
     }
     const Piece& piece = surface.pieces[static_cast<std::size_t>(top.piece)];
-    const NetShape shape{piece.net.degree_u, piece.net.degree_v};
-    std::array<Vec4, kMaxNetPoints> points, low, high;
-    std::copy_n(arena.begin() + static_cast<std::ptrdiff_t>(top.net), shape.count(), points.begin());
-    // Across the longer side.
-    const int last_u = shape.degree_u * (shape.degree_v + 1), last_v = shape.degree_v;
-    const auto point = [&](int k) {
-      const Vec4& x = points[static_cast<std::size_t>(k)];
-      return Vec3(x.w() > 0.0 ? Vec3(x.head<3>() / x.w()) : Vec3::Zero());
-    };
-    const Rect& r = top.rect;
-    const double mu = 0.5 * (r.u0 + r.u1), mv = 0.5 * (r.v0 + r.v1);
-    const double side_u = (point(last_u) - point(0)).norm() + (point(last_u + last_v) - point(last_v)).norm();
-    const double side_v = (point(last_v) - point(0)).norm() + (point(last_u + last_v) - point(last_u)).norm();
-    const bool along_u = side_u >= side_v;
-    HalveNet(shape, points.data(), along_u, low.data(), high.data());
-    Rect first = r, second = r;
-    (along_u ? first.u1 : first.v1) = along_u ? mu : mv;
-    (along_u ? second.u0 : second.v0) = along_u ? mu : mv;
-    push_rect(piece, top.piece, first, low.data(), top.bound);
-    push_rect(piece, top.piece, second, high.data(), top.bound);
+    Halve({piece.net.degree_u, piece.net.degree_v}, points.data(), top.rect, halves);
+    push_rect(piece, top, halves.low_rect, halves.low.data());
+    push_rect(piece, top, halves.high_rect, halves.high.data());
   }
   return lower;
 }
@@ -113,22 +133,36 @@ double Locator::MaxHeight(const Vec2& a, const Vec2& b, double half_width, doubl
     return d * d <= r2 ? z + std::sqrt(r2 - d * d) : -kInfinity;
   };
   const auto box = [&](const Box3& x) { return height(x.max.z(), internal::PlanDistance(x, a, b)); };
-  const auto oriented = [](const RectBounds&) { return kInfinity; };
+  const auto oriented = [](const Vec3&, const Eigen::Matrix3d&, const Vec3&) { return kInfinity; };
   const auto at = [&](const Vec3& p) { return height(p.z(), internal::PlanDistance(Plan(p), a, b)); };
-  return Maximize(impl_->surface, -kInfinity, std::max(slack, 1e-9), box, oriented, at) + impl_->slack;
+  return Maximize(impl_->surface, -kInfinity, std::max(slack, 1e-9), kInfinity, box, oriented, at) +
+         impl_->slack;
 }
 
-double Locator::SweptGouge(const Vec3& a, const Vec3& b, double eps) const {
-  const SweptBall swept(a, b);
-  const double radius = impl_->radius;
+namespace {
+
+// Largest gouge above `lower`, to `gap`.
+double LargestGouge(const Surface& surface, double radius, const SweptBall& swept, double lower, double gap,
+                    double enough) {
   const auto box = [&](const Box3& x) {
     return radius - swept.DistanceBelow(x.Center(), Eigen::Matrix3d::Identity(), 0.5 * (x.max - x.min));
   };
-  const auto oriented = [&](const RectBounds& x) {
-    return radius - swept.DistanceBelow(x.center, x.axis, x.half);
+  const auto oriented = [&](const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half) {
+    return radius - swept.DistanceBelow(center, axis, half);
   };
   const auto at = [&](const Vec3& p) { return radius - swept.Distance(p); };
-  return Maximize(impl_->surface, 0.0, std::max(eps, 1e-9), box, oriented, at);
+  return Maximize(surface, lower, gap, enough, box, oriented, at);
+}
+
+}  // namespace
+
+double Locator::SweptGouge(const Vec3& a, const Vec3& b, double eps) const {
+  return LargestGouge(impl_->surface, impl_->radius, SweptBall(a, b), 0.0, std::max(eps, 1e-9), kInfinity);
+}
+
+bool Locator::GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps) const {
+  const double gap = std::max(eps, 1e-9);
+  return LargestGouge(impl_->surface, impl_->radius, SweptBall(a, b), limit - gap, gap, limit) <= limit;
 }
 
 }  // namespace patchmill

@@ -66,6 +66,10 @@ class Locator {
   // `eps`. For merging flat runs.
   double SweptGouge(const Vec3& a, const Vec3& b, double eps) const;
 
+  // True when that gouge is proven to be at most `limit`, false when it is above limit - eps. Much cheaper
+  // than the value: parts well below the limit are never divided.
+  bool GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps) const;
+
   // Certificates that improved the value found by search by more than 1e-9 mm and what rounding explains (an
   // internal defect; tests demand 0).
   std::uint64_t defect_count() const;

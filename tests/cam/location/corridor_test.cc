@@ -107,6 +107,34 @@ TEST(SweptGouge, ChordBetweenFreeCentresNeverBeyondT2) {
   }
 }
 
+TEST(SweptGouge, GougeWithinIsItsComparison) {
+  int within = 0, beyond = 0;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const Surface surface = SurfaceOf(testing::RandomBspline(seed));
+    const Locator locator(surface, 3.0);
+    Random random(seed);
+    for (int i = 0; i < 60; ++i) {
+      const Vec2 a(random.Uniform(2, 38), random.Uniform(2, 38));
+      const Vec2 b = a + Vec2(random.Uniform(-2, 2), random.Uniform(-2, 2));
+      const Vec3 ca = Lift(a, locator.Height(a)->z), cb = Lift(b, locator.Height(b)->z);
+      const double gouge = locator.SweptGouge(ca, cb, 1e-6);
+      for (const double limit : {0.5 * gouge, gouge - 1e-3, gouge + 1e-3, 2.0 * gouge + 1e-3, 0.0}) {
+        if (limit < 0.0) continue;
+        const bool got = locator.GougeWithin(ca, cb, limit, 1e-4);
+        if (gouge <= limit - 1e-4) {
+          EXPECT_TRUE(got);
+          ++within;
+        } else if (gouge > limit + 1e-6) {
+          EXPECT_FALSE(got);
+          ++beyond;
+        }
+      }
+    }
+  }
+  EXPECT_GT(within, 100);
+  EXPECT_GT(beyond, 100);
+}
+
 TEST(SweptGouge, AgreesWithSampledPoints) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const PatchModel model = testing::RandomBspline(seed);
