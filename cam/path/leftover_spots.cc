@@ -15,12 +15,22 @@
 namespace patchmill {
 namespace {
 
-// A move near a rectangle: tree and index, to start the search of its parts from.
+// What was found near a rectangle, to start the search of its parts from: a move by tree and index, and a
+// surface point that was in the ball's way.
 struct NearMove {
   std::size_t tree = 0;
   std::int32_t segment = -1;
   double distance = kInfinity;
 };
+struct Nearby {
+  NearMove move;
+  std::optional<Vec3> blocker;
+};
+
+// Distance of q to the upward ray from c.
+double RayDistance(const Vec3& c, const Vec3& q) {
+  return q.z() >= c.z() ? (Plan(q) - Plan(c)).norm() : (q - c).norm();
+}
 
 class SpotFinder {
  public:
@@ -36,14 +46,16 @@ class SpotFinder {
   void Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
 
  private:
-  void Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth, const NearMove& hint,
+  void Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth, const Nearby& hint,
              std::vector<LeftoverSpot>& out) const;
   NearMove NearestTo(const Vec3& p, double limit, const NearMove& hint) const;
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
                    const NearMove& near) const;
   bool Covered(const Vec3* hull, int count, const NearMove& move) const;
-  std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e) const;
-  bool OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size) const;
+  bool Blocked(const Vec3& c, double depth, std::optional<Vec3>& blocker) const;
+  std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e, std::optional<Vec3>& blocker) const;
+  bool OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size,
+                  std::optional<Vec3>& blocker) const;
 
   const Surface& surface_;
   const Locator& reach_;
@@ -73,36 +85,45 @@ bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) cons
   return true;
 }
 
+// True when something is deeper than `depth` in the way of the smaller ball at c.
+bool SpotFinder::Blocked(const Vec3& c, double depth, std::optional<Vec3>& blocker) const {
+  if (blocker && reach_.radius() - RayDistance(c, *blocker) > depth + 1e-9) return true;
+  const auto h = reach_.Height(Plan(c));
+  if (!h || h->z <= c.z()) return false;
+  blocker = h->contact.p;
+  return reach_.radius() - RayDistance(c, *blocker) > depth;
+}
+
 // The normal of the side from which the point can be finished. Both sides of an upright face count.
-std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) const {
+std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e,
+                                              std::optional<Vec3>& blocker) const {
   constexpr double kUpright = 1e-6;
   for (const Vec3& n : {e, Vec3(-e)}) {
     if (n.z() < -kUpright) continue;
     const Vec3 c = p + radius_ * n;
     if (c.z() < params_.floor_z + radius_) continue;
-    if (reach_.Free(c)) return n;
+    if (!Blocked(c, 0.0, blocker)) return n;
   }
   return std::nullopt;
 }
 
-bool SpotFinder::OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size) const {
-  double turn = 0.0;
+bool SpotFinder::OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size,
+                            std::optional<Vec3>& blocker) const {
+  double turn = 0.0, shift = 0.0;
   for (double u : {rect.u0, rect.u1}) {
     for (double v : {rect.v0, rect.v1}) {
-      const Vec3 n = UpwardNormalNear(surface_, {rect.piece, u, v, p});
-      turn = std::max(turn, std::min((n - e).norm(), (n + e).norm()));
+      const SurfacePoint corner{rect.piece, u, v, Position(surface_.piece(rect.piece), u, v)};
+      Vec3 n = UpwardNormalNear(surface_, corner);
+      if (n.dot(e) < 0.0) n = -n;
+      turn = std::max(turn, (n - e).norm());
+      shift = std::max(shift, (corner.p - p + radius_ * (n - e)).norm());
     }
   }
   if (turn > 0.7) return false;
-  const double shift = size + 2.0 * turn * radius_;
+  shift = 1.5 * shift + 0.1 * size;
   const auto blocked = [&](const Vec3& side) {
     const Vec3 c = p + radius_ * side;
-    if (c.z() + shift < params_.floor_z + radius_) return true;
-    const auto h = reach_.Height(Plan(c));
-    if (!h || h->z <= c.z()) return false;
-    const Vec3& q = h->contact.p;
-    const double distance = q.z() >= c.z() ? (Plan(q) - Plan(c)).norm() : (q - c).norm();
-    return reach_.radius() - distance > shift;
+    return c.z() + shift < params_.floor_z + radius_ || Blocked(c, shift, blocker);
   };
   // Near upright places either side may look up.
   return blocked(e) && (e.z() > 2.0 * turn + 1e-6 || blocked(-e));
@@ -131,7 +152,7 @@ bool SpotFinder::SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, cons
 }
 
 void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth,
-                       const NearMove& hint, std::vector<LeftoverSpot>& out) const {
+                       const Nearby& hint, std::vector<LeftoverSpot>& out) const {
   std::array<Vec3, kMaxNetPoints> hull;
   const int count = HullPoints(shape, net, hull.data());
   const double u = 0.5 * (rect.u0 + rect.u1), v = 0.5 * (rect.v0 + rect.v1);
@@ -145,9 +166,10 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
 
   // The move that covers most of the rectangle passes near the centre that finishes p; only small rectangles
   // deserve the costlier search around p itself, which is also right where the normal turns quickly.
-  NearMove near;
+  Nearby found{{}, hint.blocker};
+  NearMove& near = found.move;
   if (size < 4.0 * flat_) {
-    near = NearestTo(p + radius_ * e, flat_, hint);
+    near = NearestTo(p + radius_ * e, flat_, hint.move);
     if (Covered(hull.data(), count, near)) return;
   }
   if (size < 0.25 * flat_) {
@@ -156,16 +178,16 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
     const double leftover = std::min(nearest.distance - radius_, radius_);
     const double slope = std::acos(std::clamp(e.z(), -1.0, 1.0));
     if (leftover > params_.limit && slope >= params_.window.min && slope <= params_.window.max) {
-      if (const auto side = ReachableSide(p, e)) {
+      if (const auto side = ReachableSide(p, e, found.blocker)) {
         out.push_back({at, *side, p + radius_ * *side, leftover, rect});
         return;
       }
-      if (near.segment >= 0 && OutOfReach(rect, p, e, size)) return;
+      if (near.segment >= 0 && OutOfReach(rect, p, e, size, found.blocker)) return;
     }
   }
   constexpr int kDeepest = 40;
   if (size < 0.05 * flat_ || depth >= kDeepest) return;
-  if (near.segment < 0 && size < 8.0 * flat_ && OutOfReach(rect, p, e, size)) return;
+  if (near.segment < 0 && size < 8.0 * flat_ && OutOfReach(rect, p, e, size, found.blocker)) return;
 
   const bool along_u =
       SplitAlongU(jet.du * (rect.u1 - rect.u0), jet.dv * (rect.v1 - rect.v0), p, hull.data(), count, near);
@@ -177,8 +199,8 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   } else {
     a.v1 = b.v0 = v;
   }
-  Visit(a, shape, low.data(), depth + 1, near, out);
-  Visit(b, shape, high.data(), depth + 1, near, out);
+  Visit(a, shape, low.data(), depth + 1, found, out);
+  Visit(b, shape, high.data(), depth + 1, found, out);
 }
 
 void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const {

@@ -32,7 +32,7 @@ struct LeftoverSpot {
 //   its control points lie within R + limit of one move (for zero-weight points see ALGORITHMS 1). Reach:
 //   free for a ball of radius - tolerance at p + R e, tip not below the floor (DESIGN 2); whole rectangles
 //   are dropped when the blocking is deeper than their centres can differ (normals sampled at the corners,
-//   twofold).
+//   one and a half times).
 // Deterministic, parallel. `trees`: all passes, in any number of trees.
 absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,
                                                     const std::vector<const PathTree*>& trees,
