@@ -24,7 +24,7 @@ struct ContourParams : PassParams {
 struct LevelContours {
   double z = 0.0;  // centre height actually used (a level at a flat moves up by up to 1e-3 mm steps)
   std::vector<CutterPath> loops;
-  int ambiguous_cells = 0;  // cells below the resolution left undecided, closed on the safe side
+  int ambiguous_cells = 0;           // cells below the resolution left undecided, closed on the safe side
   Vec3 ambiguous_at = Vec3::Zero();  // the first of them
 };
 LevelContours TraceLevel(const Locator& locator, double z, const ContourParams& params,
