@@ -8,26 +8,47 @@
 
 namespace patchmill {
 
-UnreachableReason ReachTest::At(const Vec3& p, const Vec3& normal) const {
+namespace {
+
+constexpr double kVertical = 1e-9;  // |e_z| below this: no side is the upper one
+
+}  // namespace
+
+// The floor is where the model ends: rounding must not make its lowest point unreachable.
+bool ReachTest::AboveFloor(const Vec3& center) const {
+  return center.z() - params_.radius >= params_.floor_z - params_.tolerance;
+}
+
+UnreachableReason ReachTest::At(const Vec3& p, const Vec3& normal, std::optional<SurfacePoint>* last) const {
   const Vec3 c = p + params_.radius * normal;
   if (!free_ball_.Free(c)) {
-    const auto blocking = free_ball_.Height(Plan(c));
+    const auto blocking = free_ball_.Height(Plan(c), last != nullptr && *last ? &**last : nullptr);
+    if (last != nullptr && blocking) *last = blocking->contact;
     const bool above = blocking && blocking->contact.p.z() > c.z();
     return above ? UnreachableReason::kUndercut : UnreachableReason::kConcave;
   }
-  // The floor is where the model ends: rounding must not make its lowest point unreachable.
-  const double tip = c.z() - params_.radius;
-  return tip < params_.floor_z - params_.tolerance ? UnreachableReason::kFloor : UnreachableReason::kNone;
+  return AboveFloor(c) ? UnreachableReason::kNone : UnreachableReason::kFloor;
 }
 
-UnreachableReason ReachTest::operator()(const Piece& piece, double u, double v) const {
-  constexpr double kVertical = 1e-9;  // |e_z| below this: no side is the upper one
+UnreachableReason ReachTest::Reason(const Piece& piece, double u, double v,
+                                    std::optional<SurfacePoint>* last) const {
   const SurfaceJet jet = Evaluate(piece, u, v);
   const auto normal = UpwardNormal(jet);
   if (!normal) return UnreachableReason::kNone;
-  const UnreachableReason reason = At(jet.p, *normal);
-  if (reason != UnreachableReason::kNone && std::abs(normal->z()) < kVertical) return At(jet.p, -*normal);
+  const UnreachableReason reason = At(jet.p, *normal, last);
+  if (reason != UnreachableReason::kNone && std::abs(normal->z()) < kVertical) {
+    return At(jet.p, -*normal, last);
+  }
   return reason;
+}
+
+bool ReachTest::Reachable(const Piece& piece, double u, double v) const {
+  const SurfaceJet jet = Evaluate(piece, u, v);
+  const auto normal = UpwardNormal(jet);
+  if (!normal) return true;
+  const auto stands = [&](const Vec3& c) { return AboveFloor(c) && free_ball_.Free(c); };
+  return stands(jet.p + params_.radius * *normal) ||
+         (std::abs(normal->z()) < kVertical && stands(jet.p - params_.radius * *normal));
 }
 
 double ReachTest::LeftoverAbove(const Vec3& p) const {

@@ -1,6 +1,8 @@
 // Can the ball touch this point of the surface? DESIGN 2's definition, by exact cutter location.
 #pragma once
 
+#include <optional>
+
 #include "cam/location/locator.h"
 #include "cam/region/region_map.h"
 
@@ -14,13 +16,19 @@ class ReachTest {
   // kNone: reachable. kUndercut: something hangs above the ball. kConcave: the ball does not fit. kFloor: the
   // tip would sink below the floor. On vertical faces either side may do. Where there is no normal: kNone (a
   // point has no area).
-  UnreachableReason operator()(const Piece& piece, double u, double v) const;
+  // `last`, when given, is the contact that blocked the ball before and becomes the one that blocks it now:
+  // only for speed.
+  UnreachableReason Reason(const Piece& piece, double u, double v,
+                           std::optional<SurfacePoint>* last = nullptr) const;
+  // Reason() == kNone, at a fraction of its cost.
+  bool Reachable(const Piece& piece, double u, double v) const;
 
   // Rough depth of material left over p when it is unreachable: from the ball that comes down right above it.
   double LeftoverAbove(const Vec3& p) const;
 
  private:
-  UnreachableReason At(const Vec3& p, const Vec3& normal) const;
+  UnreachableReason At(const Vec3& p, const Vec3& normal, std::optional<SurfacePoint>* last) const;
+  bool AboveFloor(const Vec3& center) const;
   const Locator& free_ball_;
   const RegionParams& params_;
 };

@@ -96,7 +96,7 @@ class Builder {
     for (int k = 0; k < 3; ++k)
       vertex.sign[static_cast<std::size_t>(k)] =
           static_cast<std::int8_t>(Sign(f.value[static_cast<std::size_t>(k)]));
-    vertex.sign[3] = f.degenerate ? 0 : reach_(piece_, u, v) == UnreachableReason::kNone ? 1 : -1;
+    vertex.sign[3] = f.degenerate ? 0 : reach_.Reachable(piece_, u, v) ? 1 : -1;
     mesh_.vertices.push_back(vertex);
     return static_cast<int>(mesh_.vertices.size()) - 1;
   }
@@ -164,7 +164,7 @@ class Builder {
   }
 
   double Value(Field field, double u, double v) const {
-    if (field == Field::kReach) return reach_(piece_, u, v) == UnreachableReason::kNone ? 1.0 : -1.0;
+    if (field == Field::kReach) return reach_.Reachable(piece_, u, v) ? 1.0 : -1.0;
     return EvaluateFields(piece_, u, v, params_.cos_steep).value[static_cast<std::size_t>(field)];
   }
 
@@ -276,17 +276,17 @@ class Builder {
     t.label.curvature = static_cast<std::int8_t>(turn * SignOn(t, Field::kCurvature, u, v));
     t.label.steep = SignOn(t, Field::kSlope, u, v) < 0;
     if (SignOn(t, Field::kReach, u, v) < 0) {
-      t.label.reason = reach_(piece_, u, v);
+      t.label.reason = reach_.Reason(piece_, u, v, &blocking_);
       // The centroid may lie beyond a limit that the vertices do not see.
       if (t.label.reason == UnreachableReason::kNone) t.label.reason = ReasonAtCorners(t);
     }
   }
 
-  UnreachableReason ReasonAtCorners(const SplitTriangle& t) const {
+  UnreachableReason ReasonAtCorners(const SplitTriangle& t) {
     for (const int id : t.vertex) {
       const SplitVertex& vertex = mesh_.vertices[static_cast<std::size_t>(id)];
       if (vertex.sign[3] < 0) {
-        const UnreachableReason reason = reach_(piece_, vertex.u, vertex.v);
+        const UnreachableReason reason = reach_.Reason(piece_, vertex.u, vertex.v, &blocking_);
         if (reason != UnreachableReason::kNone) return reason;
       }
     }
@@ -300,6 +300,7 @@ class Builder {
   std::vector<Cell> cells_;
   std::unordered_map<int, int> grid_;  // looked up, never walked: order does not matter
   std::map<std::pair<int, int>, int> crossings_;
+  std::optional<SurfacePoint> blocking_;  // what blocked the ball over the last unreachable triangle
 };
 
 }  // namespace
