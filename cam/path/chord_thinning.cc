@@ -36,7 +36,6 @@ class Thinner {
   }
   const std::optional<Support>& MiddleOf(std::size_t k);
   bool Fits(std::size_t i, std::size_t j);
-  bool SweptIsGood(std::size_t i, std::size_t j, const Vec3& a, const Vec3& b);
   std::size_t Farthest(std::size_t i, std::size_t barrier);
   CutterPoint Certify(const LineStation& s) const;
 
@@ -44,7 +43,6 @@ class Thinner {
   const std::vector<LineStation>& stations_;
   const double radius_, tolerance_, gap_, floor_center_;
   std::vector<Middle> middle_;
-  double predicted_gouge_ = 0.0;  // of the chord tested last, at its supports
 };
 
 // A support half way between stations k and k+1: one branch following, and any surface point is a valid lower
@@ -71,10 +69,8 @@ bool Thinner::Fits(std::size_t i, std::size_t j) {
   const double span = last.t - first.t;
   const double excess_limit = tolerance_ - gap_, gouge_limit = 0.9 * tolerance_;
   const auto on_chord = [&](double t) -> Vec3 { return a + (t - first.t) / span * (b - a); };
-  predicted_gouge_ = 0.0;
   const auto gouges = [&](const Support& s) {
-    if (s.contact) predicted_gouge_ = std::max(predicted_gouge_, radius_ - SegmentDistance(*s.contact, a, b));
-    return predicted_gouge_ > gouge_limit;
+    return s.contact && radius_ - SegmentDistance(*s.contact, a, b) > gouge_limit;
   };
   for (std::size_t k = i; k < j; ++k) {
     const LineStation &s = stations_[k], &e = stations_[k + 1];
@@ -95,13 +91,6 @@ bool Thinner::Fits(std::size_t i, std::size_t j) {
     }
   }
   return true;
-}
-
-// The proof of the prediction; the less gouge is expected, the coarser it may be.
-bool Thinner::SweptIsGood(std::size_t i, std::size_t j, const Vec3& a, const Vec3& b) {
-  if (!Fits(i, j)) return false;
-  const double eps = std::max(0.05 * tolerance_, 0.8 * (tolerance_ - predicted_gouge_));
-  return locator_.SweptGouge(a, b, eps) <= tolerance_;
 }
 
 std::size_t Thinner::Farthest(std::size_t i, std::size_t barrier) {
@@ -148,7 +137,8 @@ std::vector<CutterPoint> Thinner::Thin() {
     while (barrier + 1 < n && !stations_[barrier].keep) ++barrier;
     std::size_t j = Farthest(i, barrier);
     CutterPoint next = Certify(stations_[j]);
-    while (j > i + 1 && !SweptIsGood(i, j, points.back().center, next.center)) {
+    while (j > i + 1 &&
+           !locator_.GougeWithin(points.back().center, next.center, tolerance_, 0.05 * tolerance_)) {
       j = i + (j - i) / 2;
       next = Certify(stations_[j]);
     }

@@ -287,7 +287,7 @@ bool Mender::AlongWall(std::size_t i) {
       const Vec3& last = points.back().center;
       const bool proven =
           ChordGouge(radius_, (*c - last).norm()) <= params_.chord_tolerance ||
-          locator_.SweptGouge(last, *c, 0.2 * params_.chord_tolerance) <= params_.chord_tolerance;
+          locator_.GougeWithin(last, *c, params_.chord_tolerance, 0.1 * params_.chord_tolerance);
       if (!proven) {
         Add(PassKind::kRest, std::move(points));
         points.clear();
