@@ -11,22 +11,29 @@ struct Cone {
   double angle = kPi;  // half angle; pi: no bound
 };
 
+// rad: acos of a cosine near 1 is exact to this.
+constexpr double kAcosError = 3e-8;
+
 // Smallest cone about the mean direction that holds all vectors; vectors that vanish have no direction.
-Cone ConeOf(const std::vector<Vec3>& vectors) {
+// Normalises `vectors` in place.
+Cone ConeOf(std::vector<Vec3>& vectors) {
   double longest = 0.0;
-  for (const Vec3& v : vectors) longest = std::max(longest, v.norm());
-  const double tiny = 1e-12 * longest;
+  for (const Vec3& v : vectors) longest = std::max(longest, v.squaredNorm());
+  if (longest == 0.0) return {};
+  const double tiny = 1e-24 * longest;
   Vec3 sum = Vec3::Zero();
-  for (const Vec3& v : vectors) {
-    if (v.norm() > tiny) sum += v.normalized();
+  for (Vec3& v : vectors) {
+    const double square = v.squaredNorm();
+    v = square > tiny ? Vec3(v / std::sqrt(square)) : Vec3::Zero();
+    sum += v;
   }
-  if (longest == 0.0 || sum.norm() < 1e-6) return {};
-  Cone cone{sum.normalized(), 0.0};
+  if (sum.norm() < 1e-6) return {};
+  const Vec3 axis = sum.normalized();
+  double cosine = 1.0;
   for (const Vec3& v : vectors) {
-    if (v.norm() > tiny)
-      cone.angle = std::max(cone.angle, std::atan2(cone.axis.cross(v).norm(), cone.axis.dot(v)));
+    if (v != Vec3::Zero()) cosine = std::min(cosine, axis.dot(v));
   }
-  return cone;
+  return {axis, std::acos(std::max(-1.0, cosine)) + kAcosError};
 }
 
 double Binomial(int n, int k) {
@@ -35,8 +42,8 @@ double Binomial(int n, int k) {
   return b;
 }
 
-// Control vectors of a positive multiple of S_u (or S_v).
-std::vector<Vec3> Hodograph(const BernsteinNet& net, bool along_u) {
+// Control vectors of a positive multiple of S_u (or S_v), into `out`.
+void Hodograph(const BernsteinNet& net, bool along_u, std::vector<Vec3>& out) {
   const int nu = net.degree_u, nv = net.degree_v, row = nv + 1;
   const int du = along_u ? nu - 1 : nu, dv = along_u ? nv : nv - 1;
   const auto at = [&](int i, int j) -> const Vec4& {
@@ -45,12 +52,12 @@ std::vector<Vec3> Hodograph(const BernsteinNet& net, bool along_u) {
   const auto difference = [&](int i, int j) -> Vec4 {
     return along_u ? Vec4(at(i + 1, j) - at(i, j)) : Vec4(at(i, j + 1) - at(i, j));
   };
-  std::vector<Vec3> out;
+  out.clear();
   if (!net.rational) {
     for (int i = 0; i <= du; ++i) {
       for (int j = 0; j <= dv; ++j) out.push_back(difference(i, j).head<3>());
     }
-    return out;
+    return;
   }
   // Product of Bernstein forms; the binomials of the result's own degree are a positive factor per
   // coefficient and do not change its direction.
@@ -68,14 +75,17 @@ std::vector<Vec3> Hodograph(const BernsteinNet& net, bool along_u) {
       }
     }
   }
-  return out;
 }
 
 }  // namespace
 
 SlopeRange BoundSlopes(const BernsteinNet& net) {
   if (net.degree_u < 1 || net.degree_v < 1) return {};
-  const Cone u = ConeOf(Hodograph(net, true)), v = ConeOf(Hodograph(net, false));
+  thread_local std::vector<Vec3> vectors;
+  Hodograph(net, true, vectors);
+  const Cone u = ConeOf(vectors);
+  Hodograph(net, false, vectors);
+  const Cone v = ConeOf(vectors);
   if (u.angle + v.angle >= kPi / 2.0) return {};
   const Vec3 normal = u.axis.cross(v.axis);
   const double between = std::atan2(normal.norm(), u.axis.dot(v.axis));
