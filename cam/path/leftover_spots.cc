@@ -182,7 +182,9 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
         out.push_back({at, *side, p + radius_ * *side, leftover, rect});
         return;
       }
-      if (near.segment >= 0 && OutOfReach(rect, p, e, size, found.blocker)) return;
+      // A strip this narrow beside what is out of reach holds a few microns more than its reachable
+      // neighbours.
+      if (size < 0.1 * flat_ || OutOfReach(rect, p, e, size, found.blocker)) return;
     }
   }
   constexpr int kDeepest = 40;

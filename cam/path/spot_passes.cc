@@ -81,7 +81,7 @@ class Mender {
   std::size_t NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
                           const std::vector<bool>& used) const;
   std::vector<std::size_t> Chain(std::size_t i, bool gentle) const;
-  std::size_t CountAtHeight(double z) const;
+  bool LevelIsMissing(std::size_t i) const;
   bool Add(PassKind kind, std::vector<CutterPoint> points);
 
   const Locator& locator_;
@@ -94,6 +94,7 @@ class Mender {
   const SpotGrid grid_;
   std::vector<bool> open_;  // not mended yet
   std::optional<LevelContext> levels_;
+  int level_count_ = 0;
   std::vector<CutterPath> paths_;
 };
 
@@ -308,12 +309,14 @@ void Mender::FromAbove(std::size_t i) {
   open_[i] = false;
 }
 
-std::size_t Mender::CountAtHeight(double z) const {
+// Many open wall spots at this height around here: a stretch of level is missing, not a spot.
+bool Mender::LevelIsMissing(std::size_t i) const {
+  const Vec3& c = spots_[i].center;
   std::size_t count = 0;
-  for (std::size_t i = 0; i < spots_.size(); ++i) {
-    count += open_[i] && !Gentle(i) && std::abs(spots_[i].center.z() - z) < 0.3 * flat_;
-  }
-  return count;
+  grid_.Near(c, 10.0 * flat_, [&](std::size_t k) {
+    count += open_[k] && !Gentle(k) && std::abs(spots_[k].center.z() - c.z()) < 0.3 * flat_;
+  });
+  return count >= 15;
 }
 
 absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
@@ -327,9 +330,12 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
     if (Gentle(i)) {
       if (AlongCrease(i) || AlongRidge(i)) continue;
     } else {
-      // A level of its own is worth its cost where much is missing at one height.
-      constexpr std::size_t kMany = 40;
-      if (CountAtHeight(spots_[i].center.z()) >= kMany && AlongLevel(i)) continue;
+      // A level costs as much as hundreds of chords over walls.
+      constexpr int kMostLevels = 24;
+      if (level_count_ < kMostLevels && LevelIsMissing(i)) {
+        ++level_count_;
+        if (AlongLevel(i)) continue;
+      }
       if (!open_[i] || AlongWall(i)) continue;
     }
     FromAbove(i);
