@@ -24,7 +24,7 @@ struct NearMove {
 };
 struct Nearby {
   NearMove move;
-  std::optional<Vec3> blocker;
+  std::optional<SurfacePoint> blocker;
 };
 
 // Distance of q to the upward ray from c.
@@ -52,10 +52,11 @@ class SpotFinder {
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
                    const NearMove& near) const;
   bool Covered(const Vec3* hull, int count, const NearMove& move) const;
-  bool Blocked(const Vec3& c, double depth, std::optional<Vec3>& blocker) const;
-  std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e, std::optional<Vec3>& blocker) const;
-  bool OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size,
-                  std::optional<Vec3>& blocker) const;
+  bool Blocked(const Vec3& c, double depth, std::optional<SurfacePoint>& blocker) const;
+  std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e, std::optional<SurfacePoint>& blocker) const;
+  // `known`: the blocker is already the highest contact below the centre on e's side.
+  bool OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size, bool known,
+                  std::optional<SurfacePoint>& blocker) const;
 
   const Surface& surface_;
   const Locator& reach_;
@@ -86,17 +87,17 @@ bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) cons
 }
 
 // True when something is deeper than `depth` in the way of the smaller ball at c.
-bool SpotFinder::Blocked(const Vec3& c, double depth, std::optional<Vec3>& blocker) const {
-  if (blocker && reach_.radius() - RayDistance(c, *blocker) > depth + 1e-9) return true;
-  const auto h = reach_.Height(Plan(c));
+bool SpotFinder::Blocked(const Vec3& c, double depth, std::optional<SurfacePoint>& blocker) const {
+  if (blocker && reach_.radius() - RayDistance(c, blocker->p) > depth + 1e-9) return true;
+  const auto h = reach_.Height(Plan(c), blocker ? &*blocker : nullptr);
   if (!h || h->z <= c.z()) return false;
-  blocker = h->contact.p;
-  return reach_.radius() - RayDistance(c, *blocker) > depth;
+  blocker = h->contact;
+  return reach_.radius() - RayDistance(c, blocker->p) > depth;
 }
 
 // The normal of the side from which the point can be finished. Both sides of an upright face count.
 std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e,
-                                              std::optional<Vec3>& blocker) const {
+                                              std::optional<SurfacePoint>& blocker) const {
   constexpr double kUpright = 1e-6;
   for (const Vec3& n : {e, Vec3(-e)}) {
     if (n.z() < -kUpright) continue;
@@ -107,8 +108,8 @@ std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e,
   return std::nullopt;
 }
 
-bool SpotFinder::OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size,
-                            std::optional<Vec3>& blocker) const {
+bool SpotFinder::OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size, bool known,
+                            std::optional<SurfacePoint>& blocker) const {
   double turn = 0.0, shift = 0.0;
   for (double u : {rect.u0, rect.u1}) {
     for (double v : {rect.v0, rect.v1}) {
@@ -121,12 +122,14 @@ bool SpotFinder::OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& 
   }
   if (turn > 0.7) return false;
   shift = 1.5 * shift + 0.1 * size;
-  const auto blocked = [&](const Vec3& side) {
+  const auto blocked = [&](const Vec3& side, bool no_query) {
     const Vec3 c = p + radius_ * side;
-    return c.z() + shift < params_.floor_z + radius_ || Blocked(c, shift, blocker);
+    if (c.z() + shift < params_.floor_z + radius_) return true;
+    if (no_query) return blocker && reach_.radius() - RayDistance(c, blocker->p) > shift;
+    return Blocked(c, shift, blocker);
   };
   // Near upright places either side may look up.
-  return blocked(e) && (e.z() > 2.0 * turn + 1e-6 || blocked(-e));
+  return blocked(e, known) && (e.z() > 2.0 * turn + 1e-6 || blocked(-e, false));
 }
 
 // Cuts where the farthest point of the hull is out of the move's reach: across the move, or along it past its
@@ -172,6 +175,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
     near = NearestTo(p + radius_ * e, flat_, hint.move);
     if (Covered(hull.data(), count, near)) return;
   }
+  bool reach_tested = false;
   if (size < 0.25 * flat_) {
     const NearMove nearest = NearestTo(p, 2.0 * radius_, near);
     if (Covered(hull.data(), count, nearest)) return;
@@ -184,12 +188,15 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
       }
       // A strip this narrow beside what is out of reach holds a few microns more than its reachable
       // neighbours.
-      if (size < 0.1 * flat_ || OutOfReach(rect, p, e, size, found.blocker)) return;
+      if (size < 0.1 * flat_ || OutOfReach(rect, p, e, size, true, found.blocker)) return;
+      reach_tested = true;
     }
   }
   constexpr int kDeepest = 40;
   if (size < 0.05 * flat_ || depth >= kDeepest) return;
-  if (near.segment < 0 && size < 8.0 * flat_ && OutOfReach(rect, p, e, size, found.blocker)) return;
+  if (!reach_tested && near.segment < 0 && size < 8.0 * flat_ &&
+      OutOfReach(rect, p, e, size, false, found.blocker))
+    return;
 
   const bool along_u =
       SplitAlongU(jet.du * (rect.u1 - rect.u0), jet.dv * (rect.v1 - rect.v0), p, hull.data(), count, near);

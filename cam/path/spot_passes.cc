@@ -128,8 +128,9 @@ bool Mender::Add(PassKind kind, std::vector<CutterPoint> points) {
 bool Mender::AlongCrease(std::size_t i) {
   const auto seed = FindCrease(locator_, Plan(spots_[i].center), 0.75 * flat_, params_);
   if (!seed || (seed->center - spots_[i].center).norm() > flat_) return false;
-  const auto stations = TraceCrease(locator_, border_, *seed, params_, 3.0 * flat_,
-                                    [&](const Vec3& c) { return Needed(c, 0.75 * flat_); });
+  const auto stations = TraceCrease(locator_, border_, *seed, params_, 3.0 * flat_, [&](const Vec3& c) {
+    return !run_.Cancelled() && Needed(c, 0.75 * flat_);
+  });
   if (stations.size() < 2) return false;
   Add(PassKind::kCrease, ThinStations(locator_, stations, params_));
   return !open_[i];
