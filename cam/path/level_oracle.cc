@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/surface/closest.h"
+
 namespace patchmill {
 namespace {
 
@@ -10,6 +12,12 @@ namespace {
 constexpr double kStill = 1e-10;
 // mm: h may pass c by this much at a border point (rounding of the contact, not of the method).
 constexpr double kHeightSlack = 1e-9;
+// Part of the radius: exits shorter than this look for the deepest disc instead of that of h's contact. On a
+// steep wall that leans back h touches high up, where discs end soon, and would climb down the wall a
+// thousandth of a millimetre at a time.
+constexpr double kSlowExit = 1e-3;
+// mm: up to this depth h's own contacts lead out, exactly; from deeper, the nearest point does.
+constexpr double kRimDepth = 1e-6;
 // mm: how far a border point may be moved out of a disc's rim at a vertical wall, where h jumps.
 constexpr double kLargestNudge = 8e-10;
 
@@ -38,6 +46,7 @@ LevelPoint LevelOracle::Exit(Vec2 q, SurfacePoint contact, const Vec2& direction
   const Vec2 start = q;
   double gone = 0.0;
   double nudge = kStill;
+  bool deep = false;  // left a disc deeper than that of h's contact: it may end on a wall where h jumps
   for (int step = 0; step < 200; ++step) {
     // On one branch the contact follows by Newton alone.
     for (int k = 0; k < 6; ++k) {
@@ -57,16 +66,31 @@ LevelPoint LevelOracle::Exit(Vec2 q, SurfacePoint contact, const Vec2& direction
       q = start + gone * direction;
     }
     const std::optional<CenterPoint> h = locator_.Height(q, &contact);
-    if (!h || h->z <= z_ + kHeightSlack) return {q, contact, std::nullopt};
+    if (!h || h->z <= z_ + kHeightSlack) {
+      if (deep) q += kStill * direction;
+      return {q, contact, std::nullopt};
+    }
     const double t = ExitLength(q, h->contact.p, direction);
     contact = h->contact;
-    if (t < kStill) {
+    bool deeper = false;
+    if (t < kSlowExit * radius_) {
+      const auto nearest =
+          ClosestToUpwardRay(locator_.surface(), Center(q), radius_ - kRimDepth, 0.1 * kRimDepth);
+      deeper = nearest && ExitLength(q, nearest->at.p, direction) > t;
+      if (deeper) contact = nearest->at;
+      deep = deep || deeper;
+    }
+    if (t < kStill && !deeper) {
       // The rim of a vertical wall: rounding decides on which side of the jump q lies.
       if (nudge > kLargestNudge) return {q, contact, std::nullopt};
       gone += nudge;
       nudge *= 2.0;
       q = start + gone * direction;
     }
+  }
+  // No end in sight: as good as out, or else the far end, which is free.
+  if (AnythingNearUpwardRay(locator_.surface(), Center(q), radius_ - kRimDepth, 0.1 * kRimDepth)) {
+    q = start + reach * direction;
   }
   return {q, contact, std::nullopt};
 }
