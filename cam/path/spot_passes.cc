@@ -139,16 +139,19 @@ bool Mender::AlongCrease(std::size_t i) {
 // The open spot one step on in this direction that leaves most; spots_.size() when there is none.
 std::size_t Mender::NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
                                 const std::vector<bool>& used) const {
+  // Scan lines may also cross a few steps of covered ground, as between the ends of lines at a slanting
+  // border: longer than needed, but one pass instead of many.
+  const double reach = (gentle ? 6.0 : 1.6) * flat_;
   std::size_t best = spots_.size();
   double best_score = -kInfinity;
-  grid_.Near(from, 1.6 * flat_, [&](std::size_t i) {
+  grid_.Near(from, reach, [&](std::size_t i) {
     if (!open_[i] || used[i] || Gentle(i) != gentle) return;
     const Vec3 d = spots_[i].center - from;
     const double length = d.norm();
     if (length < 0.4 * flat_) return;
     const double straight = heading.isZero() ? 1.0 : d.dot(heading) / length;
-    if (straight < 0.6) return;
-    const double score = spots_[i].leftover * straight;
+    if (straight < (length < 1.6 * flat_ ? 0.6 : 0.85)) return;
+    const double score = spots_[i].leftover * straight / (1.0 + length / flat_);
     if (score > best_score || (score == best_score && i < best)) {
       best_score = score;
       best = i;
@@ -176,7 +179,10 @@ std::vector<std::size_t> Mender::Chain(std::size_t i, bool gentle) const {
       heading = (spots_[next].center - from).normalized();
       used[next] = true;
       // What lies beside the step is served by it.
-      grid_.Near(0.5 * (spots_[next].center + from), 0.8 * flat_, [&](std::size_t k) { used[k] = true; });
+      const Vec3 to = spots_[next].center;
+      grid_.Near(0.5 * (to + from), 0.5 * (to - from).norm() + 0.4 * flat_, [&](std::size_t k) {
+        if (SegmentDistance(spots_[k].center, from, to) < 0.4 * flat_) used[k] = true;
+      });
       chain.push_back(next);
     }
     std::reverse(chain.begin(), chain.end());
