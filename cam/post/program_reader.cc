@@ -183,6 +183,7 @@ absl::Status Interpreter::Home(const BlockModes& block) {
   if (motion_mode_ != 0 && motion_mode_ != 10) return Bad("G53 needs G0 or G1 in force");
   if (incremental_) return Bad("G53 while G91 is in force");
   if (*z < 0.0) return Bad("G53 with Z below machine zero: it is not known to be above everything");
+  if (motion_mode_ == 10 && !(feed_ > 0.0)) return Bad("feed move without a feed rate");
   if (!moved_) motion_.first_motion_is_up = true;
   shifted_ = false;
   const auto kind = motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed;

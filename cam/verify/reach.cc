@@ -19,6 +19,13 @@ std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) 
   return {p + radius * facing.e, p - radius * facing.e};
 }
 
+// The shank is blocked, and the ball is not, or less. Beside a wall both are blocked alike: by the ball.
+bool BlockedAbove(const Surface& surface, const Vec3& c, double limit, double tolerance) {
+  const auto nearest = ClosestToUpwardRay(surface, c, limit, tolerance);
+  return nearest && nearest->at.p.z() > c.z() &&
+         !ClosestToPoint(surface, c, std::min(limit, nearest->distance + 2.0 * tolerance), tolerance);
+}
+
 }  // namespace
 
 std::optional<Facing> FacingAt(const SurfaceJet& jet) {
@@ -30,20 +37,21 @@ std::optional<Facing> FacingAt(const SurfaceJet& jet) {
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params) {
   const double limit = params.radius - params.tolerance;
   const auto centers = Centers(p, facing, params.radius);
-  ReachClass worst = ReachClass::kReachable;
+  ReachClass reason = ReachClass::kReachable;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
     if (AnythingNearUpwardRay(surface, c, limit, kProof * params.tolerance)) {
-      const auto nearest = ClosestToUpwardRay(surface, c, limit, kCoarse * params.radius);
-      found = nearest && nearest->at.p.z() > c.z() ? ReachClass::kUndercut : ReachClass::kConcave;
+      found = BlockedAbove(surface, c, limit, kCoarse * params.radius) ? ReachClass::kUndercut
+                                                                       : ReachClass::kConcave;
     } else if (c.z() < params.floor_z - kFloorSlack) {
       found = ReachClass::kFloor;
     }
     if (found == ReachClass::kReachable) return found;
-    if (side == 0) worst = found;
+    // Of two blocked sides the one that is easier to free gives the reason: floor, ball, then undercut.
+    if (side == 0 || found > reason) reason = found;
   }
-  return worst;
+  return reason;
 }
 
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params) {

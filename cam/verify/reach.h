@@ -8,6 +8,7 @@
 
 namespace patchmill {
 
+// In the order in which they are easier to cure.
 enum class ReachClass { kReachable, kUndercut, kConcave, kFloor };
 
 struct ReachParams {
