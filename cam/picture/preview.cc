@@ -230,7 +230,12 @@ void DrawLegend(const PreviewInput& input, double x, SvgWriter& svg) {
 }  // namespace
 
 std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes) {
-  const Box3& box = input.surface->box;
+  Box3 box = input.surface->box;
+  if (input.toolpath != nullptr) {  // centres run up to a radius beside the part, leads a little more
+    const double beside = 1.5 * input.toolpath->ball_radius;
+    box.min -= Vec3(beside, beside, 0);
+    box.max += Vec3(beside, beside, 0);
+  }
   const double legend_x = 3 * kMargin + 2 * kViewSize;
   const double height = kHead + kViewSize + 2 * kMargin;
   SvgWriter svg(legend_x + kLegendWidth, height);

@@ -1,0 +1,17 @@
+# The jobs that must work from a fresh clone: real models through the command line, the interpreter and the verifier.
+if(PATCHMILL_SERVICE AND NOT PATCHMILL_SANITIZE)
+  function(patchmill_job name model)
+    add_test(NAME job_${name} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/jobs/run_job.sh $<TARGET_FILE:patchmill>
+                                      ${CMAKE_SOURCE_DIR}/${model} ${ARGN})
+    set_tests_properties(job_${name} PROPERTIES TIMEOUT 300)
+  endfunction()
+  patchmill_job(teapot examples/teapot.bpt --up y --scale 50 --tool-diameter 6 --scallop 0.02)
+  patchmill_job(two_hills examples/two_hills.bv)
+  patchmill_job(two_hills_steep examples/two_hills.bv --steep-angle 30)
+  set_tests_properties(job_two_hills_steep PROPERTIES ENVIRONMENT "MUST_CONTAIN=contour passes")
+  patchmill_job(teacup tests/models/teacup.bpt --up y --scale 50 --tool-diameter 6 --scallop 0.02)
+  patchmill_job(torus_bicubic tests/models/torus_bicubic.patches --up y --scale 40 --tool-diameter 6 --scallop 0.02)
+  patchmill_job(toroidal_tet tests/models/toroidal_tet.patches --up y --scale 40 --tool-diameter 6 --scallop 0.02)
+  patchmill_job(triangle_fan tests/models/triangle_fan.bv --up y --scale 40 --tool-diameter 6 --scallop 0.02)
+  patchmill_job(sphere tests/models/sphere.bv --scale 20 --tool-diameter 6 --scallop 0.02)
+endif()
