@@ -1,0 +1,119 @@
+// What else can be asked of a job: forced strategies, stock to leave, a floor.
+#include <gtest/gtest.h>
+
+#include "core/surface/closest.h"
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+constexpr std::size_t kFloor = 2,
+                      kStrategy = 4;  // VerifyReport::unreachable_area
+
+int CountPasses(const JobResult& result, PassKind kind) {
+  int count = 0;
+  for (const CutterPath& path : result.motion.passes) count += path.kind == kind;
+  return count;
+}
+
+// A hill steep on its flanks and flat on its top: neither kind of pass can do
+// it alone.
+PatchModel Hill() {
+  return Single(InterpolatedHeights(
+      [](double x, double y) { return 9.0 * std::exp(-(x * x + y * y) / 40.0); }, -14, 14, -14, 14, 8, 8));
+}
+
+TEST(Strategies, AutoUsesBoth) {
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.02;
+  const Surface surface = PlacedSurface(Hill());
+  const JobResult result = Mill(surface, job);
+  Random random(1);
+  CheckProgram(surface, job, result, random, 500);
+  EXPECT_GT(CountPasses(result, PassKind::kContour), 0);
+  EXPECT_GT(CountPasses(result, PassKind::kZigzag), 0);
+  EXPECT_EQ(result.report.outcome, Outcome::kComplete) << Describe(result);
+}
+
+TEST(Strategies, ForcedContoursLeaveTheFlatTopAndSaySo) {
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.02;
+  job.operation.strategy = Strategy::kContour;
+  const Surface surface = PlacedSurface(Hill());
+  const JobResult result = Mill(surface, job);
+  Random random(2);
+  CheckProgram(surface, job, result, random, 500);
+  EXPECT_EQ(CountPasses(result, PassKind::kZigzag), 0);
+  EXPECT_GT(CountPasses(result, PassKind::kContour), 0);
+  EXPECT_TRUE(result.report.verify.gouge_ok);
+  EXPECT_GT(result.report.verify.unreachable_area[kStrategy], 1.0) << Describe(result);
+  EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable);
+}
+
+// The stock to leave stays everywhere: no feed move comes nearer than R + L -
+// tolerance, and at reachable points no more than L + scallop + tolerance
+// stays.
+TEST(Strategies, StockToLeaveIsLeft) {
+  Job job = BallJob(2.5);
+  job.operation.scallop = 0.02;
+  job.operation.leave = 0.3;
+  const Surface surface = PlacedSurface(Join({Sphere({0, 0, 0}, 6, Half::kUpper), Plane(14)}));
+  const JobResult result = Mill(surface, job);
+  Random random(4);
+  CheckProgram(surface, job, result, random, 2000);
+  double nearest = kInfinity;
+  for (const Move& move : result.motion.toolpath.moves) {
+    if (move.kind != MoveKind::kCut) continue;
+    const auto at = ClosestToPoint(surface, move.to, 4.0, 1e-6);
+    if (at) nearest = std::min(nearest, at->distance);
+  }
+  EXPECT_GE(nearest, 2.8 - job.operation.tolerance);
+  EXPECT_LE(nearest, 2.8 + job.operation.tolerance);
+}
+
+TEST(Strategies, WhatTheFloorLeavesIsReported) {
+  Job job = BallJob(2.5);
+  job.operation.scallop = 0.02;
+  job.operation.floor_z = 2.0;
+  const double r = 8.0, radius = 2.5;
+  const Surface surface = PlacedSurface(Sphere({0, 0, 0}, r, Half::kUpper));
+  const JobResult result = Mill(surface, job);
+  Random random(5);
+  CheckProgram(surface, job, result, random, 500);
+  EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable);
+  // The tip is at (r + R) sin(phi) - R for a contact at latitude phi: zones
+  // have the area 2 pi r dz.
+  const double lowest = r * (2.0 + radius) / (r + radius), area = 2.0 * kPi * r * lowest;
+  EXPECT_NEAR(result.report.verify.unreachable_area[kFloor], area, 0.02 * area) << Describe(result);
+  for (const Move& move : result.motion.toolpath.moves) EXPECT_GE(move.to.z() - radius, 2.0 - 1e-9);
+}
+
+TEST(Strategies, ContoursTurnAsAsked) {
+  Job job = BallJob(2.0);
+  job.operation.scallop = 0.03;
+  job.operation.strategy = Strategy::kContour;
+  const Surface surface = PlacedSurface(Sphere({0, 0, 0}, 6, Half::kUpper));
+  for (const CutDirection direction : {CutDirection::kClimb, CutDirection::kConventional}) {
+    job.operation.contour_direction = direction;
+    const JobResult result = Mill(surface, job);
+    int count = 0;
+    for (const CutterPath& path : result.motion.passes) {
+      if (path.kind != PassKind::kContour || !path.closed) continue;
+      double turn = 0.0;  // twice the area, counter-clockwise positive
+      for (std::size_t i = 0; i < path.points.size(); ++i) {
+        turn += Cross(Plan(path.points[i].center), Plan(path.points[(i + 1) % path.points.size()].center));
+      }
+      // Material on the right of a climbing tool: round a hill that is
+      // clockwise.
+      EXPECT_EQ(turn < 0.0, direction == CutDirection::kClimb);
+      ++count;
+    }
+    EXPECT_GT(count, 5);
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
