@@ -1,0 +1,18 @@
+// Jobs over random folded parts keep the promises of DESIGN 2.
+#include "tests/property/random_job.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+class RandomFoldedJobs : public ::testing::TestWithParam<int> {};
+
+TEST_P(RandomFoldedJobs, KeepThePromises) {
+  const auto seed = static_cast<std::uint64_t>(2000 + GetParam());
+  ExpectPromisesKept(DrawJob(seed, /*folds=*/true, /*rational=*/false), seed);
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomFoldedJobs, ::testing::Range(0, kSanitized ? 2 : 12));
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,18 @@
+// Jobs over random rational and folded parts keep the promises of DESIGN 2.
+#include "tests/property/random_job.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+class RandomRationalFoldedJobs : public ::testing::TestWithParam<int> {};
+
+TEST_P(RandomRationalFoldedJobs, KeepThePromises) {
+  const auto seed = static_cast<std::uint64_t>(4000 + GetParam());
+  ExpectPromisesKept(DrawJob(seed, /*folds=*/true, /*rational=*/true), seed);
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomRationalFoldedJobs, ::testing::Range(0, kSanitized ? 2 : 12));
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,18 @@
+// Jobs over random rational parts keep the promises of DESIGN 2.
+#include "tests/property/random_job.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+class RandomRationalJobs : public ::testing::TestWithParam<int> {};
+
+TEST_P(RandomRationalJobs, KeepThePromises) {
+  const auto seed = static_cast<std::uint64_t>(3000 + GetParam());
+  ExpectPromisesKept(DrawJob(seed, /*folds=*/false, /*rational=*/true), seed);
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomRationalJobs, ::testing::Range(0, kSanitized ? 3 : 38));
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,89 @@
+// One part given in many ways gets the same lines, levels and region areas, and
+// a verified program.
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "tests/property/same_part.h"
+#include "tests/support/jobs/jobs.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+// Where the passes of one kind lie: heights of the levels, or offsets of the
+// lines across the feed; each once.
+std::vector<double> Places(const JobResult& result, PassKind kind, double angle) {
+  const Vec3 across(-std::sin(angle), std::cos(angle), 0.0);
+  std::vector<double> all;
+  for (const CutterPath& path : result.motion.passes) {
+    if (path.kind != kind) continue;
+    const Vec3& c = path.points.front().center;
+    all.push_back(kind == PassKind::kContour ? c.z() : across.dot(c));
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<double> places;
+  for (const double x : all) {
+    if (places.empty() || x > places.back() + 1e-6) places.push_back(x);
+  }
+  return places;
+}
+
+void ExpectSamePlaces(const JobResult& first, const JobResult& other, PassKind kind, double angle,
+                      double shift) {
+  const std::vector<double> a = Places(first, kind, angle), b = Places(other, kind, angle);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i] + shift, b[i], 1e-6) << i;
+}
+
+std::map<std::pair<RegionKind, SlopeClass>, double> AreasByKind(const JobResult& result) {
+  std::map<std::pair<RegionKind, SlopeClass>, double> areas;
+  for (const Region& region : result.report.regions) areas[{region.kind, region.slope}] += region.area;
+  return areas;
+}
+
+void ExpectSameJob(const PatchModel& model, const Job& job) {
+  std::optional<JobResult> first;
+  for (const SamePart& way : ManyWays(model)) {
+    SCOPED_TRACE(way.name);
+    const Surface surface = PlacedSurface(way.model);
+    JobResult result = Mill(surface, job);
+    EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
+    ASSERT_FALSE(result.program.empty());
+    if (!first) {
+      first = std::move(result);
+      continue;
+    }
+    const double angle = job.operation.zigzag_angle;
+    ExpectSamePlaces(*first, result, PassKind::kContour, angle, way.shift.z());
+    ExpectSamePlaces(*first, result, PassKind::kZigzag, angle,
+                     Vec3(-std::sin(angle), std::cos(angle), 0.0).dot(way.shift));
+    double total = 0.0;
+    for (const auto& [kind, area] : AreasByKind(*first)) total += area;
+    const auto areas = AreasByKind(result);
+    for (const auto& [kind, area] : AreasByKind(*first)) {
+      const auto at = areas.find(kind);
+      EXPECT_NEAR(at == areas.end() ? 0.0 : at->second, area, 1e-3 * total)
+          << Name(kind.first) << ' ' << Name(kind.second);
+    }
+    EXPECT_EQ(result.report.outcome, first->report.outcome);
+    if (kSanitized) break;
+  }
+}
+
+TEST(SameJob, SmoothPart) {
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.03;
+  job.operation.steep_angle = Radians(30);
+  ExpectSameJob(RandomBspline(21, {.spans = 4, .size = 22, .amplitude = 3}), job);
+}
+
+TEST(SameJob, Torus) {
+  Job job = BallJob(2.0);
+  job.operation.scallop = 0.03;
+  ExpectSameJob(Torus({0, 0, 0}, 10, 4, Half::kUpper), job);
+}
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,1 @@
+patchmill_test(property DEPS cam/plan tests/support/jobs)
