@@ -14,7 +14,10 @@ double BestSplit(double radius, const Vec3& a, const Vec3& b, const Support& at_
     const Vec3 pq = *at_a.contact - *at_b.contact;
     const double rise = -2.0 * (b - a).dot(pq);
     const double at0 = (a - *at_a.contact).squaredNorm() - (a - *at_b.contact).squaredNorm();
-    return rise == 0.0 ? 0.5 : std::clamp(-at0 / rise, 0.0, 1.0);
+    // One of the two nearer all along: it serves the whole chord.
+    if (at0 <= 0.0 && at0 + rise <= 0.0) return 1.0;
+    if (at0 >= 0.0 && at0 + rise >= 0.0) return 0.0;
+    return std::clamp(-at0 / rise, 0.0, 1.0);
   }
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 40; ++i) {

@@ -1,9 +1,7 @@
 #include "cam/path/spot_passes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 #include "cam/path/chord_bounds.h"
@@ -12,46 +10,13 @@
 #include "cam/path/level_trace.h"
 #include "cam/path/scan_line.h"
 #include "cam/path/spacing.h"
+#include "cam/path/spot_grid.h"
 #include "core/base/status.h"
 
 namespace patchmill {
 namespace {
 
 const double kSteep = std::cos(Radians(60.0));  // walls: scan lines over them would climb at every turn
-
-// Spots by place of their centres.
-class SpotGrid {
- public:
-  SpotGrid(const std::vector<LeftoverSpot>& spots, double cell) : spots_(spots), cell_(cell) {
-    for (std::size_t i = 0; i < spots.size(); ++i) cells_[KeyOf(spots[i].center)].push_back(i);
-  }
-  // Calls visit(i) for every spot whose centre may lie within `reach` of c.
-  template <class Visit>
-  void Near(const Vec3& c, double reach, Visit visit) const {
-    const Key lo = KeyOf(c - Vec3::Constant(reach)), hi = KeyOf(c + Vec3::Constant(reach));
-    for (int i = lo[0]; i <= hi[0]; ++i) {
-      for (int j = lo[1]; j <= hi[1]; ++j) {
-        for (int k = lo[2]; k <= hi[2]; ++k) {
-          const auto it = cells_.find({i, j, k});
-          if (it == cells_.end()) continue;
-          for (std::size_t s : it->second) {
-            if ((spots_[s].center - c).norm() <= reach) visit(s);
-          }
-        }
-      }
-    }
-  }
-
- private:
-  using Key = std::array<int, 3>;
-  Key KeyOf(const Vec3& c) const {
-    return {static_cast<int>(std::floor(c.x() / cell_)), static_cast<int>(std::floor(c.y() / cell_)),
-            static_cast<int>(std::floor(c.z() / cell_))};
-  }
-  const std::vector<LeftoverSpot>& spots_;
-  double cell_;
-  std::map<Key, std::vector<std::size_t>> cells_;
-};
 
 class Mender {
  public:

@@ -1,0 +1,99 @@
+#include "cam/path/chord_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cam/path/path_tree.h"
+#include "tests/support/random.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Random;
+
+// T2 on random points: two centres with every point (and everything above the centres, for the shank) out of
+// the ball.
+TEST(ChordBounds, NoPointIsDeeperThanT2AndTheBoundIsSharp) {
+  const double radius = 2.0;
+  Random random(1);
+  double closest = 0.0;
+  for (int trial = 0; trial < 200000; ++trial) {
+    const double length = random.Uniform(0.05, 2.0 * radius);
+    const Vec3 a(0, 0, 0), b(length, 0, 0);
+    const Vec3 p = random.Point(-2.5, 2.5) + Vec3(0.5 * length, 0, 0);
+    if (p.norm() < radius || (p - b).norm() < radius) continue;
+    const double gouge = radius - SegmentDistance(p, a, b);
+    ASSERT_LE(gouge, ChordGouge(radius, length) + 1e-12);
+    if (length < radius) closest = std::max(closest, gouge / ChordGouge(radius, length));
+  }
+  EXPECT_GT(closest, 0.8);
+  // Equality for a point that touches both balls.
+  const double length = 1.0;
+  const Vec3 p(0.5, std::sqrt(radius * radius - 0.25), 0);
+  EXPECT_NEAR(radius - SegmentDistance(p, {0, 0, 0}, {length, 0, 0}), ChordGouge(radius, length), 1e-14);
+  EXPECT_EQ(ChordGouge(radius, 2 * radius), radius);
+}
+
+// T3: no point of a chord is farther from touching one of its two contacts than the bound.
+TEST(ChordBounds, NoPointOfTheChordIsFartherThanT3AndTheBoundIsReached) {
+  const double radius = 2.0;
+  Random random(2);
+  for (int trial = 0; trial < 20000; ++trial) {
+    const Vec3 a = random.Point(-1, 1), b = random.Point(-1, 1);
+    const Vec3 p = a + radius * random.Point(-1, 1).normalized(),
+               q = b + radius * random.Point(-1, 1).normalized();
+    const bool floor = trial % 5 == 0;
+    const double floor_center = std::min(a.z(), b.z()) - random.Uniform(0, 0.5);
+    const Support sa{p, floor_center}, sb = floor ? Support{{}, floor_center} : Support{q, floor_center};
+    const double bound = ChordExcess(radius, a, b, sa, sb);
+    double largest = -kInfinity;
+    for (int k = 0; k <= 400; ++k) {
+      const Vec3 x = a + (b - a) * (k / 400.0);
+      largest = std::max(largest, std::min(sa.Clearance(x, radius), sb.Clearance(x, radius)));
+    }
+    ASSERT_LE(largest, bound + 1e-12);
+    // Two contacts: both clearances meet at the split, so the bound is the largest there is (up to sampling).
+    if (!floor) {
+      ASSERT_LE(bound, std::max({largest + 0.01, sa.Clearance(a, radius), sb.Clearance(b, radius)}) + 1e-9);
+    }
+  }
+}
+
+TEST(PathTree, FindsWhatBruteForceFinds) {
+  Random random(3);
+  std::vector<CutterPath> paths(7);
+  std::vector<std::pair<Vec3, Vec3>> moves;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    Vec3 at = random.Point(-10, 10);
+    paths[i].closed = i % 2 == 0;
+    for (int k = 0; k < 40; ++k) {
+      at += random.Point(-1, 1);
+      paths[i].points.push_back({at, {}, {}});
+    }
+    for (std::size_t k = 0; k + 1 < 40; ++k)
+      moves.push_back({paths[i].points[k].center, paths[i].points[k + 1].center});
+    if (paths[i].closed) moves.push_back({paths[i].points.back().center, paths[i].points.front().center});
+  }
+  paths.push_back({});
+  const PathTree tree(paths);
+  std::int32_t hint = -1;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Vec3 p = random.Point(-12, 12);
+    double best = kInfinity;
+    for (const auto& [a, b] : moves) best = std::min(best, SegmentDistance(p, a, b));
+    const auto found = tree.Find(p, 100.0, hint);
+    ASSERT_TRUE(found);
+    ASSERT_NEAR(found->distance, best, 1e-12);
+    ASSERT_NEAR(SegmentDistance(p, tree.segment(found->segment).a, tree.segment(found->segment).b), best,
+                1e-12);
+    ASSERT_FALSE(tree.Find(p, best * 0.999));
+    hint = found->segment;
+  }
+  EXPECT_FALSE(PathTree({}).Find(Vec3::Zero(), 10.0));
+}
+
+}  // namespace
+}  // namespace patchmill
