@@ -54,6 +54,9 @@ class SpotFinder {
   bool Covered(const Vec3* hull, int count, const NearMove& move) const;
   bool Blocked(const Vec3& c, double depth, std::optional<SurfacePoint>& blocker) const;
   std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e, std::optional<SurfacePoint>& blocker) const;
+  // A corner of a narrow rectangle that can be reached and is above the limit.
+  std::optional<LeftoverSpot> SpotAtCorner(const SurfaceRect& rect, const NearMove& hint,
+                                           std::optional<SurfacePoint>& blocker) const;
   // `known`: the blocker is already the highest contact below the centre on e's side.
   bool OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size, bool known,
                   std::optional<SurfacePoint>& blocker) const;
@@ -104,6 +107,24 @@ std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e,
     const Vec3 c = p + radius_ * n;
     if (c.z() < params_.floor_z + radius_) continue;
     if (!Blocked(c, 0.0, blocker)) return n;
+  }
+  return std::nullopt;
+}
+
+std::optional<LeftoverSpot> SpotFinder::SpotAtCorner(const SurfaceRect& rect, const NearMove& hint,
+                                                     std::optional<SurfacePoint>& blocker) const {
+  for (const double u : {rect.u0, rect.u1}) {
+    for (const double v : {rect.v0, rect.v1}) {
+      const SurfacePoint at{rect.piece, u, v, Position(surface_.piece(rect.piece), u, v)};
+      const double leftover = std::min(NearestTo(at.p, 2.0 * radius_, hint).distance - radius_, radius_);
+      if (leftover <= params_.limit) continue;
+      const Vec3 e = UpwardNormalNear(surface_, at);
+      const double slope = std::acos(std::clamp(e.z(), -1.0, 1.0));
+      if (slope < params_.window.min || slope > params_.window.max) continue;
+      if (const auto side = ReachableSide(at.p, e, blocker)) {
+        return LeftoverSpot{at, *side, at.p + radius_ * *side, leftover, rect};
+      }
+    }
   }
   return std::nullopt;
 }
@@ -187,8 +208,12 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
         return;
       }
       // A strip this narrow beside what is out of reach holds a few microns more than its reachable
-      // neighbours.
-      if (size < 0.1 * flat_ || OutOfReach(rect, p, e, size, true, found.blocker)) return;
+      // neighbours, unless it has none: an island of reach shows at the corners.
+      if (size < 0.1 * flat_) {
+        if (const auto island = SpotAtCorner(rect, near, found.blocker)) out.push_back(*island);
+        return;
+      }
+      if (OutOfReach(rect, p, e, size, true, found.blocker)) return;
       reach_tested = true;
     }
   }
