@@ -15,7 +15,7 @@ build_packages=(
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
-  python3 clang-format-14 linuxcnc-uspace librsvg2-bin
+  python3 clang-format-14 linuxcnc-uspace librsvg2-bin python3-grpcio python3-protobuf
 )
 case "$what" in
   all) packages=("${build_packages[@]}" "${test_packages[@]}") ;;

@@ -32,6 +32,11 @@ double RayDistance(const Vec3& c, const Vec3& q) {
   return q.z() >= c.z() ? (Plan(q) - Plan(c)).norm() : (q - c).norm();
 }
 
+// Of the flat step: strips this narrow are looked at by their corners too; smaller than an island, not at
+// all.
+constexpr double kNarrow = 0.1;
+constexpr double kIsland = 0.025;
+
 class SpotFinder {
  public:
   SpotFinder(const Locator& locator, const Locator& reach, const std::vector<const PathTree*>& trees,
@@ -209,16 +214,19 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
       }
       // A strip this narrow beside what is out of reach holds a few microns more than its reachable
       // neighbours, unless it has none: an island of reach shows at the corners.
-      if (size < 0.1 * flat_) {
-        if (const auto island = SpotAtCorner(rect, near, found.blocker)) out.push_back(*island);
-        return;
+      if (size < kNarrow * flat_) {
+        if (const auto island = SpotAtCorner(rect, near, found.blocker)) {
+          out.push_back(*island);
+          return;
+        }
+        if (size < kIsland * flat_) return;
       }
       if (OutOfReach(rect, p, e, size, true, found.blocker)) return;
       reach_tested = true;
     }
   }
   constexpr int kDeepest = 40;
-  if (size < 0.05 * flat_ || depth >= kDeepest) return;
+  if (size < kIsland * flat_ || depth >= kDeepest) return;
   if (!reach_tested && near.segment < 0 && size < 8.0 * flat_ &&
       OutOfReach(rect, p, e, size, false, found.blocker))
     return;
