@@ -1,6 +1,7 @@
 #include "cam/plan/plan_passes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "cam/path/contour_paths.h"
@@ -71,11 +72,16 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator, params, run));
     Append(planned.paths, std::move(lines));
   }
-  if (op.strategy == Strategy::kAuto) {
+  // Forced contours leave whole flats to STRATEGY, and searching them for spots takes longer than the job:
+  // they get no rest passes.
+  if (op.strategy != Strategy::kContour) {
     CoverageParams params;
     static_cast<PassParams&>(params) = base;
     params.limit = op.scallop + kCoverageShare * op.tolerance;
     params.tolerance = op.tolerance;
+    // Forced lines answer for the slopes where their steps are not clamped; what is steeper is reported as
+    // STRATEGY.
+    if (op.strategy == Strategy::kZigzag) params.window.max = kPi / 2.0 - std::asin(base.min_step_fraction);
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator, planned.paths, params, run));
     Append(planned.paths, std::move(rest));
   }
