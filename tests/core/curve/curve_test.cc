@@ -1,0 +1,164 @@
+// Curves: vectors of METHODS 1.2 and 3.5, Bezier forms, parts, derivatives against differencing.
+#include "core/curve/curve.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/curve/edge_tangents.h"
+#include "tests/support/json.h"
+#include "tests/support/random.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Json;
+using testing::LoadJson;
+using testing::Random;
+
+#define VECTORS PATCHMILL_SOURCE_DIR "/tests/vectors/"
+
+void ExpectNear(const Vec3& a, const Vec3& b, double tolerance) {
+  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " / " << b.transpose();
+}
+
+// f'(t) of order eight.
+template <class F>
+Vec3 Difference(F f, double t) {
+  constexpr double kWeight[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280}, kStep = 1e-3;
+  Vec3 sum = Vec3::Zero();
+  for (int k = 1; k <= 4; ++k) sum += kWeight[k - 1] * (f(t + k * kStep) - f(t - k * kStep));
+  return sum / kStep;
+}
+
+HosakaSegment RandomSegment(Random& random, int extra) {
+  HosakaSegment s{random.Point(-1, 1), random.Point(-1, 1), random.Point(-1, 1), random.Point(-1, 1), {}};
+  for (int k = 0; k < extra; ++k) s.extra.push_back(random.Point(-1, 1));
+  return s;
+}
+
+TEST(HermiteCurve, FmillVector) {
+  const Json data = LoadJson(VECTORS "fmill_hermite_curve.json");
+  const Vec3 p1 = data["P1"].Vector(), p2 = data["P2"].Vector();
+  const auto tangents =
+      FmillTangents(p1, data["n1"].Vector(), p2, data["n2"].Vector(), data["gamma"].Number());
+  ASSERT_TRUE(tangents.ok());
+  ExpectNear(tangents->t1, data["T1"].Vector(), 1e-12);
+  ExpectNear(tangents->t2, data["T2"].Vector(), 1e-12);
+  const Curve curve = EdgeCurve(p1, p2, *tangents);
+  const int count = static_cast<int>(data["u"].Items().size());
+  ASSERT_GE(count, 5);
+  for (int k = 0; k < count; ++k) {
+    const CurveJet jet = Evaluate(curve, data["u"][k].Number());
+    ExpectNear(jet.p, data["C"][k].Vector(), 3e-12);
+    ExpectNear(jet.d, data["dC"][k].Vector(), 3e-12);
+    ExpectNear(jet.dd, data["ddC"][k].Vector(), 3e-12);
+  }
+}
+
+TEST(HosakaSegment, PartVector) {
+  const Json data = LoadJson(VECTORS "hosaka_curve.json")["sub"];
+  const Vec3 a = data["A"].Vector();
+  const HermiteCurve whole{Vec3::Zero(), data["B"].Vector(), a, data["C"].Vector()};
+  const double t1 = data["t1"].Number(), t2 = data["t2"].Number();
+  const HermiteCurve part = Part(whole, t1, t2);
+  ExpectNear(part.p1 - part.p0, data["AM"].Vector(), 1e-12);
+  ExpectNear(part.d0, data["BM"].Vector(), 1e-12);
+  ExpectNear(part.d1, data["CM"].Vector(), 1e-12);
+  for (double s = 0; s <= 1; s += 0.125) {
+    ExpectNear(Evaluate(part, s).p, Evaluate(whole, t1 + s * (t2 - t1)).p, 1e-15);
+  }
+}
+
+TEST(HosakaSegment, ExtraTermKeepsEndsAndEndDerivatives) {
+  Random random(1);
+  for (int k = 0; k <= 11; ++k) {
+    const HosakaSegment s = RandomSegment(random, k);
+    for (const double t : {0.0, 1.0}) {
+      const CurveJet jet = Evaluate(s, t);
+      ExpectNear(jet.p, s.origin + t * s.a, 1e-15);
+      ExpectNear(jet.d, t == 0 ? s.b : s.c, 1e-14);
+    }
+  }
+}
+
+TEST(Curve, BezierFormIsTheSameCurve) {
+  Random random(2);
+  for (int extra = 0; extra <= 11; ++extra) {
+    const Curve s = RandomSegment(random, extra);
+    const auto bezier = ToBezier(s);
+    ASSERT_TRUE(bezier.ok());
+    for (int k = 0; k < 20; ++k) {
+      const double t = random.Unit();
+      const CurveJet a = Evaluate(s, t), b = Evaluate(*bezier, t);
+      ExpectNear(a.p, b.p, 1e-13);
+      ExpectNear(a.d, b.d, 1e-12);
+      ExpectNear(a.dd, b.dd, 1e-11);
+    }
+  }
+  HosakaSegment too_long = RandomSegment(random, 13);
+  EXPECT_FALSE(ToBezier(Curve(too_long)).ok());
+}
+
+TEST(Curve, BsplineOfOneSpanIsBezier) {
+  Random random(3);
+  BsplineCurve spline{3, {0, 0, 1, 2, 3, 3, 4, 5}, {}};
+  for (int k = 0; k < 4; ++k) spline.points.push_back(random.Point(-1, 1));
+  spline.knots = {-1, 0, 1, 2, 4, 5, 5, 6};  // one span [2,4], not clamped
+  const auto bezier = ToBezier(Curve(spline));
+  ASSERT_TRUE(bezier.ok());
+  for (int k = 0; k < 20; ++k) {
+    const double t = random.Unit();
+    const CurveJet a = Evaluate(Curve(spline), t), b = Evaluate(*bezier, t);
+    ExpectNear(a.p, b.p, 1e-14);
+    ExpectNear(a.d, b.d, 1e-13);
+    ExpectNear(a.dd, b.dd, 1e-12);
+  }
+  spline.knots = {0, 0, 0, 0, 1, 2, 2, 2, 2};
+  spline.points.push_back(random.Point(-1, 1));
+  EXPECT_FALSE(ToBezier(Curve(spline)).ok());
+}
+
+TEST(Curve, DerivativesAgreeWithDifferencing) {
+  Random random(4);
+  std::vector<Curve> curves;
+  curves.push_back(
+      HermiteCurve{random.Point(-1, 1), random.Point(-1, 1), random.Point(-1, 1), random.Point(-1, 1)});
+  for (int n = 1; n <= 9; ++n) {
+    BezierCurve b;
+    for (int k = 0; k <= n; ++k) b.points.push_back(random.Point(-1, 1));
+    curves.push_back(b);
+  }
+  BsplineCurve s{4, {0, 0, 0, 0, 0, 10, 10, 10, 10, 10}, {}};
+  for (int k = 0; k < 5; ++k) s.points.push_back(random.Point(-1, 1));
+  curves.push_back(s);
+  curves.push_back(RandomSegment(random, 3));
+  for (const Curve& c : curves) {
+    for (int k = 0; k < 20; ++k) {
+      const double t = random.Uniform(0.1, 0.9);
+      const CurveJet jet = Evaluate(c, t);
+      ExpectNear(Difference([&](double x) { return Evaluate(c, x).p; }, t), jet.d, 1e-10);
+      ExpectNear(Difference([&](double x) { return Evaluate(c, x).d; }, t), jet.dd, 1e-9);
+    }
+  }
+}
+
+TEST(Curve, ReversedAndElevatedAreTheSameCurve) {
+  Random random(5);
+  const HermiteCurve h{random.Point(-1, 1), random.Point(-1, 1), random.Point(-1, 1), random.Point(-1, 1)};
+  const BezierCurve b = ToBezier(h), high = Elevated(b, 11);
+  EXPECT_EQ(high.degree(), 11);
+  for (int k = 0; k < 20; ++k) {
+    const double t = random.Unit();
+    ExpectNear(Evaluate(h, t).p, Evaluate(Reversed(h), 1 - t).p, 1e-15);
+    ExpectNear(Evaluate(b, t).d, -Evaluate(Reversed(b), 1 - t).d, 1e-14);
+    ExpectNear(Evaluate(b, t).p, Evaluate(high, t).p, 1e-15);
+    ExpectNear(Evaluate(b, t).dd, Evaluate(high, t).dd, 1e-12);
+  }
+  const HermiteCurve back = HermiteOf(high);
+  ExpectNear(back.d0, h.d0, 1e-14);
+  ExpectNear(back.d1, h.d1, 1e-14);
+}
+
+}  // namespace
+}  // namespace patchmill
