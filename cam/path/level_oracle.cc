@@ -3,23 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/surface/closest.h"
-
 namespace patchmill {
 namespace {
 
-// mm: an exit shorter than this ends the walk; the place is then known to about its square.
+// mm: exits shorter than this do not count; the place is known to about the square of the contact's last
+// step.
 constexpr double kStill = 1e-10;
+constexpr double kContactStill = 1e-6;
 // mm: h may pass c by this much at a border point (rounding of the contact, not of the method).
 constexpr double kHeightSlack = 1e-9;
-// Part of the radius: exits shorter than this look for the deepest disc instead of that of h's contact. On a
-// steep wall that leans back h touches high up, where discs end soon, and would climb down the wall a
-// thousandth of a millimetre at a time.
-constexpr double kSlowExit = 1e-3;
-// mm: up to this depth h's own contacts lead out, exactly; from deeper, the nearest point does.
-constexpr double kRimDepth = 1e-6;
-// mm: how far a border point may be moved out of a disc's rim at a vertical wall, where h jumps.
+// mm: how far a border point may be moved out of a disc's rim at a vertical wall, where h jumps, or at one so
+// steep (cosine of its slope) that rounding in plan moves h.
 constexpr double kLargestNudge = 8e-10;
+constexpr double kVertical = 1e-4;
+constexpr int kMostSlides = 60;     // steps on one branch
+constexpr int kMostCrossings = 16;  // of sides on one branch
+constexpr int kMostBranches = 60;   // along one straight way
 
 }  // namespace
 
@@ -42,57 +41,65 @@ double LevelOracle::ExitLength(const Vec2& q, const Vec3& contact, const Vec2& d
   return b > 0.0 ? -c / (b + root) : root - b;
 }
 
-LevelPoint LevelOracle::Exit(Vec2 q, SurfacePoint contact, const Vec2& direction, double reach) const {
-  const Vec2 start = q;
-  double gone = 0.0;
+std::optional<SurfacePoint> LevelOracle::Beyond(const RaySlide& slide) const {
+  const int side = slide.held_by();
+  if (side < 0) return std::nullopt;
+  return sides_.Across(slide.at().piece, side, side % 2 == 0 ? slide.at().u : slide.at().v);
+}
+
+SurfacePoint LevelOracle::Deepest(const SurfacePoint& from, const Vec2& q) const {
+  Way way{q, Vec2::Zero()};
+  return LeaveBranch(way, from, kInfinity);
+}
+
+SurfacePoint LevelOracle::LeaveBranch(Way& way, const SurfacePoint& from, double reach) const {
+  RaySlide slide(locator_.surface(), from);
+  const auto step = [&](RaySlide& on) {
+    const double moved = on.Step(Center(way.At()));
+    const double exit = way.direction == Vec2::Zero() ? 0.0 : ExitLength(way.At(), on.at().p, way.direction);
+    way.gone += exit;
+    return moved >= kContactStill || exit >= 0.1 * kStill;
+  };
+  int crossings = 0;
+  for (int k = 0; k < kMostSlides && way.gone < reach; ++k) {
+    if (step(slide)) continue;
+    const std::optional<SurfacePoint> next = Beyond(slide);
+    if (!next || ++crossings > kMostCrossings) break;
+    RaySlide across(locator_.surface(), *next);
+    if (!step(across)) break;
+    slide = across;
+  }
+  return slide.at();
+}
+
+LevelPoint LevelOracle::Exit(const Vec2& start, const SurfacePoint& contact, const Vec2& direction,
+                             double reach) const {
+  Way way{start, direction};
+  SurfacePoint at = contact;
   double nudge = kStill;
-  bool deep = false;  // left a disc deeper than that of h's contact: it may end on a wall where h jumps
-  for (int step = 0; step < 200; ++step) {
-    // On one branch the contact follows by Newton alone.
-    for (int k = 0; k < 6; ++k) {
-      const double t = ExitLength(q, contact.p, direction);
-      gone += t;
-      q = start + gone * direction;
-      if (t < kStill || gone >= reach) break;
-      const std::optional<CenterPoint> next = locator_.Follow(contact, q);
-      if (!next || next->z <= z_) break;
-      contact = next->contact;
-    }
-    if (gone >= reach) return {start + reach * direction, contact, std::nullopt};
-    if (contact.p.z() >= z_ && nudge == kStill) {
-      // h jumps at the rim of a wall: rounding must not decide on which side q lies.
-      gone += nudge;
+  for (int branch = 0; branch < kMostBranches; ++branch) {
+    at = LeaveBranch(way, at, reach);
+    if (way.gone >= reach) return {start + reach * direction, at, std::nullopt};
+    if (nudge == kStill && z_ - at.p.z() < kVertical * radius_) {
+      // Rounding must not decide on which side the point lies.
+      way.gone += nudge;
       nudge *= 2.0;
-      q = start + gone * direction;
     }
-    const std::optional<CenterPoint> h = locator_.Height(q, &contact);
-    if (!h || h->z <= z_ + kHeightSlack) {
-      if (deep) q += kStill * direction;
-      return {q, contact, std::nullopt};
-    }
-    const double t = ExitLength(q, h->contact.p, direction);
-    contact = h->contact;
-    bool deeper = false;
-    if (t < kSlowExit * radius_) {
-      const auto nearest =
-          ClosestToUpwardRay(locator_.surface(), Center(q), radius_ - kRimDepth, 0.1 * kRimDepth);
-      deeper = nearest && ExitLength(q, nearest->at.p, direction) > t;
-      if (deeper) contact = nearest->at;
-      deep = deep || deeper;
-    }
-    if (t < kStill && !deeper) {
-      // The rim of a vertical wall: rounding decides on which side of the jump q lies.
-      if (nudge > kLargestNudge) return {q, contact, std::nullopt};
-      gone += nudge;
-      nudge *= 2.0;
-      q = start + gone * direction;
-    }
+    if (locator_.Free(Center(way.At()), kHeightSlack)) return {way.At(), at, std::nullopt};
+    const std::optional<CenterPoint> h = locator_.Height(way.At(), &at);
+    if (!h || h->z <= z_ + kHeightSlack) return {way.At(), at, std::nullopt};
+    const double before = way.gone;
+    const SurfacePoint last = at;
+    at = LeaveBranch(way, h->contact, reach);
+    if (way.gone - before >= kStill) continue;
+    // Rounding decides on which side of the rim the point lies.
+    if (nudge > kLargestNudge) return {way.At(), last, std::nullopt};
+    way.gone += nudge;
+    nudge *= 2.0;
   }
   // No end in sight: as good as out, or else the far end, which is free.
-  if (AnythingNearUpwardRay(locator_.surface(), Center(q), radius_ - kRimDepth, 0.1 * kRimDepth)) {
-    q = start + reach * direction;
-  }
-  return {q, contact, std::nullopt};
+  if (!locator_.Free(Center(way.At()), kHeightSlack)) way.gone = reach;
+  return {way.At(), at, std::nullopt};
 }
 
 std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& direction, const SurfacePoint& a,
@@ -149,10 +156,8 @@ std::optional<LevelPoint> LevelOracle::Corner(const LevelPoint& a, const LevelPo
     q = next;
     if ((q - middle).norm() > reach) return std::nullopt;
     if (step > 0 && moved < 1e-12 * (1.0 + radius_)) break;
-    const std::optional<CenterPoint> na = locator_.Follow(ka, q), nb = locator_.Follow(kb, q);
-    if (!na || !nb) return std::nullopt;
-    ka = na->contact;
-    kb = nb->contact;
+    ka = Deepest(ka, q);
+    kb = Deepest(kb, q);
   }
   if ((ka.p - kb.p).norm() < 1e-6 * radius_) return std::nullopt;
   const std::optional<CenterPoint> h = locator_.Height(q, &ka);

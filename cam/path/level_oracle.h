@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "cam/location/locator.h"
+#include "cam/location/ray_slide.h"
+#include "cam/path/contour_sides.h"
 
 namespace patchmill {
 
@@ -16,7 +18,9 @@ struct LevelPoint {
 
 class LevelOracle {
  public:
-  LevelOracle(const Locator& locator, double z) : locator_(locator), z_(z), radius_(locator.radius()) {}
+  // Keeps references.
+  LevelOracle(const Locator& locator, const PieceSides& sides, double z)
+      : locator_(locator), sides_(sides), z_(z), radius_(locator.radius()) {}
 
   double z() const { return z_; }
   double radius() const { return radius_; }
@@ -25,9 +29,8 @@ class LevelOracle {
   std::optional<CenterPoint> Height(const Vec2& q, const SurfacePoint* hint) const {
     return locator_.Height(q, hint);
   }
-  std::optional<CenterPoint> Follow(const SurfacePoint& from, const Vec2& q) const {
-    return locator_.Follow(from, q);
-  }
+  // The nearest point of the branch of `from` to the ball with everything above it, centred at (q, c).
+  SurfacePoint Deepest(const SurfacePoint& from, const Vec2& q) const;
   bool Forbidden(const std::optional<CenterPoint>& h) const { return h && h->z > z_; }
 
   // Radius of the disc that a surface point forbids at this level (0 when it is too low).
@@ -39,10 +42,11 @@ class LevelOracle {
   // 0 outside of the disc.
   double ExitLength(const Vec2& q, const Vec3& contact, const Vec2& direction) const;
 
-  // From a forbidden point with its contact, straight along the unit vector `direction`: the first point of
-  // the border. Every step is the exit from a disc that truly is forbidden, so no free stretch is skipped
-  // (ALGORITHMS 11). Stops at `reach` (mm), which the caller knows to be free, at the latest.
-  LevelPoint Exit(Vec2 q, SurfacePoint contact, const Vec2& direction, double reach) const;
+  // From a point in the disc of a contact (or on its rim), straight along the unit vector `direction`: the
+  // first point of the border. Every step is the exit from a disc that truly is forbidden, so no free stretch
+  // is skipped (ALGORITHMS 11); the disc is that of the deepest point of its branch, so that steep walls cost
+  // no more than gentle ground. Stops at `reach` (mm), which the caller knows to be free, at the latest.
+  LevelPoint Exit(const Vec2& start, const SurfacePoint& contact, const Vec2& direction, double reach) const;
 
   // A border point on the line through m along `direction` (pointing to the free side), near m: from m
   // outward when m is forbidden, else from the nearest disc of the two contacts behind m.
@@ -55,7 +59,19 @@ class LevelOracle {
   std::optional<LevelPoint> Corner(const LevelPoint& a, const LevelPoint& b, double reach) const;
 
  private:
+  // A straight way, and how far along it.
+  struct Way {
+    Vec2 start, direction;
+    double gone = 0.0;
+    Vec2 At() const { return start + gone * direction; }
+  };
+  // Along `way` until it leaves the discs of the branch of `from`, or reaches `reach`. The last contact.
+  SurfacePoint LeaveBranch(Way& way, const SurfacePoint& from, double reach) const;
+  // The same place on the piece across the side that holds `slide` back, if there is one.
+  std::optional<SurfacePoint> Beyond(const RaySlide& slide) const;
+
   const Locator& locator_;
+  const PieceSides& sides_;
   double z_, radius_;
 };
 

@@ -59,7 +59,7 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
       if (attempt >= kMostShifts) limits.smallest *= 2.0;
       continue;
     }
-    const LevelOracle oracle(context.locator, level.z);
+    const LevelOracle oracle(context.locator, context.sides, level.z);
     const LoopTolerance tolerance{
         std::max(params.chord_tolerance - params.certificate_gap, 0.5 * params.chord_tolerance),
         params.chord_tolerance};

@@ -23,7 +23,7 @@ class Clipper {
   Clipper(const LevelContext& context, const CutterPath& loop, const ClipParams& params)
       : context_(context),
         surface_(context.locator.surface()),
-        oracle_(context.locator, loop.points.front().center.z()),
+        oracle_(context.locator, context.sides, loop.points.front().center.z()),
         loop_(loop),
         params_(params) {
     spots_ = params.spots;

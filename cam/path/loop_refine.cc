@@ -59,8 +59,7 @@ class Refiner {
  private:
   // Do both contacts belong to one smooth branch? Then following one to the other's place arrives there.
   bool OneBranch(const LevelPoint& a, const LevelPoint& b) const {
-    const std::optional<CenterPoint> there = oracle_.Follow(a.contact, b.q);
-    return there && (there->contact.p - b.contact.p).norm() < 1e-4 * oracle_.radius();
+    return (oracle_.Deepest(a.contact, b.q).p - b.contact.p).norm() < 1e-4 * oracle_.radius();
   }
 
   static bool Between(const Vec2& q, const Vec2& a, const Vec2& b) {

@@ -166,6 +166,18 @@ double PlateHeight(const Vec2& q, double slope, double a) {
   return best;
 }
 
+// To first order in plan: outside by 1e-9 the plate is out of reach, inside by 1e-9 it is not.
+void CheckOnPlate(const LevelContours& level, double slope, double a) {
+  for (const CutterPath& loop : level.loops) {
+    for (const CutterPoint& p : loop.points) {
+      const Vec2 q = Plan(p.center);
+      const Vec2 out = (q - Plan(p.contact->p)).normalized();
+      EXPECT_LE(PlateHeight(q + 1e-9 * out, slope, a), level.z + 1e-12) << q.transpose();
+      EXPECT_GT(PlateHeight(q - 1e-9 * out, slope, a), level.z - 1e-12) << q.transpose();
+    }
+  }
+}
+
 TEST(ContourLevel, TiltedPlateWithOpenBorders) {
   const double slope = 0.4, a = 20.0;
   const Level plate(testing::Plane(a, 0.0, slope, 0.0));
@@ -173,15 +185,28 @@ TEST(ContourLevel, TiltedPlateWithOpenBorders) {
     SCOPED_TRACE(c);
     const LevelContours level = plate.At(c);
     ASSERT_EQ(level.loops.size(), 1u);
-    for (const CutterPoint& p : level.loops[0].points) {
-      // To first order in plan: outside by 1e-9 the plate is out of reach, inside by 1e-9 it is not.
-      const Vec2 q = Plan(p.center);
-      const Vec2 out = (q - Plan(p.contact->p)).normalized();
-      EXPECT_LE(PlateHeight(q + 1e-9 * out, slope, a), c + 1e-12) << q.transpose();
-      EXPECT_GT(PlateHeight(q - 1e-9 * out, slope, a), c - 1e-12) << q.transpose();
-    }
+    CheckOnPlate(level, slope, a);
   }
   EXPECT_TRUE(plate.At(11.0).loops.empty());
+}
+
+// Up to 89.4 degrees: h touches far above the level, the deepest disc is that of the point beside it.
+TEST(ContourLevel, WallsThatLeanBack) {
+  const double a = 4.0;
+  for (const double slope : {5.0, 20.0, 100.0}) {
+    SCOPED_TRACE(slope);
+    const Level wall(testing::Plane(a, 0.0, slope, 0.0));
+    for (const double c : {-0.5 * slope, 0.0, 0.3 * slope}) {
+      const LevelContours level = wall.At(c);
+      ASSERT_EQ(level.loops.size(), 1u);
+      CheckOnPlate(level, slope, a);
+      // On the wall itself x = (c - R sqrt(1 + slope^2)) / slope.
+      const double x = (c - kR * std::hypot(1.0, slope)) / slope;
+      int on_wall = 0;
+      for (const CutterPoint& p : level.loops[0].points) on_wall += std::abs(p.center.x() - x) <= 1e-9;
+      EXPECT_GT(on_wall, 10);
+    }
+  }
 }
 
 TEST(ContourLevel, GapsAsWideAsTheTool) {
