@@ -48,11 +48,4 @@ double ChordExcess(double radius, const Vec3& a, const Vec3& b, const Support& a
                    at_b.Clearance(b, radius)});
 }
 
-double SegmentDistance(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  const double l2 = ab.squaredNorm();
-  const double s = l2 > 0.0 ? std::clamp((p - a).dot(ab) / l2, 0.0, 1.0) : 0.0;
-  return (p - (a + s * ab)).norm();
-}
-
 }  // namespace patchmill

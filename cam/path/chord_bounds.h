@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "core/base/segment.h"
 #include "core/base/vec.h"
 
 namespace patchmill {
@@ -31,8 +32,5 @@ struct Support {
 // supports, whatever lies between. Exact for this pair up to the choice of one split point; both clearances
 // are convex along the chord, so their values at the ends and at the split bound them. May be negative.
 double ChordExcess(double radius, const Vec3& a, const Vec3& b, const Support& at_a, const Support& at_b);
-
-// Distance of p to the segment a b.
-double SegmentDistance(const Vec3& p, const Vec3& a, const Vec3& b);
 
 }  // namespace patchmill

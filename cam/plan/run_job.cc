@@ -6,6 +6,7 @@
 #include "cam/path/scan_line.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/plan_passes.h"
+#include "cam/plan/region_steps.h"
 #include "cam/plan/resolve.h"
 #include "cam/post/program_reader.h"
 #include "core/base/status.h"
@@ -35,6 +36,13 @@ RegionParams MakeRegionParams(const Job& job, const Resolved& resolved) {
   p.steep_angle = job.operation.steep_angle;
   p.floor_z = resolved.floor_z - job.operation.leave;
   return p;
+}
+
+absl::StatusOr<RegionMap> MakeRegions(const Surface& surface, const Job& job, const Resolved& resolved,
+                                      const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(RegionMap map, SplitRegions(surface, MakeRegionParams(job, resolved), run));
+  PM_RETURN_IF_ERROR(FillSteps(surface, job, resolved, run, map));
+  return map;
 }
 
 LinkParams MakeLinkParams(const Job& job, const Resolved& resolved) {
@@ -105,7 +113,7 @@ std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnos
 absl::StatusOr<RegionMap> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
-  return SplitRegions(surface, MakeRegionParams(job, resolved), run);
+  return MakeRegions(surface, job, resolved, run);
 }
 
 absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
@@ -131,7 +139,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   report.diagnostics.insert(report.diagnostics.end(), check.findings.begin(), check.findings.end());
   clock.Done("check");
 
-  PM_ASSIGN_OR_RETURN(result.regions, SplitRegions(surface, MakeRegionParams(job, resolved), run));
+  PM_ASSIGN_OR_RETURN(result.regions, MakeRegions(surface, job, resolved, run));
   report.regions = result.regions.regions;
   clock.Done("regions");
 

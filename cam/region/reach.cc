@@ -10,36 +10,39 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kVertical = 1e-9;  // |e_z| below this: no side is the upper one
+// The constants of docs/reach.md.
+constexpr double kVertical = 1e-6;    // |e_z| below this: no side is the upper one
+constexpr double kNearer = 0.02;      // of the radius: what blocks above is nearer by this
+constexpr double kFloorSlack = 1e-6;  // mm
+
+constexpr double kProof = 0.004;  // of the radius: how exactly distances are known here
 
 }  // namespace
 
-// The floor is where the model ends: rounding must not make its lowest point unreachable.
 bool ReachTest::AboveFloor(const Vec3& center) const {
-  return center.z() - params_.radius >= params_.floor_z - params_.tolerance;
+  return center.z() - params_.radius >= params_.floor_z - kFloorSlack;
 }
 
-UnreachableReason ReachTest::At(const Vec3& p, const Vec3& normal, std::optional<SurfacePoint>* last) const {
-  const Vec3 c = p + params_.radius * normal;
-  if (!free_ball_.Free(c)) {
-    const auto blocking = free_ball_.Height(Plan(c), last != nullptr && *last ? &**last : nullptr);
-    if (last != nullptr && blocking) *last = blocking->contact;
-    const bool above = blocking && blocking->contact.p.z() > c.z();
-    return above ? UnreachableReason::kUndercut : UnreachableReason::kConcave;
-  }
-  return AboveFloor(c) ? UnreachableReason::kNone : UnreachableReason::kFloor;
+UnreachableReason ReachTest::At(const Vec3& center) const {
+  if (free_ball_.Free(center))
+    return AboveFloor(center) ? UnreachableReason::kNone : UnreachableReason::kFloor;
+  const Surface& surface = free_ball_.surface();
+  const double proof = kProof * params_.radius;
+  const auto shank = ClosestToUpwardRay(surface, center, free_ball_.radius() + proof, proof);
+  if (!shank || shank->at.p.z() <= center.z()) return UnreachableReason::kConcave;
+  const bool ball =
+      ClosestToPoint(surface, center, shank->distance + kNearer * params_.radius, proof).has_value();
+  return ball ? UnreachableReason::kConcave : UnreachableReason::kUndercut;
 }
 
-UnreachableReason ReachTest::Reason(const Piece& piece, double u, double v,
-                                    std::optional<SurfacePoint>* last) const {
+UnreachableReason ReachTest::Reason(const Piece& piece, double u, double v) const {
   const SurfaceJet jet = Evaluate(piece, u, v);
   const auto normal = UpwardNormal(jet);
   if (!normal) return UnreachableReason::kNone;
-  const UnreachableReason reason = At(jet.p, *normal, last);
-  if (reason != UnreachableReason::kNone && std::abs(normal->z()) < kVertical) {
-    return At(jet.p, -*normal, last);
-  }
-  return reason;
+  const UnreachableReason reason = At(jet.p + params_.radius * *normal);
+  if (reason == UnreachableReason::kNone || std::abs(normal->z()) >= kVertical) return reason;
+  const UnreachableReason other = At(jet.p - params_.radius * *normal);
+  return other == UnreachableReason::kNone ? other : std::max(reason, other);
 }
 
 bool ReachTest::Reachable(const Piece& piece, double u, double v) const {
@@ -64,7 +67,7 @@ double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& norm
   for (int i = 0; i < 12; ++i) {
     const double r = 0.5 * (low + high);
     const bool free =
-        r <= tolerance || !ClosestToUpwardRay(surface, p + r * normal, r - tolerance, 0.1 * tolerance);
+        r <= tolerance || !AnythingNearUpwardRay(surface, p + r * normal, r - tolerance, 0.1 * tolerance);
     (free ? low : high) = r;
   }
   return low;

@@ -1,7 +1,5 @@
-// Can the ball touch this point of the surface? DESIGN 2's definition, by exact cutter location.
+// Can the ball touch this point of the surface, and if not, why: docs/reach.md, by exact cutter location.
 #pragma once
-
-#include <optional>
 
 #include "cam/location/locator.h"
 #include "cam/region/region_map.h"
@@ -13,13 +11,8 @@ class ReachTest {
   // `free_ball`: locator of radius params.radius - params.tolerance.
   ReachTest(const Locator& free_ball, const RegionParams& params) : free_ball_(free_ball), params_(params) {}
 
-  // kNone: reachable. kUndercut: something hangs above the ball. kConcave: the ball does not fit. kFloor: the
-  // tip would sink below the floor. On vertical faces either side may do. Where there is no normal: kNone (a
-  // point has no area).
-  // `last`, when given, is the contact that blocked the ball before and becomes the one that blocks it now:
-  // only for speed.
-  UnreachableReason Reason(const Piece& piece, double u, double v,
-                           std::optional<SurfacePoint>* last = nullptr) const;
+  // Where there is no normal: kNone (a point has no area). Cost some microseconds where something blocks.
+  UnreachableReason Reason(const Piece& piece, double u, double v) const;
   // Reason() == kNone, at a fraction of its cost.
   bool Reachable(const Piece& piece, double u, double v) const;
 
@@ -27,7 +20,7 @@ class ReachTest {
   double LeftoverAbove(const Vec3& p) const;
 
  private:
-  UnreachableReason At(const Vec3& p, const Vec3& normal, std::optional<SurfacePoint>* last) const;
+  UnreachableReason At(const Vec3& center) const;
   bool AboveFloor(const Vec3& center) const;
   const Locator& free_ball_;
   const RegionParams& params_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+
 namespace patchmill {
 namespace {
 
@@ -98,28 +101,40 @@ std::vector<std::vector<Vec3>> Chain(std::vector<std::vector<Vec3>> strands, dou
 
 }  // namespace
 
-std::vector<std::vector<std::vector<Vec3>>> RegionBorders(
+absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Surface& surface, const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency,
-    const std::vector<std::vector<int>>& region_of, int region_count, double cos_steep, double tolerance) {
-  std::vector<std::vector<std::vector<Vec3>>> strands(static_cast<std::size_t>(region_count));
+    const std::vector<std::vector<int>>& region_of, std::size_t region_count, double cos_steep,
+    double tolerance, const RunContext& run) {
   const auto region = [&](int piece, int triangle) {
     return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
-  for (const Adjacency& a : adjacency) {
+  std::vector<std::size_t> on_border;
+  for (std::size_t i = 0; i < adjacency.size(); ++i) {
+    const Adjacency& a = adjacency[i];
     const int own = region(a.side.piece, a.side.triangle);
-    if (own < 0 || own == region(a.other_piece, a.other_triangle)) continue;
+    if (own >= 0 && own != region(a.other_piece, a.other_triangle)) on_border.push_back(i);
+  }
+  std::vector<std::vector<Vec3>> strand(on_border.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, on_border.size(), [&](std::size_t k) {
+    const Adjacency& a = adjacency[on_border[k]];
     const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
     const Piece& piece = surface.pieces[static_cast<std::size_t>(a.side.piece)];
-    std::vector<Vec3> strand{End(mesh, a.side, 0).p};
+    strand[k].push_back(End(mesh, a.side, 0).p);
     for (const Vec2& q : ArcOf(surface, mesh, a.side, cos_steep, tolerance))
-      strand.push_back(Position(piece, q.x(), q.y()));
-    strand.push_back(End(mesh, a.side, 1).p);
-    if ((strand.back() - strand.front()).norm() > 0.0 || strand.size() > 2)
-      strands[static_cast<std::size_t>(own)].push_back(std::move(strand));
+      strand[k].push_back(Position(piece, q.x(), q.y()));
+    strand[k].push_back(End(mesh, a.side, 1).p);
+  }));
+  std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
+  for (std::size_t k = 0; k < on_border.size(); ++k) {
+    const Adjacency& a = adjacency[on_border[k]];
+    if ((strand[k].back() - strand[k].front()).norm() > 0.0 || strand[k].size() > 2)
+      strands[static_cast<std::size_t>(region(a.side.piece, a.side.triangle))].push_back(
+          std::move(strand[k]));
   }
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
-  std::vector<std::vector<std::vector<Vec3>>> borders;
-  for (auto& s : strands) borders.push_back(Chain(std::move(s), weld));
+  std::vector<std::vector<std::vector<Vec3>>> borders(region_count);
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, region_count,
+                                 [&](std::size_t i) { borders[i] = Chain(std::move(strands[i]), weld); }));
   return borders;
 }
 

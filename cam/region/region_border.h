@@ -4,7 +4,10 @@
 
 #include <vector>
 
+#include <absl/status/statusor.h>
+
 #include "cam/region/seams.h"
+#include "core/base/run_context.h"
 
 namespace patchmill {
 
@@ -12,9 +15,11 @@ namespace patchmill {
 // left in the sense of the triangles. Sides on the zero curve of a field are refined to `tolerance` (mm).
 // Pieces of outline that do not meet end to end (seams cut differently on their two sides) are joined to the
 // nearest open end.
-std::vector<std::vector<std::vector<Vec3>>> RegionBorders(
+// CANCELLED, DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Surface& surface, const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency,
-    const std::vector<std::vector<int>>& region_of, int region_count, double cos_steep, double tolerance);
+    const std::vector<std::vector<int>>& region_of, std::size_t region_count, double cos_steep,
+    double tolerance, const RunContext& run);
 
 // Area (mm^2) between the chord of a side that lies on a zero curve and the curve itself, counted positive
 // when the curve bulges out of the triangle the side belongs to. 0 for sides that are no border.

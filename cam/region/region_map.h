@@ -38,6 +38,7 @@ struct Region {
   double area = 0.0;           // mm^2 on the surface
   Vec3 inside = Vec3::Zero();  // a point of the region
   double z_min = 0.0, z_max = 0.0;
+  double step_min = 0.0, step_max = 0.0;  // mm between passes for the scallop; filled by cam/plan, else 0
   double deepest_leftover = 0.0;          // mm, unreachable regions: estimate of how much stays
   double largest_tool_diameter = 0.0;     // mm, unreachable CONCAVE regions: what would reach it (0: none)
   std::vector<std::vector<Vec3>> border;  // closed polylines on the surface

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <unordered_map>
+
+#include "core/base/parallel.h"
+#include "core/base/segment.h"
+#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
@@ -18,12 +21,6 @@ struct BorderSide {
 bool OnBorder(const SplitVertex& a, const SplitVertex& b) {
   return (a.u == 0.0 && b.u == 0.0) || (a.u == 1.0 && b.u == 1.0) || (a.v == 0.0 && b.v == 0.0) ||
          (a.v == 1.0 && b.v == 1.0);
-}
-
-double DistanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 d = b - a;
-  const double t = d.squaredNorm() > 0.0 ? std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
-  return (a + t * d - p).norm();
 }
 
 // Hash grid over the border sides' boxes.
@@ -73,67 +70,92 @@ class SideGrid {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;  // looked up, never walked
 };
 
+// Sides of one piece: neighbours within it, and those on its border that may have one elsewhere.
+struct PieceSides {
+  std::vector<Adjacency> all;
+  std::vector<BorderSide> border;  // .adjacency counts within `all`
+};
+
+PieceSides InnerSides(const Piece& piece, int index, const SplitMesh& mesh) {
+  PieceSides sides;
+  const auto key = [](int from, int to) {
+    return (static_cast<std::uint64_t>(from) << 32) | static_cast<std::uint32_t>(to);
+  };
+  std::unordered_map<std::uint64_t, int> facing;  // directed side -> triangle; looked up, never walked
+  facing.reserve(3 * mesh.triangles.size());
+  const auto corner = [&](std::size_t t, int s) {
+    return mesh.triangles[t].vertex[static_cast<std::size_t>(s % 3)];
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int s = 0; s < 3; ++s) facing[key(corner(t, s), corner(t, s + 1))] = static_cast<int>(t);
+  }
+  sides.all.reserve(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int s = 0; s < 3; ++s) {
+      const SplitVertex& a = mesh.vertices[static_cast<std::size_t>(corner(t, s))];
+      const SplitVertex& b = mesh.vertices[static_cast<std::size_t>(corner(t, s + 1))];
+      Adjacency adjacency;
+      adjacency.side = {index, static_cast<int>(t), s};
+      adjacency.length = (b.p - a.p).norm();
+      const auto it = facing.find(key(corner(t, s + 1), corner(t, s)));
+      if (it != facing.end()) {
+        adjacency.other_piece = index;
+        adjacency.other_triangle = it->second;
+      } else if (OnBorder(a, b)) {
+        BorderSide side{sides.all.size(), a.p, b.p, Position(piece, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v)),
+                        0.0};
+        side.sagitta = SegmentDistance(side.mid, side.a, side.b);
+        sides.border.push_back(side);
+      }
+      sides.all.push_back(adjacency);
+    }
+  }
+  return sides;
+}
+
 }  // namespace
 
-std::vector<Adjacency> FindAdjacency(const Surface& surface, const std::vector<SplitMesh>& meshes) {
+absl::StatusOr<std::vector<Adjacency>> FindAdjacency(const Surface& surface,
+                                                     const std::vector<SplitMesh>& meshes,
+                                                     const RunContext& run) {
+  std::vector<PieceSides> sides(meshes.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t i) {
+    sides[i] = InnerSides(surface.pieces[i], static_cast<int>(i), meshes[i]);
+  }));
   std::vector<Adjacency> result;
   std::vector<BorderSide> border;
   double longest = 0.0;
-  for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
-    const SplitMesh& mesh = meshes[piece];
-    std::map<std::pair<int, int>, int> facing;  // directed side -> triangle
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto& v = mesh.triangles[t].vertex;
-      for (int s = 0; s < 3; ++s)
-        facing[{v[static_cast<std::size_t>(s)], v[static_cast<std::size_t>((s + 1) % 3)]}] =
-            static_cast<int>(t);
+  for (PieceSides& s : sides) {
+    for (BorderSide& side : s.border) {
+      longest = std::max(longest, s.all[side.adjacency].length);
+      side.adjacency += result.size();
+      border.push_back(side);
     }
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      for (int s = 0; s < 3; ++s) {
-        const int from = mesh.triangles[t].vertex[static_cast<std::size_t>(s)];
-        const int to = mesh.triangles[t].vertex[static_cast<std::size_t>((s + 1) % 3)];
-        const SplitVertex& a = mesh.vertices[static_cast<std::size_t>(from)];
-        const SplitVertex& b = mesh.vertices[static_cast<std::size_t>(to)];
-        Adjacency adjacency;
-        adjacency.side = {static_cast<int>(piece), static_cast<int>(t), s};
-        adjacency.length = (b.p - a.p).norm();
-        const auto it = facing.find({to, from});
-        if (it != facing.end()) {
-          adjacency.other_piece = static_cast<int>(piece);
-          adjacency.other_triangle = it->second;
-        } else if (OnBorder(a, b)) {
-          BorderSide side{result.size(), a.p, b.p,
-                          Position(surface.pieces[piece], 0.5 * (a.u + b.u), 0.5 * (a.v + b.v)), 0.0};
-          side.sagitta = DistanceToSegment(side.mid, side.a, side.b);
-          longest = std::max(longest, adjacency.length);
-          border.push_back(side);
-        }
-        result.push_back(adjacency);
-      }
-    }
+    result.insert(result.end(), s.all.begin(), s.all.end());
+    s = {};
   }
   const double join = std::max(surface.network.join_tolerance, 1e-9);
   const SideGrid grid(border, std::max(0.25 * longest, 4.0 * join));
-  for (const BorderSide& side : border) {
+  // Each writes its own side's neighbour and reads of the others only what is never written here.
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, border.size(), [&](std::size_t k) {
+    const BorderSide& side = border[k];
     Adjacency& adjacency = result[side.adjacency];
     double best = kInfinity;
     grid.Near(side.mid, join + 2.0 * side.sagitta, [&](std::size_t i) {
       const BorderSide& other = border[i];
-      const Adjacency& candidate = result[other.adjacency];
+      const TriangleSide& candidate = result[other.adjacency].side;
       if (other.adjacency == side.adjacency) return;
+      const double d = SegmentDistance(side.mid, other.a, other.b);
+      if (d > join + 2.0 * (side.sagitta + other.sagitta) || d >= best) return;
       // A piece may meet itself (a closed surface of one patch), but never its own neighbour triangle along
       // the same border.
-      const double d = DistanceToSegment(side.mid, other.a, other.b);
-      if (d > join + 2.0 * (side.sagitta + other.sagitta) || d >= best) return;
-      const bool same_border =
-          candidate.side.piece == adjacency.side.piece && (other.a - side.b).norm() < 1e-12;
-      if (same_border) return;
+      if (candidate.piece == adjacency.side.piece && (other.a - side.b).norm() < 1e-12) return;
       best = d;
-      adjacency.other_piece = candidate.side.piece;
-      adjacency.other_triangle = candidate.side.triangle;
+      adjacency.other_piece = candidate.piece;
+      adjacency.other_triangle = candidate.triangle;
       adjacency.across_seam = true;
     });
-  }
+  }));
   return result;
 }
 

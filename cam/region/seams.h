@@ -3,7 +3,10 @@
 
 #include <vector>
 
+#include <absl/status/statusor.h>
+
 #include "cam/region/split_mesh.h"
+#include "core/base/run_context.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
@@ -26,6 +29,9 @@ struct Adjacency {
 // Every triangle side once per triangle (inner sides appear twice, once from each). Sides on a piece's border
 // are matched by place: the neighbour is the border side of another piece that passes nearest to the middle
 // of this one, within the network's join tolerance plus both sagittas. Order: piece, triangle, side.
-std::vector<Adjacency> FindAdjacency(const Surface& surface, const std::vector<SplitMesh>& meshes);
+// CANCELLED, DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<std::vector<Adjacency>> FindAdjacency(const Surface& surface,
+                                                     const std::vector<SplitMesh>& meshes,
+                                                     const RunContext& run);
 
 }  // namespace patchmill

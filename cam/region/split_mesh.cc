@@ -276,7 +276,7 @@ class Builder {
     t.label.curvature = static_cast<std::int8_t>(turn * SignOn(t, Field::kCurvature, u, v));
     t.label.steep = SignOn(t, Field::kSlope, u, v) < 0;
     if (SignOn(t, Field::kReach, u, v) < 0) {
-      t.label.reason = reach_.Reason(piece_, u, v, &blocking_);
+      t.label.reason = reach_.Reason(piece_, u, v);
       // The centroid may lie beyond a limit that the vertices do not see.
       if (t.label.reason == UnreachableReason::kNone) t.label.reason = ReasonAtCorners(t);
     }
@@ -286,7 +286,7 @@ class Builder {
     for (const int id : t.vertex) {
       const SplitVertex& vertex = mesh_.vertices[static_cast<std::size_t>(id)];
       if (vertex.sign[3] < 0) {
-        const UnreachableReason reason = reach_.Reason(piece_, vertex.u, vertex.v, &blocking_);
+        const UnreachableReason reason = reach_.Reason(piece_, vertex.u, vertex.v);
         if (reason != UnreachableReason::kNone) return reason;
       }
     }
@@ -300,7 +300,6 @@ class Builder {
   std::vector<Cell> cells_;
   std::unordered_map<int, int> grid_;  // looked up, never walked: order does not matter
   std::map<std::pair<int, int>, int> crossings_;
-  std::optional<SurfacePoint> blocking_;  // what blocked the ball over the last unreachable triangle
 };
 
 }  // namespace

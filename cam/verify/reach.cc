@@ -10,20 +10,23 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kVertical = 1e-6;    // e_z below this: a vertical face
-constexpr double kProof = 0.02;       // of the tolerance: how exactly "free" is decided
-constexpr double kCoarse = 0.02;      // of the radius: how exactly the blocking point is known
-constexpr double kFloorSlack = 1e-6;  // mm: rounding of a floor at the surface itself
+constexpr double kVertical = 1e-6;  // e_z below this: a vertical face
+constexpr double kProof = 0.02;     // of the tolerance: how exactly "free" is decided
+constexpr double kCoarse = 0.02;    // of the radius: how exactly a blocked depth is known
+constexpr double kNearer = 0.02;    // of the radius: the shank is blocked by more than this beyond the ball
+constexpr double kReasonProof = 0.004;  // of the radius: how exactly the two are known
+constexpr double kFloorSlack = 1e-6;    // mm: rounding of a floor at the surface itself
 
 std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) {
   return {p + radius * facing.e, p - radius * facing.e};
 }
 
-// The shank is blocked, and the ball is not, or less. Beside a wall both are blocked alike: by the ball.
-bool BlockedAbove(const Surface& surface, const Vec3& c, double limit, double tolerance) {
-  const auto nearest = ClosestToUpwardRay(surface, c, limit, tolerance);
+// What stands above the centre comes nearer to the shank than anything to the ball (docs/reach.md).
+bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double limit) {
+  const double proof = kReasonProof * radius;
+  const auto nearest = ClosestToUpwardRay(surface, c, limit, proof);
   return nearest && nearest->at.p.z() > c.z() &&
-         !ClosestToPoint(surface, c, std::min(limit, nearest->distance + 2.0 * tolerance), tolerance);
+         !ClosestToPoint(surface, c, nearest->distance + kNearer * radius, proof);
 }
 
 }  // namespace
@@ -42,8 +45,7 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
     if (AnythingNearUpwardRay(surface, c, limit, kProof * params.tolerance)) {
-      found = BlockedAbove(surface, c, limit, kCoarse * params.radius) ? ReachClass::kUndercut
-                                                                       : ReachClass::kConcave;
+      found = BlockedAbove(surface, c, params.radius, limit) ? ReachClass::kUndercut : ReachClass::kConcave;
     } else if (c.z() < params.floor_z - kFloorSlack) {
       found = ReachClass::kFloor;
     }

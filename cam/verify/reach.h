@@ -1,4 +1,4 @@
-// Whether the tool can stand at a surface point (DESIGN 2), and if not, why.
+// Whether the tool can stand at a surface point, and if not, why: docs/reach.md.
 #pragma once
 
 #include <optional>

@@ -118,6 +118,8 @@ v1::Region ToProto(const Region& region, Strategy strategy, const Vec3& zero, Bo
       strategy = region.slope == SlopeClass::kSteep ? Strategy::kContour : Strategy::kZigzag;
     }
     proto.set_strategy(ToProto(strategy));
+    proto.set_step_min_mm(Number(region.step_min));
+    proto.set_step_max_mm(Number(region.step_max));
   }
   if (borders == Borders::kDrop) return proto;
   for (const std::vector<Vec3>& loop : region.border) {

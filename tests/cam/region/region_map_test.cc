@@ -142,10 +142,8 @@ TEST(SplitRegions, FloorTakesWhatLiesTooDeep) {
   params.floor_z = 0.0;
   params.tolerance = 0.01;
   const RegionMap map = Split(surface, params);
-  // Tip = p_z + R e_z - R with p_z = 10 e_z; below the floor by more than the tolerance for e_z < (R - tol) /
-  // (10 + R).
-  const double e_z = (3 - 0.01) / 13.0;
-  EXPECT_NEAR(Area(map, UnreachableReason::kFloor), 2 * kPi * 100 * e_z, 0.5);
+  // Tip = p_z + R e_z - R with p_z = 10 e_z: below the floor for e_z < R / (10 + R).
+  EXPECT_NEAR(Area(map, UnreachableReason::kFloor), 2 * kPi * 100 * 3.0 / 13.0, 0.05);
 }
 
 TEST(SplitRegions, AreasAddUpAndLabelsAgreeOnARandomPart) {

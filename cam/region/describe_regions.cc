@@ -1,0 +1,95 @@
+#include "cam/region/describe_regions.h"
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "core/diffgeo/forms.h"
+
+namespace patchmill {
+namespace {
+
+struct TriangleRef {
+  std::size_t piece = 0, triangle = 0;
+};
+
+Vec2 Centroid(const SplitMesh& mesh, std::size_t triangle) {
+  Vec2 sum = Vec2::Zero();
+  for (const int id : mesh.triangles[triangle].vertex) {
+    const SplitVertex& vertex = mesh.vertices[static_cast<std::size_t>(id)];
+    sum += Vec2(vertex.u, vertex.v);
+  }
+  return sum / 3.0;
+}
+
+// Heights of all regions, and the middle of the largest triangle of each as a point inside.
+void Place(const Surface& surface, const std::vector<SplitMesh>& meshes,
+           const std::vector<std::vector<int>>& region_of, std::vector<Region>& regions) {
+  std::vector<TriangleRef> largest(regions.size());
+  std::vector<double> area(regions.size(), -1.0);
+  for (Region& region : regions) {
+    region.z_min = kInfinity;
+    region.z_max = -kInfinity;
+  }
+  for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
+    const SplitMesh& mesh = meshes[piece];
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto id = static_cast<std::size_t>(region_of[piece][t]);
+      for (const int vertex : mesh.triangles[t].vertex) {
+        const double z = mesh.vertices[static_cast<std::size_t>(vertex)].p.z();
+        regions[id].z_min = std::min(regions[id].z_min, z);
+        regions[id].z_max = std::max(regions[id].z_max, z);
+      }
+      if (mesh.triangles[t].area > area[id]) {
+        area[id] = mesh.triangles[t].area;
+        largest[id] = {piece, t};
+      }
+    }
+  }
+  for (std::size_t id = 0; id < regions.size(); ++id) {
+    const TriangleRef& t = largest[id];
+    const Vec2 q = Centroid(meshes[t.piece], t.triangle);
+    regions[id].inside = Position(surface.pieces[t.piece], q.x(), q.y());
+  }
+}
+
+// Deepest leftover and largest tool of an unreachable region.
+void Probe(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
+           const RegionParams& params, const std::vector<TriangleRef>& triangles, Region& region) {
+  constexpr std::size_t kLooked = 200, kProbed = 12;
+  const std::size_t look = std::max<std::size_t>(1, triangles.size() / kLooked);
+  const std::size_t probe = std::max<std::size_t>(1, triangles.size() / kProbed);
+  double largest = params.radius;
+  for (std::size_t i = 0; i < triangles.size(); i += look) {
+    const Vec2 q = Centroid(meshes[triangles[i].piece], triangles[i].triangle);
+    const SurfaceJet jet = Evaluate(surface.pieces[triangles[i].piece], q.x(), q.y());
+    region.deepest_leftover = std::max(region.deepest_leftover, reach.LeftoverAbove(jet.p));
+    const auto normal = UpwardNormal(jet);
+    if (region.reason == UnreachableReason::kConcave && i % probe < look && normal) {
+      largest =
+          std::min(largest, LargestFreeRadius(surface, jet.p, *normal, params.radius, params.tolerance));
+    }
+  }
+  if (region.reason == UnreachableReason::kConcave) region.largest_tool_diameter = 2.0 * largest;
+}
+
+}  // namespace
+
+absl::Status DescribeRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                             const std::vector<std::vector<int>>& region_of, const ReachTest& reach,
+                             const RegionParams& params, const RunContext& run,
+                             std::vector<Region>& regions) {
+  Place(surface, meshes, region_of, regions);
+  std::vector<std::vector<TriangleRef>> unreachable(regions.size());
+  for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
+    for (std::size_t t = 0; t < meshes[piece].triangles.size(); ++t) {
+      const auto id = static_cast<std::size_t>(region_of[piece][t]);
+      if (regions[id].kind == RegionKind::kUnreachable) unreachable[id].push_back({piece, t});
+    }
+  }
+  return ParallelFor(run, nullptr, regions.size(), [&](std::size_t i) {
+    if (regions[i].kind == RegionKind::kUnreachable)
+      Probe(surface, meshes, reach, params, unreachable[i], regions[i]);
+  });
+}
+
+}  // namespace patchmill

@@ -1,0 +1,26 @@
+// Connected parts of equal label, before anything is merged, and what they have in common.
+#pragma once
+
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/region/merge_regions.h"
+#include "cam/region/seams.h"
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+struct RawRegions {
+  std::vector<std::vector<int>> of;  // [piece][triangle]: its raw region, in order of their first triangles
+  std::vector<RawRegion> regions;
+  std::vector<RawContact> contacts;  // each border from both sides with half its length
+};
+
+// Areas include the lenses between chords and true curves, those refined to `tolerance` (mm). CANCELLED and
+// DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<RawRegions> FindRawRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                          const std::vector<Adjacency>& adjacency, double cos_steep,
+                                          double tolerance, const RunContext& run);
+
+}  // namespace patchmill

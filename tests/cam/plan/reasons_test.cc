@@ -1,0 +1,101 @@
+// Why a place is unreachable (docs/reach.md): the region map and the verifier, which share no code, agree.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/plan/resolve.h"
+#include "cam/post/program_reader.h"
+#include "tests/support/files.h"
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+enum Reason { kUndercut, kConcave, kFloor, kReasons };
+
+std::array<double, kReasons> FromRegions(const Surface& surface, const Job& job) {
+  const auto map = PlanRegions(surface, job, RunContext());
+  EXPECT_TRUE(map.ok()) << map.status();
+  std::array<double, kReasons> area{};
+  for (const Region& region : map->regions) {
+    switch (region.reason) {
+      case UnreachableReason::kUndercut:
+        area[kUndercut] += region.area;
+        break;
+      case UnreachableReason::kConcave:
+        area[kConcave] += region.area;
+        break;
+      case UnreachableReason::kFloor:
+        area[kFloor] += region.area;
+        break;
+      default:
+        EXPECT_NE(region.kind, RegionKind::kUnreachable);
+    }
+  }
+  return area;
+}
+
+// Areas do not depend on the program: one that cuts nothing will do.
+std::array<double, kReasons> FromVerifier(const Surface& surface, const Job& job) {
+  const auto resolved = Resolve(surface, job);
+  EXPECT_TRUE(resolved.ok()) << resolved.status();
+  const auto report = VerifyProgramText(surface, job.operation.tool,
+                                        "G17 G21 G90 G94\nG53 G0 Z0\nT1 M6\nS1000 M3\nG43 H1\n"
+                                        "G0 X0 Y0\nG0 Z900\nM9\nM5\nG53 G0 Z0\nM2\n",
+                                        MakeVerifyParams(job, *resolved), RunContext());
+  EXPECT_TRUE(report.ok()) << report.status();
+  return {report->unreachable_area[kUndercut], report->unreachable_area[kConcave],
+          report->unreachable_area[kFloor]};
+}
+
+void ExpectAgreement(const PatchModel& model, const Job& job) {
+  const Surface surface = PlacedSurface(model, job.setup);
+  const auto planned = FromRegions(surface, job), judged = FromVerifier(surface, job);
+  // A strip as narrow as the tolerance between two reasons is below what the map resolves: on a wall over its
+  // floor, where the ball is free by the tolerance and the tip is not.
+  const double strips = 0.002 * (judged[kUndercut] + judged[kConcave] + judged[kFloor]);
+  for (int reason = 0; reason < kReasons; ++reason) {
+    const auto k = static_cast<std::size_t>(reason);
+    EXPECT_NEAR(planned[k], judged[k], 0.01 * judged[k] + strips) << "reason " << reason;
+  }
+}
+
+TEST(Reasons, ValleyOfTwoPlanes) {
+  for (const double degrees : {20.0, 45.0}) {
+    SCOPED_TRACE(degrees);
+    ExpectAgreement(TwoPlanes(Radians(degrees), 12), BallJob(3.0));
+  }
+}
+
+TEST(Reasons, ValleyWithFloor) { ExpectAgreement(TwoPlanes(Radians(30), 12), BallJob(3.0, /*deep=*/false)); }
+
+TEST(Reasons, BlockWithVerticalWalls) {
+  ExpectAgreement(Block(8, 10, 20), BallJob(3.0));
+  ExpectAgreement(Block(8, 10, 20), BallJob(3.0, /*deep=*/false));
+}
+
+TEST(Reasons, FloorBesideATallWallIsConcave) {
+  // The wall blocks ball and shank alike: a smaller ball would come closer.
+  const Surface surface = PlacedSurface(Block(8, 10, 20));
+  const Job job = BallJob(3.0);
+  const auto area = FromRegions(surface, job);
+  const double radius = 3.0, tolerance = job.operation.tolerance;
+  // On the floor: nearer to the footprint than R - tolerance. On the walls: lower than that.
+  const double reach = radius - tolerance;
+  const double strip = 4 * 16 * reach + kPi * reach * reach, walls = 4 * 16 * reach;
+  EXPECT_EQ(area[kUndercut], 0.0);
+  EXPECT_NEAR(area[kConcave], strip + walls, 0.01 * (strip + walls));
+}
+
+TEST(Reasons, Teacup) {
+  Job job = BallJob(3.0, /*deep=*/false);
+  job.setup.placement.scale = 50.0;
+  job.setup.placement.up = UpAxis::kY;
+  ExpectAgreement(LoadModel("tests/models/teacup.bpt"), job);
+}
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,77 @@
+// The steps that regions report are those of the two-circle formula on shapes of constant curvature.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+// Two balls of radius R on a circle of radius rho, scallop s: cos of the angle between the centres' rays and
+// the crest's, by the cosine rule; the centres lie on the circle of radius rho + R (ALGORITHMS 5).
+double StepOnConvex(double rho, double radius, double scallop) {
+  const double c = rho + radius, crest = rho + scallop;
+  const double half = std::acos((c * c + crest * crest - radius * radius) / (2.0 * c * crest));
+  return 2.0 * half * c;
+}
+
+void ExpectSteps(const PatchModel& model, const Job& job, double step) {
+  const auto map = PlanRegions(PlacedSurface(model), job, RunContext());
+  ASSERT_TRUE(map.ok()) << map.status();
+  int reachable = 0;
+  for (const Region& region : map->regions) {
+    if (region.kind == RegionKind::kUnreachable) {
+      EXPECT_EQ(region.step_max, 0.0);
+      continue;
+    }
+    ++reachable;
+    EXPECT_NEAR(region.step_min, step, 1e-9) << region.id;
+    EXPECT_NEAR(region.step_max, step, 1e-9) << region.id;
+  }
+  EXPECT_GT(reachable, 0);
+}
+
+TEST(RegionSteps, SphereWhateverTheStrategy) {
+  for (const Strategy strategy : {Strategy::kAuto, Strategy::kContour, Strategy::kZigzag}) {
+    Job job = BallJob(3.0);
+    job.operation.strategy = strategy;
+    ExpectSteps(Sphere(Vec3::Zero(), 10, Half::kUpper), job, StepOnConvex(10, 3, job.operation.scallop));
+  }
+}
+
+TEST(RegionSteps, CylinderAlongAndAcross) {
+  Job job = BallJob(3.0);
+  job.operation.strategy = Strategy::kZigzag;
+  const double s = job.operation.scallop;
+  // Axis along y. Feed along x runs round it: flat across. Feed along y: round across.
+  job.operation.zigzag_angle = 0.0;
+  ExpectSteps(Cylinder(Vec3::Zero(), 10, 10, Half::kUpper), job, 2.0 * std::sqrt(6.0 * s - s * s));
+  job.operation.zigzag_angle = kPi / 2.0;
+  ExpectSteps(Cylinder(Vec3::Zero(), 10, 10, Half::kUpper), job, StepOnConvex(10, 3, s));
+}
+
+TEST(RegionSteps, NoneWhereTheBallDoesNotFit) {
+  // A parabolic valley of radius 2 at the bottom: steps shrink to nothing towards the spot of radius 3.
+  Job job = BallJob(3.0);
+  job.operation.strategy = Strategy::kZigzag;
+  job.operation.zigzag_angle = kPi / 2.0;  // along the valley
+  const auto map = PlanRegions(PlacedSurface(ParabolicValley(0.25, 8)), job, RunContext());
+  ASSERT_TRUE(map.ok()) << map.status();
+  const double flat = 2.0 * std::sqrt(6.0 * job.operation.scallop);
+  bool seen = false;
+  for (const Region& region : map->regions) {
+    if (region.kind == RegionKind::kUnreachable) continue;
+    seen = true;
+    EXPECT_GT(region.step_min, 0.0);
+    EXPECT_LE(region.step_min, region.step_max);
+    EXPECT_LT(region.step_max, flat);
+  }
+  EXPECT_TRUE(seen);
+}
+
+}  // namespace
+}  // namespace patchmill
