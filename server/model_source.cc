@@ -17,7 +17,7 @@
 namespace patchmill {
 namespace {
 
-constexpr std::string_view kTextFormats[] = {"bpt", "bv", "patches"};
+constexpr std::string_view kTextFormats[] = {"bpt", "bv", "bez", "patches"};
 
 // Commas of a JSON text bound its values: coordinates, weights, knots, and the names of patches.
 constexpr std::size_t kMaxJsonCommas =
@@ -58,7 +58,7 @@ absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::stri
                                        : "model file: not a binary PatchModel, or truncated");
   }
   return ModelUnreadableError(
-      "model file: neither JSON nor a binary PatchModel; text formats (bpt, bv, patches) are told by the "
+      "model file: neither JSON nor a binary PatchModel; text formats (bpt, bv, bez, patches) are told by the "
       "file's ending");
 }
 

@@ -35,21 +35,10 @@ absl::StatusOr<PatchShape> ReadRational(TextScanner& scanner) {
   BezierPatch patch;
   PM_ASSIGN_OR_RETURN(patch.degree_u, ReadDegree(scanner, "degree in u"));
   PM_ASSIGN_OR_RETURN(patch.degree_v, ReadDegree(scanner, "degree in v"));
-  const int count = (patch.degree_u + 1) * (patch.degree_v + 1);
-  for (int i = 0; i < count; ++i) {
-    PM_ASSIGN_OR_RETURN(const Vec3 product, scanner.Point());
-    PM_ASSIGN_OR_RETURN(const double weight, scanner.Number("weight of a point"));
-    if (!(weight >= kMinWeight && weight <= kMaxWeight)) {
-      return scanner.Fail(
-          fmt::format("weight of a point = {:g}; must be in [{:g}, {:g}]", weight, kMinWeight, kMaxWeight));
-    }
-    patch.points.push_back(product / weight);
-    patch.weights.push_back(weight);
-    if (!(patch.points.back().cwiseAbs().maxCoeff() <= kMaxCoordinate)) {
-      return scanner.Fail(
-          fmt::format("the point divided by its weight {:g} lies beyond {:g}", weight, kMaxCoordinate));
-    }
-  }
+  PM_ASSIGN_OR_RETURN(RationalPoints net,
+                      ReadRationalPoints(scanner, (patch.degree_u + 1) * (patch.degree_v + 1)));
+  patch.points = std::move(net.points);
+  patch.weights = std::move(net.weights);
   return patch;
 }
 

@@ -19,6 +19,25 @@ absl::StatusOr<std::vector<Vec3>> ReadPoints(TextScanner& scanner, int count) {
   return points;
 }
 
+absl::StatusOr<RationalPoints> ReadRationalPoints(TextScanner& scanner, int count) {
+  RationalPoints net;
+  for (int i = 0; i < count; ++i) {
+    PM_ASSIGN_OR_RETURN(const Vec3 product, scanner.Point());
+    PM_ASSIGN_OR_RETURN(const double weight, scanner.Number("weight of a point"));
+    if (!(weight >= kMinWeight && weight <= kMaxWeight)) {
+      return scanner.Fail(fmt::format("{}weight of a point = {:g}; must be in [{:g}, {:g}]",
+                                      weight == 0.0 ? "ZERO_WEIGHT: " : "", weight, kMinWeight, kMaxWeight));
+    }
+    net.points.push_back(product / weight);
+    net.weights.push_back(weight);
+    if (!(net.points.back().cwiseAbs().maxCoeff() <= kMaxCoordinate)) {
+      return scanner.Fail(
+          fmt::format("the point divided by its weight {:g} lies beyond {:g}", weight, kMaxCoordinate));
+    }
+  }
+  return net;
+}
+
 absl::StatusOr<int> ReadDegree(TextScanner& scanner, std::string_view what) {
   return scanner.Integer(what, 1, kMaxDegree);
 }

@@ -13,6 +13,24 @@ namespace patchmill {
 
 // `count` points; `count` is at most that of degree 15 x 15, so nothing is reserved on a file's word.
 absl::StatusOr<std::vector<Vec3>> ReadPoints(TextScanner& scanner, int count);
+// The same with weights: `wx wy wz w` per point, already multiplied; returned divided. A weight of 0, a point
+// at infinity, fails with ZERO_WEIGHT in the message.
+struct RationalPoints {
+  std::vector<Vec3> points;
+  std::vector<double> weights;
+};
+absl::StatusOr<RationalPoints> ReadRationalPoints(TextScanner& scanner, int count);
+// A net of slow x fast entries whose first direction runs fastest, as a net whose second one does.
+template <class T>
+std::vector<T> SecondFastest(const std::vector<T>& net, int slow, int fast) {
+  std::vector<T> out(net.size());
+  for (int i = 0; i < slow; ++i) {
+    for (int j = 0; j < fast; ++j) {
+      out[static_cast<std::size_t>(j * slow + i)] = net[static_cast<std::size_t>(i * fast + j)];
+    }
+  }
+  return out;
+}
 absl::StatusOr<int> ReadDegree(TextScanner& scanner, std::string_view what);
 // The number of patches a header claims: 1..100000, and no more than the rest of the text can hold when every
 // patch takes at least `bytes_per_patch` bytes.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/bez.h"
 #include "core/io/bpt.h"
 #include "core/io/bv.h"
 #include "core/io/patches.h"
@@ -12,9 +13,10 @@ namespace patchmill {
 absl::StatusOr<PatchModel> ReadModelText(std::string_view format, std::string_view text) {
   if (format == "bpt") return ReadBpt(text);
   if (format == "bv") return ReadBv(text);
+  if (format == "bez") return ReadBez(text);
   if (format == "patches") return ReadPatches(text);
-  return absl::InvalidArgumentError(
-      fmt::format("{} is no known format of a model text; known are bpt, bv and patches", Quoted(format)));
+  return absl::InvalidArgumentError(fmt::format(
+      "{} is no known format of a model text; known are bpt, bv, bez and patches", Quoted(format)));
 }
 
 }  // namespace patchmill

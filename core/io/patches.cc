@@ -15,17 +15,6 @@ namespace {
 
 constexpr std::size_t kLeastPatchBytes = sizeof("triangle 1 0 0 0 0 0 0 0 0 0") - 1;
 
-// The net with its two directions exchanged in memory: (n x m, second fastest) from (n x m, first fastest).
-std::vector<Vec3> Transposed(const std::vector<Vec3>& points, int slow, int fast) {
-  std::vector<Vec3> out(points.size());
-  for (int i = 0; i < slow; ++i) {
-    for (int j = 0; j < fast; ++j) {
-      out[static_cast<std::size_t>(j * slow + i)] = points[static_cast<std::size_t>(i * fast + j)];
-    }
-  }
-  return out;
-}
-
 absl::StatusOr<PatchShape> ReadPatch(TextScanner& scanner) {
   PM_ASSIGN_OR_RETURN(const std::string_view key, scanner.Word("the key of a patch"));
   if (key == "bezier") {
@@ -33,7 +22,7 @@ absl::StatusOr<PatchShape> ReadPatch(TextScanner& scanner) {
     PM_ASSIGN_OR_RETURN(patch.degree_u, ReadDegree(scanner, "degree in u"));
     PM_ASSIGN_OR_RETURN(patch.degree_v, ReadDegree(scanner, "degree in v"));
     PM_ASSIGN_OR_RETURN(patch.points, ReadPoints(scanner, (patch.degree_u + 1) * (patch.degree_v + 1)));
-    patch.points = Transposed(patch.points, patch.degree_v + 1, patch.degree_u + 1);
+    patch.points = SecondFastest(patch.points, patch.degree_v + 1, patch.degree_u + 1);
     return patch;
   }
   if (key == "triangle") {
@@ -86,7 +75,7 @@ absl::StatusOr<std::string> WritePatches(const PatchModel& model, int digits) {
     const PatchShape& shape = model.patches[k].shape;
     if (const auto* b = std::get_if<BezierPatch>(&shape); b != nullptr && b->weights.empty()) {
       out += fmt::format("bezier {} {}\n", b->degree_u, b->degree_v);
-      put_points(Transposed(b->points, b->degree_u + 1, b->degree_v + 1));
+      put_points(SecondFastest(b->points, b->degree_u + 1, b->degree_v + 1));
     } else if (const auto* t = std::get_if<BezierTriangle>(&shape); t != nullptr && t->weights.empty()) {
       out += fmt::format("triangle {}\n", t->degree);
       put_points(t->points);

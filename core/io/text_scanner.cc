@@ -41,7 +41,7 @@ std::string Quoted(std::string_view word) {
   return out;
 }
 
-TextScanner::TextScanner(std::string_view text) : text_(text) {
+TextScanner::TextScanner(std::string_view text, char comment) : text_(text), comment_(comment) {
   if (text_.substr(0, 3) == "\xef\xbb\xbf") text_.remove_prefix(3);
 }
 
@@ -49,8 +49,14 @@ absl::Status TextScanner::Fail(std::string_view reason) const {
   return absl::InvalidArgumentError(fmt::format("line {}: {}", line_, reason));
 }
 
+bool TextScanner::EndsWord(char c) const { return IsSpace(c) || (comment_ != 0 && c == comment_); }
+
 void TextScanner::SkipSpace() {
-  while (at_ < text_.size() && IsSpace(text_[at_])) {
+  while (at_ < text_.size() && EndsWord(text_[at_])) {
+    if (!IsSpace(text_[at_])) {
+      SkipLine();
+      continue;
+    }
     if (text_[at_] == '\n') ++line_;
     ++at_;
   }
@@ -64,7 +70,7 @@ bool TextScanner::AtEnd() {
 std::string_view TextScanner::Peek() {
   SkipSpace();
   std::size_t end = at_;
-  while (end < text_.size() && !IsSpace(text_[end])) ++end;
+  while (end < text_.size() && !EndsWord(text_[end])) ++end;
   return text_.substr(at_, end - at_);
 }
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/io/bez.h"
 #include "core/io/bpt.h"
 #include "core/io/bv.h"
 #include "core/io/patches.h"
@@ -34,6 +35,7 @@ std::vector<std::string> Seeds() {
 // All readers see all files: a format is never guessed, so the wrong reader must only refuse.
 void ExpectContract(std::string_view text, const std::string& what) {
   ASSERT_TRUE(KeepsReaderContract(text, ReadBpt(text))) << what << " as .bpt: " << ReadBpt(text).status();
+  ASSERT_TRUE(KeepsReaderContract(text, ReadBez(text))) << what << " as .bez: " << ReadBez(text).status();
   ASSERT_TRUE(KeepsReaderContract(text, ReadBv(text))) << what << " as .bv: " << ReadBv(text).status();
   ASSERT_TRUE(KeepsReaderContract(text, ReadPatches(text)))
       << what << " as .patches: " << ReadPatches(text).status();

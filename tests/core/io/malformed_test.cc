@@ -17,6 +17,14 @@ using ::testing::StartsWith;
 
 const std::map<std::string, const char*> kReasons = {
     {"all_points_equal.bpt", "line 2: patches[0].bezier.points are all the same; the patch has no extent"},
+    {"bez_colours.bez", "line 1: \"CBEZ113\" carries texture coordinates or colours, which are not read"},
+    {"bez_comment_only.bez", "line 3: the text holds no patch"},
+    {"bez_degree_0.bez", "line 1: \"BEZ033\" is no known first word; known are BBP and BEZabc"},
+    {"bez_five_numbers.bez", "line 1: \"BEZ335\" is no known first word"},
+    {"bez_negative_weight.bez", "line 3: weight of a point = -0.5; must be in [1e-09, 1e+09]"},
+    {"bez_surplus.bez", "line 7: the text ends where z of a point is expected"},
+    {"bez_truncated.bez", "line 4: the text ends where x of a point is expected"},
+    {"bez_word.bez", "line 3: \"1.0e\" is not a number; y of a point is expected"},
     {"binary.bpt", "is not a whole number; number of patches is expected"},
     {"binary.bv", "is no known kind of patch"},
     {"count_above_limit.patches", "line 1: number of patches = \"100001\"; must be in [1, 100000]"},
@@ -24,6 +32,7 @@ const std::map<std::string, const char*> kReasons = {
     {"decimal_comma.bpt", "line 6: \"20,5\" is not a number; y of a point is expected"},
     {"degree_0.bpt", "line 2: degree in u = \"0\"; must be in [1, 15]"},
     {"degree_16.bpt", "line 2: degree in v = \"16\"; must be in [1, 15]"},
+    {"empty.bez", "line 1: the text ends where \"BBP\" or \"BEZ\" is expected"},
     {"empty.bpt", "line 1: the text ends where number of patches is expected"},
     {"empty.bv", "line 3: the text holds no patch"},
     {"empty.patches", "line 1: the text ends where \"patches\" is expected"},
@@ -56,7 +65,8 @@ const std::map<std::string, const char*> kReasons = {
     {"word.bpt", "line 6: \"twenty\" is not a number"},
     {"wrong_first_line.patches", "line 1: \"1\" stands where \"patches\" is expected"},
     {"zero_count.bpt", "line 1: number of patches = \"0\"; must be in [1, 100000]"},
-    {"zero_weight.bv", "line 4: weight of a point = 0; must be in [1e-09, 1e+09]"},
+    {"zero_weight.bez", "line 7: ZERO_WEIGHT: weight of a point = 0; must be in [1e-09, 1e+09]"},
+    {"zero_weight.bv", "line 4: ZERO_WEIGHT: weight of a point = 0; must be in [1e-09, 1e+09]"},
 };
 
 TEST(MalformedModels, AreRefusedWithLineAndReason) {
@@ -80,7 +90,7 @@ TEST(MalformedModels, MeshFormatsByOtherNamesAreRefused) {
   for (const char* format : {"stl", "BPT", ".bpt", "", "step"}) {
     const auto model = ReadModelText(format, "1\n");
     EXPECT_EQ(model.status().code(), absl::StatusCode::kInvalidArgument);
-    EXPECT_THAT(std::string(model.status().message()), HasSubstr("known are bpt, bv and patches"));
+    EXPECT_THAT(std::string(model.status().message()), HasSubstr("known are bpt, bv, bez and patches"));
   }
 }
 

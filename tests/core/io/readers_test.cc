@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/io/bez.h"
 #include "core/io/bpt.h"
 #include "core/io/bv.h"
 #include "core/io/patches.h"
@@ -119,6 +120,36 @@ TEST(ReadPatches, ReadsEveryKindWithUFastest) {
   EXPECT_EQ(gregory.blend, GregoryPatch::Blend::kCorner);
   EXPECT_EQ(Position(model->patches[2].shape, 1, 0), NumberedPoint(5));
   EXPECT_EQ(Position(model->patches[2].shape, 0, 1), NumberedPoint(15));
+}
+
+TEST(ReadBez, QuarterCylinderIsExactWithUAroundIt) {
+  const PatchModel model = LoadModel("tests/models/quarter_cylinder.bez");
+  ASSERT_EQ(model.patches.size(), 1u);
+  const auto& patch = std::get<BezierPatch>(model.patches[0].shape);
+  EXPECT_EQ(patch.degree_u, 2);
+  EXPECT_EQ(patch.degree_v, 1);
+  for (double u = 0; u <= 1; u += 0.125) {
+    for (double v = 0; v <= 1; v += 0.25) {
+      const Vec3 p = Position(model.patches[0].shape, u, v);
+      EXPECT_NEAR(std::hypot(p.x(), p.z()), 10.0, 1e-14);
+      EXPECT_NEAR(p.y(), 20.0 * v, 1e-13);
+    }
+  }
+}
+
+TEST(ReadBez, BicubicsWithUFastest) {
+  const auto model = ReadBez("BBP #" + Points(1) + Points(16) + Points(16));
+  ASSERT_TRUE(model.ok()) << model.status();
+  ASSERT_EQ(model->patches.size(), 2u);
+  EXPECT_EQ(Position(model->patches[1].shape, 1, 0), NumberedPoint(3));
+  EXPECT_EQ(Position(model->patches[1].shape, 0, 1), NumberedPoint(12));
+}
+
+TEST(ReadBez, RefusesTheTorusWithPointsAtInfinity) {
+  const auto text = testing::ReadSharedFile("data/patches/torus.bez");
+  if (!text) GTEST_SKIP() << "../shared/data/patches/torus.bez is not there";
+  EXPECT_EQ(std::string(ReadBez(*text).status().message()),
+            "line 4: ZERO_WEIGHT: weight of a point = 0; must be in [1e-09, 1e+09]");
 }
 
 TEST(Readers, AgreeOnTheTeapot) {

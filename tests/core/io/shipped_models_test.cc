@@ -79,6 +79,7 @@ struct Awkward {
   std::map<std::string, int> codes;
 };
 const Awkward kAwkward[] = {
+    {"bicubic.bez", {{"OPEN_EDGE", 4}}},
     {"closed_edge.bpt", {{"OPEN_EDGE", 2}, {"TANGENT_BREAK", 1}}},
     {"collapsed_edge.bpt", {{"COLLAPSED_EDGE", 1}, {"OPEN_EDGE", 3}}},
     {"crlf_and_bom.bpt", {{"OPEN_EDGE", 4}}},
@@ -106,6 +107,7 @@ const Awkward kAwkward[] = {
     {"no_area.bpt", {{"COLLAPSED_EDGE", 2}}},
     {"non_manifold_edge.bpt", {{"NON_MANIFOLD_EDGE", 1}, {"OPEN_EDGE", 9}, {"TANGENT_BREAK", 1}}},
     {"non_manifold_vertex.bpt", {{"NON_MANIFOLD_VERTEX", 1}, {"OPEN_EDGE", 8}}},
+    {"quarter_cylinder.bez", {{"OPEN_EDGE", 4}}},
     {"sliver.bpt", {{"NEARLY_COLLAPSED_EDGE", 2}, {"OPEN_EDGE", 6}}},
     {"sphere.bv", {{"COLLAPSED_EDGE", 8}}},
     {"t_junction.bpt", {{"OPEN_EDGE", 7}, {"T_JUNCTION", 1}}},
@@ -157,7 +159,8 @@ TEST(Models, CatalogueAndReadmeNameEveryFile) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (!entry.is_regular_file() || name == "README.md") continue;
-    if (name.ends_with(".bpt") || name.ends_with(".bv") || name.ends_with(".patches")) {
+    if (name.ends_with(".bpt") || name.ends_with(".bv") || name.ends_with(".bez") ||
+        name.ends_with(".patches")) {
       EXPECT_EQ(tested.count(name), 1u) << name;
     }
     EXPECT_THAT(readme, ::testing::HasSubstr(absl::StrCat("`", name, "`")));
