@@ -58,7 +58,8 @@ absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::stri
                                        : "model file: not a binary PatchModel, or truncated");
   }
   return ModelUnreadableError(
-      "model file: neither JSON nor a binary PatchModel; text formats (bpt, bv, bez, patches) are told by the "
+      "model file: neither JSON nor a binary PatchModel; text formats (bpt, bv, bez, patches) are told by "
+      "the "
       "file's ending");
 }
 
