@@ -13,8 +13,7 @@ namespace patchmill {
 absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,
                                                   const std::vector<CutterPath>& paths,
                                                   const CoverageParams& params, const RunContext& run) {
-  const Locator reach(locator.surface(),
-                      std::max(locator.radius() - params.tolerance, 0.5 * locator.radius()));
+  const Locator reach = ReachLocator(locator, params);
   std::vector<SurfaceRect> rects;
   rects.reserve(locator.surface().leaves.size());
   for (const SurfaceLeaf& leaf : locator.surface().leaves) {

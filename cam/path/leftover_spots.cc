@@ -15,8 +15,8 @@
 namespace patchmill {
 namespace {
 
-// What was found near a rectangle, to start the search of its parts from: a move by tree and index, and a
-// surface point that was in the ball's way.
+// What was found near a rectangle, to start the search of its parts from: a move by tree and index, and
+// surface points in the ball's way.
 struct NearMove {
   std::size_t tree = 0;
   std::int32_t segment = -1;
@@ -24,18 +24,12 @@ struct NearMove {
 };
 struct Nearby {
   NearMove move;
-  std::optional<SurfacePoint> blocker;
+  Blockers blockers;
 };
 
-// Distance of q to the upward ray from c.
-double RayDistance(const Vec3& c, const Vec3& q) {
-  return q.z() >= c.z() ? (Plan(q) - Plan(c)).norm() : (q - c).norm();
-}
-
-// Of the flat step: strips this narrow are looked at by their corners too; smaller than an island, not at
-// all.
-constexpr double kNarrow = 0.1;
-constexpr double kIsland = 0.025;
+// Of the flat step.
+constexpr double kCoarse = 0.25;   // larger rectangles are not looked at by their middles
+constexpr double kFinest = 0.002;  // smaller ones are left: only at points where the normal has no direction
 
 class SpotFinder {
  public:
@@ -46,7 +40,8 @@ class SpotFinder {
         trees_(trees),
         params_(params),
         radius_(locator.radius()),
-        flat_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
+        flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
+        cell_reach_{radius_, params.tolerance, params.floor_z + radius_} {}
 
   void Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
 
@@ -57,14 +52,7 @@ class SpotFinder {
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
                    const NearMove& near) const;
   bool Covered(const Vec3* hull, int count, const NearMove& move) const;
-  bool Blocked(const Vec3& c, double depth, std::optional<SurfacePoint>& blocker) const;
-  std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e, std::optional<SurfacePoint>& blocker) const;
-  // A corner of a narrow rectangle that can be reached and is above the limit.
-  std::optional<LeftoverSpot> SpotAtCorner(const SurfaceRect& rect, const NearMove& hint,
-                                           std::optional<SurfacePoint>& blocker) const;
-  // `known`: the blocker is already the highest contact below the centre on e's side.
-  bool OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size, bool known,
-                  std::optional<SurfacePoint>& blocker) const;
+  std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e) const;
 
   const Surface& surface_;
   const Locator& reach_;
@@ -72,6 +60,7 @@ class SpotFinder {
   const CoverageParams& params_;
   const double radius_;
   const double flat_;
+  const CellReachParams cell_reach_;
 };
 
 NearMove SpotFinder::NearestTo(const Vec3& p, double limit, const NearMove& hint) const {
@@ -86,7 +75,7 @@ NearMove SpotFinder::NearestTo(const Vec3& p, double limit, const NearMove& hint
 
 bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) const {
   if (move.segment < 0) return false;
-  const double limit = radius_ + params_.limit;
+  const double limit = radius_ + params_.limit + kProofMargin * params_.tolerance;
   const PathTree::Segment& s = trees_[move.tree]->segment(move.segment);
   for (int i = 0; i < count; ++i) {
     if (SegmentDistance(hull[i], s.a, s.b) > limit) return false;
@@ -94,68 +83,15 @@ bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) cons
   return true;
 }
 
-// True when something is deeper than `depth` in the way of the smaller ball at c.
-bool SpotFinder::Blocked(const Vec3& c, double depth, std::optional<SurfacePoint>& blocker) const {
-  if (blocker && reach_.radius() - RayDistance(c, blocker->p) > depth + 1e-9) return true;
-  const auto h = reach_.Height(Plan(c), blocker ? &*blocker : nullptr);
-  if (!h || h->z <= c.z()) return false;
-  blocker = h->contact;
-  return reach_.radius() - RayDistance(c, blocker->p) > depth;
-}
-
 // The normal of the side from which the point can be finished. Both sides of an upright face count.
-std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e,
-                                              std::optional<SurfacePoint>& blocker) const {
+std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) const {
   constexpr double kUpright = 1e-6;
   for (const Vec3& n : {e, Vec3(-e)}) {
     if (n.z() < -kUpright) continue;
     const Vec3 c = p + radius_ * n;
-    if (c.z() < params_.floor_z + radius_) continue;
-    if (!Blocked(c, 0.0, blocker)) return n;
+    if (c.z() >= params_.floor_z + radius_ && reach_.Free(c)) return n;
   }
   return std::nullopt;
-}
-
-std::optional<LeftoverSpot> SpotFinder::SpotAtCorner(const SurfaceRect& rect, const NearMove& hint,
-                                                     std::optional<SurfacePoint>& blocker) const {
-  for (const double u : {rect.u0, rect.u1}) {
-    for (const double v : {rect.v0, rect.v1}) {
-      const SurfacePoint at{rect.piece, u, v, Position(surface_.piece(rect.piece), u, v)};
-      const double leftover = std::min(NearestTo(at.p, 2.0 * radius_, hint).distance - radius_, radius_);
-      if (leftover <= params_.limit) continue;
-      const Vec3 e = UpwardNormalNear(surface_, at);
-      const double slope = std::acos(std::clamp(e.z(), -1.0, 1.0));
-      if (slope < params_.window.min || slope > params_.window.max) continue;
-      if (const auto side = ReachableSide(at.p, e, blocker)) {
-        return LeftoverSpot{at, *side, at.p + radius_ * *side, leftover, rect};
-      }
-    }
-  }
-  return std::nullopt;
-}
-
-bool SpotFinder::OutOfReach(const SurfaceRect& rect, const Vec3& p, const Vec3& e, double size, bool known,
-                            std::optional<SurfacePoint>& blocker) const {
-  double turn = 0.0, shift = 0.0;
-  for (double u : {rect.u0, rect.u1}) {
-    for (double v : {rect.v0, rect.v1}) {
-      const SurfacePoint corner{rect.piece, u, v, Position(surface_.piece(rect.piece), u, v)};
-      Vec3 n = UpwardNormalNear(surface_, corner);
-      if (n.dot(e) < 0.0) n = -n;
-      turn = std::max(turn, (n - e).norm());
-      shift = std::max(shift, (corner.p - p + radius_ * (n - e)).norm());
-    }
-  }
-  if (turn > 0.7) return false;
-  shift = 1.5 * shift + 0.1 * size;
-  const auto blocked = [&](const Vec3& side, bool no_query) {
-    const Vec3 c = p + radius_ * side;
-    if (c.z() + shift < params_.floor_z + radius_) return true;
-    if (no_query) return blocker && reach_.radius() - RayDistance(c, blocker->p) > shift;
-    return Blocked(c, shift, blocker);
-  };
-  // Near upright places either side may look up.
-  return blocked(e, known) && (e.z() > 2.0 * turn + 1e-6 || blocked(-e, false));
 }
 
 // Cuts where the farthest point of the hull is out of the move's reach: across the move, or along it past its
@@ -195,41 +131,31 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
 
   // The move that covers most of the rectangle passes near the centre that finishes p; only small rectangles
   // deserve the costlier search around p itself, which is also right where the normal turns quickly.
-  Nearby found{{}, hint.blocker};
+  Nearby found{{}, hint.blockers};
   NearMove& near = found.move;
   if (size < 4.0 * flat_) {
     near = NearestTo(p + radius_ * e, flat_, hint.move);
     if (Covered(hull.data(), count, near)) return;
   }
-  bool reach_tested = false;
-  if (size < 0.25 * flat_) {
+  if (size < kCoarse * flat_) {
     const NearMove nearest = NearestTo(p, 2.0 * radius_, near);
     if (Covered(hull.data(), count, nearest)) return;
     const double leftover = std::min(nearest.distance - radius_, radius_);
     const double slope = std::acos(std::clamp(e.z(), -1.0, 1.0));
     if (leftover > params_.limit && slope >= params_.window.min && slope <= params_.window.max) {
-      if (const auto side = ReachableSide(p, e, found.blocker)) {
+      if (const auto side = ReachableSide(p, e)) {
         out.push_back({at, *side, p + radius_ * *side, leftover, rect});
         return;
       }
-      // A strip this narrow beside what is out of reach holds a few microns more than its reachable
-      // neighbours, unless it has none: an island of reach shows at the corners.
-      if (size < kNarrow * flat_) {
-        if (const auto island = SpotAtCorner(rect, near, found.blocker)) {
-          out.push_back(*island);
-          return;
-        }
-        if (size < kIsland * flat_) return;
-      }
-      if (OutOfReach(rect, p, e, size, true, found.blocker)) return;
-      reach_tested = true;
     }
   }
-  constexpr int kDeepest = 40;
-  if (size < kIsland * flat_ || depth >= kDeepest) return;
-  if (!reach_tested && near.segment < 0 && size < 8.0 * flat_ &&
-      OutOfReach(rect, p, e, size, false, found.blocker))
-    return;
+  constexpr int kDeepest = 60;
+  if (size < kFinest * flat_ || depth >= kDeepest) return;
+  // Larger rectangles with a pass nearby have reachable ground.
+  if (size < (near.segment < 0 ? 8.0 : kCoarse) * flat_) {
+    const auto places = PlacesOn(surface_, rect);
+    if (places && OutOfReach(surface_, *places, size, cell_reach_, found.blockers)) return;
+  }
 
   const bool along_u =
       SplitAlongU(jet.du * (rect.u1 - rect.u0), jet.dv * (rect.v1 - rect.v0), p, hull.data(), count, near);
@@ -255,6 +181,11 @@ void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out)
 }
 
 }  // namespace
+
+Locator ReachLocator(const Locator& locator, const CoverageParams& params) {
+  return {locator.surface(),
+          std::max(locator.radius() - (1.0 + kReachMargin) * params.tolerance, 0.5 * locator.radius())};
+}
 
 absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,
                                                     const std::vector<const PathTree*>& trees,

@@ -5,16 +5,11 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/path/cell_reach.h"
 #include "cam/path/coverage.h"
 #include "cam/path/path_tree.h"
 
 namespace patchmill {
-
-// A part of a piece, u0 <= u1, v0 <= v1 in its own parameters.
-struct SurfaceRect {
-  PieceId piece;
-  double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
-};
 
 // A reachable surface point whose leftover is above the limit.
 struct LeftoverSpot {
@@ -25,14 +20,21 @@ struct LeftoverSpot {
   SurfaceRect rect;             // what it stands for, at most half a flat step wide
 };
 
-// All rectangles given are covered up to the limit, by proof, except where a spot is returned, where the
-// surface is out of reach, or in rectangles of a twentieth of the flat step that exceed the limit by less
-// than they can vary.
-//   Proof: the distance of a hull to a segment is largest at its vertices, so a rectangle is covered when all
-//   its control points lie within R + limit of one move (for zero-weight points see ALGORITHMS 1). Reach:
-//   free for a ball of radius - tolerance at p + R e, tip not below the floor (DESIGN 2); whole rectangles
-//   are dropped when the blocking is deeper than their centres can differ (normals sampled at the corners,
-//   one and a half times).
+// Shares of params.tolerance by which the search goes beyond what is asked, so that it ends: what is said to
+// be covered may exceed the limit by one, spots may be out of reach by the other.
+inline constexpr double kProofMargin = 0.1;
+inline constexpr double kReachMargin = 0.05;
+
+// A smaller ball that is free wherever a point counts as reachable, or nearly so: what FindSpots asks.
+Locator ReachLocator(const Locator& locator, const CoverageParams& params);
+
+// Halves the rectangles given until each is proven covered (up to the limit and kProofMargin), proven out of
+// reach (OutOfReach), or stands for a spot: its middle exceeds the limit and is free for a ball of radius -
+// (1 + kReachMargin) tolerance at p + R e, tip not below the floor (DESIGN 2). Of the two margins one always
+// holds at small rectangles, so no island of reach is too small to be seen; only around points where the
+// surface has no normal it ends at 0.2 % of the flat step.
+//   Covered: the distance of a hull to a segment is largest at its vertices, so a rectangle is covered when
+//   all its control points lie within R + limit of one move (for zero-weight points see ALGORITHMS 1).
 // Deterministic, parallel. `trees`: all passes, in any number of trees.
 absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,
                                                     const std::vector<const PathTree*>& trees,

@@ -1,0 +1,84 @@
+#include "cam/path/cell_reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cam/path/sheet_border.h"
+#include "core/diffgeo/forms.h"
+#include "core/surface/closest.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kUpright = 1e-6;     // both sides of a face as upright as this count
+constexpr double kMostTurn = 0.7;     // of normals from the middle one
+constexpr double kMostBend = 0.25;    // of the size: what bends more is not judged by nine places
+constexpr double kFloorSlack = 1e-6;  // mm: rounding of a floor at the surface itself
+
+// Distance of q to the upward ray from c.
+double RayDistance(const Vec3& c, const Vec3& q) {
+  return q.z() >= c.z() ? (Plan(q) - Plan(c)).norm() : (q - c).norm();
+}
+
+}  // namespace
+
+std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& rect) {
+  const double um = 0.5 * (rect.u0 + rect.u1), vm = 0.5 * (rect.v0 + rect.v1);
+  const std::array<Vec2, 9> uv = {Vec2(rect.u0, rect.v0), Vec2(rect.u1, rect.v0), Vec2(rect.u0, rect.v1),
+                                  Vec2(rect.u1, rect.v1), Vec2(um, rect.v0),      Vec2(um, rect.v1),
+                                  Vec2(rect.u0, vm),      Vec2(rect.u1, vm),      Vec2(um, vm)};
+  RectPlaces at;
+  for (std::size_t k = 9; k-- > 0;) {
+    const SurfaceJet jet = Evaluate(surface, rect.piece, uv[k].x(), uv[k].y());
+    const auto normal = UnitNormal(jet);
+    at.p[k] = jet.p;
+    at.n[k] = normal ? *normal : UpwardNormalNear(surface, {rect.piece, uv[k].x(), uv[k].y(), jet.p});
+    if (!normal && at.n[k].dot(at.n[8]) < 0.0) at.n[k] = -at.n[k];
+    if ((at.n[k] - at.n[8]).norm() > kMostTurn) return std::nullopt;
+  }
+  return at;
+}
+
+double BendOver(const std::array<Vec3, 9>& f) {
+  const double off =
+      std::max({(f[4] - 0.5 * (f[0] + f[1])).squaredNorm(), (f[5] - 0.5 * (f[2] + f[3])).squaredNorm(),
+                (f[6] - 0.5 * (f[0] + f[2])).squaredNorm(), (f[7] - 0.5 * (f[1] + f[3])).squaredNorm(),
+                (f[8] - 0.25 * (f[0] + f[1] + f[2] + f[3])).squaredNorm()});
+  return 2.0 * std::sqrt(off);
+}
+
+bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const CellReachParams& params,
+                Blockers& blockers) {
+  const double limit = params.radius - params.tolerance;
+  const double turn = BendOver(at.n);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double sign = side == 0 ? 1.0 : -1.0;
+    double highest_normal = -1.0, highest_center = -kInfinity;
+    std::array<Vec3, 9> c;
+    for (std::size_t k = 0; k < 9; ++k) {
+      c[k] = at.p[k] + sign * params.radius * at.n[k];
+      highest_normal = std::max(highest_normal, sign * at.n[k].z());
+      highest_center = std::max(highest_center, c[k].z());
+    }
+    if (highest_normal + turn < -kUpright) continue;  // looks down
+    const double bend = BendOver(c);
+    if (bend > kMostBend * size) return false;
+    if (highest_center + bend < params.floor_z - kFloorSlack) continue;
+    const auto farthest = [&](const SurfacePoint& q) {
+      double most = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) most = std::max(most, RayDistance(c[k], q.p));
+      return most + bend;
+    };
+    std::optional<SurfacePoint>& known = blockers[side];
+    if (known && farthest(*known) < limit) continue;
+    // The farther apart the centres, the less exactly the deepest point need be known.
+    const double exact = std::clamp(0.05 * size, 1e-5, 0.02 * params.radius);
+    const auto deepest = ClosestToUpwardRay(surface, c[8], limit, exact);
+    if (!deepest) return false;
+    known = deepest->at;
+    if (!(farthest(*known) < limit)) return false;
+  }
+  return true;
+}
+
+}  // namespace patchmill
