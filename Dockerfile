@@ -10,7 +10,7 @@ RUN cmake --preset release -DPATCHMILL_TESTS=OFF -DPATCHMILL_BENCH=OFF \
 
 FROM debian:bookworm-slim
 RUN apt-get update -qq \
- && apt-get install -y -qq --no-install-recommends libgrpc++1.51 libprotobuf32 libabsl20220623 libtbb12 libfmt9 libspdlog1.10 libopenmesh9.0 \
+ && apt-get install -y -qq --no-install-recommends libgrpc++1.51 libprotobuf32 libabsl20220623 libtbb12 libfmt9 libspdlog1.10 libopenmesh1 \
  && rm -rf /var/lib/apt/lists/* \
  && useradd --system --uid 10001 --no-create-home patchmill
 COPY --from=build /src/build/release/bin/patchmill /src/build/release/bin/patchmilld /usr/local/bin/

@@ -10,8 +10,10 @@ work="$(mktemp -d)"
 
 if command -v docker >/dev/null && docker info >/dev/null 2>&1; then
   engine=docker
+  build=(docker build)
 else
   engine=podman
+  build=(podman build --format docker)  # the default format has no health check
   as_root=()
   [ "$(id -u)" -eq 0 ] || as_root=(sudo)
   if ! command -v podman >/dev/null || ! command -v mmdebstrap >/dev/null; then
@@ -42,7 +44,7 @@ cleanup() {
 }
 trap cleanup EXIT
 
-"$engine" build -t "$image" .
+"${build[@]}" -t "$image" .
 "$engine" run -d --name "$name" -p "127.0.0.1:$port:50051" --read-only --cap-drop ALL "$image" >/dev/null
 [ "$("$engine" exec "$name" id -u)" != 0 ] || { echo "container: runs as root"; exit 1; }
 for _ in $(seq 50); do
