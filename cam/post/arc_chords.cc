@@ -33,7 +33,7 @@ absl::StatusOr<ArcChords> ChordArc(const PlaneArc& arc, double chord_error, std:
   const double largest = std::max(r0, r1);
   const double chords = std::ceil(sweep * std::sqrt(largest / (8.0 * chord_error)));
   if (!(chords <= static_cast<double>(max_chords))) {
-    return absl::InvalidArgumentError(
+    return absl::ResourceExhaustedError(
         fmt::format("arc needs {:.0f} chords; at most {} are left", chords, max_chords));
   }
   const auto count = std::max<std::size_t>(4, static_cast<std::size_t>(chords));

@@ -44,6 +44,9 @@ class Interpreter {
   absl::Status Arc(const BlockModes& block);
   // Where the axis words lead to. Axes whose place is not known yet start where they are first sent.
   absl::StatusOr<Vec3> Target(const BlockModes& block);
+  absl::Status TooMany() const {
+    return absl::ResourceExhaustedError(fmt::format("more than {} moves", params_.max_moves));
+  }
   absl::Status Emit(ProgramMove::Kind kind, const Vec3& to, bool to_above, double chord_error);
 
   ReaderParams params_;
@@ -56,7 +59,8 @@ class Interpreter {
   bool arc_absolute_ = false;
   Vec3 at_ = Vec3::Zero();
   std::array<bool, 3> known_{};
-  bool above_ = true;  // at machine zero, or at a Z that nothing has told yet
+  bool anywhere_ = false;  // X or Y of at_ was not known before this line
+  bool above_ = true;      // at machine zero, or at a Z that nothing has told yet
   double feed_ = 0.0;
   double smoothing_ = 0.0;
   int tool_ = -1, loaded_ = -1;
@@ -148,7 +152,7 @@ absl::Status Interpreter::SetModes(const BlockModes& block) {
 
 absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_above, double chord_error) {
   if (motion_.moves.size() >= params_.max_moves) {
-    return Bad(fmt::format("more than {} moves", params_.max_moves));
+    return TooMany();
   }
   if (!(to.cwiseAbs().maxCoeff() <= kLargestCoordinate)) {
     return Bad(fmt::format("beyond {} mm", kLargestCoordinate));
@@ -161,9 +165,12 @@ absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_a
   move.line = line_;
   move.from_above = above_;
   move.to_above = to_above;
+  move.from_anywhere = anywhere_;
   move.chord_error = chord_error;
   if (kind == ProgramMove::Kind::kFeed) {
     motion_.controller_tolerance = std::max(motion_.controller_tolerance, smoothing_);
+  } else if (!(above_ && to_above)) {
+    motion_.rapid_tolerance = std::max(motion_.rapid_tolerance, smoothing_);
   }
   if (!(above_ && to_above)) {
     const bool straight_up = Plan(to) == Plan(at_) && !above_ && (to_above || to.z() > at_.z());
@@ -197,6 +204,7 @@ absl::StatusOr<Vec3> Interpreter::Target(const BlockModes& block) {
     return Bad("motion after a change of the tool length offset below machine zero: Z is not known");
   }
   Vec3 to = at_;
+  anywhere_ = !known_[0] || !known_[1];
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& word = block[kAxis[k]];
     if (!word) continue;
@@ -224,6 +232,8 @@ absl::Status Interpreter::Arc(const BlockModes& block) {
   if (above_ && (plane_ != 170 || block['Z'])) return Bad("arc from an unknown or machine-zero Z");
   const Eigen::Index first = plane_ == 170 ? 0 : plane_ == 180 ? 2 : 1;
   const Eigen::Index second = (first + 1) % 3, normal = (first + 2) % 3;
+  const auto known = [&](Eigen::Index k) { return k == 2 ? !above_ : known_[static_cast<std::size_t>(k)]; };
+  if (!known(first) || !known(second)) return Bad("arc from an unknown place");
   PM_ASSIGN_OR_RETURN(const Vec3 to, Target(block));
   const auto in_plane = [&](const Vec3& p) { return Vec3(p[first], p[second], p[normal]); };
   PlaneArc arc;

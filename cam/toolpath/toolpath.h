@@ -33,18 +33,23 @@ struct ProgramMove {
   Kind kind = Kind::kRapid;
   Vec3 from = Vec3::Zero();
   Vec3 to = Vec3::Zero();
-  double feed = 0.0;         // mm/min
-  int line = 0;              // 1-based line of the text
-  bool from_above = false;   // starts at machine Z zero ("above everything"): from.z() means +infinity
-  bool to_above = false;     // ends there
+  double feed = 0.0;        // mm/min
+  int line = 0;             // 1-based line of the text
+  bool from_above = false;  // starts at machine Z zero ("above everything"): from.z() means +infinity
+  bool to_above = false;    // ends there
+  // X or Y of `from` was never stated: it stands for wherever the machine was, and is written down as the
+  // place where the axis is first sent.
+  bool from_anywhere = false;
   double chord_error = 0.0;  // mm, when the move is one chord of an arc
 };
 
 struct ProgramMotion {
   std::vector<ProgramMove> moves;
   int tool_number = 0;
-  double controller_tolerance =
-      0.0;  // mm, largest G64 P + Q in force while feeding (Q absent: P); kInfinity for a bare G64
+  // mm, largest G64 P + Q in force (Q absent: P), kInfinity for a bare G64: while feeding, and over rapids
+  // below machine zero.
+  double controller_tolerance = 0.0;
+  double rapid_tolerance = 0.0;
   bool ends_with_spindle_off = false;
   bool ends_with_coolant_off = false;
   bool first_motion_is_up = false;

@@ -30,7 +30,7 @@ class GougeSearch {
     to.clear();
     bool open = false;
     for (const int i : from) {
-      const MetricValue f = SweptDistanceAndGradient(tree_.segment(i), cell.middle);
+      const MetricValue f = tree_.DistanceAndGradient(i, cell.middle);
       if (f.distance >= radius_ - threshold.Drop(here.value) + cell.radius) continue;
       if (radius_ - f.distance > here.value) {
         here = {radius_ - f.distance, cell.middle, cell.rect.piece, tree_.segment(i).move};
@@ -58,63 +58,18 @@ class GougeSearch {
   std::vector<std::vector<int>> candidates_;  // by depth: what the parent has left
 };
 
-class ShankSearch {
- public:
-  ShankSearch(const Surface& surface, const SegmentTree& tree, double shank_radius, const GougeParams& params,
-              const RunContext& run)
-      : walker_(surface), tree_(tree), reach_(shank_radius + params.chord_error), run_(run) {}
-
-  Extreme Run(const CellRect& root, const Threshold& threshold) {
-    Extreme here;
-    walker_.Walk(root, [&](const SurfaceCell& cell) {
-      if (run_.Cancelled()) return false;
-      const auto nearest =
-          tree_.FindNearest(cell.middle, reach_ - threshold.Floor(here.value) + cell.radius, hint_);
-      if (nearest.segment < 0) return false;
-      hint_ = nearest.segment;
-      const double depth = reach_ - nearest.distance;
-      if (depth > here.value) {
-        here = {depth, cell.middle, cell.rect.piece, tree_.segment(nearest.segment).move};
-      }
-      return depth + cell.radius > threshold.Drop(here.value);
-    });
-    return here;
-  }
-
- private:
-  CellWalker walker_;
-  const SegmentTree& tree_;
-  double reach_;
-  const RunContext& run_;
-  int hint_ = -1;
-};
-
 }  // namespace
 
 absl::StatusOr<Extremes> FindGouge(const Surface& surface, const std::vector<CellRect>& roots,
-                                   const SegmentTree& tree, const GougeParams& params,
-                                   const RunContext& run) {
+                                   const SegmentTree& tree, const GougeParams& params, const RunContext& run,
+                                   const char* stage) {
   if (tree.empty()) return Extremes{};
   const MakeRootSearch make = [&]() -> RootSearch {
     auto search = std::make_shared<GougeSearch>(surface, tree, params, run);
     return
         [search](const CellRect& root, const Threshold& threshold) { return search->Run(root, threshold); };
   };
-  return SearchRoots(roots, Extreme{}, params.limit, params.certainty, make, run, "verify: gouge");
-}
-
-absl::StatusOr<Extremes> FindShankGouge(const Surface& surface, const std::vector<CellRect>& roots,
-                                        const SegmentTree& tree, double shank_radius,
-                                        const GougeParams& params, const RunContext& run) {
-  constexpr double kShankCertainty = 0.02;  // mm
-  if (tree.empty()) return Extremes{};
-  const MakeRootSearch make = [&]() -> RootSearch {
-    auto search = std::make_shared<ShankSearch>(surface, tree, shank_radius, params, run);
-    return
-        [search](const CellRect& root, const Threshold& threshold) { return search->Run(root, threshold); };
-  };
-  return SearchRoots(roots, Extreme{}, params.limit, std::max(params.certainty, kShankCertainty), make, run,
-                     "verify: shank");
+  return SearchRoots(roots, Extreme{}, params.limit, params.certainty, make, run, stage);
 }
 
 }  // namespace patchmill

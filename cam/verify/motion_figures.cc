@@ -3,18 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/status.h"
+
 namespace patchmill {
 
 namespace {
 
-constexpr double kRounding = 2e-3;  // mm: shorter moves have no direction to speak of
+constexpr double kRounding = 2e-3;   // mm: shorter moves have no direction to speak of
+constexpr double kTraceable = 0.02;  // mm: four decimals turn a move this long by a quarter of a degree
 constexpr double kSteep = Radians(30.0), kSteepSlack = Radians(0.5);
 constexpr int kGrid = 256;
 
 // Largest material height over squares of the plan; -infinity where there is none.
 class HeightGrid {
  public:
-  HeightGrid(const Surface& surface, double allowance, double top) {
+  HeightGrid(const Surface& surface, double allowance, double top, const RunContext& run) {
     low_ = Plan(surface.box.min);
     const Vec2 size = Plan(surface.box.max) - low_;
     step_ = std::max(size.maxCoeff() / kGrid, 1e-9);
@@ -22,6 +25,7 @@ class HeightGrid {
     ny_ = static_cast<int>(size.y() / step_) + 1;
     height_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_), -kInfinity);
     for (const SurfaceNode& node : surface.nodes) {
+      if (run.Cancelled()) return;
       if (node.leaf < 0) continue;
       const double z = std::min(node.box.max.z() + allowance, top);
       ForEach(Plan(node.box.min).array() - allowance, Plan(node.box.max).array() + allowance,
@@ -30,21 +34,38 @@ class HeightGrid {
   }
   // Every square becomes the highest within `radius`, in two passes over rows and columns.
   void Dilate(double radius) {
-    const int reach = static_cast<int>(std::ceil(radius / step_)) + 1;
+    const double squares = std::min(std::ceil(radius / step_), static_cast<double>(std::max(nx_, ny_)));
+    const int reach = static_cast<int>(squares) + 1;
     const std::vector<double> before = height_;
     Slide(before, height_, nx_, ny_, 1, nx_, reach);
     const std::vector<double> rows = height_;
     Slide(rows, height_, ny_, nx_, nx_, 1, reach);
   }
-  // Highest over the rectangle; also from outside of the grid, within `radius` of its border.
+  // Highest near the line from a to b: over the squares it touches and, next to corners, some beside it. Also
+  // from outside of the grid, within `radius` of its border. Cost: a few squares a row or column it crosses.
   double Highest(const Vec2& a, const Vec2& b, double radius) {
-    double highest = -kInfinity;
-    const Vec2 lo = a.cwiseMin(b), hi = a.cwiseMax(b);
-    if ((hi - low_).minCoeff() < -radius || lo.x() > low_.x() + nx_ * step_ + radius ||
-        lo.y() > low_.y() + ny_ * step_ + radius) {
-      return highest;
+    constexpr double kMostParts = 1024.0;
+    double highest = -kInfinity, begin = 0.0, end = 1.0;
+    const Vec2 d = b - a, margin = Vec2::Constant(radius);
+    const Vec2 low = low_ - margin, high = low_ + step_ * Vec2(nx_, ny_) + margin;
+    for (const int k : {0, 1}) {
+      if (d[k] == 0.0) {
+        if (a[k] < low[k] || a[k] > high[k]) return highest;
+        continue;
+      }
+      const double s = (low[k] - a[k]) / d[k], t = (high[k] - a[k]) / d[k];
+      begin = std::max(begin, std::min(s, t));
+      end = std::min(end, std::max(s, t));
     }
-    ForEach(lo, hi, [&](double& h) { highest = std::max(highest, h); });
+    if (begin > end) return highest;
+    const Vec2 part = (end - begin) * d;
+    const double parts = std::clamp(std::ceil(part.cwiseAbs().maxCoeff() / step_), 1.0, kMostParts);
+    Vec2 from = a + begin * d;
+    for (double i = 1.0; i <= parts; i += 1.0) {
+      const Vec2 to = a + begin * d + i / parts * part;
+      ForEach(from.cwiseMin(to), from.cwiseMax(to), [&](double& h) { highest = std::max(highest, h); });
+      from = to;
+    }
     return highest;
   }
 
@@ -80,12 +101,42 @@ class HeightGrid {
   std::vector<double> height_;
 };
 
+// Descents at more than plunge feed, however small the steps they are cut into: moves are added up until they
+// have a direction to speak of. The path in plan is added up too, so that a helix is as steep as its moves.
+class DescentWatch {
+ public:
+  explicit DescentWatch(double plunge_feed) : plunge_feed_(plunge_feed) {}
+
+  // True when this move ends a descent steeper than allowed.
+  bool Add(const ProgramMove& move) {
+    const bool watched = plunge_feed_ > 0.0 && move.kind == ProgramMove::Kind::kFeed && !move.from_above &&
+                         !move.to_above && move.feed > plunge_feed_ * (1.0 + 1e-6);
+    if (!watched) {
+      drop_ = along_ = 0.0;
+      return false;
+    }
+    const Vec3 d = move.to - move.from;
+    drop_ -= d.z();
+    along_ += Plan(d).norm();
+    if (std::hypot(drop_, along_) < kTraceable) return false;
+    const bool steep = std::atan2(drop_, along_) > kSteep + kSteepSlack;
+    drop_ = along_ = 0.0;
+    return steep;
+  }
+
+ private:
+  double plunge_feed_;
+  double drop_ = 0.0, along_ = 0.0;  // mm, since the last verdict
+};
+
 }  // namespace
 
 MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool) {
   MotionFigures figures;
+  DescentWatch watch(tool.plunge_feed);
   for (std::size_t i = 0; i < motion.moves.size(); ++i) {
     const ProgramMove& move = motion.moves[i];
+    if (watch.Add(move) && figures.steep_move < 0) figures.steep_move = static_cast<int>(i);
     if (!move.from_above) figures.tip_box.Add(move.from);
     if (!move.to_above) figures.tip_box.Add(move.to);
     if (move.from_above || move.to_above) continue;
@@ -93,25 +144,23 @@ MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool) {
     const bool rapid = move.kind == ProgramMove::Kind::kRapid;
     (rapid ? figures.rapid_length : figures.cut_length) += d.norm();
     if (rapid || d.norm() < kRounding) continue;
-    const double descent = std::atan2(-d.z(), Plan(d).norm());
-    figures.steepest_descent = std::max(figures.steepest_descent, descent);
-    if (figures.steep_move < 0 && tool.plunge_feed > 0.0 && descent > kSteep + kSteepSlack &&
-        -d.z() > 5.0 * kRounding && move.feed > tool.plunge_feed * (1.0 + 1e-6)) {
-      figures.steep_move = static_cast<int>(i);
-    }
+    figures.steepest_descent = std::max(figures.steepest_descent, std::atan2(-d.z(), Plan(d).norm()));
   }
   return figures;
 }
 
-double RequiredStickout(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
-                        const VerifyParams& params) {
+absl::StatusOr<double> RequiredStickout(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
+                                        const VerifyParams& params, const RunContext& run) {
+  constexpr std::size_t kMovesBetweenPolls = 1024;
   if (surface.nodes.empty()) return 0.0;
   const double radius =
       std::max(BallRadius(tool), 0.5 * tool.shank_diameter.value_or(0.0)) + params.allowance;
-  HeightGrid grid(surface, params.allowance, std::max(params.stock_top_z, surface.box.max.z()));
+  HeightGrid grid(surface, params.allowance, std::max(params.stock_top_z, surface.box.max.z()), run);
   grid.Dilate(radius);
   double stickout = 0.0;
-  for (const ProgramMove& move : motion.moves) {
+  for (std::size_t i = 0; i < motion.moves.size(); ++i) {
+    if (i % kMovesBetweenPolls == 0) PM_RETURN_IF_ERROR(run.Check());
+    const ProgramMove& move = motion.moves[i];
     if (move.from_above && move.to_above) continue;
     Vec3 a = move.from + params.program_zero, b = move.to + params.program_zero;
     if (move.from_above) a.z() = b.z();

@@ -29,7 +29,7 @@ std::vector<PathSegment> CollectMoves(const ProgramMotion& motion, MotionSet set
     if (move.from_above) s.a.z() = s.b.z();
     if (move.to_above) s.b.z() = s.a.z();
     const bool rapid = move.kind == ProgramMove::Kind::kRapid;
-    if (set == MotionSet::kSwept) {
+    if (set == MotionSet::kSwept || (set == MotionSet::kSweptRapids && rapid)) {
       segments.push_back(s);
     } else if (set == MotionSet::kRapid && rapid) {
       AddRapid(move, s, clear_z, segments);

@@ -10,8 +10,9 @@ namespace patchmill {
 
 // Which of a program's moves.
 enum class MotionSet {
-  kCut,    // feed moves: what removes material
-  kSwept,  // all moves below machine zero: what must not gouge
+  kCut,          // feed moves: what removes material
+  kSwept,        // all moves below machine zero: what must not gouge
+  kSweptRapids,  // the rapids among them
   // Rapids, cut off at the height where nothing stands any more, without those straight up: these only leave
   // through the space that the tool already fills.
   kRapid,

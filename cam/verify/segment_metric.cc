@@ -56,18 +56,28 @@ MetricValue SweptDistanceAndGradient(const PathSegment& s, const Vec3& p) {
 }
 
 double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius) {
+  return ShankDistanceAndGradient(s, p, shank_radius).distance;
+}
+
+// At the best place t of the segment 0 = a plan'(t) + (1 - a) rise'(t) for some a in [0,1], and with the same
+// a the gradients of the two terms in p make one of their smallest maximum.
+MetricValue ShankDistanceAndGradient(const PathSegment& s, const Vec3& p, double shank_radius) {
   const Vec3 d = s.b - s.a;
-  const auto plan = [&](double t) { return Plan(Vec3(s.a + t * d - p)).norm(); };
+  const auto beside = [&](double t) { return Plan(Vec3(p - s.a - t * d)); };
+  const auto plan = [&](double t) { return beside(t).norm(); };
   const auto rise = [&](double t) { return shank_radius - (p.z() - s.a.z() - t * d.z()); };
   double near = NearestInPlan(s, p);
-  if (plan(near) >= rise(near)) return plan(near);
+  if (plan(near) >= rise(near)) return From(Lift(Plan(p) - beside(near), p.z()), p);
   double low = d.z() < 0.0 ? 1.0 : 0.0;
-  if (rise(low) >= plan(low)) return rise(low);
+  if (rise(low) >= plan(low)) return {rise(low), -Vec3::UnitZ()};
   for (int i = 0; i < 50; ++i) {  // between them the two terms cross
     const double middle = 0.5 * (near + low);
     (plan(middle) >= rise(middle) ? low : near) = middle;
   }
-  return std::max(plan(low), rise(low));
+  const Vec2 out = beside(low).normalized();
+  const double plan_rate = -out.dot(Plan(d));
+  const double share = d.z() == 0.0 ? 0.0 : std::clamp(d.z() / (d.z() - plan_rate), 0.0, 1.0);
+  return {std::max(plan(low), rise(low)), Lift(share * out, share - 1.0)};
 }
 
 }  // namespace patchmill

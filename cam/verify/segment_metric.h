@@ -18,7 +18,8 @@ enum class Metric {
            // shank radius minus this is how deep the point sits in a cylinder that begins at the segment
 };
 
-// Value and, for the first two, the unit vector in which it grows.
+// Value and a subgradient: nowhere is the value below distance + gradient . (q - p). For the first two the
+// unit vector in which it grows.
 struct MetricValue {
   double distance = 0.0;
   Vec3 gradient = Vec3::Zero();  // zero where the distance is zero
@@ -29,5 +30,6 @@ double SweptDistance(const PathSegment& s, const Vec3& p);
 double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius);
 MetricValue PathDistanceAndGradient(const PathSegment& s, const Vec3& p);
 MetricValue SweptDistanceAndGradient(const PathSegment& s, const Vec3& p);
+MetricValue ShankDistanceAndGradient(const PathSegment& s, const Vec3& p, double shank_radius);
 
 }  // namespace patchmill

@@ -196,6 +196,18 @@ double SegmentTree::Distance(int i, const Vec3& p) const {
   return 0.0;
 }
 
+MetricValue SegmentTree::DistanceAndGradient(int i, const Vec3& p) const {
+  switch (metric_) {
+    case Metric::kPath:
+      return PathDistanceAndGradient(segment(i), p);
+    case Metric::kSwept:
+      return SweptDistanceAndGradient(segment(i), p);
+    case Metric::kShank:
+      return ShankDistanceAndGradient(segment(i), p, shank_radius_);
+  }
+  return {};
+}
+
 SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int hint, double slack) const {
   Nearest best{limit, -1};
   if (segments_.empty()) return best;

@@ -31,6 +31,7 @@ class SegmentTree {
   bool empty() const { return segments_.empty(); }
   const PathSegment& segment(int i) const { return segments_[static_cast<std::size_t>(i)]; }
   double Distance(int i, const Vec3& p) const;
+  MetricValue DistanceAndGradient(int i, const Vec3& p) const;
 
  private:
   struct Box {

@@ -8,8 +8,8 @@
 #include "cam/verify/gouge.h"
 #include "cam/verify/leftover.h"
 #include "cam/verify/motion_figures.h"
+#include "cam/verify/motion_rules.h"
 #include "cam/verify/motion_sets.h"
-#include "cam/verify/rapid.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -17,8 +17,7 @@ namespace patchmill {
 namespace {
 
 constexpr std::size_t kMostFindings = 20;  // per code
-constexpr double kHeightSlack = 1e-4;      // mm: four decimals
-constexpr double kRapidSlack = 1e-3;       // mm
+constexpr double kRapidSlack = 1e-3;       // mm: rounding, and what planned heights are certain to
 
 class Judge {
  public:
@@ -97,7 +96,7 @@ class Judge {
     const double smoothing = motion_.controller_tolerance;
     p.limit = std::max(0.0, params_.tolerance - smoothing);
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
-    PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge(surface_, roots_, tree, p, run_));
+    PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge(surface_, roots_, tree, p, run_, "verify: gouge"));
     report_.max_gouge = gouge.worst.value;
     report_.max_gouge_at = Place(gouge.worst);
     ReportPlaces("GOUGE", gouge.violations, "the ball or the shank above it cuts into the surface");
@@ -112,6 +111,28 @@ class Judge {
                       "{:.4f} mm",
                       report_.max_gouge, smoothing, params_.tolerance));
     }
+    return JudgeSmoothedRapids();
+  }
+
+  // Rapids may be smoothed more than feeds, as long as they are that much farther off.
+  absl::Status JudgeSmoothedRapids() {
+    const double smoothing = motion_.rapid_tolerance;
+    if (smoothing <= motion_.controller_tolerance) return absl::OkStatus();
+    if (!std::isfinite(smoothing)) {
+      report_.gouge_ok = false;
+      Report("CONTROL_SMOOTHING", "G64 without P: how far rapids may leave their path is not bounded");
+      return absl::OkStatus();
+    }
+    GougeParams p;
+    p.radius = radius_ + smoothing;
+    p.certainty = params_.certainty;
+    p.limit = params_.tolerance;
+    const SegmentTree tree(CollectMoves(motion_, MotionSet::kSweptRapids, offset_), Metric::kSwept, radius_,
+                           run_);
+    PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge(surface_, roots_, tree, p, run_, "verify: rapids"));
+    if (gouge.worst.value > params_.tolerance) report_.gouge_ok = false;
+    ReportPlaces("CONTROL_SMOOTHING", gouge.violations,
+                 "a rapid, smoothed by the control, cuts into the surface");
     return absl::OkStatus();
   }
 
@@ -119,11 +140,10 @@ class Judge {
     const double shank = 0.5 * tool_.shank_diameter.value_or(0.0);
     if (!(shank > ball_)) return absl::OkStatus();
     const Vec3 up(0, 0, *tool_.flute_length - ball_);
-    p.limit = params_.tolerance;
+    p.radius = shank + params_.leave;
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
                            run_, shank);
-    PM_ASSIGN_OR_RETURN(const Extremes found,
-                        FindShankGouge(surface_, roots_, tree, shank + params_.leave, p, run_));
+    PM_ASSIGN_OR_RETURN(const Extremes found, FindGouge(surface_, roots_, tree, p, run_, "verify: shank"));
     if (found.worst.value > report_.max_gouge) {
       report_.max_gouge = found.worst.value;
       report_.max_gouge_at = Place(found.worst);
@@ -176,54 +196,32 @@ class Judge {
 
   absl::Status JudgeMotion() {
     report_.motion_ok = true;
-    const auto fail = [&](const std::string& code, const std::string& message, int line) {
-      report_.motion_ok = false;
-      Report(code, message);
-      if (line > 0) report_.findings.back().where.line = line;
-    };
-    const SegmentTree tree(CollectMoves(motion_, MotionSet::kRapid, offset_, params_.stock_top_z + ball_),
-                           Metric::kSwept, radius_, run_);
-    PM_ASSIGN_OR_RETURN(
-        const std::vector<Extreme> rapids,
-        FindRapidsInStock(surface_, roots_, tree, ball_ + params_.allowance - kRapidSlack, run_));
-    if (!rapids.empty()) report_.motion_ok = false;
-    ReportPlaces("RAPID_IN_STOCK", rapids, "a rapid enters the stock");
-
+    PM_RETURN_IF_ERROR(JudgeRapids());
     const MotionFigures figures = MeasureMotion(motion_, tool_);
     report_.tip_box = figures.tip_box;
     report_.cut_length = figures.cut_length;
     report_.rapid_length = figures.rapid_length;
     report_.steepest_descent = figures.steepest_descent;
     if (!figures.tip_box.Empty()) report_.tip_z_min = figures.tip_box.min.z();
-    report_.required_stickout = RequiredStickout(surface_, tool_, motion_, params_);
+    PM_ASSIGN_OR_RETURN(report_.required_stickout, RequiredStickout(surface_, tool_, motion_, params_, run_));
+    const Diagnostics broken = BrokenMotionRules(motion_, tool_, params_, figures);
+    if (!broken.empty()) report_.motion_ok = false;
+    report_.findings.insert(report_.findings.end(), broken.begin(), broken.end());
+    return absl::OkStatus();
+  }
 
-    const int last_line = motion_.moves.empty() ? 0 : motion_.moves.back().line;
-    const int first_line = motion_.moves.empty() ? 0 : motion_.moves.front().line;
-    if (!motion_.first_motion_is_up)
-      fail("FIRST_MOTION_NOT_UP", "the first motion is not straight up to machine zero", first_line);
-    if (!motion_.last_motion_is_up)
-      fail("LAST_MOTION_NOT_UP", "the last motion is not straight up", last_line);
-    if (!motion_.ends_with_spindle_off)
-      fail("SPINDLE_LEFT_ON", "the program ends with the spindle on", last_line);
-    if (!motion_.ends_with_coolant_off)
-      fail("COOLANT_LEFT_ON", "the program ends with the coolant on", last_line);
-    const double floor = params_.floor_z - params_.program_zero.z();
-    if (!figures.tip_box.Empty() && report_.tip_z_min < floor - kHeightSlack) {
-      const auto lowest = std::find_if(motion_.moves.begin(), motion_.moves.end(), [&](const ProgramMove& m) {
-        return !m.to_above && m.to.z() == report_.tip_z_min;
-      });
-      fail("BELOW_FLOOR",
-           fmt::format("the tip goes down to Z{:.4f}, below the floor Z{:.4f}", report_.tip_z_min, floor),
-           lowest == motion_.moves.end() ? 0 : lowest->line);
-    }
-    if (figures.steep_move >= 0) {
-      const ProgramMove& move = motion_.moves[static_cast<std::size_t>(figures.steep_move)];
-      fail("STEEP_DESCENT",
-           fmt::format(
-               "line {}: a descent steeper than 30 degrees at {:.6g} mm/min; the plunge feed is {:.6g}",
-               move.line, move.feed, tool_.plunge_feed),
-           move.line);
-    }
+  absl::Status JudgeRapids() {
+    GougeParams p;
+    p.radius = ball_ + params_.allowance - kRapidSlack;
+    if (std::isfinite(motion_.rapid_tolerance)) p.radius += motion_.rapid_tolerance;
+    p.certainty = params_.certainty;
+    p.limit = 0.0;
+    const double clear_z = params_.stock_top_z + ball_ - kRapidSlack;
+    const SegmentTree tree(CollectMoves(motion_, MotionSet::kRapid, offset_, clear_z), Metric::kSwept,
+                           radius_, run_);
+    PM_ASSIGN_OR_RETURN(const Extremes found, FindGouge(surface_, roots_, tree, p, run_, "verify: rapids"));
+    if (!found.violations.empty()) report_.motion_ok = false;
+    ReportPlaces("RAPID_IN_STOCK", found.violations, "a rapid enters the stock");
     return absl::OkStatus();
   }
 

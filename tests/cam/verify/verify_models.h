@@ -16,6 +16,16 @@
 
 namespace patchmill::testing {
 
+inline constexpr double kCertainty = 1e-3;  // mm
+inline VerifyParams Params(double top) {
+  VerifyParams p;
+  p.tolerance = 0.01;
+  p.scallop = 0.02;
+  p.stock_top_z = top;
+  p.certainty = kCertainty;
+  return p;
+}
+
 inline constexpr const char* kEnd = "M9\nM5\nG53 G0 Z0\nM2\n";
 
 // Tip positions; every pass is entered from above and left upwards.

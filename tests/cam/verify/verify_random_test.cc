@@ -65,8 +65,10 @@ TEST(SegmentMetric, EqualsSampling) {
     for (int k = 0; k < 20; ++k) {
       const Vec3 q = p + random.Point(-4, 4);
       const MetricValue f = PathDistanceAndGradient(s, p), g = SweptDistanceAndGradient(s, p);
+      const MetricValue h = ShankDistanceAndGradient(s, p, 2.0);
       EXPECT_GE(PathDistance(s, q), f.distance + f.gradient.dot(q - p) - 1e-9);
       EXPECT_GE(SweptDistance(s, q), g.distance + g.gradient.dot(q - p) - 1e-9);
+      EXPECT_GE(ShankDistance(s, q, 2.0), h.distance + h.gradient.dot(q - p) - 1e-9);
     }
   }
 }

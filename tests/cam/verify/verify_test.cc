@@ -12,16 +12,6 @@ namespace patchmill {
 namespace {
 
 using namespace testing;  // NOLINT: the support folder's
-constexpr double kCertainty = 1e-3;
-
-VerifyParams Params(double top) {
-  VerifyParams p;
-  p.tolerance = 0.01;
-  p.scallop = 0.02;
-  p.stock_top_z = top;
-  p.certainty = kCertainty;
-  return p;
-}
 
 // Zig-zag over z = slope x (feed along y), ball centres on the offset plane, `step` apart on it.
 struct PlanePasses {
@@ -254,74 +244,6 @@ TEST(Verify, WiderShankIsCheckedAgainstTheWall) {
   EXPECT_FALSE(Verify(surface, tool, Motion(text.End()), params, RunContext(1)).ok());
 }
 
-TEST(Verify, RapidInStock) {
-  const double half = 10.0;
-  const Surface surface = SurfaceOf(Plane(half));
-  VerifyParams params = Params(0.5);
-  ProgramText ok(5.0);
-  ok.Line("G0 X-15 Y0");
-  ok.Line("G0 Z1");
-  ok.Line("G0 X8");  // above the stock
-  ok.Line("G1 Z0 F100");
-  ok.Line("G0 Z5");  // straight up out of the cut
-  EXPECT_TRUE(Judged(surface, Ball(3.0), ok.End(), params).motion_ok);
-
-  ProgramText bad(5.0);
-  bad.Line("G0 X-15 Y0");
-  bad.Line("G0 Z0.2");
-  const int line = bad.Line("G0 X8");
-  bad.Line("G0 Z5");
-  const VerifyReport report = Judged(surface, Ball(3.0), bad.End(), params);
-  EXPECT_FALSE(report.motion_ok);
-  EXPECT_TRUE(report.gouge_ok);
-  const Diagnostic* finding = Find(report, "RAPID_IN_STOCK");
-  ASSERT_NE(finding, nullptr);
-  EXPECT_EQ(finding->where.line, line);
-
-  ProgramText plunge(5.0);
-  plunge.Line("G0 X2 Y2");
-  const int down = plunge.Line("G0 Z0.1");
-  plunge.Line("G0 Z5");
-  const VerifyReport second = Judged(surface, Ball(3.0), plunge.End(), params);
-  EXPECT_FALSE(second.motion_ok);
-  EXPECT_EQ(Find(second, "RAPID_IN_STOCK")->where.line, down);
-
-  // A rapid may gouge as well.
-  ProgramText deep(5.0);
-  deep.Line("G0 X2 Y2");
-  deep.Line("G0 Z-0.3");
-  deep.Line("G0 Z5");
-  EXPECT_NEAR(Judged(surface, Ball(3.0), deep.End(), params).max_gouge, 0.3, kCertainty);
-}
-
-TEST(Verify, EndStateAndFirstMotion) {
-  const Surface surface = SurfaceOf(Plane(5.0));
-  const VerifyParams params = Params(1.0);
-  const std::string head = "G21 G90\nG53 G0 Z0\nT1 M6\nS1000 M3\nM8\nG0 X0 Y0\nZ5\nG1 Z0 F100\nG0 Z5\n";
-  EXPECT_TRUE(Judged(surface, Ball(3), head + kEnd, params).motion_ok);
-  const VerifyReport open = Judged(surface, Ball(3), head, params);
-  EXPECT_FALSE(open.motion_ok);
-  EXPECT_NE(Find(open, "SPINDLE_LEFT_ON"), nullptr);
-  EXPECT_NE(Find(open, "COOLANT_LEFT_ON"), nullptr);
-  EXPECT_EQ(Find(open, "LAST_MOTION_NOT_UP"), nullptr);
-  const VerifyReport low = Judged(surface, Ball(3), head + "G1 Z0\nM2\n", params);
-  EXPECT_NE(Find(low, "LAST_MOTION_NOT_UP"), nullptr);
-  const VerifyReport start = Judged(surface, Ball(3), std::string("G21 G90\nG0 X0 Y0\nZ5\n") + kEnd, params);
-  EXPECT_NE(Find(start, "FIRST_MOTION_NOT_UP"), nullptr);
-}
-
-TEST(Verify, SteepDescentsRunAtPlungeFeed) {
-  const Surface surface = SurfaceOf(Plane(5.0));
-  Tool tool = Ball(3.0);
-  tool.plunge_feed = 100;
-  const std::string head = "G21 G90\nG53 G0 Z0\nG0 X0 Y0\nZ5\n";
-  EXPECT_TRUE(Judged(surface, tool, head + "G1 Z0 F100\nG1 X4 F900\n" + kEnd, Params(1.0)).motion_ok);
-  const VerifyReport report = Judged(surface, tool, head + "G1 X1 Z0 F900\nX4\n" + kEnd, Params(1.0));
-  EXPECT_FALSE(report.motion_ok);
-  EXPECT_EQ(*Find(report, "STEEP_DESCENT")->where.line, 5);
-  EXPECT_NEAR(report.steepest_descent, std::atan2(5.0, 1.0), 1e-12);
-}
-
 TEST(Verify, ControlSmoothingCounts) {
   const double r = 3.0, half = 6.0;
   const Surface surface = SurfaceOf(Plane(half));
@@ -380,14 +302,6 @@ TEST(Verify, ForcedContoursAreExcusedOnLevelGround) {
   EXPECT_TRUE(Judged(wall, Ball(3.0), above.End(), params).finish_ok);
   params.zigzag_angle = 0.0;
   EXPECT_FALSE(Judged(wall, Ball(3.0), above.End(), params).finish_ok);
-}
-
-TEST(Verify, RequiredStickout) {
-  ProgramText text(30.0);
-  text.Pass({{9.0, -4, 1.0}, {9.0, 4, 1.0}});
-  VerifyParams params = Params(21.0);
-  const VerifyReport report = Judged(SurfaceOf(Block(5.0, 20.0, 30.0)), Ball(4.0), text.End(), params);
-  EXPECT_NEAR(report.required_stickout, 20.5 - 1.0, 0.1);
 }
 
 TEST(Verify, RefusesNonsense) {

@@ -1,0 +1,264 @@
+// P1 and P3 of whole programs: every kind of motion, rapids, starts, ends and descents.
+#include <chrono>
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "cam/verify/motion_figures.h"
+#include "tests/cam/verify/verify_models.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+TEST(VerifyMotion, RapidInStock) {
+  const double half = 10.0;
+  const Surface surface = SurfaceOf(Plane(half));
+  VerifyParams params = Params(0.5);
+  ProgramText ok(5.0);
+  ok.Line("G0 X-15 Y0");
+  ok.Line("G0 Z1");
+  ok.Line("G0 X8");  // above the stock
+  ok.Line("G1 Z0 F100");
+  ok.Line("G0 Z5");  // straight up out of the cut
+  EXPECT_TRUE(Judged(surface, Ball(3.0), ok.End(), params).motion_ok);
+
+  ProgramText bad(5.0);
+  bad.Line("G0 X-15 Y0");
+  bad.Line("G0 Z0.2");
+  const int line = bad.Line("G0 X8");
+  bad.Line("G0 Z5");
+  const VerifyReport report = Judged(surface, Ball(3.0), bad.End(), params);
+  EXPECT_FALSE(report.motion_ok);
+  EXPECT_TRUE(report.gouge_ok);
+  const Diagnostic* finding = Find(report, "RAPID_IN_STOCK");
+  ASSERT_NE(finding, nullptr);
+  EXPECT_EQ(finding->where.line, line);
+
+  ProgramText plunge(5.0);
+  plunge.Line("G0 X2 Y2");
+  const int down = plunge.Line("G0 Z0.1");
+  plunge.Line("G0 Z5");
+  const VerifyReport second = Judged(surface, Ball(3.0), plunge.End(), params);
+  EXPECT_FALSE(second.motion_ok);
+  EXPECT_EQ(Find(second, "RAPID_IN_STOCK")->where.line, down);
+
+  // A rapid may gouge as well.
+  ProgramText deep(5.0);
+  deep.Line("G0 X2 Y2");
+  deep.Line("G0 Z-0.3");
+  deep.Line("G0 Z5");
+  EXPECT_NEAR(Judged(surface, Ball(3.0), deep.End(), params).max_gouge, 0.3, kCertainty);
+}
+
+TEST(VerifyMotion, EndStateAndFirstMotion) {
+  const Surface surface = SurfaceOf(Plane(5.0));
+  const VerifyParams params = Params(1.0);
+  const std::string head = "G21 G90\nG53 G0 Z0\nT1 M6\nS1000 M3\nM8\nG0 X0 Y0\nZ5\nG1 Z0 F100\nG0 Z5\n";
+  EXPECT_TRUE(Judged(surface, Ball(3), head + kEnd, params).motion_ok);
+  const VerifyReport open = Judged(surface, Ball(3), head, params);
+  EXPECT_FALSE(open.motion_ok);
+  EXPECT_NE(Find(open, "SPINDLE_LEFT_ON"), nullptr);
+  EXPECT_NE(Find(open, "COOLANT_LEFT_ON"), nullptr);
+  EXPECT_EQ(Find(open, "LAST_MOTION_NOT_UP"), nullptr);
+  const VerifyReport low = Judged(surface, Ball(3), head + "G1 Z0\nM2\n", params);
+  EXPECT_NE(Find(low, "LAST_MOTION_NOT_UP"), nullptr);
+  const VerifyReport start = Judged(surface, Ball(3), std::string("G21 G90\nG0 X0 Y0\nZ5\n") + kEnd, params);
+  EXPECT_NE(Find(start, "FIRST_MOTION_NOT_UP"), nullptr);
+}
+
+TEST(VerifyMotion, SteepDescentsRunAtPlungeFeed) {
+  const Surface surface = SurfaceOf(Plane(5.0));
+  Tool tool = Ball(3.0);
+  tool.plunge_feed = 100;
+  const std::string head = "G21 G90\nG53 G0 Z0\nG0 X0 Y0\nZ5\n";
+  EXPECT_TRUE(Judged(surface, tool, head + "G1 Z0 F100\nG1 X4 F900\n" + kEnd, Params(1.0)).motion_ok);
+  const VerifyReport report = Judged(surface, tool, head + "G1 X1 Z0 F900\nX4\n" + kEnd, Params(1.0));
+  EXPECT_FALSE(report.motion_ok);
+  EXPECT_EQ(*Find(report, "STEEP_DESCENT")->where.line, 5);
+  EXPECT_NEAR(report.steepest_descent, std::atan2(5.0, 1.0), 1e-12);
+}
+
+// A gouge of 0.3 mm at X2 Y2, planted into each kind of motion that a program can have.
+TEST(VerifyMotion, NoKindOfMotionMayGouge) {
+  struct Case {
+    const char* kind;
+    std::vector<std::string> lines;
+    std::size_t guilty;  // the line that is deepest first
+  };
+  const std::vector<Case> cases = {
+      {"feed", {"G0 X-9 Y2 Z9", "G1 Z-0.3 X2 F100", "G0 Z9"}, 1},
+      {"plunge", {"G0 X2 Y2", "G0 Z9", "G1 Z-0.3 F100", "G0 Z9"}, 2},
+      {"rapid down", {"G0 X2 Y2", "G0 Z9", "G0 Z-0.3", "G0 Z9"}, 2},
+      {"rapid aslant", {"G0 X-9 Y2", "G0 Z9", "G0 X2 Z-0.3", "G0 Z9"}, 2},
+      {"rapid from machine zero", {"G0 X2 Y2", "G0 Z-0.3", "G0 Z9"}, 1},
+      {"rapid from machine zero, aslant", {"G0 X-9 Y-9", "G0 X2 Y2 Z-0.3", "G0 Z9"}, 1},
+      {"feed from machine zero", {"G0 X2 Y2", "G1 Z-0.3 F100", "G0 Z9"}, 1},
+      {"incremental", {"G0 X2 Y2", "G0 Z9", "G91 G1 Z-9.3 F100", "G90 G0 Z9"}, 2},
+      {"arc", {"G0 X0 Y2", "G0 Z9", "G1 Z0.5 F100", "G18 G2 X4 I2 K2.1", "G0 Z9"}, 3},
+      {"arc of the other way", {"G0 X4 Y2", "G0 Z9", "G1 Z0.5 F100", "G18 G3 X0 I-2 K2.1", "G0 Z9"}, 3},
+      {"arc in YZ", {"G0 X2 Y0", "G0 Z9", "G1 Z0.5 F100", "G19 G3 Y4 J2 K2.1", "G0 Z9"}, 3},
+      {"helix", {"G0 X2 Y5", "G0 Z9", "G1 Z0.5 F100", "G17 G3 X2 Y2 Z-0.3 J-1.5", "G0 Z9"}, 3},
+      {"inches", {"G0 X2 Y2", "G0 Z9", "G20 G1 Z-0.0118110236 F9", "G21 G0 Z9"}, 2},
+  };
+  const Surface surface = SurfaceOf(Plane(10.0));
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.kind);
+    ProgramText text(20.0);
+    text.Line("G0 X0 Y0");
+    int guilty = 0;
+    for (std::size_t i = 0; i < c.lines.size(); ++i) {
+      const int line = text.Line(c.lines[i]);
+      if (i == c.guilty) guilty = line;
+    }
+    const VerifyReport report = Judged(surface, Ball(3.0), text.End(), Params(0.5));
+    EXPECT_FALSE(report.gouge_ok);
+    EXPECT_NEAR(report.max_gouge, 0.3, kCertainty);
+    EXPECT_NEAR(report.max_gouge_at.line, guilty, 1);  // the way up out of it is as deep
+    if (std::string(c.kind) == "rapid from machine zero, aslant")
+      continue;  // deep all along, for all we know
+    EXPECT_NEAR(Plan(report.max_gouge_at.point).x(), 2.0, 0.2);
+    EXPECT_NEAR(Plan(report.max_gouge_at.point).y(), 2.0, 0.2);
+  }
+}
+
+TEST(VerifyMotion, WhereTheMachineStandsIsNotGuessed) {
+  const Surface surface = SurfaceOf(Plane(10.0));
+  const std::string head = "G21 G90\nG53 G0 Z0\n";
+  const auto judged = [&](const std::string& lines) {
+    return Judged(surface, Ball(3.0), head + lines + "G0 Z9\n" + kEnd, Params(0.5));
+  };
+  // Down on a slant from wherever the machine stood, or straight down there.
+  for (const char* lines : {"G0 X4 Y4 Z0.2\n", "G1 X4 Y4 Z0 F100\n", "G0 Z0\nG0 X4 Y4\n", "G0 X4\nG0 Z0.2\n",
+                            "G0 Y4\nG1 Z0.2 F100\nG1 X4\n", "G0 Z3\nG1 X4 Z0 F100\nY4\n"}) {
+    const VerifyReport report = judged(lines);
+    EXPECT_FALSE(report.motion_ok) << lines;
+    EXPECT_NE(Find(report, "UNKNOWN_START"), nullptr) << lines << Findings(report);
+  }
+  // Above the stock it does not matter where it comes from.
+  for (const char* lines : {"G0 X4 Y4 Z0.6\nG1 Z0 F100\n", "G0 Z0.6\nG0 X4 Y4\nG1 Z0 F100\n"}) {
+    EXPECT_TRUE(judged(lines).motion_ok) << lines << Findings(judged(lines));
+  }
+}
+
+TEST(VerifyMotion, TheLastMotionEndsOutOfTheStock) {
+  const Surface surface = SurfaceOf(Plane(5.0));
+  const std::string head = "G21 G90\nG53 G0 Z0\nG0 X0 Y0\nZ5\nG1 Z0 F100\n";
+  const auto ends = [&](const std::string& last) {
+    return Find(Judged(surface, Ball(3), head + last + "M2\n", Params(1.0)), "LAST_MOTION_NOT_UP") == nullptr;
+  };
+  EXPECT_FALSE(ends("G1 Z0.001\n"));
+  EXPECT_FALSE(ends("G0 Z0.9\n"));
+  EXPECT_TRUE(ends("G0 Z1\n"));
+  EXPECT_FALSE(ends("G0 Z2\nX1\n"));
+  EXPECT_TRUE(ends("G53 G0 Z0\n"));
+}
+
+TEST(VerifyMotion, DescentsCutIntoSmallStepsAreStillSteep) {
+  const Surface surface = SurfaceOf(Plane(5.0));
+  Tool tool = Ball(3.0);
+  tool.plunge_feed = 100;
+  // From Z1 down by steps of `dz`, `dx` to the side each, to and fro.
+  const auto judged = [&](double dx, double dz, int feed) {
+    std::string text = fmt::format("G21 G90\nG53 G0 Z0\nG0 X0 Y0\nZ1\nF{}\n", feed);
+    for (int i = 1; i * dz <= 1.0; ++i) text += fmt::format("G1 X{:.4f} Z{:.4f}\n", i % 2 * dx, 1.0 - i * dz);
+    return Judged(surface, tool, text + kEnd, Params(1.0));
+  };
+  for (const double dz : {0.0015, 0.005, 0.009}) {
+    EXPECT_NE(Find(judged(0.0, dz, 900), "STEEP_DESCENT"), nullptr) << dz;
+    EXPECT_NE(Find(judged(1.5 * dz, dz, 900), "STEEP_DESCENT"), nullptr) << dz;  // 33.7 degrees
+    EXPECT_EQ(Find(judged(2.0 * dz, dz, 900), "STEEP_DESCENT"), nullptr) << dz;  // 26.6 degrees
+    EXPECT_EQ(Find(judged(0.0, dz, 100), "STEEP_DESCENT"), nullptr) << dz;
+  }
+}
+
+TEST(VerifyMotion, SmoothingOfRapidsCounts) {
+  const Surface surface = SurfaceOf(Plane(10.0));
+  VerifyParams params = Params(0.5);
+  const auto judged = [&](double z, const std::string& mode) {
+    ProgramText text(9.0);
+    text.Line("G0 X-5 Y0");
+    text.Line("G0 Z9");
+    text.Line(mode);
+    text.Line(fmt::format("G0 Z{:.3f}", z));
+    text.Line("G0 X5");
+    text.Line("G0 Z9");
+    text.Line("G61");
+    return Judged(surface, Ball(3.0), text.End(), params);
+  };
+  EXPECT_TRUE(judged(3.0, "G64 P2 Q0").gouge_ok);
+  EXPECT_TRUE(judged(3.0, "G64 P2 Q0").motion_ok);
+  const VerifyReport deep = judged(3.0, "G64 P4 Q0");
+  EXPECT_FALSE(deep.gouge_ok);
+  EXPECT_NE(Find(deep, "CONTROL_SMOOTHING"), nullptr);
+  EXPECT_FALSE(judged(3.0, "G64").gouge_ok);
+  // 0.4 mm above the surface, 0.5 mm of stock: in the stock by 0.1 mm, and smoothed by 0.2 mm more.
+  params.stock_top_z = 4.0;
+  EXPECT_NE(Find(judged(0.6, "G64 P0.2 Q0"), "RAPID_IN_STOCK"), nullptr);
+  EXPECT_EQ(Find(judged(0.8, "G64 P0.2 Q0"), "RAPID_IN_STOCK"), nullptr);
+}
+
+// What the wider shank and the stock around the surface are judged by is as exact as the ball.
+TEST(VerifyMotion, ShankAndStockAreKnownToTheCertainty) {
+  const Surface surface = SurfaceOf(Block(5.0, 20.0, 30.0));
+  Tool tool = Ball(3.0);
+  tool.shank_diameter = 7.0;
+  tool.flute_length = 8.0;
+  const auto along_the_wall = [&](double inside) {  // the shank's axis is 3.5 - inside from the wall
+    ProgramText text(30.0);
+    text.Pass({{8.5 - inside, -4, 1}, {8.5 - inside, 4, 2}});
+    return Judged(surface, tool, text.End(), Params(21.0));
+  };
+  EXPECT_TRUE(along_the_wall(0.0088).gouge_ok);
+  const VerifyReport scrape = along_the_wall(0.0112);
+  EXPECT_FALSE(scrape.gouge_ok);
+  EXPECT_NEAR(scrape.max_gouge, 0.0112, kCertainty);
+  EXPECT_NE(Find(scrape, "SHANK_GOUGE"), nullptr);
+
+  const auto over_the_stock = [&](double inside) {
+    ProgramText text(5.0);
+    text.Line("G0 X-15 Y0");
+    text.Line("G0 Z1");
+    text.Line(fmt::format("G0 X8 Z{:.4f}", 0.5 - inside));
+    text.Line("G0 Z5");
+    return Judged(SurfaceOf(Plane(10.0)), Ball(3.0), text.End(), Params(0.9));
+  };
+  EXPECT_TRUE(over_the_stock(0.0).motion_ok);
+  EXPECT_FALSE(over_the_stock(0.003).motion_ok);
+}
+
+TEST(VerifyMotion, LongMovesOverABigPartCostLittle) {
+  // A mesa in one corner keeps the answer open for all moves that go elsewhere.
+  const Surface surface =
+      SurfaceOf(Join({Plane(50.0), Single(Bilinear({48, 48, 9}, {50, 48, 9}, {48, 50, 9}, {50, 50, 9}))}));
+  ProgramMotion motion;
+  ProgramMove move;
+  move.kind = ProgramMove::Kind::kFeed;
+  for (int i = 0; i < 100'000; ++i) {
+    move.from = move.to;
+    move.to = i % 2 == 0 ? Vec3(-40, 30, 0) : Vec3(30, -40, 0);
+    motion.moves.push_back(move);
+  }
+  const RunContext run(1);
+  const auto start = std::chrono::steady_clock::now();
+  const auto stickout = RequiredStickout(surface, Ball(3.0), motion, Params(10.0), run);
+  ASSERT_TRUE(stickout.ok());
+  EXPECT_NEAR(*stickout, 0.5, 1e-9);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(8));
+  RunContext cancelled(1);
+  cancelled.Cancel();
+  EXPECT_EQ(RequiredStickout(surface, Ball(3.0), motion, Params(10.0), cancelled).status().code(),
+            absl::StatusCode::kCancelled);
+}
+
+TEST(VerifyMotion, RequiredStickout) {
+  ProgramText text(30.0);
+  text.Pass({{9.0, -4, 1.0}, {9.0, 4, 1.0}});
+  VerifyParams params = Params(21.0);
+  const VerifyReport report = Judged(SurfaceOf(Block(5.0, 20.0, 30.0)), Ball(4.0), text.End(), params);
+  EXPECT_NEAR(report.required_stickout, 20.5 - 1.0, 0.1);
+}
+
+}  // namespace
+}  // namespace patchmill
