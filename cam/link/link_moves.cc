@@ -13,8 +13,10 @@ constexpr double kDetour = 3.0;
 
 }  // namespace
 
-LinkMaker::LinkMaker(const Locator& locator, const Locator& stock_locator, const LinkParams& params)
-    : locator_(locator),
+LinkMaker::LinkMaker(const Locator& locator, const Locator& stock_locator, const LinkParams& params,
+                     const RunContext& run)
+    : run_(run),
+      locator_(locator),
       stock_locator_(stock_locator),
       params_(params),
       // T2: two free centres this far apart gouge at most the chord tolerance in between.
@@ -37,8 +39,8 @@ Move LinkMaker::Feed(MoveKind kind, const Vec3& from, const Vec3& to) const {
 bool LinkMaker::StraightIsFree(const Vec3& a, const Vec3& b) const {
   const double length = (b - a).norm();
   if (length <= t2_length_) return true;
-  const double eps = 0.25 * params_.pass.chord_tolerance;
-  return locator_.SweptGouge(a, b, eps) <= params_.pass.chord_tolerance;
+  const double tolerance = params_.pass.chord_tolerance;
+  return locator_.GougeWithin(a, b, tolerance, 0.1 * tolerance);
 }
 
 std::optional<std::vector<Move>> LinkMaker::StayDown(const Vec3& a, const Vec3& b) const {
@@ -47,10 +49,11 @@ std::optional<std::vector<Move>> LinkMaker::StayDown(const Vec3& a, const Vec3& 
   if (length > max_link_) return std::nullopt;
   if (StraightIsFree(a, b)) return std::vector<Move>{Feed(MoveKind::kLink, a, b)};
   if (plan < 1e-6) return std::nullopt;
-  const std::vector<ScanRun> runs = ScanLine(locator_, Plan(a), Plan(b), params_.pass);
+  const std::vector<ScanRun> runs = ScanLine(locator_, Plan(a), Plan(b), params_.pass, &run_);
   if (runs.size() != 1 || runs.front().points.size() < 2) return std::nullopt;
   const auto& points = runs.front().points;
-  // The run must start and end over a and b; below them it would cut into what a pass has left on purpose.
+  // The run must start and end over or under a and b: straight up or down from a free centre to one on the
+  // centre surface nothing is in the way.
   if ((Plan(points.front().center) - Plan(a)).norm() > 1e-6 ||
       (Plan(points.back().center) - Plan(b)).norm() > 1e-6) {
     return std::nullopt;

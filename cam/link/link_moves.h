@@ -13,7 +13,9 @@ namespace patchmill {
 // allowance and gap.
 class LinkMaker {
  public:
-  LinkMaker(const Locator& locator, const Locator& stock_locator, const LinkParams& params);
+  // A cancelled run makes links that are of no use.
+  LinkMaker(const Locator& locator, const Locator& stock_locator, const LinkParams& params,
+            const RunContext& run);
 
   // Feed moves from centre a to centre b that stay down: straight when certified gouge-free (T2 or the swept
   // ball), else along the centre surface; nullopt when neither is short enough. b itself is the last move's
@@ -40,6 +42,7 @@ class LinkMaker {
   double ClearOfStock(const Vec2& q, double z) const;
   bool StraightIsFree(const Vec3& a, const Vec3& b) const;
 
+  const RunContext& run_;
   const Locator& locator_;
   const Locator& stock_locator_;
   const LinkParams& params_;

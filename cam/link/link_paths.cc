@@ -5,6 +5,7 @@
 
 #include "cam/link/link_moves.h"
 #include "cam/link/order_passes.h"
+#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
@@ -60,16 +61,18 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
   }
   LinkResult result;
   result.toolpath.ball_radius = params.radius;
-  result.passes = OrderPasses(regions, std::move(paths),
-                              {.neighbor_distance = params.radius,
-                               .reversible_contours = params.contour_direction == CutDirection::kEither});
+  PM_ASSIGN_OR_RETURN(result.passes,
+                      OrderPasses(regions, std::move(paths),
+                                  {.neighbor_distance = params.radius,
+                                   .reversible_contours = params.contour_direction == CutDirection::kEither},
+                                  run));
   const Locator stock_locator(locator.surface(), params.radius + params.allowance + params.approach_gap);
-  const LinkMaker maker(locator, stock_locator, params);
+  const LinkMaker maker(locator, stock_locator, params, run);
   std::vector<Move>& moves = result.toolpath.moves;
 
   const CutterPoint* end = nullptr;  // where the last pass ended
   for (std::size_t i = 0; i < result.passes.size(); ++i) {
-    if (run.Cancelled()) return run.Check();
+    PM_RETURN_IF_ERROR(run.Check());
     const CutterPath& pass = result.passes[i];
     const CutterPoint& start = pass.points.front();
     std::optional<std::vector<Move>> link;
@@ -85,6 +88,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
     run.Progress("link", static_cast<double>(i + 1) / static_cast<double>(result.passes.size()));
   }
   if (end != nullptr) maker.Retract(*end, moves);
+  PM_RETURN_IF_ERROR(run.Check());
   result.stats = Measure(moves);
   return result;
 }

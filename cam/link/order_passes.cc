@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "core/base/status.h"
+
 namespace patchmill {
 namespace {
 
@@ -107,10 +109,11 @@ void StartAt(CutterPath& path, std::size_t start) {
 }
 
 // Takes the passes of one cluster nearest first; `layered`: a line is finished before the next one is begun.
-void TakeCluster(std::vector<CutterPath>& cluster, bool layered, bool reversible, Vec3& at,
-                 std::vector<CutterPath>& out) {
+// Stops when cancelled.
+void TakeCluster(std::vector<CutterPath>& cluster, bool layered, bool reversible, const RunContext& run,
+                 Vec3& at, std::vector<CutterPath>& out) {
   std::vector<bool> done(cluster.size(), false);
-  for (std::size_t n = 0; n < cluster.size(); ++n) {
+  for (std::size_t n = 0; n < cluster.size() && !run.Cancelled(); ++n) {
     int layer = std::numeric_limits<int>::max();
     if (layered) {
       for (std::size_t i = 0; i < cluster.size(); ++i) {
@@ -136,13 +139,13 @@ void TakeCluster(std::vector<CutterPath>& cluster, bool layered, bool reversible
 
 // Passes of one kind and region, split into connected clusters (one mountain, one field of lines), in order
 // of their first line.
-std::vector<std::vector<CutterPath>> Clusters(std::vector<CutterPath> group, double distance,
-                                              int line_reach) {
+std::vector<std::vector<CutterPath>> Clusters(std::vector<CutterPath> group, double distance, int line_reach,
+                                              const RunContext& run) {
   std::stable_sort(group.begin(), group.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
   std::vector<Box3> boxes;
   for (const CutterPath& path : group) boxes.push_back(PlanBox(path));
   UnionFind sets(group.size());
-  for (std::size_t i = 0; i < group.size(); ++i) {
+  for (std::size_t i = 0; i < group.size() && !run.Cancelled(); ++i) {
     for (std::size_t j = i + 1; j < group.size() && group[j].line - group[i].line <= line_reach; ++j) {
       if (sets.Find(i) == sets.Find(j)) continue;
       if (Near(group[i], boxes[i], group[j], boxes[j], distance) ||
@@ -172,8 +175,8 @@ void Reverse(CutterPath& path) {
   }
 }
 
-std::vector<CutterPath> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
-                                    const OrderParams& params) {
+absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
+                                                    const OrderParams& params, const RunContext& run) {
   // Key: kind, then the region's top from high to low, then its id.
   using Key = std::tuple<int, double, int>;
   std::map<Key, std::vector<CutterPath>> groups;
@@ -194,11 +197,12 @@ std::vector<CutterPath> OrderPasses(const RegionMap& regions, std::vector<Cutter
     const PassKind kind = group.front().kind;
     const bool contour = kind == PassKind::kContour;
     const int reach = contour || kind == PassKind::kZigzag ? 2 : std::numeric_limits<int>::max();
-    for (auto& cluster : Clusters(std::move(group), params.neighbor_distance, reach)) {
+    for (auto& cluster : Clusters(std::move(group), params.neighbor_distance, reach, run)) {
       if (!started) at = cluster.front().points.front().center;
       started = true;
-      TakeCluster(cluster, contour, contour ? params.reversible_contours : true, at, out);
+      TakeCluster(cluster, contour, contour ? params.reversible_contours : true, run, at, out);
     }
+    PM_RETURN_IF_ERROR(run.Check());
   }
   return out;
 }

@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include <absl/status/statusor.h>
+
 #include "cam/region/region_map.h"
 #include "cam/toolpath/cutter_path.h"
+#include "core/base/run_context.h"
 
 namespace patchmill {
 
@@ -19,9 +22,9 @@ struct OrderParams {
 // contours each mountain or basin is cut from the top before the next begins (levels never run ahead of a
 // higher one that touches them in plan); zig-zag lines follow each other to and fro; everything else goes to
 // the nearest end. Closed passes are turned so that they start nearest to where the tool is. Deterministic.
-// Cost O(n^2) in the passes of one group.
-std::vector<CutterPath> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
-                                    const OrderParams& params);
+// Cost O(n^2) in the passes of one group. CANCELLED or DEADLINE_EXCEEDED when `run` says so.
+absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
+                                                    const OrderParams& params, const RunContext& run);
 
 // The same closed path started at its vertex `start`.
 void RotateClosed(CutterPath& path, std::size_t start);

@@ -21,7 +21,7 @@ class Thinner {
         floor_center_(params.floor_z + locator.radius()),
         middle_(stations.size()) {}
 
-  std::vector<CutterPoint> Thin();
+  std::vector<CutterPoint> Thin(const RunContext* run);
 
  private:
   struct Middle {
@@ -127,12 +127,12 @@ CutterPoint Thinner::Certify(const LineStation& s) const {
   return p;
 }
 
-std::vector<CutterPoint> Thinner::Thin() {
+std::vector<CutterPoint> Thinner::Thin(const RunContext* run) {
   std::vector<CutterPoint> points;
   const std::size_t n = stations_.size();
   points.push_back(Certify(stations_[0]));
   std::size_t i = 0;
-  while (i + 1 < n) {
+  while (i + 1 < n && !(run != nullptr && run->Cancelled())) {
     std::size_t barrier = i + 1;
     while (barrier + 1 < n && !stations_[barrier].keep) ++barrier;
     std::size_t j = Farthest(i, barrier);
@@ -155,9 +155,9 @@ double CertificateGap(const PassParams& params) {
 }
 
 std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
-                                      const PassParams& params) {
+                                      const PassParams& params, const RunContext* run) {
   if (stations.empty()) return {};
-  return Thinner(locator, stations, params, CertificateGap(params)).Thin();
+  return Thinner(locator, stations, params, CertificateGap(params)).Thin(run);
 }
 
 }  // namespace patchmill

@@ -16,8 +16,8 @@ double CertificateGap(const PassParams& params);
 // proven by T3 on the stations' supports and followed contacts half way between them, gouge by the swept
 // query (T2 where a chord joins neighbouring stations); heights are certified and raised by their gap.
 // Stations' neighbours must be joined by chords within params.chord_tolerance - CertificateGap(params)
-// already.
+// already. `run` is polled when set: cancelled, the vertices end early.
 std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
-                                      const PassParams& params);
+                                      const PassParams& params, const RunContext* run = nullptr);
 
 }  // namespace patchmill

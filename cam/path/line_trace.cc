@@ -307,7 +307,7 @@ std::vector<std::vector<LineStation>> LineTracer::Run() {
     at->keep = true;
     Emit(*at);
   }
-  while (t < line_.length) {
+  while (t < line_.length && !(params_.run != nullptr && params_.run->Cancelled())) {
     double advance = at ? NextAdvance(*at) : LongestChord(radius_, params_.chord_tolerance);
     // The last two chords share what is left.
     const double rest = line_.length - t;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cam/location/locator.h"
+#include "core/base/run_context.h"
 
 namespace patchmill {
 
@@ -23,6 +24,7 @@ struct LineStation {
 struct LineTraceParams {
   double chord_tolerance = 0.005;    // mm, T2 and T3 between neighbouring stations
   double floor_center = -kInfinity;  // mm, lowest centre height
+  const RunContext* run = nullptr;   // polled when set: a cancelled trace is cut short
 };
 
 // The segment in plan, by arc length.

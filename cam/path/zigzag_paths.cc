@@ -86,7 +86,7 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag", parts.size(), [&](std::size_t i) {
     const Part& part = parts[i];
     runs[i] = ScanLine(locator, prober.frame().At(part.t.begin, part.y),
-                       prober.frame().At(part.t.end, part.y), params);
+                       prober.frame().At(part.t.end, part.y), params, &run);
   }));
   std::vector<CutterPath> paths;
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -51,7 +51,8 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved) {
   p.clearance_z = resolved.clearance_z;
   p.stock_top_z = resolved.stock_top_z;
   p.allowance = job.setup.allowance;
-  p.approach_gap = job.operation.approach_gap;
+  // Whatever is asked for, rapids stay clear by more than rounding and the control's smoothing.
+  p.approach_gap = std::max(job.operation.approach_gap, job.operation.tolerance);
   p.feed = job.operation.tool.feed;
   p.plunge_feed = job.operation.tool.plunge_feed;
   p.contour_direction = job.operation.contour_direction;
@@ -97,7 +98,6 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
 
 std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnostics& assumptions) {
   std::vector<std::string> lines = job.header;
-  lines.push_back(fmt::format("zero: {}", r.zero_name));
   lines.push_back(
       fmt::format("tolerance {:.4g} = chord {:.4g} + rounding {:.4g} + certificate {:.4g} + control {:.4g}, "
                   "scallop {:.4g}, "
@@ -119,7 +119,7 @@ absl::StatusOr<RegionMap> PlanRegions(const Surface& surface, const Job& job, co
 absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
                                                std::string_view text, const VerifyParams& params,
                                                const RunContext& run) {
-  PM_ASSIGN_OR_RETURN(const ProgramMotion motion, ReadProgram(text));
+  PM_ASSIGN_OR_RETURN(const ProgramMotion motion, ReadProgram(text, {.run = &run}));
   return Verify(surface, tool, motion, params, run);
 }
 

@@ -69,7 +69,7 @@ v1::Outcome Judge(const v1::Report& report) {
 
 absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const LoadedModel& model,
                   const RunContext& run, v1::Report* report) {
-  absl::StatusOr<ProgramMotion> motion = ReadProgram(request.program());
+  absl::StatusOr<ProgramMotion> motion = ReadProgram(request.program(), {.run = &run});
   if (!motion.ok()) {
     if (motion.status().code() != absl::StatusCode::kInvalidArgument) return motion.status();
     return ProgramUnreadableError("program: " + std::string(motion.status().message()));

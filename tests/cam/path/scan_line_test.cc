@@ -211,6 +211,18 @@ TEST(ScanLine, RandomSplinesHoldBothTolerances) {
   }
 }
 
+TEST(ScanLine, ACancelledLineIsCutShort) {
+  const Surface surface = SurfaceOf(Bumpy());
+  const Locator locator(surface, 3.0);
+  const Vec2 a(surface.box.min.x(), 10), b(surface.box.max.x(), 40);
+  RunContext run(1);
+  const std::size_t whole = CountPoints(ScanLine(locator, a, b, {}, &run));
+  EXPECT_EQ(whole, CountPoints(ScanLine(locator, a, b, {})));
+  run.Cancel();
+  EXPECT_GT(whole, 20u);
+  EXPECT_LE(CountPoints(ScanLine(locator, a, b, {}, &run)), 1u);
+}
+
 TEST(ScanLine, DegenerateLineIsOnePointOrNothing) {
   const Surface surface = SurfaceOf(Plane(10));
   const Locator locator(surface, 3.0);

@@ -47,6 +47,13 @@ TEST(Report, StatesItsAssumptionsInReportAndProgram) {
   EXPECT_DOUBLE_EQ(result.report.controller_tolerance, 0.3 * job.operation.tolerance);
 }
 
+TEST(Report, TheHeaderSaysWhereZeroIsOnce) {
+  const JobResult result = Mill(PlacedSurface(Saddle(0.02, 0.02, 8)), QuickJob());
+  const std::size_t first = result.program.find("zero: ");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(result.program.find("zero: ", first + 1), std::string::npos);
+}
+
 TEST(Report, IsSilentAboutWhatWasStated) {
   const JobResult result = Mill(PlacedSurface(Saddle(0.02, 0.02, 8)), QuickJob());
   EXPECT_EQ(Find(result.report.diagnostics, "DEFAULT_CUTTING_DATA"), nullptr);
@@ -135,6 +142,19 @@ TEST(Report, CancelIsObeyedWithinTwoHundredMilliseconds) {
     }
     EXPECT_LE(best, limit) << stage;
   }
+}
+
+TEST(Report, ReadingAProgramIsCancelledToo) {
+  const Surface surface = PlacedSurface(RandomBspline(5, {.spans = 2, .size = 15, .amplitude = 3}));
+  std::string text;
+  for (int i = 0; i < 10'000; ++i) text += "(line)\n";
+  text += "G28\n";  // refused, if it is read
+  const Tool tool = BallJob(2.0).operation.tool;
+  RunContext run(1);
+  EXPECT_EQ(VerifyProgramText(surface, tool, text, {}, run).status().code(),
+            absl::StatusCode::kInvalidArgument);
+  run.Cancel();
+  EXPECT_EQ(VerifyProgramText(surface, tool, text, {}, run).status().code(), absl::StatusCode::kCancelled);
 }
 
 TEST(Report, DeadlineIsObeyed) {

@@ -7,14 +7,9 @@
 
 #include "cam/plan/plan.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace patchmill::testing {
-
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
 
 inline constexpr double kTestFeed = 1200.0, kTestPlungeFeed = 400.0;  // mm/min
 

@@ -1,0 +1,12 @@
+// Whether this build runs under AddressSanitizer: times are several times longer then.
+#pragma once
+
+namespace patchmill::testing {
+
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
+}  // namespace patchmill::testing
