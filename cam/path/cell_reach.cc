@@ -22,11 +22,14 @@ double RayDistance(const Vec3& c, const Vec3& q) {
 
 }  // namespace
 
-std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& rect) {
+std::array<Vec2, 9> NineParameters(const SurfaceRect& rect) {
   const double um = 0.5 * (rect.u0 + rect.u1), vm = 0.5 * (rect.v0 + rect.v1);
-  const std::array<Vec2, 9> uv = {Vec2(rect.u0, rect.v0), Vec2(rect.u1, rect.v0), Vec2(rect.u0, rect.v1),
-                                  Vec2(rect.u1, rect.v1), Vec2(um, rect.v0),      Vec2(um, rect.v1),
-                                  Vec2(rect.u0, vm),      Vec2(rect.u1, vm),      Vec2(um, vm)};
+  return {{Vec2(rect.u0, rect.v0), Vec2(rect.u1, rect.v0), Vec2(rect.u0, rect.v1), Vec2(rect.u1, rect.v1),
+           Vec2(um, rect.v0), Vec2(um, rect.v1), Vec2(rect.u0, vm), Vec2(rect.u1, vm), Vec2(um, vm)}};
+}
+
+std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& rect) {
+  const auto uv = NineParameters(rect);
   RectPlaces at;
   for (std::size_t k = 9; k-- > 0;) {
     const SurfaceJet jet = Evaluate(surface, rect.piece, uv[k].x(), uv[k].y());

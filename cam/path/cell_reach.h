@@ -14,8 +14,10 @@ struct SurfaceRect {
   double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
 };
 
-// Nine places on a rectangle: 0..3 the corners, 4..7 the middles of the sides, 8 the middle. Normals are unit
-// and all on one side of the surface.
+// Nine places on a rectangle (u, v): 0..3 the corners, 4..7 the middles of the sides, 8 the middle.
+std::array<Vec2, 9> NineParameters(const SurfaceRect& rect);
+
+// The surface there; normals are unit and all on one side of it.
 struct RectPlaces {
   std::array<Vec3, 9> p, n;
 };

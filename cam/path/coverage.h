@@ -7,6 +7,7 @@
 #include <absl/status/statusor.h>
 
 #include "cam/location/locator.h"
+#include "cam/path/forced_steps.h"
 #include "cam/path/pass_params.h"
 #include "cam/toolpath/cutter_path.h"
 #include "core/base/run_context.h"
@@ -16,11 +17,12 @@ namespace patchmill {
 struct CoverageParams : PassParams {
   double limit = 0.02;      // mm: leftover above this at a reachable point is a spot to mend
   double tolerance = 0.01;  // mm: reachable means free for a ball of radius - tolerance
+  ForcedSteps forced;       // ground that needs shorter steps than these allow is left
   int max_rounds = 6;
 };
 
 // Crease passes and rest passes: finds reachable surface points whose distance to the paths exceeds radius +
-// limit (adaptive sampling with proven second-order bounds), follows the ridges of the leftover (creases: the
+// limit (FindSpots), follows the ridges of the leftover (creases: the
 // two-contact curve itself) and adds certified passes there, until nothing reachable is above the limit or
 // max_rounds is up. Returns the added passes only.
 absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,

@@ -31,6 +31,9 @@ struct Nearby {
 constexpr double kCoarse = 0.25;   // larger rectangles are not looked at by their middles
 constexpr double kFinest = 0.002;  // smaller ones are left: only at points where the normal has no direction
 
+// Ground that needs steps up to this much above the shortest may be left to forced passes or not.
+constexpr double kForcedMargin = 1.05;
+
 class SpotFinder {
  public:
   SpotFinder(const Locator& locator, const Locator& reach, const std::vector<const PathTree*>& trees,
@@ -52,6 +55,7 @@ class SpotFinder {
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
                    const NearMove& near) const;
   bool Covered(const Vec3* hull, int count, const NearMove& move) const;
+  bool Asked(const SurfaceJet& jet, const Vec3& e) const;
   std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e) const;
 
   const Surface& surface_;
@@ -81,6 +85,12 @@ bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) cons
     if (SegmentDistance(hull[i], s.a, s.b) > limit) return false;
   }
   return true;
+}
+
+bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
+  const double slope = std::acos(std::clamp(e.z(), -1.0, 1.0));
+  return slope >= params_.window.min && slope <= params_.window.max &&
+         NeededStep(params_.forced, jet, e, radius_, params_.scallop) >= params_.forced.min_fraction;
 }
 
 // The normal of the side from which the point can be finished. Both sides of an upright face count.
@@ -141,8 +151,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
     const NearMove nearest = NearestTo(p, 2.0 * radius_, near);
     if (Covered(hull.data(), count, nearest)) return;
     const double leftover = std::min(nearest.distance - radius_, radius_);
-    const double slope = std::acos(std::clamp(e.z(), -1.0, 1.0));
-    if (leftover > params_.limit && slope >= params_.window.min && slope <= params_.window.max) {
+    if (leftover > params_.limit && Asked(jet, e)) {
       if (const auto side = ReachableSide(p, e)) {
         out.push_back({at, *side, p + radius_ * *side, leftover, rect});
         return;
@@ -151,6 +160,10 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   }
   constexpr int kDeepest = 60;
   if (size < kFinest * flat_ || depth >= kDeepest) return;
+  if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, radius_, params_.scallop,
+                                              kForcedMargin * params_.forced.min_fraction)) {
+    return;
+  }
   // Larger rectangles with a pass nearby have reachable ground.
   if (size < (near.segment < 0 ? 8.0 : kCoarse) * flat_) {
     const auto places = PlacesOn(surface_, rect);

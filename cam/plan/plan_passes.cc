@@ -72,19 +72,17 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator, params, run));
     Append(planned.paths, std::move(lines));
   }
-  // Forced contours leave whole flats to STRATEGY, and searching them for spots takes longer than the job:
-  // they get no rest passes.
-  if (op.strategy != Strategy::kContour) {
-    CoverageParams params;
-    static_cast<PassParams&>(params) = base;
-    params.limit = op.scallop + kCoverageShare * op.tolerance;
-    params.tolerance = op.tolerance;
-    // Forced lines answer for the slopes where their steps are not clamped; what is steeper is reported as
-    // STRATEGY.
-    if (op.strategy == Strategy::kZigzag) params.window.max = kPi / 2.0 - std::asin(base.min_step_fraction);
-    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator, planned.paths, params, run));
-    Append(planned.paths, std::move(rest));
-  }
+  CoverageParams params;
+  static_cast<PassParams&>(params) = base;
+  params.limit = op.scallop + kCoverageShare * op.tolerance;
+  params.tolerance = op.tolerance;
+  // Forced passes answer for the ground where their steps are not clamped; the rest is reported as STRATEGY.
+  if (op.strategy == Strategy::kContour) params.forced.passes = ForcedPasses::kContours;
+  if (op.strategy == Strategy::kZigzag) params.forced.passes = ForcedPasses::kLines;
+  params.forced.angle = op.zigzag_angle;
+  params.forced.min_fraction = base.min_step_fraction;
+  PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator, planned.paths, params, run));
+  Append(planned.paths, std::move(rest));
   LabelRegions(regions, planned.paths);
   return planned;
 }

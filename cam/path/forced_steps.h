@@ -1,0 +1,29 @@
+// What one kind of pass can finish when it is forced upon all ground.
+#pragma once
+
+#include "cam/path/cell_reach.h"
+#include "core/patch/patch.h"
+
+namespace patchmill {
+
+enum class ForcedPasses { kNone, kContours, kLines };
+
+struct ForcedSteps {
+  ForcedPasses passes = ForcedPasses::kNone;
+  double angle = 0.0;          // rad, of the lines
+  double min_fraction = 0.25;  // of the flat step: where shorter steps were needed, nothing is promised
+};
+
+// The step these passes need at a surface point, measured as they are spaced (level heights, or offsets of
+// lines in plan), as a fraction of the flat step: CenterStep across the feed times what the spacing sees of
+// it (ALGORITHMS 5: sin(slope) for levels, cos(phi) for lines). `e`: unit normal, e_z >= 0. 1 when nothing is
+// forced; 0 where no step will do (level ground under contours, ground as hollow as the ball).
+double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
+                  double scallop);
+
+// True when the needed step is below `fraction` all over the rectangle, judged by nine places (second order,
+// twice).
+bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const SurfaceRect& rect,
+                       double radius, double scallop, double fraction);
+
+}  // namespace patchmill

@@ -1,0 +1,24 @@
+// Jobs with a forced strategy over random parts keep the promises of DESIGN 2 on the ground it is for.
+#include "tests/property/random_job.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+class RandomForcedJobs : public ::testing::TestWithParam<int> {};
+
+TEST_P(RandomForcedJobs, KeepThePromises) {
+  const int k = GetParam();
+  const auto seed = static_cast<std::uint64_t>(5000 + k);
+  for (const Strategy strategy : {Strategy::kContour, Strategy::kZigzag}) {
+    RandomJob drawn = DrawJob(seed, /*folds=*/k % 5 == 4, /*rational=*/k % 2 == 1);
+    drawn.job.operation.strategy = strategy;
+    drawn.text += strategy == Strategy::kContour ? ", contours only" : ", lines only";
+    ExpectPromisesKept(drawn, seed);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomForcedJobs, ::testing::Range(0, kSanitized ? 2 : 10));
+
+}  // namespace
+}  // namespace patchmill
