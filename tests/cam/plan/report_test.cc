@@ -49,9 +49,9 @@ TEST(Report, StatesItsAssumptionsInReportAndProgram) {
 
 TEST(Report, TheHeaderSaysWhereZeroIsOnce) {
   const JobResult result = Mill(PlacedSurface(Saddle(0.02, 0.02, 8)), QuickJob());
-  const std::size_t first = result.program.find("zero: ");
+  const std::size_t first = result.program.find("(zero: ");
   ASSERT_NE(first, std::string::npos);
-  EXPECT_EQ(result.program.find("zero: ", first + 1), std::string::npos);
+  EXPECT_EQ(result.program.find("(zero: ", first + 1), std::string::npos);
 }
 
 TEST(Report, IsSilentAboutWhatWasStated) {
