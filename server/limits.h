@@ -28,7 +28,10 @@ inline constexpr std::size_t kMaxRequestIdBytes = 128;
 inline constexpr int kMaxThreads = 64;            // of one job
 inline constexpr int kMaxJobs = 64;               // at once, of one server
 inline constexpr double kMaxJobSeconds = 3600.0;  // default of the server
-inline constexpr double kMaxCutLengthMm = 5e6;    // estimated before planning: plan area / step-over
+// Both estimated before planning, from the box of the control points: its plan and its walls at the flat
+// step-over, and points at the longest chord that the tolerance allows anywhere.
+inline constexpr double kMaxCutLengthMm = 5e6;
+inline constexpr double kMaxPathPoints = 2e7;
 inline constexpr std::size_t kMaxProgramBytes = std::size_t{512} << 20;  // of a made program
 
 // Times of the service itself.

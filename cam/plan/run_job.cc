@@ -179,6 +179,14 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   PM_ASSIGN_OR_RETURN(report.verify, VerifyProgramText(surface, job.operation.tool, program,
                                                        MakeVerifyParams(job, resolved), run));
   clock.Done("verify");
+  const std::optional<double>& stickout = job.operation.tool.stickout;
+  if (stickout && *stickout < report.verify.required_stickout) {
+    report.diagnostics.push_back(Warning(
+        "STICKOUT_TOO_SHORT",
+        fmt::format(
+            "tool.stickout_mm = {:.4g}; material may stand {:.4g} mm above the tip, where the holder is",
+            *stickout, report.verify.required_stickout)));
+  }
   report.diagnostics.insert(report.diagnostics.end(), report.verify.findings.begin(),
                             report.verify.findings.end());
   if (!report.verify.ok()) {

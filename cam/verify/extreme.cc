@@ -21,10 +21,12 @@ absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const E
     const std::size_t chunks = (round->size() + kChunk - 1) / kChunk;
     PM_RETURN_IF_ERROR(ParallelFor(run, round == &second ? stage : nullptr, chunks, [&](std::size_t chunk) {
       const RootSearch search = make();
+      Threshold so_far = threshold;  // what this chunk has found already
       const std::size_t end = std::min(round->size(), (chunk + 1) * kChunk);
       for (std::size_t k = chunk * kChunk; k < end && !run.Cancelled(); ++k) {
         const std::size_t i = (*round)[k];
-        found[i] = search(roots[i], threshold);
+        found[i] = search(roots[i], so_far);
+        so_far.known = std::max(so_far.known, found[i].value);
       }
     }));
     for (const std::size_t i : *round) {

@@ -22,7 +22,9 @@ struct Extreme {
 
 struct Extremes {
   Extreme worst;
-  std::vector<Extreme> violations;  // the worst of each root cell above the limit, largest first
+  // One of each root cell with something above the limit, largest first: its worst, or the first one found
+  // when it is surely not the worst of all.
+  std::vector<Extreme> violations;
 };
 
 // What branch and bound compares with: cells that cannot exceed `drop` are left.
@@ -43,7 +45,8 @@ struct Threshold {
 using RootSearch = std::function<Extreme(const CellRect& root, const Threshold& threshold)>;
 using MakeRootSearch = std::function<RootSearch()>;
 
-// Every eighth root first, then the others knowing what these have found. `known` is attained already.
+// Every eighth root first, then the others knowing what these have found; within a chunk each root knows what
+// the ones before it have found. `known` is attained already.
 absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const Extreme& known, double limit,
                                      double certainty, const MakeRootSearch& make, const RunContext& run,
                                      const char* stage);

@@ -26,6 +26,40 @@ struct Sample {
   double element = 0.0;             // |S_u x S_v|
 };
 
+struct Sums {
+  AreaReport report;
+  CellRect lowest;  // where report.lowest_center was seen: a rectangle without size
+};
+
+// Centre height over a point that only the floor forbids; infinity for any other point.
+double CenterBelowFloor(const Surface& surface, PieceId piece, double u, double v, const ReachParams& reach) {
+  const SurfaceJet jet = Evaluate(surface, piece, u, v);
+  const auto facing = FacingAt(jet);
+  if (!facing || ReachAt(surface, jet.p, *facing, reach) != ReachClass::kFloor) return kInfinity;
+  return jet.p.z() + reach.radius * facing->e.z();
+}
+
+// The lowest centre of all that a pattern search finds around the lowest sample.
+double LowestCenter(const Surface& surface, const Sums& sums, const ReachParams& reach) {
+  double best = sums.report.lowest_center;
+  double u = sums.lowest.u0, v = sums.lowest.v0;
+  if (!std::isfinite(best)) return best;
+  int left = 2000;  // of evaluations
+  for (double step = 0.0625; step > 1e-6; step *= 0.5) {
+    for (int k = 0; k < 9 && left > 0; ++k, --left) {
+      const double x = std::clamp(u + (k / 3 - 1) * step, 0.0, 1.0);
+      const double y = std::clamp(v + (k % 3 - 1) * step, 0.0, 1.0);
+      const double z = CenterBelowFloor(surface, sums.lowest.piece, x, y, reach);
+      if (z >= best - 1e-9) continue;
+      best = z;
+      u = x;
+      v = y;
+      k = -1;  // around the new place
+    }
+  }
+  return best;
+}
+
 bool Unreachable(FinishClass kind) {
   return kind == FinishClass::kUndercut || kind == FinishClass::kConcave || kind == FinishClass::kFloor;
 }
@@ -37,7 +71,7 @@ class AreaSampler {
       : surface_(surface), tree_(tree), params_(params), deepest_(deepest) {}
 
   // Returns whether the border runs through the cell.
-  bool Add(const CellRect& cell, int depth, AreaReport& sums) {
+  bool Add(const CellRect& cell, int depth, Sums& sums) {
     // The middle and the corners: a border that crosses the cell shows. The weights make the area exact for
     // a cubic area element.
     constexpr double kMiddleWeight = 2.0 / 3.0, kCornerWeight = 1.0 / 12.0;
@@ -63,7 +97,7 @@ class AreaSampler {
     const double size = (cell.u1 - cell.u0) * (cell.v1 - cell.v0);
     for (std::size_t k = 0; k < 5; ++k) {
       if (!samples[k]->kind) continue;
-      sums.area[static_cast<std::size_t>(*samples[k]->kind)] +=
+      sums.report.area[static_cast<std::size_t>(*samples[k]->kind)] +=
           size * (k == 4 ? kMiddleWeight : kCornerWeight) * samples[k]->element;
     }
     return border;
@@ -84,16 +118,23 @@ class AreaSampler {
   };
 
   // Cells share corners; halving keeps parameters exact, so equal ones are equal.
-  const Sample& At(PieceId piece, double u, double v, AreaReport& sums) {
+  const Sample& At(PieceId piece, double u, double v, Sums& sums) {
     const auto [at, added] = samples_.try_emplace(Key{piece.value, u, v});
     if (added) {
       const SurfaceJet jet = Evaluate(surface_, piece, u, v);
       at->second = {Classify(jet, piece, sums), jet.du.cross(jet.dv).norm()};
+      if (at->second.kind == FinishClass::kFloor) {
+        const double z = CenterBelowFloor(surface_, piece, u, v, params_.reach);
+        if (z < sums.report.lowest_center) {
+          sums.report.lowest_center = z;
+          sums.lowest = {piece, u, u, v, v};
+        }
+      }
     }
     return at->second;
   }
 
-  std::optional<FinishClass> Classify(const SurfaceJet& jet, PieceId piece, AreaReport& sums) {
+  std::optional<FinishClass> Classify(const SurfaceJet& jet, PieceId piece, Sums& sums) {
     const auto facing = FacingAt(jet);
     if (!facing) return std::nullopt;
     FinishClass kind = FinishClass::kDone;
@@ -110,7 +151,7 @@ class AreaSampler {
         kind = FinishClass::kFloor;
         break;
     }
-    Extreme& known = sums.deepest[static_cast<std::size_t>(kind)];
+    Extreme& known = sums.report.deepest[static_cast<std::size_t>(kind)];
     if (hint_ >= 0) {
       // Any move bounds the distance from above; most points need no search.
       const double most = tree_.Distance(hint_, jet.p) + params_.chord_error - params_.reach.radius;
@@ -126,7 +167,7 @@ class AreaSampler {
     if (kind == FinishClass::kDone && left > params_.limit) {
       kind = BeyondStrategy(jet, facing->e, params_) ? FinishClass::kStrategy : FinishClass::kAboveLimit;
     }
-    Extreme& deepest = sums.deepest[static_cast<std::size_t>(kind)];
+    Extreme& deepest = sums.report.deepest[static_cast<std::size_t>(kind)];
     if (left > deepest.value) {
       deepest = {left, jet.p, piece, nearest.segment < 0 ? -1 : tree_.segment(nearest.segment).move};
     }
@@ -175,24 +216,26 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
                                         const RunContext& run) {
   constexpr std::size_t kChunk = 64;
   const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
-  std::vector<AreaReport> parts(chunks);
+  std::vector<Sums> parts(chunks);
   std::vector<std::vector<std::size_t>> borders(chunks);
   const auto sample = [&](int deepest, const char* stage) {
     return ParallelFor(run, stage, chunks, [&](std::size_t chunk) {
       AreaSampler sampler(surface, tree, params, deepest);
-      AreaReport& sums = parts[chunk];
+      Sums& sums = parts[chunk];
       const std::vector<std::size_t> again = std::move(borders[chunk]);
       borders[chunk].clear();
       const auto add = [&](std::size_t i) {
-        AreaReport root;
-        root.deepest = sums.deepest;
+        Sums root = sums;
+        root.report.area = {};
         const bool border = sampler.Add(roots[i], 0, root);
-        sums.deepest = root.deepest;
+        const std::array<double, kFinishClasses> before = sums.report.area, here = root.report.area;
+        sums = root;
+        sums.report.area = before;
         if (border && deepest == 0) {
           borders[chunk].push_back(i);
           return;
         }
-        for (std::size_t k = 0; k < kFinishClasses; ++k) sums.area[k] += root.area[k];
+        for (std::size_t k = 0; k < kFinishClasses; ++k) sums.report.area[k] += here[k];
       };
       if (deepest > 0) {
         for (std::size_t k = 0; k < again.size() && !run.Cancelled(); ++k) add(again[k]);
@@ -209,14 +252,21 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
   int deepest = 1;
   while (deepest < kDeepestBorder && cells * std::exp2(deepest + 1) <= kBorderCells) ++deepest;
   PM_RETURN_IF_ERROR(sample(deepest, nullptr));
-  AreaReport sums;
-  for (const AreaReport& part : parts) {
+  Sums sums;
+  for (const Sums& part : parts) {
     for (std::size_t k = 0; k < kFinishClasses; ++k) {
-      sums.area[k] += part.area[k];
-      if (part.deepest[k].value > sums.deepest[k].value) sums.deepest[k] = part.deepest[k];
+      sums.report.area[k] += part.report.area[k];
+      if (part.report.deepest[k].value > sums.report.deepest[k].value) {
+        sums.report.deepest[k] = part.report.deepest[k];
+      }
+    }
+    if (part.report.lowest_center < sums.report.lowest_center) {
+      sums.report.lowest_center = part.report.lowest_center;
+      sums.lowest = part.lowest;
     }
   }
-  return sums;
+  sums.report.lowest_center = LowestCenter(surface, sums, params.reach);
+  return sums.report;
 }
 
 }  // namespace patchmill

@@ -68,11 +68,15 @@ class Judge {
   void ReportPlaces(const std::string& code, const std::vector<Extreme>& found, const char* what) {
     std::vector<const Extreme*> kept;
     for (const Extreme& e : found) {
-      if (kept.size() >= kMostFindings) break;
       const bool known = std::any_of(kept.begin(), kept.end(), [&](const Extreme* k) {
         return Line(k->move) == Line(e.move) || (k->point - e.point).norm() < radius_;
       });
       if (known) continue;
+      if (kept.size() >= kMostFindings) {
+        Report("MORE_FINDINGS", fmt::format("{} at more places than the {} listed", code, kMostFindings));
+        report_.findings.back().severity = Severity::kInfo;
+        break;
+      }
       kept.push_back(&e);
       const VerifyPlace place = Place(e);
       Report(code,
@@ -175,6 +179,9 @@ class Judge {
     take(FinishClass::kConcave, 1);
     take(FinishClass::kFloor, 2);
     take(FinishClass::kStrategy, 4);
+    if (std::isfinite(areas.lowest_center)) {
+      report_.finishing_floor_z = std::floor((areas.lowest_center - ball_) * 1e3) / 1e3;
+    }
     for (const double area : areas.area) report_.total_area += area;
     report_.reachable_area = areas.area[at(FinishClass::kDone)] + areas.area[at(FinishClass::kAboveLimit)];
     report_.leftover_above_limit_area = areas.area[at(FinishClass::kAboveLimit)];

@@ -57,6 +57,9 @@ struct VerifyReport {
   std::array<double, 5> unreachable_area{};       // mm^2 by reason
   std::array<double, 5> deepest_unreachable{};    // mm of leftover by reason
   std::array<VerifyPlace, 5> deepest_unreachable_at;
+  // Lowest tip that a place unreachable for FLOOR needs, placed frame, to about 0.001 mm and rounded down to
+  // it: with this floor (almost) nothing is left for that reason. Absent: nothing is.
+  std::optional<double> finishing_floor_z;
   double leftover_above_limit_area = 0.0;  // mm^2, reachable and above scallop + tolerance
   double required_stickout = 0.0;          // mm: highest material near the tool minus the tip, from above
   double steepest_descent = 0.0;           // rad, of feed moves
@@ -65,7 +68,7 @@ struct VerifyReport {
   double cut_length = 0.0, rapid_length = 0.0;
   // GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK (each the 20 worst, of different lines and places),
   // CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START, FIRST_MOTION_NOT_UP, LAST_MOTION_NOT_UP,
-  // SPINDLE_LEFT_ON, COOLANT_LEFT_ON. All are errors.
+  // SPINDLE_LEFT_ON, COOLANT_LEFT_ON: errors. MORE_FINDINGS when a list of 20 was not long enough: info.
   Diagnostics findings;
   bool ok() const { return gouge_ok && finish_ok && motion_ok; }
 };

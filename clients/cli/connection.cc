@@ -15,7 +15,7 @@
 namespace patchmill::cli {
 namespace {
 
-constexpr std::size_t kMaxMessageBytes = std::size_t{64} << 20;  // the contract's, both ends
+constexpr std::size_t kMaxMessageBytes = kMaxFileBytes;  // both ends
 
 constexpr struct {
   const char* field;

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -17,10 +16,16 @@ absl::StatusOr<std::string> ReadWholeFile(const std::string& path) {
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) return absl::InvalidArgumentError(fmt::format("cannot read {}: {}", path, std::strerror(errno)));
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
+  std::string bytes, block(std::size_t{1} << 20, '\0');
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+    bytes.append(block, 0, static_cast<std::size_t>(in.gcount()));
+    if (bytes.size() > kMaxFileBytes) {
+      return absl::InvalidArgumentError(
+          fmt::format("{} has more than {} MiB, the limit of a request", path, kMaxFileBytes >> 20));
+    }
+  }
   if (in.bad()) return absl::InvalidArgumentError(fmt::format("cannot read {}", path));
-  return bytes.str();
+  return bytes;
 }
 
 }  // namespace patchmill::cli

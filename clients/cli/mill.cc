@@ -39,9 +39,9 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
   *job.mutable_source() = *std::move(source);
   *job.mutable_setup() = *std::move(setup);
   *job.add_operations() = MakeOperation(options.operation);
-  job.set_name(std::filesystem::path(options.model).filename().string().substr(0, 100));
-  request.mutable_post()->set_dialect(options.post);
-  request.mutable_post()->set_work_offset(options.work_offset);
+  job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
+  request.mutable_post()->set_dialect(WireText(options.post, 100));
+  request.mutable_post()->set_work_offset(WireText(options.work_offset, 100));
   for (const v1::Output output : {v1::OUTPUT_PROGRESS, v1::OUTPUT_PROGRAM, v1::OUTPUT_REPORT}) {
     request.add_outputs(output);
   }

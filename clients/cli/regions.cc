@@ -35,7 +35,7 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
   *job.mutable_source() = *std::move(source);
   *job.mutable_setup() = *std::move(setup);
   *job.add_operations() = MakeOperation(options.operation);
-  job.set_name(std::filesystem::path(options.model).filename().string().substr(0, 100));
+  job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   request.add_outputs(ending == ".svg" ? v1::OUTPUT_PICTURE : v1::OUTPUT_REGIONS);
   request.set_max_threads(options.common.threads);
   if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;

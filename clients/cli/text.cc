@@ -1,5 +1,7 @@
 #include "clients/cli/text.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
@@ -56,6 +58,36 @@ std::string UnreachableLine(const v1::Report& report) {
                         Short(part.reason()), part.area_mm2(), part.deepest_leftover_mm());
   }
   return text;
+}
+
+std::string WireText(std::string_view text, std::size_t most) {
+  // Length of the character at the start of `s`, 0 when it is none.
+  const auto length = [](std::string_view s) -> std::size_t {
+    const auto byte = [&](std::size_t k) { return k < s.size() ? static_cast<unsigned char>(s[k]) : 0u; };
+    const unsigned lead = byte(0), next = byte(1);
+    const std::size_t n = lead < 0x80   ? 1
+                          : lead < 0xC2 ? 0
+                          : lead < 0xE0 ? 2
+                          : lead < 0xF0 ? 3
+                          : lead < 0xF5 ? 4
+                                        : 0;
+    for (std::size_t k = 1; k < n; ++k) {
+      if ((byte(k) & 0xC0) != 0x80) return 0;
+    }
+    // Overlong forms, surrogates and what lies beyond U+10FFFF.
+    const bool bad = (lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) ||
+                     (lead == 0xF0 && next < 0x90) || (lead == 0xF4 && next > 0x8F);
+    return bad ? 0 : n;
+  };
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t n = length(text);
+    const std::string_view character = n == 0 ? std::string_view("?") : text.substr(0, n);
+    if (out.size() + character.size() > most) break;
+    out += character;
+    text.remove_prefix(std::max<std::size_t>(n, 1));
+  }
+  return out;
 }
 
 std::string Json(const google::protobuf::Message& message) {

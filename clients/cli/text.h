@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <google/protobuf/message.h>
 
@@ -22,6 +23,10 @@ std::string Line(const v1::Point3& point);
 std::string Line(const v1::Place& place);
 // "UNDERCUT 12.3 mm2, CONCAVE 4.5 mm2"; empty when nothing is left out.
 std::string UnreachableLine(const v1::Report& report);
+
+// What the contract takes as text: at most `most` bytes of UTF-8, cut between characters; bytes that are none
+// become '?'.
+std::string WireText(std::string_view text, std::size_t most);
 
 // The proto's own field names, zeros printed, one field a line.
 std::string Json(const google::protobuf::Message& message);

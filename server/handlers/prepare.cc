@@ -1,8 +1,10 @@
 #include "server/handlers/prepare.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
-#include "cam/path/spacing.h"
+#include "cam/plan/resolve.h"
 #include "core/base/status.h"
 #include "server/call.h"
 #include "server/convert/job.h"
@@ -13,16 +15,22 @@
 namespace patchmill {
 namespace {
 
-// Passes over the plan of the control points' box at the flat step-over: an estimate that costs nothing.
-absl::Status CheckCutLength(const Job& job, const PatchModel& model) {
+// Passes over the control points' box, its plan and its walls, at the flat step-over: an estimate that costs
+// nothing.
+absl::Status CheckPathSize(const Job& job, const PatchModel& model) {
   const Box3 box = ControlBox(Place(job.setup.placement, model));
   const Vec3 size = box.max - box.min;
   const double radius = BallRadius(job.operation.tool) + job.operation.leave;
   const double h = job.operation.scallop;
   const double step = 2.0 * std::sqrt(h * (2.0 * radius - h));
-  const double length = size.x() * size.y() / step;
-  if (length <= limits::kMaxCutLengthMm) return absl::OkStatus();
-  return LimitError("estimated_cut_length_mm", limits::kMaxCutLengthMm, length);
+  const double length = (size.x() * size.y() + 2.0 * (size.x() + size.y()) * size.z()) / step;
+  if (!(length <= limits::kMaxCutLengthMm)) {
+    return LimitError("estimated_cut_length_mm", limits::kMaxCutLengthMm, length);
+  }
+  const double sagitta = SplitBudget(job.operation.tolerance).chord;
+  const double points = length / (2.0 * std::sqrt(sagitta * (2.0 * radius - sagitta)));
+  if (points <= limits::kMaxPathPoints) return absl::OkStatus();
+  return LimitError("estimated_point_count", limits::kMaxPathPoints, points);
 }
 
 }  // namespace
@@ -48,7 +56,7 @@ absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post)
   PM_ASSIGN_OR_RETURN(prepared.model, LoadModel(job.source(), "job.source"));
   PM_RETURN_IF_ERROR(RequireSound(prepared.model));
   prepared.job.unitless_file = prepared.model.unitless;
-  PM_RETURN_IF_ERROR(CheckCutLength(prepared.job, prepared.model.model));
+  PM_RETURN_IF_ERROR(CheckPathSize(prepared.job, prepared.model.model));
   prepared.digest = JobDigest(prepared.job, prepared.model.digest, prepared.name);
   if (!prepared.name.empty()) prepared.job.header.push_back("part: " + prepared.name);
   prepared.job.header.push_back(fmt::format("made by Patchmill {}", ServerVersion()));

@@ -59,7 +59,7 @@ class Cli : public ::testing::Test {
   std::string bump_ = in_.Write("bump.json", Json(testing::Bump()));
   // Hours of work.
   std::string long_ = in_.Write("long.pb", testing::Bump(600.0).SerializeAsString());
-  std::vector<std::string> fine_ = {"--scallop", "0.002", "--tolerance", "0.001", "--tool-diameter", "2"};
+  std::vector<std::string> fine_ = {"--scallop", "0.002", "--tolerance", "0.01", "--tool-diameter", "2"};
 };
 
 TEST_F(Cli, MillWritesProgramReportAndPicture) {
@@ -77,6 +77,30 @@ TEST_F(Cli, MillWritesProgramReportAndPicture) {
   EXPECT_THAT(run.out, IsEmpty());
   EXPECT_THAT(run.err, AllOf(HasSubstr("COMPLETE, verified"), HasSubstr("DEFAULT_CUTTING_DATA")));
   EXPECT_THAT(run.err, Not(HasSubstr("\r"))) << "a progress bar in a pipe";
+}
+
+// A file's name is not text until it is made so: cut between characters, other bytes replaced.
+TEST_F(Cli, ModelsMayHaveAnyName) {
+  std::string umlauts;
+  for (int i = 0; i < 60; ++i) umlauts += "\u00fc";
+  for (const std::string& name :
+       {std::string("b\xff\xc3.json"), umlauts + ".json", "x" + umlauts + ".json"}) {
+    const std::string model = in_.Write(name, Json(testing::Bump()));
+    const Finished run = Mill(model);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, Not(HasSubstr("libprotobuf")));
+    EXPECT_EQ(Patchmill({"regions", model, "-o", out_ / "map.json"}).status, 0);
+  }
+  const Finished post = Mill(bump_, {"--post", "\xff"});
+  EXPECT_EQ(post.status, 2);
+  EXPECT_THAT(post.err, HasSubstr("post.dialect"));
+}
+
+TEST_F(Cli, EndlessFilesAreNotReadToTheEnd) {
+  const Finished run = Mill("/dev/zero");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("more than 64 MiB"));
+  EXPECT_THAT(out_.Names(), IsEmpty());
 }
 
 TEST_F(Cli, QuietSaysNothingOfASuccess) {

@@ -266,6 +266,21 @@ TEST_F(GenerateProgram, AJobTooLargeIsRefusedBeforeItIsPlanned) {
   EXPECT_GT(info.actual_value(), info.limit_value());
 }
 
+// Neither hides behind a small plan: a wall has no plan, and small steps make many points.
+TEST_F(GenerateProgram, WallsAndPointsAreCountedToo) {
+  v1::GenerateProgramRequest wall = BumpRequest(90'000.0);
+  wall.mutable_job()->mutable_setup()->set_up(v1::UP_AXIS_X);
+  EXPECT_THAT(embedded_.Generate(wall).status,
+              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
+  v1::GenerateProgramRequest fine = BumpRequest(120.0);
+  v1::Operation& op = *fine.mutable_job()->mutable_operations(0);
+  op.mutable_tool()->mutable_ball_end()->set_diameter_mm(0.2);
+  op.set_scallop_mm(0.001);
+  op.set_tolerance_mm(0.0001);
+  EXPECT_THAT(embedded_.Generate(fine).status,
+              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_point_count")));
+}
+
 // The server has let go of a cancelled job when its one place is free again.
 TEST(Cancel, IsObeyedWithin200Milliseconds) {
   ServerOptions options;

@@ -62,7 +62,7 @@ inline v1::GenerateProgramRequest LongRequest() {
   v1::Operation& op = *request.mutable_job()->mutable_operations(0);
   op.mutable_tool()->mutable_ball_end()->set_diameter_mm(2.0);
   op.set_scallop_mm(0.002);
-  op.set_tolerance_mm(0.001);
+  op.set_tolerance_mm(0.01);
   return request;
 }
 

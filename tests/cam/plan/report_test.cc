@@ -54,6 +54,17 @@ TEST(Report, TheHeaderSaysWhereZeroIsOnce) {
   EXPECT_EQ(result.program.find("(zero: ", first + 1), std::string::npos);
 }
 
+TEST(Report, WarnsOfATooShortStickout) {
+  Job job = QuickJob();
+  const Surface surface = PlacedSurface(Saddle(0.02, 0.02, 8));
+  const double needed = Mill(surface, job).report.verify.required_stickout;
+  ASSERT_GT(needed, 1.0);
+  job.operation.tool.stickout = needed + 0.01;
+  EXPECT_EQ(Find(Mill(surface, job).report.diagnostics, "STICKOUT_TOO_SHORT"), nullptr);
+  job.operation.tool.stickout = needed - 0.01;
+  EXPECT_NE(Find(Mill(surface, job).report.diagnostics, "STICKOUT_TOO_SHORT"), nullptr);
+}
+
 TEST(Report, IsSilentAboutWhatWasStated) {
   const JobResult result = Mill(PlacedSurface(Saddle(0.02, 0.02, 8)), QuickJob());
   EXPECT_EQ(Find(result.report.diagnostics, "DEFAULT_CUTTING_DATA"), nullptr);

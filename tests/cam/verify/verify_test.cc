@@ -190,6 +190,47 @@ TEST(Verify, FloorKeepsTheTipUp) {
   EXPECT_FALSE(report.motion_ok) << "these passes go below the floor";
   EXPECT_NE(Find(report, "BELOW_FLOOR"), nullptr);
   EXPECT_TRUE(report.finish_ok);
+  // The lowest contact needs the tip that much lower; with that floor nothing is left for this reason.
+  ASSERT_TRUE(report.finishing_floor_z);
+  EXPECT_LE(*report.finishing_floor_z, -half - strip);
+  EXPECT_GE(*report.finishing_floor_z, -half - strip - 0.0021);
+  params.floor_z = *report.finishing_floor_z;
+  const VerifyReport lower =
+      Judged(SurfaceOf(Plane(half, 0, 1.0, 0)), Ball(r), OverPlane(half, 1.0, r, 0.6).program, params);
+  EXPECT_EQ(lower.unreachable_area[2], 0.0);
+  EXPECT_FALSE(lower.finishing_floor_z);
+}
+
+// Where the lowest place lies within a patch, or the ball is larger by what is left.
+TEST(Verify, TheFinishingFloorOfARoundBottom) {
+  const double a = 0.02, turn = 0.3, leave = 0.25;
+  const Surface surface =
+      SurfaceOf(Transformed(Paraboloid(a, 10.0), Eigen::Affine3d(Eigen::AngleAxisd(turn, Vec3::UnitX()))));
+  ProgramText text(40.0);
+  text.Pass({{0, 0, 20}, {0.1, 0, 20}});
+  VerifyParams params = Params(30.0);
+  params.leave = leave;
+  params.floor_z = 1.0;
+  const VerifyReport report = Judged(surface, Ball(3.0), text.End(), params);
+  ASSERT_TRUE(report.finishing_floor_z);
+  // The lowest point of y sin t + a y^2 cos t, and what is left on it.
+  const double truth = leave - std::sin(turn) * std::tan(turn) / (4 * a);
+  EXPECT_LE(*report.finishing_floor_z, truth + 1e-6);
+  EXPECT_GE(*report.finishing_floor_z, truth - 0.0011);
+}
+
+TEST(Verify, ManyFailuresAreListedInPart) {
+  const double half = 40.0;
+  ProgramText text(40.0);
+  for (double x = -half; x <= half; x += 10.0) text.Pass({{x, -half, 0}, {x, half, 0}});
+  const VerifyReport report = Judged(SurfaceOf(Plane(half)), Ball(3.0), text.End(), Params(30.0));
+  const auto count = [&](const char* code) {
+    return std::count_if(report.findings.begin(), report.findings.end(),
+                         [&](const Diagnostic& d) { return d.code == code; });
+  };
+  EXPECT_FALSE(report.finish_ok);
+  EXPECT_LE(count("LEFTOVER"), 20);
+  EXPECT_NEAR(report.max_leftover, std::hypot(5.0, 3.0) - 3.0, kCertainty);
 }
 
 TEST(Verify, BothSidesOfAVerticalWallCount) {
