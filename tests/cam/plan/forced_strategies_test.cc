@@ -78,7 +78,8 @@ INSTANTIATE_TEST_SUITE_P(Parts, ForcedStrategies,
                          CaseName);
 
 // The step contours need on a plane is sin(slope) of the flat one, and they may not go below a quarter of it:
-// a plane of 16 degrees is theirs (sin = 0.276), one of 12 degrees (0.208) is not.
+// a plane of 16 degrees is theirs (sin = 0.276), one of 8 degrees (0.139) is not: steps of a quarter leave
+// 3.2 times the scallop there.
 TEST(ForcedStrategies, ContoursAnswerForPlanesFromAQuarterOfTheStepOn) {
   Job job = BallJob(3.0);
   job.operation.scallop = 0.02;
@@ -87,10 +88,10 @@ TEST(ForcedStrategies, ContoursAnswerForPlanesFromAQuarterOfTheStepOn) {
   const JobResult finished = Mill(theirs, job);
   EXPECT_TRUE(finished.report.verify.ok()) << Describe(finished);
   EXPECT_EQ(finished.report.verify.unreachable_area[kStrategy], 0.0) << Describe(finished);
-  const Surface flat = PlacedSurface(Plane(10.0, 0.0, std::tan(Radians(12.0))));
+  const Surface flat = PlacedSurface(Plane(10.0, 0.0, std::tan(Radians(8.0))));
   const JobResult excused = Mill(flat, job);
   EXPECT_TRUE(excused.report.verify.ok()) << Describe(excused);
-  EXPECT_EQ(excused.report.verify.leftover_above_limit_area, 0.0);
+  EXPECT_GT(excused.report.verify.unreachable_area[kStrategy], 20.0) << Describe(excused);
 }
 
 // Lines across an upright wall climb it at their full spacing: it is theirs to finish. A wall along the lines

@@ -222,15 +222,21 @@ TEST(Verify, TheFinishingFloorOfARoundBottom) {
 TEST(Verify, ManyFailuresAreListedInPart) {
   const double half = 40.0;
   ProgramText text(40.0);
-  for (double x = -half; x <= half; x += 10.0) text.Pass({{x, -half, 0}, {x, half, 0}});
+  constexpr int kPasses = 23;  // with a ridge between each two
+  const double apart = 2.0 * half / (kPasses - 1);
+  for (int i = 0; i < kPasses; ++i) {
+    const double x = -half + apart * i;
+    text.Pass({{x, -half, 0}, {x, half, 0}});
+  }
   const VerifyReport report = Judged(SurfaceOf(Plane(half)), Ball(3.0), text.End(), Params(30.0));
   const auto count = [&](const char* code) {
     return std::count_if(report.findings.begin(), report.findings.end(),
                          [&](const Diagnostic& d) { return d.code == code; });
   };
   EXPECT_FALSE(report.finish_ok);
-  EXPECT_LE(count("LEFTOVER"), 20);
-  EXPECT_NEAR(report.max_leftover, std::hypot(5.0, 3.0) - 3.0, kCertainty);
+  EXPECT_EQ(count("LEFTOVER"), 20);
+  EXPECT_EQ(count("MORE_FINDINGS"), 1);
+  EXPECT_NEAR(report.max_leftover, std::hypot(0.5 * apart, 3.0) - 3.0, kCertainty);
 }
 
 TEST(Verify, BothSidesOfAVerticalWallCount) {

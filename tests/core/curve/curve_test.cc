@@ -102,9 +102,8 @@ TEST(Curve, BezierFormIsTheSameCurve) {
 
 TEST(Curve, BsplineOfOneSpanIsBezier) {
   Random random(3);
-  BsplineCurve spline{3, {0, 0, 1, 2, 3, 3, 4, 5}, {}};
+  BsplineCurve spline{3, {-1, 0, 1, 2, 4, 5, 5, 6}, {}};  // one span [2,4], not clamped
   for (int k = 0; k < 4; ++k) spline.points.push_back(random.Point(-1, 1));
-  spline.knots = {-1, 0, 1, 2, 4, 5, 5, 6};  // one span [2,4], not clamped
   const auto bezier = ToBezier(Curve(spline));
   ASSERT_TRUE(bezier.ok());
   for (int k = 0; k < 20; ++k) {
