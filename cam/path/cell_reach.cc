@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/location/ray_distance.h"
 #include "cam/path/sheet_border.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
@@ -14,11 +15,6 @@ constexpr double kUpright = 1e-6;     // both sides of a face as upright as this
 constexpr double kMostTurn = 0.7;     // of normals from the middle one
 constexpr double kMostBend = 0.25;    // of the size: what bends more is not judged by nine places
 constexpr double kFloorSlack = 1e-6;  // mm: rounding of a floor at the surface itself
-
-// Distance of q to the upward ray from c.
-double RayDistance(const Vec3& c, const Vec3& q) {
-  return q.z() >= c.z() ? (Plan(q) - Plan(c)).norm() : (q - c).norm();
-}
 
 }  // namespace
 
@@ -69,7 +65,7 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
     if (highest_center + bend < params.floor_z - kFloorSlack) continue;
     const auto farthest = [&](const SurfacePoint& q) {
       double most = 0.0;
-      for (std::size_t k = 0; k < 4; ++k) most = std::max(most, RayDistance(c[k], q.p));
+      for (std::size_t k = 0; k < 4; ++k) most = std::max(most, internal::ToRay(q.p, c[k]).norm());
       return most + bend;
     };
     std::optional<SurfacePoint>& known = blockers[side];

@@ -17,14 +17,14 @@ namespace patchmill {
 struct CoverageParams : PassParams {
   double limit = 0.02;      // mm: leftover above this at a reachable point is a spot to mend
   double tolerance = 0.01;  // mm: reachable means free for a ball of radius - tolerance
-  ForcedSteps forced;       // ground that needs shorter steps than these allow is left
+  ForcedSteps forced;       // ground that needs shorter steps than min_step_fraction of these is left
   int max_rounds = 6;
 };
 
 // Crease passes and rest passes: finds reachable surface points whose distance to the paths exceeds radius +
-// limit (FindSpots), follows the ridges of the leftover (creases: the
-// two-contact curve itself) and adds certified passes there, until nothing reachable is above the limit or
-// max_rounds is up. Returns the added passes only.
+// limit (FindSpots), whatever their slope, follows the ridges of the leftover (creases: the two-contact curve
+// itself) and adds certified passes there, until nothing reachable is above the limit or max_rounds is up.
+// Returns the added passes only.
 absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,
                                                   const std::vector<CutterPath>& paths,
                                                   const CoverageParams& params, const RunContext& run);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/path/across_feed.h"
 #include "cam/path/spacing.h"
 #include "core/diffgeo/forms.h"
 
@@ -11,15 +12,12 @@ namespace patchmill {
 double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                   double scallop) {
   if (forced.passes == ForcedPasses::kNone) return 1.0;
-  const Vec2 line(std::cos(forced.angle), std::sin(forced.angle));
   const bool levels = forced.passes == ForcedPasses::kContours;
-  // Along the feed in the surface, not unit.
-  const Vec3 feed = levels ? Vec3(e.y(), -e.x(), 0.0) : Lift(line * e.z(), -line.dot(Plan(e)));
-  const double length = feed.norm();
-  if (!(length > 1e-12)) return 0.0;
-  const Vec3 across = e.cross(feed / length);
-  const double seen = levels ? std::abs(across.z()) : std::abs(Cross(line, Plan(across)));
-  const double kappa = NormalCurvature(Forms(jet, e), jet, across);
+  const auto across = levels ? AcrossContours(e) : AcrossLines(e, forced.angle);
+  if (!across) return 0.0;
+  const Vec2 line(std::cos(forced.angle), std::sin(forced.angle));
+  const double seen = levels ? std::abs(across->z()) : std::abs(Cross(line, Plan(*across)));
+  const double kappa = NormalCurvature(Forms(jet, e), jet, *across);
   return seen * CenterStep(radius, scallop, kappa) / CenterStep(radius, scallop, 0.0);
 }
 

@@ -10,8 +10,7 @@ enum class ForcedPasses { kNone, kContours, kLines };
 
 struct ForcedSteps {
   ForcedPasses passes = ForcedPasses::kNone;
-  double angle = 0.0;          // rad, of the lines
-  double min_fraction = 0.25;  // of the flat step: where shorter steps were needed, nothing is promised
+  double angle = 0.0;  // rad, of the lines
 };
 
 // The step these passes need at a surface point, measured as they are spaced (level heights, or offsets of

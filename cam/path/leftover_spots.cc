@@ -88,9 +88,7 @@ bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) cons
 }
 
 bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
-  const double slope = std::acos(std::clamp(e.z(), -1.0, 1.0));
-  return slope >= params_.window.min && slope <= params_.window.max &&
-         NeededStep(params_.forced, jet, e, radius_, params_.scallop) >= params_.forced.min_fraction;
+  return NeededStep(params_.forced, jet, e, radius_, params_.scallop) >= params_.min_step_fraction;
 }
 
 // The normal of the side from which the point can be finished. Both sides of an upright face count.
@@ -161,7 +159,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   constexpr int kDeepest = 60;
   if (size < kFinest * flat_ || depth >= kDeepest) return;
   if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, radius_, params_.scallop,
-                                              kForcedMargin * params_.forced.min_fraction)) {
+                                              kForcedMargin * params_.min_step_fraction)) {
     return;
   }
   // Larger rectangles with a pass nearby have reachable ground.

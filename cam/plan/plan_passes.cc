@@ -80,7 +80,6 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
   if (op.strategy == Strategy::kContour) params.forced.passes = ForcedPasses::kContours;
   if (op.strategy == Strategy::kZigzag) params.forced.passes = ForcedPasses::kLines;
   params.forced.angle = op.zigzag_angle;
-  params.forced.min_fraction = base.min_step_fraction;
   PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator, planned.paths, params, run));
   Append(planned.paths, std::move(rest));
   LabelRegions(regions, planned.paths);

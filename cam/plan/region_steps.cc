@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/path/across_feed.h"
 #include "cam/path/spacing.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
@@ -30,18 +31,6 @@ bool ByContours(const Operation& op, const Region& region) {
          (op.strategy == Strategy::kAuto && region.slope == SlopeClass::kSteep);
 }
 
-// Unit tangent across the feed at a point with upward normal e; zero where contours have no direction.
-Vec3 AcrossFeed(const Operation& op, bool contours, const Vec3& e) {
-  Vec3 feed(e.y(), -e.x(), 0.0);
-  if (!contours) {
-    const Vec2 line(std::cos(op.zigzag_angle), std::sin(op.zigzag_angle));
-    feed = Lift(line * e.z(), -line.dot(Plan(e)));
-  }
-  const double length = feed.norm();
-  if (!(length > 1e-9)) return Vec3::Zero();
-  return e.cross(feed / length);
-}
-
 std::vector<Range> PieceSteps(const Piece& piece, const std::vector<int>& labels, int cells, int stride,
                               const RegionMap& map, const Operation& op, double radius) {
   std::vector<Range> steps(map.regions.size());
@@ -54,9 +43,9 @@ std::vector<Range> PieceSteps(const Piece& piece, const std::vector<int>& labels
       const SurfaceJet jet = Evaluate(piece, (i + 0.5) / cells, (j + 0.5) / cells);
       const auto e = UpwardNormal(jet);
       if (!e) continue;
-      const Vec3 across = AcrossFeed(op, ByContours(op, region), *e);
-      if (across.isZero()) continue;
-      const double step = CenterStep(radius, op.scallop, NormalCurvature(Forms(jet, *e), jet, across));
+      const auto across = ByContours(op, region) ? AcrossContours(*e) : AcrossLines(*e, op.zigzag_angle);
+      if (!across) continue;
+      const double step = CenterStep(radius, op.scallop, NormalCurvature(Forms(jet, *e), jet, *across));
       if (step > 0.0) steps[static_cast<std::size_t>(id)].Add(step);
     }
   }

@@ -1,34 +1,11 @@
 #include "cam/region/raw_regions.h"
 
-#include <algorithm>
-#include <numeric>
-
 #include "cam/region/region_border.h"
 #include "core/base/status.h"
+#include "core/base/union_find.h"
 
 namespace patchmill {
 namespace {
-
-// Sets of numbers that grow together; the smallest member stands for its set.
-class UnionFind {
- public:
-  explicit UnionFind(int count) : parent_(static_cast<std::size_t>(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int Find(int i) {
-    while (Parent(i) != i) i = Parent(i) = Parent(Parent(i));
-    return i;
-  }
-  void Unite(int a, int b) {
-    a = Find(a);
-    b = Find(b);
-    Parent(std::max(a, b)) = std::min(a, b);
-  }
-
- private:
-  int& Parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<int> parent_;
-};
 
 const SplitTriangle& Triangle(const std::vector<SplitMesh>& meshes, int piece, int triangle) {
   return meshes[static_cast<std::size_t>(piece)].triangles[static_cast<std::size_t>(triangle)];
@@ -39,25 +16,24 @@ int RawOf(const RawRegions& raw, int piece, int triangle) {
 }
 
 void Connect(const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency, RawRegions& raw) {
-  std::vector<int> first{0};  // triangles of all pieces numbered through
-  for (const SplitMesh& mesh : meshes)
-    first.push_back(first.back() + static_cast<int>(mesh.triangles.size()));
+  std::vector<std::size_t> first{0};  // triangles of all pieces numbered through
+  for (const SplitMesh& mesh : meshes) first.push_back(first.back() + mesh.triangles.size());
   const auto number = [&](int piece, int triangle) {
-    return first[static_cast<std::size_t>(piece)] + triangle;
+    return first[static_cast<std::size_t>(piece)] + static_cast<std::size_t>(triangle);
   };
   UnionFind sets(first.back());
   for (const Adjacency& a : adjacency) {
     if (a.other_piece < 0) continue;
     const auto& own = Triangle(meshes, a.side.piece, a.side.triangle);
     if (own.label == Triangle(meshes, a.other_piece, a.other_triangle).label)
-      sets.Unite(number(a.side.piece, a.side.triangle), number(a.other_piece, a.other_triangle));
+      sets.Join(number(a.side.piece, a.side.triangle), number(a.other_piece, a.other_triangle));
   }
-  std::vector<int> index(static_cast<std::size_t>(first.back()), -1);
+  std::vector<int> index(first.back(), -1);
   for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
     raw.of.emplace_back();
     for (const SplitTriangle& t : meshes[piece].triangles) {
       const int triangle = static_cast<int>(raw.of.back().size());
-      int& region = index[static_cast<std::size_t>(sets.Find(number(static_cast<int>(piece), triangle)))];
+      int& region = index[sets.Find(number(static_cast<int>(piece), triangle))];
       if (region < 0) {
         region = static_cast<int>(raw.regions.size());
         raw.regions.push_back({t.label, 0.0, 0.0});

@@ -225,17 +225,10 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
       const std::vector<std::size_t> again = std::move(borders[chunk]);
       borders[chunk].clear();
       const auto add = [&](std::size_t i) {
-        Sums root = sums;
-        root.report.area = {};
-        const bool border = sampler.Add(roots[i], 0, root);
-        const std::array<double, kFinishClasses> before = sums.report.area, here = root.report.area;
-        sums = root;
+        const std::array<double, kFinishClasses> before = sums.report.area;
+        if (!sampler.Add(roots[i], 0, sums) || deepest > 0) return;
+        borders[chunk].push_back(i);  // its area comes in the next round
         sums.report.area = before;
-        if (border && deepest == 0) {
-          borders[chunk].push_back(i);
-          return;
-        }
-        for (std::size_t k = 0; k < kFinishClasses; ++k) sums.report.area[k] += here[k];
       };
       if (deepest > 0) {
         for (std::size_t k = 0; k < again.size() && !run.Cancelled(); ++k) add(again[k]);

@@ -14,8 +14,8 @@ namespace patchmill {
 
 // Words are separated by blanks, tabs and line ends (LF, CRLF, CR LF mixed); a byte order mark at the start
 // is skipped. Numbers are decimal in the C form, strict and independent of any locale: 1e400, nan, inf,
-// hexadecimal and a decimal comma are refused. `comment`, when not 0, starts
-// text that counts as blank up to the line's end. Every error is INVALID_ARGUMENT "line 12: reason".
+// hexadecimal and a decimal comma are refused. `comment`, when not 0, starts text that counts as blank up to
+// the line's end. Every error is INVALID_ARGUMENT "line 12: reason".
 class TextScanner {
  public:
   explicit TextScanner(std::string_view text, char comment = 0);

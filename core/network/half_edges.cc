@@ -4,10 +4,11 @@
 #include <array>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <span>
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
+
+#include "core/base/union_find.h"
 
 namespace patchmill {
 namespace {
@@ -21,22 +22,6 @@ struct MeshTraits : OpenMesh::DefaultTraits {
 using Mesh = OpenMesh::PolyMesh_ArrayKernelT<MeshTraits>;
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
-
-class Sets {  // union-find, the lowest member leads
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int Find(int i) {
-    while (parent_[At(i)] != i) i = parent_[At(i)] = parent_[At(parent_[At(i)])];
-    return i;
-  }
-  void Join(int a, int b) {
-    a = Find(a), b = Find(b);
-    parent_[At(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 // Edges of a patch in counter-clockwise order: which one, and whether its parameter runs that way.
 struct Side {
@@ -156,25 +141,26 @@ void Builder::Orient() {
 
 // Corners of patches around a vertex fall into fans that hang together over edges.
 void Builder::SplitVertices() {
-  Sets sets(2 * links_.size());
+  UnionFind sets(2 * links_.size());
+  const auto join = [&](int a, int b) { sets.Join(At(a), At(b)); };
   for (int patch = 0; patch < Patches(); ++patch) {
     const std::span<const Side> sides = Boundary(Edges(patch));
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const Side a = sides[i], b = sides[(i + 1) % sides.size()];
       const int e = curves_.first_edge()[At(patch)] + a.edge, f = curves_.first_edge()[At(patch)] + b.edge;
-      sets.Join(a.forward ? EndSlot(e) : StartSlot(e), b.forward ? StartSlot(f) : EndSlot(f));
-      if (links_[At(e)].collapsed) sets.Join(StartSlot(e), EndSlot(e));
+      join(a.forward ? EndSlot(e) : StartSlot(e), b.forward ? StartSlot(f) : EndSlot(f));
+      if (links_[At(e)].collapsed) join(StartSlot(e), EndSlot(e));
       const int g = joined_[At(e)];
       if (g < 0) continue;
-      sets.Join(StartSlot(e), links_[At(e)].reversed ? EndSlot(g) : StartSlot(g));
-      sets.Join(EndSlot(e), links_[At(e)].reversed ? StartSlot(g) : EndSlot(g));
+      join(StartSlot(e), links_[At(e)].reversed ? EndSlot(g) : StartSlot(g));
+      join(EndSlot(e), links_[At(e)].reversed ? StartSlot(g) : EndSlot(g));
     }
   }
   fan_.resize(2 * links_.size());
   std::map<int, std::vector<int>> fans_at;  // vertex -> its fans
   for (int slot = 0; slot < static_cast<int>(fan_.size()); ++slot) {
     const int e = slot / 2;
-    fan_[At(slot)] = sets.Find(slot);
+    fan_[At(slot)] = static_cast<int>(sets.Find(At(slot)));
     if (Left(curves_.edge(e).patch.value)) continue;
     std::vector<int>& fans = fans_at[slot % 2 == 0 ? ends_[At(e)].start : ends_[At(e)].end];
     if (std::find(fans.begin(), fans.end(), fan_[At(slot)]) == fans.end()) fans.push_back(fan_[At(slot)]);
