@@ -142,7 +142,7 @@ std::vector<CreasePoint> CreaseTracer::Follow(const CreasePoint& seed, double si
 }  // namespace
 
 std::optional<CreasePoint> FindCrease(const Locator& locator, const Vec2& q, double reach,
-                                      const PassParams& params) {
+                                      const PassParams& params, const RunContext& run) {
   std::optional<CreasePoint> best;
   double best_distance = reach;
   // Two directions that are unlikely to be those of a part's own edges.
@@ -150,9 +150,9 @@ std::optional<CreasePoint> FindCrease(const Locator& locator, const Vec2& q, dou
   for (double heading : {kHeading, kHeading + kPi / 2}) {
     const Vec2 d(std::cos(heading), std::sin(heading));
     const PlanLine line = PlanLine::Through(q - 1.5 * reach * d, q + 1.5 * reach * d);
-    const LineTraceParams trace{params.chord_tolerance, params.floor_z + locator.radius()};
-    for (const auto& run : TraceLine(locator, line, trace)) {
-      for (const LineStation& s : run) {
+    const LineTraceParams trace{params.chord_tolerance, params.floor_z + locator.radius(), &run};
+    for (const auto& stations : TraceLine(locator, line, trace)) {
+      for (const LineStation& s : stations) {
         if (!s.keep || !s.left || !s.right) continue;
         const CreasePoint p{Lift(s.q, s.z), *s.left, *s.right};
         const Vec3 na = (p.center - p.first.p).normalized(), nb = (p.center - p.second.p).normalized();

@@ -18,9 +18,9 @@ struct CreasePoint {
 };
 
 // The kink of h nearest to q within `reach` (mm), looked for along two crossing lines through q; nothing
-// where the directions of its contacts differ by less than 0.1 rad.
+// where the directions of its contacts differ by less than 0.1 rad, or once `run` is cancelled.
 std::optional<CreasePoint> FindCrease(const Locator& locator, const Vec2& q, double reach,
-                                      const PassParams& params);
+                                      const PassParams& params, const RunContext& run);
 
 // Follows the crease from `seed` both ways (predictor along the curve of equal heights, Newton back onto it)
 // as long as `wanted` says so of the centres, through at most `patience` mm where it does not. Ends where a

@@ -91,13 +91,13 @@ bool Mender::Add(PassKind kind, std::vector<CutterPoint> points) {
 }
 
 bool Mender::AlongCrease(std::size_t i) {
-  const auto seed = FindCrease(locator_, Plan(spots_[i].center), 0.75 * flat_, params_);
+  const auto seed = FindCrease(locator_, Plan(spots_[i].center), 0.75 * flat_, params_, run_);
   if (!seed || (seed->center - spots_[i].center).norm() > flat_) return false;
   const auto stations = TraceCrease(locator_, border_, *seed, params_, 3.0 * flat_, [&](const Vec3& c) {
     return !run_.Cancelled() && Needed(c, 0.75 * flat_);
   });
   if (stations.size() < 2) return false;
-  Add(PassKind::kCrease, ThinStations(locator_, stations, params_));
+  Add(PassKind::kCrease, ThinStations(locator_, stations, params_, &run_));
   return !open_[i];
 }
 
@@ -172,7 +172,7 @@ bool Mender::AlongRidge(std::size_t i) {
   std::vector<CutterPoint> points;
   bool added = false;
   for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
-    for (ScanRun& run : ScanLine(locator_, corners[k], corners[k + 1], params_)) {
+    for (ScanRun& run : ScanLine(locator_, corners[k], corners[k + 1], params_, &run_)) {
       if (run.points.empty()) continue;
       const bool joined = !points.empty() && (points.back().center - run.points.front().center).norm() < 1e-9;
       if (!joined) {
@@ -312,6 +312,7 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
     }
     FromAbove(i);
   }
+  PM_RETURN_IF_ERROR(run_.Check());  // a cancelled line was cut short
   return std::move(paths_);
 }
 
