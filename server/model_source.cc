@@ -59,8 +59,7 @@ absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::stri
   }
   return ModelUnreadableError(
       "model file: neither JSON nor a binary PatchModel; text formats (bpt, bv, bez, patches) are told by "
-      "the "
-      "file's ending");
+      "the file's ending");
 }
 
 absl::StatusOr<LoadedModel> FromChecked(absl::StatusOr<CheckedModel> checked) {

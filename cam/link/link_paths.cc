@@ -13,7 +13,8 @@ namespace {
 // mm/min; only the time estimate uses it, machines differ.
 constexpr double kAssumedRapid = 5000.0;
 
-void AppendPass(const CutterPath& pass, int index, const LinkMaker& maker, std::vector<Move>& moves) {
+void AppendPass(const CutterPath& pass, int index, const LinkMaker& maker, const Surface& surface,
+                std::vector<Move>& moves) {
   const std::size_t count = pass.points.size() + (pass.closed ? 1 : 0);
   for (std::size_t i = 1; i < count; ++i) {
     const CutterPoint& from = pass.points[i - 1];
@@ -21,10 +22,7 @@ void AppendPass(const CutterPath& pass, int index, const LinkMaker& maker, std::
     Move move = maker.Feed(MoveKind::kCut, from.center, to.center);
     move.region = pass.region;
     move.pass = index;
-    if (to.contact) {
-      move.has_contact = true;
-      move.contact = to.contact->p;
-    }
+    if (to.contact) move.contact = {to.contact->p, surface.piece(to.contact->piece).patch};
     moves.push_back(move);
   }
 }
@@ -83,7 +81,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
       if (end != nullptr) maker.Retract(*end, moves);
       maker.Approach(start, moves);
     }
-    AppendPass(pass, static_cast<int>(i), maker, moves);
+    AppendPass(pass, static_cast<int>(i), maker, locator.surface(), moves);
     end = pass.closed ? &pass.points.front() : &pass.points.back();
     run.Progress("link", static_cast<double>(i + 1) / static_cast<double>(result.passes.size()));
   }

@@ -82,6 +82,18 @@ Numbered Number(const RawRegions& raw, const MergedRegions& merged) {
   return numbered;
 }
 
+// Patches stand in rising order because the pieces of each follow those of the one before.
+void ListPatches(const Surface& surface, const std::vector<std::vector<int>>& region_of,
+                 std::vector<Region>& regions) {
+  for (std::size_t piece = 0; piece < region_of.size(); ++piece) {
+    const PatchId patch = surface.pieces[piece].patch;
+    for (const int id : region_of[piece]) {
+      std::vector<PatchId>& patches = regions[static_cast<std::size_t>(id)].patches;
+      if (patches.empty() || patches.back() != patch) patches.push_back(patch);
+    }
+  }
+}
+
 }  // namespace
 
 const char* Name(RegionKind kind) {
@@ -145,6 +157,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   Numbered numbered = Number(raw, Merge(raw, params));
   PM_RETURN_IF_ERROR(
       DescribeRegions(surface, meshes, numbered.region_of, reach, params, run, numbered.regions));
+  ListPatches(surface, numbered.region_of, numbered.regions);
   PM_ASSIGN_OR_RETURN(auto borders,
                       RegionBorders(surface, meshes, adjacency, numbered.region_of, numbered.regions.size(),
                                     mesh_params.cos_steep, params.border_tolerance, run));

@@ -42,6 +42,7 @@ struct Region {
   double deepest_leftover = 0.0;          // mm, unreachable regions: estimate of how much stays
   double largest_tool_diameter = 0.0;     // mm, unreachable CONCAVE regions: what would reach it (0: none)
   std::vector<std::vector<Vec3>> border;  // closed polylines on the surface
+  std::vector<PatchId> patches;           // those it has a part of, rising
 };
 
 struct RegionMap {

@@ -2,13 +2,21 @@
 // model's frame (mm); the post subtracts radius (tip) and program zero.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "core/base/typed_id.h"
 #include "core/base/vec.h"
 
 namespace patchmill {
 
 enum class MoveKind { kRapid, kApproach, kPlunge, kLead, kCut, kLink, kRetract };
+
+// Where the ball touches the surface.
+struct MoveContact {
+  Vec3 p = Vec3::Zero();
+  PatchId patch;
+};
 
 // Straight move from the previous move's `to` (the first one: from machine zero above everything,
 // vertical-safe).
@@ -18,8 +26,7 @@ struct Move {
   double feed = 0.0;  // mm/min; ignored for kRapid
   int region = -1;
   int pass = -1;  // index of the pass in the linked order, -1 between passes
-  bool has_contact = false;
-  Vec3 contact = Vec3::Zero();
+  std::optional<MoveContact> contact = std::nullopt;  // at `to`
 };
 
 struct Toolpath {

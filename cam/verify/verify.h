@@ -3,9 +3,9 @@
 //
 // Gouge at p: R - dist(p, all moves swept upward); leftover at a reachable p: dist(p, feed moves) - R; R is
 // the ball's radius plus the stock to leave. Both maxima are values at true surface points, and no point has
-// more than `certainty` above them. Chords of arcs count with their error. P1 and the rapids'
-// distance from the stock add the control's own smoothing (G64 P + Q). A point is reachable or not by its own
-// ball; along the border of the reachable set this is asked at points 0.5 to 2.5 % of R apart.
+// more than `certainty` above them. Chords of arcs count with their error. P1 and the rapids' distance from
+// the stock add the control's own smoothing (G64 P + Q). A point is reachable or not by its own ball; along
+// the border of the reachable set this is asked at points 0.5 to 2.5 % of R apart.
 #pragma once
 
 #include <array>
@@ -66,9 +66,10 @@ struct VerifyReport {
   double tip_z_min = 0.0;
   Box3 tip_box;  // program frame, all moves that are not "above everything"
   double cut_length = 0.0, rapid_length = 0.0;
-  // GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK (each the 20 worst, of different lines and places),
-  // CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START, FIRST_MOTION_NOT_UP, LAST_MOTION_NOT_UP,
-  // SPINDLE_LEFT_ON, COOLANT_LEFT_ON: errors. MORE_FINDINGS when a list of 20 was not long enough: info.
+  // GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK (each at most 20, of different lines and places, the worst
+  // first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START, FIRST_MOTION_NOT_UP,
+  // LAST_MOTION_NOT_UP, SPINDLE_LEFT_ON, COOLANT_LEFT_ON: errors. MORE_FINDINGS when a list of 20 was not
+  // long enough: info.
   Diagnostics findings;
   bool ok() const { return gouge_ok && finish_ok && motion_ok; }
 };

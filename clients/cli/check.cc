@@ -71,7 +71,7 @@ absl::Status Run(const CheckOptions& options, InterruptWatch& watch) {
 
 Command AddCheck(CLI::App& app) {
   auto options = std::make_shared<CheckOptions>();
-  app.add_option("MODEL", options->model, "model file: .json, .pb, .bpt, .bv, .patches")->required();
+  app.add_option("MODEL", options->model, kModelHelp)->required();
   AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter to judge curvature by, mm");
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);

@@ -186,7 +186,11 @@ absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".bpt" || ending == ".bv" || ending == ".patches") file.set_format(ending.substr(1));
+  constexpr std::string_view kTextEndings[] = {".bpt", ".bv", ".bez",
+                                               ".patches"};  // the rest is told by content
+  if (std::find(std::begin(kTextEndings), std::end(kTextEndings), ending) != std::end(kTextEndings)) {
+    file.set_format(ending.substr(1));
+  }
   file.set_content(*std::move(bytes));
   return source;
 }

@@ -40,6 +40,8 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options);
 void AddSetupOptions(CLI::App& app, SetupOptions& options);
 void AddStockOptions(CLI::App& app, SetupOptions& options);
 
+inline constexpr char kModelHelp[] = "model file: .json, .pb, .bpt, .bv, .bez, .patches";
+
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options);
 v1::Operation MakeOperation(const OperationOptions& options);
 v1::Strategy MakeStrategy(const std::string& name);

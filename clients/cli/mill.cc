@@ -183,7 +183,7 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
 
 Command AddMill(CLI::App& app) {
   auto options = std::make_shared<MillOptions>();
-  app.add_option("MODEL", options->model, "model file: .json, .pb, .bpt, .bv, .patches")->required();
+  app.add_option("MODEL", options->model, kModelHelp)->required();
   app.add_option("-o,--output", options->program, "where the program goes, once it is verified")->required();
   AddOperationOptions(app, options->operation);
   AddSetupOptions(app, options->setup);

@@ -56,7 +56,7 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
 Command AddRegions(CLI::App& app) {
   auto options = std::make_shared<RegionsOptions>();
   OperationOptions& op = options->operation;
-  app.add_option("MODEL", options->model, "model file: .json, .pb, .bpt, .bv, .patches")->required();
+  app.add_option("MODEL", options->model, kModelHelp)->required();
   app.add_option("-o,--output", options->output, "the region map: .json or .svg")->required();
   AddNumber(app, "--tool-diameter", op.tool_diameter, "ball diameter, mm");
   AddNumber(app, "--scallop", op.scallop, "largest ridge between passes, mm");

@@ -54,8 +54,12 @@ std::string Line(const v1::Diagnostic& finding) {
 std::string UnreachableLine(const v1::Report& report) {
   std::string text;
   for (const v1::UnreachablePart& part : report.unreachable()) {
-    text += fmt::format("{}{} {:.2f} mm2 (up to {:.3f} mm stays)", text.empty() ? "" : ", ",
+    text += fmt::format("{}{} {:.2f} mm2 (up to {:.3f} mm stays", text.empty() ? "" : ", ",
                         Short(part.reason()), part.area_mm2(), part.deepest_leftover_mm());
+    if (part.has_finishing_floor_z_mm()) {
+      text += fmt::format("; --floor {:.3f} finishes it", part.finishing_floor_z_mm());
+    }
+    text += ")";
   }
   return text;
 }

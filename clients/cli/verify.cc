@@ -103,7 +103,7 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
 
 Command AddVerify(CLI::App& app) {
   auto options = std::make_shared<VerifyOptions>();
-  app.add_option("MODEL", options->model, "model file: .json, .pb, .bpt, .bv, .patches")->required();
+  app.add_option("MODEL", options->model, kModelHelp)->required();
   app.add_option("PROGRAM", options->program, "program text, ours or another's")->required();
   AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter, mm")->required();
   AddNumber(app, "--tolerance", options->tolerance, "largest gouge, mm");

@@ -100,7 +100,7 @@ v1::Box ToProto(const Box3& box, const Vec3& zero) {
   return proto;
 }
 
-v1::Region ToProto(const Region& region, Strategy strategy, const Vec3& zero, Borders borders) {
+v1::Region ToProto(const Region& region, Strategy strategy, const Vec3& zero, Detail detail) {
   v1::Region proto;
   proto.set_id(region.id);
   proto.set_kind(ToProto(region.kind));
@@ -121,7 +121,8 @@ v1::Region ToProto(const Region& region, Strategy strategy, const Vec3& zero, Bo
     proto.set_step_min_mm(Number(region.step_min));
     proto.set_step_max_mm(Number(region.step_max));
   }
-  if (borders == Borders::kDrop) return proto;
+  if (detail == Detail::kFigures) return proto;
+  for (const PatchId patch : region.patches) proto.add_patch_index(patch.value);
   for (const std::vector<Vec3>& loop : region.border) {
     auto* points = proto.add_border()->mutable_points_mm();
     points->Reserve(static_cast<int>(3 * loop.size()));
@@ -132,11 +133,19 @@ v1::Region ToProto(const Region& region, Strategy strategy, const Vec3& zero, Bo
   return proto;
 }
 
+google::protobuf::RepeatedPtrField<std::string> PatchIds(const PatchModel& model) {
+  google::protobuf::RepeatedPtrField<std::string> ids;
+  const auto named = [](const Patch& patch) { return !patch.id.empty(); };
+  if (std::none_of(model.patches.begin(), model.patches.end(), named)) return ids;
+  for (const Patch& patch : model.patches) *ids.Add() = Utf8(patch.id);
+  return ids;
+}
+
 v1::RegionMap ToProto(const RegionMap& map, Strategy strategy, const Vec3& zero) {
   v1::RegionMap proto;
   proto.set_regions_sha256(RegionsDigest(map));
   for (const Region& region : map.regions) {
-    *proto.add_regions() = ToProto(region, strategy, zero, Borders::kKeep);
+    *proto.add_regions() = ToProto(region, strategy, zero, Detail::kAll);
   }
   return proto;
 }
@@ -184,6 +193,10 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
     part.set_area_mm2(area);
     part.set_deepest_leftover_mm(Number(verify.deepest_unreachable[i]));
     *part.mutable_deepest_at() = PlaceToProto(verify.deepest_unreachable_at[i], zero);
+    if (kReasons[i] == UnreachableReason::kFloor && verify.finishing_floor_z) {
+      // Down once more: a zero between thousandths shifts them.
+      part.set_finishing_floor_z_mm(std::floor((*verify.finishing_floor_z - zero.z()) * 1e3) / 1e3);
+    }
   }
   report->set_unreachable_area_mm2(unreachable);
   report->set_cut_length_mm(Number(verify.cut_length));
@@ -213,7 +226,7 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   report.set_point_count(from.point_count);
   report.set_retract_count(from.motion.retract_count);
   for (const Region& region : from.regions) {
-    *report.add_regions() = ToProto(region, job.operation.strategy, zero, Borders::kDrop);
+    *report.add_regions() = ToProto(region, job.operation.strategy, zero, Detail::kFigures);
   }
   AddDiagnostics(from.diagnostics, zero, report.mutable_diagnostics());
   for (const StageTime& stage : from.stages) {
@@ -239,7 +252,7 @@ bool EmitPaths(const Toolpath& toolpath, const Vec3& zero, const std::function<b
   for (const Move& move : toolpath.moves) {
     const bool same = first != nullptr && move.kind == first->kind && move.region == first->region &&
                       move.pass == first->pass && move.feed == first->feed &&
-                      move.has_contact == first->has_contact &&
+                      move.contact.has_value() == first->contact.has_value() &&
                       chunk.tip_mm_size() < static_cast<int>(3 * limits::kPathChunkPoints);
     if (!same) {
       if (!flush()) return false;
@@ -250,8 +263,9 @@ bool EmitPaths(const Toolpath& toolpath, const Vec3& zero, const std::function<b
       chunk.set_feed_mm_per_min(move.kind == MoveKind::kRapid ? 0.0 : move.feed);
     }
     for (int k = 0; k < 3; ++k) chunk.add_tip_mm(move.to[k] - tip_offset[k]);
-    if (!move.has_contact) continue;
-    for (int k = 0; k < 3; ++k) chunk.add_contact_mm(move.contact[k] - zero[k]);
+    if (!move.contact) continue;
+    for (int k = 0; k < 3; ++k) chunk.add_contact_mm(move.contact->p[k] - zero[k]);
+    chunk.add_contact_patch_index(move.contact->patch.value);
   }
   return flush();
 }

@@ -32,13 +32,16 @@ absl::Status CheckRequestId(const std::string& id) {
   return errors.ToStatus();
 }
 
-Response MakeAccepted(const PreparedJob& prepared) {
+Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs) {
   Response response;
   v1::Accepted& accepted = *response.mutable_accepted();
   accepted.set_request_sha256(prepared.digest);
   accepted.set_server_version(ServerVersion());
   *accepted.mutable_resolved_job() = ToProto(prepared.job, prepared.model.digest, prepared.name);
   *accepted.mutable_resolved_post() = PostToProto(prepared.job);
+  if (outputs.contains(v1::OUTPUT_REGIONS) || outputs.contains(v1::OUTPUT_PATHS)) {
+    *accepted.mutable_patch_ids() = PatchIds(prepared.model.model);
+  }
   return response;
 }
 
@@ -141,9 +144,9 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
     const absl::Status valid = RunJobThread(call, request.max_threads(), {},
                                             [&](const RunContext& run) { return Validate(prepared, run); });
     PM_RETURN_IF_ERROR(valid);
-    return sink(MakeAccepted(prepared)) ? absl::OkStatus() : gone();
+    return sink(MakeAccepted(prepared, outputs)) ? absl::OkStatus() : gone();
   }
-  if (!sink(MakeAccepted(prepared))) return gone();
+  if (!sink(MakeAccepted(prepared, outputs))) return gone();
 
   const auto beat = [&](std::string_view stage, double fraction) {
     Response response;

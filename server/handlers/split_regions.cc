@@ -27,6 +27,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
     AddDiagnostics(surface.network.findings, resolved.program_zero, response->mutable_diagnostics());
     if (outputs.contains(v1::OUTPUT_REGIONS)) {
       *response->mutable_regions() = ToProto(map, job.operation.strategy, resolved.program_zero);
+      *response->mutable_patch_ids() = PatchIds(prepared.model.model);
     }
     if (outputs.contains(v1::OUTPUT_PICTURE)) {
       v1::ArtifactChunk& picture = *response->mutable_picture();

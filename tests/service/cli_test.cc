@@ -130,6 +130,32 @@ TEST_F(Cli, VerifyAcceptsWhatMillMadeAndRefusesWhatWasTamperedWith) {
   EXPECT_THAT(bad.err, HasSubstr("VERIFICATION_FAILED"));
 }
 
+TEST_F(Cli, EveryFormatOfTheReadmeIsReadByItsEnding) {
+  const std::string models = PATCHMILL_SOURCE_DIR "/tests/models/";
+  for (const char* name : {"bicubic.bez", "sphere.bv", "teacup.bpt", "toroidal_tet.patches"}) {
+    const Finished run = Patchmill({"check", models + name});
+    EXPECT_EQ(run.status, 0) << name << run.err;
+    EXPECT_THAT(run.err + run.out, Not(HasSubstr("MODEL_UNREADABLE"))) << name;
+  }
+  EXPECT_EQ(Patchmill({"check", in_.Write("bump.pb", testing::Bump().SerializeAsString())}).status, 0);
+  const Finished weight = Patchmill({"check", models + "malformed/zero_weight.bez"});
+  EXPECT_EQ(weight.status, 2);
+  EXPECT_THAT(weight.err, HasSubstr("ZERO_WEIGHT"));
+}
+
+// What the floor leaves is said with the floor that would not.
+TEST_F(Cli, TheFloorThatIsNamedFinishes) {
+  const Finished high = Mill(bump_, {"--floor", "0.3"});
+  ASSERT_EQ(high.status, 0) << high.err;
+  std::smatch named;
+  ASSERT_TRUE(std::regex_search(high.err, named, std::regex("FLOOR .*--floor (-?[0-9.]+) finishes it")))
+      << high.err;
+  EXPECT_LT(std::stod(named[1]), 0.0);  // the border, finished from the side
+  const Finished low = Mill(bump_, {"--floor", named[1]});
+  EXPECT_EQ(low.status, 0);
+  EXPECT_THAT(low.err, AllOf(HasSubstr("COMPLETE, verified"), Not(HasSubstr("FLOOR"))));
+}
+
 TEST_F(Cli, CheckPrintsTheModelAndFailsOnErrors) {
   const Finished good = Patchmill({"check", bump_});
   EXPECT_EQ(good.status, 0) << good.err;

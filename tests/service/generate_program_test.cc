@@ -20,6 +20,8 @@ using namespace std::chrono_literals;
 using grpc::StatusCode;
 using ::testing::_;
 using testing::BumpRequest;
+using ::testing::Contains;
+using ::testing::ElementsAre;
 using testing::Embedded;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -160,11 +162,46 @@ TEST_F(GenerateProgram, PathsEndWhereTheProgramsTipBoxSays) {
     if (chunk.contact_mm_size() > 0) {
       EXPECT_EQ(chunk.contact_mm_size(), chunk.tip_mm_size());
     }
+    EXPECT_EQ(3 * chunk.contact_patch_index_size(), chunk.contact_mm_size());
     contacts += chunk.contact_mm_size();
     for (int i = 2; i < chunk.tip_mm_size(); i += 3) lowest = std::min(lowest, chunk.tip_mm(i));
   }
   EXPECT_GT(contacts, 0);
   EXPECT_NEAR(lowest, stream.Report()->tip_z_min_mm(), 1e-3);
+}
+
+// Two bumps side by side: a contact lies on the patch it names, by the client's own id.
+TEST_F(GenerateProgram, ContactsAndRegionsNameTheirPatches) {
+  v1::GenerateProgramRequest request = WithAllOutputs();
+  v1::PatchModel& model = *request.mutable_job()->mutable_source()->mutable_model();
+  v1::Patch& right = *model.add_patches() = model.patches(0);
+  right.set_id("right");
+  for (int i = 0; i < right.bezier().points_size(); i += 3) {
+    right.mutable_bezier()->set_points(i, right.bezier().points(i) + 12.0);
+  }
+  const Embedded::Stream stream = embedded_.Generate(request);
+  ASSERT_NE(stream.Report(), nullptr);
+  const v1::Accepted& accepted = stream.events.front().accepted();
+  EXPECT_THAT(accepted.patch_ids(), ElementsAre("bump", "right"));
+  int seen[2] = {0, 0};
+  for (const Event& event : stream.events) {
+    for (const v1::Region& region : event.regions().regions()) {
+      EXPECT_THAT(region.patch_index(), Contains(region.inside_point().x_mm() < 12.0 ? 0 : 1));
+    }
+    const v1::PathChunk& chunk = event.paths();
+    for (int i = 0; i < chunk.contact_patch_index_size(); ++i) {
+      const double x = chunk.contact_mm(3 * i);
+      const int patch = chunk.contact_patch_index(i);
+      ASSERT_TRUE(patch == 0 || patch == 1);
+      EXPECT_TRUE(patch == 0 ? x <= 12.0 + 1e-9 : x >= 12.0 - 1e-9) << x;
+      ++seen[patch];
+    }
+  }
+  EXPECT_GT(seen[0], 100);
+  EXPECT_GT(seen[1], 100);
+  for (const v1::Region& region : stream.Report()->regions()) EXPECT_EQ(region.patch_index_size(), 0);
+  request.clear_outputs();
+  EXPECT_EQ(embedded_.Generate(request).events.front().accepted().patch_ids_size(), 0);
 }
 
 TEST_F(GenerateProgram, SameBytesForAnyThreadCountAndRequestId) {

@@ -18,6 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using grpc::StatusCode;
 using testing::BumpJob;
+using ::testing::ElementsAre;
 using testing::Embedded;
 using ::testing::HasSubstr;
 using testing::InfoOf;
@@ -147,6 +148,10 @@ TEST_F(SplitRegions, CoversTheSurface) {
   EXPECT_LT(area, 1.2 * 144.0);
   EXPECT_EQ(response_.regions().regions_sha256().size(), 32u);
   EXPECT_FALSE(response_.has_picture());
+  EXPECT_THAT(response_.patch_ids(), ElementsAre("bump"));
+  for (const v1::Region& region : response_.regions().regions()) {
+    EXPECT_THAT(region.patch_index(), ElementsAre(0));
+  }
 }
 
 TEST_F(SplitRegions, DrawsWhenAsked) {

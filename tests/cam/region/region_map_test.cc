@@ -64,6 +64,27 @@ TEST(SplitRegions, TorusHasAnOuterMountainAndAnInnerBasin) {
   for (const Region& r : map.regions) EXPECT_GE(r.border.size(), 1u) << r.id;
 }
 
+// A roof of a gentle and a steep plane: each region knows its patch.
+TEST(SplitRegions, RegionsNameTheirPatches) {
+  PatchModel model;
+  const auto plane = [&](double x0, double z0, double x1, double z1) {
+    model.patches.push_back(
+        {"", BezierPatch{1, 1, {{x0, 0, z0}, {x0, 20, z0}, {x1, 0, z1}, {x1, 20, z1}}, {}}});
+  };
+  plane(0, 20, 20, 0);    // steeper than 30 degrees
+  plane(-20, 18, 0, 20);  // gentler
+  plane(-40, 16, -20, 18);
+  RegionParams params = Unmerged();
+  params.steep_angle = Radians(30.0);
+  const RegionMap map = Split(Build(model), params);
+  ASSERT_EQ(map.regions.size(), 2u);
+  for (const Region& region : map.regions) {
+    const bool steep = region.slope == SlopeClass::kSteep;
+    EXPECT_EQ(region.patches,
+              steep ? std::vector<PatchId>{PatchId(0)} : (std::vector<PatchId>{PatchId(1), PatchId(2)}));
+  }
+}
+
 TEST(SplitRegions, SteepAndGentleMeetAtTheSplitAngle) {
   const Surface surface = Build(testing::Sphere(Vec3::Zero(), 10, Half::kUpper));
   for (const double degrees : {30.0, 45.0, 70.0}) {
