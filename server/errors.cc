@@ -19,16 +19,29 @@ std::string Cut(std::string text, std::size_t bytes) {
   return Utf8(text);
 }
 
-absl::Status WithInfo(absl::StatusCode code, std::string message, const v1::ErrorInfo& info) {
-  absl::Status status(code, Cut(std::move(message), limits::kMaxStatusMessageBytes));
+// The message's trailer is percent-encoded: what is not printable ASCII takes three bytes there.
+std::string CutMessage(std::string_view text) {
+  std::size_t size = 0, end = 0, room = 0;  // room: as far as the three dots still fit
+  for (; end < text.size() && size <= limits::kMaxStatusMessageBytes; ++end) {
+    const char c = text[end];
+    size += c >= ' ' && c <= '~' && c != '%' ? 1 : 3;
+    if (size + 3 <= limits::kMaxStatusMessageBytes) room = end + 1;
+  }
+  if (size <= limits::kMaxStatusMessageBytes) return Utf8(text);
+  while (room > 0 && (static_cast<unsigned char>(text[room]) & 0xC0) == 0x80) --room;  // between characters
+  return Utf8(text.substr(0, room)) + "...";
+}
+
+absl::Status WithInfo(absl::StatusCode code, std::string_view message, const v1::ErrorInfo& info) {
+  absl::Status status(code, CutMessage(message));
   status.SetPayload(kInfoUrl, absl::Cord(info.SerializeAsString()));
   return status;
 }
 
-absl::Status WithReason(absl::StatusCode code, std::string reason, std::string message) {
+absl::Status WithReason(absl::StatusCode code, std::string_view reason, std::string_view message) {
   v1::ErrorInfo info;
-  info.set_reason(std::move(reason));
-  return WithInfo(code, std::move(message), info);
+  info.set_reason(std::string(reason));
+  return WithInfo(code, message, info);
 }
 
 const char* DefaultReason(absl::StatusCode code) {
@@ -111,11 +124,11 @@ absl::Status ModelNotCachedError() {
 }
 
 absl::Status ModelUnreadableError(std::string_view why) {
-  return WithReason(absl::StatusCode::kInvalidArgument, "MODEL_UNREADABLE", std::string(why));
+  return WithReason(absl::StatusCode::kInvalidArgument, "MODEL_UNREADABLE", why);
 }
 
 absl::Status ProgramUnreadableError(std::string_view why) {
-  return WithReason(absl::StatusCode::kInvalidArgument, "PROGRAM_UNREADABLE", std::string(why));
+  return WithReason(absl::StatusCode::kInvalidArgument, "PROGRAM_UNREADABLE", why);
 }
 
 absl::Status ModelInvalidError(const Diagnostics& faults) {
@@ -142,7 +155,7 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
   }
   v1::Status wire;
   wire.set_code(static_cast<int>(status.code()));
-  wire.set_message(Cut(std::string(status.message()), limits::kMaxStatusMessageBytes));
+  wire.set_message(CutMessage(std::string(status.message())));
   wire.add_details()->PackFrom(info);
   while (wire.ByteSizeLong() > limits::kMaxStatusBytes && info.field_violations_size() > 0) {
     info.mutable_field_violations()->RemoveLast();

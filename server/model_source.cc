@@ -57,9 +57,9 @@ absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::stri
     return ModelUnreadableError(parsed ? "model file: a binary PatchModel without patches"
                                        : "model file: not a binary PatchModel, or truncated");
   }
-  return ModelUnreadableError(
-      "model file: neither JSON nor a binary PatchModel; text formats (bpt, bv, bez, patches) are told by "
-      "the file's ending");
+  return ModelUnreadableError(fmt::format(
+      "model file: neither JSON nor a binary PatchModel; text formats ({}) are told by the file's ending",
+      fmt::join(kTextFormats, ", ")));
 }
 
 absl::StatusOr<LoadedModel> FromChecked(absl::StatusOr<CheckedModel> checked) {
@@ -102,8 +102,8 @@ absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::strin
   }
   if (!(format.empty() || format == "json" || format == "pb")) {
     FieldErrors errors;
-    errors.Add(At(at, "format"), fmt::format("= \"{}\"; must be one of bpt, bv, patches, json, pb",
-                                             Utf8(format.substr(0, 50))));
+    errors.Add(At(at, "format"), fmt::format("= \"{}\"; must be one of {}, json, pb",
+                                             Utf8(format.substr(0, 50)), fmt::join(kTextFormats, ", ")));
     return errors.ToStatus();
   }
   PM_ASSIGN_OR_RETURN(const v1::PatchModel model, LooksLikeJson(file.content()) || format == "json"

@@ -55,15 +55,16 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
   std::optional<Tool> tool;
   if (request.has_tool()) tool = FromProto(request.tool(), "tool", CuttingData::kOptional, errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source"));
-  response->set_model_sha256(model.digest);
-  if (!model.faults.empty()) {
-    response->set_patch_count(static_cast<int>(model.model.patches.size()));
-    AddDiagnostics(model.faults, Vec3::Zero(), response->mutable_diagnostics());
-    return absl::OkStatus();
-  }
   if (tool) job.operation.tool = *tool;
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
+    PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source"));
+    response->set_model_sha256(model.digest);
+    if (!model.faults.empty()) {
+      response->set_patch_count(static_cast<int>(model.model.patches.size()));
+      AddDiagnostics(model.faults, Vec3::Zero(), response->mutable_diagnostics());
+      return absl::OkStatus();
+    }
+    PM_RETURN_IF_ERROR(run.Check());
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
     PM_ASSIGN_OR_RETURN(ModelCheck check, CheckModel(surface, tool, run));

@@ -138,15 +138,16 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_RETURN_IF_ERROR(CheckRequestId(request.request_id()));
   PM_ASSIGN_OR_RETURN(const Outputs outputs, ReadOutputs(request.outputs(), kPossible, kDefaults));
-  PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), request.post()));
+  PreparedJob prepared;
+  const auto prepare = [&](const RunContext& run) -> absl::Status {
+    PM_ASSIGN_OR_RETURN(prepared, PrepareJob(request.job(), request.post()));
+    PM_RETURN_IF_ERROR(run.Check());
+    return request.validate_only() ? Validate(prepared, run) : absl::OkStatus();
+  };
+  PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(), {}, prepare));
   const auto gone = [] { return absl::CancelledError("the client has gone"); };
-  if (request.validate_only()) {
-    const absl::Status valid = RunJobThread(call, request.max_threads(), {},
-                                            [&](const RunContext& run) { return Validate(prepared, run); });
-    PM_RETURN_IF_ERROR(valid);
-    return sink(MakeAccepted(prepared, outputs)) ? absl::OkStatus() : gone();
-  }
   if (!sink(MakeAccepted(prepared, outputs))) return gone();
+  if (request.validate_only()) return absl::OkStatus();
 
   const auto beat = [&](std::string_view stage, double fraction) {
     Response response;

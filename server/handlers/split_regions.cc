@@ -18,8 +18,9 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
   PM_ASSIGN_OR_RETURN(
       const Outputs outputs,
       ReadOutputs(request.outputs(), {v1::OUTPUT_REGIONS, v1::OUTPUT_PICTURE}, {v1::OUTPUT_REGIONS}));
-  PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post()));
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
+    PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post()));
+    PM_RETURN_IF_ERROR(run.Check());
     const Job& job = prepared.job;
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(prepared.model.model, job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));

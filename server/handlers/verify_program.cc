@@ -67,8 +67,12 @@ v1::Outcome Judge(const v1::Report& report) {
   return report.unreachable_area_mm2() > 0.0 ? v1::OUTCOME_COMPLETE_WHERE_REACHABLE : v1::OUTCOME_COMPLETE;
 }
 
-absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const LoadedModel& model,
-                  const RunContext& run, v1::Report* report) {
+absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const RunContext& run,
+                  v1::Report* report) {
+  run.Progress("model", 0.0);
+  PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source"));
+  PM_RETURN_IF_ERROR(RequireSound(model));
+  PM_RETURN_IF_ERROR(run.Check());
   absl::StatusOr<ProgramMotion> motion = ReadProgram(request.program(), {.run = &run});
   if (!motion.ok()) {
     if (motion.status().code() != absl::StatusCode::kInvalidArgument) return motion.status();
@@ -102,8 +106,6 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
   FieldErrors errors;
   const Job job = ReadJob(request, errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source"));
-  PM_RETURN_IF_ERROR(RequireSound(model));
   const auto beat = [&](std::string_view stage, double fraction) {
     Response response;
     response.mutable_progress()->set_stage(std::string(stage));
@@ -112,7 +114,7 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
   };
   Response last;
   PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(), beat, [&](const RunContext& run) {
-    return Make(request, job, model, run, last.mutable_report());
+    return Make(request, job, run, last.mutable_report());
   }));
   return sink(last) ? absl::OkStatus() : absl::CancelledError("the client has gone");
 }

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "cam/location/locator.h"
-#include "tests/property/same_part.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/random.h"
+#include "tests/support/same_part.h"
 
 namespace patchmill {
 namespace {

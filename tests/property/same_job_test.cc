@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/property/same_part.h"
 #include "tests/support/jobs/jobs.h"
+#include "tests/support/same_part.h"
 
 namespace patchmill {
 namespace {

@@ -53,6 +53,21 @@ TEST(ToGrpcStatus, StaysUnderFourKibibytesWhateverIsWrong) {
   }
 }
 
+TEST(ToGrpcStatus, MessagesAreCutByTheirSizeOnTheWire) {
+  const auto sent = [](const std::string& text) {
+    return ToGrpcStatus(absl::InternalError(text)).error_message();
+  };
+  const auto umlauts = [](std::size_t count) {  // two bytes each, six as sent
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) text += "\u00fc";
+    return text;
+  };
+  EXPECT_EQ(sent(umlauts(700)), umlauts((limits::kMaxStatusMessageBytes - 3) / 6).append("..."));
+  const std::string most(limits::kMaxStatusMessageBytes, 'a');
+  EXPECT_EQ(sent(most), most);
+  EXPECT_EQ(sent(std::string(most).append("a")), most.substr(3).append("..."));
+}
+
 TEST(ToGrpcStatus, LimitsCarryNameAndNumbers) {
   const v1::ErrorInfo info = testing::InfoOf(ToGrpcStatus(LimitError("model.patch_count", 100000, 100001)));
   EXPECT_EQ(info.reason(), "LIMIT_EXCEEDED");

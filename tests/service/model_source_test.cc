@@ -74,9 +74,10 @@ TEST(LoadModel, NothingEmptyAndUnknown) {
   for (const char* format : {"", "json", "pb", "bpt", "bv", "patches"}) {
     EXPECT_THAT(LoadStatus(File(format, "")), StatusIs(kInvalid, HasSubstr("empty"))) << format;
   }
-  EXPECT_THAT(LoadStatus(File("stl", "solid")),
-              StatusIs(kInvalid,
-                       HasSubstr("source.file.format = \"stl\"; must be one of bpt, bv, patches, json, pb")));
+  EXPECT_THAT(
+      LoadStatus(File("stl", "solid")),
+      StatusIs(kInvalid,
+               HasSubstr("source.file.format = \"stl\"; must be one of bpt, bv, bez, patches, json, pb")));
 }
 
 TEST(LoadModel, WrongKindsSayWhatTheyAreNot) {

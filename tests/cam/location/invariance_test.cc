@@ -6,6 +6,7 @@
 
 #include "cam/location/locator.h"
 #include "tests/support/random.h"
+#include "tests/support/same_part.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
@@ -15,42 +16,9 @@ namespace {
 using testing::Random;
 using testing::SurfaceOf;
 
-// Every piece of a model as a Bezier patch of its own.
-PatchModel AsBezier(const PatchModel& model) {
-  PatchModel out;
-  for (std::size_t k = 0; k < model.patches.size(); ++k) {
-    for (const Piece& piece : SplitIntoPieces(PatchId(k), model.patches[k].shape)) {
-      BezierPatch b;
-      b.degree_u = piece.net.degree_u;
-      b.degree_v = piece.net.degree_v;
-      for (const Vec4& p : piece.net.points) {
-        b.points.push_back(p.head<3>() / p.w());
-        if (piece.net.rational) b.weights.push_back(p.w());
-      }
-      out.patches.push_back({"", b});
-    }
-  }
-  return out;
-}
-
-// u and v exchanged, u reversed.
-BezierPatch Turned(const BezierPatch& b) {
-  BezierPatch t;
-  t.degree_u = b.degree_v;
-  t.degree_v = b.degree_u;
-  for (int j = 0; j <= b.degree_v; ++j) {
-    for (int i = b.degree_u; i >= 0; --i) {
-      const auto k = static_cast<std::size_t>(i * (b.degree_v + 1) + j);
-      t.points.push_back(b.points[k]);
-      if (!b.weights.empty()) t.weights.push_back(b.weights[k]);
-    }
-  }
-  return t;
-}
-
+// u and v exchanged, one of them reversed.
 PatchModel TurnedAndShuffled(const PatchModel& bezier, std::uint64_t seed) {
-  PatchModel out = bezier;
-  for (Patch& patch : out.patches) patch.shape = Turned(std::get<BezierPatch>(patch.shape));
+  PatchModel out = testing::Reparametrised(bezier, /*swap=*/true, /*reverse_u=*/false, /*reverse_v=*/true);
   Random random(seed);
   for (std::size_t k = out.patches.size(); k > 1; --k) {
     std::swap(out.patches[k - 1], out.patches[static_cast<std::size_t>(random.Int(static_cast<int>(k)))]);
@@ -106,7 +74,7 @@ std::vector<PatchModel> Models() {
 
 TEST(Invariance, LayoutOrderAndParametrisation) {
   for (const PatchModel& model : Models()) {
-    const PatchModel bezier = AsBezier(model);
+    const PatchModel bezier = testing::AsBezierPatches(model);
     const Surface surface = SurfaceOf(model);
     const Locator locator(surface, 2.5);
     for (const PatchModel& variant : {bezier, TurnedAndShuffled(bezier, 5), Cut(bezier, 0.37)}) {

@@ -1,5 +1,4 @@
-// One part given in many ways: moved, cut into patches, in another order, with
-// other parameters.
+// One part given in many ways: moved, cut into patches, in another order, with other parameters.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +10,7 @@
 
 namespace patchmill::testing {
 
-// Every patch cut into its Bernstein rectangles, each a Bezier patch of its
-// own.
+// Every patch cut into its Bernstein rectangles, each a Bezier patch of its own.
 inline PatchModel AsBezierPatches(const PatchModel& model) {
   PatchModel cut;
   for (std::size_t k = 0; k < model.patches.size(); ++k) {
