@@ -45,6 +45,36 @@ void AddShape(const GregoryPatch& p, Canonical& out) {
   AddPoints(p.points, out);
 }
 
+void AddShape(const BrownPatch& p, Canonical& out) {
+  out.Add("brown").Add(std::int64_t{p.degree_u}).Add(std::int64_t{p.degree_v});
+  AddPoints(p.points, out);
+}
+
+void AddShape(const GregoryTriangle& p, Canonical& out) {
+  out.Add(p.blend == GregoryPatch::Blend::kCorner ? "gregory-triangle-corner" : "gregory-triangle-edge");
+  AddPoints(p.points, out);
+}
+
+void AddShape(const LoftTriangle& p, Canonical& out) {
+  out.Add(p.squared ? "loft-triangle-squared" : "loft-triangle").Add(std::int64_t{p.degree});
+  AddPoints(p.points, out);
+}
+
+void AddShape(const G2GregoryPatch& p, Canonical& out) {
+  out.Add("g2-gregory").Add(std::int64_t{p.degree});
+  AddPoints(p.points, out);
+}
+
+void AddShape(const HosakaPatch& p, Canonical& out) {
+  out.Add(p.blend == HosakaPatch::Blend::kLinear ? "hosaka-linear" : "hosaka").Add(std::int64_t{p.degree});
+  for (const auto& side : p.breaks) {
+    out.Add(static_cast<std::int64_t>(side.size()));
+    for (const auto& b : side) out.Add(b.at).Add(b.value);
+  }
+  out.Add(std::int64_t{p.inner_u}).Add(std::int64_t{p.inner_v}).Add(std::int64_t{p.inner_order});
+  AddPoints(p.points, out);
+}
+
 void AddShape(const BezierTriangle& p, Canonical& out) {
   out.Add("triangle").Add(std::int64_t{p.degree});
   AddPoints(p.points, out);

@@ -15,6 +15,16 @@ namespace {
 
 constexpr std::size_t kLeastPatchBytes = sizeof("triangle 1 0 0 0 0 0 0 0 0 0") - 1;
 
+template <class Gregory>
+absl::StatusOr<PatchShape> ReadGregory(TextScanner& scanner) {
+  Gregory patch;
+  patch.blend = GregoryPatch::Blend::kCorner;
+  for (Vec3& p : patch.points) {
+    PM_ASSIGN_OR_RETURN(p, scanner.Point());
+  }
+  return patch;
+}
+
 absl::StatusOr<PatchShape> ReadPatch(TextScanner& scanner) {
   PM_ASSIGN_OR_RETURN(const std::string_view key, scanner.Word("the key of a patch"));
   if (key == "bezier") {
@@ -31,18 +41,10 @@ absl::StatusOr<PatchShape> ReadPatch(TextScanner& scanner) {
     PM_ASSIGN_OR_RETURN(patch.points, ReadPoints(scanner, (patch.degree + 1) * (patch.degree + 2) / 2));
     return patch;
   }
-  if (key == "gregory4") {
-    GregoryPatch patch;
-    for (Vec3& p : patch.points) {
-      PM_ASSIGN_OR_RETURN(p, scanner.Point());
-    }
-    return patch;
-  }
-  constexpr std::string_view kKnown = "known are bezier, triangle and gregory4";
-  if (key == "gregory3") {
-    return scanner.Fail(fmt::format("gregory3 (a Gregory triangle) is not supported yet; {}", kKnown));
-  }
-  return scanner.Fail(fmt::format("{} is no known key of a patch; {}", Quoted(key), kKnown));
+  if (key == "gregory4") return ReadGregory<GregoryPatch>(scanner);
+  if (key == "gregory3") return ReadGregory<GregoryTriangle>(scanner);
+  return scanner.Fail(fmt::format(
+      "{} is no known key of a patch; known are bezier, triangle, gregory4 and gregory3", Quoted(key)));
 }
 
 }  // namespace
@@ -83,6 +85,10 @@ absl::StatusOr<std::string> WritePatches(const PatchModel& model, int digits) {
                g != nullptr && g->blend == GregoryPatch::Blend::kCorner) {
       out += "gregory4\n";
       put_points(g->points);
+    } else if (const auto* h = std::get_if<GregoryTriangle>(&shape);
+               h != nullptr && h->blend == GregoryPatch::Blend::kCorner) {
+      out += "gregory3\n";
+      put_points(h->points);
     } else {
       return absl::InvalidArgumentError(fmt::format("patches[{}] has a form that .patches cannot hold", k));
     }

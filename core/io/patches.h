@@ -1,4 +1,4 @@
-// The .patches format: plain text for Bezier quads and triangles and Gregory quads.
+// The .patches format: plain text for Bezier and Gregory quads and triangles.
 #pragma once
 
 #include <string>
@@ -14,12 +14,13 @@ namespace patchmill {
 //   bezier p q   (p+1)(q+1) points, u FASTEST (unlike the other formats)
 //   triangle n   row after row as .bv kind 3
 //   gregory4     20 points, five at each corner (see GregoryPatch); corner blend
-// `gregory3` (Gregory triangles) is refused by name: the project has no such patch yet. Errors:
-// INVALID_ARGUMENT "line 12: reason" for anything else. Cost O(text), memory a small multiple of it.
+//   gregory3     18 points, five at each corner, then the middles of the edges (see GregoryTriangle); corner
+//   blend
+// Errors: INVALID_ARGUMENT "line 12: reason" for anything else. Cost O(text), memory a small multiple of it.
 absl::StatusOr<PatchModel> ReadPatches(std::string_view text);
 
-// `digits`: significant ones; 17 keep every double. INVALID_ARGUMENT for B-splines, rational patches and
-// Gregory quads with edge blend.
+// `digits`: significant ones; 17 keep every double. INVALID_ARGUMENT for rational patches, Gregory
+// ones with edge blend and all other kinds.
 absl::StatusOr<std::string> WritePatches(const PatchModel& model, int digits = 17);
 
 }  // namespace patchmill

@@ -30,6 +30,12 @@ int Steps(const PatchShape& shape, int edge) {
     steps = 2 * (edge % 2 == 0 ? b->degree_u : b->degree_v);
   } else if (const auto* t = std::get_if<BezierTriangle>(&shape)) {
     steps = 2 * t->degree;
+  } else if (const auto* q = std::get_if<BrownPatch>(&shape)) {
+    steps = 2 * (edge % 2 == 0 ? q->degree_u : q->degree_v);
+  } else if (const auto* g = std::get_if<G2GregoryPatch>(&shape)) {
+    steps = 2 * g->degree;
+  } else if (const auto* h = std::get_if<HosakaPatch>(&shape)) {
+    steps = 2 * h->degree;
   } else if (const auto* s = std::get_if<BsplinePatch>(&shape)) {
     steps = edge % 2 == 0 ? SplineSteps(s->knots_u, s->degree_u) : SplineSteps(s->knots_v, s->degree_v);
   }

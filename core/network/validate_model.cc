@@ -52,9 +52,9 @@ class Faults {
   std::string_view kind_;
 };
 
-bool CheckDegree(int degree, std::string_view field, Faults& faults) {
-  if (degree >= 1 && degree <= kMaxDegree) return true;
-  faults.Add("INVALID_DEGREE", field, fmt::format("= {}; must be in [1, {}]", degree, kMaxDegree));
+bool CheckDegree(int degree, std::string_view field, Faults& faults, int least = 1, int most = kMaxDegree) {
+  if (degree >= least && degree <= most) return true;
+  faults.Add("INVALID_DEGREE", field, fmt::format("= {}; must be in [{}, {}]", degree, least, most));
   return false;
 }
 
@@ -149,7 +149,9 @@ bool CheckKnots(std::span<const double> knots, int degree, std::string_view fiel
 }
 
 std::string_view KindName(const PatchShape& shape) {
-  static constexpr std::string_view kNames[] = {"bezier", "bspline", "gregory", "triangle"};
+  static constexpr std::string_view kNames[] = {"bezier",        "bspline",    "gregory",
+                                                "triangle",      "brown",      "gregory_triangle",
+                                                "loft_triangle", "g2_gregory", "hosaka"};
   return kNames[shape.index()];
 }
 
@@ -187,6 +189,71 @@ void CheckShape(const BezierTriangle& t, Faults& faults) {
   }
   CheckPoints(t.points, faults);
   CheckWeights(t.weights, t.points.size(), faults);
+}
+
+void CheckShape(const BrownPatch& b, Faults& faults) {
+  const bool u = CheckDegree(b.degree_u, "degree_u", faults, 3, kMaxBrownDegree);
+  const bool v = CheckDegree(b.degree_v, "degree_v", faults, 3, kMaxBrownDegree);
+  if (u && v) {
+    CheckPointCount(b.points.size(), static_cast<std::size_t>(4 * (b.degree_u + b.degree_v) - 4), faults);
+  }
+  CheckPoints(b.points, faults);
+}
+
+void CheckShape(const GregoryTriangle& g, Faults& faults) { CheckPoints(g.points, faults); }
+
+void CheckShape(const LoftTriangle& t, Faults& faults) {
+  if (CheckDegree(t.degree, "degree", faults, 3, t.squared ? 4 : 3)) {
+    CheckPointCount(t.points.size(), static_cast<std::size_t>(6 * t.degree - 3), faults);
+  }
+  CheckPoints(t.points, faults);
+}
+
+void CheckShape(const G2GregoryPatch& g, Faults& faults) {
+  if (CheckDegree(g.degree, "degree", faults, 5, 7)) {
+    CheckPointCount(g.points.size(), static_cast<std::size_t>((g.degree + 1) * (g.degree + 1) + 16), faults);
+  }
+  CheckPoints(g.points, faults);
+}
+
+void CheckBreaks(const HosakaPatch& h, Faults& faults) {
+  for (std::size_t k = 0; k < h.breaks.size(); ++k) {
+    const auto& list = h.breaks[k];
+    const auto fault = [&](std::string_view text) {
+      faults.Add("INVALID_BREAKS", "breaks", fmt::format("of side {} {}", k, text));
+    };
+    // Values may stay level; places must increase.
+    if (!list.empty() && h.blend == HosakaPatch::Blend::kLinear) fault("need the smooth blend");
+    if (list.size() > static_cast<std::size_t>(kMaxHosakaBreaks)) {
+      fault(fmt::format("have {} entries; at most {}", list.size(), kMaxHosakaBreaks));
+    }
+    HosakaPatch::Break last;
+    for (const HosakaPatch::Break& b : list) {
+      if (!(b.at >= last.at + kMinKnotSpan && b.value >= last.value && b.at <= 1.0 - kMinKnotSpan &&
+            b.value <= 1.0)) {
+        fault(fmt::format("have ({:g}, {:g}) after ({:g}, {:g}); must increase within (0, 1)", b.at, b.value,
+                          last.at, last.value));
+        break;
+      }
+      last = b;
+    }
+  }
+}
+
+void CheckShape(const HosakaPatch& h, Faults& faults) {
+  const bool inner = h.inner_u >= 0 || h.inner_v >= 0;
+  bool sound = CheckDegree(h.degree, "degree", faults, 1, 11);
+  if (inner) {
+    sound = CheckDegree(h.inner_u, "inner_degree_u", faults, 0, 4) && sound;
+    sound = CheckDegree(h.inner_v, "inner_degree_v", faults, 0, 4) && sound;
+    sound = CheckDegree(h.inner_order, "inner_order", faults, 1, 2) && sound;
+  }
+  if (sound) {
+    const int count = 4 * h.degree + (inner ? (h.inner_u + 1) * (h.inner_v + 1) : 0);
+    CheckPointCount(h.points.size(), static_cast<std::size_t>(count), faults);
+  }
+  CheckBreaks(h, faults);
+  CheckPoints(h.points, faults);
 }
 
 void CheckIds(const PatchModel& model, Faults& faults) {

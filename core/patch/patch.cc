@@ -12,6 +12,9 @@ Vec3 Position(const PatchShape& shape, double u, double v) {
   return std::visit([&](const auto& s) { return internal::ShapePosition(s, u, v); }, shape);
 }
 
-bool IsTriangle(const PatchShape& shape) { return std::holds_alternative<BezierTriangle>(shape); }
+bool IsTriangle(const PatchShape& shape) {
+  return std::holds_alternative<BezierTriangle>(shape) || std::holds_alternative<GregoryTriangle>(shape) ||
+         std::holds_alternative<LoftTriangle>(shape);
+}
 
 }  // namespace patchmill

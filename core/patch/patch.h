@@ -67,7 +67,82 @@ struct BezierTriangle {
   std::vector<double> weights;
 };
 
-using PatchShape = std::variant<BezierPatch, BsplinePatch, GregoryPatch, BezierTriangle>;
+// Quad on four general boundary curves with given cross-boundary tangents (METHODS (11), (12), (14): "Brown
+// quad"). Each edge has its Bezier curve C and beside it a rail C + b/3, b the tangent across the edge into
+// the patch; rails have the degree of their edge. The ends of a rail follow from the two curves that cross
+// there and are not given, so the data always meet at the corners.
+//   points, with n = degree_u, m = degree_v; all rows along u, all columns along v:
+//     edge v=0 (n+1), edge v=1 (n+1), inner points of edge u=0 (m-1) and of edge u=1 (m-1),
+//     inner points of the rails of v=0 (n-1), v=1 (n-1), u=0 (m-1), u=1 (m-1): 4 (n + m) - 4 in all.
+// Cubic everywhere: two bicubic nets that differ in their inner points, as GregoryPatch::kEdge, with weights
+// u^2 (1-u)^2 and v^2 (1-v)^2 in place of u (1-u) and v (1-v).
+struct BrownPatch {
+  int degree_u = 3;  // 3..kMaxBrownDegree
+  int degree_v = 3;
+  std::vector<Vec3> points;
+};
+inline constexpr int kMaxBrownDegree = 11;  // its net has degree 4 more
+
+// Quartic Gregory triangle (METHODS (15)-(18)), 18 points: five at each corner (0,0) (1,0) (0,1) as in
+// GregoryPatch, P E+ E- F+ F-, then the middle points of the edges 0-1, 1-2, 2-0.
+//
+//   t=1           10
+//               11  12
+//             17  z  16            rows of the quartic:  0 1 15 7 5 / 2 x y 6 / 17 z 16 / 11 12 / 10
+//            2   x  y   6
+//   t=0    0   1   15  7   5       with r = 1-s-t
+//
+// kCorner: x = (s p3 + t p4)/(s+t), y = (t p8 + r p9)/(t+r), z = (r p13 + s p14)/(r+s).
+// kEdge: three quartics blended by u_j u_k / (u2 u3 + u1 u3 + u1 u2). The one that serves an edge takes the
+// two inner points next to it from that edge (F+ of the corner it leaves, F- of the one it reaches) and the
+// mean of the third pair.
+struct GregoryTriangle {
+  std::array<Vec3, 18> points;
+  GregoryPatch::Blend blend = GregoryPatch::Blend::kEdge;
+};
+
+// Triangle blended from three quads with one edge shrunk to the opposite vertex (METHODS (19)-(21)).
+//   points, with n = degree: the boundary anti-clockwise from (0,0), 3 n points (edge 0 from (0,0) to (1,0),
+//   edge 1 to (0,1), edge 2 back); then the n - 1 inner points of the rail of each edge, rail = curve + b/3,
+//   b the tangent across the edge into the triangle (barycentric direction, straight to the opposite vertex).
+//   6 n - 3 in all. The ends of the rails follow from the neighbouring edges.
+// Plain weights (18) need cubic edges; squared ones serve degree 4 too.
+struct LoftTriangle {
+  int degree = 3;        // 3, or 4 with squared weights
+  bool squared = false;  // u_i u_j of (18) replaced by its square
+  std::vector<Vec3> points;
+};
+
+// G2-Gregory patch (METHODS (4)) of degree n = 5..7 each way: (n+1)^2 points, [i (n+1) + j], i along u, whose
+// block entries (i and j both in {1, 2, n-2, n-1}) serve the edges v=0 and v=1; then 16 points, the block
+// entries in the same order that serve u=0 and u=1.
+struct G2GregoryPatch {
+  int degree = 6;
+  std::vector<Vec3> points;
+};
+
+// Hosaka's blended boundary patch (METHODS 3.1-3.4).
+//   points, with n = degree 1..11: edge v=0 (n+1), edge v=1 (n+1), inner points of edge u=0 (n-1) and u=1
+//   (n-1): Bezier points, 4 n in all; then corner (0,0) + s_ij, i slow, for the inner term (28).
+struct HosakaPatch {
+  enum class Blend { kSmooth, kLinear };  // (23) or (26)
+  struct Break {
+    double at = 0.0, value = 0.0;  // f(at) = value; at in (0, 1), increasing; value in [0, 1], not decreasing
+  };
+  int degree = 3;
+  Blend blend = Blend::kSmooth;
+  // Where other patches end on a part of an edge (20): of the blending function of edge v=0, u=0, v=1, u=1
+  // (f1..f4). Only with kSmooth, at most kMaxHosakaBreaks each.
+  std::array<std::vector<Break>, 4> breaks;
+  // The inner term has (inner_u + 1)(inner_v + 1) coefficients, both 0..4; -1: none. inner_order 1 is (28), 2
+  // multiplies it by another u v (1-u)(1-v), so that edge normals stay.
+  int inner_u = -1, inner_v = -1, inner_order = 1;
+  std::vector<Vec3> points;
+};
+inline constexpr int kMaxHosakaBreaks = 16;
+
+using PatchShape = std::variant<BezierPatch, BsplinePatch, GregoryPatch, BezierTriangle, BrownPatch,
+                                GregoryTriangle, LoftTriangle, G2GregoryPatch, HosakaPatch>;
 
 struct Patch {
   std::string id;  // the client's face id, unique or empty
@@ -82,8 +157,9 @@ struct SurfaceJet {
 };
 
 // Analytic evaluation in the native form of each kind. Error about 1e-15 of the patch's size.
-// Gregory corners: value and first derivatives are exact; second derivatives have no limit there,
-// METHODS 1.6's values (boundary curves, mean twist) are returned within 1e-6 of a corner.
+// Corners of blended kinds (Gregory, Brown, LoftTriangle, G2Gregory): value and first derivatives are exact;
+// second derivatives have no limit there, METHODS 1.6's values (boundary curves, mean twist) are returned
+// within 1e-6 of a corner.
 SurfaceJet Evaluate(const PatchShape& shape, double u, double v);
 Vec3 Position(const PatchShape& shape, double u, double v);
 

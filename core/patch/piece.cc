@@ -43,6 +43,25 @@ Vec4 NetPoint(const BernsteinNet& net, double u, double v) {
   return NetPoint<-1, -1>(net, u, v);
 }
 
+// Of the patch through the bilinear map of the piece into its parameters, by the chain rule.
+SurfaceJet ShapeJet(const Piece& piece, double u, double v) {
+  const auto& c = piece.native;
+  const Vec2 at = NativeParameters(piece, u, v);
+  const Vec2 a = (1.0 - v) * (c[1] - c[0]) + v * (c[3] - c[2]);  // d/du
+  const Vec2 b = (1.0 - u) * (c[2] - c[0]) + u * (c[3] - c[1]);  // d/dv
+  const Vec2 ab = c[3] - c[2] - c[1] + c[0];
+  const SurfaceJet n = Evaluate(*piece.shape, at.x(), at.y());
+  SurfaceJet s;
+  s.p = n.p;
+  s.du = a.x() * n.du + a.y() * n.dv;
+  s.dv = b.x() * n.du + b.y() * n.dv;
+  s.duu = a.x() * a.x() * n.duu + 2.0 * a.x() * a.y() * n.duv + a.y() * a.y() * n.dvv;
+  s.dvv = b.x() * b.x() * n.duu + 2.0 * b.x() * b.y() * n.duv + b.y() * b.y() * n.dvv;
+  s.duv = a.x() * b.x() * n.duu + (a.x() * b.y() + a.y() * b.x()) * n.duv + a.y() * b.y() * n.dvv +
+          ab.x() * n.du + ab.y() * n.dv;
+  return s;
+}
+
 }  // namespace
 
 BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, double v1) {
@@ -75,12 +94,17 @@ std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape) {
 
 SurfaceJet Evaluate(const Piece& piece, double u, double v) {
   if (piece.gregory) return internal::EvaluateShape(*piece.gregory, u, v);
+  if (piece.shape) return ShapeJet(piece, u, v);
   const HomogeneousJet h = NetJet(piece.net, u, v);
   return piece.net.rational ? internal::RationalJet(h) : internal::PolynomialJet(h);
 }
 
 Vec3 Position(const Piece& piece, double u, double v) {
   if (piece.gregory) return internal::ShapePosition(*piece.gregory, u, v);
+  if (piece.shape) {
+    const Vec2 at = NativeParameters(piece, u, v);
+    return Position(*piece.shape, at.x(), at.y());
+  }
   const Vec4 p = NetPoint(piece.net, u, v);
   return piece.net.rational ? Vec3(p.head<3>() / p.w()) : Vec3(p.head<3>());
 }

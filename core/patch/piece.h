@@ -2,11 +2,14 @@
 // rectangle.
 //   Bezier: 1 piece. B-spline: one per non-empty knot rectangle. Gregory: 1. Triangle of degree n: 3
 //   rectangles of bidegree (n,n) around its centroid (a bilinear map of the rectangle into the triangle; no
-//   collapsed edge).
+//   collapsed edge). Brown quad: 1, rational of 4 degrees more. Gregory triangle: 3 as a rational triangle of
+//   degree 6 (edge blend) or 7. Loft triangle: 3 of degree 8, squared 3 degree + 1. G2-Gregory of degree n: 1
+//   of n + 8. Hosaka: polynomial, one per rectangle of the break parameters.
 // Algorithms that plan, bound and measure see pieces only.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,6 +36,9 @@ struct Piece {
   BernsteinNet net;  // exact for every kind
   // Gregory pieces are evaluated natively (faster, and right at the corners); others from the net.
   std::optional<GregoryPatch> gregory;
+  // The patch itself where the net is singular at a corner and the kind has no field of its own: evaluated
+  // through `native`. Shared by the pieces of one patch.
+  std::shared_ptr<const PatchShape> shape;
   // Native parameters of the piece's corners (0,0) (1,0) (0,1) (1,1); bilinear in between, exactly.
   std::array<Vec2, 4> native;
 };

@@ -1,5 +1,6 @@
 #include "server/convert/model.h"
 
+#include <algorithm>
 #include <set>
 
 #include "core/base/status.h"
@@ -17,6 +18,14 @@ struct Sizes {
   std::size_t points = 0, knots = 0;
 };
 
+// Few breaks cut a patch into many pieces, so it counts with the points of these.
+std::size_t HosakaPoints(const v1::HosakaPatch& patch) {
+  std::size_t columns = 1, rows = 1;
+  for (const v1::HosakaBreak& b : patch.breaks()) ++(b.side() % 2 == 0 ? columns : rows);
+  const auto across = static_cast<std::size_t>(std::clamp(patch.degree() + 4, 7, kMaxDegree + 1));
+  return std::max(Count(patch.points()) / 3, columns * rows * across * across);
+}
+
 Sizes SizesOf(const v1::Patch& patch) {
   switch (patch.shape_case()) {
     case v1::Patch::kBezier:
@@ -28,6 +37,16 @@ Sizes SizesOf(const v1::Patch& patch) {
       return {Count(patch.gregory().points()) / 3, 0};
     case v1::Patch::kTriangle:
       return {Count(patch.triangle().points()) / 3, 0};
+    case v1::Patch::kBrown:
+      return {Count(patch.brown().points()) / 3, 0};
+    case v1::Patch::kGregoryTriangle:
+      return {Count(patch.gregory_triangle().points()) / 3, 0};
+    case v1::Patch::kLoftTriangle:
+      return {Count(patch.loft_triangle().points()) / 3, 0};
+    case v1::Patch::kG2Gregory:
+      return {Count(patch.g2_gregory().points()) / 3, 0};
+    case v1::Patch::kHosaka:
+      return {HosakaPoints(patch.hosaka()), static_cast<std::size_t>(patch.hosaka().breaks_size())};
     case v1::Patch::SHAPE_NOT_SET:
       break;
   }
@@ -87,7 +106,29 @@ class PatchReader {
         break;
       }
       case v1::Patch::kGregory:
-        patch.shape = Gregory(proto.gregory());
+        patch.shape = Gregory<GregoryPatch>("gregory", proto.gregory());
+        break;
+      case v1::Patch::kGregoryTriangle:
+        patch.shape = Gregory<GregoryTriangle>("gregory_triangle", proto.gregory_triangle());
+        break;
+      case v1::Patch::kBrown: {
+        const v1::BrownPatch& from = proto.brown();
+        patch.shape = BrownPatch{from.degree_u(), from.degree_v(), Points("brown.points", from.points())};
+        break;
+      }
+      case v1::Patch::kLoftTriangle: {
+        const v1::LoftTriangle& from = proto.loft_triangle();
+        patch.shape =
+            LoftTriangle{from.degree(), from.squared(), Points("loft_triangle.points", from.points())};
+        break;
+      }
+      case v1::Patch::kG2Gregory: {
+        const v1::G2GregoryPatch& from = proto.g2_gregory();
+        patch.shape = G2GregoryPatch{from.degree(), Points("g2_gregory.points", from.points())};
+        break;
+      }
+      case v1::Patch::kHosaka:
+        patch.shape = Hosaka(proto.hosaka());
         break;
       case v1::Patch::kTriangle: {
         const v1::BezierTriangle& from = proto.triangle();
@@ -97,7 +138,10 @@ class PatchReader {
         break;
       }
       case v1::Patch::SHAPE_NOT_SET:
-        Fault("NO_SHAPE", "shape", "is missing; one of bezier, bspline, gregory, triangle is required");
+        Fault(
+            "NO_SHAPE", "shape",
+            "is missing; one of bezier, bspline, gregory, triangle, brown, gregory_triangle, loft_triangle, "
+            "g2_gregory, hosaka is required");
         break;
     }
     return patch;
@@ -127,13 +171,16 @@ class PatchReader {
     return points;
   }
 
-  GregoryPatch Gregory(const v1::GregoryPatch& from) {
-    GregoryPatch to;
-    const std::vector<Vec3> points = Points("gregory.points", from.points());
+  template <class To, class From>
+  To Gregory(std::string_view kind, const From& from) {
+    To to;
+    const std::string field = fmt::format("{}.points", kind);
+    const std::vector<Vec3> points = Points(field, from.points());
     if (points.size() == to.points.size()) {
       std::copy(points.begin(), points.end(), to.points.begin());
     } else {
-      Fault("POINT_COUNT", "gregory.points", fmt::format("has {} points; must have 20", points.size()));
+      Fault("POINT_COUNT", field,
+            fmt::format("has {} points; must have {}", points.size(), to.points.size()));
     }
     switch (from.blend()) {
       case v1::GREGORY_BLEND_CORNER:
@@ -143,10 +190,28 @@ class PatchReader {
         to.blend = GregoryPatch::Blend::kEdge;
         break;
       default:
-        Fault("NO_BLEND", "gregory.blend",
+        Fault("NO_BLEND", fmt::format("{}.blend", kind),
               fmt::format("= {}; must be GREGORY_BLEND_CORNER or GREGORY_BLEND_EDGE",
                           static_cast<int>(from.blend())));
     }
+    return to;
+  }
+
+  HosakaPatch Hosaka(const v1::HosakaPatch& from) {
+    HosakaPatch to;
+    to.degree = from.degree();
+    to.blend = from.linear() ? HosakaPatch::Blend::kLinear : HosakaPatch::Blend::kSmooth;
+    for (const v1::HosakaBreak& b : from.breaks()) {
+      if (b.side() >= 0 && b.side() < 4) {
+        to.breaks[static_cast<std::size_t>(b.side())].push_back({b.at(), b.value()});
+      } else {
+        Fault("INVALID_BREAKS", "hosaka.breaks", fmt::format("name side {}; must be in [0, 3]", b.side()));
+      }
+    }
+    if (from.has_inner_degree_u()) to.inner_u = from.inner_degree_u();
+    if (from.has_inner_degree_v()) to.inner_v = from.inner_degree_v();
+    to.inner_order = from.inner_order() == 0 ? 1 : from.inner_order();
+    to.points = Points("hosaka.points", from.points());
     return to;
   }
 
@@ -181,11 +246,60 @@ void Fill(const BsplinePatch& from, v1::Patch& to) {
   shape.mutable_weights()->Add(from.weights.begin(), from.weights.end());
 }
 
+v1::GregoryBlend BlendOf(GregoryPatch::Blend blend) {
+  return blend == GregoryPatch::Blend::kCorner ? v1::GREGORY_BLEND_CORNER : v1::GREGORY_BLEND_EDGE;
+}
+
 void Fill(const GregoryPatch& from, v1::Patch& to) {
   v1::GregoryPatch& shape = *to.mutable_gregory();
   AddPoints(from.points, shape.mutable_points());
-  shape.set_blend(from.blend == GregoryPatch::Blend::kCorner ? v1::GREGORY_BLEND_CORNER
-                                                             : v1::GREGORY_BLEND_EDGE);
+  shape.set_blend(BlendOf(from.blend));
+}
+
+void Fill(const BrownPatch& from, v1::Patch& to) {
+  v1::BrownPatch& shape = *to.mutable_brown();
+  shape.set_degree_u(from.degree_u);
+  shape.set_degree_v(from.degree_v);
+  AddPoints(from.points, shape.mutable_points());
+}
+
+void Fill(const GregoryTriangle& from, v1::Patch& to) {
+  v1::GregoryTriangle& shape = *to.mutable_gregory_triangle();
+  AddPoints(from.points, shape.mutable_points());
+  shape.set_blend(BlendOf(from.blend));
+}
+
+void Fill(const LoftTriangle& from, v1::Patch& to) {
+  v1::LoftTriangle& shape = *to.mutable_loft_triangle();
+  shape.set_degree(from.degree);
+  shape.set_squared(from.squared);
+  AddPoints(from.points, shape.mutable_points());
+}
+
+void Fill(const G2GregoryPatch& from, v1::Patch& to) {
+  v1::G2GregoryPatch& shape = *to.mutable_g2_gregory();
+  shape.set_degree(from.degree);
+  AddPoints(from.points, shape.mutable_points());
+}
+
+void Fill(const HosakaPatch& from, v1::Patch& to) {
+  v1::HosakaPatch& shape = *to.mutable_hosaka();
+  shape.set_degree(from.degree);
+  shape.set_linear(from.blend == HosakaPatch::Blend::kLinear);
+  for (int side = 0; side < 4; ++side) {
+    for (const HosakaPatch::Break& b : from.breaks[static_cast<std::size_t>(side)]) {
+      v1::HosakaBreak& made = *shape.add_breaks();
+      made.set_side(side);
+      made.set_at(b.at);
+      made.set_value(b.value);
+    }
+  }
+  if (from.inner_u >= 0) {
+    shape.set_inner_degree_u(from.inner_u);
+    shape.set_inner_degree_v(from.inner_v);
+    shape.set_inner_order(from.inner_order);
+  }
+  AddPoints(from.points, shape.mutable_points());
 }
 
 void Fill(const BezierTriangle& from, v1::Patch& to) {

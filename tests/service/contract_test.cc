@@ -79,8 +79,9 @@ void ExpectComment(const Descriptor& descriptor) {
 TEST(Contract, DimensionedNumbersCarryTheirUnit) {
   const std::set<std::string> units = {"mm", "mm2", "deg", "s", "min", "rpm"};
   // Numbers without a dimension, and coordinates in the unit their model states.
-  const std::set<std::string> plain = {"scale",   "fraction", "u",      "v",           "knots_u",
-                                       "knots_v", "weights",  "points", "limit_value", "actual_value"};
+  const std::set<std::string> plain = {"scale",       "fraction",     "u",       "v",
+                                       "knots_u",     "knots_v",      "weights", "points",
+                                       "limit_value", "actual_value", "at",      "value"};
   int seen = 0;
   ForEachField([&](const FieldDescriptor& field) {
     if (field.cpp_type() == FieldDescriptor::CPPTYPE_FLOAT)

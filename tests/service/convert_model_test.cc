@@ -41,6 +41,35 @@ v1::PatchModel AllKinds() {
   triangle.set_degree(1);
   for (const double x : {0.0, 0.0, 5.0, 1.0, 0.0, 5.0, 0.0, 1.0, 6.0}) triangle.add_points(x);
   for (const double w : {1.0, 0.5, 2.0}) triangle.add_weights(w);
+  const auto fill = [](int count, auto& shape) {
+    for (int i = 0; i < 3 * count; ++i) shape.add_points(0.1 * i * i);
+  };
+  v1::BrownPatch& brown = *model.add_patches()->mutable_brown();
+  brown.set_degree_u(3);
+  brown.set_degree_v(5);
+  fill(28, brown);
+  v1::GregoryTriangle& quartic = *model.add_patches()->mutable_gregory_triangle();
+  quartic.set_blend(v1::GREGORY_BLEND_EDGE);
+  fill(18, quartic);
+  v1::LoftTriangle& loft = *model.add_patches()->mutable_loft_triangle();
+  loft.set_degree(4);
+  loft.set_squared(true);
+  fill(21, loft);
+  v1::G2GregoryPatch& g2 = *model.add_patches()->mutable_g2_gregory();
+  g2.set_degree(5);
+  fill(52, g2);
+  v1::HosakaPatch& hosaka = *model.add_patches()->mutable_hosaka();
+  hosaka.set_degree(3);
+  for (const int side : {0, 3, 3}) {
+    v1::HosakaBreak& b = *hosaka.add_breaks();
+    b.set_side(side);
+    b.set_at(0.2 + 0.1 * hosaka.breaks_size());
+    b.set_value(0.15 * hosaka.breaks_size());
+  }
+  hosaka.set_inner_degree_u(1);
+  hosaka.set_inner_degree_v(0);
+  hosaka.set_inner_order(2);
+  fill(14, hosaka);
   return model;
 }
 
@@ -77,6 +106,11 @@ TEST(ModelDigestTest, DependsOnEveryNumberAndNotOnTheUnitItCameIn) {
     if (p.has_bspline()) p.mutable_bspline()->set_weights(2, 1.25);
     if (p.has_gregory()) p.mutable_gregory()->set_blend(v1::GREGORY_BLEND_CORNER);
     if (p.has_triangle()) p.mutable_triangle()->set_points(8, 6.5);
+    if (p.has_brown()) p.mutable_brown()->set_points(8, 6.25);
+    if (p.has_gregory_triangle()) p.mutable_gregory_triangle()->set_blend(v1::GREGORY_BLEND_CORNER);
+    if (p.has_loft_triangle()) p.mutable_loft_triangle()->set_points(8, 6.25);
+    if (p.has_g2_gregory()) p.mutable_g2_gregory()->set_points(155, 6.25);
+    if (p.has_hosaka()) p.mutable_hosaka()->mutable_breaks(2)->set_value(0.5);
     EXPECT_NE(digest(changed), base) << patch;
   }
   v1::PatchModel meters = Bump(2.0, 1.0), millimeters = Bump(2000.0, 1000.0);
@@ -137,6 +171,22 @@ TEST_P(PatchFaults, IsAFindingWithItsField) {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+// Each break beside others makes a whole row of pieces.
+TEST(ModelErrors, HosakaPatchesCountWithThePiecesOfTheirBreaks) {
+  v1::PatchModel model;
+  model.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  v1::HosakaPatch& hosaka = *model.add_patches()->mutable_hosaka();
+  hosaka.set_degree(3);
+  for (int side = 0; side < 4; ++side) {
+    for (int k = 0; k < 16; ++k) hosaka.add_breaks()->set_side(side);
+  }
+  while (model.patches_size() * 33 * 33 * 49 <= 2'500'000) *model.add_patches() = model.patches(0);
+  EXPECT_THAT(FromProto(model, "m").status(),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("model.control_point_count")));
+  model.mutable_patches()->RemoveLast();
+  EXPECT_TRUE(FromProto(model, "m").ok());
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, PatchFaults,
     ::testing::Values(
@@ -190,6 +240,35 @@ INSTANTIATE_TEST_SUITE_P(
         PatchFault{"GregoryBlend",
                    [](v1::PatchModel& m) { m.mutable_patches(2)->mutable_gregory()->clear_blend(); },
                    "patches[2].gregory.blend = 0; must be"},
+        PatchFault{"BrownDegree",
+                   [](v1::PatchModel& m) { m.mutable_patches(4)->mutable_brown()->set_degree_v(12); },
+                   "patches[4].brown.degree_v = 12; must be in [3, 11]"},
+        PatchFault{"BrownCount",
+                   [](v1::PatchModel& m) { m.mutable_patches(4)->mutable_brown()->set_degree_u(4); },
+                   "patches[4].brown.points has 28 points; must have 32"},
+        PatchFault{"GregoryTriangleCount",
+                   [](v1::PatchModel& m) {
+                     m.mutable_patches(5)->mutable_gregory_triangle()->mutable_points()->Truncate(51);
+                   },
+                   "patches[5].gregory_triangle.points has 17 points; must have 18"},
+        PatchFault{
+            "LoftDegree",
+            [](v1::PatchModel& m) { m.mutable_patches(6)->mutable_loft_triangle()->set_squared(false); },
+            "patches[6].loft_triangle.degree = 4; must be in [3, 3]"},
+        PatchFault{"G2Degree",
+                   [](v1::PatchModel& m) { m.mutable_patches(7)->mutable_g2_gregory()->set_degree(8); },
+                   "patches[7].g2_gregory.degree = 8; must be in [5, 7]"},
+        PatchFault{
+            "HosakaSide",
+            [](v1::PatchModel& m) { m.mutable_patches(8)->mutable_hosaka()->mutable_breaks(0)->set_side(4); },
+            "patches[8].hosaka.breaks name side 4"},
+        PatchFault{
+            "HosakaBreakOrder",
+            [](v1::PatchModel& m) { m.mutable_patches(8)->mutable_hosaka()->mutable_breaks(2)->set_at(0.1); },
+            "patches[8].hosaka.breaks of side 3 have (0.1"},
+        PatchFault{"HosakaInner",
+                   [](v1::PatchModel& m) { m.mutable_patches(8)->mutable_hosaka()->set_inner_degree_u(9); },
+                   "patches[8].hosaka.inner_degree_u = 9; must be in [0, 4]"},
         PatchFault{"IdTooLong",
                    [](v1::PatchModel& m) { m.mutable_patches(0)->set_id(std::string(201, 'x')); },
                    "patches[0].id has 201 bytes"},

@@ -1,4 +1,6 @@
 // Random patches of every kind (shapes.h).
+#include <algorithm>
+
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 
@@ -80,6 +82,118 @@ BezierTriangle RandomTriangle(std::uint64_t seed, int degree, bool rational, dou
     }
   }
   return patch;
+}
+
+BrownPatch RandomBrown(std::uint64_t seed, int degree_u, int degree_v, double size) {
+  Random random(seed);
+  BrownPatch patch;
+  patch.degree_u = degree_u;
+  patch.degree_v = degree_v;
+  const auto add = [&](double u, double v) {
+    const double move = 0.2 * size / std::max(degree_u, degree_v);
+    patch.points.push_back(Vec3(u * size, v * size, 0.0) + random.Point(-move, move));
+  };
+  const auto row = [&](double v, int first, int last) {
+    for (int k = first; k <= last; ++k) add(static_cast<double>(k) / degree_u, v);
+  };
+  const auto column = [&](double u) {
+    for (int k = 1; k < degree_v; ++k) add(u, static_cast<double>(k) / degree_v);
+  };
+  row(0, 0, degree_u), row(1, 0, degree_u);
+  column(0), column(1);
+  row(1 / 3.0, 1, degree_u - 1), row(2 / 3.0, 1, degree_u - 1);
+  column(1 / 3.0), column(2 / 3.0);
+  return patch;
+}
+
+GregoryTriangle RandomGregoryTriangle(std::uint64_t seed, GregoryPatch::Blend blend, double size) {
+  // Places (s, t), in quarters of the side, of the eighteen points.
+  constexpr int kPlan[18][2] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {1, 1}, {4, 0}, {3, 1}, {3, 0}, {2, 1},
+                                {2, 1}, {0, 4}, {0, 3}, {1, 3}, {1, 2}, {1, 2}, {2, 0}, {2, 2}, {0, 2}};
+  Random random(seed);
+  GregoryTriangle patch;
+  patch.blend = blend;
+  for (std::size_t k = 0; k < 18; ++k) {
+    patch.points[k] = size / 4 * Vec3(kPlan[k][0], kPlan[k][1], 0) + random.Point(-0.06 * size, 0.06 * size);
+  }
+  return patch;
+}
+
+LoftTriangle RandomLoftTriangle(std::uint64_t seed, int degree, bool squared, double size) {
+  Random random(seed);
+  LoftTriangle patch;
+  patch.degree = degree;
+  patch.squared = squared;
+  const Vec3 corner[3] = {Vec3::Zero(), Vec3(size, 0, 0), Vec3(0, size, 0)};
+  const double move = 0.2 * size / degree;
+  for (const bool rail : {false, true}) {
+    for (int e = 0; e < 3; ++e) {
+      for (int k = rail ? 1 : 0; k < degree; ++k) {
+        const Vec3 p = corner[e] + static_cast<double>(k) / degree * (corner[(e + 1) % 3] - corner[e]);
+        patch.points.push_back(p + (rail ? Vec3((corner[(e + 2) % 3] - p) / 3.0) : Vec3(Vec3::Zero())) +
+                               random.Point(-move, move));
+      }
+    }
+  }
+  return patch;
+}
+
+G2GregoryPatch RandomG2Gregory(std::uint64_t seed, int degree, double size) {
+  Random random(seed);
+  G2GregoryPatch patch;
+  patch.degree = degree;
+  BezierPatch grid;
+  FillGrid(random, degree + 1, degree + 1, false, size, grid);
+  patch.points = std::move(grid.points);
+  for (const int i : {1, 2, degree - 2, degree - 1}) {
+    for (const int j : {1, 2, degree - 2, degree - 1}) {
+      patch.points.push_back(patch.points[static_cast<std::size_t>(i * (degree + 1) + j)] +
+                             random.Point(-0.1 * size, 0.1 * size));
+    }
+  }
+  return patch;
+}
+
+HosakaPatch RandomHosaka(std::uint64_t seed, int degree, bool breaks, bool inner, double size) {
+  Random random(seed);
+  HosakaPatch patch;
+  patch.degree = degree;
+  const double move = 0.2 * size / degree;
+  const auto add = [&](double u, double v) {
+    patch.points.push_back(Vec3(u * size, v * size, 0.0) + random.Point(-move, move));
+  };
+  for (const double v : {0.0, 1.0}) {
+    for (int k = 0; k <= degree; ++k) add(static_cast<double>(k) / degree, v);
+  }
+  for (const double u : {0.0, 1.0}) {
+    for (int k = 1; k < degree; ++k) add(u, static_cast<double>(k) / degree);
+  }
+  if (breaks) {
+    patch.breaks[0] = {{0.45, 0.6}};
+    patch.breaks[3] = {{0.3, 0.3}, {0.8, 0.7}};
+  }
+  if (inner) {
+    patch.inner_u = 1;
+    patch.inner_v = 2;
+    patch.inner_order = 2;
+    for (int k = 0; k < 6; ++k) patch.points.push_back(patch.points[0] + random.Point(-size, size));
+  }
+  return patch;
+}
+
+std::vector<PatchShape> SingularKinds(double size) {
+  using enum GregoryPatch::Blend;
+  return {RandomBrown(1, 3, 3, size),
+          RandomBrown(2, 4, 3, size),
+          RandomBrown(3, 5, 11, size),
+          RandomGregoryTriangle(4, kCorner, size),
+          RandomGregoryTriangle(5, kEdge, size),
+          RandomLoftTriangle(6, 3, false, size),
+          RandomLoftTriangle(7, 3, true, size),
+          RandomLoftTriangle(8, 4, true, size),
+          RandomG2Gregory(9, 5, size),
+          RandomG2Gregory(10, 6, size),
+          RandomG2Gregory(11, 7, size)};
 }
 
 }  // namespace patchmill::testing

@@ -71,5 +71,13 @@ BsplinePatch RandomKnots(std::uint64_t seed, int degree_u, int degree_v, bool ra
 GregoryPatch RandomGregory(std::uint64_t seed, GregoryPatch::Blend blend, double size = 20.0);
 // Over the plan triangle (0,0) (size,0) (0,size).
 BezierTriangle RandomTriangle(std::uint64_t seed, int degree, bool rational, double size = 20.0);
+BrownPatch RandomBrown(std::uint64_t seed, int degree_u, int degree_v, double size = 20.0);
+GregoryTriangle RandomGregoryTriangle(std::uint64_t seed, GregoryPatch::Blend blend, double size = 20.0);
+LoftTriangle RandomLoftTriangle(std::uint64_t seed, int degree, bool squared, double size = 20.0);
+G2GregoryPatch RandomG2Gregory(std::uint64_t seed, int degree, double size = 20.0);
+// With breaks, f1 has one and f4 two; with an inner term, 2 x 3 coefficients of order 2.
+HosakaPatch RandomHosaka(std::uint64_t seed, int degree, bool breaks, bool inner, double size = 20.0);
+// One of every kind whose net has singular corners.
+std::vector<PatchShape> SingularKinds(double size = 20.0);
 
 }  // namespace patchmill::testing

@@ -107,8 +107,8 @@ TEST(ReadBv, DividesTheSphereOfBembelByItsWeights) {
 }
 
 TEST(ReadPatches, ReadsEveryKindWithUFastest) {
-  const std::string text =
-      "patches 3\nbezier 1 2\n" + Points(6) + "triangle 2\n" + Points(6) + "gregory4\n" + Points(20);
+  const std::string text = "patches 4\nbezier 1 2\n" + Points(6) + "triangle 2\n" + Points(6) + "gregory4\n" +
+                           Points(20) + "gregory3\n" + Points(18);
   const auto model = ReadPatches(text);
   ASSERT_TRUE(model.ok()) << model.status();
   const PatchShape& quad = model->patches[0].shape;
@@ -120,6 +120,14 @@ TEST(ReadPatches, ReadsEveryKindWithUFastest) {
   EXPECT_EQ(gregory.blend, GregoryPatch::Blend::kCorner);
   EXPECT_EQ(Position(model->patches[2].shape, 1, 0), NumberedPoint(5));
   EXPECT_EQ(Position(model->patches[2].shape, 0, 1), NumberedPoint(15));
+  EXPECT_EQ(std::get<GregoryTriangle>(model->patches[3].shape).blend, GregoryPatch::Blend::kCorner);
+  EXPECT_EQ(Position(model->patches[3].shape, 1, 0), NumberedPoint(5));
+  EXPECT_EQ(Position(model->patches[3].shape, 0, 1), NumberedPoint(10));
+  // The middle of edge 0-1 is 0 1 15 7 5 in quartic form.
+  const Vec3 middle = (NumberedPoint(0) + 4 * NumberedPoint(1) + 6 * NumberedPoint(15) +
+                       4 * NumberedPoint(7) + NumberedPoint(5)) /
+                      16;
+  EXPECT_LE((Position(model->patches[3].shape, 0.5, 0) - middle).norm(), 1e-13);
 }
 
 TEST(ReadBez, QuarterCylinderIsExactWithUAroundIt) {
@@ -170,6 +178,7 @@ TEST(Writers, GiveBackWhatTheyWereGiven) {
   }
   ExpectSame(*ReadBv(*WriteBv(model)), model, 0.0);
   model.patches.push_back({"", testing::RandomGregory(3, GregoryPatch::Blend::kCorner)});
+  model.patches.push_back({"", testing::RandomGregoryTriangle(4, GregoryPatch::Blend::kCorner)});
   ExpectSame(*ReadPatches(*WritePatches(model)), model, 0.0);
 }
 
@@ -188,6 +197,7 @@ TEST(Writers, RefuseWhatTheFormatCannotHold) {
   EXPECT_FALSE(WriteBv(Single(testing::RandomTriangle(1, 3, true))).ok());
   EXPECT_FALSE(WritePatches(spline).ok());
   EXPECT_FALSE(WritePatches(rational).ok());
+  EXPECT_FALSE(WritePatches(Single(testing::RandomGregoryTriangle(4, GregoryPatch::Blend::kEdge))).ok());
   EXPECT_THAT(std::string(WritePatches(edge_blend).status().message()), HasSubstr("patches[0]"));
 }
 

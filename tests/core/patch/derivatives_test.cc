@@ -99,5 +99,14 @@ TEST(Derivatives, Triangles) {
   }
 }
 
+TEST(Derivatives, BlendedKinds) {
+  for (const PatchShape& shape : testing::SingularKinds(1.0)) ExpectDerivatives(shape);
+}
+
+TEST(Derivatives, Hosaka) {
+  for (const int n : {1, 3, 6}) ExpectDerivatives(testing::RandomHosaka(n, n, false, n == 6, 1.0));
+  ExpectDerivatives(testing::RandomHosaka(9, 3, true, true, 1.0), false);
+}
+
 }  // namespace
 }  // namespace patchmill

@@ -24,6 +24,9 @@ std::vector<PatchShape> OneOfEachKind() {
   }
   shapes.push_back(testing::RandomGregory(5, GregoryPatch::Blend::kCorner));
   shapes.push_back(testing::RandomGregory(6, GregoryPatch::Blend::kEdge));
+  for (PatchShape& shape : testing::SingularKinds()) shapes.push_back(std::move(shape));
+  shapes.push_back(testing::RandomHosaka(7, 3, false, false));
+  shapes.push_back(testing::RandomHosaka(8, 4, true, true));
   return shapes;
 }
 

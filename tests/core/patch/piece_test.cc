@@ -102,6 +102,28 @@ TEST(Pieces, GregoryNetsEqualTheBlend) {
   }
 }
 
+TEST(Pieces, BlendedNetsEqualTheBlend) {
+  for (const PatchShape& shape : testing::SingularKinds(1.0)) {
+    ExpectPiecesMatch(shape, 2000);
+    EXPECT_EQ(SplitIntoPieces(PatchId(0), shape).size(), IsTriangle(shape) ? 3u : 1u);
+  }
+}
+
+TEST(Pieces, HosakaOnePerBreakRectangle) {
+  for (const bool inner : {false, true}) {
+    for (const int n : {1, 3, 11}) {
+      HosakaPatch patch = testing::RandomHosaka(n, n, false, inner, 1.0);
+      EXPECT_EQ(SplitIntoPieces(PatchId(0), patch).size(), 1u);
+      ExpectPiecesMatch(patch, 200);
+      patch.blend = HosakaPatch::Blend::kLinear;
+      ExpectPiecesMatch(patch, 200);
+      patch = testing::RandomHosaka(n, n, true, inner, 1.0);
+      EXPECT_EQ(SplitIntoPieces(PatchId(0), patch).size(), 6u);
+      ExpectPiecesMatch(patch, 200);
+    }
+  }
+}
+
 TEST(SubNet, IsThePartOfTheNet) {
   for (auto blend : {GregoryPatch::Blend::kCorner, GregoryPatch::Blend::kEdge}) {
     Random random(6);
