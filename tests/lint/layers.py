@@ -16,6 +16,7 @@ ALLOWED = {}
 for i, name in enumerate(CORE):
     ALLOWED["core/" + name] = {"core/" + below for below in CORE[:i]}
 ALLOWED["core/io"] = {"core/" + below for below in CORE[: CORE.index("network") + 1]}
+ALLOWED["core/joining"] = {"core/" + below for below in CORE[: CORE.index("network") + 1]}
 ALL_CORE = {"core/" + name for name in CORE}
 for i, name in enumerate(CAM):
     ALLOWED["cam/" + name] = ALL_CORE | {"cam/" + below for below in CAM[:i]}

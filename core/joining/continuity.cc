@@ -1,0 +1,64 @@
+#include "core/joining/continuity.h"
+
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/network/edge_angles.h"
+#include "core/network/edge_curves.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kSameParameter = 1e-9;  // of the edge's reach: parameters correspond
+
+bool Forward(int edge) { return edge <= 1; }  // the parameter runs counter-clockwise around the patch
+
+EdgeContinuity Measure(const EdgeCurves& curves, int e, int f, const EdgeLink& link, int steps) {
+  EdgeContinuity joint{curves.edge(e), curves.edge(f)};
+  // Counter-clockwise the two patches run a consistently turned edge against each other. A triangle's edge 1
+  // runs counter-clockwise, its edge 2 does not: as a quad's edges 1 and 3.
+  const double sign = (Forward(joint.a.edge) == Forward(joint.b.edge)) != link.reversed ? -1.0 : 1.0;
+  for (int k = 0; k <= steps; ++k) {
+    const double t = static_cast<double>(k) / steps;
+    double s = link.reversed ? 1.0 - t : t;
+    const Vec3 p = curves.Point(e, t);
+    double gap = (curves.Point(f, s) - p).norm();
+    if (gap > kSameParameter * curves.reach(e)) {
+      const EdgeFoot foot = ClosestOnEdge(curves, f, p);
+      s = foot.t;
+      gap = foot.distance;
+    }
+    if (gap > joint.max_gap) joint.max_gap = gap, joint.gap_at = t;
+    const auto a = PatchNormal(curves.shape(e), EdgeParameters(curves.shape(e), joint.a.edge, t));
+    const auto b = PatchNormal(curves.shape(f), EdgeParameters(curves.shape(f), joint.b.edge, s));
+    if (!a || !b) continue;
+    const double angle = std::atan2(a->cross(*b).norm(), sign * a->dot(*b));
+    if (angle > joint.max_angle) joint.max_angle = angle, joint.angle_at = t;
+  }
+  return joint;
+}
+
+}  // namespace
+
+ContinuityReport MeasureContinuity(const PatchNetwork& network, int steps, const RunContext& run) {
+  const EdgeCurves curves(network.model, run);
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t k = 0; k < network.edges.size(); ++k) {
+    const EdgeLink& link = network.edges[k];
+    if (!link.neighbor || link.collapsed) continue;
+    const int other = network.first_edge[link.neighbor->patch.index()] + link.neighbor->edge;
+    const auto& back = network.edges[static_cast<std::size_t>(other)].neighbor;
+    const bool mutual = back && *back == link.self;
+    if (!mutual || other > static_cast<int>(k)) pairs.emplace_back(static_cast<int>(k), other);
+  }
+  ContinuityReport report;
+  report.samples = steps + 1;
+  report.edges.resize(pairs.size());
+  (void)ParallelFor(run, nullptr, pairs.size(), [&](std::size_t k) {
+    const auto [e, f] = pairs[k];
+    report.edges[k] = Measure(curves, e, f, network.edges[static_cast<std::size_t>(e)], steps);
+  });
+  return report;
+}
+
+}  // namespace patchmill

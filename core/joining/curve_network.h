@@ -1,0 +1,80 @@
+// A curve network as given: vertices with normals, edge curves, faces of three or four edges (METHODS 1).
+//
+// Length unit as the patches of a PatchModel. Indices are 0-based.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/curve/curve.h"
+#include "core/patch/patch.h"
+
+namespace patchmill {
+
+inline constexpr int kMaxNetworkFaces = 100'000;
+
+struct NetworkVertex {
+  // A normal of the faces listed, of all faces when none are listed. Any length but zero; its sense does not
+  // matter.
+  struct Normal {
+    Vec3 direction = Vec3::Zero();
+    std::vector<int> faces;
+  };
+  std::string id;
+  Vec3 position = Vec3::Zero();
+  // Several where creases part the faces around the vertex. Faces without a given normal get the mean of the
+  // corner normals of their group, a group being faces joined by smooth edges around the vertex.
+  std::vector<Normal> normals;
+};
+
+// Tangents from the normals (1.1), gamma |chord| long. At a crease between two normals: along both planes; a
+// face that meets others there in creases only, and has no normal given, asks for no plane.
+struct NormalsEdge {
+  double gamma = 1.0;  // (0, 10]
+};
+// Outgoing tangents at both ends (2); they must lie in the tangent planes.
+struct TangentsEdge {
+  Vec3 start = Vec3::Zero(), end = Vec3::Zero();
+};
+// Hosaka's segment: directions from the normals, lengths such that it passes through a point of space (41).
+struct ThroughPointEdge {
+  Vec3 point = Vec3::Zero();
+};
+// A curve from vertex `start` to vertex `end` of the edge: one polynomial of degree up to kMaxBrownDegree.
+struct CurveEdge {
+  Curve curve;
+};
+using EdgeShape = std::variant<NormalsEdge, TangentsEdge, ThroughPointEdge, CurveEdge>;
+
+struct NetworkEdge {
+  std::string id;
+  int start = 0, end = 0;  // vertices
+  EdgeShape shape;
+  bool crease = false;  // the faces beside it need no common tangent plane
+};
+
+enum class PatchScheme {
+  kAuto,             // Gregory quad, Brown quad where an edge is no cubic; loft triangle
+  kGregory,          // quad: METHODS (13), cubic edges only
+  kBrown,            // quad: METHODS (14)
+  kLoftTriangle,     // triangle: (19)-(21), squared weights where an edge is no cubic
+  kGregoryTriangle,  // triangle: (15)-(18), cubic edges only
+};
+
+struct NetworkFace {
+  std::string id;
+  std::vector<int> vertices;  // around the face, three or four
+  PatchScheme scheme = PatchScheme::kAuto;
+};
+
+// An edge that no entry of `edges` describes is a smooth NormalsEdge with gamma 1.
+struct CurveNetwork {
+  std::vector<NetworkVertex> vertices;
+  std::vector<NetworkEdge> edges;
+  std::vector<NetworkFace> faces;
+  std::optional<double> join_tolerance;  // as PatchModel's
+};
+
+}  // namespace patchmill

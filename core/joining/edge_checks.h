@@ -1,0 +1,13 @@
+// Whether the edges of a curve network are described by numbers that make a curve.
+#pragma once
+
+#include "core/joining/network_findings.h"
+
+namespace patchmill {
+
+// Codes: NOT_FINITE, ZERO_TANGENT, INVALID_GAMMA (outside (0, 10]), UNSUPPORTED_CURVE (degree outside
+// 1..kMaxBrownDegree, wrong number of points or knots, knots that decrease or span nothing). What passes may
+// be evaluated.
+void CheckEdgeShapes(const CurveNetwork& network, const NetworkWriter& findings);
+
+}  // namespace patchmill

@@ -1,0 +1,28 @@
+// The patch of one face from its edge curves and cross-boundary tangents (METHODS 1.6-1.8).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "core/curve/curve.h"
+#include "core/joining/curve_network.h"
+#include "core/patch/patch.h"
+
+namespace patchmill {
+
+// Side k runs from corner k to corner k+1 of the face; its tangents point into the face.
+struct FaceBoundary {
+  int sides = 4;
+  std::array<BezierCurve, 4> curve;    // degree >= 3
+  std::array<BezierCurve, 4> tangent;  // degree <= that of the curve
+};
+
+// Why this scheme cannot make the patch; nothing when it can.
+std::optional<std::string> SchemeFault(const FaceBoundary& face, PatchScheme scheme);
+
+// Requires no SchemeFault. Quads: u along side 0, v along side 3 reversed. Triangles: corners (0,0) (1,0)
+// (0,1).
+PatchShape MakeFacePatch(const FaceBoundary& face, PatchScheme scheme);
+
+}  // namespace patchmill

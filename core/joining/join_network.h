@@ -1,0 +1,51 @@
+// CurveNetwork -> patches joined with tangent-plane continuity (METHODS 1; DESIGN 4: JoinPatches).
+#pragma once
+
+#include <vector>
+
+#include "core/base/diagnostic.h"
+#include "core/joining/edge_table.h"
+#include "core/joining/tangent_plane.h"
+#include "core/network/patch_model.h"
+
+namespace patchmill {
+
+enum class EdgeKind {
+  kSmooth,  // the two faces share their tangent plane all along
+  kCrease,  // two faces, said to be a crease
+  kFree,    // one face
+};
+
+struct JoinedEdge {
+  TableEdge topology;
+  EdgeKind kind = EdgeKind::kFree;
+  BezierCurve curve;  // from vertex start to end, degree >= 3
+  // Cross-boundary tangents along the curve, into the face topology.faces[k], degree that of the curve.
+  std::vector<BezierCurve> tangents;
+};
+
+struct JoinedNetwork {
+  // One patch per face, in order, with the faces' ids. Empty when a finding is an error.
+  PatchModel model;
+  std::vector<JoinedEdge> edges;  // empty then, too
+  // Errors: those of BuildEdgeTable, and
+  //   CHORD_ALONG_NORMAL    a tangent from a normal that has no direction: give the tangent
+  //   NO_FIT                no Hosaka segment passes through the point
+  //   CURVE_OFF_VERTEX      a given curve does not start and end at its vertices
+  //   UNSUPPORTED_CURVE     several spans
+  //   UNSUPPORTED_SCHEME    a scheme for the other number of sides, or an edge of a degree it cannot take
+  //   INCONSISTENT_NORMALS  the faces beside a smooth edge have different normals at an end, or a tangent or
+  //                         curve given there leaves the tangent plane
+  //   PARALLEL_TANGENTS     two edges leave a corner of a face in line
+  //   FOLDED_EDGE           both faces leave a smooth edge to the same side (h, k of opposite sign)
+  Diagnostics findings;
+};
+
+// The largest angle (rad) by which a given tangent may leave the tangent plane of a smooth joint.
+inline constexpr double kMaxTangentTilt = 1e-7;
+
+// Cost O(n log n). Adjacent patches share their edge
+// curves bit for bit up to the direction; their tangent planes agree to about 1e-14.
+JoinedNetwork JoinNetwork(const CurveNetwork& network);
+
+}  // namespace patchmill

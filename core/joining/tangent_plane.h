@@ -1,0 +1,76 @@
+// Tangent-plane continuity along one edge shared by two patches (Yamagata 1990, METHODS 1.3-1.5).
+//
+// An edge curve C runs from P0 to P1. On either side a patch, a and b, has a cross-boundary tangent (CBT)
+// pointing into it,
+//   a(u) = phi0 a0 + phi1 Wa0 + psi0 a1 + psi1 (-Wa1)                                        (4)
+// with a0, a1 the outgoing tangents at P0, P1 of that patch's other edge there and Wa0, Wa1 the twists as
+// seen from their own vertex: a'(0) = Wa0, a'(1) = -Wa1. For quads and triangles alike.
+#pragma once
+
+#include <array>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include "core/curve/curve.h"
+
+namespace patchmill {
+
+// The two patches' tangents at both ends, outgoing.
+struct CrossTangents {
+  Vec3 a0 = Vec3::Zero(), a1 = Vec3::Zero();
+  Vec3 b0 = Vec3::Zero(), b1 = Vec3::Zero();
+};
+
+// l(u) C'(u) = h(u) a(u) + k(u) b(u) with all three linear in u (5)-(7); index 0, 1: the value at that end.
+// Scaled so that h + k = 2 at both ends, hence everywhere: then (8) always has a solution.
+struct JoinFactors {
+  std::array<double, 2> l{}, h{}, k{};
+};
+
+enum class JoinFault {
+  kParallel,  // at an end a tangent is parallel to the edge: no tangent plane, or none that serves both
+  kFolded,    // both patches leave the edge to the same side
+};
+
+// Smallest share of h and k in h + k = 2, and sine between tangents that span a plane.
+inline constexpr double kMinJoinFactor = 1e-6;
+inline constexpr double kMinTangentSine = 1e-6;
+
+// (6) at both ends. `start`, `end`: C'(0) and C'(1), true derivatives. n0, n1: unit normals of the common
+// tangent planes, in which all vectors lie; their sense does not matter.
+std::variant<JoinFactors, JoinFault> FactorsAlong(const Vec3& start, const Vec3& end,
+                                                  const CrossTangents& tangents, const Vec3& n0,
+                                                  const Vec3& n1);
+
+struct EdgeTwists {
+  Vec3 a0 = Vec3::Zero(), a1 = Vec3::Zero();  // Wa0, Wa1
+  Vec3 b0 = Vec3::Zero(), b1 = Vec3::Zero();
+};
+
+// (10): twists that make the CBTs as linear as possible.
+EdgeTwists WishedTwists(const CrossTangents& tangents);
+
+// The three vector equations (8): matrix (3 x 4, unknowns Wa0 Wa1 Wb0 Wb1) and right sides (rows).
+struct TwistConditions {
+  Eigen::Matrix<double, 3, 4> matrix;
+  Eigen::Matrix3d right;
+};
+TwistConditions ConditionsFor(const HermiteCurve& edge, const CrossTangents& tangents,
+                              const JoinFactors& factors);
+
+// The twists nearest to `wished` (least sum of squares, (9)) that satisfy (8), by the Moore-Penrose inverse
+// with relative cut-off kPseudoInverseCutoff; rank 2 (a = -b at both ends and the like) included. Residual of
+// (8) about 1e-15 of the tangents.
+inline constexpr double kPseudoInverseCutoff = 1e-9;
+EdgeTwists NearestTwists(const HermiteCurve& edge, const CrossTangents& tangents, const JoinFactors& factors,
+                         const EdgeTwists& wished);
+
+// The CBT (4) as a vector-valued cubic.
+BezierCurve CrossBoundaryTangent(const Vec3& at0, const Vec3& twist0, const Vec3& at1, const Vec3& twist1);
+
+// What a and b both need in addition where the edge is not its own cubic Hermite part H: with h + k = 2,
+// l (C' - H')/2 on each side restores (5) exactly. Vector-valued, degree that of the edge; zero for a cubic.
+BezierCurve CorrectionFor(const BezierCurve& edge, const JoinFactors& factors);
+
+}  // namespace patchmill
