@@ -43,13 +43,13 @@ bool Holds(const Rect& r, double u, double v) { return u >= r.u0 && u <= r.u1 &&
 
 }  // namespace
 
-Locator::Impl::Impl(const Surface& s, double r)
+Locator::Impl::Impl(const Surface& s, double r, internal::SearchTree t)
     : surface(s),
       radius(r),
       rounding(1e-14 * s.scale),
       slack(1e-12 * s.scale),
       reach(s.scale + r),
-      tree(internal::BuildSearchTree(s, r)) {
+      tree(std::move(t)) {
   PM_CHECK(radius > 0.0);
 }
 
@@ -145,7 +145,14 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
   if (open != nullptr) open->push_back(index);
 }
 
-Locator::Locator(const Surface& surface, double radius) : impl_(std::make_unique<Impl>(surface, radius)) {}
+absl::StatusOr<Locator> Locator::Make(const Surface& surface, double radius, const RunContext& run) {
+  PM_CHECK(radius > 0.0);
+  PM_ASSIGN_OR_RETURN(internal::SearchTree tree, internal::BuildSearchTree(surface, radius, run));
+  return Locator(std::make_unique<Impl>(surface, radius, std::move(tree)));
+}
+
+Locator::Locator(const Surface& surface, double radius) : Locator(*Make(surface, radius, RunContext())) {}
+Locator::Locator(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Locator::~Locator() = default;
 Locator::Locator(Locator&&) noexcept = default;
 

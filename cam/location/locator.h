@@ -11,6 +11,9 @@
 #include <memory>
 #include <optional>
 
+#include <absl/status/statusor.h>
+
+#include "core/base/run_context.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
@@ -29,9 +32,14 @@ struct CertifiedCenter {
 
 class Locator {
  public:
+  struct Impl;  // known to cam/location only
+  const Impl& impl() const { return *impl_; }
+
   // Keeps a reference to `surface`. radius > 0, mm (tool radius + stock to leave). Makes second-order models
-  // of all leaves, in parallel, deterministic: about 4 us and 350 bytes a leaf.
-  Locator(const Surface& surface, double radius);
+  // of all leaves, in parallel, deterministic: about 4 us and 350 bytes a leaf. CANCELLED and
+  // DEADLINE_EXCEEDED from `run`, within 0.2 s.
+  static absl::StatusOr<Locator> Make(const Surface& surface, double radius, const RunContext& run);
+  Locator(const Surface& surface, double radius);  // the same, never cancelled
   ~Locator();
   Locator(Locator&&) noexcept;
   Locator(const Locator&) = delete;
@@ -75,7 +83,8 @@ class Locator {
   std::uint64_t defect_count() const;
 
  private:
-  struct Impl;
+  explicit Locator(std::unique_ptr<Impl> impl);
+
   std::unique_ptr<Impl> impl_;
 };
 

@@ -11,7 +11,7 @@
 namespace patchmill {
 
 struct Locator::Impl {
-  Impl(const Surface& surface, double radius);
+  Impl(const Surface& surface, double radius, internal::SearchTree tree);
 
   // Leaves a search could not prove, for the certificate.
   using OpenLeaves = std::vector<std::int32_t>;

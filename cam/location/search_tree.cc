@@ -188,17 +188,14 @@ class Collapser {
 
 }  // namespace
 
-SearchTree BuildSearchTree(const Surface& surface, double radius) {
+absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius, const RunContext& run) {
   const std::size_t count = surface.leaves.size();
   std::vector<LeafTree> parts(count);
-  const RunContext run;
-  const absl::Status status =
-      ParallelFor(run, nullptr, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-        for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
-          LeafRefiner(surface, surface.leaves[i], radius, parts[i]);
-        }
-      });
-  PM_CHECK(status.ok());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
+      LeafRefiner(surface, surface.leaves[i], radius, parts[i]);
+    }
+  }));
   SearchTree tree;
   std::size_t leaves = 0;
   for (const LeafTree& part : parts) leaves += part.leaves.size();
@@ -209,6 +206,7 @@ SearchTree BuildSearchTree(const Surface& surface, double radius) {
     tree.leaves.insert(tree.leaves.end(), parts[i].leaves.begin(), parts[i].leaves.end());
     std::vector<SearchLeaf>().swap(parts[i].leaves);  // never twice in memory
   }
+  PM_RETURN_IF_ERROR(run.Check());
   tree.nodes.reserve(leaves / 2 + 1);
   Collapser(surface, parts, first_leaf, tree);
   return tree;

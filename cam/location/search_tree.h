@@ -5,7 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <absl/status/statusor.h>
+
 #include "cam/location/leaf_model.h"
+#include "core/base/run_context.h"
 
 namespace patchmill::internal {
 
@@ -36,7 +39,7 @@ struct SearchTree {
 
 // Collapses the surface's binary tree to four children a node. Leaves on which the distance to a centre
 // resting there is not proven convex (T6), though a ball of this radius may rest there, are halved up to
-// twice. About 3 us a leaf, parallel, deterministic.
-SearchTree BuildSearchTree(const Surface& surface, double radius);
+// twice. About 3 us a leaf, parallel, deterministic. CANCELLED and DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius, const RunContext& run);
 
 }  // namespace patchmill::internal

@@ -193,9 +193,10 @@ void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out)
 
 }  // namespace
 
-Locator ReachLocator(const Locator& locator, const CoverageParams& params) {
-  return {locator.surface(),
-          std::max(locator.radius() - (1.0 + kReachMargin) * params.tolerance, 0.5 * locator.radius())};
+absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParams& params,
+                                     const RunContext& run) {
+  const double radius = locator.radius() - (1.0 + kReachMargin) * params.tolerance;
+  return Locator::Make(locator.surface(), std::max(radius, 0.5 * locator.radius()), run);
 }
 
 absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,

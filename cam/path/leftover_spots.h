@@ -26,7 +26,8 @@ inline constexpr double kProofMargin = 0.1;
 inline constexpr double kReachMargin = 0.05;
 
 // A smaller ball that is free wherever a point counts as reachable, or nearly so: what FindSpots asks.
-Locator ReachLocator(const Locator& locator, const CoverageParams& params);
+absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParams& params,
+                                     const RunContext& run);
 
 // Halves the rectangles given until each is proven covered (up to the limit and kProofMargin), proven out of
 // reach (OutOfReach), or stands for a spot: its middle exceeds the limit and is free for a ball of radius -

@@ -143,7 +143,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   report.regions = result.regions.regions;
   clock.Done("regions");
 
-  const Locator locator(surface, resolved.plan_radius);
+  PM_ASSIGN_OR_RETURN(const Locator locator, Locator::Make(surface, resolved.plan_radius, run));
   PM_ASSIGN_OR_RETURN(PlannedPasses planned, PlanPasses(locator, result.regions, job, resolved, run));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
   clock.Done("passes");

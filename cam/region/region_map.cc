@@ -144,7 +144,9 @@ const char* Name(UnreachableReason reason) {
 
 absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParams& params,
                                        const RunContext& run) {
-  const Locator free_ball(surface, std::max(params.radius - params.tolerance, 0.5 * params.radius));
+  PM_ASSIGN_OR_RETURN(
+      const Locator free_ball,
+      Locator::Make(surface, std::max(params.radius - params.tolerance, 0.5 * params.radius), run));
   const ReachTest reach(free_ball, params);
   const SplitMeshParams mesh_params = MeshParams(surface, params);
   std::vector<SplitMesh> meshes(surface.pieces.size());

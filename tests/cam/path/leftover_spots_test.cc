@@ -55,7 +55,7 @@ std::vector<LeftoverSpot> SpotsAlongBottom(double depth) {
   const Surface surface = JoinedSurface(NarrowingValley(k, 0.05 * k));
   const Locator locator(surface, radius);
   const CoverageParams params = Coverage();
-  const Locator reach = ReachLocator(locator, params);
+  const Locator reach = *ReachLocator(locator, params, RunContext());
   // A strip along the bottom, 0.02 mm wide, and nothing cut yet.
   auto spots = FindSpots(locator, reach, {}, {{PieceId(0), 0.4975, 0.5025, 0.0, 1.0}}, params, RunContext(1));
   EXPECT_TRUE(spots.ok()) << spots.status();
