@@ -176,6 +176,74 @@ TEST(NetworkFindings, CurvesThatAreNone) {
   EXPECT_GE(count(CurveEdge{BezierCurve{{two[0], two[0], two[1], two[1]}}}, "PARALLEL_TANGENTS"), 1);
 }
 
+// Sound networks spoilt at random, a few places each: errors and no model, or one finite patch per face.
+TEST(NetworkFindings, RandomDamageGivesFindingsOrFinitePatches) {
+  testing::Random random(11);
+  const double odd[] = {0.0,
+                        -1.0,
+                        1e-300,
+                        1e10,
+                        1e300,
+                        std::numeric_limits<double>::quiet_NaN(),
+                        std::numeric_limits<double>::infinity()};
+  int refused = 0, made = 0;
+  for (int round = 0; round < 3000; ++round) {
+    CurveNetwork n = round % 2 == 0 ? TwoQuads() : testing::Cuboctahedron(static_cast<std::uint64_t>(round));
+    const auto vertex = [&] { return random.Int(static_cast<int>(n.vertices.size()) + 1); };
+    const auto number = [&] { return random.Int(2) == 0 ? odd[random.Int(7)] : 20 * random.Unit() - 10; };
+    const auto point = [&] { return Vec3(number(), number(), number()); };
+    const auto shape = [&]() -> EdgeShape {
+      switch (random.Int(5)) {
+        case 0:
+          return NormalsEdge{number()};
+        case 1:
+          return TangentsEdge{point(), point()};
+        case 2:
+          return ThroughPointEdge{point()};
+        case 3:
+          return CurveEdge{BezierCurve{std::vector<Vec3>(static_cast<std::size_t>(random.Int(14)), point())}};
+        default:
+          return CurveEdge{BsplineCurve{random.Int(4), {0, 0, number(), 1, 1}, {point(), point(), point()}}};
+      }
+    };
+    for (int damage = 1 + random.Int(3); damage > 0; --damage) {
+      NetworkVertex& v =
+          n.vertices[static_cast<std::size_t>(random.Int(static_cast<int>(n.vertices.size())))];
+      NetworkFace& f = n.faces[static_cast<std::size_t>(random.Int(static_cast<int>(n.faces.size())))];
+      switch (random.Int(6)) {
+        case 0:
+          v.position[random.Int(3)] = number();
+          break;
+        case 1:
+          v.normals = {{point(), {random.Int(static_cast<int>(n.faces.size()) + 1)}}};
+          break;
+        case 2:
+          f.vertices[static_cast<std::size_t>(random.Int(3))] = vertex();
+          break;
+        case 3:
+          f.scheme = static_cast<PatchScheme>(random.Int(5));
+          break;
+        default:
+          n.edges.push_back(
+              {"", f.vertices[0], f.vertices[random.Int(4) == 0 ? 2 : 1], shape(), random.Int(3) == 0});
+      }
+    }
+    const JoinedNetwork joined = JoinNetwork(n);
+    if (HasError(joined.findings)) {
+      ++refused;
+      EXPECT_TRUE(joined.model.patches.empty());
+      continue;
+    }
+    ++made;
+    ASSERT_EQ(joined.model.patches.size(), n.faces.size());
+    for (const Patch& patch : joined.model.patches) {
+      EXPECT_TRUE(Position(patch.shape, 0.3, 0.3).allFinite()) << "round " << round;
+    }
+  }
+  EXPECT_GT(refused, 500);
+  EXPECT_GT(made, 100);
+}
+
 TEST(NetworkFindings, AllAtOnce) {
   CurveNetwork n = TwoQuads();
   n.vertices[0].normals = {{Vec3::Zero(), {}}};
