@@ -20,6 +20,9 @@ inline constexpr std::size_t kMaxPatches = 100'000;
 inline constexpr std::size_t kMaxControlPoints =
     2'500'000;  // all patches together; 100,000 bicubic ones have 1.6 million
 inline constexpr std::size_t kMaxKnots = 2'500'000;  // all patches together
+inline constexpr std::size_t kMaxNetworkVertices = 4 * kMaxPatches;
+inline constexpr std::size_t kMaxNetworkEdges = 4 * kMaxPatches;
+inline constexpr std::size_t kMaxNetworkReferences = 16 * kMaxPatches;  // vertices of faces, faces of normals
 inline constexpr std::size_t kMaxIdBytes = 200;
 inline constexpr std::size_t kMaxNameBytes = 100;
 inline constexpr std::size_t kMaxRequestIdBytes = 128;
@@ -53,5 +56,6 @@ inline constexpr double kMaxFeed = 1e6;  // mm/min
 inline constexpr int kMaxToolNumber = 99'999;
 inline constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
 inline constexpr double kMaxJoinToleranceMm = 10.0;
+inline constexpr int kMaxContinuitySteps = 10'000;
 
 }  // namespace patchmill::limits

@@ -46,7 +46,7 @@ absl::StatusOr<v1::PatchModel> ParseJson(const std::string& content) {
 absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::string_view format) {
   v1::PatchModel model;
   const bool parsed = model.ParseFromString(content);
-  if (parsed && model.patches_size() > 0) {
+  if (parsed && (model.patches_size() > 0 || model.has_network())) {
     if (const std::string unknown = UnknownField(model); !unknown.empty()) {
       return ModelUnreadableError(
           fmt::format("model file: {} is a field this server does not know", unknown));
@@ -54,7 +54,7 @@ absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::stri
     return model;
   }
   if (format == "pb") {
-    return ModelUnreadableError(parsed ? "model file: a binary PatchModel without patches"
+    return ModelUnreadableError(parsed ? "model file: a binary PatchModel without patches or network"
                                        : "model file: not a binary PatchModel, or truncated");
   }
   return ModelUnreadableError(fmt::format(

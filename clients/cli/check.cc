@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,7 @@ struct CheckOptions {
   SetupOptions setup;
   std::string model;
   double tool_diameter = 6.0;
+  int continuity = 0;
 };
 
 void Print(const CheckOptions& options, const v1::CheckModelResponse& response) {
@@ -34,6 +37,15 @@ void Print(const CheckOptions& options, const v1::CheckModelResponse& response) 
                  response.min_concave_radius_mm() < radius ? "TIGHTER than" : "not tighter than", radius);
     }
   }
+  // The worst first.
+  std::vector<v1::EdgeContinuity> joints(response.joints().begin(), response.joints().end());
+  std::stable_sort(joints.begin(), joints.end(),
+                   [](const auto& a, const auto& b) { return a.max_angle_deg() > b.max_angle_deg(); });
+  for (const v1::EdgeContinuity& joint : joints) {
+    fmt::print("joint        edge {} of patch {} and edge {} of patch {}: gap {:.3g} mm, {:.3g} degrees\n",
+               joint.edge(), joint.patch_index(), joint.other_edge(), joint.other_patch_index(),
+               joint.max_gap_mm(), joint.max_angle_deg());
+  }
   fmt::print("findings     {}\n", response.diagnostics_size());
   for (const v1::Diagnostic& finding : response.diagnostics()) fmt::print("  {}\n", Line(finding));
 }
@@ -48,6 +60,7 @@ absl::Status Run(const CheckOptions& options, InterruptWatch& watch) {
   *request.mutable_setup() = *std::move(setup);
   request.mutable_tool()->mutable_ball_end()->set_diameter_mm(options.tool_diameter);
   request.set_max_threads(options.common.threads);
+  request.set_continuity_steps(options.continuity);
   if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   absl::StatusOr<Connection> connection = Connect(options.common);
   if (!connection.ok()) return connection.status();
@@ -73,6 +86,9 @@ Command AddCheck(CLI::App& app) {
   auto options = std::make_shared<CheckOptions>();
   app.add_option("MODEL", options->model, kModelHelp)->required();
   AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter to judge curvature by, mm");
+  app.add_option("--continuity", options->continuity,
+                 "list every joint, measured at this many steps of its edge")
+      ->check(CLI::Range(0, 10000));
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

@@ -4,7 +4,9 @@
 #include <set>
 
 #include "core/base/status.h"
+#include "core/joining/join_network.h"
 #include "server/convert/fields.h"
+#include "server/convert/network.h"
 #include "server/limits.h"
 
 namespace patchmill {
@@ -58,6 +60,7 @@ absl::Status CheckLimits(const v1::PatchModel& proto) {
   if (patches > limits::kMaxPatches) {
     return LimitError("model.patch_count", limits::kMaxPatches, static_cast<double>(patches));
   }
+  PM_RETURN_IF_ERROR(CheckNetworkLimits(proto.network()));
   Sizes all;
   for (const v1::Patch& patch : proto.patches()) {
     const Sizes sizes = SizesOf(patch);
@@ -333,7 +336,10 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
                fmt::format("= {}; must be LENGTH_UNIT_MILLIMETER, LENGTH_UNIT_INCH or LENGTH_UNIT_METER",
                            static_cast<int>(proto.length_unit())));
   }
-  if (proto.patches().empty()) errors.Missing(At(at, "patches"));
+  if (proto.has_network() && !proto.patches().empty()) {
+    errors.Add(At(at, "network"), "comes beside patches; give one of the two");
+  }
+  if (proto.patches().empty() && !proto.has_network()) errors.Missing(At(at, "patches"));
   CheckedModel checked;
   if (proto.has_join_tolerance_mm()) {
     const double tolerance = proto.join_tolerance_mm();
@@ -344,6 +350,16 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
   }
   PM_RETURN_IF_ERROR(errors.ToStatus());
 
+  if (proto.has_network()) {
+    CurveNetwork network = FromProto(proto.network(), *unit, checked.faults);
+    network.join_tolerance = checked.model.join_tolerance;
+    if (!checked.faults.empty()) return checked;
+    JoinedNetwork joined = JoinNetwork(network);
+    checked.model = std::move(joined.model);
+    checked.faults = std::move(joined.findings);
+    if (checked.faults.empty()) checked.faults = ValidateModel(checked.model);
+    return checked;
+  }
   checked.model.patches.reserve(static_cast<std::size_t>(proto.patches_size()));
   for (int i = 0; i < proto.patches_size(); ++i) {
     checked.model.patches.push_back(PatchReader(*unit, i, checked.faults).Read(proto.patches(i)));

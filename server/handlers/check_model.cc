@@ -5,10 +5,12 @@
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
+#include "core/joining/continuity.h"
 #include "server/convert/report.h"
 #include "server/convert/setup.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/prepare.h"
+#include "server/limits.h"
 
 namespace patchmill {
 namespace {
@@ -43,6 +45,18 @@ void FillNetwork(const PatchNetwork& network, v1::CheckModelResponse* response) 
   response->set_join_tolerance_mm(network.join_tolerance);
 }
 
+void FillJoints(const ContinuityReport& report, v1::CheckModelResponse* response) {
+  for (const EdgeContinuity& joint : report.edges) {
+    v1::EdgeContinuity& to = *response->add_joints();
+    to.set_patch_index(joint.a.patch.value);
+    to.set_edge(joint.a.edge);
+    to.set_other_patch_index(joint.b.patch.value);
+    to.set_other_edge(joint.b.edge);
+    to.set_max_gap_mm(joint.max_gap);
+    to.set_max_angle_deg(Degrees(joint.max_angle));
+  }
+}
+
 }  // namespace
 
 absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& request,
@@ -50,6 +64,11 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   FieldErrors errors;
+  const int steps = request.continuity_steps();
+  if (steps < 0 || steps > limits::kMaxContinuitySteps) {
+    errors.Add("continuity_steps",
+               fmt::format("= {}; must be in [0, {}]", steps, limits::kMaxContinuitySteps));
+  }
   Job job;
   job.setup = FromProto(request.setup(), "setup", errors);
   std::optional<Tool> tool;
@@ -74,6 +93,8 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
     if (std::isfinite(check.min_concave_radius))
       response->set_min_concave_radius_mm(check.min_concave_radius);
     FillNetwork(surface.network, response);
+    if (steps > 0) FillJoints(MeasureContinuity(surface.network, steps, run), response);
+    PM_RETURN_IF_ERROR(run.Check());
     return absl::OkStatus();
   });
 }

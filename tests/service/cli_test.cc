@@ -168,6 +168,19 @@ TEST_F(Cli, CheckPrintsTheModelAndFailsOnErrors) {
   EXPECT_THAT(bad.out, HasSubstr("ERROR TOO_LARGE patch bump"));
 }
 
+TEST_F(Cli, ANetworkIsCheckedJointByJointAndMilled) {
+  const std::string mouse = PATCHMILL_SOURCE_DIR "/examples/mouse.json";
+  const Finished check = Patchmill({"check", mouse, "--continuity", "100"});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("patches      30"));
+  int joints = 0;
+  for (std::size_t at = 0; (at = check.out.find("joint  ", at)) != std::string::npos; ++at) ++joints;
+  EXPECT_EQ(joints, 50);
+  const Finished mill = Mill(mouse, {"--tool-diameter", "10", "--scallop", "0.1", "--floor", "-20"});
+  EXPECT_EQ(mill.status, 0) << mill.err;
+  EXPECT_THAT(mill.err, HasSubstr("verified"));
+}
+
 TEST_F(Cli, RegionsWritesJsonOrPicture) {
   ASSERT_EQ(Patchmill({"regions", bump_, "-o", out_ / "r.json"}).status, 0);
   v1::SplitRegionsResponse response;

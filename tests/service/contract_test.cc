@@ -45,8 +45,9 @@ const DescriptorPool& Pool() {
 }
 
 constexpr std::array kFiles = {
-    "analysis_service", "diagnostic", "geometry", "job",    "model", "model_service", "operation",
-    "region",           "report",     "setup",    "status", "tool",  "toolpath",      "toolpath_service"};
+    "analysis_service", "diagnostic", "geometry", "job",   "model",  "model_service", "network",
+    "operation",        "region",     "report",   "setup", "status", "tool",          "toolpath",
+    "toolpath_service"};
 
 template <class Visit>
 void ForEachFile(const Visit& visit) {
@@ -79,9 +80,10 @@ void ExpectComment(const Descriptor& descriptor) {
 TEST(Contract, DimensionedNumbersCarryTheirUnit) {
   const std::set<std::string> units = {"mm", "mm2", "deg", "s", "min", "rpm"};
   // Numbers without a dimension, and coordinates in the unit their model states.
-  const std::set<std::string> plain = {"scale",       "fraction",     "u",       "v",
-                                       "knots_u",     "knots_v",      "weights", "points",
-                                       "limit_value", "actual_value", "at",      "value"};
+  const std::set<std::string> plain = {
+      "scale",         "fraction",     "u",  "v",     "knots_u", "knots_v",  "weights",   "points",
+      "limit_value",   "actual_value", "at", "value", "knots",   "position", "direction", "gamma",
+      "start_tangent", "end_tangent"};
   int seen = 0;
   ForEachField([&](const FieldDescriptor& field) {
     if (field.cpp_type() == FieldDescriptor::CPPTYPE_FLOAT)

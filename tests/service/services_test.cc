@@ -1,6 +1,8 @@
 // CheckModel, SplitRegions, VerifyProgram, health, limits and draining, through the wire.
 #include <future>
+#include <set>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <grpcpp/generic/generic_stub.h>
@@ -59,6 +61,60 @@ TEST(CheckModel, FindingsAreDataNeverAStatus) {
   EXPECT_EQ(response.diagnostics(0).severity(), v1::SEVERITY_ERROR);
   EXPECT_EQ(response.diagnostics(0).where().patch_index(), 0);
   EXPECT_EQ(response.diagnostics(0).where().patch_id(), "bump");
+  EXPECT_FALSE(response.has_box());
+}
+
+// Two quads and a triangle around a vertex, no normals given.
+v1::PatchModel ThreeFaces() {
+  v1::PatchModel model;
+  model.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  v1::CurveNetwork& network = *model.mutable_network();
+  const double places[][3] = {{0, 0, 2}, {10, 0, 1}, {10, 10, 0}, {0, 10, 1}, {-10, 10, 0}, {-10, 0, 1}};
+  for (const auto& p : places) network.add_vertices()->mutable_position()->Add(p, p + 3);
+  for (const auto& loop : {std::vector<int>{0, 1, 2, 3}, {0, 3, 4, 5}, {0, 1, 5}}) {
+    network.add_faces()->mutable_vertices()->Add(loop.begin(), loop.end());
+  }
+  network.mutable_vertices(1)->mutable_position()->Set(1, -4);
+  network.mutable_vertices(5)->mutable_position()->Set(1, -4);
+  return model;
+}
+
+TEST(CheckModel, MeasuresEveryJointOfACurveNetwork) {
+  Embedded embedded;
+  v1::CheckModelRequest request;
+  *request.mutable_source()->mutable_model() = ThreeFaces();
+  v1::CheckModelResponse response;
+  ASSERT_TRUE(embedded.Check(request, &response).ok());
+  EXPECT_EQ(response.joints_size(), 0);  // not asked for
+  request.set_continuity_steps(200);
+  ASSERT_TRUE(embedded.Check(request, &response).ok());
+  EXPECT_EQ(response.patch_count(), 3);
+  ASSERT_EQ(response.joints_size(), 3);
+  for (const v1::EdgeContinuity& joint : response.joints()) {
+    EXPECT_LE(joint.max_gap_mm(), 1e-12);
+    EXPECT_LE(joint.max_angle_deg(), 1e-9);
+    EXPECT_LT(joint.patch_index(), joint.other_patch_index());
+  }
+  request.set_continuity_steps(10'001);
+  EXPECT_THAT(embedded.Check(request, &response),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("continuity_steps = 10001")));
+}
+
+// An unused vertex and a dangling edge: findings in one answer.
+TEST(CheckModel, FaultsOfANetworkComeTogether) {
+  Embedded embedded;
+  v1::CheckModelRequest request;
+  v1::PatchModel& model = *request.mutable_source()->mutable_model() = ThreeFaces();
+  model.mutable_network()->add_vertices()->mutable_position()->Resize(3, 50.0);
+  v1::NetworkEdge& edge = *model.mutable_network()->add_edges();
+  edge.set_id("stray");
+  edge.set_start(2);
+  edge.set_end(5);
+  v1::CheckModelResponse response;
+  ASSERT_TRUE(embedded.Check(request, &response).ok());
+  std::multiset<std::string> codes;
+  for (const v1::Diagnostic& d : response.diagnostics()) codes.insert(d.code());
+  EXPECT_THAT(codes, ElementsAre("DANGLING_EDGE", "UNUSED_VERTEX"));
   EXPECT_FALSE(response.has_box());
 }
 

@@ -1,0 +1,177 @@
+#include "server/convert/network.h"
+
+#include <fmt/format.h>
+
+#include "core/base/status.h"
+#include "server/errors.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+using Numbers = google::protobuf::RepeatedField<double>;
+
+class NetworkReader {
+ public:
+  NetworkReader(double unit, Diagnostics& faults) : unit_(unit), faults_(faults) {}
+
+  CurveNetwork Read(const v1::CurveNetwork& proto) {
+    CurveNetwork network;
+    for (int i = 0; i < proto.vertices_size(); ++i) network.vertices.push_back(Vertex(proto.vertices(i), i));
+    for (int i = 0; i < proto.edges_size(); ++i) network.edges.push_back(Edge(proto.edges(i), i));
+    for (int i = 0; i < proto.faces_size(); ++i) network.faces.push_back(Face(proto.faces(i), i));
+    return network;
+  }
+
+ private:
+  void Fault(std::string_view code, std::string field, std::string_view text) {
+    Diagnostic fault;
+    fault.code = code;
+    fault.severity = Severity::kError;
+    fault.message = fmt::format("{} {}", field, text);
+    fault.where.field = std::move(field);
+    faults_.push_back(std::move(fault));
+  }
+
+  std::string Id(const std::string& id, const std::string& at) {
+    if (id.size() > limits::kMaxIdBytes) {
+      Fault("INVALID_ID", at + ".id",
+            fmt::format("has {} bytes; must have at most {}", id.size(), limits::kMaxIdBytes));
+    }
+    return id;
+  }
+
+  Vec3 Vector(const Numbers& numbers, double factor, const std::string& field) {
+    if (numbers.size() == 3) return factor * Vec3(numbers[0], numbers[1], numbers[2]);
+    Fault("POINT_COUNT", field, fmt::format("has {} numbers; must have x y z", numbers.size()));
+    return Vec3::Zero();
+  }
+
+  std::vector<Vec3> Points(const Numbers& numbers, std::size_t least, std::size_t most,
+                           const std::string& field) {
+    const auto count = static_cast<std::size_t>(numbers.size());
+    if (count % 3 != 0 || count < 3 * least || count > 3 * most) {
+      Fault("POINT_COUNT", field,
+            fmt::format("has {} numbers; must be packed x y z of {} to {} points", count, least, most));
+      return {};
+    }
+    std::vector<Vec3> points(count / 3);
+    for (int i = 0; i < numbers.size(); ++i)
+      points[static_cast<std::size_t>(i / 3)][i % 3] = unit_ * numbers[i];
+    return points;
+  }
+
+  NetworkVertex Vertex(const v1::NetworkVertex& from, int index) {
+    const std::string at = fmt::format("network.vertices[{}]", index);
+    NetworkVertex vertex;
+    vertex.id = Id(from.id(), at);
+    vertex.position = Vector(from.position(), unit_, at + ".position");
+    for (const v1::VertexNormal& normal : from.normals()) {
+      vertex.normals.push_back({Vector(normal.direction(), 1.0, at + ".normals.direction"),
+                                {normal.faces().begin(), normal.faces().end()}});
+    }
+    return vertex;
+  }
+
+  EdgeShape Shape(const v1::NetworkEdge& from, const std::string& at) {
+    switch (from.shape_case()) {
+      case v1::NetworkEdge::kFromNormals:
+        return NormalsEdge{from.from_normals().has_gamma() ? from.from_normals().gamma() : 1.0};
+      case v1::NetworkEdge::kFromTangents:
+        return TangentsEdge{
+            Vector(from.from_tangents().start_tangent(), unit_, at + ".from_tangents.start_tangent"),
+            Vector(from.from_tangents().end_tangent(), unit_, at + ".from_tangents.end_tangent")};
+      case v1::NetworkEdge::kThroughPoint:
+        return ThroughPointEdge{
+            Vector(from.through_point().position(), unit_, at + ".through_point.position")};
+      case v1::NetworkEdge::kBezier: {
+        const BezierCurve curve{Points(from.bezier().points(), 2, kMaxEdgePoints, at + ".bezier.points")};
+        if (curve.points.empty()) return NormalsEdge{};
+        return CurveEdge{curve};
+      }
+      case v1::NetworkEdge::kBspline:
+        return Bspline(from.bspline(), at + ".bspline");
+      case v1::NetworkEdge::SHAPE_NOT_SET:
+        break;
+    }
+    return NormalsEdge{};
+  }
+
+  EdgeShape Bspline(const v1::BsplineCurve& from, const std::string& at) {
+    BsplineCurve curve;
+    curve.degree = from.degree();
+    curve.knots = {from.knots().begin(), from.knots().end()};
+    curve.points = Points(from.points(), 2, limits::kMaxControlPoints, at + ".points");
+    if (curve.points.empty()) return NormalsEdge{};
+    return CurveEdge{curve};
+  }
+
+  NetworkEdge Edge(const v1::NetworkEdge& from, int index) {
+    const std::string at = fmt::format("network.edges[{}]", index);
+    return {Id(from.id(), at), from.start(), from.end(), Shape(from, at), from.crease()};
+  }
+
+  NetworkFace Face(const v1::NetworkFace& from, int index) {
+    const std::string at = fmt::format("network.faces[{}]", index);
+    NetworkFace face;
+    face.id = Id(from.id(), at);
+    face.vertices = {from.vertices().begin(), from.vertices().end()};
+    switch (from.scheme()) {
+      case v1::PATCH_SCHEME_UNSPECIFIED:
+        break;
+      case v1::PATCH_SCHEME_GREGORY:
+        face.scheme = PatchScheme::kGregory;
+        break;
+      case v1::PATCH_SCHEME_BROWN:
+        face.scheme = PatchScheme::kBrown;
+        break;
+      case v1::PATCH_SCHEME_LOFT_TRIANGLE:
+        face.scheme = PatchScheme::kLoftTriangle;
+        break;
+      case v1::PATCH_SCHEME_GREGORY_TRIANGLE:
+        face.scheme = PatchScheme::kGregoryTriangle;
+        break;
+      default:
+        Fault("UNSUPPORTED_SCHEME", at + ".scheme",
+              fmt::format("= {}; this server does not know that value", static_cast<int>(from.scheme())));
+    }
+    return face;
+  }
+
+  static constexpr std::size_t kMaxEdgePoints = kMaxBrownDegree + 1;
+  double unit_;
+  Diagnostics& faults_;
+};
+
+}  // namespace
+
+absl::Status CheckNetworkLimits(const v1::CurveNetwork& proto) {
+  const auto check = [](std::string_view what, std::size_t most, std::size_t count) {
+    return count <= most ? absl::OkStatus()
+                         : LimitError(what, static_cast<double>(most), static_cast<double>(count));
+  };
+  const auto size = [](const auto& list) { return static_cast<std::size_t>(list.size()); };
+  PM_RETURN_IF_ERROR(
+      check("model.network.vertex_count", limits::kMaxNetworkVertices, size(proto.vertices())));
+  PM_RETURN_IF_ERROR(check("model.network.edge_count", limits::kMaxNetworkEdges, size(proto.edges())));
+  PM_RETURN_IF_ERROR(check("model.patch_count", limits::kMaxPatches, size(proto.faces())));
+  std::size_t references = 0, points = 0, knots = 0;
+  for (const v1::NetworkVertex& vertex : proto.vertices()) {
+    references += size(vertex.normals());
+    for (const v1::VertexNormal& normal : vertex.normals()) references += size(normal.faces());
+  }
+  for (const v1::NetworkFace& face : proto.faces()) references += size(face.vertices());
+  for (const v1::NetworkEdge& edge : proto.edges()) {
+    points += (size(edge.bezier().points()) + size(edge.bspline().points())) / 3;
+    knots += size(edge.bspline().knots());
+  }
+  PM_RETURN_IF_ERROR(check("model.network.reference_count", limits::kMaxNetworkReferences, references));
+  PM_RETURN_IF_ERROR(check("model.control_point_count", limits::kMaxControlPoints, points));
+  return check("model.knot_count", limits::kMaxKnots, knots);
+}
+
+CurveNetwork FromProto(const v1::CurveNetwork& proto, double unit, Diagnostics& faults) {
+  return NetworkReader(unit, faults).Read(proto);
+}
+
+}  // namespace patchmill

@@ -1,0 +1,174 @@
+// Curve networks on the wire: units, faults with their places, limits, the shipped example.
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include "core/joining/continuity.h"
+#include "server/convert/model.h"
+#include "server/limits.h"
+#include "server/model_source.h"
+#include "tests/service/status_matchers.h"
+
+namespace patchmill {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::StatusIs;
+
+v1::PatchModel FromJson(const std::string& text) {
+  v1::PatchModel model;
+  const auto status = google::protobuf::util::JsonStringToMessage(text, &model);
+  EXPECT_TRUE(status.ok()) << std::string(status.message());
+  return model;
+}
+
+// A bent quad and a triangle beside it.
+v1::PatchModel QuadAndTriangle() {
+  return FromJson(R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "network": {
+    "vertices": [{"position": [0, 0, 0]}, {"position": [10, 0, 2]}, {"position": [10, 10, 2]}, {"position": [0, 10, 1]},
+                 {"position": [20, 5, 0]}],
+    "edges": [{"start": 1, "end": 2, "from_normals": {"gamma": 1.2}},
+              {"start": 0, "end": 1, "bezier": {"points": [0, 0, 0, 3, -1, 2, 7, -1, 2, 10, 0, 2]}}],
+    "faces": [{"id": "quad", "vertices": [0, 1, 2, 3]}, {"id": "tip", "vertices": [1, 4, 2]}]}})");
+}
+
+TEST(NetworkModel, BecomesOnePatchPerFace) {
+  const auto checked = FromProto(QuadAndTriangle(), "m");
+  ASSERT_TRUE(checked.ok()) << checked.status();
+  ASSERT_TRUE(checked->faults.empty()) << checked->faults[0].message;
+  ASSERT_EQ(checked->model.patches.size(), 2u);
+  EXPECT_EQ(checked->model.patches[0].id, "quad");
+  EXPECT_TRUE(std::holds_alternative<GregoryPatch>(checked->model.patches[0].shape));
+  EXPECT_TRUE(std::holds_alternative<LoftTriangle>(checked->model.patches[1].shape));
+  EXPECT_LE((Position(checked->model.patches[0].shape, 0.5, 0.0) - Vec3(5, -0.75, 1.75)).norm(), 1e-12);
+}
+
+TEST(NetworkModel, UnitsScaleEverythingWithALength) {
+  v1::PatchModel inches = QuadAndTriangle();
+  inches.set_length_unit(v1::LENGTH_UNIT_INCH);
+  const PatchModel small = FromProto(QuadAndTriangle(), "m")->model, large = FromProto(inches, "m")->model;
+  ASSERT_EQ(small.patches.size(), large.patches.size());
+  for (std::size_t f = 0; f < small.patches.size(); ++f) {
+    for (const Vec2& q : {Vec2(0.2, 0.3), Vec2(0.5, 0), Vec2(0.1, 0.7)}) {
+      EXPECT_LE((25.4 * Position(small.patches[f].shape, q.x(), q.y()) -
+                 Position(large.patches[f].shape, q.x(), q.y()))
+                    .norm(),
+                1e-11);
+    }
+  }
+}
+
+TEST(NetworkModel, IsRefusedBesidePatches) {
+  v1::PatchModel model = QuadAndTriangle();
+  model.add_patches();
+  EXPECT_THAT(FromProto(model, "m").status(),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("m.network comes beside patches")));
+}
+
+struct NetworkFault {
+  const char* name;
+  void (*spoil)(v1::CurveNetwork&);
+  const char* message;
+};
+class NetworkFaults : public ::testing::TestWithParam<NetworkFault> {};
+
+TEST_P(NetworkFaults, IsAFindingWithItsField) {
+  v1::PatchModel model = QuadAndTriangle();
+  GetParam().spoil(*model.mutable_network());
+  const auto checked = FromProto(model, "m");
+  ASSERT_TRUE(checked.ok()) << checked.status();
+  ASSERT_FALSE(checked->faults.empty());
+  EXPECT_THAT(checked->faults[0].message, HasSubstr(GetParam().message));
+  EXPECT_EQ(checked->faults[0].severity, Severity::kError);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, NetworkFaults,
+    ::testing::Values(
+        NetworkFault{"NoPosition", [](v1::CurveNetwork& n) { n.mutable_vertices(1)->clear_position(); },
+                     "network.vertices[1].position has 0 numbers"},
+        NetworkFault{"NotFinite",
+                     [](v1::CurveNetwork& n) {
+                       n.mutable_vertices(1)->set_position(1, std::numeric_limits<double>::quiet_NaN());
+                     },
+                     "network.vertices[1] position has a number that is not finite"},
+        NetworkFault{"NormalShort",
+                     [](v1::CurveNetwork& n) { n.mutable_vertices(1)->add_normals()->add_direction(1); },
+                     "network.vertices[1].normals.direction has 1 numbers"},
+        NetworkFault{"VertexOutOfRange", [](v1::CurveNetwork& n) { n.mutable_faces(1)->set_vertices(0, 9); },
+                     "network.faces[1] (tip) names vertex 9"},
+        NetworkFault{"VertexNegative", [](v1::CurveNetwork& n) { n.mutable_edges(0)->set_start(-1); },
+                     "network.edges[0] names vertex -1"},
+        NetworkFault{"FiveSides",
+                     [](v1::CurveNetwork& n) {
+                       auto& face = *n.mutable_faces(0);
+                       face.clear_vertices();
+                       for (const int v : {0, 1, 4, 2, 3}) face.add_vertices(v);
+                     },
+                     "has 5 sides; insert an edge from vertex 0 to 4"},
+        NetworkFault{"CurveTooLong",
+                     [](v1::CurveNetwork& n) {
+                       n.mutable_edges(1)->mutable_bezier()->mutable_points()->Resize(39, 0.0);
+                     },
+                     "network.edges[1].bezier.points has 39 numbers"},
+        NetworkFault{"BsplineKnots",
+                     [](v1::CurveNetwork& n) {
+                       v1::BsplineCurve& curve = *n.mutable_edges(1)->mutable_bspline();
+                       curve.set_degree(1);
+                       for (const double x : {0., 0., 0., 10., 0., 2.}) curve.add_points(x);
+                       for (const double x : {1., 0., 1., 1.}) curve.add_knots(x);
+                     },
+                     "network.edges[1] has knots that are not finite, decrease, or span nothing"},
+        NetworkFault{
+            "SchemeUnknown",
+            [](v1::CurveNetwork& n) { n.mutable_faces(0)->set_scheme(static_cast<v1::PatchScheme>(77)); },
+            "network.faces[0].scheme = 77"},
+        NetworkFault{"SchemeWrong",
+                     [](v1::CurveNetwork& n) { n.mutable_faces(1)->set_scheme(v1::PATCH_SCHEME_BROWN); },
+                     "network.faces[1] (tip) its scheme is for 4 sides"},
+        NetworkFault{"IdTooLong",
+                     [](v1::CurveNetwork& n) { n.mutable_edges(0)->set_id(std::string(201, 'x')); },
+                     "network.edges[0].id has 201 bytes"},
+        NetworkFault{"NoFaces", [](v1::CurveNetwork& n) { n.clear_faces(); }, "network.faces has 0 faces"}),
+    [](const auto& wrong) { return std::string(wrong.param.name); });
+
+TEST(NetworkModel, LimitsAreCheckedByCount) {
+  v1::PatchModel model = QuadAndTriangle();
+  for (std::size_t i = 0; i <= limits::kMaxPatches; ++i) model.mutable_network()->add_faces();
+  EXPECT_THAT(FromProto(model, "m").status(),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("model.patch_count = 100003")));
+  model = QuadAndTriangle();
+  model.mutable_network()->mutable_faces(0)->mutable_vertices()->Resize(limits::kMaxNetworkReferences + 1, 0);
+  EXPECT_THAT(FromProto(model, "m").status(),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("model.network.reference_count")));
+}
+
+// The shipped mouse, as a file: joined to 1e-6 rad on every smooth edge, one loop of creases.
+TEST(NetworkModel, ShippedMouseIsTangentContinuous) {
+  std::ifstream in(PATCHMILL_SOURCE_DIR "/examples/mouse.json", std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  v1::ModelSource source;
+  source.mutable_file()->set_content(text.str());
+  const auto loaded = LoadModel(source, "source");
+  ASSERT_TRUE(loaded.ok()) << loaded.status();
+  ASSERT_TRUE(loaded->faults.empty()) << loaded->faults[0].message;
+  EXPECT_EQ(loaded->model.patches.size(), 30u);
+  const auto network = BuildNetwork(loaded->model);
+  ASSERT_TRUE(network.ok());
+  const ContinuityReport report = MeasureContinuity(*network, 500, RunContext());
+  int creases = 0;
+  for (const EdgeContinuity& joint : report.edges) {
+    EXPECT_LE(joint.max_gap, 1e-12);
+    if (joint.max_angle > 1e-6) ++creases;
+  }
+  EXPECT_EQ(creases, 10);
+  EXPECT_EQ(report.edges.size(), 50u);
+}
+
+}  // namespace
+}  // namespace patchmill
