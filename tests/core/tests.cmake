@@ -1,3 +1,3 @@
-foreach(folder base math curve patch diffgeo network joining surface io)
+foreach(folder base math curve patch diffgeo network joining fairing surface io)
   patchmill_test(core/${folder} DEPS core/${folder})
 endforeach()

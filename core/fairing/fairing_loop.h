@@ -1,0 +1,81 @@
+// The iteration of fairing, the same for curves and nets (METHODS 4.4). For use within this folder.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "core/base/run_context.h"
+#include "core/base/status.h"
+#include "core/fairing/box_minimum.h"
+#include "core/fairing/fairing_terms.h"
+
+namespace patchmill {
+
+// How far each node may go from where it was given.
+struct FairingLimits {
+  std::vector<Vec3> given;
+  std::vector<Axes> locked;
+  Vec3 band = Vec3::Constant(kInfinity);
+  BandRule rule = BandRule::kLeastEnergy;
+
+  void Lock(int node, const Axes& axes);
+  // Bounds of the steps along one axis from `points`, into f.lower and f.upper: equal and 0 where locked,
+  // none with BandRule::kCut.
+  void SetBounds(int axis, const std::vector<Vec3>& points, BoxQuadratic& f) const;
+  // A share of the way, within the bands whatever the rounding; what is locked stays bit by bit.
+  std::vector<Vec3> Part(double share, const std::vector<Vec3>& from, const std::vector<Vec3>& to) const;
+};
+
+// The limits of points whose ends or border, listed in `fixed`, are locked.
+FairingLimits MakeLimits(std::vector<Vec3> given, const FairingTerms& terms, const std::vector<bool>& fixed);
+
+template <class State>
+struct FairingRun {
+  State state;
+  std::vector<double> energies;
+  bool settled = false;
+};
+
+// Model has: State; State Fit(std::vector<Vec3> points); const std::vector<Vec3>& Points(const State&);
+// double Energy(const State&); std::vector<Vec3> Curvatures(const State&);
+// absl::StatusOr<std::vector<Vec3>> Target(const State&), the points of least energy with tangents fixed.
+template <class Model>
+absl::StatusOr<FairingRun<typename Model::State>> RunFairing(Model& model, typename Model::State first,
+                                                             const FairingLimits& limits,
+                                                             const FairingTerms& terms,
+                                                             const RunContext& run) {
+  using State = typename Model::State;
+  const double diagonal = Diagonal(limits.given);
+  FairingRun<State> out;
+  out.state = std::move(first);
+  out.energies.push_back(model.Energy(out.state));
+  CurvatureSigns signs = SignsOf(model.Curvatures(out.state), diagonal);
+  for (int iteration = 1; iteration <= terms.max_iterations && !out.settled; ++iteration) {
+    PM_RETURN_IF_ERROR(run.Check());
+    PM_ASSIGN_OR_RETURN(const std::vector<Vec3> target, model.Target(out.state));
+    const double last_energy = out.energies.back();
+    bool better = false;
+    double share = 1.0;
+    for (int halving = 0; halving <= kMaxHalvings && !better; ++halving, share *= 0.5) {
+      State next = model.Fit(limits.Part(share, model.Points(out.state), target));
+      const double energy = model.Energy(next);
+      better = energy < last_energy;  // false where nodes ran into each other: NaN or infinite
+      if (!better) continue;
+      out.state = std::move(next);
+      out.energies.push_back(energy);
+    }
+    if (!better) {
+      out.settled = true;
+      break;
+    }
+    CurvatureSigns now = SignsOf(model.Curvatures(out.state), diagonal);
+    out.settled = Settled(terms.stop, signs, now, last_energy, out.energies.back());
+    signs = std::move(now);
+    run.Progress("fairing", static_cast<double>(iteration) / terms.max_iterations);
+  }
+  return out;
+}
+
+}  // namespace patchmill
