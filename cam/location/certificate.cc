@@ -59,8 +59,7 @@ struct Prover {
     }
 
     const double mu = 0.5 * (rect.u0 + rect.u1), mv = 0.5 * (rect.v0 + rect.v1);
-    const LeafModel model = internal::MakeLeafModel(shape, points, piece.net.rational, hull.data(),
-                                                    hull_count, Evaluate(piece, mu, mv), rect);
+    const LeafModel model = internal::MakeLeafModel(piece, points, hull.data(), hull_count, rect);
     LowerModel low = internal::BoundBelow(model, Lift(ball.q, best.z));
     if (Excluded(low, best.z)) return;
     if (low.convex || level <= 2) {

@@ -1,12 +1,14 @@
 #include "cam/location/leaf_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+
+#include "cam/location/gregory_bounds.h"
 
 namespace patchmill::internal {
 namespace {
-
-constexpr Box2 kUnit{-0.5, 0.5, -0.5, 0.5};
 
 // Largest deviation of a family of differences of the net from a fixed vector: its length, and its parts
 // along two directions.
@@ -85,13 +87,13 @@ WeightBounds BoundWeights(const Net& net) {
 
 // Bounds |S_i - first| for one direction i.
 Deviation BoundFirst(const Net& net, int ou, const Vec3& first, const LeafModel& m, const WeightBounds& w,
-                     double reach_a, double reach_b) {
+                     double reach_a, double reach_b, double reach_all) {
   Deviation d;
   ForEachDifference(net, ou, 1 - ou,
                     [&](const Vec4& x) { d.Add(x.head<3>() - x.w() * m.s - w.w.middle * first, m.a, m.b); });
   if (w.constant()) return d;
   const double rate = (ou == 1 ? w.u : w.v).Largest();
-  const double length = (d.Length() + w.w.spread * first.norm() + rate * m.reach) / w.min();
+  const double length = (d.Length() + w.w.spread * first.norm() + rate * reach_all) / w.min();
   d.length = length * length;
   d.along_a = (d.along_a + w.w.spread * std::abs(first.dot(m.a)) + rate * reach_a) / w.min();
   d.along_b = (d.along_b + w.w.spread * std::abs(first.dot(m.b)) + rate * reach_b) / w.min();
@@ -105,7 +107,8 @@ struct Slope {
   double drift;
 };
 double BoundSecond(const Net& net, int ou, int ov, const Vec3& second, const LeafModel& m,
-                   const WeightBounds& w, const Slope& s1, const Slope& s2, const Range& rate) {
+                   const WeightBounds& w, const Slope& s1, const Slope& s2, const Range& rate,
+                   double reach_all) {
   const Vec3 middle = w.w.middle * second + s1.weight.middle * s2.first + s2.weight.middle * s1.first;
   double d = 0.0;
   ForEachDifference(net, ou, ov, [&](const Vec4& x) {
@@ -116,15 +119,85 @@ double BoundSecond(const Net& net, int ou, int ov, const Vec3& second, const Lea
   const auto mixed = [](const Range& weight, const Slope& s) {
     return weight.spread * s.first.norm() + weight.Largest() * s.drift;
   };
-  return (d + mixed(s1.weight, s2) + mixed(s2.weight, s1) + rate.Largest() * m.reach +
+  return (d + mixed(s1.weight, s2) + mixed(s2.weight, s1) + rate.Largest() * reach_all +
           w.w.spread * second.norm()) /
          w.min();
 }
 
-}  // namespace
+// How far S - s goes, over the hull: at all (squared), and along the model's vectors.
+struct HullReach {
+  double all2 = 0.0, a = 0.0, b = 0.0, uu = 0.0, uv = 0.0, vv = 0.0;
+  double z_max = -kInfinity;
+};
+HullReach ReachOf(const Vec3* hull, int count, const LeafModel& m) {
+  HullReach r;
+  for (int k = 0; k < count; ++k) {
+    const Vec3 d = hull[k] - m.s;
+    r.z_max = std::max(r.z_max, hull[k].z());
+    r.all2 = std::max(r.all2, d.squaredNorm());
+    r.a = std::max(r.a, std::abs(d.dot(m.a)));
+    r.b = std::max(r.b, std::abs(d.dot(m.b)));
+    r.uu = std::max(r.uu, std::abs(d.dot(m.uu)));
+    r.uv = std::max(r.uv, std::abs(d.dot(m.uv)));
+    r.vv = std::max(r.vv, std::abs(d.dot(m.vv)));
+  }
+  return r;
+}
 
-LeafModel MakeLeafModel(NetShape shape, const Vec4* points, bool rational, const Vec3* hull, int hull_count,
-                        const SurfaceJet& middle, const Rect& rect) {
+// How far derivatives stray from the model's.
+struct Derivatives {
+  Deviation du, dv;
+  double uu = 0.0, uv = 0.0, vv = 0.0;
+};
+
+// Nothing where a singular corner's weights leave no bound.
+std::optional<Derivatives> BoundNetDerivatives(const Net& net, bool rational, const HullReach& reach,
+                                               const LeafModel& m) {
+  const WeightBounds w = rational ? BoundWeights(net) : WeightBounds{};
+  if (!(w.min() > 1e-3 * w.w.middle)) return std::nullopt;
+  Derivatives d;
+  const double reach_all = std::sqrt(reach.all2);
+  d.du = BoundFirst(net, 1, m.a, m, w, reach.a, reach.b, reach_all);
+  d.dv = BoundFirst(net, 0, m.b, m, w, reach.a, reach.b, reach_all);
+  const Slope su{w.u, m.a, d.du.Length()}, sv{w.v, m.b, d.dv.Length()};
+  d.uu = BoundSecond(net, 2, 0, m.uu, m, w, su, su, w.uu, reach_all);
+  d.uv = BoundSecond(net, 1, 1, m.uv, m, w, su, sv, w.uv, reach_all);
+  d.vv = BoundSecond(net, 0, 2, m.vv, m, w, sv, sv, w.vv, reach_all);
+  return d;
+}
+
+// S = bicubic + sum phi_c D_c. With k_c the middle of a derivative's range, the bicubic's strays from
+// middle - sum k_c D_c and each term by the range's spread.
+std::optional<Derivatives> BoundGregory(const GregoryPatch& patch, const Rect& rect, const LeafModel& m) {
+  std::array<Vec4, 16> points = BicubicPart(patch);
+  RestrictNet({3, 3}, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
+  const Net net{{3, 3}, points.data()};
+  const std::array<BlendedTerm, 4> terms = BoundBlend(patch, rect);
+  const auto bound = [&](int ou, int ov, const Vec3& middle, Interval BlendedTerm::*range) {
+    Vec3 bicubic = middle;
+    for (const BlendedTerm& t : terms) bicubic -= (t.*range).middle() * t.d;
+    Deviation d;
+    ForEachDifference(net, ou, ov, [&](const Vec4& x) { d.Add(x.head<3>() - bicubic, m.a, m.b); });
+    double length = d.Length();
+    for (const BlendedTerm& t : terms) {
+      const double spread = (t.*range).spread();
+      length += spread * t.d.norm();
+      d.along_a += spread * std::abs(t.d.dot(m.a));
+      d.along_b += spread * std::abs(t.d.dot(m.b));
+    }
+    d.length = length * length;
+    return d;
+  };
+  Derivatives d;
+  d.du = bound(1, 0, m.a, &BlendedTerm::u);
+  d.dv = bound(0, 1, m.b, &BlendedTerm::v);
+  d.uu = bound(2, 0, m.uu, &BlendedTerm::uu).Length();
+  d.uv = bound(1, 1, m.uv, &BlendedTerm::uv).Length();
+  d.vv = bound(0, 2, m.vv, &BlendedTerm::vv).Length();
+  return d;
+}
+
+LeafModel MiddleModel(const SurfaceJet& middle, const Rect& rect) {
   const double lu = rect.u1 - rect.u0, lv = rect.v1 - rect.v0;
   LeafModel m;
   m.s = middle.p;
@@ -133,91 +206,46 @@ LeafModel MakeLeafModel(NetShape shape, const Vec4* points, bool rational, const
   m.uu = lu * lu * middle.duu;
   m.uv = lu * lv * middle.duv;
   m.vv = lv * lv * middle.dvv;
-
-  double reach2 = 0.0, uu = 0.0, uv = 0.0, vv = 0.0, reach_a = 0.0, reach_b = 0.0;
-  double z_max = -kInfinity;
-  for (int k = 0; k < hull_count; ++k) {
-    const Vec3 d = hull[k] - m.s;
-    z_max = std::max(z_max, hull[k].z());
-    reach2 = std::max(reach2, d.squaredNorm());
-    reach_a = std::max(reach_a, std::abs(d.dot(m.a)));
-    reach_b = std::max(reach_b, std::abs(d.dot(m.b)));
-    uu = std::max(uu, std::abs(d.dot(m.uu)));
-    uv = std::max(uv, std::abs(d.dot(m.uv)));
-    vv = std::max(vv, std::abs(d.dot(m.vv)));
-  }
-  m.reach = RoundUp(std::sqrt(reach2));
-  m.z_max = RoundUp(z_max);
-
-  const Net net{shape, points};
-  const WeightBounds w = rational ? BoundWeights(net) : WeightBounds{};
-  if (!(w.min() > 1e-3 * w.w.middle)) return m;  // a singular corner: derivatives have no useful bound
-  const Deviation du = BoundFirst(net, 1, m.a, m, w, reach_a, reach_b);
-  const Deviation dv = BoundFirst(net, 0, m.b, m, w, reach_a, reach_b);
-  m.drift_a = RoundUp(du.Length());
-  m.drift_b = RoundUp(dv.Length());
-  const Slope su{w.u, m.a, m.drift_a}, sv{w.v, m.b, m.drift_b};
-  m.drift_uu = RoundUp(BoundSecond(net, 2, 0, m.uu, m, w, su, su, w.uu));
-  m.drift_uv = RoundUp(BoundSecond(net, 1, 1, m.uv, m, w, su, sv, w.uv));
-  m.drift_vv = RoundUp(BoundSecond(net, 0, 2, m.vv, m, w, sv, sv, w.vv));
-  // S_u.S_u >= a.a + 2 (S_u - a).a: only the part along a can make it smaller.
-  m.gram_uu = RoundUp(2.0 * du.along_a + uu);
-  m.gram_vv = RoundUp(2.0 * dv.along_b + vv);
-  m.gram_uv = RoundUp(du.along_b + dv.along_a + du.Length() * dv.Length() + uv);
   return m;
 }
 
-LowerModel BoundBelow(const LeafModel& m, const Vec3& c) {
-  LowerModel low;
-  const Vec3 d = m.s - c;
-  const double distance2 = d.squaredNorm();
-  const double size = std::sqrt(distance2) + m.reach, drift_a = m.drift_a, drift_b = m.drift_b;
-  const double e_uu = m.gram_uu + size * m.drift_uu, e_uv = m.gram_uv + size * m.drift_uv,
-               e_vv = m.gram_vv + size * m.drift_vv;
-  low.f0 = 0.5 * distance2;
-  low.q.a = m.a.squaredNorm() + d.dot(m.uu) - e_uu - e_uv;
-  low.q.b = m.a.dot(m.b) + d.dot(m.uv);
-  low.q.c = m.b.squaredNorm() + d.dot(m.vv) - e_vv - e_uv;
-  low.q.gx = d.dot(m.a);
-  low.q.gy = d.dot(m.b);
-  low.convex = low.q.a > 0.0 && low.q.c > 0.0 && low.q.a * low.q.c > low.q.b * low.q.b;
-  low.minorant = m.z_max <= c.z();
-  if (low.minorant || !low.convex) return low;
-
-  // The part above c is measured horizontally: there the Hessian lacks z_i z_j + (z - c_z) z_ij. f is once
-  // differentiable across the level of c, so it is convex when both Hessians are positive definite.
-  const double az = std::abs(m.a.z()), bz = std::abs(m.b.z());
-  const double rise = std::abs(d.z()) + m.reach;
-  const double h_uu =
-      e_uu + 2.0 * az * drift_a + drift_a * drift_a + rise * m.drift_uu + m.reach * std::abs(m.uu.z());
-  const double h_vv =
-      e_vv + 2.0 * bz * drift_b + drift_b * drift_b + rise * m.drift_vv + m.reach * std::abs(m.vv.z());
-  const double h_uv = e_uv + az * drift_b + bz * drift_a + drift_a * drift_b + rise * m.drift_uv +
-                      m.reach * std::abs(m.uv.z());
-  const double a = m.a.head<2>().squaredNorm() + d.head<2>().dot(m.uu.head<2>()) - h_uu - h_uv;
-  const double b = m.a.head<2>().dot(m.b.head<2>()) + d.head<2>().dot(m.uv.head<2>());
-  const double cc = m.b.head<2>().squaredNorm() + d.head<2>().dot(m.vv.head<2>()) - h_vv - h_uv;
-  low.convex = a > 0.0 && cc > 0.0 && a * cc > b * b;
-  return low;
+void SetErrors(const HullReach& reach, const std::optional<Derivatives>& bounds, LeafModel& m) {
+  m.reach = RoundUp(std::sqrt(reach.all2));
+  m.z_max = RoundUp(reach.z_max);
+  if (!bounds) return;
+  const Deviation &du = bounds->du, &dv = bounds->dv;
+  m.drift_a = RoundUp(du.Length());
+  m.drift_b = RoundUp(dv.Length());
+  m.drift_uu = RoundUp(bounds->uu);
+  m.drift_uv = RoundUp(bounds->uv);
+  m.drift_vv = RoundUp(bounds->vv);
+  // S_u.S_u >= a.a + 2 (S_u - a).a: only the part along a can make it smaller.
+  m.gram_uu = RoundUp(2.0 * du.along_a + reach.uu);
+  m.gram_vv = RoundUp(2.0 * dv.along_b + reach.vv);
+  m.gram_uv = RoundUp(du.along_b + dv.along_a + du.Length() * dv.Length() + reach.uv);
 }
 
-BoxMinimum GuessMinimum(const LeafModel& m, const Vec3& c) {
-  Vec3 d = m.s - c;
-  if (d.z() > 0.0) d.z() = 0.0;  // above c only the horizontal distance counts
-  Quadratic2 q;
-  const double aa = m.a.squaredNorm(), bb = m.b.squaredNorm(), ab = m.a.dot(m.b);
-  q.a = aa + d.dot(m.uu);
-  q.b = ab + d.dot(m.uv);
-  q.c = bb + d.dot(m.vv);
-  q.gx = d.dot(m.a);
-  q.gy = d.dot(m.b);
-  if (!(q.a > 0.0 && q.c > 0.0 && q.a * q.c > 1.0001 * q.b * q.b)) {
-    q.a = aa;
-    q.b = ab;
-    q.c = bb;
-    if (!(aa > 0.0 && bb > 0.0 && aa * bb > 1.0001 * ab * ab)) return {0.0, 0.0, 0.0};
+}  // namespace
+
+LeafModel MakeLeafModel(NetShape shape, const Vec4* points, bool rational, const Vec3* hull, int hull_count,
+                        const SurfaceJet& middle, const Rect& rect) {
+  LeafModel m = MiddleModel(middle, rect);
+  const HullReach reach = ReachOf(hull, hull_count, m);
+  SetErrors(reach, BoundNetDerivatives({shape, points}, rational, reach, m), m);
+  return m;
+}
+
+LeafModel MakeLeafModel(const Piece& piece, const Vec4* points, const Vec3* hull, int hull_count,
+                        const Rect& rect) {
+  const SurfaceJet middle = Evaluate(piece, 0.5 * (rect.u0 + rect.u1), 0.5 * (rect.v0 + rect.v1));
+  if (!piece.gregory) {
+    const NetShape shape{piece.net.degree_u, piece.net.degree_v};
+    return MakeLeafModel(shape, points, piece.net.rational, hull, hull_count, middle, rect);
   }
-  return MinimizeOnBox(q, kUnit);
+  LeafModel m = MiddleModel(middle, rect);
+  const HullReach reach = ReachOf(hull, hull_count, m);
+  SetErrors(reach, BoundGregory(*piece.gregory, rect, m), m);
+  return m;
 }
 
 }  // namespace patchmill::internal

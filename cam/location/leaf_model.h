@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "cam/location/leaf_errors.h"
 #include "core/math/box_qp.h"
 #include "core/surface/net_kernel.h"
 
@@ -17,14 +18,8 @@ struct Rect {
   double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
 };
 
-struct LeafModel {
+struct LeafModel : LeafErrors {
   Vec3 s, a, b, uu, uv, vv;
-  // Bounds, mm^2 resp. mm, rounded up; infinite where the rectangle holds a singular corner.
-  float gram_uu = HUGE_VALF, gram_uv = HUGE_VALF, gram_vv = HUGE_VALF;  // of S_i.S_j + (S - s).s_ij
-  float drift_uu = 0.0F, drift_uv = 0.0F, drift_vv = 0.0F;              // of S_ij
-  float drift_a = 0.0F, drift_b = 0.0F;                                 // of S_u, S_v
-  float reach = HUGE_VALF;                                              // of S - s
-  float z_max = HUGE_VALF;                                              // of the hull
 };
 
 // To floats without falling below, resp. rising above.
@@ -35,6 +30,9 @@ inline float RoundDown(double x) { return std::nextafterf(static_cast<float>(x),
 // `middle` the piece's jet at the middle of `rect` in the piece's own parameters. Cost O(points).
 LeafModel MakeLeafModel(NetShape shape, const Vec4* points, bool rational, const Vec3* hull, int hull_count,
                         const SurfaceJet& middle, const Rect& rect);
+// The same; a Gregory quad's derivatives are bounded from its own form (gregory_bounds.h), not from the net.
+LeafModel MakeLeafModel(const Piece& piece, const Vec4* points, const Vec3* hull, int hull_count,
+                        const Rect& rect);
 
 // A quadratic with value f0 at the middle whose Hessian is below that of f = 1/2 dist^2(S, upward ray from c)
 // everywhere on the rectangle.

@@ -6,136 +6,164 @@
 
 #include "core/base/parallel.h"
 #include "core/base/status.h"
+#include "core/surface/leaf_tree.h"
 
 namespace patchmill::internal {
 namespace {
 
-constexpr int kMaxHalvings = 2;
-constexpr std::size_t kChunk = 64;  // leaves per task
+constexpr int kMaxLevel = 24;  // halvings of one piece, both directions together
+// What a leaf may look like, in radii. Where convexity is proven, models are tight and leaves may be thick;
+// what the ball is only kept off (too hollow) needs tight boxes; where nothing is proven, leaves are small.
+constexpr double kConvexThickness = 1.0 / 15.0, kHollowThickness = 1.0 / 150.0;
+constexpr double kOpenReach = 1.0 / 9.0;
+// Bounds memory: a piece that needs more leaves has its limits doubled until it does not.
+constexpr std::size_t kMaxLeaves = 1'000'000, kMinLeavesPerPiece = 16;
 
-// The binary tree below one leaf of the surface, in depth-first order as SurfaceNode; indices count from its
-// own first node and leaf.
-struct LeafTree {
-  std::vector<SurfaceNode> nodes;
+// The leaves of one piece and their boxes.
+struct PieceLeaves {
   std::vector<SearchLeaf> leaves;
+  std::vector<Box3> boxes;
 };
 
-// Could the ball rest somewhere inside the leaf, without its convexity being proven?
-bool NeedsSplit(const LeafModel& m, double radius) {
-  Vec3 n = m.a.cross(m.b);
-  const double length = n.norm();
-  if (!(length > 0.0)) return true;
-  n *= (n.z() < 0.0 ? -radius : radius) / length;
-  const double size = radius + m.reach;
-  const double e_uu = m.gram_uu + size * m.drift_uu, e_uv = m.gram_uv + size * m.drift_uv,
-               e_vv = m.gram_vv + size * m.drift_vv;
-  const double a = m.a.squaredNorm() - n.dot(m.uu), b = m.a.dot(m.b) - n.dot(m.uv),
-               c = m.b.squaredNorm() - n.dot(m.vv);
+enum class Proof { kConvex, kHollow, kOpen };
+
+// Smallest and largest of the Hessian a, b, c with entries off by up to e_uu, e_uv, e_vv: positive definite?
+bool SurelyPositive(double a, double b, double c, double e_uu, double e_uv, double e_vv) {
   const double low_a = a - e_uu - e_uv, low_c = c - e_vv - e_uv;
-  if (low_a > 0.0 && low_c > 0.0 && low_a * low_c > b * b) return false;
-  // Too hollow for the ball all over: no contact inside, other tests exclude it.
-  const double high_a = a + e_uu + e_uv, high_c = c + e_vv + e_uv;
-  return high_a > 0.0 && high_c > 0.0 && high_a * high_c > b * b;
+  return low_a > 0.0 && low_c > 0.0 && low_a * low_c > b * b;
 }
 
-class LeafRefiner {
+// Is the distance to a centre resting on the leaf proven convex; or can the ball nowhere rest inside? The
+// centre is not the one above the leaf's middle: it is off by up to twice the leaf's reach, along the leaf.
+Proof ProofOf(const LeafModel& m, double radius) {
+  Vec3 n = m.a.cross(m.b);
+  const double length = n.norm();
+  if (!(length > 0.0)) return Proof::kOpen;
+  n *= (n.z() < 0.0 ? -1.0 : 1.0) / length;
+  const double size = radius + m.reach, reach = m.reach;
+  double e_uu = m.gram_uu + size * m.drift_uu, e_uv = m.gram_uv + size * m.drift_uv,
+         e_vv = m.gram_vv + size * m.drift_vv;
+  const double a = m.a.squaredNorm() - radius * n.dot(m.uu), b = m.a.dot(m.b) - radius * n.dot(m.uv),
+               c = m.b.squaredNorm() - radius * n.dot(m.vv);
+  // Too hollow for the ball all over: no contact inside, other tests exclude it.
+  if (!SurelyPositive(a + 2.0 * (e_uu + e_uv), b, c + 2.0 * (e_vv + e_uv), e_uu, e_uv, e_vv)) {
+    return Proof::kHollow;
+  }
+  const auto offset = [&](const Vec3& second) {
+    const double across = n.dot(second);
+    return 2.0 * reach * (second - across * n).norm() + reach * reach / radius * std::abs(across);
+  };
+  e_uu += offset(m.uu);
+  e_uv += offset(m.uv);
+  e_vv += offset(m.vv);
+  if (!SurelyPositive(a, b, c, e_uu, e_uv, e_vv)) return Proof::kOpen;
+  const double rise = m.z_max - m.s.z();
+  if (radius * n.z() > 2.0 * rise) return Proof::kConvex;
+  // A ball may rest on it with its centre below the leaf's top: see BoundBelow.
+  const double az = std::abs(m.a.z()), bz = std::abs(m.b.z());
+  const double h_uu = e_uu + 2.0 * az * m.drift_a + m.drift_a * m.drift_a + 2.0 * rise * m.drift_uu +
+                      reach * std::abs(m.uu.z());
+  const double h_vv = e_vv + 2.0 * bz * m.drift_b + m.drift_b * m.drift_b + 2.0 * rise * m.drift_vv +
+                      reach * std::abs(m.vv.z());
+  const double h_uv = e_uv + az * m.drift_b + bz * m.drift_a + m.drift_a * m.drift_b +
+                      2.0 * rise * m.drift_uv + reach * std::abs(m.uv.z());
+  const auto plan = [](const Vec3& x, const Vec3& y) { return x.x() * y.x() + x.y() * y.y(); };
+  const bool flat_enough =
+      SurelyPositive(plan(m.a, m.a) - radius * plan(n, m.uu), plan(m.a, m.b) - radius * plan(n, m.uv),
+                     plan(m.b, m.b) - radius * plan(n, m.vv), h_uu, h_uv, h_vv);
+  return flat_enough ? Proof::kConvex : Proof::kOpen;
+}
+
+class PieceSplitter {
  public:
-  LeafRefiner(const Surface& surface, const SurfaceLeaf& leaf, double radius, LeafTree& out)
-      : whole_(leaf),
-        piece_(surface.piece(leaf.piece)),
-        piece_index_(leaf.piece.value),
-        shape_{piece_.net.degree_u, piece_.net.degree_v},
+  PieceSplitter(const Piece& piece, int piece_index, double radius, std::size_t max_leaves,
+                const RunContext& run)
+      : piece_(piece),
+        piece_index_(piece_index),
+        shape_{piece.net.degree_u, piece.net.degree_v},
         radius_(radius),
-        out_(out) {
-    const Rect rect{leaf.u0, leaf.u1, leaf.v0, leaf.v1};
-    Vec4* points = levels_[0].data();
-    std::copy(piece_.net.points.begin(), piece_.net.points.end(), points);
-    RestrictNet(shape_, points, rect.u0, rect.u1, rect.v0, rect.v1);
-    Split(points, rect, 0);
+        max_leaves_(max_leaves),
+        run_(run),
+        buffer_(static_cast<std::size_t>(2 * kMaxLevel * shape_.count())) {}
+
+  PieceLeaves Take() {
+    for (;; coarseness_ *= 2.0) {
+      out_ = {};
+      Split(piece_.net.points.data(), Rect{}, 0);
+      if (out_.leaves.size() <= max_leaves_ || stopped_) return std::move(out_);
+    }
   }
 
  private:
+  bool IsFine(const LeafModel& model, const RectBounds& bounds) const {
+    switch (ProofOf(model, radius_)) {
+      case Proof::kConvex:
+        return bounds.half.z() <= kConvexThickness * radius_ * coarseness_;
+      case Proof::kHollow:
+        return bounds.half.z() <= kHollowThickness * radius_ * coarseness_;
+      case Proof::kOpen:
+        break;
+    }
+    return model.reach <= kOpenReach * radius_ * coarseness_;
+  }
+
   void Split(const Vec4* points, const Rect& rect, int level) {
+    if (out_.leaves.size() > max_leaves_ || stopped_) return;
     std::array<Vec3, kMaxNetPoints> hull;
     const int hull_count = HullPoints(shape_, points, hull.data());
-    RectBounds bounds;
-    if (level == 0) {  // the surface has them but for the box
-      bounds = {Box3{}, whole_.center, whole_.axis, whole_.half};
-      for (int k = 0; k < hull_count; ++k) bounds.box.Add(hull[static_cast<std::size_t>(k)]);
-    } else {
-      bounds = BoundPoints(shape_, points, hull.data(), hull_count);
-    }
-    const double mu = 0.5 * (rect.u0 + rect.u1), mv = 0.5 * (rect.v0 + rect.v1);
-    const LeafModel model = MakeLeafModel(shape_, points, piece_.net.rational, hull.data(), hull_count,
-                                          Evaluate(piece_, mu, mv), rect);
-    const std::size_t self = out_.nodes.size();
-    out_.nodes.push_back({bounds.box, 0, -1});
-    if (level == kMaxHalvings || !NeedsSplit(model, radius_)) {
-      out_.nodes[self].leaf = static_cast<std::int32_t>(out_.leaves.size());
+    const RectBounds bounds = BoundPoints(shape_, points, hull.data(), hull_count);
+    const LeafModel model = MakeLeafModel(piece_, points, hull.data(), hull_count, rect);
+    if (level == kMaxLevel || IsFine(model, bounds)) {
+      out_.boxes.push_back(bounds.box);
       out_.leaves.push_back({bounds.center, bounds.axis, bounds.half, model, piece_index_,
                              static_cast<float>(rect.u0), static_cast<float>(rect.u1),
                              static_cast<float>(rect.v0), static_cast<float>(rect.v1)});
+      stopped_ = out_.leaves.size() % 256 == 0 && run_.Cancelled();
       return;
     }
     const bool along_u = model.a.squaredNorm() >= model.b.squaredNorm();
-    Vec4* low = levels_[static_cast<std::size_t>(2 * level + 1)].data();
-    Vec4* high = levels_[static_cast<std::size_t>(2 * level + 2)].data();
+    Vec4* low = buffer_.data() + 2 * level * shape_.count();
+    Vec4* high = low + shape_.count();
     HalveNet(shape_, points, along_u, low, high);
     Rect first = rect, second = rect;
-    (along_u ? first.u1 : first.v1) = along_u ? mu : mv;
-    (along_u ? second.u0 : second.v0) = along_u ? mu : mv;
+    (along_u ? first.u1 : first.v1) = along_u ? 0.5 * (rect.u0 + rect.u1) : 0.5 * (rect.v0 + rect.v1);
+    (along_u ? second.u0 : second.v0) = along_u ? first.u1 : first.v1;
     Split(low, first, level + 1);
-    out_.nodes[self].right = static_cast<std::int32_t>(out_.nodes.size());
     Split(high, second, level + 1);
   }
 
-  const SurfaceLeaf& whole_;
   const Piece& piece_;
-  std::int32_t piece_index_;
+  int piece_index_;
   NetShape shape_;
   double radius_;
-  LeafTree& out_;
-  std::array<std::array<Vec4, kMaxNetPoints>, 2 * kMaxHalvings + 1> levels_;
+  std::size_t max_leaves_;
+  const RunContext& run_;
+  std::vector<Vec4> buffer_;  // two halves per level
+  double coarseness_ = 1.0;
+  bool stopped_ = false;  // cancelled
+  PieceLeaves out_;
 };
 
 // Writes nodes of four children: each takes the binary node's children and opens the largest ones.
 class Collapser {
  public:
-  // first_leaf: where the leaves of each part are in `out`.
-  Collapser(const Surface& surface, const std::vector<LeafTree>& parts,
-            const std::vector<std::int32_t>& first_leaf, SearchTree& out)
-      : surface_(surface), parts_(parts), first_leaf_(first_leaf), out_(out) {
-    const Item root = Resolve({-1, 0});
-    if (IsLeaf(root)) {  // a single leaf: a root with one child
-      out_.nodes.emplace_back();
-      Fill(0, {root});
-    } else {
-      Emit(root);
-    }
+  Collapser(const std::vector<SurfaceNode>& binary, std::vector<SearchNode>& out)
+      : binary_(binary), out_(out) {
+    out_.reserve(binary.size() / 4 + 1);
+    Emit(0);
   }
 
  private:
-  // A node of the surface's tree (part < 0) or of one leaf's.
-  struct Item {
-    std::int32_t part;
-    std::int32_t node;
-  };
-
-  const SurfaceNode& Node(const Item& i) const {
-    return i.part < 0 ? surface_.nodes[static_cast<std::size_t>(i.node)]
-                      : parts_[static_cast<std::size_t>(i.part)].nodes[static_cast<std::size_t>(i.node)];
-  }
-  // A leaf of the surface is the root of its own tree.
-  Item Resolve(const Item& i) const { return i.part < 0 && Node(i).leaf >= 0 ? Item{Node(i).leaf, 0} : i; }
-  bool IsLeaf(const Item& i) const { return Node(i).leaf >= 0; }
+  const SurfaceNode& Node(std::int32_t i) const { return binary_[static_cast<std::size_t>(i)]; }
+  bool IsLeaf(std::int32_t i) const { return Node(i).leaf >= 0; }
 
   static double Size(const Box3& box) {
     const Vec3 d = box.max - box.min;
     return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
   }
 
-  std::int32_t Emit(const Item& item) {
-    std::vector<Item> children = {item};
+  std::int32_t Emit(std::int32_t root) {
+    std::vector<std::int32_t> children = {root};
     while (children.size() < 4) {
       std::size_t largest = children.size();
       for (std::size_t k = 0; k < children.size(); ++k) {
@@ -145,23 +173,16 @@ class Collapser {
         }
       }
       if (largest == children.size()) break;
-      const Item open = children[largest];
-      children[largest] = Resolve({open.part, open.node + 1});
-      children.insert(children.begin() + static_cast<std::ptrdiff_t>(largest) + 1,
-                      Resolve({open.part, Node(open).right}));
+      const std::int32_t open = children[largest];
+      children[largest] = open + 1;
+      children.insert(children.begin() + static_cast<std::ptrdiff_t>(largest) + 1, Node(open).right);
     }
-    const auto self = static_cast<std::int32_t>(out_.nodes.size());
-    out_.nodes.emplace_back();
-    Fill(self, children);
-    return self;
-  }
-
-  void Fill(std::int32_t self, const std::vector<Item>& children) {
+    const std::size_t self = out_.size();
+    out_.emplace_back();
     SearchNode node;
-    for (int k = 0; k < 4; ++k) {
-      Box3 box;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Box3 box = k < children.size() ? Node(children[k]).box : Box3{};
       node.child[k] = 0;
-      if (k < static_cast<int>(children.size())) box = Node(children[static_cast<std::size_t>(k)]).box;
       node.min_x[k] = RoundDown(box.min.x());
       node.min_y[k] = RoundDown(box.min.y());
       node.min_z[k] = RoundDown(box.min.z());
@@ -170,45 +191,39 @@ class Collapser {
       node.max_z[k] = RoundUp(box.max.z());
     }
     for (std::size_t k = 0; k < children.size(); ++k) {
-      const Item& c = children[k];
-      if (IsLeaf(c)) {
-        node.child[k] = ~(first_leaf_[static_cast<std::size_t>(c.part)] + Node(c).leaf);
-      } else {
-        node.child[k] = Emit(c);
-      }
+      node.child[k] = IsLeaf(children[k]) ? ~Node(children[k]).leaf : Emit(children[k]);
     }
-    out_.nodes[static_cast<std::size_t>(self)] = node;
+    out_[self] = node;
+    return static_cast<std::int32_t>(self);
   }
 
-  const Surface& surface_;
-  const std::vector<LeafTree>& parts_;
-  const std::vector<std::int32_t>& first_leaf_;
-  SearchTree& out_;
+  const std::vector<SurfaceNode>& binary_;
+  std::vector<SearchNode>& out_;
 };
 
 }  // namespace
 
 absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius, const RunContext& run) {
-  const std::size_t count = surface.leaves.size();
-  std::vector<LeafTree> parts(count);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, (count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
-      LeafRefiner(surface, surface.leaves[i], radius, parts[i]);
-    }
+  const std::size_t count = surface.pieces.size();
+  const std::size_t max_leaves = std::max(kMinLeavesPerPiece, kMaxLeaves / count);
+  std::vector<PieceLeaves> parts(count);
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, count, [&](std::size_t i) {
+    parts[i] = PieceSplitter(surface.pieces[i], static_cast<int>(i), radius, max_leaves, run).Take();
   }));
   SearchTree tree;
   std::size_t leaves = 0;
-  for (const LeafTree& part : parts) leaves += part.leaves.size();
+  for (const PieceLeaves& part : parts) leaves += part.leaves.size();
   tree.leaves.reserve(leaves);
-  std::vector<std::int32_t> first_leaf(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    first_leaf[i] = static_cast<std::int32_t>(tree.leaves.size());
-    tree.leaves.insert(tree.leaves.end(), parts[i].leaves.begin(), parts[i].leaves.end());
-    std::vector<SearchLeaf>().swap(parts[i].leaves);  // never twice in memory
+  std::vector<Box3> boxes;
+  boxes.reserve(leaves);
+  for (PieceLeaves& part : parts) {
+    tree.leaves.insert(tree.leaves.end(), part.leaves.begin(), part.leaves.end());
+    boxes.insert(boxes.end(), part.boxes.begin(), part.boxes.end());
+    part = {};  // never twice in memory
   }
+  const std::vector<SurfaceNode> binary = BuildLeafTree(boxes, run);
   PM_RETURN_IF_ERROR(run.Check());
-  tree.nodes.reserve(leaves / 2 + 1);
-  Collapser(surface, parts, first_leaf, tree);
+  Collapser(binary, tree.nodes);
   return tree;
 }
 

@@ -1,5 +1,5 @@
-// What a height search walks over: the surface's tree, packed, its leaves with their second-order models, and
-// split further where the ball's radius asks for it.
+// What a height search walks over: rectangles of the pieces with their second-order models, as large as the
+// ball's radius allows, under a tree of four children a node.
 #pragma once
 
 #include <cstdint>
@@ -37,9 +37,9 @@ struct SearchTree {
   std::vector<SearchLeaf> leaves;
 };
 
-// Collapses the surface's binary tree to four children a node. Leaves on which the distance to a centre
-// resting there is not proven convex (T6), though a ball of this radius may rest there, are halved up to
-// twice. About 3 us a leaf, parallel, deterministic. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Leaves are large where the distance to a centre resting there is proven convex (T6), and small where a ball
+// of this radius may rest without that proof. About 3 us a leaf, parallel, deterministic. CANCELLED and
+// DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius, const RunContext& run);
 
 }  // namespace patchmill::internal
