@@ -1,0 +1,263 @@
+// Heights of many places: the tree is walked once for eight neighbours, a leaf meets all eight at once
+// (lane_kernel.h).
+#include "cam/location/heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cam/location/lane_kernel.h"
+#include "cam/location/locator_impl.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+using internal::Ball;
+using internal::Contact;
+using internal::Float4;
+using internal::kLanes;
+using internal::LaneKernel;
+using internal::LaneLeaf;
+using internal::LaneLimits;
+using internal::LanePacket;
+using internal::LaneStart;
+
+Float4 Splat(float x) { return Float4{x, x, x, x}; }
+Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
+
+internal::LaneNet NetOf(const Piece& piece) {
+  internal::LaneNet net{.known = piece.shape == nullptr,
+                        .degree_u = piece.net.degree_u,
+                        .degree_v = piece.net.degree_v,
+                        .rational = piece.net.rational,
+                        .points = piece.net.points.front().data()};
+  if (piece.gregory) {
+    net.gregory = piece.gregory->points.front().data();
+    net.edge_blend = piece.gregory->blend == GregoryPatch::Blend::kEdge;
+    net.rational = false;
+  }
+  return net;
+}
+
+LaneLimits LimitsOf(const Locator::Impl& impl) {
+  return {impl.radius, impl.rounding, impl.BallAt(Vec2::Zero()).FreeF()};
+}
+
+LaneLeaf ViewOf(const Surface& surface, const internal::SearchLeaf& leaf) {
+  const internal::LeafModel& m = leaf.model;
+  return {.piece = leaf.piece,
+          .u0 = leaf.u0,
+          .u1 = leaf.u1,
+          .v0 = leaf.v0,
+          .v1 = leaf.v1,
+          .center = leaf.center.data(),
+          .axis = leaf.axis.data(),
+          .half = leaf.half.data(),
+          .s = m.s.data(),
+          .a = m.a.data(),
+          .b = m.b.data(),
+          .uu = m.uu.data(),
+          .uv = m.uv.data(),
+          .vv = m.vv.data(),
+          .errors = &m,
+          .net = NetOf(surface.pieces[static_cast<std::size_t>(leaf.piece)])};
+}
+
+Contact ContactOf(const LanePacket& p, int k) {
+  return {p.z[k], static_cast<int>(p.piece[k]),    p.u[k],
+          p.v[k], Vec3(p.px[k], p.py[k], p.pz[k]), Vec2(p.slope_u[k], p.slope_v[k])};
+}
+
+void PutContact(const Contact& c, LanePacket& p, int k) {
+  p.z[k] = c.z;
+  p.u[k] = c.u;
+  p.v[k] = c.v;
+  p.px[k] = c.p.x();
+  p.py[k] = c.p.y();
+  p.pz[k] = c.p.z();
+  p.slope_u[k] = c.slope.x();
+  p.slope_v[k] = c.slope.y();
+  p.piece[k] = c.piece;
+}
+
+// Walks the tree for one packet.
+class PacketSearch {
+ public:
+  PacketSearch(const Locator::Impl& impl, const LaneKernel& kernel, LanePacket& packet)
+      : impl_(impl), kernel_(kernel), limits_(LimitsOf(impl)), packet_(packet) {}
+
+  // Newton on whole pieces, from where the contacts are expected.
+  void Approach(const LaneStart& start);
+  void Run();
+
+ private:
+  struct Pending {
+    std::int32_t child;
+    float distance2;
+    float max_z;
+  };
+
+  void Visit(std::int32_t index);
+  void VisitScalar(std::int32_t index, int lane);
+  void UpdateLowest() { lowest_ = static_cast<float>(*std::min_element(packet_.z, packet_.z + kLanes)); }
+
+  const Locator::Impl& impl_;
+  const LaneKernel& kernel_;
+  const LaneLimits limits_;
+  LanePacket& packet_;
+  float lowest_ = 0.0F;  // of the lanes' heights
+};
+
+// As Locator::Impl::Search; a node is out of the way of all lanes when it is out of the way of the packet's
+// box in plan at the lowest height.
+void PacketSearch::Run() {
+  UpdateLowest();
+  thread_local std::vector<Pending> stack;
+  stack.clear();
+  const double r = impl_.radius;
+  const auto limit = static_cast<float>(r * r + 1e-6 * r * r + 1e-6 * r * impl_.reach);
+  const auto [x0, x1] = std::minmax_element(packet_.qx, packet_.qx + kLanes);
+  const auto [y0, y1] = std::minmax_element(packet_.qy, packet_.qy + kLanes);
+  const Float4 qx0 = Splat(static_cast<float>(*x0)), qx1 = Splat(static_cast<float>(*x1));
+  const Float4 qy0 = Splat(static_cast<float>(*y0)), qy1 = Splat(static_cast<float>(*y1));
+  const Float4 zero = Splat(0.0F);
+  std::int32_t next = 0;
+  for (;;) {
+    const internal::SearchNode& node = impl_.tree.nodes[static_cast<std::size_t>(next)];
+    const Float4 dx = Max(Max(node.min_x - qx1, qx0 - node.max_x), zero);
+    const Float4 dy = Max(Max(node.min_y - qy1, qy0 - node.max_y), zero);
+    const Float4 below = Max(Splat(lowest_) - node.max_z, zero);
+    const Float4 distance2 = dx * dx + dy * dy, all = distance2 + below * below;
+    const std::size_t bottom = stack.size();
+    for (int k = 0; k < 4; ++k) {
+      if (!(all[k] < limit)) continue;
+      stack.push_back({node.child[k], distance2[k], node.max_z[k]});
+      const auto promise = [](const Pending& p) { return p.max_z - p.distance2; };
+      for (std::size_t i = stack.size() - 1; i > bottom && promise(stack[i - 1]) > promise(stack[i]); --i) {
+        std::swap(stack[i - 1], stack[i]);
+      }
+    }
+    for (next = -1; next < 0;) {
+      if (stack.empty()) return;
+      const Pending top = stack.back();
+      stack.pop_back();
+      const float under = std::max(0.0F, lowest_ - top.max_z);
+      if (top.distance2 + under * under >= limit) continue;
+      if (top.child >= 0) {
+        next = top.child;
+      } else {
+        Visit(~top.child);
+        UpdateLowest();
+      }
+    }
+  }
+}
+
+void PacketSearch::Approach(const LaneStart& start) {
+  for (int k = 0; k < kLanes; ++k) {
+    const std::int64_t piece = start.piece[k];
+    if (piece < 0 || std::find(start.piece, start.piece + k, piece) != start.piece + k) continue;
+    LaneLeaf whole{};
+    whole.piece = piece;
+    whole.u1 = whole.v1 = 1.0;
+    whole.net = NetOf(impl_.surface.pieces[static_cast<std::size_t>(piece)]);
+    if (!whole.net.known) continue;
+    kernel_.approach(whole, limits_, start, packet_);
+  }
+}
+
+void PacketSearch::Visit(std::int32_t index) {
+  const internal::SearchLeaf& leaf = impl_.tree.leaves[static_cast<std::size_t>(index)];
+  const unsigned unresolved = kernel_.visit(ViewOf(impl_.surface, leaf), limits_, packet_);
+  for (int k = 0; k < kLanes; ++k) {
+    if ((unresolved >> k & 1U) != 0) VisitScalar(index, k);
+  }
+}
+
+void PacketSearch::VisitScalar(std::int32_t index, int k) {
+  Contact best = ContactOf(packet_, k);
+  impl_.VisitLeaf(index, impl_.BallAt({packet_.qx[k], packet_.qy[k]}), best, nullptr);
+  PutContact(best, packet_, k);
+}
+
+// What a packet learns from the two before it: lane by lane, when the places step on evenly.
+class Forecast {
+ public:
+  void Start(const Locator::Impl& impl, std::span<const Vec2> q, LanePacket& packet, LaneStart& start) const;
+  void Learn(const LanePacket& packet) {
+    before_ = last_;
+    last_ = packet;
+    known_ = std::min(known_ + 1, 2);
+  }
+
+ private:
+  LanePacket last_, before_;
+  int known_ = 0;
+};
+
+// The packet's places, the last one repeated. Each ball starts at the height at which it touches the last
+// contact of its lane.
+void Forecast::Start(const Locator::Impl& impl, std::span<const Vec2> q, LanePacket& packet,
+                     LaneStart& start) const {
+  const double graze = LimitsOf(impl).graze();
+  for (int k = 0; k < kLanes; ++k) {
+    const Vec2& at = q[std::min<std::size_t>(static_cast<std::size_t>(k), q.size() - 1)];
+    packet.qx[k] = at.x();
+    packet.qy[k] = at.y();
+    Contact contact;
+    contact.z = impl.Lowest();
+    start.piece[k] = -1;
+    start.u[k] = start.v[k] = 0.0;
+    if (known_ > 0 && last_.piece[k] >= 0) {
+      const Contact last = ContactOf(last_, k);
+      const double rim = impl.radius * impl.radius - (Plan(last.p) - at).squaredNorm();
+      if (rim >= graze * graze) {
+        contact = last;
+        contact.z = last.p.z() + std::sqrt(rim);
+        contact.slope = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+        const bool moving = known_ > 1 && before_.piece[k] == last_.piece[k];
+        start.piece[k] = last.piece;
+        start.u[k] = moving ? 2.0 * last.u - before_.u[k] : last.u;
+        start.v[k] = moving ? 2.0 * last.v - before_.v[k] : last.v;
+      }
+    }
+    PutContact(contact, packet, k);
+  }
+}
+
+}  // namespace
+
+std::vector<const char*> InstructionSets() {
+  std::vector<const char*> names;
+  const internal::LaneKernels& kernels = internal::AvailableLaneKernels();
+  for (int k = 0; k < kernels.count; ++k) names.push_back(kernels.kernel[k].name);
+  return names;
+}
+
+void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights,
+             std::size_t instruction_set) {
+  PM_CHECK(q.size() == heights.size());
+  const internal::LaneKernels& kernels = internal::AvailableLaneKernels();
+  PM_CHECK(instruction_set < static_cast<std::size_t>(kernels.count));
+  const LaneKernel& kernel = kernels.kernel[instruction_set];
+  const Locator::Impl& impl = locator.impl();
+  LanePacket packet;
+  LaneStart start;
+  Forecast forecast;
+  for (std::size_t i = 0; i < q.size(); i += kLanes) {
+    const std::size_t count = std::min<std::size_t>(kLanes, q.size() - i);
+    forecast.Start(impl, q.subspan(i, count), packet, start);
+    PacketSearch search(impl, kernel, packet);
+    search.Approach(start);
+    search.Run();
+    forecast.Learn(packet);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Contact c = ContactOf(packet, static_cast<int>(k));
+      heights[i + k].reset();
+      if (c.piece >= 0) heights[i + k] = CenterPoint{c.z, impl.PointOf(c)};
+    }
+  }
+}
+
+}  // namespace patchmill

@@ -1,0 +1,26 @@
+// Heights of many places at once, in the processor's vector lanes.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cam/location/locator.h"
+
+namespace patchmill {
+
+// heights[k] = h(q[k]), as Locator::Height finds it; heights.size() == q.size(). Eight consecutive places
+// walk the tree together, a leaf meets all eight at once: fast when they lie much nearer to each other than
+// R, as along a row or in a tile of a grid. The method is that of Height, with its error: proofs exclude
+// leaves, Newton finds the maximum of those proven convex, what is neither goes through Height's own search.
+//
+// A height depends on its neighbours in the list by rounding alone (less than 1e-9), never on the processor:
+// `instruction_set` is an index into InstructionSets(), all of which give the same bits; 0 is the fastest.
+void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights,
+             std::size_t instruction_set = 0);
+
+// What this processor can run, fastest first: "avx512", "avx2" (x86-64, compiled by GCC), and always "plain".
+std::vector<const char*> InstructionSets();
+
+}  // namespace patchmill
