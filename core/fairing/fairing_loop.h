@@ -1,6 +1,7 @@
 // The iteration of fairing, the same for curves and nets (METHODS 4.4). For use within this folder.
 #pragma once
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,9 @@ absl::StatusOr<FairingRun<typename Model::State>> RunFairing(Model& model, typen
   FairingRun<State> out;
   out.state = std::move(first);
   out.energies.push_back(model.Energy(out.state));
+  if (!std::isfinite(out.energies.back())) {
+    return absl::InvalidArgumentError("points: too near each other for the range of numbers; scale them up");
+  }
   CurvatureSigns signs = SignsOf(model.Curvatures(out.state), diagonal);
   for (int iteration = 1; iteration <= terms.max_iterations && !out.settled; ++iteration) {
     PM_RETURN_IF_ERROR(run.Check());

@@ -85,23 +85,30 @@ absl::StatusOr<std::string_view> TextScanner::Word(std::string_view what) {
   return word;
 }
 
-absl::StatusOr<double> TextScanner::Number(std::string_view what) {
-  PM_ASSIGN_OR_RETURN(const std::string_view word, Word(what));
+absl::StatusOr<double> ParseNumber(std::string_view word, std::string_view what) {
   const std::string_view digits = WithoutPlus(word);
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool whole = end == digits.data() + digits.size();
+  const auto fail = [](const std::string& reason) { return absl::InvalidArgumentError(reason); };
   if (error == std::errc::result_out_of_range && whole && StartsLikeANumber(digits)) {
-    return Fail(fmt::format("{} for {} is out of the range of doubles", Quoted(word), what));
+    return fail(fmt::format("{} for {} is out of the range of doubles", Quoted(word), what));
   }
   if (error != std::errc() || !whole || !StartsLikeANumber(digits)) {
-    return Fail(fmt::format("{} is not a number; {} is expected", Quoted(word), what));
+    return fail(fmt::format("{} is not a number; {} is expected", Quoted(word), what));
   }
   if (!(std::abs(value) <= kMaxCoordinate)) {
-    return Fail(
+    return fail(
         fmt::format("{} = {:g}; must be in [{:g}, {:g}]", what, value, -kMaxCoordinate, kMaxCoordinate));
   }
   return value;
+}
+
+absl::StatusOr<double> TextScanner::Number(std::string_view what) {
+  PM_ASSIGN_OR_RETURN(const std::string_view word, Word(what));
+  const absl::StatusOr<double> value = ParseNumber(word, what);
+  if (!value.ok()) return Fail(std::string(value.status().message()));
+  return *value;
 }
 
 absl::StatusOr<int> TextScanner::Integer(std::string_view what, int min, int max) {

@@ -51,6 +51,9 @@ class TextScanner {
   char comment_ = 0;
 };
 
+// One word as such a number; the message names `what`, but no line.
+absl::StatusOr<double> ParseNumber(std::string_view word, std::string_view what);
+
 // `word` fit for a message: quoted, control bytes as \xNN, cut after 24 bytes.
 std::string Quoted(std::string_view word);
 

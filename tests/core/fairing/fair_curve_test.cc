@@ -355,6 +355,9 @@ TEST(FairCurve, BadRequests) {
   c.points.assign(5, Vec3(1, 2, 3));
   EXPECT_EQ(fault(c), "points: all of them coincide");
   c = good;
+  for (Vec3& p : c.points) p *= 1e-120;
+  EXPECT_EQ(fault(c), "points: too near each other for the range of numbers; scale them up");
+  c = good;
   c.terms.band.y() = -1;
   EXPECT_EQ(fault(c), "band.y = -1; must be >= 0");
   c = good;
