@@ -43,15 +43,10 @@ void Clipper::Subdivide(const LineProbe& a, const LineProbe& b, std::vector<Line
 }
 
 std::vector<LineProbe> Clipper::Stations(const Interval& range) const {
-  std::vector<LineProbe> out;
-  const double length = range.end - range.begin;
-  const int count = std::max(1, static_cast<int>(std::ceil(length / (0.6 * flat_))));
-  out.push_back(prober_.Probe(range.begin, y_));
-  for (int i = 1; i <= count; ++i) {
-    const double t = i == count ? range.end : range.begin + length * i / count;
-    const LineProbe last = out.back();
-    Subdivide(last, Probe(t, last), out);
-  }
+  const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / (0.6 * flat_))));
+  const std::vector<LineProbe> row = prober_.ProbeRow(range.begin, range.end, count, y_);
+  std::vector<LineProbe> out = {row.front()};
+  for (std::size_t i = 1; i < row.size(); ++i) Subdivide(row[i - 1], row[i], out);
   return out;
 }
 

@@ -18,11 +18,7 @@ struct Row {
 Row SampleRow(const LineProber& prober, const Interval& range, double spacing, double y) {
   Row row{y, {}};
   const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
-  std::optional<SurfacePoint> hint;
-  for (int i = 0; i <= count; ++i) {
-    const double t = range.begin + (range.end - range.begin) * i / count;
-    const LineProbe p = prober.Probe(t, y, hint ? &*hint : nullptr);
-    if (p.contact) hint = p.contact;
+  for (const LineProbe& p : prober.ProbeRow(range.begin, range.end, count, y)) {
     if (p.wanted) row.needs.push_back(p.need);
   }
   std::sort(row.needs.begin(), row.needs.end());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/location/heights.h"
 #include "cam/path/spacing.h"
 #include "core/diffgeo/forms.h"
 
@@ -22,11 +23,29 @@ LineProber::LineProber(const Locator& locator, const SheetBorder& border, const 
       flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
 
 LineProbe LineProber::Probe(double t, double y, const SurfacePoint* hint) const {
+  return Judge(t, y, locator_.Height(frame_.At(t, y), hint));
+}
+
+std::vector<LineProbe> LineProber::ProbeRow(double t0, double t1, int count, double y) const {
+  std::vector<double> at;
+  std::vector<Vec2> places;
+  for (int i = 0; i <= count; ++i) {
+    at.push_back(i == count ? t1 : t0 + (t1 - t0) * i / count);
+    places.push_back(frame_.At(at.back(), y));
+  }
+  std::vector<std::optional<CenterPoint>> heights(places.size());
+  Heights(locator_, places, heights);
+  std::vector<LineProbe> row;
+  row.reserve(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) row.push_back(Judge(at[i], y, heights[i]));
+  return row;
+}
+
+LineProbe LineProber::Judge(double t, double y, const std::optional<CenterPoint>& h) const {
   LineProbe probe;
   probe.t = t;
-  const Vec2 q = frame_.At(t, y);
-  const auto h = locator_.Height(q, hint);
   if (!h) return probe;
+  const Vec2 q = frame_.At(t, y);
   const double radius = locator_.radius();
   const double floor_center = params_.floor_z + radius;
   probe.half_step = 0.5 * flat_step_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "cam/location/locator.h"
 #include "cam/path/pass_params.h"
@@ -40,11 +41,15 @@ class LineProber {
 
   // Cost: one exact height and one surface evaluation. `hint`: a contact nearby.
   LineProbe Probe(double t, double y, const SurfacePoint* hint = nullptr) const;
+  // Of count + 1 places of one line, evenly spaced from t0 to t1, both included; heights in vector lanes.
+  std::vector<LineProbe> ProbeRow(double t0, double t1, int count, double y) const;
 
   double flat_step() const { return flat_step_; }
   const LineFrame& frame() const { return frame_; }
 
  private:
+  LineProbe Judge(double t, double y, const std::optional<CenterPoint>& h) const;
+
   const Locator& locator_;
   const SheetBorder& border_;
   const LineFrame frame_;
