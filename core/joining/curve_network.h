@@ -63,10 +63,22 @@ enum class PatchScheme {
   kGregoryTriangle,  // triangle: (15)-(18), cubic edges only
 };
 
+// A bulge or dent at one place of a face (1.8b), by the twists of its edges: corners and edges stay, the
+// faces across its smooth edges follow.
+struct FacePush {
+  // The place, inside the face: u along side 0 from the first vertex, v away from it; of a triangle the
+  // shares of the second and third vertex.
+  double u = 0.5, v = 0.5;
+  // > 0: towards the side from which the vertices run anticlockwise. Per length: the place moves in
+  // proportion to it and to the area of the face, by a small share of their product.
+  double amount = 0.0;
+};
+
 struct NetworkFace {
   std::string id;
   std::vector<int> vertices;  // around the face, three or four
   PatchScheme scheme = PatchScheme::kAuto;
+  std::optional<FacePush> push;
 };
 
 // An edge that no entry of `edges` describes is a smooth NormalsEdge with gamma 1.

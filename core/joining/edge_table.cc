@@ -10,6 +10,7 @@
 
 #include "core/base/union_find.h"
 #include "core/joining/edge_checks.h"
+#include "core/joining/face_push.h"
 #include "core/joining/network_findings.h"
 #include "core/network/corner_vertices.h"
 #include "core/network/patch_model.h"
@@ -142,6 +143,7 @@ EdgeTable BuildEdgeTable(const CurveNetwork& network, Diagnostics& list) {
   if (!CheckReferences(network, findings)) return table;
   CheckVertices(network, findings);
   CheckEdgeShapes(network, findings);
+  CheckPushes(network, findings);
 
   std::map<std::pair<int, int>, int> by_ends;
   for (int e = 0; e < static_cast<int>(network.edges.size()); ++e) {

@@ -34,8 +34,8 @@ struct EdgeTable {
 
 // Codes of errors: those of CheckEdgeShapes, PATCH_COUNT, NOT_FINITE, TOO_LARGE, INVALID_REFERENCE,
 // FACE_SIDES, DUPLICATE_VERTEX, ZERO_LENGTH_EDGE, DUPLICATE_EDGE, NON_MANIFOLD_EDGE, NON_MANIFOLD_VERTEX,
-// DANGLING_EDGE, CONTRADICTORY_CREASE, INVALID_NORMAL, INVALID_JOIN_TOLERANCE, UNUSED_VERTEX. All findings at
-// once as far as they make sense; the table is sound when none is an error. Cost O(n log n).
+// DANGLING_EDGE, CONTRADICTORY_CREASE, INVALID_NORMAL, INVALID_PUSH, INVALID_JOIN_TOLERANCE, UNUSED_VERTEX.
+// All findings at once as far as they make sense; the table is sound when none is an error. Cost O(n log n).
 EdgeTable BuildEdgeTable(const CurveNetwork& network, Diagnostics& findings);
 
 inline int SideCount(const NetworkFace& face) { return static_cast<int>(face.vertices.size()); }

@@ -10,6 +10,7 @@
 #include "core/curve/hosaka_fit.h"
 #include "core/joining/corner_normals.h"
 #include "core/joining/face_patch.h"
+#include "core/joining/face_push.h"
 #include "core/joining/network_findings.h"
 
 namespace patchmill {
@@ -53,10 +54,14 @@ class Joiner {
       for (const FaceSide& s : sides) ends.emplace_back(Beside(edges, s, true), Beside(edges, s, false));
       std::tie(t.a0, t.a1) = ends[0];
       std::tie(t.b0, t.b1) = ends.back();
+      const HermiteCurve cubic = HermiteOf(edge.curve);
       EdgeTwists twists = WishedTwists(t);
+      for (std::size_t k = 0; k < sides.size(); ++k) {
+        k == 0 ? Push(sides[k], cubic, t.a0, t.a1, twists.a0, twists.a1)
+               : Push(sides[k], cubic, t.b0, t.b1, twists.b0, twists.b1);
+      }
       BezierCurve correction{std::vector<Vec3>(At(edge.curve.degree() + 1), Vec3::Zero())};
       if (edge.kind == EdgeKind::kSmooth) {
-        const HermiteCurve cubic = HermiteOf(edge.curve);
         const auto factors =
             FactorsAlong(cubic.d0, cubic.d1, t, NormalAt(sides[0], true), NormalAt(sides[0], false));
         if (const auto* fault = std::get_if<JoinFault>(&factors)) {
@@ -103,6 +108,17 @@ class Joiner {
       model.patches.push_back({face.id, MakeFacePatch(boundary, face.scheme)});
     }
     return model;
+  }
+
+  // Wishes of a pushed face for one of its edges.
+  void Push(const FaceSide& s, const HermiteCurve& edge, const Vec3& b0, const Vec3& b1, Vec3& w0,
+            Vec3& w1) const {
+    const NetworkFace& face = network_.faces[At(s.face)];
+    if (!face.push) return;
+    EdgePlace place = PlaceBeside(*face.push, SideCount(face), s.side);
+    const bool forward = table_.Forward(s, network_);  // then the face lies to the left of its edge
+    if (!forward) place.along = 1.0 - place.along;
+    PushTwists(edge.d0, edge.d1, b0, b1, place, forward ? -face.push->amount : face.push->amount, w0, w1);
   }
 
   // Two edges in line at a corner leave the patch without tangent plane there.

@@ -116,6 +116,7 @@ class NetworkReader {
     NetworkFace face;
     face.id = Id(from.id(), at);
     face.vertices = {from.vertices().begin(), from.vertices().end()};
+    if (from.has_push()) face.push = FacePush{from.push().u(), from.push().v(), from.push().amount() / unit_};
     switch (from.scheme()) {
       case v1::PATCH_SCHEME_UNSPECIFIED:
         break;

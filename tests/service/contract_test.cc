@@ -81,9 +81,9 @@ TEST(Contract, DimensionedNumbersCarryTheirUnit) {
   const std::set<std::string> units = {"mm", "mm2", "deg", "s", "min", "rpm"};
   // Numbers without a dimension, and coordinates in the unit their model states.
   const std::set<std::string> plain = {
-      "scale",         "fraction",     "u",  "v",     "knots_u", "knots_v",  "weights",   "points",
-      "limit_value",   "actual_value", "at", "value", "knots",   "position", "direction", "gamma",
-      "start_tangent", "end_tangent"};
+      "scale",       "fraction",      "u",          "v",     "knots_u", "knots_v",  "weights",   "points",
+      "limit_value", "actual_value",  "at",         "value", "knots",   "position", "direction", "gamma",
+      "amount",      "start_tangent", "end_tangent"};
   int seen = 0;
   ForEachField([&](const FieldDescriptor& field) {
     if (field.cpp_type() == FieldDescriptor::CPPTYPE_FLOAT)

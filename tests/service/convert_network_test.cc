@@ -33,7 +33,7 @@ v1::PatchModel QuadAndTriangle() {
                  {"position": [20, 5, 0]}],
     "edges": [{"start": 1, "end": 2, "from_normals": {"gamma": 1.2}},
               {"start": 0, "end": 1, "bezier": {"points": [0, 0, 0, 3, -1, 2, 7, -1, 2, 10, 0, 2]}}],
-    "faces": [{"id": "quad", "vertices": [0, 1, 2, 3]}, {"id": "tip", "vertices": [1, 4, 2]}]}})");
+    "faces": [{"id": "quad", "vertices": [0, 1, 2, 3], "push": {"u": 0.4, "v": 0.6, "amount": 0.05}}, {"id": "tip", "vertices": [1, 4, 2]}]}})");
 }
 
 TEST(NetworkModel, BecomesOnePatchPerFace) {
@@ -130,6 +130,9 @@ INSTANTIATE_TEST_SUITE_P(
         NetworkFault{"SchemeWrong",
                      [](v1::CurveNetwork& n) { n.mutable_faces(1)->set_scheme(v1::PATCH_SCHEME_BROWN); },
                      "network.faces[1] (tip) its scheme is for 4 sides"},
+        NetworkFault{"PushOutside",
+                     [](v1::CurveNetwork& n) { n.mutable_faces(1)->mutable_push()->set_u(-0.1); },
+                     "network.faces[1] (tip) is pushed at (-0.1, 0) by 0"},
         NetworkFault{"IdTooLong",
                      [](v1::CurveNetwork& n) { n.mutable_edges(0)->set_id(std::string(201, 'x')); },
                      "network.edges[0].id has 201 bytes"},

@@ -52,13 +52,13 @@ TEST(NetworkFindings, Topology) {
 
   n = TwoQuads();
   n.vertices.push_back({"", Vec3(10, 5, 9), {}});
-  n.faces.push_back({"", {1, 4, 6}, PatchScheme::kAuto});
+  n.faces.push_back({"", {1, 4, 6}, PatchScheme::kAuto, {}});
   EXPECT_EQ(Count(n, "NON_MANIFOLD_EDGE"), 1);
 
   n = TwoQuads();
   n.vertices.push_back({"", Vec3(-9, -1, 0), {}});
   n.vertices.push_back({"", Vec3(-1, -9, 0), {}});
-  n.faces.push_back({"", {0, 6, 7}, PatchScheme::kAuto});
+  n.faces.push_back({"", {0, 6, 7}, PatchScheme::kAuto, {}});
   EXPECT_EQ(Count(n, "NON_MANIFOLD_VERTEX"), 1);
 
   n = TwoQuads();
@@ -103,6 +103,10 @@ TEST(NetworkFindings, Numbers) {
   n = TwoQuads();
   n.vertices.push_back({"", Vec3(50, 0, 0), {}});
   EXPECT_EQ(Count(n, "UNUSED_VERTEX"), 1);
+  n = TwoQuads();
+  n.faces[0].push = FacePush{0.5, 1.5, 0.1};
+  n.faces[1].push = FacePush{0.5, 0.5, std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(Count(n, "INVALID_PUSH"), 2);
 }
 
 TEST(NetworkFindings, Shapes) {

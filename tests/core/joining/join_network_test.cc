@@ -195,6 +195,49 @@ TEST(JoinNetwork, CreasesStayCreasesAndTheRestSmooth) {
   EXPECT_EQ(report.edges.size(), 24u);
 }
 
+// A push moves the face to its anticlockwise side, in proportion, and smoothly; its corners and edges stay,
+// and faces without an edge in common are the same to the bit.
+TEST(JoinNetwork, PushedFacesBulgeAndNeighboursFollow) {
+  for (const std::size_t pushed : {std::size_t{5}, std::size_t{9}}) {  // a quad, a triangle
+    CurveNetwork network = testing::Cuboctahedron(4);
+    const JoinedNetwork flat = JoinNetwork(network);
+    const auto with = [&](double amount) {
+      network.faces[pushed].push = FacePush{0.4, 0.35, amount};
+      JoinedNetwork joined = JoinNetwork(network);
+      ExpectSmooth(joined);
+      return joined;
+    };
+    const JoinedNetwork none = with(0.0), once = with(0.02), twice = with(0.04);
+    const auto at = [](const JoinedNetwork& joined, std::size_t face, double u, double v) {
+      return Position(joined.model.patches[face].shape, u, v);
+    };
+    const auto& loop = network.faces[pushed].vertices;
+    const auto corner = [&](std::size_t k) {
+      return network.vertices[static_cast<std::size_t>(loop[k])].position;
+    };
+    const Vec3 side = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+    const Vec3 moved = at(once, pushed, 0.4, 0.35) - at(flat, pushed, 0.4, 0.35);
+    EXPECT_GT(moved.norm(), 0.01);
+    EXPECT_GT(moved.dot(side), 0.9 * moved.norm());
+    for (std::size_t f = 0; f < network.faces.size(); ++f) {
+      int common = 0;
+      for (const int v : network.faces[f].vertices) common += static_cast<int>(std::ranges::count(loop, v));
+      for (const Vec2& q : {Vec2(0.2, 0.3), Vec2(0.5, 0.25), Vec2(0.3, 0), Vec2(0, 0.6)}) {
+        const Vec3 p = at(flat, f, q.x(), q.y()), p1 = at(once, f, q.x(), q.y()),
+                   p2 = at(twice, f, q.x(), q.y());
+        EXPECT_LE((at(none, f, q.x(), q.y()) - p).norm(), 1e-14);
+        EXPECT_LE((p2 - p - 2 * (p1 - p)).norm(), 1e-12);
+        if (q.x() == 0 || q.y() == 0) {
+          EXPECT_LE((p1 - p).norm(), 1e-13);
+        }
+        if (common < 2) {
+          EXPECT_EQ(p1, p);
+        }
+      }
+    }
+  }
+}
+
 TEST(JoinNetwork, FollowsRigidMotions) {
   const CurveNetwork network = testing::Cuboctahedron(7);
   const Eigen::Affine3d motion =
@@ -280,7 +323,7 @@ CurveNetwork Sheet(std::uint64_t seed, int n) {
   }
   const auto add = [&](std::vector<int> loop) {
     if (random.Int(2) == 0) std::reverse(loop.begin(), loop.end());
-    network.faces.push_back({"", std::move(loop), PatchScheme::kAuto});
+    network.faces.push_back({"", std::move(loop), PatchScheme::kAuto, {}});
   };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {

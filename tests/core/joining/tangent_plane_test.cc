@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
+#include "core/joining/face_push.h"
 #include "tests/support/json.h"
 #include "tests/support/random.h"
 
@@ -96,8 +97,11 @@ TEST(TangentPlane, Vector) {
   EXPECT_LE(WorstDefect(in.edge, in.tangents, twists), 1e-14);
 
   const Json edited = LoadJson(VECTORS "twist_modification.json");
-  ExpectTwists(NearestTwists(in.edge, in.tangents, factors, TwistsOf(edited["Wstar"])),
-               TwistsOf(edited["W"]));
+  EdgeTwists pushed = wished;
+  PushTwists(in.edge.d0, in.edge.d1, in.tangents.b0, in.tangents.b1,
+             {edited["u"].Number(), edited["v"].Number()}, edited["r"].Number(), pushed.b0, pushed.b1);
+  ExpectTwists(pushed, TwistsOf(edited["Wstar"]));
+  ExpectTwists(NearestTwists(in.edge, in.tangents, factors, pushed), TwistsOf(edited["W"]));
 }
 
 TEST(TangentPlane, HoldsAlongRandomEdges) {
