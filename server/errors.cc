@@ -127,6 +127,10 @@ absl::Status ModelUnreadableError(std::string_view why) {
   return WithReason(absl::StatusCode::kInvalidArgument, "MODEL_UNREADABLE", why);
 }
 
+absl::Status CurveUnreadableError(std::string_view why) {
+  return WithReason(absl::StatusCode::kInvalidArgument, "CURVE_UNREADABLE", why);
+}
+
 absl::Status ProgramUnreadableError(std::string_view why) {
   return WithReason(absl::StatusCode::kInvalidArgument, "PROGRAM_UNREADABLE", why);
 }

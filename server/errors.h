@@ -38,6 +38,7 @@ absl::Status TooManyJobsError(int limit);
 absl::Status DrainingError();
 absl::Status ModelNotCachedError();
 absl::Status ModelUnreadableError(std::string_view why);
+absl::Status CurveUnreadableError(std::string_view why);
 absl::Status ProgramUnreadableError(std::string_view why);
 absl::Status ModelInvalidError(const Diagnostics& faults);  // at least one
 

@@ -37,6 +37,11 @@ inline constexpr double kMaxCutLengthMm = 5e6;
 inline constexpr double kMaxPathPoints = 2e7;
 inline constexpr std::size_t kMaxProgramBytes = std::size_t{512} << 20;  // of a made program
 
+// Curves.
+inline constexpr std::size_t kMaxCurvePoints = 100'000;  // given; locks too
+inline constexpr double kMaxPolylinePoints = 1e6;        // answered
+inline constexpr double kMaxCurveCoordinate = 1e9;       // in the unit of the curve
+
 // Times of the service itself.
 inline constexpr int kCancelPollMs = 50;  // a cancel is seen after at most this
 inline constexpr int kHeartbeatMs = 250;  // Progress is sent this often

@@ -16,5 +16,6 @@ Command AddMill(CLI::App& app);
 Command AddCheck(CLI::App& app);
 Command AddRegions(CLI::App& app);
 Command AddVerify(CLI::App& app);
+Command AddFair(CLI::App& app);
 
 }  // namespace patchmill::cli

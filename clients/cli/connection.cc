@@ -44,6 +44,14 @@ constexpr struct {
     {"tool.number", "--tool-number"},
     {"post.work_offset", "--work-offset"},
     {"post.dialect", "--post"},
+    {"polyline_tolerance_mm", "--tolerance"},
+    {"band.x_mm", "--band"},
+    {"band.y_mm", "--band"},
+    {"band.z_mm", "--band"},
+    {"band.fraction", "--band"},
+    {"max_iterations", "--iterations"},
+    {"start_direction", "--start-direction"},
+    {"end_direction", "--end-direction"},
 };
 
 const char* OptionOf(std::string_view text) {

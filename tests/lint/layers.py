@@ -23,6 +23,7 @@ for i, name in enumerate(CAM):
     ALLOWED["cam/" + name] = ALL_CORE | {"cam/" + below for below in CAM[:i]}
 for name in JUDGES:
     ALLOWED["cam/" + name] = ALL_CORE | {"cam/tool", "cam/toolpath"}
+ALLOWED["cam/picture"].add("core/fairing")
 ALLOWED["cam/plan"] = ALL_CORE | {"cam/" + n for n in CAM + JUDGES}
 
 PROTO = {"proto/patchmill/v1", "patchmill/v1"}

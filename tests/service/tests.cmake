@@ -4,6 +4,8 @@ if(PATCHMILL_SERVICE)
   target_compile_definitions(service_contract_test PRIVATE PATCHMILL_DESCRIPTORS="${CMAKE_BINARY_DIR}/patchmill_v1.binpb")
   add_dependencies(service_cli_test patchmill patchmilld)
   target_compile_definitions(service_cli_test PRIVATE PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
+  add_dependencies(service_cli_fair_test patchmill)
+  target_compile_definitions(service_cli_fair_test PRIVATE PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
   # These measure times or start processes; a neighbour would spoil them.
   set_tests_properties(service_call_test service_generate_program_test service_cli_test PROPERTIES RUN_SERIAL TRUE)
 

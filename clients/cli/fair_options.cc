@@ -1,0 +1,178 @@
+#include "clients/cli/fair_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "clients/cli/input_file.h"
+#include "clients/cli/job_options.h"
+#include "clients/cli/text.h"
+
+namespace patchmill::cli {
+namespace {
+
+absl::Status Wrong(const char* option, const std::string& text, const char* constraint) {
+  return absl::InvalidArgumentError(fmt::format("{} {}; must be {}", option, text, constraint));
+}
+
+std::vector<std::string> Split(const std::string& text, char by) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, by);) parts.push_back(part);
+  if (text.empty() || text.back() == by) parts.emplace_back();
+  return parts;
+}
+
+// All parts numbers, or nothing.
+std::vector<double> Numbers(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& part : Split(text, ',')) {
+    double value = 0.0;
+    if (!CLI::detail::lexical_cast(part, value) || !std::isfinite(value)) return {};
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+bool ReadAxes(const std::string& text, google::protobuf::RepeatedField<int>* axes) {
+  if (text.empty()) return false;
+  for (const char c : text) {
+    if (c < 'x' || c > 'z') return false;
+    axes->Add(v1::AXIS_X + (c - 'x'));
+  }
+  return true;
+}
+
+bool ReadIndex(const std::string& text, int& index) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  return error == std::errc() && end == text.data() + text.size() && index >= 0;
+}
+
+// "7", "3-9", either with ":xz".
+bool ReadLock(const std::string& text, v1::FairCurveRequest& request) {
+  constexpr int kMostPoints = 100'000;
+  const std::size_t colon = text.find(':');
+  const std::string range = text.substr(0, colon);
+  const std::size_t dash = range.find('-');
+  int first = 0, last = 0;
+  if (!ReadIndex(range.substr(0, dash), first)) return false;
+  last = first;
+  if (dash != std::string::npos && !ReadIndex(range.substr(dash + 1), last)) return false;
+  if (last < first || last - first >= kMostPoints) return false;
+  for (int point = first; point <= last; ++point) {
+    v1::PointLock& lock = *request.add_locks();
+    lock.set_point_index(point);
+    if (colon != std::string::npos && !ReadAxes(text.substr(colon + 1), lock.mutable_axes())) return false;
+  }
+  return true;
+}
+
+bool ReadBand(const std::string& text, v1::FairCurveRequest& request) {
+  if (text == "none") return true;
+  v1::FairingBand& band = *request.mutable_band();
+  if (!text.empty() && text.back() == '%') {
+    const std::vector<double> percent = Numbers(text.substr(0, text.size() - 1));
+    if (percent.size() != 1) return false;
+    band.set_fraction(percent[0] / 100.0);
+    return true;
+  }
+  const std::vector<double> numbers = Numbers(text);
+  if (numbers.size() != 1 && numbers.size() != 3) return false;
+  band.set_x_mm(numbers.front());
+  band.set_y_mm(numbers.size() == 3 ? numbers[1] : numbers[0]);
+  band.set_z_mm(numbers.back());
+  return true;
+}
+
+v1::FairingStop MakeStop(const std::string& name) {
+  if (name == "energy") return v1::FAIRING_STOP_SIGNS_AND_ENERGY;
+  if (name == "iterations") return v1::FAIRING_STOP_ITERATIONS;
+  return v1::FAIRING_STOP_SIGNS;
+}
+
+bool ReadDirection(const std::string& text, google::protobuf::RepeatedField<double>* direction) {
+  if (text.empty()) return true;
+  const std::vector<double> numbers = Numbers(text);
+  if (numbers.size() != 3) return false;
+  direction->Add(numbers.begin(), numbers.end());
+  return true;
+}
+
+}  // namespace
+
+std::string Ending(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending.empty() ? ending : ending.substr(1);
+}
+
+void AddFairOptions(CLI::App& app, FairOptions& options) {
+  app.add_option("POINTS", options.points,
+                 "measured points, one a line: .csv (commas) or .dat (blanks), two or three numbers")
+      ->required();
+  app.add_option("-o,--output", options.output,
+                 "the faired points: .csv, .dat, or .json with energies and curvatures")
+      ->required();
+  app.add_option("--band", options.band,
+                 "how far a component may go: B or X,Y,Z in the unit of the points, P% of their box's "
+                 "diagonal, or none")
+      ->capture_default_str();
+  app.add_option("--lock", options.locks,
+                 "points that stay, from 0: 4, 4-9, or components 4:xz; several with commas")
+      ->delimiter(',');
+  app.add_option("--axes", options.axes, "components that may move")->capture_default_str();
+  app.add_option("--start-direction", options.start_direction, "X,Y,Z; default: circle through 3 points");
+  app.add_option("--end-direction", options.end_direction, "X,Y,Z; default: circle through 3 points");
+  app.add_option("--iterations", options.iterations, "at most so many")
+      ->check(CLI::Range(0, 10'000))
+      ->capture_default_str();
+  app.add_option("--stop", options.stop,
+                 "when no curvature changes its sign (signs), and the energy settles (energy), or never")
+      ->check(CLI::IsMember({"signs", "energy", "iterations"}))
+      ->capture_default_str();
+  app.add_option("--band-rule", options.band_rule,
+                 "least energy within the bands, or cut back to them as in the paper")
+      ->check(CLI::IsMember({"least", "cut"}))
+      ->capture_default_str();
+  app.add_flag("--fit", options.fit, "only the curve through the points, nothing moves");
+  CLI::Option* polyline =
+      app.add_option("--polyline", options.polyline, "the faired curve as a polyline: .csv or .dat");
+  CLI::Option* tolerance =
+      AddNumber(app, "--tolerance", options.tolerance, "of the polyline, in the unit of the points");
+  polyline->needs(tolerance);
+  tolerance->needs(polyline);
+  app.add_option("--preview", options.preview, "the curve before and after with its comb: .svg");
+}
+
+absl::StatusOr<v1::FairCurveRequest> MakeFairRequest(const FairOptions& options) {
+  v1::FairCurveRequest request;
+  absl::StatusOr<std::string> bytes = ReadWholeFile(options.points);
+  if (!bytes.ok()) return bytes.status();
+  request.mutable_file()->set_format(WireText(Ending(options.points), 20));
+  request.mutable_file()->set_content(*std::move(bytes));
+  if (!ReadAxes(options.axes, request.mutable_axes())) return Wrong("--axes", options.axes, "of x, y, z");
+  if (!ReadBand(options.band, request)) return Wrong("--band", options.band, "B, X,Y,Z, P% or none");
+  for (const std::string& lock : options.locks) {
+    if (!ReadLock(lock, request)) return Wrong("--lock", lock, "I, I-J, I:xyz or I-J:xyz");
+  }
+  if (!ReadDirection(options.start_direction, request.mutable_start_direction())) {
+    return Wrong("--start-direction", options.start_direction, "X,Y,Z");
+  }
+  if (!ReadDirection(options.end_direction, request.mutable_end_direction())) {
+    return Wrong("--end-direction", options.end_direction, "X,Y,Z");
+  }
+  request.set_max_iterations(options.fit ? 0 : options.iterations);
+  request.set_stop(MakeStop(options.stop));
+  request.set_band_rule(options.band_rule == "cut" ? v1::BAND_RULE_CUT : v1::BAND_RULE_LEAST_ENERGY);
+  if (options.tolerance) request.set_polyline_tolerance_mm(*options.tolerance);
+  request.set_picture(!options.preview.empty());
+  request.set_name(WireText(std::filesystem::path(options.points).filename().string(), 100));
+  return request;
+}
+
+}  // namespace patchmill::cli

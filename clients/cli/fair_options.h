@@ -1,0 +1,34 @@
+// The options of `patchmill fair` as values, and the request they become.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <absl/status/statusor.h>
+
+#include "clients/cli/connection.h"
+#include "patchmill/v1/fairing.pb.h"
+
+namespace patchmill::cli {
+
+struct FairOptions {
+  CommonOptions common;
+  std::string points, output, polyline, preview;
+  std::string axes = "xyz", band = "0.2%", band_rule = "least", stop = "signs";
+  std::vector<std::string> locks;
+  std::string start_direction, end_direction;
+  std::optional<double> tolerance;
+  int iterations = 50;
+  bool fit = false;
+};
+
+void AddFairOptions(CLI::App& app, FairOptions& options);
+
+// INVALID_ARGUMENT naming the option; reads the file of points.
+absl::StatusOr<v1::FairCurveRequest> MakeFairRequest(const FairOptions& options);
+
+// "csv", "dat" or what else stands behind the last point of a path, in lower case.
+std::string Ending(const std::string& path);
+
+}  // namespace patchmill::cli

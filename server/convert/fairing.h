@@ -1,0 +1,27 @@
+// v1.FairCurveRequest -> CurveFairing, and the faired curve -> v1.FairCurveResponse.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <absl/status/statusor.h>
+
+#include "core/fairing/fair_curve.h"
+#include "patchmill/v1/fairing.pb.h"
+
+namespace patchmill {
+
+struct FairingOrder {
+  CurveFairing curve;
+  std::string title;  // of the file, else empty
+  bool planar = false;
+  std::optional<double> polyline_tolerance;
+};
+
+// INVALID_ARGUMENT with all wrong fields, or the file's line and reason; RESOURCE_EXHAUSTED for a limit.
+absl::StatusOr<FairingOrder> FromProto(const v1::FairCurveRequest& request);
+
+// All but the picture. RESOURCE_EXHAUSTED when the polyline is longer than limits::kMaxPolylinePoints.
+absl::Status Fill(const FairingOrder& order, const FairedCurve& faired, v1::FairCurveResponse* response);
+
+}  // namespace patchmill
