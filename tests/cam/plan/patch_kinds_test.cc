@@ -36,7 +36,8 @@ TEST_P(PatchKinds, ArePlannedAndVerified) {
   EXPECT_GT(result.report.verify.reachable_area, 0.5 * result.report.verify.total_area) << Describe(result);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PatchKinds, ::testing::Range(std::size_t{0}, Kinds().size()));
+INSTANTIATE_TEST_SUITE_P(All, PatchKinds,
+                         ::testing::Range(std::size_t{0}, Kinds().size(), std::size_t{kSanitized ? 3 : 1}));
 
 TEST(GregoryTriangles, OfSubdivisionMill) {
   Job job = BallJob(2.0);
