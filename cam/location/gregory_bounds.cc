@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/patch/gregory_layout.h"
+
 namespace patchmill::internal {
 namespace {
 
@@ -25,15 +27,6 @@ Interval Monotonic(const Interval& x, const F& f) {
 struct Curve {
   Interval f, d, dd;
 };
-
-// Numbers of the bicubic's points: the second one of each inner pair. Corners as in gregory_patch.cc.
-constexpr int kNet[16] = {0, 2, 16, 15, 1, 4, 18, 17, 7, 8, 14, 11, 5, 6, 12, 10};
-struct Corner {
-  bool high_u, high_v;
-  std::size_t first, second;
-};
-constexpr Corner kCorners[4] = {
-    {false, false, 3, 4}, {true, false, 9, 8}, {true, true, 13, 14}, {false, true, 19, 18}};
 
 // p and M of the term 9 M(a) N(b) h(p(a), q(b)), h = p^2 q / (p + q); a: distance from the corner.
 void OneVariable(bool edge_blend, const Interval& a, Curve& p, Curve& m) {
@@ -83,25 +76,27 @@ std::array<BlendedTerm, 4> BoundBlend(const GregoryPatch& patch, const Rect& rec
   const double lu = rect.u1 - rect.u0, lv = rect.v1 - rect.v0;
   std::array<BlendedTerm, 4> terms;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Corner& c = kCorners[k];
-    const Interval a = c.high_u ? Interval{1.0 - rect.u1, 1.0 - rect.u0} : Interval{rect.u0, rect.u1};
-    const Interval b = c.high_v ? Interval{1.0 - rect.v1, 1.0 - rect.v0} : Interval{rect.v0, rect.v1};
+    const GregoryCorner& c = kGregoryCorners[k];
+    const bool high_u = c.i == 2, high_v = c.j == 2;
+    const Interval a = high_u ? Interval{1.0 - rect.u1, 1.0 - rect.u0} : Interval{rect.u0, rect.u1};
+    const Interval b = high_v ? Interval{1.0 - rect.v1, 1.0 - rect.v0} : Interval{rect.v0, rect.v1};
     BlendedTerm& term = terms[k];
     term = BoundTerm(patch.blend == GregoryPatch::Blend::kEdge, a, b);
-    const double su = c.high_u ? -lu : lu, sv = c.high_v ? -lv : lv;
+    const double su = high_u ? -lu : lu, sv = high_v ? -lv : lv;
     term.u = su * term.u;
     term.v = sv * term.v;
     term.uu = (su * su) * term.uu;
     term.uv = (su * sv) * term.uv;
     term.vv = (sv * sv) * term.vv;
-    term.d = patch.points[c.first] - patch.points[c.second];
+    term.d =
+        patch.points[static_cast<std::size_t>(c.first)] - patch.points[static_cast<std::size_t>(c.second)];
   }
   return terms;
 }
 
 std::array<Vec4, 16> BicubicPart(const GregoryPatch& patch) {
   std::array<Vec4, 16> net;
-  for (std::size_t k = 0; k < 16; ++k) net[k] << patch.points[static_cast<std::size_t>(kNet[k])], 1.0;
+  for (std::size_t k = 0; k < 16; ++k) net[k] << patch.points[static_cast<std::size_t>(kGregoryNet[k])], 1.0;
   return net;
 }
 

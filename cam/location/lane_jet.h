@@ -4,6 +4,7 @@
 
 #include "cam/location/lane_types.h"
 #include "core/math/bernstein.h"
+#include "core/patch/gregory_layout.h"
 
 namespace patchmill::internal::PM_LANES {
 
@@ -123,14 +124,6 @@ PM_LANE_INLINE void DivideByWeight(int degree_u, int degree_v, const Basis& bu, 
   divide(jet.p.z, jet.du.z, jet.dv.z, jet.duu.z, jet.duv.z, jet.dvv.z);
 }
 
-constexpr int kGregoryNet[16] = {0, 2, 16, 15, 1, 4, 18, 17, 7, 8, 14, 11, 5, 6, 12, 10};
-struct GregoryCorner {
-  bool high_u, high_v;  // the corner's u = 1, v = 1
-  int first, second;
-};
-constexpr GregoryCorner kGregoryCorners[4] = {
-    {false, false, 3, 4}, {true, false, 9, 8}, {true, true, 13, 14}, {false, true, 19, 18}};
-
 // A function of one variable with two derivatives.
 struct Curve {
   D f, d, dd;
@@ -141,7 +134,8 @@ struct Curve {
 // distance from the corner, M = (1 - a)^2. Edge blend: p = a (1 - a), M = 1 - a.
 PM_LANE_INLINE void AddBlend(const double* points, bool edge_blend, D u, D v, Jet& jet) {
   for (const GregoryCorner& c : kGregoryCorners) {
-    const D a = c.high_u ? 1.0 - u : u, b = c.high_v ? 1.0 - v : v;
+    const bool high_u = c.i == 2, high_v = c.j == 2;
+    const D a = high_u ? 1.0 - u : u, b = high_v ? 1.0 - v : v;
     const D one = Splat(1.0), a1 = 1.0 - a, b1 = 1.0 - b;
     Curve p{a, one, D{}}, q{b, one, D{}}, m{a1 * a1, -2.0 * a1, Splat(2.0)},
         n{b1 * b1, -2.0 * b1, Splat(2.0)};
@@ -157,7 +151,7 @@ PM_LANE_INLINE void AddBlend(const double* points, bool edge_blend, D u, D v, Je
     const D hpp = 2.0 * (ss * s), hpq = 1.0 - ss * (1.0 + 2.0 * t), hqq = -2.0 * (tt * t);
     const D ha = hp * p.d, hb = hq * q.d;
     const D haa = hpp * (p.d * p.d) + hp * p.dd, hab = hpq * (p.d * q.d), hbb = hqq * (q.d * q.d) + hq * q.dd;
-    const double su = c.high_u ? -1.0 : 1.0, sv = c.high_v ? -1.0 : 1.0;
+    const double su = high_u ? -1.0 : 1.0, sv = high_v ? -1.0 : 1.0;
     const D m9 = 9.0 * m.f, n9 = 9.0 * n.f;
     const D ga = m.d * h + m.f * ha;  // of M h
     const D phi = m9 * n.f * h, phi_u = su * (n9 * ga), phi_v = sv * (m9 * (n.d * h + n.f * hb));

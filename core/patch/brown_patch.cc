@@ -11,7 +11,6 @@
 namespace patchmill::internal {
 namespace {
 
-constexpr double kNothing = 1e-90;  // distance to a corner below which its blended terms are nothing
 constexpr int kMaxRow = kMaxBrownDegree + 1;
 
 // The four curves of one loft, in order from parameter 0 to 1 across: edge, rail, rail, edge.

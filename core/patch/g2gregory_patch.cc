@@ -8,8 +8,6 @@
 namespace patchmill::internal {
 namespace {
 
-constexpr double kNothing = 1e-90;
-
 // Index 0..3 within {1, 2, n-2, n-1}.
 int BlockIndex(int n, int block) { return block < 2 ? 1 + block : n - 4 + block; }
 

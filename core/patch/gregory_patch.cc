@@ -7,25 +7,12 @@
 // keeps the evaluation short and free of cancellation.
 #include "core/math/jet2.h"
 #include "core/math/tensor_bernstein.h"
+#include "core/patch/gregory_layout.h"
 #include "core/patch/kinds.h"
 #include "core/patch/tensor_kernel.h"
 
 namespace patchmill::internal {
 namespace {
-
-// Below this distance from a corner the blended term, of second order, is nothing and its ratio would
-// overflow.
-constexpr double kNothing = 1e-90;
-constexpr double kCornerRadius = 1e-6;  // second derivatives have no limit: METHODS 1.6's values inside
-
-struct Corner {
-  int i, j;  // its inner point in the bicubic net
-  int first,
-      second;  // the pair: weights (distance along u, distance along v) of kCorner; net 1, net 2 of kEdge
-};
-constexpr Corner kCorners[4] = {{1, 1, 3, 4}, {2, 1, 9, 8}, {2, 2, 13, 14}, {1, 2, 19, 18}};
-// kNet[4 i + j]: number of point (i,j) of the bicubic net, the second one of each inner pair.
-constexpr int kNet[16] = {0, 2, 16, 15, 1, 4, 18, 17, 7, 8, 14, 11, 5, 6, 12, 10};
 
 // The blend of METHODS (13); 1/2 and flat at a corner, where its factor vanishes to second order.
 Jet2 EdgeRatio(double u, double v) {
@@ -36,7 +23,7 @@ Jet2 EdgeRatio(double u, double v) {
 }
 
 // a/(a+b) with a, b the distances from the corner along u and v; the derivatives in closed form.
-Jet2 CornerRatio(const Corner& c, double u, double v) {
+Jet2 CornerRatio(const GregoryCorner& c, double u, double v) {
   const double a = c.i == 1 ? u : 1.0 - u, b = c.j == 1 ? v : 1.0 - v;
   if (!(a + b > kNothing)) return Jet2::Constant(0.5);
   const double su = c.i == 1 ? 1.0 : -1.0, sv = c.j == 1 ? 1.0 : -1.0;
@@ -44,7 +31,7 @@ Jet2 CornerRatio(const Corner& c, double u, double v) {
   return {a * r, su * b * r2, -sv * a * r2, -2.0 * b * r3, su * sv * (a - b) * r3, 2.0 * a * r3};
 }
 
-bool NearCorner(const Corner& c, double u, double v) {
+bool NearCorner(const GregoryCorner& c, double u, double v) {
   return (c.i == 1 ? u : 1.0 - u) < kCornerRadius && (c.j == 1 ? v : 1.0 - v) < kCornerRadius;
 }
 
@@ -57,12 +44,12 @@ SurfaceJet EvaluateBlend(const GregoryPatch& patch, double u, double v) {
   Vec4 points[20];
   for (int k = 0; k < 20; ++k) points[k] << patch.points[static_cast<std::size_t>(k)], 0.0;
   const auto point = [&](int number) -> const Vec4& { return points[number]; };
-  HomogeneousJet h = TensorJet(3, 3, bu, bv, [&](int i, int j) { return point(kNet[4 * i + j]); });
+  HomogeneousJet h = TensorJet(3, 3, bu, bv, [&](int i, int j) { return point(kGregoryNet[4 * i + j]); });
   Jet2 ratio;
   if (kBlend == GregoryPatch::Blend::kEdge) ratio = EdgeRatio(u, v);
 #pragma GCC unroll 4
   for (int k = 0; k < 4; ++k) {
-    const Corner& c = kCorners[k];
+    const GregoryCorner& c = kGregoryCorners[k];
     if (kBlend == GregoryPatch::Blend::kCorner) ratio = CornerRatio(c, u, v);
     const Jet2 basis{bu.f[c.i] * bv.f[c.j],  bu.d[c.i] * bv.f[c.j], bu.f[c.i] * bv.d[c.j],
                      bu.dd[c.i] * bv.f[c.j], bu.d[c.i] * bv.d[c.j], bu.f[c.i] * bv.dd[c.j]};
@@ -95,10 +82,11 @@ Vec3 ShapePosition(const GregoryPatch& patch, double u, double v) {
   AllBernstein(3, v, bv);
   Vec3 s = Vec3::Zero();
   for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) s += bu[i] * bv[j] * patch.points[static_cast<std::size_t>(kNet[4 * i + j])];
+    for (int j = 0; j < 4; ++j)
+      s += bu[i] * bv[j] * patch.points[static_cast<std::size_t>(kGregoryNet[4 * i + j])];
   }
   const double p = u * (1.0 - u), q = v * (1.0 - v);
-  for (const Corner& c : kCorners) {
+  for (const GregoryCorner& c : kGregoryCorners) {
     double a = p, b = q;
     if (patch.blend == GregoryPatch::Blend::kCorner) {
       a = c.i == 1 ? u : 1.0 - u;
@@ -136,8 +124,8 @@ Points Bicubic(const GregoryPatch& patch, bool inner, bool first) {
   Points net(3, 3, Vec4::Zero());
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
-      int number = kNet[4 * i + j];
-      for (const Corner& c : kCorners) {
+      int number = kGregoryNet[4 * i + j];
+      for (const GregoryCorner& c : kGregoryCorners) {
         if (first && c.i == i && c.j == j) number = c.first;
       }
       const bool is_inner = (i == 1 || i == 2) && (j == 1 || j == 2);
@@ -163,7 +151,7 @@ Points EdgeNet(const GregoryPatch& patch) {
 Points CornerNet(const GregoryPatch& patch) {
   const Scalar from_u[2] = {Linear(0, 0, 1, 1), Linear(1, 1, 0, 0)};  // u, 1-u
   const Scalar from_v[2] = {Linear(0, 1, 0, 1), Linear(1, 0, 1, 0)};  // v, 1-v
-  const auto distance_sum = [&](const Corner& c) {
+  const auto distance_sum = [&](const GregoryCorner& c) {
     Scalar sum = from_u[c.i - 1];
     for (std::size_t k = 0; k < 4; ++k) sum.c[k] += from_v[c.j - 1].c[k];
     return sum;
@@ -172,14 +160,14 @@ Points CornerNet(const GregoryPatch& patch) {
   const auto denominators = [&](int without) {
     Scalar w(0, 0, 1.0);
     for (int k = 0; k < 4; ++k) {
-      if (k != without) w = Product(w, distance_sum(kCorners[k]));
+      if (k != without) w = Product(w, distance_sum(kGregoryCorners[k]));
     }
     return w;
   };
   Points net(7, 7, Vec4::Zero());
   Bicubic(patch, false, false).MultiplyInto(denominators(-1), net);
   for (int k = 0; k < 4; ++k) {
-    const Corner& c = kCorners[k];
+    const GregoryCorner& c = kGregoryCorners[k];
     const Scalar others = denominators(k);
     const auto add = [&](int number, const Scalar& distance) {
       Points single(3, 3, Vec4::Zero());

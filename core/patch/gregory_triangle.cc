@@ -9,8 +9,6 @@
 namespace patchmill::internal {
 namespace {
 
-constexpr double kNothing = 1e-90;
-
 // kQuartic[k]: number of quartic point k, row after row; -1 - i: the inner point of corner i.
 constexpr int kQuartic[15] = {0, 1, 15, 7, 5, 2, -1, -2, 6, 17, -3, 16, 11, 12, 10};
 

@@ -49,6 +49,8 @@ inline std::array<Vec2, 4> NativeRectangle(double u0, double u1, double v0, doub
 
 // Within this distance of a singular corner second derivatives are METHODS 1.6's values.
 inline constexpr double kCornerRadius = 1e-6;
+// Below this distance the blended terms, of second order, are nothing and their ratios would overflow.
+inline constexpr double kNothing = 1e-90;
 
 // Sums scalar * vector with all derivatives.
 inline void AddTerm(const Jet2& phi, const Vec3& d, SurfaceJet& s) {

@@ -14,8 +14,6 @@
 namespace patchmill::internal {
 namespace {
 
-constexpr double kNothing = 1e-90;
-
 // One edge with its rail, ends included.
 struct Side {
   Vec3 curve[5], rail[5];
