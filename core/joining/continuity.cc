@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/base/status.h"
 #include "core/network/edge_angles.h"
 #include "core/network/edge_curves.h"
 
@@ -40,7 +41,8 @@ EdgeContinuity Measure(const EdgeCurves& curves, int e, int f, const EdgeLink& l
 
 }  // namespace
 
-ContinuityReport MeasureContinuity(const PatchNetwork& network, int steps, const RunContext& run) {
+absl::StatusOr<ContinuityReport> MeasureContinuity(const PatchNetwork& network, int steps,
+                                                   const RunContext& run) {
   const EdgeCurves curves(network.model, run);
   std::vector<std::pair<int, int>> pairs;
   for (std::size_t k = 0; k < network.edges.size(); ++k) {
@@ -54,10 +56,10 @@ ContinuityReport MeasureContinuity(const PatchNetwork& network, int steps, const
   ContinuityReport report;
   report.samples = steps + 1;
   report.edges.resize(pairs.size());
-  (void)ParallelFor(run, nullptr, pairs.size(), [&](std::size_t k) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pairs.size(), [&](std::size_t k) {
     const auto [e, f] = pairs[k];
     report.edges[k] = Measure(curves, e, f, network.edges[static_cast<std::size_t>(e)], steps);
-  });
+  }));
   return report;
 }
 

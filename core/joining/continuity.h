@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include <absl/status/statusor.h>
+
 #include "core/base/run_context.h"
 #include "core/network/patch_network.h"
 
@@ -24,6 +26,8 @@ struct ContinuityReport {
 // `steps` + 1 points (1..10,000) at equal steps of edge a's parameter, both ends included; on edge b the
 // point of equal parameter, or the closest one where that is farther than 1e-9 of the edge. Exact at these
 // points: gap to 1e-15 of the model, angle to 1e-14 rad on regular patches. Parallel over edges.
-ContinuityReport MeasureContinuity(const PatchNetwork& network, int steps, const RunContext& run);
+// CANCELLED and DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<ContinuityReport> MeasureContinuity(const PatchNetwork& network, int steps,
+                                                   const RunContext& run);
 
 }  // namespace patchmill

@@ -62,7 +62,7 @@ void CheckVertices(const CurveNetwork& network, const NetworkWriter& findings) {
                    fmt::format("= {:g}; must be > 0", *network.join_tolerance));
     return;
   }
-  const double tolerance = network.join_tolerance.value_or(1e-5 * box.Diagonal());
+  const double tolerance = network.join_tolerance.value_or(kDefaultJoinTolerance * box.Diagonal());
   if (!(tolerance > 0.0)) return;
   const CornerVertices merged = MergeCorners(places, tolerance);
   std::map<int, int> first;

@@ -44,8 +44,8 @@ struct JoinedNetwork {
 // The largest angle (rad) by which a given tangent may leave the tangent plane of a smooth joint.
 inline constexpr double kMaxTangentTilt = 1e-7;
 
-// Cost O(n log n). Adjacent patches share their edge
-// curves bit for bit up to the direction; their tangent planes agree to about 1e-14.
+// Cost O(n log n). Adjacent patches share their edge curves bit for bit up to the direction; their tangent
+// planes agree to about 1e-14.
 JoinedNetwork JoinNetwork(const CurveNetwork& network);
 
 }  // namespace patchmill

@@ -18,11 +18,12 @@ inline constexpr double kMinWeight = 1e-9;  // homogeneous sums keep 1e-12 relat
 inline constexpr double kMaxWeight = 1e9;
 inline constexpr double kMinJoinTolerance = 1e-9;  // of the box diagonal
 inline constexpr double kMaxJoinTolerance = 1e-2;
+inline constexpr double kDefaultJoinTolerance = 1e-5;
 inline constexpr double kMinKnotSpan = 1e-9;  // of the domain: distinct knots closer than that are a fault
 
 struct PatchModel {
   std::vector<Patch> patches;
-  std::optional<double> join_tolerance;  // length unit of the points; default 1e-5 of the box diagonal
+  std::optional<double> join_tolerance;  // length unit of the points; default kDefaultJoinTolerance
 };
 
 // How the model lies on the machine: scale first, then `up`, then translation (DESIGN 5).

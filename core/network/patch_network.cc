@@ -17,7 +17,6 @@
 namespace patchmill {
 namespace {
 
-constexpr double kDefaultJoinTolerance = 1e-5;  // of the box diagonal
 // An edge is negligible when it is shorter than both: this share of its patch's longest edge and of the
 // model.
 constexpr double kNearlyCollapsedOfPatch = 1e-2;

@@ -93,8 +93,9 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
     if (std::isfinite(check.min_concave_radius))
       response->set_min_concave_radius_mm(check.min_concave_radius);
     FillNetwork(surface.network, response);
-    if (steps > 0) FillJoints(MeasureContinuity(surface.network, steps, run), response);
-    PM_RETURN_IF_ERROR(run.Check());
+    if (steps == 0) return absl::OkStatus();
+    PM_ASSIGN_OR_RETURN(const ContinuityReport continuity, MeasureContinuity(surface.network, steps, run));
+    FillJoints(continuity, response);
     return absl::OkStatus();
   });
 }

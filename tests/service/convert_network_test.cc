@@ -163,7 +163,7 @@ TEST(NetworkModel, ShippedMouseIsTangentContinuous) {
   EXPECT_EQ(loaded->model.patches.size(), 30u);
   const auto network = BuildNetwork(loaded->model);
   ASSERT_TRUE(network.ok());
-  const ContinuityReport report = MeasureContinuity(*network, 500, RunContext());
+  const ContinuityReport report = *MeasureContinuity(*network, 500, RunContext());
   int creases = 0;
   for (const EdgeContinuity& joint : report.edges) {
     EXPECT_LE(joint.max_gap, 1e-12);

@@ -28,7 +28,7 @@ std::string Text(const Diagnostics& findings) {
 ContinuityReport Continuity(const PatchModel& model, int steps = 200) {
   auto network = BuildNetwork(model);
   EXPECT_TRUE(network.ok()) << network.status();
-  return MeasureContinuity(*network, steps, RunContext());
+  return *MeasureContinuity(*network, steps, RunContext());
 }
 
 std::size_t SmoothCount(const JoinedNetwork& joined) {
@@ -379,13 +379,21 @@ TEST(Continuity, MeasuresAKnownAngleAndGap) {
 TEST(Continuity, DoesNotDependOnThreads) {
   auto network = BuildNetwork(JoinNetwork(Sheet(9, 6)).model);
   ASSERT_TRUE(network.ok());
-  const auto one = MeasureContinuity(*network, 50, RunContext(1)),
-             two = MeasureContinuity(*network, 50, RunContext(2));
+  const ContinuityReport one = *MeasureContinuity(*network, 50, RunContext(1)),
+                         two = *MeasureContinuity(*network, 50, RunContext(2));
   ASSERT_EQ(one.edges.size(), two.edges.size());
   for (std::size_t k = 0; k < one.edges.size(); ++k) {
     EXPECT_EQ(one.edges[k].max_gap, two.edges[k].max_gap);
     EXPECT_EQ(one.edges[k].max_angle, two.edges[k].max_angle);
   }
+}
+
+TEST(Continuity, ACancelledReportIsNone) {
+  auto network = BuildNetwork(JoinNetwork(Sheet(4, 4)).model);
+  ASSERT_TRUE(network.ok());
+  RunContext run;
+  run.Cancel();
+  EXPECT_EQ(MeasureContinuity(*network, 50, run).status().code(), absl::StatusCode::kCancelled);
 }
 
 }  // namespace
