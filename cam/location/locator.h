@@ -35,9 +35,9 @@ class Locator {
   struct Impl;  // known to cam/location only
   const Impl& impl() const { return *impl_; }
 
-  // Keeps a reference to `surface`. radius > 0, mm (tool radius + stock to leave). Makes second-order models
-  // of all leaves, in parallel, deterministic: about 4 us and 350 bytes a leaf. CANCELLED and
-  // DEADLINE_EXCEEDED from `run`, within 0.2 s.
+  // Keeps a reference to `surface`. radius > 0, mm (tool radius + stock to leave). Cuts its pieces
+  // into leaves that suit the radius, with second-order models, in parallel, deterministic: about 4 us and
+  // 350 bytes a leaf. CANCELLED and DEADLINE_EXCEEDED from `run`, within 0.2 s.
   static absl::StatusOr<Locator> Make(const Surface& surface, double radius, const RunContext& run);
   Locator(const Surface& surface, double radius);  // the same, never cancelled
   ~Locator();

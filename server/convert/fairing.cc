@@ -14,6 +14,9 @@ namespace {
 
 using Numbers = google::protobuf::RepeatedField<double>;
 
+static_assert(limits::kMaxCurvePoints == kMaxFairingPoints && kMaxFairingPoints == kMaxCurvePoints,
+              "a curve that may be sent can be read, and faired");
+
 absl::StatusOr<std::vector<Vec3>> PointsOf(const Numbers& xyz) {
   const auto count = static_cast<std::size_t>(xyz.size());
   if (count / 3 > limits::kMaxCurvePoints) {
