@@ -81,12 +81,38 @@ TEST(Invariance, LayoutOrderAndParametrisation) {
       const Surface other = SurfaceOf(variant);
       ExpectSameHeights(locator, Locator(other, 2.5), Vec2::Zero(), 0.0, 3);
     }
-    // Coarser and finer leaves.
+  }
+}
+
+// Questions about moves walk the surface's own leaves; their size must not be seen.
+TEST(Invariance, CoarserAndFinerLeaves) {
+  constexpr double kRadius = 2.5, kEps = 1e-4;
+  for (const PatchModel& model : Models()) {
+    const Surface surface = SurfaceOf(model);
+    const Locator locator(surface, kRadius);
     for (const double thickness : {0.2, 0.002}) {
       SurfaceParams params;
       params.leaf_thickness = thickness;
-      const Surface other = SurfaceOf(model, params);
-      ExpectSameHeights(locator, Locator(other, 2.5), Vec2::Zero(), 0.0, 4);
+      const Surface other_surface = SurfaceOf(model, params);
+      const bool flat = surface.leaves.size() == surface.network.model.patches.size();
+      ASSERT_NE(flat, other_surface.leaves.size() != surface.leaves.size());
+      const Locator other(other_surface, kRadius);
+      Random random(4);
+      const Box3& box = surface.box;
+      int gouges = 0;
+      for (int i = 0; i < 150; ++i) {
+        const Vec2 p(random.Uniform(box.min.x(), box.max.x()), random.Uniform(box.min.y(), box.max.y()));
+        const Vec2 q = p + Vec2(random.Uniform(-1, 1), random.Uniform(-1, 1));
+        const auto a = locator.Height(p), b = locator.Height(q);
+        if (!a || !b) continue;
+        const Vec3 from = Lift(p, a->z - random.Uniform(0, 0.1)), to = Lift(q, b->z);
+        const double gouge = locator.SweptGouge(from, to, kEps);
+        gouges += gouge > 0.01;
+        ASSERT_NEAR(gouge, other.SweptGouge(from, to, kEps), kEps);
+        if (i % 4 != 0) continue;
+        ASSERT_NEAR(locator.MaxHeight(p, q, 0.3, 0.002), other.MaxHeight(p, q, 0.3, 0.002), 0.002);
+      }
+      EXPECT_GT(gouges, 50);
     }
   }
 }
