@@ -1,6 +1,6 @@
 // Questions about a straight move: the highest centre over a stadium, and the gouge of the swept ball. Both
 // are maxima over the surface, found by best-first branch and bound: tree nodes, leaves, then halves of
-// leaves.
+// leaves. Where only a limit of the gouge matters, the leaves' models prove most of it first.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "cam/location/locator_impl.h"
 #include "cam/location/swept_ball.h"
+#include "cam/location/swept_leaves.h"
 
 namespace patchmill {
 namespace {
@@ -54,9 +55,14 @@ void Halve(NetShape shape, const Vec4* points, const Rect& r, Halves& out) {
 // `enough` is attained.
 //   box(b): upper bound of the quantity over a box; oriented(center, axis, half): over an oriented one, as in
 //   SurfaceLeaf; at(p): its value at a surface point.
+// `among` (may be null): leaves of a search tree, in place of the whole surface.
+struct LeafSet {
+  const internal::SearchTree& tree;
+  const std::vector<std::int32_t>& leaves;
+};
 template <class BoxBound, class OrientedBound, class Value>
-double Maximize(const Surface& surface, double lower, double gap, double enough, const BoxBound& box,
-                const OrientedBound& oriented, const Value& at) {
+double Maximize(const Surface& surface, const LeafSet* among, double lower, double gap, double enough,
+                const BoxBound& box, const OrientedBound& oriented, const Value& at) {
   thread_local std::vector<Part> heap;
   thread_local std::vector<Vec4> arena;
   thread_local Halves halves;
@@ -89,7 +95,20 @@ double Maximize(const Surface& surface, double lower, double gap, double enough,
     push(part);
   };
 
-  push_node(0);
+  if (among == nullptr) {
+    push_node(0);
+  } else {
+    for (const std::int32_t index : among->leaves) {
+      const internal::SearchLeaf& leaf = among->tree.leaves[static_cast<std::size_t>(index)];
+      const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
+      const Rect r = leaf.rect();
+      std::array<Vec4, kMaxNetPoints> points;
+      std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
+      const NetShape shape{piece.net.degree_u, piece.net.degree_v};
+      RestrictNet(shape, points.data(), r.u0, r.u1, r.v0, r.v1);
+      push_rect(piece, {.bound = kInfinity, .piece = leaf.piece, .rect = r}, r, points.data());
+    }
+  }
   for (int budget = kBudget; !heap.empty(); --budget) {
     std::pop_heap(heap.begin(), heap.end(), worse);
     Part top = heap.back();
@@ -135,15 +154,15 @@ double Locator::MaxHeight(const Vec2& a, const Vec2& b, double half_width, doubl
   const auto box = [&](const Box3& x) { return height(x.max.z(), internal::PlanDistance(x, a, b)); };
   const auto oriented = [](const Vec3&, const Eigen::Matrix3d&, const Vec3&) { return kInfinity; };
   const auto at = [&](const Vec3& p) { return height(p.z(), internal::PlanDistance(Plan(p), a, b)); };
-  return Maximize(impl_->surface, -kInfinity, std::max(slack, 1e-9), kInfinity, box, oriented, at) +
+  return Maximize(impl_->surface, nullptr, -kInfinity, std::max(slack, 1e-9), kInfinity, box, oriented, at) +
          impl_->slack;
 }
 
 namespace {
 
 // Largest gouge above `lower`, to `gap`.
-double LargestGouge(const Surface& surface, double radius, const SweptBall& swept, double lower, double gap,
-                    double enough) {
+double LargestGouge(const Surface& surface, const LeafSet* among, double radius, const SweptBall& swept,
+                    double lower, double gap, double enough) {
   const auto box = [&](const Box3& x) {
     return radius - swept.DistanceBelow(x.Center(), Eigen::Matrix3d::Identity(), 0.5 * (x.max - x.min));
   };
@@ -151,18 +170,28 @@ double LargestGouge(const Surface& surface, double radius, const SweptBall& swep
     return radius - swept.DistanceBelow(center, axis, half);
   };
   const auto at = [&](const Vec3& p) { return radius - swept.Distance(p); };
-  return Maximize(surface, lower, gap, enough, box, oriented, at);
+  return Maximize(surface, among, lower, gap, enough, box, oriented, at);
 }
 
 }  // namespace
 
 double Locator::SweptGouge(const Vec3& a, const Vec3& b, double eps) const {
-  return LargestGouge(impl_->surface, impl_->radius, SweptBall(a, b), 0.0, std::max(eps, 1e-9), kInfinity);
+  return LargestGouge(impl_->surface, nullptr, impl_->radius, SweptBall(a, b), 0.0, std::max(eps, 1e-9),
+                      kInfinity);
 }
 
 bool Locator::GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps) const {
+  const double radius = impl_->radius;
+  if (limit >= radius) return true;  // no distance is below zero
+  thread_local std::vector<std::int32_t> open;
+  open.clear();
+  // A chord of two free centres is as deep as T2 says, or less: a 64th of the limit to spare is little.
+  const double spare = std::max({limit, eps, 1e-4 * radius}) / 64.0;
+  if (!internal::CollectSweptLeaves(*impl_, a, b, radius - limit + impl_->slack, spare, open)) return false;
+  if (open.empty()) return true;
   const double gap = std::max(eps, 1e-9);
-  return LargestGouge(impl_->surface, impl_->radius, SweptBall(a, b), limit - gap, gap, limit) <= limit;
+  const LeafSet among{impl_->tree, open};
+  return LargestGouge(impl_->surface, &among, radius, SweptBall(a, b), limit - gap, gap, limit) <= limit;
 }
 
 }  // namespace patchmill

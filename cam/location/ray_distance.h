@@ -51,4 +51,26 @@ inline bool OrientedBoxOutside(const Vec3& center, const Eigen::Matrix3d& axis, 
   return gap > 0.0 && gap * gap >= limit2 * length2;
 }
 
+// A lower bound of that squared distance, by the same planes.
+inline double OrientedBoxDistance2(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half,
+                                   const Vec3& c) {
+  const Vec3 m = c - center;
+  Vec3 out = Vec3::Zero();
+  double distance2 = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double y = axis.col(k).dot(m);
+    const double e = std::abs(y) - half[k];
+    if (e > 0.0) {
+      distance2 += e * e;
+      out += std::copysign(e, y) * axis.col(k);
+    }
+  }
+  if (out.z() >= 0.0) return distance2;
+  const double length2 = out.x() * out.x() + out.y() * out.y();
+  if (!(length2 > 0.0)) return 0.0;
+  double gap = out.x() * m.x() + out.y() * m.y();
+  for (int k = 0; k < 3; ++k) gap -= half[k] * std::abs(out.x() * axis(0, k) + out.y() * axis(1, k));
+  return gap > 0.0 ? gap * gap / length2 : 0.0;
+}
+
 }  // namespace patchmill::internal

@@ -47,6 +47,12 @@ double PlanDistance(const Box3& box, const Vec2& a, const Vec2& b) {
   return d;
 }
 
+double ChordDistance2(double d0, double d1, double length) {
+  const double least = std::min(d0, d1);
+  const double w = 0.5 * (d0 - d1 + length * length) / length;
+  return w > 0.0 && w < length ? std::min(least, d0 - w * w) : least;
+}
+
 Vec3 SweptBall::Nearest(const Vec3& p) const {
   const Vec2 e = Plan(b_) - Plan(a_);
   const double length = e.norm();

@@ -8,6 +8,13 @@ namespace patchmill::internal {
 double PlanDistance(const Vec2& p, const Vec2& a, const Vec2& b);    // point to segment
 double PlanDistance(const Box3& box, const Vec2& a, const Vec2& b);  // plan view of a box to segment
 
+// T2 with two distances: a point at least sqrt(d0) from one end of a segment of this length and sqrt(d1) from
+// the other is at least the square root of the returned value from all of it. Sharp. Proof: with its foot w
+// from the first end (inside the segment) the squared distance is at least max(d0 - w^2, d1 - (length -
+// w)^2), one falling, one rising in w: least where both are equal, or at an end; with the foot outside, an
+// end is nearest.
+double ChordDistance2(double d0, double d1, double length);
+
 // The convex set K = {a + t (b - a) + s e_z : 0 <= t <= 1, s >= 0}.
 class SweptBall {
  public:

@@ -1,9 +1,12 @@
 // MaxHeight and SweptGouge: closed forms and sampled truth.
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
 #include "cam/location/locator.h"
+#include "cam/location/swept_ball.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
@@ -133,6 +136,86 @@ TEST(SweptGouge, GougeWithinIsItsComparison) {
   }
   EXPECT_GT(within, 100);
   EXPECT_GT(beyond, 100);
+}
+
+// The proof by leaves against the value, which knows nothing of it: random moves near and through every kind
+// of surface, short and long, level, steep and vertical, at limits on both sides of the truth.
+void CompareLimits(const PatchModel& model, double radius, std::uint64_t seed, int moves, int& within,
+                   int& beyond) {
+  const Surface surface = SurfaceOf(model);
+  const Locator locator(surface, radius);
+  Random random(seed);
+  const Box3& box = surface.box;
+  for (int i = 0; i < moves; ++i) {
+    const auto centre = [&](const Vec2& q) -> std::optional<Vec3> {
+      const auto h = locator.Height(q);
+      if (!h) return std::nullopt;
+      return Lift(q, h->z + (i % 3 == 0 ? random.Uniform(-0.2, 0.1) * radius : 0.0));
+    };
+    const double margin = 0.9 * radius;
+    const Vec2 q(random.Uniform(box.min.x() - margin, box.max.x() + margin),
+                 random.Uniform(box.min.y() - margin, box.max.y() + margin));
+    const double length = radius * std::pow(10.0, random.Uniform(-3.0, 0.7)),
+                 phi = random.Uniform(0, 2 * kPi);
+    const auto a = centre(q);
+    auto b = i % 11 == 0 ? a : centre(q + length * Vec2(std::cos(phi), std::sin(phi)));
+    if (!a || !b) continue;
+    if (i % 11 == 0) b->z() += random.Uniform(-0.1, 0.1) * radius;
+    const double gouge = locator.SweptGouge(*a, *b, 1e-7);
+    for (const double limit : {0.7 * gouge, gouge - 1e-4, gouge + 1e-4, 1.3 * gouge + 1e-4, 1e-5}) {
+      if (limit < 0.0) continue;
+      const bool got = locator.GougeWithin(*a, *b, limit, 1e-5);
+      if (gouge <= limit - 1e-5) {
+        ASSERT_TRUE(got) << "seed " << seed << " move " << i << " limit " << limit << " gouge " << gouge;
+        ++within;
+      } else if (gouge > limit + 1e-7) {
+        ASSERT_FALSE(got) << "seed " << seed << " move " << i << " limit " << limit << " gouge " << gouge;
+        ++beyond;
+      }
+    }
+  }
+}
+
+TEST(SweptGouge, LimitsOnEveryKindOfSurface) {
+  int within = 0, beyond = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const bool folds = seed % 2 == 1;
+    CompareLimits(testing::RandomBspline(seed, {.folds = folds, .rational = seed % 3 == 0}), 3.0, seed, 60,
+                  within, beyond);
+    CompareLimits(testing::Single(testing::RandomGregory(seed, GregoryPatch::Blend::kCorner)), 2.0, seed, 60,
+                  within, beyond);
+    CompareLimits(testing::Single(testing::RandomTriangle(seed, 3, folds)), 2.0, seed, 40, within, beyond);
+    CompareLimits(testing::Single(testing::RandomKnots(seed, 3, 2, folds)), 2.0, seed, 40, within, beyond);
+  }
+  CompareLimits(testing::Block(8.0, 6.0, 20.0), 3.0, 7, 100, within, beyond);
+  CompareLimits(testing::TwoPlanes(Radians(50), 15.0), 3.0, 8, 100, within, beyond);
+  CompareLimits(testing::TwoPlanes(Radians(-50), 15.0), 3.0, 9, 100, within, beyond);
+  CompareLimits(testing::Sphere(Vec3(0, 0, 0), 8.0), 3.0, 10, 100, within, beyond);
+  CompareLimits(testing::Torus(Vec3(0, 0, 0), 7.0, 4.0), 3.0, 11, 100, within, beyond);
+  CompareLimits(testing::ParabolicValley(0.5 / 3.0, 10.0), 3.0, 12, 100, within, beyond);
+  CompareLimits(testing::Cylinder(Vec3(0, 0, 0), 6.0, 10.0), 3.0, 13, 100, within, beyond);
+  EXPECT_GT(within, 2000);
+  EXPECT_GT(beyond, 1000);
+}
+
+TEST(SweptBall, TwoDistancesBoundTheWholeSegmentSharply) {
+  Random random(5);
+  double sharpest = kInfinity;
+  for (int i = 0; i < 100000; ++i) {
+    const double length = random.Uniform(0.01, 3.0);
+    const Vec3 a(0, 0, 0), b(length, 0, 0), p = random.Point(-3.0, 3.0);
+    const double bound = internal::ChordDistance2(p.squaredNorm(), (p - b).squaredNorm(), length);
+    const double t = std::clamp(p.x(), 0.0, length);
+    const double truth = (p - Vec3(t, 0, 0)).squaredNorm();
+    // For one point the bound is attained; larger distances than its own never have a larger bound.
+    ASSERT_NEAR(bound, truth, 1e-12);
+    const double less0 = random.Unit(), less1 = random.Unit();
+    const double weaker =
+        internal::ChordDistance2(less0 * p.squaredNorm(), less1 * (p - b).squaredNorm(), length);
+    ASSERT_LE(weaker, truth + 1e-12);
+    sharpest = std::min(sharpest, truth - weaker);
+  }
+  EXPECT_LT(sharpest, 1e-2);
 }
 
 TEST(SweptGouge, AgreesWithSampledPoints) {

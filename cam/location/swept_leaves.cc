@@ -1,0 +1,152 @@
+#include "cam/location/swept_leaves.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cam/location/ray_distance.h"
+#include "cam/location/swept_ball.h"
+
+namespace patchmill::internal {
+namespace {
+
+Float4 Splat(float x) { return Float4{x, x, x, x}; }
+Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
+Float4 Abs(Float4 a) { return Max(a, -a); }
+
+constexpr int kNewtonSteps = 4;
+
+// One leaf against one move.
+class LeafProof {
+ public:
+  LeafProof(const SearchLeaf& leaf, const Piece& piece, const Vec3& a, const Vec3& b, double distance,
+            double spare)
+      : leaf_(leaf),
+        piece_(piece),
+        a_(a),
+        b_(b),
+        length_((b - a).norm()),
+        distance2_(distance * distance),
+        spare2_(2.0 * distance * spare) {}
+
+  bool Out() {
+    const double enough = Enough(length_);
+    const double d0 = Distance2(a_, enough);
+    return d0 >= distance2_ && Out(0.0, d0, 1.0, Distance2(b_, enough));
+  }
+  bool met() const { return met_; }  // a point of the leaf is nearer than `distance`
+
+ private:
+  // At this distance of both ends T2 proves an interval.
+  double Enough(double length) const { return distance2_ + 0.25 * length * length; }
+
+  bool Out(double t0, double d0, double t1, double d1) {
+    if (d0 < distance2_ || d1 < distance2_) return false;
+    const double length = (t1 - t0) * length_;
+    if (ChordDistance2(d0, d1, length) >= distance2_) return true;
+    if (0.25 * length * length < spare2_) return false;
+    const double t = 0.5 * (t0 + t1), d = Distance2(a_ + t * (b_ - a_), Enough(0.5 * length));
+    return Out(t0, d0, t, d) && Out(t, d, t1, d1);
+  }
+
+  // A lower bound of the squared distance from the leaf to the centre c with everything above it; the dearer
+  // bounds only where the cheaper ones are below `enough`.
+  double Distance2(const Vec3& c, double enough) {
+    const double box2 = OrientedBoxDistance2(leaf_.center, leaf_.axis, leaf_.half, c);
+    if (box2 >= enough) return box2;
+    const LowerModel low = BoundBelow(leaf_.model, c);
+    double bound = box2;
+    if (low.minorant) {
+      bound = std::max(bound, 2.0 * (low.f0 + MinimizeOnBox(low.q, {-0.5, 0.5, -0.5, 0.5}).value));
+    }
+    return bound < enough && low.convex ? ConvexDistance2(c, enough, bound) : bound;
+  }
+
+  // f convex on the leaf: its tangent plane anywhere is a lower bound, near the minimum a tight one.
+  double ConvexDistance2(const Vec3& c, double enough, double bound) {
+    const Rect r = leaf_.rect();
+    const BoxMinimum guess = GuessMinimum(leaf_.model, c);
+    double u = r.u0 + (0.5 + guess.x) * (r.u1 - r.u0), v = r.v0 + (0.5 + guess.y) * (r.v1 - r.v0);
+    for (int k = 0; k < kNewtonSteps; ++k) {
+      const SurfaceJet j = Evaluate(piece_, u, v);
+      const Vec3 d = ToRay(j.p, c);
+      const double f = 0.5 * d.squaredNorm();
+      if (2.0 * f < distance2_) {
+        met_ = true;
+        return bound;
+      }
+      const Vec2 slope(d.dot(j.du), d.dot(j.dv));
+      bound = std::max(bound, 2.0 * LinearMinimum(f, slope, r, u, v));
+      if (bound >= std::min(enough, 2.0 * f - 0.1 * spare2_)) break;
+      const int n = d.z() > 0.0 ? 3 : 2;  // above the centre f measures horizontally
+      const Quadratic2 model{j.du.head(n).squaredNorm() - d.dot(j.duu),
+                             j.du.head(n).dot(j.dv.head(n)) - d.dot(j.duv),
+                             j.dv.head(n).squaredNorm() - d.dot(j.dvv), -slope.x(), -slope.y()};
+      const BoxMinimum to = MinimizeOnBox(model, {r.u0 - u, r.u1 - u, r.v0 - v, r.v1 - v});
+      u = std::clamp(u + to.x, r.u0, r.u1);
+      v = std::clamp(v + to.y, r.v0, r.v1);
+    }
+    return bound;
+  }
+
+  const SearchLeaf& leaf_;
+  const Piece& piece_;
+  const Vec3 &a_, &b_;
+  const double length_, distance2_, spare2_;
+  bool met_ = false;
+};
+
+}  // namespace
+
+// A node is out of the way when its boxes are, in plan from the move's box or across the move, or below it.
+bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b, double distance,
+                        double spare, std::vector<std::int32_t>& open) {
+  const double radius = impl.radius;
+  const auto limit =
+      static_cast<float>(distance * distance + 1e-6 * radius * radius + 4e-6 * radius * impl.reach);
+  const Vec2 move = Plan(b) - Plan(a);
+  const double plan_length = move.norm();
+  const Vec2 across =
+      plan_length > 0.0 ? Vec2(-move.y() / plan_length, move.x() / plan_length) : Vec2(Vec2::Zero());
+  const Float4 qx0 = Splat(static_cast<float>(std::min(a.x(), b.x())));
+  const Float4 qx1 = Splat(static_cast<float>(std::max(a.x(), b.x())));
+  const Float4 qy0 = Splat(static_cast<float>(std::min(a.y(), b.y())));
+  const Float4 qy1 = Splat(static_cast<float>(std::max(a.y(), b.y())));
+  const Float4 lowest = Splat(static_cast<float>(std::min(a.z(), b.z())));
+  const Float4 nx = Splat(static_cast<float>(across.x())), ny = Splat(static_cast<float>(across.y()));
+  const Float4 offset = Splat(static_cast<float>(across.dot(Plan(a))));
+  const Float4 zero = Splat(0.0F), half = Splat(0.5F);
+  const bool is_long = plan_length > radius;
+  const SweptBall swept(a, b);
+
+  thread_local std::vector<std::int32_t> stack;
+  stack.assign(1, 0);
+  while (!stack.empty()) {
+    const std::int32_t id = stack.back();
+    stack.pop_back();
+    if (id < 0) {
+      const SearchLeaf& leaf = impl.tree.leaves[static_cast<std::size_t>(~id)];
+      if (is_long && swept.DistanceBelow(leaf.center, leaf.axis, leaf.half) >= distance) continue;
+      LeafProof proof(leaf, impl.surface.pieces[static_cast<std::size_t>(leaf.piece)], a, b, distance, spare);
+      if (!proof.Out()) {
+        if (proof.met()) return false;
+        open.push_back(~id);
+      }
+      continue;
+    }
+    const SearchNode& node = impl.tree.nodes[static_cast<std::size_t>(id)];
+    const Float4 dx = Max(Max(node.min_x - qx1, qx0 - node.max_x), zero);
+    const Float4 dy = Max(Max(node.min_y - qy1, qy0 - node.max_y), zero);
+    const Float4 below = Max(lowest - node.max_z, zero);
+    const Float4 beside =
+        Max(Abs(nx * (half * (node.min_x + node.max_x)) + ny * (half * (node.min_y + node.max_y)) - offset) -
+                half * (Abs(nx) * (node.max_x - node.min_x) + Abs(ny) * (node.max_y - node.min_y)),
+            zero);
+    const Float4 all = Max(dx * dx + dy * dy, beside * beside) + below * below;
+    for (int k = 0; k < 4; ++k) {
+      if (all[k] < limit) stack.push_back(node.child[k]);
+    }
+  }
+  return true;
+}
+
+}  // namespace patchmill::internal
