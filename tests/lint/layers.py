@@ -8,7 +8,7 @@ import re
 import sys
 
 # Each folder and the folders it may include from, itself always.
-CORE = ["base", "math", "curve", "patch", "diffgeo", "network", "surface"]
+CORE = ["base", "math", "curve", "patch", "diffgeo", "network", "surface", "lines"]
 CAM = ["tool", "toolpath", "location", "region", "path", "link"]
 JUDGES = ["post", "verify", "picture"]  # see only tool, toolpath and core, so that verify is an independent judge
 

@@ -1,0 +1,97 @@
+#include "core/lines/bernstein_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/base/vec.h"
+#include "core/math/bernstein.h"
+
+namespace patchmill {
+namespace {
+
+int ChangesOfSign(const BernsteinForm& form, int first, int stride, int count) {
+  int changes = 0;
+  double last = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const double x = form.c[static_cast<std::size_t>(first + k * stride)];
+    if (std::abs(x) <= form.slack) continue;
+    if (last * x < 0.0) ++changes;
+    last = x;
+  }
+  return changes;
+}
+
+struct Range {
+  double low = kInfinity, high = -kInfinity;
+};
+
+// Of the differences of neighbours along u (stride n + 1) or v (stride 1).
+Range Differences(const BernsteinForm& form, bool along_u) {
+  Range range;
+  const int stride = along_u ? form.n + 1 : 1;
+  for (int i = 0; i + (along_u ? 1 : 0) <= form.m; ++i) {
+    for (int j = 0; j + (along_u ? 0 : 1) <= form.n; ++j) {
+      const int k = i * (form.n + 1) + j;
+      const double d = form.c[static_cast<std::size_t>(k + stride)] - form.c[static_cast<std::size_t>(k)];
+      range.low = std::min(range.low, d);
+      range.high = std::max(range.high, d);
+    }
+  }
+  return range;
+}
+
+// Rounding apart, of one sign and not zero throughout.
+bool Monotone(const BernsteinForm& form, bool along_u) {
+  const Range d = Differences(form, along_u);
+  return (d.low >= -form.slack && d.high > form.slack) || (d.low < -form.slack && d.high <= form.slack);
+}
+
+}  // namespace
+
+FormSign SignOf(const BernsteinForm& form) {
+  const auto [low, high] = std::minmax_element(form.c.begin(), form.c.end());
+  if (*low > form.slack) return FormSign::kPositive;
+  if (*high < -form.slack) return FormSign::kNegative;
+  return *low >= -form.slack && *high <= form.slack ? FormSign::kZero : FormSign::kOpen;
+}
+
+bool IsGraph(const BernsteinForm& form) {
+  if (!Monotone(form, true) && !Monotone(form, false)) return false;
+  const int row = form.n + 1;
+  return ChangesOfSign(form, 0, 1, row) <= 1 && ChangesOfSign(form, form.m * row, 1, row) <= 1 &&
+         ChangesOfSign(form, 0, row, form.m + 1) <= 1 && ChangesOfSign(form, form.n, row, form.m + 1) <= 1;
+}
+
+bool MayBeFlat(const BernsteinForm& form) {
+  for (const bool along_u : {true, false}) {
+    const Range d = Differences(form, along_u);
+    if (d.low > form.slack || d.high < -form.slack) return false;
+  }
+  return true;
+}
+
+std::array<BernsteinForm, 4> Quarters(const BernsteinForm& form) {
+  std::array<BernsteinForm, 4> quarters = {form, form, form, form};
+  const int row = form.n + 1;
+  for (int q = 0; q < 4; ++q) {
+    std::vector<double>& c = quarters[static_cast<std::size_t>(q)].c;
+    for (int j = 0; j < row; ++j) {
+      if (q / 2 == 0) {
+        KeepLeft(&c[static_cast<std::size_t>(j)], form.m, row, 0.5);
+      } else {
+        KeepRight(&c[static_cast<std::size_t>(j)], form.m, row, 0.5);
+      }
+    }
+    for (int i = 0; i <= form.m; ++i) {
+      if (q % 2 == 0) {
+        KeepLeft(&c[static_cast<std::size_t>(i * row)], form.n, 1, 0.5);
+      } else {
+        KeepRight(&c[static_cast<std::size_t>(i * row)], form.n, 1, 0.5);
+      }
+    }
+  }
+  return quarters;
+}
+
+}  // namespace patchmill

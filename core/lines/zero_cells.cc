@@ -1,0 +1,234 @@
+#include "core/lines/zero_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diffgeo/forms.h"
+
+namespace patchmill {
+namespace {
+
+constexpr int kExtraLevels = 2;  // finer than the shape asks for, where only samples tell
+// A node this near to a side of its cell (in sides) is a vertex of the side; coordinates of nodes are known
+// to about 1e-13.
+constexpr double kOnSide = 1e-7;
+
+struct Levels {
+  int start = 1;    // for the shape's sake
+  int sampled = 1;  // where samples show a limit
+  int finest = 1;   // where a form is not settled
+};
+
+// Turn of the normal and length of the sides, seen on a 5 x 5 grid.
+Levels ChooseLevels(const Piece& piece, const ZeroMeshParams& params) {
+  constexpr int n = 4;
+  double turn = 0.0, side = 0.0;
+  Vec3 points[n + 1][n + 1];
+  std::optional<Vec3> normals[n + 1][n + 1];
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const SurfaceJet jet = Evaluate(piece, double(i) / n, double(j) / n);
+      points[i][j] = jet.p;
+      normals[i][j] = UnitNormal(jet);
+    }
+  }
+  const auto compare = [&](int i, int j, int k, int l) {
+    side = std::max(side, n * (points[i][j] - points[k][l]).norm());
+    if (normals[i][j] && normals[k][l]) {
+      turn = std::max(turn, n * std::acos(std::clamp(normals[i][j]->dot(*normals[k][l]), -1.0, 1.0)));
+    }
+  };
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      if (i < n) compare(i, j, i + 1, j);
+      if (j < n) compare(i, j, i, j + 1);
+    }
+  }
+  const double cells = std::max({1.0, turn / params.max_turn, side / params.max_cell});
+  const int fine_enough = std::clamp(
+      static_cast<int>(std::floor(std::log2(std::max(2.0, side / params.min_cell)))), 1, kZeroMaxLevel);
+  Levels levels;
+  levels.start = std::max(1, std::min({static_cast<int>(std::ceil(std::log2(cells))), fine_enough,
+                                       kZeroMaxLevel - kExtraLevels}));
+  levels.finest = std::max(levels.start, fine_enough);
+  levels.sampled = std::min(levels.start + kExtraLevels, levels.finest);
+  return levels;
+}
+
+class Divider {
+ public:
+  Divider(const Piece& piece, std::span<const ZeroField> fields, const ZeroMeshParams& params,
+          ZeroVertices& vertices)
+      : piece_(piece), fields_(fields), params_(params), vertices_(vertices) {}
+
+  ZeroCells Run() {
+    std::vector<OpenForm> open;
+    for (std::size_t k = 0; k < fields_.size(); ++k) {
+      std::optional<BernsteinForm> form;
+      if (fields_[k].form) form = fields_[k].form(piece_.net);
+      if (form) {
+        open.push_back({k, *std::move(form)});
+      } else {
+        (fields_[k].smooth ? sampled_ : limits_).push_back(k);
+      }
+    }
+    if (params_.curves_only && sampled_.empty() && limits_.empty() && Settled(open)) return {};
+    levels_ = ChooseLevels(piece_, params_);
+    Refine({0, 0, 0, {}}, std::move(open));
+    return std::move(result_);
+  }
+
+ private:
+  struct OpenForm {
+    std::size_t field;
+    BernsteinForm form;
+  };
+
+  static bool Settled(std::vector<OpenForm>& open) {
+    std::erase_if(open, [](const OpenForm& f) { return SignOf(f.form) != FormSign::kOpen; });
+    return open.empty();
+  }
+
+  // Samples of both signs: of smooth fields at 3 x 3 points, of limits at corners and middle.
+  bool Differ(const ZeroCell& cell, std::size_t k, bool all) {
+    const int step = kZeroGrid >> cell.level;
+    bool seen[2] = {false, false};
+    for (int a = 0; a <= 2; ++a) {
+      for (int b = 0; b <= 2; ++b) {
+        if (!all && (a + b) % 2 == 1) continue;
+        const int id = vertices_.OnGrid(cell.i * step + a * step / 2, cell.j * step + b * step / 2);
+        const int sign = vertices_.Sign(id, k);
+        if (sign != 0) seen[sign > 0] = true;
+      }
+    }
+    return seen[0] && seen[1];
+  }
+  bool LimitPasses(const ZeroCell& cell) {
+    return std::any_of(sampled_.begin(), sampled_.end(),
+                       [&](std::size_t k) { return Differ(cell, k, true); }) ||
+           std::any_of(limits_.begin(), limits_.end(), [&](std::size_t k) { return Differ(cell, k, false); });
+  }
+
+  void Refine(ZeroCell cell, std::vector<OpenForm> open) {
+    const bool settled = Settled(open);
+    if (settled && params_.curves_only && sampled_.empty() && limits_.empty()) return;
+    bool divide = cell.level < levels_.start;
+    for (const OpenForm& f : open) {
+      // One arc at most, and no node on the cell's border either.
+      if (divide || (IsGraph(f.form) && !(fields_[f.field].node && MayBeFlat(f.form)))) continue;
+      if (cell.level < levels_.finest) {
+        divide = true;
+      } else {
+        FindNode(f.field, cell);
+      }
+    }
+    if (!divide && cell.level < levels_.sampled) divide = LimitPasses(cell);
+    if (!divide) {
+      AddCell(cell);
+      return;
+    }
+    std::array<std::vector<OpenForm>, 4> parts;
+    for (OpenForm& f : open) {
+      std::array<BernsteinForm, 4> quarters = Quarters(f.form);
+      for (std::size_t q = 0; q < 4; ++q) parts[q].push_back({f.field, std::move(quarters[q])});
+    }
+    for (int q = 0; q < 4; ++q) {
+      Refine({cell.level + 1, 2 * cell.i + q / 2, 2 * cell.j + q % 2, {}},
+             std::move(parts[static_cast<std::size_t>(q)]));
+    }
+  }
+
+  bool Near(int id, const Vec2& q, double slack) const {
+    return std::max(std::abs(vertices_[id].u - q.x()), std::abs(vertices_[id].v - q.y())) <= slack;
+  }
+
+  // A vertex on a side of cells, one for all that ask.
+  int OnSide(const Vec2& q, double slack) {
+    for (const int id : result_.on_sides) {
+      if (Near(id, q, slack)) return id;
+    }
+    result_.on_sides.push_back(vertices_.Add(q));
+    return result_.on_sides.back();
+  }
+
+  // A crossing of the field's curves with themselves in the closed cell becomes a vertex of it: inside, on
+  // its side, or its corner; and every sector between them gets its share of the sides.
+  void FindNode(std::size_t k, ZeroCell& cell) {
+    if (!fields_[k].node || cell.node) return;
+    const double cells = 1 << cell.level;
+    const double slack = kOnSide / cells;
+    auto node = fields_[k].node(
+        piece_, {std::max(0.0, cell.i / cells - slack), std::min(1.0, (cell.i + 1) / cells + slack),
+                 std::max(0.0, cell.j / cells - slack), std::min(1.0, (cell.j + 1) / cells + slack)});
+    if (!node) return;
+    bool on_line[2];
+    for (int c = 0; c < 2; ++c) {
+      const double line = std::round((*node)[c] * cells);
+      on_line[c] = std::abs((*node)[c] * cells - line) <= kOnSide;
+      if (on_line[c]) (*node)[c] = line / cells;
+    }
+    cell.node = on_line[0] && on_line[1]   ? vertices_.OnGrid(static_cast<int>(node->x() * kZeroGrid),
+                                                              static_cast<int>(node->y() * kZeroGrid))
+                : on_line[0] || on_line[1] ? OnSide(*node, slack)
+                                           : vertices_.Add(*node);
+    vertices_.PutOn(*cell.node, k);
+    const Vec2 low(cell.i / cells, cell.j / cells), high((cell.i + 1) / cells, (cell.j + 1) / cells);
+    SampleSide(k, *node, low, {high.x(), low.y()}, slack);
+    SampleSide(k, *node, {high.x(), low.y()}, high, slack);
+    SampleSide(k, *node, {low.x(), high.y()}, high, slack);
+    SampleSide(k, *node, low, {low.x(), high.y()}, slack);
+  }
+
+  // Sectors of a node may leave through a side whose ends are in other sectors: a vertex for each of these,
+  // found in the directions of a rose around the node.
+  void SampleSide(std::size_t k, const Vec2& node, const Vec2& from, const Vec2& to, double slack) {
+    constexpr int kRays = 24;  // in half a turn
+    const Vec2 along = to - from;
+    const double distance = std::abs(Cross(along, node - from)) / along.squaredNorm();  // in sides
+    if (distance == 0.0) return;
+    const double foot = (node - from).dot(along) / along.squaredNorm();
+    std::vector<double> places = {0.0};
+    for (int i = 1; i < kRays; ++i) {
+      const double t = foot - distance / std::tan(kPi * i / kRays);
+      if (t > kOnSide && t < 1.0 - kOnSide) places.push_back(t);
+    }
+    places.push_back(1.0);
+    std::vector<std::int8_t> sign;
+    for (const double t : places) sign.push_back(SignAt(k, from + t * along));
+    for (std::size_t first = 1, last; first + 1 < places.size(); first = last + 1) {
+      for (last = first; last + 2 < places.size() && sign[last + 1] == sign[first];) ++last;
+      const bool with_an_end = sign[first] == 0 || (first == 1 && sign[0] == sign[first]) ||
+                               (last + 2 == places.size() && sign[last + 1] == sign[first]);
+      if (!with_an_end) OnSide(from + places[(first + last) / 2] * along, slack);
+    }
+  }
+  std::int8_t SignAt(std::size_t k, const Vec2& q) const {
+    return vertices_.SignOf(k, fields_[k].value(Evaluate(piece_, q.x(), q.y())));
+  }
+
+  void AddCell(const ZeroCell& cell) {
+    const int step = kZeroGrid >> cell.level;
+    for (const int a : {0, 1}) {
+      for (const int b : {0, 1})
+        result_.corners.insert((cell.i + a) * step * (kZeroGrid + 1) + (cell.j + b) * step);
+    }
+    result_.cells.push_back(cell);
+  }
+
+  const Piece& piece_;
+  std::span<const ZeroField> fields_;
+  const ZeroMeshParams& params_;
+  ZeroVertices& vertices_;
+  Levels levels_;
+  std::vector<std::size_t> sampled_, limits_;  // fields without form: smooth, others
+  ZeroCells result_;
+};
+
+}  // namespace
+
+ZeroCells DivideForFields(const Piece& piece, std::span<const ZeroField> fields, const ZeroMeshParams& params,
+                          ZeroVertices& vertices) {
+  return Divider(piece, fields, params, vertices).Run();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,33 @@
+// A function of the jet whose zero curves on the surface are wanted: lines to draw, or borders of regions.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/lines/bernstein_form.h"
+#include "core/patch/piece.h"
+
+namespace patchmill {
+
+// The part [u0,u1] x [v0,v1] of a piece's parameters.
+struct ParameterBox {
+  double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
+};
+
+struct ZeroField {
+  // Smooth fields: continuous, of both signs beside their zero curves, any unit. Others: +1 or -1, or 0 where
+  // the question does not apply. Thread-safe.
+  std::function<double(const SurfaceJet&)> value;
+  // A polynomial over the net that vanishes wherever `value` does and, where it changes sign, makes `value`
+  // change sign along all of the arc or nowhere on it; so where it has no zero `value` has none, and where
+  // its zero set is one arc, that of `value` is this arc or nothing. Nothing: too costly. May be empty.
+  std::function<std::optional<BernsteinForm>(const BernsteinNet&)> form;
+  // A point of the closed box where curves of the field cross each other, or nothing. May be empty.
+  std::function<std::optional<Vec2>(const Piece&, const ParameterBox&)> node;
+  bool smooth = true;
+  double noise = 1e-9;       // values up to this are rounding: sign 0
+  double resolution = 0.01;  // mm: how exactly the limits of a field that is not smooth are placed
+  int where = -1;            // asked only where this earlier field of a list is negative; elsewhere 0
+};
+
+}  // namespace patchmill

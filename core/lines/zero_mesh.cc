@@ -1,0 +1,208 @@
+#include "core/lines/zero_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "core/lines/zero_cells.h"
+#include "core/lines/zero_root.h"
+
+namespace patchmill {
+namespace {
+
+std::uint64_t EdgeKey(int a, int b) {
+  return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
+}
+
+// Triangles of one piece: fans of the cells, cut along one field after the other.
+class Builder {
+ public:
+  Builder(const Piece& piece, std::span<const ZeroField> fields, const ZeroMeshParams& params)
+      : piece_(piece), fields_(fields), vertices_(piece, fields) {
+    cells_ = DivideForFields(piece, fields, params, vertices_);
+  }
+
+  ZeroMesh Build() {
+    for (const ZeroCell& cell : cells_.cells) Fan(cell);
+    for (std::size_t k = 0; k < fields_.size(); ++k) Cut(k);
+    for (ZeroTriangle& t : triangles_) Label(t);
+    return {vertices_.Take(), std::move(triangles_)};
+  }
+
+ private:
+  // Vertices strictly between two corners of a cell on one of its sides, in order: corners of finer
+  // neighbours, and nodes.
+  void Between(int i0, int j0, int i1, int j1, std::vector<int>& ring) {
+    const int length = std::abs(i1 - i0) + std::abs(j1 - j0);
+    const Vec2 from = Vec2(i0, j0) / kZeroGrid, along = Vec2(i1 - i0, j1 - j0) / kZeroGrid;
+    std::vector<std::pair<double, int>> found;  // place along the side in units of the grid, id
+    for (int s = 1; s < length; ++s) {
+      const int gi = i0 + (i1 - i0) * s / length, gj = j0 + (j1 - j0) * s / length;
+      if (cells_.corners.contains(gi * (kZeroGrid + 1) + gj))
+        found.emplace_back(static_cast<double>(s) / length, vertices_.OnGrid(gi, gj));
+    }
+    for (const int id : cells_.on_sides) {
+      const Vec2 to = Vec2(vertices_[id].u, vertices_[id].v) - from;
+      const double t = to.dot(along) / along.squaredNorm();
+      if (Cross(along, to) == 0.0 && t > 0.0 && t < 1.0) found.emplace_back(t, id);
+    }
+    std::sort(found.begin(), found.end());
+    for (const auto& [t, id] : found) ring.push_back(id);
+  }
+
+  int Middle(const ZeroCell& cell) {
+    if (cell.node) return *cell.node;
+    const int step = kZeroGrid >> cell.level;
+    const int i0 = cell.i * step, j0 = cell.j * step;
+    if (step >= 2) return vertices_.OnGrid(i0 + step / 2, j0 + step / 2);
+    return vertices_.Add({(i0 + 0.5 * step) / kZeroGrid, (j0 + 0.5 * step) / kZeroGrid});
+  }
+
+  // A side of the cell and a middle on it: sides run along the axes.
+  bool InLine(int middle, int a, int b) const {
+    const ZeroVertex &m = vertices_[middle], &x = vertices_[a], &y = vertices_[b];
+    return (m.u == x.u && m.u == y.u) || (m.v == x.v && m.v == y.v);
+  }
+
+  void Fan(const ZeroCell& cell) {
+    const int step = kZeroGrid >> cell.level;
+    const int i0 = cell.i * step, j0 = cell.j * step, i1 = i0 + step, j1 = j0 + step;
+    const int corner[4][2] = {{i0, j0}, {i1, j0}, {i1, j1}, {i0, j1}};
+    std::vector<int> ring;
+    for (int k = 0; k < 4; ++k) {
+      const auto& a = corner[k];
+      const auto& b = corner[(k + 1) % 4];
+      ring.push_back(vertices_.OnGrid(a[0], a[1]));
+      Between(a[0], a[1], b[0], b[1], ring);
+    }
+    const int middle = Middle(cell);
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const int a = ring[k], b = ring[(k + 1) % ring.size()];
+      if (!InLine(middle, a, b)) triangles_.push_back({{middle, a, b}, {}});
+    }
+  }
+
+  // The vertex where field k changes sign on the edge between a and b; made once for both triangles of it.
+  int Crossing(std::size_t k, int a, int b) {
+    const auto [it, fresh] = crossings_.try_emplace(EdgeKey(a, b), -1);
+    if (!fresh) return it->second;
+    const ZeroField& field = fields_[k];
+    const ZeroVertex x = vertices_[std::min(a, b)], y = vertices_[std::max(a, b)];
+    const Vec2 from(x.u, x.v), to(y.u, y.v);
+    const double length = (y.p - x.p).norm();
+    const double t = ZeroBetween(
+        field, piece_, from, to, field.smooth ? Value(field, piece_, from) : x.sign[k],
+        field.smooth ? Value(field, piece_, to) : y.sign[k], field.resolution / std::max(length, 1e-9));
+    Vec2 q = from + t * (to - from);
+    // An edge along another field's curve: the crossing is where both vanish.
+    const std::uint8_t both = x.on & y.on;
+    for (std::size_t other = 0; other < k; ++other) {
+      if (((both >> other) & 1u) == 0 || !fields_[other].smooth || !field.smooth) continue;
+      if (const auto common = CommonZero(k, other, q, 0.5 * (to - from).norm())) q = *common;
+      break;
+    }
+    for (int c = 0; c < 2; ++c) {  // a point of the piece's border stays on it
+      if (from[c] == to[c] && (from[c] == 0.0 || from[c] == 1.0)) q[c] = from[c];
+    }
+    const int id = vertices_.Add(q);
+    vertices_.PutOn(id, k);
+    for (std::size_t other = 0; other < k; ++other) {
+      if ((both >> other) & 1u) vertices_.PutOn(id, other);
+    }
+    it->second = id;
+    return id;
+  }
+
+  // Newton on two fields from q with differences; nothing when it leaves the piece or the neighbourhood.
+  std::optional<Vec2> CommonZero(std::size_t k, std::size_t other, Vec2 q, double reach) const {
+    constexpr double kStep = 1e-6, kDone = 1e-12;
+    const Vec2 start = q;
+    for (int i = 0; i < 8; ++i) {
+      Vec2 gradient[2];
+      double at[2];
+      const std::size_t pair[2] = {k, other};
+      for (int f = 0; f < 2; ++f) {
+        const ZeroField& field = fields_[pair[f]];
+        at[f] = Value(field, piece_, q);
+        const double hu = q.x() < 0.5 ? kStep : -kStep, hv = q.y() < 0.5 ? kStep : -kStep;
+        gradient[f] = {(Value(field, piece_, q + Vec2(hu, 0)) - at[f]) / hu,
+                       (Value(field, piece_, q + Vec2(0, hv)) - at[f]) / hv};
+      }
+      const double det = Cross(gradient[0], gradient[1]);
+      if (!(std::abs(det) > 0.0)) return std::nullopt;
+      const Vec2 step((at[0] * gradient[1].y() - at[1] * gradient[0].y()) / det,
+                      (gradient[0].x() * at[1] - gradient[1].x() * at[0]) / det);
+      q -= step;
+      if (!((q - start).norm() <= reach) || q.minCoeff() < 0.0 || q.maxCoeff() > 1.0) return std::nullopt;
+      if (step.norm() < kDone) return q;
+    }
+    return std::nullopt;
+  }
+
+  void Cut(std::size_t k) {
+    crossings_.clear();
+    std::vector<ZeroTriangle> whole = std::move(triangles_);
+    triangles_.clear();
+    triangles_.reserve(whole.size() + whole.size() / 4);
+    for (const ZeroTriangle& t : whole) {
+      const int sign[3] = {vertices_.Sign(t.vertex[0], k), vertices_.Sign(t.vertex[1], k),
+                           vertices_.Sign(t.vertex[2], k)};
+      // Turn the triangle so that corner 0 is the odd one out: alone on its side, or the vertex on the curve.
+      int odd = -1;
+      for (int c = 0; c < 3 && odd < 0; ++c) {
+        const int s0 = sign[c], s1 = sign[(c + 1) % 3], s2 = sign[(c + 2) % 3];
+        if ((s0 * s1 < 0 && s0 * s2 < 0) || (s0 == 0 && s1 * s2 < 0)) odd = c;
+      }
+      if (odd < 0) {
+        triangles_.push_back(t);
+        continue;
+      }
+      const auto corner = [&](int c) { return t.vertex[static_cast<std::size_t>((odd + c) % 3)]; };
+      const int a = corner(0), b = corner(1), c = corner(2);
+      if (sign[odd] == 0) {
+        const int m = Crossing(k, b, c);
+        triangles_.push_back({{a, b, m}, {}});
+        triangles_.push_back({{a, m, c}, {}});
+        // The curve leaves the triangle through this vertex: it lies on it as far as rounding can tell.
+        vertices_[a].on |= static_cast<std::uint8_t>(1u << k);
+        continue;
+      }
+      const int m = Crossing(k, a, b), n = Crossing(k, a, c);
+      triangles_.push_back({{a, m, n}, {}});
+      triangles_.push_back({{m, b, c}, {}});
+      triangles_.push_back({{m, c, n}, {}});
+    }
+  }
+
+  // Sign of each field on a triangle: of a vertex off its curve, else of the centroid.
+  void Label(ZeroTriangle& t) {
+    for (std::size_t k = 0; k < fields_.size(); ++k) {
+      const int where = fields_[k].where;
+      if (where >= 0 && t.sign[static_cast<std::size_t>(where)] >= 0) continue;
+      for (const int id : t.vertex) {
+        if (((vertices_[id].on >> k) & 1u) == 0 && t.sign[k] == 0)
+          t.sign[k] = static_cast<std::int8_t>(vertices_.Sign(id, k));
+      }
+      if (t.sign[k] != 0) continue;
+      const ZeroVertex &a = vertices_[t.vertex[0]], &b = vertices_[t.vertex[1]], &c = vertices_[t.vertex[2]];
+      t.sign[k] =
+          vertices_.SignOf(k, Value(fields_[k], piece_, {(a.u + b.u + c.u) / 3.0, (a.v + b.v + c.v) / 3.0}));
+    }
+  }
+
+  const Piece& piece_;
+  std::span<const ZeroField> fields_;
+  ZeroVertices vertices_;
+  ZeroCells cells_;
+  std::vector<ZeroTriangle> triangles_;
+  std::unordered_map<std::uint64_t, int> crossings_;  // of one field; looked up, never walked
+};
+
+}  // namespace
+
+ZeroMesh BuildZeroMesh(const Piece& piece, std::span<const ZeroField> fields, const ZeroMeshParams& params) {
+  return Builder(piece, fields, params).Build();
+}
+
+}  // namespace patchmill

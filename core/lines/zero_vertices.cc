@@ -1,0 +1,50 @@
+#include "core/lines/zero_vertices.h"
+
+#include "core/lines/zero_root.h"
+
+namespace patchmill {
+
+int ZeroVertices::OnGrid(int gi, int gj) {
+  const auto [it, fresh] = grid_.try_emplace(gi * (kZeroGrid + 1) + gj, static_cast<int>(all_.size()));
+  if (fresh) Add({static_cast<double>(gi) / kZeroGrid, static_cast<double>(gj) / kZeroGrid});
+  return it->second;
+}
+
+int ZeroVertices::Add(const Vec2& q) {
+  const SurfaceJet jet = Evaluate(piece_, q.x(), q.y());
+  ZeroVertex vertex;
+  vertex.u = q.x();
+  vertex.v = q.y();
+  vertex.p = jet.p;
+  for (std::size_t k = 0; k < fields_.size(); ++k) {
+    if (!fields_[k].smooth) continue;
+    vertex.sign[k] = SignOf(k, fields_[k].value(jet));
+    vertex.known |= static_cast<std::uint8_t>(1u << k);
+  }
+  all_.push_back(vertex);
+  return static_cast<int>(all_.size()) - 1;
+}
+
+void ZeroVertices::PutOn(int id, std::size_t k) {
+  ZeroVertex& vertex = (*this)[id];
+  vertex.on |= static_cast<std::uint8_t>(1u << k);
+  vertex.known |= static_cast<std::uint8_t>(1u << k);
+  vertex.sign[k] = 0;
+}
+
+int ZeroVertices::Sign(int id, std::size_t k) {
+  if ((((*this)[id].known >> k) & 1u) == 0) {
+    const int where = fields_[k].where;
+    const bool asked = where < 0 || Sign(id, static_cast<std::size_t>(where)) < 0;
+    ZeroVertex& vertex = (*this)[id];
+    vertex.known |= static_cast<std::uint8_t>(1u << k);
+    vertex.sign[k] = asked ? SignOf(k, Value(fields_[k], piece_, {vertex.u, vertex.v})) : std::int8_t{0};
+  }
+  return (*this)[id].sign[k];
+}
+
+std::int8_t ZeroVertices::SignOf(std::size_t k, double value) const {
+  return static_cast<std::int8_t>(value > fields_[k].noise ? 1 : value < -fields_[k].noise ? -1 : 0);
+}
+
+}  // namespace patchmill
