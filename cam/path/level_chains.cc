@@ -23,8 +23,7 @@ struct Crossing {
   // Walking along the edge in its own sense (growing x or y): forbidden before it, free after it?
   bool leaves = false;
   std::int32_t next = -1, previous = -1;
-  Vec2 free = Vec2::Zero();
-  bool ambiguous = false;
+  ChainCell onward;
 };
 
 struct EdgeSlice {
@@ -162,8 +161,8 @@ class Builder {
     Crossing& a = crossings_[static_cast<std::size_t>(from.crossing)];
     Crossing& b = crossings_[static_cast<std::size_t>(to.crossing)];
     a.next = to.crossing;
-    a.free = cell.free;
-    a.ambiguous = cell.ambiguous;
+    a.onward = {PlanOf(cells_.grid, cell), cell.ambiguous ? Vec2(Vec2::Zero()) : cell.free,
+                cell.ambiguous && rim_.size() > 2};
     b.previous = from.crossing;
   }
 
@@ -199,7 +198,7 @@ class Builder {
     for (std::size_t k = start; !seen_[k];) {
       seen_[k] = 1;
       const Crossing& c = crossings_[k];
-      chain.points.push_back({c.point, c.free, c.ambiguous});
+      chain.points.push_back({c.point, c.onward});
       if (c.next >= 0) k = static_cast<std::size_t>(c.next);
     }
     return chain;
@@ -223,7 +222,6 @@ class Builder {
       }
       if (best == i) continue;
       end.next = static_cast<std::int32_t>(best);
-      end.ambiguous = true;
       crossings_[best].previous = static_cast<std::int32_t>(i);
     }
   }

@@ -8,10 +8,16 @@
 
 namespace patchmill {
 
+// The cell through which the contour runs from one crossing to the next. It stays inside.
+struct ChainCell {
+  PlanCell bounds;
+  Vec2 free = Vec2::Zero();  // unit direction across which the contour is a graph in the cell; zero: no cone
+  bool fixed = true;  // no cone and more than one way through: each stays straight, clear of the others
+  bool Ambiguous() const { return free == Vec2::Zero(); }
+};
 struct ChainPoint {
   LevelPoint point;
-  Vec2 free = Vec2::Zero();  // unit direction to the free side on the way to the next point; zero: unknown
-  bool ambiguous = false;    // the way to the next point runs through a cell without a cone
+  ChainCell onward;
 };
 struct Chain {
   std::vector<ChainPoint> points;  // forbidden side on the right

@@ -103,7 +103,7 @@ LevelPoint LevelOracle::Exit(const Vec2& start, const SurfacePoint& contact, con
 }
 
 std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& direction, const SurfacePoint& a,
-                                                  const SurfacePoint& b, double reach) const {
+                                                  const SurfacePoint& b, const Stretch& stretch) const {
   // Inside a disc of the two: outward from m. Else from the first rim behind m; the walk passes m again if it
   // lies in some third disc.
   double back = kInfinity;
@@ -125,16 +125,22 @@ std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& dir
     }
   }
   SurfacePoint start;
-  if (hit != nullptr && back <= reach) {
+  if (hit != nullptr && back <= stretch.back) {
     start = *hit;
   } else {
-    const std::optional<CenterPoint> h = locator_.Height(m, &a);
+    back = 0.0;
+    std::optional<CenterPoint> h = locator_.Height(m, &a);
+    if (!Forbidden(h) && stretch.crossed) {
+      back = stretch.back;
+      h = locator_.Height(m - back * direction, &a);
+    }
     if (!Forbidden(h)) return std::nullopt;
     start = h->contact;
-    back = 0.0;
   }
-  LevelPoint root = Exit(m - back * direction, start, direction, back + reach);
-  if ((root.q - m).norm() >= reach * (1.0 - 1e-12)) return std::nullopt;
+  const double reach = back + stretch.front;
+  const Vec2 from = m - back * direction;
+  LevelPoint root = Exit(from, start, direction, reach);
+  if ((root.q - from).norm() >= reach * (1.0 - 1e-12)) return std::nullopt;
   return root;
 }
 

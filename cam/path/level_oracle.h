@@ -48,10 +48,16 @@ class LevelOracle {
   // no more than gentle ground. Stops at `reach` (mm), which the caller knows to be free, at the latest.
   LevelPoint Exit(const Vec2& start, const SurfacePoint& contact, const Vec2& direction, double reach) const;
 
-  // A border point on the line through m along `direction` (pointing to the free side), near m: from m
-  // outward when m is forbidden, else from the nearest disc of the two contacts behind m.
+  // How far a line is searched on both sides of its middle (mm). `crossed`: it is known to lead from
+  // forbidden ground at its back to free ground in front, across the border once only.
+  struct Stretch {
+    double back = 0.0, front = 0.0;
+    bool crossed = false;
+  };
+  // A border point on the line through m along `direction` (pointing to the free side): from m outward when m
+  // is forbidden, else from the nearest disc of the two contacts behind m, else from the back.
   std::optional<LevelPoint> RootOnLine(const Vec2& m, const Vec2& direction, const SurfacePoint& a,
-                                       const SurfacePoint& b, double reach) const;
+                                       const SurfacePoint& b, const Stretch& stretch) const;
 
   // The corner between the branches of two contacts, nearest to the chord a b: both discs at once,
   // re-localised until they stand still (quadratic). nullopt when the branches are one, the corner is covered

@@ -70,8 +70,9 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
     for (const Chain& chain : BuildChains(cells, items, oracle, run, wanted != nullptr)) {
       if (run.Cancelled()) return level;
       const std::vector<LevelPoint> points = RefineLoop(oracle, chain, tolerance, run);
-      const bool undecided = chain.closed && std::all_of(chain.points.begin(), chain.points.end(),
-                                                         [](const ChainPoint& p) { return p.ambiguous; });
+      const bool undecided =
+          chain.closed && std::all_of(chain.points.begin(), chain.points.end(),
+                                      [](const ChainPoint& p) { return p.onward.Ambiguous(); });
       if (points.size() < (chain.closed ? 3 : 2) ||
           (undecided && std::abs(SignedArea(points)) < limits.smallest * limits.smallest)) {
         continue;

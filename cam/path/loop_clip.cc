@@ -175,7 +175,7 @@ class Clipper {
     if (length > kEndPlace && depth < 40) {
       const Vec2 left = Vec2(qa.y() - qb.y(), qb.x() - qa.x()) / length;
       const std::optional<LevelPoint> root =
-          oracle_.RootOnLine(0.5 * (qa + qb), left, contact_a, *b.contact, length);
+          oracle_.RootOnLine(0.5 * (qa + qb), left, contact_a, *b.contact, {length, length});
       if (root && (root->q - qa).norm() < 0.9 * length && (root->q - qb).norm() < 0.9 * length) {
         const CutterPoint m{oracle_.Center(root->q), root->contact, root->other};
         const Ground gm = Judge(root->q, root->contact);

@@ -9,6 +9,7 @@ namespace patchmill {
 namespace {
 
 constexpr int kMaxDepth = 30;
+constexpr double kApart = 1e-9;  // mm: points closer than this are one
 
 class Refiner {
  public:
@@ -19,10 +20,11 @@ class Refiner {
         out_(out) {}
 
   // Appends the points after a up to b.
-  void Way(const LevelPoint& a, const LevelPoint& b, const Vec2& free, int depth) {
+  void Way(const LevelPoint& a, const LevelPoint& b, const ChainCell& cell, int depth) {
     const double length = (b.q - a.q).norm();
     const double excess = ChordExcess(oracle_, a, b);
-    if ((length <= longest_ && excess <= tolerance_.excess) || depth >= kMaxDepth || length < 1e-9) {
+    if ((length <= longest_ && excess <= tolerance_.excess) || depth >= kMaxDepth || length < kApart ||
+        cell.fixed) {
       out_.push_back(b);
       return;
     }
@@ -30,26 +32,32 @@ class Refiner {
     const double reach = 1.5 * length;
     if (excess > tolerance_.excess && !OneBranch(a, b)) {
       const std::optional<LevelPoint> corner = oracle_.Corner(a, b, reach);
-      if (corner && Between(corner->q, a.q, b.q)) {
+      if (corner && Between(corner->q, a.q, b.q, cell)) {
         LevelPoint before = *corner, after = *corner;
         before.other.reset();
         after.contact = *corner->other;
         after.other.reset();
-        Way(a, before, free, depth + 1);
+        Way(a, before, cell, depth + 1);
         out_.back() = *corner;
-        Way(after, b, free, depth + 1);
+        Way(after, b, cell, depth + 1);
         return;
       }
     }
     // As many parts as the longest chord asks for, not always halves.
     const double parts = std::max(2.0, std::ceil(length / longest_));
     const Vec2 m = a.q + (std::floor(0.5 * parts) / parts) * (b.q - a.q);
-    for (const Vec2& direction : {free, Vec2(Vec2(a.q.y() - b.q.y(), b.q.x() - a.q.x()) / length)}) {
-      if (direction.squaredNorm() == 0.0) continue;
-      const std::optional<LevelPoint> root = oracle_.RootOnLine(m, direction, a.contact, b.contact, reach);
-      if (!root || (root->q - a.q).norm() < 1e-9 || (root->q - b.q).norm() < 1e-9) continue;
-      Way(a, *root, free, depth + 1);
-      Way(*root, b, free, depth + 1);
+    const Vec2 across(Vec2(a.q.y() - b.q.y(), b.q.x() - a.q.x()) / length);
+    // Along a free direction a line crosses the graph in the cell, or in one of its bumps beyond an edge:
+    // these reach no farther than half the edge (T8c).
+    for (int attempt = cell.Ambiguous() ? 2 : 0; attempt < 3; ++attempt) {
+      const Vec2& direction = attempt < 2 ? cell.free : across;
+      const double margin = attempt == 1 ? cell.bounds.half.x() : 0.0;
+      LevelOracle::Stretch inside = Inside(cell.bounds, margin, m, direction);
+      inside.crossed = attempt < 2;
+      const std::optional<LevelPoint> root = oracle_.RootOnLine(m, direction, a.contact, b.contact, inside);
+      if (!root || (root->q - a.q).norm() < kApart || (root->q - b.q).norm() < kApart) continue;
+      Way(a, *root, cell, depth + 1);
+      Way(*root, b, cell, depth + 1);
       return;
     }
     // No border point found beside the chord (a cell without a cone): its ends are free, so it stays.
@@ -62,9 +70,25 @@ class Refiner {
     return (oracle_.Deepest(a.contact, b.q).p - b.contact.p).norm() < 1e-4 * oracle_.radius();
   }
 
-  static bool Between(const Vec2& q, const Vec2& a, const Vec2& b) {
-    const double da = (q - a).norm(), db = (q - b).norm();
-    return da > 1e-9 && db > 1e-9;
+  // In the cell and not at an end; where it has a cone on the one graph that joins the ends (T8a).
+  static bool Between(const Vec2& q, const Vec2& a, const Vec2& b, const ChainCell& cell) {
+    const Vec2 off = (q - cell.bounds.mid).cwiseAbs() - cell.bounds.half;
+    if (!((q - a).norm() > kApart && (q - b).norm() > kApart && off.maxCoeff() <= kApart)) return false;
+    return cell.Ambiguous() || Cross(q - a, cell.free) * Cross(b - q, cell.free) > 0.0;
+  }
+
+  // The part of a line through m within `margin` of a cell.
+  static LevelOracle::Stretch Inside(const PlanCell& cell, double margin, const Vec2& m,
+                                     const Vec2& direction) {
+    LevelOracle::Stretch part{kInfinity, kInfinity};
+    for (int k = 0; k < 2; ++k) {
+      const double d = direction[k];
+      if (d == 0.0) continue;
+      const double middle = (cell.mid[k] - m[k]) / d, half = (cell.half[k] + margin) / std::abs(d);
+      part.back = std::min(part.back, std::max(0.0, half - middle));
+      part.front = std::min(part.front, std::max(0.0, half + middle));
+    }
+    return part;
   }
 
   const LevelOracle& oracle_;
@@ -147,7 +171,7 @@ std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain
   if (!chain.closed) points.push_back(chain.points.front().point);
   for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < n; ++i) {
     if (i % 16 == 0 && run.Cancelled()) return {};
-    refiner.Way(chain.points[i].point, chain.points[(i + 1) % n].point, chain.points[i].free, 0);
+    refiner.Way(chain.points[i].point, chain.points[(i + 1) % n].point, chain.points[i].onward, 0);
   }
   // Start at a corner if there is one, so that thinning cannot cross it.
   const auto corner =
