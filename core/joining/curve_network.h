@@ -48,11 +48,30 @@ struct CurveEdge {
 };
 using EdgeShape = std::variant<NormalsEdge, TangentsEdge, ThroughPointEdge, CurveEdge>;
 
+// How a G2-Gregory face leaves the edge in its middle (METHODS 2.4, 2.7): first and second derivative of the
+// face's surface across the edge, into it. The face across a smooth edge follows: its first derivative turns
+// with this one and keeps its share of the length, its normal curvatures become this face's.
+struct CrossControl {
+  int face = 0;
+  std::optional<Vec3> first, second;  // what is not given is the mean of the edge's ends
+};
+
 struct NetworkEdge {
   std::string id;
   int start = 0, end = 0;  // vertices
   EdgeShape shape;
-  bool crease = false;  // the faces beside it need no common tangent plane
+  bool crease = false;                      // the faces beside it need no common tangent plane
+  std::vector<CrossControl> controls = {};  // at most one per face
+  std::optional<int> line = {};             // the entry of CurveNetwork::lines it was made from
+};
+
+// A smooth curve through three or more vertices, two when it is not closed: the cubic spline in the chord
+// parameter (core/curve/spline.h), natural at its ends, cut into one cubic edge per pair of neighbours. Where
+// two lines cross, G2-Gregory faces can share their curvature.
+struct NetworkLine {
+  std::vector<int> vertices;
+  bool closed = false;
+  bool crease = false;  // of all its edges
 };
 
 enum class PatchScheme {
@@ -61,6 +80,7 @@ enum class PatchScheme {
   kBrown,            // quad: METHODS (14)
   kLoftTriangle,     // triangle: (19)-(21), squared weights where an edge is no cubic
   kGregoryTriangle,  // triangle: (15)-(18), cubic edges only
+  kG2Gregory,  // quad: METHODS 2, cubic edges only; equal curvature across edges with others of its kind
 };
 
 // A bulge or dent at one place of a face (1.8b), by the twists of its edges: corners and edges stay, the
@@ -81,11 +101,12 @@ struct NetworkFace {
   std::optional<FacePush> push;
 };
 
-// An edge that no entry of `edges` describes is a smooth NormalsEdge with gamma 1.
+// An edge that no entry of `edges` and `lines` describes is a smooth NormalsEdge with gamma 1.
 struct CurveNetwork {
   std::vector<NetworkVertex> vertices;
   std::vector<NetworkEdge> edges;
   std::vector<NetworkFace> faces;
+  std::vector<NetworkLine> lines;
   std::optional<double> join_tolerance;  // as PatchModel's
 };
 

@@ -91,24 +91,65 @@ PatchShape QuarticTriangle(const FaceBoundary& face) {
   return patch;
 }
 
+// Rows 1 and 2 beside every side of a bisextic net; METHODS 2.2, 2.5. The middle point is no side's (2.6).
+PatchShape G2GregoryQuad(const FaceBoundary& face) {
+  constexpr int n = kG2Degree;
+  G2GregoryPatch patch;
+  patch.degree = n;
+  patch.points.resize((n + 1) * (n + 1) + 16);
+  const auto at = [&patch](int i, int j) -> Vec3& { return patch.points[At(i * (n + 1) + j)]; };
+  const auto block = [](int i) { return i < 3 ? i - 1 : i - 2; };  // 1, 2, n-2, n-1 -> 0..3
+  const auto second = [&patch, &block](int i, int j) -> Vec3& {
+    return patch.points[At((n + 1) * (n + 1) + 4 * block(i) + block(j))];
+  };
+  for (int side = 0; side < 4; ++side) {
+    const std::vector<Vec3> edge = Elevated(face.curve[At(side)], n).points;
+    const CrossRows& rows = face.rows[At(side)];
+    for (int k = 0; k <= n; ++k) {
+      const Vec3 row[3] = {edge[At(k)], edge[At(k)] + rows.first[At(k)],
+                           edge[At(k)] + 2.0 * rows.first[At(k)] + rows.second[At(k)]};
+      const int along = side < 2 ? k : n - k;
+      for (int depth = 0; depth < 3; ++depth) {
+        if (depth > 0 && (k == 0 || k == n)) continue;  // points of the edges that cross there
+        const int across = side == 0 || side == 3 ? depth : n - depth;
+        const bool along_u = side % 2 == 0;
+        const int i = along_u ? along : across, j = along_u ? across : along;
+        const bool twice = depth > 0 && k != n / 2;
+        (twice && !along_u ? second(i, j) : at(i, j)) = row[depth];
+      }
+    }
+  }
+  const auto middle = [](const Vec3& p1, const Vec3& p2, const Vec3& p4, const Vec3& p5) {
+    return Vec3((4.0 * (p2 + p4) - p1 - p5) / 6.0);
+  };
+  at(3, 3) =
+      0.5 * (middle(at(1, 3), at(2, 3), at(4, 3), at(5, 3)) + middle(at(3, 1), at(3, 2), at(3, 4), at(3, 5)));
+  return patch;
+}
+
 }  // namespace
 
-std::optional<std::string> SchemeFault(const FaceBoundary& face, PatchScheme scheme) {
-  const int degree = HighestDegree(face);
-  const bool wants_quad = scheme == PatchScheme::kGregory || scheme == PatchScheme::kBrown;
+std::optional<std::string> SchemeFault(const NetworkFace& face, int degree) {
+  const PatchScheme scheme = face.scheme;
+  const int sides = static_cast<int>(face.vertices.size());
+  const bool wants_quad =
+      scheme == PatchScheme::kGregory || scheme == PatchScheme::kBrown || scheme == PatchScheme::kG2Gregory;
   const bool wants_triangle = scheme == PatchScheme::kLoftTriangle || scheme == PatchScheme::kGregoryTriangle;
-  if ((wants_quad && face.sides == 3) || (wants_triangle && face.sides == 4)) {
-    return fmt::format("its scheme is for {} sides, the face has {}", wants_quad ? 4 : 3, face.sides);
+  if ((wants_quad && sides == 3) || (wants_triangle && sides == 4)) {
+    return fmt::format("its scheme is for {} sides, the face has {}", wants_quad ? 4 : 3, sides);
   }
-  const bool cubic_only = scheme == PatchScheme::kGregory || scheme == PatchScheme::kGregoryTriangle;
+  if (scheme == PatchScheme::kG2Gregory && face.push) {
+    return "a G2-Gregory patch is not pushed by twists; give control vectors of its edges";
+  }
+  const bool cubic_only = scheme == PatchScheme::kGregory || scheme == PatchScheme::kGregoryTriangle ||
+                          scheme == PatchScheme::kG2Gregory;
   if (cubic_only && degree > 3) {
     return fmt::format("its scheme needs cubic edges, one has degree {}; take Brown quads or loft triangles",
                        degree);
   }
-  const int most = face.sides == 4 ? kMaxBrownDegree : 4;
+  const int most = sides == 4 ? kMaxBrownDegree : 4;
   if (degree > most) {
-    return fmt::format("an edge has degree {}; at most {} beside a face of {} sides", degree, most,
-                       face.sides);
+    return fmt::format("an edge has degree {}; at most {} beside a face of {} sides", degree, most, sides);
   }
   return std::nullopt;
 }
@@ -117,6 +158,7 @@ PatchShape MakeFacePatch(const FaceBoundary& face, PatchScheme scheme) {
   if (face.sides == 3) {
     return scheme == PatchScheme::kGregoryTriangle ? QuarticTriangle(face) : LoftedTriangle(face);
   }
+  if (scheme == PatchScheme::kG2Gregory) return G2GregoryQuad(face);
   const bool cubic = HighestDegree(face) == 3;
   return scheme == PatchScheme::kBrown || !cubic ? BrownQuad(face) : GregoryQuad(face);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/curve/curve.h"
+#include "core/joining/curvature_joint.h"
 #include "core/joining/curve_network.h"
 #include "core/patch/patch.h"
 
@@ -16,13 +17,14 @@ struct FaceBoundary {
   int sides = 4;
   std::array<BezierCurve, 4> curve;    // degree >= 3
   std::array<BezierCurve, 4> tangent;  // degree <= that of the curve
+  std::array<CrossRows, 4> rows;       // only of a kG2Gregory face; their ends are those of the curves
 };
 
-// Why this scheme cannot make the patch; nothing when it can.
-std::optional<std::string> SchemeFault(const FaceBoundary& face, PatchScheme scheme);
+// Why the face's scheme cannot make a patch from edges of at most this degree (>= 3); nothing when it can.
+std::optional<std::string> SchemeFault(const NetworkFace& face, int degree);
 
-// Requires no SchemeFault. Quads: u along side 0, v along side 3 reversed. Triangles: corners (0,0) (1,0)
-// (0,1).
+// Requires that SchemeFault finds nothing. Quads: u along side 0, v along side 3 reversed. Triangles: corners
+// (0,0) (1,0) (0,1).
 PatchShape MakeFacePatch(const FaceBoundary& face, PatchScheme scheme);
 
 }  // namespace patchmill

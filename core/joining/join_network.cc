@@ -9,8 +9,10 @@
 #include "core/curve/edge_tangents.h"
 #include "core/curve/hosaka_fit.h"
 #include "core/joining/corner_normals.h"
+#include "core/joining/curvature_rows.h"
 #include "core/joining/face_patch.h"
 #include "core/joining/face_push.h"
+#include "core/joining/line_edges.h"
 #include "core/joining/network_findings.h"
 
 namespace patchmill {
@@ -86,6 +88,22 @@ class Joiner {
     }
   }
 
+  // What a face's scheme cannot make of its edges.
+  void CheckSchemes(const std::vector<JoinedEdge>& edges) {
+    for (int f = 0; f < static_cast<int>(network_.faces.size()); ++f) {
+      const NetworkFace& face = network_.faces[At(f)];
+      int degree = 3;
+      for (int s = 0; s < SideCount(face); ++s) {
+        degree = std::max(degree, edges[At(table_.face_edges[At(f)][At(s)])].curve.degree());
+      }
+      if (const auto fault = SchemeFault(face, degree)) {
+        findings_.Error("UNSUPPORTED_SCHEME", findings_.AtFace(f), *fault);
+      }
+    }
+  }
+
+  void Rows(std::vector<JoinedEdge>& edges) { AddCurvatureRows(network_, table_, findings_, edges); }
+
   PatchModel Patches(const std::vector<JoinedEdge>& edges) {
     PatchModel model;
     model.join_tolerance = network_.join_tolerance;
@@ -100,10 +118,9 @@ class Joiner {
         const bool forward = table_.Forward({f, s}, network_);
         boundary.curve[At(s)] = forward ? edge.curve : Reversed(edge.curve);
         boundary.tangent[At(s)] = forward ? edge.tangents[k] : Reversed(edge.tangents[k]);
-      }
-      if (const auto fault = SchemeFault(boundary, face.scheme)) {
-        findings_.Error("UNSUPPORTED_SCHEME", findings_.AtFace(f), *fault);
-        continue;
+        if (face.scheme == PatchScheme::kG2Gregory) {
+          boundary.rows[At(s)] = forward ? edge.rows[k] : Reversed(edge.rows[k]);
+        }
       }
       model.patches.push_back({face.id, MakeFacePatch(boundary, face.scheme)});
     }
@@ -294,14 +311,17 @@ class Joiner {
 
 }  // namespace
 
-JoinedNetwork JoinNetwork(const CurveNetwork& network) {
+JoinedNetwork JoinNetwork(const CurveNetwork& given) {
   JoinedNetwork joined;
+  const CurveNetwork network = WithLinesAsEdges(given, joined.findings);
   const EdgeTable table = BuildEdgeTable(network, joined.findings);
   if (HasError(joined.findings)) return joined;
   Joiner joiner(network, table, joined.findings);
   joined.edges = joiner.Edges();
   if (!HasError(joined.findings)) joiner.CheckCorners(joined.edges);
+  if (!HasError(joined.findings)) joiner.CheckSchemes(joined.edges);
   if (!HasError(joined.findings)) joiner.Tangents(joined.edges);
+  if (!HasError(joined.findings)) joiner.Rows(joined.edges);
   if (!HasError(joined.findings)) joined.model = joiner.Patches(joined.edges);
   if (HasError(joined.findings)) joined.edges.clear(), joined.model = {};
   return joined;

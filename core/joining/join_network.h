@@ -1,9 +1,11 @@
-// CurveNetwork -> patches joined with tangent-plane continuity (METHODS 1; DESIGN 4: JoinPatches).
+// CurveNetwork -> patches joined with equal tangent planes, and equal curvatures between G2-Gregory faces
+// (METHODS 1, 2; DESIGN 4: JoinPatches).
 #pragma once
 
 #include <vector>
 
 #include "core/base/diagnostic.h"
+#include "core/joining/curvature_joint.h"
 #include "core/joining/edge_table.h"
 #include "core/joining/tangent_plane.h"
 #include "core/network/patch_model.h"
@@ -22,13 +24,18 @@ struct JoinedEdge {
   BezierCurve curve;  // from vertex start to end, degree >= 3
   // Cross-boundary tangents along the curve, into the face topology.faces[k], degree that of the curve.
   std::vector<BezierCurve> tangents;
+  // Of the G2-Gregory faces beside it, along the curve, in the order of topology.faces; in place of
+  // `tangents`. Empty where there is none.
+  std::vector<CrossRows> rows;
+  bool equal_curvature = false;  // smooth, and equal normal curvatures in every direction, to about 1e-13
 };
 
 struct JoinedNetwork {
   // One patch per face, in order, with the faces' ids. Empty when a finding is an error.
   PatchModel model;
   std::vector<JoinedEdge> edges;  // empty then, too
-  // Errors: those of BuildEdgeTable, and
+  // Edges made from lines have a `given` beyond CurveNetwork::edges, in the order of WithLinesAsEdges.
+  // Errors: those of BuildEdgeTable, WithLinesAsEdges and AddCurvatureRows, and
   //   CHORD_ALONG_NORMAL    a tangent from a normal that has no direction: give the tangent
   //   NO_FIT                no Hosaka segment passes through the point
   //   CURVE_OFF_VERTEX      a given curve does not start and end at its vertices
@@ -38,6 +45,7 @@ struct JoinedNetwork {
   //                         curve given there leaves the tangent plane
   //   PARALLEL_TANGENTS     two edges leave a corner of a face in line
   //   FOLDED_EDGE           both faces leave a smooth edge to the same side (h, k of opposite sign)
+  // Warnings: TANGENT_PLANE_ONLY (curvature_rows.h).
   Diagnostics findings;
 };
 

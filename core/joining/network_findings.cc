@@ -25,8 +25,20 @@ Where NetworkWriter::AtVertex(int vertex) const {
 }
 
 Where NetworkWriter::AtEdge(int edge) const {
+  const NetworkEdge& e = network_.edges[static_cast<std::size_t>(edge)];
+  if (e.line) {
+    Where where = AtLine(*e.line);
+    where.field += fmt::format(" between vertices {} and {}", e.start, e.end);
+    return where;
+  }
   Where where;
-  where.field = Path("edges", edge, network_.edges[static_cast<std::size_t>(edge)].id);
+  where.field = Path("edges", edge, e.id);
+  return where;
+}
+
+Where NetworkWriter::AtLine(int line) const {
+  Where where;
+  where.field = Path("lines", line, "");
   return where;
 }
 
@@ -39,10 +51,10 @@ Where NetworkWriter::AtFace(int face) const {
   return where;
 }
 
-void NetworkWriter::Add(std::string_view code, Where where, std::string_view text) const {
+void NetworkWriter::Add(std::string_view code, Severity severity, Where where, std::string_view text) const {
   if (++count_[std::string(code)] > kMaxOfACode) return;
   std::string message = fmt::format("{} {}", where.field, text);
-  to_.push_back({std::string(code), Severity::kError, std::move(message), std::move(where)});
+  to_.push_back({std::string(code), severity, std::move(message), std::move(where)});
 }
 
 bool HasError(const Diagnostics& findings) {

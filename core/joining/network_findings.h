@@ -15,16 +15,20 @@ class NetworkWriter {
   NetworkWriter(const CurveNetwork& network, Diagnostics& to) : network_(network), to_(to) {}
 
   Where AtVertex(int vertex) const;
-  Where AtEdge(int edge) const;  // entry of CurveNetwork::edges
+  Where AtEdge(int edge) const;  // entry of CurveNetwork::edges, or the line it was made from
+  Where AtLine(int line) const;
   Where AtFace(int face) const;
 
   // The message becomes "<path> <text>".
   void Error(std::string_view code, Where where, std::string_view text) const {
-    Add(code, std::move(where), text);
+    Add(code, Severity::kError, std::move(where), text);
+  }
+  void Warning(std::string_view code, Where where, std::string_view text) const {
+    Add(code, Severity::kWarning, std::move(where), text);
   }
 
  private:
-  void Add(std::string_view code, Where where, std::string_view text) const;
+  void Add(std::string_view code, Severity severity, Where where, std::string_view text) const;
 
   const CurveNetwork& network_;
   Diagnostics& to_;

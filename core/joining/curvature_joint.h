@@ -1,0 +1,53 @@
+// Rows of G2-Gregory patches along an edge: joined with equal curvature, alone, or with a tangent plane only.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <variant>
+
+#include "core/curve/curve.h"
+#include "core/joining/basis_strip.h"
+
+namespace patchmill {
+
+// Derivatives of the curve that leaves an end of the edge into a face.
+struct CrossEnd {
+  Vec3 d = Vec3::Zero(), dd = Vec3::Zero();
+};
+
+// One side of an edge. `first`, `second`: wished derivatives of the surface across the edge into the face, at
+// the edge's middle. Default: the means of the two ends (METHODS 6), turned to what both sides can share.
+struct CrossSide {
+  CrossEnd start, end;
+  std::optional<Vec3> first, second;
+};
+
+struct CurvatureFault {
+  enum class Kind {
+    kDirection,      // the crossing curves do not run on in one line at an end; amount in rad
+    kCurvature,      // they do, but bend differently; amount: share of the larger curvature vector or 1/|d|
+    kTurn,           // the directions across the edge turn so far along it that a patch would fold
+    kControlsDiffer  // both sides have wishes, and they do not fit together; amount as kDirection or
+                     // kCurvature
+  };
+  Kind kind = Kind::kDirection;
+  double amount = 0.0;
+  bool at_end = false;
+};
+
+// Largest misfit at the ends that counts as one curve; both kinds of amount.
+inline constexpr double kMaxCurveMisfit = 1e-9;
+
+// Both sides joined to one strip (basis_strip.h): equal tangent planes and normal curvatures all along.
+std::variant<std::array<CrossRows, 2>, CurvatureFault> JoinCurvature(const CrossSide& a, const CrossSide& b);
+
+// A side on its own, at a crease or a border.
+std::variant<CrossRows, CurvatureFault> RowsAlone(const CrossSide& side);
+
+// First differences from a cross-boundary tangent (degree <= kG2Degree) whose ends are those of `side`;
+// second ones between those of the ends.
+CrossRows RowsWithTangent(const BezierCurve& tangent, const CrossSide& side);
+
+CrossRows Reversed(CrossRows rows);  // of the edge run the other way
+
+}  // namespace patchmill

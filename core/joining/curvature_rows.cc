@@ -1,0 +1,157 @@
+#include "core/joining/curvature_rows.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace patchmill {
+namespace {
+
+std::size_t At(int i) { return static_cast<std::size_t>(i); }
+
+class RowMaker {
+ public:
+  RowMaker(const CurveNetwork& network, const EdgeTable& table, const NetworkWriter& findings,
+           std::vector<JoinedEdge>& edges)
+      : network_(network), table_(table), findings_(findings), edges_(edges) {}
+
+  void Fill(JoinedEdge& edge) {
+    const auto& sides = edge.topology.faces;
+    const bool any = std::ranges::any_of(sides, [&](const FaceSide& s) { return Wanted(s); });
+    if (!CheckControls(edge) || !any) return;
+    edge.rows.resize(sides.size());
+    if (edge.kind != EdgeKind::kSmooth) {
+      for (std::size_t k = 0; k < sides.size(); ++k) {
+        if (!Wanted(sides[k])) continue;
+        const auto rows = RowsAlone(SideOf(edge, sides[k]));
+        if (const auto* fault = std::get_if<CurvatureFault>(&rows)) {
+          Refuse(edge, *fault);
+          edge.rows[k] = RowsWithTangent(edge.tangents[k], SideOf(edge, sides[k]));
+        } else {
+          edge.rows[k] = std::get<CrossRows>(rows);
+        }
+      }
+      return;
+    }
+    if (Wanted(sides[0]) && Wanted(sides[1])) {
+      const auto joint = JoinCurvature(SideOf(edge, sides[0]), SideOf(edge, sides[1]));
+      if (const auto* both = std::get_if<std::array<CrossRows, 2>>(&joint)) {
+        edge.rows.assign(both->begin(), both->end());
+        edge.equal_curvature = true;
+        return;
+      }
+      Refuse(edge, std::get<CurvatureFault>(joint));
+    } else {
+      const FaceSide& other = Wanted(sides[0]) ? sides[1] : sides[0];
+      TangentPlaneOnly(edge, fmt::format("faces[{}] is no G2-Gregory patch", other.face));
+    }
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      if (Wanted(sides[k])) edge.rows[k] = RowsWithTangent(edge.tangents[k], SideOf(edge, sides[k]));
+    }
+  }
+
+ private:
+  bool Wanted(const FaceSide& s) const {
+    return network_.faces[At(s.face)].scheme == PatchScheme::kG2Gregory;
+  }
+
+  const NetworkEdge* Given(const JoinedEdge& edge) const {
+    return edge.topology.given ? &network_.edges[At(*edge.topology.given)] : nullptr;
+  }
+  Where Place(const JoinedEdge& edge) const {
+    return edge.topology.given ? findings_.AtEdge(*edge.topology.given)
+                               : findings_.AtVertex(edge.topology.start);
+  }
+
+  // The face's other edge at the start (end) of the edge, as it leaves it.
+  CrossEnd CrossingAt(const FaceSide& s, bool start) const {
+    const int n = SideCount(network_.faces[At(s.face)]);
+    const bool first = table_.Forward(s, network_) == start;  // at the side's own first corner
+    const FaceSide other{s.face, first ? (s.side + n - 1) % n : (s.side + 1) % n};
+    const BezierCurve& curve = edges_[At(table_.face_edges[At(other.face)][At(other.side)])].curve;
+    const CurveJet jet = Evaluate(curve, table_.Forward(other, network_) == first ? 1.0 : 0.0);
+    return {table_.Forward(other, network_) == first ? Vec3(-jet.d) : jet.d, jet.dd};
+  }
+
+  CrossSide SideOf(const JoinedEdge& edge, const FaceSide& s) const {
+    CrossSide side{CrossingAt(s, true), CrossingAt(s, false), {}, {}};
+    if (const NetworkEdge* given = Given(edge)) {
+      for (const CrossControl& control : given->controls) {
+        if (control.face == s.face) side.first = control.first, side.second = control.second;
+      }
+    }
+    return side;
+  }
+
+  bool CheckControls(const JoinedEdge& edge) const {
+    const NetworkEdge* given = Given(edge);
+    if (given == nullptr) return true;
+    bool sound = true;
+    for (std::size_t k = 0; k < given->controls.size(); ++k) {
+      const int face = given->controls[k].face;
+      const auto error = [&](std::string_view text) {
+        findings_.Error("INVALID_CONTROL", Place(edge), fmt::format("controls[{}] {}", k, text));
+        sound = false;
+      };
+      const auto side = std::ranges::find(edge.topology.faces, face, &FaceSide::face);
+      if (side == edge.topology.faces.end()) {
+        error(fmt::format("is for face {}, which is not beside the edge", face));
+      } else if (!Wanted(*side)) {
+        error(fmt::format("is for faces[{}], which is no G2-Gregory patch", face));
+      }
+      for (std::size_t j = 0; j < k; ++j) {
+        if (given->controls[j].face == face) error(fmt::format("is the second one for faces[{}]", face));
+      }
+      const Vec3 along = Evaluate(edge.curve, kControlPlace).d;
+      if (const auto& first = given->controls[k].first;
+          first && !(first->cross(along).norm() > kMinTangentSine * first->norm() * along.norm())) {
+        error("has a first derivative without direction across the edge");
+      }
+    }
+    return sound;
+  }
+
+  void TangentPlaneOnly(const JoinedEdge& edge, std::string_view why) const {
+    const NetworkEdge* given = Given(edge);
+    if (given != nullptr && !given->controls.empty()) {
+      findings_.Error("INVALID_CONTROL", Place(edge), fmt::format("has control vectors, but {}", why));
+      return;
+    }
+    findings_.Warning("TANGENT_PLANE_ONLY", Place(edge),
+                      fmt::format("from vertex {} to {} gets equal tangent planes, not equal curvature: {}",
+                                  edge.topology.start, edge.topology.end, why));
+  }
+
+  void Refuse(const JoinedEdge& edge, const CurvatureFault& fault) const {
+    const int vertex = fault.at_end ? edge.topology.end : edge.topology.start;
+    switch (fault.kind) {
+      case CurvatureFault::Kind::kDirection:
+        return TangentPlaneOnly(
+            edge, fmt::format("at vertex {} the edges that cross it are {:.3g} rad out of line", vertex,
+                              fault.amount));
+      case CurvatureFault::Kind::kCurvature:
+        return TangentPlaneOnly(
+            edge, fmt::format("at vertex {} the edges that cross it differ in curvature by {:.3g} of it",
+                              vertex, fault.amount));
+      case CurvatureFault::Kind::kTurn:
+        return TangentPlaneOnly(edge, "the directions across it turn back along it");
+      case CurvatureFault::Kind::kControlsDiffer:
+        return TangentPlaneOnly(edge, fmt::format("those of its two faces differ by {:.3g}", fault.amount));
+    }
+  }
+
+  const CurveNetwork& network_;
+  const EdgeTable& table_;
+  const NetworkWriter& findings_;
+  std::vector<JoinedEdge>& edges_;
+};
+
+}  // namespace
+
+void AddCurvatureRows(const CurveNetwork& network, const EdgeTable& table, const NetworkWriter& findings,
+                      std::vector<JoinedEdge>& edges) {
+  RowMaker maker(network, table, findings, edges);
+  for (JoinedEdge& edge : edges) maker.Fill(edge);
+}
+
+}  // namespace patchmill

@@ -1,0 +1,19 @@
+// Cross rows of all sides of G2-Gregory faces in a network (METHODS 2.3-2.6).
+#pragma once
+
+#include <vector>
+
+#include "core/joining/join_network.h"
+#include "core/joining/network_findings.h"
+
+namespace patchmill {
+
+// Fills `rows` and `equal_curvature` of every edge beside a G2-Gregory face. Between two of them where the
+// curves that cross the edge run on with equal curvature: one strip for both. At creases and borders: each
+// side alone. Elsewhere the tangent plane of `tangents`, with a warning TANGENT_PLANE_ONLY that says why.
+// INVALID_CONTROL: control vectors for a face that is not beside the edge or no G2-Gregory patch, two for one
+// face, or vectors that nothing can follow.
+void AddCurvatureRows(const CurveNetwork& network, const EdgeTable& table, const NetworkWriter& findings,
+                      std::vector<JoinedEdge>& edges);
+
+}  // namespace patchmill

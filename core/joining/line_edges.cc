@@ -1,0 +1,44 @@
+#include "core/joining/line_edges.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/curve/spline.h"
+#include "core/joining/network_findings.h"
+
+namespace patchmill {
+
+CurveNetwork WithLinesAsEdges(const CurveNetwork& network, Diagnostics& list) {
+  const NetworkWriter findings(network, list);
+  const int count = static_cast<int>(network.vertices.size());
+  CurveNetwork whole = network;
+  whole.lines.clear();
+  for (int k = 0; k < static_cast<int>(network.lines.size()); ++k) {
+    const NetworkLine& line = network.lines[static_cast<std::size_t>(k)];
+    const auto bad = std::ranges::find_if(line.vertices, [&](int v) { return v < 0 || v >= count; });
+    if (bad != line.vertices.end()) {
+      findings.Error("INVALID_LINE", findings.AtLine(k),
+                     fmt::format("names vertex {}; must be in [0, {}]", *bad, count - 1));
+      continue;
+    }
+    std::vector<Vec3> points;
+    for (const int v : line.vertices)
+      points.push_back(network.vertices[static_cast<std::size_t>(v)].position);
+    // A finding of its vertex already.
+    if (!std::ranges::all_of(points, [](const Vec3& p) { return p.allFinite(); })) continue;
+    const auto spline = SplineThrough(points, line.closed);
+    if (!spline.ok()) {
+      findings.Error("INVALID_LINE", findings.AtLine(k),
+                     fmt::format("has no spline: {}", std::string(spline.status().message())));
+      continue;
+    }
+    for (std::size_t i = 0; i < spline->size(); ++i) {
+      const int to = line.vertices[(i + 1) % line.vertices.size()];
+      whole.edges.push_back({"", line.vertices[i], to, CurveEdge{(*spline)[i]}, line.crease, {}, k});
+    }
+  }
+  return whole;
+}
+
+}  // namespace patchmill
