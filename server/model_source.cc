@@ -67,6 +67,7 @@ absl::StatusOr<LoadedModel> FromChecked(absl::StatusOr<CheckedModel> checked) {
   LoadedModel loaded;
   loaded.model = std::move(checked->model);
   loaded.faults = std::move(checked->faults);
+  loaded.remarks = std::move(checked->remarks);
   return loaded;
 }
 

@@ -15,6 +15,7 @@ namespace patchmill {
 struct LoadedModel {
   PatchModel model;
   Diagnostics faults;     // everything wrong with the patches; the model may be used only when empty
+  Diagnostics remarks;    // warnings about a model that may be used; points in its own frame, mm
   bool unitless = false;  // a file that states no unit, and the request did not either
   std::string digest;     // SHA-256, 32 bytes
 };

@@ -54,6 +54,7 @@ struct Job {
   std::vector<std::string> header;    // extra comment lines (request hash, version, model name)
   bool default_cutting_data = false;  // the client used defaults: warn (MACHINING A.5)
   bool unitless_file = false;         // warn when the extent looks wrong (A.14)
+  Diagnostics model_remarks;          // warnings from its reading, points as placed: they go into the report
 };
 
 enum class Outcome { kComplete, kCompleteWhereReachable, kNothingToCut, kVerificationFailed };

@@ -136,7 +136,9 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
 
   PM_ASSIGN_OR_RETURN(const ModelCheck check, CheckModel(surface, job.operation.tool, run));
   report.min_concave_radius = check.min_concave_radius;
-  report.diagnostics.insert(report.diagnostics.end(), check.findings.begin(), check.findings.end());
+  for (const Diagnostics* findings : {&job.model_remarks, &check.findings}) {
+    report.diagnostics.insert(report.diagnostics.end(), findings->begin(), findings->end());
+  }
   clock.Done("check");
 
   PM_ASSIGN_OR_RETURN(result.regions, MakeRegions(surface, job, resolved, run));

@@ -1,9 +1,11 @@
 #include "core/joining/continuity.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/parallel.h"
 #include "core/base/status.h"
+#include "core/diffgeo/forms.h"
 #include "core/network/edge_angles.h"
 #include "core/network/edge_curves.h"
 
@@ -13,6 +15,19 @@ namespace {
 constexpr double kSameParameter = 1e-9;  // of the edge's reach: parameters correspond
 
 bool Forward(int edge) { return edge <= 1; }  // the parameter runs counter-clockwise around the patch
+
+// Normal curvature as a symmetric form of unit tangents x cos + y sin.
+struct CurvatureForm {
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  double Largest() const { return std::abs(0.5 * (xx + yy)) + std::hypot(0.5 * (xx - yy), xy); }
+};
+
+CurvatureForm FormAt(const SurfaceJet& jet, const Vec3& normal, const Vec3& x, const Vec3& y) {
+  const FundamentalForms forms = Forms(jet, normal);
+  CurvatureForm form{NormalCurvature(forms, jet, x), 0.0, NormalCurvature(forms, jet, y)};
+  form.xy = NormalCurvature(forms, jet, x + y) - 0.5 * (form.xx + form.yy);
+  return form;
+}
 
 EdgeContinuity Measure(const EdgeCurves& curves, int e, int f, const EdgeLink& link, int steps) {
   EdgeContinuity joint{curves.edge(e), curves.edge(f)};
@@ -30,11 +45,25 @@ EdgeContinuity Measure(const EdgeCurves& curves, int e, int f, const EdgeLink& l
       gap = foot.distance;
     }
     if (gap > joint.max_gap) joint.max_gap = gap, joint.gap_at = t;
-    const auto a = PatchNormal(curves.shape(e), EdgeParameters(curves.shape(e), joint.a.edge, t));
-    const auto b = PatchNormal(curves.shape(f), EdgeParameters(curves.shape(f), joint.b.edge, s));
+    const Vec2 at_a = EdgeParameters(curves.shape(e), joint.a.edge, t),
+               at_b = EdgeParameters(curves.shape(f), joint.b.edge, s);
+    const auto a = PatchNormal(curves.shape(e), at_a), b = PatchNormal(curves.shape(f), at_b);
     if (!a || !b) continue;
     const double angle = std::atan2(a->cross(*b).norm(), sign * a->dot(*b));
     if (angle > joint.max_angle) joint.max_angle = angle, joint.angle_at = t;
+    if (k == 0 || k == steps || angle > kTangentBreak) continue;
+    const SurfaceJet jet_a = Evaluate(curves.shape(e), at_a.x(), at_a.y()),
+                     jet_b = Evaluate(curves.shape(f), at_b.x(), at_b.y());
+    const auto regular_a = UnitNormal(jet_a), regular_b = UnitNormal(jet_b);
+    if (!regular_a || !regular_b) continue;
+    const Vec3 x = a->unitOrthogonal(), y = a->cross(x);
+    const CurvatureForm form_a = FormAt(jet_a, *regular_a, x, y),
+                        form_b = FormAt(jet_b, sign * *regular_b, x, y);
+    const CurvatureForm gap_form{form_a.xx - form_b.xx, form_a.xy - form_b.xy, form_a.yy - form_b.yy};
+    if (const double difference = gap_form.Largest(); difference > joint.max_curvature_gap) {
+      joint.max_curvature_gap = difference, joint.curvature_gap_at = t;
+    }
+    joint.max_curvature = std::max({joint.max_curvature, form_a.Largest(), form_b.Largest()});
   }
   return joint;
 }

@@ -1,4 +1,5 @@
-// How well joined patches meet: gaps and angles between normals along every joint, measured densely.
+// How well joined patches meet: gaps, angles between normals and differences of curvature along every joint,
+// measured densely.
 #pragma once
 
 #include <vector>
@@ -16,6 +17,11 @@ struct EdgeContinuity {
   double gap_at = 0.0;     // parameter of edge a there
   double max_angle = 0.0;  // rad, between the normals, both turned to one side of the sheet; 0 smooth
   double angle_at = 0.0;
+  // 1/mm: largest difference of the two normal curvatures in any one direction, between the ends of the edge
+  // (at corners blended patches have none) and where max_angle is below kTangentBreak.
+  double max_curvature_gap = 0.0;
+  double curvature_gap_at = 0.0;
+  double max_curvature = 0.0;  // 1/mm: largest |normal curvature| there, of either patch
 };
 
 struct ContinuityReport {
@@ -25,8 +31,8 @@ struct ContinuityReport {
 
 // `steps` + 1 points (1..10,000) at equal steps of edge a's parameter, both ends included; on edge b the
 // point of equal parameter, or the closest one where that is farther than 1e-9 of the edge. Exact at these
-// points: gap to 1e-15 of the model, angle to 1e-14 rad on regular patches. Parallel over edges.
-// CANCELLED and DEADLINE_EXCEEDED from `run`.
+// points: gap to 1e-15 of the model, angle to 1e-14 rad, curvatures to about 1e-13 of 1/edge on regular
+// patches. Parallel over edges. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<ContinuityReport> MeasureContinuity(const PatchNetwork& network, int steps,
                                                    const RunContext& run);
 

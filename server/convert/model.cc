@@ -5,6 +5,7 @@
 
 #include "core/base/status.h"
 #include "core/joining/join_network.h"
+#include "core/joining/network_findings.h"
 #include "server/convert/fields.h"
 #include "server/convert/network.h"
 #include "server/limits.h"
@@ -356,7 +357,7 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
     if (!checked.faults.empty()) return checked;
     JoinedNetwork joined = JoinNetwork(network);
     checked.model = std::move(joined.model);
-    checked.faults = std::move(joined.findings);
+    (HasError(joined.findings) ? checked.faults : checked.remarks) = std::move(joined.findings);
     if (checked.faults.empty()) checked.faults = ValidateModel(checked.model);
     return checked;
   }

@@ -17,6 +17,7 @@ std::optional<double> MillimetersPer(v1::LengthUnit unit);
 struct CheckedModel {
   PatchModel model;
   Diagnostics faults;
+  Diagnostics remarks;  // warnings; none beside faults
 };
 
 // RESOURCE_EXHAUSTED for a limit, checked before anything is copied; INVALID_ARGUMENT for a missing

@@ -20,6 +20,10 @@ class NetworkReader {
     for (int i = 0; i < proto.vertices_size(); ++i) network.vertices.push_back(Vertex(proto.vertices(i), i));
     for (int i = 0; i < proto.edges_size(); ++i) network.edges.push_back(Edge(proto.edges(i), i));
     for (int i = 0; i < proto.faces_size(); ++i) network.faces.push_back(Face(proto.faces(i), i));
+    for (const v1::NetworkLine& line : proto.lines()) {
+      network.lines.push_back(
+          {{line.vertices().begin(), line.vertices().end()}, line.closed(), line.crease()});
+    }
     return network;
   }
 
@@ -106,9 +110,24 @@ class NetworkReader {
     return CurveEdge{curve};
   }
 
+  CrossControl Control(const v1::CrossControl& from, const std::string& at) {
+    CrossControl control{from.face(), {}, {}};
+    if (!from.first_derivative().empty()) {
+      control.first = Vector(from.first_derivative(), unit_, at + ".first_derivative");
+    }
+    if (!from.second_derivative().empty()) {
+      control.second = Vector(from.second_derivative(), unit_, at + ".second_derivative");
+    }
+    return control;
+  }
+
   NetworkEdge Edge(const v1::NetworkEdge& from, int index) {
     const std::string at = fmt::format("network.edges[{}]", index);
-    return {Id(from.id(), at), from.start(), from.end(), Shape(from, at), from.crease()};
+    NetworkEdge edge{Id(from.id(), at), from.start(), from.end(), Shape(from, at), from.crease()};
+    for (int k = 0; k < from.controls_size(); ++k) {
+      edge.controls.push_back(Control(from.controls(k), fmt::format("{}.controls[{}]", at, k)));
+    }
+    return edge;
   }
 
   NetworkFace Face(const v1::NetworkFace& from, int index) {
@@ -131,6 +150,9 @@ class NetworkReader {
         break;
       case v1::PATCH_SCHEME_GREGORY_TRIANGLE:
         face.scheme = PatchScheme::kGregoryTriangle;
+        break;
+      case v1::PATCH_SCHEME_G2_GREGORY:
+        face.scheme = PatchScheme::kG2Gregory;
         break;
       default:
         Fault("UNSUPPORTED_SCHEME", at + ".scheme",
@@ -156,6 +178,10 @@ absl::Status CheckNetworkLimits(const v1::CurveNetwork& proto) {
       check("model.network.vertex_count", limits::kMaxNetworkVertices, size(proto.vertices())));
   PM_RETURN_IF_ERROR(check("model.network.edge_count", limits::kMaxNetworkEdges, size(proto.edges())));
   PM_RETURN_IF_ERROR(check("model.patch_count", limits::kMaxPatches, size(proto.faces())));
+  std::size_t line_vertices = 0;
+  for (const v1::NetworkLine& line : proto.lines()) line_vertices += size(line.vertices());
+  PM_RETURN_IF_ERROR(check("model.network.line_count", limits::kMaxNetworkEdges, size(proto.lines())));
+  PM_RETURN_IF_ERROR(check("model.network.line_vertex_count", limits::kMaxNetworkVertices, line_vertices));
   std::size_t references = 0, points = 0, knots = 0;
   for (const v1::NetworkVertex& vertex : proto.vertices()) {
     references += size(vertex.normals());
@@ -165,6 +191,7 @@ absl::Status CheckNetworkLimits(const v1::CurveNetwork& proto) {
   for (const v1::NetworkEdge& edge : proto.edges()) {
     points += (size(edge.bezier().points()) + size(edge.bspline().points())) / 3;
     knots += size(edge.bspline().knots());
+    references += size(edge.controls());
   }
   PM_RETURN_IF_ERROR(check("model.network.reference_count", limits::kMaxNetworkReferences, references));
   PM_RETURN_IF_ERROR(check("model.control_point_count", limits::kMaxControlPoints, points));

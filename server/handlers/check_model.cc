@@ -54,6 +54,8 @@ void FillJoints(const ContinuityReport& report, v1::CheckModelResponse* response
     to.set_other_edge(joint.b.edge);
     to.set_max_gap_mm(joint.max_gap);
     to.set_max_angle_deg(Degrees(joint.max_angle));
+    to.set_max_curvature_gap_per_mm(joint.max_curvature_gap);
+    to.set_max_curvature_per_mm(joint.max_curvature);
   }
 }
 
@@ -87,6 +89,8 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
     PM_ASSIGN_OR_RETURN(ModelCheck check, CheckModel(surface, tool, run));
+    for (const Diagnostic& remark : Placed(model.remarks, job.setup.placement))
+      check.findings.push_back(remark);
     if (model.unitless) check.findings.push_back(UnitFinding(check.box, tool));
     AddDiagnostics(check.findings, resolved.program_zero, response->mutable_diagnostics());
     *response->mutable_box() = ToProto(check.box, resolved.program_zero);

@@ -47,6 +47,13 @@ absl::Status RequireSound(const LoadedModel& model) {
   return model.faults.empty() ? absl::OkStatus() : ModelInvalidError(model.faults);
 }
 
+Diagnostics Placed(Diagnostics remarks, const Placement& placement) {
+  for (Diagnostic& remark : remarks) {
+    if (remark.where.point) remark.where.point = Place(placement, *remark.where.point);
+  }
+  return remarks;
+}
+
 absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post) {
   PreparedJob prepared;
   FieldErrors errors;
@@ -56,6 +63,7 @@ absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post)
   PM_ASSIGN_OR_RETURN(prepared.model, LoadModel(job.source(), "job.source"));
   PM_RETURN_IF_ERROR(RequireSound(prepared.model));
   prepared.job.unitless_file = prepared.model.unitless;
+  prepared.job.model_remarks = Placed(prepared.model.remarks, prepared.job.setup.placement);
   PM_RETURN_IF_ERROR(CheckPathSize(prepared.job, prepared.model.model));
   prepared.digest = JobDigest(prepared.job, prepared.model.digest, prepared.name);
   if (!prepared.name.empty()) prepared.job.header.push_back("part: " + prepared.name);

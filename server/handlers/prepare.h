@@ -25,6 +25,9 @@ absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post)
 // INVALID_ARGUMENT for a field this version does not know: refused, never silently ignored.
 absl::Status RefuseUnknownFields(const google::protobuf::Message& request);
 
+// With their points as placed.
+Diagnostics Placed(Diagnostics remarks, const Placement& placement);
+
 // OK for a usable model, MODEL_INVALID with the faults for another.
 absl::Status RequireSound(const LoadedModel& model);
 

@@ -25,6 +25,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(prepared.model.model, job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
     PM_ASSIGN_OR_RETURN(const RegionMap map, PlanRegions(surface, job, run));
+    AddDiagnostics(job.model_remarks, resolved.program_zero, response->mutable_diagnostics());
     AddDiagnostics(surface.network.findings, resolved.program_zero, response->mutable_diagnostics());
     if (outputs.contains(v1::OUTPUT_REGIONS)) {
       *response->mutable_regions() = ToProto(map, job.operation.strategy, resolved.program_zero);

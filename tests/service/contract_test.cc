@@ -101,6 +101,8 @@ TEST(Contract, DimensionedNumbersCarryTheirUnit) {
                                        "end_tangent",
                                        "start_direction",
                                        "end_direction",
+                                       "first_derivative",
+                                       "second_derivative",
                                        "energies",
                                        "curvatures_before",
                                        "curvatures_after"};

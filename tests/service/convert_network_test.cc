@@ -62,6 +62,48 @@ TEST(NetworkModel, UnitsScaleEverythingWithALength) {
   }
 }
 
+// Two bent quads between three lines, joined with equal curvature by the wire's words.
+v1::PatchModel TwoCells() {
+  return FromJson(R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "network": {
+    "vertices": [{"position": [0, 0, 0]}, {"position": [10, 1, 2]}, {"position": [20, 0, -1]},
+                 {"position": [0, 10, 1]}, {"position": [11, 9, 4]}, {"position": [20, 10, 0]}],
+    "edges": [{"start": 1, "end": 4, "controls": [{"face": 0, "first_derivative": [-10, 1, -1]},
+                                                  {"face": 1, "second_derivative": [1, 1, -9]}]}],
+    "lines": [{"vertices": [0, 1, 2]}, {"vertices": [3, 4, 5]}],
+    "faces": [{"vertices": [0, 1, 4, 3], "scheme": "PATCH_SCHEME_G2_GREGORY"},
+              {"vertices": [1, 2, 5, 4], "scheme": "PATCH_SCHEME_G2_GREGORY"}]}})");
+}
+
+TEST(NetworkModel, LinesAndControlsReachTheJoint) {
+  for (const auto unit : {v1::LENGTH_UNIT_MILLIMETER, v1::LENGTH_UNIT_INCH}) {
+    v1::PatchModel proto = TwoCells();
+    proto.set_length_unit(unit);
+    const double mm = *MillimetersPer(unit);
+    const auto checked = FromProto(proto, "m");
+    ASSERT_TRUE(checked.ok()) << checked.status();
+    ASSERT_TRUE(checked->faults.empty()) << checked->faults[0].message;
+    EXPECT_TRUE(checked->remarks.empty());
+    const SurfaceJet a = Evaluate(checked->model.patches[0].shape, 1.0, 0.5),
+                     b = Evaluate(checked->model.patches[1].shape, 0.0, 0.5);
+    EXPECT_LE((a.du - mm * Vec3(10, -1, 1)).norm(), 1e-11);
+    EXPECT_LE(b.du.cross(a.du).norm(), 1e-11 * a.du.squaredNorm());
+    EXPECT_LE((b.duu - mm * Vec3(1, 1, -9)).norm(), 1e-10);
+  }
+}
+
+TEST(NetworkModel, WarningsDoNotRefuseTheModel) {
+  v1::PatchModel proto = TwoCells();
+  proto.mutable_network()->mutable_edges(0)->clear_controls();
+  proto.mutable_network()->mutable_faces(1)->set_scheme(v1::PATCH_SCHEME_UNSPECIFIED);
+  const auto checked = FromProto(proto, "m");
+  ASSERT_TRUE(checked.ok()) << checked.status();
+  EXPECT_TRUE(checked->faults.empty());
+  ASSERT_EQ(checked->remarks.size(), 1u);
+  EXPECT_EQ(checked->remarks[0].code, "TANGENT_PLANE_ONLY");
+  EXPECT_EQ(checked->remarks[0].severity, Severity::kWarning);
+  EXPECT_EQ(checked->remarks[0].where.field, "network.edges[0]");
+}
+
 TEST(NetworkModel, IsRefusedBesidePatches) {
   v1::PatchModel model = QuadAndTriangle();
   model.add_patches();
@@ -136,6 +178,17 @@ INSTANTIATE_TEST_SUITE_P(
         NetworkFault{"IdTooLong",
                      [](v1::CurveNetwork& n) { n.mutable_edges(0)->set_id(std::string(201, 'x')); },
                      "network.edges[0].id has 201 bytes"},
+        NetworkFault{"LineOutOfRange",
+                     [](v1::CurveNetwork& n) {
+                       for (const int v : {0, 1, 7}) n.mutable_lines()->Add()->add_vertices(v);
+                     },
+                     "network.lines[0] has no spline"},
+        NetworkFault{"ControlShort",
+                     [](v1::CurveNetwork& n) { n.mutable_edges(0)->add_controls()->add_first_derivative(1); },
+                     "network.edges[0].controls[0].first_derivative has 1 numbers"},
+        NetworkFault{"ControlOfAGregoryQuad",
+                     [](v1::CurveNetwork& n) { n.mutable_edges(0)->add_controls()->set_face(0); },
+                     "network.edges[0] controls[0] is for faces[0], which is no G2-Gregory patch"},
         NetworkFault{"NoFaces", [](v1::CurveNetwork& n) { n.clear_faces(); }, "network.faces has 0 faces"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });
 

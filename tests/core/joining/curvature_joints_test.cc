@@ -219,7 +219,7 @@ double WorstAngle(const JoinedNetwork& joined) {
   auto network = BuildNetwork(joined.model);
   EXPECT_TRUE(network.ok());
   double worst = 0.0;
-  for (const EdgeContinuity& e : MeasureContinuity(*network, 200, RunContext(1)).edges) {
+  for (const EdgeContinuity& e : MeasureContinuity(*network, 200, RunContext(1))->edges) {
     EXPECT_LE(e.max_gap, 1e-12);
     worst = std::max(worst, e.max_angle);
   }
@@ -282,6 +282,25 @@ TEST(CurvatureJoints, ControlVectorsAreMetAndTheNeighbourFollows) {
     } else {
       EXPECT_NE(p, q) << f;
     }
+  }
+}
+
+// The report knows the difference: rounding on these sheets, far more between tangent planes only.
+TEST(CurvatureJoints, TheReportTellsEqualCurvature) {
+  CurveNetwork network = Sheet(8, 4, 4);
+  const auto measure = [&](PatchScheme scheme) {
+    for (NetworkFace& face : network.faces) face.scheme = scheme;
+    auto checked = BuildNetwork(JoinNetwork(network).model);
+    EXPECT_TRUE(checked.ok());
+    return MeasureContinuity(*checked, 40, RunContext(1))->edges;
+  };
+  const auto equal = measure(PatchScheme::kG2Gregory), unequal = measure(PatchScheme::kGregory);
+  ASSERT_EQ(equal.size(), 12u);
+  ASSERT_EQ(unequal.size(), 12u);
+  for (std::size_t k = 0; k < equal.size(); ++k) {
+    EXPECT_LE(equal[k].max_curvature_gap, 1e-10 * equal[k].max_curvature);
+    EXPECT_GT(unequal[k].max_curvature_gap, 1e-3 * unequal[k].max_curvature);
+    EXPECT_LE(unequal[k].max_curvature_gap, 2 * unequal[k].max_curvature);
   }
 }
 

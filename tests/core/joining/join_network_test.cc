@@ -376,6 +376,28 @@ TEST(Continuity, MeasuresAKnownAngleAndGap) {
   EXPECT_EQ(report.samples, 65);
 }
 
+// Two cylinders of radius 20 and 30 that share a straight edge and a tangent plane: across the edge their
+// curvatures differ by 1/20 - 1/30, and no direction differs more.
+TEST(Continuity, MeasuresAKnownDifferenceOfCurvature) {
+  const auto cylinder = [](double radius, double angle, bool left) {
+    BezierPatch patch;  // quarter and less, rational, above the line x = 0, z = 0
+    patch.degree_u = 2, patch.degree_v = 1;
+    const double s = (left ? -1 : 1) * radius * std::sin(angle),
+                 t = (left ? -1 : 1) * radius * std::tan(angle / 2);
+    const double drop = radius * (1 - std::cos(angle));
+    patch.points = {{0, 0, 0}, {0, 10, 0}, {t, 0, 0}, {t, 10, 0}, {s, 0, -drop}, {s, 10, -drop}};
+    patch.weights = {1, 1, std::cos(angle / 2), std::cos(angle / 2), 1, 1};
+    return Patch{"", patch};
+  };
+  PatchModel model;
+  model.patches = {cylinder(20, 0.7, false), cylinder(30, 0.5, true)};
+  const ContinuityReport report = Continuity(model, 16);
+  ASSERT_EQ(report.edges.size(), 1u);
+  EXPECT_LE(report.edges[0].max_angle, 1e-15);
+  EXPECT_NEAR(report.edges[0].max_curvature_gap, 1.0 / 20 - 1.0 / 30, 1e-14);
+  EXPECT_NEAR(report.edges[0].max_curvature, 1.0 / 20, 1e-14);
+}
+
 TEST(Continuity, DoesNotDependOnThreads) {
   auto network = BuildNetwork(JoinNetwork(Sheet(9, 6)).model);
   ASSERT_TRUE(network.ok());
