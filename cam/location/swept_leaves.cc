@@ -97,7 +97,8 @@ class LeafProof {
 
 }  // namespace
 
-// A node is out of the way when its boxes are, in plan from the move's box or across the move, or below it.
+// A node is out of the way when its boxes are: in plan from the move's box or across the move, and below it;
+// or by T2 from both ends.
 bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b, double distance,
                         double spare, std::vector<std::int32_t>& open) {
   const double radius = impl.radius;
@@ -116,6 +117,14 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
   const Float4 offset = Splat(static_cast<float>(across.dot(Plan(a))));
   const Float4 zero = Splat(0.0F), half = Splat(0.5F);
   const bool is_long = plan_length > radius;
+  const auto both = static_cast<float>(static_cast<double>(limit) + 0.25 * (b - a).squaredNorm());
+  const auto from_end = [&](const SearchNode& node, const Vec3& end) {
+    const Float4 x = Splat(static_cast<float>(end.x())), y = Splat(static_cast<float>(end.y()));
+    const Float4 dx = Max(Max(node.min_x - x, x - node.max_x), zero);
+    const Float4 dy = Max(Max(node.min_y - y, y - node.max_y), zero);
+    const Float4 dz = Max(Splat(static_cast<float>(end.z())) - node.max_z, zero);
+    return dx * dx + dy * dy + dz * dz;
+  };
   const SweptBall swept(a, b);
 
   thread_local std::vector<std::int32_t> stack;
@@ -142,8 +151,9 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
                 half * (Abs(nx) * (node.max_x - node.min_x) + Abs(ny) * (node.max_y - node.min_y)),
             zero);
     const Float4 all = Max(dx * dx + dy * dy, beside * beside) + below * below;
+    const Float4 from_a = from_end(node, a), from_b = from_end(node, b);
     for (int k = 0; k < 4; ++k) {
-      if (all[k] < limit) stack.push_back(node.child[k]);
+      if (all[k] < limit && (from_a[k] < both || from_b[k] < both)) stack.push_back(node.child[k]);
     }
   }
   return true;

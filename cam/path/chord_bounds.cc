@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/location/swept_ball.h"
+
 namespace patchmill {
 namespace {
 
@@ -34,6 +36,36 @@ double ChordGouge(double radius, double length) {
   if (length >= 2.0 * radius) return radius;
   const double quarter = 0.25 * length * length;
   return quarter / (radius + std::sqrt(radius * radius - quarter));
+}
+
+double ChordGouge(double radius, const Vec3& a, const Vec3& b, std::span<const Vec3> free) {
+  const Vec3 move = b - a;
+  const double length = move.norm();
+  if (!(length > 0.0)) return 0.0;
+  double t0 = 0.0, d0 = radius * radius, least = d0;
+  for (std::size_t k = 1; k < free.size(); ++k) {
+    double t = 1.0, distance = 0.0;
+    if (k + 1 < free.size()) {
+      // Straight above the centre where the move passes there, else at its foot.
+      const Vec3& c = free[k];
+      t = (c - a).dot(move) / (length * length);
+      const double plan2 = Plan(move).squaredNorm();
+      if (plan2 > 0.0) {
+        const double over = Plan(Vec3(c - a)).dot(Plan(move)) / plan2;
+        if (a.z() + over * move.z() >= c.z()) t = over;
+      }
+      t = std::clamp(t, t0, 1.0);
+      Vec3 off = a + t * move - c;
+      off.z() = std::min(off.z(), 0.0);
+      distance = off.norm();
+    }
+    if (distance >= radius) return radius;
+    const double d1 = (radius - distance) * (radius - distance);
+    least = std::min(least, t > t0 ? internal::ChordDistance2(d0, d1, (t - t0) * length) : std::min(d0, d1));
+    t0 = t;
+    d0 = d1;
+  }
+  return least > 0.0 ? radius - std::sqrt(least) : radius;
 }
 
 double LongestChord(double radius, double tolerance) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/base/segment.h"
 #include "core/base/vec.h"
@@ -12,6 +13,13 @@ namespace patchmill {
 // T2: two gouge-free centres `length` apart (mm) are joined by a chord that gouges at most this much.
 // `radius` when length > 2 radius: nothing is known there.
 double ChordGouge(double radius, double length);
+
+// T2 along a move with more than its ends known: the largest gouge of the straight move a b when balls at all
+// of `free` (and everything above them) are free; in the order of the move, one at least, the first at or
+// below a, the last at or below b. Sharp for two. Proof: to a point x of the move at a free centre, or above
+// one, every surface point (and what hangs below it) has a distance of R, to any other R - |x - centre|;
+// between two such places T2 with two distances (ChordDistance2).
+double ChordGouge(double radius, const Vec3& a, const Vec3& b, std::span<const Vec3> free);
 
 // The longest chord with ChordGouge <= tolerance; tolerance clamped to [0, radius].
 double LongestChord(double radius, double tolerance);

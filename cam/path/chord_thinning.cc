@@ -38,21 +38,27 @@ class Thinner {
   bool Fits(std::size_t i, std::size_t j);
   std::size_t Farthest(std::size_t i, std::size_t barrier);
   CutterPoint Certify(const LineStation& s) const;
+  bool Gouges(std::size_t i, std::size_t j, const Vec3& a, const Vec3& b);
 
   const Locator& locator_;
   const std::vector<LineStation>& stations_;
   const double radius_, tolerance_, gap_, floor_center_;
   std::vector<Middle> middle_;
+  std::vector<Vec3> free_;  // scratch
 };
 
-// A support half way between stations k and k+1: one branch following, and any surface point is a valid lower
-// bound of h.
+// A support half way between stations k and k+1. Any surface point will do: on one piece the one between the
+// contacts, else a branch following.
 const std::optional<Support>& Thinner::MiddleOf(std::size_t k) {
   Middle& m = middle_[k];
   if (!m.known) {
     m.known = true;
     const LineStation &a = stations_[k], &b = stations_[k + 1];
-    if (a.right) {
+    if (a.right && b.left && a.right->piece.value == b.left->piece.value) {
+      const SurfacePoint &p = *a.right, &q = *b.left;
+      const Piece& piece = locator_.surface().piece(p.piece);
+      m.support = Support{Position(piece, 0.5 * (p.u + q.u), 0.5 * (p.v + q.v)), floor_center_};
+    } else if (a.right) {
       if (const auto c = locator_.Follow(*a.right, 0.5 * (a.q + b.q))) {
         m.support = SupportOf(c->contact);
       }
@@ -114,6 +120,10 @@ CutterPoint Thinner::Certify(const LineStation& s) const {
   CutterPoint p{Lift(s.q, s.z), s.left, {}};
   if (s.left && s.right && (s.left->p - s.right->p).norm() > 1e-3 * radius_) p.other_contact = s.right;
   if (!s.left) p.other_contact = s.right;
+  if (s.ceiling < kInfinity) {
+    p.center.z() = s.ceiling;
+    return p;
+  }
   const auto c = locator_.CertifiedHeight(s.at, gap_, s.hint ? &*s.hint : nullptr);
   if (!c) return p;  // the rim of the domain of h, within rounding
   const double z = c->z + c->gap;
@@ -127,6 +137,16 @@ CutterPoint Thinner::Certify(const LineStation& s) const {
   return p;
 }
 
+// Of the chord a b from station i to j: first by the certified stations between, then by the surface.
+bool Thinner::Gouges(std::size_t i, std::size_t j, const Vec3& a, const Vec3& b) {
+  free_.clear();
+  for (std::size_t k = i; k <= j && stations_[k].ceiling < kInfinity; ++k) {
+    free_.push_back(Lift(stations_[k].q, stations_[k].ceiling));
+  }
+  if (free_.size() == j - i + 1 && ChordGouge(radius_, a, b, free_) <= tolerance_) return false;
+  return !locator_.GougeWithin(a, b, tolerance_, 0.05 * tolerance_);
+}
+
 std::vector<CutterPoint> Thinner::Thin(const RunContext* run) {
   std::vector<CutterPoint> points;
   const std::size_t n = stations_.size();
@@ -137,8 +157,7 @@ std::vector<CutterPoint> Thinner::Thin(const RunContext* run) {
     while (barrier + 1 < n && !stations_[barrier].keep) ++barrier;
     std::size_t j = Farthest(i, barrier);
     CutterPoint next = Certify(stations_[j]);
-    while (j > i + 1 &&
-           !locator_.GougeWithin(points.back().center, next.center, tolerance_, 0.05 * tolerance_)) {
+    while (j > i + 1 && Gouges(i, j, points.back().center, next.center)) {
       j = i + (j - i) / 2;
       next = Certify(stations_[j]);
     }

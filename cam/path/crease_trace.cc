@@ -150,7 +150,9 @@ std::optional<CreasePoint> FindCrease(const Locator& locator, const Vec2& q, dou
   for (double heading : {kHeading, kHeading + kPi / 2}) {
     const Vec2 d(std::cos(heading), std::sin(heading));
     const PlanLine line = PlanLine::Through(q - 1.5 * reach * d, q + 1.5 * reach * d);
-    const LineTraceParams trace{params.chord_tolerance, params.floor_z + locator.radius(), &run};
+    const LineTraceParams trace{.chord_tolerance = params.chord_tolerance,
+                                .floor_center = params.floor_z + locator.radius(),
+                                .run = &run};
     for (const auto& stations : TraceLine(locator, line, trace)) {
       for (const LineStation& s : stations) {
         if (!s.keep || !s.left || !s.right) continue;

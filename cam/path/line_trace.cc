@@ -60,13 +60,27 @@ class LineTracer {
 };
 
 std::optional<LineStation> LineTracer::Query(double t, const std::optional<SurfacePoint>& hint) const {
-  const auto h = locator_.Height(line_.At(t), hint ? &*hint : nullptr);
-  if (!h) return std::nullopt;
   const Vec2 q = line_.At(t);
-  LineStation s{
-      .t = t, .q = q, .z = h->z, .at = q, .left = h->contact, .right = h->contact, .hint = h->contact};
-  if (h->z < params_.floor_center) {
+  LineStation s;
+  s.t = t;
+  s.q = s.at = q;
+  const SurfacePoint* near = hint ? &*hint : nullptr;
+  if (params_.certificate_gap > 0.0) {
+    const auto h = locator_.CertifiedHeight(q, params_.certificate_gap, near);
+    if (!h) return std::nullopt;
+    s.z = h->z;
+    s.ceiling = h->z + h->gap;
+    s.hint = h->contact;
+  } else {
+    const auto h = locator_.Height(q, near);
+    if (!h) return std::nullopt;
+    s.z = h->z;
+    s.hint = h->contact;
+  }
+  s.left = s.right = s.hint;
+  if (s.z < params_.floor_center) {
     s.z = params_.floor_center;
+    s.ceiling = std::max(s.ceiling, s.z);
     s.left.reset();
     s.right.reset();
   }
@@ -203,6 +217,7 @@ bool LineTracer::RefineAtSwitch(const LineStation& a, const LineStation& b, cons
   if (!k) return false;
   if (k->z <= z + kSameHeight) {
     k->z = std::max(k->z, z);
+    k->ceiling = std::max(k->ceiling, k->z);
     k->left = on_a;
     k->right = on_b;
     k->keep = Apart(on_a, on_b);

@@ -12,10 +12,11 @@ namespace patchmill {
 
 // A centre on the curve. Left and right support differ at a switch; absent: the floor carries the ball there.
 struct LineStation {
-  double t = 0.0;          // mm along the segment, or any curve in plan, by arc length
-  Vec2 q = Vec2::Zero();   // the place in plan
-  double z = 0.0;          // centre height, not yet certified
-  Vec2 at = Vec2::Zero();  // where z is h: q, but just inside the wall for the top of a drop
+  double t = 0.0;              // mm along the segment, or any curve in plan, by arc length
+  Vec2 q = Vec2::Zero();       // the place in plan
+  double z = 0.0;              // centre height
+  double ceiling = kInfinity;  // h at `at` is proven not to be above; infinite: not certified
+  Vec2 at = Vec2::Zero();      // where z is h: q, but just inside the wall for the top of a drop
   std::optional<SurfacePoint> left, right;
   std::optional<SurfacePoint> hint;  // the surface's own contact, set on the floor too
   bool keep = false;                 // ends, switches, both ends of a drop
@@ -24,6 +25,7 @@ struct LineStation {
 struct LineTraceParams {
   double chord_tolerance = 0.005;    // mm, T2 and T3 between neighbouring stations
   double floor_center = -kInfinity;  // mm, lowest centre height
+  double certificate_gap = 0.0;      // mm: heights are certified to this; 0: not certified
   const RunContext* run = nullptr;   // polled when set: a cancelled trace is cut short
 };
 
@@ -39,7 +41,8 @@ struct PlanLine {
 
 // Runs where h exists, in order of t. Neighbouring stations are joined by a chord with T2 gouge and T3 excess
 // within the tolerance, or are the two ends of a vertical drop (same t). Switches to 1e-10 mm in t, drops and
-// ends of runs to 1e-8 mm. One exact height per station, a few branch followings per switch.
+// ends of runs to 1e-8 mm. One exact height per station, certified when asked for, a few branch followings
+// per switch.
 std::vector<std::vector<LineStation>> TraceLine(const Locator& locator, const PlanLine& line,
                                                 const LineTraceParams& params);
 

@@ -9,6 +9,7 @@ std::vector<ScanRun> ScanLine(const Locator& locator, const Vec2& a, const Vec2&
                               const RunContext* run) {
   const LineTraceParams trace{.chord_tolerance = params.chord_tolerance - CertificateGap(params),
                               .floor_center = params.floor_z + locator.radius(),
+                              .certificate_gap = CertificateGap(params),
                               .run = run};
   std::vector<ScanRun> runs;
   for (const auto& stations : TraceLine(locator, PlanLine::Through(a, b), trace)) {

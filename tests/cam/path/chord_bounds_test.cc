@@ -37,6 +37,57 @@ TEST(ChordBounds, NoPointIsDeeperThanT2AndTheBoundIsSharp) {
   EXPECT_EQ(ChordGouge(radius, 2 * radius), radius);
 }
 
+// The same with free centres between: some on the move, some beside it, above and below.
+TEST(ChordBounds, NoPointIsDeeperThanT2AlongFreeCentresSays) {
+  const double radius = 2.0;
+  Random random(4);
+  long tested = 0, bounded = 0;
+  double closest = 0.0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const double length = random.Uniform(0.1, 4.0), rise = random.Uniform(-1.0, 1.0);
+    const Vec3 a(0, 0, 0), b(length, 0, rise * length);
+    const double off = std::pow(10.0, random.Uniform(-3.0, -0.5));
+    const int inner = random.Int(6);
+    std::vector<double> t;
+    for (int k = 0; k < inner; ++k) t.push_back(random.Unit());
+    std::sort(t.begin(), t.end());
+    std::vector<Vec3> free = {a - Vec3(0, 0, trial % 3 == 0 ? 0.1 : 0.0)};
+    for (double x : t) free.push_back(x * b + off * random.Point(-1, 1));
+    free.push_back(b);
+    const double bound = ChordGouge(radius, a, b, free);
+    ASSERT_GE(bound, 0.0);
+    ASSERT_LE(bound, radius);
+    bounded += bound < 0.1 * radius;
+    for (int k = 0; k < 60; ++k) {
+      // Points near the deepest places: under the move, a little nearer than R.
+      const double s = random.Unit();
+      Vec3 n = random.Point(-1, 1);
+      n.z() = -std::abs(n.z());
+      const Vec3 p = s * b + random.Uniform(0.85, 1.0) * radius * n.normalized();
+      // The balls reach up for ever: a point is out of one when it is out of its whole upward ray.
+      const bool out = std::all_of(free.begin(), free.end(), [&](const Vec3& c) {
+        return (Vec3(p.x(), p.y(), std::min(p.z(), c.z())) - c).norm() >= radius;
+      });
+      if (!out) continue;
+      ++tested;
+      const double gouge = radius - SegmentDistance(p, a, b);
+      ASSERT_LE(gouge, bound + 1e-12) << trial;
+      if (bound < 0.1) closest = std::max(closest, gouge / bound);
+    }
+  }
+  EXPECT_GT(tested, 10000);
+  EXPECT_GT(bounded, 4000);
+  EXPECT_GT(closest, 0.8);
+  // Two centres: T2 itself. One more on the move between them: T2 of the halves.
+  const Vec3 a(0, 0, 0), b(1, 0, 0);
+  EXPECT_NEAR(ChordGouge(radius, a, b, std::vector<Vec3>{a, b}), ChordGouge(radius, 1.0), 1e-14);
+  EXPECT_NEAR(ChordGouge(radius, a, b, std::vector<Vec3>{a, {0.5, 0, 0}, b}), ChordGouge(radius, 0.5), 1e-14);
+  // A centre straight below the move serves as well as one on it, one above it costs its height.
+  EXPECT_NEAR(ChordGouge(radius, a, b, std::vector<Vec3>{a, {0.5, 0, -3}, b}), ChordGouge(radius, 0.5),
+              1e-14);
+  EXPECT_GE(ChordGouge(radius, a, b, std::vector<Vec3>{a, {0.5, 0, 0.03}, b}), 0.03);
+}
+
 // T3: no point of a chord is farther from touching one of its two contacts than the bound.
 TEST(ChordBounds, NoPointOfTheChordIsFartherThanT3AndTheBoundIsReached) {
   const double radius = 2.0;
