@@ -36,7 +36,12 @@ Move LinkMaker::Feed(MoveKind kind, const Vec3& from, const Vec3& to) const {
   return move;
 }
 
+bool LinkMaker::Allowed(const Vec3& a, const Vec3& b) const {
+  return params_.keep_in == nullptr || params_.keep_in->AllowsMove(a, b, false);
+}
+
 bool LinkMaker::StraightIsFree(const Vec3& a, const Vec3& b) const {
+  if (!Allowed(a, b)) return false;
   const double length = (b - a).norm();
   if (length <= t2_length_) return true;
   const double tolerance = params_.pass.chord_tolerance;
@@ -61,15 +66,17 @@ std::optional<std::vector<Move>> LinkMaker::StayDown(const Vec3& a, const Vec3& 
   std::vector<Move> moves;
   Vec3 at = a;
   double along = 0.0;
+  bool allowed = true;
   const auto go = [&](const Vec3& to) {
     if ((to - at).norm() < 1e-9) return;
     along += (to - at).norm();
+    allowed = allowed && Allowed(at, to);
     moves.push_back(Feed(MoveKind::kLink, at, to));
     at = to;
   };
   for (const CutterPoint& p : points) go(p.center);
   go(b);
-  if (along > kDetour * length + 2.0 * params_.radius) return std::nullopt;
+  if (!allowed || along > kDetour * length + 2.0 * params_.radius) return std::nullopt;
   return moves;
 }
 

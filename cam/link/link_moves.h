@@ -41,6 +41,7 @@ class LinkMaker {
   // Centre height at q where the ball is clear of the stock, at least z.
   double ClearOfStock(const Vec2& q, double z) const;
   bool StraightIsFree(const Vec3& a, const Vec3& b) const;
+  bool Allowed(const Vec3& a, const Vec3& b) const;  // by params_.keep_in
 
   const RunContext& run_;
   const Locator& locator_;

@@ -5,6 +5,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/location/keep_in.h"
 #include "cam/location/locator.h"
 #include "cam/path/scan_line.h"
 #include "cam/region/region_map.h"
@@ -24,8 +25,9 @@ struct LinkParams {
   double feed = 0.0, plunge_feed = 0.0;  // mm/min
   double plunge_angle = Radians(30.0);   // descents steeper than this run at plunge feed
   CutDirection contour_direction = CutDirection::kClimb;
-  PassParams pass;               // for links along the centre surface
-  double max_link_length = 0.0;  // mm in plan; 0: 6 ball radii. Longer ones retract
+  PassParams pass;                  // for links along the centre surface
+  double max_link_length = 0.0;     // mm in plan; 0: 6 ball radii. Longer ones retract
+  const KeepIn* keep_in = nullptr;  // feeds stay where it allows them; null: anywhere
 };
 
 struct LinkStats {

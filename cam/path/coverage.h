@@ -6,6 +6,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/location/keep_in.h"
 #include "cam/location/locator.h"
 #include "cam/path/forced_steps.h"
 #include "cam/path/pass_params.h"
@@ -19,6 +20,7 @@ struct CoverageParams : PassParams {
   double tolerance = 0.01;  // mm: reachable means free for a ball of radius - tolerance
   ForcedSteps forced;       // ground that needs shorter steps than min_step_fraction of these is left
   int max_rounds = 6;
+  const KeepIn* keep_in = nullptr;  // what is wanted and allowed; null: all of it
 };
 
 // Crease passes and rest passes: finds reachable surface points whose distance to the paths exceeds radius +

@@ -30,6 +30,7 @@ struct Nearby {
 // Of the flat step.
 constexpr double kCoarse = 0.25;   // larger rectangles are not looked at by their middles
 constexpr double kFinest = 0.002;  // smaller ones are left: only at points where the normal has no direction
+constexpr double kLimit = 0.05;    // the same at a limit of params.keep_in
 
 // Ground that needs steps up to this much above the shortest may be left to forced passes or not.
 constexpr double kForcedMargin = 1.05;
@@ -57,6 +58,10 @@ class SpotFinder {
   bool Covered(const Vec3* hull, int count, const NearMove& move) const;
   bool Asked(const SurfaceJet& jet, const Vec3& e) const;
   std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e) const;
+  bool Wanted(const SurfacePoint& at) const {
+    return params_.keep_in == nullptr || params_.keep_in->Wants(at);
+  }
+  bool AllForbidden(const RectPlaces& places) const;
 
   const Surface& surface_;
   const Locator& reach_;
@@ -97,9 +102,29 @@ std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) cons
   for (const Vec3& n : {e, Vec3(-e)}) {
     if (n.z() < -kUpright) continue;
     const Vec3 c = p + radius_ * n;
-    if (c.z() >= params_.floor_z + radius_ && reach_.Free(c)) return n;
+    if (c.z() < params_.floor_z + radius_ || !reach_.Free(c)) continue;
+    if (params_.keep_in == nullptr || params_.keep_in->Allows(c)) return n;
   }
   return std::nullopt;
+}
+
+// The limits of the operation forbid every centre over the rectangle.
+bool SpotFinder::AllForbidden(const RectPlaces& places) const {
+  if (params_.keep_in == nullptr || params_.keep_in->AllowsAll()) return false;
+  constexpr double kUpright = 1e-6;
+  const double turn = BendOver(places.n);
+  for (const double sign : {1.0, -1.0}) {
+    double highest_normal = -1.0, spread = 0.0;
+    std::array<Vec3, 9> c;
+    for (std::size_t k = 0; k < 9; ++k) {
+      c[k] = places.p[k] + sign * radius_ * places.n[k];
+      highest_normal = std::max(highest_normal, sign * places.n[k].z());
+      spread = std::max(spread, (c[k] - places.p[8] - sign * radius_ * places.n[8]).norm());
+    }
+    if (highest_normal + turn < -kUpright) continue;  // looks down
+    if (!params_.keep_in->Forbids(c[8], spread + BendOver(c))) return false;
+  }
+  return true;
 }
 
 // Cuts where the farthest point of the hull is out of the move's reach: across the move, or along it past its
@@ -137,6 +162,10 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   double size = 0.0;  // everything lies this close to p
   for (int i = 0; i < count; ++i) size = std::max(size, (hull[static_cast<std::size_t>(i)] - p).norm());
 
+  if (params_.keep_in != nullptr &&
+      params_.keep_in->WantsNothing(surface_.piece(rect.piece).patch, p, size)) {
+    return;
+  }
   // The move that covers most of the rectangle passes near the centre that finishes p; only small rectangles
   // deserve the costlier search around p itself, which is also right where the normal turns quickly.
   Nearby found{{}, hint.blockers};
@@ -149,7 +178,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
     const NearMove nearest = NearestTo(p, 2.0 * radius_, near);
     if (Covered(hull.data(), count, nearest)) return;
     const double leftover = std::min(nearest.distance - radius_, radius_);
-    if (leftover > params_.limit && Asked(jet, e)) {
+    if (leftover > params_.limit && Asked(jet, e) && Wanted(at)) {
       if (const auto side = ReachableSide(p, e)) {
         out.push_back({at, *side, p + radius_ * *side, leftover, rect});
         return;
@@ -157,7 +186,9 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
     }
   }
   constexpr int kDeepest = 60;
-  if (size < kFinest * flat_ || depth >= kDeepest) return;
+  const bool limited =
+      params_.keep_in != nullptr && !(Wanted(at) && params_.keep_in->Allows(p + radius_ * e));
+  if (size < (limited ? kLimit : kFinest) * flat_ || depth >= kDeepest) return;
   if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, radius_, params_.scallop,
                                               kForcedMargin * params_.min_step_fraction)) {
     return;
@@ -165,7 +196,10 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   // Larger rectangles with a pass nearby have reachable ground.
   if (size < (near.segment < 0 ? 8.0 : kCoarse) * flat_) {
     const auto places = PlacesOn(surface_, rect);
-    if (places && OutOfReach(surface_, *places, size, cell_reach_, found.blockers)) return;
+    if (places &&
+        (AllForbidden(*places) || OutOfReach(surface_, *places, size, cell_reach_, found.blockers))) {
+      return;
+    }
   }
 
   const bool along_u =

@@ -34,6 +34,8 @@ absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParam
 // (1 + kReachMargin) tolerance at p + R e, tip not below the floor (DESIGN 2). Of the two margins one always
 // holds at small rectangles, so no island of reach is too small to be seen; only around points where the
 // surface has no normal it ends at 0.2 % of the flat step.
+// With params.keep_in only wanted points at allowed centres are spots; along its limits the search ends at
+// 5 % of the flat step.
 //   Covered: the distance of a hull to a segment is largest at its vertices, so a rectangle is covered when
 //   all its control points lie within R + limit of one move (for zero-weight points see ALGORITHMS 1).
 // Deterministic, parallel. `trees`: all passes, in any number of trees.

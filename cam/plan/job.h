@@ -9,16 +9,24 @@
 #include "cam/link/link_paths.h"
 #include "cam/post/program_writer.h"
 #include "cam/region/region_map.h"
+#include "cam/tool/containment.h"
 #include "cam/tool/tool.h"
 #include "cam/verify/verify.h"
 #include "core/network/patch_model.h"
 
 namespace patchmill {
 
-inline constexpr double kDefaultClearanceAbove = 5.0;  // mm, above the highest of model and stock
+inline constexpr double kDefaultClearanceAbove = 5.0;  // mm, above the highest of model, stock and obstacles
 
 enum class Strategy { kAuto, kContour, kZigzag };
 enum class EdgeRule { kStop, kRoll, kExtend };
+
+// A clamp, a vice, anything the tool keeps off; PROGRAM frame.
+struct ObstacleOutline {
+  std::string id;
+  Ring outline;
+  double top_z = 0.0, margin = 0.0;  // mm
+};
 
 struct Setup {
   Placement placement;
@@ -28,6 +36,18 @@ struct Setup {
   Vec3 zero_point = Vec3::Zero();     // for kPoint, placed frame; default the model's own origin
   std::optional<double> stock_top_z;  // PROGRAM frame, default model top + allowance
   double allowance = 0.5;
+  std::vector<ObstacleOutline> obstacles;
+};
+
+// Which part of the model is cut. A patch is named by its id, or by "#" and its index (0-based, in the order
+// of the model).
+struct Selection {
+  std::vector<std::string> patches;  // empty: all
+  std::vector<std::string> avoid;
+  double avoid_margin = 0.0;   // mm between tool and avoided patches, >= 0
+  std::vector<Ring> boundary;  // PROGRAM frame; empty: none
+  BoundaryMode boundary_mode = BoundaryMode::kCenter;
+  double boundary_offset = 0.0;  // mm, > 0 widens
 };
 
 struct Operation {
@@ -41,9 +61,10 @@ struct Operation {
   CutDirection contour_direction = CutDirection::kClimb;
   EdgeRule edge_rule = EdgeRule::kStop;
   // PROGRAM frame, tip heights.
-  std::optional<double> clearance_z, floor_z;
+  std::optional<double> clearance_z, floor_z, top_z;
   std::optional<double> clearance_above;  // mm; kDefaultClearanceAbove when neither is given
   double approach_gap = 1.0;
+  Selection selection;
 };
 
 struct Job {

@@ -6,6 +6,8 @@
 
 #include "cam/path/contour_paths.h"
 #include "cam/path/coverage.h"
+#include "cam/path/keep_in_clip.h"
+#include "cam/path/spacing.h"
 #include "cam/path/zigzag_paths.h"
 #include "core/base/status.h"
 
@@ -52,7 +54,8 @@ PassParams MakePassParams(const Job& job, const Resolved& resolved) {
 }
 
 absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions, const Job& job,
-                                         const Resolved& resolved, const RunContext& run) {
+                                         const Resolved& resolved, const KeepIn* keep_in,
+                                         const RunContext& run) {
   const Operation& op = job.operation;
   const PassParams base = MakePassParams(job, resolved);
   PlannedPasses planned;
@@ -72,6 +75,10 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator, params, run));
     Append(planned.paths, std::move(lines));
   }
+  if (keep_in != nullptr) {
+    const double reach = CenterStep(locator.radius(), op.scallop, 0.0);
+    PM_ASSIGN_OR_RETURN(planned.paths, ClipToKeepIn(locator, *keep_in, std::move(planned.paths), reach, run));
+  }
   CoverageParams params;
   static_cast<PassParams&>(params) = base;
   params.limit = op.scallop + kCoverageShare * op.tolerance;
@@ -80,6 +87,7 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
   if (op.strategy == Strategy::kContour) params.forced.passes = ForcedPasses::kContours;
   if (op.strategy == Strategy::kZigzag) params.forced.passes = ForcedPasses::kLines;
   params.forced.angle = op.zigzag_angle;
+  params.keep_in = keep_in;
   PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator, planned.paths, params, run));
   Append(planned.paths, std::move(rest));
   LabelRegions(regions, planned.paths);

@@ -5,6 +5,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/location/keep_in.h"
 #include "cam/plan/resolve.h"
 #include "cam/region/region_map.h"
 #include "cam/toolpath/cutter_path.h"
@@ -18,10 +19,11 @@ struct PlannedPasses {
 
 PassParams MakePassParams(const Job& job, const Resolved& resolved);
 
-// Contours over the steep ground, zig-zag lines over the gentle one (or one of them over all, when forced),
-// then crease and rest passes wherever more than the scallop would stay; each labelled with the region most
-// of it lies in.
+// `keep_in`: what is wanted and allowed; null: all of it. Contours over the steep ground, zig-zag lines over
+// the gentle one (or one of them over all, when forced), then crease and rest passes wherever more than the
+// scallop would stay; each labelled with the region most of it lies in.
 absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions, const Job& job,
-                                         const Resolved& resolved, const RunContext& run);
+                                         const Resolved& resolved, const KeepIn* keep_in,
+                                         const RunContext& run);
 
 }  // namespace patchmill

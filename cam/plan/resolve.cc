@@ -1,7 +1,11 @@
 #include "cam/plan/resolve.h"
 
+#include <unordered_map>
+
+#include <absl/strings/numbers.h>
 #include <fmt/format.h>
 
+#include "core/base/status.h"
 #include "core/surface/extent.h"
 
 namespace patchmill {
@@ -12,6 +16,62 @@ Budget SplitBudget(double tolerance) {
           .certificate = 0.1 * tolerance,
           .controller = 0.3 * tolerance};
 }
+
+namespace {
+
+// The patches named by `names`, as flags; empty when none is named.
+absl::StatusOr<std::vector<bool>> FindPatches(const PatchModel& model, const std::vector<std::string>& names,
+                                              const char* field) {
+  std::vector<bool> found;
+  if (names.empty()) return found;
+  std::unordered_map<std::string, std::size_t> known;
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    if (!model.patches[i].id.empty()) known.emplace(model.patches[i].id, i);
+  }
+  found.resize(model.patches.size(), false);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const std::string& name = names[k];
+    int index = -1;
+    if (const auto it = known.find(name); it != known.end()) {
+      index = static_cast<int>(it->second);
+    } else if (!name.starts_with('#') || !absl::SimpleAtoi(name.substr(1), &index)) {
+      index = -1;
+    }
+    if (index < 0 || index >= static_cast<int>(found.size())) {
+      return absl::InvalidArgumentError(
+          fmt::format("operations[0].selection.{}[{}] = \"{}\"; must be a patch id of the model or #0 to #{}",
+                      field, k, name.substr(0, 50), found.size() - 1));
+    }
+    found[static_cast<std::size_t>(index)] = true;
+  }
+  return found;
+}
+
+Outline Shifted(const std::vector<Ring>& rings, const Vec3& by) {
+  std::vector<Ring> moved = rings;
+  for (Ring& ring : moved) {
+    for (Vec2& p : ring) p += Plan(by);
+  }
+  return Outline(moved);
+}
+
+absl::StatusOr<Containment> ResolveContainment(const PatchModel& model, const Job& job, const Vec3& zero) {
+  const Selection& selection = job.operation.selection;
+  Containment c;
+  PM_ASSIGN_OR_RETURN(c.selected, FindPatches(model, selection.patches, "patch_ids"));
+  PM_ASSIGN_OR_RETURN(c.avoided, FindPatches(model, selection.avoid, "avoid_patch_ids"));
+  c.avoid_margin = selection.avoid_margin;
+  if (!selection.boundary.empty()) {
+    c.boundary = {Shifted(selection.boundary, zero), selection.boundary_mode, selection.boundary_offset};
+  }
+  if (job.operation.top_z) c.top_z = *job.operation.top_z + zero.z();
+  for (const ObstacleOutline& o : job.setup.obstacles) {
+    c.obstacles.push_back({o.id, Shifted({o.outline}, zero), o.top_z + zero.z(), o.margin});
+  }
+  return c;
+}
+
+}  // namespace
 
 absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
   Resolved r;
@@ -45,13 +105,15 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
                     r.stock_top_z - zero_z, top - zero_z));
   }
   r.floor_z = op.floor_z ? *op.floor_z + zero_z : r.box.min.z();
-  const double highest = std::max(top, r.stock_top_z);
+  PM_ASSIGN_OR_RETURN(r.containment, ResolveContainment(surface.network.model, job, r.program_zero));
+  double highest = std::max(top, r.stock_top_z);
+  for (const Obstacle& o : r.containment.obstacles) highest = std::max(highest, o.top_z + o.margin);
   r.clearance_z = op.clearance_z ? *op.clearance_z + zero_z
                                  : highest + op.clearance_above.value_or(kDefaultClearanceAbove);
   if (r.clearance_z < highest) {
     return absl::InvalidArgumentError(fmt::format(
-        "operations[0].heights.clearance_z_mm = {:.6g}; must be at least {:.6g}, the highest point of model "
-        "and stock",
+        "operations[0].heights.clearance_z_mm = {:.6g}; must be at least {:.6g}, the highest point of model, "
+        "stock and obstacles with their margins",
         r.clearance_z - zero_z, highest - zero_z));
   }
   return r;
@@ -68,6 +130,7 @@ VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved) {
   p.stock_top_z = resolved.stock_top_z;
   p.allowance = job.setup.allowance;
   p.zigzag_angle = job.operation.zigzag_angle;
+  p.containment = resolved.containment;
   if (job.operation.strategy == Strategy::kContour) p.strategy = ForcedStrategy::kContour;
   if (job.operation.strategy == Strategy::kZigzag) p.strategy = ForcedStrategy::kZigzag;
   return p;

@@ -26,10 +26,11 @@ struct Resolved {
   double radius = 0.0;       // ball
   double plan_radius = 0.0;  // ball + stock to leave: what is planned with
   Budget budget;
+  Containment containment;
 };
 
-// INVALID_ARGUMENT when heights contradict each other (clearance below model or stock, stock top below the
-// model).
+// INVALID_ARGUMENT when heights contradict each other (clearance below model, stock or obstacles, stock top
+// below the model), and for patches that the model does not have.
 absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job);
 
 // By what a program of this job is judged.

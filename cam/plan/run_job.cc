@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cam/location/keep_in.h"
 #include "cam/path/scan_line.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/plan_passes.h"
@@ -29,23 +30,40 @@ class StageClock {
   std::chrono::steady_clock::time_point start_;
 };
 
-RegionParams MakeRegionParams(const Job& job, const Resolved& resolved) {
+// Absent when everything is wanted and allowed. Keeps references to `surface` and `resolved`.
+absl::StatusOr<std::optional<KeepIn>> MakeKeepIn(const Surface& surface, const Job& job,
+                                                 const Resolved& resolved, const RunContext& run) {
+  const Containment& containment = resolved.containment;
+  if (containment.WantsAll() && containment.AllowsAll()) return std::nullopt;
+  KeepInParams p;
+  p.ball_radius = resolved.radius;
+  p.tool_radius = std::max(resolved.radius, 0.5 * job.operation.tool.shank_diameter.value_or(0.0));
+  p.leave = job.operation.leave;
+  p.tolerance = job.operation.tolerance;
+  PM_ASSIGN_OR_RETURN(KeepIn keep_in, KeepIn::Make(surface, containment, p, run));
+  return std::optional<KeepIn>(std::move(keep_in));
+}
+
+const KeepIn* PointerTo(const std::optional<KeepIn>& keep_in) { return keep_in ? &*keep_in : nullptr; }
+
+RegionParams MakeRegionParams(const Job& job, const Resolved& resolved, const KeepIn* keep_in) {
   RegionParams p;
   p.radius = resolved.plan_radius;
   p.tolerance = job.operation.tolerance;
   p.steep_angle = job.operation.steep_angle;
   p.floor_z = resolved.floor_z - job.operation.leave;
+  p.keep_in = keep_in;
   return p;
 }
 
 absl::StatusOr<RegionMap> MakeRegions(const Surface& surface, const Job& job, const Resolved& resolved,
-                                      const RunContext& run) {
-  PM_ASSIGN_OR_RETURN(RegionMap map, SplitRegions(surface, MakeRegionParams(job, resolved), run));
+                                      const KeepIn* keep_in, const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(RegionMap map, SplitRegions(surface, MakeRegionParams(job, resolved, keep_in), run));
   PM_RETURN_IF_ERROR(FillSteps(surface, job, resolved, run, map));
   return map;
 }
 
-LinkParams MakeLinkParams(const Job& job, const Resolved& resolved) {
+LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const KeepIn* keep_in) {
   LinkParams p;
   p.radius = resolved.radius;
   p.clearance_z = resolved.clearance_z;
@@ -57,6 +75,7 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved) {
   p.plunge_feed = job.operation.tool.plunge_feed;
   p.contour_direction = job.operation.contour_direction;
   p.pass = MakePassParams(job, resolved);
+  p.keep_in = keep_in;
   return p;
 }
 
@@ -113,7 +132,8 @@ std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnos
 absl::StatusOr<RegionMap> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
-  return MakeRegions(surface, job, resolved, run);
+  PM_ASSIGN_OR_RETURN(const std::optional<KeepIn> keep_in, MakeKeepIn(surface, job, resolved, run));
+  return MakeRegions(surface, job, resolved, PointerTo(keep_in), run);
 }
 
 absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
@@ -141,28 +161,31 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   }
   clock.Done("check");
 
-  PM_ASSIGN_OR_RETURN(result.regions, MakeRegions(surface, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(const std::optional<KeepIn> keep_in, MakeKeepIn(surface, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(result.regions, MakeRegions(surface, job, resolved, PointerTo(keep_in), run));
   report.regions = result.regions.regions;
   clock.Done("regions");
 
   PM_ASSIGN_OR_RETURN(const Locator locator, Locator::Make(surface, resolved.plan_radius, run));
-  PM_ASSIGN_OR_RETURN(PlannedPasses planned, PlanPasses(locator, result.regions, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(PlannedPasses planned,
+                      PlanPasses(locator, result.regions, job, resolved, PointerTo(keep_in), run));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
   clock.Done("passes");
   if (planned.paths.empty()) {
     report.outcome = Outcome::kNothingToCut;
     report.diagnostics.push_back(Warning(
         "NOTHING_TO_CUT",
-        fmt::format("no point of the model can be reached with a ball of diameter {:.4g} mm: check --scale "
-                    "({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor",
-                    2.0 * resolved.radius, resolved.box.max.x() - resolved.box.min.x(),
-                    resolved.box.max.y() - resolved.box.min.y(),
-                    resolved.box.max.z() - resolved.box.min.z())));
+        fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm: check --scale "
+                    "({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor{}",
+                    keep_in ? "that is wanted" : "of the model", 2.0 * resolved.radius,
+                    resolved.box.max.x() - resolved.box.min.x(), resolved.box.max.y() - resolved.box.min.y(),
+                    resolved.box.max.z() - resolved.box.min.z(),
+                    keep_in ? ", then the selection, --top and the obstacles" : "")));
     return result;
   }
 
   PM_ASSIGN_OR_RETURN(result.motion, LinkPaths(locator, result.regions, std::move(planned.paths),
-                                               MakeLinkParams(job, resolved), run));
+                                               MakeLinkParams(job, resolved, PointerTo(keep_in)), run));
   report.motion = result.motion.stats;
   report.point_count = static_cast<int>(result.motion.toolpath.moves.size());
   clock.Done("link");

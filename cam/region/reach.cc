@@ -23,9 +23,15 @@ bool ReachTest::AboveFloor(const Vec3& center) const {
   return center.z() - params_.radius >= params_.floor_z - kFloorSlack;
 }
 
+bool ReachTest::Allowed(const Vec3& center) const {
+  return params_.keep_in == nullptr || params_.keep_in->Allows(center);
+}
+
 UnreachableReason ReachTest::At(const Vec3& center) const {
-  if (free_ball_.Free(center))
-    return AboveFloor(center) ? UnreachableReason::kNone : UnreachableReason::kFloor;
+  if (free_ball_.Free(center)) {
+    if (!AboveFloor(center)) return UnreachableReason::kFloor;
+    return Allowed(center) ? UnreachableReason::kNone : UnreachableReason::kAvoided;
+  }
   const Surface& surface = free_ball_.surface();
   const double proof = kProof * params_.radius;
   const auto shank = ClosestToUpwardRay(surface, center, free_ball_.radius() + proof, proof);
@@ -49,7 +55,7 @@ bool ReachTest::Reachable(const Piece& piece, double u, double v) const {
   const SurfaceJet jet = Evaluate(piece, u, v);
   const auto normal = UpwardNormal(jet);
   if (!normal) return true;
-  const auto stands = [&](const Vec3& c) { return AboveFloor(c) && free_ball_.Free(c); };
+  const auto stands = [&](const Vec3& c) { return AboveFloor(c) && free_ball_.Free(c) && Allowed(c); };
   return stands(jet.p + params_.radius * *normal) ||
          (std::abs(normal->z()) < kVertical && stands(jet.p - params_.radius * *normal));
 }

@@ -22,6 +22,7 @@ class ReachTest {
  private:
   UnreachableReason At(const Vec3& center) const;
   bool AboveFloor(const Vec3& center) const;
+  bool Allowed(const Vec3& center) const;
   const Locator& free_ball_;
   const RegionParams& params_;
 };

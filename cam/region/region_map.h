@@ -8,6 +8,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/location/keep_in.h"
 #include "cam/location/locator.h"
 #include "core/base/run_context.h"
 
@@ -25,9 +26,10 @@ struct RegionParams {
   double radius = 3.0;      // mm, ball + stock to leave
   double tolerance = 0.01;  // mm: reachable means free for a ball of radius - tolerance
   double steep_angle = Radians(45.0);
-  double floor_z = -kInfinity;     // mm, lowest tip
-  double border_tolerance = 0.01;  // mm, sagitta of border polylines on the true loci
-  double min_area = 0.0;           // mm^2, regions below are merged; 0: two tool discs, 2 pi R^2
+  double floor_z = -kInfinity;      // mm, lowest tip
+  double border_tolerance = 0.01;   // mm, sagitta of border polylines on the true loci
+  double min_area = 0.0;            // mm^2, regions below are merged; 0: two tool discs, 2 pi R^2
+  const KeepIn* keep_in = nullptr;  // where it allows no centre the reason is kAvoided; null: allows all
 };
 
 struct Region {

@@ -47,6 +47,7 @@ class LeftoverSearch {
 
   bool Visit(const SurfaceCell& cell, const Threshold& threshold, Extreme& here) {
     if (run_.Cancelled()) return false;
+    if (OutsideContacts(cell)) return false;
     // Any move bounds the distance from above: often the last one will do.
     if (hint_ >= 0 && Leftover(FarthestFrom(cell, hint_)) <= threshold.Drop(here.value)) return false;
     SegmentTree::Nearest nearest;
@@ -126,7 +127,14 @@ class LeftoverSearch {
     return best;
   }
 
+  // No point of the cell is to be finished.
+  bool OutsideContacts(const SurfaceCell& cell) const {
+    const Containment* containment = params_.reach.limits.containment;
+    return containment != nullptr && ContactRoomOutside(*containment, cell.middle) > cell.radius;
+  }
+
   bool IsReachable(const SurfaceCell& cell) const {
+    if (!IsWantedAt(surface_, params_, cell.rect.piece, cell.middle)) return false;
     const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
     const auto facing = FacingAt(jet);
     return facing && ReachAt(surface_, jet.p, *facing, params_.reach) == ReachClass::kReachable;

@@ -21,9 +21,10 @@ struct LeftoverParams {
   double most = kInfinity;  // mm: reported where nothing is cut at all
 };
 
-// What a point is to the finish. Order of the unreachable ones: VerifyReport's.
-enum class FinishClass { kDone, kAboveLimit, kUndercut, kConcave, kFloor, kStrategy };
-inline constexpr std::size_t kFinishClasses = 6;
+// What a point is to the finish. kUnwanted: outside a contact boundary; patches that are not wanted have no
+// root cells.
+enum class FinishClass { kDone, kAboveLimit, kUndercut, kConcave, kFloor, kAvoided, kStrategy, kUnwanted };
+inline constexpr std::size_t kFinishClasses = 8;
 
 struct AreaReport {
   std::array<double, kFinishClasses> area{};    // mm^2
@@ -48,6 +49,9 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
 absl::StatusOr<Extremes> FindLeftover(const Surface& surface, const std::vector<CellRect>& roots,
                                       const SegmentTree& tree, const LeftoverParams& params,
                                       const Extreme& known, const RunContext& run);
+
+// The point is to be finished at all.
+bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId piece, const Vec3& p);
 
 // True when a forced strategy cannot finish here: the centre step it would need (ALGORITHMS 5) is below
 // min_step_fraction of the flat one, with a margin of 10 %.

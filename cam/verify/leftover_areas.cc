@@ -61,7 +61,8 @@ double LowestCenter(const Surface& surface, const Sums& sums, const ReachParams&
 }
 
 bool Unreachable(FinishClass kind) {
-  return kind == FinishClass::kUndercut || kind == FinishClass::kConcave || kind == FinishClass::kFloor;
+  return kind == FinishClass::kUndercut || kind == FinishClass::kConcave || kind == FinishClass::kFloor ||
+         kind == FinishClass::kAvoided;
 }
 
 class AreaSampler {
@@ -137,6 +138,7 @@ class AreaSampler {
   std::optional<FinishClass> Classify(const SurfaceJet& jet, PieceId piece, Sums& sums) {
     const auto facing = FacingAt(jet);
     if (!facing) return std::nullopt;
+    if (!IsWantedAt(surface_, params_, piece, jet.p)) return FinishClass::kUnwanted;
     FinishClass kind = FinishClass::kDone;
     switch (ReachAt(surface_, jet.p, *facing, params_.reach)) {
       case ReachClass::kReachable:
@@ -149,6 +151,9 @@ class AreaSampler {
         break;
       case ReachClass::kFloor:
         kind = FinishClass::kFloor;
+        break;
+      case ReachClass::kAvoided:
+        kind = FinishClass::kAvoided;
         break;
     }
     Extreme& known = sums.report.deepest[static_cast<std::size_t>(kind)];
@@ -183,6 +188,11 @@ class AreaSampler {
 };
 
 }  // namespace
+
+bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId piece, const Vec3& p) {
+  const Containment* containment = params.reach.limits.containment;
+  return containment == nullptr || IsWanted(*containment, surface.piece(piece).patch, p);
+}
 
 bool BeyondStrategy(const SurfaceJet& jet, const Vec3& e, const LeftoverParams& params) {
   if (params.strategy == ForcedStrategy::kNone || !params.scallop) return false;

@@ -21,6 +21,10 @@ std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) 
   return {p + radius * facing.e, p - radius * facing.e};
 }
 
+bool NearAvoided(const CenterLimits& limits, const Vec3& c, double proof) {
+  return limits.avoided != nullptr && AnythingNearUpwardRay(*limits.avoided, c, limits.avoid_distance, proof);
+}
+
 // What stands above the centre comes nearer to the shank than anything to the ball (docs/reach.md).
 bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double limit) {
   const double proof = kReasonProof * radius;
@@ -30,6 +34,15 @@ bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double l
 }
 
 }  // namespace
+
+double RoomAt(const CenterLimits& limits, const Vec3& center) {
+  if (limits.containment == nullptr) return kInfinity;
+  const Containment& c = *limits.containment;
+  const Vec3 tip = center - Vec3(0.0, 0.0, limits.ball);
+  double room = std::min(BoundaryRoom(c, Plan(center), limits.ball), TopRoom(c, tip));
+  for (const Obstacle& o : c.obstacles) room = std::min(room, ObstacleRoom(o, tip, limits.tool));
+  return room;
+}
 
 std::optional<Facing> FacingAt(const SurfaceJet& jet) {
   const std::optional<Vec3> normal = UpwardNormal(jet);
@@ -48,9 +61,12 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
       found = BlockedAbove(surface, c, params.radius, limit) ? ReachClass::kUndercut : ReachClass::kConcave;
     } else if (c.z() < params.floor_z - kFloorSlack) {
       found = ReachClass::kFloor;
+    } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.tolerance)) {
+      found = ReachClass::kAvoided;
     }
     if (found == ReachClass::kReachable) return found;
-    // Of two blocked sides the one that is easier to free gives the reason: floor, ball, then undercut.
+    // Of two blocked sides the one that is easier to free gives the reason: limits, floor, ball, then
+    // undercut.
     if (side == 0 || found > reason) reason = found;
   }
   return reason;
@@ -65,6 +81,12 @@ double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing,
     double here = params.floor_z - kFloorSlack - c.z();
     const auto nearest = ClosestToUpwardRay(surface, c, limit, kCoarse * params.radius);
     if (nearest) here = std::max(here, limit - nearest->distance);
+    here = std::max(here, -RoomAt(params.limits, c));
+    if (params.limits.avoided != nullptr) {
+      const double keep = params.limits.avoid_distance;
+      const auto avoided = ClosestToUpwardRay(*params.limits.avoided, c, keep, kCoarse * params.radius);
+      if (avoided) here = std::max(here, keep - avoided->distance);
+    }
     depth = std::min(depth, here);
   }
   return std::max(0.0, depth);

@@ -6,10 +6,13 @@
 #include <fmt/format.h>
 
 #include "cam/verify/gouge.h"
+#include "cam/verify/keep_out.h"
 #include "cam/verify/leftover.h"
 #include "cam/verify/motion_figures.h"
 #include "cam/verify/motion_rules.h"
 #include "cam/verify/motion_sets.h"
+#include "cam/verify/operation_limits.h"
+#include "cam/verify/validate.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -36,6 +39,8 @@ class Judge {
     const double size = std::clamp(std::sqrt(area / 9e3), 0.02 * radius_, radius_);
     roots_ = RootCells(surface_, std::max(size, std::sqrt(area / 4e5)), run_);
     PM_RETURN_IF_ERROR(run_.Check());
+    PM_ASSIGN_OR_RETURN(limits_, OperationLimits::Make(surface_, tool_, params_, run_));
+    wanted_ = limits_->Wanted(roots_);
     PM_RETURN_IF_ERROR(JudgeGouge());
     PM_RETURN_IF_ERROR(JudgeFinish());
     PM_RETURN_IF_ERROR(JudgeMotion());
@@ -89,6 +94,24 @@ class Judge {
       where.point = e.point;
       where.line = place.line;
     }
+  }
+
+  // Whatever moves keeps its distance from avoided patches.
+  absl::Status JudgeAvoided() {
+    const Surface* avoided = limits_->centers().avoided;
+    if (avoided == nullptr) return absl::OkStatus();
+    GougeParams p;
+    p.radius = limits_->centers().avoid_distance;
+    p.chord_error = chord_error_;
+    p.certainty = params_.certainty;
+    p.limit = std::max(0.0, params_.tolerance - motion_.controller_tolerance);
+    const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
+    const std::vector<CellRect> roots = RootCells(*avoided, radius_, run_);
+    PM_ASSIGN_OR_RETURN(Extremes found, FindGouge(*avoided, roots, tree, p, run_, "verify: avoided patches"));
+    if (!found.violations.empty()) report_.motion_ok = false;
+    for (Extreme& e : found.violations) e.piece = limits_->PieceOfWhole(e.piece);
+    ReportPlaces("AVOID_MARGIN", found.violations, "the tool comes too near to an avoided patch");
+    return absl::OkStatus();
   }
 
   absl::Status JudgeGouge() {
@@ -158,7 +181,7 @@ class Judge {
 
   absl::Status JudgeFinish() {
     LeftoverParams p;
-    p.reach = {radius_, params_.tolerance, params_.floor_z + ball_};
+    p.reach = {radius_, params_.tolerance, params_.floor_z + ball_, limits_->centers()};
     p.chord_error = chord_error_;
     p.certainty = params_.certainty;
     p.scallop = params_.scallop;
@@ -168,7 +191,7 @@ class Judge {
     p.min_step_fraction = params_.min_step_fraction;
     p.most = surface_.box.Diagonal();
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kCut, offset_), Metric::kPath, radius_, run_);
-    PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, roots_, tree, p, run_));
+    PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, wanted_, tree, p, run_));
     const auto at = [](FinishClass kind) { return static_cast<std::size_t>(kind); };
     const auto take = [&](FinishClass kind, std::size_t reason) {
       report_.unreachable_area[reason] = areas.area[at(kind)];
@@ -178,17 +201,18 @@ class Judge {
     take(FinishClass::kUndercut, 0);
     take(FinishClass::kConcave, 1);
     take(FinishClass::kFloor, 2);
+    take(FinishClass::kAvoided, 3);
     take(FinishClass::kStrategy, 4);
     if (std::isfinite(areas.lowest_center)) {
       report_.finishing_floor_z = std::floor((areas.lowest_center - ball_) * 1e3) / 1e3;
     }
-    for (const double area : areas.area) report_.total_area += area;
+    for (std::size_t k = 0; k < at(FinishClass::kUnwanted); ++k) report_.total_area += areas.area[k];
     report_.reachable_area = areas.area[at(FinishClass::kDone)] + areas.area[at(FinishClass::kAboveLimit)];
     report_.leftover_above_limit_area = areas.area[at(FinishClass::kAboveLimit)];
 
     const Extreme& done = areas.deepest[at(FinishClass::kDone)];
     const Extreme& above = areas.deepest[at(FinishClass::kAboveLimit)];
-    PM_ASSIGN_OR_RETURN(const Extremes left, FindLeftover(surface_, roots_, tree, p,
+    PM_ASSIGN_OR_RETURN(const Extremes left, FindLeftover(surface_, wanted_, tree, p,
                                                           above.value > done.value ? above : done, run_));
     report_.max_leftover = left.worst.value;
     report_.max_leftover_at = Place(left.worst);
@@ -211,7 +235,11 @@ class Judge {
     report_.steepest_descent = figures.steepest_descent;
     if (!figures.tip_box.Empty()) report_.tip_z_min = figures.tip_box.min.z();
     PM_ASSIGN_OR_RETURN(report_.required_stickout, RequiredStickout(surface_, tool_, motion_, params_, run_));
-    const Diagnostics broken = BrokenMotionRules(motion_, tool_, params_, figures);
+    PM_RETURN_IF_ERROR(JudgeAvoided());
+    Diagnostics broken = BrokenMotionRules(motion_, tool_, params_, figures);
+    const double slack = std::max(0.0, params_.tolerance - motion_.controller_tolerance);
+    const Diagnostics beyond = BrokenLimits(motion_, limits_->centers(), offset_, slack);
+    broken.insert(broken.end(), beyond.begin(), beyond.end());
     if (!broken.empty()) report_.motion_ok = false;
     report_.findings.insert(report_.findings.end(), broken.begin(), broken.end());
     return absl::OkStatus();
@@ -241,40 +269,16 @@ class Judge {
   Vec3 offset_ = Vec3::Zero();  // from a tip of the program to the ball centre
   double chord_error_ = 0.0;
   std::vector<CellRect> roots_;
+  std::vector<CellRect> wanted_;  // those of patches to be finished
+  std::optional<OperationLimits> limits_;
   VerifyReport report_;
 };
-
-absl::Status Validate(const Tool& tool, const ProgramMotion& motion, const VerifyParams& params) {
-  const auto bad = [](const char* field, double value, const char* constraint) {
-    return absl::InvalidArgumentError(fmt::format("{} = {:.6g} mm; must be {}", field, value, constraint));
-  };
-  const double radius = BallRadius(tool);
-  if (!(radius > 0.0) || !std::isfinite(radius)) return bad("tool.ball.radius", radius, "> 0");
-  if (!(params.tolerance > 0.0) || !(params.tolerance < radius))
-    return bad("tolerance", params.tolerance, "in (0, ball radius)");
-  if (!(params.certainty > 0.0)) return bad("certainty", params.certainty, "> 0");
-  if (!(params.leave >= 0.0) || !std::isfinite(params.leave)) return bad("leave", params.leave, ">= 0");
-  if (!(params.allowance >= 0.0) || !std::isfinite(params.allowance))
-    return bad("allowance", params.allowance, ">= 0");
-  if (params.scallop && (!(*params.scallop > 0.0) || !(*params.scallop < radius))) {
-    return bad("scallop", *params.scallop, "in (0, ball radius)");
-  }
-  if (!params.program_zero.allFinite() || !std::isfinite(params.stock_top_z) || std::isnan(params.floor_z)) {
-    return absl::InvalidArgumentError("program zero, stock top or floor is not a number");
-  }
-  if (tool.shank_diameter && *tool.shank_diameter > 2.0 * radius && !tool.flute_length) {
-    return bad("tool.shank_diameter", *tool.shank_diameter,
-               "no wider than the ball unless flute_length says where the shank begins");
-  }
-  if (motion.moves.empty()) return absl::InvalidArgumentError("program: no motion");
-  return absl::OkStatus();
-}
 
 }  // namespace
 
 absl::StatusOr<VerifyReport> Verify(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
                                     const VerifyParams& params, const RunContext& run) {
-  PM_RETURN_IF_ERROR(Validate(tool, motion, params));
+  PM_RETURN_IF_ERROR(ValidateQuestion(surface, tool, motion, params));
   return Judge(surface, tool, motion, params, run).Run();
 }
 

@@ -14,6 +14,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/tool/containment.h"
 #include "cam/tool/tool.h"
 #include "cam/toolpath/toolpath.h"
 #include "core/base/diagnostic.h"
@@ -37,6 +38,7 @@ struct VerifyParams {
       ForcedStrategy::kNone;  // excuses (reason STRATEGY) what a forced strategy cannot finish
   double zigzag_angle = 0.0;  // rad, for kZigzag
   double min_step_fraction = 0.25;
+  Containment containment;  // placed frame: what is judged for finish, and where nothing may move
 };
 
 struct VerifyPlace {
@@ -68,7 +70,8 @@ struct VerifyReport {
   double cut_length = 0.0, rapid_length = 0.0;
   // GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK (each at most 20, of different lines and places, the worst
   // first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START, FIRST_MOTION_NOT_UP,
-  // LAST_MOTION_NOT_UP, SPINDLE_LEFT_ON, COOLANT_LEFT_ON: errors. MORE_FINDINGS when a list of 20 was not
+  // LAST_MOTION_NOT_UP, SPINDLE_LEFT_ON, COOLANT_LEFT_ON, OUTSIDE_BOUNDARY (feeds), OBSTACLE_HIT,
+  // AVOID_MARGIN (at most 20 each as above): errors. MORE_FINDINGS when a list of 20 was not
   // long enough: info.
   Diagnostics findings;
   bool ok() const { return gouge_ok && finish_ok && motion_ok; }

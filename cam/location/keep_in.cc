@@ -1,0 +1,92 @@
+#include "cam/location/keep_in.h"
+
+#include <algorithm>
+
+#include "core/base/status.h"
+#include "core/surface/closest.h"
+#include "core/surface/part.h"
+
+namespace patchmill {
+namespace {
+
+bool Any(const std::vector<bool>& list) { return std::find(list.begin(), list.end(), true) != list.end(); }
+
+}  // namespace
+
+absl::StatusOr<KeepIn> KeepIn::Make(const Surface& surface, const Containment& containment,
+                                    const KeepInParams& params, const RunContext& run) {
+  KeepIn keep;
+  keep.surface_ = &surface;
+  keep.containment_ = &containment;
+  keep.params_ = params;
+  std::vector<bool> wanted(surface.network.model.patches.size(), true);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    wanted[i] =
+        (containment.selected.empty() || containment.selected[i]) && !IsAvoided(containment, PatchId(i));
+  }
+  if (Any(wanted) && std::find(wanted.begin(), wanted.end(), false) != wanted.end()) {
+    PM_ASSIGN_OR_RETURN(Surface part, PartOf(surface, wanted, run));
+    keep.selected_ = std::make_unique<Surface>(std::move(part));
+  }
+  if (Any(containment.avoided) && containment.avoid_margin > params.leave) {
+    PM_ASSIGN_OR_RETURN(Surface part, PartOf(surface, containment.avoided, run));
+    keep.avoided_ = std::make_unique<Surface>(std::move(part));
+    PM_ASSIGN_OR_RETURN(Locator locator,
+                        Locator::Make(*keep.avoided_, params.ball_radius + containment.avoid_margin, run));
+    keep.avoided_locator_.emplace(std::move(locator));
+  }
+  return keep;
+}
+
+bool KeepIn::Wants(const SurfacePoint& contact) const {
+  return IsWanted(*containment_, surface_->piece(contact.piece).patch, contact.p);
+}
+
+bool KeepIn::WantsNear(const SurfacePoint& contact, double distance) const {
+  const PatchId patch = surface_->piece(contact.piece).patch;
+  if (IsWanted(*containment_, patch, contact.p, -distance)) return true;
+  if (ContactRoomOutside(*containment_, contact.p) > distance) return false;
+  return selected_ != nullptr && ClosestToPoint(*selected_, contact.p, distance, 0.01 * distance).has_value();
+}
+
+bool KeepIn::WantsNothing(PatchId patch, const Vec3& p, double radius) const {
+  return !IsWanted(*containment_, patch, p, -radius);
+}
+
+double KeepIn::MoveRoom(const Vec3& c) const {
+  double room = BoundaryRoom(*containment_, Plan(c), params_.ball_radius);
+  for (const Obstacle& o : containment_->obstacles) {
+    room = std::min(room, ObstacleRoom(o, Tip(c), params_.tool_radius));
+  }
+  return room;
+}
+
+double KeepIn::Room(const Vec3& c) const { return std::min(MoveRoom(c), TopRoom(*containment_, Tip(c))); }
+
+bool KeepIn::Forbids(const Vec3& c, double radius) const {
+  if (Room(c) < -radius) return true;
+  if (!avoided_locator_) return false;
+  const double reach = avoided_locator_->radius();
+  return radius < reach && AnythingNearUpwardRay(*avoided_, c, reach - radius, 0.25 * params_.tolerance);
+}
+
+bool KeepIn::HasRoom(const Vec3& a, const Vec3& b, bool finishing) const {
+  const Vec3 middle = 0.5 * (a + b);
+  const double half = 0.5 * (b - a).norm();
+  const double room = finishing ? Room(middle) : MoveRoom(middle);
+  if (room - half >= -0.5 * params_.tolerance) return true;
+  if (room < -0.5 * params_.tolerance) return false;
+  return HasRoom(a, middle, finishing) && HasRoom(middle, b, finishing);
+}
+
+bool KeepIn::ClearOfAvoided(const Vec3& a, const Vec3& b) const {
+  if (!avoided_locator_) return true;
+  const double limit = 0.5 * params_.tolerance;
+  return avoided_locator_->GougeWithin(a, b, limit, 0.1 * limit);
+}
+
+bool KeepIn::AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const {
+  return HasRoom(a, b, finishing) && ClearOfAvoided(a, b);
+}
+
+}  // namespace patchmill

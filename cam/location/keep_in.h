@@ -1,0 +1,61 @@
+// Where an operation wants the ball, and where it allows its centre: Containment against the exact surface.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "cam/location/locator.h"
+#include "cam/tool/containment.h"
+
+namespace patchmill {
+
+struct KeepInParams {
+  double ball_radius = 3.0;  // mm, the ball's own
+  double tool_radius = 3.0;  // mm, the wider one of ball and shank: what obstacles are kept off
+  double leave = 0.0;        // mm, stock to leave: kept off avoided patches too
+  double tolerance = 0.01;   // mm: moves may be off a limit by half of it
+};
+
+// Thread-safe. Keeps references to the surface and to the containment.
+class KeepIn {
+ public:
+  // Builds the avoided and the selected patches as surfaces of their own. CANCELLED and DEADLINE_EXCEEDED
+  // from `run`.
+  static absl::StatusOr<KeepIn> Make(const Surface& surface, const Containment& containment,
+                                     const KeepInParams& params, const RunContext& run);
+
+  bool WantsAll() const { return containment_->WantsAll(); }
+  bool AllowsAll() const { return containment_->AllowsAll(); }
+
+  // The contact is to be finished.
+  bool Wants(const SurfacePoint& contact) const;
+  // Some point to be finished may lie within `distance` (mm) of the contact.
+  bool WantsNear(const SurfacePoint& contact, double distance) const;
+  // No point within `radius` (mm) of `p` on that patch is to be finished.
+  bool WantsNothing(PatchId patch, const Vec3& p, double radius) const;
+
+  // A finishing ball may be centred at c.
+  bool Allows(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
+  // No finishing ball may be centred within `radius` (mm, >= 0) of c.
+  bool Forbids(const Vec3& c, double radius) const;
+  // The centre may feed straight from a to b: every place of the move is allowed, up to half the tolerance.
+  // `finishing`: top_z holds too.
+  bool AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const;
+
+ private:
+  KeepIn() = default;
+  Vec3 Tip(const Vec3& c) const { return c - Vec3(0.0, 0.0, params_.ball_radius); }
+  double MoveRoom(const Vec3& c) const;  // boundary and obstacles
+  double Room(const Vec3& c) const;      // top_z too
+  bool HasRoom(const Vec3& a, const Vec3& b, bool finishing) const;
+  bool ClearOfAvoided(const Vec3& a, const Vec3& b) const;
+
+  const Surface* surface_ = nullptr;
+  const Containment* containment_ = nullptr;
+  KeepInParams params_;
+  std::unique_ptr<Surface> selected_;       // when only some are
+  std::unique_ptr<Surface> avoided_;        // when a margin is kept from them
+  std::optional<Locator> avoided_locator_;  // ball and margin over avoided_
+};
+
+}  // namespace patchmill

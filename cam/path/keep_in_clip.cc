@@ -1,0 +1,144 @@
+#include "cam/path/keep_in_clip.h"
+
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+#include "core/surface/closest.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kClipLength = 1e-3;  // mm: shorter parts across a limit are left out
+
+// A pass cut into chords, each kept or not.
+struct Chords {
+  std::vector<CutterPoint> points;  // the last one closes a closed path
+  std::vector<bool> keep;           // of the chord from points[i] to points[i + 1]
+};
+
+class Clipper {
+ public:
+  Clipper(const Locator& locator, const KeepIn& keep_in, double reach)
+      : locator_(locator), keep_in_(keep_in), reach_(reach) {}
+
+  std::vector<CutterPath> Clip(const CutterPath& path) const {
+    Chords chords;
+    const std::size_t n = path.points.size();
+    if (n == 0) return {};
+    if (n == 1) {
+      const CutterPoint& only = path.points.front();
+      const bool kept = WantsNear(only) && keep_in_.AllowsMove(only.center, only.center, true);
+      return kept ? std::vector<CutterPath>{path} : std::vector<CutterPath>{};
+    }
+    chords.points.push_back(path.points.front());
+    const std::size_t moves = path.closed ? n : n - 1;
+    for (std::size_t i = 0; i < moves; ++i) AddChord(path.points[i], path.points[(i + 1) % n], chords);
+    return Gather(path, chords);
+  }
+
+ private:
+  void AddChord(const CutterPoint& a, const CutterPoint& b, Chords& chords) const {
+    const double length = (b.center - a.center).norm();
+    const int parts = keep_in_.WantsAll() ? 1 : 1 + static_cast<int>(2.0 * length / reach_);
+    CutterPoint from = a;
+    for (int k = 1; k <= parts; ++k) {
+      const CutterPoint to = k == parts ? b : Between(a, b, static_cast<double>(k) / parts);
+      if (WantsNear(from) || WantsNear(to)) {
+        AddAllowed(from, to, chords);
+      } else {
+        Push(to, false, chords);
+      }
+      from = to;
+    }
+  }
+
+  void AddAllowed(const CutterPoint& a, const CutterPoint& b, Chords& chords) const {
+    if (keep_in_.AllowsAll() || keep_in_.AllowsMove(a.center, b.center, true)) {
+      Push(b, true, chords);
+      return;
+    }
+    const double half = 0.5 * (b.center - a.center).norm();
+    if (half < 0.5 * kClipLength || keep_in_.Forbids(0.5 * (a.center + b.center), half)) {
+      Push(b, false, chords);
+      return;
+    }
+    const CutterPoint middle = Between(a, b, 0.5);
+    AddAllowed(a, middle, chords);
+    AddAllowed(middle, b, chords);
+  }
+
+  // Neighbouring chords that are left out are one.
+  static void Push(const CutterPoint& to, bool keep, Chords& chords) {
+    if (!keep && !chords.keep.empty() && !chords.keep.back()) {
+      chords.points.back() = to;
+      return;
+    }
+    chords.points.push_back(to);
+    chords.keep.push_back(keep);
+  }
+
+  CutterPoint Between(const CutterPoint& a, const CutterPoint& b, double share) const {
+    CutterPoint p;
+    p.center = a.center + share * (b.center - a.center);
+    const double reach = 1.1 * locator_.radius();
+    if (const auto contact = ClosestToPoint(locator_.surface(), p.center, reach, 1e-4 * locator_.radius())) {
+      p.contact = contact->at;
+    }
+    return p;
+  }
+
+  bool WantsNear(const CutterPoint& p) const {
+    if (keep_in_.WantsAll()) return true;
+    return (p.contact && keep_in_.WantsNear(*p.contact, reach_)) ||
+           (p.other_contact && keep_in_.WantsNear(*p.other_contact, reach_));
+  }
+
+  static std::vector<CutterPath> Gather(const CutterPath& path, const Chords& chords) {
+    const std::size_t count = chords.keep.size();
+    std::size_t start = 0;  // of a closed path: a chord that is left out
+    while (start < count && chords.keep[start]) ++start;
+    if (start == count) return {path};
+    if (!path.closed) start = 0;
+    std::vector<CutterPath> parts;
+    bool open = false;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = (start + k) % count;
+      if (!chords.keep[i]) {
+        open = false;
+        continue;
+      }
+      if (!open) {
+        parts.push_back(path);
+        parts.back().closed = false;
+        parts.back().points = {chords.points[i]};
+        open = true;
+      }
+      parts.back().points.push_back(chords.points[i + 1]);
+    }
+    return parts;
+  }
+
+  const Locator& locator_;
+  const KeepIn& keep_in_;
+  double reach_;
+};
+
+}  // namespace
+
+absl::StatusOr<std::vector<CutterPath>> ClipToKeepIn(const Locator& locator, const KeepIn& keep_in,
+                                                     std::vector<CutterPath> paths, double reach,
+                                                     const RunContext& run) {
+  if (keep_in.WantsAll() && keep_in.AllowsAll()) return paths;
+  const Clipper clipper(locator, keep_in, reach);
+  std::vector<std::vector<CutterPath>> parts(paths.size());
+  PM_RETURN_IF_ERROR(
+      ParallelFor(run, nullptr, paths.size(), [&](std::size_t i) { parts[i] = clipper.Clip(paths[i]); }));
+  std::vector<CutterPath> kept;
+  for (std::vector<CutterPath>& of_path : parts) {
+    kept.insert(kept.end(), std::make_move_iterator(of_path.begin()), std::make_move_iterator(of_path.end()));
+  }
+  return kept;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,107 @@
+#include "cam/verify/keep_out.h"
+
+#include <algorithm>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "cam/verify/motion_sets.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kCertainty = 1e-3;  // mm
+constexpr std::size_t kMost = 20;    // findings per code
+
+using Room = std::function<double(const Vec3&)>;  // of a centre; slope at most 1
+
+struct Least {
+  double room = kInfinity;
+  Vec3 at = Vec3::Zero();
+  int move = -1;
+};
+
+// Lowers `least` to the smallest room on a b when that is smaller by more than the certainty.
+void Lower(const Room& room, const Vec3& a, const Vec3& b, Least& least) {
+  const Vec3 middle = 0.5 * (a + b);
+  const double here = room(middle), half = 0.5 * (b - a).norm();
+  if (here < least.room) {
+    least.room = here;
+    least.at = middle;
+  }
+  if (half < kCertainty || here - half >= least.room - kCertainty) return;
+  Lower(room, a, middle, least);
+  Lower(room, middle, b, least);
+}
+
+class Report {
+ public:
+  Report(const ProgramMotion& motion, const Vec3& offset, Diagnostics& out)
+      : motion_(motion), offset_(offset), out_(out) {}
+
+  void Add(const char* code, std::vector<Least> broken, const std::string& what) {
+    std::stable_sort(broken.begin(), broken.end(),
+                     [](const Least& a, const Least& b) { return a.room < b.room; });
+    std::vector<int> lines;
+    for (const Least& b : broken) {
+      const int line = motion_.moves[static_cast<std::size_t>(b.move)].line;
+      if (std::find(lines.begin(), lines.end(), line) != lines.end()) continue;
+      if (lines.size() == kMost) return;
+      lines.push_back(line);
+      const Vec3 tip = b.at - offset_;
+      Diagnostic d;
+      d.code = code;
+      d.severity = Severity::kError;
+      d.message = fmt::format("line {}: {} by {:.4f} mm, the tip at X{:.4f} Y{:.4f} Z{:.4f}", line, what,
+                              -b.room, tip.x(), tip.y(), tip.z());
+      d.where.line = line;
+      d.where.point = b.at;
+      out_.push_back(std::move(d));
+    }
+  }
+
+ private:
+  const ProgramMotion& motion_;
+  const Vec3 offset_;
+  Diagnostics& out_;
+};
+
+std::vector<Least> Broken(const std::vector<PathSegment>& moves, const Room& room, double slack) {
+  std::vector<Least> broken;
+  for (const PathSegment& s : moves) {
+    Least least{-slack, Vec3::Zero(), -1};
+    Lower(room, s.a, s.b, least);
+    if (least.room >= -slack) continue;
+    least.move = s.move;
+    broken.push_back(least);
+  }
+  return broken;
+}
+
+}  // namespace
+
+Diagnostics BrokenLimits(const ProgramMotion& motion, const CenterLimits& limits, const Vec3& offset,
+                         double slack) {
+  Diagnostics found;
+  if (limits.containment == nullptr) return found;
+  const Containment& c = *limits.containment;
+  Report report(motion, offset, found);
+  const std::vector<PathSegment> all = CollectMoves(motion, MotionSet::kSwept, offset);
+  for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
+    const Obstacle& o = c.obstacles[k];
+    const Room room = [&](const Vec3& center) {
+      return ObstacleRoom(o, center - Vec3(0.0, 0.0, limits.ball), limits.tool);
+    };
+    report.Add("OBSTACLE_HIT", Broken(all, room, slack),
+               fmt::format("the tool is within {:.4g} mm of obstacle {}", o.margin,
+                           o.id.empty() ? fmt::format("#{}", k) : "\"" + o.id + "\""));
+  }
+  if (c.boundary && c.boundary->mode != BoundaryMode::kContact) {
+    const Room room = [&](const Vec3& center) { return BoundaryRoom(c, Plan(center), limits.ball); };
+    report.Add("OUTSIDE_BOUNDARY", Broken(CollectMoves(motion, MotionSet::kCut, offset), room, slack),
+               "a feed leaves the boundary");
+  }
+  return found;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,20 @@
+#include "core/surface/part.h"
+
+#include "core/base/status.h"
+
+namespace patchmill {
+
+absl::StatusOr<Surface> PartOf(const Surface& surface, const std::vector<bool>& patches,
+                               const RunContext& run) {
+  const PatchModel& whole = surface.network.model;
+  PM_CHECK(patches.size() == whole.patches.size());
+  PatchModel part;
+  part.join_tolerance = whole.join_tolerance;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (patches[i]) part.patches.push_back(whole.patches[i]);
+  }
+  PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(part));
+  return BuildSurface(std::move(network), SurfaceParams{}, run);
+}
+
+}  // namespace patchmill
