@@ -81,6 +81,39 @@ void AddShape(const BezierTriangle& p, Canonical& out) {
   AddNumbers(p.weights, out);
 }
 
+void AddRing(const Ring& ring, Canonical& out) {
+  out.Add(static_cast<std::int64_t>(ring.size()));
+  for (const Vec2& p : ring) out.Add(p.x()).Add(p.y());
+}
+
+void AddNames(const std::vector<std::string>& names, Canonical& out) {
+  out.Add(static_cast<std::int64_t>(names.size()));
+  for (const std::string& name : names) out.Add(name);
+}
+
+// What there is of them, each under its name: a job without any keeps the digest it had before they existed.
+void AddLimits(const Job& job, Canonical& out) {
+  const Selection& s = job.operation.selection;
+  if (!s.patches.empty()) {
+    out.Add("patches");
+    AddNames(s.patches, out);
+  }
+  if (!s.avoid.empty()) {
+    out.Add("avoid").Add(s.avoid_margin);
+    AddNames(s.avoid, out);
+  }
+  if (!s.boundary.empty()) {
+    out.Add("boundary").Add(static_cast<std::int64_t>(s.boundary_mode)).Add(s.boundary_offset);
+    out.Add(static_cast<std::int64_t>(s.boundary.size()));
+    for (const Ring& ring : s.boundary) AddRing(ring, out);
+  }
+  if (job.operation.top_z) out.Add("top").Add(*job.operation.top_z);
+  for (const ObstacleOutline& o : job.setup.obstacles) {
+    out.Add("obstacle").Add(o.id).Add(o.top_z).Add(o.margin);
+    AddRing(o.outline, out);
+  }
+}
+
 }  // namespace
 
 std::string Sha256(std::string_view bytes) {
@@ -156,6 +189,7 @@ std::string JobDigest(const Job& job, std::string_view model_digest, std::string
   AddOptional(op.floor_z, out);
   out.Add(op.approach_gap).Add(job.dialect).Add(job.work_offset);
   out.Add(std::int64_t{job.default_cutting_data}).Add(std::int64_t{job.unitless_file});
+  AddLimits(job, out);
   return out.Digest();
 }
 

@@ -35,6 +35,9 @@ inline constexpr double kMaxJobSeconds = 3600.0;  // default of the server
 // step-over, and points at the longest chord that the tolerance allows anywhere.
 inline constexpr double kMaxCutLengthMm = 5e6;
 inline constexpr double kMaxPathPoints = 2e7;
+inline constexpr std::size_t kMaxOutlinePoints =
+    20'000;  // of all boundary rings and obstacles of a job, each
+inline constexpr int kMaxObstacles = 1000;
 inline constexpr std::size_t kMaxProgramBytes = std::size_t{512} << 20;  // of a made program
 
 // Curves.
@@ -55,6 +58,8 @@ inline constexpr double kMaxAllowanceMm = 100.0;
 inline constexpr double kMaxApproachGapMm = 100.0;
 inline constexpr double kMaxClearanceAboveMm = 1e4;
 inline constexpr double kMaxCoordinateMm = 1e5;
+inline constexpr double kMaxAvoidMarginMm = 100.0;
+inline constexpr double kMaxOutlineOffsetMm = 1000.0;
 inline constexpr double kMinSteepDeg = 5.0, kMaxSteepDeg = 85.0;
 inline constexpr double kMaxRpm = 1e6;
 inline constexpr double kMaxFeed = 1e6;  // mm/min

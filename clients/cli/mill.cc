@@ -5,6 +5,7 @@
 
 #include "clients/cli/commands.h"
 #include "clients/cli/job_options.h"
+#include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
 #include "clients/cli/progress_bar.h"
 #include "clients/cli/text.h"
@@ -19,6 +20,7 @@ struct MillOptions {
   CommonOptions common;
   SetupOptions setup;
   OperationOptions operation;
+  LimitOptions limits;
   std::string model, program, report, preview, post = "linuxcnc", work_offset = "G54";
 };
 
@@ -38,7 +40,13 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
   v1::Job& job = *request.mutable_job();
   *job.mutable_source() = *std::move(source);
   *job.mutable_setup() = *std::move(setup);
-  *job.add_operations() = MakeOperation(options.operation);
+  v1::Operation& operation = *job.add_operations();
+  operation = MakeOperation(options.operation);
+  v1::Selection selection;
+  if (const absl::Status set = SetLimits(options.limits, *job.mutable_setup(), selection); !set.ok())
+    return set;
+  if (Selects(options.limits)) *operation.mutable_selection() = std::move(selection);
+  if (options.limits.top) operation.mutable_heights()->set_top_z_mm(*options.limits.top);
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   request.mutable_post()->set_dialect(WireText(options.post, 100));
   request.mutable_post()->set_work_offset(WireText(options.work_offset, 100));
@@ -169,7 +177,7 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
       ->capture_default_str();
   AddNumber(app, "--floor", op.floor, "lowest tip, mm, program frame; default: the model's lowest point");
   AddNumber(app, "--clearance", op.clearance,
-            "tip height of rapids above the highest of model and stock, mm");
+            "tip height of rapids above the highest of model, stock and obstacles, mm");
   AddNumber(app, "--feed", op.feed, "mm/min; default 1200 at D 6, with a warning");
   AddNumber(app, "--plunge-feed", op.plunge_feed, "mm/min; default a third of the feed, with a warning");
   AddNumber(app, "--spindle", op.spindle, "rpm; default 12000 at D 6, with a warning");
@@ -186,6 +194,7 @@ Command AddMill(CLI::App& app) {
   app.add_option("MODEL", options->model, kModelHelp)->required();
   app.add_option("-o,--output", options->program, "where the program goes, once it is verified")->required();
   AddOperationOptions(app, options->operation);
+  AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
   app.add_option("--work-offset", options->work_offset, "G54 to G59")->capture_default_str();

@@ -5,6 +5,7 @@
 
 #include "clients/cli/commands.h"
 #include "clients/cli/job_options.h"
+#include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/analysis_service.grpc.pb.h"
@@ -16,6 +17,7 @@ struct RegionsOptions {
   CommonOptions common;
   SetupOptions setup;
   OperationOptions operation;
+  LimitOptions limits;
   std::string model, output;
 };
 
@@ -34,7 +36,13 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
   v1::Job& job = *request.mutable_job();
   *job.mutable_source() = *std::move(source);
   *job.mutable_setup() = *std::move(setup);
-  *job.add_operations() = MakeOperation(options.operation);
+  v1::Operation& operation = *job.add_operations();
+  operation = MakeOperation(options.operation);
+  v1::Selection selection;
+  if (const absl::Status set = SetLimits(options.limits, *job.mutable_setup(), selection); !set.ok())
+    return set;
+  if (Selects(options.limits)) *operation.mutable_selection() = std::move(selection);
+  if (options.limits.top) operation.mutable_heights()->set_top_z_mm(*options.limits.top);
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   request.add_outputs(ending == ".svg" ? v1::OUTPUT_PICTURE : v1::OUTPUT_REGIONS);
   request.set_max_threads(options.common.threads);
@@ -64,6 +72,7 @@ Command AddRegions(CLI::App& app) {
   AddNumber(app, "--leave", op.leave, "material left along the normal, mm");
   AddNumber(app, "--steep-angle", op.steep_angle, "above this a region is steep, degrees");
   AddNumber(app, "--floor", op.floor, "lowest tip, mm, program frame; default: the model's lowest point");
+  AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

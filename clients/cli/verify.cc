@@ -5,6 +5,7 @@
 #include "clients/cli/commands.h"
 #include "clients/cli/input_file.h"
 #include "clients/cli/job_options.h"
+#include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
 #include "clients/cli/progress_bar.h"
 #include "clients/cli/text.h"
@@ -16,6 +17,7 @@ namespace {
 struct VerifyOptions {
   CommonOptions common;
   SetupOptions setup;
+  LimitOptions limits;
   std::string model, program, report, strategy = "auto";
   double tool_diameter = 0.0, tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0;
   std::optional<double> scallop, floor;
@@ -32,6 +34,11 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   if (!setup.ok()) return setup.status();
   *request.mutable_source() = *std::move(source);
   *request.mutable_setup() = *std::move(setup);
+  v1::Selection selection;
+  if (const absl::Status set = SetLimits(options.limits, *request.mutable_setup(), selection); !set.ok())
+    return set;
+  if (Selects(options.limits)) *request.mutable_selection() = std::move(selection);
+  if (options.limits.top) request.set_top_z_mm(*options.limits.top);
   request.set_program(*std::move(program));
   request.add_tools()->mutable_ball_end()->set_diameter_mm(options.tool_diameter);
   request.set_tolerance_mm(options.tolerance);
@@ -116,6 +123,7 @@ Command AddVerify(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();
   AddNumber(app, "--zigzag-angle", options->zigzag_angle, "degrees, for --strategy zigzag");
+  AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
   app.add_option("--report", options->report, "write the report here (.json)");

@@ -9,7 +9,7 @@ namespace patchmill {
 namespace {
 
 constexpr int kLeafEdges = 4;
-constexpr double kLeastExtent = 1e-6;  // mm
+constexpr double kLeastWidth = 1e-6;  // mm
 
 double SegmentDistance2(const Vec2& q, const Vec2& a, const Vec2& b) {
   const Vec2 d = b - a;
@@ -25,18 +25,19 @@ std::string OutlineFault(const std::vector<Ring>& rings) {
   for (std::size_t r = 0; r < rings.size(); ++r) {
     const Ring& ring = rings[r];
     if (ring.size() < 3) return fmt::format("ring {} has {} points; must have at least 3", r, ring.size());
-    Vec2 min = ring.front(), max = ring.front();
+    Vec2 far = ring.front();
     for (std::size_t i = 0; i < ring.size(); ++i) {
       if (!ring[i].allFinite()) {
         return fmt::format("ring {}, point {} = ({:g}, {:g}); must be finite", r, i, ring[i].x(),
                            ring[i].y());
       }
-      min = min.cwiseMin(ring[i]);
-      max = max.cwiseMax(ring[i]);
+      if ((ring[i] - ring[0]).norm() > (far - ring[0]).norm()) far = ring[i];
     }
-    if (!((max - min).minCoeff() > kLeastExtent)) {
-      return fmt::format("ring {} is {:.3g} x {:.3g} mm; must enclose something", r, (max - min).x(),
-                         (max - min).y());
+    const Vec2 along = (far - ring[0]).normalized();
+    double width = 0.0;
+    for (const Vec2& p : ring) width = std::max(width, std::abs(Cross(along, p - ring[0])));
+    if (!(width > kLeastWidth)) {
+      return fmt::format("ring {} has all its points on one line; must enclose something", r);
     }
   }
   return "";

@@ -11,7 +11,7 @@ namespace patchmill {
 using Ring = std::vector<Vec2>;  // closed: the last point joins the first, which is not repeated
 
 // What keeps rings from being an outline; empty when nothing does. Each needs three points or more, finite
-// ones, and an extent above 1e-6 mm in x and in y.
+// ones, not all within 1e-6 mm of one line.
 std::string OutlineFault(const std::vector<Ring>& rings);
 
 // The points with an odd number of rings around them (even-odd rule): rings may lie in each other, cross

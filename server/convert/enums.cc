@@ -94,6 +94,23 @@ CutDirection FromProto(v1::CutDirection value, const std::string& field, FieldEr
   }
 }
 
+BoundaryMode FromProto(v1::BoundaryMode value, const std::string& field, FieldErrors& errors) {
+  switch (value) {
+    case v1::BOUNDARY_MODE_UNSPECIFIED:
+    case v1::BOUNDARY_MODE_CENTER:
+      return BoundaryMode::kCenter;
+    case v1::BOUNDARY_MODE_CONTACT:
+      return BoundaryMode::kContact;
+    case v1::BOUNDARY_MODE_INSIDE:
+      return BoundaryMode::kInside;
+    case v1::BOUNDARY_MODE_OUTSIDE:
+      return BoundaryMode::kOutside;
+    default:
+      Unknown(value, field, errors);
+      return BoundaryMode::kCenter;
+  }
+}
+
 EdgeRule FromProto(v1::EdgeRule value, const std::string& field, FieldErrors& errors) {
   switch (value) {
     case v1::EDGE_RULE_UNSPECIFIED:
@@ -175,6 +192,20 @@ v1::CutDirection ToProto(CutDirection value) {
       return v1::CUT_DIRECTION_EITHER;
   }
   return v1::CUT_DIRECTION_UNSPECIFIED;
+}
+
+v1::BoundaryMode ToProto(BoundaryMode value) {
+  switch (value) {
+    case BoundaryMode::kContact:
+      return v1::BOUNDARY_MODE_CONTACT;
+    case BoundaryMode::kCenter:
+      return v1::BOUNDARY_MODE_CENTER;
+    case BoundaryMode::kInside:
+      return v1::BOUNDARY_MODE_INSIDE;
+    case BoundaryMode::kOutside:
+      return v1::BOUNDARY_MODE_OUTSIDE;
+  }
+  return v1::BOUNDARY_MODE_UNSPECIFIED;
 }
 
 v1::EdgeRule ToProto(EdgeRule value) {

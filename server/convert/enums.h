@@ -21,6 +21,7 @@ Setup::Zero FromProto(v1::ZeroAnchor value, const std::string& field, FieldError
 Coolant FromProto(v1::Coolant value, const std::string& field, FieldErrors& errors);
 Strategy FromProto(v1::Strategy value, const std::string& field, FieldErrors& errors);
 CutDirection FromProto(v1::CutDirection value, const std::string& field, FieldErrors& errors);
+BoundaryMode FromProto(v1::BoundaryMode value, const std::string& field, FieldErrors& errors);
 EdgeRule FromProto(v1::EdgeRule value, const std::string& field, FieldErrors& errors);
 
 v1::UpAxis ToProto(UpAxis value);
@@ -28,6 +29,7 @@ v1::ZeroAnchor ToProto(Setup::Zero value);
 v1::Coolant ToProto(Coolant value);
 v1::Strategy ToProto(Strategy value);
 v1::CutDirection ToProto(CutDirection value);
+v1::BoundaryMode ToProto(BoundaryMode value);
 v1::EdgeRule ToProto(EdgeRule value);
 v1::MoveKind ToProto(MoveKind value);
 v1::RegionKind ToProto(RegionKind value);

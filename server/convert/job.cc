@@ -4,6 +4,7 @@
 
 #include "server/convert/enums.h"
 #include "server/convert/fields.h"
+#include "server/convert/outline.h"
 #include "server/convert/setup.h"
 #include "server/limits.h"
 
@@ -33,11 +34,10 @@ void ReadHeights(const v1::Heights& proto, const std::string& at, Operation& op,
             op.approach_gap > 0.0 && op.approach_gap <= limits::kMaxApproachGapMm,
             fmt::format("in (0, {}]", limits::kMaxApproachGapMm));
   }
-  if (proto.has_top_z_mm()) errors.NotYet(At(at, "top_z_mm"), "leave it unset");
+  if (proto.has_top_z_mm()) op.top_z = height("top_z_mm", proto.top_z_mm());
 }
 
 void RefuseWhatIsNotThere(const v1::Operation& proto, std::string_view at, FieldErrors& errors) {
-  if (proto.has_selection()) errors.NotYet(At(at, "selection"), "send only the patches to cut");
   if (!proto.regions_sha256().empty()) errors.NotYet(At(at, "regions_sha256"), "leave it empty");
   if (!proto.region_overrides().empty()) errors.NotYet(At(at, "region_overrides"), "leave it empty");
   if (proto.edge_rule() == v1::EDGE_RULE_ROLL || proto.edge_rule() == v1::EDGE_RULE_EXTEND) {
@@ -118,6 +118,7 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
   }
   op.contour_direction = FromProto(proto.contour_direction(), At(at, "contour_direction"), errors);
   op.edge_rule = FromProto(proto.edge_rule(), At(at, "edge_rule"), errors);
+  op.selection = FromProto(proto.selection(), At(at, "selection"), errors);
   ReadHeights(proto.heights(), At(at, "heights"), op, errors);
   RefuseWhatIsNotThere(proto, at, errors);
   return op;
@@ -166,6 +167,11 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   }
   heights.set_approach_gap_mm(op.approach_gap);
   if (op.floor_z) heights.set_floor_z_mm(*op.floor_z);
+  if (op.top_z) heights.set_top_z_mm(*op.top_z);
+  const Selection& s = op.selection;
+  if (!s.patches.empty() || !s.avoid.empty() || !s.boundary.empty()) {
+    *proto.mutable_selection() = ToProto(s);
+  }
   return proto;
 }
 

@@ -4,6 +4,7 @@
 
 #include "server/convert/enums.h"
 #include "server/convert/fields.h"
+#include "server/convert/outline.h"
 #include "server/limits.h"
 
 namespace patchmill {
@@ -24,6 +25,33 @@ std::optional<double> Positive(bool has, double value, std::string field, FieldE
   Require(errors, std::move(field), value, value > 0.0 && value <= limits::kMaxCoordinateMm,
           fmt::format("in (0, {}]", limits::kMaxCoordinateMm));
   return value;
+}
+
+void ReadObstacles(const google::protobuf::RepeatedPtrField<v1::Obstacle>& list, std::string_view at,
+                   Setup& setup, FieldErrors& errors) {
+  if (list.size() > limits::kMaxObstacles) {
+    errors.Add(At(at, "obstacles"),
+               fmt::format("has {} elements; must have at most {}", list.size(), limits::kMaxObstacles));
+    return;
+  }
+  std::size_t points = 0;
+  for (int i = 0; i < list.size(); ++i) {
+    const v1::Obstacle& proto = list[i];
+    const std::string path = fmt::format("{}[{}]", At(at, "obstacles"), i);
+    RequireBytes(errors, At(path, "id"), proto.id(), limits::kMaxIdBytes);
+    ObstacleOutline obstacle;
+    obstacle.id = proto.id();
+    obstacle.outline = ReadRing(proto.outline_xy_mm(), At(path, "outline_xy_mm"), points, errors);
+    obstacle.top_z = proto.top_z_mm();
+    Require(errors, At(path, "top_z_mm"), obstacle.top_z,
+            std::abs(obstacle.top_z) <= limits::kMaxCoordinateMm,
+            fmt::format("in [{}, {}]", -limits::kMaxCoordinateMm, limits::kMaxCoordinateMm));
+    obstacle.margin = proto.margin_mm();
+    Require(errors, At(path, "margin_mm"), obstacle.margin,
+            obstacle.margin >= 0.0 && obstacle.margin <= limits::kMaxOutlineOffsetMm,
+            fmt::format("in [0, {}]", limits::kMaxOutlineOffsetMm));
+    setup.obstacles.push_back(std::move(obstacle));
+  }
 }
 
 void CheckCuttingData(const v1::Tool& proto, std::string_view at, CuttingData needed, FieldErrors& errors) {
@@ -80,8 +108,7 @@ Setup FromProto(const v1::Setup& proto, std::string_view at, FieldErrors& errors
             fmt::format("in [0, {}]", limits::kMaxAllowanceMm));
     setup.allowance = stock.allowance_mm();
   }
-  if (!proto.obstacles().empty())
-    errors.NotYet(At(at, "obstacles"), "leave it empty and keep clamps out of the way");
+  ReadObstacles(proto.obstacles(), at, setup, errors);
   return setup;
 }
 
@@ -138,6 +165,13 @@ v1::Setup ToProto(const Setup& setup) {
   }
   if (setup.stock_top_z) proto.mutable_stock()->set_top_z_mm(*setup.stock_top_z);
   proto.mutable_stock()->set_allowance_mm(setup.allowance);
+  for (const ObstacleOutline& o : setup.obstacles) {
+    v1::Obstacle& obstacle = *proto.add_obstacles();
+    obstacle.set_id(Utf8(o.id));
+    WriteRing(o.outline, obstacle.mutable_outline_xy_mm());
+    obstacle.set_top_z_mm(o.top_z);
+    obstacle.set_margin_mm(o.margin);
+  }
   return proto;
 }
 

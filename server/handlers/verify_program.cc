@@ -6,6 +6,7 @@
 #include "core/base/status.h"
 #include "server/convert/enums.h"
 #include "server/convert/fields.h"
+#include "server/convert/outline.h"
 #include "server/convert/report.h"
 #include "server/convert/setup.h"
 #include "server/handlers/handlers.h"
@@ -47,6 +48,13 @@ Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
     Require(errors, "floor_z_mm", *op.floor_z, std::abs(*op.floor_z) <= kMost,
             fmt::format("in [{}, {}]", -kMost, kMost));
   }
+  if (request.has_top_z_mm()) {
+    op.top_z = request.top_z_mm();
+    constexpr double kMost = limits::kMaxCoordinateMm;
+    Require(errors, "top_z_mm", *op.top_z, std::abs(*op.top_z) <= kMost,
+            fmt::format("in [{}, {}]", -kMost, kMost));
+  }
+  op.selection = FromProto(request.selection(), "selection", errors);
   op.strategy = FromProto(request.strategy(), "strategy", errors);
   Require(errors, "zigzag_angle_deg", request.zigzag_angle_deg(),
           std::abs(request.zigzag_angle_deg()) <= 360.0, "in [-360, 360]");

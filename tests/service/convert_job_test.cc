@@ -170,15 +170,84 @@ INSTANTIATE_TEST_SUITE_P(
                             "post.work_offset = \"G60\"; must be one of G54 to G59"}),
     kName);
 
+void AddRing(std::initializer_list<double> xy, google::protobuf::RepeatedField<double>* out) {
+  for (const double x : xy) out->Add(x);
+}
+
+v1::Selection& SelectionOf(Request& r) { return *OperationOf(r).mutable_selection(); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Limits, WrongJobs,
+    ::testing::Values(
+        Wrong{
+            "ObstacleWithoutOutline", [](Request& r) { SetupOf(r).add_obstacles(); },
+            "job.setup.obstacles[0].outline_xy_mm is no outline: ring 0 has 0 points; must have at least 3"},
+        Wrong{"ObstacleOddNumbers",
+              [](Request& r) {
+                AddRing({0, 0, 1}, SetupOf(r).add_obstacles()->mutable_outline_xy_mm());
+              },
+              "job.setup.obstacles[0].outline_xy_mm has 3 numbers; must be packed x y"},
+        Wrong{"ObstacleFlat",
+              [](Request& r) {
+                AddRing({0, 0, 1, 1, 2, 2}, SetupOf(r).add_obstacles()->mutable_outline_xy_mm());
+              },
+              "job.setup.obstacles[0].outline_xy_mm is no outline: ring 0 has all its points on one line"},
+        Wrong{"ObstacleMargin",
+              [](Request& r) {
+                v1::Obstacle& o = *SetupOf(r).add_obstacles();
+                AddRing({0, 0, 1, 0, 0, 1}, o.mutable_outline_xy_mm());
+                o.set_margin_mm(-1);
+              },
+              "job.setup.obstacles[0].margin_mm = -1; must be in [0, 1000]"},
+        Wrong{"ObstacleTop",
+              [](Request& r) {
+                v1::Obstacle& o = *SetupOf(r).add_obstacles();
+                AddRing({0, 0, 1, 0, 0, 1}, o.mutable_outline_xy_mm());
+                o.set_top_z_mm(kNan);
+              },
+              "job.setup.obstacles[0].top_z_mm = nan; must be in [-100000, 100000]"},
+        Wrong{"TooManyObstacles",
+              [](Request& r) {
+                for (int i = 0; i <= 1000; ++i) SetupOf(r).add_obstacles();
+              },
+              "job.setup.obstacles has 1001 elements; must have at most 1000"},
+        Wrong{"BoundaryNan",
+              [](Request& r) {
+                AddRing({0, 0, 1, kNan, 0, 1}, SelectionOf(r).mutable_boundary_xy_mm());
+              },
+              "job.operations[0].selection.boundary_xy_mm[3] = nan; must be in [-100000, 100000]"},
+        Wrong{
+            "BoundaryTooLong",
+            [](Request& r) {
+              for (int i = 0; i < 20'001; ++i)
+                AddRing({1.0 * i, 0.5 * i * i}, SelectionOf(r).mutable_boundary_xy_mm());
+            },
+            "job.operations[0].selection.boundary_xy_mm brings the outlines to 20001 points; must be at most "
+            "20000"},
+        Wrong{"SecondRing",
+              [](Request& r) {
+                AddRing({0, 0, 1, 0, 0, 1}, SelectionOf(r).mutable_boundary_xy_mm());
+                SelectionOf(r).add_more_boundary_rings();
+              },
+              "job.operations[0].selection.more_boundary_rings[0].xy_mm is no outline"},
+        Wrong{"BoundaryMode",
+              [](Request& r) { SelectionOf(r).set_boundary_mode(static_cast<v1::BoundaryMode>(9)); },
+              "job.operations[0].selection.boundary_mode"},
+        Wrong{"BoundaryOffset", [](Request& r) { SelectionOf(r).set_boundary_offset_mm(kInf); },
+              "job.operations[0].selection.boundary_offset_mm = inf; must be in [-1000, 1000]"},
+        Wrong{"AvoidMargin", [](Request& r) { SelectionOf(r).set_avoid_margin_mm(-0.1); },
+              "job.operations[0].selection.avoid_margin_mm = -0.1; must be in [0, 100]"},
+        Wrong{"LongPatchId", [](Request& r) { SelectionOf(r).add_patch_ids(std::string(201, 'x')); },
+              "job.operations[0].selection.patch_ids[0] has 201 bytes; must have at most 200"},
+        Wrong{"TopZ", [](Request& r) { HeightsOf(r).set_top_z_mm(kNan); },
+              "job.operations[0].heights.top_z_mm = nan"}),
+    kName);
+
 // Places that are only reserved: refused by name, never silently ignored.
 INSTANTIATE_TEST_SUITE_P(
     Next, WrongJobs,
-    ::testing::Values(Wrong{"Obstacles", [](Request& r) { SetupOf(r).add_obstacles(); },
-                            "job.setup.obstacles is not there yet", kNext},
-                      Wrong{"Holder", [](Request& r) { ToolOf(r).add_holder(); },
+    ::testing::Values(Wrong{"Holder", [](Request& r) { ToolOf(r).add_holder(); },
                             "job.operations[0].tool.holder is not there yet", kNext},
-                      Wrong{"Selection", [](Request& r) { OperationOf(r).mutable_selection(); },
-                            "job.operations[0].selection is not there yet", kNext},
                       Wrong{"Overrides", [](Request& r) { OperationOf(r).add_region_overrides(); },
                             "job.operations[0].region_overrides is not there yet", kNext},
                       Wrong{"RegionsHash", [](Request& r) { OperationOf(r).set_regions_sha256("x"); },
@@ -186,8 +255,6 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{"EdgeRule",
                             [](Request& r) { OperationOf(r).set_edge_rule(v1::EDGE_RULE_EXTEND); },
                             "job.operations[0].edge_rule is not there yet", kNext},
-                      Wrong{"TopZ", [](Request& r) { HeightsOf(r).set_top_z_mm(3); },
-                            "job.operations[0].heights.top_z_mm is not there yet", kNext},
                       Wrong{"SecondOperation",
                             [](Request& r) { *r.mutable_job()->add_operations() = OperationOf(r); },
                             "job.operations[1] is not there yet", kNext},
@@ -238,6 +305,20 @@ Request Unusual() {
   op.mutable_heights()->set_clearance_z_mm(70);
   op.mutable_heights()->set_approach_gap_mm(2);
   op.mutable_heights()->set_floor_z_mm(-3);
+  op.mutable_heights()->set_top_z_mm(30);
+  v1::Obstacle& obstacle = *SetupOf(r).add_obstacles();
+  obstacle.set_id("vice");
+  AddRing({0, 0, 1, 0, 0, 1}, obstacle.mutable_outline_xy_mm());
+  obstacle.set_top_z_mm(5);
+  obstacle.set_margin_mm(0.5);
+  v1::Selection& selection = SelectionOf(r);
+  selection.add_patch_ids("bump");
+  selection.add_avoid_patch_ids("#0");
+  selection.set_avoid_margin_mm(0.25);
+  AddRing({0, 0, 9, 0, 0, 9}, selection.mutable_boundary_xy_mm());
+  selection.set_boundary_mode(v1::BOUNDARY_MODE_INSIDE);
+  selection.set_boundary_offset_mm(-0.125);
+  AddRing({1, 1, 2, 1, 1, 2}, selection.add_more_boundary_rings()->mutable_xy_mm());
   r.mutable_post()->set_dialect("linuxcnc");
   r.mutable_post()->set_arcs(false);
   r.mutable_post()->set_unit(v1::LENGTH_UNIT_MILLIMETER);
@@ -294,6 +375,15 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_strategy(v1::STRATEGY_ZIGZAG); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_contour_direction(v1::CUT_DIRECTION_EITHER); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_floor_z_mm(-2); }));
+  EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_top_z_mm(2); }));
+  EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_patch_ids("bump"); }));
+  EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_avoid_patch_ids("bump"); }));
+  EXPECT_TRUE(differs([](Request& r) {
+    AddRing({0, 0, 9, 0, 0, 9}, SelectionOf(r).mutable_boundary_xy_mm());
+  }));
+  EXPECT_TRUE(differs([](Request& r) {
+    AddRing({0, 0, 1, 0, 0, 1}, SetupOf(r).add_obstacles()->mutable_outline_xy_mm());
+  }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_clearance_above_mm(9); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_clearance_z_mm(9); }));
   EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_work_offset("G55"); }));

@@ -4,6 +4,7 @@
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
@@ -278,6 +279,40 @@ TEST_F(VerifyProgram, AGougeIsFoundWithItsLine) {
   EXPECT_NEAR(report.max_gouge_mm(), 1.125, 0.1);
   EXPECT_EQ(report.max_gouge_at().line(), 10);
   EXPECT_EQ(report.max_gouge_at().patch_id(), "bump");
+}
+
+TEST_F(VerifyProgram, MovesBeyondTheLimitsAreFoundWithTheirLines) {
+  const auto codes = [&] {
+    std::string found;
+    for (const v1::Diagnostic& d : last_.report().diagnostics()) {
+      found += d.code() + fmt::format(" {} ", d.where().line());
+    }
+    return found;
+  };
+  for (const double x : {-1.0, -1.0, 13.0, -1.0, 13.0, 13.0, -1.0, 13.0}) {
+    request_.mutable_selection()->add_boundary_xy_mm(x);
+  }
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_EQ(codes(), "");
+  request_.mutable_selection()->set_boundary_mode(v1::BOUNDARY_MODE_INSIDE);
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_EQ(last_.report().outcome(), v1::OUTCOME_VERIFICATION_FAILED);
+  EXPECT_EQ(last_.report().motion_check(), v1::CHECK_STATE_FAILED);
+  EXPECT_THAT(codes(), HasSubstr("OUTSIDE_BOUNDARY 10"));
+  request_.clear_selection();
+  v1::Obstacle& pin = *request_.mutable_setup()->add_obstacles();
+  pin.set_top_z_mm(7.5);
+  for (const double x : {5.0, 0.0, 6.0, 0.0, 6.0, 2.9, 5.0, 2.9}) pin.add_outline_xy_mm(x);
+  ASSERT_TRUE(Verify().ok());  // the line runs 3.1 mm beside it, the ball has 3
+  EXPECT_EQ(codes(), "");
+  pin.set_margin_mm(0.2);
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_EQ(codes(), "OBSTACLE_HIT 10 ");
+  // What is not wanted is not counted.
+  request_.mutable_setup()->clear_obstacles();
+  request_.mutable_selection()->add_avoid_patch_ids("bump");
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_EQ(last_.report().reachable_area_mm2() + last_.report().unreachable_area_mm2(), 0.0);
 }
 
 TEST_F(VerifyProgram, AWordThatCouldMoveIsAnErrorWithItsLine) {

@@ -80,6 +80,8 @@ TEST(Outline, FaultsAreNamed) {
   EXPECT_NE(OutlineFault({}), "");
   EXPECT_NE(OutlineFault({kSquare, {{0, 0}, {1, 1}}}).find("ring 1 has 2 points"), std::string::npos);
   EXPECT_NE(OutlineFault({{{0, 0}, {1, 0}, {2, 0}}}).find("enclose"), std::string::npos);
+  EXPECT_NE(OutlineFault({{{1, 1}, {2, 2}, {3, 3}, {1, 1}}}).find("enclose"), std::string::npos);
+  EXPECT_NE(OutlineFault({{{1, 1}, {1, 1}, {1, 1}}}).find("enclose"), std::string::npos);
   EXPECT_NE(OutlineFault({{{0, 0}, {1, kInfinity}, {2, 0}}}).find("finite"), std::string::npos);
 }
 

@@ -1,0 +1,124 @@
+#include "clients/cli/limit_options.h"
+
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "clients/cli/input_file.h"
+#include "clients/cli/job_options.h"
+#include "clients/cli/text.h"
+
+namespace patchmill::cli {
+namespace {
+
+bool ReadNumber(const std::string& text, double& value) {
+  return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+}
+
+// "X,Y X,Y X,Y" into packed x y.
+absl::Status ReadPoints(const std::string& text, const std::string& what,
+                        google::protobuf::RepeatedField<double>* xy) {
+  std::istringstream in(text);
+  std::string point;
+  while (in >> point) {
+    const std::size_t comma = point.find(',');
+    double x = 0.0, y = 0.0;
+    if (comma == std::string::npos || !ReadNumber(point.substr(0, comma), x) ||
+        !ReadNumber(point.substr(comma + 1), y)) {
+      return absl::InvalidArgumentError(
+          fmt::format("{}: \"{}\"; must be points X,Y with spaces between", what, point.substr(0, 50)));
+    }
+    xy->Add(x);
+    xy->Add(y);
+  }
+  if (xy->size() < 6) {
+    return absl::InvalidArgumentError(
+        fmt::format("{} has {} points; must have at least 3", what, xy->size() / 2));
+  }
+  return absl::OkStatus();
+}
+
+// A ring of points, or those of a file "@FILE".
+absl::Status ReadRing(const std::string& text, const std::string& option,
+                      google::protobuf::RepeatedField<double>* xy) {
+  if (text.empty() || text.front() != '@') return ReadPoints(text, option, xy);
+  absl::StatusOr<std::string> content = ReadWholeFile(text.substr(1));
+  if (!content.ok()) return content.status();
+  return ReadPoints(*content, text.substr(1), xy);
+}
+
+// [NAME=]TOP[,MARGIN]: POINTS
+absl::Status ReadObstacle(const std::string& text, v1::Obstacle& obstacle) {
+  const std::size_t colon = text.find(':');
+  std::string head = text.substr(0, colon);
+  if (const std::size_t equals = head.find('='); equals != std::string::npos) {
+    obstacle.set_id(WireText(head.substr(0, equals), 200));
+    head = head.substr(equals + 1);
+  }
+  const std::size_t comma = head.find(',');
+  double top = 0.0, margin = 0.0;
+  if (colon == std::string::npos || !ReadNumber(head.substr(0, comma), top) ||
+      (comma != std::string::npos && !ReadNumber(head.substr(comma + 1), margin))) {
+    return absl::InvalidArgumentError(
+        fmt::format("--obstacle \"{}\"; must be [NAME=]TOP[,MARGIN]: X,Y X,Y X,Y", text.substr(0, 80)));
+  }
+  obstacle.set_top_z_mm(top);
+  obstacle.set_margin_mm(margin);
+  const std::size_t points = text.find_first_not_of(' ', colon + 1);
+  return ReadRing(points == std::string::npos ? "" : text.substr(points), "--obstacle",
+                  obstacle.mutable_outline_xy_mm());
+}
+
+v1::BoundaryMode MakeMode(const std::string& name) {
+  if (name == "contact") return v1::BOUNDARY_MODE_CONTACT;
+  if (name == "inside") return v1::BOUNDARY_MODE_INSIDE;
+  if (name == "outside") return v1::BOUNDARY_MODE_OUTSIDE;
+  return v1::BOUNDARY_MODE_CENTER;
+}
+
+}  // namespace
+
+void AddLimitOptions(CLI::App& app, LimitOptions& options) {
+  app.add_option("--only", options.only, "cut these patches: ids, or #INDEX from #0; several with commas")
+      ->delimiter(',');
+  app.add_option("--avoid", options.avoid, "do not cut these patches; several with commas")->delimiter(',');
+  AddNumber(app, "--avoid-margin", options.avoid_margin, "distance of the tool from avoided patches, mm");
+  app.add_option(
+      "--boundary", options.boundary,
+      "closed outline from above, program frame: \"X,Y X,Y X,Y\" or @FILE; more than one: holes, islands");
+  app.add_option("--boundary-mode", options.boundary_mode, "what of the tool it limits")
+      ->check(CLI::IsMember({"contact", "center", "inside", "outside"}))
+      ->capture_default_str();
+  AddNumber(app, "--boundary-offset", options.boundary_offset,
+            "widens the boundary, mm; negative: narrows it");
+  AddNumber(app, "--top", options.top, "highest tip of a cutting ball, mm, program frame");
+  app.add_option(
+      "--obstacle", options.obstacles,
+      "a clamp or vice to keep off, program frame: \"[NAME=]TOP[,MARGIN]: X,Y X,Y X,Y\" or \"...: @FILE\"");
+}
+
+bool Selects(const LimitOptions& options) {
+  return !options.only.empty() || !options.avoid.empty() || !options.boundary.empty();
+}
+
+absl::Status SetLimits(const LimitOptions& options, v1::Setup& setup, v1::Selection& selection) {
+  for (const std::string& text : options.obstacles) {
+    if (const absl::Status read = ReadObstacle(text, *setup.add_obstacles()); !read.ok()) return read;
+  }
+  for (const std::string& id : options.only) selection.add_patch_ids(WireText(id, 200));
+  for (const std::string& id : options.avoid) selection.add_avoid_patch_ids(WireText(id, 200));
+  if (!options.avoid.empty()) selection.set_avoid_margin_mm(options.avoid_margin);
+  for (std::size_t i = 0; i < options.boundary.size(); ++i) {
+    auto* xy =
+        i == 0 ? selection.mutable_boundary_xy_mm() : selection.add_more_boundary_rings()->mutable_xy_mm();
+    if (const absl::Status read = ReadRing(options.boundary[i], "--boundary", xy); !read.ok()) return read;
+  }
+  if (!options.boundary.empty()) {
+    selection.set_boundary_mode(MakeMode(options.boundary_mode));
+    selection.set_boundary_offset_mm(options.boundary_offset);
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace patchmill::cli

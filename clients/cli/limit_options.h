@@ -1,0 +1,30 @@
+// Which part of the model, and what to keep off: options and the messages they become.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <absl/status/status.h>
+
+#include "patchmill/v1/operation.pb.h"
+#include "patchmill/v1/setup.pb.h"
+
+namespace patchmill::cli {
+
+struct LimitOptions {
+  std::vector<std::string> only, avoid, boundary, obstacles;
+  std::string boundary_mode = "center";
+  double avoid_margin = 0.0, boundary_offset = 0.0;
+  std::optional<double> top;
+};
+
+void AddLimitOptions(CLI::App& app, LimitOptions& options);
+
+// Adds obstacles to the set-up, and fills the selection when there is any. INVALID_ARGUMENT names the option.
+absl::Status SetLimits(const LimitOptions& options, v1::Setup& setup, v1::Selection& selection);
+// Whether the options say anything about the selection.
+bool Selects(const LimitOptions& options);
+
+}  // namespace patchmill::cli

@@ -1,0 +1,25 @@
+// Packed x y <-> rings, and v1.Selection <-> Selection.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <google/protobuf/repeated_field.h>
+
+#include "cam/plan/job.h"
+#include "patchmill/v1/operation.pb.h"
+#include "server/errors.h"
+
+namespace patchmill {
+
+// A sound ring (core/math/outline.h), or an error at `field`. `points` counts all rings read so far; more
+// than limits::kMaxOutlinePoints are an error.
+Ring ReadRing(const google::protobuf::RepeatedField<double>& xy, const std::string& field,
+              std::size_t& points, FieldErrors& errors);
+void WriteRing(const Ring& ring, google::protobuf::RepeatedField<double>* xy);
+
+// Whether the patches exist is seen once the model is there (Resolve).
+Selection FromProto(const v1::Selection& proto, std::string_view at, FieldErrors& errors);
+v1::Selection ToProto(const Selection& selection);
+
+}  // namespace patchmill
