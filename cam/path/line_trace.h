@@ -1,5 +1,6 @@
 // The curve of h above a straight segment in plan, as stations dense enough that no feature hides between two
-// (ALGORITHMS 2.4): contact switches and vertical drops are solved, the rest is sampled.
+// (ALGORITHMS 2.4): contact switches that no chord may pass over and vertical drops are solved, the rest is
+// sampled.
 #pragma once
 
 #include <optional>

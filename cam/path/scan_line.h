@@ -18,10 +18,10 @@ struct ScanRun {
 };
 
 // Certified chords: gouge <= chord_tolerance (T2), excess normal to the path <= chord_tolerance (T3); contact
-// switches solved to 1e-9 mm and kept as vertices with both contacts; drops at vertical walls and open
-// borders placed to 1e-7 mm; flat runs merged by swept-ball queries. Heights are h (or the floor, whichever
-// is higher), certified and raised by their gap. `run` is polled when set: a cancelled line is cut short,
-// and of no use.
+// switches that a chord may not pass over solved to 1e-9 mm and kept as vertices with both contacts; drops at
+// vertical walls and open borders placed to 1e-7 mm; flat runs merged by swept-ball queries. Heights are h
+// (or the floor, whichever is higher), certified and raised by their gap. `run` is polled when set: a
+// cancelled line is cut short, and of no use.
 std::vector<ScanRun> ScanLine(const Locator& locator, const Vec2& a, const Vec2& b, const PassParams& params,
                               const RunContext* run = nullptr);
 

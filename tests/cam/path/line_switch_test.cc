@@ -1,0 +1,184 @@
+// Contact switches of a traced line: solved, kept, real, none missed, and the same however the part is cut.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cam/path/line_trace.h"
+#include "cam/path/scan_line.h"
+#include "tests/support/random.h"
+#include "tests/support/same_part.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Random;
+using testing::SurfaceOf;
+using Runs = std::vector<std::vector<LineStation>>;
+
+constexpr double kTolerance = 0.01;
+
+bool IsSwitch(const LineStation& s, double radius) {
+  return s.keep && s.left && s.right && (s.left->p - s.right->p).norm() > 1e-3 * radius;
+}
+
+std::vector<LineStation> Switches(const Runs& runs, double radius) {
+  std::vector<LineStation> found;
+  for (const auto& run : runs) {
+    std::copy_if(run.begin(), run.end(), std::back_inserter(found),
+                 [&](const LineStation& s) { return IsSwitch(s, radius); });
+  }
+  return found;
+}
+
+PlanLine RandomLine(const Surface& surface, Random& random) {
+  const Box3& box = surface.box;
+  const auto place = [&] {
+    const double x = random.Uniform(box.min.x(), box.max.x());
+    return Vec2(x, random.Uniform(box.min.y(), box.max.y()));
+  };
+  const Vec2 a = place();
+  return PlanLine::Through(a, place());
+}
+
+struct Tally {
+  int switches = 0, jumps = 0;
+  int passed = 0;  // jumps that a chord passes over within the tolerance
+};
+
+void Judge(const PatchModel& model, double radius, std::uint64_t seed, int lines, Tally& tally) {
+  const Surface surface = SurfaceOf(model);
+  const Locator locator(surface, radius), larger(surface, radius + kTolerance + 1e-7);
+  Random random(seed);
+  for (int i = 0; i < lines; ++i) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed << " line " << i);
+    const PlanLine line = RandomLine(surface, random);
+    const Runs runs = TraceLine(locator, line, {.chord_tolerance = kTolerance});
+    const std::vector<LineStation> switches = Switches(runs, radius);
+    for (const LineStation& s : switches) {
+      ++tally.switches;
+      const Vec3 c = Lift(s.q, s.z);
+      // Both contacts carry the ball there: solved.
+      EXPECT_NEAR((c - s.left->p).norm(), radius, 1e-9) << s.t;
+      EXPECT_NEAR((c - s.right->p).norm(), radius, 1e-9) << s.t;
+      // Real: a micron before, the left one is in force, a micron after, the right one.
+      const auto before = locator.Height(line.At(s.t - 1e-6)), after = locator.Height(line.At(s.t + 1e-6));
+      ASSERT_TRUE(before && after);
+      EXPECT_LT((before->contact.p - s.left->p).norm(), 1e-3 * radius) << s.t;
+      EXPECT_LT((after->contact.p - s.right->p).norm(), 1e-3 * radius) << s.t;
+    }
+    // None missed: where the contact of neighbouring samples jumps, h does not, and the branch before is
+    // lower than the one behind, a switch (or more) lies between, or a chord that passes it within the
+    // tolerance.
+    const int samples = static_cast<int>(line.length / (2e-3 * radius));
+    std::optional<CenterPoint> last;
+    for (int k = 0; k <= samples; ++k, last = std::nullopt) {
+      const double t0 = line.length * (k - 1) / samples, t = line.length * k / samples;
+      if (k > 0) last = locator.Height(line.At(t0));
+      const auto h = locator.Height(line.At(t));
+      if (!h || !last || (h->contact.p - last->contact.p).norm() < 0.1 * radius) continue;
+      const auto followed = locator.Follow(last->contact, line.At(t));
+      if (!followed || followed->z > h->z - 1e-7) continue;
+      ++tally.jumps;
+      const bool solved = std::any_of(switches.begin(), switches.end(), [&](const LineStation& s) {
+        return s.t > t0 - 1e-9 && s.t < t + 1e-9;
+      });
+      if (solved) continue;
+      ++tally.passed;
+      for (const auto& run : runs) {
+        for (std::size_t n = 0; n + 1 < run.size(); ++n) {
+          const LineStation &a = run[n], &b = run[n + 1];
+          if (t < a.t || t > b.t) continue;
+          const double z = a.z + (t - a.t) / (b.t - a.t) * (b.z - a.z);
+          EXPECT_FALSE(larger.Free(Lift(line.At(t), z), -1e-9)) << "no switch in " << t0 << " " << t;
+        }
+      }
+    }
+    // Kept: each is a vertex of the line.
+    PassParams params;
+    params.chord_tolerance = kTolerance;
+    const auto scanned = ScanLine(locator, line.At(0.0), line.At(line.length), params);
+    std::vector<Vec2> vertices;
+    for (const ScanRun& run : scanned) {
+      for (const CutterPoint& p : run.points) {
+        if (p.contact && p.other_contact) vertices.push_back(Plan(p.center));
+      }
+    }
+    const LineTraceParams same{.chord_tolerance = kTolerance - 1e-4, .certificate_gap = 1e-4};
+    for (const LineStation& s : Switches(TraceLine(locator, line, same), radius)) {
+      EXPECT_TRUE(std::any_of(vertices.begin(), vertices.end(), [&](const Vec2& v) {
+        return (v - s.q).norm() < 1e-9;
+      })) << s.t;
+    }
+  }
+}
+
+TEST(LineSwitches, AreSolvedRealKeptAndNoneIsMissed) {
+  Tally tally;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Judge(testing::RandomBspline(seed, {.spans = 12, .size = 30, .amplitude = 6, .rational = seed % 2 == 1}),
+          3.0, seed, 4, tally);
+  }
+  Judge(testing::TwoSpheres(6.0, 10.0), 3.0, 10, 10, tally);
+  Judge(testing::TwoPlanes(Radians(35), 15.0), 3.0, 11, 10, tally);
+  EXPECT_GT(tally.switches, 50);
+  EXPECT_GT(tally.jumps, 50);
+  EXPECT_LT(tally.passed, tally.jumps / 4);
+}
+
+TEST(LineSwitches, AreTheSameHoweverThePartIsCut) {
+  const double radius = 3.0;
+  std::size_t count = 0;
+  for (std::uint64_t seed = 20; seed < 22; ++seed) {
+    const PatchModel model = testing::RandomBspline(seed, {.spans = 12, .size = 30, .amplitude = 8});
+    std::vector<std::vector<double>> first;
+    for (const testing::SamePart& part : testing::ManyWays(model)) {
+      SCOPED_TRACE(part.name);
+      const Surface surface = SurfaceOf(part.model);
+      const Locator locator(surface, radius);
+      Random random(seed);
+      const Vec2 shift = Plan(part.shift);
+      std::vector<std::vector<double>> all;
+      for (int i = 0; i < 4; ++i) {
+        const Vec2 a(random.Uniform(1, 29), random.Uniform(1, 29)),
+            b(random.Uniform(1, 29), random.Uniform(1, 29));
+        const PlanLine line = PlanLine::Through(a + shift, b + shift);
+        std::vector<double> t;
+        for (const LineStation& s :
+             Switches(TraceLine(locator, line, {.chord_tolerance = kTolerance}), radius)) {
+          t.push_back(s.t);
+        }
+        all.push_back(t);
+      }
+      if (first.empty()) first = all;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        ASSERT_EQ(all[i].size(), first[i].size()) << "seed " << seed << " line " << i;
+        count += all[i].size();
+        for (std::size_t k = 0; k < all[i].size(); ++k) EXPECT_NEAR(all[i][k], first[i][k], 1e-7);
+      }
+    }
+  }
+  EXPECT_GT(count, 70u);
+}
+
+// Ground that the ball follows everywhere, cut into a thousand patches: borders are no switches.
+TEST(LineSwitches, NoneOnSmoothGroundWhereverPatchesMeet) {
+  const Surface surface = SurfaceOf(testing::AsBezierPatches(testing::TwoHills()));
+  ASSERT_GT(surface.pieces.size(), 1000u);
+  const double radius = 3.0;
+  const Locator locator(surface, radius);
+  Random random(5);
+  std::size_t stations = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Runs runs = TraceLine(locator, RandomLine(surface, random), {.chord_tolerance = kTolerance});
+    for (const auto& run : runs) stations += run.size();
+    EXPECT_TRUE(Switches(runs, radius).empty());
+  }
+  EXPECT_GT(stations, 1000u);
+}
+
+}  // namespace
+}  // namespace patchmill
