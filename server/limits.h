@@ -45,6 +45,11 @@ inline constexpr std::size_t kMaxCurvePoints = 100'000;  // given; locks too
 inline constexpr double kMaxPolylinePoints = 1e6;        // answered
 inline constexpr double kMaxCurveCoordinate = 1e9;       // in the unit of the curve
 
+// Lines and evaluations.
+inline constexpr int kMaxLineFamilies = 20;
+inline constexpr int kMaxLineLevels = 1000;  // of a family
+inline constexpr int kMaxEvaluations = 200'000;
+
 // Times of the service itself.
 inline constexpr int kCancelPollMs = 50;  // a cancel is seen after at most this
 inline constexpr int kHeartbeatMs = 250;  // Progress is sent this often

@@ -81,6 +81,16 @@ class AnalysisServiceImpl final : public v1::AnalysisService::Service {
     return Run(env_, context, "SplitRegions",
                [&](const Call& call) { return HandleSplitRegions(call, *request, response); });
   }
+  grpc::Status TraceLines(grpc::ServerContext* context, const v1::TraceLinesRequest* request,
+                          v1::TraceLinesResponse* response) override {
+    return Run(env_, context, "TraceLines",
+               [&](const Call& call) { return HandleTraceLines(call, *request, response); });
+  }
+  grpc::Status EvaluateSurface(grpc::ServerContext* context, const v1::EvaluateSurfaceRequest* request,
+                               v1::EvaluateSurfaceResponse* response) override {
+    return Run(env_, context, "EvaluateSurface",
+               [&](const Call& call) { return HandleEvaluateSurface(call, *request, response); });
+  }
 
  private:
   ServerEnv* env_;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cam/picture/seen_lines.h"
 #include "cam/picture/svg_writer.h"
 #include "cam/picture/view.h"
 #include "core/diffgeo/forms.h"
@@ -101,34 +102,41 @@ void DrawSurface(const PreviewInput& input, const View& view, SvgWriter& svg) {
   svg.CloseGroup();
 }
 
-void DrawBorders(const PreviewInput& input, const View& view, SvgWriter& svg) {
+void DrawBorders(const PreviewInput& input, const SeenLines& seen, SvgWriter& svg) {
   svg.OpenGroup("fill=\"none\" stroke=\"#202020\" stroke-width=\"0.8\"");
   for (const PreviewRegion& region : input.regions) {
     if (region.unreachable) continue;
-    for (const auto& loop : region.border) {
-      std::vector<Vec2> points;
-      for (const Vec3& p : loop) points.push_back(view(p));
-      if (points.size() > 1) svg.Polygon(points, "");
+    for (std::vector<Vec3> loop : region.border) {
+      if (!loop.empty()) loop.push_back(loop.front());
+      seen.Draw(loop, svg);
     }
   }
   svg.CloseGroup();
 }
 
-void DrawOpenEdges(const PreviewInput& input, const View& view, SvgWriter& svg) {
-  constexpr int kSteps = 12;
+void DrawOpenEdges(const PreviewInput& input, const SeenLines& seen, SvgWriter& svg) {
+  constexpr int kSteps = 24;
   svg.OpenGroup("fill=\"none\" stroke=\"#000000\" stroke-width=\"1.6\"");
   const PatchNetwork& network = input.surface->network;
   for (const EdgeLink& link : network.edges) {
     if (link.neighbor || link.collapsed || link.on_t_junction) continue;
     const PatchShape& shape = network.model.patches[link.self.patch.index()].shape;
-    std::vector<Vec2> points;
+    std::vector<Vec3> points;
     for (int i = 0; i <= kSteps; ++i) {
       const Vec2 uv = EdgeParameters(shape, link.self.edge, static_cast<double>(i) / kSteps);
-      points.push_back(view(Position(shape, uv.x(), uv.y())));
+      points.push_back(Position(shape, uv.x(), uv.y()));
     }
-    svg.Polyline(points, "");
+    seen.Draw(points, svg);
   }
   svg.CloseGroup();
+}
+
+void DrawLines(const PreviewInput& input, const SeenLines& seen, SvgWriter& svg) {
+  for (const PreviewLines& lines : input.lines) {
+    svg.OpenGroup(fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"1\"", lines.color));
+    for (const std::vector<Vec3>& line : lines.polylines) seen.Draw(line, svg);
+    svg.CloseGroup();
+  }
 }
 
 // Which of the six path styles a move is drawn in.
@@ -200,8 +208,10 @@ void DrawLegend(const PreviewInput& input, double x, SvgWriter& svg) {
     svg.Text({x + 30, y}, 11, text);
     y += 17;
   };
-  svg.Text({x, y}, 13, "regions", "font-weight=\"bold\"");
-  y += 19;
+  if (!input.regions.empty()) {
+    svg.Text({x, y}, 13, "regions", "font-weight=\"bold\"");
+    y += 19;
+  }
   constexpr std::size_t kMaxRows = 24;
   for (std::size_t i = 0; i < std::min(kMaxRows, input.regions.size()); ++i) {
     row(input.regions[i].color, "", true, input.regions[i].name);
@@ -214,7 +224,14 @@ void DrawLegend(const PreviewInput& input, double x, SvgWriter& svg) {
   svg.Text({x, y}, 13, "lines", "font-weight=\"bold\"");
   y += 19;
   row("#000000", "", false, "open edges of the sheet");
-  row("#202020", "", false, "region borders");
+  if (!input.regions.empty()) row("#202020", "", false, "region borders");
+  for (std::size_t i = 0; i < std::min(kMaxRows, input.lines.size()); ++i) {
+    row(input.lines[i].color, "", false, input.lines[i].name);
+  }
+  if (input.lines.size() > kMaxRows) {
+    svg.Text({x + 30, y}, 11, fmt::format("and {} more", input.lines.size() - kMaxRows));
+    y += 17;
+  }
   if (input.toolpath == nullptr) return;
   std::array<bool, 6> used{};
   for (std::size_t i = 1; i < input.toolpath->moves.size(); ++i) {
@@ -247,10 +264,14 @@ std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes) {
   const std::array<View, 2> views = {
       FitView(TopView(), box, {kMargin, kHead + 10}, kViewSize, kViewSize - 30),
       FitView(IsometricView(), box, {2 * kMargin + kViewSize, kHead + 10}, kViewSize, kViewSize - 30)};
-  for (const View& view : views) {
-    DrawSurface(input, view, svg);
-    DrawBorders(input, view, svg);
-    DrawOpenEdges(input, view, svg);
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    DrawSurface(input, views[k], svg);
+    const double side = static_cast<double>(k) * (kMargin + kViewSize);
+    const SeenLines seen(*input.surface, views[k], {kMargin + side, kHead + 10}, {kViewSize, kViewSize},
+                         2 * CellsPerPiece(*input.surface));
+    DrawBorders(input, seen, svg);
+    DrawOpenEdges(input, seen, svg);
+    DrawLines(input, seen, svg);
   }
   if (input.toolpath != nullptr) {
     // 14 bytes a vertex; the distance between drawn vertices grows until both views fit.

@@ -19,6 +19,13 @@ struct PreviewRegion {
   std::vector<std::vector<Vec3>> border;
 };
 
+// Lines on the surface, drawn where they can be seen.
+struct PreviewLines {
+  std::string name;   // of the legend
+  std::string color;  // CSS
+  std::vector<std::vector<Vec3>> polylines;
+};
+
 struct PreviewInput {
   const Surface* surface = nullptr;    // required
   const Toolpath* toolpath = nullptr;  // optional
@@ -26,6 +33,7 @@ struct PreviewInput {
   std::vector<PreviewRegion> regions;
   // Region index of a point of a piece (into `regions`, -1 none); empty function: shade by slope only.
   std::function<int(const SurfacePoint&)> region_of;
+  std::vector<PreviewLines> lines;
   Vec3 program_zero = Vec3::Zero();  // marked with a cross
   std::string title;
   std::vector<std::string> notes;  // lines under the title: outcome, gouge, leftover, ...

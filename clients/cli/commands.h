@@ -17,5 +17,6 @@ Command AddCheck(CLI::App& app);
 Command AddRegions(CLI::App& app);
 Command AddVerify(CLI::App& app);
 Command AddFair(CLI::App& app);
+Command AddLines(CLI::App& app);
 
 }  // namespace patchmill::cli

@@ -18,6 +18,7 @@ std::string Short(v1::Outcome value) { return Without(v1::Outcome_Name(value), "
 std::string Short(v1::UnreachableReason value) {
   return Without(v1::UnreachableReason_Name(value), "UNREACHABLE_REASON_");
 }
+std::string Short(v1::LineKind value) { return Without(v1::LineKind_Name(value), "LINE_KIND_"); }
 std::string Short(v1::CheckState value) { return Without(v1::CheckState_Name(value), "CHECK_STATE_"); }
 
 std::string Line(const v1::Point3& p) {

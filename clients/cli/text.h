@@ -7,6 +7,7 @@
 #include <google/protobuf/message.h>
 
 #include "patchmill/v1/diagnostic.pb.h"
+#include "patchmill/v1/lines.pb.h"
 #include "patchmill/v1/report.pb.h"
 
 namespace patchmill::cli {
@@ -15,6 +16,7 @@ namespace patchmill::cli {
 std::string Short(v1::Outcome value);
 std::string Short(v1::UnreachableReason value);
 std::string Short(v1::CheckState value);
+std::string Short(v1::LineKind value);
 
 // "WARNING OPEN_EDGE patch 3: ...".
 std::string Line(const v1::Diagnostic& finding);

@@ -19,6 +19,12 @@ absl::Status HandleFairCurve(const Call& call, const v1::FairCurveRequest& reque
 absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest& request,
                                 v1::SplitRegionsResponse* response);
 
+absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& request,
+                              v1::TraceLinesResponse* response);
+
+absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRequest& request,
+                                   v1::EvaluateSurfaceResponse* response);
+
 absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRequest& request,
                                    const Sink<v1::GenerateProgramResponse>& sink);
 

@@ -254,6 +254,26 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"ScaleZero", {"--scale", "0"}, "--scale: job.setup.scale = 0"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });
 
+TEST_F(Cli, LinesAreWrittenAsDataOrAsAPicture) {
+  const Finished json =
+      Patchmill({"lines", bump_, "-o", out_ / "lines.json", "--kind", "contour", "--levels", "0.5"});
+  EXPECT_EQ(json.status, 0) << json.err;
+  EXPECT_THAT(json.out, HasSubstr("CONTOUR            level 0.5             1 lines,    1 of them closed"));
+  EXPECT_THAT(Slurp(out_ / "lines.json"), HasSubstr("\"kind\": \"LINE_KIND_CONTOUR\""));
+  const Finished svg = Patchmill(
+      {"lines", bump_, "-o", out_ / "lines.svg", "--kind", "slope,silhouette", "--count", "4", "--quiet"});
+  EXPECT_EQ(svg.status, 0) << svg.err;
+  EXPECT_EQ(svg.out, "");
+  EXPECT_THAT(Slurp(out_ / "lines.svg"), HasSubstr("<svg"));
+  EXPECT_EQ(Patchmill({"lines", bump_, "-o", out_ / "lines.txt"}).status, 2);
+  EXPECT_EQ(Patchmill({"lines", bump_, "-o", out_ / "l.svg", "--kind", "rainbow"}).status, 2);
+  const Finished levels =
+      Patchmill({"lines", bump_, "-o", out_ / "l.svg", "--kind", "slope,contour", "--levels", "5"});
+  EXPECT_EQ(levels.status, 2);
+  EXPECT_THAT(levels.err, HasSubstr("--levels belong to one --kind"));
+  EXPECT_EQ(Patchmill({"lines", bump_, "-o", out_ / "l.svg", "--kind", "eye"}).status, 2);
+}
+
 TEST_F(Cli, NoCommandOrAnUnknownOneIsWrongUsage) {
   EXPECT_EQ(Patchmill({}).status, 2);
   EXPECT_EQ(Patchmill({"lathe"}).status, 2);
@@ -262,10 +282,10 @@ TEST_F(Cli, NoCommandOrAnUnknownOneIsWrongUsage) {
   EXPECT_EQ(Patchmill({"mill", "--help"}).status, 0);
   EXPECT_TRUE(std::regex_search(Patchmill({"--version"}).out, std::regex("^patchmill [0-9]+\\.[0-9]+")));
   const std::string help = Patchmill({"--help"}).out;
-  for (const char* name : {"mill", "check", "regions", "verify", "fair", "serve"}) {
+  for (const char* name : {"mill", "check", "regions", "verify", "lines", "fair", "serve"}) {
     EXPECT_THAT(help, HasSubstr(std::string("  ") + name));
   }
-  for (const char* name : {"lines", "convert"}) EXPECT_THAT(help, Not(HasSubstr(std::string("  ") + name)));
+  EXPECT_THAT(help, Not(HasSubstr("  convert")));
 }
 
 TEST_F(Cli, UnreadableModelsAreStatusTwoWithAReason) {

@@ -1,0 +1,35 @@
+// What hides what: how near to the eye the surface is at every dot of a view.
+#pragma once
+
+#include <vector>
+
+#include "cam/picture/view.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+class DepthMap {
+ public:
+  // Dots of `dot` px over `width` x `height` px from `corner`. The surface is taken as `cells` x `cells`
+  // facets a piece.
+  DepthMap(const Surface& surface, const View& view, const Vec2& corner, double width, double height,
+           double dot, int cells);
+
+  // Nothing of the surface is nearer to the eye than p by more than `slack` (mm) and what the slope around p
+  // makes of two dots.
+  bool Visible(const Vec3& p, double slack) const;
+
+ private:
+  double& At(int i, int j) { return near_[static_cast<std::size_t>(j * columns_ + i)]; }
+  double At(int i, int j) const { return near_[static_cast<std::size_t>(j * columns_ + i)]; }
+  Vec2 ToDots(const Vec3& p) const { return (view_(p) - corner_) / dot_; }
+  void Fill(const Vec3& a, const Vec3& b, const Vec3& c);
+
+  View view_;
+  Vec2 corner_;
+  double dot_;
+  int columns_, rows_;
+  std::vector<double> near_;
+};
+
+}  // namespace patchmill

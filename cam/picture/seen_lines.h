@@ -1,0 +1,25 @@
+// Lines of a view without what the surface hides.
+#pragma once
+
+#include <vector>
+
+#include "cam/picture/depth_map.h"
+#include "cam/picture/svg_writer.h"
+
+namespace patchmill {
+
+class SeenLines {
+ public:
+  // The view fills `size` px from `corner`; `cells`: facets along each side of a piece that hide.
+  SeenLines(const Surface& surface, const View& view, const Vec2& corner, const Vec2& size, int cells);
+
+  // The parts of the polyline that are not hidden, vertices closer than 0.6 px dropped.
+  void Draw(const std::vector<Vec3>& line, SvgWriter& svg) const;
+
+ private:
+  View view_;
+  DepthMap depth_;
+  double slack_;
+};
+
+}  // namespace patchmill

@@ -1,0 +1,136 @@
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "clients/cli/commands.h"
+#include "clients/cli/job_options.h"
+#include "clients/cli/output_file.h"
+#include "clients/cli/text.h"
+#include "patchmill/v1/analysis_service.grpc.pb.h"
+
+namespace patchmill::cli {
+namespace {
+
+const std::map<std::string, v1::LineKind> kKinds = {
+    {"contour", v1::LINE_KIND_CONTOUR},
+    {"slope", v1::LINE_KIND_EQUI_SLOPE},
+    {"brightness", v1::LINE_KIND_BRIGHTNESS},
+    {"silhouette", v1::LINE_KIND_SILHOUETTE},
+    {"eye", v1::LINE_KIND_EYE_SILHOUETTE},
+    {"highlight", v1::LINE_KIND_HIGHLIGHT},
+    {"inflection", v1::LINE_KIND_CONTOUR_INFLECTION},
+    {"slope-extremum", v1::LINE_KIND_SLOPE_EXTREMUM},
+};
+
+struct LinesOptions {
+  CommonOptions common;
+  SetupOptions setup;
+  std::string model, output;
+  std::vector<std::string> kinds = {"contour"};
+  std::vector<double> levels, direction, across, eye;
+  std::optional<int> count;
+  double tolerance = 0.01, min_loop = 0.1;
+};
+
+void SetPoint(const std::vector<double>& xyz, v1::Point3* point) {
+  point->set_x_mm(xyz[0]);
+  point->set_y_mm(xyz[1]);
+  point->set_z_mm(xyz[2]);
+}
+
+absl::StatusOr<v1::TraceLinesRequest> MakeRequest(const LinesOptions& options, bool picture) {
+  v1::TraceLinesRequest request;
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  if (!source.ok()) return source.status();
+  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
+  if (!setup.ok()) return setup.status();
+  *request.mutable_source() = *std::move(source);
+  *request.mutable_setup() = *std::move(setup);
+  if (!options.levels.empty() && options.kinds.size() > 1) {
+    return absl::InvalidArgumentError("--levels belong to one --kind; several are given");
+  }
+  for (const std::string& kind : options.kinds) {
+    v1::LineFamily& family = *request.add_families();
+    family.set_kind(kKinds.at(kind));
+    if (!options.direction.empty()) SetPoint(options.direction, family.mutable_direction());
+    if (!options.across.empty()) SetPoint(options.across, family.mutable_across());
+    if (!options.eye.empty()) SetPoint(options.eye, family.mutable_eye());
+    for (const double level : options.levels) family.add_levels(level);
+    if (options.count) family.set_count(*options.count);
+  }
+  request.set_tolerance_mm(options.tolerance);
+  request.set_min_loop_mm(options.min_loop);
+  request.set_picture(picture);
+  request.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
+  request.set_max_threads(options.common.threads);
+  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
+  return request;
+}
+
+void Print(const v1::TraceLinesResponse& response) {
+  for (const v1::LineSet& set : response.sets()) {
+    int closed = 0;
+    for (const v1::SurfaceLine& line : set.lines()) closed += line.closed();
+    fmt::print("{:<18} level {:<12.6g} {:>4} lines, {:>4} of them closed, {:.3f} mm\n", Short(set.kind()),
+               set.level(), set.lines_size(), closed, set.length_mm());
+  }
+}
+
+absl::Status Run(const LinesOptions& options, InterruptWatch& watch) {
+  const std::string ending = std::filesystem::path(options.output).extension().string();
+  if (ending != ".json" && ending != ".svg") {
+    return absl::InvalidArgumentError(fmt::format("-o {}; must end in .json or .svg", options.output));
+  }
+  OutputFile output(options.output);
+  if (const absl::Status writable = output.CheckWritable(); !writable.ok()) return writable;
+  absl::StatusOr<v1::TraceLinesRequest> request = MakeRequest(options, ending == ".svg");
+  if (!request.ok()) return request.status();
+  absl::StatusOr<Connection> connection = Connect(options.common);
+  if (!connection.ok()) return connection.status();
+
+  CallScope call(options.common, watch);
+  v1::TraceLinesResponse response;
+  const grpc::Status status =
+      v1::AnalysisService::NewStub(connection->channel)->TraceLines(call.context(), *request, &response);
+  if (!status.ok()) return FromGrpc(status, options.common, watch);
+  output.Set(ending == ".svg" ? response.picture().data() : Json(response));
+  if (const absl::Status written = output.Commit(); !written.ok()) return written;
+  if (!options.common.quiet) Print(response);
+  return absl::OkStatus();
+}
+
+void AddVector(CLI::App& app, const char* name, std::vector<double>& value, const char* help) {
+  app.add_option(name, value, help)->delimiter(',')->expected(3);
+}
+
+}  // namespace
+
+Command AddLines(CLI::App& app) {
+  auto options = std::make_shared<LinesOptions>();
+  app.add_option("MODEL", options->model, kModelHelp)->required();
+  app.add_option("-o,--output", options->output, "the lines: .json or .svg")->required();
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : kKinds) names.push_back(name);
+  app.add_option("--kind", options->kinds, "which lines; several with commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  app.add_option("--levels", options->levels,
+                 "contour: heights, mm; slope: degrees; brightness: -1 to 1; highlight: degrees; with commas")
+      ->delimiter(',');
+  app.add_option("--count", options->count, "levels to choose when none are given; default 12")
+      ->check(CLI::Range(1, 1000));
+  AddVector(app, "--direction", options->direction, "X,Y,Z: axis, light or sight; default 0,0,1");
+  AddVector(app, "--across", options->across,
+            "X,Y,Z: of highlight lines, across the direction; default 1,0,0");
+  AddVector(app, "--eye", options->eye, "X,Y,Z, mm, program frame, for --kind eye");
+  AddNumber(app, "--tolerance", options->tolerance, "chords keep to it, mm");
+  AddNumber(app, "--min-loop", options->min_loop, "wider loops are found for certain, mm");
+  AddSetupOptions(app, options->setup);
+  AddCommonOptions(app, options->common);
+  return [options](InterruptWatch& watch) { return Run(*options, watch); };
+}
+
+}  // namespace patchmill::cli

@@ -1,0 +1,35 @@
+// v1.LineFamily -> LineFamily with its levels, and curves -> v1.LineSet.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/lines/line_family.h"
+#include "core/lines/zero_curves.h"
+#include "patchmill/v1/lines.pb.h"
+#include "server/errors.h"
+
+namespace patchmill {
+
+struct LineOrder {
+  v1::LineKind kind = v1::LINE_KIND_UNSPECIFIED;
+  LineFamily family;           // places in the program frame
+  std::vector<double> levels;  // program frame, rad; as given
+  int count = 12;              // to choose when none are given
+};
+
+LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErrors& errors);
+
+// From the program frame to the placed one: places and levels plus program zero.
+LineOrder Placed(LineOrder order, const Vec3& zero);
+
+// The level as the wire has it: program frame, degrees.
+double WireLevel(const LineOrder& placed, double level, const Vec3& zero);
+
+// "contour 12 mm", "slope 30 degrees", ...
+std::string Describe(v1::LineKind kind, double wire_level);
+
+v1::SurfaceLine ToProto(const Surface& surface, const ZeroCurve& curve, const Vec3& zero);
+double LengthOf(const ZeroCurve& curve);
+
+}  // namespace patchmill

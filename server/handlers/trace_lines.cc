@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "cam/picture/preview.h"
+#include "cam/plan/plan.h"
+#include "cam/plan/resolve.h"
+#include "core/base/status.h"
+#include "server/convert/fields.h"
+#include "server/convert/lines.h"
+#include "server/convert/report.h"
+#include "server/convert/setup.h"
+#include "server/handlers/handlers.h"
+#include "server/handlers/prepare.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+struct Order {
+  Job job;
+  std::vector<LineOrder> lines;
+  double tolerance = 0.01, min_loop = 0.1;  // mm
+};
+
+absl::StatusOr<Order> ReadOrder(const v1::TraceLinesRequest& request) {
+  FieldErrors errors;
+  Order order;
+  order.job.setup = FromProto(request.setup(), "setup", errors);
+  if (request.families().empty()) errors.Missing("families");
+  if (request.families_size() > limits::kMaxLineFamilies) {
+    errors.Add("families", fmt::format("has {} elements; must have at most {}", request.families_size(),
+                                       limits::kMaxLineFamilies));
+    return errors.ToStatus();
+  }
+  for (int k = 0; k < request.families_size(); ++k) {
+    order.lines.push_back(FromProto(request.families(k), fmt::format("families[{}]", k), errors));
+  }
+  if (request.has_tolerance_mm()) order.tolerance = request.tolerance_mm();
+  Require(errors, "tolerance_mm", order.tolerance, order.tolerance >= 1e-6 && order.tolerance <= 100.0,
+          "in [1e-06, 100]");
+  if (request.has_min_loop_mm()) order.min_loop = request.min_loop_mm();
+  Require(errors, "min_loop_mm", order.min_loop, order.min_loop >= 1e-3 && order.min_loop <= 1000.0,
+          "in [0.001, 1000]");
+  RequireBytes(errors, "name", request.name(), limits::kMaxNameBytes);
+  PM_RETURN_IF_ERROR(errors.ToStatus());
+  return order;
+}
+
+// One level of one family and its curves.
+struct Level {
+  int family = 0;
+  double level = 0.0;
+  std::vector<ZeroCurve> curves;
+};
+
+absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vector<LineOrder>& lines,
+                                         const Order& order, const Vec3& zero, const RunContext& run) {
+  std::vector<Level> levels;
+  std::vector<ZeroField> fields;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    std::vector<double> wanted = lines[k].levels;
+    if (!HasLevels(lines[k].family)) {
+      wanted = {0.0};
+    } else if (wanted.empty()) {
+      wanted = ChooseLevels(surface, lines[k].family, lines[k].count, zero);
+    }
+    for (const double level : wanted) {
+      levels.push_back({static_cast<int>(k), level, {}});
+      fields.push_back(FieldOf(lines[k].family, level));
+    }
+  }
+  ZeroMeshParams params;
+  params.min_cell = order.min_loop;
+  params.max_cell = std::max(params.max_cell, params.min_cell);
+  PM_ASSIGN_OR_RETURN(std::vector<std::vector<ZeroCurve>> curves,
+                      TraceZeroCurves(surface, fields, params, order.tolerance, run));
+  for (std::size_t k = 0; k < levels.size(); ++k) levels[k].curves = std::move(curves[k]);
+  return levels;
+}
+
+// Blue for the lowest level of a family to red for the highest.
+std::string Color(double share) {
+  const auto mix = [&](int a, int b) { return a + static_cast<int>(share * (b - a)); };
+  return fmt::format("#{:02x}{:02x}{:02x}", mix(20, 200), mix(70, 30), mix(190, 30));
+}
+
+std::string Draw(const Surface& surface, const std::vector<LineOrder>& lines,
+                 const std::vector<Level>& levels, const Vec3& zero, const std::string& title) {
+  PreviewInput input;
+  input.surface = &surface;
+  input.title = title;
+  input.program_zero = zero;
+  std::vector<int> count(lines.size(), 0), seen(lines.size(), 0);
+  for (const Level& level : levels) ++count[static_cast<std::size_t>(level.family)];
+  for (const Level& level : levels) {
+    const auto family = static_cast<std::size_t>(level.family);
+    const LineOrder& order = lines[family];
+    PreviewLines drawn;
+    drawn.name =
+        fmt::format("{}: {}", Describe(order.kind, WireLevel(order, level.level, zero)), level.curves.size());
+    const int n = count[family];
+    drawn.color = Color(n > 1 ? static_cast<double>(seen[family]++) / (n - 1)
+                              : static_cast<double>(family) / std::max<std::size_t>(1, lines.size() - 1));
+    for (const ZeroCurve& curve : level.curves) {
+      std::vector<Vec3> points;
+      for (const SurfacePoint& p : curve.points) points.push_back(p.p);
+      if (curve.closed && !points.empty()) points.push_back(points.front());
+      drawn.polylines.push_back(std::move(points));
+    }
+    input.lines.push_back(std::move(drawn));
+  }
+  return DrawPreview(input);
+}
+
+}  // namespace
+
+absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& request,
+                              v1::TraceLinesResponse* response) {
+  PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
+  PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
+  PM_ASSIGN_OR_RETURN(const Order order, ReadOrder(request));
+  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
+    PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source"));
+    PM_RETURN_IF_ERROR(RequireSound(model));
+    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, order.job.setup, run));
+    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, order.job));
+    const Vec3& zero = resolved.program_zero;
+    std::vector<LineOrder> lines;
+    for (const LineOrder& line : order.lines) lines.push_back(Placed(line, zero));
+    PM_ASSIGN_OR_RETURN(const std::vector<Level> levels, Trace(surface, lines, order, zero, run));
+    double points = 0.0;
+    for (const Level& level : levels) {
+      for (const ZeroCurve& curve : level.curves) points += static_cast<double>(curve.points.size());
+    }
+    if (points > limits::kMaxPolylinePoints)
+      return LimitError("line_points", limits::kMaxPolylinePoints, points);
+    for (const Level& level : levels) {
+      v1::LineSet& set = *response->add_sets();
+      const LineOrder& line = lines[static_cast<std::size_t>(level.family)];
+      set.set_family_index(level.family);
+      set.set_kind(line.kind);
+      set.set_level(HasLevels(line.family) ? WireLevel(line, level.level, zero) : 0.0);
+      double length = 0.0;
+      for (const ZeroCurve& curve : level.curves) {
+        *set.add_lines() = ToProto(surface, curve, zero);
+        length += LengthOf(curve);
+      }
+      set.set_length_mm(length);
+    }
+    AddDiagnostics(surface.network.findings, zero, response->mutable_diagnostics());
+    *response->mutable_patch_ids() = PatchIds(model.model);
+    if (request.picture()) {
+      v1::ArtifactChunk& picture = *response->mutable_picture();
+      picture.set_name("lines.svg");
+      picture.set_media_type("image/svg+xml");
+      picture.set_data(Draw(surface, lines, levels, zero, request.name()));
+    }
+    return absl::OkStatus();
+  });
+}
+
+}  // namespace patchmill

@@ -1,0 +1,209 @@
+// TraceLines and EvaluateSurface through the wire, against closed forms.
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/service/embedded.h"
+#include "tests/service/requests.h"
+#include "tests/service/status_matchers.h"
+
+namespace patchmill {
+namespace {
+
+using grpc::StatusCode;
+using ::testing::ElementsAre;
+using testing::Embedded;
+using ::testing::HasSubstr;
+using testing::InfoOf;
+using testing::RpcStatusIs;
+
+// z = (x^2 + y^2) / 20 over [-10, 10]^2 as a biquadratic patch; u along x.
+v1::PatchModel Bowl() {
+  v1::PatchModel model;
+  model.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  v1::Patch& patch = *model.add_patches();
+  patch.set_id("bowl");
+  v1::BezierPatch& bezier = *patch.mutable_bezier();
+  bezier.set_degree_u(2);
+  bezier.set_degree_v(2);
+  const double square[3] = {100, -100, 100};  // Bezier heights of x^2
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (const double x : {10.0 * i - 10, 10.0 * j - 10, (square[i] + square[j]) / 20})
+        bezier.add_points(x);
+    }
+  }
+  return model;
+}
+
+class Lines : public ::testing::Test {
+ protected:
+  Lines() {
+    *request_.mutable_source()->mutable_model() = Bowl();
+    request_.add_families()->set_kind(v1::LINE_KIND_CONTOUR);
+  }
+  grpc::Status Trace() {
+    grpc::ClientContext context;
+    response_.Clear();
+    return embedded_.analysis->TraceLines(&context, request_, &response_);
+  }
+  Embedded embedded_;
+  v1::TraceLinesRequest request_;
+  v1::TraceLinesResponse response_;
+};
+
+TEST_F(Lines, ContoursAreInTheProgramFrame) {
+  request_.mutable_setup()->mutable_program_zero()->set_z_mm(1.0);
+  request_.mutable_setup()->mutable_program_zero()->set_x_mm(2.0);
+  request_.mutable_families(0)->add_levels(2.2);  // placed height 3.2: a circle of radius 8
+  const grpc::Status status = Trace();
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  ASSERT_EQ(response_.sets_size(), 1);
+  const v1::LineSet& set = response_.sets(0);
+  EXPECT_DOUBLE_EQ(set.level(), 2.2);
+  ASSERT_EQ(set.lines_size(), 1);
+  const v1::SurfaceLine& line = set.lines(0);
+  EXPECT_TRUE(line.closed());
+  EXPECT_NEAR(set.length_mm(), 2 * M_PI * 8, 0.05);
+  const int n = line.patch_index_size();
+  ASSERT_EQ(line.points_mm_size(), 3 * n);
+  ASSERT_EQ(line.uv_size(), 2 * n);
+  for (int k = 0; k < n; ++k) {
+    const double x = line.points_mm(3 * k) + 2, y = line.points_mm(3 * k + 1);
+    EXPECT_NEAR(std::hypot(x, y), 8, 1e-9);
+    EXPECT_NEAR(line.points_mm(3 * k + 2), 2.2, 1e-9);
+    EXPECT_NEAR(line.uv(2 * k), (x + 10) / 20, 1e-12);
+    EXPECT_NEAR(line.uv(2 * k + 1), (y + 10) / 20, 1e-12);
+  }
+  EXPECT_THAT(response_.patch_ids(), ElementsAre("bowl"));
+  EXPECT_FALSE(response_.has_picture());
+}
+
+TEST_F(Lines, LevelsAreChosenAndFamiliesKeepTheirPlace) {
+  v1::LineFamily& slope = *request_.add_families();
+  slope.set_kind(v1::LINE_KIND_EQUI_SLOPE);
+  slope.set_count(2);  // 30 and 60 degrees; the bowl rises up to 54.7 in its corners
+  request_.add_families()->set_kind(v1::LINE_KIND_SILHOUETTE);
+  request_.set_picture(true);
+  ASSERT_TRUE(Trace().ok());
+  ASSERT_EQ(response_.sets_size(), 9 + 2 + 1);  // contours at 1, 2, .. 9 mm
+  for (int k = 0; k < 9; ++k) {
+    EXPECT_EQ(response_.sets(k).family_index(), 0);
+    EXPECT_DOUBLE_EQ(response_.sets(k).level(), k + 1.0);
+    EXPECT_EQ(response_.sets(k).lines_size(), k < 4 ? 1 : k == 4 ? response_.sets(k).lines_size() : 4);
+  }
+  EXPECT_NEAR(response_.sets(9).level(), 30, 1e-12);
+  EXPECT_NEAR(response_.sets(9).length_mm(), 2 * M_PI * 10 * std::tan(M_PI / 6), 0.05);
+  EXPECT_NEAR(response_.sets(10).level(), 60, 1e-12);
+  EXPECT_EQ(response_.sets(10).lines_size(), 0);
+  EXPECT_EQ(response_.sets(11).kind(), v1::LINE_KIND_SILHOUETTE);
+  EXPECT_EQ(response_.sets(11).lines_size(), 0);
+  EXPECT_THAT(response_.picture().data(), HasSubstr("<svg"));
+  EXPECT_THAT(response_.picture().data(), HasSubstr("slope 30 degrees: 1"));
+}
+
+TEST_F(Lines, WrongFields) {
+  const v1::TraceLinesRequest good = request_;
+  const auto message = [&](auto spoil) {
+    request_ = good;
+    spoil(request_);
+    const grpc::Status status = Trace();
+    EXPECT_EQ(status.error_code(), StatusCode::INVALID_ARGUMENT);
+    return status.error_message();
+  };
+  EXPECT_THAT(message([](auto& r) { r.clear_families(); }), HasSubstr("families is missing"));
+  EXPECT_THAT(message([](auto& r) { r.mutable_families(0)->clear_kind(); }),
+              HasSubstr("families[0].kind is missing"));
+  EXPECT_THAT(message([](auto& r) { r.mutable_families(0)->set_kind(static_cast<v1::LineKind>(99)); }),
+              HasSubstr("families[0].kind = 99"));
+  EXPECT_THAT(message([](auto& r) { r.mutable_families(0)->mutable_direction(); }),
+              HasSubstr("families[0].direction = (0, 0, 0); must be finite and longer than 0"));
+  EXPECT_THAT(message([](auto& r) { r.mutable_families(0)->add_levels(NAN); }),
+              HasSubstr("families[0].levels[0] = nan"));
+  EXPECT_THAT(message([](auto& r) { r.mutable_families(0)->set_count(0); }),
+              HasSubstr("families[0].count = 0; must be in [1, 1000]"));
+  EXPECT_THAT(message([](auto& r) {
+                r.mutable_families(0)->set_kind(v1::LINE_KIND_EQUI_SLOPE);
+                r.mutable_families(0)->add_levels(90);
+              }),
+              HasSubstr("families[0].levels[0] = 90; must be in (0, 90)"));
+  EXPECT_THAT(message([](auto& r) {
+                r.mutable_families(0)->set_kind(v1::LINE_KIND_SILHOUETTE);
+                r.mutable_families(0)->add_levels(1);
+              }),
+              HasSubstr("lines of this kind have no levels"));
+  EXPECT_THAT(message([](auto& r) { r.mutable_families(0)->set_kind(v1::LINE_KIND_EYE_SILHOUETTE); }),
+              HasSubstr("families[0].eye is missing"));
+  EXPECT_THAT(message([](auto& r) {
+                r.mutable_families(0)->set_kind(v1::LINE_KIND_HIGHLIGHT);
+                r.mutable_families(0)->mutable_across()->set_z_mm(3);
+              }),
+              HasSubstr("families[0].across runs along the direction"));
+  EXPECT_THAT(message([](auto& r) { r.set_tolerance_mm(0); }), HasSubstr("tolerance_mm = 0; must be in"));
+  EXPECT_THAT(message([](auto& r) { r.set_min_loop_mm(1e9); }), HasSubstr("min_loop_mm = 1000000000"));
+}
+
+class Evaluations : public ::testing::Test {
+ protected:
+  Evaluations() { *request_.mutable_source()->mutable_model() = Bowl(); }
+  grpc::Status Evaluate() {
+    grpc::ClientContext context;
+    response_.Clear();
+    return embedded_.analysis->EvaluateSurface(&context, request_, &response_);
+  }
+  void Add(int patch, double u, double v) {
+    request_.add_patch_index(patch);
+    request_.add_uv(u);
+    request_.add_uv(v);
+  }
+  Embedded embedded_;
+  v1::EvaluateSurfaceRequest request_;
+  v1::EvaluateSurfaceResponse response_;
+};
+
+TEST_F(Evaluations, ABowlInClosedForm) {
+  request_.mutable_setup()->mutable_program_zero()->set_y_mm(-1.0);
+  Add(0, 0.5, 0.5);
+  Add(0, 0.8, 0.5);
+  const grpc::Status status = Evaluate();
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  EXPECT_THAT(response_.points_mm(),
+              ElementsAre(0, 1, 0, ::testing::DoubleNear(6, 1e-12), 1, ::testing::DoubleNear(1.8, 1e-12)));
+  EXPECT_EQ(response_.normals_size(), 6);
+  EXPECT_NEAR(response_.normals(2), 1.0, 1e-15);
+  // z = x^2 / 20: k = z'' / (1 + z'^2)^(3/2) along x, z'' / (1 + z'^2)^(1/2) around; z' = 0.6 at x = 6.
+  EXPECT_NEAR(response_.principal_curvatures_per_mm(0), 0.1, 1e-12);
+  EXPECT_NEAR(response_.principal_curvatures_per_mm(1), 0.1, 1e-12);
+  EXPECT_NEAR(response_.principal_curvatures_per_mm(2), 0.1 / std::pow(1.36, 1.5), 1e-12);
+  EXPECT_NEAR(response_.principal_curvatures_per_mm(3), 0.1 / std::sqrt(1.36), 1e-12);
+  // E = |S_u|^2 with x = 20 u - 10.
+  EXPECT_NEAR(response_.first_form_mm2(3), 400 * 1.36, 1e-9);
+  EXPECT_NEAR(response_.first_form_mm2(4), 0.0, 1e-9);
+  EXPECT_NEAR(response_.first_form_mm2(5), 400, 1e-9);
+  EXPECT_NEAR(response_.second_form_mm(3), 400 * 0.1 / std::sqrt(1.36), 1e-9);
+  EXPECT_NEAR(response_.du_mm(3), 20, 1e-12);
+  EXPECT_NEAR(response_.du_mm(5), 12, 1e-12);
+  EXPECT_NEAR(response_.dv_mm(4), 20, 1e-12);
+}
+
+TEST_F(Evaluations, WrongPlaces) {
+  EXPECT_THAT(Evaluate(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("patch_index is missing")));
+  Add(0, 0.5, 0.5);
+  Add(1, 0.5, 0.5);
+  EXPECT_THAT(Evaluate(),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("patch_index[1] = 1; must be in [0, 0]")));
+  request_.set_patch_index(1, 0);
+  request_.set_uv(2, 1.5);
+  EXPECT_THAT(Evaluate(),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT,
+                          HasSubstr("uv[2] and the next = (1.5, 0.5); must be in [0, 1] x [0, 1]")));
+  request_.set_uv(2, NAN);
+  EXPECT_THAT(Evaluate(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("uv[2]")));
+  request_.add_uv(0.5);
+  EXPECT_THAT(Evaluate(), RpcStatusIs(StatusCode::INVALID_ARGUMENT,
+                                      HasSubstr("uv has 5 numbers; must have two for each of 2 points")));
+}
+
+}  // namespace
+}  // namespace patchmill
