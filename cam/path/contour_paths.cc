@@ -46,12 +46,12 @@ LevelPasses PassesAt(const LevelContext& context, const PlannedLevel& planned, d
 
 LevelContours TraceLevel(const Locator& locator, double z, const ContourParams& params,
                          const RunContext& run) {
-  return TraceLevel(LevelContext(locator, run, false), z, params, run);
+  return TraceLevel(LevelContext(locator, run), z, params, run);
 }
 
 absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const ContourParams& params,
                                            const RunContext& run) {
-  const LevelContext context(locator, run, true);
+  const LevelContext context(locator, run);
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(const ContourGround ground, SampleGround(context, params, run));
   const std::vector<PlannedLevel> levels = PlanLevels(ground, params, locator.radius());

@@ -40,7 +40,7 @@ std::vector<Fineness> BendOfPieces(const LevelContext& context) {
   std::vector<Fineness> all(surface.pieces.size());
   for (std::size_t i = 0; i < surface.leaves.size(); ++i) {
     const SurfaceLeaf& leaf = surface.leaves[i];
-    const SlopeRange slope = context.slopes[i];
+    const SlopeRange slope = SlopesOf(context.bounds.Normals(i));
     const double cuts = std::clamp(std::ceil((slope.max - slope.min) / kSlopePerStep), 1.0, 4.0);
     Fineness& f = all[leaf.piece.index()];
     f.u = std::max(f.u, std::min(kMostNodes, static_cast<int>(cuts / (leaf.u1 - leaf.u0))));

@@ -143,8 +143,8 @@ std::optional<SurfacePoint> PieceSides::Across(PieceId id, int side, double t) c
   return std::nullopt;
 }
 
-// The angle by which the surface turns at the point t of a side, 0 < t < 1.
-std::optional<double> PieceSides::TurnAt(PieceId piece, int side, double t) const {
+// The angle by which the surface turns at the point t of a side, 0 < t < 1, and its step there.
+std::optional<PieceSide> PieceSides::TurnAt(PieceId piece, int side, double t) const {
   const std::optional<SurfacePoint> other = Across(piece, side, t);
   if (!other) return std::nullopt;
   const int other_side = SideOf(*other);
@@ -152,7 +152,9 @@ std::optional<double> PieceSides::TurnAt(PieceId piece, int side, double t) cons
   const std::optional<Vec3> in =
       OutwardTangent(*surface_, other->piece, other_side, other_side % 2 == 0 ? other->u : other->v);
   if (!out || !in) return std::nullopt;
-  return std::atan2(out->cross(*in).norm(), -out->dot(*in));
+  const Vec2 uv = SideParameters(side, t);
+  const double step = (Position(surface_->piece(piece), uv.x(), uv.y()) - other->p).norm();
+  return PieceSide{SideKind::kSmooth, std::atan2(out->cross(*in).norm(), -out->dot(*in)), step};
 }
 
 PieceSide PieceSides::Classify(PieceId piece, int side) const {
@@ -160,10 +162,11 @@ PieceSide PieceSides::Classify(PieceId piece, int side) const {
   PieceSide result;
   int found = 0;
   for (double t : kAt) {
-    const std::optional<double> turn = TurnAt(piece, side, t);
+    const std::optional<PieceSide> turn = TurnAt(piece, side, t);
     if (!turn) continue;
     ++found;
-    result.angle = std::max(result.angle, *turn);
+    result.angle = std::max(result.angle, turn->angle);
+    result.step = std::max(result.step, turn->step);
   }
   if (found == 0) return {};
   result.kind = found == 5 && result.angle <= kSmoothSideAngle ? SideKind::kSmooth : SideKind::kCrease;

@@ -24,6 +24,7 @@ enum class SideKind { kSmooth, kCrease, kOpen };
 struct PieceSide {
   SideKind kind = SideKind::kOpen;
   double angle = 0.0;  // rad, kSmooth: largest angle between the tangent planes found along it
+  double step = 0.0;   // mm, kSmooth: largest gap to the neighbour found along it
 };
 
 // A side counts as smooth when the surface goes on across it within this angle (rad), sampled.
@@ -52,7 +53,7 @@ class PieceSides {
   using Place = std::tuple<std::int32_t, std::int64_t, std::int64_t>;  // patch, native middle of a side
   Place MiddleOf(PieceId piece, int side) const;
   std::optional<SurfacePoint> OnEdge(PatchEdge edge, double t) const;
-  std::optional<double> TurnAt(PieceId piece, int side, double t) const;
+  std::optional<PieceSide> TurnAt(PieceId piece, int side, double t) const;
   PieceSide Classify(PieceId piece, int side) const;
 
   const Surface* surface_;

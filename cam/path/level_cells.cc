@@ -23,37 +23,32 @@ std::uint64_t Mix(std::uint64_t k) {
 
 class Search {
  public:
-  Search(LevelItems& items, const Locator& locator, double z, const LevelCellLimits& limits,
-         const RunContext& run, const SlopeWindow* wanted, LevelCells& out)
-      : items_(items), locator_(locator), z_(z), limits_(limits), run_(run), wanted_(wanted), out_(out) {}
+  Search(LevelItems& items, const LevelOracle& oracle, const LevelCellLimits& limits, const RunContext& run,
+         const SlopeWindow* wanted, LevelCells& out)
+      : items_(items), oracle_(oracle), limits_(limits), run_(run), wanted_(wanted), out_(out) {}
 
   void Root() {
     const std::int32_t side = std::int32_t{1} << out_.grid.levels;
     pool_.resize(static_cast<std::size_t>(out_.grid.levels) + 2);
-    pool_[0] = {items_.root()};
+    pool_[0] = {LevelItems::kRoot};
     Visit(0, 0, side, 0);
   }
 
  private:
   bool Stopped() const { return out_.overflow || out_.cancelled; }
 
-  // Is the whole cell inside the disc of what h touches above its middle?
+  // Is the whole cell inside the disc of the deepest point found below its middle?
   bool MiddleCovers(const PlanCell& cell) {
-    const double diagonal = cell.half.norm();
-    if (diagonal >= locator_.radius()) return false;
-    if (hint_ && DiscCovers(hint_->p, cell)) return true;
-    const std::optional<CenterPoint> h = locator_.Height(cell.mid, hint_ ? &*hint_ : nullptr);
-    if (!h) return false;
-    hint_ = h->contact;
-    return h->z > z_ && DiscCovers(h->contact.p, cell);
-  }
-
-  bool DiscCovers(const Vec3& p, const PlanCell& cell) const {
-    const double below = std::max(0.0, z_ - p.z());
-    const double rho2 = locator_.radius() * locator_.radius() - below * below;
-    const double dx = std::abs(p.x() - cell.mid.x()) + cell.half.x();
-    const double dy = std::abs(p.y() - cell.mid.y()) + cell.half.y();
-    return dx * dx + dy * dy < rho2 * (1.0 - 1e-9);
+    if (cell.half.norm() >= oracle_.radius()) return false;
+    constexpr double kMargin = 1e-9;  // mm
+    if (recent_.Holding(cell.mid, cell.half, kMargin) != nullptr) return true;
+    const std::optional<SurfacePoint> obstacle = oracle_.Obstacle(cell.mid, hint_ ? &*hint_ : nullptr);
+    if (!obstacle) return false;
+    hint_ = oracle_.Deepest(*obstacle, cell.mid);
+    RecentDiscs found;
+    found.Add(*hint_, oracle_.Rho(hint_->p));
+    recent_.Add(*hint_, oracle_.Rho(hint_->p));
+    return found.Holding(cell.mid, cell.half, kMargin) != nullptr;
   }
 
   void Visit(std::int32_t x, std::int32_t y, std::int32_t side, std::size_t depth) {
@@ -81,10 +76,10 @@ class Search {
     for (const std::int32_t item : mine) {
       if (items_.Covers(item, cell)) return;
     }
-    if (width <= locator_.radius() / 3.0) {
-      const DirectionCone cone = items_.Directions(mine, cell);
-      if (cone.empty) return;
-      if (cone.valid && cone.Angle() < kWidestCone) {
+    if (width <= oracle_.radius() / 3.0) {
+      for (const bool closely : {false, true}) {
+        const DirectionCone cone = items_.Directions(mine, cell, closely);
+        if (!cone.valid || cone.Angle() >= kWidestCone) continue;
         Keep(here, (cone.left.normalized() + cone.right.normalized()).normalized(), mine);
         return;
       }
@@ -115,14 +110,14 @@ class Search {
   }
 
   LevelItems& items_;
-  const Locator& locator_;
-  double z_;
+  const LevelOracle& oracle_;
   const LevelCellLimits& limits_;
   const RunContext& run_;
   const SlopeWindow* wanted_;
   LevelCells& out_;
   std::vector<std::vector<std::int32_t>> pool_;  // candidates by depth
   std::optional<SurfacePoint> hint_;
+  RecentDiscs recent_;
   int looked_ = 0;
 };
 
@@ -169,19 +164,19 @@ PlanCell PlanOf(const LevelGrid& grid, const LevelCell& cell) {
   return {grid.At(cell.x, cell.y) + Vec2(half, half), Vec2(half, half)};
 }
 
-LevelCells FindCells(LevelItems& items, const Locator& locator, double z, const LevelCellLimits& limits,
-                     const RunContext& run, const SlopeWindow* wanted) {
+LevelCells FindCells(LevelItems& items, const Surface& surface, const LevelOracle& oracle,
+                     const LevelCellLimits& limits, const RunContext& run, const SlopeWindow* wanted) {
   LevelCells out;
-  const Box3& box = locator.surface().box;
+  const Box3& box = surface.box;
   if (box.Empty()) return out;
-  const double margin = locator.radius() + 4.0 * limits.smallest;
+  const double margin = oracle.radius() + 4.0 * limits.smallest;
   const double extent = std::max(box.max.x() - box.min.x(), box.max.y() - box.min.y()) + 2.0 * margin;
   out.grid.unit = limits.smallest;
   while (out.grid.levels < 28 && out.grid.unit * (std::int32_t{1} << out.grid.levels) < extent)
     ++out.grid.levels;
   out.grid.unit = std::max(out.grid.unit, extent / (std::int32_t{1} << out.grid.levels));
   out.grid.origin = Plan(box.min) - Vec2(margin + kShiftX * out.grid.unit, margin + kShiftY * out.grid.unit);
-  Search(items, locator, z, limits, run, wanted, out).Root();
+  Search(items, oracle, limits, run, wanted, out).Root();
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cam/path/level_items.h"
+#include "cam/path/level_oracle.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
@@ -65,8 +66,9 @@ struct LevelCellLimits {
 // the cells returned is smaller than `smallest`. Polls run.Cancelled().
 // With `wanted`, cells whose every contact is outside of that slope window, or on the shank, are left out
 // too: the contour then comes in pieces that end at such cells.
-LevelCells FindCells(LevelItems& items, const Locator& locator, double z, const LevelCellLimits& limits,
-                     const RunContext& run, const SlopeWindow* wanted = nullptr);
+LevelCells FindCells(LevelItems& items, const Surface& surface, const LevelOracle& oracle,
+                     const LevelCellLimits& limits, const RunContext& run,
+                     const SlopeWindow* wanted = nullptr);
 
 PlanCell PlanOf(const LevelGrid& grid, const LevelCell& cell);
 

@@ -1,10 +1,9 @@
-// Crossings of the contour with the edges of its cells, joined to closed loops.
+// Crossings of the contour with the edges of its cells, joined to loops.
 #pragma once
 
 #include <vector>
 
-#include "cam/path/level_cells.h"
-#include "cam/path/level_oracle.h"
+#include "cam/path/level_edges.h"
 
 namespace patchmill {
 
@@ -24,11 +23,9 @@ struct Chain {
   bool closed = true;
 };
 
-// Every edge of a cell is cut at all vertices on it, its crossings are found once and shared by both cells.
-// Inside a cell with a cone the crossings are joined in their order along the contour; in an ambiguous cell
-// each free stretch of the rim is cut off on its own (the safe side). Loops always close, unless the cells
-// are those of passes only (`open`).
-std::vector<Chain> BuildChains(LevelCells& cells, const LevelItems& items, const LevelOracle& oracle,
-                               const RunContext& run, bool open = false);
+// Inside a cell with a cone the crossings are joined in their order along the contour (T8a); in an ambiguous
+// cell each free stretch of the rim is cut off on its own (the safe side). Loops always close, unless the
+// cells are those of passes only (`open`). Cost O(crossings).
+std::vector<Chain> BuildChains(const LevelCells& cells, const LevelEdges& edges, bool open = false);
 
 }  // namespace patchmill

@@ -1,17 +1,21 @@
 // The parts of the surface that can carry a contact of one level of h, as a tree that is opened on demand.
 //
 // At centre height c a surface point p forbids the disc |q - p_xy| < rho(p), rho = sqrt(R^2 - max(0, c -
-// p_z)^2). A point q of the contour touches some p with |q - p_xy| = rho(p) (T8b), and there the contact rule
-// holds: on smooth ground (c - p)/R is the normal, so that its slope is known from p_z; on an open edge or a
-// crease p lies on that curve. Parts that can do neither are dropped once and for all at this level.
+// p_z)^2). A point q of the contour touches some p with |q - p_xy| = rho(p) (T8b). On smooth ground the
+// contact rule of level_bounds.h holds there and (q, c) lies in the box of the part's centres; on an open
+// edge or a crease p lies on that curve, and only the distance counts, as it does where a ball may touch with
+// its equator.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "cam/location/locator.h"
 #include "cam/path/contour_sides.h"
-#include "cam/path/level_slopes.h"
+#include "cam/path/direction_cone.h"
+#include "cam/path/level_bounds.h"
 #include "cam/path/pass_params.h"
 
 namespace patchmill {
@@ -22,78 +26,77 @@ struct PlanCell {
   Vec2 half = Vec2::Zero();
 };
 
-// Open cone of plan directions, narrower than pi, as its two extreme unit-free directions.
-struct DirectionCone {
-  bool valid = false;  // false: half turn or more
-  bool empty = true;
-  Vec2 right = Vec2::Zero(), left = Vec2::Zero();  // counter-clockwise from right to left
-  double Angle() const;                            // rad
-};
-
 class LevelItems {
  public:
-  // `slopes`: per leaf of the surface, or empty (then found on demand). All references are kept.
-  LevelItems(const Locator& locator, const PieceSides& sides, const std::vector<SlopeRange>& slopes,
-             double z);
+  // All references are kept.
+  LevelItems(const Locator& locator, const PieceSides& sides, const LevelBounds& bounds, double z);
 
-  std::int32_t root() const { return 0; }
+  // Candidates are items, or nodes of the surface not looked into yet (negative).
+  static constexpr std::int32_t kRoot = -1;
 
-  // Can an item touch the ball at some q of the cell?
-  bool Touches(std::int32_t item, const PlanCell& cell) const;
-  // Appends the parts of `items` that touch the cell, opened until they are small enough for a cell of
-  // `width` (the rule of ALGORITHMS 11: about sqrt(width R)).
-  void Collect(const std::vector<std::int32_t>& items, const PlanCell& cell, double width,
+  // Appends the parts of `candidates` that may be touched from the cell, opened until they are small enough
+  // for a cell of `width` (the rule of ALGORITHMS 11: about sqrt(width R)).
+  void Collect(const std::vector<std::int32_t>& candidates, const PlanCell& cell, double width,
                std::vector<std::int32_t>& out);
-  // Is the cell covered by the disc of one item's middle point?
-  bool Covers(std::int32_t item, const PlanCell& cell) const;
-  // Can a contact on the item be part of a pass: not above the centre, its slope in the window?
-  bool Wanted(std::int32_t item, const SlopeWindow& window) const;
-  // Directions from contacts on the items to points of the cell.
-  DirectionCone Directions(const std::vector<std::int32_t>& items, const PlanCell& cell) const;
+  // Is the cell covered by the disc of the candidate's middle point?
+  bool Covers(std::int32_t candidate, const PlanCell& cell) const;
+  // Can a contact on the candidate be part of a pass: not above the centre, its slope in the window?
+  bool Wanted(std::int32_t candidate, const SlopeWindow& window) const;
+  // Directions from contacts on the candidates to points of the cell.
+  // `closely`: the directions from the parts' boxes count too; dearer.
+  DirectionCone Directions(const std::vector<std::int32_t>& candidates, const PlanCell& cell,
+                           bool closely) const;
 
  private:
-  enum class Kind : std::int8_t { kNode, kRect, kCurve };
+  enum class Kind : std::int8_t { kRect, kCurve };
   struct Item {
-    Kind kind = Kind::kNode;
-    bool opened = false;
-    bool oriented = false;             // the oriented box below counts
-    std::int32_t first = 0, last = 0;  // children, when opened
-    std::int32_t id = 0;               // node index or piece
-    std::int32_t side = 0;             // kCurve
+    // What the test of a cell needs. Oriented: the slice of the centres' box at this level, |ax x + ay y -
+    // mid| <= half thrice, inside the plan box of centres. Else the plan box of the part widened by rho.
     double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-    double rho2 = 0, rho = 0;                // largest disc
-    double size = 0;                         // larger side of the plan box
-    double nx = 0, ny = 0, off = kInfinity;  // contact needs nx x + ny y <= off
+    std::array<double, 3> ax{}, ay{}, mid{}, half{};
+    bool oriented = false;
+    bool directed = false;
+    // The part lies below the centre: the ball must also reach its box, |ax x + ay y - own_mid| <= own_half
+    // thrice (exact where the centres of a round hollow meet).
+    bool below = false;
+    Kind kind = Kind::kRect;
+    bool opened = false;
+    std::int32_t first = 0, last = 0;  // children, when opened
+    double rho2 = 0, rho = 0;          // largest disc
+    std::array<double, 3> own_mid{}, own_half{};
+    Vec2 right = Vec2::Zero(), left = Vec2::Zero();
+    double px0 = 0, px1 = 0, py0 = 0, py1 = 0;  // plan box of the part
+    double size = 0;                            // its larger side
+    std::int32_t piece = 0;
+    int side = 0;  // kCurve: of its piece; kRect: 1 or -1 as in level_bounds.h, 0: both
     double u0 = 0, u1 = 1, v0 = 0, v1 = 1;
-    bool split_u = true;
-    double slope_slack = 0;  // rad, by which a smooth joint may turn
-    SlopeRange slope;
-    double z_min = -kInfinity;
-    double flattest = 0.0, steepest = kPi / 2.0;  // slopes of contacts at the heights it has
-    Vec2 middle = Vec2::Zero();                   // plan of a surface point, with its disc
+    NormalCone normals;
+    double z_min = -kInfinity, z_max = kInfinity;
+    Vec2 middle = Vec2::Zero();  // plan of a surface point, with its disc
     double middle_rho = -1.0;
-    Vec3 center = Vec3::Zero(), half = Vec3::Zero();
-    Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();
   };
 
   double Rho2(double z) const;
-  bool SlopeFits(const SlopeRange& slope, double slack, double z_min, double z_max) const;
-  bool SetBox(Item& item, const Box3& box) const;  // false: out of reach at this level
-  void SetOriented(Item& item, const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half,
-                   double z_max) const;
+  bool NodeTouches(std::int32_t node, const PlanCell& cell) const;
+  bool Touches(const Item& item, const PlanCell& cell) const;
+  DirectionCone DirectionsFrom(const Item& item, const PlanCell& cell, bool closely) const;
+  bool NeedsOpening(const Item& item, double width) const;
   void Open(std::int32_t index);
-  void AddNode(std::int32_t node);
-  void AddLeaf(const SurfaceLeaf& leaf, std::size_t leaf_index, const Box3& box);
+  // The items of a leaf, made when first asked for.
+  std::pair<std::int32_t, std::int32_t> OfLeaf(std::int32_t node);
+  bool SetLevel(Item& item, const Box3& box) const;  // false: out of reach
+  void AddFace(Item item, const RectBounds& part);
   void AddRect(const Item& parent, double u0, double u1, double v0, double v1);
+  void SetMiddle(Item& item, const Vec3& p) const;
   void AddCurve(PieceId piece, int side, double t0, double t1);
-  bool CanOpen(const Item& item) const;
 
   const Locator& locator_;
   const Surface& surface_;
   const PieceSides& sides_;
-  const std::vector<SlopeRange>& slopes_;
+  const LevelBounds& bounds_;
   double z_, radius_;
   std::vector<Item> items_;
+  std::vector<std::int32_t> first_of_leaf_;  // -1: not made yet
   std::vector<std::int32_t> stack_;
 };
 

@@ -41,6 +41,17 @@ double LevelOracle::ExitLength(const Vec2& q, const Vec3& contact, const Vec2& d
   return b > 0.0 ? -c / (b + root) : root - b;
 }
 
+std::optional<SurfacePoint> LevelOracle::Obstacle(const Vec2& q, const SurfacePoint* hint) const {
+  if (hint != nullptr) {
+    const SurfacePoint near = Deepest(*hint, q);
+    if (Excess(q, near.p) < -kStill) return near;
+  }
+  if (locator_.Free(Center(q))) return std::nullopt;
+  const std::optional<CenterPoint> h = locator_.Height(q, hint);
+  if (!h || h->z <= z_) return std::nullopt;
+  return h->contact;
+}
+
 std::optional<SurfacePoint> LevelOracle::Beyond(const RaySlide& slide) const {
   const int side = slide.held_by();
   if (side < 0) return std::nullopt;
@@ -129,13 +140,13 @@ std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& dir
     start = *hit;
   } else {
     back = 0.0;
-    std::optional<CenterPoint> h = locator_.Height(m, &a);
-    if (!Forbidden(h) && stretch.crossed) {
+    std::optional<SurfacePoint> obstacle = Obstacle(m, &a);
+    if (!obstacle && stretch.crossed) {
       back = stretch.back;
-      h = locator_.Height(m - back * direction, &a);
+      obstacle = Obstacle(m - back * direction, &a);
     }
-    if (!Forbidden(h)) return std::nullopt;
-    start = h->contact;
+    if (!obstacle) return std::nullopt;
+    start = *obstacle;
   }
   const double reach = back + stretch.front;
   const Vec2 from = m - back * direction;
@@ -166,14 +177,12 @@ std::optional<LevelPoint> LevelOracle::Corner(const LevelPoint& a, const LevelPo
     kb = Deepest(kb, q);
   }
   if ((ka.p - kb.p).norm() < 1e-6 * radius_) return std::nullopt;
-  const std::optional<CenterPoint> h = locator_.Height(q, &ka);
-  if (h && h->z > z_ + kHeightSlack) {
+  if (!locator_.Free(Center(q), kHeightSlack)) {
     // A third contact, or the rim of a vertical wall (where h jumps): then a hair outward is free.
     const Vec2 out = ((q - Plan(ka.p)).normalized() + (q - Plan(kb.p)).normalized());
     if (out.norm() < 0.1) return std::nullopt;
     const Vec2 free = q + (4.0 * kStill / out.norm()) * out;
-    const std::optional<CenterPoint> beside = locator_.Height(free, &ka);
-    if (beside && beside->z > z_ + kHeightSlack) return std::nullopt;
+    if (!locator_.Free(Center(free), kHeightSlack)) return std::nullopt;
     q = free;
   }
   return LevelPoint{q, ka, kb};

@@ -1,6 +1,8 @@
 // The border of {h > c} at one level c, point by point; h is the only judge.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <optional>
 
 #include "cam/location/locator.h"
@@ -16,6 +18,34 @@ struct LevelPoint {
   std::optional<SurfacePoint> other;  // the second contact at a corner
 };
 
+// The last few forbidden discs found: most questions lie in one of them.
+class RecentDiscs {
+ public:
+  void Add(const SurfacePoint& contact, double rho) {
+    discs_[next_] = {contact, rho};
+    next_ = (next_ + 1) % discs_.size();
+  }
+  // A contact whose disc holds all points within `half` of `mid`, by at least `margin` mm; else null.
+  const SurfacePoint* Holding(const Vec2& mid, const Vec2& half, double margin) const {
+    for (const Disc& disc : discs_) {
+      const double dx = std::abs(mid.x() - disc.contact.p.x()) + half.x();
+      const double dy = std::abs(mid.y() - disc.contact.p.y()) + half.y();
+      if (disc.rho > margin && dx * dx + dy * dy < (disc.rho - margin) * (disc.rho - margin)) {
+        return &disc.contact;
+      }
+    }
+    return nullptr;
+  }
+
+ private:
+  struct Disc {
+    SurfacePoint contact;
+    double rho = 0.0;
+  };
+  std::array<Disc, 8> discs_;
+  std::size_t next_ = 0;
+};
+
 class LevelOracle {
  public:
   // Keeps references.
@@ -26,13 +56,11 @@ class LevelOracle {
   double radius() const { return radius_; }
   Vec3 Center(const Vec2& q) const { return Lift(q, z_); }
 
-  std::optional<CenterPoint> Height(const Vec2& q, const SurfacePoint* hint) const {
-    return locator_.Height(q, hint);
-  }
+  // A point that forbids q (its disc holds q), none where q is free.
+  // `hint`: a contact nearby, for speed.
+  std::optional<SurfacePoint> Obstacle(const Vec2& q, const SurfacePoint* hint) const;
   // The nearest point of the branch of `from` to the ball with everything above it, centred at (q, c).
   SurfacePoint Deepest(const SurfacePoint& from, const Vec2& q) const;
-  bool Forbidden(const std::optional<CenterPoint>& h) const { return h && h->z > z_; }
-
   // Radius of the disc that a surface point forbids at this level (0 when it is too low).
   double Rho(const Vec3& p) const;
   // Distance of the centre (q, c) from a contact, beyond the radius: what stays standing on it.

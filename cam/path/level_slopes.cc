@@ -79,7 +79,7 @@ void Hodograph(const BernsteinNet& net, bool along_u, std::vector<Vec3>& out) {
 
 }  // namespace
 
-SlopeRange BoundSlopes(const BernsteinNet& net) {
+NormalCone BoundNormals(const BernsteinNet& net) {
   if (net.degree_u < 1 || net.degree_v < 1) return {};
   thread_local std::vector<Vec3> vectors;
   Hodograph(net, true, vectors);
@@ -93,9 +93,14 @@ SlopeRange BoundSlopes(const BernsteinNet& net) {
   const double su = std::sin(u.angle), sv = std::sin(v.angle), sb = std::sin(between);
   const double s = std::sqrt(su * su + 2.0 * su * sv * std::abs(std::cos(between)) + sv * sv) / sb;
   if (!(s < 1.0)) return {};
-  const double half = std::asin(s);
-  const double slope = std::atan2(std::hypot(normal.x(), normal.y()), std::abs(normal.z()));
-  return {std::max(0.0, slope - half), std::min(kPi / 2.0, slope + half)};
+  return {normal.normalized(), std::asin(s)};
+}
+
+SlopeRange SlopesOf(const NormalCone& normals) {
+  if (normals.angle >= kPi / 2.0) return {};
+  const Vec3& n = normals.axis;
+  const double slope = std::atan2(std::hypot(n.x(), n.y()), std::abs(n.z()));
+  return {std::max(0.0, slope - normals.angle), std::min(kPi / 2.0, slope + normals.angle)};
 }
 
 }  // namespace patchmill

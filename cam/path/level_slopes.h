@@ -1,4 +1,4 @@
-// Which slopes a piece of surface can have: bounds on its normals from its Bernstein net.
+// Which normals and slopes a piece of surface can have, from its Bernstein net.
 #pragma once
 
 #include <vector>
@@ -13,10 +13,21 @@ struct SlopeRange {
   double max = kPi / 2.0;
 };
 
-// Holds every normal of the net's surface; the full range where nothing tighter is proven (degenerate
-// parametrisation, strongly bent nets). Directions of S_u and S_v lie in the cones of their control vectors
-// (for rational nets those of N_u w - N w_u), the cross product's cone follows (Sederberg and Meyers 1988).
-// Cost O(points) for polynomial nets, O(points^2) for rational ones.
-SlopeRange BoundSlopes(const BernsteinNet& net);
+// Holds every unit normal of a part, up to one sign that they share.
+struct NormalCone {
+  Vec3 axis = Vec3::UnitZ();
+  double angle = kPi;  // rad; kPi: nothing is proven
+};
+
+// Holds every normal of the net's surface; nothing tighter than everything where nothing is proven
+// (degenerate parametrisation, strongly bent nets). Directions of S_u and S_v lie in the cones of their
+// control vectors (for rational nets those of N_u w - N w_u), the cross product's cone follows (Sederberg and
+// Meyers 1988). Cost O(points) for polynomial nets, O(points^2) for rational ones.
+NormalCone BoundNormals(const BernsteinNet& net);
+
+// The slopes of a cone's normals.
+SlopeRange SlopesOf(const NormalCone& normals);
+
+inline SlopeRange BoundSlopes(const BernsteinNet& net) { return SlopesOf(BoundNormals(net)); }
 
 }  // namespace patchmill

@@ -6,7 +6,6 @@
 #include "cam/path/level_cells.h"
 #include "cam/path/level_chains.h"
 #include "cam/path/loop_refine.h"
-#include "core/base/parallel.h"
 
 namespace patchmill {
 namespace {
@@ -24,26 +23,6 @@ double SignedArea(const std::vector<LevelPoint>& loop) {
   return 0.5 * twice;
 }
 
-}  // namespace
-
-LevelContext::LevelContext(const Locator& locator_in, const RunContext& run, bool all_slopes)
-    : locator(locator_in), sides(locator_in.surface(), run) {
-  if (!all_slopes) return;
-  const Surface& surface = locator.surface();
-  constexpr std::size_t kBlock = 256;
-  slopes.resize(surface.leaves.size());
-  const absl::Status status =
-      ParallelFor(run, nullptr, (slopes.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-        for (std::size_t i = block * kBlock; i < std::min(slopes.size(), (block + 1) * kBlock); ++i) {
-          const SurfaceLeaf& leaf = surface.leaves[i];
-          slopes[i] = BoundSlopes(SubNet(surface.piece(leaf.piece).net, leaf.u0, leaf.u1, leaf.v0, leaf.v1));
-        }
-      });
-  if (!status.ok()) slopes.clear();
-}
-
-namespace {
-
 LevelContours Trace(const LevelContext& context, double z, const ContourParams& params,
                     const SlopeWindow* wanted, const RunContext& run) {
   LevelContours level;
@@ -51,15 +30,15 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
   LevelCellLimits limits;
   limits.smallest = params.resolution / kCellsPerResolution;
   for (int attempt = 0; !run.Cancelled(); ++attempt) {
-    LevelItems items(context.locator, context.sides, context.slopes, level.z);
-    LevelCells cells = FindCells(items, context.locator, level.z, limits, run, wanted);
+    LevelItems items(context.locator, context.sides, context.bounds, level.z);
+    const LevelOracle oracle(context.locator, context.sides, level.z);
+    LevelCells cells = FindCells(items, context.locator.surface(), oracle, limits, run, wanted);
     if (cells.cancelled) return level;
     if (cells.overflow) {
       level.z += kShift;
       if (attempt >= kMostShifts) limits.smallest *= 2.0;
       continue;
     }
-    const LevelOracle oracle(context.locator, context.sides, level.z);
     const LoopTolerance tolerance{
         std::max(params.chord_tolerance - params.certificate_gap, 0.5 * params.chord_tolerance),
         params.chord_tolerance};
@@ -67,7 +46,9 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
     const auto first = std::find_if(cells.cells.begin(), cells.cells.end(),
                                     [](const LevelCell& cell) { return cell.ambiguous; });
     if (first != cells.cells.end()) level.ambiguous_at = oracle.Center(PlanOf(cells.grid, *first).mid);
-    for (const Chain& chain : BuildChains(cells, items, oracle, run, wanted != nullptr)) {
+    const LevelEdges edges = FindCrossings(cells, items, oracle, run);
+    if (run.Cancelled()) return level;
+    for (const Chain& chain : BuildChains(cells, edges, wanted != nullptr)) {
       if (run.Cancelled()) return level;
       const std::vector<LevelPoint> points = RefineLoop(oracle, chain, tolerance, run);
       const bool undecided =

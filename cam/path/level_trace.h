@@ -8,12 +8,15 @@ namespace patchmill {
 
 // What does not depend on the level. References are kept by those who use it; const after construction.
 struct LevelContext {
-  // `all_slopes`: find the slopes of all leaves at once, in parallel; worth it for more than a few levels.
-  LevelContext(const Locator& locator_in, const RunContext& run, bool all_slopes = true);
+  // Cost about 3 us a leaf of the surface, parallel. Unusable when the run was cancelled meanwhile.
+  LevelContext(const Locator& locator_in, const RunContext& run)
+      : locator(locator_in),
+        sides(locator_in.surface(), run),
+        bounds(locator_in.surface(), sides, locator_in.radius(), run) {}
 
   const Locator& locator;
   PieceSides sides;
-  std::vector<SlopeRange> slopes;  // by leaf, or empty
+  LevelBounds bounds;
 };
 
 // TraceLevel on a shared context.

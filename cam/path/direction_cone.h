@@ -1,0 +1,18 @@
+// Directions in the plane that lie within half a turn of each other.
+#pragma once
+
+#include "core/base/vec.h"
+
+namespace patchmill {
+
+// Open cone of plan directions, narrower than pi, as its two extreme unit-free directions.
+struct DirectionCone {
+  bool valid = false;  // false: half turn or more
+  bool empty = true;
+  Vec2 right = Vec2::Zero(), left = Vec2::Zero();  // counter-clockwise from right to left
+  double Angle() const;                            // rad
+  void Add(const Vec2& direction);
+  void Add(const DirectionCone& other);
+};
+
+}  // namespace patchmill
