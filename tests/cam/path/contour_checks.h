@@ -114,4 +114,31 @@ inline int WrongNodes(const Surface& surface, double radius, const LevelContours
   return wrong;
 }
 
+// A part with its levels, each of them checked.
+struct Level {
+  explicit Level(PatchModel model, double radius = 3.0)
+      : surface(MakeSurface(std::move(model))), locator(surface, radius) {}
+  // `excess`: what probes may find left over; in cells below the resolution it is half their diagonal (T8d).
+  LevelContours At(double z, double excess = ContourParams{}.chord_tolerance) const {
+    const RunContext run;
+    LevelContours level = TraceLevel(locator, z, params, run);
+    CheckVertices(locator, level);
+    const double tol = params.chord_tolerance;
+    const ProbeCount count = ProbeChords(surface, locator.radius(), level, 1.001 * tol, 1.001 * excess, 3);
+    EXPECT_EQ(count.gouges, 0) << "of " << count.probes;
+    EXPECT_EQ(count.excesses, 0) << "of " << count.probes;
+    return level;
+  }
+  ContourParams params;
+  Surface surface;
+  Locator locator;
+};
+
+inline double LargestRadiusError(const CutterPath& loop, const Vec2& center, double radius) {
+  double error = 0.0;
+  for (const CutterPoint& p : loop.points)
+    error = std::max(error, std::abs((Plan(p.center) - center).norm() - radius));
+  return error;
+}
+
 }  // namespace patchmill::testing

@@ -10,41 +10,13 @@ namespace patchmill {
 namespace {
 
 using testing::Block;
-using testing::CheckVertices;
 using testing::CornerCount;
-using testing::MakeSurface;
-using testing::ProbeChords;
-using testing::ProbeCount;
+using testing::LargestRadiusError;
+using testing::Level;
 using testing::SignedArea;
 using testing::WrongNodes;
 
 constexpr double kR = 3.0;
-
-struct Level {
-  explicit Level(PatchModel model, double radius = kR)
-      : surface(MakeSurface(std::move(model))), locator(surface, radius) {}
-  // `excess`: what probes may find left over; in cells below the resolution it is half their diagonal (T8d).
-  LevelContours At(double z, double excess = ContourParams{}.chord_tolerance) const {
-    const RunContext run;
-    LevelContours level = TraceLevel(locator, z, params, run);
-    CheckVertices(locator, level);
-    const double tol = params.chord_tolerance;
-    const ProbeCount count = ProbeChords(surface, locator.radius(), level, 1.001 * tol, 1.001 * excess, 3);
-    EXPECT_EQ(count.gouges, 0) << "of " << count.probes;
-    EXPECT_EQ(count.excesses, 0) << "of " << count.probes;
-    return level;
-  }
-  ContourParams params;
-  Surface surface;
-  Locator locator;
-};
-
-double LargestRadiusError(const CutterPath& loop, const Vec2& center, double radius) {
-  double error = 0.0;
-  for (const CutterPoint& p : loop.points)
-    error = std::max(error, std::abs((Plan(p.center) - center).norm() - radius));
-  return error;
-}
 
 TEST(ContourLevel, SphereIsOneCircle) {
   const Level sphere(testing::Sphere(Vec3::Zero(), 10.0));
