@@ -36,6 +36,7 @@ constexpr struct {
     {"setup.program_zero.z_mm", "--zero"},
     {"floor_z_mm", "--floor"},
     {"heights.top_z_mm", "--top"},
+    {"spacing_mm", "--spacing"},
     {"avoid_margin_mm", "--avoid-margin"},
     {"boundary_offset_mm", "--boundary-offset"},
     {"boundary_xy_mm", "--boundary"},

@@ -22,6 +22,8 @@ const std::map<std::string, v1::LineKind> kKinds = {
     {"highlight", v1::LINE_KIND_HIGHLIGHT},
     {"inflection", v1::LINE_KIND_CONTOUR_INFLECTION},
     {"slope-extremum", v1::LINE_KIND_SLOPE_EXTREMUM},
+    {"flow", v1::LINE_KIND_FLOW},
+    {"slope-flow", v1::LINE_KIND_SLOPE_FLOW},
 };
 
 struct LinesOptions {
@@ -31,6 +33,7 @@ struct LinesOptions {
   std::vector<std::string> kinds = {"contour"};
   std::vector<double> levels, direction, across, eye;
   std::optional<int> count;
+  std::optional<double> spacing;
   double tolerance = 0.01, min_loop = 0.1;
 };
 
@@ -59,6 +62,7 @@ absl::StatusOr<v1::TraceLinesRequest> MakeRequest(const LinesOptions& options, b
     if (!options.eye.empty()) SetPoint(options.eye, family.mutable_eye());
     for (const double level : options.levels) family.add_levels(level);
     if (options.count) family.set_count(*options.count);
+    if (options.spacing) family.set_spacing_mm(*options.spacing);
   }
   request.set_tolerance_mm(options.tolerance);
   request.set_min_loop_mm(options.min_loop);
@@ -122,6 +126,8 @@ Command AddLines(CLI::App& app) {
       ->delimiter(',');
   app.add_option("--count", options->count, "levels to choose when none are given; default 12")
       ->check(CLI::Range(1, 1000));
+  AddNumber(app, "--spacing", options->spacing,
+            "flow: between neighbouring lines, mm; default: a fortieth of the box");
   AddVector(app, "--direction", options->direction, "X,Y,Z: axis, light or sight; default 0,0,1");
   AddVector(app, "--across", options->across,
             "X,Y,Z: of highlight lines, across the direction; default 1,0,0");

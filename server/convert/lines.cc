@@ -100,6 +100,19 @@ LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErr
     case v1::LINE_KIND_SLOPE_EXTREMUM:
       order.family = SlopeExtremumLines{direction};
       break;
+    case v1::LINE_KIND_FLOW:
+    case v1::LINE_KIND_SLOPE_FLOW: {
+      FlowParams flow;
+      flow.kind = proto.kind() == v1::LINE_KIND_FLOW ? FlowKind::kAlongHeight : FlowKind::kAlongSlope;
+      flow.axis = direction;
+      flow.spacing = proto.spacing_mm();
+      if (proto.has_spacing_mm()) {
+        Require(errors, At(at, "spacing_mm"), flow.spacing, flow.spacing > 0.0 && flow.spacing <= 1000.0,
+                "in (0, 1000]");
+      }
+      order.flow = flow;
+      break;
+    }
     default:
       errors.Add(At(at, "kind"),
                  fmt::format("= {} is not known to this version", static_cast<int>(proto.kind())));
@@ -123,6 +136,8 @@ LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErr
   }
   return order;
 }
+
+bool HasLevels(const LineOrder& order) { return !order.flow && HasLevels(order.family); }
 
 LineOrder Placed(LineOrder order, const Vec3& zero) {
   if (auto* eye = std::get_if<EyeSilhouetteLines>(&order.family)) eye->eye += zero;
@@ -156,6 +171,10 @@ std::string Describe(v1::LineKind kind, double wire_level) {
       return "contour inflections";
     case v1::LINE_KIND_SLOPE_EXTREMUM:
       return "slope extrema";
+    case v1::LINE_KIND_FLOW:
+      return "flow";
+    case v1::LINE_KIND_SLOPE_FLOW:
+      return "flow of slopes";
     default:
       return "";
   }

@@ -1,9 +1,11 @@
 // v1.LineFamily -> LineFamily with its levels, and curves -> v1.LineSet.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/lines/flow_lines.h"
 #include "core/lines/line_family.h"
 #include "core/lines/zero_curves.h"
 #include "patchmill/v1/lines.pb.h"
@@ -13,10 +15,14 @@ namespace patchmill {
 
 struct LineOrder {
   v1::LineKind kind = v1::LINE_KIND_UNSPECIFIED;
-  LineFamily family;           // places in the program frame
-  std::vector<double> levels;  // program frame, rad; as given
-  int count = 12;              // to choose when none are given
+  LineFamily family;               // places in the program frame; of no meaning for a flow
+  std::optional<FlowParams> flow;  // its spacing 0: to be chosen
+  std::vector<double> levels;      // program frame, rad; as given
+  int count = 12;                  // to choose when none are given
 };
+
+// The order has levels, given or to be chosen.
+bool HasLevels(const LineOrder& order);
 
 LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErrors& errors);
 

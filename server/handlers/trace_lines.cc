@@ -55,19 +55,39 @@ struct Level {
   std::vector<ZeroCurve> curves;
 };
 
+absl::StatusOr<std::vector<ZeroCurve>> TraceFlow(const Surface& surface, FlowParams flow, double tolerance,
+                                                 const RunContext& run) {
+  constexpr double kUsual = 1.0 / 40.0, kClosest = 1e-3;  // of the box's diagonal
+  const double diagonal = surface.box.Diagonal();
+  if (flow.spacing == 0.0) flow.spacing = kUsual * diagonal;
+  if (flow.spacing < kClosest * diagonal)
+    return LimitError("1/spacing_mm", 1.0 / (kClosest * diagonal), 1.0 / flow.spacing);
+  flow.tolerance = tolerance;
+  return TraceFlowLines(surface, flow, run);
+}
+
 absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vector<LineOrder>& lines,
                                          const Order& order, const Vec3& zero, const RunContext& run) {
   std::vector<Level> levels;
   std::vector<ZeroField> fields;
+  std::vector<std::size_t> of_field;  // its level
   for (std::size_t k = 0; k < lines.size(); ++k) {
+    const int family = static_cast<int>(k);
+    if (lines[k].flow) {
+      PM_ASSIGN_OR_RETURN(std::vector<ZeroCurve> flow,
+                          TraceFlow(surface, *lines[k].flow, order.tolerance, run));
+      levels.push_back({family, 0.0, std::move(flow)});
+      continue;
+    }
     std::vector<double> wanted = lines[k].levels;
-    if (!HasLevels(lines[k].family)) {
+    if (!HasLevels(lines[k])) {
       wanted = {0.0};
     } else if (wanted.empty()) {
       wanted = ChooseLevels(surface, lines[k].family, lines[k].count, zero);
     }
     for (const double level : wanted) {
-      levels.push_back({static_cast<int>(k), level, {}});
+      of_field.push_back(levels.size());
+      levels.push_back({family, level, {}});
       fields.push_back(FieldOf(lines[k].family, level));
     }
   }
@@ -76,7 +96,7 @@ absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vect
   params.max_cell = std::max(params.max_cell, params.min_cell);
   PM_ASSIGN_OR_RETURN(std::vector<std::vector<ZeroCurve>> curves,
                       TraceZeroCurves(surface, fields, params, order.tolerance, run));
-  for (std::size_t k = 0; k < levels.size(); ++k) levels[k].curves = std::move(curves[k]);
+  for (std::size_t k = 0; k < fields.size(); ++k) levels[of_field[k]].curves = std::move(curves[k]);
   return levels;
 }
 
@@ -141,7 +161,7 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
       const LineOrder& line = lines[static_cast<std::size_t>(level.family)];
       set.set_family_index(level.family);
       set.set_kind(line.kind);
-      set.set_level(HasLevels(line.family) ? WireLevel(line, level.level, zero) : 0.0);
+      set.set_level(HasLevels(line) ? WireLevel(line, level.level, zero) : 0.0);
       double length = 0.0;
       for (const ZeroCurve& curve : level.curves) {
         *set.add_lines() = ToProto(surface, curve, zero);

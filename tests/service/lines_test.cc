@@ -103,6 +103,29 @@ TEST_F(Lines, LevelsAreChosenAndFamiliesKeepTheirPlace) {
   EXPECT_THAT(response_.picture().data(), HasSubstr("slope 30 degrees: 1"));
 }
 
+TEST_F(Lines, FlowRunsUpTheBowl) {
+  request_.mutable_families(0)->set_kind(v1::LINE_KIND_FLOW);
+  request_.mutable_families(0)->set_spacing_mm(2);
+  request_.add_families()->set_kind(v1::LINE_KIND_SLOPE_FLOW);
+  ASSERT_TRUE(Trace().ok());
+  ASSERT_EQ(response_.sets_size(), 2);
+  EXPECT_GT(response_.sets(0).lines_size(), 10);
+  EXPECT_GT(response_.sets(1).lines_size(), 10);
+  for (const v1::LineSet& set : response_.sets()) {
+    const bool up = set.kind() == v1::LINE_KIND_FLOW;  // slopes get gentler towards the middle
+    for (const v1::SurfaceLine& line : set.lines()) {
+      const int n = line.patch_index_size();
+      const double first = std::atan2(line.points_mm(1), line.points_mm(0));
+      for (int k = 1; k < n; ++k) {
+        EXPECT_EQ(line.points_mm(3 * k + 2) > line.points_mm(3 * k - 1), up);
+        const double r = std::hypot(line.points_mm(3 * k), line.points_mm(3 * k + 1));
+        const double turned = std::atan2(line.points_mm(3 * k + 1), line.points_mm(3 * k)) - first;
+        EXPECT_NEAR(r * std::sin(turned), 0.0, 0.02);
+      }
+    }
+  }
+}
+
 TEST_F(Lines, WrongFields) {
   const v1::TraceLinesRequest good = request_;
   const auto message = [&](auto spoil) {
@@ -140,6 +163,11 @@ TEST_F(Lines, WrongFields) {
                 r.mutable_families(0)->mutable_across()->set_z_mm(3);
               }),
               HasSubstr("families[0].across runs along the direction"));
+  EXPECT_THAT(message([](auto& r) {
+                r.mutable_families(0)->set_kind(v1::LINE_KIND_FLOW);
+                r.mutable_families(0)->set_spacing_mm(-1);
+              }),
+              HasSubstr("families[0].spacing_mm = -1; must be in (0, 1000]"));
   EXPECT_THAT(message([](auto& r) { r.set_tolerance_mm(0); }), HasSubstr("tolerance_mm = 0; must be in"));
   EXPECT_THAT(message([](auto& r) { r.set_min_loop_mm(1e9); }), HasSubstr("min_loop_mm = 1000000000"));
 }

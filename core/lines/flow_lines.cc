@@ -1,0 +1,179 @@
+#include "core/lines/flow_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <unordered_map>
+
+#include "core/lines/flow_step.h"
+#include "core/surface/closest.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kNear = 0.5;       // of the spacing: lines end this near to others
+constexpr double kShortest = 0.5;   // of the spacing: shorter lines are left out
+constexpr double kLongest = 100.0;  // of the box's diagonal
+constexpr int kMostBorders = 100;   // with less than a whole step in between: a line that makes no way
+constexpr std::size_t kMostPoints = 20'000'000;
+
+// Points of all lines by cells of the spacing.
+class Neighbors {
+ public:
+  explicit Neighbors(double spacing) : spacing_(spacing) {}
+
+  void Add(const FlowPlace& place) { cells_[Key(place.at.p)].push_back({place.at.p, place.normal}); }
+
+  // A point of a line on the same side of the surface lies nearer than `distance` <= spacing.
+  bool Any(const Vec3& p, const Vec3& normal, double distance) const {
+    for (int i = -1; i <= 1; ++i) {
+      for (int j = -1; j <= 1; ++j) {
+        for (int k = -1; k <= 1; ++k) {
+          const auto cell = cells_.find(Key(p + spacing_ * Vec3(i, j, k)));
+          if (cell == cells_.end()) continue;
+          for (const auto& [q, n] : cell->second) {
+            if ((q - p).squaredNorm() < distance * distance && n.dot(normal) > 0.0) return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  std::uint64_t Key(const Vec3& p) const {
+    std::uint64_t key = 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto cell = static_cast<std::int64_t>(std::floor(p[k] / spacing_));
+      key = key * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cell);
+    }
+    return key;
+  }
+  double spacing_;
+  std::unordered_map<std::uint64_t, std::vector<std::pair<Vec3, Vec3>>> cells_;  // looked up, never walked
+};
+
+class FlowTracer {
+ public:
+  FlowTracer(const Surface& surface, const FlowParams& params, const RunContext& run)
+      : surface_(surface), params_(params), run_(run), neighbors_(params.spacing) {}
+
+  absl::StatusOr<std::vector<ZeroCurve>> Run() {
+    for (std::size_t k = 0; k < surface_.pieces.size(); ++k) {
+      const PieceId piece(k);
+      const int n = SeedsAcross(surface_.pieces[k]);
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+          seeds_.push_back({piece, (i + 0.5) / n, (j + 0.5) / n, Vec3::Zero()});
+          while (!seeds_.empty()) {
+            const SurfacePoint seed = seeds_.front();
+            seeds_.pop_front();
+            Begin(seed);
+            if (run_.Cancelled()) return run_.Check();
+            if (point_count_ > kMostPoints)
+              return absl::ResourceExhaustedError("flow lines: spacing is too small");
+          }
+        }
+      }
+    }
+    return std::move(lines_);
+  }
+
+ private:
+  // About one in half a spacing.
+  int SeedsAcross(const Piece& piece) const {
+    double size = 0.0;
+    for (const double t : {0.0, 0.5, 1.0}) {
+      size = std::max({size,
+                       (Position(piece, t, 0.0) - Position(piece, t, 0.5)).norm() +
+                           (Position(piece, t, 0.5) - Position(piece, t, 1.0)).norm(),
+                       (Position(piece, 0.0, t) - Position(piece, 0.5, t)).norm() +
+                           (Position(piece, 0.5, t) - Position(piece, 1.0, t)).norm()});
+    }
+    return std::clamp(static_cast<int>(std::ceil(2.0 * size / params_.spacing)), 1, 1000);
+  }
+
+  void Begin(const SurfacePoint& seed) {
+    const auto start = PlaceOn(surface_, params_, seed.piece, seed.u, seed.v, 1.0);
+    if (!start || neighbors_.Any(start->at.p, start->normal, params_.spacing)) return;
+    std::vector<FlowPlace> up = Follow(*start, 1.0);
+    FlowPlace back = *start;
+    back.tangent = -back.tangent;
+    std::vector<FlowPlace> line = Follow(back, -1.0);
+    std::reverse(line.begin(), line.end());
+    line.push_back(*start);
+    line.insert(line.end(), up.begin(), up.end());
+    double length = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) length += (line[i].at.p - line[i - 1].at.p).norm();
+    if (length < kShortest * params_.spacing) return;
+    ZeroCurve curve;
+    for (const FlowPlace& place : line) {
+      neighbors_.Add(place);
+      curve.points.push_back(place.at);
+    }
+    point_count_ += line.size();
+    lines_.push_back(std::move(curve));
+    Seed(line);
+  }
+
+  // Both sides of the line, one spacing away.
+  void Seed(const std::vector<FlowPlace>& line) {
+    double since = kInfinity;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      if (i > 0) since += (line[i].at.p - line[i - 1].at.p).norm();
+      if (since < params_.spacing) continue;
+      since = 0.0;
+      const Vec3 across = line[i].normal.cross(line[i].tangent);
+      for (const double side : {1.001, -1.001}) {
+        const Vec3 p = line[i].at.p + side * params_.spacing * across;
+        if (neighbors_.Any(p, line[i].normal, 0.9 * params_.spacing)) continue;
+        const auto near = ClosestToPoint(surface_, p, 0.5 * params_.spacing, 0.01 * params_.spacing);
+        if (near) seeds_.push_back(near->at);
+      }
+    }
+  }
+
+  std::vector<FlowPlace> Follow(const FlowPlace& start, double sign) const {
+    std::vector<FlowPlace> line;
+    FlowPlace at = start;
+    double step = 0.1 * params_.spacing, length = 0.0;
+    int borders = 0;  // met one after the other
+    const double longest = kLongest * surface_.box.Diagonal();
+    while (length < longest && !run_.Cancelled()) {
+      const auto next = Advance(surface_, params_, at, sign, &step);
+      if (!next) break;
+      length += (next->place.at.p - at.at.p).norm();
+      if (neighbors_.Any(next->place.at.p, next->place.normal, kNear * params_.spacing)) break;
+      at = next->place;
+      line.push_back(at);
+      borders = next->at_border ? borders + 1 : 0;
+      if (!next->at_border) continue;
+      if (borders > kMostBorders) break;
+      const auto beyond = CrossBorder(surface_, params_, at, sign);
+      if (!beyond) break;
+      at = *beyond;
+      line.push_back(at);
+    }
+    return line;
+  }
+
+  const Surface& surface_;
+  const FlowParams& params_;
+  const RunContext& run_;
+  Neighbors neighbors_;
+  std::deque<SurfacePoint> seeds_;
+  std::vector<ZeroCurve> lines_;
+  std::size_t point_count_ = 0;
+};
+
+}  // namespace
+
+absl::StatusOr<std::vector<ZeroCurve>> TraceFlowLines(const Surface& surface, const FlowParams& params,
+                                                      const RunContext& run) {
+  if (!(params.spacing > 0.0) || !(params.tolerance > 0.0)) {
+    return absl::InvalidArgumentError("flow lines: spacing and tolerance must be > 0");
+  }
+  return FlowTracer(surface, params, run).Run();
+}
+
+}  // namespace patchmill

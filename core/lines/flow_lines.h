@@ -1,0 +1,39 @@
+// Flow lines: the orthogonals of contours (METHODS 5 (3)) and of lines of equal slope (7). They follow the
+// gradient of a function on the surface, evenly spread (Jobard and Lefer 1997).
+#pragma once
+
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "core/base/run_context.h"
+#include "core/lines/zero_curves.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+enum class FlowKind {
+  kAlongHeight,  // up the gradient of phi = axis . S: where water runs
+  kAlongSlope,   // up the gradient of |axis . n|: towards gentler ground
+};
+
+struct FlowParams {
+  FlowKind kind = FlowKind::kAlongHeight;
+  Vec3 axis = Vec3::UnitZ();  // unit
+  double spacing = 1.0;       // mm, > 0: new lines begin this far from all others, and end at half of it
+  double tolerance = 0.01;    // mm, > 0: of chords, and of a step
+};
+
+// Lines in the direction in which the function grows. They end at singular points (|gradient| below 1e-6, per
+// mm of spacing for kAlongSlope; a gradient that turns back), at the border of the surface, where the
+// parametrisation has no normal, and near other lines; those shorter than half the spacing are left out. In
+// the order in which they were begun; deterministic, one thread. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Cost: some microseconds a step, a closest-point query at each patch border and for each new line.
+absl::StatusOr<std::vector<ZeroCurve>> TraceFlowLines(const Surface& surface, const FlowParams& params,
+                                                      const RunContext& run);
+
+// The gradient on the surface of the flow's function, in space (tangent); zero where there is no normal.
+// With (f_u, f_v) its derivatives: ((f_u G - f_v F) S_u + (f_v E - f_u F) S_v) / W.
+Vec3 FlowGradient(const SurfaceJet& jet, const FlowParams& params);
+
+}  // namespace patchmill

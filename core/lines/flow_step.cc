@@ -1,0 +1,158 @@
+#include "core/lines/flow_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/diffgeo/forms.h"
+#include "core/surface/closest.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kFlat = 1e-6;        // of the gradient
+constexpr double kLeastGrowth = 0.3;  // of the function over a step, of what the gradient promises
+constexpr double kOnBorder = 1e-9;    // of a piece
+constexpr double kStray = 1e-12;      // of a piece, by rounding
+
+// Unit speed in space, in parameters; zero where the flow has no direction.
+Vec2 Velocity(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q, double sign) {
+  const SurfaceJet jet = Evaluate(surface, piece, q.x(), q.y());
+  const Vec3 g = FlowGradient(jet, params);
+  const double flat = params.kind == FlowKind::kAlongHeight ? kFlat : kFlat / params.spacing;
+  const double size = g.norm();
+  if (!(size > flat)) return Vec2::Zero();
+  const Vec3 t = (sign / size) * g;
+  const double e = jet.du.squaredNorm(), f = jet.du.dot(jet.dv), h = jet.dv.squaredNorm();
+  const double w = e * h - f * f, a = t.dot(jet.du), b = t.dot(jet.dv);
+  return {(a * h - b * f) / w, (b * e - a * f) / w};
+}
+
+Vec2 Clamped(const Vec2& q) { return q.cwiseMax(0.0).cwiseMin(1.0); }
+
+// The classical step of length h; nullopt when the flow has no direction on the way. Stages may look a little
+// beyond the piece: they are taken on its border.
+std::optional<Vec2> RungeKutta(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q,
+                               double h, double sign) {
+  const auto slope = [&](const Vec2& x) { return Velocity(surface, params, piece, Clamped(x), sign); };
+  const Vec2 k1 = slope(q);
+  const Vec2 k2 = slope(q + 0.5 * h * k1), k3 = slope(q + 0.5 * h * k2), k4 = slope(q + h * k3);
+  for (const Vec2& k : {k1, k2, k3, k4}) {
+    if (k.isZero()) return std::nullopt;
+  }
+  return q + (h / 6.0) * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+}
+
+// A flow along a border may stray from it by rounding.
+bool Inside(const Vec2& q) { return q.minCoeff() >= -kStray && q.maxCoeff() <= 1.0 + kStray; }
+
+// The longest step that stays inside, by halving.
+double StepToBorder(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q, double h,
+                    double sign) {
+  double low = 0.0, high = h;
+  for (int i = 0; i < 50 && high - low > 1e-13 * h; ++i) {
+    const double middle = 0.5 * (low + high);
+    const auto there = RungeKutta(surface, params, piece, q, middle, sign);
+    (there && Inside(*there) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+Vec3 FlowGradient(const SurfaceJet& jet, const FlowParams& params) {
+  const auto normal = UnitNormal(jet);
+  if (!normal) return Vec3::Zero();
+  const FundamentalForms f = Forms(jet, *normal);
+  const double w = f.E * f.G - f.F * f.F;
+  double fu = params.axis.dot(jet.du), fv = params.axis.dot(jet.dv);
+  if (params.kind == FlowKind::kAlongSlope) {
+    // METHODS (5): psi_u = alpha phi_u + beta phi_v, and alike for v; of the side that faces along the axis.
+    const double side = params.axis.dot(*normal) < 0.0 ? -1.0 : 1.0;
+    const double pu = fu, pv = fv;
+    fu = side * ((f.M * f.F - f.L * f.G) * pu + (f.L * f.F - f.M * f.E) * pv) / w;
+    fv = side * ((f.N * f.F - f.M * f.G) * pu + (f.M * f.F - f.N * f.E) * pv) / w;
+  }
+  return ((fu * f.G - fv * f.F) * jet.du + (fv * f.E - fu * f.F) * jet.dv) / w;
+}
+
+std::optional<FlowPlace> PlaceOn(const Surface& surface, const FlowParams& params, PieceId piece, double u,
+                                 double v, double sign) {
+  const SurfaceJet jet = Evaluate(surface, piece, u, v);
+  const auto normal = UnitNormal(jet);
+  const Vec2 velocity = Velocity(surface, params, piece, {u, v}, sign);
+  if (!normal || velocity.isZero()) return std::nullopt;
+  FlowPlace place;
+  place.at = {piece, u, v, jet.p};
+  place.tangent = (velocity.x() * jet.du + velocity.y() * jet.dv).normalized();
+  place.normal = *normal;
+  place.value =
+      params.kind == FlowKind::kAlongHeight ? params.axis.dot(jet.p) : std::abs(params.axis.dot(*normal));
+  place.gradient = FlowGradient(jet, params).norm();
+  return place;
+}
+
+std::optional<FlowStep> Advance(const Surface& surface, const FlowParams& params, const FlowPlace& from,
+                                double sign, double* length) {
+  const PieceId piece = from.at.piece;
+  const Vec2 q(from.at.u, from.at.v);
+  const double shortest = 1e-4 * params.spacing;
+  double h = *length;
+  for (;; h *= 0.5) {
+    if (h < shortest) return std::nullopt;
+    const auto whole = RungeKutta(surface, params, piece, q, h, sign);
+    if (!whole) continue;
+    FlowStep step;
+    Vec2 end = Clamped(*whole);
+    if (!Inside(*whole)) {
+      h = StepToBorder(surface, params, piece, q, h, sign);
+      const auto cut = RungeKutta(surface, params, piece, q, h, sign);
+      end = Clamped(cut ? *cut : q);
+      step.at_border = true;
+    }
+    const auto place = PlaceOn(surface, params, piece, end.x(), end.y(), sign);
+    if (!place) {
+      if (step.at_border) return std::nullopt;
+      continue;
+    }
+    // Two halves tell the error of the whole; the turn tells how far the chord lies beside the line.
+    const double turn = (place->tangent - from.tangent).norm();
+    double error = h * turn / 8.0;
+    if (const auto half = RungeKutta(surface, params, piece, q, 0.5 * h, sign)) {
+      if (const auto two = RungeKutta(surface, params, piece, *half, 0.5 * h, sign)) {
+        const Vec2 there = Clamped(*two);
+        error = std::max(error,
+                         10.0 * (Position(surface.piece(piece), there.x(), there.y()) - place->at.p).norm());
+      }
+    }
+    // Around a summit or a pit steps would leap to and fro.
+    const double grown = sign * (place->value - from.value);
+    const bool sound = error <= params.tolerance && grown > kLeastGrowth * h * from.gradient;
+    if (!sound && h > shortest) {
+      step.at_border = false;
+      continue;
+    }
+    if (place->tangent.dot(from.tangent) <= 0.0) return std::nullopt;  // turned back: a singular line
+    step.place = *place;
+    *length = error < 0.1 * params.tolerance ? 2.0 * h : h;
+    *length = std::clamp(*length, 2.0 * shortest, 0.4 * params.spacing);
+    return step;
+  }
+}
+
+std::optional<FlowPlace> CrossBorder(const Surface& surface, const FlowParams& params, const FlowPlace& from,
+                                     double sign) {
+  // What lies a little beyond the border, if anything does.
+  const double beyond = std::max(1e-3 * params.spacing, 2.0 * surface.network.join_tolerance);
+  const auto next = ClosestToPoint(surface, from.at.p + beyond * from.tangent, 0.1 * beyond, 0.01 * beyond);
+  if (!next) return std::nullopt;
+  const auto place = PlaceOn(surface, params, next->at.piece, next->at.u, next->at.v, sign);
+  if (!place || place->tangent.dot(from.tangent) <= 0.0) return std::nullopt;
+  // On a border again, and leaving there: the surface ends here, at a slant.
+  const Vec2 q(next->at.u, next->at.v), to = Velocity(surface, params, next->at.piece, q, sign);
+  for (int k = 0; k < 2; ++k) {
+    if ((q[k] <= kOnBorder && to[k] < 0.0) || (q[k] >= 1.0 - kOnBorder && to[k] > 0.0)) return std::nullopt;
+  }
+  return place;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,157 @@
+// Flow lines of known shapes: where they run, where they end, how they are spread.
+#include "core/lines/flow_lines.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/diffgeo/forms.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+std::vector<ZeroCurve> Trace(const Surface& surface, const FlowParams& params) {
+  auto lines = TraceFlowLines(surface, params, RunContext());
+  EXPECT_TRUE(lines.ok()) << lines.status();
+  return *std::move(lines);
+}
+
+TEST(FlowLines, StraightDownATiltedPlane) {
+  const Surface surface = SurfaceOf(Plane(10, 0, 0.3, 0.4));
+  const auto lines = Trace(surface, {.spacing = 2.0});
+  EXPECT_GE(lines.size(), 10u);  // 24 mm across the flow at most
+  const Vec2 up = Vec2(0.3, 0.4).normalized();
+  for (const ZeroCurve& line : lines) {
+    const Vec2 first = Plan(line.points.front().p), last = Plan(line.points.back().p);
+    EXPECT_GT((last - first).dot(up), 0.0);
+    for (const SurfacePoint& p : line.points) EXPECT_NEAR(Cross(up, Plan(p.p) - first), 0.0, 1e-9);
+  }
+}
+
+// z = a x^2 + b y^2: y^a = C x^b along each line.
+TEST(FlowLines, OfAnEllipticParaboloid) {
+  const double a = 0.02, b = 0.05;
+  const auto height = [&](double x, double y) { return a * x * x + b * y * y; };
+  const PatchModel spans = Single(InterpolatedHeights(height, -12, 12, -12, 12, 5, 7));  // exact: 35 pieces
+  for (const PatchModel& model : {Quadratic(a, b, 12), spans}) {
+    const Surface surface = SurfaceOf(model);
+    const auto lines = Trace(surface, {.spacing = 1.5, .tolerance = 1e-4});
+    EXPECT_GT(lines.size(), 20u);
+    int judged = 0;
+    for (const ZeroCurve& line : lines) {
+      const Vec3 end = line.points.back().p;  // out at the border: far from both axes, or on one
+      if (std::min(std::abs(end.x()), std::abs(end.y())) < 1.0) continue;
+      const double c = a * std::log(std::abs(end.y())) - b * std::log(std::abs(end.x()));
+      for (const SurfacePoint& p : line.points) {
+        const double x = std::abs(p.p.x()), y = std::abs(p.p.y());
+        if (std::min(x, y) < 0.5) continue;
+        EXPECT_NEAR(a * std::log(y) - b * std::log(x), c, 1e-4);
+        ++judged;
+      }
+    }
+    EXPECT_GT(judged, 200);
+  }
+}
+
+// Meridians, from pole to pole, over all eight patches.
+TEST(FlowLines, OfASphereAreMeridians) {
+  const double r = 10;
+  const Surface surface = SurfaceOf(Sphere(Vec3::Zero(), r));
+  for (const FlowKind kind : {FlowKind::kAlongHeight, FlowKind::kAlongSlope}) {
+    const auto lines = Trace(surface, {.kind = kind, .spacing = 2.0, .tolerance = 1e-4});
+    double longest = 0.0;
+    for (const ZeroCurve& line : lines) {
+      double length = 0.0;
+      const Vec2 first = Plan(line.points[line.points.size() / 2].p).normalized();
+      for (std::size_t i = 0; i < line.points.size(); ++i) {
+        const Vec3& p = line.points[i].p;
+        EXPECT_NEAR(p.norm(), r, 1e-9);
+        EXPECT_NEAR(Cross(first, Plan(p)), 0.0, 0.003);
+        if (i == 0) continue;
+        length += (p - line.points[i - 1].p).norm();
+        // Height grows along the flow; so does |n_z|, away from the equator.
+        const double grown = kind == FlowKind::kAlongHeight
+                                 ? p.z() - line.points[i - 1].p.z()
+                                 : std::abs(p.z()) - std::abs(line.points[i - 1].p.z());
+        EXPECT_GT(grown, 0.0);
+      }
+      longest = std::max(longest, length);
+    }
+    EXPECT_GT(longest, (kind == FlowKind::kAlongHeight ? 0.9 : 0.4) * kPi * r);
+  }
+}
+
+TEST(FlowLines, AreSpreadEvenly) {
+  const double spacing = 1.5;
+  const Surface surface = SurfaceOf(TwoSpheres(10, 12));
+  const auto lines = Trace(surface, {.spacing = spacing});
+  Random random(3);
+  int open = 0;
+  for (int i = 0; i < 400; ++i) {
+    const PieceId piece(
+        static_cast<std::int32_t>(random.Uniform(0, 1) * static_cast<double>(surface.pieces.size())));
+    const SurfaceJet jet = Evaluate(surface, piece, random.Uniform(0, 1), random.Uniform(0, 1));
+    const auto normal = UnitNormal(jet);
+    if (!normal || std::abs(normal->z()) > 0.99) continue;  // around the summits they end
+    double nearest = kInfinity;
+    for (const ZeroCurve& line : lines) {
+      for (const SurfacePoint& p : line.points) nearest = std::min(nearest, (p.p - jet.p).norm());
+    }
+    open += nearest > 1.1 * spacing;
+  }
+  EXPECT_EQ(open, 0);
+  // No two beside each other nearer than half the spacing.
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    for (std::size_t l = 0; l < k; ++l) {
+      double nearest = kInfinity;
+      for (const SurfacePoint& p : lines[k].points) {
+        for (const SurfacePoint& q : lines[l].points) {
+          const bool same_sheet =
+              UnitNormal(Evaluate(surface, p.piece, p.u, p.v))
+                  .value_or(Vec3::Zero())
+                  .dot(UnitNormal(Evaluate(surface, q.piece, q.u, q.v)).value_or(Vec3::Zero())) > 0;
+          if (same_sheet) nearest = std::min(nearest, (p.p - q.p).norm());
+        }
+      }
+      EXPECT_GT(nearest, 0.45 * spacing) << k << " " << l;
+    }
+  }
+}
+
+// METHODS 5, `slope_lines`: the directions there, in parameters.
+TEST(FlowLines, DirectionsOfThePaper) {
+  const double u = 0.3, v = 0.7;
+  SurfaceJet jet;
+  jet.p = {2 * u + 0.1 * u * v, 1.5 * v - 0.2 * u * u,
+           0.8 * u * u * v - 0.6 * v * v + 0.5 * u - 0.3 * u * u * u};
+  jet.du = {2 + 0.1 * v, -0.4 * u, 1.6 * u * v + 0.5 - 0.9 * u * u};
+  jet.dv = {0.1 * u, 1.5, 0.8 * u * u - 1.2 * v};
+  jet.duu = {0, -0.4, 1.6 * v - 1.8 * u};
+  jet.duv = {0.1, 0, 1.6 * u};
+  jet.dvv = {0, 0, -1.2};
+  const Vec3 axis(0.282216260515, -0.188144173677, 0.940720868384);
+  const auto along = [&](FlowKind kind, const Vec2& uv) {
+    const Vec3 g = FlowGradient(jet, {.kind = kind, .axis = axis});
+    const Vec3 expected = uv.x() * jet.du + uv.y() * jet.dv;
+    return g.normalized().cross(expected.normalized()).norm();
+  };
+  EXPECT_LT(along(FlowKind::kAlongHeight, {3.04615477252, -3.93200549516}), 1e-11);
+  EXPECT_LT(along(FlowKind::kAlongSlope, {-0.157948663287, -1.85963650364}), 1e-11);
+}
+
+TEST(FlowLines, NothingOnLevelGroundAndBadSpacingIsRefused) {
+  EXPECT_TRUE(Trace(SurfaceOf(Plane(5, 2)), {}).empty());
+  EXPECT_FALSE(TraceFlowLines(SurfaceOf(Plane(5)), {.spacing = 0.0}, RunContext()).ok());
+  RunContext run;
+  run.Cancel();
+  EXPECT_EQ(TraceFlowLines(SurfaceOf(Plane(5, 0, 0.3)), {}, run).status().code(),
+            absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace patchmill
