@@ -33,13 +33,10 @@ bool SurelyPositive(double a, double b, double c, double e_uu, double e_uv, doub
   return low_a > 0.0 && low_c > 0.0 && low_a * low_c > b * b;
 }
 
-// Is the distance to a centre resting on the leaf proven convex; or can the ball nowhere rest inside? The
-// centre is not the one above the leaf's middle: it is off by up to twice the leaf's reach, along the leaf.
-Proof ProofOf(const LeafModel& m, double radius) {
-  Vec3 n = m.a.cross(m.b);
-  const double length = n.norm();
-  if (!(length > 0.0)) return Proof::kOpen;
-  n *= (n.z() < 0.0 ? -1.0 : 1.0) / length;
+// Is the distance to a centre resting on this side of the leaf (n: unit normal) proven convex; or can the
+// ball nowhere rest inside? The centre is not the one above the leaf's middle: it is off by up to twice the
+// leaf's reach, along the leaf.
+Proof ProofOf(const LeafModel& m, const Vec3& n, double radius) {
   const double size = radius + m.reach, reach = m.reach;
   double e_uu = m.gram_uu + size * m.drift_uu, e_uv = m.gram_uv + size * m.drift_uv,
          e_vv = m.gram_vv + size * m.drift_vv;
@@ -74,6 +71,20 @@ Proof ProofOf(const LeafModel& m, double radius) {
   return flat_enough ? Proof::kConvex : Proof::kOpen;
 }
 
+// Of all sides that the ball may rest on: both, where the leaf may stand upright somewhere.
+Proof ProofOf(const LeafModel& m, double radius) {
+  Vec3 n = m.a.cross(m.b);
+  const double length = n.norm();
+  if (!(length > 0.0)) return Proof::kOpen;
+  const double turn = m.drift_a * (m.b.norm() + m.drift_b) + m.drift_b * m.a.norm();  // of S_u x S_v
+  const bool upright = !(std::abs(n.z()) > turn);
+  n *= (n.z() < 0.0 ? -1.0 : 1.0) / length;
+  const Proof up = ProofOf(m, n, radius);
+  if (!upright || up == Proof::kOpen) return up;
+  const Proof down = ProofOf(m, -n, radius);
+  return down == Proof::kOpen || down == up ? down : Proof::kHollow;
+}
+
 class PieceSplitter {
  public:
   PieceSplitter(const Piece& piece, int piece_index, double radius, std::size_t max_leaves,
@@ -95,16 +106,19 @@ class PieceSplitter {
   }
 
  private:
-  bool IsFine(const LeafModel& model, const RectBounds& bounds) const {
+  bool IsFine(const LeafModel& model, const RectBounds& bounds, const Rect& r) const {
+    const bool small = model.reach <= kOpenReach * radius_ * coarseness_;
     switch (ProofOf(model, radius_)) {
       case Proof::kConvex:
         return bounds.half.z() <= kConvexThickness * radius_ * coarseness_;
       case Proof::kHollow:
+        // Not inside, but the ball may well rest on the piece's own border.
+        if (!small && (r.u0 == 0.0 || r.u1 == 1.0 || r.v0 == 0.0 || r.v1 == 1.0)) return false;
         return bounds.half.z() <= kHollowThickness * radius_ * coarseness_;
       case Proof::kOpen:
         break;
     }
-    return model.reach <= kOpenReach * radius_ * coarseness_;
+    return small;
   }
 
   void Split(const Vec4* points, const Rect& rect, int level) {
@@ -113,7 +127,7 @@ class PieceSplitter {
     const int hull_count = HullPoints(shape_, points, hull.data());
     const RectBounds bounds = BoundPoints(shape_, points, hull.data(), hull_count);
     const LeafModel model = MakeLeafModel(piece_, points, hull.data(), hull_count, rect);
-    if (level == kMaxLevel || IsFine(model, bounds)) {
+    if (level == kMaxLevel || IsFine(model, bounds, rect)) {
       out_.boxes.push_back(bounds.box);
       out_.leaves.push_back({bounds.center, bounds.axis, bounds.half, model, piece_index_,
                              static_cast<float>(rect.u0), static_cast<float>(rect.u1),

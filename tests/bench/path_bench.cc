@@ -1,9 +1,12 @@
 // Passes and regions, on all cores (the clock is the wall's).
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
+#include "cam/location/heights.h"
 #include "cam/path/level_trace.h"
 #include "cam/path/scan_line.h"
 #include "cam/region/region_map.h"
@@ -15,7 +18,46 @@ namespace {
 
 constexpr double kRadius = 3.0;
 
-// 320 certified scan lines along x; the items are their points.
+// Of a line given by dense places (t, z): how many of them suffice, so that no place between two lies farther
+// than the tolerance from their chord, on either side. Each chord as long as it can be.
+std::size_t FewestPoints(const std::vector<Vec2>& line, double tolerance) {
+  const auto fits = [&](std::size_t i, std::size_t j) {
+    const Vec2 along = (line[j] - line[i]).normalized();
+    for (std::size_t k = i + 1; k < j; ++k) {
+      if (std::abs(Cross(along, line[k] - line[i])) > tolerance) return false;
+    }
+    return true;
+  };
+  std::size_t count = 1;
+  for (std::size_t i = 0; i + 1 < line.size(); ++count) {
+    std::size_t j = i + 1;
+    while (j + 1 < line.size() && fits(i, j + 1)) ++j;
+    i = j;
+  }
+  return count;
+}
+
+// The same lines as below, a place every 0.01 mm; points of all lines by their length in plan.
+double FewestPerMillimetre(const Locator& locator, const std::vector<double>& y, double x0, double x1,
+                           double tolerance) {
+  constexpr double kStep = 0.01;
+  std::size_t count = 0;
+  for (const double at : y) {
+    std::vector<Vec2> places;
+    for (double x = x0; x <= x1; x += kStep) places.emplace_back(x, at);
+    std::vector<std::optional<CenterPoint>> heights(places.size());
+    Heights(locator, places, heights);
+    std::vector<Vec2> line;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (heights[k]) line.emplace_back(places[k].x(), heights[k]->z);
+    }
+    count += FewestPoints(line, tolerance);
+  }
+  return static_cast<double>(count) / (static_cast<double>(y.size()) * (x1 - x0));
+}
+
+// 320 certified scan lines along x; the items are their points. points_per_mm of all lines, fewest_per_mm of
+// every twentieth: what the tolerance allows when vertices lie on the curve.
 void ZigzagLines(benchmark::State& state, Part part) {
   constexpr std::size_t kLines = 320;
   const Surface& surface = SurfaceOf(part);
@@ -37,6 +79,15 @@ void ZigzagLines(benchmark::State& state, Part part) {
     points += std::accumulate(count.begin(), count.end(), std::int64_t{0});
   }
   state.SetItemsProcessed(points);
+  const double x0 = surface.box.min.x(), x1 = surface.box.max.x();
+  std::vector<double> every;
+  for (std::size_t k = 0; k < kLines; k += 20) {
+    every.push_back(surface.box.min.y() +
+                    (static_cast<double>(k) + 0.5) / kLines * (surface.box.max.y() - surface.box.min.y()));
+  }
+  state.counters["points_per_mm"] = static_cast<double>(points) / static_cast<double>(state.iterations()) /
+                                    (static_cast<double>(kLines) * (x1 - x0));
+  state.counters["fewest_per_mm"] = FewestPerMillimetre(locator, every, x0, x1, params.chord_tolerance);
 }
 BENCHMARK_CAPTURE(ZigzagLines, bumpy, Part::kBumpy)->Unit(benchmark::kMillisecond)->UseRealTime();
 
