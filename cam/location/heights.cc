@@ -90,6 +90,11 @@ class PacketSearch {
   // Newton on whole pieces, from where the contacts are expected.
   void Approach(const LaneStart& start);
   void Run();
+  // Of balls that stand at the packet's heights: lanes that find anything are done and look no further.
+  void RunFree() {
+    free_only_ = true;
+    Run();
+  }
 
  private:
   struct Pending {
@@ -107,6 +112,7 @@ class PacketSearch {
   const LaneLimits limits_;
   LanePacket& packet_;
   float lowest_ = 0.0F;  // of the lanes' heights
+  bool free_only_ = false;
 };
 
 // As Locator::Impl::Search; a node is out of the way of all lanes when it is out of the way of the packet's
@@ -171,7 +177,9 @@ void PacketSearch::Visit(std::int32_t index) {
   const internal::SearchLeaf& leaf = impl_.tree.leaves[static_cast<std::size_t>(index)];
   const unsigned unresolved = kernel_.visit(ViewOf(impl_.surface, leaf), limits_, packet_);
   for (int k = 0; k < kLanes; ++k) {
-    if ((unresolved >> k & 1U) != 0) VisitScalar(index, k);
+    if ((unresolved >> k & 1U) != 0 && !(free_only_ && packet_.piece[k] >= 0)) VisitScalar(index, k);
+    // Nothing reaches a ball above everything.
+    if (free_only_ && packet_.piece[k] >= 0) packet_.z[k] = impl_.surface.box.max.z() + 2.0 * impl_.radius;
   }
 }
 
@@ -257,6 +265,26 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
       heights[i + k].reset();
       if (c.piece >= 0) heights[i + k] = CenterPoint{c.z, impl.PointOf(c)};
     }
+  }
+}
+
+void FreeBalls(const Locator& locator, std::span<const Vec3> centers, std::span<bool> free) {
+  PM_CHECK(centers.size() == free.size());
+  const LaneKernel& kernel = internal::AvailableLaneKernels().kernel[0];
+  const Locator::Impl& impl = locator.impl();
+  LanePacket packet;
+  for (std::size_t i = 0; i < centers.size(); i += kLanes) {
+    const std::size_t count = std::min<std::size_t>(kLanes, centers.size() - i);
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const Vec3& at = centers[i + std::min(k, count - 1)];
+      packet.qx[k] = at.x();
+      packet.qy[k] = at.y();
+      Contact none;
+      none.z = std::max(at.z(), impl.Lowest());
+      PutContact(none, packet, static_cast<int>(k));
+    }
+    PacketSearch(impl, kernel, packet).RunFree();
+    for (std::size_t k = 0; k < count; ++k) free[i + k] = packet.piece[k] < 0;
   }
 }
 

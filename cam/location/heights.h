@@ -20,6 +20,10 @@ namespace patchmill {
 void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights,
              std::size_t instruction_set = 0);
 
+// free[k] = locator.Free(centers[k]), within the error of heights, the same way: eight consecutive centres at
+// once, and nothing looked at that lies below them.
+void FreeBalls(const Locator& locator, std::span<const Vec3> centers, std::span<bool> free);
+
 // What this processor can run, fastest first: "avx512", "avx2" (x86-64, compiled by GCC), and always "plain".
 std::vector<const char*> InstructionSets();
 

@@ -15,7 +15,7 @@ struct TriangleRef {
 Vec2 Centroid(const SplitMesh& mesh, std::size_t triangle) {
   Vec2 sum = Vec2::Zero();
   for (const int id : mesh.triangles[triangle].vertex) {
-    const SplitVertex& vertex = mesh.vertices[static_cast<std::size_t>(id)];
+    const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(id)];
     sum += Vec2(vertex.u, vertex.v);
   }
   return sum / 3.0;

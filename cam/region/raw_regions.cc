@@ -48,8 +48,8 @@ void Connect(const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>&
 
 // Moves the area between each border's chord and its true curve to the side it belongs to.
 absl::Status AddLenses(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                       const std::vector<Adjacency>& adjacency, double cos_steep, double tolerance,
-                       const RunContext& run, RawRegions& raw) {
+                       const std::vector<Adjacency>& adjacency, std::span<const ZeroField> fields,
+                       double tolerance, const RunContext& run, RawRegions& raw) {
   constexpr std::size_t kPollEvery = 4096;
   for (std::size_t i = 0; i < adjacency.size(); ++i) {
     if (i % kPollEvery == 0) PM_RETURN_IF_ERROR(run.Check());
@@ -59,7 +59,7 @@ absl::Status AddLenses(const Surface& surface, const std::vector<SplitMesh>& mes
     const int other = RawOf(raw, a.other_piece, a.other_triangle);
     if (own >= other) continue;
     const double lens =
-        LensArea(surface, meshes[static_cast<std::size_t>(a.side.piece)], a.side, cos_steep, tolerance);
+        LensArea(surface, meshes[static_cast<std::size_t>(a.side.piece)], a.side, fields, tolerance);
     raw.regions[static_cast<std::size_t>(own)].area += lens;
     raw.regions[static_cast<std::size_t>(other)].area -= lens;
   }
@@ -69,11 +69,12 @@ absl::Status AddLenses(const Surface& surface, const std::vector<SplitMesh>& mes
 }  // namespace
 
 absl::StatusOr<RawRegions> FindRawRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                          const std::vector<Adjacency>& adjacency, double cos_steep,
-                                          double tolerance, const RunContext& run) {
+                                          const std::vector<Adjacency>& adjacency,
+                                          std::span<const ZeroField> fields, double tolerance,
+                                          const RunContext& run) {
   RawRegions raw;
   Connect(meshes, adjacency, raw);
-  PM_RETURN_IF_ERROR(AddLenses(surface, meshes, adjacency, cos_steep, tolerance, run, raw));
+  PM_RETURN_IF_ERROR(AddLenses(surface, meshes, adjacency, fields, tolerance, run, raw));
   for (const Adjacency& a : adjacency) {
     if (a.other_piece < 0) continue;
     const int own = RawOf(raw, a.side.piece, a.side.triangle);

@@ -1,6 +1,7 @@
 // Connected parts of equal label, before anything is merged, and what they have in common.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -20,7 +21,8 @@ struct RawRegions {
 // Areas include the lenses between chords and true curves, those refined to `tolerance` (mm). CANCELLED and
 // DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<RawRegions> FindRawRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                          const std::vector<Adjacency>& adjacency, double cos_steep,
-                                          double tolerance, const RunContext& run);
+                                          const std::vector<Adjacency>& adjacency,
+                                          std::span<const ZeroField> fields, double tolerance,
+                                          const RunContext& run);
 
 }  // namespace patchmill

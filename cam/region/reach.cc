@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
+#include "cam/location/heights.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
 
@@ -19,45 +22,53 @@ constexpr double kProof = 0.004;  // of the radius: how exactly distances are kn
 
 }  // namespace
 
-bool ReachTest::AboveFloor(const Vec3& center) const {
-  return center.z() - params_.radius >= params_.floor_z - kFloorSlack;
+bool ReachTest::Free(const Vec3& p, const Vec3& normal) const {
+  return free_ball_.Free(p + params_.radius * normal) ||
+         (normal.z() < kVertical && free_ball_.Free(p - params_.radius * normal));
 }
 
-bool ReachTest::Allowed(const Vec3& center) const {
-  return params_.keep_in == nullptr || params_.keep_in->Allows(center);
+void ReachTest::FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs) const {
+  std::vector<std::size_t> asked;
+  std::vector<Vec3> centers;
+  const auto ask = [&](const auto& wanted, double side) {
+    asked.clear();
+    centers.clear();
+    for (std::size_t i = 0; i < jets.size(); ++i) {
+      const auto normal = UpwardNormal(jets[i]);
+      if (!normal || !wanted(i, *normal)) continue;
+      asked.push_back(i);
+      centers.push_back(jets[i].p + side * params_.radius * *normal);
+    }
+    const auto free = std::make_unique<bool[]>(asked.size());
+    FreeBalls(free_ball_, centers, {free.get(), asked.size()});
+    for (std::size_t i = 0; i < asked.size(); ++i) signs[asked[i]] = free[i] ? 1.0 : -1.0;
+  };
+  std::fill(signs.begin(), signs.end(), 0.0);
+  ask([](std::size_t, const Vec3&) { return true; }, 1.0);
+  ask([&](std::size_t i, const Vec3& n) { return signs[i] < 0.0 && n.z() < kVertical; }, -1.0);
 }
 
-UnreachableReason ReachTest::At(const Vec3& center) const {
-  if (free_ball_.Free(center)) {
-    if (!AboveFloor(center)) return UnreachableReason::kFloor;
-    return Allowed(center) ? UnreachableReason::kNone : UnreachableReason::kAvoided;
-  }
+bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal) const {
+  return CenterBlockedAbove(p + params_.radius * normal) &&
+         (normal.z() >= kVertical || CenterBlockedAbove(p - params_.radius * normal));
+}
+
+bool ReachTest::Allowed(const Vec3& p, const Vec3& normal) const {
+  if (params_.keep_in == nullptr) return true;
+  return params_.keep_in->Allows(p + params_.radius * normal) ||
+         (normal.z() < kVertical && params_.keep_in->Allows(p - params_.radius * normal));
+}
+
+double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {
+  return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - kFloorSlack);
+}
+
+bool ReachTest::CenterBlockedAbove(const Vec3& center) const {
   const Surface& surface = free_ball_.surface();
   const double proof = kProof * params_.radius;
   const auto shank = ClosestToUpwardRay(surface, center, free_ball_.radius() + proof, proof);
-  if (!shank || shank->at.p.z() <= center.z()) return UnreachableReason::kConcave;
-  const bool ball =
-      ClosestToPoint(surface, center, shank->distance + kNearer * params_.radius, proof).has_value();
-  return ball ? UnreachableReason::kConcave : UnreachableReason::kUndercut;
-}
-
-UnreachableReason ReachTest::Reason(const Piece& piece, double u, double v) const {
-  const SurfaceJet jet = Evaluate(piece, u, v);
-  const auto normal = UpwardNormal(jet);
-  if (!normal) return UnreachableReason::kNone;
-  const UnreachableReason reason = At(jet.p + params_.radius * *normal);
-  if (reason == UnreachableReason::kNone || std::abs(normal->z()) >= kVertical) return reason;
-  const UnreachableReason other = At(jet.p - params_.radius * *normal);
-  return other == UnreachableReason::kNone ? other : std::max(reason, other);
-}
-
-bool ReachTest::Reachable(const Piece& piece, double u, double v) const {
-  const SurfaceJet jet = Evaluate(piece, u, v);
-  const auto normal = UpwardNormal(jet);
-  if (!normal) return true;
-  const auto stands = [&](const Vec3& c) { return AboveFloor(c) && free_ball_.Free(c) && Allowed(c); };
-  return stands(jet.p + params_.radius * *normal) ||
-         (std::abs(normal->z()) < kVertical && stands(jet.p - params_.radius * *normal));
+  return shank && shank->at.p.z() > center.z() &&
+         !ClosestToPoint(surface, center, shank->distance + kNearer * params_.radius, proof);
 }
 
 double ReachTest::LeftoverAbove(const Vec3& p) const {

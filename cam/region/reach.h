@@ -1,6 +1,8 @@
 // Can the ball touch this point of the surface, and if not, why: docs/reach.md, by exact cutter location.
 #pragma once
 
+#include <span>
+
 #include "cam/location/locator.h"
 #include "cam/region/region_map.h"
 
@@ -11,18 +13,23 @@ class ReachTest {
   // `free_ball`: locator of radius params.radius - params.tolerance.
   ReachTest(const Locator& free_ball, const RegionParams& params) : free_ball_(free_ball), params_(params) {}
 
-  // Where there is no normal: kNone (a point has no area). Cost some microseconds where something blocks.
-  UnreachableReason Reason(const Piece& piece, double u, double v) const;
-  // Reason() == kNone, at a fraction of its cost.
-  bool Reachable(const Piece& piece, double u, double v) const;
+  // The ball that touches p, where the upward normal is `normal`, is free; the floor does not count. On a
+  // vertical face either side will do.
+  bool Free(const Vec3& p, const Vec3& normal) const;
+  // The same at many places near each other, faster: signs[i] = 1 free, -1 not, 0 where there is no normal.
+  void FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs) const;
+  // Where it is not: UNDERCUT, and not CONCAVE. Cost some ten microseconds.
+  bool BlockedAbove(const Vec3& p, const Vec3& normal) const;
+  // Height of its tip over the floor, mm, the slack for rounding counted in: below 0 the place is FLOOR.
+  double OverFloor(const Vec3& p, const Vec3& normal) const;
+  // params.keep_in allows the ball's centre; on a vertical face on either side.
+  bool Allowed(const Vec3& p, const Vec3& normal) const;
 
   // Rough depth of material left over p when it is unreachable: from the ball that comes down right above it.
   double LeftoverAbove(const Vec3& p) const;
 
  private:
-  UnreachableReason At(const Vec3& center) const;
-  bool AboveFloor(const Vec3& center) const;
-  bool Allowed(const Vec3& center) const;
+  bool CenterBlockedAbove(const Vec3& center) const;
   const Locator& free_ball_;
   const RegionParams& params_;
 };

@@ -1,7 +1,6 @@
 #include "cam/region/region_border.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/base/parallel.h"
 #include "core/base/status.h"
@@ -9,27 +8,26 @@
 namespace patchmill {
 namespace {
 
-// The smooth field on whose zero curve both ends lie.
-std::optional<Field> CommonField(const SplitVertex& a, const SplitVertex& b) {
-  for (const Field field : {Field::kTurn, Field::kSlope, Field::kCurvature}) {
-    const auto bit = static_cast<unsigned>(field);
-    if (((a.on & b.on) >> bit) & 1u) return field;
-  }
-  return std::nullopt;
-}
-
-const SplitVertex& End(const SplitMesh& mesh, const TriangleSide& side, int which) {
+const ZeroVertex& End(const SplitMesh& mesh, const TriangleSide& side, int which) {
   const auto& v = mesh.triangles[static_cast<std::size_t>(side.triangle)].vertex;
   return mesh.vertices[static_cast<std::size_t>(v[static_cast<std::size_t>((side.side + which) % 3)])];
 }
 
-std::vector<Vec2> ArcOf(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
-                        double cos_steep, double tolerance) {
-  const SplitVertex& a = End(mesh, side, 0);
-  const SplitVertex& b = End(mesh, side, 1);
-  const auto field = CommonField(a, b);
-  if (!field) return {};
-  return RefineArc(surface.pieces[static_cast<std::size_t>(side.piece)], *field, a, b, cos_steep, tolerance);
+// The field on whose zero curve both ends lie, a smooth one first.
+const ZeroField* CommonField(const ZeroVertex& a, const ZeroVertex& b, std::span<const ZeroField> fields) {
+  const ZeroField* limit = nullptr;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if ((((a.on & b.on) >> k) & 1u) == 0) continue;
+    if (fields[k].smooth) return &fields[k];
+    if (limit == nullptr) limit = &fields[k];
+  }
+  return limit;
+}
+
+std::vector<Vec2> ArcOf(const Piece& piece, const ZeroField* field, const ZeroVertex& a, const ZeroVertex& b,
+                        double tolerance) {
+  if (field == nullptr) return {};
+  return RefineZeroArc(piece, *field, {a.u, a.v}, {b.u, b.v}, tolerance);
 }
 
 // Directed strands of one region's outline -> closed loops. Strands are matched end to start exactly first,
@@ -103,8 +101,8 @@ std::vector<std::vector<Vec3>> Chain(std::vector<std::vector<Vec3>> strands, dou
 
 absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Surface& surface, const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency,
-    const std::vector<std::vector<int>>& region_of, std::size_t region_count, double cos_steep,
-    double tolerance, const RunContext& run) {
+    const std::vector<std::vector<int>>& region_of, std::size_t region_count,
+    std::span<const ZeroField> fields, double tolerance, const RunContext& run) {
   const auto region = [&](int piece, int triangle) {
     return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
@@ -119,10 +117,11 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Adjacency& a = adjacency[on_border[k]];
     const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
     const Piece& piece = surface.pieces[static_cast<std::size_t>(a.side.piece)];
-    strand[k].push_back(End(mesh, a.side, 0).p);
-    for (const Vec2& q : ArcOf(surface, mesh, a.side, cos_steep, tolerance))
+    const ZeroVertex &from = End(mesh, a.side, 0), &to = End(mesh, a.side, 1);
+    strand[k].push_back(from.p);
+    for (const Vec2& q : ArcOf(piece, CommonField(from, to, fields), from, to, tolerance))
       strand[k].push_back(Position(piece, q.x(), q.y()));
-    strand[k].push_back(End(mesh, a.side, 1).p);
+    strand[k].push_back(to.p);
   }));
   std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
   for (std::size_t k = 0; k < on_border.size(); ++k) {
@@ -138,25 +137,21 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
   return borders;
 }
 
-double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side, double cos_steep,
-                double tolerance) {
-  const std::vector<Vec2> arc = ArcOf(surface, mesh, side, cos_steep, tolerance);
-  if (arc.empty()) return 0.0;
-  const SplitVertex& a = End(mesh, side, 0);
-  const SplitVertex& b = End(mesh, side, 1);
+double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
+                std::span<const ZeroField> fields, double tolerance) {
+  const ZeroVertex &a = End(mesh, side, 0), &b = End(mesh, side, 1);
+  const ZeroField* field = CommonField(a, b, fields);
+  if (field == nullptr || !field->smooth) return 0.0;
+  const Piece& piece = surface.pieces[static_cast<std::size_t>(side.piece)];
   const Vec2 from(a.u, a.v), to(b.u, b.v);
-  double twice = 0.0;
-  Vec2 at = from;
-  for (const Vec2& q : arc) {
-    twice += Cross(at - from, q - from);
-    at = q;
-  }
-  twice += Cross(at - from, to - from);
-  const Vec2 mid = arc[arc.size() / 2];
-  const SurfaceJet jet = Evaluate(surface.pieces[static_cast<std::size_t>(side.piece)], mid.x(), mid.y());
-  // The triangle lies on the left of its side (counter-clockwise): an arc to the right, with positive area
-  // here, adds to it.
-  return 0.5 * twice * jet.du.cross(jet.dv).norm();
+  std::vector<Vec2> arc = ArcOf(piece, field, a, b, tolerance);
+  if (arc.empty()) return 0.0;
+  arc.push_back(to);
+  // The triangle lies on the left of its side (counter-clockwise): an arc to the right adds to it, and turns
+  // counter-clockwise around the side's start.
+  double area = 0.0;
+  for (std::size_t i = 0; i + 1 < arc.size(); ++i) area += SurfaceArea(piece, from, arc[i], arc[i + 1]);
+  return area;
 }
 
 }  // namespace patchmill

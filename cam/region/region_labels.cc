@@ -15,7 +15,7 @@ std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& regi
     Vec2 q[3];
     Vec2 low(1, 1), high(0, 0);
     for (std::size_t k = 0; k < 3; ++k) {
-      const SplitVertex& vertex = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t].vertex[k])];
+      const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t].vertex[k])];
       q[k] = {vertex.u, vertex.v};
       low = low.cwiseMin(q[k]);
       high = high.cwiseMax(q[k]);

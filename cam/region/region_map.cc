@@ -21,10 +21,9 @@ constexpr double kMinCurvature = 0.5;  // mm
 // Shapes below this part of the ball's radius are too small for it to feel.
 constexpr double kMinCell = 0.06;
 
-SplitMeshParams MeshParams(const Surface& surface, const RegionParams& params) {
-  SplitMeshParams p;
-  p.cos_steep = std::cos(params.steep_angle);
-  p.border_tolerance = params.border_tolerance;
+ZeroMeshParams MeshParams(const Surface& surface, const RegionParams& params) {
+  ZeroMeshParams p;
+  p.max_turn = 0.7;
   p.max_cell = std::max(0.6 * params.radius, 0.02 * surface.box.Diagonal());
   p.min_cell = kMinCell * params.radius;
   return p;
@@ -148,21 +147,22 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
       const Locator free_ball,
       Locator::Make(surface, std::max(params.radius - params.tolerance, 0.5 * params.radius), run));
   const ReachTest reach(free_ball, params);
-  const SplitMeshParams mesh_params = MeshParams(surface, params);
+  const std::vector<ZeroField> fields = RegionFields(reach, params);
+  const ZeroMeshParams mesh_params = MeshParams(surface, params);
   std::vector<SplitMesh> meshes(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions", meshes.size(), [&](std::size_t i) {
-    meshes[i] = BuildSplitMesh(surface.pieces[i], reach, mesh_params);
+    meshes[i] = BuildSplitMesh(surface.pieces[i], fields, mesh_params);
   }));
   PM_ASSIGN_OR_RETURN(const std::vector<Adjacency> adjacency, FindAdjacency(surface, meshes, run));
-  PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(surface, meshes, adjacency, mesh_params.cos_steep,
-                                                           params.border_tolerance, run));
+  PM_ASSIGN_OR_RETURN(const RawRegions raw,
+                      FindRawRegions(surface, meshes, adjacency, fields, params.border_tolerance, run));
   Numbered numbered = Number(raw, Merge(raw, params));
   PM_RETURN_IF_ERROR(
       DescribeRegions(surface, meshes, numbered.region_of, reach, params, run, numbered.regions));
   ListPatches(surface, numbered.region_of, numbered.regions);
   PM_ASSIGN_OR_RETURN(auto borders,
                       RegionBorders(surface, meshes, adjacency, numbered.region_of, numbered.regions.size(),
-                                    mesh_params.cos_steep, params.border_tolerance, run));
+                                    fields, params.border_tolerance, run));
   RegionMap map;
   map.regions = std::move(numbered.regions);
   for (std::size_t i = 0; i < map.regions.size(); ++i) map.regions[i].border = std::move(borders[i]);

@@ -18,7 +18,7 @@ struct BorderSide {
   double sagitta = 0.0;
 };
 
-bool OnBorder(const SplitVertex& a, const SplitVertex& b) {
+bool OnBorder(const ZeroVertex& a, const ZeroVertex& b) {
   return (a.u == 0.0 && b.u == 0.0) || (a.u == 1.0 && b.u == 1.0) || (a.v == 0.0 && b.v == 0.0) ||
          (a.v == 1.0 && b.v == 1.0);
 }
@@ -92,8 +92,8 @@ PieceSides InnerSides(const Piece& piece, int index, const SplitMesh& mesh) {
   sides.all.reserve(3 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (int s = 0; s < 3; ++s) {
-      const SplitVertex& a = mesh.vertices[static_cast<std::size_t>(corner(t, s))];
-      const SplitVertex& b = mesh.vertices[static_cast<std::size_t>(corner(t, s + 1))];
+      const ZeroVertex& a = mesh.vertices[static_cast<std::size_t>(corner(t, s))];
+      const ZeroVertex& b = mesh.vertices[static_cast<std::size_t>(corner(t, s + 1))];
       Adjacency adjacency;
       adjacency.side = {index, static_cast<int>(t), s};
       adjacency.length = (b.p - a.p).norm();

@@ -1,57 +1,31 @@
-// The triangles of one piece, split along the zero curves of all fields (ALGORITHMS 12): topology from signs
-// at vertices only, vertices on a border lie on the true curve.
+// The triangles of one piece, split along the zero curves and limits of all region fields, measured.
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <span>
 #include <vector>
 
-#include "cam/region/reach.h"
-#include "cam/region/surface_fields.h"
+#include "cam/region/region_fields.h"
 
 namespace patchmill {
-
-struct SplitVertex {
-  double u = 0.0, v = 0.0;
-  Vec3 p = Vec3::Zero();
-  std::array<std::int8_t, kFieldCount> sign{};  // -1, 0, +1; kReach: +1 reachable, -1 not
-  std::uint8_t on = 0;                          // bit k: lies on the zero curve of field k
-};
-
-// What a triangle is. Triangles of equal labels that share an edge belong together.
-struct SplitLabel {
-  std::int8_t curvature = 0;  // -1 mountain, +1 basin, 0 flat along the contour (upward normal)
-  bool steep = false;
-  UnreachableReason reason = UnreachableReason::kNone;
-  bool operator==(const SplitLabel&) const = default;
-};
 
 struct SplitTriangle {
   std::array<int, 3> vertex{};  // counter-clockwise in (u,v)
   SplitLabel label;
-  double area = 0.0;       // mm^2 on the surface
+  double area = 0.0;       // mm^2 on the surface, of the triangle with straight sides in (u,v)
   double curvature = 0.0;  // integral of kappa_c (upward normal) over it, mm
 };
 
 struct SplitMesh {
-  std::vector<SplitVertex> vertices;
+  std::vector<ZeroVertex> vertices;
   std::vector<SplitTriangle> triangles;
 };
 
-struct SplitMeshParams {
-  double cos_steep = 0.7;
-  double border_tolerance = 0.01;  // mm, of bisected limits of reach
-  double max_cell = 1.0;           // mm, largest side of a cell
-  double min_cell = 0.1;           // mm: cells are not divided below about this side
-};
+// `fields` as RegionFields gives them. Areas by a rule of degree 5 on triangles whose normals turn by less
+// than 0.35 rad: about 1e-8 of them.
+SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, const ZeroMeshParams& params);
 
-// A quadtree over the piece, finer where a field changes sign, fanned into triangles, which are then cut
-// field by field.
-SplitMesh BuildSplitMesh(const Piece& piece, const ReachTest& reach, const SplitMeshParams& params);
-
-// The zero curve of `field` between two vertices on it, as parameter points without the ends, so dense that
-// chords keep to `tolerance` (mm). Where the perpendicular root is not found the chord stays.
-std::vector<Vec2> RefineArc(const Piece& piece, Field field, const SplitVertex& a, const SplitVertex& b,
-                            double cos_steep, double tolerance);
+// Area on the surface (mm^2) over a triangle of parameters, positive when counter-clockwise.
+double SurfaceArea(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2& c);
 
 }  // namespace patchmill

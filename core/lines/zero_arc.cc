@@ -16,19 +16,17 @@ class Refiner {
 
   // The first chord is looked at in three places: an arc of two bends may cross it in the middle.
   void AddFirst(const Vec2& from, const Vec2& to, std::vector<Vec2>& out) const {
-    const Vec3 a = At(from), b = At(to);
-    if ((b - a).norm() <= tolerance_) return;
-    const std::optional<Vec2> root = OnPerpendicular(from, to, (b - a).norm());
+    const double length = (At(to) - At(from)).norm();
+    if (length <= tolerance_) return;
+    if (Straight(from, to, 0.5, length) &&
+        (!field_.smooth || (Straight(from, to, 0.25, length) && Straight(from, to, 0.75, length)))) {
+      return;
+    }
+    const std::optional<Vec2> root = OnPerpendicular(from, to, length);
     if (!root) return;
-    std::vector<Vec2> halves;
-    Add(from, *root, kMostHalvings, halves);
-    const std::size_t middle = halves.size();
-    halves.push_back(*root);
-    Add(*root, to, kMostHalvings, halves);
-    const bool straight = halves.size() == 1 && Near(*root, a, b) && NearAtQuarter(from, *root, a, b) &&
-                          NearAtQuarter(*root, to, a, b);
-    if (straight) halves.erase(halves.begin() + static_cast<std::ptrdiff_t>(middle));
-    out.insert(out.end(), halves.begin(), halves.end());
+    Add(from, *root, kMostHalvings, out);
+    out.push_back(*root);
+    Add(*root, to, kMostHalvings, out);
   }
 
  private:
@@ -36,14 +34,20 @@ class Refiner {
   bool Near(const Vec2& q, const Vec3& a, const Vec3& b) const {
     return SegmentDistance(At(q), a, b) <= tolerance_;
   }
-  bool NearAtQuarter(const Vec2& from, const Vec2& to, const Vec3& a, const Vec3& b) const {
-    const std::optional<Vec2> root = OnPerpendicular(from, to, (At(to) - At(from)).norm());
-    return !root || Near(*root, a, b);
+  // The curve passes within the tolerance of the chord's point `at`: the cheap test.
+  bool Straight(const Vec2& from, const Vec2& to, double at, double length) const {
+    const Vec2 mid = from + at * (to - from);
+    const Vec2 across = (0.7 * tolerance_ / length) * Vec2(-(to - from).y(), (to - from).x());
+    const Vec2 one = mid + Inside(mid, across) * across, other = mid - Inside(mid, -across) * across;
+    // Parameters are no plan: what counts is the distance on the surface.
+    if (!Near(one, At(from), At(to)) || !Near(other, At(from), At(to))) return false;
+    return Value(field_, piece_, one) * Value(field_, piece_, other) <= 0.0;
   }
 
   void Add(const Vec2& from, const Vec2& to, int depth, std::vector<Vec2>& out) const {
     const Vec3 a = At(from), b = At(to);
     if (depth == 0 || (b - a).norm() <= tolerance_) return;
+    if (Straight(from, to, 0.5, (b - a).norm())) return;
     const std::optional<Vec2> root = OnPerpendicular(from, to, (b - a).norm());
     if (!root || Near(*root, a, b)) return;
     Add(from, *root, depth - 1, out);
@@ -61,7 +65,7 @@ class Refiner {
         const Vec2 q = mid + Inside(mid, side * across) * side * across;
         const double at_q = Value(field_, piece_, q);
         if ((at_q > 0.0) == (at_mid > 0.0)) continue;
-        const double stop = field_.resolution / std::max(length * reach, 1e-9);
+        const double stop = EnoughFor(field_, length * reach);
         return Vec2(mid + ZeroBetween(field_, piece_, mid, q, at_mid, at_q, stop) * (q - mid));
       }
     }

@@ -69,12 +69,14 @@ class Divider {
       if (form) {
         open.push_back({k, *std::move(form)});
       } else {
-        (fields_[k].smooth ? sampled_ : limits_).push_back(k);
+        sampled_.push_back(k);
       }
     }
-    if (params_.curves_only && sampled_.empty() && limits_.empty() && Settled(open)) return {};
+    if (params_.curves_only && sampled_.empty() && Settled(open)) return {};
     levels_ = ChooseLevels(piece_, params_);
-    Refine({0, 0, 0, {}}, std::move(open));
+    std::vector<Task> level(1);
+    level[0].open = std::move(open);
+    while (!level.empty()) level = Refine(std::move(level));
     return std::move(result_);
   }
 
@@ -83,58 +85,93 @@ class Divider {
     std::size_t field;
     BernsteinForm form;
   };
+  struct Task {
+    ZeroCell cell;
+    std::vector<OpenForm> open;
+    bool divide = false;
+  };
 
   static bool Settled(std::vector<OpenForm>& open) {
     std::erase_if(open, [](const OpenForm& f) { return SignOf(f.form) != FormSign::kOpen; });
     return open.empty();
   }
 
-  // Samples of both signs: of smooth fields at 3 x 3 points, of limits at corners and middle.
-  bool Differ(const ZeroCell& cell, std::size_t k, bool all) {
+  // The points at which samples of field k are looked at: 3 x 3 of smooth ones, of limits corners and middle.
+  std::vector<int> Samples(const ZeroCell& cell, std::size_t k) {
     const int step = kZeroGrid >> cell.level;
-    bool seen[2] = {false, false};
+    std::vector<int> ids;
     for (int a = 0; a <= 2; ++a) {
       for (int b = 0; b <= 2; ++b) {
-        if (!all && (a + b) % 2 == 1) continue;
-        const int id = vertices_.OnGrid(cell.i * step + a * step / 2, cell.j * step + b * step / 2);
-        const int sign = vertices_.Sign(id, k);
-        if (sign != 0) seen[sign > 0] = true;
+        if (!fields_[k].smooth && (a + b) % 2 == 1) continue;
+        ids.push_back(vertices_.OnGrid(cell.i * step + a * step / 2, cell.j * step + b * step / 2));
       }
+    }
+    return ids;
+  }
+  bool Differ(const ZeroCell& cell, std::size_t k) {
+    bool seen[2] = {false, false};
+    for (const int id : Samples(cell, k)) {
+      const int sign = vertices_.Sign(id, k);
+      if (sign != 0) seen[sign > 0] = true;
     }
     return seen[0] && seen[1];
   }
-  bool LimitPasses(const ZeroCell& cell) {
-    return std::any_of(sampled_.begin(), sampled_.end(),
-                       [&](std::size_t k) { return Differ(cell, k, true); }) ||
-           std::any_of(limits_.begin(), limits_.end(), [&](std::size_t k) { return Differ(cell, k, false); });
-  }
 
-  void Refine(ZeroCell cell, std::vector<OpenForm> open) {
-    const bool settled = Settled(open);
-    if (settled && params_.curves_only && sampled_.empty() && limits_.empty()) return;
-    bool divide = cell.level < levels_.start;
-    for (const OpenForm& f : open) {
-      // One arc at most, and no node on the cell's border either.
-      if (divide || (IsGraph(f.form) && !(fields_[f.field].node && MayBeFlat(f.form)))) continue;
-      if (cell.level < levels_.finest) {
-        divide = true;
-      } else {
-        FindNode(f.field, cell);
+  // One level of cells; those of the next. A level at a time, so that signs are asked for many at once.
+  std::vector<Task> Refine(std::vector<Task> level) {
+    const int depth = level.front().cell.level;
+    const bool proofs_only = sampled_.empty();
+    for (Task& task : level) {
+      if (Settled(task.open) && params_.curves_only && proofs_only) continue;
+      task.divide = depth < levels_.start;
+      for (const OpenForm& f : task.open) Decide(f, task);
+    }
+    if (params_.curves_only && proofs_only)
+      std::erase_if(level, [](const Task& task) { return task.open.empty(); });
+    if (depth < levels_.sampled) {
+      for (const std::size_t k : sampled_) {
+        std::vector<int> ids;
+        for (const Task& task : level) {
+          if (task.divide) continue;
+          for (const int id : Samples(task.cell, k)) ids.push_back(id);
+        }
+        vertices_.Ask(ids, k);
+        for (Task& task : level) task.divide = task.divide || Differ(task.cell, k);
       }
     }
-    if (!divide && cell.level < levels_.sampled) divide = LimitPasses(cell);
-    if (!divide) {
-      AddCell(cell);
-      return;
+    std::vector<Task> next;
+    for (Task& task : level) {
+      if (task.divide) {
+        Divide(task, next);
+      } else {
+        AddCell(task.cell);
+      }
     }
+    return next;
+  }
+
+  // One arc at most, and no node on the cell's border either; or division; or, at the end, the node.
+  void Decide(const OpenForm& f, Task& task) {
+    if (task.divide || (IsGraph(f.form) && !(fields_[f.field].node && MayBeFlat(f.form)))) return;
+    if (task.cell.level < levels_.finest) {
+      task.divide = true;
+    } else {
+      task.cell.settled = false;
+      FindNode(f.field, task.cell);
+    }
+  }
+
+  static void Divide(Task& task, std::vector<Task>& next) {
     std::array<std::vector<OpenForm>, 4> parts;
-    for (OpenForm& f : open) {
+    for (OpenForm& f : task.open) {
       std::array<BernsteinForm, 4> quarters = Quarters(f.form);
       for (std::size_t q = 0; q < 4; ++q) parts[q].push_back({f.field, std::move(quarters[q])});
     }
+    task.open.clear();
+    const ZeroCell& cell = task.cell;
     for (int q = 0; q < 4; ++q) {
-      Refine({cell.level + 1, 2 * cell.i + q / 2, 2 * cell.j + q % 2, {}},
-             std::move(parts[static_cast<std::size_t>(q)]));
+      next.push_back({{cell.level + 1, 2 * cell.i + q / 2, 2 * cell.j + q % 2},
+                      std::move(parts[static_cast<std::size_t>(q)])});
     }
   }
 
@@ -220,7 +257,7 @@ class Divider {
   const ZeroMeshParams& params_;
   ZeroVertices& vertices_;
   Levels levels_;
-  std::vector<std::size_t> sampled_, limits_;  // fields without form: smooth, others
+  std::vector<std::size_t> sampled_;  // fields without form
   ZeroCells result_;
 };
 

@@ -13,7 +13,8 @@ namespace patchmill {
 // [i, i+1] x [j, j+1] / 2^level; `node`: the id of a node in it, or on its border.
 struct ZeroCell {
   int level = 0, i = 0, j = 0;
-  std::optional<int> node;
+  std::optional<int> node = {};
+  bool settled = true;  // the forms of all fields have a proof in it: its corners decide
 };
 
 struct ZeroCells {

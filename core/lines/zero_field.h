@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "core/lines/bernstein_form.h"
 #include "core/patch/piece.h"
@@ -15,9 +16,11 @@ struct ParameterBox {
 };
 
 struct ZeroField {
-  // Smooth fields: continuous, of both signs beside their zero curves, any unit. Others: +1 or -1, or 0 where
-  // the question does not apply. Thread-safe.
+  // Smooth fields: continuous, of both signs beside their zero curves, any unit. Others: the sign counts, 0
+  // where the question does not apply. Thread-safe.
   std::function<double(const SurfaceJet&)> value;
+  // The same at many places near each other, where that is faster. May be empty.
+  std::function<void(std::span<const SurfaceJet>, std::span<double>)> values;
   // A polynomial over the net that vanishes wherever `value` does and, where it changes sign, makes `value`
   // change sign along all of the arc or nowhere on it; so where it has no zero `value` has none, and where
   // its zero set is one arc, that of `value` is this arc or nothing. Nothing: too costly. May be empty.

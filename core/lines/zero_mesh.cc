@@ -76,6 +76,11 @@ class Builder {
       ring.push_back(vertices_.OnGrid(a[0], a[1]));
       Between(a[0], a[1], b[0], b[1], ring);
     }
+    if (ring.size() == 4 && cell.settled && !cell.node) {
+      triangles_.push_back({{ring[0], ring[1], ring[2]}, {}});
+      triangles_.push_back({{ring[0], ring[2], ring[3]}, {}});
+      return;
+    }
     const int middle = Middle(cell);
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const int a = ring[k], b = ring[(k + 1) % ring.size()];
@@ -83,17 +88,60 @@ class Builder {
     }
   }
 
-  // The vertex where field k changes sign on the edge between a and b; made once for both triangles of it.
-  int Crossing(std::size_t k, int a, int b) {
-    const auto [it, fresh] = crossings_.try_emplace(EdgeKey(a, b), -1);
-    if (!fresh) return it->second;
+  struct Edge {
+    int a, b;  // a < b
+    ZeroBracket bracket;
+  };
+  Vec2 At(const Edge& e, double t) const {
+    const ZeroVertex &x = vertices_[e.a], &y = vertices_[e.b];
+    return Vec2(x.u, x.v) + t * (Vec2(y.u, y.v) - Vec2(x.u, x.v));
+  }
+
+  // The vertices where field k changes sign on an edge, each made once for both triangles of it.
+  void FindCrossings(std::size_t k) {
+    crossings_.clear();
+    const bool by_sign = !fields_[k].smooth;
+    std::vector<Edge> edges;
+    for (const ZeroTriangle& t : triangles_) {
+      for (std::size_t s = 0; s < 3; ++s) {
+        const int a = std::min(t.vertex[s], t.vertex[(s + 1) % 3]),
+                  b = std::max(t.vertex[s], t.vertex[(s + 1) % 3]);
+        const int sa = vertices_.Sign(a, k), sb = vertices_.Sign(b, k);
+        if (sa * sb >= 0 || !crossings_.try_emplace(EdgeKey(a, b), -1).second) continue;
+        edges.push_back(
+            {a, b,
+             ZeroBracket(sa, sb, EnoughFor(fields_[k], (vertices_[b].p - vertices_[a].p).norm()), by_sign)});
+      }
+    }
+    const auto many = [&](std::size_t count, const auto& place) {
+      std::vector<Vec2> places;
+      for (std::size_t i = 0; i < count; ++i) places.push_back(place(i));
+      return vertices_.Values(places, k);
+    };
+    if (fields_[k].smooth) {  // values at the ends, for better first steps
+      const auto low = many(edges.size(), [&](std::size_t i) { return At(edges[i], 0.0); });
+      const auto high = many(edges.size(), [&](std::size_t i) { return At(edges[i], 1.0); });
+      for (std::size_t i = 0; i < edges.size(); ++i)
+        edges[i].bracket = ZeroBracket(low[i], high[i], EnoughFor(fields_[k], 1.0), false);
+    }
+    for (std::vector<std::size_t> open;;) {
+      open.clear();
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (edges[i].bracket.Open()) open.push_back(i);
+      }
+      if (open.empty()) break;
+      const auto values =
+          many(open.size(), [&](std::size_t i) { return At(edges[open[i]], edges[open[i]].bracket.Next()); });
+      for (std::size_t i = 0; i < open.size(); ++i) edges[open[i]].bracket.Put(values[i]);
+    }
+    for (const Edge& e : edges) crossings_[EdgeKey(e.a, e.b)] = AddCrossing(k, e);
+  }
+
+  int AddCrossing(std::size_t k, const Edge& e) {
     const ZeroField& field = fields_[k];
-    const ZeroVertex x = vertices_[std::min(a, b)], y = vertices_[std::max(a, b)];
+    const ZeroVertex x = vertices_[e.a], y = vertices_[e.b];
     const Vec2 from(x.u, x.v), to(y.u, y.v);
-    const double length = (y.p - x.p).norm();
-    const double t = ZeroBetween(
-        field, piece_, from, to, field.smooth ? Value(field, piece_, from) : x.sign[k],
-        field.smooth ? Value(field, piece_, to) : y.sign[k], field.resolution / std::max(length, 1e-9));
+    const double t = e.bracket.Middle();
     Vec2 q = from + t * (to - from);
     // An edge along another field's curve: the crossing is where both vanish.
     const std::uint8_t both = x.on & y.on;
@@ -107,10 +155,14 @@ class Builder {
     }
     const int id = vertices_.Add(q);
     vertices_.PutOn(id, k);
+    // Between fields already cut the edge lies on one side of their curves, or on them.
     for (std::size_t other = 0; other < k; ++other) {
-      if ((both >> other) & 1u) vertices_.PutOn(id, other);
+      if ((both >> other) & 1u) {
+        vertices_.PutOn(id, other);
+      } else {
+        vertices_.SetSign(id, other, x.sign[other] != 0 ? x.sign[other] : y.sign[other]);
+      }
     }
-    it->second = id;
     return id;
   }
 
@@ -141,7 +193,11 @@ class Builder {
   }
 
   void Cut(std::size_t k) {
-    crossings_.clear();
+    std::vector<int> corners;
+    for (const ZeroTriangle& t : triangles_) corners.insert(corners.end(), t.vertex.begin(), t.vertex.end());
+    vertices_.Ask(corners, k);
+    FindCrossings(k);
+    const auto crossing = [&](int a, int b) { return crossings_.at(EdgeKey(a, b)); };
     std::vector<ZeroTriangle> whole = std::move(triangles_);
     triangles_.clear();
     triangles_.reserve(whole.size() + whole.size() / 4);
@@ -161,14 +217,14 @@ class Builder {
       const auto corner = [&](int c) { return t.vertex[static_cast<std::size_t>((odd + c) % 3)]; };
       const int a = corner(0), b = corner(1), c = corner(2);
       if (sign[odd] == 0) {
-        const int m = Crossing(k, b, c);
+        const int m = crossing(b, c);
         triangles_.push_back({{a, b, m}, {}});
         triangles_.push_back({{a, m, c}, {}});
         // The curve leaves the triangle through this vertex: it lies on it as far as rounding can tell.
         vertices_[a].on |= static_cast<std::uint8_t>(1u << k);
         continue;
       }
-      const int m = Crossing(k, a, b), n = Crossing(k, a, c);
+      const int m = crossing(a, b), n = crossing(a, c);
       triangles_.push_back({{a, m, n}, {}});
       triangles_.push_back({{m, b, c}, {}});
       triangles_.push_back({{m, c, n}, {}});

@@ -16,7 +16,7 @@
 
 namespace patchmill {
 
-inline constexpr int kMaxZeroFields = 6;
+inline constexpr int kMaxZeroFields = 7;
 
 struct ZeroVertex {
   double u = 0.0, v = 0.0;

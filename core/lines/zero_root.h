@@ -1,8 +1,6 @@
 // A sign change of a field on a straight segment of a piece's parameters.
 #pragma once
 
-#include <algorithm>
-
 #include "core/lines/zero_field.h"
 
 namespace patchmill {
@@ -11,34 +9,32 @@ inline double Value(const ZeroField& field, const Piece& piece, const Vec2& q) {
   return field.value(Evaluate(piece, q.x(), q.y()));
 }
 
+// A sign change of a function of t in [0,1], closed in step by step: Illinois, halved where that stalls.
+class ZeroBracket {
+ public:
+  // Values at 0 and 1, of different signs (zero counts as negative); `by_sign`: only their signs tell.
+  ZeroBracket(double at_0, double at_1, double enough, bool by_sign)
+      : f_(at_0), g_(at_1), enough_(enough), by_sign_(by_sign) {}
+
+  bool Open() const { return high_ - low_ > enough_ && steps_ < kMostSteps; }
+  double Next() const;     // where the function is wanted
+  void Put(double value);  // there
+  double Middle() const { return 0.5 * (low_ + high_); }
+
+ private:
+  static constexpr int kMostSteps = 80, kPatience = 2;
+  double low_ = 0.0, high_ = 1.0, f_, g_;
+  double enough_;
+  bool by_sign_;
+  double halved_ = 1.0;  // width when the bracket was last halved
+  int waited_ = 0, side_ = 0, steps_ = 0;
+};
+
 // The parameter t in [0,1] of a sign change between `from` and `to`, whose values differ in sign (zero counts
-// as negative). Smooth fields: to 1e-13 by Illinois steps, halved where they stall, about 8 in all; others by
-// halving to `stop` (a share of the segment).
-inline double ZeroBetween(const ZeroField& field, const Piece& piece, const Vec2& from, const Vec2& to,
-                          double at_from, double at_to, double stop) {
-  constexpr double kExact = 1e-13;
-  constexpr int kMostSteps = 80, kPatience = 3;
-  const double enough = field.smooth ? kExact : std::max(stop, kExact);
-  double low = 0.0, high = 1.0, f = at_from, g = at_to;
-  double halved = 1.0;  // width when the bracket was last halved
-  int waited = 0, side = 0;
-  for (int i = 0; i < kMostSteps && high - low > enough; ++i) {
-    double t = 0.5 * (low + high);
-    if (field.smooth && waited < kPatience && f != g) {
-      // Steps stop short of the ends by half of what is enough: then one more from the other side ends it.
-      const double margin = 0.5 * enough;
-      t = std::clamp((low * g - high * f) / (g - f), low + margin, high - margin);
-    }
-    const double x = Value(field, piece, from + t * (to - from));
-    const bool below = (x > 0.0) == (at_from > 0.0);
-    (below ? low : high) = t;
-    (below ? f : g) = x;
-    if (side == (below ? -1 : 1)) (below ? g : f) *= 0.5;  // Illinois: the end that stays counts half
-    side = below ? -1 : 1;
-    waited = high - low <= 0.5 * halved || waited == kPatience ? 0 : waited + 1;
-    if (waited == 0) halved = high - low;
-  }
-  return 0.5 * (low + high);
-}
+// as negative): smooth fields to 1e-13, in about 8 steps; others to `enough` (a share of the segment).
+double ZeroBetween(const ZeroField& field, const Piece& piece, const Vec2& from, const Vec2& to,
+                   double at_from, double at_to, double enough);
+// What ZeroBetween takes for enough on a segment of this length (mm).
+double EnoughFor(const ZeroField& field, double length);
 
 }  // namespace patchmill

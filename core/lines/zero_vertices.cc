@@ -32,6 +32,11 @@ void ZeroVertices::PutOn(int id, std::size_t k) {
   vertex.sign[k] = 0;
 }
 
+void ZeroVertices::SetSign(int id, std::size_t k, std::int8_t sign) {
+  (*this)[id].known |= static_cast<std::uint8_t>(1u << k);
+  (*this)[id].sign[k] = sign;
+}
+
 int ZeroVertices::Sign(int id, std::size_t k) {
   if ((((*this)[id].known >> k) & 1u) == 0) {
     const int where = fields_[k].where;
@@ -41,6 +46,37 @@ int ZeroVertices::Sign(int id, std::size_t k) {
     vertex.sign[k] = asked ? SignOf(k, Value(fields_[k], piece_, {vertex.u, vertex.v})) : std::int8_t{0};
   }
   return (*this)[id].sign[k];
+}
+
+void ZeroVertices::Ask(const std::vector<int>& ids, std::size_t k) {
+  if (!fields_[k].values || fields_[k].where >= 0) {
+    for (const int id : ids) Sign(id, k);
+    return;
+  }
+  std::vector<int> asked;
+  std::vector<Vec2> places;
+  for (const int id : ids) {
+    ZeroVertex& vertex = (*this)[id];
+    if (((vertex.known >> k) & 1u) != 0) continue;
+    vertex.known |= static_cast<std::uint8_t>(1u << k);
+    asked.push_back(id);
+    places.emplace_back(vertex.u, vertex.v);
+  }
+  const std::vector<double> values = Values(places, k);
+  for (std::size_t i = 0; i < asked.size(); ++i) (*this)[asked[i]].sign[k] = SignOf(k, values[i]);
+}
+
+std::vector<double> ZeroVertices::Values(const std::vector<Vec2>& places, std::size_t k) const {
+  std::vector<SurfaceJet> jets;
+  jets.reserve(places.size());
+  for (const Vec2& q : places) jets.push_back(Evaluate(piece_, q.x(), q.y()));
+  std::vector<double> values(places.size());
+  if (fields_[k].values) {
+    fields_[k].values(jets, values);
+  } else {
+    for (std::size_t i = 0; i < jets.size(); ++i) values[i] = fields_[k].value(jets[i]);
+  }
+  return values;
 }
 
 std::int8_t ZeroVertices::SignOf(std::size_t k, double value) const {

@@ -22,7 +22,12 @@ class ZeroVertices {
   int Add(const Vec2& q);
   // On the curve of field k: sign 0 from now on.
   void PutOn(int id, std::size_t k);
+  void SetSign(int id, std::size_t k, std::int8_t sign);
   int Sign(int id, std::size_t k);
+  // Sign(id, k) of all these at once; repeated ids do no harm.
+  void Ask(const std::vector<int>& ids, std::size_t k);
+  // Values of field k at places between vertices, at once.
+  std::vector<double> Values(const std::vector<Vec2>& places, std::size_t k) const;
   // -1, 0 or +1 of a value of field k.
   std::int8_t SignOf(std::size_t k, double value) const;
 

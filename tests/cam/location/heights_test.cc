@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -170,6 +171,28 @@ TEST(Heights, AreThoseOfOnePlaceAtATime) {
 }
 
 // A ball on a sphere, in closed form.
+TEST(FreeBalls, StandAboveTheHeightsAndNotBelow) {
+  for (const Case& c : Cases()) {
+    SCOPED_TRACE(c.name);
+    const Surface surface = SurfaceOf(c.model);
+    const Locator locator(surface, c.radius);
+    std::vector<Vec2> places;
+    AddGrid(surface, c.radius, 40, places);
+    Answers heights(places.size());
+    Heights(locator, places, heights);
+    // Just above and just below h, and anywhere where nothing lies below.
+    for (const double over : {1e-5, -1e-5, 0.7, -0.7}) {
+      std::vector<Vec3> centers;
+      for (std::size_t i = 0; i < places.size(); ++i)
+        centers.push_back(Lift(places[i], heights[i] ? heights[i]->z + over : -100.0));
+      const auto free = std::make_unique<bool[]>(centers.size());
+      FreeBalls(locator, centers, {free.get(), centers.size()});
+      for (std::size_t i = 0; i < centers.size(); ++i)
+        EXPECT_EQ(free[i], !heights[i] || over > 0.0) << centers[i].transpose() << " over " << over;
+    }
+  }
+}
+
 TEST(Heights, OnASphere) {
   const Surface surface = SurfaceOf(testing::Sphere(Vec3(1, 2, 3), 6.0));
   const Locator locator(surface, 2.0);

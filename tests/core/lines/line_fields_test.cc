@@ -171,7 +171,7 @@ TEST(LineFields, PointsOfTheWorkedExample) {
   const auto root = [&](const ZeroField& field, double v, double u0, double u1) {
     const Vec2 a(u0, v), b(u1, v);
     return u0 +
-           (u1 - u0) * ZeroBetween(field, piece, a, b, Value(field, piece, a), Value(field, piece, b), 0);
+           (u1 - u0) * ZeroBetween(field, piece, a, b, Value(field, piece, a), Value(field, piece, b), 1e-13);
   };
   EXPECT_NEAR(root(SlopeField(std::acos(0.75), axis), 0.6, 0.5, 0.9), 0.706160768718, 1e-10);
   EXPECT_NEAR(root(SlopeExtremumField(axis), 0.15, 0.9, 1.0), 0.999482459387, 1e-10);

@@ -1,0 +1,62 @@
+#include "cam/region/region_fields.h"
+
+#include "core/diffgeo/forms.h"
+#include "core/lines/line_fields.h"
+
+namespace patchmill {
+
+std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& params) {
+  std::vector<ZeroField> fields(kFieldCount);
+  const auto at = [&](Field field) -> ZeroField& { return fields[static_cast<std::size_t>(field)]; };
+  at(Field::kTurn) = SilhouetteField();
+  at(Field::kSlope) = SlopeField(params.steep_angle);
+  at(Field::kCurvature) = ContourCurvatureField();
+  ZeroField& free = at(Field::kFree);
+  free.smooth = false;
+  free.resolution = params.border_tolerance;
+  free.value = [&reach](const SurfaceJet& jet) {
+    const auto normal = UpwardNormal(jet);
+    return !normal ? 0.0 : reach.Free(jet.p, *normal) ? 1.0 : -1.0;
+  };
+  free.values = [&reach](std::span<const SurfaceJet> jets, std::span<double> values) {
+    reach.FreeAt(jets, values);
+  };
+  ZeroField& above = at(Field::kAbove);
+  above.smooth = false;
+  above.resolution = params.border_tolerance;
+  above.where = static_cast<int>(Field::kFree);
+  above.value = [&reach](const SurfaceJet& jet) {
+    const auto normal = UpwardNormal(jet);
+    return !normal ? 0.0 : reach.BlockedAbove(jet.p, *normal) ? -1.0 : 1.0;
+  };
+  at(Field::kFloor).value = [&reach](const SurfaceJet& jet) {
+    const auto normal = UpwardNormal(jet);
+    return !normal ? 0.0 : reach.OverFloor(jet.p, *normal);
+  };
+  ZeroField& allowed = at(Field::kAllowed);
+  allowed.smooth = false;
+  allowed.resolution = params.border_tolerance;
+  allowed.value = [&reach](const SurfaceJet& jet) {
+    const auto normal = UpwardNormal(jet);
+    return !normal ? 0.0 : reach.Allowed(jet.p, *normal) ? 1.0 : -1.0;
+  };
+  if (params.keep_in == nullptr) fields.pop_back();
+  return fields;
+}
+
+SplitLabel LabelOf(const ZeroTriangle& triangle) {
+  const auto sign = [&](Field field) { return triangle.sign[static_cast<std::size_t>(field)]; };
+  SplitLabel label;
+  label.curvature = static_cast<std::int8_t>(sign(Field::kTurn) * sign(Field::kCurvature));
+  label.steep = sign(Field::kSlope) < 0;
+  if (sign(Field::kFree) < 0) {
+    label.reason = sign(Field::kAbove) < 0 ? UnreachableReason::kUndercut : UnreachableReason::kConcave;
+  } else if (sign(Field::kFloor) < 0) {
+    label.reason = UnreachableReason::kFloor;
+  } else if (sign(Field::kAllowed) < 0) {
+    label.reason = UnreachableReason::kAvoided;
+  }
+  return label;
+}
+
+}  // namespace patchmill

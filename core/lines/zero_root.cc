@@ -1,0 +1,38 @@
+#include "core/lines/zero_root.h"
+
+#include <algorithm>
+
+namespace patchmill {
+
+double ZeroBracket::Next() const {
+  if (by_sign_ || waited_ >= kPatience || f_ == g_) return Middle();
+  // Steps stop short of the ends by a part of what is enough: then one more from the other side ends it.
+  const double margin = 0.45 * enough_;
+  return std::clamp((low_ * g_ - high_ * f_) / (g_ - f_), low_ + margin, high_ - margin);
+}
+
+void ZeroBracket::Put(double value) {
+  const double t = Next();
+  const bool below = (value > 0.0) == (f_ > 0.0);
+  (below ? low_ : high_) = t;
+  (below ? f_ : g_) = value;
+  if (side_ == (below ? -1 : 1)) (below ? g_ : f_) *= 0.5;  // Illinois: the end that stays counts half
+  side_ = below ? -1 : 1;
+  waited_ = high_ - low_ <= 0.5 * halved_ || waited_ == kPatience ? 0 : waited_ + 1;
+  if (waited_ == 0) halved_ = high_ - low_;
+  ++steps_;
+}
+
+double EnoughFor(const ZeroField& field, double length) {
+  constexpr double kExact = 1e-13, kLeastLength = 1e-9;
+  return field.smooth ? kExact : std::max(field.resolution / std::max(length, kLeastLength), kExact);
+}
+
+double ZeroBetween(const ZeroField& field, const Piece& piece, const Vec2& from, const Vec2& to,
+                   double at_from, double at_to, double enough) {
+  ZeroBracket bracket(at_from, at_to, enough, !field.smooth);
+  while (bracket.Open()) bracket.Put(Value(field, piece, from + bracket.Next() * (to - from)));
+  return bracket.Middle();
+}
+
+}  // namespace patchmill

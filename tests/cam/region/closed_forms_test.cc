@@ -1,0 +1,226 @@
+// Regions of shapes whose borders are known in closed form: areas, borders and counts to 1e-6, nothing
+// merged.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/region/region_map.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+constexpr double kChord = 1e-7;  // mm, of borders
+
+RegionParams Exact(double radius = 0.5) {
+  RegionParams p;
+  p.radius = radius;
+  p.tolerance = 0.001;
+  p.min_area = 1e-9;
+  p.border_tolerance = kChord;
+  return p;
+}
+
+RegionMap Split(const PatchModel& model, const RegionParams& params) {
+  const Surface surface = SurfaceOf(model);
+  auto map = SplitRegions(surface, params, RunContext());
+  EXPECT_TRUE(map.ok()) << map.status();
+  return *std::move(map);
+}
+
+double Area(const RegionMap& map, RegionKind kind, SlopeClass slope) {
+  double sum = 0.0;
+  for (const Region& r : map.regions) sum += r.kind == kind && r.slope == slope ? r.area : 0.0;
+  return sum;
+}
+int Count(const RegionMap& map, RegionKind kind) {
+  int count = 0;
+  for (const Region& r : map.regions) count += r.kind == kind;
+  return count;
+}
+void ExpectArea(double area, double truth) { EXPECT_NEAR(area, truth, 1e-6 * truth); }
+
+TEST(RegionClosedForms, TorusBands) {
+  // Tube angle t from the outer equator (0) over the crest (90 degrees) to the inner one: a band from t0 to
+  // t1 has the area 2 pi r (R (t1 - t0) + r (sin t1 - sin t0)).
+  const double major = 20, minor = 6;
+  const RegionMap map = Split(Torus(Vec3::Zero(), major, minor, Half::kUpper), Exact());
+  const auto band = [&](double t0, double t1) {
+    return 2 * kPi * minor * (major * (t1 - t0) + minor * (std::sin(t1) - std::sin(t0)));
+  };
+  ASSERT_EQ(map.regions.size(), 4u);
+  ExpectArea(Area(map, RegionKind::kMountain, SlopeClass::kSteep), band(0, Radians(45)));
+  ExpectArea(Area(map, RegionKind::kMountain, SlopeClass::kGentle), band(Radians(45), Radians(90)));
+  ExpectArea(Area(map, RegionKind::kBasin, SlopeClass::kGentle), band(Radians(90), Radians(135)));
+  ExpectArea(Area(map, RegionKind::kBasin, SlopeClass::kSteep), band(Radians(135), Radians(180)));
+  for (const Region& r : map.regions) {
+    EXPECT_EQ(r.border.size(), 2u) << r.id;
+    for (const auto& loop : r.border) {
+      for (const Vec3& p : loop) {
+        // Every border is a circle: equators, 45 degrees, crest.
+        const double rho = std::hypot(p.x(), p.y()) - major, s = minor * std::sqrt(0.5);
+        const double off = std::min({std::abs(p.z()), std::abs(p.z() - minor), std::abs(p.z() - s)});
+        EXPECT_NEAR(std::hypot(rho, p.z()), minor, 1e-9);
+        EXPECT_LT(off, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(RegionClosedForms, ParaboloidIsOneMountainWithASteepRim) {
+  // z = -a (x^2 + y^2): steeper than the angle beyond the radius tan(angle) / (2 a).
+  const double a = 0.05, half = 8, angle = Radians(30);
+  RegionParams params = Exact();
+  params.steep_angle = angle;
+  const RegionMap map = Split(Paraboloid(-a, half), params);
+  const double rho = std::tan(angle) / (2 * a);  // 5.77: inside the square
+  const double cap = kPi / (6 * a * a) * (std::pow(1 + 4 * a * a * rho * rho, 1.5) - 1);
+  EXPECT_EQ(Count(map, RegionKind::kMountain), 2);
+  EXPECT_EQ(map.regions.size(), 2u);
+  ExpectArea(Area(map, RegionKind::kMountain, SlopeClass::kGentle), cap);
+  for (const Region& r : map.regions) {
+    if (r.slope != SlopeClass::kGentle) continue;
+    ASSERT_EQ(r.border.size(), 1u);
+    for (const Vec3& p : r.border[0]) EXPECT_NEAR(std::hypot(p.x(), p.y()), rho, 1e-6);
+  }
+}
+
+TEST(RegionClosedForms, SaddleSectorsMeetInTheNode) {
+  // z = a x^2 - b y^2: borders y = +-sqrt(a/b) x, both signs of each kind, meeting at the origin.
+  const double a = 0.05, b = 0.03, half = 8, k = std::sqrt(a / b);
+  RegionParams params = Exact();
+  params.steep_angle = Radians(85);
+  const RegionMap map = Split(Saddle(a, b, half), params);
+  EXPECT_EQ(Count(map, RegionKind::kMountain), 2);
+  EXPECT_EQ(Count(map, RegionKind::kBasin), 2);
+  EXPECT_EQ(map.regions.size(), 4u);
+  // Area over |y| > k |x| by Simpson's rule in polar strips: integral over x of the y range up to `half`.
+  const auto element = [&](double x, double y) {
+    return std::sqrt(1 + 4 * a * a * x * x + 4 * b * b * y * y);
+  };
+  const auto simpson = [](double from, double to, int n, const auto& f) {
+    double sum = f(from) + f(to);
+    const double h = (to - from) / n;
+    for (int i = 1; i < n; ++i) sum += (i % 2 == 0 ? 2.0 : 4.0) * f(from + i * h);
+    return sum * h / 3.0;
+  };
+  const double over = 4 * simpson(0, half / k, 200, [&](double x) {
+                        return simpson(k * x, half, 200, [&](double y) { return element(x, y); });
+                      });
+  const double all = 4 * simpson(0, half, 200, [&](double x) {
+                       return simpson(0, half, 200, [&](double y) { return element(x, y); });
+                     });
+  // D = 8ab (b y^2 - a x^2): basins where |y| > k |x|.
+  ExpectArea(Area(map, RegionKind::kBasin, SlopeClass::kGentle), over);
+  ExpectArea(Area(map, RegionKind::kMountain, SlopeClass::kGentle), all - over);
+  for (const Region& r : map.regions) {
+    ASSERT_EQ(r.border.size(), 1u);
+    bool node = false;
+    for (const Vec3& p : r.border[0]) {
+      const bool outer = std::max(std::abs(p.x()), std::abs(p.y())) > half - 1e-9;
+      node = node || p.norm() < 1e-9;
+      EXPECT_TRUE(outer || std::abs(std::abs(p.y()) - k * std::abs(p.x())) < 1e-6) << p.transpose();
+    }
+    EXPECT_TRUE(node) << r.id;
+  }
+}
+
+TEST(RegionClosedForms, SaddleNodeAnywhereInThePatch) {
+  // The same saddle moved off the quadtree's grid, as a part of a larger one: still four sectors.
+  const double a = 0.05, b = 0.03;
+  for (const Vec2& shift : {Vec2(1.3, -0.7), Vec2(2.71, 3.14)}) {
+    PatchModel model = Saddle(a, b, 8);
+    // z of a x^2 - b y^2 about `shift`: subtract the linear part, which a shear does.
+    auto& patch = std::get<BezierPatch>(model.patches[0].shape);
+    for (Vec3& p : patch.points) p.z() += -2 * a * shift.x() * p.x() + 2 * b * shift.y() * p.y();
+    RegionParams params = Exact();
+    params.steep_angle = Radians(85);
+    const RegionMap map = Split(model, params);
+    EXPECT_EQ(Count(map, RegionKind::kMountain), 2);
+    EXPECT_EQ(Count(map, RegionKind::kBasin), 2);
+    bool node = false;
+    for (const Region& r : map.regions) {
+      for (const auto& loop : r.border) {
+        for (const Vec3& p : loop) node = node || (Plan(p) - shift).norm() < 1e-9;
+      }
+    }
+    EXPECT_TRUE(node);
+  }
+}
+
+TEST(RegionClosedForms, HemisphereOnAPlane) {
+  const double r = 8, radius = 3, tolerance = 0.01, half = 20;
+  RegionParams params = Exact(radius);
+  params.tolerance = tolerance;
+  params.border_tolerance = 1e-4;
+  const RegionMap map = Split(Join({Plane(half), Sphere(Vec3::Zero(), r, Half::kUpper)}), params);
+  double total = 0, unreachable = 0;
+  for (const Region& region : map.regions) {
+    total += region.area;
+    if (region.kind == RegionKind::kUnreachable) unreachable += region.area;
+  }
+  ExpectArea(total, 4 * half * half + 2 * kPi * r * r);
+  // Plane: within the circle where a ball of R - tol that stands R high touches the sphere. Sphere: below the
+  // circle where a ball that touches it comes down to R - tol.
+  const double reach = radius - tolerance;
+  const double disc = kPi * ((r + reach) * (r + reach) - radius * radius);
+  const double band = 2 * kPi * r * r * reach / (r + radius);
+  EXPECT_NEAR(unreachable, disc + band, 2e-4 * (disc + band));
+  // Limits of reach lie on these circles.
+  const double limit = std::sqrt((r + reach) * (r + reach) - radius * radius);
+  const double height = r * reach / (r + radius);
+  for (const Region& region : map.regions) {
+    if (region.kind != RegionKind::kUnreachable || region.reason != UnreachableReason::kConcave) continue;
+    for (const auto& loop : region.border) {
+      for (const Vec3& p : loop) {
+        const double rho = std::hypot(p.x(), p.y());
+        // Outer limit on the plane, upper limit on the sphere; the rest borders on UNDERCUT or is the rim.
+        if (p.z() < 1e-9 && rho > r + 0.5) {
+          EXPECT_NEAR(rho, limit, 1e-3);
+        }
+        if (p.z() > 0.5 * height) {
+          EXPECT_NEAR(p.z(), height, 1e-3);
+        }
+      }
+    }
+  }
+}
+
+TEST(RegionClosedForms, GaussianHillIsOneMountain) {
+  // Contours of exp(-r^2/2s^2) are circles: convex at every height, whatever the slope.
+  const auto hill = [](double x, double y) { return 12 * std::exp(-(x * x + y * y) / 200); };
+  PatchModel model = Single(InterpolatedHeights(hill, -15, 15, -15, 15, 20, 20));
+  RegionParams params = Exact();
+  params.steep_angle = Radians(80);
+  const RegionMap map = Split(model, params);
+  EXPECT_EQ(map.regions.size(), 1u);
+  EXPECT_EQ(map.regions[0].kind, RegionKind::kMountain);
+}
+
+TEST(RegionClosedForms, WavySheet) {
+  // A ruled wave z = f(y) sheared to a slope along x: level lines are graphs x = -f(y)/s, whose inflections
+  // are the zeros of f''. Cubic f per patch: f'' is linear, so the border is the straight line y = 0.
+  const double slope = 0.5, c = 0.004, half = 10;
+  const auto height = [&](double x, double y) { return slope * x + c * y * y * y; };
+  PatchModel model = Single(InterpolatedHeights(height, -half, half, -half, half, 3, 3));
+  RegionParams params = Exact();
+  params.steep_angle = Radians(80);
+  const RegionMap map = Split(model, params);
+  ASSERT_EQ(map.regions.size(), 2u);
+  EXPECT_EQ(Count(map, RegionKind::kMountain), 1);
+  EXPECT_EQ(Count(map, RegionKind::kBasin), 1);
+  EXPECT_NEAR(map.regions[0].area, map.regions[1].area, 1e-6 * map.regions[0].area);
+  for (const Region& r : map.regions) {
+    ASSERT_EQ(r.border.size(), 1u);
+    for (const Vec3& p : r.border[0]) {
+      const bool outer = std::max(std::abs(p.x()), std::abs(p.y())) > half - 1e-9;
+      EXPECT_TRUE(outer || std::abs(p.y()) < 1e-6) << p.transpose();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
