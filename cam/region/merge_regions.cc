@@ -1,11 +1,50 @@
 #include "cam/region/merge_regions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "cam/region/label_cut.h"
+
 namespace patchmill {
 namespace {
+
+bool Reached(const SplitLabel& label) { return label.reason == UnreachableReason::kNone; }
+
+// The labels of least energy, in place.
+void Relabel(const std::vector<RawContact>& contacts, const MergeParams& params,
+             std::vector<RawRegion>& regions) {
+  std::vector<double> basin(regions.size(), 0.0), no_mountain = basin, steep = basin;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const RawRegion& r = regions[i];
+    if (!Reached(r.label)) continue;
+    const double bend = std::abs(r.curvature);
+    const bool flat = r.label.curvature == 0 || bend < params.flat * r.area;
+    // Cost of +1 against 0, and of 0 against -1: the loss is |label - own| times the bend.
+    const double side = r.label.curvature > 0 ? -1.0 : 1.0;
+    basin[i] = flat ? params.flat_cost * r.area : side * bend;
+    no_mountain[i] = flat ? -params.flat_cost * r.area : side * bend;
+    steep[i] = -r.steepness;
+  }
+  const auto pairs = [&](double cost) {
+    std::vector<LabelPair> list;
+    for (const RawContact& c : contacts) {
+      const auto reached = [&](int k) { return Reached(regions[static_cast<std::size_t>(k)].label); };
+      if (c.a != c.b && reached(c.a) && reached(c.b)) list.push_back({c.a, c.b, cost * c.length});
+    }
+    return list;
+  };
+  const std::vector<LabelPair> turn = pairs(params.border_turn);
+  const std::vector<bool> is_basin = LeastCut(basin, turn), is_no_mountain = LeastCut(no_mountain, turn);
+  const std::vector<bool> is_steep = LeastCut(steep, pairs(params.border_slope));
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    SplitLabel& label = regions[i].label;
+    if (!Reached(label)) continue;
+    label.curvature = static_cast<std::int8_t>(is_basin[i] ? 1 : is_no_mountain[i] ? 0 : -1);
+    label.steep = is_steep[i];
+  }
+}
 
 struct Node {
   SplitLabel label;
@@ -23,6 +62,7 @@ class Merger {
     for (std::size_t i = 0; i < raw.size(); ++i) {
       parent_[i] = static_cast<int>(i);
       nodes_.push_back({raw[i].label, raw[i].area, raw[i].curvature, {}, true});
+      if (Reached(raw[i].label)) ++reached_;
     }
     for (const RawContact& c : contacts) {
       if (c.a == c.b) continue;
@@ -32,14 +72,15 @@ class Merger {
   }
 
   MergedRegions Run() {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) FuseEqual(static_cast<int>(i));
     for (Node& node : nodes_) Neutralise(node);
     for (std::size_t i = 0; i < nodes_.size(); ++i) FuseEqual(static_cast<int>(i));
     // Regions queued by area; a region's place is renewed whenever it grows.
     std::set<std::pair<double, int>> queue;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      if (nodes_[i].alive) queue.insert({nodes_[i].area, static_cast<int>(i)});
+      if (nodes_[i].alive && Reached(nodes_[i].label)) queue.insert({nodes_[i].area, static_cast<int>(i)});
     }
-    while (!queue.empty() && queue.begin()->first < params_.min_area) {
+    while (!queue.empty() && (queue.begin()->first < params_.min_area || reached_ > params_.max_regions)) {
       const int small = queue.begin()->second;
       queue.erase(queue.begin());
       const int into = BestNeighbour(small);
@@ -75,17 +116,14 @@ class Merger {
       int best = -1;
       for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Node& n = nodes_[i];
-        if (!n.alive || n.label.reason != UnreachableReason::kNone ||
-            (label != nullptr && !(n.label == *label)))
-          continue;
+        if (!n.alive || !Reached(n.label) || (label != nullptr && !(n.label == *label))) continue;
         if (best < 0 || n.area > nodes_[static_cast<std::size_t>(best)].area) best = static_cast<int>(i);
       }
       return best;
     };
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const Node& node = nodes_[i];
-      if (!node.alive || node.label.reason != UnreachableReason::kNone || node.area >= params_.min_area)
-        continue;
+      if (!node.alive || !Reached(node.label) || node.area >= params_.min_area) continue;
       int into = largest(&node.label);
       if (into == static_cast<int>(i)) into = largest(nullptr);
       if (into >= 0 && into != static_cast<int>(i)) Join(into, static_cast<int>(i));
@@ -97,26 +135,23 @@ class Merger {
     std::map<UnreachableReason, int> first;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const Node& node = nodes_[i];
-      if (!node.alive || node.label.reason == UnreachableReason::kNone || node.area >= params_.min_area)
-        continue;
+      if (!node.alive || Reached(node.label) || node.area >= params_.min_area) continue;
       const auto [it, fresh] = first.try_emplace(node.label.reason, static_cast<int>(i));
       if (!fresh) Join(it->second, static_cast<int>(i));
     }
   }
 
   void Neutralise(Node& node) const {
-    if (node.label.reason == UnreachableReason::kNone && std::abs(node.curvature) < params_.min_curvature)
-      node.label.curvature = 0;
-    if (node.label.reason != UnreachableReason::kNone) node.label = {0, false, node.label.reason};
+    if (Reached(node.label) && std::abs(node.curvature) < params_.min_curvature) node.label.curvature = 0;
   }
 
   int BestNeighbour(int i) const {
     const Node& node = nodes_[static_cast<std::size_t>(i)];
-    if (node.label.reason != UnreachableReason::kNone) return -1;  // reasons are never mixed
+    if (!Reached(node.label)) return -1;  // reasons are never mixed
     int best = -1;
     double longest = 0.0;
     for (const auto& [other, length] : node.border) {
-      if (nodes_[static_cast<std::size_t>(other)].label.reason != UnreachableReason::kNone) continue;
+      if (!Reached(nodes_[static_cast<std::size_t>(other)].label)) continue;
       if (length > longest) {
         longest = length;
         best = other;
@@ -142,6 +177,7 @@ class Merger {
     a.border.erase(gone);
     b.border.clear();
     b.alive = false;
+    if (Reached(b.label)) --reached_;
     parent_[static_cast<std::size_t>(gone)] = into;
   }
 
@@ -163,13 +199,16 @@ class Merger {
   const MergeParams& params_;
   std::vector<Node> nodes_;
   std::vector<int> parent_;
+  int reached_ = 0;  // nodes alive that a ball reaches
 };
 
 }  // namespace
 
 MergedRegions MergeRegions(const std::vector<RawRegion>& raw, const std::vector<RawContact>& contacts,
                            const MergeParams& params) {
-  return Merger(raw, contacts, params).Run();
+  std::vector<RawRegion> labelled = raw;
+  Relabel(contacts, params, labelled);
+  return Merger(labelled, contacts, params).Run();
 }
 
 }  // namespace patchmill

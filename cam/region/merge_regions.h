@@ -1,4 +1,4 @@
-// Raw regions of the split -> regions a machinist would draw (ALGORITHMS 4, merging). Grouping and order
+// Raw regions of the split -> regions a machinist would draw (ALGORITHMS 4, 12: merging). Grouping and order
 // only, never coverage.
 #pragma once
 
@@ -13,6 +13,7 @@ struct RawRegion {
   SplitLabel label;
   double area = 0.0;       // mm^2
   double curvature = 0.0;  // integral of kappa_c, mm: how much of a mountain or basin it is
+  double steepness = 0.0;  // integral of slope - steep angle, rad mm^2: how much it is steep or gentle
 };
 
 struct RawContact {
@@ -21,8 +22,13 @@ struct RawContact {
 };
 
 struct MergeParams {
+  double border_turn = 0.1;    // rad: what a mm of border costs against a mm^2 of contour curvature
+  double border_slope = 0.3;   // rad mm: and against a mm^2 of slope off the steep angle
+  double flat = 0.0022;        // 1/mm: mean contour curvature that no tool could feel
+  double flat_cost = 0.03;     // 1/mm: what a mm^2 of flat ground costs that goes with a mountain or basin
   double min_area = 50.0;      // mm^2: smaller reachable regions join a neighbour
   double min_curvature = 0.5;  // mm: regions that bend less than this in all are neutral
+  int max_regions = 20;        // reachable ones; smaller ones join a neighbour while there are more
 };
 
 struct MergedRegions {
@@ -30,10 +36,14 @@ struct MergedRegions {
   std::vector<SplitLabel> label;  // of each group
 };
 
-// Deterministic function of its input: neutral relabelling, fusing of equal labels, then again and again the
-// smallest region (by area, then index) below min_area joins the neighbour with the longest common border
-// (ties: lower index), equal labels fuse. Regions that no ball reaches keep apart from those that are
-// reached; they fuse by reason.
+// First every raw region gets the labels that cost least in all: what it gives up in curvature and slope
+// against the length of the borders drawn (a Potts energy; mountain - neutral - basin as three ordered labels
+// falls into two cuts, steep - gentle is a third, each least by LeastCut). There is no order of merging: the
+// labels follow from the areas and lengths of the split alone, and a strip whose normal turns by less than
+// 2 border_turn, or whose slope is off by less than 2 border_slope over its width, goes with its sides. Then
+// neighbours of equal labels are one region, and the smallest (by area, then index) joins the neighbour with
+// the longest common border while it is below min_area or there are more than max_regions. What no ball
+// reaches keeps apart from what is reached; it fuses by reason.
 MergedRegions MergeRegions(const std::vector<RawRegion>& raw, const std::vector<RawContact>& contacts,
                            const MergeParams& params);
 

@@ -36,11 +36,12 @@ void Connect(const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>&
       int& region = index[sets.Find(number(static_cast<int>(piece), triangle))];
       if (region < 0) {
         region = static_cast<int>(raw.regions.size());
-        raw.regions.push_back({t.label, 0.0, 0.0});
+        raw.regions.push_back({t.label});
       }
       RawRegion& r = raw.regions[static_cast<std::size_t>(region)];
       r.area += t.area;
       r.curvature += t.curvature;
+      r.steepness += t.steepness;
       raw.of.back().push_back(region);
     }
   }

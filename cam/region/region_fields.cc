@@ -47,8 +47,6 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
 SplitLabel LabelOf(const ZeroTriangle& triangle) {
   const auto sign = [&](Field field) { return triangle.sign[static_cast<std::size_t>(field)]; };
   SplitLabel label;
-  label.curvature = static_cast<std::int8_t>(sign(Field::kTurn) * sign(Field::kCurvature));
-  label.steep = sign(Field::kSlope) < 0;
   if (sign(Field::kFree) < 0) {
     label.reason = sign(Field::kAbove) < 0 ? UnreachableReason::kUndercut : UnreachableReason::kConcave;
   } else if (sign(Field::kFloor) < 0) {
@@ -56,6 +54,9 @@ SplitLabel LabelOf(const ZeroTriangle& triangle) {
   } else if (sign(Field::kAllowed) < 0) {
     label.reason = UnreachableReason::kAvoided;
   }
+  if (label.reason != UnreachableReason::kNone) return label;
+  label.curvature = static_cast<std::int8_t>(sign(Field::kTurn) * sign(Field::kCurvature));
+  label.steep = sign(Field::kSlope) < 0;
   return label;
 }
 

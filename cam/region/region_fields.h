@@ -26,7 +26,8 @@ static_assert(kFieldCount <= kMaxZeroFields);
 // Fields in the order of the enum; they keep a reference to `reach`.
 std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& params);
 
-// What a triangle is. Triangles of equal labels that share an edge belong together.
+// What a triangle is; unreachable ground has no other label. Triangles of equal labels that share an edge
+// belong together.
 struct SplitLabel {
   std::int8_t curvature = 0;  // -1 mountain, +1 basin, 0 flat along the contour (upward normal)
   bool steep = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "cam/region/describe_regions.h"
@@ -18,21 +19,38 @@ namespace {
 // A region that bends less than this in all is neither mountain nor basin (ALGORITHMS 4, S0).
 constexpr double kMinCurvature = 0.5;  // mm
 
+// A strip whose normal turns by twice this across it is not worth its borders (at middle detail).
+constexpr double kBorderTurn = 0.1;  // rad
+constexpr int kMostRegions = 40;     // reachable ones, at full detail
+
 // Shapes below this part of the ball's radius are too small for it to feel.
 constexpr double kMinCell = 0.06;
 
 ZeroMeshParams MeshParams(const Surface& surface, const RegionParams& params) {
   ZeroMeshParams p;
   p.max_turn = 0.7;
+  p.skip_negligible = true;
   p.max_cell = std::max(0.6 * params.radius, 0.02 * surface.box.Diagonal());
   p.min_cell = kMinCell * params.radius;
   return p;
 }
 
 MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
+  constexpr double kCoarsest = 0.05;
   MergeParams p;
-  p.min_area = params.min_area > 0.0 ? params.min_area : 2.0 * kPi * params.radius * params.radius;
-  p.min_curvature = kMinCurvature;
+  if (params.detail >= 1.0) {
+    p.border_turn = p.border_slope = p.flat = p.min_area = p.min_curvature = 0.0;
+    p.max_regions = std::numeric_limits<int>::max();
+  } else {
+    const double detail = std::max(params.detail, kCoarsest), coarse = (1.0 - detail) / detail;
+    p.border_turn = kBorderTurn * coarse;
+    p.border_slope = p.border_turn * params.radius;
+    p.flat = 8.0 * params.tolerance / (4.0 * params.radius * params.radius);
+    p.flat_cost = kBorderTurn / params.radius;
+    p.min_area = 2.0 * kPi * params.radius * params.radius * coarse;
+    p.min_curvature = kMinCurvature;
+    p.max_regions = std::max(1, static_cast<int>(kMostRegions * detail));
+  }
   return MergeRegions(raw.regions, raw.contacts, p);
 }
 
@@ -151,7 +169,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   const ZeroMeshParams mesh_params = MeshParams(surface, params);
   std::vector<SplitMesh> meshes(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions", meshes.size(), [&](std::size_t i) {
-    meshes[i] = BuildSplitMesh(surface.pieces[i], fields, mesh_params);
+    meshes[i] = BuildSplitMesh(surface.pieces[i], fields, params.steep_angle, mesh_params);
   }));
   PM_ASSIGN_OR_RETURN(const std::vector<Adjacency> adjacency, FindAdjacency(surface, meshes, run));
   PM_ASSIGN_OR_RETURN(const RawRegions raw,

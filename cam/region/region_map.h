@@ -26,9 +26,12 @@ struct RegionParams {
   double radius = 3.0;      // mm, ball + stock to leave
   double tolerance = 0.01;  // mm: reachable means free for a ball of radius - tolerance
   double steep_angle = Radians(45.0);
-  double floor_z = -kInfinity;      // mm, lowest tip
-  double border_tolerance = 0.01;   // mm, sagitta of border polylines on the true loci
-  double min_area = 0.0;            // mm^2, regions below are merged; 0: two tool discs, 2 pi R^2
+  double floor_z = -kInfinity;     // mm, lowest tip
+  double border_tolerance = 0.01;  // mm, sagitta of border polylines on the true loci
+  // How finely the surface is divided, 0 (coarse) to 1 (the raw split: nothing is merged). Of less than 1, at
+  // detail d: regions below 2 pi R^2 (1-d)/d join a neighbour, borders cost in the same proportion
+  // (merge_regions.h), and at most 40 d reachable regions remain, those without a neighbour not counted.
+  double detail = 0.5;
   const KeepIn* keep_in = nullptr;  // where it allows no centre the reason is kAvoided; null: allows all
 };
 

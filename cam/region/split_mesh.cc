@@ -53,14 +53,14 @@ double SurfaceArea(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2&
   return area;
 }
 
-SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields,
+SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, double steep_angle,
                          const ZeroMeshParams& params) {
   ZeroMesh zero = BuildZeroMesh(piece, fields, params);
   SplitMesh mesh;
   mesh.vertices = std::move(zero.vertices);
   mesh.triangles.reserve(zero.triangles.size());
   for (const ZeroTriangle& t : zero.triangles) {
-    SplitTriangle triangle{t.vertex, LabelOf(t), 0.0, 0.0};
+    SplitTriangle triangle{t.vertex, LabelOf(t)};
     Vec2 q[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(t.vertex[k])];
@@ -72,8 +72,11 @@ SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields,
       const Vec3 normal = jet.du.cross(jet.dv);
       const double element = weight * normal.norm();
       triangle.area += element;
-      if (const auto unit = UnitNormal(jet))
-        triangle.curvature += turn * element * ContourCurvature(jet, Forms(jet, *unit));
+      const auto unit = UnitNormal(jet);
+      if (!unit) return;
+      const double slope = std::atan2(std::hypot(unit->x(), unit->y()), std::abs(unit->z()));
+      triangle.steepness += element * (slope - steep_angle);
+      triangle.curvature += turn * element * ContourCurvature(jet, Forms(jet, *unit));
     });
     mesh.triangles.push_back(triangle);
   }

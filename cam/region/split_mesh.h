@@ -14,6 +14,7 @@ struct SplitTriangle {
   SplitLabel label;
   double area = 0.0;       // mm^2 on the surface, of the triangle with straight sides in (u,v)
   double curvature = 0.0;  // integral of kappa_c (upward normal) over it, mm
+  double steepness = 0.0;  // integral of slope - steep angle over it, rad mm^2
 };
 
 struct SplitMesh {
@@ -21,9 +22,10 @@ struct SplitMesh {
   std::vector<SplitTriangle> triangles;
 };
 
-// `fields` as RegionFields gives them. Areas by a rule of degree 5 on triangles whose normals turn by less
-// than 0.35 rad: about 1e-8 of them.
-SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, const ZeroMeshParams& params);
+// `fields` as RegionFields gives them. `steep_angle` in rad. Areas by a rule of degree 5 on triangles
+// whose normals turn by less than 0.35 rad: about 1e-8 of them.
+SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, double steep_angle,
+                         const ZeroMeshParams& params);
 
 // Area on the surface (mm^2) over a triangle of parameters, positive when counter-clockwise.
 double SurfaceArea(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2& c);

@@ -53,7 +53,8 @@ FormSign SignOf(const BernsteinForm& form) {
   const auto [low, high] = std::minmax_element(form.c.begin(), form.c.end());
   if (*low > form.slack) return FormSign::kPositive;
   if (*high < -form.slack) return FormSign::kNegative;
-  return *low >= -form.slack && *high <= form.slack ? FormSign::kZero : FormSign::kOpen;
+  const double nothing = std::max(form.slack, form.negligible);
+  return *low >= -nothing && *high <= nothing ? FormSign::kZero : FormSign::kOpen;
 }
 
 bool IsGraph(const BernsteinForm& form) {

@@ -11,6 +11,7 @@ namespace {
 
 using Form = ScaledBernstein<double>;
 
+constexpr double kNegligible = 1e-6;                   // of a field's unit
 constexpr double kRounding = 64 * 2.2e-16;             // of a chain of products and differences
 constexpr int kMaxDegreeOfForm = 2 * kMaxBasisDegree;  // what Binomial knows
 
@@ -50,7 +51,10 @@ double Largest(const Form& f) {
   return most;
 }
 
-BernsteinForm Finished(const Form& f, double slack) { return {f.m, f.n, f.Unscaled(), slack}; }
+// `unit`: the value of the form where its field is 1 (1/mm for curvatures), at most.
+BernsteinForm Finished(const Form& f, double noise, double unit) {
+  return {f.m, f.n, f.Unscaled(), noise * unit, kNegligible * unit};
+}
 
 // One coordinate of the homogeneous net with its derivatives.
 struct Coordinate {
@@ -186,7 +190,7 @@ Form Dot(const Parts& parts, const Form (&other)[3]) {
 std::optional<BernsteinForm> TurnForm(const BernsteinNet& net) {
   if (TooHigh(net, 2, -1, 3, -1)) return std::nullopt;
   const Parts parts = MakeParts(net);
-  return Finished(parts.normal[2], Noise(net) * LargestNormal(parts));
+  return Finished(parts.normal[2], Noise(net), LargestNormal(parts));
 }
 
 std::optional<BernsteinForm> SlopeForm(const BernsteinNet& net, double cosine) {
@@ -194,8 +198,8 @@ std::optional<BernsteinForm> SlopeForm(const BernsteinNet& net, double cosine) {
   const Parts parts = MakeParts(net);
   const double c2 = cosine * cosine, largest = LargestNormal(parts);
   const auto& n = parts.normal;
-  return Finished((1.0 - c2) * (n[2] * n[2]) - c2 * (n[0] * n[0] + n[1] * n[1]),
-                  Noise(net) * largest * largest);
+  return Finished((1.0 - c2) * (n[2] * n[2]) - c2 * (n[0] * n[0] + n[1] * n[1]), Noise(net),
+                  largest * largest);
 }
 
 std::optional<BernsteinForm> EyeForm(const BernsteinNet& net, const Vec3& eye) {
@@ -209,7 +213,7 @@ std::optional<BernsteinForm> EyeForm(const BernsteinNet& net, const Vec3& eye) {
   const Parts parts = MakeParts(moved);
   // (S - eye) . (S_u x S_v): w^3 times it is the determinant of the moved net and its derivatives.
   const Form form = Triple(parts.x[0], parts.x[1], parts.x[2]);
-  return Finished(form, Noise(moved) * LargestNormal(parts) * reach);
+  return Finished(form, Noise(moved), LargestNormal(parts) * reach);
 }
 
 std::optional<BernsteinForm> ContourCurvatureForm(const BernsteinNet& net) {
@@ -223,7 +227,7 @@ std::optional<BernsteinForm> ContourCurvatureForm(const BernsteinNet& net) {
   sum = sum - 2.0 * (SecondForm(parts, &Coordinate::uv) * (zu * zv));
   if (net.degree_v > 1) sum = sum + SecondForm(parts, &Coordinate::vv) * (zu * zu);
   const double largest = LargestNormal(parts);
-  return Finished(sum, Noise(net) * largest * largest * largest);
+  return Finished(sum, Noise(net), largest * largest * largest);
 }
 
 std::optional<BernsteinForm> SlopeExtremumForm(const BernsteinNet& net) {
@@ -239,11 +243,11 @@ std::optional<BernsteinForm> SlopeExtremumForm(const BernsteinNet& net) {
                        parts.normal[2] * parts.normal[2];
   const Form form = squared * along[2] - parts.normal[2] * Dot(parts, along);
   const double largest = LargestNormal(parts);
-  return Finished(form, Noise(net) * largest * largest * largest * std::max(Largest(zu), Largest(zv)));
+  return Finished(form, Noise(net), largest * largest * largest * std::max(Largest(zu), Largest(zv)));
 }
 
 std::optional<BernsteinForm> LevelForm(const BernsteinNet& net, const Vec3& axis, double level) {
-  BernsteinForm form{net.degree_u, net.degree_v, {}, 0.0};
+  BernsteinForm form{net.degree_u, net.degree_v, {}, 0.0, 0.0};
   for (const Vec4& p : net.points) {
     const double height = axis.dot(p.head<3>());
     form.c.push_back(height - level * p.w());

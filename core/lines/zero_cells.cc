@@ -67,6 +67,7 @@ class Divider {
       std::optional<BernsteinForm> form;
       if (fields_[k].form) form = fields_[k].form(piece_.net);
       if (form) {
+        if (!params_.skip_negligible) form->negligible = 0.0;
         open.push_back({k, *std::move(form)});
       } else {
         sampled_.push_back(k);

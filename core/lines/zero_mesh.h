@@ -42,6 +42,9 @@ struct ZeroMeshParams {
   double min_cell = 0.1;   // mm: cells are not divided below about this side, nor below 1/128 of a piece
   // Leaves out cells where every field is proven to have one sign: enough to draw curves, no tiling.
   bool curves_only = false;
+  // Divides no cell for the sake of a form that is negligible all over it (BernsteinForm): vertical walls and
+  // flat plates of files with few digits would be divided to the last.
+  bool skip_negligible = false;
 };
 
 // Cuts along fields[0], then fields[1], ... (at most kMaxZeroFields). Deterministic. Cost: some microseconds

@@ -19,7 +19,7 @@ RegionParams Exact(double radius = 0.5) {
   RegionParams p;
   p.radius = radius;
   p.tolerance = 0.001;
-  p.min_area = 1e-9;
+  p.detail = 1.0;
   p.border_tolerance = kChord;
   return p;
 }

@@ -48,7 +48,7 @@ double Total(const RegionMap& map) {
 
 RegionParams Unmerged() {
   RegionParams p;
-  p.min_area = 1e-6;
+  p.detail = 1.0;
   p.border_tolerance = 1e-4;
   return p;
 }

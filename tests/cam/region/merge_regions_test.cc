@@ -1,0 +1,127 @@
+// Labels of least energy against every other labelling, and what merging must keep.
+#include "cam/region/merge_regions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/region/label_cut.h"
+#include "tests/support/random.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Random;
+
+double Energy(const std::vector<double>& cost, const std::vector<LabelPair>& pairs, unsigned ones) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < cost.size(); ++i) sum += ((ones >> i) & 1u) != 0 ? cost[i] : 0.0;
+  for (const LabelPair& p : pairs) sum += ((ones >> p.a) & 1u) != ((ones >> p.b) & 1u) ? p.weight : 0.0;
+  return sum;
+}
+
+TEST(LeastCut, NoOtherSetCostsLess) {
+  Random random(7);
+  for (int round = 0; round < 200; ++round) {
+    const int n = 2 + round % 9;
+    std::vector<double> cost;
+    std::vector<LabelPair> pairs;
+    for (int i = 0; i < n; ++i) cost.push_back(random.Uniform(-1, 1));
+    for (int i = 0; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
+        if (random.Uniform(0, 1) < 0.5) pairs.push_back({i, j, random.Uniform(0, 0.8)});
+      }
+    }
+    const std::vector<bool> cut = LeastCut(cost, pairs);
+    unsigned ones = 0;
+    for (int i = 0; i < n; ++i) ones |= cut[static_cast<std::size_t>(i)] ? 1u << i : 0u;
+    const double least = Energy(cost, pairs, ones);
+    for (unsigned other = 0; other < 1u << n; ++other) EXPECT_LE(least, Energy(cost, pairs, other) + 1e-12);
+    std::reverse(pairs.begin(), pairs.end());
+    EXPECT_EQ(LeastCut(cost, pairs), cut);
+  }
+}
+
+TEST(LeastCut, TakesTheSmallestOfEqualSets) {
+  EXPECT_EQ(LeastCut(std::vector<double>{0.0, 0.0}, {}), (std::vector<bool>{false, false}));
+  const std::vector<LabelPair> pair = {{0, 1, 1.0}};
+  EXPECT_EQ(LeastCut(std::vector<double>{-1.0, 1.0}, pair), (std::vector<bool>{false, false}));
+  EXPECT_EQ(LeastCut(std::vector<double>{-1.5, 1.0}, pair), (std::vector<bool>{true, false}));
+  EXPECT_EQ(LeastCut(std::vector<double>{-1.5, 0.5}, pair), (std::vector<bool>{true, true}));
+}
+
+// A strip `width` wide and 100 long that bends by `turn` across it, between two halves of a large mountain.
+std::vector<RawRegion> WithStrip(double width, double turn) {
+  SplitLabel mountain, basin;
+  mountain.curvature = -1;
+  basin.curvature = 1;
+  return {{mountain, 4000, -400, -3000},
+          {basin, 100 * width, 100 * turn, -75 * width},
+          {mountain, 4000, -400, -3000}};
+}
+const std::vector<RawContact> kAlongTheStrip = {{0, 1, 100}, {1, 2, 100}};
+
+TEST(MergeRegions, StripsGoWithTheirSidesUntilTheyTurnEnough) {
+  MergeParams params;
+  params.min_area = 0;
+  // A strip gives up 2 turn a mm when it changes sides, and saves two borders.
+  for (const double turn : {0.05, 0.19}) {
+    const MergedRegions merged = MergeRegions(WithStrip(10, turn), kAlongTheStrip, params);
+    EXPECT_EQ(merged.label.size(), 1u) << turn;
+    EXPECT_EQ(merged.label[0].curvature, -1);
+  }
+  for (const double turn : {0.21, 0.5})
+    EXPECT_EQ(MergeRegions(WithStrip(10, turn), kAlongTheStrip, params).label.size(), 3u);
+}
+
+TEST(MergeRegions, SmallRegionsJoinTheNeighbourWithTheLongestBorder) {
+  MergeParams params;
+  params.border_turn = params.border_slope = 0;
+  params.min_area = 50;
+  SplitLabel mountain, basin, neutral;
+  mountain.curvature = -1;
+  basin.curvature = 1;
+  const std::vector<RawRegion> raw = {
+      {mountain, 500, -20, -100}, {basin, 10, 2, -3}, {neutral, 500, 0, -100}};
+  const MergedRegions merged =
+      MergeRegions(raw, std::vector<RawContact>{{0, 1, 3}, {1, 2, 5}, {0, 2, 40}}, params);
+  EXPECT_EQ(merged.group[1], merged.group[2]);
+  EXPECT_NE(merged.group[1], merged.group[0]);
+}
+
+TEST(MergeRegions, NoMoreThanAskedForAndTheLargestStay) {
+  MergeParams params;
+  params.border_turn = params.border_slope = 0;
+  params.min_area = 0;
+  params.max_regions = 5;
+  std::vector<RawRegion> raw;
+  std::vector<RawContact> contacts;
+  for (int i = 0; i < 30; ++i) {
+    SplitLabel label;
+    label.curvature = static_cast<std::int8_t>(i % 2 == 0 ? -1 : 1);
+    const double area = 10 + (i * 7) % 30;
+    raw.push_back({label, area, label.curvature * area, -area});
+    if (i > 0) contacts.push_back({i - 1, i, 5.0});
+  }
+  const MergedRegions merged = MergeRegions(raw, contacts, params);
+  EXPECT_LE(merged.label.size(), 5u);
+  EXPECT_GE(merged.label.size(), 2u);
+}
+
+TEST(MergeRegions, WhatIsNotReachedKeepsApartByReason) {
+  SplitLabel gentle, concave, undercut;
+  concave.reason = UnreachableReason::kConcave;
+  undercut.reason = UnreachableReason::kUndercut;
+  const std::vector<RawRegion> raw = {
+      {gentle, 900, 0, -500}, {concave, 3, 0, 0}, {concave, 4, 0, 0}, {undercut, 900, 0, 0}};
+  const std::vector<RawContact> contacts = {{0, 1, 5}, {0, 2, 5}, {0, 3, 50}, {1, 3, 2}};
+  const MergedRegions merged = MergeRegions(raw, contacts, MergeParams());
+  ASSERT_EQ(merged.label.size(), 3u);
+  EXPECT_EQ(merged.group[1], merged.group[2]);
+  for (std::size_t i = 0; i < raw.size(); ++i)
+    EXPECT_EQ(merged.label[static_cast<std::size_t>(merged.group[i])].reason, raw[i].label.reason);
+}
+
+}  // namespace
+}  // namespace patchmill
