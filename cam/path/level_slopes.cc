@@ -63,15 +63,18 @@ void Hodograph(const BernsteinNet& net, bool along_u, std::vector<Vec3>& out) {
   // coefficient and do not change its direction.
   const int rows = nu + du + 1, columns = nv + dv + 1;
   out.assign(static_cast<std::size_t>(rows * columns), Vec3::Zero());
+  thread_local std::vector<Vec4> scaled;
+  scaled.clear();
+  for (int k = 0; k <= nu; ++k) {
+    for (int l = 0; l <= nv; ++l) scaled.push_back(Binomial(nu, k) * Binomial(nv, l) * at(k, l));
+  }
   for (int i = 0; i <= du; ++i) {
     for (int j = 0; j <= dv; ++j) {
       const Vec4 d = Binomial(du, i) * Binomial(dv, j) * difference(i, j);
       for (int k = 0; k <= nu; ++k) {
-        for (int l = 0; l <= nv; ++l) {
-          const Vec4& p = at(k, l);
-          out[static_cast<std::size_t>((i + k) * columns + j + l)] +=
-              Binomial(nu, k) * Binomial(nv, l) * (d.head<3>() * p.w() - p.head<3>() * d.w());
-        }
+        Vec3* to = &out[static_cast<std::size_t>((i + k) * columns + j)];
+        const Vec4* from = &scaled[static_cast<std::size_t>(k * row)];
+        for (int l = 0; l <= nv; ++l) to[l] += d.head<3>() * from[l].w() - from[l].head<3>() * d.w();
       }
     }
   }
