@@ -42,6 +42,9 @@ class Interpreter {
   absl::Status Home(const BlockModes& block);
   absl::Status Straight(const BlockModes& block);
   absl::Status Arc(const BlockModes& block);
+  // Remarks what the program leaves open, once each, when it first counts.
+  void NoteAssumptions(ProgramMove::Kind kind, bool below);
+  void Note(const char* code, const std::string& message);
   // Where the axis words lead to. Axes whose place is not known yet start where they are first sent.
   absl::StatusOr<Vec3> Target(const BlockModes& block);
   absl::Status TooMany() const {
@@ -63,6 +66,8 @@ class Interpreter {
   bool above_ = true;      // at machine zero, or at a Z that nothing has told yet
   double feed_ = 0.0;
   double smoothing_ = 0.0;
+  bool unit_stated_ = false, distance_stated_ = false, path_stated_ = false;
+  int length_of_ = -1;  // H of the last G43; -1: none
   int tool_ = -1, loaded_ = -1;
   int work_offset_ = 0;   // 0: none named yet
   int tool_length_ = 0;   // 0: none named yet
@@ -94,6 +99,7 @@ absl::Status Interpreter::CheckUse(const BlockModes& block) const {
 
 absl::Status Interpreter::SetPathMode(const BlockModes& block) {
   if (!block.path) return absl::OkStatus();
+  path_stated_ = true;
   if (*block.path != 640) {
     smoothing_ = 0.0;
   } else if (!block['P']) {
@@ -123,6 +129,7 @@ absl::Status Interpreter::SetOffsets(const BlockModes& block) {
   if (block.tool_length) {
     if (!above_ && *block.tool_length != tool_length_) shifted_ = true;
     tool_length_ = *block.tool_length;
+    length_of_ = tool_length_ == 430 && block['H'] ? static_cast<int>(std::min(*block['H'], 1e9)) : -1;
   }
   if (block.work_offset) {
     if (moved_below_ && *block.work_offset != (work_offset_ == 0 ? 540 : work_offset_)) {
@@ -137,6 +144,8 @@ absl::Status Interpreter::SetOffsets(const BlockModes& block) {
 
 absl::Status Interpreter::SetModes(const BlockModes& block) {
   if (block.units) unit_ = *block.units == 200 ? kInch : 1.0;
+  unit_stated_ = unit_stated_ || block.units;
+  distance_stated_ = distance_stated_ || block.distance;
   if (block['F']) feed_ = *block['F'] * unit_;
   PM_RETURN_IF_ERROR(SetTool(block));
   if (block.spindle) spindle_on_ = *block.spindle != 50;
@@ -148,6 +157,34 @@ absl::Status Interpreter::SetModes(const BlockModes& block) {
   if (block.arc_distance) arc_absolute_ = *block.arc_distance == 901;
   if (block.motion) motion_mode_ = *block.motion;
   return absl::OkStatus();
+}
+
+void Interpreter::Note(const char* code, const std::string& message) {
+  for (const Diagnostic& known : motion_.assumptions) {
+    if (known.code == code) return;
+  }
+  Diagnostic d;
+  d.code = code;
+  d.severity = Severity::kWarning;
+  d.message = fmt::format("line {}: {}", line_, message);
+  d.where.line = line_;
+  motion_.assumptions.push_back(std::move(d));
+}
+
+void Interpreter::NoteAssumptions(ProgramMove::Kind kind, bool below) {
+  if (!unit_stated_) Note("UNITS_ASSUMED", "neither G20 nor G21 so far; taken as millimetres");
+  if (!distance_stated_) Note("DISTANCE_MODE_ASSUMED", "neither G90 nor G91 so far; taken as G90");
+  if (!below) return;
+  if (tool_length_ != 430) {
+    Note("LENGTH_OFFSET_ASSUMED", "no G43 is in force; Z is taken as the tip of the right tool");
+  } else if (length_of_ >= 0 && loaded_ >= 0 && length_of_ != loaded_) {
+    Note(
+        "LENGTH_OFFSET_OF_OTHER_TOOL",
+        fmt::format("G43 H{} while T{} is in the spindle; taken as that tool's length", length_of_, loaded_));
+  }
+  if (kind == ProgramMove::Kind::kFeed && !path_stated_) {
+    Note("PATH_MODE_ASSUMED", "neither G61 nor G64 so far; taken as no smoothing");
+  }
 }
 
 absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_above, double chord_error) {
@@ -167,6 +204,7 @@ absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_a
   move.to_above = to_above;
   move.from_anywhere = anywhere_;
   move.chord_error = chord_error;
+  move.spindle_on = spindle_on_;
   if (kind == ProgramMove::Kind::kFeed) {
     motion_.controller_tolerance = std::max(motion_.controller_tolerance, smoothing_);
   } else if (!(above_ && to_above)) {
@@ -224,8 +262,10 @@ absl::StatusOr<Vec3> Interpreter::Target(const BlockModes& block) {
 
 absl::Status Interpreter::Straight(const BlockModes& block) {
   PM_ASSIGN_OR_RETURN(const Vec3 to, Target(block));
-  return Emit(motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed, to,
-              above_ && !block['Z'], 0.0);
+  const auto kind = motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed;
+  const bool stays_above = above_ && !block['Z'];
+  NoteAssumptions(kind, !stays_above);
+  return Emit(kind, to, stays_above, 0.0);
 }
 
 absl::Status Interpreter::Arc(const BlockModes& block) {
@@ -260,6 +300,7 @@ absl::Status Interpreter::Arc(const BlockModes& block) {
   }
   PM_ASSIGN_OR_RETURN(const ArcChords chords,
                       ChordArc(arc, params_.arc_chord_error, params_.max_moves - motion_.moves.size()));
+  NoteAssumptions(ProgramMove::Kind::kFeed, !above_);
   for (const Vec3& p : chords.points) {
     Vec3 q;
     q[first] = p.x();

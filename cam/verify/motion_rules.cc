@@ -41,6 +41,17 @@ class Rules {
         lost->line);
   }
 
+  void Spindle() {
+    const auto still = std::find_if(motion_.moves.begin(), motion_.moves.end(), [&](const ProgramMove& m) {
+      return m.kind == ProgramMove::Kind::kFeed && !m.spindle_on &&
+             ((!m.from_above && InStock(m.from)) || (!m.to_above && InStock(m.to)));
+    });
+    if (still == motion_.moves.end()) return;
+    Broken("SPINDLE_STOPPED",
+           fmt::format("line {}: a feed below the stock's top with the spindle stopped", still->line),
+           still->line);
+  }
+
   void Floor(const MotionFigures& figures) {
     const double floor = params_.floor_z - params_.program_zero.z();
     if (figures.tip_box.Empty() || figures.tip_box.min.z() >= floor - kHeightSlack) return;
@@ -89,6 +100,7 @@ Diagnostics BrokenMotionRules(const ProgramMotion& motion, const Tool& tool, con
   Rules rules(motion, params);
   rules.Ends();
   rules.KnownPlaces();
+  rules.Spindle();
   rules.Floor(figures);
   rules.Descents(figures, tool);
   return rules.Take();

@@ -242,6 +242,7 @@ class Judge {
     broken.insert(broken.end(), beyond.begin(), beyond.end());
     if (!broken.empty()) report_.motion_ok = false;
     report_.findings.insert(report_.findings.end(), broken.begin(), broken.end());
+    report_.findings.insert(report_.findings.end(), motion_.assumptions.begin(), motion_.assumptions.end());
     return absl::OkStatus();
   }
 

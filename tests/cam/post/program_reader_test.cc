@@ -55,6 +55,28 @@ TEST(ProgramReader, InchesAreConverted) {
   EXPECT_DOUBLE_EQ(m.controller_tolerance, 0.0254);
 }
 
+// What is left to the state of the control is said, once, where it first counts.
+TEST(ProgramReader, AssumptionsAreSaid) {
+  const auto said = [](const std::string& text) {
+    std::string codes;
+    for (const Diagnostic& d : Read(text).assumptions) {
+      EXPECT_EQ(d.severity, Severity::kWarning);
+      codes += d.code + " " + std::to_string(d.where.line.value_or(0)) + " ";
+    }
+    return codes;
+  };
+  EXPECT_EQ(said("G21 G90\nT3 M6\nG53 G0 Z0\nG43 H3\nG64 P0.01\nG0 X1 Y1\nZ5\nG1 Z0 F100\nX9\nG53 G0 Z0\n"),
+            "");
+  EXPECT_EQ(said("G53 G0 Z0\nM5\n"), "");  // nothing of it counts
+  EXPECT_EQ(said("G53 G0 Z0\nG0 X1 Y1\nX2\nZ5\nG1 Z0 F100\n"),
+            "UNITS_ASSUMED 2 DISTANCE_MODE_ASSUMED 2 LENGTH_OFFSET_ASSUMED 4 PATH_MODE_ASSUMED 5 ");
+  const std::string modes = "G21 G90 G61\nT3 M6\nG53 G0 Z0\n";
+  EXPECT_EQ(said(modes + "G43 H4\nG0 X1 Y1\nZ5\n"), "LENGTH_OFFSET_OF_OTHER_TOOL 6 ");
+  EXPECT_EQ(said(modes + "G43\nG0 X1 Y1\nZ5\n"), "");  // the loaded tool's own
+  EXPECT_EQ(said(modes + "G43 H3\nG49\nG0 X1 Y1\nZ5\n"), "LENGTH_OFFSET_ASSUMED 7 ");
+  EXPECT_EQ(said("G20 G91\nG43\nG90 G0 X0 Y0\nZ1\nG2 I1 F9\n"), "PATH_MODE_ASSUMED 5 ");
+}
+
 TEST(ProgramReader, PathModes) {
   const std::string start = "G0 Z1\nG1 X0 Y0 F10\n";
   EXPECT_EQ(Read(start).controller_tolerance, 0.0);
