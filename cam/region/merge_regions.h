@@ -25,7 +25,7 @@ struct MergeParams {
   double border_turn = 0.1;    // rad: what a mm of border costs against a mm^2 of contour curvature
   double border_slope = 0.3;   // rad mm: and against a mm^2 of slope off the steep angle
   double flat = 0.0022;        // 1/mm: mean contour curvature that no tool could feel
-  double flat_cost = 0.03;     // 1/mm: what a mm^2 of flat ground costs that goes with a mountain or basin
+  double flat_cost = 0.017;    // 1/mm: what a mm^2 of flat ground costs that goes with a mountain or basin
   double min_area = 50.0;      // mm^2: smaller reachable regions join a neighbour
   double min_curvature = 0.5;  // mm: regions that bend less than this in all are neutral
   int max_regions = 20;        // reachable ones; smaller ones join a neighbour while there are more

@@ -46,7 +46,7 @@ MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
     p.border_turn = kBorderTurn * coarse;
     p.border_slope = p.border_turn * params.radius;
     p.flat = 8.0 * params.tolerance / (4.0 * params.radius * params.radius);
-    p.flat_cost = kBorderTurn / params.radius;
+    p.flat_cost = 0.5 * kBorderTurn / params.radius;
     p.min_area = 2.0 * kPi * params.radius * params.radius * coarse;
     p.min_curvature = kMinCurvature;
     p.max_regions = std::max(1, static_cast<int>(kMostRegions * detail));

@@ -1,0 +1,88 @@
+// How many regions a machinist is shown: tests/cam/region/region_counts.txt, and no other number when the
+// shape moves by what nobody can see.
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "cam/region/region_map.h"
+#include "core/network/control_points.h"
+#include "tests/support/files.h"
+#include "tests/support/random.h"
+
+namespace patchmill {
+namespace {
+
+struct Row {
+  std::string file, why;
+  double scale = 1.0;
+  UpAxis up = UpAxis::kZ;
+  int count = 0;
+};
+
+std::vector<Row> Table() {
+  std::vector<Row> rows;
+  std::istringstream lines(testing::ReadRepositoryFile("tests/cam/region/region_counts.txt"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    Row row;
+    std::string up;
+    std::istringstream words(line);
+    words >> row.file >> row.scale >> up >> row.count;
+    std::getline(words >> std::ws, row.why);
+    EXPECT_TRUE(words && !row.why.empty()) << line;
+    row.up = up == "y" ? UpAxis::kY : UpAxis::kZ;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// Equal points stay equal, so that patches stay joined.
+void Shake(double by, PatchModel& model) {
+  testing::Random random(7);
+  std::map<std::tuple<long, long, long>, Vec3> moves;
+  for (Patch& patch : model.patches) {
+    for (Vec3& p : ControlPoints(patch.shape)) {
+      const auto key =
+          std::make_tuple(std::lround(p.x() * 1e3), std::lround(p.y() * 1e3), std::lround(p.z() * 1e3));
+      const auto [move, fresh] = moves.try_emplace(key, Vec3::Zero());
+      if (fresh) move->second = random.Point(-by, by);
+      p += move->second;
+    }
+  }
+}
+
+int CountOf(const PatchModel& model) {
+  PatchNetwork network;
+  network.model = model;
+  network.join_tolerance = 2e-3;
+  const auto surface = BuildSurface(std::move(network), SurfaceParams(), RunContext());
+  EXPECT_TRUE(surface.ok()) << surface.status();
+  const auto map = SplitRegions(*surface, RegionParams(), RunContext());
+  EXPECT_TRUE(map.ok()) << map.status();
+  int count = 0;
+  for (const Region& r : map->regions) count += r.kind != RegionKind::kUnreachable;
+  return count;
+}
+
+TEST(RegionCounts, AreThoseOfTheTableWithAndWithoutNoise) {
+  const std::vector<Row> table = Table();
+  ASSERT_GE(table.size(), 11u);
+  for (const Row& row : table) {
+    SCOPED_TRACE(row.file + ": " + row.why);
+    const bool shared = row.file.rfind("shared/", 0) == 0;
+    if (shared && !testing::ReadSharedFile(row.file.substr(7))) continue;  // an extra
+    PatchModel model = Place(Placement{.scale = row.scale, .up = row.up},
+                             testing::LoadModel(shared ? "../" + row.file : row.file));
+    EXPECT_GE(row.count, 1);
+    EXPECT_LE(row.count, 20);
+    EXPECT_EQ(CountOf(model), row.count);
+    Shake(0.005, model);
+    EXPECT_LE(std::abs(CountOf(model) - row.count), 2) << "with noise";
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
