@@ -1,6 +1,7 @@
 #include "core/joining/curvature_rows.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -15,10 +16,44 @@ class RowMaker {
            std::vector<JoinedEdge>& edges)
       : network_(network), table_(table), findings_(findings), edges_(edges) {}
 
+  // Finds what the controls are for.
+  void ReadControls() {
+    for (int k = 0; k < static_cast<int>(network_.controls.size()); ++k) {
+      const CrossControl& control = network_.controls[At(k)];
+      const auto error = [&](std::string_view code, std::string_view text) {
+        findings_.Error(code, findings_.AtControl(k), text);
+      };
+      const std::optional<int> edge = EdgeOf(control);
+      if (!edge) {
+        error("INVALID_CONTROL",
+              fmt::format("is for face {} beside the edge of vertices {} and {}; there is none", control.face,
+                          control.start, control.end));
+        continue;
+      }
+      if (network_.faces[At(control.face)].scheme != PatchScheme::kG2Gregory) {
+        error("INVALID_CONTROL", fmt::format("is for faces[{}], which is no G2-Gregory patch", control.face));
+        continue;
+      }
+      const auto [it, fresh] = controls_.emplace(std::pair(*edge, control.face), k);
+      if (!fresh)
+        error("INVALID_CONTROL", fmt::format("is for the same edge and face as controls[{}]", it->second));
+      const auto finite = [](const std::optional<Vec3>& v) { return !v || v->allFinite(); };
+      if (!finite(control.first) || !finite(control.second)) {
+        error("NOT_FINITE", "has a number that is not finite");
+        continue;
+      }
+      const Vec3 along = Evaluate(edges_[At(*edge)].curve, kControlPlace).d;
+      if (const auto& first = control.first;
+          first && !(first->cross(along).norm() > kMinTangentSine * first->norm() * along.norm())) {
+        error("INVALID_CONTROL", "has a first derivative without direction across the edge");
+      }
+    }
+  }
+
   void Fill(JoinedEdge& edge) {
     const auto& sides = edge.topology.faces;
     const bool any = std::ranges::any_of(sides, [&](const FaceSide& s) { return Wanted(s); });
-    if (!CheckControls(edge) || !any) return;
+    if (!any) return;
     edge.rows.resize(sides.size());
     if (edge.kind != EdgeKind::kSmooth) {
       for (std::size_t k = 0; k < sides.size(); ++k) {
@@ -55,9 +90,17 @@ class RowMaker {
     return network_.faces[At(s.face)].scheme == PatchScheme::kG2Gregory;
   }
 
-  const NetworkEdge* Given(const JoinedEdge& edge) const {
-    return edge.topology.given ? &network_.edges[At(*edge.topology.given)] : nullptr;
+  int IndexOf(const JoinedEdge& edge) const { return static_cast<int>(&edge - edges_.data()); }
+  std::optional<int> EdgeOf(const CrossControl& control) const {
+    if (control.face < 0 || control.face >= static_cast<int>(network_.faces.size())) return std::nullopt;
+    for (int s = 0; s < SideCount(network_.faces[At(control.face)]); ++s) {
+      const int edge = table_.face_edges[At(control.face)][At(s)];
+      const TableEdge& ends = table_.edges[At(edge)];
+      if (std::minmax(ends.start, ends.end) == std::minmax(control.start, control.end)) return edge;
+    }
+    return std::nullopt;
   }
+
   Where Place(const JoinedEdge& edge) const {
     return edge.topology.given ? findings_.AtEdge(*edge.topology.given)
                                : findings_.AtVertex(edge.topology.start);
@@ -75,46 +118,18 @@ class RowMaker {
 
   CrossSide SideOf(const JoinedEdge& edge, const FaceSide& s) const {
     CrossSide side{CrossingAt(s, true), CrossingAt(s, false), {}, {}};
-    if (const NetworkEdge* given = Given(edge)) {
-      for (const CrossControl& control : given->controls) {
-        if (control.face == s.face) side.first = control.first, side.second = control.second;
-      }
+    if (const auto control = controls_.find({IndexOf(edge), s.face}); control != controls_.end()) {
+      side.first = network_.controls[At(control->second)].first;
+      side.second = network_.controls[At(control->second)].second;
     }
     return side;
   }
 
-  bool CheckControls(const JoinedEdge& edge) const {
-    const NetworkEdge* given = Given(edge);
-    if (given == nullptr) return true;
-    bool sound = true;
-    for (std::size_t k = 0; k < given->controls.size(); ++k) {
-      const int face = given->controls[k].face;
-      const auto error = [&](std::string_view text) {
-        findings_.Error("INVALID_CONTROL", Place(edge), fmt::format("controls[{}] {}", k, text));
-        sound = false;
-      };
-      const auto side = std::ranges::find(edge.topology.faces, face, &FaceSide::face);
-      if (side == edge.topology.faces.end()) {
-        error(fmt::format("is for face {}, which is not beside the edge", face));
-      } else if (!Wanted(*side)) {
-        error(fmt::format("is for faces[{}], which is no G2-Gregory patch", face));
-      }
-      for (std::size_t j = 0; j < k; ++j) {
-        if (given->controls[j].face == face) error(fmt::format("is the second one for faces[{}]", face));
-      }
-      const Vec3 along = Evaluate(edge.curve, kControlPlace).d;
-      if (const auto& first = given->controls[k].first;
-          first && !(first->cross(along).norm() > kMinTangentSine * first->norm() * along.norm())) {
-        error("has a first derivative without direction across the edge");
-      }
-    }
-    return sound;
-  }
-
   void TangentPlaneOnly(const JoinedEdge& edge, std::string_view why) const {
-    const NetworkEdge* given = Given(edge);
-    if (given != nullptr && !given->controls.empty()) {
-      findings_.Error("INVALID_CONTROL", Place(edge), fmt::format("has control vectors, but {}", why));
+    const auto control = controls_.lower_bound({IndexOf(edge), 0});
+    if (control != controls_.end() && control->first.first == IndexOf(edge)) {
+      findings_.Error("INVALID_CONTROL", findings_.AtControl(control->second),
+                      fmt::format("cannot be met: {}", why));
       return;
     }
     findings_.Warning("TANGENT_PLANE_ONLY", Place(edge),
@@ -144,6 +159,7 @@ class RowMaker {
   const EdgeTable& table_;
   const NetworkWriter& findings_;
   std::vector<JoinedEdge>& edges_;
+  std::map<std::pair<int, int>, int> controls_;  // of edge and face
 };
 
 }  // namespace
@@ -151,6 +167,8 @@ class RowMaker {
 void AddCurvatureRows(const CurveNetwork& network, const EdgeTable& table, const NetworkWriter& findings,
                       std::vector<JoinedEdge>& edges) {
   RowMaker maker(network, table, findings, edges);
+  maker.ReadControls();
+  if (findings.ErrorWritten()) return;
   for (JoinedEdge& edge : edges) maker.Fill(edge);
 }
 

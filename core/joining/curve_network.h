@@ -48,21 +48,12 @@ struct CurveEdge {
 };
 using EdgeShape = std::variant<NormalsEdge, TangentsEdge, ThroughPointEdge, CurveEdge>;
 
-// How a G2-Gregory face leaves the edge in its middle (METHODS 2.4, 2.7): first and second derivative of the
-// face's surface across the edge, into it. The face across a smooth edge follows: its first derivative turns
-// with this one and keeps its share of the length, its normal curvatures become this face's.
-struct CrossControl {
-  int face = 0;
-  std::optional<Vec3> first, second;  // what is not given is the mean of the edge's ends
-};
-
 struct NetworkEdge {
   std::string id;
   int start = 0, end = 0;  // vertices
   EdgeShape shape;
-  bool crease = false;                      // the faces beside it need no common tangent plane
-  std::vector<CrossControl> controls = {};  // at most one per face
-  std::optional<int> line = {};             // the entry of CurveNetwork::lines it was made from
+  bool crease = false;           // the faces beside it need no common tangent plane
+  std::optional<int> line = {};  // the entry of CurveNetwork::lines it was made from
 };
 
 // A smooth curve through three or more vertices, two when it is not closed: the cubic spline in the chord
@@ -92,13 +83,26 @@ struct FacePush {
   // > 0: towards the side from which the vertices run anticlockwise. Per length: the place moves in
   // proportion to it and to the area of the face, by a small share of their product.
   double amount = 0.0;
+
+  bool operator==(const FacePush&) const = default;
 };
 
 struct NetworkFace {
   std::string id;
   std::vector<int> vertices;  // around the face, three or four
   PatchScheme scheme = PatchScheme::kAuto;
-  std::optional<FacePush> push;
+  std::vector<FacePush> pushes = {};  // they add up
+};
+
+// How a G2-Gregory face leaves an edge in its middle (METHODS 2.4, 2.7): first and second derivative of the
+// face's surface across the edge, into it. The face across a smooth edge follows: its first derivative turns
+// with this one and keeps its share of the length, its normal curvatures become this face's.
+struct CrossControl {
+  int start = 0, end = 0;             // the ends of the edge, in either order
+  int face = 0;                       // at most one control for each edge of it
+  std::optional<Vec3> first, second;  // what is not given is the mean of the edge's ends
+
+  bool operator==(const CrossControl&) const = default;
 };
 
 // An edge that no entry of `edges` and `lines` describes is a smooth NormalsEdge with gamma 1.
@@ -107,6 +111,7 @@ struct CurveNetwork {
   std::vector<NetworkEdge> edges;
   std::vector<NetworkFace> faces;
   std::vector<NetworkLine> lines;
+  std::vector<CrossControl> controls;
   std::optional<double> join_tolerance;  // as PatchModel's
 };
 

@@ -81,10 +81,6 @@ void CheckEdgeShapes(const CurveNetwork& network, const NetworkWriter& findings)
     const Checker checker{findings, e};
     std::visit([&](const auto& shape) { checker.Check(shape); },
                network.edges[static_cast<std::size_t>(e)].shape);
-    for (const CrossControl& control : network.edges[static_cast<std::size_t>(e)].controls) {
-      checker.Finite((!control.first || control.first->allFinite()) &&
-                     (!control.second || control.second->allFinite()));
-    }
   }
 }
 

@@ -138,7 +138,7 @@ std::optional<std::string> SchemeFault(const NetworkFace& face, int degree) {
   if ((wants_quad && sides == 3) || (wants_triangle && sides == 4)) {
     return fmt::format("its scheme is for {} sides, the face has {}", wants_quad ? 4 : 3, sides);
   }
-  if (scheme == PatchScheme::kG2Gregory && face.push) {
+  if (scheme == PatchScheme::kG2Gregory && !face.pushes.empty()) {
     return "a G2-Gregory patch is not pushed by twists; give control vectors of its edges";
   }
   const bool cubic_only = scheme == PatchScheme::kGregory || scheme == PatchScheme::kGregoryTriangle ||

@@ -37,13 +37,13 @@ void PushTwists(const Vec3& start, const Vec3& end, const Vec3& b0, const Vec3& 
 void CheckPushes(const CurveNetwork& network, const NetworkWriter& findings) {
   for (std::size_t f = 0; f < network.faces.size(); ++f) {
     const NetworkFace& face = network.faces[f];
-    if (!face.push) continue;
-    const auto& [u, v, amount] = *face.push;
-    const double most = face.vertices.size() == 3 ? u + v : std::max(u, v);
-    if (u >= 0.0 && v >= 0.0 && most <= 1.0 && std::isfinite(amount)) continue;
-    findings.Error(
-        "INVALID_PUSH", findings.AtFace(static_cast<int>(f)),
-        fmt::format("is pushed at ({:g}, {:g}) by {:g}; must be inside it and finite", u, v, amount));
+    for (const auto& [u, v, amount] : face.pushes) {
+      const double most = face.vertices.size() == 3 ? u + v : std::max(u, v);
+      if (u >= 0.0 && v >= 0.0 && most <= 1.0 && std::isfinite(amount)) continue;
+      findings.Error(
+          "INVALID_PUSH", findings.AtFace(static_cast<int>(f)),
+          fmt::format("is pushed at ({:g}, {:g}) by {:g}; must be inside it and finite", u, v, amount));
+    }
   }
 }
 

@@ -131,11 +131,12 @@ class Joiner {
   void Push(const FaceSide& s, const HermiteCurve& edge, const Vec3& b0, const Vec3& b1, Vec3& w0,
             Vec3& w1) const {
     const NetworkFace& face = network_.faces[At(s.face)];
-    if (!face.push) return;
-    EdgePlace place = PlaceBeside(*face.push, SideCount(face), s.side);
     const bool forward = table_.Forward(s, network_);  // then the face lies to the left of its edge
-    if (!forward) place.along = 1.0 - place.along;
-    PushTwists(edge.d0, edge.d1, b0, b1, place, forward ? -face.push->amount : face.push->amount, w0, w1);
+    for (const FacePush& push : face.pushes) {
+      EdgePlace place = PlaceBeside(push, SideCount(face), s.side);
+      if (!forward) place.along = 1.0 - place.along;
+      PushTwists(edge.d0, edge.d1, b0, b1, place, forward ? -push.amount : push.amount, w0, w1);
+    }
   }
 
   // Two edges in line at a corner leave the patch without tangent plane there.

@@ -35,7 +35,7 @@ CurveNetwork WithLinesAsEdges(const CurveNetwork& network, Diagnostics& list) {
     }
     for (std::size_t i = 0; i < spline->size(); ++i) {
       const int to = line.vertices[(i + 1) % line.vertices.size()];
-      whole.edges.push_back({"", line.vertices[i], to, CurveEdge{(*spline)[i]}, line.crease, {}, k});
+      whole.edges.push_back({"", line.vertices[i], to, CurveEdge{(*spline)[i]}, line.crease, k});
     }
   }
   return whole;

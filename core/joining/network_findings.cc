@@ -42,6 +42,12 @@ Where NetworkWriter::AtLine(int line) const {
   return where;
 }
 
+Where NetworkWriter::AtControl(int control) const {
+  Where where;
+  where.field = Path("controls", control, "");
+  return where;
+}
+
 Where NetworkWriter::AtFace(int face) const {
   Where where;
   const NetworkFace& f = network_.faces[static_cast<std::size_t>(face)];
@@ -56,6 +62,8 @@ void NetworkWriter::Add(std::string_view code, Severity severity, Where where, s
   std::string message = fmt::format("{} {}", where.field, text);
   to_.push_back({std::string(code), severity, std::move(message), std::move(where)});
 }
+
+bool NetworkWriter::ErrorWritten() const { return HasError(to_); }
 
 bool HasError(const Diagnostics& findings) {
   return std::ranges::any_of(findings, [](const Diagnostic& d) { return d.severity == Severity::kError; });

@@ -17,12 +17,14 @@ class NetworkWriter {
   Where AtVertex(int vertex) const;
   Where AtEdge(int edge) const;  // entry of CurveNetwork::edges, or the line it was made from
   Where AtLine(int line) const;
+  Where AtControl(int control) const;
   Where AtFace(int face) const;
 
   // The message becomes "<path> <text>".
   void Error(std::string_view code, Where where, std::string_view text) const {
     Add(code, Severity::kError, std::move(where), text);
   }
+  bool ErrorWritten() const;
   void Warning(std::string_view code, Where where, std::string_view text) const {
     Add(code, Severity::kWarning, std::move(where), text);
   }

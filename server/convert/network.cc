@@ -24,6 +24,9 @@ class NetworkReader {
       network.lines.push_back(
           {{line.vertices().begin(), line.vertices().end()}, line.closed(), line.crease()});
     }
+    for (int k = 0; k < proto.controls_size(); ++k) {
+      network.controls.push_back(Control(proto.controls(k), fmt::format("network.controls[{}]", k)));
+    }
     return network;
   }
 
@@ -111,7 +114,7 @@ class NetworkReader {
   }
 
   CrossControl Control(const v1::CrossControl& from, const std::string& at) {
-    CrossControl control{from.face(), {}, {}};
+    CrossControl control{from.start(), from.end(), from.face(), {}, {}};
     if (!from.first_derivative().empty()) {
       control.first = Vector(from.first_derivative(), unit_, at + ".first_derivative");
     }
@@ -123,11 +126,7 @@ class NetworkReader {
 
   NetworkEdge Edge(const v1::NetworkEdge& from, int index) {
     const std::string at = fmt::format("network.edges[{}]", index);
-    NetworkEdge edge{Id(from.id(), at), from.start(), from.end(), Shape(from, at), from.crease()};
-    for (int k = 0; k < from.controls_size(); ++k) {
-      edge.controls.push_back(Control(from.controls(k), fmt::format("{}.controls[{}]", at, k)));
-    }
-    return edge;
+    return {Id(from.id(), at), from.start(), from.end(), Shape(from, at), from.crease()};
   }
 
   NetworkFace Face(const v1::NetworkFace& from, int index) {
@@ -135,7 +134,14 @@ class NetworkReader {
     NetworkFace face;
     face.id = Id(from.id(), at);
     face.vertices = {from.vertices().begin(), from.vertices().end()};
-    if (from.has_push()) face.push = FacePush{from.push().u(), from.push().v(), from.push().amount() / unit_};
+    if (from.pushes_size() > limits::kMaxPushes) {
+      Fault("INVALID_PUSH", at + ".pushes",
+            fmt::format("are {}; must be at most {}", from.pushes_size(), limits::kMaxPushes));
+      return face;
+    }
+    for (const v1::FacePush& push : from.pushes()) {
+      face.pushes.push_back({push.u(), push.v(), push.amount() / unit_});
+    }
     switch (from.scheme()) {
       case v1::PATCH_SCHEME_UNSPECIFIED:
         break;
@@ -181,6 +187,7 @@ absl::Status CheckNetworkLimits(const v1::CurveNetwork& proto) {
   std::size_t line_vertices = 0;
   for (const v1::NetworkLine& line : proto.lines()) line_vertices += size(line.vertices());
   PM_RETURN_IF_ERROR(check("model.network.line_count", limits::kMaxNetworkEdges, size(proto.lines())));
+  PM_RETURN_IF_ERROR(check("model.network.control_count", limits::kMaxNetworkEdges, size(proto.controls())));
   PM_RETURN_IF_ERROR(check("model.network.line_vertex_count", limits::kMaxNetworkVertices, line_vertices));
   std::size_t references = 0, points = 0, knots = 0;
   for (const v1::NetworkVertex& vertex : proto.vertices()) {
@@ -191,7 +198,6 @@ absl::Status CheckNetworkLimits(const v1::CurveNetwork& proto) {
   for (const v1::NetworkEdge& edge : proto.edges()) {
     points += (size(edge.bezier().points()) + size(edge.bspline().points())) / 3;
     knots += size(edge.bspline().knots());
-    references += size(edge.controls());
   }
   PM_RETURN_IF_ERROR(check("model.network.reference_count", limits::kMaxNetworkReferences, references));
   PM_RETURN_IF_ERROR(check("model.control_point_count", limits::kMaxControlPoints, points));

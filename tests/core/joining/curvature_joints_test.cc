@@ -15,7 +15,6 @@ namespace {
 
 using testing::Json;
 using testing::LoadJson;
-using testing::Random;
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
@@ -60,8 +59,8 @@ TEST(CurvatureJoints, Vector) {
   edge(2, 5, Curve(data["right"]));
   network.faces = {{"A", {0, 1, 4, 3}, PatchScheme::kG2Gregory, {}},
                    {"B", {1, 2, 5, 4}, PatchScheme::kG2Gregory, {}}};
-  network.edges[5].controls = {{0, -6 * data["T0"].Vector(), 30 * data["C0"].Vector()},
-                               {1, 6 * data["T1"].Vector(), 30 * data["C1"].Vector()}};
+  network.controls = {{1, 4, 0, -6 * data["T0"].Vector(), 30 * data["C0"].Vector()},
+                      {4, 1, 1, 6 * data["T1"].Vector(), 30 * data["C1"].Vector()}};
   const JoinedNetwork joined = JoinNetwork(network);
   ASSERT_TRUE(joined.findings.empty()) << Text(joined.findings);
   EXPECT_TRUE(joined.edges[5].equal_curvature);
@@ -77,39 +76,6 @@ TEST(CurvatureJoints, Vector) {
       }
     }
   }
-}
-
-// n x m vertices on a wavy sheet, moved at random, with a line through every row and column; faces in random
-// order of corners.
-CurveNetwork Sheet(std::uint64_t seed, int n, int m) {
-  Random random(seed);
-  CurveNetwork network;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < m; ++j) {
-      NetworkVertex v;
-      v.position = Vec3(10 * i, 12 * j, 5 * std::sin(0.7 * i) * std::cos(0.6 * j)) + random.Point(-1.5, 1.5);
-      network.vertices.push_back(v);
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    NetworkLine line;
-    for (int j = 0; j < m; ++j) line.vertices.push_back(i * m + j);
-    network.lines.push_back(line);
-  }
-  for (int j = 0; j < m; ++j) {
-    NetworkLine line;
-    for (int i = 0; i < n; ++i) line.vertices.push_back(i * m + j);
-    network.lines.push_back(line);
-  }
-  for (int i = 0; i + 1 < n; ++i) {
-    for (int j = 0; j + 1 < m; ++j) {
-      std::vector<int> loop = {i * m + j, (i + 1) * m + j, (i + 1) * m + j + 1, i * m + j + 1};
-      std::rotate(loop.begin(), loop.begin() + random.Int(4), loop.end());
-      if (random.Int(2) == 0) std::reverse(loop.begin(), loop.end());
-      network.faces.push_back({"", loop, PatchScheme::kG2Gregory, {}});
-    }
-  }
-  return network;
 }
 
 // Unit normal of a patch at the foot of a space point, found by Newton steps on the two tangential equations.
@@ -207,7 +173,7 @@ int ExpectEqualCurvature(const CurveNetwork& network, const JoinedNetwork& joine
 
 TEST(CurvatureJoints, SheetsOfLinesHaveEqualCurvatureAcrossEveryEdge) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    const CurveNetwork network = Sheet(seed, 5, 4);
+    const CurveNetwork network = testing::LineSheet(seed, 5, 4);
     const JoinedNetwork joined = JoinNetwork(network);
     ASSERT_TRUE(joined.findings.empty()) << Text(joined.findings);
     EXPECT_EQ(ExpectEqualCurvature(network, joined), 3 * 3 + 4 * 2);
@@ -245,21 +211,14 @@ std::pair<Vec3, Vec3> AcrossMiddle(const CurveNetwork& network, const JoinedNetw
 // Control vectors of one face are met exactly, the face across follows: its first derivative parallel with
 // its old share of the length, curvature equal; faces away from the edge stay the same to the bit.
 TEST(CurvatureJoints, ControlVectorsAreMetAndTheNeighbourFollows) {
-  CurveNetwork network = Sheet(4, 4, 4);
+  CurveNetwork network = testing::LineSheet(4, 4, 4);
   const JoinedNetwork plain = JoinNetwork(network);
   ASSERT_TRUE(plain.findings.empty()) << Text(plain.findings);
   // The edge between the inner vertices 5 and 6; faces are cells (i, j) = (0, 1) and (1, 1).
   const int a = 1, b = 4;
   const auto old_a = AcrossMiddle(network, plain, 5, 6, a), old_b = AcrossMiddle(network, plain, 5, 6, b);
   const Vec3 first = 1.2 * old_a.first + Vec3(0.3, -0.8, 0.9), second = old_a.second + Vec3(2, -1, 6);
-  // The edge is one of a line; say it again with the same curve, and take the line's other edges apart.
-  std::vector<NetworkEdge> edges;
-  for (const JoinedEdge& edge : plain.edges) {
-    edges.push_back({"", edge.topology.start, edge.topology.end, CurveEdge{edge.curve}, false});
-    if (edge.topology.start == 5 && edge.topology.end == 6) edges.back().controls = {{a, first, second}};
-  }
-  network.edges = edges;
-  network.lines.clear();
+  network.controls = {{5, 6, a, first, second}};
   const JoinedNetwork joined = JoinNetwork(network);
   ASSERT_TRUE(joined.findings.empty()) << Text(joined.findings);
   const auto new_a = AcrossMiddle(network, joined, 5, 6, a), new_b = AcrossMiddle(network, joined, 5, 6, b);
@@ -287,7 +246,7 @@ TEST(CurvatureJoints, ControlVectorsAreMetAndTheNeighbourFollows) {
 
 // The report knows the difference: rounding on these sheets, far more between tangent planes only.
 TEST(CurvatureJoints, TheReportTellsEqualCurvature) {
-  CurveNetwork network = Sheet(8, 4, 4);
+  CurveNetwork network = testing::LineSheet(8, 4, 4);
   const auto measure = [&](PatchScheme scheme) {
     for (NetworkFace& face : network.faces) face.scheme = scheme;
     auto checked = BuildNetwork(JoinNetwork(network).model);
@@ -305,7 +264,7 @@ TEST(CurvatureJoints, TheReportTellsEqualCurvature) {
 }
 
 TEST(CurvatureJoints, FallBackToTangentPlanesWithAReason) {
-  CurveNetwork network = Sheet(5, 4, 4);
+  CurveNetwork network = testing::LineSheet(5, 4, 4);
   network.lines.clear();  // edges from normals: the crossing ones are out of line
   const JoinedNetwork bent = JoinNetwork(network);
   EXPECT_EQ(Count(bent, "TANGENT_PLANE_ONLY"), 12) << Text(bent.findings);
@@ -313,7 +272,7 @@ TEST(CurvatureJoints, FallBackToTangentPlanesWithAReason) {
   EXPECT_NE(bent.findings[0].message.find("out of line"), std::string::npos);
   EXPECT_LE(WorstAngle(bent), 1e-11);
 
-  network = Sheet(5, 4, 4);  // one face of another kind: its four edges
+  network = testing::LineSheet(5, 4, 4);  // one face of another kind: its four edges
   network.faces[4].scheme = PatchScheme::kGregory;
   const JoinedNetwork mixed = JoinNetwork(network);
   EXPECT_EQ(Count(mixed, "TANGENT_PLANE_ONLY"), 4) << Text(mixed.findings);
@@ -322,7 +281,7 @@ TEST(CurvatureJoints, FallBackToTangentPlanesWithAReason) {
   EXPECT_EQ(ExpectEqualCurvature(network, mixed), 8);
 
   // The edge from 9 to the border leaves 9 in line but bends otherwise: the two edges that it crosses there.
-  network = Sheet(5, 4, 4);
+  network = testing::LineSheet(5, 4, 4);
   const JoinedNetwork plain = JoinNetwork(network);
   network.lines.clear();
   for (const JoinedEdge& edge : plain.edges) {
@@ -341,7 +300,7 @@ TEST(CurvatureJoints, FallBackToTangentPlanesWithAReason) {
 }
 
 TEST(CurvatureJoints, CreasesAndBordersNeedNoPartner) {
-  CurveNetwork network = Sheet(6, 4, 4);
+  CurveNetwork network = testing::LineSheet(6, 4, 4);
   network.lines[1].crease = true;  // across the sheet
   const JoinedNetwork joined = JoinNetwork(network);
   EXPECT_TRUE(joined.findings.empty()) << Text(joined.findings);
@@ -350,7 +309,7 @@ TEST(CurvatureJoints, CreasesAndBordersNeedNoPartner) {
 
 TEST(CurvatureJoints, FindingsOfControlsAndLines) {
   const auto with = [](auto change) {
-    CurveNetwork network = Sheet(7, 3, 3);
+    CurveNetwork network = testing::LineSheet(7, 3, 3);
     change(network);
     return JoinNetwork(network);
   };
@@ -364,25 +323,20 @@ TEST(CurvatureJoints, FindingsOfControlsAndLines) {
         "names vertex 9; must be in [0, 8]");
   found(with([](CurveNetwork& n) { n.lines[0].vertices = {3}; }), "INVALID_LINE", "at least 2");
   found(with([](CurveNetwork& n) { n.lines[0].vertices = {0, 1, 1, 2}; }), "INVALID_LINE", "0 apart");
-  found(with([](CurveNetwork& n) { n.faces[0].push = FacePush{}; }), "UNSUPPORTED_SCHEME", "control vectors");
-  // The middle line said as edges, with controls.
+  found(with([](CurveNetwork& n) { n.faces[0].pushes = {FacePush{}}; }), "UNSUPPORTED_SCHEME",
+        "control vectors");
   const auto controls = [&](std::vector<CrossControl> list) {
-    return with([&](CurveNetwork& n) {
-      const JoinedNetwork plain = JoinNetwork(n);
-      n.lines.clear();
-      for (const JoinedEdge& edge : plain.edges) {
-        n.edges.push_back({"", edge.topology.start, edge.topology.end, CurveEdge{edge.curve}, false});
-        if (edge.topology.start == 3 && edge.topology.end == 4) n.edges.back().controls = list;
-      }
-    });
+    return with([&](CurveNetwork& n) { n.controls = list; });
   };
-  EXPECT_TRUE(controls({{0, Vec3(-9, 1, 0), {}}}).findings.empty());
-  found(controls({{3, Vec3(-9, 1, 0), {}}}), "INVALID_CONTROL", "not beside");
-  found(controls({{0, Vec3(-9, 1, 0), {}}, {0, {}, Vec3(1, 0, 0)}}), "INVALID_CONTROL", "second one");
-  found(controls({{0, Vec3(0, 0, 0), {}}}), "INVALID_CONTROL", "without direction");
-  found(controls({{0, Vec3(-9, 1, 0), {}}, {2, Vec3(9, 1, 0), {}}}), "INVALID_CONTROL", "differ");
-  found(controls({{0, Vec3(-0.01, 0, 0), {}}}), "INVALID_CONTROL", "turn back");
-  found(controls({{0, Vec3(std::nan(""), 0, 0), {}}}), "NOT_FINITE", "not finite");
+  EXPECT_TRUE(controls({{3, 4, 0, Vec3(-9, 1, 0), {}}}).findings.empty());
+  found(controls({{3, 4, 3, Vec3(-9, 1, 0), {}}}), "INVALID_CONTROL", "there is none");
+  found(controls({{3, 4, -1, Vec3(-9, 1, 0), {}}}), "INVALID_CONTROL", "there is none");
+  found(controls({{3, 4, 0, Vec3(-9, 1, 0), {}}, {4, 3, 0, {}, Vec3(1, 0, 0)}}), "INVALID_CONTROL",
+        "controls[0]");
+  found(controls({{3, 4, 0, Vec3(0, 0, 0), {}}}), "INVALID_CONTROL", "without direction");
+  found(controls({{3, 4, 0, Vec3(-9, 1, 0), {}}, {3, 4, 2, Vec3(9, 1, 0), {}}}), "INVALID_CONTROL", "differ");
+  found(controls({{3, 4, 0, Vec3(-0.01, 0, 0), {}}}), "INVALID_CONTROL", "turn back");
+  found(controls({{3, 4, 0, Vec3(std::nan(""), 0, 0), {}}}), "NOT_FINITE", "controls[0]");
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ TEST(JoinNetwork, PushedFacesBulgeAndNeighboursFollow) {
     CurveNetwork network = testing::Cuboctahedron(4);
     const JoinedNetwork flat = JoinNetwork(network);
     const auto with = [&](double amount) {
-      network.faces[pushed].push = FacePush{0.4, 0.35, amount};
+      network.faces[pushed].pushes = {{0.4, 0.35, 0.75 * amount}, {0.4, 0.35, 0.25 * amount}};
       JoinedNetwork joined = JoinNetwork(network);
       ExpectSmooth(joined);
       return joined;

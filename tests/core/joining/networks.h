@@ -1,6 +1,9 @@
 // Curve networks for the tests of joining.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/joining/curve_network.h"
 #include "tests/support/random.h"
 
@@ -48,6 +51,39 @@ inline CurveNetwork Cuboctahedron(std::uint64_t seed, double move = 0.12) {
     NetworkFace face;
     face.vertices = {find(Vec3(x, y, 0)), find(Vec3(x, 0, z)), find(Vec3(0, y, z))};
     network.faces.push_back(face);
+  }
+  return network;
+}
+
+// G2-Gregory faces: n x m vertices on a wavy sheet, moved at random, with a line through every row and
+// column; faces in random order of corners.
+inline CurveNetwork LineSheet(std::uint64_t seed, int n, int m) {
+  Random random(seed);
+  CurveNetwork network;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < m; ++j) {
+      NetworkVertex v;
+      v.position = Vec3(10 * i, 12 * j, 5 * std::sin(0.7 * i) * std::cos(0.6 * j)) + random.Point(-1.5, 1.5);
+      network.vertices.push_back(v);
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    NetworkLine line;
+    for (int j = 0; j < m; ++j) line.vertices.push_back(i * m + j);
+    network.lines.push_back(line);
+  }
+  for (int j = 0; j < m; ++j) {
+    NetworkLine line;
+    for (int i = 0; i < n; ++i) line.vertices.push_back(i * m + j);
+    network.lines.push_back(line);
+  }
+  for (int i = 0; i + 1 < n; ++i) {
+    for (int j = 0; j + 1 < m; ++j) {
+      std::vector<int> loop = {i * m + j, (i + 1) * m + j, (i + 1) * m + j + 1, i * m + j + 1};
+      std::rotate(loop.begin(), loop.begin() + random.Int(4), loop.end());
+      if (random.Int(2) == 0) std::reverse(loop.begin(), loop.end());
+      network.faces.push_back({"", loop, PatchScheme::kG2Gregory, {}});
+    }
   }
   return network;
 }

@@ -1,0 +1,289 @@
+#include "core/editing/edit_network.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/status.h"
+#include "core/curve/spline.h"
+#include "core/editing/section_points.h"
+#include "core/joining/join_network.h"
+
+namespace patchmill {
+namespace {
+
+std::size_t At(int i) { return static_cast<std::size_t>(i); }
+
+bool SameEdge(int a, int b, int c, int d) { return std::minmax(a, b) == std::minmax(c, d); }
+
+class Editor {
+ public:
+  explicit Editor(CurveNetwork network) : network_(std::move(network)) {}
+
+  CurveNetwork Take() { return std::move(network_); }
+
+  absl::Status Apply(const PushEdit& edit, const std::string& at) {
+    PM_RETURN_IF_ERROR(CheckFace(edit.face, at));
+    network_.faces[At(edit.face)].pushes.push_back(edit.push);
+    return Changed();
+  }
+
+  absl::Status Apply(const NormalEdit& edit, const std::string& at) {
+    const int count = static_cast<int>(network_.vertices.size());
+    if (edit.vertex < 0 || edit.vertex >= count) {
+      return Error(at + ".vertex", fmt::format("= {}; must be in [0, {}]", edit.vertex, count - 1));
+    }
+    if (!edit.direction.allFinite() || !(edit.direction.norm() > 1e-12)) {
+      return Error(at + ".direction", "has no direction; must be finite and not zero");
+    }
+    auto& normals = network_.vertices[At(edit.vertex)].normals;
+    if (!edit.face) {
+      if (normals.size() > 1) {
+        return Error(at + ".face",
+                     fmt::format("is missing; vertex {} has {} normals, one for each group of faces",
+                                 edit.vertex, normals.size()));
+      }
+      const std::vector<int> faces = normals.empty() ? std::vector<int>() : normals[0].faces;
+      normals = {{edit.direction, faces}};
+      return Changed();
+    }
+    PM_RETURN_IF_ERROR(CheckFace(*edit.face, at));
+    NetworkVertex::Normal* serving = nullptr;
+    for (auto& normal : normals) {
+      const bool listed = std::ranges::count(normal.faces, *edit.face) > 0;
+      if (listed || (normal.faces.empty() && serving == nullptr)) serving = &normal;
+    }
+    if (serving != nullptr) {
+      serving->direction = edit.direction;
+      return Changed();
+    }
+    PM_ASSIGN_OR_RETURN(const std::vector<int> faces, Group(edit.vertex, *edit.face, at));
+    normals.push_back({edit.direction, faces});
+    return Changed();
+  }
+
+  absl::Status Apply(const ControlEdit& edit, const std::string& at) {
+    PM_RETURN_IF_ERROR(CheckSide({edit.control.start, edit.control.end, edit.control.face}, at).status());
+    SetControl(edit.control);
+    return Changed();
+  }
+
+  absl::Status Apply(const ControlPointEdit& edit, const std::string& at) {
+    if (edit.point != 1 && edit.point != 2) {
+      return Error(at + ".point", fmt::format("= {}; must be 1 or 2", edit.point));
+    }
+    PM_ASSIGN_OR_RETURN(const MiddleCross cross, CrossAt(edit.at, at));
+    SectionPoints points = SectionPointsOf(cross);
+    (edit.point == 1 ? points.q1 : points.q2) = edit.position;
+    const MiddleCross wished = CrossOf(points);
+    if (edit.point == 1) DropSecond(edit.at);
+    CrossControl control{edit.at.start, edit.at.end, edit.at.face, wished.first, {}};
+    if (edit.point == 2) control.first = cross.first, control.second = wished.second;
+    SetControl(control);
+    return Changed();
+  }
+
+  absl::Status Apply(const CurvatureEdit& edit, const std::string& at) {
+    if (!(std::abs(edit.curvature) < kInfinity)) return Error(at + ".curvature", "must be finite");
+    PM_ASSIGN_OR_RETURN(const MiddleCross cross, CrossAt(edit.at, at));
+    SetControl(
+        {edit.at.start, edit.at.end, edit.at.face, cross.first, SecondForCurvature(cross, edit.curvature)});
+    return Changed();
+  }
+
+  absl::Status Apply(const GuideEdit& edit, const std::string& at) {
+    const std::size_t count = edit.edges.size(), least = edit.closed ? 3 : 2;
+    if (count < least) {
+      return Error(at + ".edges", fmt::format("are {}; must be at least {}", count, least));
+    }
+    PM_RETURN_IF_ERROR(Join(at));
+    SplineEnds ends;
+    for (const bool last : {false, true}) {
+      const std::optional<Vec3>& given = last ? edit.end : edit.start;
+      if (!given) continue;
+      if (!given->allFinite() || !(given->norm() > 0.0)) {
+        return Error(at + (last ? ".end" : ".start"), "has no direction; must be finite and not zero");
+      }
+      (last ? ends.end : ends.start) = given->normalized();
+    }
+    std::vector<Vec3> middles;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& [a, b] = edit.edges[k];
+      const auto edge = std::ranges::find_if(joined_->edges, [&, x = a, y = b](const JoinedEdge& e) {
+        return SameEdge(e.topology.start, e.topology.end, x, y);
+      });
+      if (edge == joined_->edges.end()) {
+        return Error(fmt::format("{}.edges[{}]", at, k), fmt::format("= {} {}; there is no such edge", a, b));
+      }
+      middles.push_back(Evaluate(edge->curve, kControlPlace).p);
+    }
+    const std::size_t spans = edit.closed ? count : count - 1;
+    std::vector<int> faces;
+    for (std::size_t k = 0; k < spans; ++k) {
+      const auto& next = edit.edges[(k + 1) % count];
+      const std::optional<int> face = FaceBetween(edit.edges[k], next);
+      if (!face) {
+        return Error(fmt::format("{}.edges[{}]", at, k),
+                     fmt::format("= {} {}; must lie opposite to the edge {} {} of one G2-Gregory face",
+                                 edit.edges[k][0], edit.edges[k][1], next[0], next[1]));
+      }
+      faces.push_back(*face);
+    }
+    const auto spline = SplineThrough(middles, edit.closed, ends);
+    if (!spline.ok()) return Error(at + ".edges", std::string(spline.status().message()));
+    for (std::size_t k = 0; k < spans; ++k) {
+      const auto& [a, b] = edit.edges[k];
+      const auto& [c, d] = edit.edges[(k + 1) % count];
+      const CurveJet from = Evaluate((*spline)[k], 0.0), to = Evaluate((*spline)[k], 1.0);
+      PutControl({a, b, faces[k], from.d, from.dd});
+      PutControl({c, d, faces[k], Vec3(-to.d), to.dd});
+    }
+    if (!edit.closed) {  // what lies beyond the row follows
+      DropAcross({edit.edges[0][0], edit.edges[0][1], faces.front()});
+      DropAcross({edit.edges.back()[0], edit.edges.back()[1], faces.back()});
+    }
+    return Changed();
+  }
+
+ private:
+  static absl::Status Error(const std::string& field, const std::string& text) {
+    return absl::InvalidArgumentError(field + " " + text);
+  }
+  absl::Status Changed() {
+    joined_.reset();
+    return absl::OkStatus();
+  }
+
+  absl::Status CheckFace(int face, const std::string& at) const {
+    const int count = static_cast<int>(network_.faces.size());
+    if (face >= 0 && face < count) return absl::OkStatus();
+    return Error(at + ".face", fmt::format("= {}; must be in [0, {}]", face, count - 1));
+  }
+
+  // The side of the face that is the edge.
+  absl::StatusOr<int> CheckSide(const EdgeOfFace& e, const std::string& at) const {
+    PM_RETURN_IF_ERROR(CheckFace(e.face, at));
+    const auto& loop = network_.faces[At(e.face)].vertices;
+    if (loop.size() != 4 || network_.faces[At(e.face)].scheme != PatchScheme::kG2Gregory) {
+      return Error(at + ".face", fmt::format("= {}; must be a G2-Gregory face", e.face));
+    }
+    for (int s = 0; s < 4; ++s) {
+      if (SameEdge(loop[At(s)], loop[At((s + 1) % 4)], e.start, e.end)) return s;
+    }
+    return Error(at,
+                 fmt::format("names the edge {} {}, which is not beside face {}", e.start, e.end, e.face));
+  }
+
+  absl::Status Join(const std::string& at) {
+    if (!joined_) joined_ = JoinNetwork(network_);
+    if (!joined_->model.patches.empty()) return absl::OkStatus();
+    return Error(
+        at, "asks for the surface before it, which cannot be made: " + joined_->findings.front().message);
+  }
+
+  absl::StatusOr<MiddleCross> CrossAt(const EdgeOfFace& e, const std::string& at) {
+    PM_ASSIGN_OR_RETURN(const int side, CheckSide(e, at));
+    PM_RETURN_IF_ERROR(Join(at));
+    return AcrossMiddle(joined_->model.patches[At(e.face)].shape, side);
+  }
+
+  // The faces that meet `face` smoothly at the vertex.
+  absl::StatusOr<std::vector<int>> Group(int vertex, int face, const std::string& at) {
+    PM_RETURN_IF_ERROR(Join(at));
+    std::vector<int> group = {face};
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      for (const JoinedEdge& edge : joined_->edges) {
+        if (edge.kind != EdgeKind::kSmooth || (edge.topology.start != vertex && edge.topology.end != vertex))
+          continue;
+        const int a = edge.topology.faces[0].face, b = edge.topology.faces[1].face;
+        if (a != group[k] && b != group[k]) continue;
+        const int other = a == group[k] ? b : a;
+        if (std::ranges::count(group, other) == 0) group.push_back(other);
+      }
+    }
+    if (std::ranges::count(network_.faces[At(face)].vertices, vertex) == 0) {
+      return Error(at + ".face", fmt::format("= {}; must touch vertex {}", face, vertex));
+    }
+    std::ranges::sort(group);
+    return group;
+  }
+
+  std::optional<int> FaceBetween(const std::array<int, 2>& a, const std::array<int, 2>& b) const {
+    for (int f = 0; f < static_cast<int>(network_.faces.size()); ++f) {
+      const auto& loop = network_.faces[At(f)].vertices;
+      if (loop.size() != 4 || network_.faces[At(f)].scheme != PatchScheme::kG2Gregory) continue;
+      for (std::size_t s = 0; s < 4; ++s) {
+        if (SameEdge(loop[s], loop[(s + 1) % 4], a[0], a[1]) &&
+            SameEdge(loop[(s + 2) % 4], loop[(s + 3) % 4], b[0], b[1])) {
+          return f;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  CrossControl& ControlOf(const CrossControl& wanted) {
+    for (CrossControl& control : network_.controls) {
+      if (control.face == wanted.face && SameEdge(control.start, control.end, wanted.start, wanted.end)) {
+        return control;
+      }
+    }
+    network_.controls.push_back({wanted.start, wanted.end, wanted.face, {}, {}});
+    return network_.controls.back();
+  }
+
+  void PutControl(const CrossControl& control) {
+    CrossControl& to = ControlOf(control);
+    if (control.first) to.first = control.first;
+    if (control.second) to.second = control.second;
+  }
+
+  void SetControl(const CrossControl& control) {
+    for (CrossControl& other : network_.controls) {
+      if (other.face == control.face || !SameEdge(other.start, other.end, control.start, control.end))
+        continue;
+      if (control.first) other.first.reset();
+      if (control.second) other.second.reset();
+    }
+    PutControl(control);
+    DropEmpty();
+  }
+  // Of both faces: the second derivatives across the edge are found anew.
+  void DropSecond(const EdgeOfFace& e) {
+    for (CrossControl& control : network_.controls) {
+      if (SameEdge(control.start, control.end, e.start, e.end)) control.second.reset();
+    }
+    DropEmpty();
+  }
+  void DropAcross(const EdgeOfFace& e) {
+    std::erase_if(network_.controls, [&](const CrossControl& control) {
+      return control.face != e.face && SameEdge(control.start, control.end, e.start, e.end);
+    });
+  }
+  void DropEmpty() {
+    std::erase_if(network_.controls, [](const CrossControl& c) { return !c.first && !c.second; });
+  }
+
+  CurveNetwork network_;
+  std::optional<JoinedNetwork> joined_;  // of network_ as it is
+};
+
+}  // namespace
+
+absl::StatusOr<CurveNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
+                                         const RunContext& run) {
+  if (edits.size() > kMaxEdits) {
+    return absl::InvalidArgumentError(
+        fmt::format("edits are {}; must be at most {}", edits.size(), kMaxEdits));
+  }
+  Editor editor(std::move(network));
+  for (std::size_t k = 0; k < edits.size(); ++k) {
+    PM_RETURN_IF_ERROR(run.Check());
+    const std::string at = fmt::format("edits[{}]", k);
+    PM_RETURN_IF_ERROR(std::visit([&](const auto& edit) { return editor.Apply(edit, at); }, edits[k]));
+  }
+  return editor.Take();
+}
+
+}  // namespace patchmill
