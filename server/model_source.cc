@@ -95,27 +95,45 @@ absl::StatusOr<LoadedModel> LoadText(const v1::ModelFile& file, std::string_view
   return loaded;
 }
 
-absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::string& at) {
-  if (file.content().empty()) return ModelUnreadableError("model file: empty");
-  const std::string& format = file.format();
-  if (std::find(std::begin(kTextFormats), std::end(kTextFormats), format) != std::end(kTextFormats)) {
-    return LoadText(file, at);
-  }
-  if (!(format.empty() || format == "json" || format == "pb")) {
+bool IsText(const std::string& format) {
+  return std::find(std::begin(kTextFormats), std::end(kTextFormats), format) != std::end(kTextFormats);
+}
+
+// A .json or .pb file.
+absl::StatusOr<v1::PatchModel> ParseMessage(const v1::ModelFile& file, std::string_view at) {
+  if (!(file.format().empty() || file.format() == "json" || file.format() == "pb")) {
     FieldErrors errors;
-    errors.Add(At(at, "format"), fmt::format("= \"{}\"; must be one of {}, json, pb",
-                                             Utf8(format.substr(0, 50)), fmt::join(kTextFormats, ", ")));
+    errors.Add(At(at, "format"),
+               fmt::format("= \"{}\"; must be one of {}, json, pb", Utf8(file.format().substr(0, 50)),
+                           fmt::join(kTextFormats, ", ")));
     return errors.ToStatus();
   }
-  PM_ASSIGN_OR_RETURN(const v1::PatchModel model, LooksLikeJson(file.content()) || format == "json"
-                                                      ? ParseJson(file.content())
-                                                      : ParseBinary(file.content(), format));
+  PM_ASSIGN_OR_RETURN(v1::PatchModel model, LooksLikeJson(file.content()) || file.format() == "json"
+                                                ? ParseJson(file.content())
+                                                : ParseBinary(file.content(), file.format()));
   if (file.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED && file.length_unit() != model.length_unit()) {
     FieldErrors errors;
     errors.Add(At(at, "length_unit"), "differs from the file's own length_unit; leave it unset");
     return errors.ToStatus();
   }
+  return model;
+}
+
+absl::Status RequireContent(const v1::ModelFile& file) {
+  return file.content().empty() ? ModelUnreadableError("model file: empty") : absl::OkStatus();
+}
+
+absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::string& at) {
+  PM_RETURN_IF_ERROR(RequireContent(file));
+  if (IsText(file.format())) return LoadText(file, at);
+  PM_ASSIGN_OR_RETURN(const v1::PatchModel model, ParseMessage(file, at));
   return FromChecked(FromProto(model, At(at, "content")));
+}
+
+absl::Status NoSource(std::string_view at) {
+  FieldErrors errors;
+  errors.Missing(std::string(at));
+  return errors.ToStatus();
 }
 
 absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view at) {
@@ -129,9 +147,7 @@ absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view
     case v1::ModelSource::SOURCE_NOT_SET:
       break;
   }
-  FieldErrors errors;
-  errors.Missing(std::string(at));
-  return errors.ToStatus();
+  return NoSource(at);
 }
 
 }  // namespace
@@ -139,6 +155,36 @@ absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view
 absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at) {
   PM_ASSIGN_OR_RETURN(LoadedModel loaded, Load(source, at));
   loaded.digest = ModelDigest(loaded.model);
+  return loaded;
+}
+
+absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::string_view at) {
+  LoadedNetwork loaded;
+  std::string path;
+  switch (source.source_case()) {
+    case v1::ModelSource::kModel:
+      loaded.message = source.model();
+      path = At(at, "model");
+      break;
+    case v1::ModelSource::kFile: {
+      PM_RETURN_IF_ERROR(RequireContent(source.file()));
+      path = At(at, "file");
+      if (IsText(source.file().format())) {
+        FieldErrors errors;
+        errors.Add(At(path, "format"),
+                   fmt::format("= \"{}\"; must be json or pb, with a network", source.file().format()));
+        return errors.ToStatus();
+      }
+      PM_ASSIGN_OR_RETURN(loaded.message, ParseMessage(source.file(), path));
+      path = At(path, "content");
+      break;
+    }
+    case v1::ModelSource::kModelSha256:
+      return ModelNotCachedError();
+    case v1::ModelSource::SOURCE_NOT_SET:
+      return NoSource(at);
+  }
+  PM_ASSIGN_OR_RETURN(loaded.checked, NetworkFromProto(loaded.message, path));
   return loaded;
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/diagnostic.h"
 #include "core/network/patch_model.h"
 #include "patchmill/v1/model.pb.h"
+#include "server/convert/model.h"
 
 namespace patchmill {
 
@@ -23,5 +24,12 @@ struct LoadedModel {
 // INVALID_ARGUMENT for what cannot be read (with line and reason), NOT_FOUND for a digest, RESOURCE_EXHAUSTED
 // for a limit. Limits are checked before the cost is paid. `at` is the path of the source in its request.
 absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at);
+
+// A network as a message and as a value. Errors as LoadModel, and INVALID_ARGUMENT for a model of patches.
+struct LoadedNetwork {
+  v1::PatchModel message;
+  CheckedNetwork checked;
+};
+absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::string_view at);
 
 }  // namespace patchmill

@@ -63,6 +63,11 @@ class ModelServiceImpl final : public v1::ModelService::Service {
     return Run(env_, context, "CheckModel",
                [&](const Call& call) { return HandleCheckModel(call, *request, response); });
   }
+  grpc::Status EditModel(grpc::ServerContext* context, const v1::EditModelRequest* request,
+                         v1::EditModelResponse* response) override {
+    return Run(env_, context, "EditModel",
+               [&](const Call& call) { return HandleEditModel(call, *request, response); });
+  }
   grpc::Status FairCurve(grpc::ServerContext* context, const v1::FairCurveRequest* request,
                          v1::FairCurveResponse* response) override {
     return Run(env_, context, "FairCurve",

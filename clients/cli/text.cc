@@ -95,14 +95,21 @@ std::string WireText(std::string_view text, std::size_t most) {
   return out;
 }
 
-std::string Json(const google::protobuf::Message& message) {
+namespace {
+
+std::string Print(const google::protobuf::Message& message, bool whole) {
   google::protobuf::util::JsonPrintOptions options;
-  options.add_whitespace = true;
-  options.always_print_primitive_fields = true;
+  options.add_whitespace = whole;
+  options.always_print_primitive_fields = whole;
   options.preserve_proto_field_names = true;
   std::string text;
   const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
   return status.ok() ? text : fmt::format("{{\"error\": \"{}\"}}\n", std::string(status.message()));
 }
+
+}  // namespace
+
+std::string Json(const google::protobuf::Message& message) { return Print(message, true); }
+std::string ShortJson(const google::protobuf::Message& message) { return Print(message, false); }
 
 }  // namespace patchmill::cli

@@ -32,5 +32,7 @@ std::string WireText(std::string_view text, std::size_t most);
 
 // The proto's own field names, zeros printed, one field a line.
 std::string Json(const google::protobuf::Message& message);
+// What is set only, on one line: for models.
+std::string ShortJson(const google::protobuf::Message& message);
 
 }  // namespace patchmill::cli

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -21,7 +23,18 @@ class Editor {
  public:
   explicit Editor(CurveNetwork network) : network_(std::move(network)) {}
 
-  CurveNetwork Take() { return std::move(network_); }
+  absl::Status ReadControls() {
+    for (std::size_t k = 0; k < network_.controls.size(); ++k) {
+      if (controls_.emplace(KeyOf(network_.controls[k]), network_.controls[k]).second) continue;
+      return Error(fmt::format("network.controls[{}]", k), "is the second one for its edge and face");
+    }
+    return absl::OkStatus();
+  }
+
+  CurveNetwork Take() {
+    network_.controls = Controls();
+    return std::move(network_);
+  }
 
   absl::Status Apply(const PushEdit& edit, const std::string& at) {
     PM_RETURN_IF_ERROR(CheckFace(edit.face, at));
@@ -77,9 +90,16 @@ class Editor {
     SectionPoints points = SectionPointsOf(cross);
     (edit.point == 1 ? points.q1 : points.q2) = edit.position;
     const MiddleCross wished = CrossOf(points);
-    if (edit.point == 1) DropSecond(edit.at);
-    CrossControl control{edit.at.start, edit.at.end, edit.at.face, wished.first, {}};
-    if (edit.point == 2) control.first = cross.first, control.second = wished.second;
+    const CrossControl here{edit.at.start, edit.at.end, edit.at.face, {}, {}};
+    CrossControl control = here;
+    if (edit.point == 1) {
+      // The second derivatives of both faces are found anew.
+      ForAcross(here, [](CrossControl& other) { other.second.reset(); });
+      if (const auto own = controls_.find(KeyOf(here)); own != controls_.end()) own->second.second.reset();
+      control.first = wished.first;
+    } else {
+      control.first = cross.first, control.second = wished.second;
+    }
     SetControl(control);
     return Changed();
   }
@@ -107,22 +127,26 @@ class Editor {
       }
       (last ? ends.end : ends.start) = given->normalized();
     }
+    std::map<std::pair<int, int>, const JoinedEdge*> by_ends;
+    for (const JoinedEdge& e : joined_->edges) {
+      by_ends.emplace(std::minmax(e.topology.start, e.topology.end), &e);
+    }
     std::vector<Vec3> middles;
+    std::vector<const JoinedEdge*> row;
     for (std::size_t k = 0; k < count; ++k) {
-      const auto& [a, b] = edit.edges[k];
-      const auto edge = std::ranges::find_if(joined_->edges, [&, x = a, y = b](const JoinedEdge& e) {
-        return SameEdge(e.topology.start, e.topology.end, x, y);
-      });
-      if (edge == joined_->edges.end()) {
+      const auto [a, b] = edit.edges[k];
+      const auto edge = by_ends.find(std::minmax(a, b));
+      if (edge == by_ends.end()) {
         return Error(fmt::format("{}.edges[{}]", at, k), fmt::format("= {} {}; there is no such edge", a, b));
       }
-      middles.push_back(Evaluate(edge->curve, kControlPlace).p);
+      row.push_back(edge->second);
+      middles.push_back(Evaluate(edge->second->curve, kControlPlace).p);
     }
     const std::size_t spans = edit.closed ? count : count - 1;
     std::vector<int> faces;
     for (std::size_t k = 0; k < spans; ++k) {
       const auto& next = edit.edges[(k + 1) % count];
-      const std::optional<int> face = FaceBetween(edit.edges[k], next);
+      const std::optional<int> face = FaceBetween(row[k]->topology, next);
       if (!face) {
         return Error(fmt::format("{}.edges[{}]", at, k),
                      fmt::format("= {} {}; must lie opposite to the edge {} {} of one G2-Gregory face",
@@ -140,8 +164,9 @@ class Editor {
       PutControl({c, d, faces[k], Vec3(-to.d), to.dd});
     }
     if (!edit.closed) {  // what lies beyond the row follows
-      DropAcross({edit.edges[0][0], edit.edges[0][1], faces.front()});
-      DropAcross({edit.edges.back()[0], edit.edges.back()[1], faces.back()});
+      const auto drop = [](CrossControl& other) { other.first.reset(), other.second.reset(); };
+      ForAcross({edit.edges[0][0], edit.edges[0][1], faces.front(), {}, {}}, drop);
+      ForAcross({edit.edges.back()[0], edit.edges.back()[1], faces.back(), {}, {}}, drop);
     }
     return Changed();
   }
@@ -176,7 +201,10 @@ class Editor {
   }
 
   absl::Status Join(const std::string& at) {
-    if (!joined_) joined_ = JoinNetwork(network_);
+    if (!joined_) {
+      network_.controls = Controls();
+      joined_ = JoinNetwork(network_);
+    }
     if (!joined_->model.patches.empty()) return absl::OkStatus();
     return Error(
         at, "asks for the surface before it, which cannot be made: " + joined_->findings.front().message);
@@ -209,64 +237,64 @@ class Editor {
     return group;
   }
 
-  std::optional<int> FaceBetween(const std::array<int, 2>& a, const std::array<int, 2>& b) const {
-    for (int f = 0; f < static_cast<int>(network_.faces.size()); ++f) {
-      const auto& loop = network_.faces[At(f)].vertices;
-      if (loop.size() != 4 || network_.faces[At(f)].scheme != PatchScheme::kG2Gregory) continue;
-      for (std::size_t s = 0; s < 4; ++s) {
-        if (SameEdge(loop[s], loop[(s + 1) % 4], a[0], a[1]) &&
-            SameEdge(loop[(s + 2) % 4], loop[(s + 3) % 4], b[0], b[1])) {
-          return f;
-        }
+  // The face beside `edge` whose opposite side is `next`.
+  std::optional<int> FaceBetween(const TableEdge& edge, const std::array<int, 2>& next) const {
+    for (const FaceSide& s : edge.faces) {
+      const NetworkFace& face = network_.faces[At(s.face)];
+      if (face.scheme != PatchScheme::kG2Gregory) continue;
+      if (SameEdge(face.vertices[At((s.side + 2) % 4)], face.vertices[At((s.side + 3) % 4)], next[0],
+                   next[1])) {
+        return s.face;
       }
     }
     return std::nullopt;
   }
 
-  CrossControl& ControlOf(const CrossControl& wanted) {
-    for (CrossControl& control : network_.controls) {
-      if (control.face == wanted.face && SameEdge(control.start, control.end, wanted.start, wanted.end)) {
-        return control;
-      }
+  // Ends of an edge and a face.
+  using Key = std::array<int, 3>;
+  static Key KeyOf(int start, int end, int face) {
+    return {std::min(start, end), std::max(start, end), face};
+  }
+  static Key KeyOf(const CrossControl& c) { return KeyOf(c.start, c.end, c.face); }
+
+  // Calls visit(control) for those of other faces at the edge, and drops what is empty then.
+  template <class Visit>
+  void ForAcross(const CrossControl& here, const Visit& visit) {
+    auto it = controls_.lower_bound({KeyOf(here)[0], KeyOf(here)[1], 0});
+    while (it != controls_.end() && it->first[0] == KeyOf(here)[0] && it->first[1] == KeyOf(here)[1]) {
+      if (it->first[2] != here.face) visit(it->second);
+      it = it->second.first || it->second.second ? std::next(it) : controls_.erase(it);
     }
-    network_.controls.push_back({wanted.start, wanted.end, wanted.face, {}, {}});
-    return network_.controls.back();
   }
 
   void PutControl(const CrossControl& control) {
-    CrossControl& to = ControlOf(control);
+    CrossControl& to = controls_.try_emplace(KeyOf(control), control).first->second;
     if (control.first) to.first = control.first;
     if (control.second) to.second = control.second;
   }
 
   void SetControl(const CrossControl& control) {
-    for (CrossControl& other : network_.controls) {
-      if (other.face == control.face || !SameEdge(other.start, other.end, control.start, control.end))
-        continue;
+    ForAcross(control, [&](CrossControl& other) {
       if (control.first) other.first.reset();
       if (control.second) other.second.reset();
-    }
-    PutControl(control);
-    DropEmpty();
-  }
-  // Of both faces: the second derivatives across the edge are found anew.
-  void DropSecond(const EdgeOfFace& e) {
-    for (CrossControl& control : network_.controls) {
-      if (SameEdge(control.start, control.end, e.start, e.end)) control.second.reset();
-    }
-    DropEmpty();
-  }
-  void DropAcross(const EdgeOfFace& e) {
-    std::erase_if(network_.controls, [&](const CrossControl& control) {
-      return control.face != e.face && SameEdge(control.start, control.end, e.start, e.end);
     });
+    PutControl(control);
   }
-  void DropEmpty() {
-    std::erase_if(network_.controls, [](const CrossControl& c) { return !c.first && !c.second; });
+
+  // Those that were there in their order, then the new ones.
+  std::vector<CrossControl> Controls() const {
+    std::vector<CrossControl> list;
+    auto rest = controls_;
+    for (const CrossControl& old : network_.controls) {
+      if (const auto it = rest.find(KeyOf(old)); it != rest.end()) list.push_back(it->second), rest.erase(it);
+    }
+    for (const auto& [key, control] : rest) list.push_back(control);
+    return list;
   }
 
   CurveNetwork network_;
-  std::optional<JoinedNetwork> joined_;  // of network_ as it is
+  std::map<Key, CrossControl> controls_;  // as edited; those of network_ are older
+  std::optional<JoinedNetwork> joined_;   // as edited
 };
 
 }  // namespace
@@ -278,6 +306,7 @@ absl::StatusOr<CurveNetwork> EditNetwork(CurveNetwork network, const std::vector
         fmt::format("edits are {}; must be at most {}", edits.size(), kMaxEdits));
   }
   Editor editor(std::move(network));
+  PM_RETURN_IF_ERROR(editor.ReadControls());
   for (std::size_t k = 0; k < edits.size(); ++k) {
     PM_RETURN_IF_ERROR(run.Check());
     const std::string at = fmt::format("edits[{}]", k);

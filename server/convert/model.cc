@@ -328,7 +328,15 @@ std::optional<double> MillimetersPer(v1::LengthUnit unit) {
   }
 }
 
-absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_view at) {
+namespace {
+
+// What every model has: mm of one unit, and the join tolerance.
+struct ModelHead {
+  double unit = 1.0;
+  std::optional<double> join_tolerance;
+};
+
+absl::StatusOr<ModelHead> HeadOf(const v1::PatchModel& proto, std::string_view at) {
   PM_RETURN_IF_ERROR(CheckLimits(proto));
   FieldErrors errors;
   const std::optional<double> unit = MillimetersPer(proto.length_unit());
@@ -341,21 +349,46 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
     errors.Add(At(at, "network"), "comes beside patches; give one of the two");
   }
   if (proto.patches().empty() && !proto.has_network()) errors.Missing(At(at, "patches"));
-  CheckedModel checked;
+  ModelHead head;
   if (proto.has_join_tolerance_mm()) {
     const double tolerance = proto.join_tolerance_mm();
     Require(errors, At(at, "join_tolerance_mm"), tolerance,
             tolerance > 0.0 && tolerance <= limits::kMaxJoinToleranceMm,
             fmt::format("in (0, {}]", limits::kMaxJoinToleranceMm));
-    checked.model.join_tolerance = tolerance;
+    head.join_tolerance = tolerance;
   }
   PM_RETURN_IF_ERROR(errors.ToStatus());
+  head.unit = *unit;
+  return head;
+}
 
+CheckedNetwork ReadNetwork(const v1::PatchModel& proto, const ModelHead& head) {
+  CheckedNetwork checked;
+  checked.unit = head.unit;
+  checked.network = FromProto(proto.network(), head.unit, checked.faults);
+  checked.network.join_tolerance = head.join_tolerance;
+  return checked;
+}
+
+}  // namespace
+
+absl::StatusOr<CheckedNetwork> NetworkFromProto(const v1::PatchModel& proto, std::string_view at) {
+  PM_ASSIGN_OR_RETURN(const ModelHead head, HeadOf(proto, at));
+  if (proto.has_network()) return ReadNetwork(proto, head);
+  FieldErrors errors;
+  errors.Add(At(at, "patches"), "make a model that has no network; must be a network");
+  return errors.ToStatus();
+}
+
+absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_view at) {
+  PM_ASSIGN_OR_RETURN(const ModelHead head, HeadOf(proto, at));
+  CheckedModel checked;
+  checked.model.join_tolerance = head.join_tolerance;
   if (proto.has_network()) {
-    CurveNetwork network = FromProto(proto.network(), *unit, checked.faults);
-    network.join_tolerance = checked.model.join_tolerance;
+    CheckedNetwork read = ReadNetwork(proto, head);
+    checked.faults = std::move(read.faults);
     if (!checked.faults.empty()) return checked;
-    JoinedNetwork joined = JoinNetwork(network);
+    JoinedNetwork joined = JoinNetwork(read.network);
     checked.model = std::move(joined.model);
     (HasError(joined.findings) ? checked.faults : checked.remarks) = std::move(joined.findings);
     if (checked.faults.empty()) checked.faults = ValidateModel(checked.model);
@@ -363,7 +396,7 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
   }
   checked.model.patches.reserve(static_cast<std::size_t>(proto.patches_size()));
   for (int i = 0; i < proto.patches_size(); ++i) {
-    checked.model.patches.push_back(PatchReader(*unit, i, checked.faults).Read(proto.patches(i)));
+    checked.model.patches.push_back(PatchReader(head.unit, i, checked.faults).Read(proto.patches(i)));
   }
   // A patch the wire already got wrong is not reported twice.
   std::set<int> reported;

@@ -4,6 +4,7 @@
 #include <absl/status/statusor.h>
 
 #include "core/base/diagnostic.h"
+#include "core/joining/curve_network.h"
 #include "core/network/patch_model.h"
 #include "patchmill/v1/model.pb.h"
 
@@ -23,6 +24,15 @@ struct CheckedModel {
 // RESOURCE_EXHAUSTED for a limit, checked before anything is copied; INVALID_ARGUMENT for a missing
 // length_unit. Everything else is a fault of a patch. `at` is the path of the model in its request.
 absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_view at);
+
+// The network of a model as it is sent.
+struct CheckedNetwork {
+  CurveNetwork network;  // mm
+  double unit = 1.0;     // mm of one of the message's
+  Diagnostics faults;    // of the wire; the network may be used only when empty
+};
+// Errors as above; INVALID_ARGUMENT for a model without network, too.
+absl::StatusOr<CheckedNetwork> NetworkFromProto(const v1::PatchModel& proto, std::string_view at);
 
 // The other way, in millimetres.
 v1::PatchModel ToProto(const PatchModel& model);

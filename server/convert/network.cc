@@ -24,8 +24,17 @@ class NetworkReader {
       network.lines.push_back(
           {{line.vertices().begin(), line.vertices().end()}, line.closed(), line.crease()});
     }
+    for (int i = 0; i < proto.edges_size(); ++i) {
+      const v1::NetworkEdge& edge = proto.edges(i);
+      for (int k = 0; k < edge.controls_size(); ++k) {
+        network.controls.push_back(Control(edge.start(), edge.end(), edge.controls(k),
+                                           fmt::format("network.edges[{}].controls[{}]", i, k)));
+      }
+    }
     for (int k = 0; k < proto.controls_size(); ++k) {
-      network.controls.push_back(Control(proto.controls(k), fmt::format("network.controls[{}]", k)));
+      const v1::EdgeControl& from = proto.controls(k);
+      const std::string at = fmt::format("network.controls[{}].control", k);
+      network.controls.push_back(Control(from.start(), from.end(), from.control(), at));
     }
     return network;
   }
@@ -113,8 +122,8 @@ class NetworkReader {
     return CurveEdge{curve};
   }
 
-  CrossControl Control(const v1::CrossControl& from, const std::string& at) {
-    CrossControl control{from.start(), from.end(), from.face(), {}, {}};
+  CrossControl Control(int start, int end, const v1::CrossControl& from, const std::string& at) {
+    CrossControl control{start, end, from.face(), {}, {}};
     if (!from.first_derivative().empty()) {
       control.first = Vector(from.first_derivative(), unit_, at + ".first_derivative");
     }
@@ -129,19 +138,20 @@ class NetworkReader {
     return {Id(from.id(), at), from.start(), from.end(), Shape(from, at), from.crease()};
   }
 
+  FacePush Push(const v1::FacePush& push) const { return {push.u(), push.v(), push.amount() / unit_}; }
+
   NetworkFace Face(const v1::NetworkFace& from, int index) {
     const std::string at = fmt::format("network.faces[{}]", index);
     NetworkFace face;
     face.id = Id(from.id(), at);
     face.vertices = {from.vertices().begin(), from.vertices().end()};
-    if (from.pushes_size() > limits::kMaxPushes) {
-      Fault("INVALID_PUSH", at + ".pushes",
-            fmt::format("are {}; must be at most {}", from.pushes_size(), limits::kMaxPushes));
+    if (from.has_push()) face.pushes.push_back(Push(from.push()));
+    if (from.more_pushes_size() > limits::kMaxPushes) {
+      Fault("INVALID_PUSH", at + ".more_pushes",
+            fmt::format("are {}; must be at most {}", from.more_pushes_size(), limits::kMaxPushes));
       return face;
     }
-    for (const v1::FacePush& push : from.pushes()) {
-      face.pushes.push_back({push.u(), push.v(), push.amount() / unit_});
-    }
+    for (const v1::FacePush& push : from.more_pushes()) face.pushes.push_back(Push(push));
     switch (from.scheme()) {
       case v1::PATCH_SCHEME_UNSPECIFIED:
         break;
@@ -198,6 +208,7 @@ absl::Status CheckNetworkLimits(const v1::CurveNetwork& proto) {
   for (const v1::NetworkEdge& edge : proto.edges()) {
     points += (size(edge.bezier().points()) + size(edge.bspline().points())) / 3;
     knots += size(edge.bspline().knots());
+    references += size(edge.controls());
   }
   PM_RETURN_IF_ERROR(check("model.network.reference_count", limits::kMaxNetworkReferences, references));
   PM_RETURN_IF_ERROR(check("model.control_point_count", limits::kMaxControlPoints, points));

@@ -6,6 +6,7 @@
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
 #include "core/joining/continuity.h"
+#include "server/convert/joints.h"
 #include "server/convert/report.h"
 #include "server/convert/setup.h"
 #include "server/handlers/handlers.h"
@@ -43,20 +44,6 @@ void FillNetwork(const PatchNetwork& network, v1::CheckModelResponse* response) 
   response->set_max_gap_mm(std::isfinite(gap) ? gap : 0.0);
   response->set_max_angle_deg(std::isfinite(angle) ? Degrees(angle) : 0.0);
   response->set_join_tolerance_mm(network.join_tolerance);
-}
-
-void FillJoints(const ContinuityReport& report, v1::CheckModelResponse* response) {
-  for (const EdgeContinuity& joint : report.edges) {
-    v1::EdgeContinuity& to = *response->add_joints();
-    to.set_patch_index(joint.a.patch.value);
-    to.set_edge(joint.a.edge);
-    to.set_other_patch_index(joint.b.patch.value);
-    to.set_other_edge(joint.b.edge);
-    to.set_max_gap_mm(joint.max_gap);
-    to.set_max_angle_deg(Degrees(joint.max_angle));
-    to.set_max_curvature_gap_per_mm(joint.max_curvature_gap);
-    to.set_max_curvature_per_mm(joint.max_curvature);
-  }
 }
 
 }  // namespace
@@ -99,7 +86,7 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
     FillNetwork(surface.network, response);
     if (steps == 0) return absl::OkStatus();
     PM_ASSIGN_OR_RETURN(const ContinuityReport continuity, MeasureContinuity(surface.network, steps, run));
-    FillJoints(continuity, response);
+    AddJoints(continuity, response->mutable_joints());
     return absl::OkStatus();
   });
 }

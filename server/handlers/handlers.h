@@ -13,6 +13,9 @@ namespace patchmill {
 absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& request,
                               v1::CheckModelResponse* response);
 
+absl::Status HandleEditModel(const Call& call, const v1::EditModelRequest& request,
+                             v1::EditModelResponse* response);
+
 absl::Status HandleFairCurve(const Call& call, const v1::FairCurveRequest& request,
                              v1::FairCurveResponse* response);
 

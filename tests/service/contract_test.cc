@@ -45,9 +45,9 @@ const DescriptorPool& Pool() {
 }
 
 constexpr std::array kFiles = {
-    "analysis_service", "diagnostic", "fairing", "geometry", "job",   "lines",  "model", "model_service",
-    "network",          "operation",  "region",  "report",   "setup", "status", "tool",  "toolpath",
-    "toolpath_service"};
+    "analysis_service", "diagnostic",      "editing",   "fairing", "geometry", "job",   "lines",  "model",
+    "model_service",    "network",         "operation", "region",  "report",   "setup", "status", "tool",
+    "toolpath",         "toolpath_service"};
 
 template <class Visit>
 void ForEachFile(const Visit& visit) {
@@ -96,6 +96,7 @@ TEST(Contract, DimensionedNumbersCarryTheirUnit) {
                                        "position",
                                        "direction",
                                        "gamma",
+                                       "curvature",
                                        "amount",
                                        "start_tangent",
                                        "end_tangent",
@@ -174,7 +175,7 @@ TEST(Contract, EveryCallListsItsErrors) {
       }
     }
   });
-  EXPECT_EQ(seen, 7);
+  EXPECT_EQ(seen, 8);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ v1::PatchModel QuadAndTriangle() {
                  {"position": [20, 5, 0]}],
     "edges": [{"start": 1, "end": 2, "from_normals": {"gamma": 1.2}},
               {"start": 0, "end": 1, "bezier": {"points": [0, 0, 0, 3, -1, 2, 7, -1, 2, 10, 0, 2]}}],
-    "faces": [{"id": "quad", "vertices": [0, 1, 2, 3], "pushes": [{"u": 0.4, "v": 0.6, "amount": 0.05}]}, {"id": "tip", "vertices": [1, 4, 2]}]}})");
+    "faces": [{"id": "quad", "vertices": [0, 1, 2, 3], "push": {"u": 0.4, "v": 0.6, "amount": 0.05}}, {"id": "tip", "vertices": [1, 4, 2]}]}})");
 }
 
 TEST(NetworkModel, BecomesOnePatchPerFace) {
@@ -67,8 +67,8 @@ v1::PatchModel TwoCells() {
   return FromJson(R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "network": {
     "vertices": [{"position": [0, 0, 0]}, {"position": [10, 1, 2]}, {"position": [20, 0, -1]},
                  {"position": [0, 10, 1]}, {"position": [11, 9, 4]}, {"position": [20, 10, 0]}],
-    "controls": [{"start": 1, "end": 4, "face": 0, "first_derivative": [-10, 1, -1]},
-                 {"start": 4, "end": 1, "face": 1, "second_derivative": [1, 1, -9]}],
+    "edges": [{"start": 1, "end": 4, "controls": [{"face": 0, "first_derivative": [-10, 1, -1]}]}],
+    "controls": [{"start": 4, "end": 1, "control": {"face": 1, "second_derivative": [1, 1, -9]}}],
     "lines": [{"vertices": [0, 1, 2]}, {"vertices": [3, 4, 5]}],
     "faces": [{"vertices": [0, 1, 4, 3], "scheme": "PATCH_SCHEME_G2_GREGORY"},
               {"vertices": [1, 2, 5, 4], "scheme": "PATCH_SCHEME_G2_GREGORY"}]}})");
@@ -94,6 +94,7 @@ TEST(NetworkModel, LinesAndControlsReachTheJoint) {
 TEST(NetworkModel, WarningsDoNotRefuseTheModel) {
   v1::PatchModel proto = TwoCells();
   proto.mutable_network()->clear_controls();
+  proto.mutable_network()->clear_edges();
   proto.mutable_network()->mutable_faces(1)->set_scheme(v1::PATCH_SCHEME_UNSPECIFIED);
   const auto checked = FromProto(proto, "m");
   ASSERT_TRUE(checked.ok()) << checked.status();
@@ -173,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
                      [](v1::CurveNetwork& n) { n.mutable_faces(1)->set_scheme(v1::PATCH_SCHEME_BROWN); },
                      "network.faces[1] (tip) its scheme is for 4 sides"},
         NetworkFault{"PushOutside",
-                     [](v1::CurveNetwork& n) { n.mutable_faces(1)->add_pushes()->set_u(-0.1); },
+                     [](v1::CurveNetwork& n) { n.mutable_faces(1)->mutable_push()->set_u(-0.1); },
                      "network.faces[1] (tip) is pushed at (-0.1, 0) by 0"},
         NetworkFault{"IdTooLong",
                      [](v1::CurveNetwork& n) { n.mutable_edges(0)->set_id(std::string(201, 'x')); },
@@ -183,8 +184,10 @@ INSTANTIATE_TEST_SUITE_P(
                        for (const int v : {0, 1, 7}) n.mutable_lines()->Add()->add_vertices(v);
                      },
                      "network.lines[0] has no spline"},
-        NetworkFault{"ControlShort", [](v1::CurveNetwork& n) { n.add_controls()->add_first_derivative(1); },
-                     "network.controls[0].first_derivative has 1 numbers"},
+        NetworkFault{
+            "ControlShort",
+            [](v1::CurveNetwork& n) { n.add_controls()->mutable_control()->add_first_derivative(1); },
+            "network.controls[0].control.first_derivative has 1 numbers"},
         NetworkFault{"ControlOfAGregoryQuad", [](v1::CurveNetwork& n) { n.add_controls()->set_end(1); },
                      "network.controls[0] is for faces[0], which is no G2-Gregory patch"},
         NetworkFault{"NoFaces", [](v1::CurveNetwork& n) { n.clear_faces(); }, "network.faces has 0 faces"}),

@@ -4,6 +4,8 @@ if(PATCHMILL_SERVICE)
   target_compile_definitions(service_contract_test PRIVATE PATCHMILL_DESCRIPTORS="${CMAKE_BINARY_DIR}/patchmill_v1.binpb")
   add_dependencies(service_cli_test patchmill patchmilld)
   target_compile_definitions(service_cli_test PRIVATE PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
+  add_dependencies(service_cli_edit_test patchmill)
+  target_compile_definitions(service_cli_edit_test PRIVATE PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
   add_dependencies(service_cli_fair_test patchmill)
   target_compile_definitions(service_cli_fair_test PRIVATE PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
   # These measure times or start processes; a neighbour would spoil them.

@@ -1,0 +1,157 @@
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
+
+#include "clients/cli/commands.h"
+#include "clients/cli/input_file.h"
+#include "clients/cli/job_options.h"
+#include "clients/cli/output_file.h"
+#include "clients/cli/text.h"
+#include "patchmill/v1/model_service.grpc.pb.h"
+
+namespace patchmill::cli {
+namespace {
+
+struct EditOptions {
+  CommonOptions common;
+  std::string model, edits, output, patches;
+  std::vector<std::string> pushes;
+  int continuity = 100;
+};
+
+absl::Status ReadEdits(const std::string& path, v1::EditModelRequest& request) {
+  absl::StatusOr<std::string> text = ReadWholeFile(path);
+  if (!text.ok()) return text.status();
+  const auto status = google::protobuf::util::JsonStringToMessage(*text, &request);
+  if (!status.ok()) {
+    return absl::InvalidArgumentError(
+        fmt::format("{}: not edits in JSON: {}", path, std::string(status.message())));
+  }
+  v1::EditModelRequest rest = request;
+  rest.clear_edits();
+  if (rest.ByteSizeLong() == 0) return absl::OkStatus();
+  return absl::InvalidArgumentError(fmt::format("{}: has more than \"edits\"", path));
+}
+
+absl::Status ReadPush(const std::string& text, v1::EditModelRequest& request) {
+  std::vector<double> numbers;
+  for (const std::string& part : CLI::detail::split(text, ',')) {
+    double number = 0.0;
+    if (!CLI::detail::lexical_cast(part, number)) break;
+    numbers.push_back(number);
+  }
+  const std::size_t parts = CLI::detail::split(text, ',').size();
+  if (parts != 4 || numbers.size() != 4 || numbers[0] != static_cast<int>(numbers[0])) {
+    return absl::InvalidArgumentError(fmt::format("--push {}; must be FACE,U,V,AMOUNT", text));
+  }
+  v1::PushFace& push = *request.add_edits()->mutable_push_face();
+  push.set_face(static_cast<int>(numbers[0]));
+  push.mutable_push()->set_u(numbers[1]);
+  push.mutable_push()->set_v(numbers[2]);
+  push.mutable_push()->set_amount(numbers[3]);
+  return absl::OkStatus();
+}
+
+absl::StatusOr<v1::EditModelRequest> MakeRequest(const EditOptions& options) {
+  v1::EditModelRequest request;
+  if (!options.edits.empty()) {
+    if (const absl::Status read = ReadEdits(options.edits, request); !read.ok()) return read;
+  }
+  for (const std::string& push : options.pushes) {
+    if (const absl::Status read = ReadPush(push, request); !read.ok()) return read;
+  }
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  if (!source.ok()) return source.status();
+  *request.mutable_source() = *std::move(source);
+  request.set_continuity_steps(options.continuity);
+  request.set_with_patches(!options.patches.empty());
+  request.set_max_threads(options.common.threads);
+  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
+  return request;
+}
+
+std::string Bytes(const v1::PatchModel& model, const std::string& path) {
+  return path.ends_with(".pb") ? model.SerializeAsString() : ShortJson(model);
+}
+
+void PrintSummary(const EditOptions& options, const v1::EditModelResponse& response) {
+  if (options.common.quiet) return;
+  fmt::print(stderr, "{}: {} of {} faces changed\n", options.output, response.changed_faces_size(),
+             response.model().network().faces_size());
+  double gap = 0.0, angle = 0.0;
+  int equal = 0;
+  for (const v1::EdgeContinuity& joint : response.joints()) {
+    gap = std::max(gap, joint.max_gap_mm());
+    angle = std::max(angle, joint.max_angle_deg());
+    if (joint.max_curvature_per_mm() > 0.0 &&
+        joint.max_curvature_gap_per_mm() <= 1e-9 * joint.max_curvature_per_mm()) {
+      ++equal;
+    }
+  }
+  if (response.joints_size() > 0) {
+    fmt::print(
+        stderr,
+        "  {} joints: gaps up to {:.3g} mm, normals up to {:.3g} degrees apart, {} with equal curvature\n",
+        response.joints_size(), gap, angle, equal);
+  }
+  for (const v1::Diagnostic& finding : response.diagnostics()) fmt::print(stderr, "  {}\n", Line(finding));
+}
+
+absl::Status Run(const EditOptions& options, InterruptWatch& watch) {
+  OutputFile output(options.output), patches(options.patches);
+  for (const OutputFile* file : {&output, &patches}) {
+    if (!file->wanted()) continue;
+    if (!file->path().ends_with(".json") && !file->path().ends_with(".pb")) {
+      return absl::InvalidArgumentError(fmt::format("{}; must end in .json or .pb", file->path()));
+    }
+    if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
+  }
+  absl::StatusOr<v1::EditModelRequest> request = MakeRequest(options);
+  if (!request.ok()) return request.status();
+  absl::StatusOr<Connection> connection = Connect(options.common);
+  if (!connection.ok()) return connection.status();
+
+  CallScope call(options.common, watch);
+  v1::EditModelResponse response;
+  const grpc::Status status =
+      v1::ModelService::NewStub(connection->channel)->EditModel(call.context(), *request, &response);
+  if (!status.ok()) return FromGrpc(status, options.common, watch);
+  int errors = 0;
+  for (const v1::Diagnostic& finding : response.diagnostics()) {
+    if (finding.severity() == v1::SEVERITY_ERROR) ++errors;
+  }
+  if (errors > 0) {
+    for (const v1::Diagnostic& finding : response.diagnostics()) fmt::print(stderr, "  {}\n", Line(finding));
+    return absl::FailedPreconditionError(
+        fmt::format("{}: {} errors after the edits; nothing is written", options.model, errors));
+  }
+  output.Set(Bytes(response.model(), options.output));
+  patches.Set(Bytes(response.patches(), options.patches));
+  for (const OutputFile* file : {&patches, &output}) {
+    if (!file->wanted()) continue;
+    if (const absl::Status written = file->Commit(); !written.ok()) return written;
+  }
+  PrintSummary(options, response);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+Command AddEdit(CLI::App& app) {
+  auto options = std::make_shared<EditOptions>();
+  app.add_option("MODEL", options->model, "model with a curve network: .json or .pb")->required();
+  app.add_option("-o,--output", options->output, "the edited model, .json or .pb")->required();
+  app.add_option("--edits", options->edits, "edits to do, .json: {\"edits\": [ModelEdit, ...]}");
+  app.add_option("--push", options->pushes,
+                 "FACE,U,V,AMOUNT: push a face in or out there, after the edits; repeatable");
+  app.add_option("--patches", options->patches, "the patches made from it, .json or .pb");
+  app.add_option("--continuity", options->continuity, "measure every joint at this many steps of its edge")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  AddCommonOptions(app, options->common);
+  return [options](InterruptWatch& watch) { return Run(*options, watch); };
+}
+
+}  // namespace patchmill::cli

@@ -1,0 +1,80 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/status.h"
+#include "core/joining/continuity.h"
+#include "core/joining/join_network.h"
+#include "core/joining/network_findings.h"
+#include "core/network/control_points.h"
+#include "server/convert/editing.h"
+#include "server/convert/joints.h"
+#include "server/convert/report.h"
+#include "server/handlers/handlers.h"
+#include "server/handlers/prepare.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+void AddChanged(const PatchModel& before, const PatchModel& after, v1::EditModelResponse* response) {
+  if (before.patches.size() != after.patches.size()) return;
+  for (std::size_t f = 0; f < after.patches.size(); ++f) {
+    const PatchShape &a = before.patches[f].shape, &b = after.patches[f].shape;
+    if (!std::ranges::equal(ControlPoints(a), ControlPoints(b))) {
+      response->add_changed_faces(static_cast<int>(f));
+    }
+  }
+}
+
+absl::Status Edit(const v1::EditModelRequest& request, const RunContext& run,
+                  v1::EditModelResponse* response) {
+  PM_ASSIGN_OR_RETURN(LoadedNetwork loaded, LoadNetwork(request.source(), "source"));
+  const auto findings = [response](const Diagnostics& list) {
+    AddDiagnostics(list, Vec3::Zero(), response->mutable_diagnostics());
+  };
+  v1::PatchModel& message = *response->mutable_model() = std::move(loaded.message);
+  if (!loaded.checked.faults.empty()) {
+    findings(loaded.checked.faults);
+    return absl::OkStatus();
+  }
+  PM_ASSIGN_OR_RETURN(const std::vector<NetworkEdit> edits, FromProto(request.edits(), loaded.checked.unit));
+  const CurveNetwork& before = loaded.checked.network;
+  PM_ASSIGN_OR_RETURN(const CurveNetwork after, EditNetwork(before, edits, run));
+  WriteEdited(before, after, loaded.checked.unit, message.mutable_network());
+  PM_RETURN_IF_ERROR(run.Check());
+  JoinedNetwork joined = JoinNetwork(after);
+  findings(joined.findings);
+  if (HasError(joined.findings)) return absl::OkStatus();
+  if (const Diagnostics faults = ValidateModel(joined.model); !faults.empty()) {
+    findings(faults);
+    return absl::OkStatus();
+  }
+  PM_RETURN_IF_ERROR(run.Check());
+  AddChanged(JoinNetwork(before).model, joined.model, response);
+  if (request.with_patches()) *response->mutable_patches() = ToProto(joined.model);
+  if (request.continuity_steps() == 0) return absl::OkStatus();
+  PM_ASSIGN_OR_RETURN(const PatchNetwork network, BuildNetwork(std::move(joined.model), run));
+  PM_ASSIGN_OR_RETURN(const ContinuityReport report,
+                      MeasureContinuity(network, request.continuity_steps(), run));
+  AddJoints(report, response->mutable_joints());
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::Status HandleEditModel(const Call& call, const v1::EditModelRequest& request,
+                             v1::EditModelResponse* response) {
+  PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
+  PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
+  if (const int steps = request.continuity_steps(); steps < 0 || steps > limits::kMaxContinuitySteps) {
+    FieldErrors errors;
+    errors.Add("continuity_steps",
+               fmt::format("= {}; must be in [0, {}]", steps, limits::kMaxContinuitySteps));
+    return errors.ToStatus();
+  }
+  return RunJobThread(call, request.max_threads(), {},
+                      [&](const RunContext& run) { return Edit(request, run, response); });
+}
+
+}  // namespace patchmill

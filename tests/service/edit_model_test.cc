@@ -1,0 +1,196 @@
+// EditModel through the wire: every edit, units, what stays, refusals.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include "server/convert/model.h"
+#include "tests/core/joining/networks.h"
+#include "tests/service/embedded.h"
+#include "tests/service/status_matchers.h"
+
+namespace patchmill {
+namespace {
+
+using google::protobuf::util::MessageDifferencer;
+using grpc::StatusCode;
+using ::testing::ElementsAre;
+using testing::Embedded;
+using ::testing::HasSubstr;
+using testing::RpcStatusIs;
+
+grpc::Status Edit(const v1::EditModelRequest& request, v1::EditModelResponse* response) {
+  static Embedded embedded;
+  grpc::ClientContext context;
+  return embedded.model->EditModel(&context, request, response);
+}
+
+// 4 x 4 vertices with lines, G2-Gregory faces, in the given unit.
+v1::EditModelRequest Sheet(v1::LengthUnit unit = v1::LENGTH_UNIT_MILLIMETER) {
+  const CurveNetwork network = testing::LineSheet(1, 4, 4);
+  v1::EditModelRequest request;
+  v1::PatchModel& model = *request.mutable_source()->mutable_model();
+  model.set_length_unit(unit);
+  for (const NetworkVertex& vertex : network.vertices) {
+    auto* to = model.mutable_network()->add_vertices();
+    for (int k = 0; k < 3; ++k) to->add_position(vertex.position[k] / *MillimetersPer(unit));
+  }
+  for (const NetworkFace& face : network.faces) {
+    auto* to = model.mutable_network()->add_faces();
+    to->mutable_vertices()->Add(face.vertices.begin(), face.vertices.end());
+    to->set_scheme(v1::PATCH_SCHEME_G2_GREGORY);
+  }
+  for (const NetworkLine& line : network.lines) {
+    model.mutable_network()->add_lines()->mutable_vertices()->Add(line.vertices.begin(), line.vertices.end());
+  }
+  return request;
+}
+
+void AddEdits(v1::EditModelRequest& request, const std::string& json) {
+  v1::EditModelRequest edits;
+  const auto status = google::protobuf::util::JsonStringToMessage("{\"edits\": [" + json + "]}", &edits);
+  ASSERT_TRUE(status.ok()) << std::string(status.message());
+  for (const v1::ModelEdit& edit : edits.edits()) *request.add_edits() = edit;
+}
+
+TEST(EditModel, WithoutEditsTheModelComesBackAsItWent) {
+  v1::EditModelRequest request = Sheet(v1::LENGTH_UNIT_INCH);
+  request.set_continuity_steps(20);
+  v1::EditModelResponse response;
+  ASSERT_TRUE(Edit(request, &response).ok());
+  EXPECT_TRUE(MessageDifferencer::Equals(response.model(), request.source().model()));
+  EXPECT_EQ(response.changed_faces_size(), 0);
+  EXPECT_FALSE(response.has_patches());
+  EXPECT_EQ(response.diagnostics_size(), 0);
+  ASSERT_EQ(response.joints_size(), 12);
+  for (const v1::EdgeContinuity& joint : response.joints()) {
+    EXPECT_LE(joint.max_angle_deg(), 1e-9);
+    EXPECT_GT(joint.max_curvature_per_mm(), 0.0);
+    EXPECT_LE(joint.max_curvature_gap_per_mm(), 1e-9 * joint.max_curvature_per_mm());
+  }
+}
+
+TEST(EditModel, EditsReachTheSurfaceInTheModelsUnit) {
+  for (const auto unit : {v1::LENGTH_UNIT_MILLIMETER, v1::LENGTH_UNIT_INCH}) {
+    const double mm = *MillimetersPer(unit);
+    v1::EditModelRequest request = Sheet(unit);
+    AddEdits(
+        request,
+        fmt::format(
+            R"({{"set_control": {{"start": 5, "end": 6, "control": {{"face": 4, "first_derivative": [{0}, {1}, {1}]}}}}}},
+                                     {{"bend_section": {{"start": 9, "end": 10, "face": 4, "curvature": {2}}}}})",
+            10 / mm, 1 / mm, 0.04 * mm));
+    request.set_with_patches(true);
+    v1::EditModelResponse response;
+    const grpc::Status status = Edit(request, &response);
+    ASSERT_TRUE(status.ok()) << status.error_message();
+    EXPECT_EQ(response.diagnostics_size(), 0);
+    EXPECT_THAT(response.changed_faces(), ElementsAre(1, 4, 7));
+    EXPECT_EQ(response.model().length_unit(), unit);
+    ASSERT_EQ(response.model().network().controls_size(), 2);
+    EXPECT_NEAR(response.model().network().controls(0).control().first_derivative(0), 10 / mm, 1e-13);
+    ASSERT_EQ(response.patches().patches_size(), 9);
+    const auto patches = FromProto(response.patches(), "m");
+    ASSERT_TRUE(patches.ok() && patches->faults.empty());
+    // Face 4 has the vertices 5 9 10 6 from some corner on: its middle edges by place.
+    const v1::NetworkFace& face = request.source().model().network().faces(4);
+    int met = 0;
+    for (int side = 0; side < 4; ++side) {
+      const int a = face.vertices(side), b = face.vertices((side + 1) % 4);
+      if (std::minmax(a, b) != std::minmax(5, 6)) continue;
+      const double u = side == 1 ? 1 : side == 3 ? 0 : 0.5, v = side == 0 ? 0 : side == 2 ? 1 : 0.5;
+      const SurfaceJet s = Evaluate(patches->model.patches[4].shape, u, v);
+      const Vec3 inward = (side == 0 || side == 3 ? 1 : -1) * (side % 2 == 0 ? s.dv : s.du);
+      EXPECT_LE((inward - Vec3(10, 1, 1)).norm(), 1e-12);
+      ++met;
+    }
+    EXPECT_EQ(met, 1);
+    // The answer edits on: the same again, from the edited model, changes nothing more.
+    v1::EditModelRequest again;
+    *again.mutable_source()->mutable_model() = response.model();
+    v1::EditModelResponse same;
+    ASSERT_TRUE(Edit(again, &same).ok());
+    EXPECT_TRUE(MessageDifferencer::Equals(same.model(), response.model()));
+  }
+}
+
+TEST(EditModel, EveryKindOfEdit) {
+  v1::EditModelRequest request = Sheet();
+  for (int f = 0; f < 9; ++f) {  // a push is for twists
+    if (f != 4)
+      request.mutable_source()->mutable_model()->mutable_network()->mutable_faces(f)->clear_scheme();
+  }
+  request.mutable_source()->mutable_model()->mutable_network()->clear_lines();
+  AddEdits(request, R"({"push_face": {"face": 0, "push": {"u": 0.5, "v": 0.5, "amount": 0.02}}},
+                       {"turn_normal": {"vertex": 15, "direction": [0.1, 0, 1]}},
+                       {"turn_normal": {"vertex": 12, "face": 6, "direction": [0, 0.1, 1]}})");
+  v1::EditModelResponse response;
+  grpc::Status status = Edit(request, &response);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  EXPECT_TRUE(response.model().network().faces(0).has_push());
+  EXPECT_EQ(response.model().network().vertices(15).normals_size(), 1);
+  EXPECT_THAT(response.model().network().vertices(12).normals(0).faces(), ElementsAre(6));
+  EXPECT_EQ(response.diagnostics_size(), 4);  // face 4 gets tangent planes only
+
+  request = Sheet();
+  AddEdits(
+      request,
+      R"({"guide_row": {"edges": [{"start": 1, "end": 2}, {"start": 5, "end": 6}, {"start": 9, "end": 10}],
+                                      "start_direction": [1, 0, 0.2]}},
+                       {"move_control_point": {"start": 5, "end": 6, "face": 1, "point": 2, "position": [4, 18, 3]}})");
+  response.Clear();
+  status = Edit(request, &response);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  EXPECT_EQ(response.diagnostics_size(), 0);
+  EXPECT_THAT(response.changed_faces(), ElementsAre(1, 4, 7));
+}
+
+TEST(EditModel, WhatCannotBeDoneIsRefusedWithItsPath) {
+  const auto refused = [](const std::string& edit, const std::string& text) {
+    v1::EditModelRequest request = Sheet();
+    AddEdits(request, edit);
+    v1::EditModelResponse response;
+    EXPECT_THAT(Edit(request, &response), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr(text)));
+  };
+  refused("{}", "edits[0]");
+  refused(R"({"push_face": {"face": 12, "push": {}}})", "edits[0].face = 12; must be in [0, 8]");
+  refused(R"({"push_face": {"face": 1}})", "edits[0].push_face.push");
+  refused(R"({"turn_normal": {"vertex": 1, "direction": [1, 2]}})",
+          "edits[0].turn_normal.direction has 2 numbers");
+  refused(R"({"guide_row": {"edges": [{"start": 1, "end": 2}]}})",
+          "edits[0].edges are 1; must be at least 2");
+  v1::EditModelRequest request = Sheet();
+  v1::EditModelResponse response;
+  request.mutable_source()->mutable_model()->clear_network();
+  request.mutable_source()->mutable_model()->add_patches();
+  EXPECT_THAT(Edit(request, &response), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("no network")));
+  request = Sheet();
+  request.set_continuity_steps(-1);
+  EXPECT_THAT(Edit(request, &response),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("continuity_steps = -1")));
+  request = Sheet();
+  for (int k = 0; k < 1001; ++k) request.add_edits();
+  EXPECT_THAT(Edit(request, &response),
+              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("edits = 1001")));
+  request = Sheet();
+  request.mutable_source()->mutable_file()->set_format("bpt");
+  request.mutable_source()->mutable_file()->set_content("1");
+  EXPECT_THAT(Edit(request, &response),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("must be json or pb")));
+}
+
+// An edit may spoil the network: the findings say so, and the model comes back for the user to see.
+TEST(EditModel, ASpoiledNetworkComesBackWithFindings) {
+  v1::EditModelRequest request = Sheet();
+  AddEdits(request, R"({"push_face": {"face": 0, "push": {"u": 0.5, "v": 0.5, "amount": 1}}})");
+  v1::EditModelResponse response;
+  ASSERT_TRUE(Edit(request, &response).ok());
+  ASSERT_EQ(response.diagnostics_size(), 1);
+  EXPECT_EQ(response.diagnostics(0).code(), "UNSUPPORTED_SCHEME");
+  EXPECT_TRUE(response.model().network().faces(0).has_push());
+  EXPECT_EQ(response.joints_size(), 0);
+}
+
+}  // namespace
+}  // namespace patchmill
