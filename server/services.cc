@@ -63,10 +63,20 @@ class ModelServiceImpl final : public v1::ModelService::Service {
     return Run(env_, context, "CheckModel",
                [&](const Call& call) { return HandleCheckModel(call, *request, response); });
   }
+  grpc::Status BuildModel(grpc::ServerContext* context, const v1::BuildModelRequest* request,
+                          v1::BuildModelResponse* response) override {
+    return Run(env_, context, "BuildModel",
+               [&](const Call& call) { return HandleBuildModel(call, *request, response); });
+  }
   grpc::Status EditModel(grpc::ServerContext* context, const v1::EditModelRequest* request,
                          v1::EditModelResponse* response) override {
     return Run(env_, context, "EditModel",
                [&](const Call& call) { return HandleEditModel(call, *request, response); });
+  }
+  grpc::Status FairNet(grpc::ServerContext* context, const v1::FairNetRequest* request,
+                       v1::FairNetResponse* response) override {
+    return Run(env_, context, "FairNet",
+               [&](const Call& call) { return HandleFairNet(call, *request, response); });
   }
   grpc::Status FairCurve(grpc::ServerContext* context, const v1::FairCurveRequest* request,
                          v1::FairCurveResponse* response) override {

@@ -16,6 +16,7 @@ Command AddMill(CLI::App& app);
 Command AddCheck(CLI::App& app);
 Command AddRegions(CLI::App& app);
 Command AddVerify(CLI::App& app);
+Command AddBuild(CLI::App& app);
 Command AddEdit(CLI::App& app);
 Command AddFair(CLI::App& app);
 Command AddLines(CLI::App& app);

@@ -16,7 +16,8 @@ namespace {
 using Numbers = google::protobuf::RepeatedField<double>;
 
 // One point a line, each number in the shortest form that reads back the same.
-std::string PointText(const Numbers& xyz, const std::string& ending, const v1::FairCurveResponse& response) {
+template <class Response>
+std::string PointText(const Numbers& xyz, const std::string& ending, const Response& response) {
   const char* separator = ending == "csv" ? "," : " ";
   std::string text = response.title();
   if (text.empty() || text.front() == '#') {
@@ -31,17 +32,14 @@ std::string PointText(const Numbers& xyz, const std::string& ending, const v1::F
   return text;
 }
 
-void PrintSummary(const FairOptions& options, const v1::FairCurveResponse& response) {
-  if (options.common.quiet) return;
+template <class Response>
+void PrintSummary(const FairOptions& options, const Response& response) {
   const Numbers& energies = response.energies();
   fmt::print(stderr, "{}: {} points, {} iterations{}\n", options.output, response.points_mm_size() / 3,
              response.iteration_count(), response.settled() || options.fit ? "" : ", not settled");
   fmt::print(stderr, "  energy    {:.6g} -> {:.6g}\n", energies[0], energies[energies.size() - 1]);
   fmt::print(stderr, "  moved     at most {:.4g}, point {}\n", response.max_moved_mm(),
              response.max_moved_point_index());
-  if (response.polyline_mm_size() > 0) {
-    fmt::print(stderr, "  polyline  {} points\n", response.polyline_mm_size() / 3);
-  }
 }
 
 absl::Status CheckEnding(const char* option, const std::string& path,
@@ -86,7 +84,35 @@ absl::Status Run(const FairOptions& options, InterruptWatch& watch) {
     if (!file->wanted()) continue;
     if (const absl::Status written = file->Commit(); !written.ok()) return written;
   }
+  if (options.common.quiet) return absl::OkStatus();
   PrintSummary(options, response);
+  if (response.polyline_mm_size() > 0) {
+    fmt::print(stderr, "  polyline  {} points\n", response.polyline_mm_size() / 3);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status RunNet(const FairOptions& options, InterruptWatch& watch) {
+  OutputFile output(options.output);
+  if (const absl::Status ending = CheckEnding("-o", options.output, {"csv", "dat", "json"}); !ending.ok())
+    return ending;
+  if (const absl::Status writable = output.CheckWritable(); !writable.ok()) return writable;
+  absl::StatusOr<v1::FairNetRequest> request = MakeFairNetRequest(options);
+  if (!request.ok()) return request.status();
+  if (const absl::Status fits = CheckRequestSize(request->ByteSizeLong()); !fits.ok()) return fits;
+  absl::StatusOr<Connection> connection = Connect(options.common);
+  if (!connection.ok()) return connection.status();
+
+  CallScope call(options.common, watch);
+  v1::FairNetResponse response;
+  const grpc::Status status =
+      v1::ModelService::NewStub(connection->channel)->FairNet(call.context(), *request, &response);
+  if (!status.ok()) return FromGrpc(status, options.common, watch);
+  output.Set(Ending(options.output) == "json"
+                 ? Json(response)
+                 : PointText(response.points_mm(), Ending(options.output), response));
+  if (const absl::Status written = output.Commit(); !written.ok()) return written;
+  if (!options.common.quiet) PrintSummary(options, response);
   return absl::OkStatus();
 }
 
@@ -96,7 +122,9 @@ Command AddFair(CLI::App& app) {
   auto options = std::make_shared<FairOptions>();
   AddFairOptions(app, *options);
   AddCommonOptions(app, options->common);
-  return [options](InterruptWatch& watch) { return Run(*options, watch); };
+  return [options](InterruptWatch& watch) {
+    return options->net > 0 ? RunNet(*options, watch) : Run(*options, watch);
+  };
 }
 
 }  // namespace patchmill::cli

@@ -139,6 +139,11 @@ void AddFairOptions(CLI::App& app, FairOptions& options) {
                  "least energy within the bands, or cut back to them as in the paper")
       ->check(CLI::IsMember({"least", "cut"}))
       ->capture_default_str();
+  app.add_option(
+         "--net", options.net,
+         "the points are a net of so many lines, one after the other: both families of lines are faired, "
+         "its border stays")
+      ->check(CLI::Range(2, 50'000));
   app.add_flag("--fit", options.fit, "only the curve through the points, nothing moves");
   CLI::Option* polyline =
       app.add_option("--polyline", options.polyline, "the faired curve as a polyline: .csv or .dat");
@@ -147,6 +152,28 @@ void AddFairOptions(CLI::App& app, FairOptions& options) {
   polyline->needs(tolerance);
   tolerance->needs(polyline);
   app.add_option("--preview", options.preview, "the curve before and after with its comb: .svg");
+}
+
+absl::StatusOr<v1::FairNetRequest> MakeFairNetRequest(const FairOptions& options) {
+  for (const auto& [option, given] :
+       {std::pair{"--polyline", &options.polyline}, std::pair{"--preview", &options.preview},
+        std::pair{"--start-direction", &options.start_direction},
+        std::pair{"--end-direction", &options.end_direction}}) {
+    if (!given->empty())
+      return absl::InvalidArgumentError(fmt::format("{} is for curves, not with --net", option));
+  }
+  absl::StatusOr<v1::FairCurveRequest> curve = MakeFairRequest(options);
+  if (!curve.ok()) return curve.status();
+  v1::FairNetRequest request;
+  request.mutable_file()->Swap(curve->mutable_file());
+  request.set_line_count(options.net);
+  *request.mutable_axes() = curve->axes();
+  if (curve->has_band()) *request.mutable_band() = curve->band();
+  *request.mutable_locks() = curve->locks();
+  request.set_max_iterations(curve->max_iterations());
+  request.set_stop(curve->stop());
+  request.set_band_rule(curve->band_rule());
+  return request;
 }
 
 absl::StatusOr<v1::FairCurveRequest> MakeFairRequest(const FairOptions& options) {

@@ -20,6 +20,7 @@ struct FairOptions {
   std::string start_direction, end_direction;
   std::optional<double> tolerance;
   int iterations = 50;
+  int net = 0;  // lines of a net; 0: a curve
   bool fit = false;
 };
 
@@ -27,6 +28,9 @@ void AddFairOptions(CLI::App& app, FairOptions& options);
 
 // INVALID_ARGUMENT naming the option; reads the file of points.
 absl::StatusOr<v1::FairCurveRequest> MakeFairRequest(const FairOptions& options);
+
+// The same for a net. INVALID_ARGUMENT also for options that only a curve has.
+absl::StatusOr<v1::FairNetRequest> MakeFairNetRequest(const FairOptions& options);
 
 // "csv", "dat" or what else stands behind the last point of a path, in lower case.
 std::string Ending(const std::string& path);

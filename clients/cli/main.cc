@@ -30,6 +30,7 @@ int Main(int argc, char** argv) {
   add("regions", "mountains, basins, walls, and what cannot be reached", AddRegions);
   add("verify", "measure any program against the exact surface", AddVerify);
   add("lines", "contours, slopes, silhouettes, highlights and other lines of the surface", AddLines);
+  add("build", "make a first surface from outline curves", AddBuild);
   add("edit", "edit a curve network", AddEdit);
   add("fair", "fair a measured curve", AddFair);
   CLI::App* serve = app.add_subcommand("serve", "run the service (also as patchmilld)");

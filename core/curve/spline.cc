@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/status.h"
+
 namespace patchmill {
 namespace {
 
@@ -41,25 +43,10 @@ std::vector<Vec3> SolveClosed(Rows rows, const std::vector<Vec3>& right) {
   return x;
 }
 
-}  // namespace
-
-absl::StatusOr<std::vector<HermiteCurve>> SplineThrough(const std::vector<Vec3>& points, bool closed,
-                                                        const SplineEnds& ends) {
-  const std::size_t n = points.size(), least = closed ? 3 : 2;
-  if (n < least) {
-    return absl::InvalidArgumentError(fmt::format("a {} spline through {} points; must have at least {}",
-                                                  closed ? "closed" : "open", n, least));
-  }
-  const std::size_t spans = closed ? n : n - 1;
+std::vector<HermiteCurve> Splined(const std::vector<Vec3>& points, const std::vector<double>& chord,
+                                  bool closed, const SplineEnds& ends) {
+  const std::size_t n = points.size(), spans = chord.size();
   const auto next = [n](std::size_t i) { return i + 1 == n ? 0 : i + 1; };
-  std::vector<double> chord(spans);
-  for (std::size_t i = 0; i < spans; ++i) {
-    chord[i] = (points[next(i)] - points[i]).norm();
-    if (!(chord[i] > 0.0 && chord[i] < kInfinity)) {
-      return absl::InvalidArgumentError(fmt::format(
-          "points {} and {} of a spline are {:g} apart; must be > 0 and finite", i, next(i), chord[i]));
-    }
-  }
   // Unknown: the derivative m in the chord parameter. Equal second derivatives at point i:
   //   h1 m(i-1) + 2 (h0 + h1) m(i) + h0 m(i+1) = 3 (h1 slope(i-1) + h0 slope(i)), h0, h1 the chords beside
   //   it.
@@ -88,6 +75,33 @@ absl::StatusOr<std::vector<HermiteCurve>> SplineThrough(const std::vector<Vec3>&
     curves.push_back({points[i], chord[i] * m[i], points[next(i)], chord[i] * m[next(i)]});
   }
   return curves;
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<HermiteCurve>> SplineThrough(const std::vector<Vec3>& points, bool closed,
+                                                        const SplineEnds& ends) {
+  const std::size_t n = points.size(), least = closed ? 3 : 2;
+  if (n < least) {
+    return absl::InvalidArgumentError(fmt::format("a {} spline through {} points; must have at least {}",
+                                                  closed ? "closed" : "open", n, least));
+  }
+  const std::size_t spans = closed ? n : n - 1;
+  const auto next = [n](std::size_t i) { return i + 1 == n ? 0 : i + 1; };
+  std::vector<double> chord(spans);
+  for (std::size_t i = 0; i < spans; ++i) {
+    chord[i] = (points[next(i)] - points[i]).norm();
+    if (!(chord[i] > 0.0 && chord[i] < kInfinity)) {
+      return absl::InvalidArgumentError(fmt::format(
+          "points {} and {} of a spline are {:g} apart; must be > 0 and finite", i, next(i), chord[i]));
+    }
+  }
+  return Splined(points, chord, closed, ends);
+}
+
+std::vector<HermiteCurve> SplineOver(const std::vector<Vec3>& points, const std::vector<double>& spans) {
+  PM_CHECK(points.size() >= 2 && spans.size() + 1 == points.size());
+  return Splined(points, spans, false, {});
 }
 
 }  // namespace patchmill

@@ -23,4 +23,7 @@ struct SplineEnds {
 absl::StatusOr<std::vector<HermiteCurve>> SplineThrough(const std::vector<Vec3>& points, bool closed,
                                                         const SplineEnds& ends = {});
 
+// The natural open spline in a given parameter: spans[i] > 0 from point i to the next, two points or more.
+std::vector<HermiteCurve> SplineOver(const std::vector<Vec3>& points, const std::vector<double>& spans);
+
 }  // namespace patchmill

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "core/base/status.h"
 #include "core/curve/spline.h"
+#include "core/editing/control_store.h"
 #include "core/editing/section_points.h"
 #include "core/joining/join_network.h"
 
@@ -23,16 +23,10 @@ class Editor {
  public:
   explicit Editor(CurveNetwork network) : network_(std::move(network)) {}
 
-  absl::Status ReadControls() {
-    for (std::size_t k = 0; k < network_.controls.size(); ++k) {
-      if (controls_.emplace(KeyOf(network_.controls[k]), network_.controls[k]).second) continue;
-      return Error(fmt::format("network.controls[{}]", k), "is the second one for its edge and face");
-    }
-    return absl::OkStatus();
-  }
+  absl::Status ReadControls() { return controls_.Read(network_.controls); }
 
   CurveNetwork Take() {
-    network_.controls = Controls();
+    network_.controls = controls_.List();
     return std::move(network_);
   }
 
@@ -78,7 +72,7 @@ class Editor {
 
   absl::Status Apply(const ControlEdit& edit, const std::string& at) {
     PM_RETURN_IF_ERROR(CheckSide({edit.control.start, edit.control.end, edit.control.face}, at).status());
-    SetControl(edit.control);
+    controls_.Set(edit.control);
     return Changed();
   }
 
@@ -90,24 +84,21 @@ class Editor {
     SectionPoints points = SectionPointsOf(cross);
     (edit.point == 1 ? points.q1 : points.q2) = edit.position;
     const MiddleCross wished = CrossOf(points);
-    const CrossControl here{edit.at.start, edit.at.end, edit.at.face, {}, {}};
-    CrossControl control = here;
+    CrossControl control{edit.at.start, edit.at.end, edit.at.face, {}, {}};
     if (edit.point == 1) {
-      // The second derivatives of both faces are found anew.
-      ForAcross(here, [](CrossControl& other) { other.second.reset(); });
-      if (const auto own = controls_.find(KeyOf(here)); own != controls_.end()) own->second.second.reset();
+      controls_.DropSecond(control);  // found anew
       control.first = wished.first;
     } else {
       control.first = cross.first, control.second = wished.second;
     }
-    SetControl(control);
+    controls_.Set(control);
     return Changed();
   }
 
   absl::Status Apply(const CurvatureEdit& edit, const std::string& at) {
     if (!(std::abs(edit.curvature) < kInfinity)) return Error(at + ".curvature", "must be finite");
     PM_ASSIGN_OR_RETURN(const MiddleCross cross, CrossAt(edit.at, at));
-    SetControl(
+    controls_.Set(
         {edit.at.start, edit.at.end, edit.at.face, cross.first, SecondForCurvature(cross, edit.curvature)});
     return Changed();
   }
@@ -160,13 +151,12 @@ class Editor {
       const auto& [a, b] = edit.edges[k];
       const auto& [c, d] = edit.edges[(k + 1) % count];
       const CurveJet from = Evaluate((*spline)[k], 0.0), to = Evaluate((*spline)[k], 1.0);
-      PutControl({a, b, faces[k], from.d, from.dd});
-      PutControl({c, d, faces[k], Vec3(-to.d), to.dd});
+      controls_.Put({a, b, faces[k], from.d, from.dd});
+      controls_.Put({c, d, faces[k], Vec3(-to.d), to.dd});
     }
     if (!edit.closed) {  // what lies beyond the row follows
-      const auto drop = [](CrossControl& other) { other.first.reset(), other.second.reset(); };
-      ForAcross({edit.edges[0][0], edit.edges[0][1], faces.front(), {}, {}}, drop);
-      ForAcross({edit.edges.back()[0], edit.edges.back()[1], faces.back(), {}, {}}, drop);
+      controls_.DropAcross({edit.edges[0][0], edit.edges[0][1], faces.front(), {}, {}});
+      controls_.DropAcross({edit.edges.back()[0], edit.edges.back()[1], faces.back(), {}, {}});
     }
     return Changed();
   }
@@ -202,7 +192,7 @@ class Editor {
 
   absl::Status Join(const std::string& at) {
     if (!joined_) {
-      network_.controls = Controls();
+      network_.controls = controls_.List();
       joined_ = JoinNetwork(network_);
     }
     if (!joined_->model.patches.empty()) return absl::OkStatus();
@@ -250,51 +240,9 @@ class Editor {
     return std::nullopt;
   }
 
-  // Ends of an edge and a face.
-  using Key = std::array<int, 3>;
-  static Key KeyOf(int start, int end, int face) {
-    return {std::min(start, end), std::max(start, end), face};
-  }
-  static Key KeyOf(const CrossControl& c) { return KeyOf(c.start, c.end, c.face); }
-
-  // Calls visit(control) for those of other faces at the edge, and drops what is empty then.
-  template <class Visit>
-  void ForAcross(const CrossControl& here, const Visit& visit) {
-    auto it = controls_.lower_bound({KeyOf(here)[0], KeyOf(here)[1], 0});
-    while (it != controls_.end() && it->first[0] == KeyOf(here)[0] && it->first[1] == KeyOf(here)[1]) {
-      if (it->first[2] != here.face) visit(it->second);
-      it = it->second.first || it->second.second ? std::next(it) : controls_.erase(it);
-    }
-  }
-
-  void PutControl(const CrossControl& control) {
-    CrossControl& to = controls_.try_emplace(KeyOf(control), control).first->second;
-    if (control.first) to.first = control.first;
-    if (control.second) to.second = control.second;
-  }
-
-  void SetControl(const CrossControl& control) {
-    ForAcross(control, [&](CrossControl& other) {
-      if (control.first) other.first.reset();
-      if (control.second) other.second.reset();
-    });
-    PutControl(control);
-  }
-
-  // Those that were there in their order, then the new ones.
-  std::vector<CrossControl> Controls() const {
-    std::vector<CrossControl> list;
-    auto rest = controls_;
-    for (const CrossControl& old : network_.controls) {
-      if (const auto it = rest.find(KeyOf(old)); it != rest.end()) list.push_back(it->second), rest.erase(it);
-    }
-    for (const auto& [key, control] : rest) list.push_back(control);
-    return list;
-  }
-
   CurveNetwork network_;
-  std::map<Key, CrossControl> controls_;  // as edited; those of network_ are older
-  std::optional<JoinedNetwork> joined_;   // as edited
+  ControlStore controls_;                // as edited; those of network_ are older
+  std::optional<JoinedNetwork> joined_;  // as edited
 };
 
 }  // namespace

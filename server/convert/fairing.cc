@@ -110,27 +110,52 @@ BandRule FromProto(v1::BandRule value, FieldErrors& errors) {
   }
 }
 
-absl::StatusOr<FairingOrder> ReadCurve(const v1::FairCurveRequest& request) {
-  FairingOrder order;
-  switch (request.curve_case()) {
-    case v1::FairCurveRequest::kPoints: {
-      PM_ASSIGN_OR_RETURN(order.curve.points, PointsOf(request.points().points_mm()));
-      return order;
-    }
-    case v1::FairCurveRequest::kFile: {
-      absl::StatusOr<CurvePoints> read = ReadCurvePoints(request.file().format(), request.file().content());
-      if (!read.ok()) return CurveUnreadableError(std::string(read.status().message()));
-      order.curve.points = std::move(read->points);
-      order.title = std::move(read->title);
-      order.planar = read->planar;
-      return order;
-    }
-    case v1::FairCurveRequest::CURVE_NOT_SET:
-      break;
+// Points of a request, sent or in a file.
+template <class Request>
+absl::StatusOr<CurvePoints> ReadPoints(const Request& request, const char* field) {
+  if (request.has_points()) {
+    CurvePoints points;
+    PM_ASSIGN_OR_RETURN(points.points, PointsOf(request.points().points_mm()));
+    return points;
+  }
+  if (request.has_file()) {
+    absl::StatusOr<CurvePoints> read = ReadCurvePoints(request.file().format(), request.file().content());
+    if (!read.ok()) return CurveUnreadableError(std::string(read.status().message()));
+    return read;
   }
   FieldErrors errors;
-  errors.Missing("curve");
+  errors.Missing(field);
   return errors.ToStatus();
+}
+
+// What requests for curves and nets have in common.
+template <class Request>
+FairingTerms ReadTerms(const Request& request, const std::vector<Vec3>& points, FieldErrors& errors) {
+  FairingTerms terms;
+  const int count = static_cast<int>(points.size());
+  terms.axes = FromProto(request.axes(), "axes", errors);
+  terms.band = Band(request.band(), Diagonal(points), errors);
+  for (int k = 0; k < request.locks_size(); ++k) {
+    const std::string at = fmt::format("locks[{}]", k);
+    const v1::PointLock& lock = request.locks(k);
+    Require(errors, At(at, "point_index"), lock.point_index(),
+            lock.point_index() >= 0 && lock.point_index() < count, fmt::format("in [0, {}]", count - 1));
+    terms.locks.push_back({lock.point_index(), FromProto(lock.axes(), At(at, "axes"), errors)});
+  }
+  if (request.has_max_iterations()) {
+    terms.max_iterations = request.max_iterations();
+    Require(errors, "max_iterations", terms.max_iterations,
+            terms.max_iterations >= 0 && terms.max_iterations <= kMaxFairingIterations,
+            fmt::format("in [0, {}]", kMaxFairingIterations));
+  }
+  terms.stop = FromProto(request.stop(), errors);
+  terms.band_rule = FromProto(request.band_rule(), errors);
+  return terms;
+}
+
+absl::Status CheckLocks(int count) {
+  if (static_cast<std::size_t>(count) <= limits::kMaxCurvePoints) return absl::OkStatus();
+  return LimitError("locks", static_cast<double>(limits::kMaxCurvePoints), count);
 }
 
 void Add(const Vec3& p, Numbers* to) {
@@ -140,33 +165,18 @@ void Add(const Vec3& p, Numbers* to) {
 }  // namespace
 
 absl::StatusOr<FairingOrder> FromProto(const v1::FairCurveRequest& request) {
-  if (static_cast<std::size_t>(request.locks_size()) > limits::kMaxCurvePoints) {
-    return LimitError("locks", static_cast<double>(limits::kMaxCurvePoints), request.locks_size());
-  }
-  PM_ASSIGN_OR_RETURN(FairingOrder order, ReadCurve(request));
+  PM_RETURN_IF_ERROR(CheckLocks(request.locks_size()));
+  PM_ASSIGN_OR_RETURN(CurvePoints read, ReadPoints(request, "curve"));
+  FairingOrder order;
+  order.curve.points = std::move(read.points);
+  order.title = std::move(read.title);
+  order.planar = read.planar;
   FieldErrors errors;
-  FairingTerms& terms = order.curve.terms;
   const int count = static_cast<int>(order.curve.points.size());
   Require(errors, "points", count, count >= 2, "at least 2");
-  terms.axes = FromProto(request.axes(), "axes", errors);
-  terms.band = Band(request.band(), Diagonal(order.curve.points), errors);
-  for (int k = 0; k < request.locks_size(); ++k) {
-    const std::string at = fmt::format("locks[{}]", k);
-    const v1::PointLock& lock = request.locks(k);
-    Require(errors, At(at, "point_index"), lock.point_index(),
-            lock.point_index() >= 0 && lock.point_index() < count, fmt::format("in [0, {}]", count - 1));
-    terms.locks.push_back({lock.point_index(), FromProto(lock.axes(), At(at, "axes"), errors)});
-  }
+  order.curve.terms = ReadTerms(request, order.curve.points, errors);
   order.curve.start_direction = Direction(request.start_direction(), "start_direction", errors);
   order.curve.end_direction = Direction(request.end_direction(), "end_direction", errors);
-  if (request.has_max_iterations()) {
-    terms.max_iterations = request.max_iterations();
-    Require(errors, "max_iterations", terms.max_iterations,
-            terms.max_iterations >= 0 && terms.max_iterations <= kMaxFairingIterations,
-            fmt::format("in [0, {}]", kMaxFairingIterations));
-  }
-  terms.stop = FromProto(request.stop(), errors);
-  terms.band_rule = FromProto(request.band_rule(), errors);
   if (request.has_polyline_tolerance_mm()) {
     order.polyline_tolerance = request.polyline_tolerance_mm();
     Require(errors, "polyline_tolerance_mm", *order.polyline_tolerance, *order.polyline_tolerance > 0.0,
@@ -175,6 +185,45 @@ absl::StatusOr<FairingOrder> FromProto(const v1::FairCurveRequest& request) {
   RequireBytes(errors, "name", request.name(), limits::kMaxNameBytes);
   PM_RETURN_IF_ERROR(errors.ToStatus());
   return order;
+}
+
+absl::StatusOr<NetFairingOrder> FromProto(const v1::FairNetRequest& request) {
+  PM_RETURN_IF_ERROR(CheckLocks(request.locks_size()));
+  PM_ASSIGN_OR_RETURN(CurvePoints read, ReadPoints(request, "net"));
+  NetFairingOrder order;
+  order.net.points = std::move(read.points);
+  order.title = std::move(read.title);
+  order.planar = read.planar;
+  FieldErrors errors;
+  const int count = static_cast<int>(order.net.points.size()), lines = request.line_count();
+  if (lines < 2 || count % lines != 0 || count / lines < 2) {
+    errors.Add("line_count",
+               fmt::format("= {} of {} points; must be 2 or more lines of equally many points, 2 or more",
+                           lines, count));
+  } else {
+    order.net.count_u = lines;
+    order.net.count_v = count / lines;
+  }
+  order.net.terms = ReadTerms(request, order.net.points, errors);
+  PM_RETURN_IF_ERROR(errors.ToStatus());
+  return order;
+}
+
+void Fill(const NetFairingOrder& order, const FairedNet& faired, v1::FairNetResponse* response) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < faired.after.points.size(); ++i) {
+    Add(faired.after.points[i], response->mutable_points_mm());
+    if (faired.moved[i].norm() > farthest) {
+      farthest = faired.moved[i].norm();
+      response->set_max_moved_point_index(static_cast<int>(i));
+    }
+  }
+  response->set_max_moved_mm(farthest);
+  response->set_iteration_count(static_cast<int>(faired.energies.size()) - 1);
+  response->set_settled(faired.settled);
+  response->mutable_energies()->Add(faired.energies.begin(), faired.energies.end());
+  response->set_planar(order.planar);
+  response->set_title(order.title);
 }
 
 absl::Status Fill(const FairingOrder& order, const FairedCurve& faired, v1::FairCurveResponse* response) {

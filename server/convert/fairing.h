@@ -1,4 +1,4 @@
-// v1.FairCurveRequest -> CurveFairing, and the faired curve -> v1.FairCurveResponse.
+// v1.FairCurveRequest -> CurveFairing, v1.FairNetRequest -> NetFairing, and what was faired back.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 #include <absl/status/statusor.h>
 
 #include "core/fairing/fair_curve.h"
+#include "core/fairing/fair_net.h"
 #include "patchmill/v1/fairing.pb.h"
 
 namespace patchmill {
@@ -23,5 +24,15 @@ absl::StatusOr<FairingOrder> FromProto(const v1::FairCurveRequest& request);
 
 // All but the picture. RESOURCE_EXHAUSTED when the polyline is longer than limits::kMaxPolylinePoints.
 absl::Status Fill(const FairingOrder& order, const FairedCurve& faired, v1::FairCurveResponse* response);
+
+struct NetFairingOrder {
+  NetFairing net;
+  std::string title;
+  bool planar = false;
+};
+
+// As above.
+absl::StatusOr<NetFairingOrder> FromProto(const v1::FairNetRequest& request);
+void Fill(const NetFairingOrder& order, const FairedNet& faired, v1::FairNetResponse* response);
 
 }  // namespace patchmill

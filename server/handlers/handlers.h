@@ -13,11 +13,17 @@ namespace patchmill {
 absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& request,
                               v1::CheckModelResponse* response);
 
+absl::Status HandleBuildModel(const Call& call, const v1::BuildModelRequest& request,
+                              v1::BuildModelResponse* response);
+
 absl::Status HandleEditModel(const Call& call, const v1::EditModelRequest& request,
                              v1::EditModelResponse* response);
 
 absl::Status HandleFairCurve(const Call& call, const v1::FairCurveRequest& request,
                              v1::FairCurveResponse* response);
+
+absl::Status HandleFairNet(const Call& call, const v1::FairNetRequest& request,
+                           v1::FairNetResponse* response);
 
 absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest& request,
                                 v1::SplitRegionsResponse* response);

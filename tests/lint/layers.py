@@ -17,7 +17,7 @@ for i, name in enumerate(CORE):
     ALLOWED["core/" + name] = {"core/" + below for below in CORE[:i]}
 ALLOWED["core/io"] = {"core/" + below for below in CORE[: CORE.index("network") + 1]}
 ALLOWED["core/joining"] = {"core/" + below for below in CORE[: CORE.index("network") + 1]}
-ALLOWED["core/editing"] = {"core/" + below for below in CORE[: CORE.index("network") + 1]} | {"core/joining"}
+ALLOWED["core/editing"] = {"core/" + below for below in CORE[: CORE.index("surface") + 1]} | {"core/joining"}
 ALLOWED["core/fairing"] = {"core/base"}
 ALL_CORE = {"core/" + name for name in CORE}
 for i, name in enumerate(CAM):

@@ -282,7 +282,7 @@ TEST_F(Cli, NoCommandOrAnUnknownOneIsWrongUsage) {
   EXPECT_EQ(Patchmill({"mill", "--help"}).status, 0);
   EXPECT_TRUE(std::regex_search(Patchmill({"--version"}).out, std::regex("^patchmill [0-9]+\\.[0-9]+")));
   const std::string help = Patchmill({"--help"}).out;
-  for (const char* name : {"mill", "check", "regions", "verify", "lines", "edit", "fair", "serve"}) {
+  for (const char* name : {"mill", "check", "regions", "verify", "lines", "build", "edit", "fair", "serve"}) {
     EXPECT_THAT(help, HasSubstr(std::string("  ") + name));
   }
   EXPECT_THAT(help, Not(HasSubstr("  convert")));

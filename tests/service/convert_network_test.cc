@@ -204,18 +204,23 @@ TEST(NetworkModel, LimitsAreCheckedByCount) {
               StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("model.network.reference_count")));
 }
 
-// The shipped mouse, as a file: joined to 1e-6 rad on every smooth edge, one loop of creases.
-TEST(NetworkModel, ShippedMouseIsTangentContinuous) {
-  std::ifstream in(PATCHMILL_SOURCE_DIR "/examples/mouse.json", std::ios::binary);
+LoadedModel Shipped(const std::string& name) {
+  std::ifstream in(PATCHMILL_SOURCE_DIR "/examples/" + name, std::ios::binary);
   std::stringstream text;
   text << in.rdbuf();
   v1::ModelSource source;
   source.mutable_file()->set_content(text.str());
   const auto loaded = LoadModel(source, "source");
-  ASSERT_TRUE(loaded.ok()) << loaded.status();
-  ASSERT_TRUE(loaded->faults.empty()) << loaded->faults[0].message;
-  EXPECT_EQ(loaded->model.patches.size(), 30u);
-  const auto network = BuildNetwork(loaded->model);
+  EXPECT_TRUE(loaded.ok()) << loaded.status();
+  EXPECT_TRUE(loaded->faults.empty()) << loaded->faults[0].message;
+  return *loaded;
+}
+
+// The shipped mouse, as a file: joined to 1e-6 rad on every smooth edge, one loop of creases.
+TEST(NetworkModel, ShippedMouseIsTangentContinuous) {
+  const LoadedModel loaded = Shipped("mouse.json");
+  EXPECT_EQ(loaded.model.patches.size(), 30u);
+  const auto network = BuildNetwork(loaded.model);
   ASSERT_TRUE(network.ok());
   const ContinuityReport report = *MeasureContinuity(*network, 500, RunContext());
   int creases = 0;
@@ -225,6 +230,21 @@ TEST(NetworkModel, ShippedMouseIsTangentContinuous) {
   }
   EXPECT_EQ(creases, 10);
   EXPECT_EQ(report.edges.size(), 50u);
+}
+
+// The shipped bonnet: equal curvature at every joint, and nothing to remark.
+TEST(NetworkModel, ShippedBonnetIsCurvatureContinuous) {
+  const LoadedModel loaded = Shipped("bonnet.json");
+  EXPECT_TRUE(loaded.remarks.empty());
+  const auto network = BuildNetwork(loaded.model);
+  ASSERT_TRUE(network.ok());
+  const ContinuityReport report = *MeasureContinuity(*network, 200, RunContext());
+  EXPECT_EQ(report.edges.size(), 12u);
+  for (const EdgeContinuity& joint : report.edges) {
+    EXPECT_LE(joint.max_gap, 1e-12);
+    EXPECT_LE(joint.max_angle, 1e-12);
+    EXPECT_LE(joint.max_curvature_gap, 1e-10 * joint.max_curvature);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+// `patchmill build` and `patchmill fair --net` as a user meets them.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include "patchmill/v1/model.pb.h"
+#include "tests/service/process.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Finished;
+using ::testing::HasSubstr;
+using testing::Slurp;
+using testing::TempDir;
+using ::testing::UnorderedElementsAre;
+
+Finished Patchmill(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), PATCHMILL_BIN "/patchmill");
+  return testing::Run(arguments);
+}
+
+const char kOutline[] = R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "sections": {"curves": [
+  {"bezier": {"points": [0, 0, 0, 20, 0, 12, 40, 0, 0]}}, {"bezier": {"points": [0, 20, 2, 20, 20, 16, 40, 20, 2]}},
+  {"bezier": {"points": [0, 40, 0, 20, 40, 12, 40, 40, 0]}}]},
+  "network": {"vertices": [{"position": [5, 5, 3]}, {"position": [35, 5, 3]}, {"position": [35, 35, 3]},
+                           {"position": [5, 35, 3]}], "faces": [{"vertices": [0, 1, 2, 3]}]}})";
+
+TEST(CliBuild, MakesASurfaceThatChecksAndANetworkThatEdits) {
+  const TempDir out;
+  out.Write("outline.json", kOutline);
+  const Finished run =
+      Patchmill({"build", out / "outline.json", "-o", out / "surface.json", "--network", out / "net.json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(out.Names(), UnorderedElementsAre("outline.json", "surface.json", "net.json"));
+  EXPECT_THAT(run.err, HasSubstr("4 vertices"));
+  const Finished check = Patchmill({"check", out / "surface.json"});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("box          X 0.000 Y 0.000 Z 0.000 to X 40.000 Y 40.000"));
+  const Finished edit =
+      Patchmill({"edit", out / "net.json", "-o", out / "edited.json", "--push", "0,0.5,0.5,0.01"});
+  EXPECT_EQ(edit.status, 0) << edit.err;
+  EXPECT_THAT(edit.err, HasSubstr("1 of 1 faces changed"));
+}
+
+TEST(CliBuild, SaysWhatIsWrong) {
+  const TempDir out;
+  out.Write("outline.json", "{\"length_unit\": 1}");
+  EXPECT_EQ(Patchmill({"build", out / "outline.json", "-o", out / "a.json"}).status, 2);
+  EXPECT_THAT(
+      Patchmill({"build", out / "outline.json", "-o", out / "a.json", "--network", out / "b.json"}).err,
+      HasSubstr("has no network"));
+  EXPECT_THAT(out.Names(), UnorderedElementsAre("outline.json"));
+}
+
+TEST(CliFair, Nets) {
+  const TempDir out;
+  std::string points;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = 0; j < 4; ++j) points += fmt::format("{},{},{}\n", i, j, i == 2 && j == 1 ? 0.2 : 0.0);
+  }
+  out.Write("net.csv", points);
+  const Finished run =
+      Patchmill({"fair", out / "net.csv", "--net", "5", "--band", "none", "-o", out / "fair.csv"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("20 points"));
+  EXPECT_NE(Slurp(out / "fair.csv").find("4,3,0"), std::string::npos);
+  EXPECT_EQ(Patchmill({"fair", out / "net.csv", "--net", "3", "-o", out / "fair.csv"}).status, 2);
+  EXPECT_THAT(
+      Patchmill({"fair", out / "net.csv", "--net", "5", "-o", out / "fair.csv", "--preview", out / "a.svg"})
+          .err,
+      HasSubstr("--preview is for curves"));
+}
+
+}  // namespace
+}  // namespace patchmill
