@@ -253,6 +253,7 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
   LanePacket packet;
   LaneStart start;
   Forecast forecast;
+  Locator::Impl::OpenLeaves open;
   for (std::size_t i = 0; i < q.size(); i += kLanes) {
     const std::size_t count = std::min<std::size_t>(kLanes, q.size() - i);
     forecast.Start(impl, q.subspan(i, count), packet, start);
@@ -261,7 +262,8 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
     search.Run();
     forecast.Learn(packet);
     for (std::size_t k = 0; k < count; ++k) {
-      const Contact c = ContactOf(packet, static_cast<int>(k));
+      Contact c = ContactOf(packet, static_cast<int>(k));
+      if (impl.Grazes(c)) impl.SearchAll(impl.BallAt(q[i + k]), c, open);
       heights[i + k].reset();
       if (c.piece >= 0) heights[i + k] = CenterPoint{c.z, impl.PointOf(c)};
     }

@@ -104,6 +104,12 @@ void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenL
   }
 }
 
+void Locator::Impl::SearchAll(const Ball& ball, Contact& best, OpenLeaves& open) const {
+  open.clear();
+  Search(ball, kInfinity, best, &open);
+  if (Grazes(best) && !open.empty()) Certify(ball, open, 1e-6, best);
+}
+
 void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& best, OpenLeaves* open) const {
   const internal::SearchLeaf& leaf = tree.leaves[static_cast<std::size_t>(index)];
   const double free_f = ball.FreeF();
@@ -161,11 +167,12 @@ double Locator::radius() const { return impl_->radius; }
 std::uint64_t Locator::defect_count() const { return impl_->defects.load(); }
 
 std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hint) const {
+  thread_local Impl::OpenLeaves open;
   const Ball ball = impl_->BallAt(q);
   Contact best;
   best.z = impl_->Lowest();
   if (hint != nullptr) impl_->StartFromHint(ball, *hint, best);
-  impl_->Search(ball, kInfinity, best, nullptr);
+  impl_->SearchAll(ball, best, open);
   if (best.piece < 0) return std::nullopt;
   return CenterPoint{best.z, impl_->PointOf(best)};
 }
@@ -180,12 +187,11 @@ bool Locator::Free(const Vec3& c, double slack) const {
 std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double eps,
                                                         const SurfacePoint* hint) const {
   thread_local Impl::OpenLeaves open;
-  open.clear();
   const Ball ball = impl_->BallAt(q);
   Contact best;
   best.z = impl_->Lowest();
   if (hint != nullptr) impl_->StartFromHint(ball, *hint, best);
-  impl_->Search(ball, kInfinity, best, &open);
+  impl_->SearchAll(ball, best, open);
   const double found = best.z;
   // Where the contact is about to leave the disc, h answers a rounding of the surface with a multiple of it.
   const double steepness = impl_->radius / std::max(best.z - best.p.z(), 1e-12);

@@ -24,6 +24,10 @@ struct Locator::Impl {
   // Raises best.z to h(q) by branch and bound over the leaves. best.z >= Lowest(); stops at the first contact
   // above `enough`. open (may be null) receives the leaves whose bound rests on local searches alone.
   void Search(const internal::Ball& ball, double enough, internal::Contact& best, OpenLeaves* open) const;
+  // The whole search: where it ends with a contact near the ball's equator, upright ground has too many local
+  // maxima for a few starts, and its open leaves are divided until proven, to 1e-6 mm.
+  void SearchAll(const internal::Ball& ball, internal::Contact& best, OpenLeaves& open) const;
+  bool Grazes(const internal::Contact& c) const { return c.piece >= 0 && c.z - c.p.z() < 0.1 * radius; }
   void VisitLeaf(std::int32_t leaf, const internal::Ball& ball, internal::Contact& best,
                  OpenLeaves* open) const;
   void StartFromHint(const internal::Ball& ball, const SurfacePoint& hint, internal::Contact& best) const;
