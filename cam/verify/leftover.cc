@@ -49,7 +49,7 @@ class LeftoverSearch {
     if (run_.Cancelled()) return false;
     if (OutsideContacts(cell)) return false;
     // Any move bounds the distance from above: often the last one will do.
-    if (hint_ >= 0 && Leftover(FarthestFrom(cell, hint_)) <= threshold.Drop(here.value)) return false;
+    if (hint_ >= 0 && IsDone(cell, hint_, threshold.Drop(here.value))) return false;
     SegmentTree::Nearest nearest;
     std::optional<bool> reachable;
     // Far from all cuts and surely unreachable: the common case of an inner wall. No need to know how far.
@@ -84,12 +84,14 @@ class LeftoverSearch {
     return upper > threshold.Drop(here.value) && cell.radius > kSmallestCell * params_.reach.radius;
   }
 
-  double FarthestFrom(const SurfaceCell& cell, int segment) const {
-    double most = 0.0;
-    for (int k = 0; k < cell.hull_count; ++k) {
-      most = std::max(most, PathDistance(tree_.segment(segment), cell.hull[k]));
-    }
-    return most;
+  // The segment alone leaves no more than `enough` on the whole cell.
+  bool IsDone(const SurfaceCell& cell, int segment, double enough) const {
+    if (params_.most <= enough) return true;
+    const double reach = enough + params_.reach.radius - params_.chord_error;
+    if (!(reach >= 0.0)) return false;
+    const PathRuler ruler(tree_.segment(segment));
+    return std::all_of(cell.hull, cell.hull + cell.hull_count,
+                       [&](const Vec3& p) { return ruler.Distance2(p) <= reach * reach; });
   }
 
   // Upper bound of the distance to the moves over the whole cell; at most one more segment is tried when the
@@ -100,8 +102,9 @@ class LeftoverSearch {
     first_.resize(n);
     second_.resize(n);
     std::size_t farthest = 0;
+    const PathRuler to_nearest(tree_.segment(nearest));
     for (std::size_t k = 0; k < n; ++k) {
-      first_[k] = PathDistance(tree_.segment(nearest), cell.hull[k]);
+      first_[k] = std::sqrt(to_nearest.Distance2(cell.hull[k]));
       if (first_[k] > first_[farthest]) farthest = k;
     }
     const double one = first_[farthest];
@@ -109,7 +112,8 @@ class LeftoverSearch {
     const auto other = tree_.FindNearest(cell.hull[farthest], one, other_hint_);
     if (other.segment < 0 || other.segment == nearest) return one;
     other_hint_ = other.segment;
-    for (std::size_t k = 0; k < n; ++k) second_[k] = PathDistance(tree_.segment(other.segment), cell.hull[k]);
+    const PathRuler to_other(tree_.segment(other.segment));
+    for (std::size_t k = 0; k < n; ++k) second_[k] = std::sqrt(to_other.Distance2(cell.hull[k]));
     const auto at = [&](double share) {
       double most = 0.0;
       for (std::size_t k = 0; k < n; ++k)

@@ -2,6 +2,8 @@
 // the point, with slope at most 1.
 #pragma once
 
+#include <algorithm>
+
 #include "core/base/vec.h"
 
 namespace patchmill {
@@ -26,6 +28,24 @@ struct MetricValue {
 };
 
 double PathDistance(const PathSegment& s, const Vec3& p);
+
+// The same to many points of one segment.
+class PathRuler {
+ public:
+  explicit PathRuler(const PathSegment& s) : a_(s.a), d_(s.b - s.a) {
+    const double length2 = d_.squaredNorm();
+    scale_ = length2 > 0.0 ? 1.0 / length2 : 0.0;
+  }
+  double Distance2(const Vec3& p) const {
+    const Vec3 r = p - a_;
+    return (r - std::clamp(r.dot(d_) * scale_, 0.0, 1.0) * d_).squaredNorm();
+  }
+
+ private:
+  Vec3 a_, d_;
+  double scale_ = 0.0;
+};
+
 double SweptDistance(const PathSegment& s, const Vec3& p);
 double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius);
 MetricValue PathDistanceAndGradient(const PathSegment& s, const Vec3& p);

@@ -164,24 +164,27 @@ void SegmentTree::SetChild(std::int32_t node, int side, const Range& range) {
   n.count[side] = range.count;
 }
 
-std::array<double, 2> SegmentTree::ChildDistances(const Node& node, const Vec3& p) const {
-  std::array<double, 2> result;
-  const bool shank = metric_ == Metric::kShank;
-  // No upper end in z: the swept sets go up for ever.
-  const double down = metric_ == Metric::kPath ? 1.0 : 0.0;
-  for (int k = 0; k < 2; ++k) {
-    const double dx = std::max(0.0, std::max(node.low[0][k] - p.x(), p.x() - node.high[0][k]));
-    const double dy = std::max(0.0, std::max(node.low[1][k] - p.y(), p.y() - node.high[1][k]));
-    const double above = node.low[2][k] - p.z();
-    const double plan = dx * dx + dy * dy;
-    if (shank) {
-      result[static_cast<std::size_t>(k)] = std::max(std::sqrt(plan), shank_radius_ + above);
-      continue;
-    }
-    const double dz = std::max(0.0, std::max(above, down * (p.z() - node.high[2][k])));
-    result[static_cast<std::size_t>(k)] = std::sqrt(plan + dz * dz);
+// Both children at once, a lane each.
+SegmentTree::Pair SegmentTree::ChildDistances2(const Node& node, const Vec3& p) const {
+  const auto load = [](const float(&x)[2]) { return Pair{x[0], x[1]}; };
+  const auto above_zero = [](Pair x) { return x > 0.0 ? x : Pair{}; };
+  const auto outside = [&](int axis) {
+    const Pair below = load(node.low[axis]) - p[axis], above = p[axis] - load(node.high[axis]);
+    return above_zero(below > above ? below : above);
+  };
+  const Pair dx = outside(0), dy = outside(1), plan = dx * dx + dy * dy;
+  if (metric_ == Metric::kPath) {
+    const Pair dz = outside(2);
+    return plan + dz * dz;
   }
-  return result;
+  // No upper end in z: the swept sets go up for ever.
+  const Pair rise = load(node.low[2]) - p.z();
+  if (metric_ == Metric::kSwept) {
+    const Pair dz = above_zero(rise);
+    return plan + dz * dz;
+  }
+  const Pair deep = above_zero(rise + shank_radius_), deep2 = deep * deep;
+  return plan > deep2 ? plan : deep2;
 }
 
 double SegmentTree::Distance(int i, const Vec3& p) const {
@@ -216,27 +219,31 @@ SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int h
     if (d < best.distance) best = {d, hint};
   }
   struct Open {
-    double distance;
+    double distance2;
     std::int32_t node;
   };
   std::array<Open, 128> stack;
   std::size_t size = 0;
   stack[size++] = {0.0, 0};
   const double keep = 1.0 - slack;
+  const auto is_near = [&](double distance2) {
+    const double limit_here = best.distance * keep;
+    return limit_here > 0.0 && distance2 < limit_here * limit_here;
+  };
   while (size > 0) {
     const Open open = stack[--size];
-    if (open.distance >= best.distance * keep) continue;
+    if (!is_near(open.distance2)) continue;
     const Node& node = nodes_[static_cast<std::size_t>(open.node)];
-    const std::array<double, 2> distance = ChildDistances(node, p);
-    const std::size_t near = distance[1] < distance[0] ? 1 : 0;
+    const Pair distance2 = ChildDistances2(node, p);
+    const std::size_t near = distance2[1] < distance2[0] ? 1 : 0;
     for (const std::size_t k : {1 - near, near}) {  // inner nodes: the nearer one on top of the stack
-      if (node.child[k] >= 0 && distance[k] < best.distance * keep) {
+      if (node.child[k] >= 0 && is_near(distance2[k])) {
         PM_CHECK(size < stack.size());
-        stack[size++] = {distance[k], node.child[k]};
+        stack[size++] = {distance2[k], node.child[k]};
       }
     }
     for (const std::size_t k : {near, 1 - near}) {
-      if (node.child[k] >= 0 || !(distance[k] < best.distance * keep)) continue;
+      if (node.child[k] >= 0 || !is_near(distance2[k])) continue;
       const int first = -node.child[k] - 1;
       for (int i = first; i < first + node.count[k]; ++i) {
         const double d = Distance(i, p);
@@ -249,15 +256,15 @@ SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int h
 
 void SegmentTree::FindWithin(const Vec3& p, double limit, std::vector<int>& found) const {
   found.clear();
-  if (segments_.empty()) return;
+  if (segments_.empty() || !(limit > 0.0)) return;
   std::array<std::int32_t, 128> stack;
   std::size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
     const Node& node = nodes_[static_cast<std::size_t>(stack[--size])];
-    const std::array<double, 2> distance = ChildDistances(node, p);
+    const Pair distance2 = ChildDistances2(node, p);
     for (std::size_t k = 0; k < 2; ++k) {
-      if (!(distance[k] < limit)) continue;
+      if (!(distance2[k] < limit * limit)) continue;
       if (node.child[k] >= 0) {
         PM_CHECK(size < stack.size());
         stack[size++] = node.child[k];

@@ -51,8 +51,9 @@ class SegmentTree {
               const RunContext& run);
   Box BoxOf(const std::vector<std::int32_t>& order, std::size_t begin, std::size_t end) const;
   void SetChild(std::int32_t node, int side, const Range& range);
-  // Lower bounds of the metric over both children of a node.
-  std::array<double, 2> ChildDistances(const Node& node, const Vec3& p) const;
+  // Squares of lower bounds of the metric over both children of a node.
+  using Pair = double __attribute__((vector_size(16)));
+  Pair ChildDistances2(const Node& node, const Vec3& p) const;
 
   Metric metric_;
   double shank_radius_ = 0.0;
