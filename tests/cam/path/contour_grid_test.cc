@@ -13,6 +13,7 @@
 #include "core/base/parallel.h"
 #include "tests/cam/path/contour_checks.h"
 #include "tests/support/files.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
@@ -22,7 +23,7 @@ using testing::MakeSurface;
 
 constexpr double kR = 3.0;
 constexpr double kStep = 0.05;
-constexpr int kShare = 5;
+constexpr int kShare = testing::kSanitized ? 100 : 5;
 constexpr int kLevels = 20;
 
 // Scaled so that its larger side in plan measures `size`, its own y axis up.

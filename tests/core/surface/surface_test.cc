@@ -262,14 +262,16 @@ TEST(Surface, AHundredThousandPatches) {
       network.model.patches.push_back({"", patch});
     }
   }
-  const double before = PeakMemory();
+  [[maybe_unused]] const double before = PeakMemory();
   const auto start = std::chrono::steady_clock::now();
   const auto s = BuildSurface(std::move(network), {}, RunContext(2));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   ASSERT_TRUE(s.ok());
   EXPECT_GE(s->leaves.size(), 320u * 320u);
-  EXPECT_LT(seconds, 10.0);  // 0.4 s on a quiet machine
+  EXPECT_LT(seconds, 10.0);        // 0.4 s on a quiet machine
+#if !defined(__SANITIZE_THREAD__)  // which keeps several shadows of all memory
   EXPECT_LT(PeakMemory() - before, 500.0);
+#endif
 }
 
 }  // namespace
