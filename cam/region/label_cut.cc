@@ -1,8 +1,11 @@
 #include "cam/region/label_cut.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+
+#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
@@ -35,7 +38,7 @@ class Network {
     for (std::size_t i = 0; i < queue.size(); ++i) {
       for (const std::size_t arc : arcs_of_[queue[i]]) {
         const Arc& a = arcs_[arc];
-        if (a.room <= 0.0 || level_[a.to] >= 0) continue;
+        if (!(a.room > 0.0) || level_[a.to] >= 0) continue;
         level_[a.to] = level_[queue[i]] + 1;
         queue.push_back(a.to);
       }
@@ -87,6 +90,8 @@ class Network {
 
 std::vector<bool> LeastCut(std::span<const double> cost, std::span<const LabelPair> pairs) {
   const std::size_t source = cost.size(), sink = source + 1;
+  for (const double c : cost) PM_CHECK(std::isfinite(c));
+  for (const LabelPair& p : pairs) PM_CHECK(p.weight >= 0.0 && std::isfinite(p.weight));
   Network network(cost.size() + 2);
   for (std::size_t i = 0; i < cost.size(); ++i) {
     if (cost[i] < 0.0) network.Connect(source, i, -cost[i], 0.0);

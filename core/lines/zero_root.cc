@@ -6,9 +6,12 @@ namespace patchmill {
 
 double ZeroBracket::Next() const {
   if (by_sign_ || waited_ >= kPatience || f_ == g_) return Middle();
+  // A field may be infinite, or no number, where the parametrisation has no normal.
+  const double t = (low_ * g_ - high_ * f_) / (g_ - f_);
+  if (!(t >= low_ && t <= high_)) return Middle();
   // Steps stop short of the ends by a part of what is enough: then one more from the other side ends it.
   const double margin = 0.45 * enough_;
-  return std::clamp((low_ * g_ - high_ * f_) / (g_ - f_), low_ + margin, high_ - margin);
+  return std::clamp(t, low_ + margin, high_ - margin);
 }
 
 void ZeroBracket::Put(double value) {

@@ -105,7 +105,7 @@ TEST(NetworkFindings, Numbers) {
   EXPECT_EQ(Count(n, "UNUSED_VERTEX"), 1);
   n = TwoQuads();
   n.faces[0].pushes = {{0.5, 1.5, 0.1}};
-  n.faces[1].push = FacePush{0.5, 0.5, std::numeric_limits<double>::infinity()};
+  n.faces[1].pushes = {{0.5, 0.5, std::numeric_limits<double>::infinity()}};
   EXPECT_EQ(Count(n, "INVALID_PUSH"), 2);
 }
 
