@@ -96,6 +96,11 @@ class AnalysisServiceImpl final : public v1::AnalysisService::Service {
     return Run(env_, context, "SplitRegions",
                [&](const Call& call) { return HandleSplitRegions(call, *request, response); });
   }
+  grpc::Status TabulateReach(grpc::ServerContext* context, const v1::TabulateReachRequest* request,
+                             v1::TabulateReachResponse* response) override {
+    return Run(env_, context, "TabulateReach",
+               [&](const Call& call) { return HandleTabulateReach(call, *request, response); });
+  }
   grpc::Status TraceLines(grpc::ServerContext* context, const v1::TraceLinesRequest* request,
                           v1::TraceLinesResponse* response) override {
     return Run(env_, context, "TraceLines",

@@ -28,6 +28,7 @@ int Main(int argc, char** argv) {
   add("mill", "make a verified program", AddMill);
   add("check", "what is good and bad about a model", AddCheck);
   add("regions", "mountains, basins, walls, and what cannot be reached", AddRegions);
+  add("reach", "how much of the surface each of several tools does not reach", AddReach);
   add("verify", "measure any program against the exact surface", AddVerify);
   add("lines", "contours, slopes, silhouettes, highlights and other lines of the surface", AddLines);
   add("build", "make a first surface from outline curves", AddBuild);

@@ -34,6 +34,9 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
 absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRequest& request,
                                    v1::EvaluateSurfaceResponse* response);
 
+absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachRequest& request,
+                                 v1::TabulateReachResponse* response);
+
 absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRequest& request,
                                    const Sink<v1::GenerateProgramResponse>& sink);
 

@@ -274,6 +274,22 @@ TEST_F(Cli, LinesAreWrittenAsDataOrAsAPicture) {
   EXPECT_EQ(Patchmill({"lines", bump_, "-o", out_ / "l.svg", "--kind", "eye"}).status, 2);
 }
 
+TEST_F(Cli, ReachIsATableAndAFile) {
+  const Finished table = Patchmill({"reach", bump_, "--tool-diameters", "1,2,400", "--floor", "-5"});
+  EXPECT_EQ(table.status, 0) << table.err;
+  EXPECT_THAT(table.out, HasSubstr("unreachable, mm2"));
+  EXPECT_THAT(table.out, HasSubstr("           1                0.000    0.00%"));
+  const Finished json =
+      Patchmill({"reach", bump_, "--tool-diameters", "1,2", "-o", out_ / "reach.json", "--quiet"});
+  EXPECT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(json.out, "");
+  EXPECT_THAT(Slurp(out_ / "reach.json"), HasSubstr("\"tool_diameter_mm\": 2"));
+  const Finished wrong = Patchmill({"reach", bump_, "--tool-diameters", "2,1"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("tool_diameters_mm[1] = 1; must be above 2"));
+  EXPECT_EQ(Patchmill({"reach", bump_, "-o", out_ / "reach.svg"}).status, 2);
+}
+
 TEST_F(Cli, NoCommandOrAnUnknownOneIsWrongUsage) {
   EXPECT_EQ(Patchmill({}).status, 2);
   EXPECT_EQ(Patchmill({"lathe"}).status, 2);
@@ -282,7 +298,8 @@ TEST_F(Cli, NoCommandOrAnUnknownOneIsWrongUsage) {
   EXPECT_EQ(Patchmill({"mill", "--help"}).status, 0);
   EXPECT_TRUE(std::regex_search(Patchmill({"--version"}).out, std::regex("^patchmill [0-9]+\\.[0-9]+")));
   const std::string help = Patchmill({"--help"}).out;
-  for (const char* name : {"mill", "check", "regions", "verify", "lines", "build", "edit", "fair", "serve"}) {
+  for (const char* name :
+       {"mill", "check", "regions", "reach", "verify", "lines", "build", "edit", "fair", "serve"}) {
     EXPECT_THAT(help, HasSubstr(std::string("  ") + name));
   }
   EXPECT_THAT(help, Not(HasSubstr("  convert")));

@@ -190,7 +190,7 @@ TEST(Contract, EveryCallListsItsErrors) {
       }
     }
   });
-  EXPECT_EQ(seen, 10);
+  EXPECT_EQ(seen, 11);
 }
 
 }  // namespace

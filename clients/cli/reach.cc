@@ -1,0 +1,94 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "clients/cli/commands.h"
+#include "clients/cli/job_options.h"
+#include "clients/cli/output_file.h"
+#include "clients/cli/text.h"
+#include "patchmill/v1/analysis_service.grpc.pb.h"
+
+namespace patchmill::cli {
+namespace {
+
+struct ReachOptions {
+  CommonOptions common;
+  SetupOptions setup;
+  OperationOptions operation;
+  std::string model, output;
+  std::vector<double> diameters = {1, 2, 3, 4, 6, 8, 10, 12};
+};
+
+absl::StatusOr<v1::TabulateReachRequest> MakeRequest(const ReachOptions& options) {
+  v1::TabulateReachRequest request;
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  if (!source.ok()) return source.status();
+  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
+  if (!setup.ok()) return setup.status();
+  v1::Job& job = *request.mutable_job();
+  *job.mutable_source() = *std::move(source);
+  *job.mutable_setup() = *std::move(setup);
+  *job.add_operations() = MakeOperation(options.operation);
+  job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
+  for (const double diameter : options.diameters) request.add_tool_diameters_mm(diameter);
+  request.set_max_threads(options.common.threads);
+  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
+  return request;
+}
+
+void Print(const v1::TabulateReachResponse& response) {
+  fmt::print("{:>12} {:>20} {:>8} {:>20}\n", "diameter, mm", "unreachable, mm2", "share",
+             "largest tool of, mm2");
+  for (const v1::ReachEntry& entry : response.entries()) {
+    fmt::print("{:>12g} {:>20.3f} {:>7.2f}% {:>20.3f}\n", entry.tool_diameter_mm(),
+               entry.unreachable_area_mm2(), 100.0 * entry.unreachable_area_mm2() / response.area_mm2(),
+               entry.largest_tool_area_mm2());
+  }
+}
+
+absl::Status Run(const ReachOptions& options, InterruptWatch& watch) {
+  std::optional<OutputFile> output;
+  if (!options.output.empty()) {
+    if (std::filesystem::path(options.output).extension() != ".json")
+      return absl::InvalidArgumentError(fmt::format("-o {}; must end in .json", options.output));
+    output.emplace(options.output);
+    if (const absl::Status writable = output->CheckWritable(); !writable.ok()) return writable;
+  }
+  absl::StatusOr<v1::TabulateReachRequest> request = MakeRequest(options);
+  if (!request.ok()) return request.status();
+  absl::StatusOr<Connection> connection = Connect(options.common);
+  if (!connection.ok()) return connection.status();
+
+  CallScope call(options.common, watch);
+  v1::TabulateReachResponse response;
+  const grpc::Status status =
+      v1::AnalysisService::NewStub(connection->channel)->TabulateReach(call.context(), *request, &response);
+  if (!status.ok()) return FromGrpc(status, options.common, watch);
+  if (output) {
+    output->Set(Json(response));
+    if (const absl::Status written = output->Commit(); !written.ok()) return written;
+  }
+  if (!options.common.quiet || !output) Print(response);
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+Command AddReach(CLI::App& app) {
+  auto options = std::make_shared<ReachOptions>();
+  OperationOptions& op = options->operation;
+  app.add_option("MODEL", options->model, kModelHelp)->required();
+  app.add_option("-o,--output", options->output, "the table: .json");
+  app.add_option("--tool-diameters", options->diameters, "balls to try, mm, rising, with commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  AddNumber(app, "--tolerance", op.tolerance, "whole error budget, mm");
+  AddNumber(app, "--leave", op.leave, "material left along the normal, mm");
+  AddNumber(app, "--floor", op.floor, "lowest tip, mm, program frame; default: the model's lowest point");
+  AddSetupOptions(app, options->setup);
+  AddCommonOptions(app, options->common);
+  return [options](InterruptWatch& watch) { return Run(*options, watch); };
+}
+
+}  // namespace patchmill::cli
