@@ -54,16 +54,24 @@ void Shake(double by, PatchModel& model) {
   }
 }
 
-int CountOf(const PatchModel& model) {
+Surface Build(const PatchModel& model) {
   PatchNetwork network;
   network.model = model;
   network.join_tolerance = 2e-3;
-  const auto surface = BuildSurface(std::move(network), SurfaceParams(), RunContext());
+  auto surface = BuildSurface(std::move(network), SurfaceParams(), RunContext());
   EXPECT_TRUE(surface.ok()) << surface.status();
-  const auto map = SplitRegions(*surface, RegionParams(), RunContext());
+  return *std::move(surface);
+}
+
+RegionMap Split(const Surface& surface, const RegionParams& params = {}) {
+  auto map = SplitRegions(surface, params, RunContext());
   EXPECT_TRUE(map.ok()) << map.status();
+  return *std::move(map);
+}
+
+int CountOf(const PatchModel& model) {
   int count = 0;
-  for (const Region& r : map->regions) count += r.kind != RegionKind::kUnreachable;
+  for (const Region& r : Split(Build(model)).regions) count += r.kind != RegionKind::kUnreachable;
   return count;
 }
 
@@ -82,6 +90,22 @@ TEST(RegionCounts, AreThoseOfTheTableWithAndWithoutNoise) {
     Shake(0.005, model);
     EXPECT_LE(std::abs(CountOf(model) - row.count), 2) << "with noise";
   }
+}
+
+// However it lies, the regions are the whole surface. On its side curvature has no value at the poles.
+TEST(RegionCounts, TheTeapotHasOneAreaHoweverItLies) {
+  const PatchModel teapot = testing::LoadModel("examples/teapot.bpt");
+  double upright = 0.0;
+  for (const UpAxis up : {UpAxis::kY, UpAxis::kZ, UpAxis::kX, UpAxis::kNegY}) {
+    const Surface surface = Build(Place(Placement{.scale = 54.8, .up = up}, teapot));
+    RegionParams params;
+    params.floor_z = surface.box.min.z();
+    double area = 0.0;
+    for (const Region& r : Split(surface, params).regions) area += r.area;
+    if (up == UpAxis::kY) upright = area;
+    EXPECT_NEAR(area, upright, 1e-4 * upright);
+  }
+  EXPECT_GT(upright, 0.0);
 }
 
 }  // namespace
