@@ -20,10 +20,7 @@ absl::StatusOr<KeepIn> KeepIn::Make(const Surface& surface, const Containment& c
   keep.containment_ = &containment;
   keep.params_ = params;
   std::vector<bool> wanted(surface.network.model.patches.size(), true);
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    wanted[i] =
-        (containment.selected.empty() || containment.selected[i]) && !IsAvoided(containment, PatchId(i));
-  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = IsWantedPatch(containment, PatchId(i));
   if (Any(wanted) && std::find(wanted.begin(), wanted.end(), false) != wanted.end()) {
     PM_ASSIGN_OR_RETURN(Surface part, PartOf(surface, wanted, run));
     keep.selected_ = std::make_unique<Surface>(std::move(part));

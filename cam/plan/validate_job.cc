@@ -19,6 +19,35 @@ absl::Status Range(const char* field, double value, bool ok, const std::string& 
   return absl::InvalidArgumentError(fmt::format("{} = {:.6g}; must be {}", field, value, constraint));
 }
 
+constexpr double kMaxWiden = 1000.0;  // mm, of margins and offsets
+
+absl::Status ValidateOutline(const std::string& field, const std::vector<Ring>& rings) {
+  const std::string fault = OutlineFault(rings);
+  return fault.empty() ? absl::OkStatus() : absl::InvalidArgumentError(field + " is no outline: " + fault);
+}
+
+// Where the tool may be and what is wanted.
+absl::Status ValidateLimits(const Job& job) {
+  const Selection& s = job.operation.selection;
+  PM_RETURN_IF_ERROR(Range("selection.avoid_margin_mm", s.avoid_margin,
+                           s.avoid_margin >= 0 && s.avoid_margin <= kMaxWiden,
+                           fmt::format("in [0, {}]", kMaxWiden)));
+  PM_RETURN_IF_ERROR(Range("selection.boundary_offset_mm", s.boundary_offset,
+                           std::abs(s.boundary_offset) <= kMaxWiden,
+                           fmt::format("in [-{0}, {0}]", kMaxWiden)));
+  if (!s.boundary.empty()) PM_RETURN_IF_ERROR(ValidateOutline("selection.boundary_xy_mm", s.boundary));
+  for (std::size_t i = 0; i < job.setup.obstacles.size(); ++i) {
+    const ObstacleOutline& o = job.setup.obstacles[i];
+    const std::string at = fmt::format("setup.obstacles[{}].", i);
+    PM_RETURN_IF_ERROR(ValidateOutline(at + "outline_xy_mm", {o.outline}));
+    PM_RETURN_IF_ERROR(Range((at + "top_z_mm").c_str(), o.top_z, std::abs(o.top_z) <= kMaxLength,
+                             fmt::format("in [-{0}, {0}]", kMaxLength)));
+    PM_RETURN_IF_ERROR(Range((at + "margin_mm").c_str(), o.margin, o.margin >= 0 && o.margin <= kMaxWiden,
+                             fmt::format("in [0, {}]", kMaxWiden)));
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 absl::Status ValidateJob(const Job& job) {
@@ -83,6 +112,8 @@ absl::Status ValidateJob(const Job& job) {
   };
   PM_RETURN_IF_ERROR(height("heights.clearance_z_mm", op.clearance_z));
   PM_RETURN_IF_ERROR(height("heights.floor_z_mm", op.floor_z));
+  PM_RETURN_IF_ERROR(height("heights.top_z_mm", op.top_z));
+  PM_RETURN_IF_ERROR(ValidateLimits(job));
   PM_RETURN_IF_ERROR(height("setup.stock.top_z_mm", job.setup.stock_top_z));
   PM_RETURN_IF_ERROR(check("setup.program_zero", job.setup.zero_point.norm(),
                            job.setup.zero_point.allFinite() && job.setup.zero_point.norm() <= kMaxLength,

@@ -76,7 +76,8 @@ SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, 
       if (!unit) return;
       const double slope = std::atan2(std::hypot(unit->x(), unit->y()), std::abs(unit->z()));
       triangle.steepness += element * (slope - steep_angle);
-      triangle.curvature += turn * element * ContourCurvature(jet, Forms(jet, *unit));
+      const double bend = turn * ContourCurvature(jet, Forms(jet, *unit));
+      if (std::isfinite(bend)) triangle.curvature += element * bend;  // none at a summit or a pit
     });
     mesh.triangles.push_back(triangle);
   }

@@ -21,13 +21,13 @@ bool Containment::AllowsAll() const {
   return !margin && (!boundary || LimitsContacts(*this)) && !top_z && obstacles.empty();
 }
 
-bool IsAvoided(const Containment& containment, PatchId patch) {
-  return !containment.avoided.empty() && containment.avoided[patch.index()];
+bool IsWantedPatch(const Containment& containment, PatchId patch) {
+  return (containment.selected.empty() || containment.selected[patch.index()]) &&
+         (containment.avoided.empty() || !containment.avoided[patch.index()]);
 }
 
 bool IsWanted(const Containment& containment, PatchId patch, const Vec3& p, double depth) {
-  if (!containment.selected.empty() && !containment.selected[patch.index()]) return false;
-  if (IsAvoided(containment, patch)) return false;
+  if (!IsWantedPatch(containment, patch)) return false;
   if (!LimitsContacts(containment)) return true;
   const Boundary& boundary = *containment.boundary;
   return boundary.outline.SignedDistance(Plan(p)) + boundary.offset >= depth;

@@ -46,7 +46,8 @@ struct Containment {
   bool AllowsAll() const;  // no place is forbidden to the centre
 };
 
-bool IsAvoided(const Containment& containment, PatchId patch);
+// The patch is selected and not avoided; what a boundary leaves of it is for `IsWanted` to say.
+bool IsWantedPatch(const Containment& containment, PatchId patch);
 
 // The surface point is to be finished. `depth`: for the contact boundary alone, how far inside it must lie
 // (negative: how far outside it may).

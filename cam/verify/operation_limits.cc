@@ -35,11 +35,10 @@ CenterLimits OperationLimits::centers() const {
 }
 
 std::vector<CellRect> OperationLimits::Wanted(const std::vector<CellRect>& cells) const {
-  const Containment& c = *containment_;
   std::vector<CellRect> wanted;
   for (const CellRect& cell : cells) {
     const PatchId patch = surface_->piece(cell.piece).patch;
-    if ((c.selected.empty() || c.selected[patch.index()]) && !IsAvoided(c, patch)) wanted.push_back(cell);
+    if (IsWantedPatch(*containment_, patch)) wanted.push_back(cell);
   }
   return wanted;
 }

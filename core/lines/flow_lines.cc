@@ -5,6 +5,8 @@
 #include <deque>
 #include <unordered_map>
 
+#include <fmt/format.h>
+
 #include "core/lines/flow_step.h"
 #include "core/surface/closest.h"
 
@@ -15,7 +17,6 @@ constexpr double kNear = 0.5;       // of the spacing: lines end this near to ot
 constexpr double kShortest = 0.5;   // of the spacing: shorter lines are left out
 constexpr double kLongest = 100.0;  // of the box's diagonal
 constexpr int kMostBorders = 100;   // with less than a whole step in between: a line that makes no way
-constexpr std::size_t kMostPoints = 20'000'000;
 
 // Points of all lines by cells of the spacing.
 class Neighbors {
@@ -70,8 +71,10 @@ class FlowTracer {
             seeds_.pop_front();
             Begin(seed);
             if (run_.Cancelled()) return run_.Check();
-            if (point_count_ > kMostPoints)
-              return absl::ResourceExhaustedError("flow lines: spacing is too small");
+            if (point_count_ > params_.max_points) {
+              return absl::ResourceExhaustedError(fmt::format(
+                  "flow lines: more than {} points; a wider spacing has fewer", params_.max_points));
+            }
           }
         }
       }
@@ -139,7 +142,7 @@ class FlowTracer {
     double step = 0.1 * params_.spacing, length = 0.0;
     int borders = 0;  // met one after the other
     const double longest = kLongest * surface_.box.Diagonal();
-    while (length < longest && !run_.Cancelled()) {
+    while (length < longest && line.size() <= params_.max_points && !run_.Cancelled()) {
       const auto next = Advance(surface_, params_, at, sign, &step);
       if (!next) break;
       length += (next->place.at.p - at.at.p).norm();

@@ -22,12 +22,14 @@ struct FlowParams {
   Vec3 axis = Vec3::UnitZ();  // unit
   double spacing = 1.0;       // mm, > 0: new lines begin this far from all others, and end at half of it
   double tolerance = 0.01;    // mm, > 0: of chords, and of a step
+  std::size_t max_points = 1'000'000;
 };
 
 // Lines in the direction in which the function grows. They end at singular points (|gradient| below 1e-6, per
 // mm of spacing for kAlongSlope; a gradient that turns back), at the border of the surface, where the
 // parametrisation has no normal, and near other lines; those shorter than half the spacing are left out. In
-// the order in which they were begun; deterministic, one thread. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// the order in which they were begun; deterministic, one thread. RESOURCE_EXHAUSTED for more than max_points,
+// some 200 bytes each; CANCELLED and DEADLINE_EXCEEDED from `run`.
 // Cost: some microseconds a step, a closest-point query at each patch border and for each new line.
 absl::StatusOr<std::vector<ZeroCurve>> TraceFlowLines(const Surface& surface, const FlowParams& params,
                                                       const RunContext& run);

@@ -4,6 +4,7 @@
 #include "cam/plan/resolve.h"
 #include "cam/region/reach_table.h"
 #include "core/base/status.h"
+#include "server/convert/fields.h"
 #include "server/convert/report.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/prepare.h"
@@ -12,25 +13,27 @@
 namespace patchmill {
 namespace {
 
-absl::StatusOr<std::vector<double>> ReadRadii(const v1::TabulateReachRequest& request, double leave) {
-  const auto& diameters = request.tool_diameters_mm();
+absl::Status CheckDiameters(const google::protobuf::RepeatedField<double>& diameters) {
   constexpr int kMost = static_cast<int>(kMaxReachRadii);
-  if (diameters.empty() || diameters.size() > kMost) {
-    return absl::InvalidArgumentError(
-        fmt::format("tool_diameters_mm: {} given; must be 1 to {}", diameters.size(), kMost));
+  FieldErrors errors;
+  if (diameters.empty()) errors.Missing("tool_diameters_mm");
+  if (diameters.size() > kMost) {
+    errors.Add("tool_diameters_mm",
+               fmt::format("has {} elements; must have at most {}", diameters.size(), kMost));
+    return errors.ToStatus();
   }
-  std::vector<double> radii;
   for (int i = 0; i < diameters.size(); ++i) {
-    const double least = i == 0 ? limits::kMinDiameterMm : diameters[i - 1];
-    const bool above = i == 0 ? diameters[i] >= least : diameters[i] > least;
-    if (!(above && diameters[i] <= limits::kMaxDiameterMm)) {
-      return absl::InvalidArgumentError(
-          fmt::format("tool_diameters_mm[{}] = {:g}; must be {} {:g} and at most {:g}", i, diameters[i],
-                      i == 0 ? "at least" : "above", least, limits::kMaxDiameterMm));
+    const std::string field = fmt::format("tool_diameters_mm[{}]", i);
+    const double d = diameters[i];
+    if (!Require(errors, field, d, d >= limits::kMinDiameterMm && d <= limits::kMaxDiameterMm,
+                 fmt::format("in [{}, {}]", limits::kMinDiameterMm, limits::kMaxDiameterMm))) {
+      continue;
     }
-    radii.push_back(0.5 * diameters[i] + leave);
+    if (i > 0)
+      Require(errors, field, d, d > diameters[i - 1],
+              fmt::format("above the one before, {:.10g}", diameters[i - 1]));
   }
-  return radii;
+  return errors.ToStatus();
 }
 
 }  // namespace
@@ -39,11 +42,12 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
                                  v1::TabulateReachResponse* response) {
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
+  PM_RETURN_IF_ERROR(CheckDiameters(request.tool_diameters_mm()));
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post()));
     const Job& job = prepared.job;
     ReachTableParams params;
-    PM_ASSIGN_OR_RETURN(params.radii, ReadRadii(request, job.operation.leave));
+    for (const double d : request.tool_diameters_mm()) params.radii.push_back(0.5 * d + job.operation.leave);
     params.tolerance = job.operation.tolerance;
     PM_RETURN_IF_ERROR(run.Check());
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(prepared.model.model, job.setup, run));

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -55,6 +55,19 @@ struct Level {
   std::vector<ZeroCurve> curves;
 };
 
+// Points of all lines, which an answer can hold or not.
+class PointCount {
+ public:
+  absl::Status Add(const std::vector<ZeroCurve>& curves) {
+    for (const ZeroCurve& curve : curves) points_ += static_cast<double>(curve.points.size());
+    if (points_ <= limits::kMaxPolylinePoints) return absl::OkStatus();
+    return LimitError("line_points", limits::kMaxPolylinePoints, points_);
+  }
+
+ private:
+  double points_ = 0.0;
+};
+
 absl::StatusOr<std::vector<ZeroCurve>> TraceFlow(const Surface& surface, FlowParams flow, double tolerance,
                                                  const RunContext& run) {
   constexpr double kUsual = 1.0 / 40.0, kClosest = 1e-3;  // of the box's diagonal
@@ -63,6 +76,7 @@ absl::StatusOr<std::vector<ZeroCurve>> TraceFlow(const Surface& surface, FlowPar
   if (flow.spacing < kClosest * diagonal)
     return LimitError("1/spacing_mm", 1.0 / (kClosest * diagonal), 1.0 / flow.spacing);
   flow.tolerance = tolerance;
+  flow.max_points = static_cast<std::size_t>(limits::kMaxPolylinePoints);
   return TraceFlowLines(surface, flow, run);
 }
 
@@ -71,11 +85,13 @@ absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vect
   std::vector<Level> levels;
   std::vector<ZeroField> fields;
   std::vector<std::size_t> of_field;  // its level
+  PointCount points;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const int family = static_cast<int>(k);
     if (lines[k].flow) {
       PM_ASSIGN_OR_RETURN(std::vector<ZeroCurve> flow,
                           TraceFlow(surface, *lines[k].flow, order.tolerance, run));
+      PM_RETURN_IF_ERROR(points.Add(flow));
       levels.push_back({family, 0.0, std::move(flow)});
       continue;
     }
@@ -94,9 +110,18 @@ absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vect
   ZeroMeshParams params;
   params.min_cell = order.min_loop;
   params.max_cell = std::max(params.max_cell, params.min_cell);
-  PM_ASSIGN_OR_RETURN(std::vector<std::vector<ZeroCurve>> curves,
-                      TraceZeroCurves(surface, fields, params, order.tolerance, run));
-  for (std::size_t k = 0; k < fields.size(); ++k) levels[of_field[k]].curves = std::move(curves[k]);
+  // Some at a time: too many points are known before they fill the memory.
+  constexpr std::size_t kAtOnce = 8;
+  for (std::size_t first = 0; first < fields.size(); first += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, fields.size() - first);
+    PM_ASSIGN_OR_RETURN(
+        std::vector<std::vector<ZeroCurve>> curves,
+        TraceZeroCurves(surface, std::span(fields).subspan(first, count), params, order.tolerance, run));
+    for (std::size_t k = 0; k < count; ++k) {
+      PM_RETURN_IF_ERROR(points.Add(curves[k]));
+      levels[of_field[first + k]].curves = std::move(curves[k]);
+    }
+  }
   return levels;
 }
 
@@ -150,12 +175,6 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
     std::vector<LineOrder> lines;
     for (const LineOrder& line : order.lines) lines.push_back(Placed(line, zero));
     PM_ASSIGN_OR_RETURN(const std::vector<Level> levels, Trace(surface, lines, order, zero, run));
-    double points = 0.0;
-    for (const Level& level : levels) {
-      for (const ZeroCurve& curve : level.curves) points += static_cast<double>(curve.points.size());
-    }
-    if (points > limits::kMaxPolylinePoints)
-      return LimitError("line_points", limits::kMaxPolylinePoints, points);
     for (const Level& level : levels) {
       v1::LineSet& set = *response->add_sets();
       const LineOrder& line = lines[static_cast<std::size_t>(level.family)];

@@ -126,6 +126,18 @@ TEST_F(Lines, FlowRunsUpTheBowl) {
   }
 }
 
+// Refused by number before they fill the memory: 1000 levels of some thousand points each.
+TEST_F(Lines, MorePointsThanAnAnswerHoldsAreRefused) {
+  v1::LineFamily& contours = *request_.mutable_families(0);
+  for (int k = 0; k < 1000; ++k) contours.add_levels(4.0 + 1e-3 * k);
+  request_.set_tolerance_mm(1e-6);
+  EXPECT_THAT(Trace(), RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("line_points")));
+  contours.clear_levels();
+  contours.set_kind(v1::LINE_KIND_FLOW);
+  contours.set_spacing_mm(0.03);
+  EXPECT_THAT(Trace(), RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("spacing")));
+}
+
 TEST_F(Lines, WrongFields) {
   const v1::TraceLinesRequest good = request_;
   const auto message = [&](auto spoil) {

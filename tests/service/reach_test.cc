@@ -1,4 +1,6 @@
 // TabulateReach through the wire.
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,12 +55,21 @@ TEST_F(TabulateReach, WrongLists) {
   request_.set_tool_diameters_mm(2, 4.0);
   EXPECT_THAT(Tabulate(),
               RpcStatusIs(StatusCode::INVALID_ARGUMENT,
-                          HasSubstr("tool_diameters_mm[2] = 4; must be above 4 and at most 1000")));
+                          HasSubstr("tool_diameters_mm[2] = 4; must be above the one before, 4")));
   request_.clear_tool_diameters_mm();
-  EXPECT_THAT(Tabulate(), RpcStatusIs(StatusCode::INVALID_ARGUMENT,
-                                      HasSubstr("tool_diameters_mm: 0 given; must be 1 to 64")));
+  EXPECT_THAT(Tabulate(),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("tool_diameters_mm is missing")));
   request_.add_tool_diameters_mm(0.0);
-  EXPECT_THAT(Tabulate(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("must be at least 0.02")));
+  request_.add_tool_diameters_mm(NAN);
+  EXPECT_THAT(Tabulate(),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT,
+                          HasSubstr("tool_diameters_mm[0] = 0; must be in [0.02, 1000] (and 1 more)")));
+  request_.set_tool_diameters_mm(0, 1.0);
+  EXPECT_THAT(Tabulate(), RpcStatusIs(StatusCode::INVALID_ARGUMENT,
+                                      HasSubstr("tool_diameters_mm[1] = nan; must be in [0.02, 1000]")));
+  for (int i = 2; i < 65; ++i) request_.add_tool_diameters_mm(i);
+  EXPECT_THAT(Tabulate(), RpcStatusIs(StatusCode::INVALID_ARGUMENT,
+                                      HasSubstr("tool_diameters_mm has 65 elements; must have at most 64")));
 }
 
 }  // namespace

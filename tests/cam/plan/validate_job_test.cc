@@ -173,6 +173,36 @@ TEST(Heights, TheToleranceIsTheWholeBudget) {
   }
 }
 
+// Callers of the library have no wire that looks at outlines before.
+TEST(Limits, OutlinesAndMarginsAreChecked) {
+  const Ring square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}}, line = {{0, 0}, {4, 4}, {8, 8}};
+  const auto message = [&](const std::function<void(Job&)>& spoil) {
+    Job job = BallJob(3.0);
+    job.operation.selection.boundary = {square};
+    job.setup.obstacles.push_back({"vice", square, 5.0, 1.0});
+    EXPECT_TRUE(ValidateJob(job).ok());
+    spoil(job);
+    const absl::Status status = ValidateJob(job);
+    EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    return std::string(status.message());
+  };
+  EXPECT_THAT(message([&](Job& j) { j.operation.selection.boundary.push_back(line); }),
+              HasSubstr("selection.boundary_xy_mm is no outline"));
+  EXPECT_THAT(message([&](Job& j) { j.operation.selection.boundary[0][1].x() = kNan; }),
+              HasSubstr("selection.boundary_xy_mm is no outline"));
+  EXPECT_THAT(message([&](Job& j) { j.operation.selection.boundary_offset = -1001; }),
+              HasSubstr("selection.boundary_offset_mm = -1001; must be in [-1000, 1000]"));
+  EXPECT_THAT(message([&](Job& j) { j.operation.selection.avoid_margin = -1; }),
+              HasSubstr("selection.avoid_margin_mm = -1; must be in [0, 1000]"));
+  EXPECT_THAT(message([&](Job& j) { j.setup.obstacles[0].outline = line; }),
+              HasSubstr("setup.obstacles[0].outline_xy_mm is no outline"));
+  EXPECT_THAT(message([&](Job& j) { j.setup.obstacles[0].top_z = kNan; }),
+              HasSubstr("setup.obstacles[0].top_z_mm = nan"));
+  EXPECT_THAT(message([&](Job& j) { j.setup.obstacles[0].margin = -2; }),
+              HasSubstr("setup.obstacles[0].margin_mm = -2; must be in [0, 1000]"));
+  EXPECT_THAT(message([&](Job& j) { j.operation.top_z = kInfinity; }), HasSubstr("heights.top_z_mm = inf"));
+}
+
 TEST(Placement, BadValuesAreNamed) {
   patchmill::Setup setup;
   setup.placement.scale = 0.0;
