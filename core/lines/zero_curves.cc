@@ -92,7 +92,7 @@ class PieceCurves {
       for (const Vec2& q : RefineZeroArc(piece_, field_, Parameters(at), Parameters(step.to), tolerance_))
         curve.points.push_back(At(id_, piece_, q));
       at = step.to;
-      if (at == from) {
+      if (at == from && Runs(at)) {  // a loop that begins and ends in a node is open
         curve.closed = true;
         break;
       }

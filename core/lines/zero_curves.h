@@ -29,9 +29,10 @@ struct ZeroCurve {
 
 // Points lie on the zero curve to rounding (about 1e-13 of a cell), chords keep to `tolerance` (mm, > 0).
 // Curves run on across piece borders where both sides see them, end at nodes (where more than two branches
-// meet) and at the surface's border. Order: by piece of the first point, open curves of a piece first. The
-// same for any number of threads. `params.curves_only` is implied. CANCELLED, DEADLINE_EXCEEDED from `run`.
-// Cost: some ten microseconds a cell the curve passes, and the form of every piece.
+// meet; a loop back to its node has it at both ends and is not closed) and at the surface's border. Order: by
+// piece of the first point, open curves of a piece first. The same for any number of threads.
+// `params.curves_only` is implied. CANCELLED, DEADLINE_EXCEEDED from `run`. Cost: some ten microseconds a
+// cell the curve passes, and the form of every piece.
 absl::StatusOr<std::vector<ZeroCurve>> TraceZeroCurves(const Surface& surface, const ZeroField& field,
                                                        const ZeroMeshParams& params, double tolerance,
                                                        const RunContext& run);

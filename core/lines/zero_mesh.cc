@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/lines/fan_middle.h"
 #include "core/lines/zero_cells.h"
 #include "core/lines/zero_root.h"
 
@@ -51,12 +52,16 @@ class Builder {
     for (const auto& [t, id] : found) ring.push_back(id);
   }
 
-  int Middle(const ZeroCell& cell) {
+  int Middle(const ZeroCell& cell, const std::vector<int>& ring) {
     if (cell.node) return *cell.node;
     const int step = kZeroGrid >> cell.level;
-    const int i0 = cell.i * step, j0 = cell.j * step;
-    if (step >= 2) return vertices_.OnGrid(i0 + step / 2, j0 + step / 2);
-    return vertices_.Add({(i0 + 0.5 * step) / kZeroGrid, (j0 + 0.5 * step) / kZeroGrid});
+    const Vec2 low = Vec2(cell.i, cell.j) * step / kZeroGrid;
+    const double side = static_cast<double>(step) / kZeroGrid;
+    if (!cell.settled) {
+      if (const auto place = BetterMiddle(vertices_, fields_, ring, low, side)) return vertices_.Add(*place);
+    }
+    if (step >= 2) return vertices_.OnGrid(cell.i * step + step / 2, cell.j * step + step / 2);
+    return vertices_.Add(low + Vec2::Constant(0.5 * side));
   }
 
   // A side of the cell and a middle on it: sides run along the axes.
@@ -81,7 +86,7 @@ class Builder {
       triangles_.push_back({{ring[0], ring[2], ring[3]}, {}});
       return;
     }
-    const int middle = Middle(cell);
+    const int middle = Middle(cell, ring);
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const int a = ring[k], b = ring[(k + 1) % ring.size()];
       if (!InLine(middle, a, b)) triangles_.push_back({{middle, a, b}, {}});
