@@ -1,11 +1,14 @@
-// Joining and evaluation of the shape kernel, on one core.
+// Joining, evaluation and lines of the shape kernel.
 #include <cmath>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "core/joining/join_network.h"
+#include "core/lines/line_family.h"
+#include "core/lines/zero_curves.h"
 #include "core/patch/patch.h"
+#include "tests/bench/bench_parts.h"
 
 namespace patchmill::bench {
 namespace {
@@ -81,6 +84,32 @@ PatchShape OfSheet(bool curvature) { return JoinNetwork(Sheet(5, curvature)).mod
 BENCHMARK_CAPTURE(SurfaceJets, bicubic, Bicubic());
 BENCHMARK_CAPTURE(SurfaceJets, gregory, OfSheet(false));
 BENCHMARK_CAPTURE(SurfaceJets, g2_gregory, OfSheet(true));
+
+// 100 levels between the lowest and the highest place, all cores; items are levels.
+void TraceLines(benchmark::State& state, Part part) {
+  const Surface& surface = SurfaceOf(part);
+  constexpr int kLevels = 100;
+  std::vector<ZeroField> fields;
+  for (int k = 0; k < kLevels; ++k) {
+    const double share = (k + 0.5) / kLevels;
+    fields.push_back(
+        FieldOf(ContourLines(), (1 - share) * surface.box.min.z() + share * surface.box.max.z()));
+  }
+  std::size_t curves = 0, points = 0;
+  for (auto _ : state) {
+    const auto traced = TraceZeroCurves(surface, fields, ZeroMeshParams(), 0.01, RunContext());
+    if (!traced.ok()) return state.SkipWithError("not traced");
+    curves = points = 0;
+    for (const auto& level : *traced) {
+      curves += level.size();
+      for (const ZeroCurve& curve : level) points += curve.points.size();
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * kLevels);
+  state.counters["curves"] = static_cast<double>(curves);
+  state.counters["points"] = static_cast<double>(points);
+}
+BENCHMARK_CAPTURE(TraceLines, teapot, Part::kTeapot)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace patchmill::bench
