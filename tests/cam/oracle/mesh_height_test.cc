@@ -1,0 +1,131 @@
+// h against a drop cutter on triangles (CGAL): 2 microns over whole parts, 0.2 microns in windows of 5 x 5
+// mm.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/location/heights.h"
+#include "cam/location/locator.h"
+#include "tests/support/files.h"
+#include "tests/support/mesh/mesh_oracle.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using testing::MeshOracle;
+using testing::MeshParams;
+using testing::Random;
+using testing::SurfaceOf;
+
+struct Area {
+  Vec2 min, max;
+};
+
+// All of it by the sandwich of mesh_oracle.h; what it leaves open by the width of the sandwich.
+class Judge {
+ public:
+  Judge(const PatchModel& model, double radius, double error, std::optional<Area> window)
+      : surface_(SurfaceOf(model)),
+        error_(error),
+        radius_(radius),
+        smaller_(surface_, radius - error),
+        exact_(surface_, radius),
+        larger_(surface_, radius + error),
+        mesh_(model, ParamsFor(radius, error, window)),
+        area_(window.value_or(Area{Plan(surface_.box.min) - Vec2::Constant(0.9 * radius),
+                                   Plan(surface_.box.max) + Vec2::Constant(0.9 * radius)})) {}
+
+  void Compare(int queries, std::uint64_t seed) {
+    Random random(seed);
+    const double within = 0.1 * error_;
+    int touched = 0, close = 0;
+    for (int k = 0; k < queries; ++k) {
+      const Vec2 q(random.Uniform(area_.min.x(), area_.max.x()),
+                   random.Uniform(area_.min.y(), area_.max.y()));
+      const auto low = smaller_.Height(q), h = exact_.Height(q), high = larger_.Height(q);
+      const auto mesh = mesh_.Height(q, radius_, within);
+      const auto where = [&] {
+        return ::testing::Message() << "seed " << seed << " query " << k << " at " << q.transpose();
+      };
+      ASSERT_TRUE(!low || (mesh && h)) << where();
+      ASSERT_TRUE(high || !mesh || mesh->low == -kInfinity) << where();
+      if (!mesh || !low || !high || mesh->low == -kInfinity) continue;
+      ++touched;
+      EXPECT_LE(low->z, mesh->high + kRounding) << where();
+      EXPECT_GE(high->z, mesh->low - kRounding) << where();
+      EXPECT_LE(std::max(mesh->low - h->z, h->z - mesh->high), high->z - low->z + kRounding) << where();
+      close += std::max(mesh->high - h->z, h->z - mesh->low) <= 5.0 * error_;
+    }
+    // Apart from contacts near the equator triangles come as near as they are fine.
+    EXPECT_GT(touched, queries / 3);
+    EXPECT_GE(close, 0.8 * touched) << "of " << touched << ", " << mesh_.triangle_count() << " triangles";
+  }
+
+ private:
+  static constexpr double kRounding = 1e-7;  // mm; a forced step of the falling ball near its equator
+  static MeshParams ParamsFor(double radius, double error, const std::optional<Area>& window) {
+    MeshParams params;
+    params.error = error;
+    params.reach = radius;
+    if (window) params.window = {window->min, window->max};
+    return params;
+  }
+
+  Surface surface_;
+  double error_, radius_;
+  Locator smaller_, exact_, larger_;
+  MeshOracle mesh_;
+  Area area_;
+};
+
+PatchModel Placed(const std::string& file, double scale, UpAxis up) {
+  Placement placement;
+  placement.scale = scale;
+  placement.up = up;
+  return Place(placement, testing::LoadModel(file));
+}
+
+void CompareWhole(const PatchModel& model, double radius) {
+  Judge(model, radius, 0.002, std::nullopt).Compare(1500, 1);
+}
+
+// Windows about random places of the part.
+void CompareWindows(const PatchModel& model, double radius, int windows) {
+  const Surface surface = SurfaceOf(model);
+  Random random(7);
+  for (int k = 0; k < windows; ++k) {
+    const Vec2 middle(random.Uniform(surface.box.min.x(), surface.box.max.x()),
+                      random.Uniform(surface.box.min.y(), surface.box.max.y()));
+    const Vec2 half = Vec2::Constant(2.5);
+    Judge(model, radius, 0.0002, Area{middle - half, middle + half}).Compare(500, 100 + k);
+  }
+}
+
+TEST(MeshHeight, TwoHills) { CompareWhole(testing::TwoHills(), 3.0); }
+TEST(MeshHeight, TwoHillsInWindows) { CompareWindows(testing::TwoHills(), 3.0, 3); }
+// A quarter of its length and width: all of it would be four million triangles.
+TEST(MeshHeight, Bumpy) {
+  Judge(testing::Bumpy(), 3.0, 0.002, Area{Vec2(30, 40), Vec2(55, 65)}).Compare(1500, 1);
+}
+TEST(MeshHeight, BumpyInWindows) { CompareWindows(testing::Bumpy(), 3.0, 1); }
+TEST(MeshHeight, Teapot) { CompareWhole(Placed("examples/teapot.bpt", 20.0, UpAxis::kY), 3.0); }
+TEST(MeshHeight, TeapotLying) { CompareWhole(Placed("examples/teapot.bpt", 20.0, UpAxis::kZ), 1.5); }
+TEST(MeshHeight, GregoryPatches) {
+  CompareWhole(Placed("tests/models/toroidal_tet.patches", 25.0, UpAxis::kY), 3.0);
+}
+TEST(MeshHeight, Teacup) { CompareWhole(Placed("tests/models/teacup.bpt", 15.0, UpAxis::kY), 2.0); }
+TEST(MeshHeight, FoldedSplines) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    testing::RandomBsplineParams params;
+    params.folds = true;
+    params.rational = seed % 2 == 1;
+    Judge(testing::RandomBspline(seed, params), 2.5, 0.002, std::nullopt).Compare(500, seed);
+  }
+}
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,159 @@
+#include "tests/support/mesh/mesh_oracle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include "core/base/status.h"
+
+namespace patchmill::testing {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+constexpr int kFirstDepth = 3;    // rectangles are at most 1/8 of a patch
+constexpr int kDeepest = 60;      // halvings of a patch
+constexpr int kMostSteps = 4000;  // of a ball on its way down
+
+Kernel::Point_3 ToCgal(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+// Tessellates one patch.
+class Divider {
+ public:
+  Divider(const PatchShape& shape, const MeshParams& params, Triangles& out)
+      : shape_(shape), triangle_(IsTriangle(shape)), params_(params), out_(out) {}
+
+  void Run() {
+    if (triangle_) {
+      Divide({Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}, 0);
+    } else {
+      Divide({Vec2(0, 0), Vec2(1, 0), Vec2(1, 1)}, 0);
+      Divide({Vec2(0, 0), Vec2(1, 1), Vec2(0, 1)}, 0);
+    }
+  }
+
+ private:
+  using Corners = std::array<Vec2, 3>;
+  Vec3 At(const Vec2& q) const {
+    return Position(shape_, std::clamp(q.x(), 0.0, 1.0), std::clamp(q.y(), 0.0, 1.0));
+  }
+
+  // The longest side is halved: neighbours that halve another one leave gaps within the error.
+  void Divide(const Corners& c, int depth) {
+    const std::array<Vec3, 3> p = {At(c[0]), At(c[1]), At(c[2])};
+    if (depth >= 2 * kFirstDepth) {
+      double off = 0.0;
+      Box3 box;
+      const auto look = [&](double a, double b) {
+        const Vec3 on = At(c[0] + a * (c[1] - c[0]) + b * (c[2] - c[0]));
+        off = std::max(off, (on - p[0] - a * (p[1] - p[0]) - b * (p[2] - p[0])).norm());
+        box.Add(on);
+      };
+      look(1.0 / 3.0, 1.0 / 3.0);  // most are too large, and seen to be so at once
+      for (int i = 0; i <= kSamples && off <= 0.5 * params_.error; ++i) {
+        for (int j = 0; i + j <= kSamples; ++j)
+          look(static_cast<double>(i) / kSamples, static_cast<double>(j) / kSamples);
+      }
+      for (const Vec3& corner : p) box.Add(corner);
+      if (Outside(box, off)) return;
+      PM_CHECK(depth < kDeepest);
+      if (off <= 0.5 * params_.error) {
+        const Kernel::Triangle_3 t(ToCgal(p[0]), ToCgal(p[1]), ToCgal(p[2]));
+        if (!t.is_degenerate()) out_.push_back(t);
+        return;
+      }
+    }
+    int longest = 0;
+    double length = -1.0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec2 &from = c[static_cast<std::size_t>(k)], &to = c[static_cast<std::size_t>((k + 1) % 3)];
+      const double here = depth < 2 * kFirstDepth ? (to - from).norm() : LengthOf(from, to);
+      if (here > length) {
+        length = here;
+        longest = k;
+      }
+    }
+    const auto corner = [&](int k) { return c[static_cast<std::size_t>((longest + k) % 3)]; };
+    const Vec2 middle = 0.5 * (corner(0) + corner(1));
+    Divide({corner(0), middle, corner(2)}, depth + 1);
+    Divide({middle, corner(1), corner(2)}, depth + 1);
+  }
+
+  // Along the surface: the ends of a side that is folded over lie together.
+  double LengthOf(const Vec2& from, const Vec2& to) const {
+    double length = 0.0;
+    Vec3 last = At(from);
+    for (int k = 1; k <= kSamples; ++k) {
+      const Vec3 next = At(from + static_cast<double>(k) / kSamples * (to - from));
+      length += (next - last).norm();
+      last = next;
+    }
+    return length;
+  }
+
+  bool Outside(const Box3& box, double off) const {
+    if (!params_.window) return false;
+    const double more = params_.reach + params_.error + 4.0 * off;
+    return box.max.x() < params_.window->first.x() - more ||
+           box.min.x() > params_.window->second.x() + more ||
+           box.max.y() < params_.window->first.y() - more || box.min.y() > params_.window->second.y() + more;
+  }
+
+  static constexpr int kSamples = 4;  // 15 places
+  const PatchShape& shape_;
+  bool triangle_;
+  const MeshParams& params_;
+  Triangles& out_;
+};
+
+}  // namespace
+
+struct MeshOracle::Mesh {
+  Triangles triangles;
+  Tree tree;
+  double top = -kInfinity, bottom = kInfinity;
+};
+
+MeshOracle::MeshOracle(const PatchModel& model, const MeshParams& params) : mesh_(std::make_unique<Mesh>()) {
+  for (const Patch& patch : model.patches) Divider(patch.shape, params, mesh_->triangles).Run();
+  for (const Kernel::Triangle_3& t : mesh_->triangles) {
+    mesh_->top = std::max(mesh_->top, t.bbox().zmax());
+    mesh_->bottom = std::min(mesh_->bottom, t.bbox().zmin());
+  }
+  mesh_->tree.insert(mesh_->triangles.begin(), mesh_->triangles.end());
+  mesh_->tree.build();
+  mesh_->tree.accelerate_distance_queries();
+}
+
+MeshOracle::~MeshOracle() = default;
+
+std::optional<MeshOracle::Bracket> MeshOracle::Height(const Vec2& q, double radius, double within) const {
+  // The distance to the triangles tells how far the ball may come down at least, and its nearest point how
+  // far it may come down at most.
+  Bracket bracket;
+  double z = mesh_->top + radius;
+  for (int step = 0; step < kMostSteps && z > mesh_->bottom - radius; ++step) {
+    const Kernel::Point_3 near = mesh_->tree.closest_point({q.x(), q.y(), z});
+    const Vec3 p(near.x(), near.y(), near.z());
+    const double rim = radius * radius - (Plan(p) - q).squaredNorm();
+    if (rim >= 0.0) bracket.low = std::max(bracket.low, p.z() + std::sqrt(rim));
+    if (z - bracket.low <= within) break;
+    z -= std::max((Vec3(q.x(), q.y(), z) - p).norm() - radius, 1e-3 * within);
+  }
+  if (bracket.low == -kInfinity && z <= mesh_->bottom - radius) return std::nullopt;
+  bracket.high = std::max(z, bracket.low);
+  return bracket;
+}
+
+std::size_t MeshOracle::triangle_count() const { return mesh_->triangles.size(); }
+
+}  // namespace patchmill::testing
