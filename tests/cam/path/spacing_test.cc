@@ -7,6 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "core/base/vec.h"
+#include "tests/support/json.h"
 
 namespace patchmill {
 namespace {
@@ -19,6 +20,13 @@ double CrestOnCircle(double rho, bool concave, double radius, double center_step
   const double along = ring * std::cos(alpha), aside = ring * std::sin(alpha);
   const double reach = std::sqrt(radius * radius - aside * aside);
   return concave ? rho - (along + reach) : (along - reach) - rho;
+}
+
+TEST(Spacing, StepOnAPlaneOfTheVector) {
+  const testing::Json data = testing::LoadJson(PATCHMILL_SOURCE_DIR "/tests/vectors/toolpath_offset.json");
+  const double radius = data["R"].Number(), scallop = data["tol"].Number();
+  for (const testing::Json& at : data["points"].Items())
+    EXPECT_NEAR(CenterStep(radius, scallop, 0.0), at["scallop_step_plane"].Number(), 1e-12);
 }
 
 TEST(Spacing, PlaneIsTheChordOfTheCircle) {

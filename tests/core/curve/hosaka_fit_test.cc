@@ -47,10 +47,15 @@ TEST(HosakaFit, Loop) {
   ASSERT_TRUE(loop.has_value());
   EXPECT_NEAR(loop->first, d["t1"].Number(), 1e-12);
   EXPECT_NEAR(loop->second, d["t2"].Number(), 1e-12);
+  // (38): sum and product of the two parameters.
+  const double difference = d["p"].Number() - d["q"].Number();
+  EXPECT_NEAR(loop->first + loop->second, difference + 1, 1e-12);
+  EXPECT_NEAR(loop->first * loop->second, difference * difference + d["p"].Number(), 1e-12);
   const HosakaSegment s{Vec3::Zero(), Vec3(d["A"].Number(), 0, 0), Lift(b, 0), Lift(c, 0), {}};
   EXPECT_LE((Plan(Evaluate(s, loop->first).p) - Pair(d["point"])).norm(), 1e-12);
   EXPECT_LE((Evaluate(s, loop->first).p - Evaluate(s, loop->second).p).norm(), 1e-12);
   const Json& none = Data()["noloop"];
+  ASSERT_FALSE(none["roots_in_01"].Bool());
   EXPECT_FALSE(FindLoop(none["A"].Number(), Pair(none["B"]), Pair(none["C"])).has_value());
 }
 
@@ -89,6 +94,13 @@ TEST(HosakaFit, Slope) {
   const auto a = SlopeCubic(chord, beta, gamma, q, theta);
   for (int k = 0; k < 4; ++k) {
     EXPECT_NEAR(a[static_cast<std::size_t>(k)] / std::cos(theta), d["coefficients"][k].Number(), 1e-12);
+  }
+  for (const Json& solution : d["all_solutions"].Items()) {
+    const double t = solution[0].Number();
+    EXPECT_NEAR(((a[0] * t + a[1]) * t + a[2]) * t + a[3], 0, 1e-12);
+    // Its lengths too, negative ones included, lead the curve through the point.
+    const HosakaSegment s = Plane(chord, beta, gamma, {t, solution[1].Number(), solution[2].Number()});
+    EXPECT_LE((Plan(Evaluate(s, t).p) - q).norm(), 1e-12);
   }
   const auto fits = FitSlope(chord, beta, gamma, q, theta);
   ASSERT_TRUE(fits.ok());

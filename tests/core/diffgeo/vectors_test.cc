@@ -84,7 +84,19 @@ TEST(ContourInflection, SignsAndZeros) {
   ASSERT_FALSE(data["zeros"].Items().empty());
   for (const Json& zero : data["zeros"].Items())
     EXPECT_NEAR(contour(zero[0].Number(), zero[1].Number()), 0, 1e-12);
-  const SurfaceJet saddle = Evaluate(surface, 0.5, 0.5);
+  const auto at = [&](const char* key) {
+    return Evaluate(surface, data[key][0].Number(), data[key][1].Number());
+  };
+  for (const char* const key : {"summit", "saddle"}) {
+    EXPECT_NEAR(at(key).du.z(), 0.0, kTolerance) << key;
+    EXPECT_NEAR(at(key).dv.z(), 0.0, kTolerance) << key;
+  }
+  EXPECT_LT(at("summit").duu.z(), 0.0);
+  EXPECT_GT(at("summit").duu.z() * at("summit").dvv.z(), std::pow(at("summit").duv.z(), 2));
+  const SurfaceJet saddle = at("saddle");
+  EXPECT_NEAR(saddle.duu.z(), data["saddle_hessian"][0][0].Number(), kTolerance);
+  EXPECT_NEAR(saddle.duv.z(), data["saddle_hessian"][0][1].Number(), kTolerance);
+  EXPECT_NEAR(saddle.dvv.z(), data["saddle_hessian"][1][1].Number(), kTolerance);
   EXPECT_EQ(ContourCurvature(saddle, Forms(saddle, UnitNormal(saddle).value())), 0.0);
 }
 

@@ -37,8 +37,20 @@ TEST(ConnectRows, Vector) {
   const Json data = LoadJson(VECTORS "g2_connection.json");
   const ConnectedRows rows =
       ConnectRows({Three(data["k"]), Three(data["l"])}, Points(data["ap"]), Points(data["Ap"]));
+  const int n = static_cast<int>(data["n"].Number());
+  EXPECT_EQ(static_cast<int>(rows.b.size()), n + 1);
   ExpectPoints(rows.b, data["b"]);
   ExpectPoints(rows.B, data["B"]);
+  // The control points beside the edge, as differences: c, d of one row further, a and A raised to degree n.
+  const BezierCurve a = Elevated(BezierCurve{Points(data["ap"])}, n),
+                    A = Elevated(BezierCurve{Points(data["Ap"])}, n);
+  ExpectPoints(a.points, data["a"]);
+  ExpectPoints(A.points, data["A"]);
+  for (int i = 0; i <= n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    EXPECT_LE((a.points[k] - A.points[k] - data["c"][i].Vector()).norm(), 1e-12) << i;
+    EXPECT_LE((rows.b[k] + rows.B[k] - data["d"][i].Vector()).norm(), 1e-12) << i;
+  }
 }
 
 // b = k a and B = k^2 A + l a as functions, at places between the coefficients, for every degree.

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/diffgeo/forms.h"
 #include "core/joining/continuity.h"
 #include "core/joining/join_network.h"
 #include "tests/core/joining/networks.h"
@@ -74,6 +75,22 @@ TEST(CurvatureJoints, Vector) {
         const int block = 4 * (i < 3 ? i - 1 : i - 2) + (j < 3 ? j - 1 : j - 2);
         EXPECT_LE((made.points[At(49 + block)] - p1[i][j].Vector()).norm(), 1e-12) << face << i << j;
       }
+    }
+    // The curvature along the shared edge, in the frame given: the same from both.
+    for (const Json& at : data["curvature_tensor"].Items()) {
+      const SurfaceJet s = Evaluate(PatchShape(made), face == 0 ? 1.0 : 0.0, at["v"].Number());
+      const Vec3 t1 = at["t1"].Vector(), t2 = at["t2"].Vector();
+      const FundamentalForms f = Forms(s, t1.cross(t2));
+      Eigen::Matrix<double, 3, 2> frame;
+      frame << s.du, s.dv;
+      const Eigen::Matrix2d in_uv =
+          frame.colPivHouseholderQr().solve((Eigen::Matrix<double, 3, 2>() << t1, t2).finished());
+      Eigen::Matrix2d second;
+      second << f.L, f.M, f.M, f.N;
+      const Eigen::Matrix2d made_tensor = in_uv.transpose() * second * in_uv;
+      EXPECT_NEAR(made_tensor(0, 0), at["II"][0].Number(), 1e-12) << face;
+      EXPECT_NEAR(made_tensor(0, 1), at["II"][1].Number(), 1e-12) << face;
+      EXPECT_NEAR(made_tensor(1, 1), at["II"][2].Number(), 1e-12) << face;
     }
   }
 }

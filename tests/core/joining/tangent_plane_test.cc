@@ -101,6 +101,7 @@ TEST(TangentPlane, Vector) {
   PushTwists(in.edge.d0, in.edge.d1, in.tangents.b0, in.tangents.b1,
              {edited["u"].Number(), edited["v"].Number()}, edited["r"].Number(), pushed.b0, pushed.b1);
   ExpectTwists(pushed, TwistsOf(edited["Wstar"]));
+  EXPECT_LE((pushed.b0 - wished.b0).normalized().cross(edited["N"].Vector()).norm(), 1e-12);
   ExpectTwists(NearestTwists(in.edge, in.tangents, factors, pushed), TwistsOf(edited["W"]));
 }
 

@@ -123,27 +123,6 @@ TEST(FlowLines, AreSpreadEvenly) {
   }
 }
 
-// METHODS 5, `slope_lines`: the directions there, in parameters.
-TEST(FlowLines, DirectionsOfThePaper) {
-  const double u = 0.3, v = 0.7;
-  SurfaceJet jet;
-  jet.p = {2 * u + 0.1 * u * v, 1.5 * v - 0.2 * u * u,
-           0.8 * u * u * v - 0.6 * v * v + 0.5 * u - 0.3 * u * u * u};
-  jet.du = {2 + 0.1 * v, -0.4 * u, 1.6 * u * v + 0.5 - 0.9 * u * u};
-  jet.dv = {0.1 * u, 1.5, 0.8 * u * u - 1.2 * v};
-  jet.duu = {0, -0.4, 1.6 * v - 1.8 * u};
-  jet.duv = {0.1, 0, 1.6 * u};
-  jet.dvv = {0, 0, -1.2};
-  const Vec3 axis(0.282216260515, -0.188144173677, 0.940720868384);
-  const auto along = [&](FlowKind kind, const Vec2& uv) {
-    const Vec3 g = FlowGradient(jet, {.kind = kind, .axis = axis});
-    const Vec3 expected = uv.x() * jet.du + uv.y() * jet.dv;
-    return g.normalized().cross(expected.normalized()).norm();
-  };
-  EXPECT_LT(along(FlowKind::kAlongHeight, {3.04615477252, -3.93200549516}), 1e-11);
-  EXPECT_LT(along(FlowKind::kAlongSlope, {-0.157948663287, -1.85963650364}), 1e-11);
-}
-
 TEST(FlowLines, NothingOnLevelGroundAndBadSpacingIsRefused) {
   EXPECT_TRUE(Trace(SurfaceOf(Plane(5, 2)), {}).empty());
   EXPECT_FALSE(TraceFlowLines(SurfaceOf(Plane(5)), {.spacing = 0.0}, RunContext()).ok());

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "core/diffgeo/forms.h"
+#include "core/lines/flow_lines.h"
 #include "core/lines/zero_curves.h"
 #include "core/lines/zero_root.h"
+#include "tests/support/json.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
@@ -147,34 +149,91 @@ Piece Example() {
   return SplitIntoPieces(PatchId(0), patch)[0];
 }
 
-const Vec3 kReference(0.282216260515, -0.188144173677, 0.940720868384);
-const Vec3 kAcross(-0.772451396986, 0.536947922295, 0.339125003555);
+class SlopeLinesVector : public ::testing::Test {
+ protected:
+  const Json data_ = LoadJson(PATCHMILL_SOURCE_DIR "/tests/vectors/slope_lines.json");
+  const Piece piece_ = Example();
+  const Vec3 axis_ = data_["nf"].Vector();
+};
 
-TEST(LineFields, ValuesOfTheWorkedExample) {
-  const Piece piece = Example();
-  const SurfaceJet jet = Evaluate(piece, 0.3, 0.7);
-  const Vec3 axis = kReference.normalized();
-  const double w = jet.du.cross(jet.dv).norm();
-  EXPECT_NEAR(SlopeField(Radians(60), axis).value(jet), 0.637081160715 - 0.5, 1e-11);
-  // (8) is chi_u phi_v - chi_v phi_u = (n_s x n_f) . N.
-  EXPECT_NEAR(w * HighlightField(kAcross, kReference).value(jet), 0.71483784036, 1e-10);
-  // (10) is the torsion times W^(1/2) (E phi_v^2 - 2 F phi_u phi_v + G phi_u^2).
-  const FundamentalForms f = Forms(jet, jet.du.cross(jet.dv) / w);
-  const double fu = axis.dot(jet.du), fv = axis.dot(jet.dv);
-  const double rise = f.E * fv * fv - 2 * f.F * fu * fv + f.G * fu * fu;
-  EXPECT_NEAR(w * rise * SlopeExtremumField(axis).value(jet), 6.2857956227, 1e-9);
+// Directions are parallel to those given, in space.
+void ExpectAlong(const SurfaceJet& jet, const Vec3& made, const Json& uv) {
+  const Vec3 expected = uv[0].Number() * jet.du + uv[1].Number() * jet.dv;
+  EXPECT_LE(made.normalized().cross(expected.normalized()).norm(), 1e-12);
 }
 
-TEST(LineFields, PointsOfTheWorkedExample) {
-  const Piece piece = Example();
-  const Vec3 axis = kReference.normalized();
-  const auto root = [&](const ZeroField& field, double v, double u0, double u1) {
-    const Vec2 a(u0, v), b(u1, v);
-    return u0 +
-           (u1 - u0) * ZeroBetween(field, piece, a, b, Value(field, piece, a), Value(field, piece, b), 1e-13);
+TEST_F(SlopeLinesVector, FormsAndFields) {
+  ASSERT_EQ(data_["points"].Items().size(), 3u);
+  for (const Json& at : data_["points"].Items()) {
+    const SurfaceJet jet = Evaluate(piece_, at["u"].Number(), at["v"].Number());
+    const Vec3 n = UnitNormal(jet).value();
+    EXPECT_LE((n - at["n"].Vector()).norm(), 1e-12);
+    const FundamentalForms f = Forms(jet, n);
+    const double made[] = {f.E, f.F, f.G, f.L, f.M, f.N};
+    const char* const names[] = {"E", "F", "G", "L", "M", "N"};
+    for (int k = 0; k < 6; ++k) EXPECT_NEAR(made[k], at[names[k]].Number(), 1e-12) << names[k];
+    // (5), and its use in the gradient of sin sigma.
+    const double w2 = f.E * f.G - f.F * f.F;
+    const double alpha = (f.M * f.F - f.G * f.L) / w2, beta = (f.L * f.F - f.M * f.E) / w2;
+    const double alpha2 = (f.N * f.F - f.M * f.G) / w2, beta2 = (f.M * f.F - f.N * f.E) / w2;
+    EXPECT_NEAR(alpha, at["alpha"].Number(), 1e-12);
+    EXPECT_NEAR(beta, at["beta"].Number(), 1e-12);
+    EXPECT_NEAR(alpha2, at["alpha2"].Number(), 1e-12);
+    EXPECT_NEAR(beta2, at["beta2"].Number(), 1e-12);
+    const double fu = axis_.dot(jet.du), fv = axis_.dot(jet.dv);
+    EXPECT_NEAR(fu, at["phi_u"].Number(), 1e-12);
+    EXPECT_NEAR(fv, at["phi_v"].Number(), 1e-12);
+    EXPECT_NEAR(alpha * fu + beta * fv, at["psi_u"].Number(), 1e-12);
+    EXPECT_NEAR(alpha2 * fu + beta2 * fv, at["psi_v"].Number(), 1e-12);
+
+    EXPECT_NEAR(BrightnessField(0.0, axis_).value(jet), at["sin_sigma"].Number(), 1e-12);
+    EXPECT_NEAR(SlopeField(Radians(60), axis_).value(jet), std::abs(at["sin_sigma"].Number()) - 0.5, 1e-12);
+    // (8) is chi_u phi_v - chi_v phi_u = (n_s x n_f) . N.
+    const double w = std::sqrt(w2);
+    EXPECT_NEAR(-w * HighlightField(axis_, data_["ns"].Vector()).value(jet), at["highlight"].Number(), 1e-12);
+    // (10) is the torsion times W^(1/2) (E phi_v^2 - 2 F phi_u phi_v + G phi_u^2).
+    const double rise = f.E * fv * fv - 2 * f.F * fu * fv + f.G * fu * fu;
+    EXPECT_NEAR(w * rise * SlopeExtremumField(axis_).value(jet), at["slope_ext"].Number(), 1e-11);
+
+    const Vec3 flow = FlowGradient(jet, {.kind = FlowKind::kAlongHeight, .axis = axis_});
+    const Vec3 slope_flow = FlowGradient(jet, {.kind = FlowKind::kAlongSlope, .axis = axis_});
+    ExpectAlong(jet, flow, at["flow"]);
+    ExpectAlong(jet, n.cross(flow), at["contour"]);
+    ExpectAlong(jet, slope_flow, at["equislope_orth"]);
+    ExpectAlong(jet, n.cross(slope_flow), at["equislope"]);
+  }
+}
+
+// Roots on lines v = const; some lie beside the piece, where its polynomial goes on.
+TEST_F(SlopeLinesVector, PointsOfLines) {
+  const auto root = [&](const ZeroField& field, double u, double v) {
+    const Vec2 a(u - 0.01, v), b(u + 0.01, v);
+    return a.x() + (b.x() - a.x()) * ZeroBetween(field, piece_, a, b, Value(field, piece_, a),
+                                                 Value(field, piece_, b), 1e-15);
   };
-  EXPECT_NEAR(root(SlopeField(std::acos(0.75), axis), 0.6, 0.5, 0.9), 0.706160768718, 1e-10);
-  EXPECT_NEAR(root(SlopeExtremumField(axis), 0.15, 0.9, 1.0), 0.999482459387, 1e-10);
+  for (const Json& at : data_["slope_extremum_points"].Items())
+    EXPECT_NEAR(root(SlopeExtremumField(axis_), at[0].Number(), at[1].Number()), at[0].Number(), 1e-12);
+  const ZeroField slope = SlopeField(std::acos(data_["equislope_level"].Number()), axis_);
+  for (const Json& at : data_["equislope_points"].Items())
+    EXPECT_NEAR(root(slope, at[0].Number(), at[1].Number()), at[0].Number(), 1e-12);
+}
+
+TEST_F(SlopeLinesVector, Umbilic) {
+  const Json& given = data_["umbilic"];
+  const Vec3 axes(given["a"].Number(), given["b"].Number(), given["c"].Number()),
+      at = given["point"].Vector();
+  // z over (x, y) near it: z^2 = c^2 (1 - x^2/a^2 - y^2/b^2).
+  const double px = -axes.z() * axes.z() * at.x() / (axes.x() * axes.x() * at.z());
+  SurfaceJet jet;
+  jet.p = at;
+  jet.du = {1, 0, px};
+  jet.dv = {0, 1, 0};
+  jet.duu = {0, 0, -(std::pow(axes.z() / axes.x(), 2) + px * px) / at.z()};
+  jet.dvv = {0, 0, -std::pow(axes.z() / axes.y(), 2) / at.z()};
+  const PrincipalCurvatures k = Principal(Forms(jet, UnitNormal(jet).value()));
+  EXPECT_NEAR(-k.k_min, given["kappa"].Number(), 1e-7);  // the root of a difference of rounding
+  EXPECT_NEAR(-0.5 * (k.k_min + k.k_max), given["kappa"].Number(), 1e-12);
+  for (const Vec3& axis : kAxes) EXPECT_NEAR(SlopeExtremumField(axis).value(jet), 0.0, 1e-12);
 }
 
 }  // namespace

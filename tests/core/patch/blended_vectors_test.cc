@@ -150,6 +150,29 @@ TEST(GregoryTriangle, Vector) {
         (in.P(e) + in.P(next) + in.T(e, next) / 3 + in.T(next, e) / 3) / 2;
   }
   ExpectJets(patch, in.data["points"], "u2", "u3", kArea);
+  // The net of each sub-patch, keyed by the powers of u1 u2 u3; for edge e, from vertex a to b.
+  for (int e = 0; e < 3; ++e) {
+    const int a = (e + 1) % 3, b = (e + 2) % 3;
+    const auto expect = [&](int at_e, int at_a, int at_b, const Vec3& point) {
+      std::string key = "000";
+      key[static_cast<std::size_t>(e)] = static_cast<char>('0' + at_e);
+      key[static_cast<std::size_t>(a)] = static_cast<char>('0' + at_a);
+      key[static_cast<std::size_t>(b)] = static_cast<char>('0' + at_b);
+      ExpectNear(point, in.data["nets"][e][key].Vector(), 1e-12, key.c_str());
+    };
+    const auto own = [&](int k) { return patch.points[static_cast<std::size_t>(k)]; };
+    expect(4, 0, 0, own(5 * e));
+    expect(3, 1, 0, own(5 * e + 1));
+    expect(3, 0, 1, own(5 * e + 2));
+    expect(0, 2, 2, own(15 + a));
+    expect(0, 3, 1, own(5 * a + 1));
+    expect(0, 1, 3, own(5 * b + 2));
+    expect(1, 2, 1, own(5 * a + 3));
+    expect(1, 1, 2, own(5 * b + 4));
+    expect(2, 1, 1, 0.5 * (own(5 * e + 3) + own(5 * e + 4)));
+    const SurfaceJet s = Evaluate(PatchShape(patch), e == 1 ? 1.0 : 0.0, e == 2 ? 1.0 : 0.0);
+    ExpectNear(s.du.cross(s.dv).normalized(), in.data["N"][e].Vector(), 1e-12, "N");
+  }
   // Tangents across the edges, straight to the opposite vertex.
   for (const Json& check : in.data["edge_checks"].Items()) {
     const int o = static_cast<int>(check["edge"].Number());
@@ -236,6 +259,8 @@ TEST(HosakaPatch, JoinsAlongAWholeEdgeAndAlongAPartOfOne) {
     ExpectNear(c.p, d.p, 1e-14, "part");
     ExpectNear(data["t_junction"]["k"].Number() * c.du, d.du, 1e-13, "tangent at the part");
   }
+  ExpectNear(Evaluate(PatchShape(side), 1, v1).du, data["t_junction"]["Su_v1"].Vector(), 1e-12, "Su at v1");
+  ExpectNear(Evaluate(PatchShape(side), 1, v2).du, data["t_junction"]["Su_v2"].Vector(), 1e-12, "Su at v2");
 }
 
 }  // namespace

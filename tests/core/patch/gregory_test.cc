@@ -88,6 +88,7 @@ TEST_F(GregoryVectors, CornerValues) {
       EXPECT_EQ(s.p, data_["P"][i][j].Vector());
       ExpectNear(s.du, data_["Pu"][i][j].Vector(), 1e-14, "Pu");
       ExpectNear(s.dv, data_["Pv"][i][j].Vector(), 1e-14, "Pv");
+      ExpectNear(s.du.cross(s.dv).normalized(), data_["normals"][i][j].Vector(), 1e-12, "normal");
       ExpectNear(s.duv, 0.5 * (data_["W1"][i][j].Vector() + data_["W2"][i][j].Vector()), 1e-12, "Suv");
       // The boundary curves through the corner: cubic Hermite second derivatives.
       const auto second = [&](const char* slope, int i2, int j2) -> Vec3 {
