@@ -10,6 +10,7 @@
 #include "cam/location/heights.h"
 #include "core/base/parallel.h"
 #include "tests/support/random.h"
+#include "tests/support/random_part.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
@@ -22,67 +23,6 @@ using testing::SurfaceOf;
 constexpr long kQueries = 300'000;
 constexpr std::size_t kRows = 250;  // of eight places, on each part
 constexpr double kEps = 1e-6;
-
-struct Part {
-  PatchModel model;
-  double radius = 1.0;
-};
-
-PatchModel RandomModel(Random& random) {
-  const std::uint64_t seed = random.Bits();
-  const bool coin = random.Int(2) == 0;
-  const auto blend = coin ? GregoryPatch::Blend::kCorner : GregoryPatch::Blend::kEdge;
-  switch (random.Int(16)) {
-    case 0:
-    case 1:
-      return testing::RandomBspline(seed, {.spans = 3, .size = 20.0});
-    case 2:
-      return testing::RandomBspline(seed, {.spans = 3, .size = 20.0, .folds = true, .rational = coin});
-    case 3:
-      return testing::Single(testing::RandomBezier(seed, 1 + random.Int(6), 1 + random.Int(6), coin));
-    case 4:
-      return testing::Single(testing::RandomKnots(seed, 3, 1 + random.Int(3), coin));
-    case 5:
-      return testing::Single(testing::RandomGregory(seed, blend));
-    case 6:
-      return testing::Single(testing::RandomTriangle(seed, 1 + random.Int(5), coin));
-    case 7:
-      return testing::Single(testing::RandomBrown(seed, 3, 3));
-    case 8:
-      return testing::Single(testing::RandomGregoryTriangle(seed, blend));
-    case 9:
-      return testing::Single(testing::RandomLoftTriangle(seed, 3, coin));
-    case 10:
-      return testing::Single(testing::RandomG2Gregory(seed, 5));
-    case 11:
-      return testing::Single(testing::RandomHosaka(seed, 3, coin, true));
-    case 12:
-      return testing::Block(random.Uniform(3, 8), random.Uniform(1, 8), 12.0);
-    case 13:
-      return testing::TwoPlanes(random.Uniform(-1.5, 1.5), 10.0);
-    case 14:
-      return testing::Torus(Vec3::Zero(), random.Uniform(3, 8), 3.0);
-    default:
-      return testing::TwoSpheres(random.Uniform(3, 6), random.Uniform(2, 11));
-  }
-}
-
-// Now and then two of them at once, the same one twice, a sliver, or one turned on its side; from microns to
-// a hundred metres.
-Part RandomPart(Random& random) {
-  PatchModel model = RandomModel(random);
-  const int more = random.Int(12);
-  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
-  if (more == 0) model = testing::Join({model, model});
-  if (more == 1) model = testing::Join({model, RandomModel(random)});
-  if (more == 2) motion.scale(Vec3(1.0, std::pow(10.0, random.Uniform(-4.0, -1.0)), 1.0));
-  if (more == 3) motion.rotate(Eigen::AngleAxisd(random.Uniform(0, kPi), random.Point(-1, 1).normalized()));
-  if (more == 4) motion.translate(random.Point(-1e3, 1e3));
-  const double scale = more == 5 ? std::pow(10.0, random.Uniform(-4.0, 4.0)) : 1.0;
-  if (more >= 2 && more <= 5)
-    model = testing::Transformed(model, Eigen::Affine3d(Eigen::Scaling(scale) * motion));
-  return {std::move(model), scale * std::pow(10.0, random.Uniform(-0.3, 0.8))};
-}
 
 // A random place on the surface whose normal is level, if one is met between two random places.
 std::optional<SurfaceJet> Silhouette(const Piece& piece, Random& random) {
@@ -143,7 +83,7 @@ struct Tally {
 
 void Judge(std::uint64_t seed, Tally& tally) {
   Random random(seed);
-  const Part part = RandomPart(random);
+  const testing::RandomPart part = testing::DrawPart(random);
   const Surface surface = SurfaceOf(part.model, {.leaf_thickness = 0.1 * part.radius});
   const Locator locator(surface, part.radius);
   std::vector<Vec2> places;

@@ -1,0 +1,65 @@
+// Jobs over awkward parts - every kind of patch, doubled ones, slivers, walls, tiny and huge ones - keep the
+// promises of DESIGN 2, or have nothing to cut. PATCHMILL_FUZZ_JOBS sets how many.
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "core/surface/surface.h"
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/random_part.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+struct AwkwardJob {
+  Surface surface;
+  Job job;
+  std::string text;
+};
+
+AwkwardJob Draw(std::uint64_t seed) {
+  Random random(seed);
+  PatchModel model = DrawPart(random).model;
+  const double size = BuildPlacedSurface(model, {}, RunContext())->box.Diagonal();
+  double wanted = random.Uniform(8.0, 24.0);
+  if (const int scale = random.Int(6); scale < 2) wanted *= scale == 0 ? 0.05 : 20.0;
+  model = Transformed(model, Eigen::Affine3d(Eigen::Scaling(wanted / size)));
+  const double radius = wanted * random.Uniform(0.05, 0.2);
+  AwkwardJob drawn{PlacedSurface(model), BallJob(radius, random.Int(2) == 0), {}};
+  Operation& op = drawn.job.operation;
+  op.scallop = radius * random.Uniform(0.005, 0.03);
+  op.tolerance = std::max(2e-4, radius * random.Uniform(0.003, 0.02));
+  op.steep_angle = Radians(random.Uniform(15.0, 75.0));
+  op.zigzag_angle = random.Uniform(0.0, kPi);
+  drawn.text = fmt::format("seed {}: {} patches, {:.3g} mm, R {:.4g}, scallop {:.4g}, tolerance {:.4g}", seed,
+                           model.patches.size(), wanted, radius, op.scallop, op.tolerance);
+  return drawn;
+}
+
+class RandomAwkwardJobs : public ::testing::TestWithParam<int> {};
+
+TEST_P(RandomAwkwardJobs, KeepThePromises) {
+  const auto seed = static_cast<std::uint64_t>(7000 + GetParam());
+  const AwkwardJob drawn = Draw(seed);
+  SCOPED_TRACE(drawn.text);
+  const JobResult result = Mill(drawn.surface, drawn.job);
+  if (result.report.outcome == Outcome::kNothingToCut) {
+    EXPECT_TRUE(result.program.empty());
+    EXPECT_LE(result.report.verify.reachable_area, 0.0) << Describe(result);
+    return;
+  }
+  Random random(seed + 1000);
+  CheckProgram(drawn.surface, drawn.job, result, random, kSanitized ? 50 : 500);
+}
+int Count() {
+  const char* asked = std::getenv("PATCHMILL_FUZZ_JOBS");
+  return asked != nullptr ? std::max(1, std::atoi(asked)) : kSanitized ? 4 : 24;
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomAwkwardJobs, ::testing::Range(0, Count()));
+
+}  // namespace
+}  // namespace patchmill
