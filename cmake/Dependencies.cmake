@@ -11,3 +11,4 @@ find_package(fmt CONFIG REQUIRED)
 find_package(OpenMesh CONFIG REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB CONFIG REQUIRED)
+find_package(OpenSSL REQUIRED)  # libcrypto's SHA-256; gRPC links it anyway

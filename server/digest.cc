@@ -1,11 +1,6 @@
 #include "server/digest.h"
 
-#include <bit>
 #include <cstdint>
-
-#include <openssl/evp.h>
-
-#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
@@ -107,6 +102,15 @@ void AddLimits(const Job& job, Canonical& out) {
     out.Add(static_cast<std::int64_t>(s.boundary.size()));
     for (const Ring& ring : s.boundary) AddRing(ring, out);
   }
+  if (job.operation.detail != Operation().detail) out.Add("detail").Add(job.operation.detail);
+  if (!job.operation.regions_sha256.empty()) out.Add("regions").Add(job.operation.regions_sha256);
+  for (const RegionOverride& change : job.operation.overrides) {
+    out.Add("override").Add(std::int64_t{change.region}).Add(std::int64_t{change.skip});
+    AddPoint(change.at.value_or(Vec3::Zero()), out);
+    out.Add(change.strategy ? static_cast<std::int64_t>(*change.strategy) : -1);
+    AddOptional(change.zigzag_angle, out);
+    AddOptional(change.scallop, out);
+  }
   if (job.operation.top_z) out.Add("top").Add(*job.operation.top_z);
   for (const ObstacleOutline& o : job.setup.obstacles) {
     out.Add("obstacle").Add(o.id).Add(o.top_z).Add(o.margin);
@@ -115,43 +119,6 @@ void AddLimits(const Job& job, Canonical& out) {
 }
 
 }  // namespace
-
-std::string Sha256(std::string_view bytes) {
-  std::string digest(32, '\0');
-  unsigned int size = 0;
-  PM_CHECK(EVP_Digest(bytes.data(), bytes.size(), reinterpret_cast<unsigned char*>(digest.data()), &size,
-                      EVP_sha256(), nullptr) == 1);
-  PM_CHECK(size == digest.size());
-  return digest;
-}
-
-std::string Hex(std::string_view bytes) {
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string text;
-  text.reserve(2 * bytes.size());
-  for (const char c : bytes) {
-    const auto b = static_cast<unsigned char>(c);
-    text += kDigits[b >> 4];
-    text += kDigits[b & 15];
-  }
-  return text;
-}
-
-Canonical& Canonical::Add(std::int64_t value) {
-  const auto bits = static_cast<std::uint64_t>(value);
-  for (int i = 0; i < 8; ++i) bytes_ += static_cast<char>((bits >> (8 * i)) & 0xff);
-  return *this;
-}
-
-Canonical& Canonical::Add(double value) {
-  return Add(std::bit_cast<std::int64_t>(value == 0.0 ? 0.0 : value));
-}
-
-Canonical& Canonical::Add(std::string_view value) {
-  Add(static_cast<std::int64_t>(value.size()));
-  bytes_ += value;
-  return *this;
-}
 
 std::string ModelDigest(const PatchModel& model) {
   Canonical out;
@@ -190,18 +157,6 @@ std::string JobDigest(const Job& job, std::string_view model_digest, std::string
   out.Add(op.approach_gap).Add(job.dialect).Add(job.work_offset);
   out.Add(std::int64_t{job.default_cutting_data}).Add(std::int64_t{job.unitless_file});
   AddLimits(job, out);
-  return out.Digest();
-}
-
-std::string RegionsDigest(const RegionMap& map) {
-  Canonical out;
-  out.Add("patchmill regions 1").Add(static_cast<std::int64_t>(map.regions.size()));
-  for (const Region& region : map.regions) {
-    out.Add(std::int64_t{region.id}).Add(static_cast<std::int64_t>(region.kind));
-    out.Add(static_cast<std::int64_t>(region.slope)).Add(static_cast<std::int64_t>(region.reason));
-    out.Add(static_cast<std::int64_t>(region.border.size()));
-    for (const auto& loop : region.border) AddPoints(loop, out);
-  }
   return out.Digest();
 }
 

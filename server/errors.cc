@@ -50,6 +50,8 @@ const char* DefaultReason(absl::StatusCode code) {
       return "INVALID_FIELDS";
     case absl::StatusCode::kUnimplemented:
       return "NOT_IMPLEMENTED";
+    case absl::StatusCode::kFailedPrecondition:
+      return "REGIONS_STALE";  // of the domain only ChooseRegions has this code
     case absl::StatusCode::kResourceExhausted:
       return "LIMIT_EXCEEDED";
     case absl::StatusCode::kCancelled:

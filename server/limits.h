@@ -39,6 +39,7 @@ inline constexpr double kMaxPathPoints = 2e7;
 inline constexpr std::size_t kMaxOutlinePoints =
     20'000;  // of all boundary rings and obstacles of a job, each
 inline constexpr int kMaxObstacles = 1000;
+inline constexpr int kMaxRegionOverrides = 1000;
 inline constexpr std::size_t kMaxProgramBytes = std::size_t{512} << 20;  // of a made program
 
 // Curves.

@@ -23,31 +23,46 @@ absl::StatusOr<KeepIn> KeepIn::Make(const Surface& surface, const Containment& c
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = IsWantedPatch(containment, PatchId(i));
   if (Any(wanted) && std::find(wanted.begin(), wanted.end(), false) != wanted.end()) {
     PM_ASSIGN_OR_RETURN(Surface part, PartOf(surface, wanted, run));
-    keep.selected_ = std::make_unique<Surface>(std::move(part));
+    keep.selected_ = std::make_shared<const Surface>(std::move(part));
   }
   if (Any(containment.avoided) && containment.avoid_margin > params.leave) {
     PM_ASSIGN_OR_RETURN(Surface part, PartOf(surface, containment.avoided, run));
-    keep.avoided_ = std::make_unique<Surface>(std::move(part));
+    keep.avoided_ = std::make_shared<const Surface>(std::move(part));
     PM_ASSIGN_OR_RETURN(Locator locator,
                         Locator::Make(*keep.avoided_, params.ball_radius + containment.avoid_margin, run));
-    keep.avoided_locator_.emplace(std::move(locator));
+    keep.avoided_locator_ = std::make_shared<const Locator>(std::move(locator));
   }
   return keep;
 }
 
+absl::StatusOr<KeepIn> KeepIn::Within(std::shared_ptr<const SurfaceMask> part, const RunContext& run) const {
+  KeepIn keep = *this;
+  PM_ASSIGN_OR_RETURN(NearPart near, NearPart::Make(*surface_, *part, run));
+  keep.near_part_ = std::make_shared<const NearPart>(std::move(near));
+  keep.part_ = std::move(part);
+  return keep;
+}
+
 bool KeepIn::Wants(const SurfacePoint& contact) const {
+  if (part_ != nullptr && !part_->Has(contact.piece, contact.u, contact.v)) return false;
   return IsWanted(*containment_, surface_->piece(contact.piece).patch, contact.p);
 }
 
 bool KeepIn::WantsNear(const SurfacePoint& contact, double distance) const {
+  if (part_ != nullptr && !part_->Has(contact.piece, contact.u, contact.v) &&
+      !near_part_->Within(contact.p, distance)) {
+    return false;
+  }
   const PatchId patch = surface_->piece(contact.piece).patch;
   if (IsWanted(*containment_, patch, contact.p, -distance)) return true;
   if (ContactRoomOutside(*containment_, contact.p) > distance) return false;
   return selected_ != nullptr && ClosestToPoint(*selected_, contact.p, distance, 0.01 * distance).has_value();
 }
 
-bool KeepIn::WantsNothing(PatchId patch, const Vec3& p, double radius) const {
-  return !IsWanted(*containment_, patch, p, -radius);
+bool KeepIn::WantsNothing(PieceId piece, double u0, double u1, double v0, double v1, const Vec3& p,
+                          double radius) const {
+  if (part_ != nullptr && !part_->HasAny(piece, u0, u1, v0, v1)) return true;
+  return !IsWanted(*containment_, surface_->piece(piece).patch, p, -radius);
 }
 
 double KeepIn::MoveRoom(const Vec3& c) const {

@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "cam/location/locator.h"
+#include "cam/location/near_part.h"
 #include "cam/tool/containment.h"
+#include "cam/tool/surface_mask.h"
 
 namespace patchmill {
 
@@ -24,15 +26,20 @@ class KeepIn {
   static absl::StatusOr<KeepIn> Make(const Surface& surface, const Containment& containment,
                                      const KeepInParams& params, const RunContext& run);
 
-  bool WantsAll() const { return containment_->WantsAll(); }
+  // The same limits; of what is wanted only that part of the surface.
+  absl::StatusOr<KeepIn> Within(std::shared_ptr<const SurfaceMask> part, const RunContext& run) const;
+
+  bool HasPart() const { return part_ != nullptr; }
+  bool WantsAll() const { return part_ == nullptr && containment_->WantsAll(); }
   bool AllowsAll() const { return containment_->AllowsAll(); }
 
   // The contact is to be finished.
   bool Wants(const SurfacePoint& contact) const;
   // Some point to be finished may lie within `distance` (mm) of the contact.
   bool WantsNear(const SurfacePoint& contact, double distance) const;
-  // No point within `radius` (mm) of `p` on that patch is to be finished.
-  bool WantsNothing(PatchId patch, const Vec3& p, double radius) const;
+  // No point of a piece's parameters [u0, u1] x [v0, v1], all within `radius` (mm) of p, is to be finished.
+  bool WantsNothing(PieceId piece, double u0, double u1, double v0, double v1, const Vec3& p,
+                    double radius) const;
 
   // A finishing ball may be centred at c.
   bool Allows(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
@@ -53,9 +60,11 @@ class KeepIn {
   const Surface* surface_ = nullptr;
   const Containment* containment_ = nullptr;
   KeepInParams params_;
-  std::unique_ptr<Surface> selected_;       // when only some are
-  std::unique_ptr<Surface> avoided_;        // when a margin is kept from them
-  std::optional<Locator> avoided_locator_;  // ball and margin over avoided_
+  std::shared_ptr<const Surface> selected_;         // when only some are
+  std::shared_ptr<const Surface> avoided_;          // when a margin is kept from them
+  std::shared_ptr<const Locator> avoided_locator_;  // ball and margin over avoided_
+  std::shared_ptr<const SurfaceMask> part_;         // null: all
+  std::shared_ptr<const NearPart> near_part_;
 };
 
 }  // namespace patchmill

@@ -163,7 +163,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   for (int i = 0; i < count; ++i) size = std::max(size, (hull[static_cast<std::size_t>(i)] - p).norm());
 
   if (params_.keep_in != nullptr &&
-      params_.keep_in->WantsNothing(surface_.piece(rect.piece).patch, p, size)) {
+      params_.keep_in->WantsNothing(rect.piece, rect.u0, rect.u1, rect.v0, rect.v1, p, size)) {
     return;
   }
   // The move that covers most of the rectangle passes near the centre that finishes p; only small rectangles

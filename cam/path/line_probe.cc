@@ -15,11 +15,12 @@ LineFrame LineFrame::At(double angle) {
 }
 
 LineProber::LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-                       const PassParams& params)
+                       const PassParams& params, const KeepIn* part)
     : locator_(locator),
       border_(border),
       frame_(frame),
       params_(params),
+      part_(part),
       flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
 
 LineProbe LineProber::Probe(double t, double y, const SurfacePoint* hint) const {
@@ -61,8 +62,8 @@ LineProbe LineProber::Judge(double t, double y, const std::optional<CenterPoint>
   probe.allowed = border_.Allowed(h->contact, normal);
   const double slope = std::atan2(Plan(normal).norm(), normal.z());
   constexpr double kSlack = 1e-9;  // rad: a plane at the limit itself belongs to it
-  probe.wanted =
-      probe.allowed && slope >= params_.window.min - kSlack && slope <= params_.window.max + kSlack;
+  probe.wanted = probe.allowed && slope >= params_.window.min - kSlack &&
+                 slope <= params_.window.max + kSlack && (part_ == nullptr || part_->Wants(h->contact));
 
   // Across the feed on the centre surface: square to the feed in the common tangent plane. Its part in plan
   // across the line is sqrt(1 - n_y^2).

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cam/location/keep_in.h"
 #include "cam/location/locator.h"
 #include "cam/path/pass_params.h"
 #include "cam/path/sheet_border.h"
@@ -25,7 +26,7 @@ struct LineProbe {
   Vec3 center = Vec3::Zero();
   std::optional<SurfacePoint> contact;  // absent: h does not exist here, or the floor carries the ball
   bool allowed = false;                 // exists and is not rolled off a border
-  bool wanted = false;                  // allowed, touched, and its slope lies in the window
+  bool wanted = false;                  // allowed, touched, and its slope lies in the window, in the part
   double need = kInfinity;  // mm: largest distance in plan to the next line that keeps the scallop
   double half_step = 0.0;   // mm on the centre surface, half the step across the line
   double lateral = 0.0;     // the same in plan
@@ -33,11 +34,12 @@ struct LineProbe {
   bool exists() const { return half_step > 0.0; }
 };
 
-// Probes along and beside lines of one direction. Thread-safe.
+// Probes along and beside lines of one direction; `part`: only what it wants is wanted, null: all.
+// Thread-safe.
 class LineProber {
  public:
   LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-             const PassParams& params);
+             const PassParams& params, const KeepIn* part = nullptr);
 
   // Cost: one exact height and one surface evaluation. `hint`: a contact nearby.
   LineProbe Probe(double t, double y, const SurfacePoint* hint = nullptr) const;
@@ -54,6 +56,7 @@ class LineProber {
   const SheetBorder& border_;
   const LineFrame frame_;
   const PassParams params_;
+  const KeepIn* const part_;
   const double flat_step_;
 };
 

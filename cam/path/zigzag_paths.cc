@@ -46,7 +46,7 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
                                                     const RunContext& run) {
   const Surface& surface = locator.surface();
   const SheetBorder border(surface);
-  const LineProber prober(locator, border, LineFrame::At(params.angle), params);
+  const LineProber prober(locator, border, LineFrame::At(params.angle), params, params.part);
   const double min_step = params.min_step_fraction * prober.flat_step();
   const FrameExtent extent = ExtentInFrame(surface, prober.frame(), locator.radius());
   PM_ASSIGN_OR_RETURN(const std::vector<double> positions, LinePositions(prober, extent, min_step, run));

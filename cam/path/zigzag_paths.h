@@ -5,20 +5,22 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/location/keep_in.h"
 #include "cam/path/scan_line.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
 
 struct ZigzagParams : PassParams {
-  double angle = 0.0;  // rad, direction of the lines in plan, from +x
+  double angle = 0.0;            // rad, direction of the lines in plan, from +x
+  const KeepIn* part = nullptr;  // lines only where the contact is wanted; null: everywhere
 };
 
-// Lines cover every contact whose slope lies in the window, each clipped to the window dilated by half a step
-// along the centre curve; lines end at a sheet's outer border and roll over rims and creases that are locally
-// highest (MACHINING A.12). Local narrow spots get partial lines; no step falls below min_step_fraction of
-// the flat one. Ordered by line, then along the line; every path runs in +angle direction (linking turns
-// them). Deterministic; parallel over lines.
+// Lines cover every contact of the part whose slope lies in the window, each clipped to the window dilated by
+// half a step along the centre curve; lines end at a sheet's outer border and roll over rims and creases that
+// are locally highest (MACHINING A.12). Local narrow spots get partial lines; no step falls below
+// min_step_fraction of the flat one. Ordered by line, then along the line; every path runs in +angle
+// direction (linking turns them). Deterministic; parallel over lines.
 absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, const ZigzagParams& params,
                                                     const RunContext& run);
 

@@ -50,6 +50,26 @@ struct Selection {
   double boundary_offset = 0.0;  // mm, > 0 widens
 };
 
+// How one region is cut.
+struct RegionChoice {
+  bool skip = false;  // not at all
+  Strategy strategy = Strategy::kAuto;
+  double zigzag_angle = 0.0;  // rad
+  double scallop = 0.01;      // mm
+  bool operator==(const RegionChoice&) const = default;
+};
+
+// A change to one region, which is named by its id in the map of Operation::regions_sha256 or by a point of
+// it.
+struct RegionOverride {
+  int region = -1;         // unless `at` is given
+  std::optional<Vec3> at;  // PROGRAM frame, within kPickReach of the surface
+  bool skip = false;
+  std::optional<Strategy> strategy;
+  std::optional<double> zigzag_angle, scallop;  // absent: as the operation
+};
+inline constexpr double kPickReach = 1.0;  // mm
+
 struct Operation {
   Tool tool;
   double scallop = 0.01;
@@ -58,6 +78,7 @@ struct Operation {
   double steep_angle = Radians(45.0);
   Strategy strategy = Strategy::kAuto;
   double zigzag_angle = 0.0;
+  double detail = RegionParams().detail;
   CutDirection contour_direction = CutDirection::kClimb;
   EdgeRule edge_rule = EdgeRule::kStop;
   // PROGRAM frame, tip heights.
@@ -65,6 +86,8 @@ struct Operation {
   std::optional<double> clearance_above;  // mm; kDefaultClearanceAbove when neither is given
   double approach_gap = 1.0;
   Selection selection;
+  std::string regions_sha256;  // what `overrides` were made for; empty: not checked
+  std::vector<RegionOverride> overrides;
 };
 
 struct Job {
@@ -93,6 +116,7 @@ struct JobReport {
   double controller_tolerance = 0.0;      // mm
   int point_count = 0;
   std::vector<Region> regions;
+  std::vector<RegionChoice> choices;  // of each region
   Diagnostics diagnostics;
   std::vector<StageTime> stages;
 };

@@ -1,8 +1,12 @@
 #include "cam/plan/job_preview.h"
 
+#include <algorithm>
+#include <memory>
+
 #include <fmt/format.h>
 
 #include "cam/picture/preview.h"
+#include "cam/plan/region_choices.h"
 
 namespace patchmill {
 namespace {
@@ -36,23 +40,70 @@ std::string Color(const Region& region, int nth) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::string& title) {
+// Which ground is to be finished: what is selected, less the regions that are skipped.
+class WantedGround {
+ public:
+  WantedGround(const Surface& surface, const RegionMap& map, const std::vector<RegionChoice>& choices,
+               const Containment& containment)
+      : surface_(surface), containment_(containment), parts_(PartsOf(map, choices)) {}
+
+  bool Has(const SurfacePoint& p) const {
+    if (!IsWanted(containment_, surface_.piece(p.piece).patch, p.p)) return false;
+    return std::any_of(parts_.begin(), parts_.end(), [&](const PlanPart& part) {
+      return part.where == nullptr || part.where->Has(p.piece, p.u, p.v);
+    });
+  }
+
+ private:
+  const Surface& surface_;
+  const Containment& containment_;
+  std::vector<PlanPart> parts_;
+};
+
+// Which regions have wanted ground, looked for in at most 32 x 32 cells of a piece.
+std::vector<bool> SeenRegions(const Surface& surface, const RegionMap& map, const WantedGround& wanted) {
+  const int stride = std::max(1, map.cells / 32);
+  std::vector<bool> seen(map.regions.size(), false);
+  for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
+    for (int i = stride / 2; i < map.cells; i += stride) {
+      for (int j = stride / 2; j < map.cells; j += stride) {
+        const int id = map.labels[piece][static_cast<std::size_t>(i * map.cells + j)];
+        if (id < 0 || seen[static_cast<std::size_t>(id)]) continue;
+        const double u = (i + 0.5) / map.cells, v = (j + 0.5) / map.cells;
+        const PieceId at(piece);
+        seen[static_cast<std::size_t>(id)] = wanted.Has({at, u, v, Evaluate(surface, at, u, v).p});
+      }
+    }
+  }
+  return seen;
+}
+
+PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::vector<RegionChoice>& choices,
+                       const Resolved& resolved, const std::string& title) {
   PreviewInput input;
   input.surface = &surface;
   input.title = title;
-  int nth = 0;
+  const auto wanted = std::make_shared<const WantedGround>(surface, map, choices, resolved.containment);
+  const std::vector<bool> seen = SeenRegions(surface, map, *wanted);
+  std::vector<int> index(map.regions.size(), -1);
   for (const Region& region : map.regions) {
+    const auto id = static_cast<std::size_t>(region.id);
+    if (!seen[id]) continue;
     PreviewRegion r;
     r.unreachable = region.kind == RegionKind::kUnreachable;
-    r.color = Color(region, nth++);
+    r.color = Color(region, region.id);
     r.name = r.unreachable
                  ? fmt::format("{} unreachable, {}: {:.1f} mm2", region.id, Name(region.reason), region.area)
                  : fmt::format("{} {}, {}: {:.1f} mm2", region.id, Name(region.kind), Name(region.slope),
                                region.area);
     r.border = region.border;
+    index[id] = static_cast<int>(input.regions.size());
     input.regions.push_back(std::move(r));
   }
-  input.region_of = [&map](const SurfacePoint& p) { return map.At(p); };
+  input.region_of = [&map, wanted, index](const SurfacePoint& p) {
+    const int id = map.At(p);
+    return id >= 0 && wanted->Has(p) ? index[static_cast<std::size_t>(id)] : -1;
+  };
   return input;
 }
 
@@ -72,12 +123,15 @@ const char* Name(Outcome outcome) {
   return "";
 }
 
-std::string DrawRegions(const Surface& surface, const RegionMap& regions, const std::string& title) {
-  return DrawPreview(BaseInput(surface, regions, title));
+std::string DrawRegions(const Surface& surface, const RegionMap& regions,
+                        const std::vector<RegionChoice>& choices, const Resolved& resolved,
+                        const std::string& title) {
+  return DrawPreview(BaseInput(surface, regions, choices, resolved, title));
 }
 
-std::string DrawJob(const Surface& surface, const JobResult& result, const std::string& title) {
-  PreviewInput input = BaseInput(surface, result.regions, title);
+std::string DrawJob(const Surface& surface, const JobResult& result, const Resolved& resolved,
+                    const std::string& title) {
+  PreviewInput input = BaseInput(surface, result.regions, result.report.choices, resolved, title);
   input.toolpath = &result.motion.toolpath;
   input.program_zero = result.program_zero;
   for (const CutterPath& pass : result.motion.passes) input.pass_kinds.push_back(pass.kind);

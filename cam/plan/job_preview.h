@@ -4,12 +4,18 @@
 #include <string>
 
 #include "cam/plan/job.h"
+#include "cam/plan/resolve.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
 
-std::string DrawJob(const Surface& surface, const JobResult& result, const std::string& title);
-std::string DrawRegions(const Surface& surface, const RegionMap& regions, const std::string& title);
+// Ground that is not selected, or whose region is skipped, is grey; regions without other ground have no
+// legend.
+std::string DrawJob(const Surface& surface, const JobResult& result, const Resolved& resolved,
+                    const std::string& title);
+std::string DrawRegions(const Surface& surface, const RegionMap& regions,
+                        const std::vector<RegionChoice>& choices, const Resolved& resolved,
+                        const std::string& title);
 
 const char* Name(Outcome outcome);  // "COMPLETE", ...
 

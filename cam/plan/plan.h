@@ -4,6 +4,8 @@
 #include <absl/status/statusor.h>
 
 #include "cam/plan/job.h"
+#include "cam/plan/region_choices.h"
+#include "cam/plan/resolve.h"
 #include "core/base/run_context.h"
 #include "core/surface/surface.h"
 
@@ -26,6 +28,11 @@ absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optiona
 absl::Status ValidateJob(const Job& job);
 
 absl::StatusOr<RegionMap> PlanRegions(const Surface& surface, const Job& job, const RunContext& run);
+
+// The parts that a program of this job is judged by (MakeVerifyParams); none when no region is chosen. Errors
+// as ChooseRegions.
+absl::StatusOr<std::vector<PlanPart>> JudgedParts(const Surface& surface, const Job& job,
+                                                  const Resolved& resolved, const RunContext& run);
 
 // surface -> regions -> passes -> links -> program text -> verification. No program unless verified.
 absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run);

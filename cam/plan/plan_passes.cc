@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "cam/path/contour_paths.h"
 #include "cam/path/coverage.h"
@@ -41,6 +42,77 @@ void Append(std::vector<CutterPath>& to, std::vector<CutterPath> from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
+// The lines and levels of every part have numbers of their own, in the order of the parts.
+void NumberAfter(const std::vector<CutterPath>& before, std::vector<CutterPath>& paths) {
+  constexpr int kGap = 4;  // more than what makes neighbours of two lines
+  if (before.empty()) return;
+  int last = 0;
+  for (const CutterPath& path : before) last = std::max(last, path.line);
+  for (CutterPath& path : paths) path.line += last + kGap;
+}
+
+class PassMaker {
+ public:
+  PassMaker(const Locator& locator, const Job& job, const Resolved& resolved, const RunContext& run)
+      : locator_(locator), op_(job.operation), base_(MakePassParams(job, resolved)), run_(run) {}
+
+  absl::Status AddStrategies(const RegionChoice& choice, const KeepIn* keep_in,
+                             PlannedPasses& planned) const {
+    std::vector<CutterPath> paths;
+    if (choice.strategy != Strategy::kZigzag) {
+      ContourParams params;
+      SetPass(choice, params);
+      params.window.min = choice.strategy == Strategy::kAuto ? op_.steep_angle : 0.0;
+      PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
+      planned.findings.insert(planned.findings.end(), contours.findings.begin(), contours.findings.end());
+      Append(paths, std::move(contours.paths));
+    }
+    if (choice.strategy != Strategy::kContour) {
+      ZigzagParams params;
+      SetPass(choice, params);
+      params.window.max = choice.strategy == Strategy::kAuto ? op_.steep_angle : kPi / 2.0;
+      params.angle = choice.zigzag_angle;
+      if (keep_in != nullptr && keep_in->HasPart()) params.part = keep_in;
+      PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator_, params, run_));
+      Append(paths, std::move(lines));
+    }
+    if (keep_in != nullptr) {
+      const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
+      PM_ASSIGN_OR_RETURN(paths, ClipToKeepIn(locator_, *keep_in, std::move(paths), reach, run_));
+    }
+    NumberAfter(planned.paths, paths);
+    Append(planned.paths, std::move(paths));
+    return absl::OkStatus();
+  }
+
+  absl::Status AddRest(const RegionChoice& choice, const KeepIn* keep_in, PlannedPasses& planned) const {
+    CoverageParams params;
+    SetPass(choice, params);
+    params.limit = choice.scallop + kCoverageShare * op_.tolerance;
+    params.tolerance = op_.tolerance;
+    // Forced passes answer for the ground where their steps are not clamped; the rest is reported as
+    // STRATEGY.
+    if (choice.strategy == Strategy::kContour) params.forced.passes = ForcedPasses::kContours;
+    if (choice.strategy == Strategy::kZigzag) params.forced.passes = ForcedPasses::kLines;
+    params.forced.angle = choice.zigzag_angle;
+    params.keep_in = keep_in;
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator_, planned.paths, params, run_));
+    Append(planned.paths, std::move(rest));
+    return absl::OkStatus();
+  }
+
+ private:
+  void SetPass(const RegionChoice& choice, PassParams& params) const {
+    params = base_;
+    params.scallop = choice.scallop;
+  }
+
+  const Locator& locator_;
+  const Operation& op_;
+  const PassParams base_;
+  const RunContext& run_;
+};
+
 }  // namespace
 
 PassParams MakePassParams(const Job& job, const Resolved& resolved) {
@@ -53,43 +125,26 @@ PassParams MakePassParams(const Job& job, const Resolved& resolved) {
   return p;
 }
 
-absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions, const Job& job,
+absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions,
+                                         const std::vector<PlanPart>& parts, const Job& job,
                                          const Resolved& resolved, const KeepIn* keep_in,
                                          const RunContext& run) {
-  const Operation& op = job.operation;
-  const PassParams base = MakePassParams(job, resolved);
   PlannedPasses planned;
-  if (op.strategy != Strategy::kZigzag) {
-    ContourParams params;
-    static_cast<PassParams&>(params) = base;
-    params.window.min = op.strategy == Strategy::kAuto ? op.steep_angle : 0.0;
-    PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator, params, run));
-    planned.findings = std::move(contours.findings);
-    Append(planned.paths, std::move(contours.paths));
+  const PassMaker maker(locator, job, resolved, run);
+  std::vector<std::optional<KeepIn>> own(parts.size());
+  const auto limits = [&](std::size_t k) { return own[k] ? &*own[k] : keep_in; };
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts[k].where != nullptr) {
+      PM_CHECK(keep_in != nullptr);
+      PM_ASSIGN_OR_RETURN(KeepIn within, keep_in->Within(parts[k].where, run));
+      own[k].emplace(std::move(within));
+    }
+    PM_RETURN_IF_ERROR(maker.AddStrategies(parts[k].choice, limits(k), planned));
   }
-  if (op.strategy != Strategy::kContour) {
-    ZigzagParams params;
-    static_cast<PassParams&>(params) = base;
-    params.window.max = op.strategy == Strategy::kAuto ? op.steep_angle : kPi / 2.0;
-    params.angle = op.zigzag_angle;
-    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator, params, run));
-    Append(planned.paths, std::move(lines));
+  // After all of them: along a border the passes of one part finish some of the next.
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    PM_RETURN_IF_ERROR(maker.AddRest(parts[k].choice, limits(k), planned));
   }
-  if (keep_in != nullptr) {
-    const double reach = CenterStep(locator.radius(), op.scallop, 0.0);
-    PM_ASSIGN_OR_RETURN(planned.paths, ClipToKeepIn(locator, *keep_in, std::move(planned.paths), reach, run));
-  }
-  CoverageParams params;
-  static_cast<PassParams&>(params) = base;
-  params.limit = op.scallop + kCoverageShare * op.tolerance;
-  params.tolerance = op.tolerance;
-  // Forced passes answer for the ground where their steps are not clamped; the rest is reported as STRATEGY.
-  if (op.strategy == Strategy::kContour) params.forced.passes = ForcedPasses::kContours;
-  if (op.strategy == Strategy::kZigzag) params.forced.passes = ForcedPasses::kLines;
-  params.forced.angle = op.zigzag_angle;
-  params.keep_in = keep_in;
-  PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator, planned.paths, params, run));
-  Append(planned.paths, std::move(rest));
   LabelRegions(regions, planned.paths);
   return planned;
 }

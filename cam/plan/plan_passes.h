@@ -6,6 +6,7 @@
 #include <absl/status/statusor.h>
 
 #include "cam/location/keep_in.h"
+#include "cam/plan/region_choices.h"
 #include "cam/plan/resolve.h"
 #include "cam/region/region_map.h"
 #include "cam/toolpath/cutter_path.h"
@@ -19,10 +20,12 @@ struct PlannedPasses {
 
 PassParams MakePassParams(const Job& job, const Resolved& resolved);
 
-// `keep_in`: what is wanted and allowed; null: all of it. Contours over the steep ground, zig-zag lines over
-// the gentle one (or one of them over all, when forced), then crease and rest passes wherever more than the
-// scallop would stay; each labelled with the region most of it lies in.
-absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions, const Job& job,
+// `keep_in`: what is wanted and allowed; null: all of it, and there is one part. Part by part contours over
+// the steep ground, zig-zag lines over the gentle one (or one of them over all, when forced), then crease and
+// rest passes wherever more than the part's scallop would stay; each labelled with the region most of it lies
+// in.
+absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions,
+                                         const std::vector<PlanPart>& parts, const Job& job,
                                          const Resolved& resolved, const KeepIn* keep_in,
                                          const RunContext& run);
 

@@ -26,13 +26,13 @@ struct Range {
   }
 };
 
-bool ByContours(const Operation& op, const Region& region) {
-  return op.strategy == Strategy::kContour ||
-         (op.strategy == Strategy::kAuto && region.slope == SlopeClass::kSteep);
+bool ByContours(const RegionChoice& choice, const Region& region) {
+  return choice.strategy == Strategy::kContour ||
+         (choice.strategy == Strategy::kAuto && region.slope == SlopeClass::kSteep);
 }
 
 std::vector<Range> PieceSteps(const Piece& piece, const std::vector<int>& labels, int cells, int stride,
-                              const RegionMap& map, const Operation& op, double radius) {
+                              const RegionMap& map, const std::vector<RegionChoice>& choices, double radius) {
   std::vector<Range> steps(map.regions.size());
   for (int i = stride / 2; i < cells; i += stride) {
     for (int j = stride / 2; j < cells; j += stride) {
@@ -43,9 +43,11 @@ std::vector<Range> PieceSteps(const Piece& piece, const std::vector<int>& labels
       const SurfaceJet jet = Evaluate(piece, (i + 0.5) / cells, (j + 0.5) / cells);
       const auto e = UpwardNormal(jet);
       if (!e) continue;
-      const auto across = ByContours(op, region) ? AcrossContours(*e) : AcrossLines(*e, op.zigzag_angle);
+      const RegionChoice& choice = choices[static_cast<std::size_t>(id)];
+      const auto across =
+          ByContours(choice, region) ? AcrossContours(*e) : AcrossLines(*e, choice.zigzag_angle);
       if (!across) continue;
-      const double step = CenterStep(radius, op.scallop, NormalCurvature(Forms(jet, *e), jet, *across));
+      const double step = CenterStep(radius, choice.scallop, NormalCurvature(Forms(jet, *e), jet, *across));
       if (step > 0.0) steps[static_cast<std::size_t>(id)].Add(step);
     }
   }
@@ -54,15 +56,15 @@ std::vector<Range> PieceSteps(const Piece& piece, const std::vector<int>& labels
 
 }  // namespace
 
-absl::Status FillSteps(const Surface& surface, const Job& job, const Resolved& resolved,
-                       const RunContext& run, RegionMap& map) {
+absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& choices,
+                       const Resolved& resolved, const RunContext& run, RegionMap& map) {
   const double points = static_cast<double>(map.cells) * map.cells * static_cast<double>(map.labels.size());
   const int stride =
       std::clamp(static_cast<int>(std::ceil(std::sqrt(points / kMostPoints))), 1, std::max(1, map.cells));
   std::vector<std::vector<Range>> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
-    pieces[i] = PieceSteps(surface.pieces[i], map.labels[i], map.cells, stride, map, job.operation,
-                           resolved.plan_radius);
+    pieces[i] =
+        PieceSteps(surface.pieces[i], map.labels[i], map.cells, stride, map, choices, resolved.plan_radius);
   }));
   for (Region& region : map.regions) {
     Range all;

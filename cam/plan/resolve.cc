@@ -119,20 +119,35 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
   return r;
 }
 
-VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved) {
+namespace {
+
+Finish FinishOf(const RegionChoice& choice) {
+  Finish finish;
+  finish.scallop = choice.scallop;
+  finish.zigzag_angle = choice.zigzag_angle;
+  if (choice.strategy == Strategy::kContour) finish.strategy = ForcedStrategy::kContour;
+  if (choice.strategy == Strategy::kZigzag) finish.strategy = ForcedStrategy::kZigzag;
+  return finish;
+}
+
+}  // namespace
+
+VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved, const std::vector<PlanPart>& parts) {
   VerifyParams p;
+  static_cast<Finish&>(p) = FinishOf(ChoiceOf(job.operation));
+  for (const PlanPart& part : parts) {
+    FinishPart& to = p.parts.emplace_back();
+    static_cast<Finish&>(to) = FinishOf(part.choice);
+    to.where = part.where;
+  }
   p.tolerance = job.operation.tolerance;
-  p.scallop = job.operation.scallop;
   p.leave = job.operation.leave;
   p.certainty = std::min(1e-3, 0.1 * job.operation.tolerance);
   p.floor_z = resolved.floor_z;
   p.program_zero = resolved.program_zero;
   p.stock_top_z = resolved.stock_top_z;
   p.allowance = job.setup.allowance;
-  p.zigzag_angle = job.operation.zigzag_angle;
   p.containment = resolved.containment;
-  if (job.operation.strategy == Strategy::kContour) p.strategy = ForcedStrategy::kContour;
-  if (job.operation.strategy == Strategy::kZigzag) p.strategy = ForcedStrategy::kZigzag;
   return p;
 }
 

@@ -4,6 +4,7 @@
 #include <absl/status/statusor.h>
 
 #include "cam/plan/job.h"
+#include "cam/plan/region_choices.h"
 
 namespace patchmill {
 
@@ -33,7 +34,9 @@ struct Resolved {
 // below the model), and for patches that the model does not have.
 absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job);
 
-// By what a program of this job is judged.
-VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved);
+// By what a program of this job is judged; `parts` as PartsOf gives them (cam/plan/region_choices.h), empty:
+// one.
+VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved,
+                              const std::vector<PlanPart>& parts = {});
 
 }  // namespace patchmill

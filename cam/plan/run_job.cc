@@ -7,6 +7,7 @@
 #include "cam/path/scan_line.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/plan_passes.h"
+#include "cam/plan/region_choices.h"
 #include "cam/plan/region_steps.h"
 #include "cam/plan/resolve.h"
 #include "cam/post/program_reader.h"
@@ -30,21 +31,20 @@ class StageClock {
   std::chrono::steady_clock::time_point start_;
 };
 
-// Absent when everything is wanted and allowed. Keeps references to `surface` and `resolved`.
-absl::StatusOr<std::optional<KeepIn>> MakeKeepIn(const Surface& surface, const Job& job,
-                                                 const Resolved& resolved, const RunContext& run) {
-  const Containment& containment = resolved.containment;
-  if (containment.WantsAll() && containment.AllowsAll()) return std::nullopt;
+bool IsLimited(const Resolved& resolved) {
+  return !resolved.containment.WantsAll() || !resolved.containment.AllowsAll();
+}
+
+// Keeps references to `surface` and `resolved`.
+absl::StatusOr<KeepIn> MakeKeepIn(const Surface& surface, const Job& job, const Resolved& resolved,
+                                  const RunContext& run) {
   KeepInParams p;
   p.ball_radius = resolved.radius;
   p.tool_radius = std::max(resolved.radius, 0.5 * job.operation.tool.shank_diameter.value_or(0.0));
   p.leave = job.operation.leave;
   p.tolerance = job.operation.tolerance;
-  PM_ASSIGN_OR_RETURN(KeepIn keep_in, KeepIn::Make(surface, containment, p, run));
-  return std::optional<KeepIn>(std::move(keep_in));
+  return KeepIn::Make(surface, resolved.containment, p, run);
 }
-
-const KeepIn* PointerTo(const std::optional<KeepIn>& keep_in) { return keep_in ? &*keep_in : nullptr; }
 
 RegionParams MakeRegionParams(const Job& job, const Resolved& resolved, const KeepIn* keep_in) {
   RegionParams p;
@@ -52,15 +52,25 @@ RegionParams MakeRegionParams(const Job& job, const Resolved& resolved, const Ke
   p.tolerance = job.operation.tolerance;
   p.steep_angle = job.operation.steep_angle;
   p.floor_z = resolved.floor_z - job.operation.leave;
+  p.detail = job.operation.detail;
   p.keep_in = keep_in;
   return p;
 }
 
-absl::StatusOr<RegionMap> MakeRegions(const Surface& surface, const Job& job, const Resolved& resolved,
-                                      const KeepIn* keep_in, const RunContext& run) {
-  PM_ASSIGN_OR_RETURN(RegionMap map, SplitRegions(surface, MakeRegionParams(job, resolved, keep_in), run));
-  PM_RETURN_IF_ERROR(FillSteps(surface, job, resolved, run, map));
-  return map;
+struct ChosenRegions {
+  RegionMap map;
+  std::vector<RegionChoice> choices;
+};
+
+absl::StatusOr<ChosenRegions> MakeRegions(const Surface& surface, const Job& job, const Resolved& resolved,
+                                          const KeepIn& keep_in, const RunContext& run) {
+  ChosenRegions regions;
+  const RegionParams params = MakeRegionParams(job, resolved, IsLimited(resolved) ? &keep_in : nullptr);
+  PM_ASSIGN_OR_RETURN(regions.map, SplitRegions(surface, params, run));
+  PM_ASSIGN_OR_RETURN(regions.choices,
+                      ChooseRegions(surface, regions.map, job.operation, resolved.program_zero));
+  PM_RETURN_IF_ERROR(FillSteps(surface, regions.choices, resolved, run, regions.map));
+  return regions;
 }
 
 LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const KeepIn* keep_in) {
@@ -132,8 +142,17 @@ std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnos
 absl::StatusOr<RegionMap> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
-  PM_ASSIGN_OR_RETURN(const std::optional<KeepIn> keep_in, MakeKeepIn(surface, job, resolved, run));
-  return MakeRegions(surface, job, resolved, PointerTo(keep_in), run);
+  PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
+  return std::move(regions.map);
+}
+
+absl::StatusOr<std::vector<PlanPart>> JudgedParts(const Surface& surface, const Job& job,
+                                                  const Resolved& resolved, const RunContext& run) {
+  if (job.operation.overrides.empty()) return std::vector<PlanPart>();
+  PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(const ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
+  return PartsOf(regions.map, regions.choices);
 }
 
 absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
@@ -161,14 +180,19 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   }
   clock.Done("check");
 
-  PM_ASSIGN_OR_RETURN(const std::optional<KeepIn> keep_in, MakeKeepIn(surface, job, resolved, run));
-  PM_ASSIGN_OR_RETURN(result.regions, MakeRegions(surface, job, resolved, PointerTo(keep_in), run));
+  PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
+  result.regions = std::move(regions.map);
   report.regions = result.regions.regions;
+  report.choices = std::move(regions.choices);
+  const std::vector<PlanPart> parts = PartsOf(result.regions, report.choices);
+  const bool whole = parts.size() == 1 && parts.front().where == nullptr;
+  const KeepIn* limits = whole && !IsLimited(resolved) ? nullptr : &keep_in;
   clock.Done("regions");
 
   PM_ASSIGN_OR_RETURN(const Locator locator, Locator::Make(surface, resolved.plan_radius, run));
   PM_ASSIGN_OR_RETURN(PlannedPasses planned,
-                      PlanPasses(locator, result.regions, job, resolved, PointerTo(keep_in), run));
+                      PlanPasses(locator, result.regions, parts, job, resolved, limits, run));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
   clock.Done("passes");
   if (planned.paths.empty()) {
@@ -177,15 +201,15 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
         "NOTHING_TO_CUT",
         fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm: check --scale "
                     "({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor{}",
-                    keep_in ? "that is wanted" : "of the model", 2.0 * resolved.radius,
+                    limits != nullptr ? "that is wanted" : "of the model", 2.0 * resolved.radius,
                     resolved.box.max.x() - resolved.box.min.x(), resolved.box.max.y() - resolved.box.min.y(),
                     resolved.box.max.z() - resolved.box.min.z(),
-                    keep_in ? ", then the selection, --top and the obstacles" : "")));
+                    limits != nullptr ? ", then the selection, the regions, --top and the obstacles" : "")));
     return result;
   }
 
   PM_ASSIGN_OR_RETURN(result.motion, LinkPaths(locator, result.regions, std::move(planned.paths),
-                                               MakeLinkParams(job, resolved, PointerTo(keep_in)), run));
+                                               MakeLinkParams(job, resolved, limits), run));
   report.motion = result.motion.stats;
   report.point_count = static_cast<int>(result.motion.toolpath.moves.size());
   clock.Done("link");
@@ -202,7 +226,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   clock.Done("post");
 
   PM_ASSIGN_OR_RETURN(report.verify, VerifyProgramText(surface, job.operation.tool, program,
-                                                       MakeVerifyParams(job, resolved), run));
+                                                       MakeVerifyParams(job, resolved, parts), run));
   clock.Done("verify");
   const std::optional<double>& stickout = job.operation.tool.stickout;
   if (stickout && *stickout < report.verify.required_stickout) {

@@ -92,6 +92,7 @@ absl::Status ValidateJob(const Job& job) {
                            op.steep_angle >= Radians(5) && op.steep_angle <= Radians(85), "in [5, 85]"));
   PM_RETURN_IF_ERROR(check("zigzag_angle_deg", Degrees(op.zigzag_angle), std::abs(op.zigzag_angle) <= 2 * kPi,
                            "in [-360, 360]"));
+  PM_RETURN_IF_ERROR(check("detail", op.detail, op.detail >= 0 && op.detail <= 1, "in [0, 1]"));
   PM_RETURN_IF_ERROR(check("heights.approach_gap_mm", op.approach_gap,
                            op.approach_gap > 0 && op.approach_gap <= 100, "in (0, 100]"));
   if (op.clearance_above) {

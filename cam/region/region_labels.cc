@@ -38,8 +38,11 @@ std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& regi
 absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
                         const RunContext& run, RegionMap& map) {
   constexpr double kMaxLabels = 8e6;
+  constexpr int kMaxCells = 256;
   const auto pieces = static_cast<double>(std::max<std::size_t>(1, meshes.size()));
-  map.cells = std::clamp(static_cast<int>(std::sqrt(kMaxLabels / pieces)), 1, 64);
+  // A power of two: halves of pieces, halved again and again, end with whole cells.
+  map.cells = 1;
+  while (map.cells < kMaxCells && 4.0 * map.cells * map.cells * pieces <= kMaxLabels) map.cells *= 2;
   map.labels.resize(meshes.size());
   return ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
     map.labels[piece] = PieceLabels(meshes[piece], region_of[piece], map.cells);

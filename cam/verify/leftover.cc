@@ -133,12 +133,15 @@ class LeftoverSearch {
 
   // No point of the cell is to be finished.
   bool OutsideContacts(const SurfaceCell& cell) const {
+    const CellRect& r = cell.rect;
+    if (params_.where != nullptr && !params_.where->HasAny(r.piece, r.u0, r.u1, r.v0, r.v1)) return true;
     const Containment* containment = params_.reach.limits.containment;
     return containment != nullptr && ContactRoomOutside(*containment, cell.middle) > cell.radius;
   }
 
   bool IsReachable(const SurfaceCell& cell) const {
-    if (!IsWantedAt(surface_, params_, cell.rect.piece, cell.middle)) return false;
+    const CellRect& r = cell.rect;
+    if (!IsWantedAt(surface_, params_, r.piece, r.u(), r.v(), cell.middle)) return false;
     const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
     const auto facing = FacingAt(jet);
     return facing && ReachAt(surface_, jet.p, *facing, params_.reach) == ReachClass::kReachable;

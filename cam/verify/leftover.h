@@ -9,20 +9,18 @@
 
 namespace patchmill {
 
-struct LeftoverParams {
+struct LeftoverParams : Finish {
   ReachParams reach;
-  double chord_error = 0.0;       // mm: what the segments may be off
-  double certainty = 1e-3;        // mm
-  double limit = kInfinity;       // mm: more is a violation; infinity: not judged
-  std::optional<double> scallop;  // mm
-  ForcedStrategy strategy = ForcedStrategy::kNone;
-  double zigzag_angle = 0.0;  // rad
+  double chord_error = 0.0;            // mm: what the segments may be off
+  double certainty = 1e-3;             // mm
+  const SurfaceMask* where = nullptr;  // the part of the surface that is judged; null: all of it
+  double limit = kInfinity;            // mm: more is a violation; infinity: not judged
   double min_step_fraction = 0.25;
   double most = kInfinity;  // mm: reported where nothing is cut at all
 };
 
-// What a point is to the finish. kUnwanted: outside a contact boundary; patches that are not wanted have no
-// root cells.
+// What a point is to the finish. kUnwanted: outside a contact boundary or the part; patches that are not
+// wanted have no root cells.
 enum class FinishClass { kDone, kAboveLimit, kUndercut, kConcave, kFloor, kAvoided, kStrategy, kUnwanted };
 inline constexpr std::size_t kFinishClasses = 8;
 
@@ -50,8 +48,9 @@ absl::StatusOr<Extremes> FindLeftover(const Surface& surface, const std::vector<
                                       const SegmentTree& tree, const LeftoverParams& params,
                                       const Extreme& known, const RunContext& run);
 
-// The point is to be finished at all.
-bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId piece, const Vec3& p);
+// The point p at (u,v) is to be finished at all.
+bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId piece, double u, double v,
+                const Vec3& p);
 
 // True when a forced strategy cannot finish here: the centre step it would need (ALGORITHMS 5) is below
 // min_step_fraction of the flat one, with a margin of 10 %.

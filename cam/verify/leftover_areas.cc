@@ -123,7 +123,7 @@ class AreaSampler {
     const auto [at, added] = samples_.try_emplace(Key{piece.value, u, v});
     if (added) {
       const SurfaceJet jet = Evaluate(surface_, piece, u, v);
-      at->second = {Classify(jet, piece, sums), jet.du.cross(jet.dv).norm()};
+      at->second = {Classify(jet, piece, u, v, sums), jet.du.cross(jet.dv).norm()};
       if (at->second.kind == FinishClass::kFloor) {
         const double z = CenterBelowFloor(surface_, piece, u, v, params_.reach);
         if (z < sums.report.lowest_center) {
@@ -135,10 +135,10 @@ class AreaSampler {
     return at->second;
   }
 
-  std::optional<FinishClass> Classify(const SurfaceJet& jet, PieceId piece, Sums& sums) {
+  std::optional<FinishClass> Classify(const SurfaceJet& jet, PieceId piece, double u, double v, Sums& sums) {
     const auto facing = FacingAt(jet);
     if (!facing) return std::nullopt;
-    if (!IsWantedAt(surface_, params_, piece, jet.p)) return FinishClass::kUnwanted;
+    if (!IsWantedAt(surface_, params_, piece, u, v, jet.p)) return FinishClass::kUnwanted;
     FinishClass kind = FinishClass::kDone;
     switch (ReachAt(surface_, jet.p, *facing, params_.reach)) {
       case ReachClass::kReachable:
@@ -189,7 +189,9 @@ class AreaSampler {
 
 }  // namespace
 
-bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId piece, const Vec3& p) {
+bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId piece, double u, double v,
+                const Vec3& p) {
+  if (params.where != nullptr && !params.where->Has(piece, u, v)) return false;
   const Containment* containment = params.reach.limits.containment;
   return containment == nullptr || IsWanted(*containment, surface.piece(piece).patch, p);
 }

@@ -19,8 +19,15 @@ absl::Status ValidateQuestion(const Surface& surface, const Tool& tool, const Pr
   if (!(params.leave >= 0.0) || !std::isfinite(params.leave)) return bad("leave", params.leave, ">= 0");
   if (!(params.allowance >= 0.0) || !std::isfinite(params.allowance))
     return bad("allowance", params.allowance, ">= 0");
-  if (params.scallop && (!(*params.scallop > 0.0) || !(*params.scallop < radius))) {
-    return bad("scallop", *params.scallop, "in (0, ball radius)");
+  const auto sound = [&](const Finish& finish) {
+    return !finish.scallop || (*finish.scallop > 0.0 && *finish.scallop < radius);
+  };
+  if (!sound(params)) return bad("scallop", *params.scallop, "in (0, ball radius)");
+  for (const FinishPart& part : params.parts) {
+    if (!sound(part)) return bad("parts.scallop", *part.scallop, "in (0, ball radius)");
+    if (part.where != nullptr && part.where->pieces() != surface.pieces.size()) {
+      return absl::InvalidArgumentError("parts.where: pieces of another surface");
+    }
   }
   if (!params.program_zero.allFinite() || !std::isfinite(params.stock_top_z) || std::isnan(params.floor_z)) {
     return absl::InvalidArgumentError("program zero, stock top or floor is not a number");

@@ -8,6 +8,7 @@
 #include "cam/verify/gouge.h"
 #include "cam/verify/keep_out.h"
 #include "cam/verify/leftover.h"
+#include "cam/verify/leftover_spread.h"
 #include "cam/verify/motion_figures.h"
 #include "cam/verify/motion_rules.h"
 #include "cam/verify/motion_sets.h"
@@ -180,23 +181,67 @@ class Judge {
   }
 
   absl::Status JudgeFinish() {
+    const SegmentTree tree(CollectMoves(motion_, MotionSet::kCut, offset_), Metric::kPath, radius_, run_);
+    report_.finish_ok = true;
+    if (params_.parts.empty()) {
+      FinishPart all;
+      static_cast<Finish&>(all) = params_;
+      return JudgePart(tree, all);
+    }
+    for (const FinishPart& part : params_.parts) PM_RETURN_IF_ERROR(JudgePart(tree, part));
+    return absl::OkStatus();
+  }
+
+  absl::Status JudgePart(const SegmentTree& tree, const FinishPart& part) {
     LeftoverParams p;
+    static_cast<Finish&>(p) = part;
     p.reach = {radius_, params_.tolerance, params_.floor_z + ball_, limits_->centers()};
     p.chord_error = chord_error_;
     p.certainty = params_.certainty;
-    p.scallop = params_.scallop;
-    if (params_.scallop) p.limit = *params_.scallop + params_.tolerance;
-    p.strategy = params_.strategy;
-    p.zigzag_angle = params_.zigzag_angle;
+    p.where = part.where.get();
+    if (part.scallop) p.limit = *part.scallop + params_.tolerance;
     p.min_step_fraction = params_.min_step_fraction;
     p.most = surface_.box.Diagonal();
-    const SegmentTree tree(CollectMoves(motion_, MotionSet::kCut, offset_), Metric::kPath, radius_, run_);
-    PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, wanted_, tree, p, run_));
+    std::vector<CellRect> cells = wanted_;
+    if (p.where != nullptr) {
+      std::erase_if(cells,
+                    [&](const CellRect& c) { return !p.where->HasAny(c.piece, c.u0, c.u1, c.v0, c.v1); });
+    }
+    PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, cells, tree, p, run_));
+    TakeAreas(areas);
+    if (part.scallop) {
+      PM_ASSIGN_OR_RETURN(const LeftoverSpread spread, MeasureSpread(surface_, cells, tree, p, run_));
+      for (std::size_t k = 0; k < kLeftoverClasses; ++k) report_.leftover_area[k] += spread[k];
+    }
+    const Extreme& done = DeepestOf(areas, FinishClass::kDone);
+    const Extreme& above = DeepestOf(areas, FinishClass::kAboveLimit);
+    PM_ASSIGN_OR_RETURN(const Extremes left, FindLeftover(surface_, cells, tree, p,
+                                                          above.value > done.value ? above : done, run_));
+    if (left.worst.value > report_.max_leftover) {
+      report_.max_leftover = left.worst.value;
+      report_.max_leftover_at = Place(left.worst);
+    }
+    if (part.scallop && left.worst.value > p.limit) {
+      report_.finish_ok = false;
+      std::vector<Extreme> places = left.violations;
+      places.insert(places.begin(), left.worst);
+      ReportPlaces("LEFTOVER", places, "reachable material is left standing");
+    }
+    return absl::OkStatus();
+  }
+
+  static const Extreme& DeepestOf(const AreaReport& areas, FinishClass kind) {
+    return areas.deepest[static_cast<std::size_t>(kind)];
+  }
+
+  void TakeAreas(const AreaReport& areas) {
     const auto at = [](FinishClass kind) { return static_cast<std::size_t>(kind); };
     const auto take = [&](FinishClass kind, std::size_t reason) {
-      report_.unreachable_area[reason] = areas.area[at(kind)];
-      report_.deepest_unreachable[reason] = areas.deepest[at(kind)].value;
-      report_.deepest_unreachable_at[reason] = Place(areas.deepest[at(kind)]);
+      report_.unreachable_area[reason] += areas.area[at(kind)];
+      const Extreme& deepest = DeepestOf(areas, kind);
+      if (deepest.value <= report_.deepest_unreachable[reason]) return;
+      report_.deepest_unreachable[reason] = deepest.value;
+      report_.deepest_unreachable_at[reason] = Place(deepest);
     };
     take(FinishClass::kUndercut, 0);
     take(FinishClass::kConcave, 1);
@@ -204,25 +249,12 @@ class Judge {
     take(FinishClass::kAvoided, 3);
     take(FinishClass::kStrategy, 4);
     if (std::isfinite(areas.lowest_center)) {
-      report_.finishing_floor_z = std::floor((areas.lowest_center - ball_) * 1e3) / 1e3;
+      const double floor_z = std::floor((areas.lowest_center - ball_) * 1e3) / 1e3;
+      report_.finishing_floor_z = std::min(report_.finishing_floor_z.value_or(kInfinity), floor_z);
     }
     for (std::size_t k = 0; k < at(FinishClass::kUnwanted); ++k) report_.total_area += areas.area[k];
-    report_.reachable_area = areas.area[at(FinishClass::kDone)] + areas.area[at(FinishClass::kAboveLimit)];
-    report_.leftover_above_limit_area = areas.area[at(FinishClass::kAboveLimit)];
-
-    const Extreme& done = areas.deepest[at(FinishClass::kDone)];
-    const Extreme& above = areas.deepest[at(FinishClass::kAboveLimit)];
-    PM_ASSIGN_OR_RETURN(const Extremes left, FindLeftover(surface_, wanted_, tree, p,
-                                                          above.value > done.value ? above : done, run_));
-    report_.max_leftover = left.worst.value;
-    report_.max_leftover_at = Place(left.worst);
-    report_.finish_ok = !params_.scallop || report_.max_leftover <= p.limit;
-    if (!report_.finish_ok) {
-      std::vector<Extreme> places = left.violations;
-      places.insert(places.begin(), left.worst);
-      ReportPlaces("LEFTOVER", places, "reachable material is left standing");
-    }
-    return absl::OkStatus();
+    report_.reachable_area += areas.area[at(FinishClass::kDone)] + areas.area[at(FinishClass::kAboveLimit)];
+    report_.leftover_above_limit_area += areas.area[at(FinishClass::kAboveLimit)];
   }
 
   absl::Status JudgeMotion() {

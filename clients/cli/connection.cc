@@ -27,6 +27,8 @@ constexpr struct {
     {"stock_to_leave_mm", "--leave"},
     {"steep_angle_deg", "--steep-angle"},
     {"zigzag_angle_deg", "--zigzag-angle"},
+    {"operations[0].detail", "--detail"},
+    {"regions_sha256", "--regions"},
     {"setup.scale", "--scale"},
     {"setup.translation.x_mm", "--translate"},
     {"setup.translation.y_mm", "--translate"},
@@ -63,6 +65,7 @@ constexpr struct {
 
 const char* OptionOf(std::string_view text) {
   const std::string_view path = text.substr(0, text.find(' '));
+  if (path.find("region_overrides[") != std::string_view::npos) return "--region";
   for (const auto& entry : kOptions) {
     const std::string_view field = entry.field;
     if (path.size() >= field.size() && path.substr(path.size() - field.size()) == field &&

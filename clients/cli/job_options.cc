@@ -15,7 +15,7 @@ namespace {
 
 std::string FiniteFault(const std::string& text) {
   double value = 0.0;
-  if (CLI::detail::lexical_cast(text, value) && std::isfinite(value)) return "";
+  if (ReadFinite(text, value)) return "";
   return fmt::format("\"{}\" is not a finite number", text);
 }
 
@@ -25,28 +25,6 @@ template <class Value>
 CLI::Option* AddNumberOf(CLI::App& app, const std::string& name, Value& value, const std::string& help) {
   CLI::Option* option = app.add_option(name, value, help);
   return option->check(kFinite)->capture_default_str();
-}
-
-absl::StatusOr<v1::Point3> ReadPoint(const std::string& text, const char* option) {
-  std::array<double, 3> xyz{};
-  std::istringstream in(text);
-  std::string part;
-  std::size_t count = 0;
-  while (std::getline(in, part, ',')) {
-    if (count == 3 || !CLI::detail::lexical_cast(part, xyz[count]) || !std::isfinite(xyz[count])) {
-      count = 4;
-      break;
-    }
-    ++count;
-  }
-  if (count != 3) {
-    return absl::InvalidArgumentError(fmt::format("{} {}; must be X,Y,Z", option, text));
-  }
-  v1::Point3 point;
-  point.set_x_mm(xyz[0]);
-  point.set_y_mm(xyz[1]);
-  point.set_z_mm(xyz[2]);
-  return point;
 }
 
 v1::UpAxis MakeUp(const std::string& name) {
@@ -85,6 +63,32 @@ void SetCuttingData(const OperationOptions& options, v1::Tool& tool) {
 
 }  // namespace
 
+bool ReadFinite(const std::string& text, double& value) {
+  return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+}
+
+absl::StatusOr<v1::Point3> ReadPoint(const std::string& text, const char* option) {
+  std::array<double, 3> xyz{};
+  std::istringstream in(text);
+  std::string part;
+  std::size_t count = 0;
+  while (std::getline(in, part, ',')) {
+    if (count == 3 || !ReadFinite(part, xyz[count])) {
+      count = 4;
+      break;
+    }
+    ++count;
+  }
+  if (count != 3) {
+    return absl::InvalidArgumentError(fmt::format("{} {}; must be X,Y,Z", option, text));
+  }
+  v1::Point3 point;
+  point.set_x_mm(xyz[0]);
+  point.set_y_mm(xyz[1]);
+  point.set_z_mm(xyz[2]);
+  return point;
+}
+
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, double& value, const std::string& help) {
   return AddNumberOf(app, name, value, help);
 }
@@ -105,6 +109,20 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
   AddNumber(app, "--timeout", options.timeout, "give up after this many seconds")
       ->check(CLI::Range(0.001, 1e6));
   app.add_flag("--quiet", options.quiet, "errors and warnings only");
+}
+
+void AddSplitOptions(CLI::App& app, OperationOptions& options) {
+  AddNumber(app, "--tool-diameter", options.tool_diameter, "ball diameter, mm");
+  AddNumber(app, "--scallop", options.scallop, "largest ridge between passes, mm");
+  AddNumber(app, "--tolerance", options.tolerance, "whole error budget, mm");
+  AddNumber(app, "--leave", options.leave, "material left along the normal, mm");
+  AddNumber(app, "--steep-angle", options.steep_angle,
+            "walls steeper than this are cut by contours, degrees");
+  AddNumber(app, "--detail", options.detail,
+            "how finely the surface is divided into regions: 0 coarse, 1 finest")
+      ->check(CLI::Range(0.0, 1.0));
+  AddNumber(app, "--floor", options.floor,
+            "lowest tip, mm, program frame; default: the model's lowest point");
 }
 
 void AddSetupOptions(CLI::App& app, SetupOptions& options) {
@@ -172,6 +190,7 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   op.set_steep_angle_deg(options.steep_angle);
   op.set_strategy(MakeStrategy(options.strategy));
   op.set_zigzag_angle_deg(options.zigzag_angle);
+  op.set_detail(options.detail);
   op.set_contour_direction(MakeDirection(options.direction));
   op.mutable_heights()->set_clearance_above_mm(options.clearance);
   if (options.floor) op.mutable_heights()->set_floor_z_mm(*options.floor);

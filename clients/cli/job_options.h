@@ -26,7 +26,7 @@ struct SetupOptions {
 struct OperationOptions {
   double tool_diameter = 6.0, scallop = 0.01, tolerance = 0.01, leave = 0.0, steep_angle = 45.0;
   std::string strategy = "auto", direction = "climb", coolant = "off";
-  double zigzag_angle = 0.0, clearance = 5.0;
+  double zigzag_angle = 0.0, clearance = 5.0, detail = 0.5;
   std::optional<double> floor, feed, plunge_feed, spindle;
   int tool_number = 1;
 };
@@ -37,6 +37,8 @@ CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<dou
                        const std::string& help);
 
 void AddCommonOptions(CLI::App& app, CommonOptions& options);
+// --tool-diameter to --steep-angle, --detail, --floor: what regions depend on.
+void AddSplitOptions(CLI::App& app, OperationOptions& options);
 void AddSetupOptions(CLI::App& app, SetupOptions& options);
 void AddStockOptions(CLI::App& app, SetupOptions& options);
 
@@ -45,6 +47,9 @@ inline constexpr char kModelHelp[] = "model file: .json, .pb, .bpt, .bv, .bez, .
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options);
 v1::Operation MakeOperation(const OperationOptions& options);
 v1::Strategy MakeStrategy(const std::string& name);
+bool ReadFinite(const std::string& text, double& value);
+// "X,Y,Z"; INVALID_ARGUMENT names the option.
+absl::StatusOr<v1::Point3> ReadPoint(const std::string& text, const char* option);
 
 // The bytes of a model file and how to read them: text formats are told by their ending, JSON and protobuf by
 // content.

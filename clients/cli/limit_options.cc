@@ -12,10 +12,6 @@
 namespace patchmill::cli {
 namespace {
 
-bool ReadNumber(const std::string& text, double& value) {
-  return CLI::detail::lexical_cast(text, value) && std::isfinite(value);
-}
-
 // "X,Y X,Y X,Y" into packed x y.
 absl::Status ReadPoints(const std::string& text, const std::string& what,
                         google::protobuf::RepeatedField<double>* xy) {
@@ -24,8 +20,8 @@ absl::Status ReadPoints(const std::string& text, const std::string& what,
   while (in >> point) {
     const std::size_t comma = point.find(',');
     double x = 0.0, y = 0.0;
-    if (comma == std::string::npos || !ReadNumber(point.substr(0, comma), x) ||
-        !ReadNumber(point.substr(comma + 1), y)) {
+    if (comma == std::string::npos || !ReadFinite(point.substr(0, comma), x) ||
+        !ReadFinite(point.substr(comma + 1), y)) {
       return absl::InvalidArgumentError(
           fmt::format("{}: \"{}\"; must be points X,Y with spaces between", what, point.substr(0, 50)));
     }
@@ -58,8 +54,8 @@ absl::Status ReadObstacle(const std::string& text, v1::Obstacle& obstacle) {
   }
   const std::size_t comma = head.find(',');
   double top = 0.0, margin = 0.0;
-  if (colon == std::string::npos || !ReadNumber(head.substr(0, comma), top) ||
-      (comma != std::string::npos && !ReadNumber(head.substr(comma + 1), margin))) {
+  if (colon == std::string::npos || !ReadFinite(head.substr(0, comma), top) ||
+      (comma != std::string::npos && !ReadFinite(head.substr(comma + 1), margin))) {
     return absl::InvalidArgumentError(
         fmt::format("--obstacle \"{}\"; must be [NAME=]TOP[,MARGIN]: X,Y X,Y X,Y", text.substr(0, 80)));
   }

@@ -8,6 +8,7 @@
 #include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
 #include "clients/cli/progress_bar.h"
+#include "clients/cli/region_options.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 
@@ -21,6 +22,7 @@ struct MillOptions {
   SetupOptions setup;
   OperationOptions operation;
   LimitOptions limits;
+  RegionChangeOptions regions;
   std::string model, program, report, preview, post = "linuxcnc", work_offset = "G54";
 };
 
@@ -47,6 +49,9 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
     return set;
   if (Selects(options.limits)) *operation.mutable_selection() = std::move(selection);
   if (options.limits.top) operation.mutable_heights()->set_top_z_mm(*options.limits.top);
+  const absl::Status regions =
+      SetRegions(options.regions, operation.mutable_regions_sha256(), operation.mutable_region_overrides());
+  if (!regions.ok()) return regions;
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   request.mutable_post()->set_dialect(WireText(options.post, 100));
   request.mutable_post()->set_work_offset(WireText(options.work_offset, 100));
@@ -122,6 +127,10 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
              report.required_stickout_mm(), sheet.clearance_z_mm());
   fmt::print(stderr, "  leftover  {:.4f} mm at {}\n", report.max_leftover_mm(),
              Line(report.max_leftover_at()));
+  fmt::print(stderr, "            {}\n", SpreadLine(report));
+  if (const std::string skipped = SkippedLine(report); !skipped.empty()) {
+    fmt::print(stderr, "  skipped   {}\n", skipped);
+  }
   fmt::print(stderr, "  motion    {:.1f} min ({}), {} points, {} retracts\n",
              report.estimated_time_s() / 60.0, report.time_basis(), report.point_count(),
              report.retract_count());
@@ -163,11 +172,7 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
 }
 
 void AddOperationOptions(CLI::App& app, OperationOptions& op) {
-  AddNumber(app, "--tool-diameter", op.tool_diameter, "ball diameter, mm");
-  AddNumber(app, "--scallop", op.scallop, "largest ridge between passes, mm");
-  AddNumber(app, "--tolerance", op.tolerance, "whole error budget, mm");
-  AddNumber(app, "--leave", op.leave, "material left along the normal, mm");
-  AddNumber(app, "--steep-angle", op.steep_angle, "walls steeper than this are cut by contours, degrees");
+  AddSplitOptions(app, op);
   app.add_option("--strategy", op.strategy, "")
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();
@@ -175,7 +180,6 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
   app.add_option("--direction", op.direction, "of closed contours")
       ->check(CLI::IsMember({"climb", "conventional", "either"}))
       ->capture_default_str();
-  AddNumber(app, "--floor", op.floor, "lowest tip, mm, program frame; default: the model's lowest point");
   AddNumber(app, "--clearance", op.clearance,
             "tip height of rapids above the highest of model, stock and obstacles, mm");
   AddNumber(app, "--feed", op.feed, "mm/min; default 1200 at D 6, with a warning");
@@ -194,6 +198,7 @@ Command AddMill(CLI::App& app) {
   app.add_option("MODEL", options->model, kModelHelp)->required();
   app.add_option("-o,--output", options->program, "where the program goes, once it is verified")->required();
   AddOperationOptions(app, options->operation);
+  AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);

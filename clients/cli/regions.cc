@@ -7,6 +7,7 @@
 #include "clients/cli/job_options.h"
 #include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
+#include "clients/cli/region_options.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/analysis_service.grpc.pb.h"
 
@@ -18,16 +19,11 @@ struct RegionsOptions {
   SetupOptions setup;
   OperationOptions operation;
   LimitOptions limits;
+  RegionChangeOptions regions;
   std::string model, output;
 };
 
-absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
-  const std::string ending = std::filesystem::path(options.output).extension().string();
-  if (ending != ".json" && ending != ".svg") {
-    return absl::InvalidArgumentError(fmt::format("-o {}; must end in .json or .svg", options.output));
-  }
-  OutputFile output(options.output);
-  if (const absl::Status writable = output.CheckWritable(); !writable.ok()) return writable;
+absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& options) {
   v1::SplitRegionsRequest request;
   absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
   if (!source.ok()) return source.status();
@@ -43,35 +39,79 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
     return set;
   if (Selects(options.limits)) *operation.mutable_selection() = std::move(selection);
   if (options.limits.top) operation.mutable_heights()->set_top_z_mm(*options.limits.top);
+  const absl::Status regions =
+      SetRegions(options.regions, operation.mutable_regions_sha256(), operation.mutable_region_overrides());
+  if (!regions.ok()) return regions;
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
-  request.add_outputs(ending == ".svg" ? v1::OUTPUT_PICTURE : v1::OUTPUT_REGIONS);
+  request.add_outputs(v1::OUTPUT_REGIONS);
+  if (options.output.ends_with(".svg")) request.add_outputs(v1::OUTPUT_PICTURE);
   request.set_max_threads(options.common.threads);
   if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
+  return request;
+}
+
+std::string HowItIsCut(const v1::Region& region) {
+  if (region.skipped()) return "off";
+  if (region.kind() == v1::REGION_KIND_UNREACHABLE) return Short(region.unreachable_reason());
+  std::string text = Short(region.strategy());
+  if (region.has_zigzag_angle_deg()) text += fmt::format(" {:g} deg", region.zigzag_angle_deg());
+  return text + fmt::format(", scallop {:g}, step {:.3f} to {:.3f} mm", region.scallop_mm(),
+                            region.step_min_mm(), region.step_max_mm());
+}
+
+void Print(const v1::RegionMap& map) {
+  std::string digest;
+  for (const char c : map.regions_sha256()) digest += fmt::format("{:02x}", static_cast<unsigned char>(c));
+  fmt::print("regions sha256 {}\n", digest);
+  fmt::print("{:>4} {:<18} {:>12}  {:<27} {}\n", "id", "region", "area, mm2", "a point of it", "cut by");
+  for (const v1::Region& region : map.regions()) {
+    std::string name = Short(region.kind());
+    if (region.slope() != v1::SLOPE_UNSPECIFIED) name += ", " + Short(region.slope());
+    const v1::Point3& p = region.inside_point();
+    fmt::print("{:>4} {:<18} {:>12.3f}  {:<27} {}\n", region.id(), name, region.area_mm2(),
+               fmt::format("{:.3f},{:.3f},{:.3f}", p.x_mm(), p.y_mm(), p.z_mm()), HowItIsCut(region));
+  }
+}
+
+absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
+  OutputFile output(options.output);
+  if (output.wanted()) {
+    if (!options.output.ends_with(".json") && !options.output.ends_with(".svg")) {
+      return absl::InvalidArgumentError(fmt::format("-o {}; must end in .json or .svg", options.output));
+    }
+    if (const absl::Status writable = output.CheckWritable(); !writable.ok()) return writable;
+  }
+  absl::StatusOr<v1::SplitRegionsRequest> request = MakeRequest(options);
+  if (!request.ok()) return request.status();
   absl::StatusOr<Connection> connection = Connect(options.common);
   if (!connection.ok()) return connection.status();
 
   CallScope call(options.common, watch);
   v1::SplitRegionsResponse response;
   const grpc::Status status =
-      v1::AnalysisService::NewStub(connection->channel)->SplitRegions(call.context(), request, &response);
+      v1::AnalysisService::NewStub(connection->channel)->SplitRegions(call.context(), *request, &response);
   if (!status.ok()) return FromGrpc(status, options.common, watch);
-  output.Set(ending == ".svg" ? response.picture().data() : Json(response));
-  return output.Commit();
+  if (output.wanted()) {
+    output.Set(response.has_picture() ? response.picture().data() : Json(response));
+    if (const absl::Status written = output.Commit(); !written.ok()) return written;
+  }
+  if (!options.common.quiet || !output.wanted()) Print(response.regions());
+  return absl::OkStatus();
 }
 
 }  // namespace
 
 Command AddRegions(CLI::App& app) {
   auto options = std::make_shared<RegionsOptions>();
-  OperationOptions& op = options->operation;
   app.add_option("MODEL", options->model, kModelHelp)->required();
-  app.add_option("-o,--output", options->output, "the region map: .json or .svg")->required();
-  AddNumber(app, "--tool-diameter", op.tool_diameter, "ball diameter, mm");
-  AddNumber(app, "--scallop", op.scallop, "largest ridge between passes, mm");
-  AddNumber(app, "--tolerance", op.tolerance, "whole error budget, mm");
-  AddNumber(app, "--leave", op.leave, "material left along the normal, mm");
-  AddNumber(app, "--steep-angle", op.steep_angle, "above this a region is steep, degrees");
-  AddNumber(app, "--floor", op.floor, "lowest tip, mm, program frame; default: the model's lowest point");
+  app.add_option("-o,--output", options->output, "the region map: .json or .svg");
+  AddSplitOptions(app, options->operation);
+  app.add_option("--strategy", options->operation.strategy, "how all regions are cut")
+      ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
+      ->capture_default_str();
+  AddNumber(app, "--zigzag-angle", options->operation.zigzag_angle,
+            "direction of the lines from +X, degrees");
+  AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);

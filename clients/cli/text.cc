@@ -19,6 +19,9 @@ std::string Short(v1::UnreachableReason value) {
   return Without(v1::UnreachableReason_Name(value), "UNREACHABLE_REASON_");
 }
 std::string Short(v1::LineKind value) { return Without(v1::LineKind_Name(value), "LINE_KIND_"); }
+std::string Short(v1::RegionKind value) { return Without(v1::RegionKind_Name(value), "REGION_KIND_"); }
+std::string Short(v1::Slope value) { return Without(v1::Slope_Name(value), "SLOPE_"); }
+std::string Short(v1::Strategy value) { return Without(v1::Strategy_Name(value), "STRATEGY_"); }
 std::string Short(v1::CheckState value) { return Without(v1::CheckState_Name(value), "CHECK_STATE_"); }
 
 std::string Line(const v1::Point3& p) {
@@ -61,6 +64,26 @@ std::string UnreachableLine(const v1::Report& report) {
       text += fmt::format("; --floor {:.3f} finishes it", part.finishing_floor_z_mm());
     }
     text += ")";
+  }
+  return text;
+}
+
+std::string SpreadLine(const v1::Report& report) {
+  std::string shares, edges;
+  for (const v1::LeftoverClass& part : report.leftover_classes()) {
+    shares += fmt::format("{}{:.0f}", shares.empty() ? "" : " / ", 100.0 * part.fraction());
+    edges += edges.empty() ? "" : " / ";
+    edges += part.has_up_to_scallops() ? fmt::format("{:g}", part.up_to_scallops()) : "more";
+  }
+  return shares.empty() ? shares
+                        : fmt::format("{} % of the ground with up to {} scallops left", shares, edges);
+}
+
+std::string SkippedLine(const v1::Report& report) {
+  std::string text;
+  for (const v1::Region& region : report.regions()) {
+    if (!region.skipped()) continue;
+    text += fmt::format("{} {} ({:.2f} mm2)", text.empty() ? "regions" : ",", region.id(), region.area_mm2());
   }
   return text;
 }

@@ -17,6 +17,9 @@ std::string Short(v1::Outcome value);
 std::string Short(v1::UnreachableReason value);
 std::string Short(v1::CheckState value);
 std::string Short(v1::LineKind value);
+std::string Short(v1::RegionKind value);
+std::string Short(v1::Slope value);
+std::string Short(v1::Strategy value);
 
 // "WARNING OPEN_EDGE patch 3: ...".
 std::string Line(const v1::Diagnostic& finding);
@@ -25,6 +28,12 @@ std::string Line(const v1::Point3& point);
 std::string Line(const v1::Place& place);
 // "UNDERCUT 12.3 mm2, CONCAVE 4.5 mm2"; empty when nothing is left out.
 std::string UnreachableLine(const v1::Report& report);
+
+// "52 / 20 / 15 / 12 / 1 % of it with up to 0.25 / 0.5 / 0.75 / 1 / more scallops"; empty when nothing was
+// judged.
+std::string SpreadLine(const v1::Report& report);
+// "regions 3 (12.3 mm2), 5 (4.5 mm2)"; empty when none was switched off.
+std::string SkippedLine(const v1::Report& report);
 
 // What the contract takes as text: at most `most` bytes of UTF-8, cut between characters; bytes that are none
 // become '?'.

@@ -8,6 +8,7 @@
 #include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
 #include "clients/cli/progress_bar.h"
+#include "clients/cli/region_options.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 
@@ -18,8 +19,10 @@ struct VerifyOptions {
   CommonOptions common;
   SetupOptions setup;
   LimitOptions limits;
+  RegionChangeOptions regions;
   std::string model, program, report, strategy = "auto";
-  double tool_diameter = 0.0, tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0;
+  double tool_diameter = 0.0, tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
+  double detail = 0.5;
   std::optional<double> scallop, floor;
 };
 
@@ -47,6 +50,11 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   if (options.floor) request.set_floor_z_mm(*options.floor);
   request.set_strategy(MakeStrategy(options.strategy));
   request.set_zigzag_angle_deg(options.zigzag_angle);
+  request.set_steep_angle_deg(options.steep_angle);
+  request.set_detail(options.detail);
+  const absl::Status regions =
+      SetRegions(options.regions, request.mutable_regions_sha256(), request.mutable_region_overrides());
+  if (!regions.ok()) return regions;
   request.set_max_threads(options.common.threads);
   if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
@@ -60,6 +68,7 @@ void Print(const VerifyOptions& options, const v1::Report& report) {
              report.max_leftover_mm(),
              options.scallop ? fmt::format(" (limit {:g})", *options.scallop + options.tolerance) : "",
              Line(report.max_leftover_at()));
+  if (const std::string spread = SpreadLine(report); !spread.empty()) fmt::print("          {}\n", spread);
   fmt::print("motion    {:<11} steepest descent {:.1f} degrees\n", Short(report.motion_check()),
              report.steepest_descent_deg());
   fmt::print("stock     {}\n", Short(report.stock_check()));
@@ -123,6 +132,9 @@ Command AddVerify(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();
   AddNumber(app, "--zigzag-angle", options->zigzag_angle, "degrees, for --strategy zigzag");
+  AddNumber(app, "--steep-angle", options->steep_angle, "what regions were split by, degrees");
+  AddNumber(app, "--detail", options->detail, "what regions were split by")->check(CLI::Range(0.0, 1.0));
+  AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);

@@ -5,6 +5,7 @@
 #include "server/convert/enums.h"
 #include "server/convert/fields.h"
 #include "server/convert/outline.h"
+#include "server/convert/overrides.h"
 #include "server/convert/setup.h"
 #include "server/limits.h"
 
@@ -38,8 +39,6 @@ void ReadHeights(const v1::Heights& proto, const std::string& at, Operation& op,
 }
 
 void RefuseWhatIsNotThere(const v1::Operation& proto, std::string_view at, FieldErrors& errors) {
-  if (!proto.regions_sha256().empty()) errors.NotYet(At(at, "regions_sha256"), "leave it empty");
-  if (!proto.region_overrides().empty()) errors.NotYet(At(at, "region_overrides"), "leave it empty");
   if (proto.edge_rule() == v1::EDGE_RULE_ROLL || proto.edge_rule() == v1::EDGE_RULE_EXTEND) {
     errors.NotYet(At(at, "edge_rule"), "leave it unset: STOP at outer borders, ROLL over rims and creases");
   }
@@ -76,6 +75,18 @@ void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
 
 }  // namespace
 
+double ReadSteepAngle(double degrees, std::string_view at, FieldErrors& errors) {
+  Require(errors, At(at, "steep_angle_deg"), degrees,
+          degrees >= limits::kMinSteepDeg && degrees <= limits::kMaxSteepDeg,
+          fmt::format("in [{}, {}]", limits::kMinSteepDeg, limits::kMaxSteepDeg));
+  return Radians(degrees);
+}
+
+double ReadDetail(double detail, std::string_view at, FieldErrors& errors) {
+  Require(errors, At(at, "detail"), detail, detail >= 0.0 && detail <= 1.0, "in [0, 1]");
+  return detail;
+}
+
 Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors& errors) {
   Operation op;
   RequireBytes(errors, At(at, "id"), proto.id(), limits::kMaxIdBytes);
@@ -104,11 +115,7 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
     }
   }
   if (proto.has_steep_angle_deg()) {
-    const double angle = proto.steep_angle_deg();
-    Require(errors, At(at, "steep_angle_deg"), angle,
-            angle >= limits::kMinSteepDeg && angle <= limits::kMaxSteepDeg,
-            fmt::format("in [{}, {}]", limits::kMinSteepDeg, limits::kMaxSteepDeg));
-    op.steep_angle = Radians(angle);
+    op.steep_angle = ReadSteepAngle(proto.steep_angle_deg(), at, errors);
   }
   op.strategy = FromProto(proto.strategy(), At(at, "strategy"), errors);
   if (proto.has_zigzag_angle_deg()) {
@@ -116,10 +123,12 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
     Require(errors, At(at, "zigzag_angle_deg"), angle, std::abs(angle) <= 360.0, "in [-360, 360]");
     op.zigzag_angle = Radians(angle);
   }
+  if (proto.has_detail()) op.detail = ReadDetail(proto.detail(), at, errors);
   op.contour_direction = FromProto(proto.contour_direction(), At(at, "contour_direction"), errors);
   op.edge_rule = FromProto(proto.edge_rule(), At(at, "edge_rule"), errors);
   op.selection = FromProto(proto.selection(), At(at, "selection"), errors);
   ReadHeights(proto.heights(), At(at, "heights"), op, errors);
+  ReadOverrides(proto.regions_sha256(), proto.region_overrides(), at, op, errors);
   RefuseWhatIsNotThere(proto, at, errors);
   return op;
 }
@@ -157,6 +166,7 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   proto.set_steep_angle_deg(Degrees(op.steep_angle));
   proto.set_strategy(ToProto(op.strategy));
   proto.set_zigzag_angle_deg(Degrees(op.zigzag_angle));
+  proto.set_detail(op.detail);
   proto.set_contour_direction(ToProto(op.contour_direction));
   proto.set_edge_rule(ToProto(op.edge_rule));
   v1::Heights& heights = *proto.mutable_heights();
@@ -172,6 +182,8 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   if (!s.patches.empty() || !s.avoid.empty() || !s.boundary.empty()) {
     *proto.mutable_selection() = ToProto(s);
   }
+  proto.set_regions_sha256(op.regions_sha256);
+  for (const RegionOverride& change : op.overrides) *proto.add_region_overrides() = ToProto(change);
   return proto;
 }
 

@@ -13,6 +13,10 @@ namespace patchmill {
 // when none was. `at` is the path of the job in its request.
 Job FromProto(const v1::Job& job, const v1::Post& post, std::string_view at, FieldErrors& errors);
 
+// Two of its fields; `at` is the path of the message that has them.
+double ReadSteepAngle(double degrees, std::string_view at, FieldErrors& errors);  // rad
+double ReadDetail(double detail, std::string_view at, FieldErrors& errors);
+
 // One operation; `at` is its own path.
 Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors& errors);
 

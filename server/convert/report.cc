@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cam/region/regions_digest.h"
 #include "server/convert/enums.h"
 #include "server/convert/setup.h"
 #include "server/digest.h"
@@ -32,12 +33,16 @@ constexpr UnreachableReason kReasons[] = {UnreachableReason::kUndercut, Unreacha
                                           UnreachableReason::kStrategy};
 
 // When nothing was cut nothing was verified; the regions know what is out of reach.
-void FillUnreachableFromRegions(const std::vector<Region>& regions, const Vec3& zero, v1::Report* report) {
+void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Report* report) {
+  const std::vector<Region>& regions = from.regions;
+  const auto skipped = [&](const Region& region) {
+    return from.choices[static_cast<std::size_t>(region.id)].skip;
+  };
   double unreachable = 0.0, reachable = 0.0;
   for (const UnreachableReason reason : kReasons) {
     v1::UnreachablePart part;
     for (const Region& region : regions) {
-      if (region.kind != RegionKind::kUnreachable || region.reason != reason) continue;
+      if (region.kind != RegionKind::kUnreachable || region.reason != reason || skipped(region)) continue;
       part.set_area_mm2(part.area_mm2() + Number(region.area));
       if (region.deepest_leftover >= part.deepest_leftover_mm()) {
         part.set_deepest_leftover_mm(Number(region.deepest_leftover));
@@ -51,11 +56,32 @@ void FillUnreachableFromRegions(const std::vector<Region>& regions, const Vec3& 
     *report->add_unreachable() = std::move(part);
   }
   for (const Region& region : regions) {
-    if (region.kind != RegionKind::kUnreachable) reachable += Number(region.area);
+    if (region.kind != RegionKind::kUnreachable && !skipped(region)) reachable += Number(region.area);
   }
   report->set_unreachable_area_mm2(unreachable);
   report->set_reachable_area_mm2(reachable);
   report->set_total_area_mm2(unreachable + reachable);
+}
+
+void AddLeftoverClasses(const VerifyReport& verify, v1::Report* report) {
+  double all = 0.0;
+  for (const double area : verify.leftover_area) all += area;
+  for (std::size_t k = 0; k < kLeftoverClasses; ++k) {
+    v1::LeftoverClass& to = *report->add_leftover_classes();
+    if (k < kLeftoverEdges.size()) to.set_up_to_scallops(kLeftoverEdges[k]);
+    to.set_area_mm2(Number(verify.leftover_area[k]));
+    to.set_fraction(all > 0.0 ? Number(verify.leftover_area[k] / all) : 0.0);
+  }
+}
+
+void SetChoice(const RegionChoice& choice, SlopeClass slope, v1::Region& proto) {
+  Strategy strategy = choice.strategy;
+  if (strategy == Strategy::kAuto) {
+    strategy = slope == SlopeClass::kSteep ? Strategy::kContour : Strategy::kZigzag;
+  }
+  proto.set_strategy(ToProto(strategy));
+  proto.set_scallop_mm(choice.scallop);
+  if (strategy == Strategy::kZigzag) proto.set_zigzag_angle_deg(Degrees(choice.zigzag_angle));
 }
 
 }  // namespace
@@ -100,7 +126,7 @@ v1::Box ToProto(const Box3& box, const Vec3& zero) {
   return proto;
 }
 
-v1::Region ToProto(const Region& region, Strategy strategy, const Vec3& zero, Detail detail) {
+v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3& zero, Detail detail) {
   v1::Region proto;
   proto.set_id(region.id);
   proto.set_kind(ToProto(region.kind));
@@ -114,13 +140,11 @@ v1::Region ToProto(const Region& region, Strategy strategy, const Vec3& zero, De
     proto.set_deepest_leftover_mm(Number(region.deepest_leftover));
   } else {
     proto.set_slope(ToProto(region.slope));
-    if (strategy == Strategy::kAuto) {
-      strategy = region.slope == SlopeClass::kSteep ? Strategy::kContour : Strategy::kZigzag;
-    }
-    proto.set_strategy(ToProto(strategy));
     proto.set_step_min_mm(Number(region.step_min));
     proto.set_step_max_mm(Number(region.step_max));
+    if (!choice.skip) SetChoice(choice, region.slope, proto);
   }
+  proto.set_skipped(choice.skip);
   if (detail == Detail::kFigures) return proto;
   for (const PatchId patch : region.patches) proto.add_patch_index(patch.value);
   for (const std::vector<Vec3>& loop : region.border) {
@@ -141,11 +165,11 @@ google::protobuf::RepeatedPtrField<std::string> PatchIds(const PatchModel& model
   return ids;
 }
 
-v1::RegionMap ToProto(const RegionMap& map, Strategy strategy, const Vec3& zero) {
+v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& choices, const Vec3& zero) {
   v1::RegionMap proto;
   proto.set_regions_sha256(RegionsDigest(map));
-  for (const Region& region : map.regions) {
-    *proto.add_regions() = ToProto(region, strategy, zero, Detail::kAll);
+  for (std::size_t id = 0; id < map.regions.size(); ++id) {
+    *proto.add_regions() = ToProto(map.regions[id], choices[id], zero, Detail::kAll);
   }
   return proto;
 }
@@ -199,6 +223,7 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
     }
   }
   report->set_unreachable_area_mm2(unreachable);
+  if (scallop_judged) AddLeftoverClasses(verify, report);
   report->set_cut_length_mm(Number(verify.cut_length));
   report->set_rapid_length_mm(Number(verify.rapid_length));
   report->set_steepest_descent_deg(Number(Degrees(verify.steepest_descent)));
@@ -215,7 +240,7 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
     report.set_motion_check(v1::CHECK_STATE_NOT_CHECKED);
     report.set_holder_check(v1::CHECK_STATE_NOT_CHECKED);
     report.set_stock_check(v1::CHECK_STATE_NOT_CHECKED);
-    FillUnreachableFromRegions(from.regions, zero, &report);
+    FillUnreachableFromRegions(from, zero, &report);
   } else {
     FillFromVerifier(from.verify, zero, /*scallop_judged=*/true, &report);
   }
@@ -225,8 +250,8 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   report.set_time_basis("feeds only");
   report.set_point_count(from.point_count);
   report.set_retract_count(from.motion.retract_count);
-  for (const Region& region : from.regions) {
-    *report.add_regions() = ToProto(region, job.operation.strategy, zero, Detail::kFigures);
+  for (std::size_t id = 0; id < from.regions.size(); ++id) {
+    *report.add_regions() = ToProto(from.regions[id], from.choices[id], zero, Detail::kFigures);
   }
   AddDiagnostics(from.diagnostics, zero, report.mutable_diagnostics());
   for (const StageTime& stage : from.stages) {

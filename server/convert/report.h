@@ -22,12 +22,13 @@ void AddDiagnostics(const Diagnostics& from, const Vec3& zero,
 v1::Box ToProto(const Box3& box, const Vec3& zero);
 
 enum class Detail { kAll, kFigures };  // figures: without borders and patches
-v1::Region ToProto(const Region& region, Strategy strategy, const Vec3& zero, Detail detail);
+v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3& zero, Detail detail);
 
 // The client's own id of each patch, in the order of the model; none when none has one.
 google::protobuf::RepeatedPtrField<std::string> PatchIds(const PatchModel& model);
 
-v1::RegionMap ToProto(const RegionMap& map, Strategy strategy, const Vec3& zero);
+// `choices`: one for each region.
+v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& choices, const Vec3& zero);
 
 v1::SetupSheet ToProto(const Resolved& resolved, const Job& job);
 

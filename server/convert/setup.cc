@@ -10,16 +10,6 @@
 namespace patchmill {
 namespace {
 
-void CheckPoint(const v1::Point3& p, const std::string& at, FieldErrors& errors) {
-  constexpr double kMost = limits::kMaxCoordinateMm;
-  const auto check = [&](const char* name, double x) {
-    Require(errors, At(at, name), x, std::abs(x) <= kMost, fmt::format("in [{}, {}]", -kMost, kMost));
-  };
-  check("x_mm", p.x_mm());
-  check("y_mm", p.y_mm());
-  check("z_mm", p.z_mm());
-}
-
 std::optional<double> Positive(bool has, double value, std::string field, FieldErrors& errors) {
   if (!has) return std::nullopt;
   Require(errors, std::move(field), value, value > 0.0 && value <= limits::kMaxCoordinateMm,
@@ -68,6 +58,17 @@ void CheckCuttingData(const v1::Tool& proto, std::string_view at, CuttingData ne
 
 Vec3 FromProto(const v1::Point3& proto) { return {proto.x_mm(), proto.y_mm(), proto.z_mm()}; }
 
+Vec3 ReadPoint(const v1::Point3& p, const std::string& at, FieldErrors& errors) {
+  constexpr double kMost = limits::kMaxCoordinateMm;
+  const auto check = [&](const char* name, double x) {
+    Require(errors, At(at, name), x, std::abs(x) <= kMost, fmt::format("in [{}, {}]", -kMost, kMost));
+  };
+  check("x_mm", p.x_mm());
+  check("y_mm", p.y_mm());
+  check("z_mm", p.z_mm());
+  return FromProto(p);
+}
+
 v1::Point3 ToProto(const Vec3& p) {
   v1::Point3 proto;
   proto.set_x_mm(p.x());
@@ -86,12 +87,10 @@ Setup FromProto(const v1::Setup& proto, std::string_view at, FieldErrors& errors
             fmt::format("in [{:g}, {:g}]", limits::kMinScale, limits::kMaxScale));
   }
   if (proto.has_translation()) {
-    CheckPoint(proto.translation(), At(at, "translation"), errors);
-    setup.placement.translation = FromProto(proto.translation());
+    setup.placement.translation = ReadPoint(proto.translation(), At(at, "translation"), errors);
   }
   if (proto.has_program_zero()) {
-    CheckPoint(proto.program_zero(), At(at, "program_zero"), errors);
-    setup.zero_point = FromProto(proto.program_zero());
+    setup.zero_point = ReadPoint(proto.program_zero(), At(at, "program_zero"), errors);
   } else {
     setup.zero = FromProto(proto.zero_anchor(), At(at, "zero_anchor"), errors);
   }

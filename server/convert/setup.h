@@ -1,6 +1,7 @@
 // v1.Setup <-> Setup, v1.Tool <-> Tool.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "cam/plan/job.h"
@@ -11,6 +12,8 @@
 namespace patchmill {
 
 Vec3 FromProto(const v1::Point3& proto);
+// The same, its numbers checked; `at` is its path.
+Vec3 ReadPoint(const v1::Point3& proto, const std::string& at, FieldErrors& errors);
 v1::Point3 ToProto(const Vec3& p);
 
 // Every wrong field is added to `errors` with its path below `at`; the result may be used when none was.

@@ -61,7 +61,7 @@ absl::Status Make(const PreparedJob& prepared, bool with_picture, const RunConte
     return LimitError("program_size_bytes", static_cast<double>(limits::kMaxProgramBytes),
                       static_cast<double>(made->result.program.size()));
   }
-  if (with_picture) made->picture = DrawJob(surface, made->result, prepared.name);
+  if (with_picture) made->picture = DrawJob(surface, made->result, made->resolved, prepared.name);
   return absl::OkStatus();
 }
 
@@ -118,8 +118,7 @@ bool SendResult(const PreparedJob& prepared, const Made& made, const Outputs& ou
   const bool verified = !result.program.empty();
   if (outputs.contains(v1::OUTPUT_REGIONS)) {
     Response response;
-    *response.mutable_regions() =
-        ToProto(result.regions, prepared.job.operation.strategy, made.resolved.program_zero);
+    *response.mutable_regions() = ToProto(result.regions, result.report.choices, made.resolved.program_zero);
     if (!sink(response)) return false;
   }
   if (outputs.contains(v1::OUTPUT_PATHS) && verified && !SendPaths(result, sink)) return false;

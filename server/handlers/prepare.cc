@@ -1,5 +1,6 @@
 #include "server/handlers/prepare.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -21,7 +22,8 @@ absl::Status CheckPathSize(const Job& job, const PatchModel& model) {
   const Box3 box = ControlBox(Place(job.setup.placement, model));
   const Vec3 size = box.max - box.min;
   const double radius = BallRadius(job.operation.tool) + job.operation.leave;
-  const double h = job.operation.scallop;
+  double h = job.operation.scallop;
+  for (const RegionOverride& change : job.operation.overrides) h = std::min(h, change.scallop.value_or(h));
   const double step = 2.0 * std::sqrt(h * (2.0 * radius - h));
   const double length = (size.x() * size.y() + 2.0 * (size.x() + size.y()) * size.z()) / step;
   if (!(length <= limits::kMaxCutLengthMm)) {

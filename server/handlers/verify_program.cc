@@ -6,7 +6,9 @@
 #include "core/base/status.h"
 #include "server/convert/enums.h"
 #include "server/convert/fields.h"
+#include "server/convert/job.h"
 #include "server/convert/outline.h"
+#include "server/convert/overrides.h"
 #include "server/convert/report.h"
 #include "server/convert/setup.h"
 #include "server/handlers/handlers.h"
@@ -17,6 +19,17 @@ namespace patchmill {
 namespace {
 
 using Response = v1::VerifyProgramResponse;
+
+void ReadRegions(const v1::VerifyProgramRequest& request, Operation& op, FieldErrors& errors) {
+  if (request.has_steep_angle_deg()) op.steep_angle = ReadSteepAngle(request.steep_angle_deg(), "", errors);
+  if (request.has_detail()) op.detail = ReadDetail(request.detail(), "", errors);
+  ReadOverrides(request.regions_sha256(), request.region_overrides(), "", op, errors);
+  for (std::size_t i = 0; i < op.overrides.size() && !request.has_scallop_mm(); ++i) {
+    if (op.overrides[i].scallop) {
+      errors.Add(fmt::format("region_overrides[{}].scallop_mm", i), "is set without scallop_mm; set both");
+    }
+  }
+}
 
 // What to judge by, as a job: set-up, tool, tolerance, leave, floor, strategy.
 Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
@@ -59,6 +72,7 @@ Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
   Require(errors, "zigzag_angle_deg", request.zigzag_angle_deg(),
           std::abs(request.zigzag_angle_deg()) <= 360.0, "in [-360, 360]");
   op.zigzag_angle = Radians(request.zigzag_angle_deg());
+  ReadRegions(request, op, errors);
   if (request.program().empty()) errors.Missing("program");
   if (!request.dialect().empty() && request.dialect() != "linuxcnc") {
     errors.Add("dialect", fmt::format("= \"{}\"; must be one of: linuxcnc", request.dialect().substr(0, 50)));
@@ -89,8 +103,12 @@ absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, job.setup, run));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
-  VerifyParams params = MakeVerifyParams(job, resolved);
-  if (!request.has_scallop_mm()) params.scallop.reset();
+  PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, JudgedParts(surface, job, resolved, run));
+  VerifyParams params = MakeVerifyParams(job, resolved, parts);
+  if (!request.has_scallop_mm()) {
+    params.scallop.reset();
+    for (FinishPart& part : params.parts) part.scallop.reset();
+  }
   PM_ASSIGN_OR_RETURN(const VerifyReport verify, Verify(surface, job.operation.tool, *motion, params, run));
   FillFromVerifier(verify, resolved.program_zero, request.has_scallop_mm(), report);
   report->set_outcome(Judge(*report));

@@ -57,6 +57,7 @@ class Cli : public ::testing::Test {
   }
   TempDir in_, out_;
   std::string bump_ = in_.Write("bump.json", Json(testing::Bump()));
+  std::string waves_ = in_.Write("waves.json", Json(testing::HillAndPit()));
   // Hours of work.
   std::string long_ = in_.Write("long.pb", testing::Bump(600.0).SerializeAsString());
   std::vector<std::string> fine_ = {"--scallop", "0.002", "--tolerance", "0.01", "--tool-diameter", "2"};
@@ -188,9 +189,62 @@ TEST_F(Cli, RegionsWritesJsonOrPicture) {
   EXPECT_GE(response.regions().regions_size(), 1);
   ASSERT_EQ(Patchmill({"regions", bump_, "-o", out_ / "r.svg"}).status, 0);
   EXPECT_THAT(Slurp(out_ / "r.svg"), HasSubstr("<svg"));
+  std::vector<int> counts;
+  for (const char* detail : {"0", "1"}) {
+    ASSERT_EQ(Patchmill({"regions", waves_, "-o", out_ / "detail.json", "--floor", "-5", "--detail", detail})
+                  .status,
+              0);
+    ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out_ / "detail.json"), &response).ok());
+    counts.push_back(response.regions().regions_size());
+  }
+  EXPECT_GT(counts[1], counts[0]);
   const Finished other = Patchmill({"regions", bump_, "-o", out_ / "r.png"});
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("must end in .json or .svg"));
+}
+
+// Listed with ids, switched off by id or point, and judged alike.
+TEST_F(Cli, RegionsAreListedSwitchedOffAndJudged) {
+  const std::vector<std::string> split = {"--floor", "-5", "--tolerance", "0.02"};
+  const auto with = [&](std::vector<std::string> arguments, std::vector<std::string> more = {}) {
+    arguments.insert(arguments.end(), split.begin(), split.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  };
+  const Finished list = Patchmill(with({"regions", waves_, "-o", out_ / "r.json"}));
+  ASSERT_EQ(list.status, 0) << list.err;
+  EXPECT_THAT(list.out, AllOf(HasSubstr("regions sha256 "), HasSubstr("MOUNTAIN, GENTLE")));
+  v1::SplitRegionsResponse response;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out_ / "r.json"), &response).ok());
+  const auto& regions = response.regions().regions();
+  ASSERT_GE(regions.size(), 2);
+
+  const std::string map = out_ / "r.json";
+  const Finished off = Mill(waves_, with({"--region", "0:off", "--regions", map}));
+  ASSERT_EQ(off.status, 0) << off.err;
+  EXPECT_THAT(off.err, HasSubstr("skipped   regions 0 ("));
+  const std::vector<std::string> verify = {"verify",    waves_, out_ / "part.ngc", "--tool-diameter", "6",
+                                           "--scallop", "0.05"};
+  EXPECT_EQ(Patchmill(with(verify)).status, 1);
+  const Finished judged = Patchmill(with(verify, {"--region", "0:off", "--regions", map}));
+  EXPECT_EQ(judged.status, 0) << judged.out;
+
+  // The point that the list gives names the same region, and so does the sum in place of the file.
+  const v1::Point3& p = regions[0].inside_point();
+  const std::string at =
+      std::to_string(p.x_mm()) + "," + std::to_string(p.y_mm()) + "," + std::to_string(p.z_mm());
+  EXPECT_EQ(Patchmill(with(verify, {"--region", at + ":off"})).status, 0);
+  const std::string sum = list.out.substr(15, 64);
+  const Finished own =
+      Patchmill(with({"regions", waves_}, {"--region", "1:zigzag:angle=30:scallop=0.02", "--regions", sum}));
+  EXPECT_EQ(own.status, 0) << own.err;
+  EXPECT_THAT(own.out, HasSubstr("ZIGZAG 30 deg, scallop 0.02"));
+
+  const Finished stale =
+      Patchmill({"regions", waves_, "--detail", "0", "--region", "0:off", "--regions", map});
+  EXPECT_EQ(stale.status, 1);
+  EXPECT_THAT(stale.err,
+              AllOf(HasSubstr("--regions: operations[0].regions_sha256"), HasSubstr("ask for them again")));
 }
 
 struct Wrong {
@@ -232,6 +286,18 @@ INSTANTIATE_TEST_SUITE_P(
               "--zero middle; must be X,Y,Z, origin, top-center or bottom-corner"},
         Wrong{"ZeroNan", {"--zero", "0,nan,0"}, "--zero"},
         Wrong{"Translate", {"--translate", "1,2"}, "--translate"}, Wrong{"Up", {"--up", "w"}, "--up"},
+        Wrong{"RegionWithoutMap", {"--region", "3:off"}, "--regions MAP.json"},
+        Wrong{"RegionWord", {"--region", "0,0,0:of"}, "--region \"0,0,0:of\"; must be ID or X,Y,Z and then"},
+        Wrong{"RegionAlone", {"--region", "0,0,0"}, "must be ID or X,Y,Z and then"},
+        Wrong{"RegionNumber", {"--region", "0,0,0:scallop=much"}, "must be ID or X,Y,Z and then"},
+        Wrong{"RegionInTheAir",
+              {"--region", "0,0,50:off"},
+              "--region: operations[0].region_overrides[0].at = 0.0"},
+        Wrong{"RegionScallop",
+              {"--region", "0,0,0:scallop=5"},
+              "--region: job.operations[0].region_overrides[0].scallop_mm = 5"},
+        Wrong{"RegionsFile", {"--region", "0:off", "--regions", "no/such"}, "cannot read no/such"},
+        Wrong{"Detail", {"--detail", "2"}, "--detail"},
         Wrong{"Strategy", {"--strategy", "spiral"}, "--strategy"},
         Wrong{"Coolant", {"--coolant", "beer"}, "--coolant"},
         Wrong{"WorkOffset", {"--work-offset", "G99"}, "--work-offset: post.work_offset"},
@@ -286,7 +352,7 @@ TEST_F(Cli, ReachIsATableAndAFile) {
   EXPECT_THAT(Slurp(out_ / "reach.json"), HasSubstr("\"tool_diameter_mm\": 2"));
   const Finished wrong = Patchmill({"reach", bump_, "--tool-diameters", "2,1"});
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("tool_diameters_mm[1] = 1; must be above 2"));
+  EXPECT_THAT(wrong.err, HasSubstr("tool_diameters_mm[1] = 1; must be above the one before, 2"));
   EXPECT_EQ(Patchmill({"reach", bump_, "-o", out_ / "reach.svg"}).status, 2);
 }
 

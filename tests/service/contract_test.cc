@@ -125,7 +125,9 @@ TEST(Contract, DimensionedNumbersCarryTheirUnit) {
                                        "uv",
                                        "normals",
                                        "level",
-                                       "levels"};
+                                       "levels",
+                                       "detail",
+                                       "up_to_scallops"};
   int seen = 0;
   ForEachField([&](const FieldDescriptor& field) {
     if (field.cpp_type() == FieldDescriptor::CPPTYPE_FLOAT)

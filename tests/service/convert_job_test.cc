@@ -86,6 +86,10 @@ INSTANTIATE_TEST_SUITE_P(
               "job.operations[0].steep_angle_deg = nan"},
         Wrong{"ZigzagAngle", [](Request& r) { OperationOf(r).set_zigzag_angle_deg(361); },
               "job.operations[0].zigzag_angle_deg = 361; must be in [-360, 360]"},
+        Wrong{"DetailNan", [](Request& r) { OperationOf(r).set_detail(kNan); },
+              "job.operations[0].detail = nan; must be in [0, 1]"},
+        Wrong{"DetailAboveOne", [](Request& r) { OperationOf(r).set_detail(1.01); },
+              "job.operations[0].detail = 1.01; must be in [0, 1]"},
         Wrong{"Strategy", [](Request& r) { OperationOf(r).set_strategy(static_cast<v1::Strategy>(77)); },
               "job.operations[0].strategy = 77; this server does not know that value"},
         Wrong{"Direction",
@@ -243,15 +247,51 @@ INSTANTIATE_TEST_SUITE_P(
               "job.operations[0].heights.top_z_mm = nan"}),
     kName);
 
+v1::RegionOverride& AddOverride(Request& r, bool by_point) {
+  v1::RegionOverride& change = *OperationOf(r).add_region_overrides();
+  if (by_point) change.mutable_at();
+  return change;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Regions, WrongJobs,
+    ::testing::Values(
+        Wrong{
+            "HashMissing", [](Request& r) { AddOverride(r, false); },
+            "job.operations[0].regions_sha256 is missing; required when region_overrides name regions by id"},
+        Wrong{"HashShort", [](Request& r) { OperationOf(r).set_regions_sha256("x"); },
+              "job.operations[0].regions_sha256 has 1 bytes; must have 32"},
+        Wrong{"NegativeId", [](Request& r) { AddOverride(r, false).set_region_id(-1); },
+              "job.operations[0].region_overrides[0].region_id = -1; must be at least 0"},
+        Wrong{"IdAndPoint", [](Request& r) { AddOverride(r, true).set_region_id(2); },
+              "job.operations[0].region_overrides[0].region_id is set together with at"},
+        Wrong{"PointNan", [](Request& r) { AddOverride(r, true).mutable_at()->set_y_mm(kNan); },
+              "job.operations[0].region_overrides[0].at.y_mm = nan; must be in"},
+        Wrong{"OverrideScallop", [](Request& r) { AddOverride(r, true).set_scallop_mm(3); },
+              "job.operations[0].region_overrides[0].scallop_mm = 3; must be in (0, ball radius = 3)"},
+        Wrong{"OverrideAngle", [](Request& r) { AddOverride(r, true).set_zigzag_angle_deg(400); },
+              "job.operations[0].region_overrides[0].zigzag_angle_deg = 400; must be in [-360, 360]"},
+        Wrong{"OverrideStrategy",
+              [](Request& r) { AddOverride(r, true).set_strategy(static_cast<v1::Strategy>(77)); },
+              "job.operations[0].region_overrides[0].strategy = 77"},
+        Wrong{"SkippedAndCut",
+              [](Request& r) {
+                AddOverride(r, true).set_skip(true);
+                OperationOf(r).mutable_region_overrides(0)->set_scallop_mm(0.1);
+              },
+              "job.operations[0].region_overrides[0].skip is set together with how to cut the region"},
+        Wrong{"TooMany",
+              [](Request& r) {
+                for (int i = 0; i < 1001; ++i) AddOverride(r, true);
+              },
+              "job.operations[0].region_overrides has 1001 elements; must have at most 1000"}),
+    kName);
+
 // Places that are only reserved: refused by name, never silently ignored.
 INSTANTIATE_TEST_SUITE_P(
     Next, WrongJobs,
     ::testing::Values(Wrong{"Holder", [](Request& r) { ToolOf(r).add_holder(); },
                             "job.operations[0].tool.holder is not there yet", kNext},
-                      Wrong{"Overrides", [](Request& r) { OperationOf(r).add_region_overrides(); },
-                            "job.operations[0].region_overrides is not there yet", kNext},
-                      Wrong{"RegionsHash", [](Request& r) { OperationOf(r).set_regions_sha256("x"); },
-                            "job.operations[0].regions_sha256 is not there yet", kNext},
                       Wrong{"EdgeRule",
                             [](Request& r) { OperationOf(r).set_edge_rule(v1::EDGE_RULE_EXTEND); },
                             "job.operations[0].edge_rule is not there yet", kNext},
@@ -300,6 +340,7 @@ Request Unusual() {
   op.set_steep_angle_deg(60);
   op.set_strategy(v1::STRATEGY_CONTOUR);
   op.set_zigzag_angle_deg(90);
+  op.set_detail(0.25);
   op.set_contour_direction(v1::CUT_DIRECTION_EITHER);
   op.set_edge_rule(v1::EDGE_RULE_STOP);
   op.mutable_heights()->set_clearance_z_mm(70);
@@ -319,6 +360,15 @@ Request Unusual() {
   selection.set_boundary_mode(v1::BOUNDARY_MODE_INSIDE);
   selection.set_boundary_offset_mm(-0.125);
   AddRing({1, 1, 2, 1, 1, 2}, selection.add_more_boundary_rings()->mutable_xy_mm());
+  op.set_regions_sha256(std::string(32, '\x5a'));
+  v1::RegionOverride& skipped = *op.add_region_overrides();
+  skipped.set_region_id(3);
+  skipped.set_skip(true);
+  v1::RegionOverride& own = *op.add_region_overrides();
+  own.mutable_at()->set_z_mm(1.5);
+  own.set_strategy(v1::STRATEGY_ZIGZAG);
+  own.set_zigzag_angle_deg(30);
+  own.set_scallop_mm(0.125);
   r.mutable_post()->set_dialect("linuxcnc");
   r.mutable_post()->set_arcs(false);
   r.mutable_post()->set_unit(v1::LENGTH_UNIT_MILLIMETER);
@@ -357,6 +407,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   SetupOf(aloud).set_up(v1::UP_AXIS_Z);
   SetupOf(aloud).set_scale(1.0);
   OperationOf(aloud).set_steep_angle_deg(45);
+  OperationOf(aloud).set_detail(0.5);
   aloud.mutable_post()->set_dialect("linuxcnc");
   EXPECT_EQ(digest(aloud), base);
 
@@ -374,10 +425,14 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { ToolOf(r).set_cutting_data_is_default(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_strategy(v1::STRATEGY_ZIGZAG); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_contour_direction(v1::CUT_DIRECTION_EITHER); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_detail(0.0); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_floor_z_mm(-2); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_top_z_mm(2); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_patch_ids("bump"); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_avoid_patch_ids("bump"); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_regions_sha256(std::string(32, 'x')); }));
+  EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_skip(true); }));
+  EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_scallop_mm(0.125); }));
   EXPECT_TRUE(differs([](Request& r) {
     AddRing({0, 0, 9, 0, 0, 9}, SelectionOf(r).mutable_boundary_xy_mm());
   }));

@@ -28,6 +28,14 @@ inline v1::PatchModel Bump(double size = 12.0, double height = 2.0) {
   return model;
 }
 
+// The same with a hill for u < 1/2 and a pit for u > 1/2: a mountain and a basin.
+inline v1::PatchModel HillAndPit(double size = 24.0, double height = 4.0) {
+  v1::PatchModel model = Bump(size, height);
+  v1::BezierPatch& bezier = *model.mutable_patches(0)->mutable_bezier();
+  for (const int j : {1, 2}) bezier.set_points(3 * (4 * 2 + j) + 2, -height);
+  return model;
+}
+
 inline v1::Tool BallTool(double diameter = 6.0) {
   v1::Tool tool;
   tool.set_number(1);

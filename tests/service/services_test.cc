@@ -211,6 +211,25 @@ TEST_F(SplitRegions, CoversTheSurface) {
   }
 }
 
+// Grouping and order only: the finest split has more regions over the same surface.
+TEST_F(SplitRegions, DetailGroupsTheSameSurface) {
+  v1::SplitRegionsRequest request;
+  *request.mutable_job() = BumpJob();
+  *request.mutable_job()->mutable_source()->mutable_model() = testing::HillAndPit();
+  std::vector<int> counts;
+  std::vector<double> areas;
+  for (const double detail : {0.0, 1.0}) {
+    request.mutable_job()->mutable_operations(0)->set_detail(detail);
+    ASSERT_TRUE(Split(request).ok());
+    counts.push_back(response_.regions().regions_size());
+    areas.push_back(0.0);
+    for (const v1::Region& region : response_.regions().regions()) areas.back() += region.area_mm2();
+  }
+  EXPECT_EQ(counts[0], 1);
+  EXPECT_GT(counts[1], 1);
+  EXPECT_NEAR(areas[0], areas[1], 1e-6 * areas[0]);
+}
+
 TEST_F(SplitRegions, DrawsWhenAsked) {
   v1::SplitRegionsRequest request;
   *request.mutable_job() = BumpJob();

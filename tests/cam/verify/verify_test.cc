@@ -55,6 +55,27 @@ TEST(Verify, PlaneLeftoverIsTheClosedForm) {
   }
 }
 
+// Between two lines over a plane the leftover at distance x is sqrt(R^2 + x^2) - R.
+TEST(Verify, TheSpreadOfLeftoverIsTheClosedForm) {
+  const double r = 3.0, half = 12.0;
+  for (const double step : {0.6, 0.3, 0.96}) {
+    VerifyParams params = Params(30.0);
+    params.tolerance = 0.03;
+    const VerifyReport report =
+        Judged(SurfaceOf(Plane(half)), Ball(r), OverPlane(half, 0.0, r, step).program, params);
+    const double scallop = *params.scallop, area = 4.0 * half * half;
+    double below = 0.0, sum = 0.0;
+    for (std::size_t k = 0; k < kLeftoverClasses; ++k) {
+      sum += report.leftover_area[k];
+      const double edge = k < kLeftoverEdges.size() ? kLeftoverEdges[k] * scallop : 1.0;
+      const double share = std::min(1.0, std::sqrt(edge * (2.0 * r + edge)) / (0.5 * step));
+      EXPECT_NEAR(report.leftover_area[k], (share - below) * area, 0.01 * area) << step << " class " << k;
+      below = share;
+    }
+    EXPECT_NEAR(sum, report.reachable_area, 1e-6 * area);
+  }
+}
+
 TEST(Verify, PlantedGougeIsFoundWithDepthPlaceAndLine) {
   const double r = 3.0, half = 12.0;
   for (const double sink : {0.012, 0.2}) {

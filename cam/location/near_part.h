@@ -1,0 +1,41 @@
+// How near a part of the surface is: for passes that run on over its border.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/tool/surface_mask.h"
+#include "core/base/run_context.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+// Balls around the cells along the border of a mask (a piece's sides count as border), in a tree.
+// Thread-safe.
+class NearPart {
+ public:
+  // Cost: nine surface points a cell of the border. CANCELLED and DEADLINE_EXCEEDED from `run`.
+  static absl::StatusOr<NearPart> Make(const Surface& surface, const SurfaceMask& mask,
+                                       const RunContext& run);
+
+  // Some point of these cells may lie within `distance` (mm) of p; false is sure, true up to a cell's size.
+  bool Within(const Vec3& p, double distance) const;
+
+ private:
+  struct Ball {
+    Vec3 center;
+    double radius;
+  };
+  struct Node {  // left child next, right child at `right`; a leaf has balls [first, right)
+    Box3 box;
+    std::int32_t right = 0, first = -1;
+  };
+  void Build(std::size_t begin, std::size_t end);
+
+  std::vector<Ball> balls_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace patchmill

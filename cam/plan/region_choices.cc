@@ -1,0 +1,138 @@
+#include "cam/plan/region_choices.h"
+
+#include <algorithm>
+#include <deque>
+
+#include <fmt/format.h>
+
+#include "cam/region/regions_digest.h"
+#include "core/base/status.h"
+#include "core/surface/closest.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kPickProof = 1e-4;  // mm: how exactly the nearest place is known
+
+std::string Path(std::size_t k) { return fmt::format("operations[0].region_overrides[{}]", k); }
+
+absl::StatusOr<int> FindRegion(const Surface& surface, const RegionMap& map, const RegionOverride& change,
+                               const std::string& path, const Vec3& zero) {
+  const int count = static_cast<int>(map.regions.size());
+  if (!change.at) {
+    if (change.region >= 0 && change.region < count) return change.region;
+    return absl::InvalidArgumentError(fmt::format(
+        "{}.region_id = {}; must be in [0, {}], a region of the map", path, change.region, count - 1));
+  }
+  const auto nearest = ClosestToPoint(surface, *change.at + zero, kPickReach, kPickProof);
+  const int id = nearest ? map.At(nearest->at) : -1;
+  if (id >= 0) return id;
+  return absl::InvalidArgumentError(
+      fmt::format("{}.at = {:.4f} {:.4f} {:.4f}; must lie within {} mm of a region", path, change.at->x(),
+                  change.at->y(), change.at->z(), kPickReach));
+}
+
+// Which region each cell of a piece follows: its own when that is reachable or skipped, else the reachable
+// one that the fewest steps from cell to cell lead to; -1 where there is none.
+std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
+                         const std::vector<RegionChoice>& choices) {
+  const int n = map.cells;
+  std::vector<int> leader(labels.size(), -1);
+  std::deque<int> queue;
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    if (labels[k] < 0) continue;
+    const auto id = static_cast<std::size_t>(labels[k]);
+    const bool reachable = map.regions[id].kind != RegionKind::kUnreachable;
+    if (!reachable && !choices[id].skip) continue;
+    leader[k] = labels[k];
+    if (reachable) queue.push_back(static_cast<int>(k));
+  }
+  while (!queue.empty()) {
+    const int k = queue.front(), i = k / n, j = k % n;
+    queue.pop_front();
+    const auto step = [&](int a, int b) {
+      if (a < 0 || b < 0 || a >= n || b >= n) return;
+      int& to = leader[static_cast<std::size_t>(a * n + b)];
+      if (to >= 0) return;
+      to = leader[static_cast<std::size_t>(k)];
+      queue.push_back(a * n + b);
+    };
+    step(i - 1, j);
+    step(i + 1, j);
+    step(i, j - 1);
+    step(i, j + 1);
+  }
+  return leader;
+}
+
+}  // namespace
+
+RegionChoice ChoiceOf(const Operation& op) {
+  return {.strategy = op.strategy, .zigzag_angle = op.zigzag_angle, .scallop = op.scallop};
+}
+
+absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, const RegionMap& map,
+                                                        const Operation& op, const Vec3& program_zero) {
+  if (!op.regions_sha256.empty()) {
+    if (const std::string now = RegionsDigest(map); now != op.regions_sha256) {
+      return absl::FailedPreconditionError(fmt::format(
+          "operations[0].regions_sha256 = {}; the regions of this job have {}: they were made for another "
+          "model, set-up, tool, tolerance, steep angle, detail, floor or selection; ask for them again",
+          Hex(op.regions_sha256), Hex(now)));
+    }
+  }
+  std::vector<RegionChoice> choices(map.regions.size(), ChoiceOf(op));
+  std::vector<bool> named(choices.size(), false);
+  for (std::size_t k = 0; k < op.overrides.size(); ++k) {
+    const RegionOverride& change = op.overrides[k];
+    PM_ASSIGN_OR_RETURN(const int region, FindRegion(surface, map, change, Path(k), program_zero));
+    const auto id = static_cast<std::size_t>(region);
+    if (named[id]) {
+      return absl::InvalidArgumentError(fmt::format("{} names region {} a second time", Path(k), region));
+    }
+    named[id] = true;
+    if (map.regions[id].kind == RegionKind::kUnreachable && !change.skip) {
+      return absl::InvalidArgumentError(
+          fmt::format("{} names region {}, which is unreachable; it can only be skipped", Path(k), region));
+    }
+    RegionChoice& choice = choices[id];
+    choice.skip = change.skip;
+    choice.strategy = change.strategy.value_or(choice.strategy);
+    choice.zigzag_angle = change.zigzag_angle.value_or(choice.zigzag_angle);
+    choice.scallop = change.scallop.value_or(choice.scallop);
+  }
+  return choices;
+}
+
+std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoice>& choices) {
+  std::vector<PlanPart> parts;
+  std::vector<int> part_of(choices.size(), -1);
+  for (std::size_t id = 0; id < choices.size(); ++id) {
+    if (choices[id].skip || map.regions[id].kind == RegionKind::kUnreachable) continue;
+    const auto known = std::find_if(parts.begin(), parts.end(),
+                                    [&](const PlanPart& part) { return part.choice == choices[id]; });
+    part_of[id] = static_cast<int>(known - parts.begin());
+    if (known == parts.end()) parts.push_back({choices[id], nullptr});
+  }
+  const bool any_skipped =
+      std::any_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.skip; });
+  if (parts.empty()) parts.emplace_back();
+  if (parts.size() == 1 && !any_skipped) return parts;
+  using Cells = std::vector<std::vector<bool>>;
+  std::vector<Cells> marked(parts.size(), Cells(map.labels.size()));
+  for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
+    const std::vector<int> leader = Leaders(map, map.labels[piece], choices);
+    for (Cells& cells : marked) cells[piece].resize(leader.size(), false);
+    for (std::size_t k = 0; k < leader.size(); ++k) {
+      // Pieces without reachable ground are judged with the first part: somewhere they must be.
+      const int part = leader[k] < 0 ? 0 : part_of[static_cast<std::size_t>(leader[k])];
+      if (part >= 0) marked[static_cast<std::size_t>(part)][piece][k] = true;
+    }
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    parts[p].where = std::make_shared<const SurfaceMask>(map.cells, marked[p]);
+  }
+  return parts;
+}
+
+}  // namespace patchmill

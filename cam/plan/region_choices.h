@@ -1,0 +1,35 @@
+// What is asked for of single regions, made definite: how each is cut, and which parts of the surface that
+// makes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "cam/plan/job.h"
+#include "cam/tool/surface_mask.h"
+
+namespace patchmill {
+
+// What holds where nothing overrides it.
+RegionChoice ChoiceOf(const Operation& op);
+
+// One for each region of the map, by id. FAILED_PRECONDITION when the overrides were made for another map;
+// INVALID_ARGUMENT, with the field, for a region that is not there, a point that is on none, a region named
+// twice, an unreachable one that is not to be skipped.
+absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, const RegionMap& map,
+                                                        const Operation& op, const Vec3& program_zero);
+
+// A part of the surface that is cut in one way.
+struct PlanPart {
+  RegionChoice choice;
+  std::shared_ptr<const SurfaceMask> where;  // null: all of it
+};
+
+// Parts of equal choices, in the order of their first regions, in cells of the map; skipped regions are in
+// none. Unreachable ground goes with the reachable ground nearest to it in its piece (cell by cell), so that
+// no pass runs around what lies within a skipped region. At least one part, which may be empty.
+std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoice>& choices);
+
+}  // namespace patchmill

@@ -1,0 +1,20 @@
+#include "cam/region/regions_digest.h"
+
+namespace patchmill {
+
+std::string RegionsDigest(const RegionMap& map) {
+  Canonical out;
+  out.Add("patchmill regions 1").Add(static_cast<std::int64_t>(map.regions.size()));
+  for (const Region& region : map.regions) {
+    out.Add(std::int64_t{region.id}).Add(static_cast<std::int64_t>(region.kind));
+    out.Add(static_cast<std::int64_t>(region.slope)).Add(static_cast<std::int64_t>(region.reason));
+    out.Add(static_cast<std::int64_t>(region.border.size()));
+    for (const auto& loop : region.border) {
+      out.Add(static_cast<std::int64_t>(loop.size()));
+      for (const Vec3& p : loop) out.Add(p.x()).Add(p.y()).Add(p.z());
+    }
+  }
+  return out.Digest();
+}
+
+}  // namespace patchmill

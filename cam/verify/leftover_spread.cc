@@ -1,0 +1,55 @@
+#include "cam/verify/leftover_spread.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+// [0, 1), as if drawn at random, the same for the same n (Steele, Lea and Flood's SplitMix64).
+double Draw(std::uint64_t n) {
+  std::uint64_t z = n * 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+}  // namespace
+
+absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::vector<CellRect>& roots,
+                                             const SegmentTree& tree, const LeftoverParams& params,
+                                             const RunContext& run) {
+  constexpr std::size_t kChunk = 64;
+  const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
+  std::vector<LeftoverSpread> parts(chunks, LeftoverSpread{});
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, chunks, [&](std::size_t chunk) {
+    int hint = -1;
+    const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) {
+      const CellRect& cell = roots[i];
+      const double u = cell.u0 + (cell.u1 - cell.u0) * Draw(2 * i + 1);
+      const double v = cell.v0 + (cell.v1 - cell.v0) * Draw(2 * i + 2);
+      const SurfaceJet jet = Evaluate(surface, cell.piece, u, v);
+      const auto facing = FacingAt(jet);
+      if (!facing || !IsWantedAt(surface, params, cell.piece, u, v, jet.p)) continue;
+      if (ReachAt(surface, jet.p, *facing, params.reach) != ReachClass::kReachable) continue;
+      const auto nearest = tree.FindNearest(jet.p, kInfinity, hint);
+      hint = nearest.segment;
+      const double left = nearest.distance - params.reach.radius;
+      if (left > params.limit && BeyondStrategy(jet, facing->e, params)) continue;
+      std::size_t k = 0;
+      while (k < kLeftoverEdges.size() && left > kLeftoverEdges[k] * *params.scallop) ++k;
+      parts[chunk][k] += (cell.u1 - cell.u0) * (cell.v1 - cell.v0) * jet.du.cross(jet.dv).norm();
+    }
+  }));
+  LeftoverSpread spread{};
+  for (const LeftoverSpread& part : parts) {
+    for (std::size_t k = 0; k < kLeftoverClasses; ++k) spread[k] += part[k];
+  }
+  return spread;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,26 @@
+// Values in 32 bytes: SHA-256 (OpenSSL's libcrypto, which gRPC links anyway).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace patchmill {
+
+std::string Sha256(std::string_view bytes);  // 32 bytes
+std::string Hex(std::string_view bytes);     // lower case
+
+// Appends values in one defined way, so that equal values give equal bytes on every machine: numbers little
+// endian, strings with their length, -0 as 0.
+class Canonical {
+ public:
+  Canonical& Add(double value);
+  Canonical& Add(std::int64_t value);
+  Canonical& Add(std::string_view value);
+  std::string Digest() const { return Sha256(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+}  // namespace patchmill

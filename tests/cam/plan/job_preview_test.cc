@@ -1,0 +1,60 @@
+// What the picture of a job shows of ground that is not to be cut.
+#include "cam/plan/job_preview.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cam/plan/region_choices.h"
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class RegionPicture : public ::testing::Test {
+ protected:
+  // A steep roof on a level plain: one region each, of 800 and 1250 mm2.
+  RegionPicture() {
+    model_ = Plane(20, 0, 1.2, 0);
+    for (Patch& patch : Transformed(Plane(20), Eigen::Affine3d(Eigen::Translation3d(-40, 0, -24))).patches) {
+      model_.patches.push_back(patch);
+    }
+    job_ = BallJob(3.0);
+  }
+  std::string Draw() {
+    const Surface surface = PlacedSurface(model_);
+    const auto map = PlanRegions(surface, job_, RunContext());
+    const auto resolved = Resolve(surface, job_);
+    EXPECT_TRUE(map.ok() && resolved.ok()) << map.status() << resolved.status();
+    const auto choices = ChooseRegions(surface, *map, job_.operation, Vec3::Zero());
+    EXPECT_TRUE(choices.ok()) << choices.status();
+    return DrawRegions(surface, *map, *choices, *resolved, "roof");
+  }
+  PatchModel model_;
+  Job job_;
+};
+
+TEST_F(RegionPicture, ShowsEveryRegionOfAWholePart) {
+  EXPECT_THAT(Draw(), AllOf(HasSubstr("neutral, steep"), HasSubstr("neutral, gentle")));
+}
+
+TEST_F(RegionPicture, LeavesOutWhatIsNotSelected) {
+  job_.operation.selection.patches = {"#1"};
+  EXPECT_THAT(Draw(), AllOf(Not(HasSubstr("neutral, steep")), HasSubstr("neutral, gentle")));
+}
+
+TEST_F(RegionPicture, LeavesOutWhatIsSkipped) {
+  RegionOverride change;
+  change.at = Vec3(-40, 0, -24);
+  change.skip = true;
+  job_.operation.overrides = {change};
+  EXPECT_THAT(Draw(), AllOf(HasSubstr("neutral, steep"), Not(HasSubstr("neutral, gentle"))));
+}
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,168 @@
+// Regions listed, switched off and cut in a way of their own, through the wire: SplitRegions, then
+// GenerateProgram with its map, then VerifyProgram of what came out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/service/embedded.h"
+#include "tests/service/requests.h"
+#include "tests/service/status_matchers.h"
+
+namespace patchmill {
+namespace {
+
+using grpc::StatusCode;
+using testing::BumpJob;
+using testing::Embedded;
+using ::testing::HasSubstr;
+using testing::InfoOf;
+using testing::RpcStatusIs;
+
+class Regions : public ::testing::Test {
+ protected:
+  Regions() {
+    *job_.mutable_source()->mutable_model() = testing::HillAndPit();
+    Op().mutable_heights()->set_floor_z_mm(-5.0);
+  }
+  v1::Operation& Op() { return *job_.mutable_operations(0); }
+
+  grpc::Status Split() {
+    grpc::ClientContext context;
+    v1::SplitRegionsRequest request;
+    *request.mutable_job() = job_;
+    v1::SplitRegionsResponse response;
+    const grpc::Status status = embedded_.analysis->SplitRegions(&context, request, &response);
+    map_ = response.regions();
+    return status;
+  }
+  grpc::Status Generate() {
+    grpc::ClientContext context;
+    v1::GenerateProgramRequest request;
+    *request.mutable_job() = job_;
+    const auto reader = embedded_.toolpath->GenerateProgram(&context, request);
+    program_.clear();
+    v1::GenerateProgramResponse response;
+    while (reader->Read(&response)) {
+      if (response.has_program()) program_ += response.program().data();
+      if (response.has_report()) report_ = response.report();
+    }
+    return reader->Finish();
+  }
+  // Of program_, by the regions of `op`.
+  grpc::Status Verify(const v1::Operation& op) {
+    grpc::ClientContext context;
+    v1::VerifyProgramRequest request;
+    *request.mutable_source() = job_.source();
+    *request.mutable_setup() = job_.setup();
+    *request.add_tools() = op.tool();
+    request.set_program(program_);
+    request.set_tolerance_mm(op.tolerance_mm());
+    request.set_scallop_mm(op.scallop_mm());
+    request.set_floor_z_mm(op.heights().floor_z_mm());
+    if (op.has_detail()) request.set_detail(op.detail());
+    request.set_regions_sha256(op.regions_sha256());
+    *request.mutable_region_overrides() = op.region_overrides();
+    const auto reader = embedded_.toolpath->VerifyProgram(&context, request);
+    v1::VerifyProgramResponse response;
+    while (reader->Read(&response)) {
+      if (response.has_report()) judged_ = response.report();
+    }
+    return reader->Finish();
+  }
+  // Skips region `id` of the map there is.
+  void Skip(int id) {
+    Op().set_regions_sha256(map_.regions_sha256());
+    v1::RegionOverride& change = *Op().add_region_overrides();
+    change.set_region_id(id);
+    change.set_skip(true);
+  }
+
+  Embedded embedded_;
+  v1::Job job_ = BumpJob();
+  v1::RegionMap map_;
+  v1::Report report_, judged_;
+  std::string program_;
+};
+
+TEST_F(Regions, ASkippedOneIsLeftOutOfProgramReportAndVerdict) {
+  ASSERT_TRUE(Split().ok());
+  ASSERT_GE(map_.regions_size(), 2);
+  const v1::Region& first = map_.regions(0);
+  Skip(first.id());
+  ASSERT_TRUE(Split().ok());
+  EXPECT_EQ(map_.regions_sha256(), Op().regions_sha256()) << "an override changes the map it is made for";
+  EXPECT_TRUE(map_.regions(0).skipped());
+  EXPECT_EQ(map_.regions(0).strategy(), v1::STRATEGY_UNSPECIFIED);
+  EXPECT_FALSE(map_.regions(1).skipped());
+  EXPECT_DOUBLE_EQ(map_.regions(1).scallop_mm(), Op().scallop_mm());
+
+  ASSERT_TRUE(Generate().ok());
+  ASSERT_FALSE(program_.empty());
+  EXPECT_TRUE(report_.regions(0).skipped());
+  double area = 0.0;
+  for (const v1::Region& region : map_.regions()) area += region.skipped() ? 0.0 : region.area_mm2();
+  EXPECT_NEAR(report_.total_area_mm2(), area, 0.01 * area);
+
+  const grpc::Status verified = Verify(Op());
+  ASSERT_TRUE(verified.ok()) << verified.error_message();
+  EXPECT_EQ(judged_.outcome(), report_.outcome());
+  EXPECT_NEAR(judged_.total_area_mm2(), report_.total_area_mm2(), 1e-9 * area);
+  v1::Operation all = Op();
+  all.clear_region_overrides();
+  all.clear_regions_sha256();
+  ASSERT_TRUE(Verify(all).ok());
+  EXPECT_EQ(judged_.finish_check(), v1::CHECK_STATE_FAILED);
+  EXPECT_EQ(judged_.gouge_check(), v1::CHECK_STATE_PASSED);
+}
+
+TEST_F(Regions, OverridesOfAnotherMapAreStale) {
+  ASSERT_TRUE(Split().ok());
+  Skip(0);
+  Op().set_detail(0.0);
+  const auto stale =
+      RpcStatusIs(StatusCode::FAILED_PRECONDITION, HasSubstr("operations[0].regions_sha256 = "));
+  const grpc::Status status = Generate();
+  EXPECT_THAT(status, stale);
+  EXPECT_EQ(InfoOf(status).reason(), "REGIONS_STALE");
+  EXPECT_THAT(Split(), stale);
+  program_ = "G21\nG0 Z50\nM2\n";
+  EXPECT_THAT(Verify(Op()), stale);
+}
+
+TEST_F(Regions, APointOfItNamesARegion) {
+  job_.mutable_setup()->mutable_program_zero()->set_x_mm(5.0);
+  ASSERT_TRUE(Split().ok());
+  v1::RegionOverride& change = *Op().add_region_overrides();
+  *change.mutable_at() = map_.regions(1).inside_point();
+  change.set_scallop_mm(0.02);
+  change.set_zigzag_angle_deg(30.0);
+  ASSERT_TRUE(Split().ok());
+  EXPECT_DOUBLE_EQ(map_.regions(1).scallop_mm(), 0.02);
+  EXPECT_NEAR(map_.regions(1).zigzag_angle_deg(), 30.0, 1e-9);
+  EXPECT_DOUBLE_EQ(map_.regions(0).scallop_mm(), 0.05);
+  change.mutable_at()->set_z_mm(40.0);
+  EXPECT_THAT(Split(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("region_overrides[0].at = ")));
+}
+
+TEST_F(Regions, AVerdictOnTheirScallopsNeedsOneForTheRest) {
+  ASSERT_TRUE(Split().ok());
+  v1::RegionOverride& change = *Op().add_region_overrides();
+  *change.mutable_at() = map_.regions(1).inside_point();
+  change.set_scallop_mm(0.02);
+  grpc::ClientContext context;
+  v1::VerifyProgramRequest request;
+  *request.mutable_source() = job_.source();
+  *request.add_tools() = Op().tool();
+  request.set_program("G21\nG0 Z50\nM2\n");
+  request.set_tolerance_mm(0.02);
+  *request.mutable_region_overrides() = Op().region_overrides();
+  const auto reader = embedded_.toolpath->VerifyProgram(&context, request);
+  v1::VerifyProgramResponse response;
+  while (reader->Read(&response)) {
+  }
+  EXPECT_THAT(reader->Finish(),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT,
+                          HasSubstr("region_overrides[0].scallop_mm is set without scallop_mm")));
+}
+
+}  // namespace
+}  // namespace patchmill
