@@ -82,7 +82,8 @@ struct VerifyReport {
   // it: with this floor (almost) nothing is left for that reason. Absent: nothing is.
   std::optional<double> finishing_floor_z;
   // mm^2 of reachable ground with a scallop, by leftover: good to 1 % of their sum. Passes as wide apart as a
-  // scallop allows leave the roots of the edges, 50, 71 and 87 % of the ground below each; more there is waste.
+  // scallop allows leave the roots of the edges, 50, 71 and 87 % of the ground below each; more there is
+  // waste.
   std::array<double, kLeftoverClasses> leftover_area{};
   double leftover_above_limit_area = 0.0;  // mm^2, reachable and above scallop + tolerance
   double required_stickout = 0.0;          // mm: highest material near the tool minus the tip, from above
