@@ -21,5 +21,6 @@ Command AddBuild(CLI::App& app);
 Command AddEdit(CLI::App& app);
 Command AddFair(CLI::App& app);
 Command AddLines(CLI::App& app);
+Command AddEvaluate(CLI::App& app);
 
 }  // namespace patchmill::cli

@@ -31,6 +31,7 @@ int Main(int argc, char** argv) {
   add("reach", "how much of the surface each of several tools does not reach", AddReach);
   add("verify", "measure any program against the exact surface", AddVerify);
   add("lines", "contours, slopes, silhouettes, highlights and other lines of the surface", AddLines);
+  add("evaluate", "points, derivatives, forms and curvatures of the surface", AddEvaluate);
   add("build", "make a first surface from outline curves", AddBuild);
   add("edit", "edit a curve network", AddEdit);
   add("fair", "fair a measured curve", AddFair);

@@ -340,6 +340,25 @@ TEST_F(Cli, LinesAreWrittenAsDataOrAsAPicture) {
   EXPECT_EQ(Patchmill({"lines", bump_, "-o", out_ / "l.svg", "--kind", "eye"}).status, 2);
 }
 
+// z = (x^2 + y^2) / 20 over [-10, 10]^2: curvatures 0.1 at the vertex.
+TEST_F(Cli, EvaluateTellsPointsAndCurvatures) {
+  out_.Write(
+      "bowl.json",
+      R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "patches": [{"bezier": {"degree_u": 2, "degree_v": 2,
+  "points": [-10,-10,10, -10,0,0, -10,10,10, 0,-10,0, 0,0,-10, 0,10,0, 10,-10,10, 10,0,0, 10,10,10]}}]})");
+  const Finished run =
+      Patchmill({"evaluate", out_ / "bowl.json", "--at", "0,0.5,0.5", "0,1,0.5", "-o", out_ / "values.json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("patch 0 at 0.5, 0.5\n  point        0 0 0 mm"));
+  EXPECT_THAT(run.out, HasSubstr("curvatures   0.1 0.1 per mm; Gauss 0.01, mean 0.1"));
+  EXPECT_THAT(run.out, HasSubstr("point        10 0 5 mm"));
+  EXPECT_THAT(Slurp(out_ / "values.json"), HasSubstr("\"principal_curvatures_per_mm\""));
+  EXPECT_EQ(Patchmill({"evaluate", out_ / "bowl.json", "--at", "0,0.5"}).status, 2);
+  EXPECT_EQ(Patchmill({"evaluate", out_ / "bowl.json", "--at", "-1,0.5,0.5"}).status, 2);
+  EXPECT_EQ(Patchmill({"evaluate", out_ / "bowl.json", "--at", "0,0.5,1.5"}).status, 2);
+  EXPECT_EQ(Patchmill({"evaluate", out_ / "bowl.json", "--at", "0,0.5,0.5", "-o", out_ / "v.txt"}).status, 2);
+}
+
 TEST_F(Cli, ReachIsATableAndAFile) {
   const Finished table = Patchmill({"reach", bump_, "--tool-diameters", "1,2,400", "--floor", "-5"});
   EXPECT_EQ(table.status, 0) << table.err;
@@ -364,8 +383,8 @@ TEST_F(Cli, NoCommandOrAnUnknownOneIsWrongUsage) {
   EXPECT_EQ(Patchmill({"mill", "--help"}).status, 0);
   EXPECT_TRUE(std::regex_search(Patchmill({"--version"}).out, std::regex("^patchmill [0-9]+\\.[0-9]+")));
   const std::string help = Patchmill({"--help"}).out;
-  for (const char* name :
-       {"mill", "check", "regions", "reach", "verify", "lines", "build", "edit", "fair", "serve"}) {
+  for (const char* name : {"mill", "check", "regions", "reach", "verify", "lines", "evaluate", "build",
+                           "edit", "fair", "serve"}) {
     EXPECT_THAT(help, HasSubstr(std::string("  ") + name));
   }
   EXPECT_THAT(help, Not(HasSubstr("  convert")));
