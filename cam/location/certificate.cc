@@ -96,13 +96,13 @@ double Locator::Impl::Certify(const Ball& ball, const OpenLeaves& open, double e
   Prover prover{surface, ball, ProofF(), eps, best, kBudget, best.z, buffer};
   std::array<Vec4, kMaxNetPoints> points;
   for (const std::int32_t index : open) {
-    const internal::SearchLeaf& leaf = tree.leaves[static_cast<std::size_t>(index)];
-    const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
+    const internal::SearchLeaf& leaf = tree.leaves[index];
+    const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece())];
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
     std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
     const Rect rect = leaf.rect();
     RestrictNet(shape, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
-    prover.Prove(piece, leaf.piece, rect, points.data(), 0);
+    prover.Prove(piece, leaf.piece(), rect, points.data(), 0);
   }
   return std::max(0.0, prover.top - best.z) + slack;
 }

@@ -99,14 +99,14 @@ double Maximize(const Surface& surface, const LeafSet* among, double lower, doub
     push_node(0);
   } else {
     for (const std::int32_t index : among->leaves) {
-      const internal::SearchLeaf& leaf = among->tree.leaves[static_cast<std::size_t>(index)];
-      const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
+      const internal::SearchLeaf& leaf = among->tree.leaves[index];
+      const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece())];
       const Rect r = leaf.rect();
       std::array<Vec4, kMaxNetPoints> points;
       std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
       const NetShape shape{piece.net.degree_u, piece.net.degree_v};
       RestrictNet(shape, points.data(), r.u0, r.u1, r.v0, r.v1);
-      push_rect(piece, {.bound = kInfinity, .piece = leaf.piece, .rect = r}, r, points.data());
+      push_rect(piece, {.bound = kInfinity, .piece = leaf.piece(), .rect = r}, r, points.data());
     }
   }
   for (int budget = kBudget; !heap.empty(); --budget) {

@@ -105,11 +105,11 @@ std::optional<CenterPoint> Locator::Follow(const SurfacePoint& from, const Vec2&
         }
         continue;
       }
-      const internal::SearchLeaf& leaf = impl_->tree.leaves[static_cast<std::size_t>(~id)];
+      const internal::SearchLeaf& leaf = impl_->tree.leaves[~id];
       const Rect r = leaf.rect();
-      const BoxMinimum guess = internal::GuessMinimum(leaf.model, now.at.p);
+      const BoxMinimum guess = internal::GuessMinimum(leaf.Model(impl_->tree.grid), now.at.p);
       const Spot start =
-          Nearest(surface.pieces[static_cast<std::size_t>(leaf.piece)], leaf.piece, r,
+          Nearest(surface.pieces[static_cast<std::size_t>(leaf.piece())], leaf.piece(), r,
                   r.u0 + (0.5 + guess.x) * (r.u1 - r.u0), r.v0 + (0.5 + guess.y) * (r.v1 - r.v0), now.at.p);
       if (!((start.p - now.at.p).norm() <= tolerance)) continue;
       if (start.piece == now.at.piece && start.u == now.at.u && start.v == now.at.v) continue;

@@ -8,6 +8,7 @@
 
 #include "cam/location/lane_kernel.h"
 #include "cam/location/locator_impl.h"
+#include "cam/location/tree_walk.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -15,16 +16,12 @@ namespace {
 
 using internal::Ball;
 using internal::Contact;
-using internal::Float4;
 using internal::kLanes;
 using internal::LaneKernel;
 using internal::LaneLeaf;
 using internal::LaneLimits;
 using internal::LanePacket;
 using internal::LaneStart;
-
-Float4 Splat(float x) { return Float4{x, x, x, x}; }
-Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
 
 internal::LaneNet NetOf(const Piece& piece) {
   internal::LaneNet net{.known = piece.shape == nullptr,
@@ -44,16 +41,16 @@ LaneLimits LimitsOf(const Locator::Impl& impl) {
   return {impl.radius, impl.rounding, impl.BallAt(Vec2::Zero()).FreeF()};
 }
 
-LaneLeaf ViewOf(const Surface& surface, const internal::SearchLeaf& leaf) {
-  const internal::LeafModel& m = leaf.model;
-  return {.piece = leaf.piece,
-          .u0 = leaf.u0,
-          .u1 = leaf.u1,
-          .v0 = leaf.v0,
-          .v1 = leaf.v1,
-          .center = leaf.center.data(),
-          .axis = leaf.axis.data(),
-          .half = leaf.half.data(),
+LaneLeaf ViewOf(const Surface& surface, std::int32_t piece, const internal::Rect& rect,
+                const internal::LeafBox& box, const internal::LeafModel& m) {
+  return {.piece = piece,
+          .u0 = rect.u0,
+          .u1 = rect.u1,
+          .v0 = rect.v0,
+          .v1 = rect.v1,
+          .center = box.center.data(),
+          .axis = box.axis.data(),
+          .half = box.half.data(),
           .s = m.s.data(),
           .a = m.a.data(),
           .b = m.b.data(),
@@ -61,7 +58,7 @@ LaneLeaf ViewOf(const Surface& surface, const internal::SearchLeaf& leaf) {
           .uv = m.uv.data(),
           .vv = m.vv.data(),
           .errors = &m,
-          .net = NetOf(surface.pieces[static_cast<std::size_t>(leaf.piece)])};
+          .net = NetOf(surface.pieces[static_cast<std::size_t>(piece)])};
 }
 
 Contact ContactOf(const LanePacket& p, int k) {
@@ -97,67 +94,31 @@ class PacketSearch {
   }
 
  private:
-  struct Pending {
-    std::int32_t child;
-    float distance2;
-    float max_z;
-  };
-
   void Visit(std::int32_t index);
   void VisitScalar(std::int32_t index, int lane);
-  void UpdateLowest() { lowest_ = static_cast<float>(*std::min_element(packet_.z, packet_.z + kLanes)); }
 
   const Locator::Impl& impl_;
   const LaneKernel& kernel_;
   const LaneLimits limits_;
   LanePacket& packet_;
-  float lowest_ = 0.0F;  // of the lanes' heights
   bool free_only_ = false;
 };
 
-// As Locator::Impl::Search; a node is out of the way of all lanes when it is out of the way of the packet's
-// box in plan at the lowest height.
+// As Locator::Impl::Search, for all lanes at the lowest height of one.
 void PacketSearch::Run() {
-  UpdateLowest();
-  thread_local std::vector<Pending> stack;
-  stack.clear();
   const double r = impl_.radius;
   const auto limit = static_cast<float>(r * r + 1e-6 * r * r + 1e-6 * r * impl_.reach);
   const auto [x0, x1] = std::minmax_element(packet_.qx, packet_.qx + kLanes);
   const auto [y0, y1] = std::minmax_element(packet_.qy, packet_.qy + kLanes);
-  const Float4 qx0 = Splat(static_cast<float>(*x0)), qx1 = Splat(static_cast<float>(*x1));
-  const Float4 qy0 = Splat(static_cast<float>(*y0)), qy1 = Splat(static_cast<float>(*y1));
-  const Float4 zero = Splat(0.0F);
-  std::int32_t next = 0;
-  for (;;) {
-    const internal::SearchNode& node = impl_.tree.nodes[static_cast<std::size_t>(next)];
-    const Float4 dx = Max(Max(node.min_x - qx1, qx0 - node.max_x), zero);
-    const Float4 dy = Max(Max(node.min_y - qy1, qy0 - node.max_y), zero);
-    const Float4 below = Max(Splat(lowest_) - node.max_z, zero);
-    const Float4 distance2 = dx * dx + dy * dy, all = distance2 + below * below;
-    const std::size_t bottom = stack.size();
-    for (int k = 0; k < 4; ++k) {
-      if (!(all[k] < limit)) continue;
-      stack.push_back({node.child[k], distance2[k], node.max_z[k]});
-      const auto promise = [](const Pending& p) { return p.max_z - p.distance2; };
-      for (std::size_t i = stack.size() - 1; i > bottom && promise(stack[i - 1]) > promise(stack[i]); --i) {
-        std::swap(stack[i - 1], stack[i]);
-      }
-    }
-    for (next = -1; next < 0;) {
-      if (stack.empty()) return;
-      const Pending top = stack.back();
-      stack.pop_back();
-      const float under = std::max(0.0F, lowest_ - top.max_z);
-      if (top.distance2 + under * under >= limit) continue;
-      if (top.child >= 0) {
-        next = top.child;
-      } else {
-        Visit(~top.child);
-        UpdateLowest();
-      }
-    }
-  }
+  const internal::PlanBox at{static_cast<float>(*x0), static_cast<float>(*x1), static_cast<float>(*y0),
+                             static_cast<float>(*y1)};
+  internal::WalkTree(
+      impl_.tree, at, limit,
+      [&] { return static_cast<float>(*std::min_element(packet_.z, packet_.z + kLanes)); },
+      [&](std::int32_t leaf) {
+        Visit(leaf);
+        return true;
+      });
 }
 
 void PacketSearch::Approach(const LaneStart& start) {
@@ -174,8 +135,11 @@ void PacketSearch::Approach(const LaneStart& start) {
 }
 
 void PacketSearch::Visit(std::int32_t index) {
-  const internal::SearchLeaf& leaf = impl_.tree.leaves[static_cast<std::size_t>(index)];
-  const unsigned unresolved = kernel_.visit(ViewOf(impl_.surface, leaf), limits_, packet_);
+  const internal::SearchLeaf& leaf = impl_.tree.leaves[index];
+  const internal::LeafBox box = leaf.Box(impl_.tree.grid);
+  const internal::LeafModel model = leaf.Model(impl_.tree.grid);
+  const unsigned unresolved =
+      kernel_.visit(ViewOf(impl_.surface, leaf.piece(), leaf.rect(), box, model), limits_, packet_);
   for (int k = 0; k < kLanes; ++k) {
     if ((unresolved >> k & 1U) != 0 && !(free_only_ && packet_.piece[k] >= 0)) VisitScalar(index, k);
     // Nothing reaches a ball above everything.

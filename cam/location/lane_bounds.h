@@ -91,7 +91,7 @@ PM_LANE_INLINE Lower BoundBelowLanes(const LaneLeaf& leaf, const V3& c) {
   const D distance2 = Dot(d, d), size = Sqrt(distance2) + reach;
   const D e_uu = gram_uu + size * drift_uu, e_uv = gram_uv + size * drift_uv,
           e_vv = gram_vv + size * drift_vv;
-  low.f0 = 0.5 * distance2;
+  low.f0 = 0.5 * distance2 - m.rest * size;
   low.q.a = Dot3(a, a) + Dot(d, leaf.uu) - e_uu - e_uv;
   low.q.b = Dot3(a, b) + Dot(d, leaf.uv);
   low.q.c = Dot3(b, b) + Dot(d, leaf.vv) - e_vv - e_uv;

@@ -10,7 +10,7 @@ namespace patchmill::internal::PM_LANES {
 
 constexpr int kMaxLaneIterations = 8;
 // As in local_search.cc.
-constexpr double kLaneFinishGain = 1e-9, kLaneStopGain = 1e-13;
+constexpr double kLaneFinishGain = 1e-9, kLaneStopGain = 1e-13, kLaneLastStep = 1e-3;
 
 struct Group {
   D qx, qy, z, u, v, px, py, pz, slope_u, slope_v;
@@ -131,7 +131,8 @@ PM_LANE_INLINE Ended RaiseLanes(const LaneLeaf& leaf, const LaneLimits& limits, 
     const Minimum to = MinimizeOnBoxLanes(m, box, run);
     const D promise = -to.value, gain = Sqrt(dz * dz + 2.0 * Max(promise, D{})) - dz;
 
-    const M exact = (gain < kLaneFinishGain) & (det > 1e-2 * (e * eg - ef * ef));
+    const M exact = (gain < kLaneFinishGain) & (det > 1e-2 * (e * eg - ef * ef)) &
+                    (Max(Abs(to.x), Abs(to.y)) < kLaneLastStep);
     const M finish = run & touching & (exact | (gain < kLaneStopGain));
     if (Any(finish)) {
       const D x = to.x, y = to.y;

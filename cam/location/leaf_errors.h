@@ -11,7 +11,9 @@ struct LeafErrors {
   float drift_uu = 0.0F, drift_uv = 0.0F, drift_vv = 0.0F;              // of S_ij
   float drift_a = 0.0F, drift_b = 0.0F;                                 // of S_u, S_v
   float reach = HUGE_VALF;                                              // of S - s
-  float z_max = HUGE_VALF;                                              // of the hull
+  double z_max = HUGE_VAL;                                              // of the hull
+  float rest = 0.0F;  // of value and slopes at the middle where these are rounded (search_leaf.h): f is lower
+                      // by up to rest (|s - c| + reach)
 };
 
 }  // namespace patchmill::internal

@@ -211,7 +211,7 @@ LeafModel MiddleModel(const SurfaceJet& middle, const Rect& rect) {
 
 void SetErrors(const HullReach& reach, const std::optional<Derivatives>& bounds, LeafModel& m) {
   m.reach = RoundUp(std::sqrt(reach.all2));
-  m.z_max = RoundUp(reach.z_max);
+  m.z_max = reach.z_max;
   if (!bounds) return;
   const Deviation &du = bounds->du, &dv = bounds->dv;
   m.drift_a = RoundUp(du.Length());

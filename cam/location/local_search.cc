@@ -15,6 +15,8 @@ constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 // whose error is of third order in a step of about 1e-4 mm.
 constexpr double kFinishGain = 1e-9;
 constexpr double kStopGain = 1e-13;
+// Nor may it be long in parameters, as beside a pole, where a step in place turns them far.
+constexpr double kLastStep = 1e-3;
 
 struct State {
   double u, v;
@@ -196,8 +198,8 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
         best.slope = KktSlope(step, box);
         break;
       }
-      if (gain < kFinishGain && step.exact) {
-        const double x = step.to.x, y = step.to.y;
+      const double x = step.to.x, y = step.to.y;
+      if (gain < kFinishGain && step.exact && std::max(std::abs(x), std::abs(y)) < kLastStep) {
         const SurfaceJet& j = s.jet;
         const Vec3 p = j.p + x * (j.du + 0.5 * x * j.duu + y * j.duv) + y * (j.dv + 0.5 * y * j.dvv);
         if (touch(p, std::clamp(s.u + x, rect.u0, rect.u1), std::clamp(s.v + y, rect.v0, rect.v1))) {

@@ -4,35 +4,19 @@
 #include <cmath>
 
 #include "cam/location/locator_impl.h"
+#include "cam/location/tree_walk.h"
 #include "core/base/status.h"
 
 namespace patchmill {
 
 using internal::Ball;
 using internal::Contact;
-using internal::Float4;
 using internal::LowerModel;
 using internal::Rect;
 using internal::SearchOptions;
 using internal::SearchResult;
 
 namespace {
-
-// A node or leaf still to visit: its squared distance in plan, and how high it reaches.
-struct Pending {
-  std::int32_t child;
-  float distance2;
-  float max_z;
-};
-
-std::vector<Pending>& SearchStack() {
-  thread_local std::vector<Pending> stack;
-  stack.clear();
-  return stack;
-}
-
-Float4 Splat(float x) { return Float4{x, x, x, x}; }
-Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
 
 bool IsKkt(const Contact& c, const Rect& r) {
   return (c.slope.x() <= 0.0 || c.u == r.u1) && (c.slope.x() >= 0.0 || c.u == r.u0) &&
@@ -64,44 +48,14 @@ void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Co
 // A box is out of the ball's way iff plan distance^2 + max(0, z - max_z)^2 >= R^2, for the current centre
 // height z. In floats, with a margin for their rounding.
 void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenLeaves* open) const {
-  std::vector<Pending>& stack = SearchStack();
   const auto limit = static_cast<float>(radius * radius + 1e-6 * radius * radius + 1e-6 * radius * reach);
-  const auto qx = static_cast<float>(ball.q.x()), qy = static_cast<float>(ball.q.y());
-  const Float4 zero = Splat(0.0F), all_qx = Splat(qx), all_qy = Splat(qy);
-  const auto out = [&](const Pending& p) {
-    const float below = std::max(0.0F, static_cast<float>(best.z) - p.max_z);
-    return p.distance2 + below * below >= limit;
-  };
-  std::int32_t next = 0;
-  for (;;) {
-    const internal::SearchNode& node = tree.nodes[static_cast<std::size_t>(next)];
-    const Float4 dx = Max(Max(node.min_x - all_qx, all_qx - node.max_x), zero);
-    const Float4 dy = Max(Max(node.min_y - all_qy, all_qy - node.max_y), zero);
-    const Float4 below = Max(Splat(static_cast<float>(best.z)) - node.max_z, zero);
-    const Float4 distance2 = dx * dx + dy * dy, all = distance2 + below * below;
-    // The most promising child comes last, on top of the stack.
-    const std::size_t first = stack.size();
-    for (int k = 0; k < 4; ++k) {
-      if (!(all[k] < limit)) continue;
-      const Pending p{node.child[k], distance2[k], node.max_z[k]};
-      stack.push_back(p);
-      const auto promise = [&](const Pending& x) { return x.max_z - x.distance2; };
-      for (std::size_t i = stack.size() - 1; i > first && promise(stack[i - 1]) > promise(stack[i]); --i) {
-        std::swap(stack[i - 1], stack[i]);
-      }
-    }
-    for (next = -1; next < 0;) {
-      if (stack.empty() || best.z > enough) return;
-      const Pending top = stack.back();
-      stack.pop_back();
-      if (out(top)) continue;
-      if (top.child >= 0) {
-        next = top.child;
-      } else {
-        VisitLeaf(~top.child, ball, best, open);
-      }
-    }
-  }
+  const auto x = static_cast<float>(ball.q.x()), y = static_cast<float>(ball.q.y());
+  internal::WalkTree(
+      tree, {x, x, y, y}, limit, [&] { return static_cast<float>(best.z); },
+      [&](std::int32_t leaf) {
+        VisitLeaf(leaf, ball, best, open);
+        return best.z <= enough;
+      });
 }
 
 void Locator::Impl::SearchAll(const Ball& ball, Contact& best, OpenLeaves& open) const {
@@ -111,32 +65,30 @@ void Locator::Impl::SearchAll(const Ball& ball, Contact& best, OpenLeaves& open)
 }
 
 void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& best, OpenLeaves* open) const {
-  const internal::SearchLeaf& leaf = tree.leaves[static_cast<std::size_t>(index)];
+  const internal::SearchLeaf& leaf = tree.leaves[index];
   const double free_f = ball.FreeF();
   const Vec3 c = Lift(ball.q, best.z);
-  if (internal::OrientedBoxOutside(leaf.center, leaf.axis, leaf.half, c, 2.0 * free_f)) return;
+  if (leaf.Outside(tree.grid, c, 2.0 * free_f)) return;
 
-  const LowerModel lower = internal::BoundBelow(leaf.model, c);
-  if (lower.convex && best.piece == leaf.piece && Holds(leaf.rect(), best.u, best.v) &&
-      IsKkt(best, leaf.rect())) {
-    return;
-  }
+  const internal::LeafModel model = leaf.Model(tree.grid);
+  const LowerModel lower = internal::BoundBelow(model, c);
+  const Rect rect = leaf.rect();
+  if (lower.convex && best.piece == leaf.piece() && Holds(rect, best.u, best.v) && IsKkt(best, rect)) return;
   if (lower.minorant && lower.f0 + MinimizeOnBox(lower.q, {-0.5, 0.5, -0.5, 0.5}).value >= free_f) return;
 
-  const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece)];
-  const Rect rect = leaf.rect();
+  const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece())];
   const auto at = [&](double x, double y) {
     return Vec2(rect.u0 + (0.5 + x) * (rect.u1 - rect.u0), rect.v0 + (0.5 + y) * (rect.v1 - rect.v0));
   };
-  const BoxMinimum guess = internal::GuessMinimum(leaf.model, c);
+  const BoxMinimum guess = internal::GuessMinimum(model, c);
   SearchOptions options;
   options.lower = &lower;
   const Vec2 start = at(guess.x, guess.y);
   const SearchResult found =
-      internal::RaiseOnPiece(piece, leaf.piece, rect, start.x(), start.y(), ball, options, best);
+      internal::RaiseOnPiece(piece, leaf.piece(), rect, start.x(), start.y(), ball, options, best);
   // One maximum, proven? Then the search has found it.
   const bool convex =
-      found.improved ? internal::BoundBelow(leaf.model, Lift(ball.q, best.z)).convex : lower.convex;
+      found.improved ? internal::BoundBelow(model, Lift(ball.q, best.z)).convex : lower.convex;
   if (convex) {
     if (found.convex_minimum < ProofF() && open != nullptr) open->push_back(index);
     return;
@@ -145,7 +97,7 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.5, 0.5}) {
       const Vec2 corner = at(x, y);
-      internal::RaiseOnPiece(piece, leaf.piece, rect, corner.x(), corner.y(), ball, options, best);
+      internal::RaiseOnPiece(piece, leaf.piece(), rect, corner.x(), corner.y(), ball, options, best);
     }
   }
   if (open != nullptr) open->push_back(index);

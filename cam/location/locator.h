@@ -37,7 +37,7 @@ class Locator {
 
   // Keeps a reference to `surface`. radius > 0, mm (tool radius + stock to leave). Cuts its pieces
   // into leaves that suit the radius, with second-order models, in parallel, deterministic: about 4 us and
-  // 350 bytes a leaf. CANCELLED and DEADLINE_EXCEEDED from `run`, within 0.2 s.
+  // 170 bytes a leaf. CANCELLED and DEADLINE_EXCEEDED from `run`, within 0.2 s.
   static absl::StatusOr<Locator> Make(const Surface& surface, double radius, const RunContext& run);
   Locator(const Surface& surface, double radius);  // the same, never cancelled
   ~Locator();

@@ -17,7 +17,7 @@ LowerModel BoundBelow(const LeafModel& m, const Vec3& c) {
   const double size = std::sqrt(distance2) + m.reach, drift_a = m.drift_a, drift_b = m.drift_b;
   const double e_uu = m.gram_uu + size * m.drift_uu, e_uv = m.gram_uv + size * m.drift_uv,
                e_vv = m.gram_vv + size * m.drift_vv;
-  low.f0 = 0.5 * distance2;
+  low.f0 = 0.5 * distance2 - m.rest * size;
   low.q.a = m.a.squaredNorm() + d.dot(m.uu) - e_uu - e_uv;
   low.q.b = m.a.dot(m.b) + d.dot(m.uv);
   low.q.c = m.b.squaredNorm() + d.dot(m.vv) - e_vv - e_uv;

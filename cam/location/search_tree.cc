@@ -18,6 +18,7 @@ constexpr double kConvexThickness = 1.0 / 15.0, kHollowThickness = 1.0 / 150.0;
 constexpr double kOpenReach = 1.0 / 9.0;
 // Bounds memory: a piece that needs more leaves has its limits doubled until it does not.
 constexpr std::size_t kMaxLeaves = 1'000'000, kMinLeavesPerPiece = 16;
+constexpr std::size_t kBatch = 2048;  // pieces
 
 // The leaves of one piece and their boxes.
 struct PieceLeaves {
@@ -87,10 +88,11 @@ Proof ProofOf(const LeafModel& m, double radius) {
 
 class PieceSplitter {
  public:
-  PieceSplitter(const Piece& piece, int piece_index, double radius, std::size_t max_leaves,
-                const RunContext& run)
+  PieceSplitter(const Piece& piece, int piece_index, const LeafGrid& grid, double radius,
+                std::size_t max_leaves, const RunContext& run)
       : piece_(piece),
         piece_index_(piece_index),
+        grid_(grid),
         shape_{piece.net.degree_u, piece.net.degree_v},
         radius_(radius),
         max_leaves_(max_leaves),
@@ -129,9 +131,7 @@ class PieceSplitter {
     const LeafModel model = MakeLeafModel(piece_, points, hull.data(), hull_count, rect);
     if (level == kMaxLevel || IsFine(model, bounds, rect)) {
       out_.boxes.push_back(bounds.box);
-      out_.leaves.push_back({bounds.center, bounds.axis, bounds.half, model, piece_index_,
-                             static_cast<float>(rect.u0), static_cast<float>(rect.u1),
-                             static_cast<float>(rect.v0), static_cast<float>(rect.v1)});
+      out_.leaves.emplace_back(grid_, piece_index_, rect, model, bounds.axis, hull.data(), hull_count);
       stopped_ = out_.leaves.size() % 256 == 0 && run_.Cancelled();
       return;
     }
@@ -148,6 +148,7 @@ class PieceSplitter {
 
   const Piece& piece_;
   int piece_index_;
+  const LeafGrid& grid_;
   NetShape shape_;
   double radius_;
   std::size_t max_leaves_;
@@ -164,7 +165,7 @@ class Collapser {
   Collapser(const std::vector<SurfaceNode>& binary, std::vector<SearchNode>& out)
       : binary_(binary), out_(out) {
     out_.reserve(binary.size() / 4 + 1);
-    Emit(0);
+    Emit(0, 1);
   }
 
  private:
@@ -176,7 +177,8 @@ class Collapser {
     return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
   }
 
-  std::int32_t Emit(std::int32_t root) {
+  std::int32_t Emit(std::int32_t root, std::size_t depth) {
+    PM_CHECK(3 * depth + 1 <= kMaxPending);
     std::vector<std::int32_t> children = {root};
     while (children.size() < 4) {
       std::size_t largest = children.size();
@@ -205,7 +207,7 @@ class Collapser {
       node.max_z[k] = RoundUp(box.max.z());
     }
     for (std::size_t k = 0; k < children.size(); ++k) {
-      node.child[k] = IsLeaf(children[k]) ? ~Node(children[k]).leaf : Emit(children[k]);
+      node.child[k] = IsLeaf(children[k]) ? ~Node(children[k]).leaf : Emit(children[k], depth + 1);
     }
     out_[self] = node;
     return static_cast<std::int32_t>(self);
@@ -217,26 +219,39 @@ class Collapser {
 
 }  // namespace
 
+void SearchLeaves::Append(const std::vector<SearchLeaf>& leaves) {
+  for (const SearchLeaf& leaf : leaves) {
+    if (blocks_.empty() || blocks_.back().size() == kBlock) {
+      blocks_.emplace_back();
+      blocks_.back().reserve(kBlock);
+    }
+    blocks_.back().push_back(leaf);
+  }
+}
+
 absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius, const RunContext& run) {
   const std::size_t count = surface.pieces.size();
   const std::size_t max_leaves = std::max(kMinLeavesPerPiece, kMaxLeaves / count);
-  std::vector<PieceLeaves> parts(count);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, count, [&](std::size_t i) {
-    parts[i] = PieceSplitter(surface.pieces[i], static_cast<int>(i), radius, max_leaves, run).Take();
-  }));
-  SearchTree tree;
-  std::size_t leaves = 0;
-  for (const PieceLeaves& part : parts) leaves += part.leaves.size();
-  tree.leaves.reserve(leaves);
+  SearchTree tree{{}, LeafGrid(surface.box), {}};
   std::vector<Box3> boxes;
-  boxes.reserve(leaves);
-  for (PieceLeaves& part : parts) {
-    tree.leaves.insert(tree.leaves.end(), part.leaves.begin(), part.leaves.end());
-    boxes.insert(boxes.end(), part.boxes.begin(), part.boxes.end());
-    part = {};  // never twice in memory
+  // Pieces by the batch: what is gathered twice for a moment is small.
+  std::vector<PieceLeaves> parts(std::min(count, kBatch));
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    const std::size_t end = std::min(count, begin + kBatch);
+    PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, end - begin, [&](std::size_t k) {
+      const std::size_t i = begin + k;
+      parts[k] =
+          PieceSplitter(surface.pieces[i], static_cast<int>(i), tree.grid, radius, max_leaves, run).Take();
+    }));
+    for (std::size_t k = 0; k < end - begin; ++k) {
+      tree.leaves.Append(parts[k].leaves);
+      boxes.insert(boxes.end(), parts[k].boxes.begin(), parts[k].boxes.end());
+    }
   }
+  parts = {};
   const std::vector<SurfaceNode> binary = BuildLeafTree(boxes, run);
   PM_RETURN_IF_ERROR(run.Check());
+  boxes = {};
   Collapser(binary, tree.nodes);
   return tree;
 }

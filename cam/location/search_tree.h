@@ -7,7 +7,7 @@
 
 #include <absl/status/statusor.h>
 
-#include "cam/location/leaf_model.h"
+#include "cam/location/search_leaf.h"
 #include "core/base/run_context.h"
 
 namespace patchmill::internal {
@@ -22,19 +22,35 @@ struct alignas(64) SearchNode {
   std::int32_t child[4];  // >= 0: node, < 0: leaf ~child
 };
 
-struct SearchLeaf {
-  Vec3 center;  // oriented box as in SurfaceLeaf
-  Eigen::Matrix3d axis;
-  Vec3 half;
-  LeafModel model;
-  std::int32_t piece;
-  float u0, u1, v0, v1;  // dyadic, hence exact
-  Rect rect() const { return {u0, u1, v0, v1}; }
+// Leaves by number, in blocks: they never move, so they are never held twice.
+class SearchLeaves {
+ public:
+  const SearchLeaf& operator[](std::int32_t index) const {
+    const auto i = static_cast<std::size_t>(index);
+    return blocks_[i / kBlock][i % kBlock];
+  }
+  void Append(const std::vector<SearchLeaf>& leaves);
+
+ private:
+  static constexpr std::size_t kBlock = 4096;
+  std::vector<std::vector<SearchLeaf>> blocks_;
 };
+
+// Of a walk that keeps what it has not visited on a stack: three siblings a level.
+inline constexpr std::size_t kMaxPending = 512;
 
 struct SearchTree {
   std::vector<SearchNode> nodes;  // nodes[0] is the root
-  std::vector<SearchLeaf> leaves;
+  LeafGrid grid;
+  SearchLeaves leaves;
+
+  // Of a node's child: soon to be looked at.
+  void Prefetch(std::int32_t child) const {
+    const char* at = child >= 0 ? reinterpret_cast<const char*>(&nodes[static_cast<std::size_t>(child)])
+                                : reinterpret_cast<const char*>(&leaves[~child]);
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + 64);
+  }
 };
 
 // Leaves are large where the distance to a centre resting there is proven convex (T6), and small where a ball

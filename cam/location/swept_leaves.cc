@@ -5,12 +5,11 @@
 
 #include "cam/location/ray_distance.h"
 #include "cam/location/swept_ball.h"
+#include "cam/location/tree_walk.h"
 
 namespace patchmill::internal {
 namespace {
 
-Float4 Splat(float x) { return Float4{x, x, x, x}; }
-Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
 Float4 Abs(Float4 a) { return Max(a, -a); }
 
 constexpr int kNewtonSteps = 4;
@@ -18,9 +17,11 @@ constexpr int kNewtonSteps = 4;
 // One leaf against one move.
 class LeafProof {
  public:
-  LeafProof(const SearchLeaf& leaf, const Piece& piece, const Vec3& a, const Vec3& b, double distance,
-            double spare)
+  LeafProof(const SearchLeaf& leaf, const LeafGrid& grid, const LeafBox& box, const Piece& piece,
+            const Vec3& a, const Vec3& b, double distance, double spare)
       : leaf_(leaf),
+        box_(box),
+        model_(leaf.Model(grid)),
         piece_(piece),
         a_(a),
         b_(b),
@@ -51,9 +52,9 @@ class LeafProof {
   // A lower bound of the squared distance from the leaf to the centre c with everything above it; the dearer
   // bounds only where the cheaper ones are below `enough`.
   double Distance2(const Vec3& c, double enough) {
-    const double box2 = OrientedBoxDistance2(leaf_.center, leaf_.axis, leaf_.half, c);
+    const double box2 = OrientedBoxDistance2(box_.center, box_.axis, box_.half, c);
     if (box2 >= enough) return box2;
-    const LowerModel low = BoundBelow(leaf_.model, c);
+    const LowerModel low = BoundBelow(model_, c);
     double bound = box2;
     if (low.minorant) {
       bound = std::max(bound, 2.0 * (low.f0 + MinimizeOnBox(low.q, {-0.5, 0.5, -0.5, 0.5}).value));
@@ -64,7 +65,7 @@ class LeafProof {
   // f convex on the leaf: its tangent plane anywhere is a lower bound, near the minimum a tight one.
   double ConvexDistance2(const Vec3& c, double enough, double bound) {
     const Rect r = leaf_.rect();
-    const BoxMinimum guess = GuessMinimum(leaf_.model, c);
+    const BoxMinimum guess = GuessMinimum(model_, c);
     double u = r.u0 + (0.5 + guess.x) * (r.u1 - r.u0), v = r.v0 + (0.5 + guess.y) * (r.v1 - r.v0);
     for (int k = 0; k < kNewtonSteps; ++k) {
       const SurfaceJet j = Evaluate(piece_, u, v);
@@ -89,6 +90,8 @@ class LeafProof {
   }
 
   const SearchLeaf& leaf_;
+  const LeafBox& box_;
+  const LeafModel model_;
   const Piece& piece_;
   const Vec3 &a_, &b_;
   const double length_, distance2_, spare2_;
@@ -133,9 +136,11 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
     const std::int32_t id = stack.back();
     stack.pop_back();
     if (id < 0) {
-      const SearchLeaf& leaf = impl.tree.leaves[static_cast<std::size_t>(~id)];
-      if (is_long && swept.DistanceBelow(leaf.center, leaf.axis, leaf.half) >= distance) continue;
-      LeafProof proof(leaf, impl.surface.pieces[static_cast<std::size_t>(leaf.piece)], a, b, distance, spare);
+      const SearchLeaf& leaf = impl.tree.leaves[~id];
+      const LeafBox box = leaf.Box(impl.tree.grid);
+      if (is_long && swept.DistanceBelow(box.center, box.axis, box.half) >= distance) continue;
+      LeafProof proof(leaf, impl.tree.grid, box, impl.surface.pieces[static_cast<std::size_t>(leaf.piece())],
+                      a, b, distance, spare);
       if (!proof.Out()) {
         if (proof.met()) return false;
         open.push_back(~id);

@@ -1,5 +1,6 @@
 // Certificates against the lanes on random parts: no certificate ever improves a height that was found, by
-// lanes or by the search it belongs to. PATCHMILL_FUZZ_QUERIES sets how many heights are asked for.
+// lanes or by the search it belongs to. PATCHMILL_FUZZ_QUERIES sets how many heights are asked for,
+// PATCHMILL_FUZZ_SEED the number of the first part.
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -132,10 +133,12 @@ void ExpectClean(const Tally& all) {
 TEST(CertificateFuzz, NoCertificateImprovesAHeight) {
   const char* asked = std::getenv("PATCHMILL_FUZZ_QUERIES");
   const long queries = asked != nullptr ? std::atol(asked) : kQueries;
+  const char* seed = std::getenv("PATCHMILL_FUZZ_SEED");
+  const std::size_t first = seed != nullptr ? std::strtoull(seed, nullptr, 10) : 0;
   const std::size_t parts = static_cast<std::size_t>(queries) / (8 * kRows) + 1;
   std::vector<Tally> tallies(parts);
   const absl::Status status =
-      ParallelFor(RunContext(), nullptr, parts, [&](std::size_t i) { Judge(i, tallies[i]); });
+      ParallelFor(RunContext(), nullptr, parts, [&](std::size_t i) { Judge(first + i, tallies[i]); });
   ASSERT_TRUE(status.ok()) << status;
   Tally all;
   for (const Tally& t : tallies) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "cam/location/ray_distance.h"
+#include "cam/location/search_leaf.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 
@@ -14,10 +15,13 @@ namespace patchmill {
 namespace {
 
 using internal::BoundBelow;
+using internal::LeafGrid;
 using internal::LeafModel;
 using internal::LowerModel;
 using internal::MakeLeafModel;
 using internal::Rect;
+using internal::SearchLeaf;
+using internal::UpperBound;
 using testing::Random;
 
 std::vector<Piece> SomePieces() {
@@ -51,16 +55,12 @@ struct Part {
   LeafModel model;
   Rect rect;
   RectBounds bounds;
+  std::vector<Vec3> hull;
 };
 
-Part RandomPart(const Piece& piece, Random& random) {
-  const double size = std::exp2(-random.Int(6));
+Part PartOf(const Piece& piece, const Rect& r) {
   Part part;
-  part.rect.u0 = random.Uniform(0.0, 1.0 - size);
-  part.rect.u1 = part.rect.u0 + size;
-  part.rect.v0 = random.Uniform(0.0, 1.0 - size);
-  part.rect.v1 = part.rect.v0 + size;
-  const Rect& r = part.rect;
+  part.rect = r;
   const BernsteinNet net = SubNet(piece.net, r.u0, r.u1, r.v0, r.v1);
   const NetShape shape{net.degree_u, net.degree_v};
   std::array<Vec3, kMaxNetPoints> hull;
@@ -68,44 +68,121 @@ Part RandomPart(const Piece& piece, Random& random) {
   part.model = MakeLeafModel(shape, net.points.data(), net.rational, hull.data(), count,
                              Evaluate(piece, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1)), r);
   part.bounds = BoundNet(net);
+  part.hull.assign(hull.begin(), hull.begin() + count);
   return part;
+}
+
+Part RandomPart(const Piece& piece, Random& random) {
+  const double size = std::exp2(-random.Int(6));
+  const double u0 = random.Uniform(0.0, 1.0 - size), v0 = random.Uniform(0.0, 1.0 - size);
+  return PartOf(piece, {u0, u0 + size, v0, v0 + size});
+}
+
+// As the search tree halves pieces.
+Part DyadicPart(const Piece& piece, Random& random) {
+  const auto side = [&](double& low, double& high) {
+    const int parts = 1 << random.Int(7);
+    low = static_cast<double>(random.Int(parts)) / parts;
+    high = low + 1.0 / parts;
+  };
+  Rect r;
+  side(r.u0, r.u1);
+  side(r.v0, r.v1);
+  return PartOf(piece, r);
+}
+
+// How often each claim was made.
+struct Claims {
+  int minorants = 0, convex = 0, above = 0;
+};
+
+// Whatever `model` claims about a piece's part for a centre c holds at random places of it.
+void CheckClaims(const Piece& piece, const Rect& r, const LeafModel& model, const Vec3& c, Random& random,
+                 Claims& claims) {
+  const LowerModel low = BoundBelow(model, c);
+  const auto f = [&](double x, double y) {
+    const Vec3 p = Position(piece, r.u0 + (0.5 + x) * (r.u1 - r.u0), r.v0 + (0.5 + y) * (r.v1 - r.v0));
+    return 0.5 * internal::ToRay(p, c).squaredNorm();
+  };
+  const auto local = [&] { return random.Uniform(-0.5, 0.5); };
+  if (low.minorant && std::isfinite(low.q.a)) {
+    ++claims.minorants;
+    for (int k = 0; k < 6; ++k) {
+      const double x = local(), y = local();
+      ASSERT_LE(low.f0 + low.q(x, y), f(x, y) + 1e-10);
+    }
+  }
+  if (low.convex) {
+    ++claims.convex;
+    claims.above += !low.minorant;
+    for (int k = 0; k < 6; ++k) {
+      const double x0 = local(), y0 = local(), x1 = local(), y1 = local(), t = random.Unit();
+      ASSERT_LE(f(x0 + t * (x1 - x0), y0 + t * (y1 - y0)), (1 - t) * f(x0, y0) + t * f(x1, y1) + 1e-10);
+    }
+  }
+}
+
+void ExpectNotVacuous(const Claims& claims) {
+  EXPECT_GT(claims.minorants, 1000);
+  EXPECT_GT(claims.convex, 5000);
+  EXPECT_GT(claims.above, 1000);
 }
 
 TEST(LeafModel, LowerModelIsBelowAndConvexMeansConvex) {
   const std::vector<Piece> pieces = SomePieces();
   Random random(7);
-  int minorants = 0, convex = 0, above = 0;
+  Claims claims;
   for (int i = 0; i < 60000; ++i) {
     const Piece& piece = pieces[static_cast<std::size_t>(random.Int(static_cast<int>(pieces.size())))];
     const Part part = RandomPart(piece, random);
-    const Rect& r = part.rect;
-    const Vec3 c = part.model.s + random.Point(-4, 4);
-    const LowerModel low = BoundBelow(part.model, c);
-    const auto f = [&](double x, double y) {
-      const Vec3 p = Position(piece, r.u0 + (0.5 + x) * (r.u1 - r.u0), r.v0 + (0.5 + y) * (r.v1 - r.v0));
-      return 0.5 * internal::ToRay(p, c).squaredNorm();
-    };
-    const auto local = [&] { return random.Uniform(-0.5, 0.5); };
-    if (low.minorant && std::isfinite(low.q.a)) {
-      ++minorants;
-      for (int k = 0; k < 6; ++k) {
-        const double x = local(), y = local();
-        ASSERT_LE(low.f0 + low.q(x, y), f(x, y) + 1e-10);
-      }
-    }
-    if (low.convex) {
-      ++convex;
-      above += !low.minorant;
-      for (int k = 0; k < 6; ++k) {
-        const double x0 = local(), y0 = local(), x1 = local(), y1 = local(), t = random.Unit();
-        ASSERT_LE(f(x0 + t * (x1 - x0), y0 + t * (y1 - y0)), (1 - t) * f(x0, y0) + t * f(x1, y1) + 1e-10);
-      }
-    }
+    CheckClaims(piece, part.rect, part.model, part.model.s + random.Point(-4, 4), random, claims);
+    if (HasFatalFailure()) return;
   }
-  // Not vacuous.
-  EXPECT_GT(minorants, 1000);
-  EXPECT_GT(convex, 10000);
-  EXPECT_GT(above, 1000);
+  ExpectNotVacuous(claims);
+}
+
+// Stored leaves of models small and large, near the origin and far from it: from fine grids of places to
+// grids so coarse that every rounding shows.
+TEST(SearchLeaf, ClaimsHoldAfterRounding) {
+  const std::vector<Piece> pieces = SomePieces();
+  Random random(13);
+  Claims claims;
+  for (int i = 0; i < 60000; ++i) {
+    const Piece& piece = pieces[static_cast<std::size_t>(random.Int(static_cast<int>(pieces.size())))];
+    const Part part = DyadicPart(piece, random);
+    const double size = 10.0 * std::pow(10.0, random.Uniform(0.0, 7.0));
+    const Vec3 corner = part.model.s - size * random.Point(0, 1);
+    const LeafGrid grid(Box3{corner, corner + Vec3::Constant(size)});
+    const SearchLeaf leaf(grid, 17, part.rect, part.model, part.bounds.axis, part.hull.data(),
+                          static_cast<int>(part.hull.size()));
+    EXPECT_EQ(leaf.piece(), 17);
+    const Rect r = leaf.rect();
+    ASSERT_TRUE(r.u0 == part.rect.u0 && r.u1 == part.rect.u1 && r.v0 == part.rect.v0 && r.v1 == part.rect.v1);
+    CheckClaims(piece, r, leaf.Model(grid), part.model.s + random.Point(-4, 4), random, claims);
+    if (HasFatalFailure()) return;
+    const internal::LeafBox box = leaf.Box(grid);
+    ASSERT_LT((box.axis.transpose() * box.axis - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+    for (const Vec3& p : part.hull) {
+      const Vec3 y = box.axis.transpose() * (p - box.center);
+      ASSERT_TRUE((y.cwiseAbs().array() <= box.half.array()).all());
+    }
+    // Not much larger than the box before rounding.
+    ASSERT_LT(box.half.norm(), 1.01 * part.bounds.half.norm() + 4.0 * grid.step);
+  }
+  ExpectNotVacuous(claims);
+}
+
+TEST(SearchLeaf, BoundsAreRoundedUp) {
+  Random random(17);
+  for (int i = 0; i < 10000; ++i) {
+    const double x = std::pow(10.0, random.Uniform(-30.0, 30.0));
+    const double up = UpperBound(x).value();
+    ASSERT_GE(up, x);
+    ASSERT_LE(up, x * (1.0 + 1.0 / 255.0));
+    ASSERT_GT(UpperBound(x).Next().value(), up);
+  }
+  EXPECT_GT(UpperBound(0.0).value(), 0.0F);
+  EXPECT_EQ(UpperBound(HUGE_VAL).value(), HUGE_VALF);
 }
 
 TEST(LeafModel, SmallPartsOfSmoothPatchesAreProvenConvexUnderARestingBall) {

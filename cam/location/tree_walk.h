@@ -1,0 +1,82 @@
+// The walk of a height search: leaves that may be in the way of some balls, the most promising first.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+#include "cam/location/search_tree.h"
+
+namespace patchmill::internal {
+
+inline Float4 Splat(float x) { return Float4{x, x, x, x}; }
+inline Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
+
+// Bit k: a < b in lane k.
+inline unsigned BelowBits(Float4 a, Float4 b) {
+#if defined(__SSE__)
+  return static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));
+#else
+  unsigned bits = 0;
+  for (int k = 0; k < 4; ++k) bits |= (a[k] < b[k] ? 1U : 0U) << k;
+  return bits;
+#endif
+}
+
+// Where the balls' centres are in plan.
+struct PlanBox {
+  float x0, x1, y0, y1;
+};
+
+// Calls visit(leaf), until it returns false, for every leaf whose box reaches into the way of a ball over
+// `at` (and everything above it) at height lowest(): plan distance^2 + max(0, lowest - max_z)^2 < limit.
+// `lowest` may rise from call to call.
+template <class Lowest, class Visit>
+void WalkTree(const SearchTree& tree, const PlanBox& at, float limit, const Lowest& lowest,
+              const Visit& visit) {
+  // A node or leaf still to visit: its squared distance in plan, and how high it reaches.
+  struct Pending {
+    std::int32_t child;
+    float distance2, max_z, promise;
+  };
+  std::array<Pending, kMaxPending> stack;
+  std::size_t size = 0;
+  const Float4 x0 = Splat(at.x0), x1 = Splat(at.x1), y0 = Splat(at.y0), y1 = Splat(at.y1);
+  const Float4 zero = Splat(0.0F), limit4 = Splat(limit);
+  float z = lowest();
+  for (std::int32_t next = 0;;) {
+    const SearchNode& node = tree.nodes[static_cast<std::size_t>(next)];
+    const Float4 dx = Max(Max(node.min_x - x1, x0 - node.max_x), zero);
+    const Float4 dy = Max(Max(node.min_y - y1, y0 - node.max_y), zero);
+    const Float4 below = Max(Splat(z) - node.max_z, zero);
+    const Float4 distance2 = dx * dx + dy * dy, promise = node.max_z - distance2;
+    // The most promising child comes last, on top of the stack.
+    const std::size_t first = size;
+    for (unsigned in = BelowBits(distance2 + below * below, limit4); in != 0; in &= in - 1) {
+      const int k = std::countr_zero(in);
+      const Pending p{node.child[k], distance2[k], node.max_z[k], promise[k]};
+      tree.Prefetch(p.child);
+      std::size_t i = size++;
+      for (; i > first && stack[i - 1].promise > p.promise; --i) stack[i] = stack[i - 1];
+      stack[i] = p;
+    }
+    for (next = -1; next < 0;) {
+      if (size == 0) return;
+      const Pending& top = stack[--size];
+      const float under = std::max(0.0F, z - top.max_z);
+      if (top.distance2 + under * under >= limit) continue;
+      if (top.child >= 0) {
+        next = top.child;
+      } else {
+        if (!visit(~top.child)) return;
+        z = lowest();
+      }
+    }
+  }
+}
+
+}  // namespace patchmill::internal
