@@ -43,7 +43,7 @@ struct Touch {
 PM_LANE_INLINE Touch TouchLanes(const Group& g, const LaneLimits& limits, const V3& p) {
   const D dx = p.x - g.qx, dy = p.y - g.qy;
   const D rim = limits.radius * limits.radius - (dx * dx + dy * dy);
-  return {p.z + Sqrt(Max(rim, D{})), rim >= -2.0 * limits.radius * limits.slack};
+  return {p.z + Sqrt(Max(rim, D{})), rim > 2.0 * limits.radius * limits.slack};
 }
 
 PM_LANE_INLINE D LinearMinimumLanes(D f, D slope_u, D slope_v, const Box& box) {

@@ -25,12 +25,12 @@ struct State {
   double f;  // 1/2 |d|^2
 };
 
-// Height of the centre that touches p; -infinity when p is not under the ball.
+// Height of the centre that touches p; -infinity when p is not under the ball: at its rim within rounding p is
+// outside, as for the proofs (FreeF), so that a ball exactly beside a wall is free.
 double TouchingHeight(const Vec3& p, const Ball& ball) {
   const double dx = p.x() - ball.q.x(), dy = p.y() - ball.q.y();
   const double rim = ball.radius * ball.radius - (dx * dx + dy * dy);
-  if (rim >= 0.0) return p.z() + std::sqrt(rim);
-  return rim >= -2.0 * ball.radius * ball.slack ? p.z() : -kInfinity;
+  return rim > 2.0 * ball.radius * ball.slack ? p.z() + std::sqrt(rim) : -kInfinity;
 }
 
 void Measure(const Ball& ball, double z, State& s) {

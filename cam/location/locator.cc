@@ -61,7 +61,15 @@ void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenL
 void Locator::Impl::SearchAll(const Ball& ball, Contact& best, OpenLeaves& open) const {
   open.clear();
   Search(ball, kInfinity, best, &open);
-  if (Grazes(best) && !open.empty()) Certify(ball, open, 1e-6, best);
+  if (!Grazes(best) || open.empty()) return;
+  const double found = best.z;
+  Certify(ball, open, 1e-6, best);
+  if (Raised(found, best)) equator_raises.fetch_add(1, std::memory_order_relaxed);
+}
+
+bool Locator::Impl::Raised(double before, const Contact& c) const {
+  const double below = std::max(c.z - c.p.z(), 0.0);
+  return c.z > before + 1e-9 + std::sqrt(below * below + 8.0 * radius * rounding) - below;
 }
 
 void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& best, OpenLeaves* open) const {
@@ -117,6 +125,7 @@ Locator::Locator(Locator&&) noexcept = default;
 const Surface& Locator::surface() const { return impl_->surface; }
 double Locator::radius() const { return impl_->radius; }
 std::uint64_t Locator::defect_count() const { return impl_->defects.load(); }
+std::uint64_t Locator::equator_raise_count() const { return impl_->equator_raises.load(); }
 
 std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hint) const {
   thread_local Impl::OpenLeaves open;
@@ -145,11 +154,9 @@ std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double ep
   if (hint != nullptr) impl_->StartFromHint(ball, *hint, best);
   impl_->SearchAll(ball, best, open);
   const double found = best.z;
-  // Where the contact is about to leave the disc, h answers a rounding of the surface with a multiple of it.
-  const double steepness = impl_->radius / std::max(best.z - best.p.z(), 1e-12);
   const bool had = best.piece >= 0;
   const double gap = impl_->Certify(ball, open, std::max(eps, 1e-7), best);
-  if (best.z > found + 1e-9 + 4.0 * impl_->rounding * steepness || (!had && best.piece >= 0)) {
+  if (best.piece >= 0 && (!had || impl_->Raised(found, best))) {
     impl_->defects.fetch_add(1, std::memory_order_relaxed);
   }
   if (best.piece < 0) return std::nullopt;

@@ -28,6 +28,8 @@ struct Locator::Impl {
   // maxima for a few starts, and its open leaves are divided until proven, to 1e-6 mm.
   void SearchAll(const internal::Ball& ball, internal::Contact& best, OpenLeaves& open) const;
   bool Grazes(const internal::Contact& c) const { return c.piece >= 0 && c.z - c.p.z() < 0.1 * radius; }
+  // A contact above the height found before by more than rounding explains.
+  bool Raised(double before, const internal::Contact& c) const;
   void VisitLeaf(std::int32_t leaf, const internal::Ball& ball, internal::Contact& best,
                  OpenLeaves* open) const;
   void StartFromHint(const internal::Ball& ball, const SurfacePoint& hint, internal::Contact& best) const;
@@ -45,7 +47,7 @@ struct Locator::Impl {
   double slack = 0.0;     // mm: 1e-12 of the scale, what a proof allows itself
   double reach = 0.0;     // mm: largest coordinate of a centre that touches anything
   internal::SearchTree tree;
-  mutable std::atomic<std::uint64_t> defects{0};
+  mutable std::atomic<std::uint64_t> defects{0}, equator_raises{0};
 };
 
 }  // namespace patchmill

@@ -115,6 +115,8 @@ struct JobReport {
   double min_concave_radius = kInfinity;  // mm, smallest on the reachable side; infinity: none
   double controller_tolerance = 0.0;      // mm
   int point_count = 0;
+  // Of all heights of the passes and links: see Locator::defect_count, equator_raise_count.
+  std::uint64_t certificate_defects = 0, equator_raises = 0;
   std::vector<Region> regions;
   std::vector<RegionChoice> choices;  // of each region
   Diagnostics diagnostics;

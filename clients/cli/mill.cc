@@ -134,6 +134,11 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   fmt::print(stderr, "  motion    {:.1f} min ({}), {} points, {} retracts\n",
              report.estimated_time_s() / 60.0, report.time_basis(), report.point_count(),
              report.retract_count());
+  if (report.certificate_defect_count() > 0) {
+    fmt::print(stderr,
+               "  heights   {} put right by their certificates: a defect of the planner, please report\n",
+               report.certificate_defect_count());
+  }
   for (const v1::Diagnostic& finding : report.diagnostics()) {
     if (finding.severity() != v1::SEVERITY_INFO && !finding.where().has_patch_index()) {
       fmt::print(stderr, "  {}\n", Line(finding));

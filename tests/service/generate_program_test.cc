@@ -84,6 +84,7 @@ TEST_F(GenerateProgram, StreamsInOrderAndEndsWithTheReport) {
   const v1::Report* report = stream.Report();
   ASSERT_NE(report, nullptr);
   ASSERT_EQ(report->outcome(), v1::OUTCOME_COMPLETE) << report->ShortDebugString();
+  EXPECT_EQ(report->certificate_defect_count(), 0);
   EXPECT_GE(seen[3], 1);
 }
 

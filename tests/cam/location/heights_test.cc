@@ -165,7 +165,7 @@ TEST(Heights, AreThoseOfOnePlaceAtATime) {
       ASSERT_NEAR(p.p.z() + std::sqrt(std::max(0.0, rim2)), answers[k]->z, 1e-12 * surface.scale);
     }
     EXPECT_GT(found, 100);
-    EXPECT_GT(sharp, found * 8 / 10);  // the block: many places exactly a radius from its walls
+    EXPECT_GT(sharp, found * 9 / 10);
     EXPECT_EQ(locator.defect_count(), 0u);
   }
 }

@@ -181,6 +181,7 @@ void CheckProgram(const Surface& surface, const Job& job, const JobResult& resul
   ASSERT_TRUE(outcome == Outcome::kComplete || outcome == Outcome::kCompleteWhereReachable)
       << Describe(result);
   EXPECT_TRUE(result.report.verify.ok());
+  EXPECT_EQ(result.report.certificate_defects, 0u);
   ASSERT_FALSE(result.program.empty());
   const ProgramJudge judge(surface, job, result.program);
   judge.CheckFrame();
