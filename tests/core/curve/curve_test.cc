@@ -142,6 +142,67 @@ TEST(Curve, DerivativesAgreeWithDifferencing) {
   }
 }
 
+Curve Moved(Curve curve, const Eigen::Affine3d& motion) {
+  const Eigen::Matrix3d turn = motion.linear();
+  if (auto* h = std::get_if<HermiteCurve>(&curve)) {
+    h->p0 = motion * h->p0, h->p1 = motion * h->p1;
+    h->d0 = turn * h->d0, h->d1 = turn * h->d1;
+  } else if (auto* s = std::get_if<HosakaSegment>(&curve)) {
+    s->origin = motion * s->origin;
+    s->a = turn * s->a, s->b = turn * s->b, s->c = turn * s->c;
+    for (Vec3& d : s->extra) d = turn * d;
+  } else {
+    auto& points = std::holds_alternative<BezierCurve>(curve) ? std::get<BezierCurve>(curve).points
+                                                              : std::get<BsplineCurve>(curve).points;
+    for (Vec3& p : points) p = motion * p;
+  }
+  return curve;
+}
+
+Vec3 CurvatureVector(const CurveJet& jet) {
+  const Vec3 along = jet.d.normalized();
+  return (jet.dd - along * along.dot(jet.dd)) / jet.d.squaredNorm();
+}
+
+// Every kind: moved, run the other way, raised in degree; places and curvatures go along.
+TEST(Curve, RewrittenIsTheSameCurve) {
+  Random random(6);
+  const auto point = [&] { return random.Point(-1, 1); };
+  BezierCurve quartic;
+  BsplineCurve spline{3, {0, 0, 0, 0, 1, 3, 4, 4, 4, 4}, {}}, stretched = spline;
+  for (int k = 0; k < 5; ++k) quartic.points.push_back(point());
+  for (int k = 0; k < 6; ++k) spline.points.push_back(point());
+  stretched.points = spline.points;
+  for (double& knot : stretched.knots) knot = 7 + 0.5 * knot;
+  const Eigen::Affine3d motion =
+      Eigen::Translation3d(3, -7, 2) * Eigen::AngleAxisd(1.2, Vec3(1, -2, 2).normalized());
+  for (const Curve& curve : {Curve(HermiteCurve{point(), point(), point(), point()}), Curve(quartic),
+                             Curve(spline), Curve(RandomSegment(random, 3))}) {
+    const Curve moved = Moved(curve, motion);
+    const auto bezier = ToBezier(curve);
+    EXPECT_EQ(bezier.ok(), !std::holds_alternative<BsplineCurve>(curve));  // that of three spans is none
+    for (int k = 0; k < 20; ++k) {
+      const double t = random.Unit();
+      const CurveJet jet = Evaluate(curve, t), there = Evaluate(moved, t);
+      const Vec3 curvature = CurvatureVector(jet);
+      const double close = 1e-12 * (1 + curvature.norm()) * (1 + 1 / jet.d.squaredNorm());
+      ExpectNear(there.p, motion * jet.p, 1e-14 * 10);
+      ExpectNear(CurvatureVector(there), motion.linear() * curvature, close);
+      if (!bezier.ok()) continue;
+      const CurveJet back = Evaluate(Reversed(*bezier), 1 - t), high = Evaluate(Elevated(*bezier, 12), t);
+      ExpectNear(back.p, jet.p, 1e-13);
+      ExpectNear(high.p, jet.p, 1e-13);
+      ExpectNear(CurvatureVector(back), curvature, 10 * close);
+      ExpectNear(CurvatureVector(high), curvature, 10 * close);
+    }
+  }
+  for (int k = 0; k < 20; ++k) {
+    const double t = random.Unit();
+    ExpectNear(Evaluate(spline, t).p, Evaluate(stretched, t).p, 1e-14);
+    ExpectNear(Evaluate(spline, t).dd, Evaluate(stretched, t).dd, 1e-11);
+  }
+}
+
 TEST(Curve, ReversedAndElevatedAreTheSameCurve) {
   Random random(5);
   const HermiteCurve h{random.Point(-1, 1), random.Point(-1, 1), random.Point(-1, 1), random.Point(-1, 1)};
