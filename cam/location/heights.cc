@@ -234,8 +234,9 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
   }
 }
 
-void FreeBalls(const Locator& locator, std::span<const Vec3> centers, std::span<bool> free) {
-  PM_CHECK(centers.size() == free.size());
+void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
+                   std::span<std::optional<Vec3>> obstacles) {
+  PM_CHECK(centers.size() == obstacles.size());
   const LaneKernel& kernel = internal::AvailableLaneKernels().kernel[0];
   const Locator::Impl& impl = locator.impl();
   LanePacket packet;
@@ -250,8 +251,18 @@ void FreeBalls(const Locator& locator, std::span<const Vec3> centers, std::span<
       PutContact(none, packet, static_cast<int>(k));
     }
     PacketSearch(impl, kernel, packet).RunFree();
-    for (std::size_t k = 0; k < count; ++k) free[i + k] = packet.piece[k] < 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      obstacles[i + k].reset();
+      if (packet.piece[k] >= 0) obstacles[i + k] = ContactOf(packet, static_cast<int>(k)).p;
+    }
   }
+}
+
+void FreeBalls(const Locator& locator, std::span<const Vec3> centers, std::span<bool> free) {
+  PM_CHECK(centers.size() == free.size());
+  std::vector<std::optional<Vec3>> obstacles(centers.size());
+  FindObstacles(locator, centers, obstacles);
+  for (std::size_t k = 0; k < centers.size(); ++k) free[k] = !obstacles[k];
 }
 
 }  // namespace patchmill

@@ -24,6 +24,11 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
 // once, and nothing looked at that lies below them.
 void FreeBalls(const Locator& locator, std::span<const Vec3> centers, std::span<bool> free);
 
+// The same, and of each ball that is not free a point of the surface in it or above it, not always the one
+// that is most in the way.
+void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
+                   std::span<std::optional<Vec3>> obstacles);
+
 // What this processor can run, fastest first: "avx512", "avx2" (x86-64, compiled by GCC), and always "plain".
 std::vector<const char*> InstructionSets();
 

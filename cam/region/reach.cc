@@ -1,8 +1,8 @@
 #include "cam/region/reach.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 #include "cam/location/heights.h"
@@ -27,23 +27,73 @@ bool ReachTest::Free(const Vec3& p, const Vec3& normal) const {
          (normal.z() < kVertical && free_ball_.Free(p - params_.radius * normal));
 }
 
+namespace {
+
+// Signs of balls asked for in turn, neighbours one after the other: what was in the way of the last ones is
+// mostly in the way of the next, which then needs no search. What is left goes in packets.
+class FreeSigns {
+ public:
+  FreeSigns(const Locator& ball, std::span<double> signs) : ball_(ball), signs_(signs) {}
+
+  void Ask(std::size_t i, const Vec3& center) {
+    for (const Vec3& obstacle : last_) {
+      if (!InTheWay(obstacle, center)) continue;
+      signs_[i] = -1.0;
+      return;
+    }
+    asked_.push_back(i);
+    centers_.push_back(center);
+    if (centers_.size() == kPacket) Search();
+  }
+  void Search() {
+    obstacles_.resize(centers_.size());
+    FindObstacles(ball_, centers_, obstacles_);
+    for (std::size_t k = 0; k < asked_.size(); ++k) {
+      signs_[asked_[k]] = obstacles_[k] ? -1.0 : 1.0;
+      if (obstacles_[k]) last_[next_++ % last_.size()] = *obstacles_[k];
+    }
+    asked_.clear();
+    centers_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kPacket = 8, kRemembered = 8;
+
+  // Deeper in the ball, or in its way upwards, than rounding.
+  bool InTheWay(const Vec3& p, const Vec3& center) const {
+    const double r2 = ball_.radius() * ball_.radius() * (1.0 - kRounding);
+    const Vec3 d = p - center;
+    return Plan(d).squaredNorm() + (d.z() < 0.0 ? d.z() * d.z() : 0.0) < r2;
+  }
+
+  static constexpr double kRounding = 1e-9;
+  const Locator& ball_;
+  std::span<double> signs_;
+  std::array<Vec3, kRemembered> last_ = Nowhere();
+  std::size_t next_ = 0;
+  std::vector<std::size_t> asked_;
+  std::vector<Vec3> centers_;
+  std::vector<std::optional<Vec3>> obstacles_;
+
+  static std::array<Vec3, kRemembered> Nowhere() {
+    std::array<Vec3, kRemembered> nowhere;
+    nowhere.fill(Vec3::Constant(kInfinity));
+    return nowhere;
+  }
+};
+
+}  // namespace
+
 void ReachTest::FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs) const {
-  std::vector<std::size_t> asked;
-  std::vector<Vec3> centers;
+  std::fill(signs.begin(), signs.end(), 0.0);
   const auto ask = [&](const auto& wanted, double side) {
-    asked.clear();
-    centers.clear();
+    FreeSigns free(free_ball_, signs);
     for (std::size_t i = 0; i < jets.size(); ++i) {
       const auto normal = UpwardNormal(jets[i]);
-      if (!normal || !wanted(i, *normal)) continue;
-      asked.push_back(i);
-      centers.push_back(jets[i].p + side * params_.radius * *normal);
+      if (normal && wanted(i, *normal)) free.Ask(i, jets[i].p + side * params_.radius * *normal);
     }
-    const auto free = std::make_unique<bool[]>(asked.size());
-    FreeBalls(free_ball_, centers, {free.get(), asked.size()});
-    for (std::size_t i = 0; i < asked.size(); ++i) signs[asked[i]] = free[i] ? 1.0 : -1.0;
+    free.Search();
   };
-  std::fill(signs.begin(), signs.end(), 0.0);
   ask([](std::size_t, const Vec3&) { return true; }, 1.0);
   ask([&](std::size_t i, const Vec3& n) { return signs[i] < 0.0 && n.z() < kVertical; }, -1.0);
 }

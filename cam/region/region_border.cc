@@ -1,6 +1,7 @@
 #include "cam/region/region_border.h"
 
 #include <algorithm>
+#include <compare>
 
 #include "core/base/parallel.h"
 #include "core/base/status.h"
@@ -8,9 +9,12 @@
 namespace patchmill {
 namespace {
 
-const ZeroVertex& End(const SplitMesh& mesh, const TriangleSide& side, int which) {
+int VertexOf(const SplitMesh& mesh, const TriangleSide& side, int which) {
   const auto& v = mesh.triangles[static_cast<std::size_t>(side.triangle)].vertex;
-  return mesh.vertices[static_cast<std::size_t>(v[static_cast<std::size_t>((side.side + which) % 3)])];
+  return v[static_cast<std::size_t>((side.side + which) % 3)];
+}
+const ZeroVertex& End(const SplitMesh& mesh, const TriangleSide& side, int which) {
+  return mesh.vertices[static_cast<std::size_t>(VertexOf(mesh, side, which))];
 }
 
 // The field on whose zero curve both ends lie, a smooth one first.
@@ -28,6 +32,33 @@ std::vector<Vec2> ArcOf(const Piece& piece, const ZeroField* field, const ZeroVe
                         double tolerance) {
   if (field == nullptr) return {};
   return RefineZeroArc(piece, *field, {a.u, a.v}, {b.u, b.v}, tolerance);
+}
+
+// Of each of these sides the first one along the same edge of a piece: both see one arc.
+std::vector<std::size_t> FirstAlongEdge(const std::vector<SplitMesh>& meshes,
+                                        const std::vector<Adjacency>& adjacency,
+                                        const std::vector<std::size_t>& sides) {
+  struct Edge {
+    int piece, low, high;
+    std::size_t place;
+    auto operator<=>(const Edge&) const = default;
+  };
+  std::vector<Edge> edges;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const TriangleSide& side = adjacency[sides[k]].side;
+    const SplitMesh& mesh = meshes[static_cast<std::size_t>(side.piece)];
+    const int a = VertexOf(mesh, side, 0), b = VertexOf(mesh, side, 1);
+    edges.push_back({side.piece, std::min(a, b), std::max(a, b), k});
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::size_t> first(sides.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Edge &edge = edges[i], &before = edges[i > 0 ? i - 1 : 0];
+    const bool again =
+        i > 0 && edge.piece == before.piece && edge.low == before.low && edge.high == before.high;
+    first[edge.place] = again ? first[before.place] : edge.place;
+  }
+  return first;
 }
 
 // Directed strands of one region's outline -> closed loops. Strands are matched end to start exactly first,
@@ -112,8 +143,10 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const int own = region(a.side.piece, a.side.triangle);
     if (own >= 0 && own != region(a.other_piece, a.other_triangle)) on_border.push_back(i);
   }
+  const std::vector<std::size_t> first = FirstAlongEdge(meshes, adjacency, on_border);
   std::vector<std::vector<Vec3>> strand(on_border.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, on_border.size(), [&](std::size_t k) {
+    if (first[k] != k) return;
     const Adjacency& a = adjacency[on_border[k]];
     const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
     const Piece& piece = surface.pieces[static_cast<std::size_t>(a.side.piece)];
@@ -123,6 +156,9 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
       strand[k].push_back(Position(piece, q.x(), q.y()));
     strand[k].push_back(to.p);
   }));
+  for (std::size_t k = 0; k < on_border.size(); ++k) {
+    if (first[k] != k) strand[k].assign(strand[first[k]].rbegin(), strand[first[k]].rend());
+  }
   std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
   for (std::size_t k = 0; k < on_border.size(); ++k) {
     const Adjacency& a = adjacency[on_border[k]];

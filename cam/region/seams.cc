@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <unordered_map>
 
 #include "core/base/parallel.h"
@@ -78,29 +79,41 @@ struct PieceSides {
 
 PieceSides InnerSides(const Piece& piece, int index, const SplitMesh& mesh) {
   PieceSides sides;
-  const auto key = [](int from, int to) {
-    return (static_cast<std::uint64_t>(from) << 32) | static_cast<std::uint32_t>(to);
-  };
-  std::unordered_map<std::uint64_t, int> facing;  // directed side -> triangle; looked up, never walked
-  facing.reserve(3 * mesh.triangles.size());
   const auto corner = [&](std::size_t t, int s) {
-    return mesh.triangles[t].vertex[static_cast<std::size_t>(s % 3)];
+    return static_cast<std::size_t>(mesh.triangles[t].vertex[static_cast<std::size_t>(s % 3)]);
   };
+  // Directed sides by their first vertex: those of vertex i are [first[i], first[i + 1]).
+  std::vector<std::size_t> first(mesh.vertices.size() + 2, 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int s = 0; s < 3; ++s) facing[key(corner(t, s), corner(t, s + 1))] = static_cast<int>(t);
+    for (int s = 0; s < 3; ++s) ++first[corner(t, s) + 2];
   }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  struct Directed {
+    std::size_t to;
+    int triangle;
+  };
+  std::vector<Directed> directed(3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int s = 0; s < 3; ++s) directed[first[corner(t, s) + 1]++] = {corner(t, s + 1), static_cast<int>(t)};
+  }
+  const auto facing = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = first[from]; i < first[from + 1]; ++i) {
+      if (directed[i].to == to) return directed[i].triangle;
+    }
+    return -1;
+  };
   sides.all.reserve(3 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (int s = 0; s < 3; ++s) {
-      const ZeroVertex& a = mesh.vertices[static_cast<std::size_t>(corner(t, s))];
-      const ZeroVertex& b = mesh.vertices[static_cast<std::size_t>(corner(t, s + 1))];
+      const ZeroVertex& a = mesh.vertices[corner(t, s)];
+      const ZeroVertex& b = mesh.vertices[corner(t, s + 1)];
       Adjacency adjacency;
       adjacency.side = {index, static_cast<int>(t), s};
       adjacency.length = (b.p - a.p).norm();
-      const auto it = facing.find(key(corner(t, s + 1), corner(t, s)));
-      if (it != facing.end()) {
+      const int other = facing(corner(t, s + 1), corner(t, s));
+      if (other >= 0) {
         adjacency.other_piece = index;
-        adjacency.other_triangle = it->second;
+        adjacency.other_triangle = other;
       } else if (OnBorder(a, b)) {
         BorderSide side{sides.all.size(), a.p, b.p, Position(piece, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v)),
                         0.0};

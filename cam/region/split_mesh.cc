@@ -1,6 +1,7 @@
 #include "cam/region/split_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -31,22 +32,46 @@ void Quarter(const Vec2& a, const Vec2& b, const Vec2& c, int halvings, const Vi
   Quarter(ab, bc, ca, halvings - 1, visit);
 }
 
-// visit(q, weight) at the points of a rule fine enough for how far the normal turns.
+using Normal = std::optional<Vec3>;
+
+Normal NormalAt(const Piece& piece, const Vec2& q) { return UnitNormal(Evaluate(piece, q.x(), q.y())); }
+
+// visit(q, weight) at the points of a rule fine enough for how far the normal turns between the corners.
 template <class Visit>
-void Integrate(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2& c, const Visit& visit) {
-  const auto normal = [&](const Vec2& q) { return UnitNormal(Evaluate(piece, q.x(), q.y())); };
-  const auto na = normal(a), nb = normal(b), nc = normal(c);
-  double turn = std::max({Turn(na, nb), Turn(nb, nc), Turn(nc, na)});
+void Integrate(const std::array<Vec2, 3>& q, const std::array<const Normal*, 3>& normal, const Visit& visit) {
+  double turn =
+      std::max({Turn(*normal[0], *normal[1]), Turn(*normal[1], *normal[2]), Turn(*normal[2], *normal[0])});
   int halvings = 0;
   for (; turn > kMaxTurn && halvings < kMaxHalvings; turn *= 0.5) ++halvings;
-  Quarter(a, b, c, halvings, visit);
+  Quarter(q[0], q[1], q[2], halvings, visit);
 }
+
+// Normals at the vertices of a mesh, once each, where triangles ask for them.
+class VertexNormals {
+ public:
+  VertexNormals(const Piece& piece, const std::vector<ZeroVertex>& vertices)
+      : piece_(piece), vertices_(vertices), normals_(vertices.size()), known_(vertices.size(), false) {}
+
+  const Normal& At(int vertex) {
+    const auto i = static_cast<std::size_t>(vertex);
+    if (!known_[i]) normals_[i] = NormalAt(piece_, {vertices_[i].u, vertices_[i].v});
+    known_[i] = true;
+    return normals_[i];
+  }
+
+ private:
+  const Piece& piece_;
+  const std::vector<ZeroVertex>& vertices_;
+  std::vector<Normal> normals_;
+  std::vector<bool> known_;
+};
 
 }  // namespace
 
 double SurfaceArea(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2& c) {
   double area = 0.0;
-  Integrate(piece, a, b, c, [&](const Vec2& q, double weight) {
+  const Normal na = NormalAt(piece, a), nb = NormalAt(piece, b), nc = NormalAt(piece, c);
+  Integrate({a, b, c}, {&na, &nb, &nc}, [&](const Vec2& q, double weight) {
     const SurfaceJet jet = Evaluate(piece, q.x(), q.y());
     area += weight * jet.du.cross(jet.dv).norm();
   });
@@ -59,18 +84,20 @@ SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, 
   SplitMesh mesh;
   mesh.vertices = std::move(zero.vertices);
   mesh.triangles.reserve(zero.triangles.size());
+  VertexNormals normals(piece, mesh.vertices);
   for (const ZeroTriangle& t : zero.triangles) {
     SplitTriangle triangle{t.vertex, LabelOf(t)};
-    Vec2 q[3];
+    std::array<Vec2, 3> q;
+    std::array<const Normal*, 3> normal{};
     for (std::size_t k = 0; k < 3; ++k) {
       const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(t.vertex[k])];
       q[k] = {vertex.u, vertex.v};
+      normal[k] = &normals.At(t.vertex[k]);
     }
     const int turn = t.sign[static_cast<std::size_t>(Field::kTurn)];
-    Integrate(piece, q[0], q[1], q[2], [&](const Vec2& at, double weight) {
+    Integrate(q, normal, [&](const Vec2& at, double weight) {
       const SurfaceJet jet = Evaluate(piece, at.x(), at.y());
-      const Vec3 normal = jet.du.cross(jet.dv);
-      const double element = weight * normal.norm();
+      const double element = weight * jet.du.cross(jet.dv).norm();
       triangle.area += element;
       const auto unit = UnitNormal(jet);
       if (!unit) return;

@@ -73,25 +73,26 @@ bool MayBeFlat(const BernsteinForm& form) {
 }
 
 std::array<BernsteinForm, 4> Quarters(const BernsteinForm& form) {
-  std::array<BernsteinForm, 4> quarters = {form, form, form, form};
-  const int row = form.n + 1;
-  for (int q = 0; q < 4; ++q) {
-    std::vector<double>& c = quarters[static_cast<std::size_t>(q)].c;
-    for (int j = 0; j < row; ++j) {
-      if (q / 2 == 0) {
-        KeepLeft(&c[static_cast<std::size_t>(j)], form.m, row, 0.5);
-      } else {
-        KeepRight(&c[static_cast<std::size_t>(j)], form.m, row, 0.5);
-      }
+  const auto m = static_cast<std::size_t>(form.m), row = static_cast<std::size_t>(form.n) + 1;
+  const auto halve_u = [&](BernsteinForm& low, BernsteinForm& high) {
+    high = low;
+    for (std::size_t j = 0; j < row; ++j) {
+      KeepLeft(&low.c[j], form.m, static_cast<std::ptrdiff_t>(row), 0.5);
+      KeepRight(&high.c[j], form.m, static_cast<std::ptrdiff_t>(row), 0.5);
     }
-    for (int i = 0; i <= form.m; ++i) {
-      if (q % 2 == 0) {
-        KeepLeft(&c[static_cast<std::size_t>(i * row)], form.n, 1, 0.5);
-      } else {
-        KeepRight(&c[static_cast<std::size_t>(i * row)], form.n, 1, 0.5);
-      }
+  };
+  const auto halve_v = [&](BernsteinForm& low, BernsteinForm& high) {
+    high = low;
+    for (std::size_t i = 0; i <= m; ++i) {
+      KeepLeft(&low.c[i * row], form.n, 1, 0.5);
+      KeepRight(&high.c[i * row], form.n, 1, 0.5);
     }
-  }
+  };
+  std::array<BernsteinForm, 4> quarters;
+  quarters[0] = form;
+  halve_u(quarters[0], quarters[2]);
+  halve_v(quarters[0], quarters[1]);
+  halve_v(quarters[2], quarters[3]);
   return quarters;
 }
 

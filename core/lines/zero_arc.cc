@@ -16,10 +16,11 @@ class Refiner {
 
   // The first chord is looked at in three places: an arc of two bends may cross it in the middle.
   void AddFirst(const Vec2& from, const Vec2& to, std::vector<Vec2>& out) const {
-    const double length = (At(to) - At(from)).norm();
+    const Vec3 a = At(from), b = At(to);
+    const double length = (b - a).norm();
     if (length <= tolerance_) return;
-    if (Straight(from, to, 0.5, length) &&
-        (!field_.smooth || (Straight(from, to, 0.25, length) && Straight(from, to, 0.75, length)))) {
+    if (Straight(from, to, 0.5, a, b) &&
+        (!field_.smooth || (Straight(from, to, 0.25, a, b) && Straight(from, to, 0.75, a, b)))) {
       return;
     }
     const std::optional<Vec2> root = OnPerpendicular(from, to, length);
@@ -34,20 +35,28 @@ class Refiner {
   bool Near(const Vec2& q, const Vec3& a, const Vec3& b) const {
     return SegmentDistance(At(q), a, b) <= tolerance_;
   }
-  // The curve passes within the tolerance of the chord's point `at`: the cheap test.
-  bool Straight(const Vec2& from, const Vec2& to, double at, double length) const {
+  // 1 mm on the surface at right angles to the direction `along` there: parameters are no plan, and their own
+  // right angle leads elsewhere, and too far.
+  Vec2 Across(const Vec2& at, const Vec2& along, double length) const {
+    const SurfaceJet jet = Evaluate(piece_, at.x(), at.y());
+    const Vec3 tangent = along.x() * jet.du + along.y() * jet.dv;
+    const Vec2 across(-tangent.dot(jet.dv), tangent.dot(jet.du));
+    const double millimetres = (across.x() * jet.du + across.y() * jet.dv).norm();
+    return millimetres > 0.0 ? Vec2(across / millimetres) : Vec2(Vec2(-along.y(), along.x()) / length);
+  }
+  // The curve passes within the tolerance of the point `at` of the chord a b: the cheap test.
+  bool Straight(const Vec2& from, const Vec2& to, double at, const Vec3& a, const Vec3& b) const {
     const Vec2 mid = from + at * (to - from);
-    const Vec2 across = (0.7 * tolerance_ / length) * Vec2(-(to - from).y(), (to - from).x());
+    const Vec2 across = 0.7 * tolerance_ * Across(mid, to - from, (b - a).norm());
     const Vec2 one = mid + Inside(mid, across) * across, other = mid - Inside(mid, -across) * across;
-    // Parameters are no plan: what counts is the distance on the surface.
-    if (!Near(one, At(from), At(to)) || !Near(other, At(from), At(to))) return false;
+    if (!Near(one, a, b) || !Near(other, a, b)) return false;
     return Value(field_, piece_, one) * Value(field_, piece_, other) <= 0.0;
   }
 
   void Add(const Vec2& from, const Vec2& to, int depth, std::vector<Vec2>& out) const {
     const Vec3 a = At(from), b = At(to);
     if (depth == 0 || (b - a).norm() <= tolerance_) return;
-    if (Straight(from, to, 0.5, (b - a).norm())) return;
+    if (Straight(from, to, 0.5, a, b)) return;
     const std::optional<Vec2> root = OnPerpendicular(from, to, (b - a).norm());
     if (!root || Near(*root, a, b)) return;
     Add(from, *root, depth - 1, out);

@@ -75,6 +75,7 @@ class Divider {
     }
     if (params_.curves_only && sampled_.empty() && Settled(open)) return {};
     levels_ = ChooseLevels(piece_, params_);
+    result_.corners.assign(static_cast<std::size_t>((kZeroGrid + 1) * (kZeroGrid + 1)), false);
     std::vector<Task> level(1);
     level[0].open = std::move(open);
     while (!level.empty()) level = Refine(std::move(level));
@@ -248,7 +249,9 @@ class Divider {
     const int step = kZeroGrid >> cell.level;
     for (const int a : {0, 1}) {
       for (const int b : {0, 1})
-        result_.corners.insert((cell.i + a) * step * (kZeroGrid + 1) + (cell.j + b) * step);
+        result_
+            .corners[static_cast<std::size_t>((cell.i + a) * step * (kZeroGrid + 1) + (cell.j + b) * step)] =
+            true;
     }
     result_.cells.push_back(cell);
   }

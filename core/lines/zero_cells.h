@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <span>
-#include <unordered_set>
 #include <vector>
 
 #include "core/lines/zero_vertices.h"
@@ -19,8 +18,8 @@ struct ZeroCell {
 
 struct ZeroCells {
   std::vector<ZeroCell> cells;
-  std::unordered_set<int> corners;  // gi * (kZeroGrid + 1) + gj of all cells; looked up, never walked
-  std::vector<int> on_sides;        // further vertices on sides of cells
+  std::vector<bool> corners;  // of gi * (kZeroGrid + 1) + gj: a corner of a cell
+  std::vector<int> on_sides;  // further vertices on sides of cells
 };
 
 ZeroCells DivideForFields(const Piece& piece, std::span<const ZeroField> fields, const ZeroMeshParams& params,

@@ -40,7 +40,7 @@ class Builder {
     std::vector<std::pair<double, int>> found;  // place along the side in units of the grid, id
     for (int s = 1; s < length; ++s) {
       const int gi = i0 + (i1 - i0) * s / length, gj = j0 + (j1 - j0) * s / length;
-      if (cells_.corners.contains(gi * (kZeroGrid + 1) + gj))
+      if (cells_.corners[static_cast<std::size_t>(gi * (kZeroGrid + 1) + gj)])
         found.emplace_back(static_cast<double>(s) / length, vertices_.OnGrid(gi, gj));
     }
     for (const int id : cells_.on_sides) {
