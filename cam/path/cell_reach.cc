@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kUpright = 1e-6;     // both sides of a face as upright as this count
 constexpr double kMostTurn = 0.7;     // of normals from the middle one
-constexpr double kMostBend = 0.25;    // of the size: what bends more is not judged by nine places
 constexpr double kFloorSlack = 1e-6;  // mm: rounding of a floor at the surface itself
 
 }  // namespace
@@ -46,22 +45,30 @@ double BendOver(const std::array<Vec3, 9>& f) {
   return 2.0 * std::sqrt(off);
 }
 
+bool TooBent(double bend, double size) {
+  constexpr double kMostBend = 0.25;
+  return bend > kMostBend * size;
+}
+
 bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const CellReachParams& params,
                 Blockers& blockers) {
   const double limit = params.radius - params.tolerance;
   const double turn = BendOver(at.n);
   for (std::size_t side = 0; side < 2; ++side) {
     const double sign = side == 0 ? 1.0 : -1.0;
-    double highest_normal = -1.0, highest_center = -kInfinity;
+    double highest_normal = -1.0, lowest_normal = 1.0, highest_center = -kInfinity;
     std::array<Vec3, 9> c;
     for (std::size_t k = 0; k < 9; ++k) {
       c[k] = at.p[k] + sign * params.radius * at.n[k];
       highest_normal = std::max(highest_normal, sign * at.n[k].z());
+      lowest_normal = std::min(lowest_normal, sign * at.n[k].z());
       highest_center = std::max(highest_center, c[k].z());
     }
-    if (highest_normal + turn < -kUpright) continue;  // looks down
+    // Looks down, or but for a strip of this share of the diameter.
+    const double up = highest_normal + turn + kUpright;
+    if (up < 0.0 || up * size < params.narrow * (highest_normal - lowest_normal)) continue;
     const double bend = BendOver(c);
-    if (bend > kMostBend * size) return false;
+    if (TooBent(bend, size)) return false;
     if (highest_center + bend < params.floor_z - kFloorSlack) continue;
     const auto farthest = [&](const SurfacePoint& q) {
       double most = 0.0;

@@ -27,11 +27,16 @@ std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& re
 // How far the values at the nine places are from a bilinear function, twice: what is to be added to its
 // corners to bound a function of small third derivatives over the rectangle.
 double BendOver(const std::array<Vec3, 9>& f);
+// Too much of it for a rectangle of this diameter to be judged by nine places.
+bool TooBent(double bend, double size);
 
 struct CellReachParams {
   double radius = 0.0;          // mm: centres lie at p + radius n
   double tolerance = 0.0;       // mm: how deep the surface may lie inside the ball
   double floor_z = -kInfinity;  // mm: lowest centre height
+  // mm: beside a silhouette, where a side that looks down turns up on no more than a strip this wide, that
+  // strip is not counted.
+  double narrow = 0.0;
 };
 
 // Surface points in the ball's way, for either side of the surface: what was found for a rectangle serves its

@@ -29,7 +29,7 @@ struct Nearby {
 
 // Of the flat step.
 constexpr double kCoarse = 0.25;   // larger rectangles are not looked at by their middles
-constexpr double kFinest = 0.002;  // smaller ones are left: only at points where the normal has no direction
+constexpr double kFinest = 0.002;  // smaller ones are left, and narrower strips beside silhouettes
 constexpr double kLimit = 0.05;    // the same at a limit of params.keep_in
 
 // Ground that needs steps up to this much above the shortest may be left to forced passes or not.
@@ -45,7 +45,7 @@ class SpotFinder {
         params_(params),
         radius_(locator.radius()),
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
-        cell_reach_{radius_, params.tolerance, params.floor_z + radius_} {}
+        cell_reach_{radius_, params.tolerance, params.floor_z + radius_, kFinest * flat_} {}
 
   void Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
 
@@ -53,6 +53,7 @@ class SpotFinder {
   void Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth, const Nearby& hint,
              std::vector<LeftoverSpot>& out) const;
   NearMove NearestTo(const Vec3& p, double limit, const NearMove& hint) const;
+  std::optional<bool> BendsAlongU(const RectPlaces& places, double size) const;
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
                    const NearMove& near) const;
   bool Covered(const Vec3* hull, int count, const NearMove& move) const;
@@ -127,6 +128,24 @@ bool SpotFinder::AllForbidden(const RectPlaces& places) const {
   return true;
 }
 
+// Where the centres bend too much for OutOfReach: whether it is along u that they bend the most. A tight
+// fillet is cut along itself into strips, not into crumbs.
+std::optional<bool> SpotFinder::BendsAlongU(const RectPlaces& places, double size) const {
+  double most = 0.0, along_u = 0.0, along_v = 0.0;
+  for (const double sign : {1.0, -1.0}) {
+    std::array<Vec3, 9> c;
+    for (std::size_t k = 0; k < 9; ++k) c[k] = places.p[k] + sign * radius_ * places.n[k];
+    const auto off = [&](std::size_t middle, std::size_t a, std::size_t b) {
+      return (c[middle] - 0.5 * (c[a] + c[b])).norm();
+    };
+    most = std::max(most, BendOver(c));
+    along_u = std::max({along_u, off(4, 0, 1), off(5, 2, 3), off(8, 6, 7)});
+    along_v = std::max({along_v, off(6, 0, 2), off(7, 1, 3), off(8, 4, 5)});
+  }
+  if (!TooBent(most, size)) return std::nullopt;
+  return along_u >= along_v;
+}
+
 // Cuts where the farthest point of the hull is out of the move's reach: across the move, or along it past its
 // end.
 bool SpotFinder::SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
@@ -194,16 +213,19 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
     return;
   }
   // Larger rectangles with a pass nearby have reachable ground.
+  std::optional<bool> bends;
   if (size < (near.segment < 0 ? 8.0 : kCoarse) * flat_) {
     const auto places = PlacesOn(surface_, rect);
     if (places &&
         (AllForbidden(*places) || OutOfReach(surface_, *places, size, cell_reach_, found.blockers))) {
       return;
     }
+    if (places && near.segment < 0) bends = BendsAlongU(*places, size);
   }
 
-  const bool along_u =
-      SplitAlongU(jet.du * (rect.u1 - rect.u0), jet.dv * (rect.v1 - rect.v0), p, hull.data(), count, near);
+  const bool along_u = bends ? *bends
+                             : SplitAlongU(jet.du * (rect.u1 - rect.u0), jet.dv * (rect.v1 - rect.v0), p,
+                                           hull.data(), count, near);
   std::array<Vec4, kMaxNetPoints> low, high;
   HalveNet(shape, net, along_u, low.data(), high.data());
   SurfaceRect a = rect, b = rect;

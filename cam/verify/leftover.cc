@@ -139,17 +139,17 @@ class LeftoverSearch {
     return containment != nullptr && ContactRoomOutside(*containment, cell.middle) > cell.radius;
   }
 
-  bool IsReachable(const SurfaceCell& cell) const {
+  bool IsReachable(const SurfaceCell& cell) {
     const CellRect& r = cell.rect;
     if (!IsWantedAt(surface_, params_, r.piece, r.u(), r.v(), cell.middle)) return false;
     const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
     const auto facing = FacingAt(jet);
-    return facing && ReachAt(surface_, jet.p, *facing, params_.reach) == ReachClass::kReachable;
+    return facing && ReachAt(surface_, jet.p, *facing, params_.reach, obstacles_) == ReachClass::kReachable;
   }
 
   // No point of the cell is reachable, as the centre over it cannot move far enough from the one over its
   // middle. Normals are taken near the corners and widened by a quarter.
-  bool Closed(const SurfaceCell& cell) const {
+  bool Closed(const SurfaceCell& cell) {
     const CellRect& r = cell.rect;
     const auto middle = FacingAt(Evaluate(surface_, r.piece, r.u(), r.v()));
     if (!middle) return false;
@@ -165,7 +165,7 @@ class LeftoverSearch {
     }
     const double spread = cell.radius + 1.25 * turn * params_.reach.radius;
     if (spread > params_.reach.radius) return false;
-    return BlockedDepth(surface_, cell.middle, facing, params_.reach) > spread;
+    return BlockedDepth(surface_, cell.middle, facing, params_.reach, obstacles_) > spread;
   }
 
   const Surface& surface_;
@@ -173,6 +173,7 @@ class LeftoverSearch {
   const SegmentTree& tree_;
   const LeftoverParams& params_;
   const RunContext& run_;
+  Obstacles obstacles_;
   int hint_ = -1, other_hint_ = -1;
   std::vector<double> first_, second_;
 };

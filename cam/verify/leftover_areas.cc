@@ -140,7 +140,7 @@ class AreaSampler {
     if (!facing) return std::nullopt;
     if (!IsWantedAt(surface_, params_, piece, u, v, jet.p)) return FinishClass::kUnwanted;
     FinishClass kind = FinishClass::kDone;
-    switch (ReachAt(surface_, jet.p, *facing, params_.reach)) {
+    switch (ReachAt(surface_, jet.p, *facing, params_.reach, obstacles_)) {
       case ReachClass::kReachable:
         break;
       case ReachClass::kUndercut:
@@ -183,6 +183,7 @@ class AreaSampler {
   const SegmentTree& tree_;
   const LeftoverParams& params_;
   int deepest_;
+  Obstacles obstacles_;
   int hint_ = -1;
   std::unordered_map<Key, Sample, KeyHash> samples_;
 };

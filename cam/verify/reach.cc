@@ -1,7 +1,6 @@
 #include "cam/verify/reach.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
@@ -25,15 +24,49 @@ bool NearAvoided(const CenterLimits& limits, const Vec3& c, double proof) {
   return limits.avoided != nullptr && AnythingNearUpwardRay(*limits.avoided, c, limits.avoid_distance, proof);
 }
 
+Vec3 FromRay(const Vec3& p, const Vec3& c) {
+  return {p.x() - c.x(), p.y() - c.y(), std::min(p.z() - c.z(), 0.0)};
+}
+
+// As ClosestToUpwardRay: what is known already may be the nearest point, within `tolerance`.
+std::optional<Obstacles::Near> NearestToRay(const Surface& surface, const Vec3& c, double limit,
+                                            double tolerance, Obstacles& obstacles) {
+  const auto known = obstacles.NearestToRay(c, limit);
+  const auto found = ClosestToUpwardRay(surface, c, known ? known->distance : limit, tolerance);
+  if (!found) return known;
+  obstacles.Add(found->at.p);
+  return Obstacles::Near{found->at.p, found->distance};
+}
+
 // What stands above the centre comes nearer to the shank than anything to the ball (docs/reach.md).
-bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double limit) {
+bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
   const double proof = kReasonProof * radius;
-  const auto nearest = ClosestToUpwardRay(surface, c, limit, proof);
-  return nearest && nearest->at.p.z() > c.z() &&
-         !ClosestToPoint(surface, c, nearest->distance + kNearer * radius, proof);
+  const auto nearest = NearestToRay(surface, c, limit, proof, obstacles);
+  if (!nearest || nearest->at.z() <= c.z()) return false;
+  const double ball = nearest->distance + kNearer * radius;
+  if (obstacles.AnyNear(c, ball)) return false;
+  const auto found = ClosestToPoint(surface, c, ball, proof);
+  if (found) obstacles.Add(found->at.p);
+  return !found;
 }
 
 }  // namespace
+
+std::optional<Obstacles::Near> Obstacles::NearestToRay(const Vec3& c, double limit) const {
+  std::optional<Near> nearest;
+  for (std::size_t k = 0; k < std::min(count_, kKept); ++k) {
+    const double distance = FromRay(kept_[k], c).norm();
+    if (distance < (nearest ? nearest->distance : limit)) nearest = {kept_[k], distance};
+  }
+  return nearest;
+}
+
+bool Obstacles::AnyNear(const Vec3& c, double limit) const {
+  return std::any_of(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kKept)),
+                     [&](const Vec3& p) { return (p - c).norm() < limit; });
+}
+
+void Obstacles::Add(const Vec3& p) { kept_[count_++ % kKept] = p; }
 
 double RoomAt(const CenterLimits& limits, const Vec3& center) {
   if (limits.containment == nullptr) return kInfinity;
@@ -51,14 +84,22 @@ std::optional<Facing> FacingAt(const SurfaceJet& jet) {
 }
 
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params) {
+  Obstacles none;
+  return ReachAt(surface, p, facing, params, none);
+}
+
+ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
+                   Obstacles& obstacles) {
   const double limit = params.radius - params.tolerance;
   const auto centers = Centers(p, facing, params.radius);
   ReachClass reason = ReachClass::kReachable;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
-    if (AnythingNearUpwardRay(surface, c, limit, kProof * params.tolerance)) {
-      found = BlockedAbove(surface, c, params.radius, limit) ? ReachClass::kUndercut : ReachClass::kConcave;
+    if (obstacles.NearestToRay(c, limit) ||
+        AnythingNearUpwardRay(surface, c, limit, kProof * params.tolerance)) {
+      found = BlockedAbove(surface, c, params.radius, limit, obstacles) ? ReachClass::kUndercut
+                                                                        : ReachClass::kConcave;
     } else if (c.z() < params.floor_z - kFloorSlack) {
       found = ReachClass::kFloor;
     } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.tolerance)) {
@@ -72,14 +113,15 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
   return reason;
 }
 
-double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params) {
+double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
+                    Obstacles& obstacles) {
   const double limit = params.radius - params.tolerance;
   const auto centers = Centers(p, facing, params.radius);
   double depth = kInfinity;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     double here = params.floor_z - kFloorSlack - c.z();
-    const auto nearest = ClosestToUpwardRay(surface, c, limit, kCoarse * params.radius);
+    const auto nearest = NearestToRay(surface, c, limit, kCoarse * params.radius, obstacles);
     if (nearest) here = std::max(here, limit - nearest->distance);
     here = std::max(here, -RoomAt(params.limits, c));
     if (params.limits.avoided != nullptr) {

@@ -1,6 +1,8 @@
 // Whether the tool can stand at a surface point, and if not, why: docs/reach.md.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "cam/tool/containment.h"
@@ -38,12 +40,35 @@ struct Facing {
 };
 std::optional<Facing> FacingAt(const SurfaceJet& jet);
 
+// Points of a surface that were in the way of ball or shank lately: mostly they are in the way of neighbours
+// too, which then need no search, or a short one. Answers depend on it no more than their tolerances allow.
+class Obstacles {
+ public:
+  struct Near {
+    Vec3 at;
+    double distance;
+  };
+  // The one nearest to the upward ray at c, if nearer than `limit`.
+  std::optional<Near> NearestToRay(const Vec3& c, double limit) const;
+  // One of them is nearer to c than `limit`.
+  bool AnyNear(const Vec3& c, double limit) const;
+  void Add(const Vec3& p);
+
+ private:
+  static constexpr std::size_t kKept = 8;
+  std::array<Vec3, kKept> kept_;
+  std::size_t count_ = 0;  // of all that were added; the last kKept are kept
+};
+
 // The ball centred at p + R e is free of the surface, the shank above it too, not below the floor, and
-// allowed.
+// allowed. `obstacles`: of this surface, with each thread its own.
+ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
+                   Obstacles& obstacles);
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);
 
 // How far the centre may move and the point still cannot be reached: > 0 only for an unreachable point; a
 // lower bound (mm).
-double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);
+double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
+                    Obstacles& obstacles);
 
 }  // namespace patchmill
