@@ -45,9 +45,10 @@ double BendOver(const std::array<Vec3, 9>& f) {
   return 2.0 * std::sqrt(off);
 }
 
-bool TooBent(double bend, double size) {
+bool TooBent(const std::array<Vec3, 9>& f, double size) {
   constexpr double kMostBend = 0.25;
-  return bend > kMostBend * size;
+  const double extent = std::max({size, (f[3] - f[0]).norm(), (f[2] - f[1]).norm()});
+  return BendOver(f) > kMostBend * extent;
 }
 
 bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const CellReachParams& params,
@@ -68,7 +69,7 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
     const double up = highest_normal + turn + kUpright;
     if (up < 0.0 || up * size < params.narrow * (highest_normal - lowest_normal)) continue;
     const double bend = BendOver(c);
-    if (TooBent(bend, size)) return false;
+    if (TooBent(c, size)) return false;
     if (highest_center + bend < params.floor_z - kFloorSlack) continue;
     const auto farthest = [&](const SurfacePoint& q) {
       double most = 0.0;

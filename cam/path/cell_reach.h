@@ -27,8 +27,9 @@ std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& re
 // How far the values at the nine places are from a bilinear function, twice: what is to be added to its
 // corners to bound a function of small third derivatives over the rectangle.
 double BendOver(const std::array<Vec3, 9>& f);
-// Too much of it for a rectangle of this diameter to be judged by nine places.
-bool TooBent(double bend, double size);
+// Too much of it for nine places to tell of the function: more than a quarter of how far its values lie
+// apart, or of the rectangle's diameter.
+bool TooBent(const std::array<Vec3, 9>& f, double size);
 
 struct CellReachParams {
   double radius = 0.0;          // mm: centres lie at p + radius n

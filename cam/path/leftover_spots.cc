@@ -131,18 +131,19 @@ bool SpotFinder::AllForbidden(const RectPlaces& places) const {
 // Where the centres bend too much for OutOfReach: whether it is along u that they bend the most. A tight
 // fillet is cut along itself into strips, not into crumbs.
 std::optional<bool> SpotFinder::BendsAlongU(const RectPlaces& places, double size) const {
-  double most = 0.0, along_u = 0.0, along_v = 0.0;
+  double along_u = 0.0, along_v = 0.0;
+  bool bent = false;
   for (const double sign : {1.0, -1.0}) {
     std::array<Vec3, 9> c;
     for (std::size_t k = 0; k < 9; ++k) c[k] = places.p[k] + sign * radius_ * places.n[k];
     const auto off = [&](std::size_t middle, std::size_t a, std::size_t b) {
       return (c[middle] - 0.5 * (c[a] + c[b])).norm();
     };
-    most = std::max(most, BendOver(c));
+    bent = bent || TooBent(c, size);
     along_u = std::max({along_u, off(4, 0, 1), off(5, 2, 3), off(8, 6, 7)});
     along_v = std::max({along_v, off(6, 0, 2), off(7, 1, 3), off(8, 4, 5)});
   }
-  if (!TooBent(most, size)) return std::nullopt;
+  if (!bent) return std::nullopt;
   return along_u >= along_v;
 }
 
