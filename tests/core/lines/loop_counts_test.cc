@@ -301,7 +301,9 @@ std::vector<Kind> Kinds(const Vec3& f, const Vec3& across, double low, double hi
   return kinds;
 }
 
-void ExpectCountsOfSignGrid(PatchModel model, const Vec3& axis) {
+// `symmetric`: without the kinds whose lines then run along borders of patches, where a grid inside them sees
+// one sign only.
+void ExpectCountsOfSignGrid(PatchModel model, const Vec3& axis, bool symmetric = false) {
   auto network = BuildNetwork(std::move(model));
   ASSERT_TRUE(network.ok()) << network.status();
   auto surface = BuildSurface(*std::move(network), SurfaceParams(), RunContext());
@@ -313,7 +315,12 @@ void ExpectCountsOfSignGrid(PatchModel model, const Vec3& axis) {
     high = std::max(high, axis.dot(leaf.center));
   }
   const Vec3 f = axis.normalized();
-  const std::vector<Kind> kinds = Kinds(f, f.unitOrthogonal(), low, high);
+  std::vector<Kind> kinds = Kinds(f, f.unitOrthogonal(), low, high);
+  if (symmetric) {
+    std::erase_if(kinds, [](const Kind& kind) {
+      return kind.nodes != Nodes::kNone || kind.name == "silhouette" || kind.name.starts_with("highlight");
+    });
+  }
   std::vector<ZeroField> fields;
   for (const Kind& kind : kinds) fields.push_back(kind.traced);
   // Until two grids agree.
@@ -358,6 +365,7 @@ TEST(LoopCounts, OfTheTeapot) {
     SCOPED_TRACE(axis.transpose());
     ExpectCountsOfSignGrid(teapot, axis);
   }
+  ExpectCountsOfSignGrid(teapot, Vec3::UnitZ(), true);
 }
 
 }  // namespace
