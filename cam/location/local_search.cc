@@ -25,8 +25,8 @@ struct State {
   double f;  // 1/2 |d|^2
 };
 
-// Height of the centre that touches p; -infinity when p is not under the ball: at its rim within rounding p is
-// outside, as for the proofs (FreeF), so that a ball exactly beside a wall is free.
+// Height of the centre that touches p; -infinity when p is not under the ball: at its rim within rounding p
+// is outside, as for the proofs (FreeF), so that a ball exactly beside a wall is free.
 double TouchingHeight(const Vec3& p, const Ball& ball) {
   const double dx = p.x() - ball.q.x(), dy = p.y() - ball.q.y();
   const double rim = ball.radius * ball.radius - (dx * dx + dy * dy);
