@@ -123,11 +123,12 @@ absl::Status RequireContent(const v1::ModelFile& file) {
   return file.content().empty() ? ModelUnreadableError("model file: empty") : absl::OkStatus();
 }
 
-absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::string& at) {
+absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::string& at,
+                                     const RunContext& run) {
   PM_RETURN_IF_ERROR(RequireContent(file));
   if (IsText(file.format())) return LoadText(file, at);
   PM_ASSIGN_OR_RETURN(const v1::PatchModel model, ParseMessage(file, at));
-  return FromChecked(FromProto(model, At(at, "content")));
+  return FromChecked(FromProto(model, At(at, "content"), run));
 }
 
 absl::Status NoSource(std::string_view at) {
@@ -136,12 +137,12 @@ absl::Status NoSource(std::string_view at) {
   return errors.ToStatus();
 }
 
-absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view at) {
+absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view at, const RunContext& run) {
   switch (source.source_case()) {
     case v1::ModelSource::kModel:
-      return FromChecked(FromProto(source.model(), At(at, "model")));
+      return FromChecked(FromProto(source.model(), At(at, "model"), run));
     case v1::ModelSource::kFile:
-      return LoadFile(source.file(), At(at, "file"));
+      return LoadFile(source.file(), At(at, "file"), run);
     case v1::ModelSource::kModelSha256:
       return ModelNotCachedError();
     case v1::ModelSource::SOURCE_NOT_SET:
@@ -152,8 +153,9 @@ absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view
 
 }  // namespace
 
-absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at) {
-  PM_ASSIGN_OR_RETURN(LoadedModel loaded, Load(source, at));
+absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at,
+                                      const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(LoadedModel loaded, Load(source, at, run));
   loaded.digest = ModelDigest(loaded.model);
   return loaded;
 }

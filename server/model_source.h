@@ -7,6 +7,7 @@
 #include <absl/status/statusor.h>
 
 #include "core/base/diagnostic.h"
+#include "core/base/run_context.h"
 #include "core/network/patch_model.h"
 #include "patchmill/v1/model.pb.h"
 #include "server/convert/model.h"
@@ -22,8 +23,10 @@ struct LoadedModel {
 };
 
 // INVALID_ARGUMENT for what cannot be read (with line and reason), NOT_FOUND for a digest, RESOURCE_EXHAUSTED
-// for a limit. Limits are checked before the cost is paid. `at` is the path of the source in its request.
-absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at);
+// for a limit; those of `run` while a network is joined. Limits are checked before the cost is paid. `at` is
+// the path of the source in its request.
+absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at,
+                                      const RunContext& run = {});
 
 // A network as a message and as a value. Errors as LoadModel, and INVALID_ARGUMENT for a model of patches.
 struct LoadedNetwork {

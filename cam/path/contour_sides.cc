@@ -42,13 +42,6 @@ SurfacePoint AtSide(const Surface& surface, PieceId piece, int side, double t) {
   return {piece, uv.x(), uv.y(), Position(surface.piece(piece), uv.x(), uv.y())};
 }
 
-int SideOf(const SurfacePoint& p) {
-  if (p.v == 0.0) return 0;
-  if (p.u == 1.0) return 1;
-  if (p.v == 1.0) return 2;
-  return 3;
-}
-
 }  // namespace
 
 Vec2 SideParameters(int side, double t) {
@@ -97,6 +90,10 @@ PieceSides::PieceSides(const Surface& surface, const RunContext& run) : surface_
       return std::min(a.t0, a.t1) < std::min(b.t0, b.t1);
     });
   }
+  for (const PartLink& link : FindPartLinks(surface.network, run)) {
+    junctions_[link.part].push_back(link);
+    junctions_[link.whole].push_back(link);
+  }
   // A cancel leaves the rest open; whoever asked finds out from the run itself.
   (void)ParallelFor(run, nullptr, sides_.size(), [&](std::size_t i) {
     for (int side = 0; side < 4; ++side)
@@ -112,7 +109,7 @@ PieceSides::Place PieceSides::MiddleOf(PieceId id, int side) const {
 }
 
 // A point of an edge of a patch at parameter t, as a point of the piece that holds it.
-std::optional<SurfacePoint> PieceSides::OnEdge(PatchEdge edge, double t) const {
+std::optional<PieceSides::SidePoint> PieceSides::OnEdge(PatchEdge edge, double t) const {
   const auto found = edges_.find(edge);
   if (found == edges_.end()) return std::nullopt;
   const std::vector<EdgePart>& parts = found->second;
@@ -120,10 +117,23 @@ std::optional<SurfacePoint> PieceSides::OnEdge(PatchEdge edge, double t) const {
                                [](double x, const EdgePart& p) { return x < std::min(p.t0, p.t1); });
   if (part != parts.begin()) --part;
   const double s = (t - part->t0) / (part->t1 - part->t0);
-  return AtSide(*surface_, part->piece, part->side, std::clamp(s, 0.0, 1.0));
+  return SidePoint{AtSide(*surface_, part->piece, part->side, std::clamp(s, 0.0, 1.0)), part->side};
 }
 
-std::optional<SurfacePoint> PieceSides::Across(PieceId id, int side, double t) const {
+// From an edge to the longer one it lies along, or to the one that lies along it there.
+std::optional<PieceSides::SidePoint> PieceSides::AcrossJunction(PatchEdge edge, double t) const {
+  const auto found = junctions_.find(edge);
+  if (found == junctions_.end()) return std::nullopt;
+  for (const PartLink& link : found->second) {
+    if (link.part == edge) return OnEdge(link.whole, link.from + t * (link.to - link.from));
+    // Places between two parts are known to rounding.
+    const double s = (t - link.from) / (link.to - link.from), clamped = std::clamp(s, 0.0, 1.0);
+    if (std::abs(s - clamped) <= kNativeTolerance) return OnEdge(link.part, clamped);
+  }
+  return std::nullopt;
+}
+
+std::optional<PieceSides::SidePoint> PieceSides::Beyond(PieceId id, int side, double t) const {
   const Piece& piece = surface_->piece(id);
   const Vec2 a = SideStart(piece, side), b = SideEnd(piece, side);
   const PatchShape& shape = surface_->network.model.patches[piece.patch.index()].shape;
@@ -131,29 +141,35 @@ std::optional<SurfacePoint> PieceSides::Across(PieceId id, int side, double t) c
     const auto s0 = OnPatchEdge(IsTriangle(shape), edge, a), s1 = OnPatchEdge(IsTriangle(shape), edge, b);
     if (!s0 || !s1 || *s0 == *s1) continue;
     const EdgeLink& link = surface_->network.Link({piece.patch, edge});
-    if (!link.neighbor || link.collapsed) return std::nullopt;
+    if (link.collapsed) return std::nullopt;
     const double s = *s0 + t * (*s1 - *s0);
+    if (!link.neighbor) return AcrossJunction({piece.patch, edge}, s);
     return OnEdge(*link.neighbor, link.reversed ? 1.0 - s : s);
   }
   for (const auto& [other, other_side] : inner_.at(MiddleOf(id, side))) {
     if (other == id) continue;
     const bool same = (SideStart(surface_->piece(other), other_side) - a).norm() < kNativeTolerance;
-    return AtSide(*surface_, other, other_side, same ? t : 1.0 - t);
+    return SidePoint{AtSide(*surface_, other, other_side, same ? t : 1.0 - t), other_side};
   }
   return std::nullopt;
 }
 
+std::optional<SurfacePoint> PieceSides::Across(PieceId id, int side, double t) const {
+  const auto beyond = Beyond(id, side, t);
+  return beyond ? std::optional(beyond->at) : std::nullopt;
+}
+
 // The angle by which the surface turns at the point t of a side, 0 < t < 1, and its step there.
 std::optional<PieceSide> PieceSides::TurnAt(PieceId piece, int side, double t) const {
-  const std::optional<SurfacePoint> other = Across(piece, side, t);
-  if (!other) return std::nullopt;
-  const int other_side = SideOf(*other);
+  const auto beyond = Beyond(piece, side, t);
+  if (!beyond) return std::nullopt;
+  const auto& [other, other_side] = *beyond;
   const std::optional<Vec3> out = OutwardTangent(*surface_, piece, side, t);
   const std::optional<Vec3> in =
-      OutwardTangent(*surface_, other->piece, other_side, other_side % 2 == 0 ? other->u : other->v);
+      OutwardTangent(*surface_, other.piece, other_side, other_side % 2 == 0 ? other.u : other.v);
   if (!out || !in) return std::nullopt;
   const Vec2 uv = SideParameters(side, t);
-  const double step = (Position(surface_->piece(piece), uv.x(), uv.y()) - other->p).norm();
+  const double step = (Position(surface_->piece(piece), uv.x(), uv.y()) - other.p).norm();
   return PieceSide{SideKind::kSmooth, std::atan2(out->cross(*in).norm(), -out->dot(*in)), step};
 }
 

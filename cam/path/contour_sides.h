@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/run_context.h"
+#include "core/network/part_links.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
@@ -30,8 +31,8 @@ struct PieceSide {
 // A side counts as smooth when the surface goes on across it within this angle (rad), sampled.
 inline constexpr double kSmoothSideAngle = 0.03;
 
-// Sides of all pieces: joints between patches come from the network, joints between the pieces of one patch
-// from their common corners. Collapsed sides are kOpen (they are points).
+// Sides of all pieces: joints between patches come from the network, T-junctions included, joints between the
+// pieces of one patch from their common corners. Collapsed sides are kOpen (they are points).
 class PieceSides {
  public:
   // Keeps a reference. Cost O(n log n), parallel; unusable when the run was cancelled meanwhile.
@@ -52,12 +53,19 @@ class PieceSides {
   };
   using Place = std::tuple<std::int32_t, std::int64_t, std::int64_t>;  // patch, native middle of a side
   Place MiddleOf(PieceId piece, int side) const;
-  std::optional<SurfacePoint> OnEdge(PatchEdge edge, double t) const;
+  struct SidePoint {
+    SurfacePoint at;
+    int side = 0;
+  };
+  std::optional<SidePoint> OnEdge(PatchEdge edge, double t) const;
+  std::optional<SidePoint> AcrossJunction(PatchEdge edge, double t) const;
+  std::optional<SidePoint> Beyond(PieceId piece, int side, double t) const;  // Across, and the side there
   std::optional<PieceSide> TurnAt(PieceId piece, int side, double t) const;
   PieceSide Classify(PieceId piece, int side) const;
 
   const Surface* surface_;
   std::map<PatchEdge, std::vector<EdgePart>> edges_;
+  std::map<PatchEdge, std::vector<PartLink>> junctions_;  // of both edges of a part
   std::map<Place, std::vector<std::pair<PieceId, int>>> inner_;
   std::vector<std::array<PieceSide, 4>> sides_;
 };

@@ -42,9 +42,9 @@ void Print(const CheckOptions& options, const v1::CheckModelResponse& response) 
   std::stable_sort(joints.begin(), joints.end(),
                    [](const auto& a, const auto& b) { return a.max_angle_deg() > b.max_angle_deg(); });
   for (const v1::EdgeContinuity& joint : joints) {
-    fmt::print("joint        edge {} of patch {} and edge {} of patch {}: gap {:.3g} mm, {:.3g} degrees",
-               joint.edge(), joint.patch_index(), joint.other_edge(), joint.other_patch_index(),
-               joint.max_gap_mm(), joint.max_angle_deg());
+    fmt::print("joint        edge {} of patch {} and {}edge {} of patch {}: gap {:.3g} mm, {:.3g} degrees",
+               joint.edge(), joint.patch_index(), joint.part() ? "a part of " : "", joint.other_edge(),
+               joint.other_patch_index(), joint.max_gap_mm(), joint.max_angle_deg());
     if (joint.max_curvature_per_mm() > 0.0) {
       fmt::print(", curvatures up to {:.3g}/mm differ by {:.3g}/mm", joint.max_curvature_per_mm(),
                  joint.max_curvature_gap_per_mm());

@@ -74,6 +74,13 @@ HermiteCurve Part(const HermiteCurve& curve, double t1, double t2) {
   return {from.p, (t2 - t1) * from.d, to.p, (t2 - t1) * to.d};
 }
 
+BezierCurve Part(BezierCurve curve, double t1, double t2) {
+  const int n = curve.degree();
+  if (t2 < 1.0) KeepLeft(curve.points.data(), n, 1, t2);
+  if (t1 > 0.0) KeepRight(curve.points.data(), n, 1, t1 / t2);
+  return curve;
+}
+
 HermiteCurve HermiteOf(const BezierCurve& curve) {
   const auto& p = curve.points;
   const double n = curve.degree();

@@ -59,6 +59,8 @@ BezierCurve Reversed(BezierCurve curve);
 
 // The part [t1,t2] as a curve of its own (48)(49): chord, and (t2-t1) times the derivatives. Exact.
 HermiteCurve Part(const HermiteCurve& curve, double t1, double t2);
+// The same of a Bezier curve, 0 <= t1 < t2 <= 1; ends at 0 and 1 stay to the bit.
+BezierCurve Part(BezierCurve curve, double t1, double t2);
 
 // The cubic with the same ends and end derivatives.
 HermiteCurve HermiteOf(const BezierCurve& curve);

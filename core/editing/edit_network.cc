@@ -21,7 +21,7 @@ bool SameEdge(int a, int b, int c, int d) { return std::minmax(a, b) == std::min
 
 class Editor {
  public:
-  explicit Editor(CurveNetwork network) : network_(std::move(network)) {}
+  Editor(CurveNetwork network, const RunContext& run) : network_(std::move(network)), run_(run) {}
 
   absl::Status ReadControls() { return controls_.Read(network_.controls); }
 
@@ -193,7 +193,7 @@ class Editor {
   absl::Status Join(const std::string& at) {
     if (!joined_) {
       network_.controls = controls_.List();
-      joined_ = JoinNetwork(network_);
+      PM_ASSIGN_OR_RETURN(joined_, JoinNetwork(network_, run_));
     }
     if (!joined_->model.patches.empty()) return absl::OkStatus();
     return Error(
@@ -212,9 +212,12 @@ class Editor {
     std::vector<int> group = {face};
     for (std::size_t k = 0; k < group.size(); ++k) {
       for (const JoinedEdge& edge : joined_->edges) {
-        if (edge.kind != EdgeKind::kSmooth || (edge.topology.start != vertex && edge.topology.end != vertex))
-          continue;
-        const int a = edge.topology.faces[0].face, b = edge.topology.faces[1].face;
+        const TableEdge& here = edge.topology;
+        if (here.start != vertex && here.end != vertex) continue;
+        const bool follows = edge.kind == EdgeKind::kFollowing;
+        if (edge.kind != EdgeKind::kSmooth && !follows) continue;
+        const TableEdge& across = follows ? joined_->edges[At(here.part->whole)].topology : here;
+        const int a = here.faces[0].face, b = across.faces.back().face;
         if (a != group[k] && b != group[k]) continue;
         const int other = a == group[k] ? b : a;
         if (std::ranges::count(group, other) == 0) group.push_back(other);
@@ -241,6 +244,7 @@ class Editor {
   }
 
   CurveNetwork network_;
+  const RunContext& run_;
   ControlStore controls_;                // as edited; those of network_ are older
   std::optional<JoinedNetwork> joined_;  // as edited
 };
@@ -253,7 +257,7 @@ absl::StatusOr<CurveNetwork> EditNetwork(CurveNetwork network, const std::vector
     return absl::InvalidArgumentError(
         fmt::format("edits are {}; must be at most {}", edits.size(), kMaxEdits));
   }
-  Editor editor(std::move(network));
+  Editor editor(std::move(network), run);
   PM_RETURN_IF_ERROR(editor.ReadControls());
   for (std::size_t k = 0; k < edits.size(); ++k) {
     PM_RETURN_IF_ERROR(run.Check());

@@ -8,6 +8,7 @@
 #include "core/diffgeo/forms.h"
 #include "core/network/edge_angles.h"
 #include "core/network/edge_curves.h"
+#include "core/network/part_links.h"
 
 namespace patchmill {
 namespace {
@@ -29,14 +30,22 @@ CurvatureForm FormAt(const SurfaceJet& jet, const Vec3& normal, const Vec3& x, c
   return form;
 }
 
-EdgeContinuity Measure(const EdgeCurves& curves, int e, int f, const EdgeLink& link, int steps) {
-  EdgeContinuity joint{curves.edge(e), curves.edge(f)};
+// Two edges of the same curve; that of `e` runs over [from, to] of the parameter of `f`.
+struct Pair {
+  int e = 0, f = 0;
+  double from = 0.0, to = 1.0;
+  bool part = false;
+};
+
+EdgeContinuity Measure(const EdgeCurves& curves, const Pair& pair, int steps) {
+  const auto& [e, f, from, to, part] = pair;
+  EdgeContinuity joint{curves.edge(e), curves.edge(f), part};
   // Counter-clockwise the two patches run a consistently turned edge against each other. A triangle's edge 1
   // runs counter-clockwise, its edge 2 does not: as a quad's edges 1 and 3.
-  const double sign = (Forward(joint.a.edge) == Forward(joint.b.edge)) != link.reversed ? -1.0 : 1.0;
+  const double sign = (Forward(joint.a.edge) == Forward(joint.b.edge)) != (to < from) ? -1.0 : 1.0;
   for (int k = 0; k <= steps; ++k) {
     const double t = static_cast<double>(k) / steps;
-    double s = link.reversed ? 1.0 - t : t;
+    double s = (1.0 - t) * from + t * to;
     const Vec3 p = curves.Point(e, t);
     double gap = (curves.Point(f, s) - p).norm();
     if (gap > kSameParameter * curves.reach(e)) {
@@ -73,22 +82,27 @@ EdgeContinuity Measure(const EdgeCurves& curves, int e, int f, const EdgeLink& l
 absl::StatusOr<ContinuityReport> MeasureContinuity(const PatchNetwork& network, int steps,
                                                    const RunContext& run) {
   const EdgeCurves curves(network.model, run);
-  std::vector<std::pair<int, int>> pairs;
+  const auto index = [&network](const PatchEdge& edge) {
+    return network.first_edge[edge.patch.index()] + edge.edge;
+  };
+  std::vector<Pair> pairs;
   for (std::size_t k = 0; k < network.edges.size(); ++k) {
     const EdgeLink& link = network.edges[k];
     if (!link.neighbor || link.collapsed) continue;
-    const int other = network.first_edge[link.neighbor->patch.index()] + link.neighbor->edge;
+    const int other = index(*link.neighbor);
     const auto& back = network.edges[static_cast<std::size_t>(other)].neighbor;
     const bool mutual = back && *back == link.self;
-    if (!mutual || other > static_cast<int>(k)) pairs.emplace_back(static_cast<int>(k), other);
+    if (mutual && other < static_cast<int>(k)) continue;
+    pairs.push_back({static_cast<int>(k), other, link.reversed ? 1.0 : 0.0, link.reversed ? 0.0 : 1.0});
+  }
+  for (const PartLink& link : FindPartLinks(network, run)) {
+    pairs.push_back({index(link.part), index(link.whole), link.from, link.to, true});
   }
   ContinuityReport report;
   report.samples = steps + 1;
   report.edges.resize(pairs.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pairs.size(), [&](std::size_t k) {
-    const auto [e, f] = pairs[k];
-    report.edges[k] = Measure(curves, e, f, network.edges[static_cast<std::size_t>(e)], steps);
-  }));
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pairs.size(),
+                                 [&](std::size_t k) { report.edges[k] = Measure(curves, pairs[k], steps); }));
   return report;
 }
 

@@ -12,7 +12,8 @@
 namespace patchmill {
 
 struct EdgeContinuity {
-  PatchEdge a, b;          // a < b
+  PatchEdge a, b;          // a < b; of a part a is the shorter edge
+  bool part = false;       // a lies along a part of b, a T-junction
   double max_gap = 0.0;    // mm, between the two edge curves
   double gap_at = 0.0;     // parameter of edge a there
   double max_angle = 0.0;  // rad, between the normals, both turned to one side of the sheet; 0 smooth
@@ -25,7 +26,7 @@ struct EdgeContinuity {
 };
 
 struct ContinuityReport {
-  std::vector<EdgeContinuity> edges;  // every pair of linked edges once, by a
+  std::vector<EdgeContinuity> edges;  // every pair of linked edges once, by a; then the parts of longer edges
   int samples = 0;                    // per edge
 };
 

@@ -60,8 +60,9 @@ std::vector<std::array<CornerNormal, 4>> CornerNormals(const CurveNetwork& netwo
       ++corners[group];
       if (length > 0.0) mean[group] += table.sense[f] * std::atan2(length, a.dot(b)) / length * cross;
       for (const std::size_t side : {s, (s + n - 1) % n}) {
-        const TableEdge& edge = table.edges[At(table.face_edges[f][side])];
-        if (!edge.given) continue;
+        const TableEdge& here = table.edges[At(table.face_edges[f][side])];
+        const TableEdge& edge = here.part ? table.edges[At(here.part->whole)] : here;
+        if (!edge.given || (edge.start != loop[s] && edge.end != loop[s])) continue;
         const auto d = GivenDirection(network.edges[At(*edge.given)].shape, edge.start == loop[s]);
         if (d && d->norm() > 0.0) tangents[group].push_back(d->normalized());
       }

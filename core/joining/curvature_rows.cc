@@ -55,6 +55,11 @@ class RowMaker {
     const bool any = std::ranges::any_of(sides, [&](const FaceSide& s) { return Wanted(s); });
     if (!any) return;
     edge.rows.resize(sides.size());
+    if (edge.kind == EdgeKind::kLeading || edge.kind == EdgeKind::kFollowing) {
+      TangentPlaneOnly(edge, "one face has a part of it only");
+      edge.rows[0] = RowsWithTangent(edge.tangents[0], SideOf(edge, sides[0]));
+      return;
+    }
     if (edge.kind != EdgeKind::kSmooth) {
       for (std::size_t k = 0; k < sides.size(); ++k) {
         if (!Wanted(sides[k])) continue;

@@ -15,6 +15,13 @@ namespace patchmill {
 
 inline constexpr int kMaxNetworkFaces = 100'000;
 
+// A place on the edge between two vertices. The one face that has the whole edge as a side leads: faces along
+// parts of it take the parts of its curve, and where it is smooth follow its tangent plane (METHODS 3.3).
+struct PlaceOnEdge {
+  int start = 0, end = 0;  // vertices
+  double parameter = 0.5;  // (0, 1), of the edge's curve from `start`
+};
+
 struct NetworkVertex {
   // A normal of the faces listed, of all faces when none are listed. Any length but zero; its sense does not
   // matter.
@@ -23,10 +30,11 @@ struct NetworkVertex {
     std::vector<int> faces;
   };
   std::string id;
-  Vec3 position = Vec3::Zero();
+  Vec3 position = Vec3::Zero();  // not read where on_edge is given
   // Several where creases part the faces around the vertex. Faces without a given normal get the mean of the
   // corner normals of their group, a group being faces joined by smooth edges around the vertex.
   std::vector<Normal> normals;
+  std::optional<PlaceOnEdge> on_edge = {};  // a T-junction: no normal where the leading face gives it
 };
 
 // Tangents from the normals (1.1), gamma |chord| long. At a crease between two normals: along both planes; a

@@ -34,9 +34,9 @@ struct Checker {
     }
   }
   void Check(const TangentsEdge& e) const {
-    for (const Vec3& t : {e.start, e.end}) {
-      Finite(t.allFinite());
-      if (t == Vec3::Zero()) Error("ZERO_TANGENT", "has a tangent of length zero");
+    Finite(e.start.allFinite() && e.end.allFinite());
+    if (e.start == Vec3::Zero() || e.end == Vec3::Zero()) {
+      Error("ZERO_TANGENT", "has a tangent of length zero");
     }
   }
   void Check(const ThroughPointEdge& e) const { Finite(e.point.allFinite()); }

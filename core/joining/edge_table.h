@@ -15,11 +15,28 @@ struct FaceSide {
   int face = 0, side = 0;
 };
 
+// Where a part of an edge starts and ends on the whole one: from < to, of its parameter.
+struct EdgePart {
+  int whole = 0;  // edge
+  double from = 0.0, to = 1.0;
+};
+
 struct TableEdge {
   int start = 0, end = 0;
-  std::vector<FaceSide> faces;  // 1 or 2 in a sound network
+  std::vector<FaceSide> faces;  // 1 or 2 in a sound network; 1 of a part and of an edge with parts
   std::optional<int> given;     // entry of CurveNetwork::edges that describes it
-  bool crease = false;
+  bool crease = false;          // of a part: that of the whole
+  std::optional<EdgePart> part = {};
+  bool divided = false;         // vertices lie on it
+  std::vector<int> parts = {};  // of a divided edge, those with a face, from its start
+};
+
+// A vertex on an edge.
+struct TVertex {
+  int vertex = 0;
+  int edge = 0;                        // the whole one
+  double at = 0.5;                     // its parameter
+  std::vector<FaceSide> corners = {};  // at the vertex: face, corner
 };
 
 struct EdgeTable {
@@ -28,13 +45,15 @@ struct EdgeTable {
   std::vector<std::array<int, 4>> group;       // of each face corner: number of its group around the vertex
   std::vector<double> sense;  // of each face: +1 or -1 makes neighbours run their edges opposite ways
   int group_count = 0;
+  std::vector<TVertex> t_vertices;  // each after those its edge and the face beside it wait for
 
   bool Forward(const FaceSide& s, const CurveNetwork& network) const;  // the side runs with its edge
 };
 
 // Codes of errors: those of CheckEdgeShapes, PATCH_COUNT, NOT_FINITE, TOO_LARGE, INVALID_REFERENCE,
 // FACE_SIDES, DUPLICATE_VERTEX, ZERO_LENGTH_EDGE, DUPLICATE_EDGE, NON_MANIFOLD_EDGE, NON_MANIFOLD_VERTEX,
-// DANGLING_EDGE, CONTRADICTORY_CREASE, INVALID_NORMAL, INVALID_PUSH, INVALID_JOIN_TOLERANCE, UNUSED_VERTEX.
+// DANGLING_EDGE, CONTRADICTORY_CREASE, INVALID_NORMAL, INVALID_PUSH, INVALID_JOIN_TOLERANCE, UNUSED_VERTEX;
+// INVALID_T_VERTEX, T_VERTEX_CYCLE (t_vertices.h).
 // All findings at once as far as they make sense; the table is sound when none is an error. Cost O(n log n).
 EdgeTable BuildEdgeTable(const CurveNetwork& network, Diagnostics& findings);
 

@@ -4,7 +4,10 @@
 
 #include <vector>
 
+#include <absl/status/statusor.h>
+
 #include "core/base/diagnostic.h"
+#include "core/base/run_context.h"
 #include "core/joining/curvature_joint.h"
 #include "core/joining/edge_table.h"
 #include "core/joining/tangent_plane.h"
@@ -13,9 +16,11 @@
 namespace patchmill {
 
 enum class EdgeKind {
-  kSmooth,  // the two faces share their tangent plane all along
-  kCrease,  // two faces, said to be a crease
-  kFree,    // one face
+  kSmooth,     // the two faces share their tangent plane all along
+  kCrease,     // two faces, said to be a crease; or divided, or a part of an edge, and said to be one
+  kFree,       // one face
+  kLeading,    // one face along the whole of it, others along parts follow its tangent plane
+  kFollowing,  // one face, along a part of a leading edge
 };
 
 struct JoinedEdge {
@@ -35,7 +40,7 @@ struct JoinedNetwork {
   PatchModel model;
   std::vector<JoinedEdge> edges;  // empty then, too
   // Edges made from lines have a `given` beyond CurveNetwork::edges, in the order of WithLinesAsEdges.
-  // Errors: those of BuildEdgeTable, WithLinesAsEdges and AddCurvatureRows, and
+  // Errors: those of BuildEdgeTable, WithLinesAsEdges, AddCurvatureRows and PlaceTVertex, and
   //   CHORD_ALONG_NORMAL    a tangent from a normal that has no direction: give the tangent
   //   NO_FIT                no Hosaka segment passes through the point
   //   CURVE_OFF_VERTEX      a given curve does not start and end at its vertices
@@ -52,8 +57,9 @@ struct JoinedNetwork {
 // The largest angle (rad) by which a given tangent may leave the tangent plane of a smooth joint.
 inline constexpr double kMaxTangentTilt = 1e-7;
 
-// Cost O(n log n). Adjacent patches share their edge curves bit for bit up to the direction; their tangent
-// planes agree to about 1e-14.
+// Cost O(n log n). CANCELLED and DEADLINE_EXCEEDED from `run`, asked at every edge and face. Adjacent patches
+// share their edge curves bit for bit up to the direction; their tangent planes agree to about 1e-14.
+absl::StatusOr<JoinedNetwork> JoinNetwork(const CurveNetwork& network, const RunContext& run);
 JoinedNetwork JoinNetwork(const CurveNetwork& network);
 
 }  // namespace patchmill

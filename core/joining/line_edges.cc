@@ -22,6 +22,17 @@ CurveNetwork WithLinesAsEdges(const CurveNetwork& network, Diagnostics& list) {
                      fmt::format("names vertex {}; must be in [0, {}]", *bad, count - 1));
       continue;
     }
+    const auto placed = std::ranges::find_if(line.vertices, [&](int v) {
+      return network.vertices[static_cast<std::size_t>(v)].on_edge.has_value();
+    });
+    if (placed != line.vertices.end()) {
+      findings.Error(
+          "INVALID_LINE", findings.AtLine(k),
+          fmt::format("names vertex {}, which lies on an edge and has no place before the edge has; "
+                      "end the line there with an edge of its own",
+                      *placed));
+      continue;
+    }
     std::vector<Vec3> points;
     for (const int v : line.vertices)
       points.push_back(network.vertices[static_cast<std::size_t>(v)].position);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/SVD>
 
@@ -21,6 +22,20 @@ std::variant<std::array<double, 3>, JoinFault> FactorsAt(const Vec3& c, const Ve
   if (!(std::isfinite(scale) && h * scale > kMinJoinFactor && k * scale > kMinJoinFactor))
     return JoinFault::kFolded;
   return std::array<double, 3>{l * scale, h * scale, k * scale};
+}
+
+// Bezier points of (1-u) f0 + u f1 times the curve of the points `p`: one degree more.
+std::vector<Vec3> TimesLinear(const std::array<double, 2>& f, const std::vector<Vec3>& p) {
+  const std::size_t n = p.size();
+  std::vector<Vec3> product;
+  for (std::size_t i = 0; i <= n; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(n);
+    Vec3 q = Vec3::Zero();
+    if (i < n) q += f[0] * (1.0 - share) * p[i];
+    if (i > 0) q += f[1] * share * p[i - 1];
+    product.push_back(q);
+  }
+  return product;
 }
 
 }  // namespace
@@ -97,15 +112,25 @@ BezierCurve CorrectionFor(const BezierCurve& edge, const JoinFactors& factors) {
   }
   slope.front().setZero();
   slope.back().setZero();
-  // Times l(u) = (1-u) l0 + u l1.
-  BezierCurve product;
-  for (int i = 0; i <= n; ++i) {
-    Vec3 p = Vec3::Zero();
-    if (i < n) p += factors.l[0] * (n - i) / static_cast<double>(n) * slope[static_cast<std::size_t>(i)];
-    if (i > 0) p += factors.l[1] * i / static_cast<double>(n) * slope[static_cast<std::size_t>(i - 1)];
-    product.points.push_back(p);
+  return {TimesLinear(factors.l, slope)};
+}
+
+BezierCurve FollowingTangent(const BezierCurve& edge, const BezierCurve& leading, const JoinFactors& factors,
+                             const Vec3& b0, const Vec3& b1) {
+  const int n = edge.degree();
+  std::vector<Vec3> slope;
+  for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+    slope.push_back(n * (edge.points[i + 1] - edge.points[i]));
   }
-  return product;
+  const auto share = [&factors](const std::array<double, 2>& f) {
+    return std::array{f[0] / factors.k[0], f[1] / factors.k[1]};
+  };
+  BezierCurve b{TimesLinear(share(factors.l), slope)};
+  const BezierCurve turned = Elevated({TimesLinear(share(factors.h), leading.points)}, n);
+  for (std::size_t i = 0; i < b.points.size(); ++i) b.points[i] -= turned.points[i];
+  b.points.front() = b0;
+  b.points.back() = b1;
+  return b;
 }
 
 }  // namespace patchmill

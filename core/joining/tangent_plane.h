@@ -69,6 +69,12 @@ EdgeTwists NearestTwists(const HermiteCurve& edge, const CrossTangents& tangents
 // The CBT (4) as a vector-valued cubic.
 BezierCurve CrossBoundaryTangent(const Vec3& at0, const Vec3& twist0, const Vec3& at1, const Vec3& twist1);
 
+// b where a is given all along: (5) solved for b with k = 1, so that b = l C' - h a with linear l, h that
+// give it its ends b0, b1 (METHODS 3.3, (17)-(19), with l for curves that do not cross the edge in one line).
+// Exact; of the degree of `edge`, which must be above that of `leading`.
+BezierCurve FollowingTangent(const BezierCurve& edge, const BezierCurve& leading, const JoinFactors& factors,
+                             const Vec3& b0, const Vec3& b1);
+
 // What a and b both need in addition where the edge is not its own cubic Hermite part H: with h + k = 2,
 // l (C' - H')/2 on each side restores (5) exactly. Vector-valued, degree that of the edge; zero for a cubic.
 BezierCurve CorrectionFor(const BezierCurve& edge, const JoinFactors& factors);

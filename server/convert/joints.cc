@@ -14,6 +14,7 @@ void AddJoints(const ContinuityReport& report,
     to.set_max_angle_deg(Degrees(joint.max_angle));
     to.set_max_curvature_gap_per_mm(joint.max_curvature_gap);
     to.set_max_curvature_per_mm(joint.max_curvature);
+    to.set_part(joint.part);
   }
 }
 

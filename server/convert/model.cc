@@ -380,7 +380,8 @@ absl::StatusOr<CheckedNetwork> NetworkFromProto(const v1::PatchModel& proto, std
   return errors.ToStatus();
 }
 
-absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_view at) {
+absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_view at,
+                                       const RunContext& run) {
   PM_ASSIGN_OR_RETURN(const ModelHead head, HeadOf(proto, at));
   CheckedModel checked;
   checked.model.join_tolerance = head.join_tolerance;
@@ -388,7 +389,7 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
     CheckedNetwork read = ReadNetwork(proto, head);
     checked.faults = std::move(read.faults);
     if (!checked.faults.empty()) return checked;
-    JoinedNetwork joined = JoinNetwork(read.network);
+    PM_ASSIGN_OR_RETURN(JoinedNetwork joined, JoinNetwork(read.network, run));
     checked.model = std::move(joined.model);
     (HasError(joined.findings) ? checked.faults : checked.remarks) = std::move(joined.findings);
     if (checked.faults.empty()) checked.faults = ValidateModel(checked.model);

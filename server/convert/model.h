@@ -4,6 +4,7 @@
 #include <absl/status/statusor.h>
 
 #include "core/base/diagnostic.h"
+#include "core/base/run_context.h"
 #include "core/joining/curve_network.h"
 #include "core/network/patch_model.h"
 #include "patchmill/v1/model.pb.h"
@@ -22,8 +23,10 @@ struct CheckedModel {
 };
 
 // RESOURCE_EXHAUSTED for a limit, checked before anything is copied; INVALID_ARGUMENT for a missing
-// length_unit. Everything else is a fault of a patch. `at` is the path of the model in its request.
-absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_view at);
+// length_unit; those of `run` while a network is joined. Everything else is a fault of a patch. `at` is the
+// path of the model in its request.
+absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_view at,
+                                       const RunContext& run = {});
 
 // The network of a model as it is sent.
 struct CheckedNetwork {

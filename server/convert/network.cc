@@ -81,7 +81,15 @@ class NetworkReader {
     const std::string at = fmt::format("network.vertices[{}]", index);
     NetworkVertex vertex;
     vertex.id = Id(from.id(), at);
-    vertex.position = Vector(from.position(), unit_, at + ".position");
+    if (from.has_on_edge()) {
+      vertex.on_edge = {from.on_edge().start(), from.on_edge().end(), from.on_edge().parameter()};
+      if (!from.position().empty()) {
+        Fault("INVALID_T_VERTEX", at + ".position",
+              "is given beside on_edge, which says where it is; leave it out");
+      }
+    } else {
+      vertex.position = Vector(from.position(), unit_, at + ".position");
+    }
     for (const v1::VertexNormal& normal : from.normals()) {
       vertex.normals.push_back({Vector(normal.direction(), 1.0, at + ".normals.direction"),
                                 {normal.faces().begin(), normal.faces().end()}});

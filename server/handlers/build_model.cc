@@ -34,8 +34,9 @@ absl::Status TakeNormals(const v1::BuildModelRequest& request, double unit, cons
   WriteEdited(before, made.network, unit, to.mutable_network());
   response->set_max_distance_mm(made.max_distance);
   response->set_farthest_vertex(made.farthest_vertex);
-  findings(JoinNetwork(made.network).findings);
-  return run.Check();
+  PM_ASSIGN_OR_RETURN(const JoinedNetwork joined, JoinNetwork(made.network, run));
+  findings(joined.findings);
+  return absl::OkStatus();
 }
 
 }  // namespace

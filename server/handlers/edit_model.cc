@@ -42,16 +42,15 @@ absl::Status Edit(const v1::EditModelRequest& request, const RunContext& run,
   const CurveNetwork& before = loaded.checked.network;
   PM_ASSIGN_OR_RETURN(const CurveNetwork after, EditNetwork(before, edits, run));
   WriteEdited(before, after, loaded.checked.unit, message.mutable_network());
-  PM_RETURN_IF_ERROR(run.Check());
-  JoinedNetwork joined = JoinNetwork(after);
+  PM_ASSIGN_OR_RETURN(JoinedNetwork joined, JoinNetwork(after, run));
   findings(joined.findings);
   if (HasError(joined.findings)) return absl::OkStatus();
   if (const Diagnostics faults = ValidateModel(joined.model); !faults.empty()) {
     findings(faults);
     return absl::OkStatus();
   }
-  PM_RETURN_IF_ERROR(run.Check());
-  AddChanged(JoinNetwork(before).model, joined.model, response);
+  PM_ASSIGN_OR_RETURN(const JoinedNetwork joined_before, JoinNetwork(before, run));
+  AddChanged(joined_before.model, joined.model, response);
   if (request.with_patches()) *response->mutable_patches() = ToProto(joined.model);
   if (request.continuity_steps() == 0) return absl::OkStatus();
   PM_ASSIGN_OR_RETURN(const PatchNetwork network, BuildNetwork(std::move(joined.model), run));

@@ -56,13 +56,13 @@ Diagnostics Placed(Diagnostics remarks, const Placement& placement) {
   return remarks;
 }
 
-absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post) {
+absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run) {
   PreparedJob prepared;
   FieldErrors errors;
   prepared.job = FromProto(job, post, "job", errors);
   prepared.name = job.name();
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  PM_ASSIGN_OR_RETURN(prepared.model, LoadModel(job.source(), "job.source"));
+  PM_ASSIGN_OR_RETURN(prepared.model, LoadModel(job.source(), "job.source", run));
   PM_RETURN_IF_ERROR(RequireSound(prepared.model));
   prepared.job.unitless_file = prepared.model.unitless;
   prepared.job.model_remarks = Placed(prepared.model.remarks, prepared.job.setup.placement);

@@ -20,7 +20,7 @@ struct PreparedJob {
 
 // All field errors of job and post together with those of the model. RESOURCE_EXHAUSTED when the estimated
 // path is longer than limits::kMaxCutLengthMm or has more than limits::kMaxPathPoints.
-absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post);
+absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run);
 
 // INVALID_ARGUMENT for a field this version does not know: refused, never silently ignored.
 absl::Status RefuseUnknownFields(const google::protobuf::Message& request);

@@ -20,7 +20,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
       const Outputs outputs,
       ReadOutputs(request.outputs(), {v1::OUTPUT_REGIONS, v1::OUTPUT_PICTURE}, {v1::OUTPUT_REGIONS}));
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post()));
+    PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run));
     PM_RETURN_IF_ERROR(run.Check());
     const Job& job = prepared.job;
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(prepared.model.model, job.setup, run));

@@ -44,7 +44,7 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_RETURN_IF_ERROR(CheckDiameters(request.tool_diameters_mm()));
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post()));
+    PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run));
     const Job& job = prepared.job;
     ReachTableParams params;
     for (const double d : request.tool_diameters_mm()) params.radii.push_back(0.5 * d + job.operation.leave);

@@ -92,7 +92,7 @@ v1::Outcome Judge(const v1::Report& report) {
 absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const RunContext& run,
                   v1::Report* report) {
   run.Progress("model", 0.0);
-  PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source"));
+  PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source", run));
   PM_RETURN_IF_ERROR(RequireSound(model));
   PM_RETURN_IF_ERROR(run.Check());
   absl::StatusOr<ProgramMotion> motion = ReadProgram(request.program(), {.run = &run});

@@ -173,10 +173,11 @@ TEST_F(Cli, ANetworkIsCheckedJointByJointAndMilled) {
   const std::string mouse = PATCHMILL_SOURCE_DIR "/examples/mouse.json";
   const Finished check = Patchmill({"check", mouse, "--continuity", "100"});
   EXPECT_EQ(check.status, 0) << check.err;
-  EXPECT_THAT(check.out, HasSubstr("patches      30"));
+  EXPECT_THAT(check.out, HasSubstr("patches      32"));
   int joints = 0;
   for (std::size_t at = 0; (at = check.out.find("joint  ", at)) != std::string::npos; ++at) ++joints;
-  EXPECT_EQ(joints, 50);
+  EXPECT_EQ(joints, 54);
+  EXPECT_THAT(check.out, HasSubstr("and a part of edge"));
   const Finished mill = Mill(mouse, {"--tool-diameter", "10", "--scallop", "0.1", "--floor", "-20"});
   EXPECT_EQ(mill.status, 0) << mill.err;
   EXPECT_THAT(mill.err, HasSubstr("verified"));

@@ -123,6 +123,7 @@ TEST(Contract, DimensionedNumbersCarryTheirUnit) {
                                        "curvatures_before",
                                        "curvatures_after",
                                        "uv",
+                                       "parameter",
                                        "normals",
                                        "level",
                                        "levels",

@@ -41,6 +41,18 @@ TEST(ContourSides, BlockOnAFloor) {
   EXPECT_EQ(count[SideKind::kCrease], 4 + 16 + 4);  // floor, walls, top
 }
 
+// A plane of one long patch and two short ones: smooth across the T-junction, from both sides.
+TEST(ContourSides, TJunctionsAreSmooth) {
+  const auto square = [](double x, double y, double height) {
+    return testing::Single(
+        BezierPatch{1, 1, {{x, y, 0}, {x, y + height, 0}, {x + 1, y, 0}, {x + 1, y + height, 0}}, {}});
+  };
+  auto count = Count(MakeSurface(testing::Join({square(0, 0, 2), square(1, 0, 1), square(1, 1, 1)})));
+  EXPECT_EQ(count[SideKind::kSmooth], 1 + 2 + 2);
+  EXPECT_EQ(count[SideKind::kOpen], 7);
+  EXPECT_EQ(count[SideKind::kCrease], 0);
+}
+
 TEST(ContourSides, SphereIsSmoothButForItsPoles) {
   auto count = Count(MakeSurface(testing::Sphere(Vec3::Zero(), 10.0)));
   EXPECT_EQ(count[SideKind::kSmooth], 24);

@@ -70,6 +70,29 @@ TEST(HosakaSegment, PartVector) {
   }
 }
 
+TEST(BezierCurve, PartIsTheSameCurve) {
+  Random random(4);
+  for (int degree = 1; degree <= 11; ++degree) {
+    BezierCurve whole;
+    for (int i = 0; i <= degree; ++i) whole.points.push_back(random.Point(-1, 1));
+    for (const auto& [t1, t2] :
+         {std::pair(0.0, 1.0), std::pair(0.0, 0.3), std::pair(0.2, 0.9), std::pair(0.7, 1.0)}) {
+      const BezierCurve part = Part(whole, t1, t2);
+      for (double s = 0; s <= 1; s += 0.125) {
+        const CurveJet a = Evaluate(part, s), b = Evaluate(whole, t1 + s * (t2 - t1));
+        ExpectNear(a.p, b.p, 1e-14);
+        ExpectNear(a.d, (t2 - t1) * b.d, 1e-13);
+      }
+      if (t1 == 0.0) {
+        EXPECT_EQ(part.points.front(), whole.points.front());
+      }
+      if (t2 == 1.0) {
+        EXPECT_EQ(part.points.back(), whole.points.back());
+      }
+    }
+  }
+}
+
 TEST(HosakaSegment, ExtraTermKeepsEndsAndEndDerivatives) {
   Random random(1);
   for (int k = 0; k <= 11; ++k) {

@@ -146,6 +146,30 @@ TEST(EditNetwork, ANormalOfOneSideOfACrease) {
   EXPECT_EQ(again.vertices[At(cap[0])].normals[0].direction, Vec3(0, 1, 0));
 }
 
+// Faces along parts of an edge belong to the group of the face along the whole of it.
+TEST(EditNetwork, ANormalAtATJunctionReachesAllItsFaces) {
+  CurveNetwork n;
+  for (const Vec3& p : {Vec3(-10, 0, 0), Vec3(0, 0, 2), Vec3(0, 30, 2), Vec3(-10, 30, 0), Vec3(12, 0, 0),
+                        Vec3(12, 30, 0), Vec3(12, 14, 1)}) {
+    n.vertices.push_back({"", p, {}});
+  }
+  n.vertices.emplace_back().on_edge = {1, 2, 0.5};
+  for (const std::vector<int>& loop :
+       std::vector<std::vector<int>>{{0, 1, 2, 3}, {1, 4, 6, 7}, {7, 6, 5, 2}}) {
+    n.faces.push_back({"", loop, PatchScheme::kAuto, {}});
+  }
+  const JoinedNetwork before = Join(n);
+  const CurveNetwork turned = Edited(n, {NormalEdit{1, 0, Vec3(0.1, -0.2, 1)}});
+  ASSERT_EQ(turned.vertices[1].normals.size(), 1u);
+  EXPECT_EQ(turned.vertices[1].normals[0].faces, (std::vector<int>{0, 1}));
+  const JoinedNetwork after = Join(turned);
+  ExpectSmooth(after, false);
+  EXPECT_EQ(Changed(before, after), (std::set<int>{0, 1, 2}));
+  const CurveNetwork pushed = Edited(n, {PushEdit{0, {0.8, 0.5, 0.05}}});
+  ExpectSmooth(Join(pushed), false);
+  EXPECT_EQ(Changed(before, Join(pushed)), (std::set<int>{0, 1, 2}));
+}
+
 TEST(EditNetwork, ControlPointsMoveWhereTheyAreToldAndTheNeighbourFollows) {
   const CurveNetwork network = testing::LineSheet(2, 4, 4);
   const JoinedNetwork plain = Join(network);

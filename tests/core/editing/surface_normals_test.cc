@@ -45,11 +45,13 @@ TEST(WithNormalsOf, AreThoseOfAParaboloid) {
     network.vertices.push_back(vertex);
   }
   network.vertices[3].normals = {{Vec3(1, 0, 0), {}}};
+  network.vertices.emplace_back().on_edge = {1, 2, 0.5};  // a T-junction has none: it follows
   const auto made = WithNormalsOf(surface, network, RunContext(2));
   ASSERT_TRUE(made.ok());
+  EXPECT_TRUE(made->network.vertices.back().normals.empty());
   EXPECT_EQ(made->farthest_vertex, 7);
   EXPECT_NEAR(made->max_distance, 0.25, 1e-6);
-  for (std::size_t k = 0; k < network.vertices.size(); ++k) {
+  for (std::size_t k = 0; k + 1 < network.vertices.size(); ++k) {
     const auto& vertex = made->network.vertices[k];
     EXPECT_EQ(vertex.position, network.vertices[k].position);
     ASSERT_EQ(vertex.normals.size(), 1u);

@@ -1,6 +1,10 @@
 // Bad networks: each fault found by its code, all at once, none crashes.
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -246,6 +250,157 @@ TEST(NetworkFindings, RandomDamageGivesFindingsOrFinitePatches) {
   }
   EXPECT_GT(refused, 500);
   EXPECT_GT(made, 100);
+}
+
+// One fault, one finding: nothing that only follows from it.
+TEST(NetworkFindings, OneEachAndNothingElse) {
+  const auto expect = [](const CurveNetwork& n, const std::string& code, const std::string& field,
+                         const std::string& text) {
+    const Diagnostics findings = JoinNetwork(n).findings;
+    std::string all;
+    for (const Diagnostic& d : findings) all += d.code + ": " + d.message + "\n";
+    ASSERT_EQ(findings.size(), 1u) << code << " in\n" << all;
+    EXPECT_EQ(findings[0].code, code) << all;
+    EXPECT_EQ(findings[0].severity, Severity::kError);
+    EXPECT_EQ(findings[0].where.field, field) << all;
+    EXPECT_NE(findings[0].message.find(text), std::string::npos) << all;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto edge = [](int a, int b, EdgeShape shape = NormalsEdge{}, bool crease = false) {
+    CurveNetwork n = TwoQuads();
+    n.edges.push_back({"", a, b, std::move(shape), crease});
+    return n;
+  };
+
+  CurveNetwork n = TwoQuads();
+  n.vertices[2].position.x() = nan;
+  expect(n, "NOT_FINITE", "network.vertices[2]", "position");
+  expect(edge(0, 3, TangentsEdge{Vec3(0, nan, 0), Vec3(0, nan, 0)}), "NOT_FINITE", "network.edges[0]", "");
+  expect(edge(1, 4, NormalsEdge{nan}), "INVALID_GAMMA", "network.edges[0]", "");
+  n = TwoQuads();
+  n.join_tolerance = nan;
+  expect(n, "INVALID_JOIN_TOLERANCE", "network.join_tolerance", "must be > 0");
+
+  n = TwoQuads();
+  n.vertices[5].position = n.vertices[2].position;
+  expect(n, "DUPLICATE_VERTEX", "network.vertices[5]", "vertices[2]");
+  n = TwoQuads();
+  n.vertices.push_back(n.vertices[1]);
+  n.faces[1].vertices[0] = 6;
+  expect(n, "DUPLICATE_VERTEX", "network.vertices[6]", "must name one vertex");
+
+  expect(edge(2, 2), "ZERO_LENGTH_EDGE", "network.edges[0]", "same vertex");
+  n = TwoQuads();
+  n.faces[0].vertices = {0, 1, 1, 3};
+  expect(n, "ZERO_LENGTH_EDGE", "network.faces[0]", "twice");
+
+  expect(edge(0, 1, NormalsEdge{}, true), "CONTRADICTORY_CREASE", "network.edges[0]", "one face only");
+  n = edge(1, 4, NormalsEdge{}, true);
+  n.edges.push_back({"", 4, 1, NormalsEdge{}, false});
+  expect(n, "DUPLICATE_EDGE", "network.edges[1]", "edges[0]");
+  n = TwoQuads();
+  n.lines.push_back({{0, 1, 2}, false, true});
+  EXPECT_EQ(Count(n, "CONTRADICTORY_CREASE"), 2);  // two borders
+  n = edge(1, 4, NormalsEdge{}, true);
+  n.lines.push_back({{4, 1}, false, false});
+  expect(n, "DUPLICATE_EDGE", "network.lines[0] between vertices 4 and 1", "edges[0]");
+
+  expect(edge(0, 5), "DANGLING_EDGE", "network.edges[0]", "belongs to no face");
+  n = TwoQuads();
+  n.vertices.push_back({"", Vec3(10, 5, 9), {}});
+  n.faces.push_back({"", {1, 4, 6}, PatchScheme::kAuto, {}});
+  expect(n, "NON_MANIFOLD_EDGE", "network.vertices[1]", "has 3 faces");
+  n = TwoQuads();
+  n.vertices.push_back({"", Vec3(-9, -1, 0), {}});
+  n.vertices.push_back({"", Vec3(-1, -9, 0), {}});
+  n.faces.push_back({"", {0, 6, 7}, PatchScheme::kAuto, {}});
+  expect(n, "NON_MANIFOLD_VERTEX", "network.vertices[0]", "one vertex to each");
+  n = TwoQuads();
+  n.vertices.push_back({"", Vec3(50, 0, 0), {}});
+  expect(n, "UNUSED_VERTEX", "network.vertices[6]", "leave it out");
+
+  n = TwoQuads();
+  n.vertices[1].normals = {{Vec3(0, 0, 1), {0}}, {Vec3(0.3, 0, 1), {1}}};
+  expect(n, "INCONSISTENT_NORMALS", "network.vertices[1]", "make it a crease");
+  n = edge(1, 4, TangentsEdge{Vec3(0, 9, 1), Vec3(0, -9, 0)});
+  n.vertices[1].normals = n.vertices[4].normals = {{Vec3(0, 0, 1), {}}};
+  EXPECT_EQ(Count(n, "INCONSISTENT_NORMALS"), 2);  // one for each face it leaves
+  n = TwoQuads();
+  n.vertices[0].normals = {{Vec3(10, 0, 1), {}}};
+  expect(n, "CHORD_ALONG_NORMAL", "network.vertices[0]", "from vertex 0 to 1");
+
+  n = TwoQuads();
+  n.vertices[2].position = Vec3(1, 0, 0.5);
+  n.vertices[5].position = Vec3(1, 10, 0.5);
+  n.vertices[1].normals = n.vertices[4].normals = {{Vec3(0, 0, 1), {}}};
+  expect(n, "FOLDED_EDGE", "network.vertices[1]", "same side");
+  n = edge(0, 1, TangentsEdge{Vec3(9, 0, 0), Vec3(-9, 0, 0)});
+  n.edges.push_back({"", 0, 3, TangentsEdge{Vec3(9, 0, 0), Vec3(0, -9, 0)}, false});
+  expect(n, "PARALLEL_TANGENTS", "network.faces[0]", "at vertex 0");
+}
+
+// The cuts that a face of too many sides could get, each of which makes faces that pass.
+TEST(NetworkFindings, FacesOfManySidesSpellOutTheirCuts) {
+  const auto ring = [](int sides) {
+    CurveNetwork n;
+    for (int k = 0; k < sides; ++k) {
+      const double a = 2 * kPi * k / sides;
+      n.vertices.push_back({"", Vec3(10 * std::cos(a), 10 * std::sin(a), std::sin(2 * a)), {}});
+    }
+    n.faces.resize(1);
+    for (int k = 0; k < sides; ++k) n.faces[0].vertices.push_back(k);
+    return n;
+  };
+  const auto message = [&](int sides) {
+    const Diagnostics findings = JoinNetwork(ring(sides)).findings;
+    EXPECT_EQ(findings.size(), 1u);
+    EXPECT_EQ(findings.at(0).code, "FACE_SIDES");
+    return findings.at(0).message;
+  };
+  EXPECT_NE(message(5).find("between vertices 0-2, 1-3, 2-4, 3-0 or 4-1, and give two faces"),
+            std::string::npos)
+      << message(5);
+  EXPECT_NE(message(6).find("between vertices 0-3, 1-4 or 2-5, and give two faces of four sides"),
+            std::string::npos)
+      << message(6);
+  EXPECT_NE(message(8).find("for instance between vertices 0-3, 0-5, that leave"), std::string::npos)
+      << message(8);
+  EXPECT_LT(message(5000).size(), 500u);
+  for (int k = 0; k < 5; ++k) {
+    CurveNetwork n = ring(5);
+    const auto at = [&](int i) { return (k + i) % 5; };
+    n.faces = {{"", {at(0), at(1), at(2)}, PatchScheme::kAuto, {}},
+               {"", {at(2), at(3), at(4), at(0)}, PatchScheme::kAuto, {}}};
+    EXPECT_TRUE(JoinNetwork(n).findings.empty());
+  }
+}
+
+// The places of the inner knots; taken span by span the same curve passes, and the surface runs along it.
+TEST(NetworkFindings, CurvesOfSeveralSpansTellWhereVerticesBelong) {
+  const BsplineCurve spline{
+      2, {0, 0, 0, 1, 2, 2, 2}, {Vec3(0, 0, 0), Vec3(1, 3, 2), Vec3(-1, 8, 1), Vec3(0, 10, 0)}};
+  CurveNetwork n = TwoQuads();
+  n.edges.push_back({"", 0, 3, CurveEdge{spline}, false});
+  const Diagnostics findings = JoinNetwork(n).findings;
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].code, "UNSUPPORTED_CURVE");
+  EXPECT_NE(
+      findings[0].message.find("has a curve of 2 spans, an edge takes one: insert vertices at (0, 5.5, 1.5)"),
+      std::string::npos)
+      << findings[0].message;
+
+  n = TwoQuads();
+  n.vertices.push_back({"", Vec3(0, 5.5, 1.5), {}});
+  n.faces[0].vertices = {0, 1, 6};
+  n.faces.push_back({"", {6, 1, 4, 3}, PatchScheme::kAuto, {}});
+  for (const auto& [from, to, start, end] : {std::tuple(0.0, 0.5, 0, 6), std::tuple(0.5, 1.0, 6, 3)}) {
+    const CurveJet a = Evaluate(spline, from), b = Evaluate(spline, to);
+    const Vec3 middle = a.p + 0.5 * (to - from) * a.d;
+    n.edges.push_back({"", start, end, CurveEdge{BezierCurve{{a.p, middle, b.p}}}, false});
+  }
+  const JoinedNetwork joined = JoinNetwork(n);
+  ASSERT_TRUE(joined.findings.empty()) << joined.findings[0].message;
+  EXPECT_LE((Position(joined.model.patches[2].shape, 0.0, 0.5) - Evaluate(spline, 0.75).p).norm(), 1e-12);
 }
 
 TEST(NetworkFindings, AllAtOnce) {

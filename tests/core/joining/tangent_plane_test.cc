@@ -105,6 +105,45 @@ TEST(TangentPlane, Vector) {
   ExpectTwists(NearestTwists(in.edge, in.tangents, factors, pushed), TwistsOf(edited["W"]));
 }
 
+// One side given all along, linear or cubic, on edges of any degree: the other follows.
+TEST(TangentPlane, FollowingTangentHoldsAlongRandomEdges) {
+  Random random(6);
+  for (int k = 0; k < 300; ++k) {
+    const RandomEdge e(random);
+    const auto found = FactorsAlong(e.edge.d0, e.edge.d1, e.tangents, e.n0, e.n1);
+    if (!std::holds_alternative<JoinFactors>(found)) continue;
+    BezierCurve leading{{e.tangents.a0, e.tangents.a1}};
+    if (k % 2 == 0) {
+      leading = Elevated(leading, 3);
+      leading.points[1] += random.Point(-0.2, 0.2), leading.points[2] += random.Point(-0.2, 0.2);
+    }
+    BezierCurve curve = Elevated(ToBezier(e.edge), 4 + k % 4);
+    if (k % 3 == 0) curve.points[2] += random.Point(-0.1, 0.1);
+    const BezierCurve b =
+        FollowingTangent(curve, leading, std::get<JoinFactors>(found), e.tangents.b0, e.tangents.b1);
+    EXPECT_EQ(b.degree(), curve.degree());
+    ExpectNear(Evaluate(b, 0).p, e.tangents.b0, 1e-15);
+    ExpectNear(Evaluate(b, 1).p, e.tangents.b1, 1e-15);
+    // Coplanar along the edge, whatever the size of b there.
+    for (double u = 0; u <= 1; u += 0.0625) {
+      const Vec3 c = Evaluate(curve, u).d, a = Evaluate(leading, u).p, at = Evaluate(b, u).p;
+      EXPECT_LE(std::abs(c.cross(a).dot(at)), 1e-14 * std::max(1.0, c.norm() * a.norm() * at.norm()));
+    }
+  }
+}
+
+// Crossing edges that run on in line with the leading side: Hosaka's rule (19), one factor all along.
+TEST(TangentPlane, FollowingTangentIsHosakasWhereEdgesRunOn) {
+  Random random(7);
+  const RandomEdge e(random);
+  const double k = 0.7;
+  const CrossTangents t{e.tangents.a0, e.tangents.a1, -k * e.tangents.a0, -k * e.tangents.a1};
+  const JoinFactors factors = std::get<JoinFactors>(FactorsAlong(e.edge.d0, e.edge.d1, t, e.n0, e.n1));
+  const BezierCurve leading{{t.a0, t.a1}};
+  const BezierCurve b = FollowingTangent(ToBezier(e.edge), leading, factors, t.b0, t.b1);
+  for (double u = 0; u <= 1; u += 0.125) ExpectNear(Evaluate(b, u).p, -k * Evaluate(leading, u).p, 1e-14);
+}
+
 TEST(TangentPlane, HoldsAlongRandomEdges) {
   Random random(1);
   for (int k = 0; k < 300; ++k) {

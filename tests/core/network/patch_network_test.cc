@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/network/control_points.h"
+#include "core/network/part_links.h"
 #include "tests/support/files.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
@@ -244,6 +245,16 @@ TEST(BuildNetwork, FindsTJunctions) {
   EXPECT_TRUE(network.Link({PatchId(2), 3}).on_t_junction);
   EXPECT_FALSE(network.Link({PatchId(1), 1}).on_t_junction);
   EXPECT_EQ(network.t_junction_count, 1);
+  const std::vector<PartLink> parts = FindPartLinks(network, RunContext(1));
+  ASSERT_EQ(parts.size(), 2u);
+  for (const int k : {0, 1}) {
+    const PartLink& link = parts[static_cast<std::size_t>(k)];
+    EXPECT_EQ(link.part, (PatchEdge{PatchId(1 + k), 3}));
+    EXPECT_EQ(link.whole, (PatchEdge{PatchId(0), 1}));
+    EXPECT_NEAR(link.from, 0.5 * k, 1e-12);
+    EXPECT_NEAR(link.to, 0.5 + 0.5 * k, 1e-12);
+    EXPECT_LE(link.gap, 1e-12);
+  }
 }
 
 TEST(BuildNetwork, LeavesTheUncoveredEndOfATJunctionOpen) {
