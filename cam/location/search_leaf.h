@@ -110,19 +110,25 @@ inline LeafBox SearchLeaf::Box(const LeafGrid& grid) const {
   return box;
 }
 
-// Most boxes are too near for an answer: found without the frame. 1 + t t times the coordinates of
+// Most boxes are settled without the frame: too near, or with a separating plane that does not rise towards
+// them. 1 + t t times the coordinates of
 // m = c - s along the axes is (1 - t t) m + 2 (t m) t - 2 t x m, t the turn.
 inline bool SearchLeaf::Outside(const LeafGrid& grid, const Vec3& c, double limit2) const {
   const Vec3 m = c - Place(grid), t(turn_[0], turn_[1], turn_[2]);
   const double tt = t.squaredNorm(), scale = 1.0 + tt;
   const Vec3 y = (1.0 - tt) * m + (2.0 * t.dot(m)) * t - 2.0 * t.cross(m);
-  double distance2 = 0.0;
+  const double up[3] = {2.0 * (t.x() * t.z() - t.y()), 2.0 * (t.y() * t.z() + t.x()),
+                        1.0 - t.x() * t.x() - t.y() * t.y() + t.z() * t.z()};
+  double distance2 = 0.0, rise = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double half = scale * static_cast<double>(half_[k].value());
-    const double past = std::max(0.0, std::abs(y[k] - kShiftUnit * shift_[k] * half) - half);
+    const double z = y[k] - kShiftUnit * shift_[k] * half;
+    const double past = std::max(0.0, std::abs(z) - half);
     distance2 += past * past;
+    rise += std::copysign(past, z) * up[k];
   }
   if (distance2 < limit2 * scale * scale) return false;
+  if (rise >= 0.0) return true;
   const LeafBox box = Box(grid);
   return OrientedBoxOutside(box.center, box.axis, box.half, c, limit2);
 }

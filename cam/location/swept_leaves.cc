@@ -1,7 +1,9 @@
 #include "cam/location/swept_leaves.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <optional>
 
 #include "cam/location/ray_distance.h"
 #include "cam/location/swept_ball.h"
@@ -21,7 +23,7 @@ class LeafProof {
             const Vec3& a, const Vec3& b, double distance, double spare)
       : leaf_(leaf),
         box_(box),
-        model_(leaf.Model(grid)),
+        grid_(grid),
         piece_(piece),
         a_(a),
         b_(b),
@@ -54,7 +56,8 @@ class LeafProof {
   double Distance2(const Vec3& c, double enough) {
     const double box2 = OrientedBoxDistance2(box_.center, box_.axis, box_.half, c);
     if (box2 >= enough) return box2;
-    const LowerModel low = BoundBelow(model_, c);
+    if (!model_) model_ = leaf_.Model(grid_);
+    const LowerModel low = BoundBelow(*model_, c);
     double bound = box2;
     if (low.minorant) {
       bound = std::max(bound, 2.0 * (low.f0 + MinimizeOnBox(low.q, {-0.5, 0.5, -0.5, 0.5}).value));
@@ -65,7 +68,7 @@ class LeafProof {
   // f convex on the leaf: its tangent plane anywhere is a lower bound, near the minimum a tight one.
   double ConvexDistance2(const Vec3& c, double enough, double bound) {
     const Rect r = leaf_.rect();
-    const BoxMinimum guess = GuessMinimum(model_, c);
+    const BoxMinimum guess = GuessMinimum(*model_, c);
     double u = r.u0 + (0.5 + guess.x) * (r.u1 - r.u0), v = r.v0 + (0.5 + guess.y) * (r.v1 - r.v0);
     for (int k = 0; k < kNewtonSteps; ++k) {
       const SurfaceJet j = Evaluate(piece_, u, v);
@@ -91,7 +94,8 @@ class LeafProof {
 
   const SearchLeaf& leaf_;
   const LeafBox& box_;
-  const LeafModel model_;
+  const LeafGrid& grid_;
+  std::optional<LeafModel> model_;  // once asked for
   const Piece& piece_;
   const Vec3 &a_, &b_;
   const double length_, distance2_, spare2_;
@@ -120,7 +124,7 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
   const Float4 offset = Splat(static_cast<float>(across.dot(Plan(a))));
   const Float4 zero = Splat(0.0F), half = Splat(0.5F);
   const bool is_long = plan_length > radius;
-  const auto both = static_cast<float>(static_cast<double>(limit) + 0.25 * (b - a).squaredNorm());
+  const Float4 both = Splat(static_cast<float>(static_cast<double>(limit) + 0.25 * (b - a).squaredNorm()));
   const auto from_end = [&](const SearchNode& node, const Vec3& end) {
     const Float4 x = Splat(static_cast<float>(end.x())), y = Splat(static_cast<float>(end.y()));
     const Float4 dx = Max(Max(node.min_x - x, x - node.max_x), zero);
@@ -156,9 +160,13 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
                 half * (Abs(nx) * (node.max_x - node.min_x) + Abs(ny) * (node.max_y - node.min_y)),
             zero);
     const Float4 all = Max(dx * dx + dy * dy, beside * beside) + below * below;
-    const Float4 from_a = from_end(node, a), from_b = from_end(node, b);
-    for (int k = 0; k < 4; ++k) {
-      if (all[k] < limit && (from_a[k] < both || from_b[k] < both)) stack.push_back(node.child[k]);
+    unsigned in = BelowBits(all, Splat(limit));
+    if (in == 0) continue;
+    in &= BelowBits(from_end(node, a), both) | BelowBits(from_end(node, b), both);
+    for (; in != 0; in &= in - 1) {
+      const std::int32_t child = node.child[std::countr_zero(in)];
+      impl.tree.Prefetch(child);
+      stack.push_back(child);
     }
   }
   return true;

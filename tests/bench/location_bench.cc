@@ -14,8 +14,9 @@ constexpr double kRadius = 3.0;
 constexpr double kGrid = 0.25;  // mm
 
 // A grid over the part's box, row by row along x, each query hinted by the contact before, as scan lines do.
-// Only places with a surface below count.
-void CenterHeight(benchmark::State& state, Part part) {
+// Only places with a surface below count. `height(locator, q, hint)` is the query.
+template <class Query>
+void MeasureGrid(benchmark::State& state, Part part, const Query& height) {
   const Surface& surface = SurfaceOf(part);
   const Locator locator(surface, kRadius);
   const int nx = 1 + static_cast<int>((surface.box.max.x() - surface.box.min.x()) / kGrid);
@@ -23,10 +24,10 @@ void CenterHeight(benchmark::State& state, Part part) {
   std::int64_t found = 0;
   for (auto _ : state) {
     for (int j = 0; j < ny; ++j) {
-      std::optional<CenterPoint> last;
+      decltype(height(locator, Vec2(), nullptr)) last;
       for (int i = 0; i < nx; ++i) {
         const Vec2 q = Plan(surface.box.min) + kGrid * Vec2(i, j);
-        last = locator.Height(q, last ? &last->contact : nullptr);
+        last = height(locator, q, last ? &last->contact : nullptr);
         found += last.has_value();
       }
     }
@@ -34,10 +35,27 @@ void CenterHeight(benchmark::State& state, Part part) {
   state.SetItemsProcessed(found);
   state.counters["defects"] = static_cast<double>(locator.defect_count());
 }
+
+void CenterHeight(benchmark::State& state, Part part) {
+  MeasureGrid(state, part, [](const Locator& locator, const Vec2& q, const SurfacePoint* hint) {
+    return locator.Height(q, hint);
+  });
+}
 BENCHMARK_CAPTURE(CenterHeight, two_hills, Part::kTwoHills)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(CenterHeight, teapot, Part::kTeapot)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(CenterHeight, toroidal_tet, Part::kToroidalTet)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(CenterHeight, bumpy, Part::kBumpy)->Unit(benchmark::kMillisecond);
+
+// The same, each certified to 1e-6 mm: the ratio to CenterHeight is what certification costs.
+void CenterHeightCertified(benchmark::State& state, Part part) {
+  MeasureGrid(state, part, [](const Locator& locator, const Vec2& q, const SurfacePoint* hint) {
+    return locator.CertifiedHeight(q, 1e-6, hint);
+  });
+}
+BENCHMARK_CAPTURE(CenterHeightCertified, two_hills, Part::kTwoHills)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(CenterHeightCertified, teapot, Part::kTeapot)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(CenterHeightCertified, toroidal_tet, Part::kToroidalTet)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(CenterHeightCertified, bumpy, Part::kBumpy)->Unit(benchmark::kMillisecond);
 
 // The same grid in the processor's vector lanes, two rows at a time in tiles of 4 x 2 places;
 // `instruction_set` as in Heights(), its name is the label. The ratio to CenterHeight is that of lanes
