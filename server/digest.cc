@@ -110,7 +110,9 @@ void AddLimits(const Job& job, Canonical& out) {
     out.Add(change.strategy ? static_cast<std::int64_t>(*change.strategy) : -1);
     AddOptional(change.zigzag_angle, out);
     AddOptional(change.scallop, out);
+    if (change.one_way) out.Add("one way").Add(std::int64_t{*change.one_way});
   }
+  if (job.operation.one_way) out.Add("one way");
   if (job.operation.top_z) out.Add("top").Add(*job.operation.top_z);
   for (const ObstacleOutline& o : job.setup.obstacles) {
     out.Add("obstacle").Add(o.id).Add(o.top_z).Add(o.margin);

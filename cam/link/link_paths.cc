@@ -74,7 +74,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
     const CutterPath& pass = result.passes[i];
     const CutterPoint& start = pass.points.front();
     std::optional<std::vector<Move>> link;
-    if (end != nullptr) link = maker.StayDown(end->center, start.center);
+    if (end != nullptr && !pass.one_way) link = maker.StayDown(end->center, start.center);
     if (link) {
       for (Move& move : *link) moves.push_back(move);
     } else {

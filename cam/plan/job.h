@@ -55,6 +55,7 @@ struct RegionChoice {
   bool skip = false;  // not at all
   Strategy strategy = Strategy::kAuto;
   double zigzag_angle = 0.0;  // rad
+  bool one_way = false;       // all its lines run along zigzag_angle, none back
   double scallop = 0.01;      // mm
   bool operator==(const RegionChoice&) const = default;
 };
@@ -67,6 +68,7 @@ struct RegionOverride {
   bool skip = false;
   std::optional<Strategy> strategy;
   std::optional<double> zigzag_angle, scallop;  // absent: as the operation
+  std::optional<bool> one_way;
 };
 inline constexpr double kPickReach = 1.0;  // mm
 
@@ -78,6 +80,7 @@ struct Operation {
   double steep_angle = Radians(45.0);
   Strategy strategy = Strategy::kAuto;
   double zigzag_angle = 0.0;
+  bool one_way = false;  // zig-zag lines run along their angle only
   double detail = RegionParams().detail;
   CutDirection contour_direction = CutDirection::kClimb;
   EdgeRule edge_rule = EdgeRule::kStop;

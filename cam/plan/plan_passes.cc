@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "cam/path/contour_paths.h"
 #include "cam/path/coverage.h"
@@ -56,16 +57,10 @@ class PassMaker {
   PassMaker(const Locator& locator, const Job& job, const Resolved& resolved, const RunContext& run)
       : locator_(locator), op_(job.operation), base_(MakePassParams(job, resolved)), run_(run) {}
 
-  absl::Status AddStrategies(const RegionChoice& choice, const KeepIn* keep_in,
-                             PlannedPasses& planned) const {
+  absl::Status AddStrategies(const RegionChoice& choice, const KeepIn* keep_in, PlannedPasses& planned) {
     std::vector<CutterPath> paths;
     if (choice.strategy != Strategy::kZigzag) {
-      ContourParams params;
-      SetPass(choice, params);
-      params.window.min = choice.strategy == Strategy::kAuto ? op_.steep_angle : 0.0;
-      PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
-      planned.findings.insert(planned.findings.end(), contours.findings.begin(), contours.findings.end());
-      Append(paths, std::move(contours.paths));
+      PM_ASSIGN_OR_RETURN(paths, Contours(choice, planned.findings));
     }
     if (choice.strategy != Strategy::kContour) {
       ZigzagParams params;
@@ -74,6 +69,7 @@ class PassMaker {
       params.angle = choice.zigzag_angle;
       if (keep_in != nullptr && keep_in->HasPart()) params.part = keep_in;
       PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator_, params, run_));
+      for (CutterPath& line : lines) line.one_way = choice.one_way;
       Append(paths, std::move(lines));
     }
     if (keep_in != nullptr) {
@@ -102,6 +98,20 @@ class PassMaker {
   }
 
  private:
+  // Over all ground that is steep enough; parts that differ in their lines alone share them.
+  absl::StatusOr<std::vector<CutterPath>> Contours(const RegionChoice& choice, Diagnostics& findings) {
+    const bool all = choice.strategy == Strategy::kContour;
+    if (const auto known = contours_.find({all, choice.scallop}); known != contours_.end()) {
+      return known->second;
+    }
+    ContourParams params;
+    SetPass(choice, params);
+    params.window.min = all ? 0.0 : op_.steep_angle;
+    PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
+    findings.insert(findings.end(), contours.findings.begin(), contours.findings.end());
+    return contours_[{all, choice.scallop}] = std::move(contours.paths);
+  }
+
   void SetPass(const RegionChoice& choice, PassParams& params) const {
     params = base_;
     params.scallop = choice.scallop;
@@ -111,6 +121,7 @@ class PassMaker {
   const Operation& op_;
   const PassParams base_;
   const RunContext& run_;
+  std::map<std::pair<bool, double>, std::vector<CutterPath>> contours_;
 };
 
 }  // namespace
@@ -130,7 +141,7 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
                                          const Resolved& resolved, const KeepIn* keep_in,
                                          const RunContext& run) {
   PlannedPasses planned;
-  const PassMaker maker(locator, job, resolved, run);
+  PassMaker maker(locator, job, resolved, run);
   std::vector<std::optional<KeepIn>> own(parts.size());
   const auto limits = [&](std::size_t k) { return own[k] ? &*own[k] : keep_in; };
   for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -68,7 +68,12 @@ std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
 }  // namespace
 
 RegionChoice ChoiceOf(const Operation& op) {
-  return {.strategy = op.strategy, .zigzag_angle = op.zigzag_angle, .scallop = op.scallop};
+  RegionChoice choice;
+  choice.strategy = op.strategy;
+  choice.zigzag_angle = op.zigzag_angle;
+  choice.one_way = op.one_way;
+  choice.scallop = op.scallop;
+  return choice;
 }
 
 absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, const RegionMap& map,
@@ -99,6 +104,7 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
     choice.skip = change.skip;
     choice.strategy = change.strategy.value_or(choice.strategy);
     choice.zigzag_angle = change.zigzag_angle.value_or(choice.zigzag_angle);
+    choice.one_way = change.one_way.value_or(choice.one_way);
     choice.scallop = change.scallop.value_or(choice.scallop);
   }
   return choices;

@@ -190,6 +190,7 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   op.set_steep_angle_deg(options.steep_angle);
   op.set_strategy(MakeStrategy(options.strategy));
   op.set_zigzag_angle_deg(options.zigzag_angle);
+  op.set_one_way_lines(options.one_way);
   op.set_detail(options.detail);
   op.set_contour_direction(MakeDirection(options.direction));
   op.mutable_heights()->set_clearance_above_mm(options.clearance);

@@ -182,6 +182,7 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();
   AddNumber(app, "--zigzag-angle", op.zigzag_angle, "direction of the lines from +X, degrees");
+  app.add_flag("--one-way", op.one_way, "cut all lines in that direction, and lift the ball back");
   app.add_option("--direction", op.direction, "of closed contours")
       ->check(CLI::IsMember({"climb", "conventional", "either"}))
       ->capture_default_str();

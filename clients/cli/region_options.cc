@@ -38,6 +38,8 @@ bool ReadWord(const std::string& word, v1::RegionOverride& change) {
   }
   if (name == "off") {
     change.set_skip(true);
+  } else if (name == "oneway" || name == "bothways") {
+    change.set_one_way_lines(name == "oneway");
   } else if (name == "auto" || name == "contour" || name == "zigzag") {
     change.set_strategy(MakeStrategy(name));
   } else {
@@ -63,7 +65,7 @@ absl::Status ReadChange(const std::string& text, v1::RegionOverride& change) {
   if (good) return absl::OkStatus();
   return absl::InvalidArgumentError(fmt::format(
       "--region \"{}\"; must be ID or X,Y,Z and then :off, or :auto, :contour, :zigzag, :angle=DEG, "
-      ":scallop=MM",
+      ":oneway, :bothways, :scallop=MM",
       text.substr(0, 80)));
 }
 
@@ -93,7 +95,8 @@ void AddRegionChangeOptions(CLI::App& app, RegionChangeOptions& options) {
   app.add_option(
       "--region", options.changes,
       "a region cut in a way of its own, or not at all: ID or X,Y,Z (program frame, a point of it), then "
-      ":off or any of :auto, :contour, :zigzag, :angle=DEG, :scallop=MM; more than one: more options");
+      ":off or any of :auto, :contour, :zigzag, :angle=DEG, :oneway, :bothways, :scallop=MM; "
+      "more than one: more options");
   app.add_option(
       "--regions", options.map,
       "the map that the ids are of: the .json of `patchmill regions` with the same options, or its sha256");

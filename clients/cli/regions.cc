@@ -54,7 +54,8 @@ std::string HowItIsCut(const v1::Region& region) {
   if (region.skipped()) return "off";
   if (region.kind() == v1::REGION_KIND_UNREACHABLE) return Short(region.unreachable_reason());
   std::string text = Short(region.strategy());
-  if (region.has_zigzag_angle_deg()) text += fmt::format(" {:g} deg", region.zigzag_angle_deg());
+  if (region.has_zigzag_angle_deg())
+    text += fmt::format(" {:g} deg{}", region.zigzag_angle_deg(), region.one_way_lines() ? " one way" : "");
   return text + fmt::format(", scallop {:g}, step {:.3f} to {:.3f} mm", region.scallop_mm(),
                             region.step_min_mm(), region.step_max_mm());
 }

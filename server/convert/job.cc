@@ -123,6 +123,7 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
     Require(errors, At(at, "zigzag_angle_deg"), angle, std::abs(angle) <= 360.0, "in [-360, 360]");
     op.zigzag_angle = Radians(angle);
   }
+  op.one_way = proto.one_way_lines();
   if (proto.has_detail()) op.detail = ReadDetail(proto.detail(), at, errors);
   op.contour_direction = FromProto(proto.contour_direction(), At(at, "contour_direction"), errors);
   op.edge_rule = FromProto(proto.edge_rule(), At(at, "edge_rule"), errors);
@@ -166,6 +167,7 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   proto.set_steep_angle_deg(Degrees(op.steep_angle));
   proto.set_strategy(ToProto(op.strategy));
   proto.set_zigzag_angle_deg(Degrees(op.zigzag_angle));
+  if (op.one_way) proto.set_one_way_lines(true);
   proto.set_detail(op.detail);
   proto.set_contour_direction(ToProto(op.contour_direction));
   proto.set_edge_rule(ToProto(op.edge_rule));

@@ -32,12 +32,13 @@ RegionOverride ReadOverride(const v1::RegionOverride& proto, const std::string& 
     Require(errors, At(at, "zigzag_angle_deg"), angle, std::abs(angle) <= 360.0, "in [-360, 360]");
     change.zigzag_angle = Radians(angle);
   }
+  if (proto.has_one_way_lines()) change.one_way = proto.one_way_lines();
   if (proto.has_scallop_mm()) {
     change.scallop = proto.scallop_mm();
     Require(errors, At(at, "scallop_mm"), *change.scallop, *change.scallop > 0.0 && *change.scallop < radius,
             fmt::format("in (0, ball radius = {:.10g})", radius));
   }
-  if (change.skip && (change.strategy || change.zigzag_angle || change.scallop)) {
+  if (change.skip && (change.strategy || change.zigzag_angle || change.one_way || change.scallop)) {
     errors.Add(At(at, "skip"), "is set together with how to cut the region; set one of them");
   }
   return change;
@@ -81,6 +82,7 @@ v1::RegionOverride ToProto(const RegionOverride& change) {
   if (change.skip) proto.set_skip(true);
   if (change.strategy) proto.set_strategy(ToProto(*change.strategy));
   if (change.zigzag_angle) proto.set_zigzag_angle_deg(Degrees(*change.zigzag_angle));
+  if (change.one_way) proto.set_one_way_lines(*change.one_way);
   if (change.scallop) proto.set_scallop_mm(*change.scallop);
   return proto;
 }

@@ -81,7 +81,9 @@ void SetChoice(const RegionChoice& choice, SlopeClass slope, v1::Region& proto) 
   }
   proto.set_strategy(ToProto(strategy));
   proto.set_scallop_mm(choice.scallop);
-  if (strategy == Strategy::kZigzag) proto.set_zigzag_angle_deg(Degrees(choice.zigzag_angle));
+  if (strategy != Strategy::kZigzag) return;
+  proto.set_zigzag_angle_deg(Degrees(choice.zigzag_angle));
+  proto.set_one_way_lines(choice.one_way);
 }
 
 }  // namespace

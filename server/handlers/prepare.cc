@@ -1,7 +1,7 @@
 #include "server/handlers/prepare.h"
 
-#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -22,10 +22,15 @@ absl::Status CheckPathSize(const Job& job, const PatchModel& model) {
   const Box3 box = ControlBox(Place(job.setup.placement, model));
   const Vec3 size = box.max - box.min;
   const double radius = BallRadius(job.operation.tool) + job.operation.leave;
-  double h = job.operation.scallop;
-  for (const RegionOverride& change : job.operation.overrides) h = std::min(h, change.scallop.value_or(h));
+  // Contours are made over the whole part for every scallop in use.
+  std::set<double> scallops = {job.operation.scallop};
+  for (const RegionOverride& change : job.operation.overrides) {
+    scallops.insert(change.scallop.value_or(job.operation.scallop));
+  }
+  const double h = *scallops.begin();
   const double step = 2.0 * std::sqrt(h * (2.0 * radius - h));
-  const double length = (size.x() * size.y() + 2.0 * (size.x() + size.y()) * size.z()) / step;
+  const double once = (size.x() * size.y() + 2.0 * (size.x() + size.y()) * size.z()) / step;
+  const double length = static_cast<double>(scallops.size()) * once;
   if (!(length <= limits::kMaxCutLengthMm)) {
     return LimitError("estimated_cut_length_mm", limits::kMaxCutLengthMm, length);
   }

@@ -241,6 +241,10 @@ TEST_F(Cli, RegionsAreListedSwitchedOffAndJudged) {
   EXPECT_EQ(own.status, 0) << own.err;
   EXPECT_THAT(own.out, HasSubstr("ZIGZAG 30 deg, scallop 0.02"));
 
+  const Finished open = Patchmill({"regions", bump_, "--zigzag-angle", "15", "--region", "6,6,1.125:oneway"});
+  EXPECT_EQ(open.status, 0) << open.err;
+  EXPECT_THAT(open.out, HasSubstr("ZIGZAG 15 deg one way"));
+
   const Finished stale =
       Patchmill({"regions", waves_, "--detail", "0", "--region", "0:off", "--regions", map});
   EXPECT_EQ(stale.status, 1);
@@ -287,6 +291,10 @@ INSTANTIATE_TEST_SUITE_P(
               "--zero middle; must be X,Y,Z, origin, top-center or bottom-corner"},
         Wrong{"ZeroNan", {"--zero", "0,nan,0"}, "--zero"},
         Wrong{"Translate", {"--translate", "1,2"}, "--translate"}, Wrong{"Up", {"--up", "w"}, "--up"},
+        Wrong{"Angle", {"--zigzag-angle", "automatic"}, "--zigzag-angle"},
+        Wrong{"AngleHuge",
+              {"--zigzag-angle", "400"},
+              "--zigzag-angle: job.operations[0].zigzag_angle_deg = 400"},
         Wrong{"RegionWithoutMap", {"--region", "3:off"}, "--regions MAP.json"},
         Wrong{"RegionWord", {"--region", "0,0,0:of"}, "--region \"0,0,0:of\"; must be ID or X,Y,Z and then"},
         Wrong{"RegionAlone", {"--region", "0,0,0"}, "must be ID or X,Y,Z and then"},

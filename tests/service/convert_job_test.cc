@@ -369,6 +369,10 @@ Request Unusual() {
   own.set_strategy(v1::STRATEGY_ZIGZAG);
   own.set_zigzag_angle_deg(30);
   own.set_scallop_mm(0.125);
+  v1::RegionOverride& open = *op.add_region_overrides();
+  open.mutable_at()->set_x_mm(2.5);
+  open.set_one_way_lines(false);
+  op.set_one_way_lines(true);
   r.mutable_post()->set_dialect("linuxcnc");
   r.mutable_post()->set_arcs(false);
   r.mutable_post()->set_unit(v1::LENGTH_UNIT_MILLIMETER);
@@ -433,6 +437,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_regions_sha256(std::string(32, 'x')); }));
   EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_skip(true); }));
   EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_scallop_mm(0.125); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_one_way_lines(true); }));
   EXPECT_TRUE(differs([](Request& r) {
     AddRing({0, 0, 9, 0, 0, 9}, SelectionOf(r).mutable_boundary_xy_mm());
   }));

@@ -304,6 +304,21 @@ TEST_F(GenerateProgram, AJobTooLargeIsRefusedBeforeItIsPlanned) {
   EXPECT_GT(info.actual_value(), info.limit_value());
 }
 
+// Every scallop in use has contours over the whole part.
+TEST_F(GenerateProgram, ScallopsOfRegionsAreCountedToo) {
+  v1::GenerateProgramRequest request = BumpRequest(600.0);
+  request.set_validate_only(true);
+  v1::Operation& op = *request.mutable_job()->mutable_operations(0);
+  EXPECT_TRUE(embedded_.Generate(request).status.ok());
+  for (int i = 0; i < 100; ++i) {
+    v1::RegionOverride& change = *op.add_region_overrides();
+    change.mutable_at()->set_x_mm(i);
+    change.set_scallop_mm(0.05 + 0.001 * i);
+  }
+  EXPECT_THAT(embedded_.Generate(request).status,
+              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
+}
+
 // Neither hides behind a small plan: a wall has no plan, and small steps make many points.
 TEST_F(GenerateProgram, WallsAndPointsAreCountedToo) {
   v1::GenerateProgramRequest wall = BumpRequest(90'000.0);
