@@ -94,6 +94,11 @@ Step RiseStep(const State& s, const Box2& box) {
   return step;
 }
 
+// At a bound of [lo, hi], which 0 lies in, f falls beyond it.
+bool PushesBack(double slope, double lo, double hi) {
+  return (lo == 0.0 && slope > 0.0) || (hi == 0.0 && slope < 0.0);
+}
+
 Step NewtonStep(const State& s, const Box2& box) {
   Step step;
   const SurfaceJet& j = s.jet;
@@ -113,11 +118,10 @@ Step NewtonStep(const State& s, const Box2& box) {
   m.b = f - d.dot(j.duv);
   m.c = g - d.dot(j.dvv);
   // A bound that pushes back holds its variable: what is left is a problem of one variable with its own
-  // curvature, however hollow the surface is across.
-  const bool holds_u = (box.x0 == 0.0 && m.gx > 0.0) || (box.x1 == 0.0 && m.gx < 0.0);
-  const bool holds_v = (box.y0 == 0.0 && m.gy > 0.0) || (box.y1 == 0.0 && m.gy < 0.0);
+  // curvature, however hollow the surface is across. The bound must still push back where that one ends.
+  const bool holds_u = PushesBack(m.gx, box.x0, box.x1), holds_v = PushesBack(m.gy, box.y0, box.y1);
+  if (holds_u && holds_v) return step;
   if (holds_u || holds_v) {
-    if (holds_u && holds_v) return step;
     double used = 0.0;
     if (holds_u) {
       step.exact = m.c > 1e-2 * g;
@@ -128,7 +132,12 @@ Step NewtonStep(const State& s, const Box2& box) {
       step.to.x = LineStep(m.a, e, m.gx, box.x0, box.x1, used);
       step.to.value = step.to.x * (m.gx + 0.5 * used * step.to.x);
     }
-    return step;
+    if (holds_u ? PushesBack(m.gx + m.b * step.to.y, box.x0, box.x1)
+                : PushesBack(m.gy + m.b * step.to.x, box.y0, box.y1)) {
+      return step;
+    }
+    step.exact = false;
+    step.to = {};
   }
   constexpr double kSmall = 1e-9;
   const double det = m.a * m.c - m.b * m.b;
@@ -204,7 +213,8 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
         const Vec3 p = j.p + x * (j.du + 0.5 * x * j.duu + y * j.duv) + y * (j.dv + 0.5 * y * j.dvv);
         if (touch(p, std::clamp(s.u + x, rect.u0, rect.u1), std::clamp(s.v + y, rect.v0, rect.v1))) {
           best.slope = KktSlope(step, box);
-          result.convex_minimum = 0.5 * ball.radius * ball.radius;
+          result.convex_minimum =
+              LinearMinimum(0.5 * ball.radius * ball.radius, best.slope, rect, best.u, best.v);
           return end();
         }
         best.slope = KktSlope(step, box);

@@ -170,5 +170,13 @@ TEST(CertificateFuzz, UprightGround) {
   EXPECT_GT(raises, 0);  // they are counted
 }
 
+// A search held by a border of its leaf that stopped pushing back on the way: a maximum 3e-5 of the
+// parameter beyond, 5e-9 mm higher, once counted as proven.
+TEST(CertificateFuzz, BordersThatLetGo) {
+  Tally tally;
+  Judge(20186, tally);
+  ExpectClean(tally);
+}
+
 }  // namespace
 }  // namespace patchmill
