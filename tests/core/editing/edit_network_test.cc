@@ -45,7 +45,9 @@ std::set<int> Changed(const JoinedNetwork& a, const JoinedNetwork& b) {
 void ExpectSmooth(const JoinedNetwork& joined, bool curvature) {
   auto network = BuildNetwork(joined.model);
   ASSERT_TRUE(network.ok());
-  for (const EdgeContinuity& e : MeasureContinuity(*network, 50, RunContext(1))->edges) {
+  const auto continuity = MeasureContinuity(*network, 50, RunContext(1));
+  EXPECT_TRUE(continuity.ok());
+  for (const EdgeContinuity& e : continuity->edges) {
     EXPECT_LE(e.max_gap, 1e-12);
     EXPECT_LE(e.max_angle, 1e-11);
     if (curvature) {

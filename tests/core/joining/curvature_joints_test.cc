@@ -202,7 +202,9 @@ double WorstAngle(const JoinedNetwork& joined) {
   auto network = BuildNetwork(joined.model);
   EXPECT_TRUE(network.ok());
   double worst = 0.0;
-  for (const EdgeContinuity& e : MeasureContinuity(*network, 200, RunContext(1))->edges) {
+  const auto continuity = MeasureContinuity(*network, 200, RunContext(1));
+  EXPECT_TRUE(continuity.ok());
+  for (const EdgeContinuity& e : continuity->edges) {
     EXPECT_LE(e.max_gap, 1e-12);
     worst = std::max(worst, e.max_angle);
   }
