@@ -60,19 +60,26 @@ class WantedGround {
   std::vector<PlanPart> parts_;
 };
 
-// Which regions have wanted ground, looked for in at most 32 x 32 cells of a piece.
+// Which regions have wanted ground, looked for in up to about 2,000 cells of each: even the smallest is met.
 std::vector<bool> SeenRegions(const Surface& surface, const RegionMap& map, const WantedGround& wanted) {
-  const int stride = std::max(1, map.cells / 32);
+  constexpr std::size_t kMostCells = 2000;
+  std::vector<std::size_t> cells(map.regions.size(), 0);
+  std::vector<std::size_t> met(map.regions.size(), 0);
+  for (const std::vector<int>& labels : map.labels) {
+    for (const int id : labels) {
+      if (id >= 0) ++cells[static_cast<std::size_t>(id)];
+    }
+  }
   std::vector<bool> seen(map.regions.size(), false);
   for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
-    for (int i = stride / 2; i < map.cells; i += stride) {
-      for (int j = stride / 2; j < map.cells; j += stride) {
-        const int id = map.labels[piece][static_cast<std::size_t>(i * map.cells + j)];
-        if (id < 0 || seen[static_cast<std::size_t>(id)]) continue;
-        const double u = (i + 0.5) / map.cells, v = (j + 0.5) / map.cells;
-        const PieceId at(piece);
-        seen[static_cast<std::size_t>(id)] = wanted.Has({at, u, v, Evaluate(surface, at, u, v).p});
-      }
+    for (int k = 0; k < map.cells * map.cells; ++k) {
+      const int label = map.labels[piece][static_cast<std::size_t>(k)];
+      if (label < 0) continue;
+      const auto id = static_cast<std::size_t>(label);
+      if (met[id]++ % (1 + cells[id] / kMostCells) != 0 || seen[id]) continue;
+      const double u = (k / map.cells + 0.5) / map.cells, v = (k % map.cells + 0.5) / map.cells;
+      const PieceId at(piece);
+      seen[id] = wanted.Has({at, u, v, Evaluate(surface, at, u, v).p});
     }
   }
   return seen;

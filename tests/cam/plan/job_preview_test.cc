@@ -43,6 +43,14 @@ TEST_F(RegionPicture, ShowsEveryRegionOfAWholePart) {
   EXPECT_THAT(Draw(), AllOf(HasSubstr("neutral, steep"), HasSubstr("neutral, gentle")));
 }
 
+// A valley that passes 45 degrees 0.2 mm before its open edges: two strips of less than a cell in a hundred.
+TEST_F(RegionPicture, ShowsTheNarrowestRegions) {
+  model_ = Quadratic(0.02526, 0, 20);
+  job_.operation.steep_angle = Radians(45);
+  job_.operation.detail = 1.0;
+  EXPECT_THAT(Draw(), AllOf(HasSubstr("0 neutral, "), HasSubstr("1 neutral, "), HasSubstr("2 neutral, ")));
+}
+
 TEST_F(RegionPicture, LeavesOutWhatIsNotSelected) {
   job_.operation.selection.patches = {"#1"};
   EXPECT_THAT(Draw(), AllOf(Not(HasSubstr("neutral, steep")), HasSubstr("neutral, gentle")));
