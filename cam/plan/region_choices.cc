@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPickProof = 1e-4;  // mm: how exactly the nearest place is known
 
-std::string Path(std::size_t k) { return fmt::format("operations[0].region_overrides[{}]", k); }
+std::string Path(std::size_t k) { return fmt::format("region_overrides[{}]", k); }
 
 absl::StatusOr<int> FindRegion(const Surface& surface, const RegionMap& map, const RegionOverride& change,
                                const std::string& path, const Vec3& zero) {
@@ -81,7 +81,7 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
   if (!op.regions_sha256.empty()) {
     if (const std::string now = RegionsDigest(map); now != op.regions_sha256) {
       return absl::FailedPreconditionError(fmt::format(
-          "operations[0].regions_sha256 = {}; the regions of this job have {}: they were made for another "
+          "regions_sha256 = {}; the regions of this job have {}: they were made for another "
           "model, set-up, tool, tolerance, steep angle, detail, floor or selection; ask for them again",
           Hex(op.regions_sha256), Hex(now)));
     }

@@ -118,8 +118,7 @@ TEST_F(Regions, OverridesOfAnotherMapAreStale) {
   ASSERT_TRUE(Split().ok());
   Skip(0);
   Op().set_detail(0.0);
-  const auto stale =
-      RpcStatusIs(StatusCode::FAILED_PRECONDITION, HasSubstr("operations[0].regions_sha256 = "));
+  const auto stale = RpcStatusIs(StatusCode::FAILED_PRECONDITION, HasSubstr("regions_sha256 = "));
   const grpc::Status status = Generate();
   EXPECT_THAT(status, stale);
   EXPECT_EQ(InfoOf(status).reason(), "REGIONS_STALE");

@@ -218,7 +218,7 @@ TEST_F(RegionChoices, APointNamesItsRegion) {
 
 TEST_F(RegionChoices, WhatIsNotThereIsRefused) {
   EXPECT_THAT(std::string(StatusOf(Skip(7)).message()),
-              HasSubstr("operations[0].region_overrides[0].region_id = 7; must be in [0, 1]"));
+              HasSubstr("region_overrides[0].region_id = 7; must be in [0, 1]"));
   RegionOverride off = Skip(-1);
   off.at = OnDome(0, 0) + Vec3(0, 0, 1.5);
   EXPECT_THAT(std::string(StatusOf(off).message()),
