@@ -19,7 +19,7 @@ absl::Status Range(const char* field, double value, bool ok, const std::string& 
   return absl::InvalidArgumentError(fmt::format("{} = {:.6g}; must be {}", field, value, constraint));
 }
 
-constexpr double kMaxWiden = 1000.0;  // mm, of margins and offsets
+constexpr double kMaxAvoidMargin = 100.0, kMaxWiden = 1000.0;  // mm; kMaxWiden: other margins and offsets
 
 absl::Status ValidateOutline(const std::string& field, const std::vector<Ring>& rings) {
   const std::string fault = OutlineFault(rings);
@@ -30,8 +30,8 @@ absl::Status ValidateOutline(const std::string& field, const std::vector<Ring>& 
 absl::Status ValidateLimits(const Job& job) {
   const Selection& s = job.operation.selection;
   PM_RETURN_IF_ERROR(Range("selection.avoid_margin_mm", s.avoid_margin,
-                           s.avoid_margin >= 0 && s.avoid_margin <= kMaxWiden,
-                           fmt::format("in [0, {}]", kMaxWiden)));
+                           s.avoid_margin >= 0 && s.avoid_margin <= kMaxAvoidMargin,
+                           fmt::format("in [0, {}]", kMaxAvoidMargin)));
   PM_RETURN_IF_ERROR(Range("selection.boundary_offset_mm", s.boundary_offset,
                            std::abs(s.boundary_offset) <= kMaxWiden,
                            fmt::format("in [-{0}, {0}]", kMaxWiden)));

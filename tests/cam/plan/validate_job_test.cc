@@ -193,7 +193,7 @@ TEST(Limits, OutlinesAndMarginsAreChecked) {
   EXPECT_THAT(message([&](Job& j) { j.operation.selection.boundary_offset = -1001; }),
               HasSubstr("selection.boundary_offset_mm = -1001; must be in [-1000, 1000]"));
   EXPECT_THAT(message([&](Job& j) { j.operation.selection.avoid_margin = -1; }),
-              HasSubstr("selection.avoid_margin_mm = -1; must be in [0, 1000]"));
+              HasSubstr("selection.avoid_margin_mm = -1; must be in [0, 100]"));
   EXPECT_THAT(message([&](Job& j) { j.setup.obstacles[0].outline = line; }),
               HasSubstr("setup.obstacles[0].outline_xy_mm is no outline"));
   EXPECT_THAT(message([&](Job& j) { j.setup.obstacles[0].top_z = kNan; }),
