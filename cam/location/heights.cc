@@ -258,11 +258,4 @@ void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
   }
 }
 
-void FreeBalls(const Locator& locator, std::span<const Vec3> centers, std::span<bool> free) {
-  PM_CHECK(centers.size() == free.size());
-  std::vector<std::optional<Vec3>> obstacles(centers.size());
-  FindObstacles(locator, centers, obstacles);
-  for (std::size_t k = 0; k < centers.size(); ++k) free[k] = !obstacles[k];
-}
-
 }  // namespace patchmill

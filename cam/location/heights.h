@@ -20,12 +20,9 @@ namespace patchmill {
 void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights,
              std::size_t instruction_set = 0);
 
-// free[k] = locator.Free(centers[k]), within the error of heights, the same way: eight consecutive centres at
-// once, and nothing looked at that lies below them.
-void FreeBalls(const Locator& locator, std::span<const Vec3> centers, std::span<bool> free);
-
-// The same, and of each ball that is not free a point of the surface in it or above it, not always the one
-// that is most in the way.
+// obstacles[k]: nothing where locator.Free(centers[k]), within the error of heights, else a point of the
+// surface in the ball or above it, not always the one that is most in the way. The same way: eight
+// consecutive centres at once, and nothing looked at that lies below them.
 void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
                    std::span<std::optional<Vec3>> obstacles);
 

@@ -12,12 +12,11 @@
 //   - Above the centre f measures in plan: f = 1/2 |p - c|^2 below its level, 1/2 |p_xy - c_xy|^2 above, once
 //     differentiable across it. On a part where both forms have positive definite Hessians f is convex, and a
 //     point that satisfies the KKT conditions is its only minimum (T6), wherever the level runs.
-//   - Where the contact lies less than 0.1 R below the centre, leaves that no such proof has closed are
-//   divided
-//     by every search, lanes included; elsewhere only by CertifiedHeight.
-//   - Proofs take f >= R (R/2 - d), d = 1e-12 of the scale, for outside: [z, z + gap] holds for the surface
-//   up
-//     to d, in heights up to d R / b, at most sqrt(2 R d), b the height of the centre above the contact.
+//   - Where the contact lies less than 0.1 R below the centre, every search, lanes included, divides the
+//     leaves that no such proof has closed; elsewhere only CertifiedHeight does.
+//   - Proofs take f >= R (R/2 - d), d = 1e-12 of the scale, for outside: [z, z + gap] holds for the
+//     surface up to d, in heights up to d R / b, at most sqrt(2 R d), b the height of the centre above the
+//     contact.
 //
 // The whole surface counts: all kinds of patches, open edges, vertical walls, layers (T1). Thread-safe: const
 // methods only, scratch is thread-local.

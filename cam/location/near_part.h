@@ -20,7 +20,8 @@ class NearPart {
   static absl::StatusOr<NearPart> Make(const Surface& surface, const SurfaceMask& mask,
                                        const RunContext& run);
 
-  // Some point of these cells may lie within `distance` (mm) of p; false is sure, true up to a cell's size.
+  // Some point of these cells may lie within `distance` (mm) of p. True up to a cell's size; false takes it
+  // that no cell reaches beyond nine of its points by more than a tenth of what they span.
   bool Within(const Vec3& p, double distance) const;
 
  private:

@@ -22,8 +22,8 @@ struct CutterPoint {
 struct CutterPath {
   PassKind kind = PassKind::kZigzag;
   bool closed = false;  // the last point joins the first (not repeated)
-  bool one_way =
-      false;  // is cut from its first point to its last, never back, and the ball comes to it from above
+  // Is cut from its first point to its last, never back, and the ball comes to it from above.
+  bool one_way = false;
   int region = -1;  // RegionMap id of most of its length, -1: none
   int line = 0;     // index of the scan line or level it came from; orders passes within a region
   std::vector<CutterPoint> points;

@@ -171,7 +171,7 @@ TEST(Heights, AreThoseOfOnePlaceAtATime) {
 }
 
 // A ball on a sphere, in closed form.
-TEST(FreeBalls, StandAboveTheHeightsAndNotBelow) {
+TEST(Obstacles, StandBelowTheHeightsAndNotAbove) {
   for (const Case& c : Cases()) {
     SCOPED_TRACE(c.name);
     const Surface surface = SurfaceOf(c.model);
@@ -185,10 +185,14 @@ TEST(FreeBalls, StandAboveTheHeightsAndNotBelow) {
       std::vector<Vec3> centers;
       for (std::size_t i = 0; i < places.size(); ++i)
         centers.push_back(Lift(places[i], heights[i] ? heights[i]->z + over : -100.0));
-      const auto free = std::make_unique<bool[]>(centers.size());
-      FreeBalls(locator, centers, {free.get(), centers.size()});
-      for (std::size_t i = 0; i < centers.size(); ++i)
-        EXPECT_EQ(free[i], !heights[i] || over > 0.0) << centers[i].transpose() << " over " << over;
+      std::vector<std::optional<Vec3>> obstacles(centers.size());
+      FindObstacles(locator, centers, obstacles);
+      for (std::size_t i = 0; i < centers.size(); ++i) {
+        EXPECT_EQ(!obstacles[i], !heights[i] || over > 0.0) << centers[i].transpose() << " over " << over;
+        if (!obstacles[i]) continue;
+        const Vec3 d = *obstacles[i] - centers[i];  // in the ball, or above it and beside its axis
+        EXPECT_LT(Vec3(d.x(), d.y(), std::min(d.z(), 0.0)).norm(), c.radius) << centers[i].transpose();
+      }
     }
   }
 }
