@@ -16,7 +16,9 @@ using internal::LowerModel;
 using internal::Rect;
 
 constexpr int kBudget = 20000;  // parts of one query
-constexpr int kMaxLevel = 60;   // halvings of one leaf
+// Halvings of one leaf. Beside a singular corner no model helps: a part is divided until it is smaller than
+// the gap, twice log2(leaf / gap) times; 100 take a leaf of 100 m below 1e-7 mm.
+constexpr int kMaxLevel = 100;
 
 struct Prover {
   const Surface& surface;
@@ -93,7 +95,9 @@ struct Prover {
 double Locator::Impl::Certify(const Ball& ball, const OpenLeaves& open, double eps, Contact& best) const {
   if (open.empty()) return slack;
   thread_local std::vector<Vec4> buffer(2 * kMaxLevel * kMaxNetPoints);
-  Prover prover{surface, ball, ProofF(), eps, best, kBudget, best.z, buffer};
+  // What a proof allows itself counts as gap too, and so do roundings of heights.
+  Prover prover{surface, ball,    ProofF(), std::max(eps - 2.0 * slack, 0.5 * eps),
+                best,    kBudget, best.z,   buffer};
   std::array<Vec4, kMaxNetPoints> points;
   for (const std::int32_t index : open) {
     const internal::SearchLeaf& leaf = tree.leaves[index];
