@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "clients/cli/call.h"
 #include "clients/cli/commands.h"
 #include "clients/cli/input_file.h"
 #include "clients/cli/job_options.h"
-#include "clients/cli/output_file.h"
+#include "clients/cli/model_file.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
 
@@ -17,15 +18,6 @@ struct BuildOptions {
   CommonOptions common;
   std::string outline, output, network;
 };
-
-absl::Status CheckEnding(const std::string& path) {
-  if (path.empty() || path.ends_with(".json") || path.ends_with(".pb")) return absl::OkStatus();
-  return absl::InvalidArgumentError(fmt::format("{}; must end in .json or .pb", path));
-}
-
-std::string Bytes(const v1::PatchModel& model, const std::string& path) {
-  return path.ends_with(".pb") ? model.SerializeAsString() : ShortJson(model);
-}
 
 absl::StatusOr<v1::BuildModelRequest> MakeRequest(const BuildOptions& options) {
   absl::StatusOr<std::string> text = ReadWholeFile(options.outline);
@@ -41,45 +33,30 @@ absl::StatusOr<v1::BuildModelRequest> MakeRequest(const BuildOptions& options) {
         fmt::format("--network {}: {} has no network", options.network, options.outline));
   }
   request.set_max_threads(options.common.threads);
-  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
 }
 
 absl::Status Run(const BuildOptions& options, InterruptWatch& watch) {
-  OutputFile output(options.output), network(options.network);
-  for (const OutputFile* file : {&output, &network}) {
-    if (!file->wanted()) continue;
-    if (const absl::Status ending = CheckEnding(file->path()); !ending.ok()) return ending;
-    if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
-  }
+  OutputFile output = ModelFile(options.output), network = ModelFile(options.network);
+  if (const absl::Status writable = CheckWritable({&output, &network}); !writable.ok()) return writable;
   absl::StatusOr<v1::BuildModelRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  v1::BuildModelResponse response;
-  const grpc::Status status =
-      v1::ModelService::NewStub(connection->channel)->BuildModel(call.context(), *request, &response);
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  int errors = 0;
-  for (const v1::Diagnostic& finding : response.diagnostics()) {
-    if (finding.severity() == v1::SEVERITY_ERROR) ++errors;
-    if (!options.common.quiet) fmt::print(stderr, "  {}\n", Line(finding));
+  absl::StatusOr<v1::BuildModelResponse> response =
+      Call(options.common, watch, &v1::ModelService::Stub::BuildModel, *request);
+  if (!response.ok()) return response.status();
+  if (!options.common.quiet) {
+    for (const v1::Diagnostic& finding : response->diagnostics()) fmt::print(stderr, "  {}\n", Line(finding));
   }
-  if (errors > 0) {
+  if (const int errors = CountErrors(response->diagnostics()); errors > 0) {
     return absl::FailedPreconditionError(
         fmt::format("{}: {} errors; nothing is written", options.outline, errors));
   }
-  output.Set(Bytes(response.model(), options.output));
-  network.Set(Bytes(response.network_model(), options.network));
-  for (const OutputFile* file : {&network, &output}) {
-    if (!file->wanted()) continue;
-    if (const absl::Status written = file->Commit(); !written.ok()) return written;
-  }
+  SetModel(response->model(), output);
+  SetModel(response->network_model(), network);
+  if (const absl::Status written = Commit({&network, &output}); !written.ok()) return written;
   if (request->has_network() && !options.common.quiet) {
     fmt::print(stderr, "{}: {} vertices, at most {:.4g} mm from the surface (vertex {})\n", options.outline,
-               request->network().vertices_size(), response.max_distance_mm(), response.farthest_vertex());
+               request->network().vertices_size(), response->max_distance_mm(), response->farthest_vertex());
   }
   return absl::OkStatus();
 }

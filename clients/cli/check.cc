@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "clients/cli/call.h"
 #include "clients/cli/commands.h"
 #include "clients/cli/job_options.h"
 #include "clients/cli/text.h"
@@ -66,20 +67,11 @@ absl::Status Run(const CheckOptions& options, InterruptWatch& watch) {
   request.mutable_tool()->mutable_ball_end()->set_diameter_mm(options.tool_diameter);
   request.set_max_threads(options.common.threads);
   request.set_continuity_steps(options.continuity);
-  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  v1::CheckModelResponse response;
-  const grpc::Status status =
-      v1::ModelService::NewStub(connection->channel)->CheckModel(call.context(), request, &response);
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  Print(options, response);
-  int errors = 0;
-  for (const v1::Diagnostic& finding : response.diagnostics()) {
-    if (finding.severity() == v1::SEVERITY_ERROR) ++errors;
-  }
+  absl::StatusOr<v1::CheckModelResponse> response =
+      Call(options.common, watch, &v1::ModelService::Stub::CheckModel, request);
+  if (!response.ok()) return response.status();
+  Print(options, *response);
+  const int errors = CountErrors(response->diagnostics());
   if (errors == 0) return absl::OkStatus();
   return absl::FailedPreconditionError(
       fmt::format("{}: {} errors; the model cannot be milled", options.model, errors));

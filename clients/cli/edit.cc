@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "clients/cli/call.h"
 #include "clients/cli/commands.h"
 #include "clients/cli/input_file.h"
 #include "clients/cli/job_options.h"
-#include "clients/cli/output_file.h"
+#include "clients/cli/model_file.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
 
@@ -68,12 +69,7 @@ absl::StatusOr<v1::EditModelRequest> MakeRequest(const EditOptions& options) {
   request.set_continuity_steps(options.continuity);
   request.set_with_patches(!options.patches.empty());
   request.set_max_threads(options.common.threads);
-  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
-}
-
-std::string Bytes(const v1::PatchModel& model, const std::string& path) {
-  return path.ends_with(".pb") ? model.SerializeAsString() : ShortJson(model);
 }
 
 void PrintSummary(const EditOptions& options, const v1::EditModelResponse& response) {
@@ -100,40 +96,22 @@ void PrintSummary(const EditOptions& options, const v1::EditModelResponse& respo
 }
 
 absl::Status Run(const EditOptions& options, InterruptWatch& watch) {
-  OutputFile output(options.output), patches(options.patches);
-  for (const OutputFile* file : {&output, &patches}) {
-    if (!file->wanted()) continue;
-    if (!file->path().ends_with(".json") && !file->path().ends_with(".pb")) {
-      return absl::InvalidArgumentError(fmt::format("{}; must end in .json or .pb", file->path()));
-    }
-    if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
-  }
+  OutputFile output = ModelFile(options.output), patches = ModelFile(options.patches);
+  if (const absl::Status writable = CheckWritable({&output, &patches}); !writable.ok()) return writable;
   absl::StatusOr<v1::EditModelRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  v1::EditModelResponse response;
-  const grpc::Status status =
-      v1::ModelService::NewStub(connection->channel)->EditModel(call.context(), *request, &response);
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  int errors = 0;
-  for (const v1::Diagnostic& finding : response.diagnostics()) {
-    if (finding.severity() == v1::SEVERITY_ERROR) ++errors;
-  }
-  if (errors > 0) {
-    for (const v1::Diagnostic& finding : response.diagnostics()) fmt::print(stderr, "  {}\n", Line(finding));
+  absl::StatusOr<v1::EditModelResponse> response =
+      Call(options.common, watch, &v1::ModelService::Stub::EditModel, *request);
+  if (!response.ok()) return response.status();
+  if (const int errors = CountErrors(response->diagnostics()); errors > 0) {
+    for (const v1::Diagnostic& finding : response->diagnostics()) fmt::print(stderr, "  {}\n", Line(finding));
     return absl::FailedPreconditionError(
         fmt::format("{}: {} errors after the edits; nothing is written", options.model, errors));
   }
-  output.Set(Bytes(response.model(), options.output));
-  patches.Set(Bytes(response.patches(), options.patches));
-  for (const OutputFile* file : {&patches, &output}) {
-    if (!file->wanted()) continue;
-    if (const absl::Status written = file->Commit(); !written.ok()) return written;
-  }
-  PrintSummary(options, response);
+  SetModel(response->model(), output);
+  SetModel(response->patches(), patches);
+  if (const absl::Status written = Commit({&patches, &output}); !written.ok()) return written;
+  PrintSummary(options, *response);
   return absl::OkStatus();
 }
 

@@ -1,10 +1,10 @@
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "clients/cli/call.h"
 #include "clients/cli/commands.h"
 #include "clients/cli/job_options.h"
 #include "clients/cli/output_file.h"
@@ -49,7 +49,6 @@ absl::StatusOr<v1::EvaluateSurfaceRequest> MakeRequest(const EvaluateOptions& op
   *request.mutable_source() = *std::move(source);
   *request.mutable_setup() = *std::move(setup);
   request.set_max_threads(options.common.threads);
-  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
 }
 
@@ -72,28 +71,16 @@ void Print(const v1::EvaluateSurfaceRequest& request, const v1::EvaluateSurfaceR
 }
 
 absl::Status Run(const EvaluateOptions& options, InterruptWatch& watch) {
-  OutputFile output(options.output);
-  if (output.wanted()) {
-    if (std::filesystem::path(options.output).extension() != ".json") {
-      return absl::InvalidArgumentError(fmt::format("-o {}; must end in .json", options.output));
-    }
-    if (const absl::Status writable = output.CheckWritable(); !writable.ok()) return writable;
-  }
+  OutputFile output(options.output, {".json"});
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::EvaluateSurfaceRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  v1::EvaluateSurfaceResponse response;
-  const grpc::Status status =
-      v1::AnalysisService::NewStub(connection->channel)->EvaluateSurface(call.context(), *request, &response);
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  if (output.wanted()) {
-    output.Set(Json(response));
-    if (const absl::Status written = output.Commit(); !written.ok()) return written;
-  }
-  if (!options.common.quiet) Print(*request, response);
+  absl::StatusOr<v1::EvaluateSurfaceResponse> response =
+      Call(options.common, watch, &v1::AnalysisService::Stub::EvaluateSurface, *request);
+  if (!response.ok()) return response.status();
+  if (output.wanted()) output.Set(Json(*response));
+  if (const absl::Status written = Commit({&output}); !written.ok()) return written;
+  if (!options.common.quiet) Print(*request, *response);
   return absl::OkStatus();
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "clients/cli/call.h"
 #include "clients/cli/commands.h"
 #include "clients/cli/fair_options.h"
 #include "clients/cli/job_options.h"
@@ -17,11 +18,11 @@ using Numbers = google::protobuf::RepeatedField<double>;
 
 // One point a line, each number in the shortest form that reads back the same.
 template <class Response>
-std::string PointText(const Numbers& xyz, const std::string& ending, const Response& response) {
-  const char* separator = ending == "csv" ? "," : " ";
+std::string PointText(const Numbers& xyz, bool commas, const Response& response) {
+  const char* separator = commas ? "," : " ";
   std::string text = response.title();
   if (text.empty() || text.front() == '#') {
-    text = ending == "csv" ? (response.planar() ? "x,y" : "x,y,z") : "faired curve";
+    text = commas ? (response.planar() ? "x,y" : "x,y,z") : "faired curve";
   }
   text += '\n';
   for (int i = 0; i + 2 < xyz.size(); i += 3) {
@@ -30,6 +31,11 @@ std::string PointText(const Numbers& xyz, const std::string& ending, const Respo
     text += '\n';
   }
   return text;
+}
+
+template <class Response>
+void SetPoints(const Numbers& xyz, const Response& response, OutputFile& file) {
+  file.Set(file.EndsIn(".json") ? Json(response) : PointText(xyz, file.EndsIn(".csv"), response));
 }
 
 template <class Response>
@@ -42,77 +48,40 @@ void PrintSummary(const FairOptions& options, const Response& response) {
              response.max_moved_point_index());
 }
 
-absl::Status CheckEnding(const char* option, const std::string& path,
-                         std::initializer_list<const char*> endings) {
-  if (path.empty()) return absl::OkStatus();
-  for (const char* ending : endings) {
-    if (Ending(path) == ending) return absl::OkStatus();
-  }
-  return absl::InvalidArgumentError(
-      fmt::format("{} {}; must end in .{}", option, path, fmt::join(endings, ", .")));
-}
-
 absl::Status Run(const FairOptions& options, InterruptWatch& watch) {
-  OutputFile output(options.output), polyline(options.polyline), preview(options.preview);
-  for (const absl::Status& ending : {CheckEnding("-o", options.output, {"csv", "dat", "json"}),
-                                     CheckEnding("--polyline", options.polyline, {"csv", "dat"}),
-                                     CheckEnding("--preview", options.preview, {"svg"})}) {
-    if (!ending.ok()) return ending;
-  }
-  for (const OutputFile* file : {&output, &polyline, &preview}) {
-    if (!file->wanted()) continue;
-    if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
-  }
+  OutputFile output(options.output, {".csv", ".dat", ".json"}), polyline(options.polyline, {".csv", ".dat"}),
+      preview(options.preview, {".svg"});
+  if (const absl::Status writable = CheckWritable({&output, &polyline, &preview}); !writable.ok())
+    return writable;
   absl::StatusOr<v1::FairCurveRequest> request = MakeFairRequest(options);
   if (!request.ok()) return request.status();
-  if (const absl::Status fits = CheckRequestSize(request->ByteSizeLong()); !fits.ok()) return fits;
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  v1::FairCurveResponse response;
-  const grpc::Status status =
-      v1::ModelService::NewStub(connection->channel)->FairCurve(call.context(), *request, &response);
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  polyline.Set(PointText(response.polyline_mm(), Ending(options.polyline), response));
-  preview.Set(response.picture().data());
-  response.clear_picture();
-  output.Set(Ending(options.output) == "json"
-                 ? Json(response)
-                 : PointText(response.points_mm(), Ending(options.output), response));
-  for (const OutputFile* file : {&polyline, &preview, &output}) {
-    if (!file->wanted()) continue;
-    if (const absl::Status written = file->Commit(); !written.ok()) return written;
-  }
+  absl::StatusOr<v1::FairCurveResponse> response =
+      Call(options.common, watch, &v1::ModelService::Stub::FairCurve, *request);
+  if (!response.ok()) return response.status();
+  SetPoints(response->polyline_mm(), *response, polyline);
+  preview.Set(response->picture().data());
+  response->clear_picture();
+  SetPoints(response->points_mm(), *response, output);
+  if (const absl::Status written = Commit({&polyline, &preview, &output}); !written.ok()) return written;
   if (options.common.quiet) return absl::OkStatus();
-  PrintSummary(options, response);
-  if (response.polyline_mm_size() > 0) {
-    fmt::print(stderr, "  polyline  {} points\n", response.polyline_mm_size() / 3);
+  PrintSummary(options, *response);
+  if (response->polyline_mm_size() > 0) {
+    fmt::print(stderr, "  polyline  {} points\n", response->polyline_mm_size() / 3);
   }
   return absl::OkStatus();
 }
 
 absl::Status RunNet(const FairOptions& options, InterruptWatch& watch) {
-  OutputFile output(options.output);
-  if (const absl::Status ending = CheckEnding("-o", options.output, {"csv", "dat", "json"}); !ending.ok())
-    return ending;
-  if (const absl::Status writable = output.CheckWritable(); !writable.ok()) return writable;
+  OutputFile output(options.output, {".csv", ".dat", ".json"});
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::FairNetRequest> request = MakeFairNetRequest(options);
   if (!request.ok()) return request.status();
-  if (const absl::Status fits = CheckRequestSize(request->ByteSizeLong()); !fits.ok()) return fits;
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  v1::FairNetResponse response;
-  const grpc::Status status =
-      v1::ModelService::NewStub(connection->channel)->FairNet(call.context(), *request, &response);
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  output.Set(Ending(options.output) == "json"
-                 ? Json(response)
-                 : PointText(response.points_mm(), Ending(options.output), response));
-  if (const absl::Status written = output.Commit(); !written.ok()) return written;
-  if (!options.common.quiet) PrintSummary(options, response);
+  absl::StatusOr<v1::FairNetResponse> response =
+      Call(options.common, watch, &v1::ModelService::Stub::FairNet, *request);
+  if (!response.ok()) return response.status();
+  SetPoints(response->points_mm(), *response, output);
+  if (const absl::Status written = Commit({&output}); !written.ok()) return written;
+  if (!options.common.quiet) PrintSummary(options, *response);
   return absl::OkStatus();
 }
 

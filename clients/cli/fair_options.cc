@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 
 #include "clients/cli/input_file.h"
@@ -102,14 +103,13 @@ bool ReadDirection(const std::string& text, google::protobuf::RepeatedField<doub
   return true;
 }
 
-}  // namespace
-
+// "csv", "dat" or what else stands behind the last point of a path, in lower case.
 std::string Ending(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = absl::AsciiStrToLower(std::filesystem::path(path).extension().native());
   return ending.empty() ? ending : ending.substr(1);
 }
+
+}  // namespace
 
 void AddFairOptions(CLI::App& app, FairOptions& options) {
   app.add_option("POINTS", options.points,

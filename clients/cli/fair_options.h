@@ -32,7 +32,4 @@ absl::StatusOr<v1::FairCurveRequest> MakeFairRequest(const FairOptions& options)
 // The same for a net. INVALID_ARGUMENT also for options that only a curve has.
 absl::StatusOr<v1::FairNetRequest> MakeFairNetRequest(const FairOptions& options);
 
-// "csv", "dat" or what else stands behind the last point of a path, in lower case.
-std::string Ending(const std::string& path);
-
 }  // namespace patchmill::cli

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "clients/cli/call.h"
 #include "clients/cli/commands.h"
 #include "clients/cli/job_options.h"
 #include "clients/cli/output_file.h"
@@ -69,7 +70,6 @@ absl::StatusOr<v1::TraceLinesRequest> MakeRequest(const LinesOptions& options, b
   request.set_picture(picture);
   request.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   request.set_max_threads(options.common.threads);
-  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
 }
 
@@ -83,25 +83,16 @@ void Print(const v1::TraceLinesResponse& response) {
 }
 
 absl::Status Run(const LinesOptions& options, InterruptWatch& watch) {
-  const std::string ending = std::filesystem::path(options.output).extension().string();
-  if (ending != ".json" && ending != ".svg") {
-    return absl::InvalidArgumentError(fmt::format("-o {}; must end in .json or .svg", options.output));
-  }
-  OutputFile output(options.output);
-  if (const absl::Status writable = output.CheckWritable(); !writable.ok()) return writable;
-  absl::StatusOr<v1::TraceLinesRequest> request = MakeRequest(options, ending == ".svg");
+  OutputFile output(options.output, {".json", ".svg"});
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
+  absl::StatusOr<v1::TraceLinesRequest> request = MakeRequest(options, output.EndsIn(".svg"));
   if (!request.ok()) return request.status();
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  v1::TraceLinesResponse response;
-  const grpc::Status status =
-      v1::AnalysisService::NewStub(connection->channel)->TraceLines(call.context(), *request, &response);
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  output.Set(ending == ".svg" ? response.picture().data() : Json(response));
-  if (const absl::Status written = output.Commit(); !written.ok()) return written;
-  if (!options.common.quiet) Print(response);
+  absl::StatusOr<v1::TraceLinesResponse> response =
+      Call(options.common, watch, &v1::AnalysisService::Stub::TraceLines, *request);
+  if (!response.ok()) return response.status();
+  output.Set(output.EndsIn(".svg") ? response->picture().data() : Json(*response));
+  if (const absl::Status written = Commit({&output}); !written.ok()) return written;
+  if (!options.common.quiet) Print(*response);
   return absl::OkStatus();
 }
 

@@ -91,10 +91,8 @@ bool CarriesProgram(const v1::Report& report) {
 // The report and the picture of a failed job are worth having; a program is not.
 absl::Status WriteFiles(const MillOptions& options, Received& received) {
   received.report_file.Set(Json(received.report));
-  for (OutputFile* file : {&received.report_file, &received.preview}) {
-    if (!file->wanted()) continue;
-    if (const absl::Status written = file->Commit(); !written.ok()) return written;
-  }
+  if (const absl::Status written = Commit({&received.report_file, &received.preview}); !written.ok())
+    return written;
   if (!CarriesProgram(received.report)) {
     std::string message = fmt::format("{}: {}", options.model, Short(received.report.outcome()));
     int reasons = 0;
@@ -151,10 +149,10 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   received.program = OutputFile(options.program);
   received.report_file = OutputFile(options.report);
   received.preview = OutputFile(options.preview);
-  for (const OutputFile* file : {&received.program, &received.report_file, &received.preview}) {
-    if (!file->wanted()) continue;
-    if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
-  }
+  if (const absl::Status writable =
+          CheckWritable({&received.program, &received.report_file, &received.preview});
+      !writable.ok())
+    return writable;
   absl::StatusOr<v1::GenerateProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
   absl::StatusOr<Connection> connection = Connect(options.common);

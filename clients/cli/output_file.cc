@@ -1,5 +1,6 @@
 #include "clients/cli/output_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -46,6 +47,10 @@ mode_t UsualMode() {
 }  // namespace
 
 absl::Status OutputFile::CheckWritable() const {
+  if (!endings_.empty() &&
+      std::none_of(endings_.begin(), endings_.end(), [&](const std::string& e) { return EndsIn(e); })) {
+    return absl::InvalidArgumentError(fmt::format("{}; must end in {}", path_, fmt::join(endings_, " or ")));
+  }
   std::error_code ignored;
   if (std::filesystem::is_directory(path_, ignored)) {
     return absl::InvalidArgumentError(fmt::format("{} is a directory", path_));
@@ -69,6 +74,22 @@ absl::Status OutputFile::Commit() const {
   const absl::Status fault = Fault(path_);
   unlink(temporary.c_str());
   return fault;
+}
+
+absl::Status CheckWritable(std::initializer_list<const OutputFile*> files) {
+  for (const OutputFile* file : files) {
+    if (!file->wanted()) continue;
+    if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Commit(std::initializer_list<const OutputFile*> files) {
+  for (const OutputFile* file : files) {
+    if (!file->wanted()) continue;
+    if (const absl::Status written = file->Commit(); !written.ok()) return written;
+  }
+  return absl::OkStatus();
 }
 
 }  // namespace patchmill::cli

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "clients/cli/call.h"
 #include "clients/cli/commands.h"
 #include "clients/cli/job_options.h"
 #include "clients/cli/output_file.h"
@@ -33,7 +34,6 @@ absl::StatusOr<v1::TabulateReachRequest> MakeRequest(const ReachOptions& options
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   for (const double diameter : options.diameters) request.add_tool_diameters_mm(diameter);
   request.set_max_threads(options.common.threads);
-  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
 }
 
@@ -48,28 +48,16 @@ void Print(const v1::TabulateReachResponse& response) {
 }
 
 absl::Status Run(const ReachOptions& options, InterruptWatch& watch) {
-  std::optional<OutputFile> output;
-  if (!options.output.empty()) {
-    if (std::filesystem::path(options.output).extension() != ".json")
-      return absl::InvalidArgumentError(fmt::format("-o {}; must end in .json", options.output));
-    output.emplace(options.output);
-    if (const absl::Status writable = output->CheckWritable(); !writable.ok()) return writable;
-  }
+  OutputFile output(options.output, {".json"});
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::TabulateReachRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  v1::TabulateReachResponse response;
-  const grpc::Status status =
-      v1::AnalysisService::NewStub(connection->channel)->TabulateReach(call.context(), *request, &response);
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  if (output) {
-    output->Set(Json(response));
-    if (const absl::Status written = output->Commit(); !written.ok()) return written;
-  }
-  if (!options.common.quiet || !output) Print(response);
+  absl::StatusOr<v1::TabulateReachResponse> response =
+      Call(options.common, watch, &v1::AnalysisService::Stub::TabulateReach, *request);
+  if (!response.ok()) return response.status();
+  if (output.wanted()) output.Set(Json(*response));
+  if (const absl::Status written = Commit({&output}); !written.ok()) return written;
+  if (!options.common.quiet || !output.wanted()) Print(*response);
   return absl::OkStatus();
 }
 

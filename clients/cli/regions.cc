@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "clients/cli/call.h"
 #include "clients/cli/commands.h"
 #include "clients/cli/job_options.h"
 #include "clients/cli/limit_options.h"
@@ -23,7 +24,7 @@ struct RegionsOptions {
   std::string model, output;
 };
 
-absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& options) {
+absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& options, bool picture) {
   v1::SplitRegionsRequest request;
   absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
   if (!source.ok()) return source.status();
@@ -44,9 +45,8 @@ absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& option
   if (!regions.ok()) return regions;
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   request.add_outputs(v1::OUTPUT_REGIONS);
-  if (options.output.ends_with(".svg")) request.add_outputs(v1::OUTPUT_PICTURE);
+  if (picture) request.add_outputs(v1::OUTPUT_PICTURE);
   request.set_max_threads(options.common.threads);
-  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
 }
 
@@ -75,28 +75,16 @@ void Print(const v1::RegionMap& map) {
 }
 
 absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
-  OutputFile output(options.output);
-  if (output.wanted()) {
-    if (!options.output.ends_with(".json") && !options.output.ends_with(".svg")) {
-      return absl::InvalidArgumentError(fmt::format("-o {}; must end in .json or .svg", options.output));
-    }
-    if (const absl::Status writable = output.CheckWritable(); !writable.ok()) return writable;
-  }
-  absl::StatusOr<v1::SplitRegionsRequest> request = MakeRequest(options);
+  OutputFile output(options.output, {".json", ".svg"});
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
+  absl::StatusOr<v1::SplitRegionsRequest> request = MakeRequest(options, output.EndsIn(".svg"));
   if (!request.ok()) return request.status();
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  v1::SplitRegionsResponse response;
-  const grpc::Status status =
-      v1::AnalysisService::NewStub(connection->channel)->SplitRegions(call.context(), *request, &response);
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  if (output.wanted()) {
-    output.Set(response.has_picture() ? response.picture().data() : Json(response));
-    if (const absl::Status written = output.Commit(); !written.ok()) return written;
-  }
-  if (!options.common.quiet || !output.wanted()) Print(response.regions());
+  absl::StatusOr<v1::SplitRegionsResponse> response =
+      Call(options.common, watch, &v1::AnalysisService::Stub::SplitRegions, *request);
+  if (!response.ok()) return response.status();
+  if (output.wanted()) output.Set(response->has_picture() ? response->picture().data() : Json(*response));
+  if (const absl::Status written = Commit({&output}); !written.ok()) return written;
+  if (!options.common.quiet || !output.wanted()) Print(response->regions());
   return absl::OkStatus();
 }
 

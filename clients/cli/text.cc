@@ -55,6 +55,12 @@ std::string Line(const v1::Diagnostic& finding) {
   return text;
 }
 
+int CountErrors(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findings) {
+  return static_cast<int>(std::count_if(findings.begin(), findings.end(), [](const v1::Diagnostic& finding) {
+    return finding.severity() == v1::SEVERITY_ERROR;
+  }));
+}
+
 std::string UnreachableLine(const v1::Report& report) {
   std::string text;
   for (const v1::UnreachablePart& part : report.unreachable()) {

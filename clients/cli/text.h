@@ -23,6 +23,7 @@ std::string Short(v1::Strategy value);
 
 // "WARNING OPEN_EDGE patch 3: ...".
 std::string Line(const v1::Diagnostic& finding);
+int CountErrors(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findings);
 // "X 1.000 Y 2.000 Z 3.000".
 std::string Line(const v1::Point3& point);
 std::string Line(const v1::Place& place);

@@ -81,9 +81,7 @@ void Print(const VerifyOptions& options, const v1::Report& report) {
 
 absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   OutputFile report_file(options.report);
-  if (report_file.wanted()) {
-    if (const absl::Status writable = report_file.CheckWritable(); !writable.ok()) return writable;
-  }
+  if (const absl::Status writable = CheckWritable({&report_file}); !writable.ok()) return writable;
   absl::StatusOr<v1::VerifyProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
   absl::StatusOr<Connection> connection = Connect(options.common);
@@ -106,10 +104,8 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   bar.Clear();
   if (!status.ok()) return FromGrpc(status, options.common, watch);
   if (!complete) return absl::DataLossError("the answer ended without a report");
-  if (report_file.wanted()) {
-    report_file.Set(Json(report));
-    if (const absl::Status written = report_file.Commit(); !written.ok()) return written;
-  }
+  if (report_file.wanted()) report_file.Set(Json(report));
+  if (const absl::Status written = Commit({&report_file}); !written.ok()) return written;
   Print(options, report);
   if (report.outcome() != v1::OUTCOME_VERIFICATION_FAILED) return absl::OkStatus();
   return absl::FailedPreconditionError(fmt::format("{}: VERIFICATION_FAILED", options.program));

@@ -97,7 +97,7 @@ TEST(CliFair, WrongUsageAndUnreadableInput) {
     EXPECT_EQ(run.status, 2) << run.err;
     EXPECT_THAT(run.err, HasSubstr(message));
   };
-  fails({kHull, "-o", out / "a.txt"}, "must end in .csv, .dat, .json");
+  fails({kHull, "-o", out / "a.txt"}, "must end in .csv or .dat or .json");
   fails({kHull, "-o", out / "a.csv", "--band", "much"}, "--band much; must be");
   fails({kHull, "-o", out / "a.csv", "--band", "-1"}, "--band: band.x_mm = -1; must be >= 0");
   fails({kHull, "-o", out / "a.csv", "--lock", "4:w"}, "--lock 4:w; must be");

@@ -1,0 +1,15 @@
+// A patch model that a command writes.
+#pragma once
+
+#include <string>
+
+#include "clients/cli/output_file.h"
+#include "patchmill/v1/model.pb.h"
+
+namespace patchmill::cli {
+
+// Ends in .json (JSON of the contract) or .pb (its bytes); empty: nothing is wanted.
+OutputFile ModelFile(const std::string& path);
+void SetModel(const v1::PatchModel& model, OutputFile& file);
+
+}  // namespace patchmill::cli
