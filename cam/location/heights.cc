@@ -234,6 +234,21 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
   }
 }
 
+namespace {
+
+// Fewer balls are searched for one by one.
+constexpr std::size_t kWorthLanes = 3;
+
+std::optional<Vec3> FindObstacle(const Locator::Impl& impl, const Vec3& center) {
+  Contact contact;
+  contact.z = std::max(center.z(), impl.Lowest());
+  impl.Search(impl.BallAt(Plan(center)), contact.z, contact, nullptr);
+  if (contact.piece < 0) return std::nullopt;
+  return contact.p;
+}
+
+}  // namespace
+
 void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
                    std::span<std::optional<Vec3>> obstacles) {
   PM_CHECK(centers.size() == obstacles.size());
@@ -242,6 +257,10 @@ void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
   LanePacket packet;
   for (std::size_t i = 0; i < centers.size(); i += kLanes) {
     const std::size_t count = std::min<std::size_t>(kLanes, centers.size() - i);
+    if (count < kWorthLanes) {
+      for (std::size_t k = i; k < i + count; ++k) obstacles[k] = FindObstacle(impl, centers[k]);
+      continue;
+    }
     for (std::size_t k = 0; k < kLanes; ++k) {
       const Vec3& at = centers[i + std::min(k, count - 1)];
       packet.qx[k] = at.x();

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "cam/location/heights.h"
+#include "cam/region/obstacle_finder.h"
+#include "core/base/status.h"
 #include "core/diffgeo/forms.h"
+#include "core/surface/box_distance.h"
 #include "core/surface/closest.h"
 
 namespace patchmill {
@@ -19,83 +21,53 @@ constexpr double kNearer = 0.02;      // of the radius: what blocks above is nea
 constexpr double kFloorSlack = 1e-6;  // mm
 
 constexpr double kProof = 0.004;  // of the radius: how exactly distances are known here
+constexpr double kCloud = 0.15;   // of the radius: spacing of the points tried first
 
 }  // namespace
+
+ReachTest::ReachTest(const Locator& free_ball, const RegionParams& params)
+    : free_ball_(free_ball), params_(params), cloud_(free_ball.surface(), kCloud * params.radius) {}
 
 bool ReachTest::Free(const Vec3& p, const Vec3& normal) const {
-  return free_ball_.Free(p + params_.radius * normal) ||
-         (normal.z() < kVertical && free_ball_.Free(p - params_.radius * normal));
+  const auto free = [&](const Vec3& center) {
+    std::optional<Vec3> obstacle;
+    ObstacleFinder(free_ball_, cloud_).Find({&center, 1}, {&obstacle, 1});
+    return !obstacle;
+  };
+  return free(p + params_.radius * normal) || (normal.z() < kVertical && free(p - params_.radius * normal));
 }
 
-namespace {
-
-// Signs of balls asked for in turn, neighbours one after the other: what was in the way of the last ones is
-// mostly in the way of the next, which then needs no search. What is left goes in packets.
-class FreeSigns {
- public:
-  FreeSigns(const Locator& ball, std::span<double> signs) : ball_(ball), signs_(signs) {}
-
-  void Ask(std::size_t i, const Vec3& center) {
-    for (const Vec3& obstacle : last_) {
-      if (!InTheWay(obstacle, center)) continue;
-      signs_[i] = -1.0;
-      return;
-    }
-    asked_.push_back(i);
-    centers_.push_back(center);
-    if (centers_.size() == kPacket) Search();
-  }
-  void Search() {
-    obstacles_.resize(centers_.size());
-    FindObstacles(ball_, centers_, obstacles_);
-    for (std::size_t k = 0; k < asked_.size(); ++k) {
-      signs_[asked_[k]] = obstacles_[k] ? -1.0 : 1.0;
-      if (obstacles_[k]) last_[next_++ % last_.size()] = *obstacles_[k];
-    }
-    asked_.clear();
-    centers_.clear();
-  }
-
- private:
-  static constexpr std::size_t kPacket = 8, kRemembered = 8;
-
-  // Deeper in the ball, or in its way upwards, than rounding.
-  bool InTheWay(const Vec3& p, const Vec3& center) const {
-    const double r2 = ball_.radius() * ball_.radius() * (1.0 - kRounding);
-    const Vec3 d = p - center;
-    return Plan(d).squaredNorm() + (d.z() < 0.0 ? d.z() * d.z() : 0.0) < r2;
-  }
-
-  static constexpr double kRounding = 1e-9;
-  const Locator& ball_;
-  std::span<double> signs_;
-  std::array<Vec3, kRemembered> last_ = Nowhere();
-  std::size_t next_ = 0;
-  std::vector<std::size_t> asked_;
-  std::vector<Vec3> centers_;
-  std::vector<std::optional<Vec3>> obstacles_;
-
-  static std::array<Vec3, kRemembered> Nowhere() {
-    std::array<Vec3, kRemembered> nowhere;
-    nowhere.fill(Vec3::Constant(kInfinity));
-    return nowhere;
-  }
-};
-
-}  // namespace
-
-void ReachTest::FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs) const {
+void ReachTest::FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs,
+                       std::span<std::optional<Vec3>> obstacles) const {
   std::fill(signs.begin(), signs.end(), 0.0);
-  const auto ask = [&](const auto& wanted, double side) {
-    FreeSigns free(free_ball_, signs);
+  std::fill(obstacles.begin(), obstacles.end(), std::nullopt);
+  std::vector<std::size_t> asked;
+  std::vector<Vec3> centers;
+  std::vector<std::optional<Vec3>> found;
+  for (const double side : {1.0, -1.0}) {
+    asked.clear();
+    centers.clear();
     for (std::size_t i = 0; i < jets.size(); ++i) {
       const auto normal = UpwardNormal(jets[i]);
-      if (normal && wanted(i, *normal)) free.Ask(i, jets[i].p + side * params_.radius * *normal);
+      if (!normal || (side < 0.0 && !(signs[i] < 0.0 && normal->z() < kVertical))) continue;
+      asked.push_back(i);
+      centers.push_back(jets[i].p + side * params_.radius * *normal);
     }
-    free.Search();
-  };
-  ask([](std::size_t, const Vec3&) { return true; }, 1.0);
-  ask([&](std::size_t i, const Vec3& n) { return signs[i] < 0.0 && n.z() < kVertical; }, -1.0);
+    found.resize(centers.size());
+    ObstacleFinder(free_ball_, cloud_).Find(centers, found);
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      signs[asked[k]] = found[k] ? -1.0 : 1.0;
+      // What lets go on one side of a wall says nothing of the other.
+      if (!obstacles.empty()) obstacles[asked[k]] = side > 0.0 ? found[k] : std::nullopt;
+    }
+  }
+}
+
+double ReachTest::Clearance(const Vec3& obstacle, const SurfaceJet& jet) const {
+  const auto normal = UpwardNormal(jet);
+  if (!normal) return -free_ball_.radius();
+  return FromSet<Reach::kUpwardRay>(obstacle - (jet.p + params_.radius * *normal)).norm() -
+         free_ball_.radius();
 }
 
 bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal) const {
@@ -113,12 +85,37 @@ double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {
   return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - kFloorSlack);
 }
 
+namespace {
+
+// False proves that nothing higher than c lies within `radius` of it in plan.
+bool MayBeAbove(const Surface& surface, const Vec3& c, double radius) {
+  std::array<std::int32_t, 256> open;  // as in core/surface/closest
+  std::size_t size = 0;
+  if (!surface.nodes.empty()) open[size++] = 0;
+  while (size > 0) {
+    const std::int32_t index = open[--size];
+    const SurfaceNode& node = surface.nodes[static_cast<std::size_t>(index)];
+    if (node.box.max.z() <= c.z() || SquaredDistance<Reach::kUpwardRay>(node.box, c) >= radius * radius)
+      continue;
+    if (node.leaf >= 0) return true;
+    PM_CHECK(size + 2 <= open.size());
+    open[size++] = node.right;
+    open[size++] = index + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
 bool ReachTest::CenterBlockedAbove(const Vec3& center) const {
   const Surface& surface = free_ball_.surface();
-  const double proof = kProof * params_.radius;
-  const auto shank = ClosestToUpwardRay(surface, center, free_ball_.radius() + proof, proof);
+  const double proof = kProof * params_.radius, nearer = kNearer * params_.radius;
+  // What lies above counts only where it comes nearer than anything known.
+  const double limit = std::min(free_ball_.radius() + proof, cloud_.Nearest(center, params_.radius) - nearer);
+  if (limit <= 0.0 || !MayBeAbove(surface, center, limit)) return false;
+  const auto shank = ClosestToUpwardRay(surface, center, limit, proof);
   return shank && shank->at.p.z() > center.z() &&
-         !ClosestToPoint(surface, center, shank->distance + kNearer * params_.radius, proof);
+         !ClosestToPoint(surface, center, shank->distance + nearer, proof);
 }
 
 double ReachTest::LeftoverAbove(const Vec3& p) const {

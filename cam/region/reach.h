@@ -1,9 +1,11 @@
 // Can the ball touch this point of the surface, and if not, why: docs/reach.md, by exact cutter location.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "cam/location/locator.h"
+#include "cam/region/obstacle_cloud.h"
 #include "cam/region/region_map.h"
 
 namespace patchmill {
@@ -11,13 +13,18 @@ namespace patchmill {
 class ReachTest {
  public:
   // `free_ball`: locator of radius params.radius - params.tolerance.
-  ReachTest(const Locator& free_ball, const RegionParams& params) : free_ball_(free_ball), params_(params) {}
+  ReachTest(const Locator& free_ball, const RegionParams& params);
 
   // The ball that touches p, where the upward normal is `normal`, is free; the floor does not count. On a
   // vertical face either side will do.
   bool Free(const Vec3& p, const Vec3& normal) const;
   // The same at many places near each other, faster: signs[i] = 1 free, -1 not, 0 where there is no normal.
-  void FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs) const;
+  // `obstacles`, as many or none: something in the way of the ball, where it is known and decides.
+  void FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs,
+              std::span<std::optional<Vec3>> obstacles = {}) const;
+  // How far an obstacle is outside the ball that touches the surface at `jet` and all above it, mm; negative
+  // when it is in the way.
+  double Clearance(const Vec3& obstacle, const SurfaceJet& jet) const;
   // Where it is not: UNDERCUT, and not CONCAVE. Cost some ten microseconds.
   bool BlockedAbove(const Vec3& p, const Vec3& normal) const;
   // Height of its tip over the floor, mm, the slack for rounding counted in: below 0 the place is FLOOR.
@@ -32,6 +39,7 @@ class ReachTest {
   bool CenterBlockedAbove(const Vec3& center) const;
   const Locator& free_ball_;
   const RegionParams& params_;
+  ObstacleCloud cloud_;
 };
 
 // Largest ball (mm, radius) that touches p from the side of `normal` and is free upward, at most `limit`.

@@ -61,6 +61,51 @@ std::vector<std::size_t> FirstAlongEdge(const std::vector<SplitMesh>& meshes,
   return first;
 }
 
+// Where the sides of each piece begin among `sides`, and their end.
+std::vector<std::size_t> PieceRuns(const std::vector<Adjacency>& adjacency,
+                                   const std::vector<std::size_t>& sides) {
+  std::vector<std::size_t> runs;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (k == 0 || adjacency[sides[k]].side.piece != adjacency[sides[k - 1]].side.piece) runs.push_back(k);
+  }
+  runs.push_back(sides.size());
+  return runs;
+}
+
+// The sides `own` of one piece as polylines, arcs of one field all at once.
+void MakeStrands(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                 const std::vector<Adjacency>& adjacency, const std::vector<std::size_t>& on_border,
+                 const std::vector<std::size_t>& own, std::span<const ZeroField> fields, double tolerance,
+                 std::vector<std::vector<Vec3>>& strand) {
+  if (own.empty()) return;
+  const auto index = static_cast<std::size_t>(adjacency[on_border[own.front()]].side.piece);
+  const SplitMesh& mesh = meshes[index];
+  const Piece& piece = surface.pieces[index];
+  std::vector<std::vector<std::size_t>> along(fields.size());  // their field
+  for (const std::size_t k : own) {
+    const ZeroVertex &a = End(mesh, adjacency[on_border[k]].side, 0),
+                     &b = End(mesh, adjacency[on_border[k]].side, 1);
+    strand[k] = {a.p, b.p};
+    if (const ZeroField* field = CommonField(a, b, fields))
+      along[static_cast<std::size_t>(field - fields.data())].push_back(k);
+  }
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    std::vector<ZeroSegment> chords;
+    for (const std::size_t k : along[f]) {
+      const ZeroVertex &a = End(mesh, adjacency[on_border[k]].side, 0),
+                       &b = End(mesh, adjacency[on_border[k]].side, 1);
+      chords.push_back({{a.u, a.v}, {b.u, b.v}});
+    }
+    const std::vector<std::vector<Vec2>> arcs = RefineZeroArcs(piece, fields[f], chords, tolerance);
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      std::vector<Vec3> points;
+      for (const Vec2& q : arcs[i]) points.push_back(Position(piece, q.x(), q.y()));
+      std::vector<Vec3>& line = strand[along[f][i]];
+      line.insert(line.end() - 1, points.begin(), points.end());
+    }
+  }
+}
+
 // Directed strands of one region's outline -> closed loops. Strands are matched end to start exactly first,
 // then to the nearest.
 std::vector<std::vector<Vec3>> Chain(std::vector<std::vector<Vec3>> strands, double weld) {
@@ -145,16 +190,13 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
   }
   const std::vector<std::size_t> first = FirstAlongEdge(meshes, adjacency, on_border);
   std::vector<std::vector<Vec3>> strand(on_border.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, on_border.size(), [&](std::size_t k) {
-    if (first[k] != k) return;
-    const Adjacency& a = adjacency[on_border[k]];
-    const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
-    const Piece& piece = surface.pieces[static_cast<std::size_t>(a.side.piece)];
-    const ZeroVertex &from = End(mesh, a.side, 0), &to = End(mesh, a.side, 1);
-    strand[k].push_back(from.p);
-    for (const Vec2& q : ArcOf(piece, CommonField(from, to, fields), from, to, tolerance))
-      strand[k].push_back(Position(piece, q.x(), q.y()));
-    strand[k].push_back(to.p);
+  const std::vector<std::size_t> runs = PieceRuns(adjacency, on_border);
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, runs.size() - 1, [&](std::size_t r) {
+    std::vector<std::size_t> own;
+    for (std::size_t k = runs[r]; k < runs[r + 1]; ++k) {
+      if (first[k] == k) own.push_back(k);
+    }
+    MakeStrands(surface, meshes, adjacency, on_border, own, fields, tolerance, strand);
   }));
   for (std::size_t k = 0; k < on_border.size(); ++k) {
     if (first[k] != k) strand[k].assign(strand[first[k]].rbegin(), strand[first[k]].rend());

@@ -1,5 +1,6 @@
 #include "cam/region/region_fields.h"
 
+#include "cam/region/reach_limits.h"
 #include "core/diffgeo/forms.h"
 #include "core/lines/line_fields.h"
 
@@ -20,6 +21,10 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   };
   free.values = [&reach](std::span<const SurfaceJet> jets, std::span<double> values) {
     reach.FreeAt(jets, values);
+  };
+  free.limits = [&reach, exact = free.resolution](const Piece& piece, std::span<const ZeroSegment> segments,
+                                                  std::span<double> limits) {
+    ReachLimits(reach, piece, segments, exact, limits);
   };
   ZeroField& above = at(Field::kAbove);
   above.smooth = false;

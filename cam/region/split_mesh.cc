@@ -99,6 +99,7 @@ SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, 
       const SurfaceJet jet = Evaluate(piece, at.x(), at.y());
       const double element = weight * jet.du.cross(jet.dv).norm();
       triangle.area += element;
+      if (triangle.label.reason != UnreachableReason::kNone) return;
       const auto unit = UnitNormal(jet);
       if (!unit) return;
       const double slope = std::atan2(std::hypot(unit->x(), unit->y()), std::abs(unit->z()));

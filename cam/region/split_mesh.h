@@ -12,7 +12,8 @@ namespace patchmill {
 struct SplitTriangle {
   std::array<int, 3> vertex{};  // counter-clockwise in (u,v)
   SplitLabel label;
-  double area = 0.0;       // mm^2 on the surface, of the triangle with straight sides in (u,v)
+  double area = 0.0;  // mm^2 on the surface, of the triangle with straight sides in (u,v)
+  // Of what is reached; else 0.
   double curvature = 0.0;  // integral of kappa_c (upward normal) over it, mm
   double steepness = 0.0;  // integral of slope - steep angle over it, rad mm^2
 };

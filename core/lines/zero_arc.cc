@@ -1,3 +1,4 @@
+#include <array>
 #include <optional>
 
 #include "core/base/segment.h"
@@ -14,16 +15,32 @@ class Refiner {
   Refiner(const Piece& piece, const ZeroField& field, double tolerance)
       : piece_(piece), field_(field), tolerance_(tolerance) {}
 
+  // The places on both sides of the point `at` of the chord a b, within the tolerance of it, between which
+  // the curve passes if it is straight there.
+  std::optional<std::array<Vec2, 2>> Beside(const Vec2& from, const Vec2& to, double at, const Vec3& a,
+                                            const Vec3& b) const {
+    const Vec2 mid = from + at * (to - from);
+    const Vec2 across = 0.7 * tolerance_ * Across(mid, to - from, (b - a).norm());
+    const Vec2 one = mid + Inside(mid, across) * across, other = mid - Inside(mid, -across) * across;
+    if (!Near(one, a, b) || !Near(other, a, b)) return std::nullopt;
+    return std::array{one, other};
+  }
+  Vec3 At(const Vec2& q) const { return Position(piece_, q.x(), q.y()); }
+
   // The first chord is looked at in three places: an arc of two bends may cross it in the middle.
   void AddFirst(const Vec2& from, const Vec2& to, std::vector<Vec2>& out) const {
     const Vec3 a = At(from), b = At(to);
-    const double length = (b - a).norm();
-    if (length <= tolerance_) return;
+    if ((b - a).norm() <= tolerance_) return;
     if (Straight(from, to, 0.5, a, b) &&
         (!field_.smooth || (Straight(from, to, 0.25, a, b) && Straight(from, to, 0.75, a, b)))) {
       return;
     }
-    const std::optional<Vec2> root = OnPerpendicular(from, to, length);
+    AddBent(from, to, out);
+  }
+
+  // One that is known not to be straight.
+  void AddBent(const Vec2& from, const Vec2& to, std::vector<Vec2>& out) const {
+    const std::optional<Vec2> root = OnPerpendicular(from, to, (At(to) - At(from)).norm());
     if (!root) return;
     Add(from, *root, kMostHalvings, out);
     out.push_back(*root);
@@ -31,7 +48,6 @@ class Refiner {
   }
 
  private:
-  Vec3 At(const Vec2& q) const { return Position(piece_, q.x(), q.y()); }
   bool Near(const Vec2& q, const Vec3& a, const Vec3& b) const {
     return SegmentDistance(At(q), a, b) <= tolerance_;
   }
@@ -46,11 +62,8 @@ class Refiner {
   }
   // The curve passes within the tolerance of the point `at` of the chord a b: the cheap test.
   bool Straight(const Vec2& from, const Vec2& to, double at, const Vec3& a, const Vec3& b) const {
-    const Vec2 mid = from + at * (to - from);
-    const Vec2 across = 0.7 * tolerance_ * Across(mid, to - from, (b - a).norm());
-    const Vec2 one = mid + Inside(mid, across) * across, other = mid - Inside(mid, -across) * across;
-    if (!Near(one, a, b) || !Near(other, a, b)) return false;
-    return Value(field_, piece_, one) * Value(field_, piece_, other) <= 0.0;
+    const auto beside = Beside(from, to, at, a, b);
+    return beside && Value(field_, piece_, (*beside)[0]) * Value(field_, piece_, (*beside)[1]) <= 0.0;
   }
 
   void Add(const Vec2& from, const Vec2& to, int depth, std::vector<Vec2>& out) const {
@@ -103,6 +116,34 @@ std::vector<Vec2> RefineZeroArc(const Piece& piece, const ZeroField& field, cons
   std::vector<Vec2> out;
   Refiner(piece, field, tolerance).AddFirst(from, to, out);
   return out;
+}
+
+std::vector<std::vector<Vec2>> RefineZeroArcs(const Piece& piece, const ZeroField& field,
+                                              std::span<const ZeroSegment> chords, double tolerance) {
+  std::vector<std::vector<Vec2>> arcs(chords.size());
+  const Refiner refiner(piece, field, tolerance);
+  if (field.smooth || !field.values) {
+    for (std::size_t k = 0; k < chords.size(); ++k) refiner.AddFirst(chords[k].from, chords[k].to, arcs[k]);
+    return arcs;
+  }
+  // Most are straight: they are asked at once.
+  std::vector<std::size_t> asked, bent;
+  std::vector<SurfaceJet> jets;
+  for (std::size_t k = 0; k < chords.size(); ++k) {
+    const Vec3 a = refiner.At(chords[k].from), b = refiner.At(chords[k].to);
+    if ((b - a).norm() <= tolerance) continue;
+    const auto beside = refiner.Beside(chords[k].from, chords[k].to, 0.5, a, b);
+    (beside ? asked : bent).push_back(k);
+    if (!beside) continue;
+    for (const Vec2& q : *beside) jets.push_back(Evaluate(piece, q.x(), q.y()));
+  }
+  std::vector<double> values(jets.size());
+  field.values(jets, values);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (!(values[2 * i] * values[2 * i + 1] <= 0.0)) bent.push_back(asked[i]);
+  }
+  for (const std::size_t k : bent) refiner.AddBent(chords[k].from, chords[k].to, arcs[k]);
+  return arcs;
 }
 
 }  // namespace patchmill

@@ -15,6 +15,11 @@ struct ParameterBox {
   double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
 };
 
+// A straight way in the parameters of a piece, from where a field is negative to where it is positive.
+struct ZeroSegment {
+  Vec2 from, to;
+};
+
 struct ZeroField {
   // Smooth fields: continuous, of both signs beside their zero curves, any unit. Others: the sign counts, 0
   // where the question does not apply. Thread-safe.
@@ -25,6 +30,9 @@ struct ZeroField {
   // change sign along all of the arc or nowhere on it; so where it has no zero `value` has none, and where
   // its zero set is one arc, that of `value` is this arc or nothing. Nothing: too costly. May be empty.
   std::function<std::optional<BernsteinForm>(const BernsteinNet&)> form;
+  // The shares of such segments where the sign changes, to `resolution`, of a field that is not smooth and
+  // has a better way than asking for signs. May be empty.
+  std::function<void(const Piece&, std::span<const ZeroSegment>, std::span<double>)> limits;
   // A point of the closed box where curves of the field cross each other, or nothing. May be empty.
   std::function<std::optional<Vec2>(const Piece&, const ParameterBox&)> node;
   bool smooth = true;

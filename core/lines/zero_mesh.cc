@@ -118,6 +118,20 @@ class Builder {
              ZeroBracket(sa, sb, EnoughFor(fields_[k], (vertices_[b].p - vertices_[a].p).norm()), by_sign)});
       }
     }
+    if (fields_[k].limits) {
+      std::vector<ZeroSegment> segments;
+      for (const Edge& e : edges) {
+        const bool forth = vertices_.Sign(e.a, k) < 0;
+        segments.push_back({At(e, forth ? 0.0 : 1.0), At(e, forth ? 1.0 : 0.0)});
+      }
+      std::vector<double> limits(edges.size());
+      fields_[k].limits(piece_, segments, limits);
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        const double t = vertices_.Sign(edges[i].a, k) < 0 ? limits[i] : 1.0 - limits[i];
+        crossings_[EdgeKey(edges[i].a, edges[i].b)] = AddCrossing(k, edges[i], t);
+      }
+      return;
+    }
     const auto many = [&](std::size_t count, const auto& place) {
       std::vector<Vec2> places;
       for (std::size_t i = 0; i < count; ++i) places.push_back(place(i));
@@ -139,14 +153,13 @@ class Builder {
           many(open.size(), [&](std::size_t i) { return At(edges[open[i]], edges[open[i]].bracket.Next()); });
       for (std::size_t i = 0; i < open.size(); ++i) edges[open[i]].bracket.Put(values[i]);
     }
-    for (const Edge& e : edges) crossings_[EdgeKey(e.a, e.b)] = AddCrossing(k, e);
+    for (const Edge& e : edges) crossings_[EdgeKey(e.a, e.b)] = AddCrossing(k, e, e.bracket.Middle());
   }
 
-  int AddCrossing(std::size_t k, const Edge& e) {
+  int AddCrossing(std::size_t k, const Edge& e, double t) {
     const ZeroField& field = fields_[k];
     const ZeroVertex x = vertices_[e.a], y = vertices_[e.b];
     const Vec2 from(x.u, x.v), to(y.u, y.v);
-    const double t = e.bracket.Middle();
     Vec2 q = from + t * (to - from);
     // An edge along another field's curve: the crossing is where both vanish.
     const std::uint8_t both = x.on & y.on;

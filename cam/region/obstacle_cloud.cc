@@ -1,0 +1,112 @@
+#include "cam/region/obstacle_cloud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace patchmill {
+namespace {
+
+constexpr double kMostPoints = 1e6;
+constexpr double kCell = 2.0;     // spacings
+constexpr int kMostCells = 1024;  // along x, and along y
+
+double LengthAlong(const Piece& piece, bool u) {
+  double longest = 0.0;
+  for (const double across : {0.0, 0.5, 1.0}) {
+    double length = 0.0;
+    const auto at = [&](double t) { return u ? Position(piece, t, across) : Position(piece, across, t); };
+    for (const double t : {0.0, 0.5}) length += (at(t + 0.5) - at(t)).norm();
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
+}  // namespace
+
+ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing) {
+  std::vector<Vec2> sides;
+  double area = 0.0;
+  for (const Piece& piece : surface.pieces) {
+    sides.emplace_back(LengthAlong(piece, true), LengthAlong(piece, false));
+    area += sides.back().x() * sides.back().y();
+  }
+  spacing = std::max(spacing, std::sqrt(area / kMostPoints));
+  std::vector<Vec3> points;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const auto steps = [&](double side) {
+      return std::clamp(static_cast<int>(std::ceil(side / spacing)), 1, kMostCells);
+    };
+    const int nu = steps(sides[k].x()), nv = steps(sides[k].y());
+    for (int i = 0; i < nu; ++i) {
+      for (int j = 0; j < nv; ++j)
+        points.push_back(Position(surface.pieces[k], (i + 0.5) / nu, (j + 0.5) / nv));
+    }
+  }
+  low_ = Plan(surface.box.min);
+  const Vec2 extent = Plan(surface.box.max) - low_;
+  cell_ = std::max(kCell * spacing, extent.maxCoeff() / kMostCells);
+  columns_ = static_cast<int>(extent.x() / cell_) + 1;
+  rows_ = static_cast<int>(extent.y() / cell_) + 1;
+  const auto place = [&](const Vec3& p) {
+    const Vec2 q = (Plan(p) - low_) / cell_;
+    const int column = std::clamp(static_cast<int>(q.x()), 0, columns_ - 1),
+              row = std::clamp(static_cast<int>(q.y()), 0, rows_ - 1);
+    return static_cast<std::size_t>(row * columns_ + column);
+  };
+  first_.assign(static_cast<std::size_t>(rows_ * columns_) + 2, 0);
+  for (const Vec3& p : points) ++first_[place(p) + 2];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  highest_.assign(first_.size() - 2, -kInfinity);
+  points_.resize(points.size());
+  for (const Vec3& p : points) {
+    const std::size_t cell = place(p);
+    points_[first_[cell + 1]++] = p;
+    highest_[cell] = std::max(highest_[cell], p.z());
+  }
+}
+
+// The cells whose points the ball may reach: the walk is by rows.
+template <class Visit>
+void ObstacleCloud::Cells(const Vec3& c, double radius, const Visit& visit) const {
+  const Vec2 q = (Plan(c) - low_) / cell_;
+  const double reach = radius / cell_, top = c.z() / cell_;
+  const auto clamped = [](double x, int count) {
+    return static_cast<int>(std::clamp(std::floor(x), 0.0, static_cast<double>(count - 1)));
+  };
+  if (q.x() + reach < 0.0 || q.y() + reach < 0.0 || q.x() - reach > columns_ || q.y() - reach > rows_) return;
+  const int last_row = clamped(q.y() + reach, rows_), last = clamped(q.x() + reach, columns_);
+  for (int row = clamped(q.y() - reach, rows_); row <= last_row; ++row) {
+    const double y = std::max({0.0, row - q.y(), q.y() - (row + 1)});
+    for (int column = clamped(q.x() - reach, columns_); column <= last; ++column) {
+      const auto cell = static_cast<std::size_t>(row * columns_ + column);
+      const double x = std::max({0.0, column - q.x(), q.x() - (column + 1)});
+      const double z = std::max(0.0, top - highest_[cell] / cell_);
+      if (x * x + y * y + z * z < reach * reach && visit(first_[cell], first_[cell + 1])) return;
+    }
+  }
+}
+
+std::optional<Vec3> ObstacleCloud::InTheWay(const Vec3& c, double radius) const {
+  std::optional<Vec3> found;
+  Cells(c, radius, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to && !found; ++i) {
+      const Vec3 d = points_[i] - c;
+      const double below = std::min(d.z(), 0.0);
+      if (Plan(d).squaredNorm() + below * below < radius * radius) found = points_[i];
+    }
+    return found.has_value();
+  });
+  return found;
+}
+
+double ObstacleCloud::Nearest(const Vec3& c, double limit) const {
+  double nearest = limit * limit;
+  Cells(c, limit, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) nearest = std::min(nearest, (points_[i] - c).squaredNorm());
+    return false;
+  });
+  return std::sqrt(nearest);
+}
+
+}  // namespace patchmill

@@ -1,0 +1,36 @@
+// Points of the surface by their place in plan: a quick proof that something is in a ball's way.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+class ObstacleCloud {
+ public:
+  // Points about `spacing` (mm, > 0) apart on every piece; wider apart where a million would not do. Cost:
+  // some 0.1 us a point.
+  ObstacleCloud(const Surface& surface, double spacing);
+
+  // A point of the cloud nearer than `radius` to the upward vertical ray at c. Nothing proves nothing. Cost:
+  // 1 ns a point of the disc of this radius.
+  std::optional<Vec3> InTheWay(const Vec3& c, double radius) const;
+  // Distance of the point of the cloud nearest to c, at most `limit`.
+  double Nearest(const Vec3& c, double limit) const;
+
+ private:
+  // visit(first, last): the points of a cell; until it says true.
+  template <class Visit>
+  void Cells(const Vec3& c, double radius, const Visit& visit) const;
+
+  Vec2 low_ = Vec2::Zero();
+  double cell_ = 1.0;
+  int rows_ = 0, columns_ = 0;
+  std::vector<std::size_t> first_;  // [row * columns + column]: of the cell's points, and the end
+  std::vector<double> highest_;     // of a cell
+  std::vector<Vec3> points_;
+};
+
+}  // namespace patchmill

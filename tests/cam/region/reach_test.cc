@@ -1,0 +1,123 @@
+// Quick answers about balls in the way against the plain search, and limits of reach against closed forms.
+#include "cam/region/reach.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/region/reach_limits.h"
+#include "core/diffgeo/forms.h"
+#include "core/surface/closest.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+Surface Folded(std::uint64_t seed) {
+  RandomBsplineParams part;
+  part.size = 20.0;
+  part.amplitude = 5.0;
+  part.folds = true;
+  return SurfaceOf(RandomBspline(seed, part));
+}
+
+TEST(ObstacleCloud, ItsPointsAreOfTheSurfaceAndInTheWay) {
+  int found = 0;
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const Surface surface = Folded(seed);
+    const ObstacleCloud cloud(surface, 0.4);
+    Random random(seed);
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 c = random.Point(-4, 24) - Vec3(0, 0, 10);
+      const double radius = random.Uniform(0.3, 4.0);
+      if (const auto p = cloud.InTheWay(c, radius)) {
+        ++found;
+        EXPECT_TRUE(ClosestToPoint(surface, *p, 1e-9, 1e-10)) << p->transpose();
+        EXPECT_LT(std::hypot(p->x() - c.x(), p->y() - c.y(), std::min(p->z() - c.z(), 0.0)), radius);
+      }
+      const auto nearest = ClosestToPoint(surface, c, kInfinity, 1e-6);
+      ASSERT_TRUE(nearest);
+      EXPECT_GE(cloud.Nearest(c, 50.0), nearest->distance - 2e-6);
+      EXPECT_LE(cloud.Nearest(c, 50.0), nearest->distance + 3.0);  // folds stretch the patches
+    }
+  }
+  EXPECT_GT(found, 100);
+}
+
+// The definition in docs/reach.md, by distances alone. Nothing where it is too near to call.
+TEST(ReachTest, AgreesWithTheDefinition) {
+  int blocked = 0, above = 0;
+  for (const std::uint64_t seed : {3u, 4u, 5u}) {
+    const Surface surface = Folded(seed);
+    RegionParams params;
+    params.radius = 1.5;
+    const double free_radius = params.radius - params.tolerance;
+    const Locator free_ball(surface, free_radius);
+    const ReachTest reach(free_ball, params);
+    Random random(seed);
+    std::vector<SurfaceJet> jets;
+    for (int i = 0; i < 400; ++i) {
+      const auto piece = static_cast<std::size_t>(random.Int(static_cast<int>(surface.pieces.size())));
+      jets.push_back(Evaluate(surface.pieces[piece], random.Unit(), random.Unit()));
+    }
+    std::vector<double> signs(jets.size());
+    std::vector<std::optional<Vec3>> obstacles(jets.size());
+    reach.FreeAt(jets, signs, obstacles);
+    for (std::size_t i = 0; i < jets.size(); ++i) {
+      const auto normal = UpwardNormal(jets[i]);
+      if (!normal || normal->z() < 1e-3) continue;
+      const Vec3 center = jets[i].p + params.radius * *normal;
+      const auto ray = ClosestToUpwardRay(surface, center, kInfinity, 1e-6);
+      const auto ball = ClosestToPoint(surface, center, kInfinity, 1e-6);
+      ASSERT_TRUE(ray && ball);
+      if (std::abs(ray->distance - free_radius) > 1e-4) {
+        EXPECT_EQ(signs[i], ray->distance > free_radius ? 1.0 : -1.0);
+        EXPECT_EQ(reach.Free(jets[i].p, *normal), ray->distance > free_radius);
+      }
+      if (signs[i] > 0.0) continue;
+      ++blocked;
+      ASSERT_TRUE(obstacles[i]);
+      EXPECT_LT(reach.Clearance(*obstacles[i], jets[i]), 0.0);
+      const double nearer = ball->distance - ray->distance - 0.02 * params.radius;
+      if (std::abs(nearer) < 0.01 * params.radius) continue;
+      EXPECT_EQ(reach.BlockedAbove(jets[i].p, *normal), nearer > 0.0);
+      above += nearer > 0.0;
+    }
+  }
+  EXPECT_GT(blocked, 100);
+  EXPECT_GT(above, 10);
+}
+
+TEST(ReachLimits, AreThoseOfAHemisphereOnAPlane) {
+  const double r = 8, radius = 3, tolerance = 0.01, half = 20;
+  const Surface surface = SurfaceOf(Join({Plane(half), Sphere(Vec3::Zero(), r, Half::kUpper)}));
+  RegionParams params;
+  params.radius = radius;
+  params.tolerance = tolerance;
+  const Locator free_ball(surface, radius - tolerance);
+  const ReachTest reach(free_ball, params);
+  // On the plane, outwards from the rim in all directions: free from this circle on.
+  const double reached = r + radius - tolerance, limit = std::sqrt(reached * reached - radius * radius);
+  std::vector<ZeroSegment> segments;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 2 * kPi * i / 24, from = 8.5 + 0.05 * i, to = 11.0 + 0.1 * i;
+    const Vec2 along(std::cos(angle), std::sin(angle));
+    const Vec2 middle(0.5, 0.5);
+    segments.push_back({middle + from / (2 * half) * along, middle + to / (2 * half) * along});
+  }
+  for (const double exact : {0.1, 0.01, 1e-4}) {
+    std::vector<double> limits(segments.size());
+    ReachLimits(reach, surface.pieces[0], segments, exact, limits);
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+      const Vec2 q = segments[k].from + limits[k] * (segments[k].to - segments[k].from);
+      EXPECT_NEAR(Plan(Position(surface.pieces[0], q.x(), q.y())).norm(), limit, exact) << exact;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
