@@ -2,7 +2,7 @@
 # Sets up, builds and runs all tests.
 #   scripts/test.sh            release build
 #   scripts/test.sh asan       the same under AddressSanitizer and UndefinedBehaviorSanitizer
-#   scripts/test.sh tsan       surfaces, search trees, regions and contours on several threads, under ThreadSanitizer
+#   scripts/test.sh tsan       whatever runs on several threads, jobs, cancels and the server among it, under ThreadSanitizer
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset="${1:-release}"

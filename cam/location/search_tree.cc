@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include "core/base/parallel.h"
@@ -231,6 +232,12 @@ void SearchLeaves::Append(const std::vector<SearchLeaf>& leaves) {
 
 absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius, const RunContext& run) {
   const std::size_t count = surface.pieces.size();
+  std::atomic<std::size_t> done{0};
+  const auto report = [&] {
+    const std::size_t n = done.fetch_add(1, std::memory_order_relaxed) + 1;
+    if (n % (count / 64 + 1) == 0)
+      run.Progress("location", static_cast<double>(n) / static_cast<double>(count));
+  };
   const std::size_t max_leaves = std::max(kMinLeavesPerPiece, kMaxLeaves / count);
   SearchTree tree{{}, LeafGrid(surface.box), {}};
   std::vector<Box3> boxes;
@@ -242,6 +249,7 @@ absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius
       const std::size_t i = begin + k;
       parts[k] =
           PieceSplitter(surface.pieces[i], static_cast<int>(i), tree.grid, radius, max_leaves, run).Take();
+      report();
     }));
     for (std::size_t k = 0; k < end - begin; ++k) {
       tree.leaves.Append(parts[k].leaves);

@@ -215,7 +215,7 @@ absl::StatusOr<ContourGround> SampleGround(const LevelContext& context, const Co
   ground.spacing = std::max(context.locator.radius() / 6.0, std::sqrt(area / kMostSamples));
   std::vector<ContourGround> parts(surface.pieces.size());
   const std::vector<Fineness> fineness = BendOfPieces(context);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, parts.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "contours: ground", parts.size(), [&](std::size_t i) {
     PieceSampler(context, params, PieceId(i), ground.spacing, fineness[i])
         .Run(run, parts[i].samples, parts[i].lower_ends);
   }));

@@ -38,11 +38,12 @@ constexpr double kForcedMargin = 1.05;
 class SpotFinder {
  public:
   SpotFinder(const Locator& locator, const Locator& reach, const std::vector<const PathTree*>& trees,
-             const CoverageParams& params)
+             const CoverageParams& params, const RunContext& run)
       : surface_(locator.surface()),
         reach_(reach),
         trees_(trees),
         params_(params),
+        run_(run),
         radius_(locator.radius()),
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
         cell_reach_{radius_, params.tolerance, params.floor_z + radius_, kFinest * flat_} {}
@@ -68,6 +69,7 @@ class SpotFinder {
   const Locator& reach_;
   const std::vector<const PathTree*>& trees_;
   const CoverageParams& params_;
+  const RunContext& run_;
   const double radius_;
   const double flat_;
   const CellReachParams cell_reach_;
@@ -171,6 +173,7 @@ bool SpotFinder::SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, cons
 
 void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth,
                        const Nearby& hint, std::vector<LeftoverSpot>& out) const {
+  if (run_.Cancelled()) return;
   std::array<Vec3, kMaxNetPoints> hull;
   const int count = HullPoints(shape, net, hull.data());
   const double u = 0.5 * (rect.u0 + rect.u1), v = 0.5 * (rect.v0 + rect.v1);
@@ -260,13 +263,12 @@ absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, cons
                                                     const std::vector<const PathTree*>& trees,
                                                     const std::vector<SurfaceRect>& rects,
                                                     const CoverageParams& params, const RunContext& run) {
-  const SpotFinder finder(locator, reach, trees, params);
+  const SpotFinder finder(locator, reach, trees, params, run);
   constexpr std::size_t kChunk = 32;
   const std::size_t chunks = (rects.size() + kChunk - 1) / kChunk;
   std::vector<std::vector<LeftoverSpot>> found(chunks);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, chunks, [&](std::size_t chunk) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "coverage: spots", chunks, [&](std::size_t chunk) {
     for (std::size_t i = chunk * kChunk; i < std::min(rects.size(), (chunk + 1) * kChunk); ++i) {
-      if (run.Cancelled()) return;
       finder.Search(rects[i], found[chunk]);
     }
   }));

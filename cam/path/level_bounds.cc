@@ -141,7 +141,7 @@ LevelBounds::LevelBounds(const Surface& surface, const PieceSides& sides, double
       node_of[static_cast<std::size_t>(surface.nodes[i].leaf)] = static_cast<std::int32_t>(i);
   }
   const absl::Status status =
-      ParallelFor(run, nullptr, (count + kBlock - 1) / kBlock, [&](std::size_t block) {
+      ParallelFor(run, "contours: bounds", (count + kBlock - 1) / kBlock, [&](std::size_t block) {
         for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
           const SurfaceLeaf& leaf = surface.leaves[i];
           const Piece& piece = surface.piece(leaf.piece);

@@ -46,7 +46,7 @@ std::vector<LineProbe> Clipper::Stations(const Interval& range) const {
   const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / (0.6 * flat_))));
   const std::vector<LineProbe> row = prober_.ProbeRow(range.begin, range.end, count, y_);
   std::vector<LineProbe> out = {row.front()};
-  for (std::size_t i = 1; i < row.size(); ++i) Subdivide(row[i - 1], row[i], out);
+  for (std::size_t i = 1; i < row.size() && !prober_.Cancelled(); ++i) Subdivide(row[i - 1], row[i], out);
   return out;
 }
 
@@ -105,7 +105,7 @@ std::vector<Interval> Clipper::Keep(const std::vector<LineProbe>& stations) cons
   const auto wanted = [](const LineProbe& p) { return p.wanted; };
   const auto allowed = [](const LineProbe& p) { return p.allowed; };
   const std::size_t n = stations.size();
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n && !prober_.Cancelled(); ++i) {
     const LineProbe& s = stations[i];
     if (!s.allowed) continue;
     if (!s.wanted) {

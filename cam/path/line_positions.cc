@@ -53,7 +53,7 @@ double CheapestStep(const std::vector<double>& needs, double min_step, double ma
 // The limit of what is wanted between two rows of which only one has something.
 double WantedLimit(const LineProber& prober, const Interval& range, double spacing, double with,
                    double without) {
-  while (std::abs(with - without) > 1e-3 * prober.flat_step()) {
+  while (std::abs(with - without) > 1e-3 * prober.flat_step() && !prober.Cancelled()) {
     const double mid = 0.5 * (with + without);
     (SampleRow(prober, range, spacing, mid).wanted() ? with : without) = mid;
   }
@@ -89,7 +89,7 @@ absl::StatusOr<std::vector<double>> LinePositions(const LineProber& prober, cons
   if (!(height > 0.0)) return std::vector<double>{};
   const auto count = static_cast<std::size_t>(std::ceil(height / row_step)) + 1;
   std::vector<Row> rows(count);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, count, [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: positions", count, [&](std::size_t i) {
     const double y = extent.y.begin + height * static_cast<double>(i) / static_cast<double>(count - 1);
     rows[i] = SampleRow(prober, extent.t, spacing, y);
   }));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "cam/location/heights.h"
 #include "cam/path/spacing.h"
@@ -15,12 +16,13 @@ LineFrame LineFrame::At(double angle) {
 }
 
 LineProber::LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-                       const PassParams& params, const KeepIn* part)
+                       const PassParams& params, const KeepIn* part, const RunContext& run)
     : locator_(locator),
       border_(border),
       frame_(frame),
       params_(params),
       part_(part),
+      run_(run),
       flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
 
 LineProbe LineProber::Probe(double t, double y, const SurfacePoint* hint) const {
@@ -35,7 +37,11 @@ std::vector<LineProbe> LineProber::ProbeRow(double t0, double t1, int count, dou
     places.push_back(frame_.At(at.back(), y));
   }
   std::vector<std::optional<CenterPoint>> heights(places.size());
-  Heights(locator_, places, heights);
+  constexpr std::size_t kBetweenPolls = 1024;
+  for (std::size_t i = 0; i < places.size() && !Cancelled(); i += kBetweenPolls) {
+    const std::size_t n = std::min(kBetweenPolls, places.size() - i);
+    Heights(locator_, std::span(places).subspan(i, n), std::span(heights).subspan(i, n));
+  }
   std::vector<LineProbe> row;
   row.reserve(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) row.push_back(Judge(at[i], y, heights[i]));

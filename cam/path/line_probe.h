@@ -9,6 +9,7 @@
 #include "cam/location/locator.h"
 #include "cam/path/pass_params.h"
 #include "cam/path/sheet_border.h"
+#include "core/base/run_context.h"
 
 namespace patchmill {
 
@@ -34,18 +35,19 @@ struct LineProbe {
   bool exists() const { return half_step > 0.0; }
 };
 
-// Probes along and beside lines of one direction; `part`: only what it wants is wanted, null: all.
-// Thread-safe.
+// Probes along and beside lines of one direction; `part`: only what it wants is wanted, null: all. Once `run`
+// is cancelled, rows end early and mean nothing. Thread-safe.
 class LineProber {
  public:
   LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-             const PassParams& params, const KeepIn* part = nullptr);
+             const PassParams& params, const KeepIn* part, const RunContext& run);
 
   // Cost: one exact height and one surface evaluation. `hint`: a contact nearby.
   LineProbe Probe(double t, double y, const SurfacePoint* hint = nullptr) const;
   // Of count + 1 places of one line, evenly spaced from t0 to t1, both included; heights in vector lanes.
   std::vector<LineProbe> ProbeRow(double t0, double t1, int count, double y) const;
 
+  bool Cancelled() const { return run_.Cancelled(); }
   double flat_step() const { return flat_step_; }
   const LineFrame& frame() const { return frame_; }
 
@@ -57,6 +59,7 @@ class LineProber {
   const LineFrame frame_;
   const PassParams params_;
   const KeepIn* const part_;
+  const RunContext& run_;
   const double flat_step_;
 };
 

@@ -296,7 +296,12 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return spots_[a].leftover > spots_[b].leftover; });
-  for (std::size_t i : order) {
+  const std::size_t report_every = order.size() / 64 + 1;
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    const std::size_t i = order[n];
+    if (n % report_every == 0) {
+      run_.Progress("coverage: passes", static_cast<double>(n) / static_cast<double>(order.size()));
+    }
     if (!open_[i]) continue;
     PM_RETURN_IF_ERROR(run_.Check());
     if (Gentle(i)) {

@@ -31,7 +31,7 @@ std::vector<Interval> NarrowSpots(const ClippedLine& a, const ClippedLine& b, co
 // Halves the gap between two lines where it is too wide, again and again.
 void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& b, const Interval& within,
              double min_step, std::vector<ClippedLine>& out) {
-  if (0.5 * (b.y - a.y) < min_step) return;
+  if (0.5 * (b.y - a.y) < min_step || prober.Cancelled()) return;
   for (const Interval& spot : NarrowSpots(a, b, within, prober.flat_step())) {
     const ClippedLine mid = ClipLine(prober, 0.5 * (a.y + b.y), spot);
     FillGap(prober, a, mid, spot, min_step, out);
@@ -46,17 +46,17 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
                                                     const RunContext& run) {
   const Surface& surface = locator.surface();
   const SheetBorder border(surface);
-  const LineProber prober(locator, border, LineFrame::At(params.angle), params, params.part);
+  const LineProber prober(locator, border, LineFrame::At(params.angle), params, params.part, run);
   const double min_step = params.min_step_fraction * prober.flat_step();
   const FrameExtent extent = ExtentInFrame(surface, prober.frame(), locator.radius());
   PM_ASSIGN_OR_RETURN(const std::vector<double> positions, LinePositions(prober, extent, min_step, run));
 
   std::vector<ClippedLine> lines(positions.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, positions.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: ends", positions.size(), [&](std::size_t i) {
     lines[i] = ClipLine(prober, positions[i], extent.t);
   }));
   std::vector<std::vector<ClippedLine>> between(lines.empty() ? 0 : lines.size() - 1);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, between.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: gaps", between.size(), [&](std::size_t i) {
     FillGap(prober, lines[i], lines[i + 1], extent.t, min_step, between[i]);
   }));
 

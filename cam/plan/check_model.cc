@@ -15,7 +15,7 @@ absl::StatusOr<Surface> BuildPlacedSurface(const PatchModel& model, const Setup&
   if (!p.translation.allFinite() || p.translation.norm() > 1e6) {
     return absl::InvalidArgumentError("setup.translation_mm; must be finite and within 1e6 mm");
   }
-  PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(Place(p, model)));
+  PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(Place(p, model), run));
   PM_RETURN_IF_ERROR(run.Check());
   return BuildSurface(std::move(network), SurfaceParams{}, run);
 }

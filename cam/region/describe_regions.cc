@@ -86,7 +86,7 @@ absl::Status DescribeRegions(const Surface& surface, const std::vector<SplitMesh
       if (regions[id].kind == RegionKind::kUnreachable) unreachable[id].push_back({piece, t});
     }
   }
-  return ParallelFor(run, nullptr, regions.size(), [&](std::size_t i) {
+  return ParallelFor(run, "regions: figures", regions.size(), [&](std::size_t i) {
     if (regions[i].kind == RegionKind::kUnreachable)
       Probe(surface, meshes, reach, params, unreachable[i], regions[i]);
   });

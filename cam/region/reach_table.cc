@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/parallel.h"
+#include "core/base/share_progress.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
@@ -45,8 +46,14 @@ absl::Status Check(const ReachTableParams& params) {
 // Areas of one piece by the number of radii that reach it.
 class PieceTable {
  public:
-  PieceTable(const Surface& surface, const Piece& piece, const ReachTableParams& params)
-      : surface_(surface), piece_(piece), params_(params), area_(params.radii.size() + 1, 0.0) {
+  PieceTable(const Surface& surface, const Piece& piece, const ReachTableParams& params,
+             const RunContext& run, ShareProgress& progress)
+      : surface_(surface),
+        piece_(piece),
+        params_(params),
+        run_(run),
+        progress_(progress),
+        area_(params.radii.size() + 1, 0.0) {
     const double side = LongestSide();
     largest_ = LevelFor(side / (kLargestCell * params.radii[0]));
     deepest_ = LevelFor(side / (kLeastCell * params.radii[0]));
@@ -108,6 +115,7 @@ class PieceTable {
   }
 
   void Cell(int level, int i, int j) {
+    if (run_.Cancelled()) return;
     const int step = kGrid >> level;
     // Middle and corners with the weights of verify's areas: exact for a cubic area element.
     const Sample samples[5] = {At(i * step, j * step), At(i * step, (j + 1) * step),
@@ -119,6 +127,7 @@ class PieceTable {
       for (int k = 0; k < 4; ++k) Cell(level + 1, 2 * i + k / 2, 2 * j + k % 2);
       return;
     }
+    progress_.Add(2 * level);
     const double size = std::ldexp(1.0, -2 * level);
     for (int k = 0; k < 5; ++k)
       area_[samples[k].reached] += size * (k == 4 ? 2.0 / 3.0 : 1.0 / 12.0) * samples[k].element;
@@ -127,6 +136,8 @@ class PieceTable {
   const Surface& surface_;
   const Piece& piece_;
   const ReachTableParams& params_;
+  const RunContext& run_;
+  ShareProgress& progress_;
   std::vector<double> area_;
   int largest_ = 0, deepest_ = 0;
   std::unordered_map<int, Sample> samples_;  // looked up, never walked
@@ -138,8 +149,9 @@ absl::StatusOr<ReachTableResult> ReachTable(const Surface& surface, const ReachT
                                             const RunContext& run) {
   PM_RETURN_IF_ERROR(Check(params));
   std::vector<std::vector<double>> pieces(surface.pieces.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, "reach", pieces.size(), [&](std::size_t i) {
-    pieces[i] = PieceTable(surface, surface.pieces[i], params).Measure();
+  ShareProgress progress(run, "reach", pieces.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
+    pieces[i] = PieceTable(surface, surface.pieces[i], params, run, progress).Measure();
   }));
   std::vector<double> reached(params.radii.size() + 1, 0.0);  // by how many of the radii
   for (const std::vector<double>& piece : pieces) {

@@ -191,7 +191,7 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
   const std::vector<std::size_t> first = FirstAlongEdge(meshes, adjacency, on_border);
   std::vector<std::vector<Vec3>> strand(on_border.size());
   const std::vector<std::size_t> runs = PieceRuns(adjacency, on_border);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, runs.size() - 1, [&](std::size_t r) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: borders", runs.size() - 1, [&](std::size_t r) {
     std::vector<std::size_t> own;
     for (std::size_t k = runs[r]; k < runs[r + 1]; ++k) {
       if (first[k] == k) own.push_back(k);

@@ -26,8 +26,9 @@ constexpr int kMostRegions = 40;     // reachable ones, at full detail
 // Shapes below this part of the ball's radius are too small for it to feel.
 constexpr double kMinCell = 0.06;
 
-ZeroMeshParams MeshParams(const Surface& surface, const RegionParams& params) {
+ZeroMeshParams MeshParams(const Surface& surface, const RegionParams& params, const RunContext& run) {
   ZeroMeshParams p;
+  p.run = &run;
   p.max_turn = 0.7;
   p.skip_negligible = true;
   p.max_cell = std::max(0.6 * params.radius, 0.02 * surface.box.Diagonal());
@@ -166,7 +167,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
       Locator::Make(surface, std::max(params.radius - params.tolerance, 0.5 * params.radius), run));
   const ReachTest reach(free_ball, params);
   const std::vector<ZeroField> fields = RegionFields(reach, params);
-  const ZeroMeshParams mesh_params = MeshParams(surface, params);
+  const ZeroMeshParams mesh_params = MeshParams(surface, params, run);
   std::vector<SplitMesh> meshes(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions", meshes.size(), [&](std::size_t i) {
     meshes[i] = BuildSplitMesh(surface.pieces[i], fields, params.steep_angle, mesh_params);

@@ -150,7 +150,7 @@ absl::StatusOr<std::vector<Adjacency>> FindAdjacency(const Surface& surface,
   const double join = std::max(surface.network.join_tolerance, 1e-9);
   const SideGrid grid(border, std::max(0.25 * longest, 4.0 * join));
   // Each writes its own side's neighbour and reads of the others only what is never written here.
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, border.size(), [&](std::size_t k) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: neighbours", border.size(), [&](std::size_t k) {
     const BorderSide& side = border[k];
     Adjacency& adjacency = result[side.adjacency];
     double best = kInfinity;

@@ -86,6 +86,7 @@ SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, 
   mesh.triangles.reserve(zero.triangles.size());
   VertexNormals normals(piece, mesh.vertices);
   for (const ZeroTriangle& t : zero.triangles) {
+    if (params.run != nullptr && params.run->Cancelled()) break;
     SplitTriangle triangle{t.vertex, LabelOf(t)};
     std::array<Vec2, 3> q;
     std::array<const Normal*, 3> normal{};

@@ -257,7 +257,7 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
   for (const auto& border : borders) cells += static_cast<double>(border.size());
   int deepest = 1;
   while (deepest < kDeepestBorder && cells * std::exp2(deepest + 1) <= kBorderCells) ++deepest;
-  PM_RETURN_IF_ERROR(sample(deepest, nullptr));
+  PM_RETURN_IF_ERROR(sample(deepest, "verify: limits of reach"));
   Sums sums;
   for (const Sums& part : parts) {
     for (std::size_t k = 0; k < kFinishClasses; ++k) {

@@ -25,7 +25,7 @@ absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::
   constexpr std::size_t kChunk = 64;
   const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
   std::vector<LeftoverSpread> parts(chunks, LeftoverSpread{});
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, chunks, [&](std::size_t chunk) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "verify: spread", chunks, [&](std::size_t chunk) {
     int hint = -1;
     const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) {

@@ -81,7 +81,7 @@ std::vector<CellRect> RootCells(const Surface& surface, double size, const RunCo
   constexpr std::size_t kChunk = 64;  // pieces
   const std::size_t chunks = (surface.pieces.size() + kChunk - 1) / kChunk;
   std::vector<std::vector<CellRect>> parts(chunks);
-  const absl::Status done = ParallelFor(run, nullptr, chunks, [&](std::size_t chunk) {
+  const absl::Status done = ParallelFor(run, "verify: cells", chunks, [&](std::size_t chunk) {
     CellWalker walker(surface);
     const std::size_t end = std::min(surface.pieces.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {

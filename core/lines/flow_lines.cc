@@ -61,6 +61,7 @@ class FlowTracer {
 
   absl::StatusOr<std::vector<ZeroCurve>> Run() {
     for (std::size_t k = 0; k < surface_.pieces.size(); ++k) {
+      run_.Progress("flow lines", static_cast<double>(k) / static_cast<double>(surface_.pieces.size()));
       const PieceId piece(k);
       const int n = SeedsAcross(surface_.pieces[k]);
       for (int i = 0; i < n; ++i) {

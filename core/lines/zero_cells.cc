@@ -65,7 +65,7 @@ class Divider {
     std::vector<OpenForm> open;
     for (std::size_t k = 0; k < fields_.size(); ++k) {
       std::optional<BernsteinForm> form;
-      if (fields_[k].form) form = fields_[k].form(piece_.net);
+      if (fields_[k].form && !Stopped()) form = fields_[k].form(piece_.net);
       if (form) {
         if (!params_.skip_negligible) form->negligible = 0.0;
         open.push_back({k, *std::move(form)});
@@ -78,11 +78,13 @@ class Divider {
     result_.corners.assign(static_cast<std::size_t>((kZeroGrid + 1) * (kZeroGrid + 1)), false);
     std::vector<Task> level(1);
     level[0].open = std::move(open);
-    while (!level.empty()) level = Refine(std::move(level));
+    while (!level.empty() && !Stopped()) level = Refine(std::move(level));
     return std::move(result_);
   }
 
  private:
+  bool Stopped() const { return params_.run != nullptr && params_.run->Cancelled(); }
+
   struct OpenForm {
     std::size_t field;
     BernsteinForm form;
@@ -124,6 +126,7 @@ class Divider {
     const int depth = level.front().cell.level;
     const bool proofs_only = sampled_.empty();
     for (Task& task : level) {
+      if (Stopped()) return {};
       if (Settled(task.open) && params_.curves_only && proofs_only) continue;
       task.divide = depth < levels_.start;
       for (const OpenForm& f : task.open) Decide(f, task);
@@ -143,6 +146,7 @@ class Divider {
     }
     std::vector<Task> next;
     for (Task& task : level) {
+      if (Stopped()) return {};
       if (task.divide) {
         Divide(task, next);
       } else {

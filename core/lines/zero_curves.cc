@@ -22,10 +22,11 @@ SurfacePoint At(PieceId id, const Piece& piece, const Vec2& q) {
 class PieceCurves {
  public:
   PieceCurves(PieceId id, const Piece& piece, const ZeroField& field, const ZeroMeshParams& params,
-              double tolerance)
-      : id_(id), piece_(piece), field_(field), tolerance_(tolerance) {
+              double tolerance, const RunContext& run)
+      : id_(id), piece_(piece), field_(field), tolerance_(tolerance), run_(run) {
     ZeroMeshParams drawn = params;
     drawn.curves_only = true;
+    drawn.run = &run;
     mesh_ = BuildZeroMesh(piece, {&field, 1}, drawn);
   }
 
@@ -87,6 +88,7 @@ class PieceCurves {
     curve.points.push_back(At(id_, piece_, Parameters(from)));
     int at = from;
     for (std::size_t i = arc;; i = 0) {
+      if (run_.Cancelled()) return;
       Arc& step = next_[at][i];
       step.used = true;
       for (const Vec2& q : RefineZeroArc(piece_, field_, Parameters(at), Parameters(step.to), tolerance_))
@@ -106,6 +108,7 @@ class PieceCurves {
   const Piece& piece_;
   const ZeroField& field_;
   double tolerance_;
+  const RunContext& run_;
   ZeroMesh mesh_;
   std::map<int, std::vector<Arc>> next_;
   std::map<int, int> arriving_;
@@ -185,7 +188,7 @@ absl::StatusOr<std::vector<std::vector<ZeroCurve>>> TraceZeroCurves(const Surfac
   std::vector<std::vector<ZeroCurve>> parts(pieces * fields.size());  // [field][piece]
   PM_RETURN_IF_ERROR(ParallelFor(run, "curves", parts.size(), [&](std::size_t k) {
     const std::size_t i = k % pieces;
-    parts[k] = PieceCurves(PieceId(i), surface.pieces[i], fields[k / pieces], params, tolerance).Trace();
+    parts[k] = PieceCurves(PieceId(i), surface.pieces[i], fields[k / pieces], params, tolerance, run).Trace();
   }));
   std::vector<std::vector<ZeroCurve>> traced(fields.size());
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);

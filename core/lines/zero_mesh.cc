@@ -20,7 +20,7 @@ std::uint64_t EdgeKey(int a, int b) {
 class Builder {
  public:
   Builder(const Piece& piece, std::span<const ZeroField> fields, const ZeroMeshParams& params)
-      : piece_(piece), fields_(fields), vertices_(piece, fields) {
+      : piece_(piece), fields_(fields), run_(params.run), vertices_(piece, fields, params.run) {
     cells_ = DivideForFields(piece, fields, params, vertices_);
   }
 
@@ -148,7 +148,7 @@ class Builder {
       for (std::size_t i = 0; i < edges.size(); ++i) {
         if (edges[i].bracket.Open()) open.push_back(i);
       }
-      if (open.empty()) break;
+      if (open.empty() || (run_ != nullptr && run_->Cancelled())) break;
       const auto values =
           many(open.size(), [&](std::size_t i) { return At(edges[open[i]], edges[open[i]].bracket.Next()); });
       for (std::size_t i = 0; i < open.size(); ++i) edges[open[i]].bracket.Put(values[i]);
@@ -267,6 +267,7 @@ class Builder {
 
   const Piece& piece_;
   std::span<const ZeroField> fields_;
+  const RunContext* run_;
   ZeroVertices vertices_;
   ZeroCells cells_;
   std::vector<ZeroTriangle> triangles_;

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/lines/zero_field.h"
 
 namespace patchmill {
@@ -45,6 +46,8 @@ struct ZeroMeshParams {
   // Divides no cell for the sake of a form that is negligible all over it (BernsteinForm): vertical walls and
   // flat plates of files with few digits would be divided to the last.
   bool skip_negligible = false;
+  // Polled when set: a mesh that was cancelled is cut short and means nothing.
+  const RunContext* run = nullptr;
 };
 
 // Cuts along fields[0], then fields[1], ... (at most kMaxZeroFields). Deterministic. Cost: some microseconds

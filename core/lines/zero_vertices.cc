@@ -1,5 +1,7 @@
 #include "core/lines/zero_vertices.h"
 
+#include <algorithm>
+
 #include "core/lines/zero_root.h"
 
 namespace patchmill {
@@ -67,14 +69,20 @@ void ZeroVertices::Ask(const std::vector<int>& ids, std::size_t k) {
 }
 
 std::vector<double> ZeroVertices::Values(const std::vector<Vec2>& places, std::size_t k) const {
+  constexpr std::size_t kBetweenPolls = 1024;
   std::vector<SurfaceJet> jets;
-  jets.reserve(places.size());
-  for (const Vec2& q : places) jets.push_back(Evaluate(piece_, q.x(), q.y()));
   std::vector<double> values(places.size());
-  if (fields_[k].values) {
-    fields_[k].values(jets, values);
-  } else {
-    for (std::size_t i = 0; i < jets.size(); ++i) values[i] = fields_[k].value(jets[i]);
+  for (std::size_t from = 0; from < places.size(); from += kBetweenPolls) {
+    if (run_ != nullptr && run_->Cancelled()) break;
+    const std::size_t count = std::min(kBetweenPolls, places.size() - from);
+    jets.clear();
+    for (std::size_t i = from; i < from + count; ++i)
+      jets.push_back(Evaluate(piece_, places[i].x(), places[i].y()));
+    if (fields_[k].values) {
+      fields_[k].values(jets, std::span(values).subspan(from, count));
+    } else {
+      for (std::size_t i = 0; i < count; ++i) values[from + i] = fields_[k].value(jets[i]);
+    }
   }
   return values;
 }

@@ -14,7 +14,9 @@ inline constexpr int kZeroGrid = 1 << kZeroMaxLevel;  // vertices sit on this gr
 
 class ZeroVertices {
  public:
-  ZeroVertices(const Piece& piece, std::span<const ZeroField> fields) : piece_(piece), fields_(fields) {}
+  // `run`: polled when not null; values asked for after a cancel are zeros.
+  ZeroVertices(const Piece& piece, std::span<const ZeroField> fields, const RunContext* run = nullptr)
+      : piece_(piece), fields_(fields), run_(run) {}
 
   // The vertex (gi,gj) / kZeroGrid, made when first asked for.
   int OnGrid(int gi, int gj);
@@ -38,6 +40,7 @@ class ZeroVertices {
  private:
   const Piece& piece_;
   std::span<const ZeroField> fields_;
+  const RunContext* run_;
   std::vector<ZeroVertex> all_;
   std::unordered_map<int, int> grid_;  // looked up, never walked
 };

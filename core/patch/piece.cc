@@ -24,7 +24,8 @@ HomogeneousJet NetJet(const BernsteinNet& net, double u, double v) {
 // operations of TensorJet in its order either way, hence the same bits.
 using Four = double __attribute__((vector_size(32)));
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// ThreadSanitizer would instrument the resolver, which runs before the sanitizer does.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 __attribute__((target_clones("avx2", "default")))
 #endif
 void SumBicubic(const double* points, const BasisJet& bu, const BasisJet& bv, double* out) {

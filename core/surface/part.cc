@@ -1,5 +1,7 @@
 #include "core/surface/part.h"
 
+#include <utility>
+
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -13,7 +15,7 @@ absl::StatusOr<Surface> PartOf(const Surface& surface, const std::vector<bool>& 
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (patches[i]) part.patches.push_back(whole.patches[i]);
   }
-  PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(part));
+  PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(std::move(part), run));
   return BuildSurface(std::move(network), SurfaceParams{}, run);
 }
 

@@ -7,6 +7,7 @@
 #include <absl/strings/str_cat.h>
 
 #include "core/base/parallel.h"
+#include "core/base/share_progress.h"
 #include "core/base/status.h"
 #include "core/surface/leaf_tree.h"
 #include "core/surface/net_kernel.h"
@@ -30,6 +31,7 @@ struct Budget {
   int max_depth;
   std::int64_t max_leaves;
   const RunContext& run;
+  ShareProgress progress;
   std::atomic<std::int64_t> leaves{0};
   std::atomic<bool> exceeded{false};
 };
@@ -115,6 +117,7 @@ class LeafSplitter {
     leaf.half = bounds.half;
     out_.leaves.push_back(leaf);
     out_.boxes.push_back(bounds.box);
+    budget_.progress.Add(rect.depth_u + rect.depth_v);
     const bool poll = out_.leaves.size() % 256 == 0;
     if (budget_.leaves.fetch_add(1, std::memory_order_relaxed) >= budget_.max_leaves ||
         (poll && budget_.run.Cancelled())) {
@@ -162,7 +165,7 @@ absl::Status MakePieces(Surface& surface, const RunContext& run) {
 // One attempt; false when the budget does not suffice.
 absl::StatusOr<bool> MakeLeaves(Surface& surface, Budget& budget, std::vector<PieceLeaves>& parts) {
   parts.assign(surface.pieces.size(), {});
-  PM_RETURN_IF_ERROR(ParallelFor(budget.run, "bounds", surface.pieces.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(budget.run, nullptr, surface.pieces.size(), [&](std::size_t i) {
     if (!budget.exceeded.load(std::memory_order_relaxed)) {
       parts[i] = LeafSplitter(PieceId(i), surface.pieces[i].net, budget).Take();
     }
@@ -199,7 +202,7 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   double thickness = params.leaf_thickness;
   std::vector<PieceLeaves> parts;
   for (int max_depth = params.max_depth;;) {
-    Budget budget{thickness, max_depth, max_leaves, run};
+    Budget budget{thickness, max_depth, max_leaves, run, {run, "bounds", surface.pieces.size()}};
     PM_ASSIGN_OR_RETURN(const bool fits, MakeLeaves(surface, budget, parts));
     if (fits) break;
     // Skip what is hopeless even if the estimate is 16 times too high.

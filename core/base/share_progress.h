@@ -1,0 +1,35 @@
+// Progress of work on a few large items, each done by halves of halves: by what is done of all of them.
+#pragma once
+
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+// Tells run.Progress(stage, share) some 64 times. For any number of threads; at most 2^23 items.
+class ShareProgress {
+ public:
+  ShareProgress(const RunContext& run, const char* stage, std::size_t items)
+      : run_(run), stage_(stage), all_(static_cast<std::uint64_t>(items) << kHalvings) {}
+
+  // An item's part is done: 2^-halvings of it, halvings in [0, 40].
+  void Add(int halvings) {
+    const std::uint64_t part = std::uint64_t{1} << (kHalvings - halvings);
+    const std::uint64_t done = done_.fetch_add(part, std::memory_order_relaxed) + part;
+    const std::uint64_t step = all_ / 64 + 1;
+    if (done / step == (done - part) / step && done != all_) return;
+    run_.Progress(stage_, static_cast<double>(done) / static_cast<double>(all_));
+  }
+
+ private:
+  static constexpr int kHalvings = 40;
+  const RunContext& run_;
+  const char* stage_;
+  const std::uint64_t all_;
+  std::atomic<std::uint64_t> done_{0};
+};
+
+}  // namespace patchmill

@@ -1,0 +1,217 @@
+// Every long computation stops within 0.2 s of being told to, wherever it stands.
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "cam/location/locator.h"
+#include "cam/path/contour_paths.h"
+#include "cam/path/coverage.h"
+#include "cam/path/zigzag_paths.h"
+#include "cam/region/reach_table.h"
+#include "cam/region/region_map.h"
+#include "core/joining/join_network.h"
+#include "core/lines/flow_lines.h"
+#include "core/lines/line_family.h"
+#include "core/lines/zero_curves.h"
+#include "core/network/patch_network.h"
+#include "core/surface/extent.h"
+#include "tests/support/cancel_latency.h"
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/sanitized.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using testing::PlacedSurface;
+using testing::SurfaceOf;
+
+// Done alone, it tells twice a second how far it is; told to stop at any of `count` moments, it does. Times
+// are processor time.
+void ExpectStops(const std::function<absl::Status(const RunContext&)>& work, int count = 6) {
+  constexpr double kLatency = testing::kSanitized ? 3.0 : 0.2, kSilence = testing::kSanitized ? 10.0 : 0.5;
+  const auto now = [] { return testing::ClockSeconds(CLOCK_THREAD_CPUTIME_ID); };
+  const double start = now();
+  double reported = start, silence = 0.0;
+  std::string stage = "the start", after;
+  const auto report = [&](std::string_view at, double) {
+    if (now() - reported > silence) {
+      silence = now() - reported;
+      after = stage;
+    }
+    reported = now();
+    stage = at;
+  };
+  RunContext whole(1);
+  whole.set_progress(report);
+  ASSERT_TRUE(work(whole).ok());
+  report("the end", 1.0);
+  const double all = now() - start;
+  EXPECT_LE(silence, kSilence) << "nothing said after " << after;
+
+  if (testing::kSanitized) count = 2;
+  int stopped = 0;
+  for (int k = 0; k < count; ++k) {
+    const double after_seconds = (k + 0.5) / count * all;
+    const testing::CancelLatency latency = testing::CancelAfter(after_seconds, work);
+    EXPECT_LE(latency.seconds, kLatency) << "told " << after_seconds << " s after the start, of " << all;
+    if (latency.status.code() == absl::StatusCode::kCancelled) ++stopped;
+  }
+  EXPECT_GE(stopped, count / 2);
+}
+
+PatchModel Waves(int side) {
+  PatchModel model;
+  const auto at = [](int i, int j) {
+    return Vec3(2.0 * i, 2.0 * j, 3.0 * std::sin(0.62 * i) * std::cos(0.54 * j));
+  };
+  for (int i = 0; i < side; ++i) {
+    for (int j = 0; j < side; ++j) {
+      model.patches.push_back(
+          {"", testing::Bilinear(at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1))});
+    }
+  }
+  return model;
+}
+
+// Five metres long, four millimetres wide: lines of ten thousand samples.
+PatchModel LongPart() {
+  return testing::Single(testing::InterpolatedHeights(
+      [](double x, double y) { return 3.0 * std::sin(0.31 * x) * std::cos(0.2 * y); }, 0.0, 5000.0, 0.0, 4.0,
+      1000, 3));
+}
+
+TEST(Cancel, Adjacency) {
+  const PatchModel model = Waves(200);
+  ExpectStops([&](const RunContext& run) { return BuildNetwork(model, run).status(); });
+}
+
+// Each row half a patch beside the last: T-junctions everywhere.
+TEST(Cancel, AdjacencyOfPatchesThatDoNotMeet) {
+  PatchModel model = Waves(100);
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    for (Vec3& p : std::get<BezierPatch>(model.patches[i].shape).points) {
+      p.y() += static_cast<double>((i / 100) % 2);
+    }
+  }
+  ExpectStops([&](const RunContext& run) { return BuildNetwork(model, run).status(); });
+}
+
+TEST(Cancel, PlacedModels) {
+  const PatchModel model = Waves(150);
+  ExpectStops([&](const RunContext& run) { return BuildPlacedSurface(model, {}, run).status(); });
+}
+
+TEST(Cancel, Surface) {
+  PatchNetwork network;
+  network.model = testing::Bumpy();
+  ExpectStops(
+      [&](const RunContext& run) { return BuildSurface(network, {.leaf_thickness = 1e-3}, run).status(); });
+}
+
+TEST(Cancel, ManyPatches) {
+  PatchNetwork network;
+  network.model = Waves(300);
+  ExpectStops([&](const RunContext& run) { return BuildSurface(network, {}, run).status(); });
+}
+
+TEST(Cancel, Locator) {
+  const Surface surface = SurfaceOf(testing::Bumpy());
+  ExpectStops([&](const RunContext& run) { return Locator::Make(surface, 0.6, run).status(); });
+}
+
+TEST(Cancel, Zigzag) {
+  const Surface surface = PlacedSurface(LongPart());
+  const Locator locator(surface, 2.0);
+  ZigzagParams params;
+  params.scallop = 0.1;
+  params.chord_tolerance = 0.02;
+  ExpectStops([&](const RunContext& run) { return ZigzagPaths(locator, params, run).status(); });
+}
+
+TEST(Cancel, Contours) {
+  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 12, .size = 50.0}));
+  const Locator locator(surface, 2.0);
+  ContourParams params;
+  params.scallop = 0.1;
+  params.chord_tolerance = 0.02;
+  ExpectStops([&](const RunContext& run) { return ContourPaths(locator, params, run).status(); });
+}
+
+TEST(Cancel, RestPasses) {
+  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 8, .size = 40.0}));
+  const Locator locator(surface, 2.0);
+  CoverageParams params;
+  params.scallop = 0.05;
+  params.limit = 0.06;
+  ExpectStops([&](const RunContext& run) { return RestPaths(locator, {}, params, run).status(); });
+}
+
+TEST(Cancel, Regions) {
+  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 25, .size = 60.0}));
+  ExpectStops([&](const RunContext& run) { return SplitRegions(surface, {}, run).status(); });
+}
+
+TEST(Cancel, ReachOfManyBalls) {
+  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 8, .size = 40.0}));
+  ExpectStops([&](const RunContext& run) {
+    return ReachTable(surface, {.radii = {0.5, 1.0, 2.0, 3.0, 5.0}}, run).status();
+  });
+}
+
+TEST(Cancel, Jobs) {
+  const Surface surface = PlacedSurface(testing::RandomBspline(5, {.spans = 8, .size = 40}));
+  Job job = testing::BallJob(2.0);
+  job.operation.scallop = 0.02;
+  ExpectStops([&](const RunContext& run) { return RunJob(surface, job, run).status(); }, 12);
+}
+
+// One patch is the whole part: nothing to go round, everything inside.
+TEST(Cancel, OnePatch) {
+  const PatchModel hull = testing::Single(testing::RandomBezier(3, 15, 15, true, 100.0));
+  PatchNetwork network;
+  network.model = hull;
+  ExpectStops(
+      [&](const RunContext& run) { return BuildSurface(network, {.leaf_thickness = 1e-3}, run).status(); });
+  const Surface surface = PlacedSurface(hull);
+  ExpectStops([&](const RunContext& run) { return Locator::Make(surface, 0.3, run).status(); });
+  ExpectStops([&](const RunContext& run) { return SplitRegions(surface, {}, run).status(); });
+  ExpectStops([&](const RunContext& run) {
+    return ReachTable(surface, {.radii = {0.5, 1.0, 2.0, 3.0, 5.0}}, run).status();
+  });
+  const ZeroField field = FieldOf(ContourInflectionLines(), 0.0);
+  ExpectStops([&](const RunContext& run) {
+    return TraceZeroCurves(surface, field, ZeroMeshParams(), 1e-4, run).status();
+  });
+}
+
+// Planes: one leaf each.
+TEST(Cancel, OneLeaf) {
+  const Surface surface = PlacedSurface(testing::Plane(50.0, 0.0, 0.2, 0.1));
+  Job job = testing::BallJob(2.0);
+  job.operation.scallop = 0.01;
+  ExpectStops([&](const RunContext& run) { return RunJob(surface, job, run).status(); });
+  const Locator locator(surface, 2.0);
+  CoverageParams params;
+  params.scallop = 0.05;
+  params.limit = 0.06;
+  ExpectStops([&](const RunContext& run) { return RestPaths(locator, {}, params, run).status(); });
+}
+
+TEST(Cancel, Lines) {
+  const Surface surface = SurfaceOf(testing::Bumpy());
+  const ZeroField field = FieldOf(ContourInflectionLines(), 0.0);
+  ExpectStops([&](const RunContext& run) {
+    return TraceZeroCurves(surface, field, ZeroMeshParams(), 1e-3, run).status();
+  });
+}
+
+TEST(Cancel, FlowLines) {
+  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 8, .size = 40.0}));
+  ExpectStops([&](const RunContext& run) { return TraceFlowLines(surface, {.spacing = 0.5}, run).status(); });
+}
+
+}  // namespace
+}  // namespace patchmill

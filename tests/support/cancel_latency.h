@@ -1,0 +1,58 @@
+// How long a computation goes on after it was told to stop.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include <absl/status/status.h>
+#include <pthread.h>
+#include <time.h>
+
+#include "core/base/run_context.h"
+#include "core/base/vec.h"
+
+namespace patchmill::testing {
+
+inline double ClockSeconds(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+struct CancelLatency {
+  absl::Status status;   // what the work ended with
+  double seconds = 0.0;  // of its processor time, from the cancel to the end; 0 when it was done before
+};
+
+// Runs `work` on one thread, told to stop from another once it has had `after` seconds of processor time. The
+// processor's time, not the wall's: a busy machine spoils nothing.
+inline CancelLatency CancelAfter(double after, const std::function<absl::Status(const RunContext&)>& work) {
+  clockid_t clock{};
+  pthread_getcpuclockid(pthread_self(), &clock);
+  const double start = ClockSeconds(clock);
+  RunContext run(1);
+  std::atomic<bool> done{false};
+  double asked = kInfinity;
+  std::thread canceller([&] {
+    while (!done) {
+      const double now = ClockSeconds(clock);
+      if (now >= start + after) {
+        run.Cancel();
+        asked = now;
+        return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  CancelLatency result;
+  result.status = work(run);
+  const double end = ClockSeconds(clock);
+  done = true;
+  canceller.join();
+  if (asked < end) result.seconds = end - asked;
+  return result;
+}
+
+}  // namespace patchmill::testing
