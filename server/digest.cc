@@ -43,6 +43,10 @@ void AddShape(const GregoryPatch& p, Canonical& out) {
 void AddShape(const BrownPatch& p, Canonical& out) {
   out.Add("brown").Add(std::int64_t{p.degree_u}).Add(std::int64_t{p.degree_v});
   AddPoints(p.points, out);
+  if (p.breaks_u.empty() && p.breaks_v.empty()) return;  // as before there were any
+  out.Add("breaks");
+  AddNumbers(p.breaks_u, out);
+  AddNumbers(p.breaks_v, out);
 }
 
 void AddShape(const GregoryTriangle& p, Canonical& out) {

@@ -59,24 +59,11 @@ void Elevate(BezierChain& chain, int degree) {
   if (chain.degree == degree) return;
   std::vector<Vec3> points = {chain.points.front()};
   for (int k = 0; k < chain.spans(); ++k) {
-    const auto first = chain.points.begin() + k * chain.degree;
-    const std::vector<Vec3> raised = Elevated(BezierCurve{{first, first + chain.degree + 1}}, degree).points;
+    const std::vector<Vec3> raised = Elevated(SpanOf(chain, k), degree).points;
     points.insert(points.end(), raised.begin() + 1, raised.end());
   }
   chain.degree = degree;
   chain.points = std::move(points);
-}
-
-// All breaks; of those that count as one the first.
-std::vector<double> CommonBreaks(const std::vector<BezierChain>& chains) {
-  std::vector<double> all;
-  for (const BezierChain& chain : chains) all.insert(all.end(), chain.breaks.begin(), chain.breaks.end());
-  std::ranges::sort(all);
-  std::vector<double> breaks;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (k == 0 || all[k] - all[k - 1] > kMinBreakGap) breaks.push_back(all[k]);
-  }
-  return breaks;
 }
 
 // The common break that one of a chain's counts as.
@@ -112,6 +99,85 @@ absl::Status Refine(BezierChain& chain, const std::vector<double>& breaks) {
 }
 
 }  // namespace
+
+BezierChain AsChain(BezierCurve curve) { return {curve.degree(), {0.0, 1.0}, std::move(curve.points)}; }
+
+BezierCurve SpanOf(const BezierChain& chain, int span) {
+  const auto first = chain.points.begin() + span * chain.degree;
+  return {{first, first + chain.degree + 1}};
+}
+
+namespace {
+
+CurveJet OnSpan(const BezierChain& chain, int k, double t) {
+  const double from = chain.breaks[At(k)], length = chain.breaks[At(k + 1)] - from;
+  CurveJet jet = Evaluate(SpanOf(chain, k), (t - from) / length);
+  jet.d /= length;
+  jet.dd /= length * length;
+  return jet;
+}
+
+}  // namespace
+
+CurveJet Evaluate(const BezierChain& chain, double t) {
+  int k = 0;
+  while (k + 1 < chain.spans() && chain.breaks[At(k + 1)] <= t) ++k;
+  return OnSpan(chain, k, t);
+}
+
+std::array<CurveJet, 2> JetsAtBreak(const BezierChain& chain, int k) {
+  const double t = chain.breaks[At(k)];
+  return {OnSpan(chain, k - 1, t), OnSpan(chain, k, t)};
+}
+
+HermiteCurve HermiteOf(const BezierChain& chain) {
+  const int last = chain.spans() - 1;
+  const HermiteCurve start = HermiteOf(SpanOf(chain, 0)),
+                     end = last > 0 ? HermiteOf(SpanOf(chain, last)) : start;
+  return {start.p0, start.d0 / chain.breaks[1], end.p1, end.d1 / (1.0 - chain.breaks[At(last)])};
+}
+
+BezierChain Reversed(BezierChain chain) {
+  std::ranges::reverse(chain.points);
+  std::ranges::reverse(chain.breaks);
+  for (double& b : chain.breaks) b = 1.0 - b;
+  return chain;
+}
+
+BezierChain Elevated(BezierChain chain, int degree) {
+  Elevate(chain, degree);
+  return chain;
+}
+
+BezierChain Part(const BezierChain& chain, double t1, double t2) {
+  BezierChain part{chain.degree, {0.0}, {}};
+  for (int k = 0; k < chain.spans(); ++k) {
+    const double a = chain.breaks[At(k)], b = chain.breaks[At(k + 1)];
+    const double from = std::max(t1, a), to = std::min(t2, b);
+    if (to - from <= kMinBreakGap) continue;
+    const std::vector<Vec3> span = Part(SpanOf(chain, k), (from - a) / (b - a), (to - a) / (b - a)).points;
+    part.points.insert(part.points.end(), span.begin() + (part.points.empty() ? 0 : 1), span.end());
+    part.breaks.push_back((to - t1) / (t2 - t1));
+  }
+  part.breaks.back() = 1.0;
+  return part;
+}
+
+BezierChain CutAt(BezierChain chain, const std::vector<double>& breaks) {
+  if (chain.breaks != breaks) PM_CHECK(Refine(chain, breaks).ok());
+  return chain;
+}
+
+std::vector<double> CommonBreaks(const std::vector<BezierChain>& chains) {
+  std::vector<double> all;
+  for (const BezierChain& chain : chains) all.insert(all.end(), chain.breaks.begin(), chain.breaks.end());
+  std::ranges::sort(all);
+  std::vector<double> breaks;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (k == 0 || all[k] - all[k - 1] > kMinBreakGap) breaks.push_back(all[k]);
+  }
+  return breaks;
+}
 
 absl::StatusOr<BezierChain> ChainOf(const Curve& curve) {
   if (const auto* spline = std::get_if<BsplineCurve>(&curve)) return Chain(*spline);

@@ -31,7 +31,8 @@ int Steps(const PatchShape& shape, int edge) {
   } else if (const auto* t = std::get_if<BezierTriangle>(&shape)) {
     steps = 2 * t->degree;
   } else if (const auto* q = std::get_if<BrownPatch>(&shape)) {
-    steps = 2 * (edge % 2 == 0 ? q->degree_u : q->degree_v);
+    const auto spans = static_cast<int>((edge % 2 == 0 ? q->breaks_u : q->breaks_v).size()) + 1;
+    steps = 2 * spans * (edge % 2 == 0 ? q->degree_u : q->degree_v);
   } else if (const auto* g = std::get_if<G2GregoryPatch>(&shape)) {
     steps = 2 * g->degree;
   } else if (const auto* h = std::get_if<HosakaPatch>(&shape)) {

@@ -191,11 +191,33 @@ void CheckShape(const BezierTriangle& t, Faults& faults) {
   CheckWeights(t.weights, t.points.size(), faults);
 }
 
+bool CheckBreaks(const std::vector<double>& breaks, std::string_view field, Faults& faults) {
+  if (breaks.size() > static_cast<std::size_t>(kMaxBrownBreaks)) {
+    faults.Add("INVALID_BREAKS", field,
+               fmt::format("has {} entries; at most {}", breaks.size(), kMaxBrownBreaks));
+    return false;
+  }
+  double last = 0.0;
+  for (const double at : breaks) {
+    if (!(at >= last + kMinKnotSpan && at <= 1.0 - kMinKnotSpan)) {
+      faults.Add("INVALID_BREAKS", field,
+                 fmt::format("has {:g} after {:g}; must increase within (0, 1)", at, last));
+      return false;
+    }
+    last = at;
+  }
+  return true;
+}
+
 void CheckShape(const BrownPatch& b, Faults& faults) {
   const bool u = CheckDegree(b.degree_u, "degree_u", faults, 3, kMaxBrownDegree);
   const bool v = CheckDegree(b.degree_v, "degree_v", faults, 3, kMaxBrownDegree);
-  if (u && v) {
-    CheckPointCount(b.points.size(), static_cast<std::size_t>(4 * (b.degree_u + b.degree_v) - 4), faults);
+  const bool breaks =
+      CheckBreaks(b.breaks_u, "breaks_u", faults) && CheckBreaks(b.breaks_v, "breaks_v", faults);
+  if (u && v && breaks) {
+    const std::size_t n = static_cast<std::size_t>(b.degree_u) * (b.breaks_u.size() + 1),
+                      m = static_cast<std::size_t>(b.degree_v) * (b.breaks_v.size() + 1);
+    CheckPointCount(b.points.size(), 4 * (n + m) - 4, faults);
   }
   CheckPoints(b.points, faults);
 }
@@ -256,6 +278,20 @@ void CheckShape(const HosakaPatch& h, Faults& faults) {
   CheckPoints(h.points, faults);
 }
 
+// Few breaks cut a patch into many pieces, so it counts with the points of these.
+std::size_t PointLoad(const PatchShape& shape) {
+  std::size_t pieces = 1, each = 0;
+  if (const auto* brown = std::get_if<BrownPatch>(&shape)) {
+    pieces = (brown->breaks_u.size() + 1) * (brown->breaks_v.size() + 1);
+    each = 64;  // the least, of bidegree 7
+  } else if (const auto* h = std::get_if<HosakaPatch>(&shape)) {
+    const auto& b = h->breaks;
+    pieces = (b[0].size() + b[2].size() + 1) * (b[1].size() + b[3].size() + 1);
+    each = 49;
+  }
+  return std::max(ControlPoints(shape).size(), pieces > 1 ? pieces * each : 0);
+}
+
 void CheckIds(const PatchModel& model, Faults& faults) {
   std::unordered_map<std::string_view, std::size_t> first;
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
@@ -302,7 +338,7 @@ Diagnostics ValidateModel(const PatchModel& model) {
     return faults.Take();
   }
   std::size_t points = 0;
-  for (const Patch& patch : model.patches) points += ControlPoints(patch.shape).size();
+  for (const Patch& patch : model.patches) points += PointLoad(patch.shape);
   if (points > static_cast<std::size_t>(kMaxControlPoints)) {
     faults.AddToModel("POINT_COUNT", "patches",
                       fmt::format("have {} control points together; at most {}", points, kMaxControlPoints));

@@ -1,5 +1,6 @@
 // Brown quad: two lofts of general boundary curves, blended by squared weights.
 //
+// Rows may be chains of curves between breaks; a rectangle between breaks sees its own stretch of each.
 // Each row (curve or rail of v=0, v=1) is its cubic Hermite part plus a rest that vanishes to second order at
 // both ends; columns likewise. With H1, H2 the bicubics of the Hermite parts, X, Y the lofts of the rests,
 //   S = H2 + lambda (H1 - H2) + lambda X + (1 - lambda) Y,   lambda = p/(p+q), 1 - lambda = q/(p+q),
@@ -13,63 +14,119 @@ namespace {
 
 constexpr int kMaxRow = kMaxBrownDegree + 1;
 
+// One rectangle between breaks.
+struct Span {
+  double t0 = 0.0, t1 = 1.0;
+  int index = 0;
+};
+
+Span SpanNumber(const std::vector<double>& breaks, std::size_t k) {
+  return {k > 0 ? breaks[k - 1] : 0.0, k < breaks.size() ? breaks[k] : 1.0, static_cast<int>(k)};
+}
+
+Span SpanAt(const std::vector<double>& breaks, double t) {
+  std::size_t k = 0;
+  while (k < breaks.size() && breaks[k] <= t) ++k;
+  return SpanNumber(breaks, k);
+}
+
 // The four curves of one loft, in order from parameter 0 to 1 across: edge, rail, rail, edge.
 struct Loft {
   int degree = 0;
-  Vec3 row[4][kMaxRow];
+  Span span;
+  Vec3 row[4][kMaxRow];  // on the span
+  Vec3 cubic[4][4];      // of the whole row: Bezier points of the cubic with its ends and end derivatives
 };
 
 struct Lofts {
   Loft u, v;  // rows along u (lofted across v), columns along v (lofted across u)
 };
 
-Lofts LoftsOf(const BrownPatch& patch) {
-  const int n = patch.degree_u, m = patch.degree_v;
-  const Vec3* next = patch.points.data();
-  Lofts l;
-  l.u.degree = n;
-  l.v.degree = m;
-  const auto read = [&next](Vec3* row, int first, int last) {
-    for (int k = first; k <= last; ++k) row[k] = *next++;
-  };
-  read(l.u.row[0], 0, n);
-  read(l.u.row[3], 0, n);
-  read(l.v.row[0], 1, m - 1);
-  read(l.v.row[3], 1, m - 1);
-  read(l.u.row[1], 1, n - 1);
-  read(l.u.row[2], 1, n - 1);
-  read(l.v.row[1], 1, m - 1);
-  read(l.v.row[2], 1, m - 1);
-  for (const int side : {0, 3}) {
-    l.v.row[side][0] = l.u.row[0][side == 0 ? 0 : n];
-    l.v.row[side][m] = l.u.row[3][side == 0 ? 0 : n];
+// The points of a patch by what they belong to; side 0 and 3 are edges, 1 and 2 rails.
+class Rows {
+ public:
+  explicit Rows(const BrownPatch& patch)
+      : patch_(patch),
+        n_(patch.degree_u * (static_cast<int>(patch.breaks_u.size()) + 1)),
+        m_(patch.degree_v * (static_cast<int>(patch.breaks_v.size()) + 1)) {}
+
+  Vec3 U(int side, int i) const {
+    if (side == 0 || side == 3) return Point((side == 0 ? 0 : n_ + 1) + i);
+    if (i > 0 && i < n_) return Point(2 * (n_ + m_) + (side == 1 ? 0 : n_ - 1) + i - 1);
+    const int edge =
+        i == 0 ? 0 : 3;  // a rail starts a third of the crossing edge's derivative beside the corner
+    return side == 1 ? StartOf(false, edge) : EndOf(false, edge);
   }
-  // A rail starts a third of the crossing edge's end derivative beside the corner.
-  const auto beside = [](const Vec3* row, int degree, bool end) -> Vec3 {
-    const Vec3& corner = row[end ? degree : 0];
-    return corner + degree / 3.0 * (row[end ? degree - 1 : 1] - corner);
-  };
-  for (const bool end : {false, true}) {
-    l.u.row[1][end ? n : 0] = beside(l.v.row[end ? 3 : 0], m, false);
-    l.u.row[2][end ? n : 0] = beside(l.v.row[end ? 3 : 0], m, true);
-    l.v.row[1][end ? m : 0] = beside(l.u.row[end ? 3 : 0], n, false);
-    l.v.row[2][end ? m : 0] = beside(l.u.row[end ? 3 : 0], n, true);
+  Vec3 V(int side, int j) const {
+    if (side == 0 || side == 3) {
+      if (j == 0 || j == m_) return U(j == 0 ? 0 : 3, side == 0 ? 0 : n_);
+      return Point(2 * n_ + 2 + (side == 0 ? 0 : m_ - 1) + j - 1);
+    }
+    if (j > 0 && j < m_) return Point(4 * n_ + 2 * m_ - 2 + (side == 1 ? 0 : m_ - 1) + j - 1);
+    const int edge = j == 0 ? 0 : 3;
+    return side == 1 ? StartOf(true, edge) : EndOf(true, edge);
   }
-  return l;
+
+  Loft On(bool along_u, const Span& span) const {
+    Loft loft;
+    loft.degree = along_u ? patch_.degree_u : patch_.degree_v;
+    loft.span = span;
+    const int first = span.index * loft.degree, last = along_u ? n_ : m_;
+    for (int side = 0; side < 4; ++side) {
+      for (int k = 0; k <= loft.degree; ++k) loft.row[side][k] = At(along_u, side, first + k);
+      loft.cubic[side][0] = At(along_u, side, 0);
+      loft.cubic[side][1] = StartOf(along_u, side);
+      loft.cubic[side][2] = EndOf(along_u, side);
+      loft.cubic[side][3] = At(along_u, side, last);
+    }
+    return loft;
+  }
+
+ private:
+  const Vec3& Point(int k) const { return patch_.points[static_cast<std::size_t>(k)]; }
+  Vec3 At(bool along_u, int side, int k) const { return along_u ? U(side, k) : V(side, k); }
+  // A third of the derivative beyond the first (before the last) point of a row.
+  Vec3 StartOf(bool along_u, int side) const {
+    const std::vector<double>& breaks = along_u ? patch_.breaks_u : patch_.breaks_v;
+    const int degree = along_u ? patch_.degree_u : patch_.degree_v;
+    const Vec3 corner = At(along_u, side, 0);
+    return corner + degree / (3.0 * SpanNumber(breaks, 0).t1) * (At(along_u, side, 1) - corner);
+  }
+  Vec3 EndOf(bool along_u, int side) const {
+    const std::vector<double>& breaks = along_u ? patch_.breaks_u : patch_.breaks_v;
+    const int degree = along_u ? patch_.degree_u : patch_.degree_v, last = along_u ? n_ : m_;
+    const Vec3 corner = At(along_u, side, last);
+    return corner + degree / (3.0 * (1.0 - SpanNumber(breaks, breaks.size()).t0)) *
+                        (At(along_u, side, last - 1) - corner);
+  }
+
+  const BrownPatch& patch_;
+  int n_ = 0, m_ = 0;  // degrees times spans
+};
+
+Lofts LoftsOf(const BrownPatch& patch, const Span& u, const Span& v) {
+  const Rows rows(patch);
+  return {rows.On(true, u), rows.On(false, v)};
 }
 
-// Bezier points of the cubic with a row's ends and end derivatives.
-void HermitePart(const Vec3* row, int n, Vec3 cubic[4]) {
-  cubic[0] = row[0];
-  cubic[1] = row[0] + n / 3.0 * (row[1] - row[0]);
-  cubic[2] = row[n] + n / 3.0 * (row[n - 1] - row[n]);
-  cubic[3] = row[n];
+void Restrict(Vec3* points, int degree, const Span& span) {
+  if (span.t1 < 1.0) KeepLeft(points, degree, 1, span.t1);
+  if (span.t0 > 0.0) KeepRight(points, degree, 1, span.t0 / span.t1);
 }
 
-// Inner Bernstein coefficients 2..n-2 of row - cubic (the others are zero): rest[0..n-4].
-int RestOf(const Vec3* row, int n, const Vec3 cubic[4], Vec3* rest) {
-  Vec3 high[kMaxRow];
-  for (int k = 0; k < 4; ++k) high[k] = cubic[k];
+// Bernstein coefficients of row - cubic on the span; zero to second order at the ends of the whole row.
+struct Rest {
+  int first = 0, last = 0;  // those that are not zero
+  Vec3 c[kMaxRow];
+};
+Rest RestOf(const Loft& loft, int side) {
+  const int n = loft.degree;
+  Rest rest;
+  rest.first = loft.span.t0 == 0.0 ? 2 : 0;
+  rest.last = loft.span.t1 == 1.0 ? n - 2 : n;
+  Vec3* high = rest.c;
+  for (int k = 0; k < 4; ++k) high[k] = loft.cubic[side][k];
+  Restrict(high, 3, loft.span);
   for (int d = 4; d <= n; ++d) {
     high[d] = high[d - 1];
     for (int i = d - 1; i >= 1; --i) {
@@ -77,8 +134,15 @@ int RestOf(const Vec3* row, int n, const Vec3 cubic[4], Vec3* rest) {
       high[i] = a * high[i - 1] + (1.0 - a) * high[i];
     }
   }
-  for (int k = 2; k <= n - 2; ++k) rest[k - 2] = row[k] - high[k];
-  return n - 3;
+  for (int k = rest.first; k <= rest.last; ++k) rest.c[k] = loft.row[side][k] - high[k];
+  return rest;
+}
+
+// Of the span's Bernstein basis, by the parameter of the whole.
+void SpanBasis(const Loft& loft, double t, BasisJet& basis) {
+  const double length = loft.span.t1 - loft.span.t0;
+  AllBernsteinJet(loft.degree, (t - loft.span.t0) / length, basis);
+  for (int k = 0; k <= loft.degree; ++k) basis.d[k] /= length, basis.dd[k] /= length * length;
 }
 
 struct Blend {
@@ -105,58 +169,54 @@ Jet2 Basis(const BasisJet& bu, int i, const BasisJet& bv, int j) {
 }  // namespace
 
 SurfaceJet EvaluateShape(const BrownPatch& patch, double u, double v) {
-  const Lofts lofts = LoftsOf(patch);
-  const int n = lofts.u.degree, m = lofts.v.degree;
+  const Lofts lofts = LoftsOf(patch, SpanAt(patch.breaks_u, u), SpanAt(patch.breaks_v, v));
   BasisJet bu, bv, bn, bm;
   AllBernsteinJet(3, u, bu);
   AllBernsteinJet(3, v, bv);
-  AllBernsteinJet(n, u, bn);
-  AllBernsteinJet(m, v, bm);
+  SpanBasis(lofts.u, u, bn);
+  SpanBasis(lofts.v, v, bm);
   const Blend blend = BlendAt(u, v);
   const bool corner = NearCorner(u, v);
   SurfaceJet s;
-  Vec3 first[4][4], second[4][4];  // H1[i][j], H2[i][j]
-  Vec3 rest[kMaxRow];
   for (int k = 0; k < 4; ++k) {
-    Vec3 cubic[4];
-    HermitePart(lofts.u.row[k], n, cubic);
-    for (int i = 0; i < 4; ++i) first[i][k] = cubic[i];
-    int count = RestOf(lofts.u.row[k], n, cubic, rest);
-    for (int l = 0; l < count; ++l) {
-      const Jet2 basis = Basis(bn, l + 2, bv, k);
+    const Rest along_u = RestOf(lofts.u, k);
+    for (int l = along_u.first; l <= along_u.last; ++l) {
+      const Jet2 basis = Basis(bn, l, bv, k);
       Jet2 phi = blend.lambda * basis;
       if (corner) phi.uu = basis.uu, phi.uv = phi.vv = 0.0;  // the edge's own second derivative
-      AddTerm(phi, rest[l], s);
+      AddTerm(phi, along_u.c[l], s);
     }
-    HermitePart(lofts.v.row[k], m, second[k]);
-    count = RestOf(lofts.v.row[k], m, second[k], rest);
-    for (int l = 0; l < count; ++l) {
-      const Jet2 basis = Basis(bu, k, bm, l + 2);
+    const Rest along_v = RestOf(lofts.v, k);
+    for (int l = along_v.first; l <= along_v.last; ++l) {
+      const Jet2 basis = Basis(bu, k, bm, l);
       Jet2 phi = blend.rest * basis;
       if (corner) phi.vv = basis.vv, phi.uv = phi.uu = 0.0;
-      AddTerm(phi, rest[l], s);
+      AddTerm(phi, along_v.c[l], s);
     }
   }
   for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) {
+    for (int j = 0; j < 4; ++j) {  // H1[i][j] = u.cubic[j][i], H2[i][j] = v.cubic[i][j]
       const Jet2 basis = Basis(bu, i, bv, j);
-      AddTerm(basis, second[i][j], s);
+      AddTerm(basis, lofts.v.cubic[i][j], s);
       if (i == 0 || i == 3 || j == 0 || j == 3) continue;
       Jet2 phi = blend.lambda * basis;
       if (corner) phi.uu = phi.vv = 0.0, phi.uv = 0.5 * basis.uv;  // the mean of the two twists
-      AddTerm(phi, first[i][j] - second[i][j], s);
+      AddTerm(phi, lofts.u.cubic[j][i] - lofts.v.cubic[i][j], s);
     }
   }
   return s;
 }
 
 Vec3 ShapePosition(const BrownPatch& patch, double u, double v) {
-  const Lofts lofts = LoftsOf(patch);
+  const Lofts lofts = LoftsOf(patch, SpanAt(patch.breaks_u, u), SpanAt(patch.breaks_v, v));
   double bu[4], bv[4], bn[kMaxRow], bm[kMaxRow];
+  const auto local = [](const Loft& loft, double t) {
+    return (t - loft.span.t0) / (loft.span.t1 - loft.span.t0);
+  };
   AllBernstein(3, u, bu);
   AllBernstein(3, v, bv);
-  AllBernstein(lofts.u.degree, u, bn);
-  AllBernstein(lofts.v.degree, v, bm);
+  AllBernstein(lofts.u.degree, local(lofts.u, u), bn);
+  AllBernstein(lofts.v.degree, local(lofts.v, v), bm);
   Vec3 s1 = Vec3::Zero(), s2 = Vec3::Zero();
   for (int k = 0; k < 4; ++k) {
     for (int i = 0; i <= lofts.u.degree; ++i) s1 += bv[k] * bn[i] * lofts.u.row[k][i];
@@ -167,25 +227,64 @@ Vec3 ShapePosition(const BrownPatch& patch, double u, double v) {
   return s2 + lambda * (s1 - s2);
 }
 
+namespace {
+
+// t^2 (1-t)^2 on the span, times binomials.
+std::array<double, 5> ScaledWeight(const Span& span) {
+  const std::vector<double> t = {span.t0, span.t1}, r = {1.0 - span.t0, 1.0 - span.t1};
+  const auto product = BernsteinProduct(BernsteinProduct(t, t), BernsteinProduct(r, r));
+  std::array<double, 5> scaled;
+  for (int k = 0; k <= 4; ++k) {
+    scaled[static_cast<std::size_t>(k)] = product[static_cast<std::size_t>(k)] * Binomial(4, k);
+  }
+  return scaled;
+}
+
 // (p S1 + q S2) / (p + q), times one where needed to reach degrees n + 4, m + 4.
-std::vector<Piece> ShapePieces(const BrownPatch& patch) {
-  const Lofts lofts = LoftsOf(patch);
+BernsteinNet NetOn(const Lofts& lofts) {
   const int n = lofts.u.degree, m = lofts.v.degree;
   ScaledBernstein<Vec4> s1(n, 3, Vec4::Zero()), s2(3, m, Vec4::Zero()), net(n + 4, m + 4, Vec4::Zero());
   ScaledBernstein<double> p(4, m + 1, 0.0), q(n + 1, 4, 0.0);
   const auto put = [](const Vec3& x, double factor) { return Vec4(factor * Vec4(x.x(), x.y(), x.z(), 1.0)); };
-  for (int k = 0; k < 4; ++k) {
-    for (int i = 0; i <= n; ++i) s1(i, k) = put(lofts.u.row[k][i], Binomial(n, i) * Binomial(3, k));
-    for (int j = 0; j <= m; ++j) s2(k, j) = put(lofts.v.row[k][j], Binomial(m, j) * Binomial(3, k));
+  // The cubics across, on the other direction's span.
+  const auto across = [](const Loft& loft, int along, const Span& span, Vec3 cubic[4]) {
+    for (int k = 0; k < 4; ++k) cubic[k] = loft.row[k][along];
+    Restrict(cubic, 3, span);
+  };
+  Vec3 cubic[4];
+  for (int i = 0; i <= n; ++i) {
+    across(lofts.u, i, lofts.v.span, cubic);
+    for (int k = 0; k < 4; ++k) s1(i, k) = put(cubic[k], Binomial(n, i) * Binomial(3, k));
   }
-  for (int k = 0; k <= m + 1; ++k) p(2, k) = Binomial(m + 1, k);
-  for (int k = 0; k <= n + 1; ++k) q(k, 2) = Binomial(n + 1, k);
+  for (int j = 0; j <= m; ++j) {
+    across(lofts.v, j, lofts.u.span, cubic);
+    for (int k = 0; k < 4; ++k) s2(k, j) = put(cubic[k], Binomial(m, j) * Binomial(3, k));
+  }
+  const auto wu = ScaledWeight(lofts.u.span), wv = ScaledWeight(lofts.v.span);
+  for (int k = 0; k <= 4; ++k) {
+    for (int l = 0; l <= m + 1; ++l) p(k, l) = wu[static_cast<std::size_t>(k)] * Binomial(m + 1, l);
+    for (int l = 0; l <= n + 1; ++l) q(l, k) = wv[static_cast<std::size_t>(k)] * Binomial(n + 1, l);
+  }
   s1.MultiplyInto(p, net);
   s2.MultiplyInto(q, net);
-  std::vector<Piece> pieces(1);
-  pieces[0].net = {n + 4, m + 4, true, net.Unscaled()};
-  pieces[0].shape = std::make_shared<const PatchShape>(patch);
-  pieces[0].native = NativeRectangle(0, 1, 0, 1);
+  return {n + 4, m + 4, true, net.Unscaled()};
+}
+
+}  // namespace
+
+std::vector<Piece> ShapePieces(const BrownPatch& patch) {
+  const auto shape = std::make_shared<const PatchShape>(patch);
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i <= patch.breaks_u.size(); ++i) {
+    const Span u = SpanNumber(patch.breaks_u, i);
+    for (std::size_t j = 0; j <= patch.breaks_v.size(); ++j) {
+      const Span v = SpanNumber(patch.breaks_v, j);
+      Piece& piece = pieces.emplace_back();
+      piece.net = NetOn(LoftsOf(patch, u, v));
+      piece.shape = shape;
+      piece.native = NativeRectangle(u.t0, u.t1, v.t0, v.t1);
+    }
+  }
   return pieces;
 }
 

@@ -74,14 +74,19 @@ struct BezierTriangle {
 //   points, with n = degree_u, m = degree_v; all rows along u, all columns along v:
 //     edge v=0 (n+1), edge v=1 (n+1), inner points of edge u=0 (m-1) and of edge u=1 (m-1),
 //     inner points of the rails of v=0 (n-1), v=1 (n-1), u=0 (m-1), u=1 (m-1): 4 (n + m) - 4 in all.
-// Cubic everywhere: two bicubic nets that differ in their inner points, as GregoryPatch::kEdge, with weights
-// u^2 (1-u)^2 and v^2 (1-v)^2 in place of u (1-u) and v (1-v).
+// Edges and rails along u may be chains of curves of degree degree_u that meet at breaks_u, and so along v:
+// then n = degree_u (breaks_u.size() + 1), neighbours sharing a point. The surface is as smooth across a
+// break as the four chains are, up to one derivative. Cubic everywhere: two bicubic nets that differ in their
+// inner points, as GregoryPatch::kEdge, with weights u^2 (1-u)^2 and v^2 (1-v)^2 in place of u (1-u) and v
+// (1-v).
 struct BrownPatch {
   int degree_u = 3;  // 3..kMaxBrownDegree
   int degree_v = 3;
   std::vector<Vec3> points;
+  std::vector<double> breaks_u = {}, breaks_v = {};  // in (0, 1), increasing; at most kMaxBrownBreaks
 };
 inline constexpr int kMaxBrownDegree = 11;  // its net has degree 4 more
+inline constexpr int kMaxBrownBreaks = 1000;
 
 // Quartic Gregory triangle (METHODS (15)-(18)), 18 points: five at each corner (0,0) (1,0) (0,1) as in
 // GregoryPatch, P E+ E- F+ F-, then the middle points of the edges 0-1, 1-2, 2-0.

@@ -29,6 +29,16 @@ std::size_t HosakaPoints(const v1::HosakaPatch& patch) {
   return std::max(Count(patch.points()) / 3, columns * rows * across * across);
 }
 
+// So do those of a Brown quad.
+std::size_t BrownPoints(const v1::BrownPatch& patch) {
+  const std::size_t pieces = (Count(patch.breaks_u()) + 1) * (Count(patch.breaks_v()) + 1);
+  if (pieces == 1) return Count(patch.points()) / 3;
+  const auto across = [](int degree) {
+    return static_cast<std::size_t>(std::clamp(degree, 3, kMaxBrownDegree) + 5);
+  };
+  return std::max(Count(patch.points()) / 3, pieces * across(patch.degree_u()) * across(patch.degree_v()));
+}
+
 Sizes SizesOf(const v1::Patch& patch) {
   switch (patch.shape_case()) {
     case v1::Patch::kBezier:
@@ -41,7 +51,7 @@ Sizes SizesOf(const v1::Patch& patch) {
     case v1::Patch::kTriangle:
       return {Count(patch.triangle().points()) / 3, 0};
     case v1::Patch::kBrown:
-      return {Count(patch.brown().points()) / 3, 0};
+      return {BrownPoints(patch.brown()), Count(patch.brown().breaks_u()) + Count(patch.brown().breaks_v())};
     case v1::Patch::kGregoryTriangle:
       return {Count(patch.gregory_triangle().points()) / 3, 0};
     case v1::Patch::kLoftTriangle:
@@ -117,7 +127,11 @@ class PatchReader {
         break;
       case v1::Patch::kBrown: {
         const v1::BrownPatch& from = proto.brown();
-        patch.shape = BrownPatch{from.degree_u(), from.degree_v(), Points("brown.points", from.points())};
+        patch.shape = BrownPatch{from.degree_u(),
+                                 from.degree_v(),
+                                 Points("brown.points", from.points()),
+                                 {from.breaks_u().begin(), from.breaks_u().end()},
+                                 {from.breaks_v().begin(), from.breaks_v().end()}};
         break;
       }
       case v1::Patch::kLoftTriangle: {
@@ -265,6 +279,8 @@ void Fill(const BrownPatch& from, v1::Patch& to) {
   shape.set_degree_u(from.degree_u);
   shape.set_degree_v(from.degree_v);
   AddPoints(from.points, shape.mutable_points());
+  shape.mutable_breaks_u()->Add(from.breaks_u.begin(), from.breaks_u.end());
+  shape.mutable_breaks_v()->Add(from.breaks_v.begin(), from.breaks_v.end());
 }
 
 void Fill(const GregoryTriangle& from, v1::Patch& to) {

@@ -84,25 +84,45 @@ BezierTriangle RandomTriangle(std::uint64_t seed, int degree, bool rational, dou
   return patch;
 }
 
-BrownPatch RandomBrown(std::uint64_t seed, int degree_u, int degree_v, double size) {
+namespace {
+
+// Parameters of the points of a chain: at equal steps between breaks.
+std::vector<double> ChainPlaces(int degree, const std::vector<double>& breaks) {
+  std::vector<double> places = {0.0};
+  for (std::size_t k = 0; k <= breaks.size(); ++k) {
+    const double from = k > 0 ? breaks[k - 1] : 0.0, to = k < breaks.size() ? breaks[k] : 1.0;
+    for (int i = 1; i <= degree; ++i) places.push_back(from + (to - from) * i / degree);
+  }
+  return places;
+}
+
+}  // namespace
+
+BrownPatch RandomBrown(std::uint64_t seed, int degree_u, int degree_v, double size,
+                       const std::vector<double>& breaks_u, const std::vector<double>& breaks_v) {
   Random random(seed);
-  BrownPatch patch;
-  patch.degree_u = degree_u;
-  patch.degree_v = degree_v;
-  const auto add = [&](double u, double v) {
-    const double move = 0.2 * size / std::max(degree_u, degree_v);
-    patch.points.push_back(Vec3(u * size, v * size, 0.0) + random.Point(-move, move));
+  BrownPatch patch{degree_u, degree_v, {}, breaks_u, breaks_v};
+  const std::vector<double> u = ChainPlaces(degree_u, breaks_u), v = ChainPlaces(degree_v, breaks_v);
+  const double move = 0.2 * size / static_cast<double>(std::max(u.size(), v.size()) - 1);
+  // A chain from first to last, the points at its breaks such that its derivative runs on.
+  const auto chain = [&](const std::vector<double>& t, int degree, bool along_u, double across, bool ends) {
+    std::vector<Vec3> row;
+    for (std::size_t k = ends ? 0 : 1; k + (ends ? 0 : 1) < t.size(); ++k) {
+      row.push_back((along_u ? Vec3(t[k], across, 0.0) : Vec3(across, t[k], 0.0)) * size +
+                    random.Point(-move, move));
+    }
+    for (std::size_t k = static_cast<std::size_t>(degree); k + 1 < t.size();
+         k += static_cast<std::size_t>(degree)) {
+      const std::size_t i = ends ? k : k - 1;
+      const double before = t[k] - t[k - 1], after = t[k + 1] - t[k];
+      row[i] = (after * row[i - 1] + before * row[i + 1]) / (before + after);
+    }
+    patch.points.insert(patch.points.end(), row.begin(), row.end());
   };
-  const auto row = [&](double v, int first, int last) {
-    for (int k = first; k <= last; ++k) add(static_cast<double>(k) / degree_u, v);
-  };
-  const auto column = [&](double u) {
-    for (int k = 1; k < degree_v; ++k) add(u, static_cast<double>(k) / degree_v);
-  };
-  row(0, 0, degree_u), row(1, 0, degree_u);
-  column(0), column(1);
-  row(1 / 3.0, 1, degree_u - 1), row(2 / 3.0, 1, degree_u - 1);
-  column(1 / 3.0), column(2 / 3.0);
+  chain(u, degree_u, true, 0, true), chain(u, degree_u, true, 1, true);
+  chain(v, degree_v, false, 0, false), chain(v, degree_v, false, 1, false);
+  chain(u, degree_u, true, 1 / 3.0, false), chain(u, degree_u, true, 2 / 3.0, false);
+  chain(v, degree_v, false, 1 / 3.0, false), chain(v, degree_v, false, 2 / 3.0, false);
   return patch;
 }
 

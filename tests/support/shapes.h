@@ -71,7 +71,9 @@ BsplinePatch RandomKnots(std::uint64_t seed, int degree_u, int degree_v, bool ra
 GregoryPatch RandomGregory(std::uint64_t seed, GregoryPatch::Blend blend, double size = 20.0);
 // Over the plan triangle (0,0) (size,0) (0,size).
 BezierTriangle RandomTriangle(std::uint64_t seed, int degree, bool rational, double size = 20.0);
-BrownPatch RandomBrown(std::uint64_t seed, int degree_u, int degree_v, double size = 20.0);
+// With breaks its chains have continuous derivatives there.
+BrownPatch RandomBrown(std::uint64_t seed, int degree_u, int degree_v, double size = 20.0,
+                       const std::vector<double>& breaks_u = {}, const std::vector<double>& breaks_v = {});
 GregoryTriangle RandomGregoryTriangle(std::uint64_t seed, GregoryPatch::Blend blend, double size = 20.0);
 LoftTriangle RandomLoftTriangle(std::uint64_t seed, int degree, bool squared, double size = 20.0);
 G2GregoryPatch RandomG2Gregory(std::uint64_t seed, int degree, double size = 20.0);

@@ -21,6 +21,7 @@ std::vector<PatchShape> Kinds() {
   HosakaPatch linear = RandomHosaka(14, 5, false, false, kSize);
   linear.blend = HosakaPatch::Blend::kLinear;
   kinds.push_back(linear);
+  kinds.push_back(RandomBrown(15, 3, 4, kSize, {0.3, 0.7}, {0.55}));
   return kinds;
 }
 

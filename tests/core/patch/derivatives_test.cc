@@ -103,6 +103,10 @@ TEST(Derivatives, BlendedKinds) {
   for (const PatchShape& shape : testing::SingularKinds(1.0)) ExpectDerivatives(shape);
 }
 
+TEST(Derivatives, BrownChains) {
+  ExpectDerivatives(testing::RandomBrown(6, 4, 3, 1.0, {0.3, 0.5}, {0.6}), false);
+}
+
 TEST(Derivatives, Hosaka) {
   for (const int n : {1, 3, 6}) ExpectDerivatives(testing::RandomHosaka(n, n, false, n == 6, 1.0));
   ExpectDerivatives(testing::RandomHosaka(9, 3, true, true, 1.0), false);

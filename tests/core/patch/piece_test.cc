@@ -109,6 +109,12 @@ TEST(Pieces, BlendedNetsEqualTheBlend) {
   }
 }
 
+TEST(Pieces, BrownOnePerBreakRectangle) {
+  const PatchShape shape = testing::RandomBrown(4, 4, 3, 1.0, {0.3, 0.5}, {0.6});
+  ExpectPiecesMatch(shape, 500);
+  EXPECT_EQ(SplitIntoPieces(PatchId(0), shape).size(), 6u);
+}
+
 TEST(Pieces, HosakaOnePerBreakRectangle) {
   for (const bool inner : {false, true}) {
     for (const int n : {1, 3, 11}) {

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/curve/bezier_chain.h"
 #include "core/diffgeo/forms.h"
 #include "core/math/bernstein.h"
 #include "core/patch/piece.h"
@@ -36,6 +37,7 @@ std::vector<NamedShape> EveryKind() {
           {"GregoryCorner", testing::RandomGregory(7, Blend::kCorner)},
           {"GregoryEdge", testing::RandomGregory(8, Blend::kEdge)},
           {"Brown", testing::RandomBrown(9, 4, 5)},
+          {"BrownChain", testing::RandomBrown(9, 3, 4, 20.0, {0.4}, {0.2, 0.7})},
           {"GregoryTriangleCorner", testing::RandomGregoryTriangle(10, Blend::kCorner)},
           {"GregoryTriangleEdge", testing::RandomGregoryTriangle(11, Blend::kEdge)},
           {"LoftTriangle", testing::RandomLoftTriangle(12, 3, false)},
@@ -240,6 +242,59 @@ TEST(Rewritten, TransposedBrown) {
   next.points.insert(next.points.end(), of_v, old.points.end());
   next.points.insert(next.points.end(), rails, of_v);
   ExpectSameAt(old, next, kTransposed, true);
+}
+
+// Cut at breaks the chains stay what they are, and so does the surface; across a break of chains with
+// continuous derivatives it has one tangent plane.
+TEST(Rewritten, CutBrown) {
+  const BrownPatch old = testing::RandomBrown(28, 4, 5);
+  BrownPatch next = old;
+  next.breaks_u = {0.25, 0.6};
+  next.breaks_v = {0.45};
+  const auto cut = [](std::vector<Vec3> row, const std::vector<double>& inner) {
+    std::vector<double> breaks = {0.0};
+    breaks.insert(breaks.end(), inner.begin(), inner.end());
+    breaks.push_back(1.0);
+    return CutAt(AsChain({std::move(row)}), breaks).points;
+  };
+  const auto at = [&](int from, int count) {
+    return std::vector<Vec3>(old.points.begin() + from, old.points.begin() + from + count);
+  };
+  // The ends of columns and rails lie in the rows that cross there.
+  const auto with_ends = [](const Vec3& a, std::vector<Vec3> row, const Vec3& b) {
+    row.insert(row.begin(), a);
+    row.push_back(b);
+    return row;
+  };
+  const auto& p = old.points;
+  const std::vector<Vec3> v0 = at(0, 5), v1 = at(5, 5);
+  const std::vector<Vec3> u0 = with_ends(v0[0], at(10, 4), v1[0]), u1 = with_ends(v0[4], at(14, 4), v1[4]);
+  const auto beside = [](const Vec3& corner, const Vec3& next_one, int degree) -> Vec3 {
+    return corner + degree / 3.0 * (next_one - corner);
+  };
+  const std::vector<std::vector<Vec3>> rails = {
+      with_ends(beside(u0[0], u0[1], 5), at(18, 3), beside(u1[0], u1[1], 5)),
+      with_ends(beside(u0[5], u0[4], 5), at(21, 3), beside(u1[5], u1[4], 5)),
+      with_ends(beside(v0[0], v0[1], 4), at(24, 4), beside(v1[0], v1[1], 4)),
+      with_ends(beside(v0[4], v0[3], 4), at(28, 4), beside(v1[4], v1[3], 4))};
+  ASSERT_EQ(p.size(), 32u);
+  next.points = cut(v0, next.breaks_u);
+  const auto add = [&](const std::vector<Vec3>& row, int ends) {
+    next.points.insert(next.points.end(), row.begin() + ends, row.end() - ends);
+  };
+  add(cut(v1, next.breaks_u), 0);
+  add(cut(u0, next.breaks_v), 1), add(cut(u1, next.breaks_v), 1);
+  add(cut(rails[0], next.breaks_u), 1), add(cut(rails[1], next.breaks_u), 1);
+  add(cut(rails[2], next.breaks_v), 1), add(cut(rails[3], next.breaks_v), 1);
+  ExpectSameAt(
+      old, next, [](double u, double v) { return Vec2(u, v); }, false);
+
+  const BrownPatch chain = testing::RandomBrown(29, 3, 3, 20.0, {0.3}, {});
+  for (double v = 0.0; v <= 1.0; v += 0.125) {
+    const SurfaceJet before = Evaluate(chain, 0.3 - 1e-12, v), after = Evaluate(chain, 0.3, v);
+    EXPECT_LE((before.du - after.du).norm(), 1e-8);
+    EXPECT_LE((before.dv - after.dv).norm(), 1e-8);
+  }
 }
 
 TEST(Rewritten, TransposedHosaka) {
