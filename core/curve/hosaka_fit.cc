@@ -56,6 +56,17 @@ std::optional<std::pair<double, double>> FindLoop(double chord, const Vec2& b, c
   return std::pair{first, last};
 }
 
+std::optional<std::pair<double, double>> FindLoop(const HermiteCurve& curve) {
+  const Vec3 chord = curve.p1 - curve.p0;
+  const double length = chord.norm();
+  if (!(length > 0.0)) return std::nullopt;
+  const Vec3 x = chord / length, by_first = x.cross(curve.d0), by_last = x.cross(curve.d1);
+  const Vec3 z = by_first.norm() >= by_last.norm() ? by_first : by_last;
+  if (!(z.norm() > 1e-9 * length)) return std::nullopt;
+  const Vec3 y = z.normalized().cross(x);
+  return FindLoop(length, {x.dot(curve.d0), y.dot(curve.d0)}, {x.dot(curve.d1), y.dot(curve.d1)});
+}
+
 absl::StatusOr<HosakaFit> FitThroughPoint(double chord, const Vec3& b, const Vec3& c, const Vec3& q) {
   if (c.z() == 0.0 || b.y() == 0.0 || q.z() == 0.0) {
     return absl::InvalidArgumentError(

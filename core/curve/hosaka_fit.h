@@ -24,6 +24,9 @@ std::optional<double> ChordCrossing(double by, double cy);
 // The double point of the xy view (38): both parameters in [0,1], ascending; nothing without a loop. Equal
 // parameters: a cusp.
 std::optional<std::pair<double, double>> FindLoop(double chord, const Vec2& b, const Vec2& c);
+// The same of a cubic in space, seen across its chord and the end tangent that leaves the chord most; nothing
+// for a straight one and without a chord.
+std::optional<std::pair<double, double>> FindLoop(const HermiteCurve& curve);
 
 // Unknown lengths of B and C, known unit directions, that lead the segment where it is wanted.
 struct HosakaFit {

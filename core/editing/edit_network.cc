@@ -217,7 +217,8 @@ class Editor {
         const bool follows = edge.kind == EdgeKind::kFollowing;
         if (edge.kind != EdgeKind::kSmooth && !follows) continue;
         const TableEdge& across = follows ? joined_->edges[At(here.part->whole)].topology : here;
-        const int a = here.faces[0].face, b = across.faces.back().face;
+        const int a = joined_->face_of[At(here.faces[0].face)],
+                  b = joined_->face_of[At(across.faces.back().face)];
         if (a != group[k] && b != group[k]) continue;
         const int other = a == group[k] ? b : a;
         if (std::ranges::count(group, other) == 0) group.push_back(other);
@@ -233,8 +234,9 @@ class Editor {
   // The face beside `edge` whose opposite side is `next`.
   std::optional<int> FaceBetween(const TableEdge& edge, const std::array<int, 2>& next) const {
     for (const FaceSide& s : edge.faces) {
+      if (At(s.face) >= network_.faces.size()) continue;  // a piece of one with cuts
       const NetworkFace& face = network_.faces[At(s.face)];
-      if (face.scheme != PatchScheme::kG2Gregory) continue;
+      if (face.scheme != PatchScheme::kG2Gregory || face.vertices.size() != 4) continue;
       if (SameEdge(face.vertices[At((s.side + 2) % 4)], face.vertices[At((s.side + 3) % 4)], next[0],
                    next[1])) {
         return s.face;

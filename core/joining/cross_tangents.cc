@@ -1,8 +1,12 @@
 #include "core/joining/cross_tangents.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "core/joining/face_push.h"
+#include "core/joining/network_findings.h"
 #include "core/joining/tangent_plane.h"
 
 namespace patchmill {
@@ -10,10 +14,23 @@ namespace {
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
-// Adds what a pushed face wishes for one of its edges to its twists.
-void Push(const JoinFrame& frame, const FaceSide& s, const HermiteCurve& edge, const Vec3& b0, const Vec3& b1,
+bool IsHosaka(const JoinFrame& frame, const FaceSide& s) {
+  return frame.network.faces[At(s.face)].scheme == PatchScheme::kHosaka;
+}
+
+// What a face wishes for the twists of one of its edges: given ones, pushes on top.
+void Wish(const JoinFrame& frame, const FaceSide& s, const HermiteCurve& edge, const Vec3& b0, const Vec3& b1,
           Vec3& w0, Vec3& w1) {
   const NetworkFace& face = frame.network.faces[At(s.face)];
+  const TableEdge& ends = frame.table.edges[At(frame.table.face_edges[At(s.face)][At(s.side)])];
+  for (const SideTwists& twists : face.twists) {
+    const bool forward = twists.start == ends.start && twists.end == ends.end;
+    if (!forward && !(twists.start == ends.end && twists.end == ends.start)) continue;
+    const auto &first = forward ? twists.at_start : twists.at_end,
+               &last = forward ? twists.at_end : twists.at_start;
+    if (first) w0 = *first;
+    if (last) w1 = *last;
+  }
   const bool forward = frame.table.Forward(s, frame.network);  // then the face lies to the left of its edge
   for (const FacePush& push : face.pushes) {
     EdgePlace place = PlaceBeside(push, SideCount(face), s.side);
@@ -39,23 +56,113 @@ std::optional<JoinFactors> Factors(const JoinFrame& frame, const JoinedEdge& edg
   return std::nullopt;
 }
 
+// With the degree and the breaks of the edge, and breaks of its own.
+BezierChain Along(const BezierChain& edge, const BezierChain& tangent) {
+  const BezierChain raised = Elevated(tangent, edge.degree);
+  if (edge.spans() == 1) return raised;
+  return CutAt(raised, CommonBreaks({edge, raised}));
+}
+
+// Largest |l| of (5) times how far a jump of the edge's second derivative bends its faces across that break,
+// rad.
+double BendAtBreaks(const BezierChain& edge, const JoinFactors& factors) {
+  const double l = std::max(std::abs(factors.l[0]), std::abs(factors.l[1]));
+  double worst = 0.0;
+  for (int k = 1; k < edge.spans(); ++k) {
+    const auto jets = JetsAtBreak(edge, k);
+    // The tangents get l (C - H)' / 2 in addition, weighted by phi1 <= 4/27.
+    worst = std::max(worst, 2.0 / 27.0 * l * (jets[1].dd - jets[0].dd).norm() / jets[0].d.norm());
+  }
+  return worst;
+}
+
+bool SmoothEnough(const JoinFrame& frame, const JoinedEdge& edge, const JoinFactors& factors) {
+  const double bend = BendAtBreaks(edge.curve, factors);
+  if (bend <= kMaxTangentTilt) return true;
+  frame.findings.Error("UNSUPPORTED_CURVE", frame.Place(edge),
+                       fmt::format("is smooth and has a curve of {} spans whose second derivative jumps: its "
+                                   "faces would bend by up to "
+                                   "{:.3g} rad; insert vertices at its knots, or make it a crease",
+                                   edge.curve.spans(), bend));
+  return false;
+}
+
+// Whether two tangents lie in one plane with the edge all along, as they do at its ends.
+void CheckOnePlane(const JoinFrame& frame, const JoinedEdge& edge, const BezierChain& a,
+                   const BezierChain& b) {
+  // det(C', a, b) is a polynomial on each span: places enough for its degree.
+  const std::vector<double> breaks = CommonBreaks({edge.curve, a, b});
+  const int places = edge.curve.degree + a.degree + b.degree + 1;
+  double worst = 0.0;
+  for (std::size_t k = 1; k < breaks.size(); ++k) {
+    for (int i = 1; i <= places; ++i) {
+      const double t = breaks[k - 1] + (breaks[k] - breaks[k - 1]) * i / (places + 1);
+      const Vec3 c = Evaluate(edge.curve, t).d;
+      const Vec3 m = c.cross(Evaluate(a, t).p).normalized(), n = c.cross(Evaluate(b, t).p).normalized();
+      worst = std::max(worst, m.cross(n).norm());
+    }
+  }
+  if (worst <= kMaxTangentTilt) return;
+  frame.findings.Error(
+      "HOSAKA_RATIO", frame.Place(edge),
+      fmt::format(
+          "from vertex {} to {} has Hosaka faces whose tangent planes part by {:.3g} rad between its ends: "
+          "the "
+          "edges that cross it there must run on with one ratio of lengths; give their tangents, make it a "
+          "crease, or let one face be a Brown quad, which follows",
+          edge.topology.start, edge.topology.end, std::asin(std::min(1.0, worst))));
+}
+
+// A face that follows another one along an edge has no say in its tangents there.
+void RefuseTwists(const JoinFrame& frame, const TableEdge& edge, int face, int leader) {
+  const auto ends = std::minmax(edge.start, edge.end);
+  const auto here = [&](const SideTwists& w) { return std::minmax(w.start, w.end) == ends; };
+  if (std::ranges::none_of(frame.network.faces[At(face)].twists, here)) return;
+  frame.findings.Error(
+      "INVALID_TWIST", frame.findings.AtFace(face),
+      fmt::format("has twists from vertex {} to {}, where it follows faces[{}]; leave them out", ends.first,
+                  ends.second, leader));
+}
+
+// A smooth edge with Hosaka faces beside it, whose tangents are not free.
+void JoinHosaka(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const CrossTangents& t,
+                const JoinFactors& factors, JoinedEdge& edge) {
+  const auto& sides = edge.topology.faces;
+  const bool first = IsHosaka(frame, sides[0]);
+  if (first && IsHosaka(frame, sides[1])) {
+    for (const FaceSide& s : sides) edge.tangents.push_back(Along(edge.curve, LoneTangent(frame, edges, s)));
+    CheckOnePlane(frame, edge, edge.tangents[0], edge.tangents[1]);
+    return;
+  }
+  JoinFactors turned = factors;
+  if (!first) std::swap(turned.h, turned.k);
+  RefuseTwists(frame, edge.topology, sides[first ? 1 : 0].face, sides[first ? 0 : 1].face);
+  const BezierChain leading = LoneTangent(frame, edges, sides[first ? 0 : 1]);
+  BezierChain following =
+      FollowingTangent(edge.curve, leading, turned, first ? t.b0 : t.a0, first ? t.b1 : t.a1);
+  edge.tangents = {Along(edge.curve, leading), std::move(following)};
+  if (!first) std::swap(edge.tangents[0], edge.tangents[1]);
+}
+
 // Both faces of a smooth edge.
 void Join(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, JoinedEdge& edge) {
   const auto& sides = edge.topology.faces;
   const CrossTangents t{frame.Beside(edges, sides[0], true), frame.Beside(edges, sides[0], false),
                         frame.Beside(edges, sides[1], true), frame.Beside(edges, sides[1], false)};
+  const auto factors = Factors(frame, edge, t);
+  if (!factors || !SmoothEnough(frame, edge, *factors)) return;
+  if (IsHosaka(frame, sides[0]) || IsHosaka(frame, sides[1]))
+    return JoinHosaka(frame, edges, t, *factors, edge);
   const HermiteCurve cubic = HermiteOf(edge.curve);
   EdgeTwists twists = WishedTwists(t);
-  Push(frame, sides[0], cubic, t.a0, t.a1, twists.a0, twists.a1);
-  Push(frame, sides[1], cubic, t.b0, t.b1, twists.b0, twists.b1);
-  const auto factors = Factors(frame, edge, t);
-  if (!factors) return;
+  Wish(frame, sides[0], cubic, t.a0, t.a1, twists.a0, twists.a1);
+  Wish(frame, sides[1], cubic, t.b0, t.b1, twists.b0, twists.b1);
   twists = NearestTwists(cubic, t, *factors, twists);
-  const BezierCurve correction = CorrectionFor(edge.curve, *factors);
+  const BezierChain correction = CorrectionFor(edge.curve, *factors);
   for (const bool a : {true, false}) {
-    BezierCurve tangent = Elevated(a ? CrossBoundaryTangent(t.a0, twists.a0, t.a1, twists.a1)
-                                     : CrossBoundaryTangent(t.b0, twists.b0, t.b1, twists.b1),
-                                   edge.curve.degree());
+    BezierChain tangent =
+        Along(edge.curve, AsChain(a ? CrossBoundaryTangent(t.a0, twists.a0, t.a1, twists.a1)
+                                    : CrossBoundaryTangent(t.b0, twists.b0, t.b1, twists.b1)));
     for (std::size_t i = 0; i < tangent.points.size(); ++i) tangent.points[i] += correction.points[i];
     edge.tangents.push_back(std::move(tangent));
   }
@@ -64,25 +171,61 @@ void Join(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, JoinedEd
 // The face along a part follows the one along the whole edge.
 void Follow(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, JoinedEdge& edge) {
   const JoinedEdge& whole = edges[At(edge.topology.part->whole)];
-  const BezierCurve leading = Part(LoneTangent(frame, edges, whole.topology.faces[0]),
+  const BezierChain leading = Part(LoneTangent(frame, edges, whole.topology.faces[0]),
                                    edge.topology.part->from, edge.topology.part->to);
   const FaceSide& side = edge.topology.faces[0];
+  RefuseTwists(frame, edge.topology, side.face, whole.topology.faces[0].face);
   const CrossTangents t{leading.points.front(), leading.points.back(), frame.Beside(edges, side, true),
                         frame.Beside(edges, side, false)};
-  if (const auto factors = Factors(frame, edge, t)) {
-    edge.tangents = {FollowingTangent(edge.curve, leading, *factors, t.b0, t.b1)};
+  const auto factors = Factors(frame, edge, t);
+  if (!factors || !SmoothEnough(frame, edge, *factors)) return;
+  if (IsHosaka(frame, side)) {
+    edge.tangents = {Along(edge.curve, LoneTangent(frame, edges, side))};
+    CheckOnePlane(frame, edge, leading, edge.tangents[0]);
+    return;
   }
+  edge.tangents = {FollowingTangent(edge.curve, leading, *factors, t.b0, t.b1)};
+}
+
+// (9), (20): a smooth step from one end to the other; between vertices on the edge one each, f(v_j) = v_j.
+BezierChain HosakaTangent(const JoinedEdge& edge, const std::vector<JoinedEdge>& edges, const Vec3& a0,
+                          const Vec3& a1) {
+  BezierChain tangent{3, {0.0}, {a0}};
+  std::vector<double> steps = HosakaBreaks(edge, edges);
+  steps.push_back(1.0);
+  for (const double v : steps) {
+    const Vec3 before = tangent.points.back(), after = v == 1.0 ? a1 : Vec3(a0 + v * (a1 - a0));
+    tangent.breaks.push_back(v);
+    tangent.points.insert(tangent.points.end(), {before, after, after});
+  }
+  return tangent;
 }
 
 }  // namespace
 
-BezierCurve LoneTangent(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const FaceSide& side) {
+bool CubicAcross(const NetworkFace& face) {
+  return face.scheme == PatchScheme::kHosaka || !face.pushes.empty() || !face.twists.empty();
+}
+
+std::vector<double> HosakaBreaks(const JoinedEdge& edge, const std::vector<JoinedEdge>& edges) {
+  std::vector<double> breaks;
+  if (edge.kind != EdgeKind::kLeading) return breaks;
+  for (const int p : edge.topology.parts) {
+    for (const double at : {edges[At(p)].topology.part->from, edges[At(p)].topology.part->to}) {
+      if (at > 0.0 && at < 1.0 && (breaks.empty() || at > breaks.back())) breaks.push_back(at);
+    }
+  }
+  return breaks;
+}
+
+BezierChain LoneTangent(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const FaceSide& side) {
   const Vec3 a0 = frame.Beside(edges, side, true), a1 = frame.Beside(edges, side, false);
-  if (frame.network.faces[At(side.face)].pushes.empty()) return {{a0, a1}};
-  const BezierCurve& curve = edges[At(frame.table.face_edges[At(side.face)][At(side.side)])].curve;
+  const JoinedEdge& edge = edges[At(frame.table.face_edges[At(side.face)][At(side.side)])];
+  if (IsHosaka(frame, side)) return HosakaTangent(edge, edges, a0, a1);
+  if (!CubicAcross(frame.network.faces[At(side.face)])) return AsChain({{a0, a1}});
   EdgeTwists twists = WishedTwists({a0, a1, a0, a1});
-  Push(frame, side, HermiteOf(curve), a0, a1, twists.a0, twists.a1);
-  return CrossBoundaryTangent(a0, twists.a0, a1, twists.a1);
+  Wish(frame, side, HermiteOf(edge.curve), a0, a1, twists.a0, twists.a1);
+  return AsChain(CrossBoundaryTangent(a0, twists.a0, a1, twists.a1));
 }
 
 void AddCrossTangents(const JoinFrame& frame, std::vector<JoinedEdge>& edges, const RunContext& run) {
@@ -94,7 +237,7 @@ void AddCrossTangents(const JoinFrame& frame, std::vector<JoinedEdge>& edges, co
       Follow(frame, edges, edge);
     } else {
       for (const FaceSide& side : edge.topology.faces) {
-        edge.tangents.push_back(Elevated(LoneTangent(frame, edges, side), edge.curve.degree()));
+        edge.tangents.push_back(Along(edge.curve, LoneTangent(frame, edges, side)));
       }
     }
   }

@@ -5,11 +5,20 @@
 
 namespace patchmill {
 
-// Of a face that has its edge for itself, or leads there: along the edge, into the face. Linear; cubic where
-// the face is pushed.
-BezierCurve LoneTangent(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const FaceSide& side);
+// Whether the tangents of a face that leads are cubic along an edge: what follows needs degree 4.
+bool CubicAcross(const NetworkFace& face);
 
-// Fills `tangents` of every edge. FOLDED_EDGE, PARALLEL_TANGENTS. Returns early when `run` is cancelled.
+// Of a face that has its edge for itself, or leads there: along the edge, into the face. Linear; cubic where
+// the face is pushed or given twists, and of a Hosaka face (3.2), there with breaks at vertices on the edge.
+BezierChain LoneTangent(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const FaceSide& side);
+
+// Where the blending function of a Hosaka face along the whole of a smooth edge has breaks, f(v) = v: at the
+// vertices on it, from the edge's start.
+std::vector<double> HosakaBreaks(const JoinedEdge& edge, const std::vector<JoinedEdge>& edges);
+
+// Fills `tangents` of every edge. FOLDED_EDGE, PARALLEL_TANGENTS, HOSAKA_RATIO, INVALID_TWIST;
+// UNSUPPORTED_CURVE where the second derivative of a smooth edge jumps. Returns early when `run` is
+// cancelled.
 void AddCrossTangents(const JoinFrame& frame, std::vector<JoinedEdge>& edges, const RunContext& run);
 
 }  // namespace patchmill

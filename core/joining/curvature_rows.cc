@@ -57,7 +57,7 @@ class RowMaker {
     edge.rows.resize(sides.size());
     if (edge.kind == EdgeKind::kLeading || edge.kind == EdgeKind::kFollowing) {
       TangentPlaneOnly(edge, "one face has a part of it only");
-      edge.rows[0] = RowsWithTangent(edge.tangents[0], SideOf(edge, sides[0]));
+      edge.rows[0] = RowsWithTangent(SpanOf(edge.tangents[0], 0), SideOf(edge, sides[0]));
       return;
     }
     if (edge.kind != EdgeKind::kSmooth) {
@@ -66,7 +66,7 @@ class RowMaker {
         const auto rows = RowsAlone(SideOf(edge, sides[k]));
         if (const auto* fault = std::get_if<CurvatureFault>(&rows)) {
           Refuse(edge, *fault);
-          edge.rows[k] = RowsWithTangent(edge.tangents[k], SideOf(edge, sides[k]));
+          edge.rows[k] = RowsWithTangent(SpanOf(edge.tangents[k], 0), SideOf(edge, sides[k]));
         } else {
           edge.rows[k] = std::get<CrossRows>(rows);
         }
@@ -86,7 +86,8 @@ class RowMaker {
       TangentPlaneOnly(edge, fmt::format("faces[{}] is no G2-Gregory patch", other.face));
     }
     for (std::size_t k = 0; k < sides.size(); ++k) {
-      if (Wanted(sides[k])) edge.rows[k] = RowsWithTangent(edge.tangents[k], SideOf(edge, sides[k]));
+      if (Wanted(sides[k]))
+        edge.rows[k] = RowsWithTangent(SpanOf(edge.tangents[k], 0), SideOf(edge, sides[k]));
     }
   }
 
@@ -116,7 +117,7 @@ class RowMaker {
     const int n = SideCount(network_.faces[At(s.face)]);
     const bool first = table_.Forward(s, network_) == start;  // at the side's own first corner
     const FaceSide other{s.face, first ? (s.side + n - 1) % n : (s.side + 1) % n};
-    const BezierCurve& curve = edges_[At(table_.face_edges[At(other.face)][At(other.side)])].curve;
+    const BezierChain& curve = edges_[At(table_.face_edges[At(other.face)][At(other.side)])].curve;
     const CurveJet jet = Evaluate(curve, table_.Forward(other, network_) == first ? 1.0 : 0.0);
     return {table_.Forward(other, network_) == first ? Vec3(-jet.d) : jet.d, jet.dd};
   }

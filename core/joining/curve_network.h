@@ -3,6 +3,7 @@
 // Length unit as the patches of a PatchModel. Indices are 0-based.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -39,8 +40,12 @@ struct NetworkVertex {
 
 // Tangents from the normals (1.1), gamma |chord| long. At a crease between two normals: along both planes; a
 // face that meets others there in creases only, and has no normal given, asks for no plane.
+// `length` says what gamma multiplies: the chord; or, of the cubic nearest to an arc or to a quarter of an
+// ellipse that leaves both ends so, the tangents.
+enum class TangentLength { kChord, kArc, kQuarterEllipse };
 struct NormalsEdge {
   double gamma = 1.0;  // (0, 10]
+  TangentLength length = TangentLength::kChord;
 };
 // Outgoing tangents at both ends (2); they must lie in the tangent planes.
 struct TangentsEdge {
@@ -50,11 +55,33 @@ struct TangentsEdge {
 struct ThroughPointEdge {
   Vec3 point = Vec3::Zero();
 };
-// A curve from vertex `start` to vertex `end` of the edge: one polynomial of degree up to kMaxBrownDegree.
+// The same as far from the plane of chord and start tangent as `peak`, and no farther (42).
+struct PeakEdge {
+  Vec3 peak = Vec3::Zero();
+};
+// The same of a plane curve through `point` along `direction` (44); without one along the chord (46).
+struct SlopeEdge {
+  Vec3 point = Vec3::Zero();
+  std::optional<Vec3> direction;
+};
+// A NormalsEdge led through `point` at `parameter` by the extra term (47): end tangents stay. Degree 4, with
+// a derivative 5.
+struct LedEdge {
+  NormalsEdge ends;
+  double parameter = 0.5;  // [0.05, 0.95]
+  Vec3 point = Vec3::Zero();
+  std::optional<Vec3> derivative;  // at `parameter`
+};
+// A curve from vertex `start` to vertex `end` of the edge, of degree up to kMaxBrownDegree; of several spans
+// only beside Brown quads, with a continuous first derivative, where the edge is smooth also second.
 struct CurveEdge {
   Curve curve;
 };
-using EdgeShape = std::variant<NormalsEdge, TangentsEdge, ThroughPointEdge, CurveEdge>;
+using EdgeShape =
+    std::variant<NormalsEdge, TangentsEdge, ThroughPointEdge, PeakEdge, SlopeEdge, LedEdge, CurveEdge>;
+
+// Places nearer to an end than this give the extra term no hold.
+inline constexpr double kMinLedPlace = 0.05;
 
 struct NetworkEdge {
   std::string id;
@@ -74,12 +101,15 @@ struct NetworkLine {
 };
 
 enum class PatchScheme {
-  kAuto,             // Gregory quad, Brown quad where an edge is no cubic; loft triangle
+  kAuto,             // Gregory quad, Brown quad where an edge is no cubic of one span; loft triangle
   kGregory,          // quad: METHODS (13), cubic edges only
   kBrown,            // quad: METHODS (14)
   kLoftTriangle,     // triangle: (19)-(21), squared weights where an edge is no cubic
   kGregoryTriangle,  // triangle: (15)-(18), cubic edges only
   kG2Gregory,  // quad: METHODS 2, cubic edges only; equal curvature across edges with others of its kind
+  // Quad: METHODS 3.1-3.4. Its tangents across an edge are those of the crossing edges, blended by a smooth
+  // step, with breaks at vertices on the edge; faces of other kinds follow them.
+  kHosaka,
 };
 
 // A bulge or dent at one place of a face (1.8b), by the twists of its edges: corners and edges stay, the
@@ -95,11 +125,23 @@ struct FacePush {
   bool operator==(const FacePush&) const = default;
 };
 
+// Wished twists at the ends of one side of a face, as seen from there: the change of the tangent across the
+// side by the side's parameter as it leaves that end (METHODS 1.3: Wa0, Wa1). (10) where not given.
+struct SideTwists {
+  int start = 0, end = 0;  // the corners of the side
+  std::optional<Vec3> at_start, at_end;
+};
+
 struct NetworkFace {
   std::string id;
-  std::vector<int> vertices;  // around the face, three or four
+  std::vector<int> vertices;  // around the face, three or four; more with cuts
   PatchScheme scheme = PatchScheme::kAuto;
   std::vector<FacePush> pushes = {};  // they add up
+  std::vector<SideTwists> twists = {};
+  // Inserted edges between two corners, that leave pieces of three or four sides (METHODS 1). A scheme is for
+  // the pieces with its number of sides.
+  std::vector<std::array<int, 2>> cuts = {};
+  std::optional<int> of = {};  // of a piece: the face it was cut from (face_cuts.h)
 };
 
 // How a G2-Gregory face leaves an edge in its middle (METHODS 2.4, 2.7): first and second derivative of the

@@ -40,6 +40,19 @@ struct Checker {
     }
   }
   void Check(const ThroughPointEdge& e) const { Finite(e.point.allFinite()); }
+  void Check(const PeakEdge& e) const { Finite(e.peak.allFinite()); }
+  void Check(const SlopeEdge& e) const {
+    Finite(e.point.allFinite() && (!e.direction || e.direction->allFinite()));
+    if (e.direction && *e.direction == Vec3::Zero()) Error("ZERO_TANGENT", "has a slope without direction");
+  }
+  void Check(const LedEdge& e) const {
+    Check(e.ends);
+    Finite(e.point.allFinite() && (!e.derivative || e.derivative->allFinite()));
+    if (!(e.parameter >= kMinLedPlace && e.parameter <= 1.0 - kMinLedPlace)) {
+      Error("INVALID_PARAMETER", fmt::format("is led through a point at {:g}; must be in [{:g}, {:g}]",
+                                             e.parameter, kMinLedPlace, 1.0 - kMinLedPlace));
+    }
+  }
   void Check(const CurveEdge& e) const {
     std::visit([this](const auto& curve) { Check(curve); }, e.curve);
   }

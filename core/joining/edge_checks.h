@@ -5,9 +5,9 @@
 
 namespace patchmill {
 
-// Codes: NOT_FINITE, ZERO_TANGENT, INVALID_GAMMA (outside (0, 10]), UNSUPPORTED_CURVE (degree outside
-// 1..kMaxBrownDegree, wrong number of points or knots, knots that decrease or span nothing). What passes may
-// be evaluated.
+// Codes: NOT_FINITE, ZERO_TANGENT, INVALID_GAMMA (outside (0, 10]), INVALID_PARAMETER, UNSUPPORTED_CURVE
+// (degree outside 1..kMaxBrownDegree, wrong number of points or knots, knots that decrease or span nothing).
+// What passes may be evaluated.
 void CheckEdgeShapes(const CurveNetwork& network, const NetworkWriter& findings);
 
 }  // namespace patchmill

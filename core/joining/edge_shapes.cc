@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/status.h"
 #include "core/curve/bezier_chain.h"
-#include "core/curve/edge_tangents.h"
-#include "core/curve/hosaka_fit.h"
+#include "core/curve/fitted_tangents.h"
+#include "core/joining/cross_tangents.h"
 
 namespace patchmill {
 namespace {
@@ -23,26 +24,36 @@ class Shaper {
         p0_(frame.network.vertices[At(edge.start)].position),
         p1_(frame.network.vertices[At(edge.end)].position) {}
 
-  std::optional<BezierCurve> Make() const {
+  std::optional<BezierChain> Make() const {
     static const EdgeShape kDefault = NormalsEdge{};
     const EdgeShape& shape = edge_.given ? frame_.network.edges[At(*edge_.given)].shape : kDefault;
     if (const auto* given = std::get_if<CurveEdge>(&shape)) return Take(given->curve);
     if (const auto* tangents = std::get_if<TangentsEdge>(&shape)) {
-      return ToBezier(HermiteCurve{p0_, tangents->start, p1_, -tangents->end});
+      return AsChain(ToBezier(HermiteCurve{p0_, tangents->start, p1_, -tangents->end}));
     }
-    const auto* through = std::get_if<ThroughPointEdge>(&shape);
-    const double gamma = through != nullptr ? 1.0 : std::get<NormalsEdge>(shape).gamma;
-    auto t1 = FromNormals(true, gamma), t2 = FromNormals(false, gamma);
+    const auto* led = std::get_if<LedEdge>(&shape);
+    const auto* plain = led != nullptr ? &led->ends : std::get_if<NormalsEdge>(&shape);
+    const double gamma = plain != nullptr ? plain->gamma : 1.0;
+    const auto t1 = FromNormals(true, gamma), t2 = FromNormals(false, gamma);
     if (!t1 || !t2) return std::nullopt;
-    if (through != nullptr && !FitLengths(through->point, *t1, *t2)) return std::nullopt;
-    return ToBezier(HermiteCurve{p0_, *t1, p1_, -*t2});
+    const EdgeDirections ends{p0_, t1->normalized(), p1_, t2->normalized()};
+    const auto fit = plain != nullptr ? Lengths(*plain, {*t1, *t2}, ends) : Fit(shape, ends);
+    if (!fit.ok()) {
+      Error("NO_FIT", std::string(fit.status().message()));
+      return std::nullopt;
+    }
+    const HermiteCurve cubic = EdgeCurve(p0_, p1_, *fit);
+    if (led == nullptr) return AsChain(ToBezier(cubic));
+    BezierCurve curve = *ToBezier(Curve(LedThrough(cubic, led->parameter, led->point, led->derivative)));
+    curve.points.back() = p1_;
+    return AsChain(std::move(curve));
   }
 
-  // Of the whole edge's curve, with the degree that following the leading face takes (part_tangents.h).
-  BezierCurve PartOf(const JoinedEdge& whole) const {
-    const NetworkFace& leader = frame_.network.faces[At(whole.topology.faces[0].face)];
-    const int degree = std::max(whole.curve.degree(), leader.pushes.empty() ? 3 : 4);
-    BezierCurve curve = Elevated(Part(whole.curve, edge_.part->from, edge_.part->to), degree);
+  // Of the whole edge's curve, with the degree that following the leading face takes (cross_tangents.h).
+  BezierChain PartOf(const JoinedEdge& whole) const {
+    const bool cubic = CubicAcross(frame_.network.faces[At(whole.topology.faces[0].face)]);
+    const int degree = std::max(whole.curve.degree, cubic ? 4 : 3);
+    BezierChain curve = Elevated(Part(whole.curve, edge_.part->from, edge_.part->to), degree);
     curve.points.front() = p0_;
     curve.points.back() = p1_;
     return curve;
@@ -90,32 +101,31 @@ class Shaper {
     return std::nullopt;
   }
 
-  // Scales the tangents so that Hosaka's segment passes through `point` (41).
-  bool FitLengths(const Vec3& point, Vec3& t1, Vec3& t2) const {
-    const HosakaSegment segment{p0_, p1_ - p0_, t1, -t2, {}};
-    const auto axes = HosakaAxes(segment);
-    if (!axes.ok()) {
-      Error("NO_FIT", std::string(axes.status().message()));
-      return false;
-    }
-    const auto fit = FitThroughPoint(segment.a.norm(), *axes * segment.b.normalized(),
-                                     *axes * segment.c.normalized(), *axes * (point - p0_));
-    if (!fit.ok()) {
-      Error("NO_FIT", std::string(fit.status().message()));
-      return false;
-    }
-    t1 = fit->b * t1.normalized();
-    t2 = fit->c * t2.normalized();
-    return true;
+  static absl::StatusOr<EdgeTangents> Lengths(const NormalsEdge& edge, const EdgeTangents& fmill,
+                                              const EdgeDirections& ends) {
+    if (edge.length == TangentLength::kChord) return fmill;
+    PM_ASSIGN_OR_RETURN(const EdgeTangents t,
+                        edge.length == TangentLength::kArc
+                            ? ArcTangents(ends)
+                            : QuarterEllipseTangents(ends.p1, ends.u1, ends.p2, ends.u2));
+    return EdgeTangents{edge.gamma * t.t1, edge.gamma * t.t2};
   }
 
-  std::optional<BezierCurve> Take(const Curve& given) const {
-    const auto bezier = ToBezier(given);
-    if (!bezier.ok()) {
-      Error("UNSUPPORTED_CURVE", WhyNotOnePolynomial(given, bezier.status()));
+  static absl::StatusOr<EdgeTangents> Fit(const EdgeShape& shape, const EdgeDirections& ends) {
+    if (const auto* peak = std::get_if<PeakEdge>(&shape)) return TangentsWithPeak(ends, peak->peak);
+    if (const auto* slope = std::get_if<SlopeEdge>(&shape)) {
+      return TangentsWithSlope(ends, slope->point, slope->direction);
+    }
+    return TangentsThroughPoint(ends, std::get<ThroughPointEdge>(shape).point);
+  }
+
+  std::optional<BezierChain> Take(const Curve& given) const {
+    auto chain = ChainOf(given);
+    if (!chain.ok()) {
+      Error("UNSUPPORTED_CURVE", std::string(chain.status().message()));
       return std::nullopt;
     }
-    BezierCurve curve = Elevated(*bezier, std::max(3, bezier->degree()));
+    BezierChain curve = Elevated(*std::move(chain), std::max(3, chain->degree));
     const double gap = std::max((curve.points.front() - p0_).norm(), (curve.points.back() - p1_).norm());
     if (!(gap <= 1e-9 * (p1_ - p0_).norm() + 1e-12 * p0_.norm())) {
       Error("CURVE_OFF_VERTEX", fmt::format("misses its vertices by {:g}", gap));
@@ -123,26 +133,35 @@ class Shaper {
     }
     curve.points.front() = p0_;
     curve.points.back() = p1_;
+    if (const std::string fault = SpanFault(curve); !fault.empty()) {
+      Error("UNSUPPORTED_CURVE", fault);
+      return std::nullopt;
+    }
     return curve;
   }
 
-  // Of several spans: where vertices would have to stand.
-  static std::string WhyNotOnePolynomial(const Curve& given, const absl::Status& status) {
-    constexpr std::size_t kMaxTold = 8;
-    const auto chain = ChainOf(given);
-    if (!chain.ok() || chain->spans() < 2) return std::string(status.message());
-    std::string places;
-    const auto last = chain->breaks.size() - 1;
-    for (std::size_t k = 1; k < std::min(last, kMaxTold + 1); ++k) {
-      const Vec3& p = chain->points[k * At(chain->degree)];
-      places += fmt::format("{}({:.6g}, {:.6g}, {:.6g})", k > 1 ? ", " : "", p.x(), p.y(), p.z());
+  // What keeps spans from making one edge; empty when nothing does.
+  static std::string SpanFault(const BezierChain& curve) {
+    if (curve.spans() > kMaxBrownBreaks + 1) {
+      return fmt::format("has a curve of {} spans; at most {}", curve.spans(), kMaxBrownBreaks + 1);
     }
-    if (last > kMaxTold + 1) places += ", ...";
-    return fmt::format(
-        "has a curve of {} spans, an edge takes one: insert vertices at {}, give the curve span by span as "
-        "edges "
-        "between them, and let the faces beside it have a side for each",
-        chain->spans(), places);
+    for (int k = 0; k < curve.spans(); ++k) {
+      const double at = curve.breaks[At(k)], length = curve.breaks[At(k + 1)] - at;
+      if (!(length > 10.0 * kMinBreakGap)) {
+        return fmt::format("has a curve with knots {:g} of its domain apart; at least {:g}", length,
+                           10.0 * kMinBreakGap);
+      }
+      if (k == 0) continue;
+      const auto at_break = JetsAtBreak(curve, k);
+      if ((at_break[1].d - at_break[0].d).norm() <= kMaxTangentTilt * at_break[0].d.norm()) continue;
+      const Vec3& p = at_break[0].p;
+      return fmt::format(
+          "has a curve whose first derivative jumps at ({:.6g}, {:.6g}, {:.6g}): insert a vertex there, give "
+          "the "
+          "curve part by part as edges, and let the faces beside it have a side for each",
+          p.x(), p.y(), p.z());
+    }
+    return "";
   }
 
   const JoinFrame& frame_;
@@ -153,16 +172,25 @@ class Shaper {
 
 }  // namespace
 
-std::optional<BezierCurve> MakeEdgeCurve(const JoinFrame& frame, const std::vector<JoinedEdge>& edges,
+std::optional<BezierChain> MakeEdgeCurve(const JoinFrame& frame, const std::vector<JoinedEdge>& edges,
                                          const TableEdge& edge) {
   const Shaper shaper(frame, edge);
-  return edge.part ? shaper.PartOf(edges[At(edge.part->whole)]) : shaper.Make();
+  if (edge.part) return shaper.PartOf(edges[At(edge.part->whole)]);
+  std::optional<BezierChain> curve = shaper.Make();
+  // The face across from a Hosaka face follows it, with a tangent of one degree more than that one's.
+  const auto hosakas = std::ranges::count_if(edge.faces, [&](const FaceSide& s) {
+    return frame.network.faces[At(s.face)].scheme == PatchScheme::kHosaka;
+  });
+  if (curve && !edge.crease && hosakas == 1 && edge.faces.size() == 2) {
+    curve = Elevated(*std::move(curve), std::max(4, curve->degree));
+  }
+  return curve;
 }
 
-BezierCurve StraightEdge(const JoinFrame& frame, const TableEdge& edge) {
+BezierChain StraightEdge(const JoinFrame& frame, const TableEdge& edge) {
   const Vec3 &p0 = frame.network.vertices[At(edge.start)].position,
              &p1 = frame.network.vertices[At(edge.end)].position;
-  return ToBezier(HermiteCurve{p0, p1 - p0, p1, p1 - p0});
+  return AsChain(ToBezier(HermiteCurve{p0, p1 - p0, p1, p1 - p0}));
 }
 
 }  // namespace patchmill

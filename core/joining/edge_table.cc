@@ -225,6 +225,7 @@ EdgeTable BuildEdgeTable(const CurveNetwork& network, Diagnostics& list) {
   const bool apart = CheckVertices(network, findings);
   CheckEdgeShapes(network, findings);
   CheckPushes(network, findings);
+  CheckTwists(network, findings);
 
   EdgeByEnds by_ends;
   AddListedEdges(network, findings, by_ends, table);

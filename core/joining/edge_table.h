@@ -1,4 +1,9 @@
 // The topology of a curve network: edges with the faces beside them, groups of faces around each vertex.
+//
+// A table of its own, as input still to be judged: OpenMesh, which carries the finished patches
+// (core/network/half_edges.h), refuses a face the moment it would make an edge or a vertex non-manifold, one
+// at a time and without a word about the rest, while everything wrong with a network is told at once, with
+// the names its drawer gave. Vertices on edges, too, have no place in a mesh.
 #pragma once
 
 #include <array>
@@ -52,9 +57,9 @@ struct EdgeTable {
 
 // Codes of errors: those of CheckEdgeShapes, PATCH_COUNT, NOT_FINITE, TOO_LARGE, INVALID_REFERENCE,
 // FACE_SIDES, DUPLICATE_VERTEX, ZERO_LENGTH_EDGE, DUPLICATE_EDGE, NON_MANIFOLD_EDGE, NON_MANIFOLD_VERTEX,
-// DANGLING_EDGE, CONTRADICTORY_CREASE, INVALID_NORMAL, INVALID_PUSH, INVALID_JOIN_TOLERANCE, UNUSED_VERTEX;
-// INVALID_T_VERTEX, T_VERTEX_CYCLE (t_vertices.h).
-// All findings at once as far as they make sense; the table is sound when none is an error. Cost O(n log n).
+// DANGLING_EDGE, CONTRADICTORY_CREASE, INVALID_TWIST, INVALID_NORMAL, INVALID_PUSH, INVALID_JOIN_TOLERANCE,
+// UNUSED_VERTEX; INVALID_T_VERTEX, T_VERTEX_CYCLE (t_vertices.h). All findings at once as far as they make
+// sense; the table is sound when none is an error. Cost O(n log n).
 EdgeTable BuildEdgeTable(const CurveNetwork& network, Diagnostics& findings);
 
 inline int SideCount(const NetworkFace& face) { return static_cast<int>(face.vertices.size()); }

@@ -12,21 +12,42 @@ std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 int HighestDegree(const FaceBoundary& face) {
   int degree = 3;
-  for (int k = 0; k < face.sides; ++k) degree = std::max(degree, face.curve[At(k)].degree());
+  for (int k = 0; k < face.sides; ++k) degree = std::max(degree, face.curve[At(k)].degree);
   return degree;
 }
 
-// Edge and rail (edge + tangent/3) of one side with the given degree.
+bool AllCubic(const FaceBoundary& face) {
+  const auto first = face.curve.begin();
+  return std::all_of(first, first + face.sides,
+                     [](const BezierChain& c) { return c.degree == 3 && c.spans() == 1; });
+}
+
+BezierChain Turned(const BezierChain& chain, bool reversed) { return reversed ? Reversed(chain) : chain; }
+
+// Edge and rail (edge + tangent/3) of one side with the given degree and breaks.
 struct Strip {
   std::vector<Vec3> edge, rail;
 };
-Strip StripOf(const FaceBoundary& face, int side, int degree, bool reversed) {
-  BezierCurve curve = Elevated(face.curve[At(side)], degree),
-              tangent = Elevated(face.tangent[At(side)], degree);
-  if (reversed) curve = Reversed(std::move(curve)), tangent = Reversed(std::move(tangent));
-  Strip strip{curve.points, curve.points};
-  for (std::size_t i = 0; i < strip.rail.size(); ++i) strip.rail[i] += tangent.points[i] / 3.0;
+Strip StripOf(const FaceBoundary& face, int side, int degree, bool reversed,
+              const std::vector<double>& breaks = {0.0, 1.0}) {
+  const auto alike = [&](const BezierChain& chain) {
+    return CutAt(Elevated(Turned(chain, reversed), degree), breaks).points;
+  };
+  Strip strip;
+  strip.edge = strip.rail = alike(face.curve[At(side)]);
+  const std::vector<Vec3> tangent = alike(face.tangent[At(side)]);
+  for (std::size_t i = 0; i < strip.rail.size(); ++i) strip.rail[i] += tangent[i] / 3.0;
   return strip;
+}
+
+// Of two opposite sides, the second one reversed.
+std::vector<double> BreaksOf(const FaceBoundary& face, int side, int opposite) {
+  const std::size_t a = At(side), b = At(opposite);
+  return CommonBreaks({face.curve[a], face.tangent[a], Reversed(face.curve[b]), Reversed(face.tangent[b])});
+}
+
+std::vector<double> Inner(const std::vector<double>& breaks) {
+  return {breaks.begin() + 1, breaks.end() - 1};
 }
 
 void AddInner(const std::vector<Vec3>& from, std::vector<Vec3>& to) {
@@ -48,10 +69,13 @@ PatchShape GregoryQuad(const FaceBoundary& face) {
 
 PatchShape BrownQuad(const FaceBoundary& face) {
   BrownPatch patch;
-  patch.degree_u = std::max({3, face.curve[0].degree(), face.curve[2].degree()});
-  patch.degree_v = std::max({3, face.curve[1].degree(), face.curve[3].degree()});
-  const Strip v0 = StripOf(face, 0, patch.degree_u, false), v1 = StripOf(face, 2, patch.degree_u, true);
-  const Strip u0 = StripOf(face, 3, patch.degree_v, true), u1 = StripOf(face, 1, patch.degree_v, false);
+  patch.degree_u = std::max({3, face.curve[0].degree, face.curve[2].degree});
+  patch.degree_v = std::max({3, face.curve[1].degree, face.curve[3].degree});
+  const std::vector<double> u = BreaksOf(face, 0, 2), v = BreaksOf(face, 1, 3);
+  const Strip v0 = StripOf(face, 0, patch.degree_u, false, u), v1 = StripOf(face, 2, patch.degree_u, true, u);
+  const Strip u0 = StripOf(face, 3, patch.degree_v, true, v), u1 = StripOf(face, 1, patch.degree_v, false, v);
+  patch.breaks_u = Inner(u);
+  patch.breaks_v = Inner(v);
   patch.points = v0.edge;
   patch.points.insert(patch.points.end(), v1.edge.begin(), v1.edge.end());
   AddInner(u0.edge, patch.points);
@@ -79,7 +103,7 @@ PatchShape QuarticTriangle(const FaceBoundary& face) {
   patch.blend = GregoryPatch::Blend::kEdge;
   for (int k = 0; k < 3; ++k) {
     const auto& c = face.curve[At(k)].points;
-    const auto& b = Elevated(face.tangent[At(k)], 3).points;
+    const auto b = Elevated(face.tangent[At(k)], 3).points;
     const std::size_t here = At(5 * k), next = At(5 * ((k + 1) % 3));
     patch.points[here] = c[0];
     patch.points[here + 1] = c[0] + 0.75 * (c[1] - c[0]);
@@ -127,19 +151,57 @@ PatchShape G2GregoryQuad(const FaceBoundary& face) {
   return patch;
 }
 
+// (1)-(7): the four edges alone, with breaks where vertices lie on them.
+PatchShape HosakaQuad(const FaceBoundary& face) {
+  HosakaPatch patch;
+  const int n = patch.degree = HighestDegree(face);
+  const auto edge = [&](int side, bool reversed) {
+    return Elevated(Turned(face.curve[At(side)], reversed), n).points;
+  };
+  patch.points = edge(0, false);
+  const std::vector<Vec3> v1 = edge(2, true);
+  patch.points.insert(patch.points.end(), v1.begin(), v1.end());
+  AddInner(edge(3, true), patch.points);
+  AddInner(edge(1, false), patch.points);
+  constexpr std::array<int, 4> kFunction = {0, 3, 2, 1};  // f1..f4: v=0, u=0, v=1, u=1
+  for (int side = 0; side < 4; ++side) {
+    auto& breaks = patch.breaks[At(kFunction[At(side)])];
+    for (const double at : face.breaks[At(side)]) {
+      const double along = side < 2 ? at : 1.0 - at;
+      breaks.push_back({along, along});
+    }
+    if (side >= 2) std::ranges::reverse(breaks);
+  }
+  return patch;
+}
+
 }  // namespace
 
-std::optional<std::string> SchemeFault(const NetworkFace& face, int degree) {
+std::optional<std::string> SchemeFault(const NetworkFace& face, const EdgeDemand& edges) {
+  const auto& [degree, spans, breaks] = edges;
   const PatchScheme scheme = face.scheme;
   const int sides = static_cast<int>(face.vertices.size());
-  const bool wants_quad =
-      scheme == PatchScheme::kGregory || scheme == PatchScheme::kBrown || scheme == PatchScheme::kG2Gregory;
+  const bool wants_quad = scheme == PatchScheme::kGregory || scheme == PatchScheme::kBrown ||
+                          scheme == PatchScheme::kG2Gregory || scheme == PatchScheme::kHosaka;
   const bool wants_triangle = scheme == PatchScheme::kLoftTriangle || scheme == PatchScheme::kGregoryTriangle;
   if ((wants_quad && sides == 3) || (wants_triangle && sides == 4)) {
     return fmt::format("its scheme is for {} sides, the face has {}", wants_quad ? 4 : 3, sides);
   }
-  if (scheme == PatchScheme::kG2Gregory && !face.pushes.empty()) {
-    return "a G2-Gregory patch is not pushed by twists; give control vectors of its edges";
+  const bool twisted = !face.pushes.empty() || !face.twists.empty();
+  if (scheme == PatchScheme::kG2Gregory && twisted) {
+    return "a G2-Gregory patch is not shaped by twists; give control vectors of its edges";
+  }
+  if (scheme == PatchScheme::kHosaka && twisted) {
+    return "a Hosaka patch has no twists at its corners; shape its edges, or take a Brown quad";
+  }
+  if (scheme == PatchScheme::kHosaka && breaks > kMaxHosakaBreaks) {
+    return fmt::format("{} vertices lie on one edge of it; at most {}", breaks, kMaxHosakaBreaks);
+  }
+  if (spans > 1 && (sides == 3 || (scheme != PatchScheme::kAuto && scheme != PatchScheme::kBrown))) {
+    return fmt::format("an edge has {} spans, which only a Brown quad takes; {}", spans,
+                       sides == 3
+                           ? "insert vertices at its knots and an edge from each to the corner opposite"
+                           : "take that scheme");
   }
   const bool cubic_only = scheme == PatchScheme::kGregory || scheme == PatchScheme::kGregoryTriangle ||
                           scheme == PatchScheme::kG2Gregory;
@@ -159,8 +221,8 @@ PatchShape MakeFacePatch(const FaceBoundary& face, PatchScheme scheme) {
     return scheme == PatchScheme::kGregoryTriangle ? QuarticTriangle(face) : LoftedTriangle(face);
   }
   if (scheme == PatchScheme::kG2Gregory) return G2GregoryQuad(face);
-  const bool cubic = HighestDegree(face) == 3;
-  return scheme == PatchScheme::kBrown || !cubic ? BrownQuad(face) : GregoryQuad(face);
+  if (scheme == PatchScheme::kHosaka) return HosakaQuad(face);
+  return scheme == PatchScheme::kBrown || !AllCubic(face) ? BrownQuad(face) : GregoryQuad(face);
 }
 
 }  // namespace patchmill

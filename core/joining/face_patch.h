@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/curve/curve.h"
+#include "core/curve/bezier_chain.h"
 #include "core/joining/curvature_joint.h"
 #include "core/joining/curve_network.h"
 #include "core/patch/patch.h"
@@ -15,13 +15,21 @@ namespace patchmill {
 // Side k runs from corner k to corner k+1 of the face; its tangents point into the face.
 struct FaceBoundary {
   int sides = 4;
-  std::array<BezierCurve, 4> curve;    // degree >= 3
-  std::array<BezierCurve, 4> tangent;  // degree <= that of the curve
-  std::array<CrossRows, 4> rows;       // only of a kG2Gregory face; their ends are those of the curves
+  std::array<BezierChain, 4> curve;           // degree >= 3
+  std::array<BezierChain, 4> tangent;         // degree <= that of the curve
+  std::array<CrossRows, 4> rows;              // only of a kG2Gregory face; their ends are those of the curves
+  std::array<std::vector<double>, 4> breaks;  // only of a kHosaka face: of its blending functions, f(v) = v
 };
 
-// Why the face's scheme cannot make a patch from edges of at most this degree (>= 3); nothing when it can.
-std::optional<std::string> SchemeFault(const NetworkFace& face, int degree);
+// What a scheme must cope with on the edges of a face.
+struct EdgeDemand {
+  int degree = 3;  // the highest, >= 3
+  int spans = 1;   // the most
+  int breaks = 0;  // the most vertices on one edge
+};
+
+// Why the face's scheme cannot make a patch from such edges; nothing when it can.
+std::optional<std::string> SchemeFault(const NetworkFace& face, const EdgeDemand& edges);
 
 // Requires that SchemeFault finds nothing. Quads: u along side 0, v along side 3 reversed. Triangles: corners
 // (0,0) (1,0) (0,1).

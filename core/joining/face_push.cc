@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,32 @@ void PushTwists(const Vec3& start, const Vec3& end, const Vec3& b0, const Vec3& 
   const Vec3 normal = (1.0 - u) * b0.cross(start) + u * b1.cross(end);  // (22)
   w0 += (1.0 - u) * share * normal;
   w1 += u * share * normal;
+}
+
+void CheckTwists(const CurveNetwork& network, const NetworkWriter& findings) {
+  for (std::size_t f = 0; f < network.faces.size(); ++f) {
+    const NetworkFace& face = network.faces[f];
+    const auto error = [&](const SideTwists& twists, std::string_view text) {
+      findings.Error("INVALID_TWIST", findings.AtFace(static_cast<int>(f)),
+                     fmt::format("has twists from vertex {} to {} {}", twists.start, twists.end, text));
+    };
+    std::set<std::pair<int, int>> seen;
+    for (const SideTwists& twists : face.twists) {
+      const auto ends = std::minmax({twists.start, twists.end});
+      bool side = false;
+      for (std::size_t k = 0; k < face.vertices.size(); ++k) {
+        side = side || std::minmax({face.vertices[k], face.vertices[(k + 1) % face.vertices.size()]}) == ends;
+      }
+      const auto finite = [](const std::optional<Vec3>& v) { return !v || v->allFinite(); };
+      if (!side) {
+        error(twists, "which is no side of it");
+      } else if (!seen.insert(ends).second) {
+        error(twists, "twice");
+      } else if (!finite(twists.at_start) || !finite(twists.at_end)) {
+        error(twists, "that are not finite");
+      }
+    }
+  }
 }
 
 void CheckPushes(const CurveNetwork& network, const NetworkWriter& findings) {

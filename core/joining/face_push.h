@@ -20,6 +20,9 @@ EdgePlace PlaceBeside(const FacePush& push, int sides, int side);
 void PushTwists(const Vec3& start, const Vec3& end, const Vec3& b0, const Vec3& b1, const EdgePlace& place,
                 double amount, Vec3& w0, Vec3& w1);
 
+// INVALID_TWIST: not of a side of the face, twice of one, a number that is not finite.
+void CheckTwists(const CurveNetwork& network, const NetworkWriter& findings);
+
 // INVALID_PUSH: a place outside the face, or an amount that is not finite.
 void CheckPushes(const CurveNetwork& network, const NetworkWriter& findings);
 

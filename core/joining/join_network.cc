@@ -1,5 +1,6 @@
 #include "core/joining/join_network.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "core/base/status.h"
@@ -7,6 +8,7 @@
 #include "core/joining/cross_tangents.h"
 #include "core/joining/curvature_rows.h"
 #include "core/joining/edge_shapes.h"
+#include "core/joining/face_cuts.h"
 #include "core/joining/face_patch.h"
 #include "core/joining/join_frame.h"
 #include "core/joining/joint_checks.h"
@@ -63,7 +65,9 @@ std::vector<JoinedEdge> MakeEdges(JoinFrame& frame, const RunContext& run) {
     }
   }
   for (std::size_t e = 0; e < edges.size() && !run.Cancelled(); ++e) {
-    if (made[e]) CheckPlanes(frame, edges, edges[e]);
+    if (!made[e]) continue;
+    CheckPlanes(frame, edges, edges[e]);
+    CheckLoop(frame, edges[e]);
   }
   return edges;
 }
@@ -82,6 +86,13 @@ PatchModel MakePatches(const JoinFrame& frame, const std::vector<JoinedEdge>& ed
       const bool forward = frame.table.Forward({f, s}, frame.network);
       boundary.curve[At(s)] = forward ? edge.curve : Reversed(edge.curve);
       boundary.tangent[At(s)] = forward ? edge.tangents[k] : Reversed(edge.tangents[k]);
+      if (face.scheme == PatchScheme::kHosaka) {
+        boundary.breaks[At(s)] = HosakaBreaks(edge, edges);
+        if (!forward) {
+          std::ranges::reverse(boundary.breaks[At(s)]);
+          for (double& at : boundary.breaks[At(s)]) at = 1.0 - at;
+        }
+      }
       if (face.scheme == PatchScheme::kG2Gregory) {
         boundary.rows[At(s)] = forward ? edge.rows[k] : Reversed(edge.rows[k]);
       }
@@ -102,18 +113,22 @@ void Join(CurveNetwork network, const EdgeTable& table, const RunContext& run, J
   if (go_on()) CheckSchemes(frame, joined.edges);
   if (go_on()) AddCrossTangents(frame, joined.edges, run);
   if (go_on()) AddCurvatureRows(frame.network, table, findings, joined.edges);
-  if (go_on()) joined.model = MakePatches(frame, joined.edges, run);
+  if (!go_on()) return;
+  joined.model = MakePatches(frame, joined.edges, run);
+  for (int f = 0; f < static_cast<int>(frame.network.faces.size()); ++f) {
+    joined.face_of.push_back(frame.network.faces[At(f)].of.value_or(f));
+  }
 }
 
 }  // namespace
 
 absl::StatusOr<JoinedNetwork> JoinNetwork(const CurveNetwork& given, const RunContext& run) {
   JoinedNetwork joined;
-  CurveNetwork network = WithLinesAsEdges(given, joined.findings);
+  CurveNetwork network = WithCutFaces(WithLinesAsEdges(given, joined.findings), joined.findings);
   const EdgeTable table = BuildEdgeTable(network, joined.findings);
   if (!HasError(joined.findings)) Join(std::move(network), table, run, joined);
   PM_RETURN_IF_ERROR(run.Check());
-  if (HasError(joined.findings)) joined.edges.clear(), joined.model = {};
+  if (HasError(joined.findings)) joined.edges.clear(), joined.face_of.clear(), joined.model = {};
   return joined;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/base/diagnostic.h"
 #include "core/base/run_context.h"
+#include "core/curve/bezier_chain.h"
 #include "core/joining/curvature_joint.h"
 #include "core/joining/edge_table.h"
 #include "core/joining/tangent_plane.h"
@@ -26,9 +27,9 @@ enum class EdgeKind {
 struct JoinedEdge {
   TableEdge topology;
   EdgeKind kind = EdgeKind::kFree;
-  BezierCurve curve;  // from vertex start to end, degree >= 3
+  BezierChain curve;  // from vertex start to end, degree >= 3; of several spans where such a spline was given
   // Cross-boundary tangents along the curve, into the face topology.faces[k], degree that of the curve.
-  std::vector<BezierCurve> tangents;
+  std::vector<BezierChain> tangents;
   // Of the G2-Gregory faces beside it, along the curve, in the order of topology.faces; in place of
   // `tangents`. Empty where there is none.
   std::vector<CrossRows> rows;
@@ -36,21 +37,28 @@ struct JoinedEdge {
 };
 
 struct JoinedNetwork {
-  // One patch per face, in order, with the faces' ids. Empty when a finding is an error.
+  // One patch per face, in order, with the faces' ids; then the further pieces of faces with cuts
+  // (face_cuts.h). Empty when a finding is an error.
   PatchModel model;
-  std::vector<JoinedEdge> edges;  // empty then, too
+  std::vector<int> face_of;       // of each patch: the face it is, or a piece of; empty then, too
+  std::vector<JoinedEdge> edges;  // likewise
   // Edges made from lines have a `given` beyond CurveNetwork::edges, in the order of WithLinesAsEdges.
-  // Errors: those of BuildEdgeTable, WithLinesAsEdges, AddCurvatureRows and PlaceTVertex, and
+  // Errors: those of BuildEdgeTable, WithLinesAsEdges, WithCutFaces, AddCurvatureRows and PlaceTVertex, and
   //   CHORD_ALONG_NORMAL    a tangent from a normal that has no direction: give the tangent
-  //   NO_FIT                no Hosaka segment passes through the point
-  //   CURVE_OFF_VERTEX      a given curve does not start and end at its vertices
-  //   UNSUPPORTED_CURVE     several spans
+  //   NO_FIT                no Hosaka segment, arc or ellipse has these end directions and what is asked of
+  //   it CURVE_OFF_VERTEX      a given curve does not start and end at its vertices UNSUPPORTED_CURVE several
+  //   spans with a corner between them, or on a smooth edge a jump of the second
+  //                         derivative
+  //   HOSAKA_RATIO          Hosaka faces on both sides of a smooth edge, or one along a part of it, whose end
+  //   tangents
+  //                         give no common tangent plane between the ends
+  //   INVALID_TWIST         twists where another face leads: along a part of an edge, beside a Hosaka face
   //   UNSUPPORTED_SCHEME    a scheme for the other number of sides, or an edge of a degree it cannot take
   //   INCONSISTENT_NORMALS  the faces beside a smooth edge have different normals at an end, or a tangent or
   //                         curve given there leaves the tangent plane
   //   PARALLEL_TANGENTS     two edges leave a corner of a face in line
   //   FOLDED_EDGE           both faces leave a smooth edge to the same side (h, k of opposite sign)
-  // Warnings: TANGENT_PLANE_ONLY (curvature_rows.h).
+  // Warnings: TANGENT_PLANE_ONLY (curvature_rows.h), LOOPED_EDGE (joint_checks.h).
   Diagnostics findings;
 };
 

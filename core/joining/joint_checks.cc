@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/curve/hosaka_fit.h"
+#include "core/joining/cross_tangents.h"
 #include "core/joining/face_patch.h"
 
 namespace patchmill {
@@ -60,6 +62,18 @@ void CheckPlanes(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, c
   }
 }
 
+void CheckLoop(const JoinFrame& frame, const JoinedEdge& edge) {
+  if (edge.curve.degree != 3 || edge.curve.spans() > 1) return;
+  const auto loop = FindLoop(HermiteOf(edge.curve));
+  if (!loop) return;
+  const double gap = (Evaluate(edge.curve, loop->first).p - Evaluate(edge.curve, loop->second).p).norm();
+  frame.findings.Warning("LOOPED_EDGE", frame.Place(edge),
+                         fmt::format("from vertex {} to {} loops between {:.4g} and {:.4g} of its parameter "
+                                     "and passes itself at {:.3g}; "
+                                     "its tangents are too long",
+                                     edge.topology.start, edge.topology.end, loop->first, loop->second, gap));
+}
+
 void CheckCorners(const JoinFrame& frame, const std::vector<JoinedEdge>& edges) {
   for (int f = 0; f < static_cast<int>(frame.network.faces.size()); ++f) {
     const int n = SideCount(frame.network.faces[At(f)]);
@@ -77,11 +91,15 @@ void CheckCorners(const JoinFrame& frame, const std::vector<JoinedEdge>& edges) 
 void CheckSchemes(const JoinFrame& frame, const std::vector<JoinedEdge>& edges) {
   for (int f = 0; f < static_cast<int>(frame.network.faces.size()); ++f) {
     const NetworkFace& face = frame.network.faces[At(f)];
-    int degree = 3;
+    EdgeDemand demand;
     for (int s = 0; s < SideCount(face); ++s) {
-      degree = std::max(degree, edges[At(frame.table.face_edges[At(f)][At(s)])].curve.degree());
+      const JoinedEdge& edge = edges[At(frame.table.face_edges[At(f)][At(s)])];
+      demand.degree = std::max(demand.degree, edge.curve.degree);
+      demand.spans = std::max(demand.spans, edge.curve.spans());
+      if (face.scheme != PatchScheme::kHosaka) continue;
+      demand.breaks = std::max(demand.breaks, static_cast<int>(HosakaBreaks(edge, edges).size()));
     }
-    if (const auto fault = SchemeFault(face, degree)) {
+    if (const auto fault = SchemeFault(face, demand)) {
       frame.findings.Error("UNSUPPORTED_SCHEME", frame.findings.AtFace(f), *fault);
     }
   }

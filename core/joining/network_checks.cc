@@ -45,14 +45,16 @@ std::string CutsOf(const std::vector<int>& loop) {
                                           : " or ",
                           loop[k], loop[(k + across) % n]);
     }
-    return fmt::format("insert one edge, between vertices {}, and give two faces{}", cuts,
-                       n == 5 ? ", a triangle and a quad" : " of four sides");
+    return fmt::format(
+        "insert one edge, between vertices {}, and give two faces{}, or name it as a cut of this one", cuts,
+        n == 5 ? ", a triangle and a quad" : " of four sides");
   }
   for (std::size_t k = 3; k + 1 < n; k += 2)
     cuts += fmt::format("{}{}-{}", k == 3 ? "" : ", ", loop[0], loop[k]);
   return fmt::format(
-      "insert edges, for instance between vertices {}, that leave faces of three or four sides, or a vertex "
-      "inside with an edge to every other corner",
+      "insert edges, for instance between vertices {}, that leave faces of three or four sides (or name them "
+      "as its "
+      "cuts), or a vertex inside with an edge to every other corner",
       cuts.size() < 200 ? cuts : cuts.substr(0, cuts.rfind(',', 200)) + ", ...");
 }
 
@@ -136,6 +138,7 @@ bool CheckReferences(const CurveNetwork& network, const NetworkWriter& findings)
     for (const int v : loop) check(v, vertices, "vertex", findings.AtFace(f));
     if (loop.size() < 3 || loop.size() > 4) {
       sound = false;
+      if (!network.faces[At(f)].cuts.empty()) continue;  // told by WithCutFaces
       findings.Error("FACE_SIDES", findings.AtFace(f),
                      fmt::format("has {} sides; {}", loop.size(), CutsOf(loop)));
     } else if (std::set<int>(loop.begin(), loop.end()).size() != loop.size()) {

@@ -51,6 +51,12 @@ Where NetworkWriter::AtControl(int control) const {
 Where NetworkWriter::AtFace(int face) const {
   Where where;
   const NetworkFace& f = network_.faces[static_cast<std::size_t>(face)];
+  if (f.of) {
+    where = AtFace(*f.of);
+    where.field += fmt::format(", piece of vertices {}", fmt::join(f.vertices, " "));
+    where.patch_index = face;
+    return where;
+  }
   where.field = Path("faces", face, f.id);
   where.patch_id = f.id;
   where.patch_index = face;

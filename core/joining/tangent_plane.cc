@@ -38,6 +38,11 @@ std::vector<Vec3> TimesLinear(const std::array<double, 2>& f, const std::vector<
   return product;
 }
 
+double Linear(const std::array<double, 2>& f, double u) {
+  if (u == 0.0) return f[0];
+  return u == 1.0 ? f[1] : (1.0 - u) * f[0] + u * f[1];
+}
+
 }  // namespace
 
 std::variant<JoinFactors, JoinFault> FactorsAlong(const Vec3& start, const Vec3& end, const CrossTangents& t,
@@ -101,33 +106,52 @@ BezierCurve CrossBoundaryTangent(const Vec3& at0, const Vec3& twist0, const Vec3
   return {{at0, at0 + twist0 / 3.0, at1 + twist1 / 3.0, at1}};
 }
 
-BezierCurve CorrectionFor(const BezierCurve& edge, const JoinFactors& factors) {
-  const int n = std::max(edge.degree(), 3);
-  const BezierCurve whole = Elevated(edge, n), cubic = Elevated(ToBezier(HermiteOf(edge)), n);
-  // Bezier points of (C - H)' / 2, degree n - 1; both ends vanish by construction.
-  std::vector<Vec3> slope;
-  for (std::size_t i = 0; i + 1 < whole.points.size(); ++i) {
-    slope.push_back(0.5 * n *
-                    ((whole.points[i + 1] - cubic.points[i + 1]) - (whole.points[i] - cubic.points[i])));
+BezierChain CorrectionFor(const BezierChain& edge, const JoinFactors& f) {
+  const int n = edge.degree;
+  const BezierChain cubic = CutAt(Elevated(AsChain(ToBezier(HermiteOf(edge))), n), edge.breaks);
+  BezierChain correction{n, edge.breaks, std::vector<Vec3>(edge.points.size())};
+  for (int k = 0; k < edge.spans(); ++k) {
+    const auto span = static_cast<std::size_t>(k);
+    const double from = edge.breaks[span], to = edge.breaks[span + 1];
+    const std::size_t first = span * static_cast<std::size_t>(n);
+    // Bezier points of (C - H)' / 2, degree n - 1; both ends of the edge vanish by construction.
+    std::vector<Vec3> slope;
+    for (std::size_t i = first; i < first + static_cast<std::size_t>(n); ++i) {
+      slope.push_back(0.5 * n / (to - from) *
+                      ((edge.points[i + 1] - cubic.points[i + 1]) - (edge.points[i] - cubic.points[i])));
+    }
+    if (k == 0) slope.front().setZero();
+    if (k + 1 == edge.spans()) slope.back().setZero();
+    const std::vector<Vec3> product = TimesLinear({Linear(f.l, from), Linear(f.l, to)}, slope);
+    std::ranges::copy(product, correction.points.begin() + static_cast<std::ptrdiff_t>(first));
   }
-  slope.front().setZero();
-  slope.back().setZero();
-  return {TimesLinear(factors.l, slope)};
+  return correction;
 }
 
-BezierCurve FollowingTangent(const BezierCurve& edge, const BezierCurve& leading, const JoinFactors& factors,
-                             const Vec3& b0, const Vec3& b1) {
-  const int n = edge.degree();
-  std::vector<Vec3> slope;
-  for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
-    slope.push_back(n * (edge.points[i + 1] - edge.points[i]));
-  }
+BezierChain FollowingTangent(const BezierChain& given, const BezierChain& given_leading,
+                             const JoinFactors& factors, const Vec3& b0, const Vec3& b1) {
+  std::vector<BezierChain> both = {given, Elevated(given_leading, given.degree - 1)};
+  const std::vector<double> breaks = CommonBreaks(both);
+  const BezierChain edge = CutAt(both[0], breaks), leading = CutAt(both[1], breaks);
+  const int n = edge.degree;
   const auto share = [&factors](const std::array<double, 2>& f) {
     return std::array{f[0] / factors.k[0], f[1] / factors.k[1]};
   };
-  BezierCurve b{TimesLinear(share(factors.l), slope)};
-  const BezierCurve turned = Elevated({TimesLinear(share(factors.h), leading.points)}, n);
-  for (std::size_t i = 0; i < b.points.size(); ++i) b.points[i] -= turned.points[i];
+  const auto l = share(factors.l), h = share(factors.h);
+  BezierChain b{n, breaks, std::vector<Vec3>(edge.points.size())};
+  for (int k = 0; k < edge.spans(); ++k) {
+    const auto span = static_cast<std::size_t>(k);
+    const double from = breaks[span], to = breaks[span + 1];
+    const std::vector<Vec3> curve = SpanOf(edge, k).points;
+    std::vector<Vec3> slope;
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i)
+      slope.push_back(n / (to - from) * (curve[i + 1] - curve[i]));
+    const std::vector<Vec3> along = TimesLinear({Linear(l, from), Linear(l, to)}, slope);
+    const std::vector<Vec3> turned = TimesLinear({Linear(h, from), Linear(h, to)}, SpanOf(leading, k).points);
+    for (std::size_t i = 0; i < along.size(); ++i) {
+      b.points[span * static_cast<std::size_t>(n) + i] = along[i] - turned[i];
+    }
+  }
   b.points.front() = b0;
   b.points.back() = b1;
   return b;

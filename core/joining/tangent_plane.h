@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "core/curve/curve.h"
+#include "core/curve/bezier_chain.h"
 
 namespace patchmill {
 
@@ -71,12 +71,13 @@ BezierCurve CrossBoundaryTangent(const Vec3& at0, const Vec3& twist0, const Vec3
 
 // b where a is given all along: (5) solved for b with k = 1, so that b = l C' - h a with linear l, h that
 // give it its ends b0, b1 (METHODS 3.3, (17)-(19), with l for curves that do not cross the edge in one line).
-// Exact; of the degree of `edge`, which must be above that of `leading`.
-BezierCurve FollowingTangent(const BezierCurve& edge, const BezierCurve& leading, const JoinFactors& factors,
+// Exact; of the degree of `edge`, which must be above that of `leading`, and cut at the breaks of both.
+BezierChain FollowingTangent(const BezierChain& edge, const BezierChain& leading, const JoinFactors& factors,
                              const Vec3& b0, const Vec3& b1);
 
 // What a and b both need in addition where the edge is not its own cubic Hermite part H: with h + k = 2,
-// l (C' - H')/2 on each side restores (5) exactly. Vector-valued, degree that of the edge; zero for a cubic.
-BezierCurve CorrectionFor(const BezierCurve& edge, const JoinFactors& factors);
+// l (C' - H')/2 on each side restores (5) exactly. Vector-valued, degree and breaks those of the edge, of
+// degree 3 at least; zero for a cubic. Where the edge's second derivative jumps, so does its derivative.
+BezierChain CorrectionFor(const BezierChain& edge, const JoinFactors& factors);
 
 }  // namespace patchmill

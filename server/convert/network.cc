@@ -100,7 +100,7 @@ class NetworkReader {
   EdgeShape Shape(const v1::NetworkEdge& from, const std::string& at) {
     switch (from.shape_case()) {
       case v1::NetworkEdge::kFromNormals:
-        return NormalsEdge{from.from_normals().has_gamma() ? from.from_normals().gamma() : 1.0};
+        return FromNormals(from.from_normals(), at + ".from_normals");
       case v1::NetworkEdge::kFromTangents:
         return TangentsEdge{
             Vector(from.from_tangents().start_tangent(), unit_, at + ".from_tangents.start_tangent"),
@@ -115,10 +115,67 @@ class NetworkReader {
       }
       case v1::NetworkEdge::kBspline:
         return Bspline(from.bspline(), at + ".bspline");
+      case v1::NetworkEdge::kWithPeak:
+        return PeakEdge{Vector(from.with_peak().position(), unit_, at + ".with_peak.position")};
+      case v1::NetworkEdge::kWithSlope:
+        return SlopeEdge{Vector(from.with_slope().position(), unit_, at + ".with_slope.position"),
+                         Vector(from.with_slope().direction(), 1.0, at + ".with_slope.direction")};
+      case v1::NetworkEdge::kWithExtremum:
+        return SlopeEdge{Vector(from.with_extremum().position(), unit_, at + ".with_extremum.position"), {}};
+      case v1::NetworkEdge::kLedThrough:
+        return Led(from.led_through(), at + ".led_through");
+      case v1::NetworkEdge::kHosaka:
+        return Hosaka(from.hosaka(), at + ".hosaka");
       case v1::NetworkEdge::SHAPE_NOT_SET:
         break;
     }
     return NormalsEdge{};
+  }
+
+  NormalsEdge FromNormals(const v1::CurveFromNormals& from, const std::string& at) {
+    NormalsEdge edge{from.has_gamma() ? from.gamma() : 1.0};
+    switch (from.length()) {
+      case v1::TANGENT_LENGTH_UNSPECIFIED:
+        break;
+      case v1::TANGENT_LENGTH_ARC:
+        edge.length = TangentLength::kArc;
+        break;
+      case v1::TANGENT_LENGTH_QUARTER_ELLIPSE:
+        edge.length = TangentLength::kQuarterEllipse;
+        break;
+      default:
+        Fault("UNSUPPORTED_CURVE", at + ".length",
+              fmt::format("= {}; this server does not know that value", static_cast<int>(from.length())));
+    }
+    return edge;
+  }
+
+  EdgeShape Led(const v1::CurveLedThrough& from, const std::string& at) {
+    LedEdge edge{FromNormals(from.from_normals(), at + ".from_normals"),
+                 from.parameter(),
+                 Vector(from.position(), unit_, at + ".position"),
+                 {}};
+    if (!from.derivative().empty()) edge.derivative = Vector(from.derivative(), unit_, at + ".derivative");
+    return edge;
+  }
+
+  EdgeShape Hosaka(const v1::HosakaCurve& from, const std::string& at) {
+    HosakaSegment segment;
+    segment.origin = Vector(from.origin(), unit_, at + ".origin");
+    segment.a = Vector(from.chord(), unit_, at + ".chord");
+    segment.b = Vector(from.start_derivative(), unit_, at + ".start_derivative");
+    segment.c = Vector(from.end_derivative(), unit_, at + ".end_derivative");
+    segment.extra = Points(from.extra_terms(), 0, kMaxEdgePoints - 4, at + ".extra_terms");
+    const double start = from.has_part_start() ? from.part_start() : 0.0,
+                 end = from.has_part_end() ? from.part_end() : 1.0;
+    if (!(start >= 0.0 && start < end && end <= 1.0)) {
+      Fault("INVALID_PARAMETER", at + ".part_start",
+            fmt::format("= {:g}, part_end = {:g}; must be 0 <= part_start < part_end <= 1", start, end));
+      return NormalsEdge{};
+    }
+    const auto curve = ToBezier(Curve(segment));
+    if (!curve.ok()) return NormalsEdge{};  // a fault already
+    return CurveEdge{Part(*curve, start, end)};
   }
 
   EdgeShape Bspline(const v1::BsplineCurve& from, const std::string& at) {
@@ -153,6 +210,15 @@ class NetworkReader {
     NetworkFace face;
     face.id = Id(from.id(), at);
     face.vertices = {from.vertices().begin(), from.vertices().end()};
+    for (const v1::FaceCut& cut : from.cuts()) face.cuts.push_back({cut.start(), cut.end()});
+    for (const v1::SideTwists& twists : from.twists()) {
+      SideTwists& to = face.twists.emplace_back(SideTwists{twists.start(), twists.end(), {}, {}});
+      if (!twists.start_twist().empty()) {
+        to.at_start = Vector(twists.start_twist(), unit_, at + ".twists.start_twist");
+      }
+      if (!twists.end_twist().empty())
+        to.at_end = Vector(twists.end_twist(), unit_, at + ".twists.end_twist");
+    }
     if (from.has_push()) face.pushes.push_back(Push(from.push()));
     if (from.more_pushes_size() > limits::kMaxPushes) {
       Fault("INVALID_PUSH", at + ".more_pushes",
@@ -177,6 +243,9 @@ class NetworkReader {
         break;
       case v1::PATCH_SCHEME_G2_GREGORY:
         face.scheme = PatchScheme::kG2Gregory;
+        break;
+      case v1::PATCH_SCHEME_HOSAKA:
+        face.scheme = PatchScheme::kHosaka;
         break;
       default:
         Fault("UNSUPPORTED_SCHEME", at + ".scheme",
@@ -212,9 +281,13 @@ absl::Status CheckNetworkLimits(const v1::CurveNetwork& proto) {
     references += size(vertex.normals());
     for (const v1::VertexNormal& normal : vertex.normals()) references += size(normal.faces());
   }
-  for (const v1::NetworkFace& face : proto.faces()) references += size(face.vertices());
+  for (const v1::NetworkFace& face : proto.faces()) {
+    references += size(face.vertices()) + size(face.twists()) + size(face.cuts());
+  }
   for (const v1::NetworkEdge& edge : proto.edges()) {
-    points += (size(edge.bezier().points()) + size(edge.bspline().points())) / 3;
+    points +=
+        (size(edge.bezier().points()) + size(edge.bspline().points()) + size(edge.hosaka().extra_terms())) /
+        3;
     knots += size(edge.bspline().knots());
     references += size(edge.controls());
   }

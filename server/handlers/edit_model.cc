@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -17,14 +18,14 @@
 namespace patchmill {
 namespace {
 
-void AddChanged(const PatchModel& before, const PatchModel& after, v1::EditModelResponse* response) {
-  if (before.patches.size() != after.patches.size()) return;
-  for (std::size_t f = 0; f < after.patches.size(); ++f) {
-    const PatchShape &a = before.patches[f].shape, &b = after.patches[f].shape;
-    if (!std::ranges::equal(ControlPoints(a), ControlPoints(b))) {
-      response->add_changed_faces(static_cast<int>(f));
-    }
+void AddChanged(const JoinedNetwork& before, const JoinedNetwork& after, v1::EditModelResponse* response) {
+  if (before.model.patches.size() != after.model.patches.size()) return;
+  std::set<int> changed;
+  for (std::size_t f = 0; f < after.model.patches.size(); ++f) {
+    const PatchShape &a = before.model.patches[f].shape, &b = after.model.patches[f].shape;
+    if (!std::ranges::equal(ControlPoints(a), ControlPoints(b))) changed.insert(after.face_of[f]);
   }
+  response->mutable_changed_faces()->Add(changed.begin(), changed.end());
 }
 
 absl::Status Edit(const v1::EditModelRequest& request, const RunContext& run,
@@ -50,7 +51,7 @@ absl::Status Edit(const v1::EditModelRequest& request, const RunContext& run,
     return absl::OkStatus();
   }
   PM_ASSIGN_OR_RETURN(const JoinedNetwork joined_before, JoinNetwork(before, run));
-  AddChanged(joined_before.model, joined.model, response);
+  AddChanged(joined_before, joined, response);
   if (request.with_patches()) *response->mutable_patches() = ToProto(joined.model);
   if (request.continuity_steps() == 0) return absl::OkStatus();
   PM_ASSIGN_OR_RETURN(const PatchNetwork network, BuildNetwork(std::move(joined.model), run));

@@ -14,11 +14,12 @@ if(PATCHMILL_SERVICE AND NOT PATCHMILL_SANITIZE)
   patchmill_job(toroidal_tet tests/models/toroidal_tet.patches --up y --scale 40 --tool-diameter 6 --scallop 0.02)
   patchmill_job(triangle_fan tests/models/triangle_fan.bv --up y --scale 40 --tool-diameter 6 --scallop 0.02)
   patchmill_job(mouse examples/mouse.json --tool-diameter 6 --scallop 0.02)
+  patchmill_job(sheet docs/sheet.json --tool-diameter 6 --scallop 0.02)
   patchmill_job(sphere tests/models/sphere.bv --scale 20 --tool-diameter 6 --scallop 0.02)
 
   # The commands of README and reference do what they say there.
-  foreach(page README.md docs/curves.md docs/patches.md docs/networks.md docs/fairing.md docs/evaluation.md docs/lines.md
-          docs/regions.md)
+  foreach(page README.md docs/curves.md docs/patches.md docs/networks.md docs/curvature.md docs/editing.md
+          docs/first_surfaces.md docs/fairing.md docs/evaluation.md docs/lines.md docs/regions.md)
     get_filename_component(name ${page} NAME_WE)
     add_test(NAME job_page_${name} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/jobs/run_page.sh $<TARGET_FILE:patchmill>
                                            ${CMAKE_SOURCE_DIR} ${page})

@@ -132,6 +132,104 @@ TEST(NetworkModel, WarningsDoNotRefuseTheModel) {
   EXPECT_EQ(checked->remarks[0].where.field, "network.vertices[1]");
 }
 
+// One quad, one edge of a kind at a time, in millimetres and inches: the boundary passes the place it names.
+struct WireEdge {
+  const char* name;
+  const char* json;  // of the edge from vertex 0 to 1
+  double t;          // of the edge
+  Vec3 place;        // there, in the model's unit
+};
+class WireEdges : public ::testing::TestWithParam<WireEdge> {};
+
+TEST_P(WireEdges, ReachTheBoundary) {
+  const std::string text = std::string(R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "network": {
+    "vertices": [{"position": [0, 0, 0], "normals": [{"direction": [-0.5, 0, 1]}]},
+                 {"position": [10, 0, 0], "normals": [{"direction": [0.5, 0, 1]}]},
+                 {"position": [10, 10, 2]}, {"position": [0, 10, 1]}],
+    "edges": [{"start": 0, "end": 1, )") +
+                           GetParam().json + R"(}],
+    "faces": [{"vertices": [0, 1, 2, 3]}]}})";
+  for (const auto unit : {v1::LENGTH_UNIT_MILLIMETER, v1::LENGTH_UNIT_INCH}) {
+    v1::PatchModel model = FromJson(text);
+    model.set_length_unit(unit);
+    const auto checked = FromProto(model, "m");
+    ASSERT_TRUE(checked.ok()) << checked.status();
+    ASSERT_TRUE(checked->faults.empty()) << checked->faults[0].message;
+    EXPECT_TRUE(checked->remarks.empty()) << checked->remarks[0].message;
+    const Vec3 got = Position(checked->model.patches[0].shape, GetParam().t, 0.0);
+    EXPECT_LE((got - *MillimetersPer(unit) * GetParam().place).norm(), 1e-11) << got.transpose();
+  }
+}
+
+// The tangents leave at atan(1/2): an arc turns by twice that, and its middle rises by (chord/2)
+// tan(angle/4).
+INSTANTIATE_TEST_SUITE_P(
+    All, WireEdges,
+    ::testing::Values(
+        WireEdge{"Arc", R"("from_normals": {"length": "TANGENT_LENGTH_ARC"})", 0.5,
+                 Vec3(5, 0, 5 * std::tan(0.5 * std::atan(0.5)))},
+        WireEdge{"QuarterEllipse", R"("from_normals": {"length": "TANGENT_LENGTH_QUARTER_ELLIPSE"})", 0.5,
+                 Vec3(5, 0, (std::sqrt(2.0) - 1) * 2.5)},
+        WireEdge{"Extremum", R"("with_extremum": {"position": [5, 0, 1.5]})", 0.5, Vec3(5, 0, 1.5)},
+        WireEdge{"Slope", R"("with_slope": {"position": [5, 0, 1.5], "direction": [-2, 0, 0]})", 0.5,
+                 Vec3(5, 0, 1.5)},
+        WireEdge{"LedThrough", R"("led_through": {"position": [4, 1, 2], "parameter": 0.4})", 0.4,
+                 Vec3(4, 1, 2)},
+        WireEdge{"LedAlong",
+                 R"("led_through": {"position": [4, 1, 2], "parameter": 0.4, "derivative": [9, 1, 0],
+                                    "from_normals": {"gamma": 0.8}})",
+                 0.4, Vec3(4, 1, 2)},
+        WireEdge{"Hosaka",
+                 R"("hosaka": {"origin": [0, 0, 0], "chord": [10, 0, 0], "start_derivative": [8, 0, 4],
+                               "end_derivative": [8, 0, -4], "extra_terms": [0, 16, 0]})",
+                 0.5, Vec3(5, 1, 1)},
+        WireEdge{"PartOfASegment",
+                 R"("hosaka": {"origin": [-10, 0, -4], "chord": [20, 0, 4], "start_derivative": [20, 0, 10],
+                               "end_derivative": [20, 0, -6], "part_start": 0.5})",
+                 0.5, Vec3(5, 0, 0.6875)},  // 3/4 of the whole
+        WireEdge{"Spline",
+                 R"("bspline": {"degree": 3, "knots": [0, 0, 0, 0, 1, 2, 2, 2, 2],
+                                "points": [0, 0, 0, 2, 0, 1, 5, 0, 3, 8, 0, 1, 10, 0, 0]})",
+                 0.5, Vec3(5, 0, 2)}),
+    [](const auto& edge) { return std::string(edge.param.name); });
+
+TEST(NetworkModel, TwistsHosakaFacesAndCutsArrive) {
+  v1::PatchModel model = QuadAndTriangle();
+  v1::CurveNetwork& network = *model.mutable_network();
+  const auto parsed = [](const std::string& text, google::protobuf::Message* to) {
+    EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(text, to).ok());
+  };
+  network.mutable_faces(0)->clear_push();
+  parsed(R"({"start": 3, "end": 0, "start_twist": [1, 2, 3], "end_twist": [0, 0, -4]})",
+         network.mutable_faces(0)->add_twists());
+  for (const auto unit : {v1::LENGTH_UNIT_MILLIMETER, v1::LENGTH_UNIT_INCH}) {
+    model.set_length_unit(unit);
+    const auto checked = FromProto(model, "m");
+    ASSERT_TRUE(checked.ok() && checked->faults.empty());
+    // Side 3, a border: the tangent across it is u, and the twist as seen from vertex 3 runs down v.
+    const PatchShape& shape = checked->model.patches[0].shape;
+    const double h = 1e-5;
+    const Vec3 from3 = (Evaluate(shape, 0, 1 - h).du - Evaluate(shape, 0, 1).du) / h,
+               from0 = (Evaluate(shape, 0, h).du - Evaluate(shape, 0, 0).du) / h;
+    EXPECT_LE((from3 - *MillimetersPer(unit) * Vec3(1, 2, 3)).norm(), 1e-2 * from3.norm());
+    EXPECT_LE((from0 - *MillimetersPer(unit) * Vec3(0, 0, -4)).norm(), 1e-2 * from0.norm());
+  }
+  model.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  network.mutable_faces(0)->clear_twists();
+  network.mutable_faces(0)->set_scheme(v1::PATCH_SCHEME_HOSAKA);
+  auto checked = FromProto(model, "m");
+  ASSERT_TRUE(checked.ok() && checked->faults.empty()) << checked->faults[0].message;
+  EXPECT_TRUE(std::holds_alternative<HosakaPatch>(checked->model.patches[0].shape));
+
+  parsed(R"({"id": "five", "vertices": [0, 1, 4, 2, 3], "cuts": [{"start": 1, "end": 2}]})",
+         network.mutable_faces(0));
+  network.mutable_faces()->DeleteSubrange(1, 1);
+  checked = FromProto(model, "m");
+  ASSERT_TRUE(checked.ok() && checked->faults.empty()) << checked->faults[0].message;
+  ASSERT_EQ(checked->model.patches.size(), 2u);
+  EXPECT_EQ(checked->model.patches[1].id, "five/2");
+}
+
 TEST(NetworkModel, IsRefusedBesidePatches) {
   v1::PatchModel model = QuadAndTriangle();
   model.add_patches();
@@ -217,6 +315,43 @@ INSTANTIATE_TEST_SUITE_P(
             "network.controls[0].control.first_derivative has 1 numbers"},
         NetworkFault{"ControlOfAGregoryQuad", [](v1::CurveNetwork& n) { n.add_controls()->set_end(1); },
                      "network.controls[0] is for faces[0], which is no G2-Gregory patch"},
+        NetworkFault{"PartReversed",
+                     [](v1::CurveNetwork& n) {
+                       v1::HosakaCurve& curve = *n.mutable_edges(0)->mutable_hosaka();
+                       for (auto* v : {curve.mutable_origin(), curve.mutable_chord(),
+                                       curve.mutable_start_derivative(), curve.mutable_end_derivative()}) {
+                         v->Resize(3, 1.0);
+                       }
+                       curve.set_part_start(0.7);
+                       curve.set_part_end(0.2);
+                     },
+                     "network.edges[0].hosaka.part_start = 0.7, part_end = 0.2"},
+        NetworkFault{"ExtraTermsTooMany",
+                     [](v1::CurveNetwork& n) {
+                       v1::HosakaCurve& curve = *n.mutable_edges(0)->mutable_hosaka();
+                       for (auto* v : {curve.mutable_origin(), curve.mutable_chord(),
+                                       curve.mutable_start_derivative(), curve.mutable_end_derivative()}) {
+                         v->Resize(3, 1.0);
+                       }
+                       curve.mutable_extra_terms()->Resize(27, 0.0);
+                     },
+                     "network.edges[0].hosaka.extra_terms has 27 numbers"},
+        NetworkFault{"LengthUnknown",
+                     [](v1::CurveNetwork& n) {
+                       n.mutable_edges(0)->mutable_from_normals()->set_length(
+                           static_cast<v1::TangentLength>(9));
+                     },
+                     "network.edges[0].from_normals.length = 9"},
+        NetworkFault{"LedWithoutParameter",
+                     [](v1::CurveNetwork& n) {
+                       n.mutable_edges(0)->mutable_led_through()->mutable_position()->Resize(3, 1.0);
+                     },
+                     "network.edges[0] is led through a point at 0"},
+        NetworkFault{"TwistShort",
+                     [](v1::CurveNetwork& n) { n.mutable_faces(0)->add_twists()->add_start_twist(1); },
+                     "network.faces[0].twists.start_twist has 1 numbers"},
+        NetworkFault{"CutAlongASide", [](v1::CurveNetwork& n) { n.mutable_faces(0)->add_cuts()->set_end(1); },
+                     "network.faces[0] (quad) has cuts and is pushed"},
         NetworkFault{"NoFaces", [](v1::CurveNetwork& n) { n.clear_faces(); }, "network.faces has 0 faces"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });
 

@@ -78,7 +78,7 @@ TEST(JoinNetwork, EndToEndVector) {
   ASSERT_GE(data["cbt"].Items().size(), 11u);
   for (const Json& cbt : data["cbt"].Items()) {
     const auto number = [&](const char* key) { return static_cast<int>(cbt[key].Number()); };
-    const BezierCurve b = tangent(number("face"), number("p"), number("q")).second;
+    const BezierChain b = tangent(number("face"), number("p"), number("q")).second;
     EXPECT_LE((Evaluate(b, 0).p - cbt["a0"].Vector()).norm(), 1e-12);
     EXPECT_LE((Evaluate(b, 1).p - cbt["a1"].Vector()).norm(), 1e-12);
     EXPECT_LE((Evaluate(b, 0).d - cbt["W0"].Vector()).norm(), 1e-11);
@@ -127,7 +127,7 @@ TEST(JoinNetwork, GeneralEdgesAreSmoothToo) {
     // Every third edge given, of degree 4: the cubic with its middle moved.
     for (std::size_t e = 0; e < plain.edges.size(); e += 3) {
       const JoinedEdge& edge = plain.edges[e];
-      BezierCurve curve = Elevated(edge.curve, 4);
+      BezierCurve curve = SpanOf(Elevated(edge.curve, 4), 0);
       curve.points[2] += random.Point(-1, 1);
       network.edges.push_back({"", edge.topology.start, edge.topology.end, CurveEdge{curve}, false});
     }
@@ -164,7 +164,7 @@ TEST(JoinNetwork, HighDegreesBetweenQuads) {
   }
   for (const JoinedEdge& edge : plain.edges) {
     if (edge.kind != EdgeKind::kSmooth) continue;
-    BezierCurve curve = Elevated(edge.curve, 7);
+    BezierCurve curve = SpanOf(Elevated(edge.curve, 7), 0);
     for (std::size_t k = 2; k <= 5; ++k) curve.points[k] += random.Point(-1, 1);
     network.edges.push_back({"", edge.topology.start, edge.topology.end, CurveEdge{curve}, false});
   }

@@ -125,7 +125,7 @@ TEST(TJunctions, VertexLiesOnTheCurveAtItsParameter) {
     EXPECT_NE(it, joined.edges.end());
     return it->topology.start == a ? it->curve : Reversed(it->curve);
   };
-  const BezierCurve whole = edge(1, 2), first = edge(1, 6), second = edge(6, 2);
+  const BezierChain whole = edge(1, 2), first = edge(1, 6), second = edge(6, 2);
   for (const double t : {0.0, 0.3, 0.7, 1.0}) {
     EXPECT_LE((Evaluate(first, t).p - Evaluate(whole, 0.3 * t).p).norm(), 1e-13 * 30);
     EXPECT_LE((Evaluate(second, t).p - Evaluate(whole, 0.3 + 0.7 * t).p).norm(), 1e-13 * 30);

@@ -119,9 +119,10 @@ TEST(TangentPlane, FollowingTangentHoldsAlongRandomEdges) {
     }
     BezierCurve curve = Elevated(ToBezier(e.edge), 4 + k % 4);
     if (k % 3 == 0) curve.points[2] += random.Point(-0.1, 0.1);
-    const BezierCurve b =
-        FollowingTangent(curve, leading, std::get<JoinFactors>(found), e.tangents.b0, e.tangents.b1);
-    EXPECT_EQ(b.degree(), curve.degree());
+    const BezierChain b = FollowingTangent(AsChain(curve), AsChain(leading), std::get<JoinFactors>(found),
+                                           e.tangents.b0, e.tangents.b1);
+    EXPECT_EQ(b.degree, curve.degree());
+    EXPECT_EQ(b.spans(), 1);
     ExpectNear(Evaluate(b, 0).p, e.tangents.b0, 1e-15);
     ExpectNear(Evaluate(b, 1).p, e.tangents.b1, 1e-15);
     // Coplanar along the edge, whatever the size of b there.
@@ -140,7 +141,7 @@ TEST(TangentPlane, FollowingTangentIsHosakasWhereEdgesRunOn) {
   const CrossTangents t{e.tangents.a0, e.tangents.a1, -k * e.tangents.a0, -k * e.tangents.a1};
   const JoinFactors factors = std::get<JoinFactors>(FactorsAlong(e.edge.d0, e.edge.d1, t, e.n0, e.n1));
   const BezierCurve leading{{t.a0, t.a1}};
-  const BezierCurve b = FollowingTangent(ToBezier(e.edge), leading, factors, t.b0, t.b1);
+  const BezierChain b = FollowingTangent(AsChain(ToBezier(e.edge)), AsChain(leading), factors, t.b0, t.b1);
   for (double u = 0; u <= 1; u += 0.125) ExpectNear(Evaluate(b, u).p, -k * Evaluate(leading, u).p, 1e-14);
 }
 
@@ -205,8 +206,8 @@ TEST(TangentPlane, GeneralEdgesNeedTheirCorrection) {
     if (degree > 3) {
       EXPECT_GT(WorstDefect(curve, a, b), 1e-6);
     }
-    const BezierCurve more = CorrectionFor(curve, f);
-    ASSERT_EQ(more.degree(), degree);
+    const BezierChain more = CorrectionFor(AsChain(curve), f);
+    ASSERT_EQ(more.degree, degree);
     for (std::size_t i = 0; i < more.points.size(); ++i)
       a.points[i] += more.points[i], b.points[i] += more.points[i];
     EXPECT_LE(WorstDefect(curve, a, b), 1e-12);
