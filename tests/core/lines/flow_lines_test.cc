@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/diffgeo/forms.h"
+#include "tests/support/files.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
@@ -119,6 +120,58 @@ TEST(FlowLines, AreSpreadEvenly) {
         }
       }
       EXPECT_GT(nearest, 0.45 * spacing) << k << " " << l;
+    }
+  }
+}
+
+// Gradient lines: what they follow grows all along them, so none closes, on any surface: as many loops as a
+// sign grid could find, none. Each runs along METHODS (3), (7), and ends where there is no gradient, at a
+// border, or beside another line.
+TEST(FlowLines, OfATorusAndTheTeapotHaveNoLoops) {
+  Eigen::Affine3d up(Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()));
+  up.scale(10.0);
+  for (const PatchModel& model :
+       {Torus(Vec3::Zero(), 20, 6), Transformed(LoadModel("examples/teapot.bpt"), up)}) {
+    const Surface surface = SurfaceOf(model);
+    const Vec3 f(0, 0, 1);
+    for (const FlowKind kind : {FlowKind::kAlongHeight, FlowKind::kAlongSlope}) {
+      const auto lines = Trace(surface, {.kind = kind, .spacing = 1.5, .tolerance = 1e-4});
+      EXPECT_GT(lines.size(), 10u);
+      std::size_t judged = 0, sharp = 0;
+      for (const ZeroCurve& line : lines) {
+        EXPECT_FALSE(line.closed);
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+          const SurfacePoint &a = line.points[i - 1], &b = line.points[i];
+          if (a.piece != b.piece || (b.p - a.p).norm() < 1e-6) continue;  // slopes jump at creases
+          const SurfaceJet from = Evaluate(surface, a.piece, a.u, a.v),
+                           to = Evaluate(surface, b.piece, b.u, b.v);
+          const auto n = UnitNormal(from), m = UnitNormal(to);
+          if (!n || !m) continue;
+          const double grown =
+              kind == FlowKind::kAlongHeight ? f.dot(b.p - a.p) : std::abs(f.dot(*m)) - std::abs(f.dot(*n));
+          EXPECT_GE(grown, -1e-6) << i << " of " << line.points.size();
+          // The direction of (3), (7) in space, from the forms, and the chord to the next point.
+          const FundamentalForms forms = Forms(from, *n);
+          const double E = forms.E, F = forms.F, G = forms.G, L = forms.L, M = forms.M, N = forms.N;
+          double gu = f.dot(from.du), gv = f.dot(from.dv);
+          if (kind == FlowKind::kAlongSlope) {
+            const double w = E * G - F * F, u = gu, v = gv;
+            gu = ((M * F - L * G) * u + (L * F - M * E) * v) / w;
+            gv = ((N * F - M * G) * u + (M * F - N * E) * v) / w;
+          }
+          // (gv E - gu F) du + (gv F - gu G) dv = 0
+          const Vec3 along = (gu * G - gv * F) * from.du + (gv * E - gu * F) * from.dv;
+          const Vec3 chord = b.p - a.p;
+          const double step = chord.norm(), bend = step + 2e-4 / step;  // turns of 2/mm; the tolerance, twice
+          if (along.norm() < 1e-3 * from.du.norm() * from.dv.norm() || step < 0.02 || step > 0.3) continue;
+          const double sine = along.normalized().cross(chord.normalized()).norm();
+          EXPECT_LE(sine, 0.5);
+          sharp += sine > bend;  // the line itself bends more, beside a summit
+          ++judged;
+        }
+      }
+      EXPECT_GT(judged, 100u);
+      EXPECT_LE(10 * sharp, judged);
     }
   }
 }
