@@ -1,6 +1,7 @@
 #include "cam/link/link_moves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace patchmill {
@@ -10,6 +11,11 @@ namespace {
 constexpr double kBesideWallSlope = Radians(50.0);
 // A link along the surface may be this much longer than straight, plus one ball.
 constexpr double kDetour = 3.0;
+// rad: how leads may turn from the normal; a way out this many times as long as the way through the stock is
+// good enough.
+constexpr std::array<double, 8> kTurns = {0.0,        kPi / 4.0,        -kPi / 4.0,       kPi / 2.0,
+                                          -kPi / 2.0, 3.0 * kPi / 4.0, -3.0 * kPi / 4.0, kPi};
+constexpr double kWorthTurning = 1.5;
 
 }  // namespace
 
@@ -80,56 +86,69 @@ std::optional<std::vector<Move>> LinkMaker::StayDown(const Vec3& a, const Vec3& 
   return moves;
 }
 
-double LinkMaker::ClearOfStock(const Vec2& q, double z) const {
-  const auto top = stock_locator_.Height(q);
-  const double gap_above = z + params_.approach_gap;
-  const double clear = top ? std::max(top->z, gap_above) : gap_above;
+double LinkMaker::ClearOfStock(const Vec3& place) const {
+  const auto top = stock_locator_.Height(Plan(place));
+  const double clear = top ? std::max(top->z, place.z()) : place.z();
   return std::min(clear, clearance_center_z());
 }
 
-std::optional<Vec3> LinkMaker::BesideWall(const CutterPoint& point) const {
-  if (!point.contact) return std::nullopt;
-  const Vec3 normal = (point.center - point.contact->p).normalized();
-  if (std::acos(std::clamp(normal.z(), -1.0, 1.0)) < kBesideWallSlope) return std::nullopt;
-  Vec2 out = Plan(normal).normalized();
-  if (point.other_contact) {  // a corner: out along the bisector of the two walls
-    const Vec2 other = Plan(Vec3(point.center - point.other_contact->p));
-    if (other.norm() > 1e-9) out += other.normalized();
-    if (out.norm() < 1e-3) return std::nullopt;
-    out.normalize();
+LinkMaker::WayOut LinkMaker::FindWayOut(const CutterPoint& point) const {
+  const Vec3& c = point.center;
+  const auto up = [&](const Vec3& beside) {
+    const double clear = ClearOfStock(beside);
+    return WayOut{beside, Lift(Plan(beside), clear), (beside - c).norm() + clear - beside.z()};
+  };
+  Vec2 out = Vec2::UnitX();
+  bool steep = false;
+  if (point.contact) {
+    const Vec3 normal = (c - point.contact->p).normalized();
+    steep = std::acos(std::clamp(normal.z(), -1.0, 1.0)) >= kBesideWallSlope;
+    if (Plan(normal).norm() > 1e-6) out = Plan(normal).normalized();
+    if (steep && point.other_contact) {  // a corner: out along the bisector of the two walls
+      const Vec2 other = Plan(Vec3(c - point.other_contact->p));
+      const Vec2 both = out + (other.norm() > 1e-9 ? Vec2(other.normalized()) : Vec2(Vec2::Zero()));
+      if (both.norm() > 1e-3) out = both.normalized();
+    }
   }
-  const Vec2 q = Plan(point.center) + (params_.allowance + params_.approach_gap) * out;
-  const Vec3 beside = Lift(q, point.center.z());
-  if (!locator_.Free(beside) || !StraightIsFree(beside, point.center)) return std::nullopt;
-  return beside;
+  const double off = stock_depth();
+  WayOut best = up(c);
+  const double enough = kWorthTurning * off;
+  if (!steep && best.length <= enough) return best;
+  bool found_wall = !steep;  // a wall is left beside it wherever there is a way, not along it
+  const Vec2 left(-out.y(), out.x());
+  for (const double farther : {1.0, std::sqrt(2.0), 2.0}) {
+    for (const double turn : kTurns) {
+      const Vec2 way = std::cos(turn) * out + std::sin(turn) * left;
+      Vec3 beside = c + Lift(farther * off * way, 0.0);
+      if (!steep) beside.z() = ClearOfStock(beside);
+      const WayOut tried = up(beside);
+      if (found_wall && tried.length >= best.length) continue;
+      if (!locator_.Free(beside) || !StraightIsFree(beside, c)) continue;
+      found_wall = true;
+      best = tried;
+      if (best.length <= enough) return best;
+    }
+  }
+  return best;
 }
 
 void LinkMaker::Retract(const CutterPoint& from, std::vector<Move>& moves) const {
-  Vec3 at = from.center;
-  if (const auto beside = BesideWall(from)) {
-    moves.push_back(Feed(MoveKind::kLead, at, *beside));
-    at = *beside;
-  }
-  const double clear = ClearOfStock(Plan(at), at.z());
-  if (clear > at.z() + 1e-9) {
-    const Vec3 up = Lift(Plan(at), clear);
-    moves.push_back(Feed(MoveKind::kRetract, at, up));
-    at = up;
-  }
-  if (clearance_center_z() > at.z() + 1e-9) {
-    moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(at), clearance_center_z())});
+  const WayOut out = FindWayOut(from);
+  if (out.beside != from.center) moves.push_back(Feed(MoveKind::kLead, from.center, out.beside));
+  if (out.clear.z() > out.beside.z() + 1e-9)
+    moves.push_back(Feed(MoveKind::kRetract, out.beside, out.clear));
+  if (clearance_center_z() > out.clear.z() + 1e-9) {
+    moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(out.clear), clearance_center_z())});
   }
 }
 
 void LinkMaker::Approach(const CutterPoint& to, std::vector<Move>& moves) const {
-  const auto beside = BesideWall(to);
-  const Vec3 entry = beside ? *beside : to.center;
-  const double clear = ClearOfStock(Plan(entry), entry.z());
-  moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(entry), clearance_center_z())});
-  const Vec3 near = Lift(Plan(entry), clear);
-  if (clear < clearance_center_z() - 1e-9) moves.push_back({.kind = MoveKind::kRapid, .to = near});
-  if (near.z() > entry.z() + 1e-9) moves.push_back(Feed(MoveKind::kPlunge, near, entry));
-  if (beside) moves.push_back(Feed(MoveKind::kLead, entry, to.center));
+  const WayOut in = FindWayOut(to);
+  moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(in.clear), clearance_center_z())});
+  if (in.clear.z() < clearance_center_z() - 1e-9)
+    moves.push_back({.kind = MoveKind::kRapid, .to = in.clear});
+  if (in.clear.z() > in.beside.z() + 1e-9) moves.push_back(Feed(MoveKind::kPlunge, in.clear, in.beside));
+  if (in.beside != to.center) moves.push_back(Feed(MoveKind::kLead, in.beside, to.center));
 }
 
 }  // namespace patchmill

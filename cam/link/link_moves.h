@@ -22,8 +22,8 @@ class LinkMaker {
   // end.
   std::optional<std::vector<Move>> StayDown(const Vec3& a, const Vec3& b) const;
 
-  // Leaves `from` upward to the clearance plane: out beside the wall where that is free, at feed until clear
-  // of the stock, then rapid.
+  // Leaves `from` upward to the clearance plane: at feed until clear of the stock, beside walls where that is
+  // free, then rapid.
   void Retract(const CutterPoint& from, std::vector<Move>& moves) const;
   // From above to `to`: rapid at the clearance plane, rapid down to where the stock may begin, plunge feed,
   // and in from beside the wall.
@@ -33,13 +33,21 @@ class LinkMaker {
   Move Feed(MoveKind kind, const Vec3& from, const Vec3& to) const;
 
   double clearance_center_z() const { return params_.clearance_z + params_.radius; }
+  double stock_depth() const { return params_.allowance + params_.approach_gap; }  // mm, along the normal
 
  private:
-  // Beside the wall: off the contact by allowance + gap along the horizontal part of the outward normal, when
-  // the ball is free all the way; nullopt on gentle ground or where something is in the way.
-  std::optional<Vec3> BesideWall(const CutterPoint& point) const;
-  // Centre height at q where the ball is clear of the stock, at least z.
-  double ClearOfStock(const Vec2& q, double z) const;
+  // The way between a pass and the stock's outside: from the point straight to `beside`, straight up to
+  // `clear`, where the ball is clear of the stock (surface + allowance + gap). Either may be no way at all.
+  struct WayOut {
+    Vec3 beside, clear;
+    double length;
+  };
+  // The shortest of a few: beside walls level, off the contact along its normal or turned from it; on gentle
+  // ground straight up, or aslant where something stands above.
+  WayOut FindWayOut(const CutterPoint& point) const;
+  // Centre height over `place`, at least its own, where the ball is clear of the stock, the clearance plane
+  // at most.
+  double ClearOfStock(const Vec3& place) const;
   bool StraightIsFree(const Vec3& a, const Vec3& b) const;
   bool Allowed(const Vec3& a, const Vec3& b) const;  // by params_.keep_in
 

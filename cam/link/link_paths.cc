@@ -27,19 +27,48 @@ void AppendPass(const CutterPath& pass, int index, const LinkMaker& maker, const
   }
 }
 
+double TimeOf(const Move& move, double length) {
+  return 60.0 * length / (move.kind == MoveKind::kRapid ? kAssumedRapid : move.feed);
+}
+
+// From one pass to the next: down along the surface, or over the top where that is quicker.
+std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const CutterPath& next) {
+  const CutterPoint& start = next.points.front();
+  const auto time = [&](const std::vector<Move>& moves) {
+    double sum = 0.0;
+    Vec3 at = end.center;
+    for (const Move& move : moves) {
+      sum += TimeOf(move, (move.to - at).norm());
+      at = move.to;
+    }
+    return sum;
+  };
+  std::optional<std::vector<Move>> down;
+  if (!next.one_way) down = maker.StayDown(end.center, start.center);
+  // Straight and no longer than out of the stock and back: nothing over the top is shorter.
+  const bool near = (start.center - end.center).norm() <= 2.0 * maker.stock_depth();
+  if (down && down->size() <= 1 && near) return *std::move(down);
+  std::vector<Move> over;
+  maker.Retract(end, over);
+  maker.Approach(start, over);
+  if (down && time(*down) <= time(over)) return *std::move(down);
+  return over;
+}
+
 LinkStats Measure(const std::vector<Move>& moves) {
   LinkStats stats;
   for (std::size_t i = 1; i < moves.size(); ++i) {
     const Vec3 d = moves[i].to - moves[i - 1].to;
     const double length = d.norm();
+    stats.time += TimeOf(moves[i], length);
+    const bool up = moves[i].kind == MoveKind::kRetract || (moves[i].kind == MoveKind::kRapid && d.z() > 0.0);
+    const MoveKind before = moves[i - 1].kind;
+    if (up && before != MoveKind::kRetract && before != MoveKind::kRapid) ++stats.retract_count;
     if (moves[i].kind == MoveKind::kRapid) {
       stats.rapid_length += length;
-      stats.time += 60.0 * length / kAssumedRapid;
       continue;
     }
-    if (moves[i].kind == MoveKind::kRetract) ++stats.retract_count;
     (moves[i].kind == MoveKind::kCut ? stats.cut_length : stats.link_length) += length;
-    stats.time += 60.0 * length / moves[i].feed;
     if (d.z() < 0.0)
       stats.steepest_descent = std::max(stats.steepest_descent, std::atan2(-d.z(), Plan(d).norm()));
   }
@@ -72,14 +101,10 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
   for (std::size_t i = 0; i < result.passes.size(); ++i) {
     PM_RETURN_IF_ERROR(run.Check());
     const CutterPath& pass = result.passes[i];
-    const CutterPoint& start = pass.points.front();
-    std::optional<std::vector<Move>> link;
-    if (end != nullptr && !pass.one_way) link = maker.StayDown(end->center, start.center);
-    if (link) {
-      for (Move& move : *link) moves.push_back(move);
+    if (end == nullptr) {
+      maker.Approach(pass.points.front(), moves);
     } else {
-      if (end != nullptr) maker.Retract(*end, moves);
-      maker.Approach(start, moves);
+      for (Move& move : LinkTo(maker, *end, pass)) moves.push_back(std::move(move));
     }
     AppendPass(pass, static_cast<int>(i), maker, locator.surface(), moves);
     end = pass.closed ? &pass.points.front() : &pass.points.back();

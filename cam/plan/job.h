@@ -117,6 +117,7 @@ struct JobReport {
   LinkStats motion;
   double min_concave_radius = kInfinity;  // mm, smallest on the reachable side; infinity: none
   double controller_tolerance = 0.0;      // mm
+  double least_feed = 0.0;                // mm: no passes of this finish are shorter together (LeastFeed)
   int point_count = 0;
   // Of all heights of the passes and links: see Locator::defect_count, equator_raise_count.
   std::uint64_t certificate_defects = 0, equator_raises = 0;

@@ -31,40 +31,43 @@ bool ByContours(const RegionChoice& choice, const Region& region) {
          (choice.strategy == Strategy::kAuto && region.slope == SlopeClass::kSteep);
 }
 
-std::vector<Range> PieceSteps(const Piece& piece, const std::vector<int>& labels, int cells, int stride,
-                              const RegionMap& map, const std::vector<RegionChoice>& choices, double radius) {
-  std::vector<Range> steps(map.regions.size());
-  for (int i = stride / 2; i < cells; i += stride) {
-    for (int j = stride / 2; j < cells; j += stride) {
-      const int id = labels[static_cast<std::size_t>(i * cells + j)];
-      if (id < 0) continue;
-      const Region& region = map.regions[static_cast<std::size_t>(id)];
-      if (region.kind == RegionKind::kUnreachable) continue;
-      const SurfaceJet jet = Evaluate(piece, (i + 0.5) / cells, (j + 0.5) / cells);
-      const auto e = UpwardNormal(jet);
-      if (!e) continue;
-      const RegionChoice& choice = choices[static_cast<std::size_t>(id)];
-      const auto across =
-          ByContours(choice, region) ? AcrossContours(*e) : AcrossLines(*e, choice.zigzag_angle);
-      if (!across) continue;
-      const double step = CenterStep(radius, choice.scallop, NormalCurvature(Forms(jet, *e), jet, *across));
-      if (step > 0.0) steps[static_cast<std::size_t>(id)].Add(step);
+// Every how many cells of the map a point is taken, each way.
+int StrideOf(const RegionMap& map) {
+  const double points = static_cast<double>(map.cells) * map.cells * static_cast<double>(map.labels.size());
+  return std::clamp(static_cast<int>(std::ceil(std::sqrt(points / kMostPoints))), 1, std::max(1, map.cells));
+}
+
+// Calls visit(region id, jet, upward unit normal) at the points of reachable regions.
+template <class Visit>
+void VisitPiece(const Surface& surface, std::size_t piece, const RegionMap& map, int stride,
+                const Visit& visit) {
+  for (int i = stride / 2; i < map.cells; i += stride) {
+    for (int j = stride / 2; j < map.cells; j += stride) {
+      const int id = map.labels[piece][static_cast<std::size_t>(i * map.cells + j)];
+      if (id < 0 || map.regions[static_cast<std::size_t>(id)].kind == RegionKind::kUnreachable) continue;
+      const SurfaceJet jet = Evaluate(surface.pieces[piece], (i + 0.5) / map.cells, (j + 0.5) / map.cells);
+      if (const auto e = UpwardNormal(jet)) visit(static_cast<std::size_t>(id), jet, *e);
     }
   }
-  return steps;
 }
 
 }  // namespace
 
 absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& choices,
                        const Resolved& resolved, const RunContext& run, RegionMap& map) {
-  const double points = static_cast<double>(map.cells) * map.cells * static_cast<double>(map.labels.size());
-  const int stride =
-      std::clamp(static_cast<int>(std::ceil(std::sqrt(points / kMostPoints))), 1, std::max(1, map.cells));
+  const int stride = StrideOf(map);
   std::vector<std::vector<Range>> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
-    pieces[i] =
-        PieceSteps(surface.pieces[i], map.labels[i], map.cells, stride, map, choices, resolved.plan_radius);
+    pieces[i].resize(map.regions.size());
+    VisitPiece(surface, i, map, stride, [&](std::size_t id, const SurfaceJet& jet, const Vec3& e) {
+      const RegionChoice& choice = choices[id];
+      const auto across =
+          ByContours(choice, map.regions[id]) ? AcrossContours(e) : AcrossLines(e, choice.zigzag_angle);
+      if (!across) return;
+      const double step = CenterStep(resolved.plan_radius, choice.scallop,
+                                     NormalCurvature(Forms(jet, e), jet, *across));
+      if (step > 0.0) pieces[i][id].Add(step);
+    });
   }));
   for (Region& region : map.regions) {
     Range all;
@@ -73,6 +76,27 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
     region.step_max = all.max;
   }
   return absl::OkStatus();
+}
+
+absl::StatusOr<double> LeastFeed(const Surface& surface, const std::vector<RegionChoice>& choices,
+                                 const Resolved& resolved, const RunContext& run, const RegionMap& map) {
+  const int stride = StrideOf(map);
+  const double radius = resolved.plan_radius;
+  std::vector<double> pieces(surface.pieces.size(), 0.0);
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
+    VisitPiece(surface, i, map, stride, [&](std::size_t id, const SurfaceJet& jet, const Vec3& e) {
+      if (choices[id].skip) return;
+      const PrincipalCurvatures k = Principal(Forms(jet, e));
+      const double step = CenterStep(radius, choices[id].scallop, k.k_min);
+      if (!(k.k_max * radius < 1.0) || !(step > 0.0)) return;
+      const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
+      pieces[i] += jet.du.cross(jet.dv).norm() * centers / step;
+    });
+  }));
+  double sum = 0.0;
+  for (const double piece : pieces) sum += piece;
+  const double cell = static_cast<double>(stride) / map.cells;
+  return sum * cell * cell;
 }
 
 }  // namespace patchmill

@@ -1,4 +1,4 @@
-// How far apart passes may lie in each region.
+// How far apart passes may lie in each region, and how long they must be together.
 #pragma once
 
 #include <vector>
@@ -15,5 +15,12 @@ namespace patchmill {
 // other is seen. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& choices,
                        const Resolved& resolved, const RunContext& run, RegionMap& map);
+
+// mm: the integral of the centre surface's area over the widest step at each place, which is CenterStep
+// across the most convex direction, over the reachable ground of all regions that are not skipped. No passes
+// that leave the scallop everywhere can be shorter: a mm of pass takes care of no more than the widest step
+// beside it. The same points as FillSteps. CANCELLED, DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<double> LeastFeed(const Surface& surface, const std::vector<RegionChoice>& choices,
+                                 const Resolved& resolved, const RunContext& run, const RegionMap& map);
 
 }  // namespace patchmill

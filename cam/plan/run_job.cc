@@ -185,6 +185,8 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   result.regions = std::move(regions.map);
   report.regions = result.regions.regions;
   report.choices = std::move(regions.choices);
+  PM_ASSIGN_OR_RETURN(report.least_feed,
+                      LeastFeed(surface, report.choices, resolved, run, result.regions));
   const std::vector<PlanPart> parts = PartsOf(result.regions, report.choices);
   const bool whole = parts.size() == 1 && parts.front().where == nullptr;
   const KeepIn* limits = whole && !IsLimited(resolved) ? nullptr : &keep_in;

@@ -111,6 +111,14 @@ absl::Status WriteFiles(const MillOptions& options, Received& received) {
   return received.program.Commit();
 }
 
+// "12 % above the least for this finish".
+std::string OverLeast(const v1::Report& report) {
+  const double least = report.least_cut_length_mm();
+  if (!(least > 0.0)) return "the least is not known";
+  return fmt::format("{:.0f} % above the least for this finish",
+                     100.0 * (report.cut_length_mm() / least - 1.0));
+}
+
 void PrintSummary(const MillOptions& options, const v1::Report& report) {
   const std::string left = UnreachableLine(report);
   if (!left.empty()) fmt::print(stderr, "patchmill: not reached: {}\n", left);
@@ -132,6 +140,7 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   fmt::print(stderr, "  motion    {:.1f} min ({}), {} points, {} retracts\n",
              report.estimated_time_s() / 60.0, report.time_basis(), report.point_count(),
              report.retract_count());
+  fmt::print(stderr, "            {:.1f} m of feed, {}\n", report.cut_length_mm() / 1000.0, OverLeast(report));
   if (report.certificate_defect_count() > 0) {
     fmt::print(stderr,
                "  heights   {} put right by their certificates: a defect of the planner, please report\n",

@@ -250,6 +250,7 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   if (std::isfinite(from.min_concave_radius)) report.set_min_concave_radius_mm(from.min_concave_radius);
   report.set_estimated_time_s(Number(from.motion.time));
   report.set_time_basis("feeds only");
+  report.set_least_cut_length_mm(Number(from.least_feed));
   report.set_point_count(from.point_count);
   report.set_retract_count(from.motion.retract_count);
   report.set_certificate_defect_count(static_cast<int>(from.certificate_defects));

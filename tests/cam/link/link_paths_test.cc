@@ -149,6 +149,55 @@ TEST(LinkPaths, FarPassesRetractAndConventionalTurnsContours) {
   EXPECT_GT(area, 0.0) << "conventional runs counter-clockwise around a mountain";
 }
 
+// Feed moves from the pass to the first rapid after it, mm.
+double WayOutLength(const LinkResult& result) {
+  const auto& moves = result.toolpath.moves;
+  std::size_t i = moves.size();
+  while (i > 0 && moves[i - 1].kind != MoveKind::kCut) --i;
+  double length = 0.0;
+  for (; i < moves.size() && moves[i].kind != MoveKind::kRapid; ++i)
+    length += (moves[i].to - moves[i - 1].to).norm();
+  return length;
+}
+
+TEST(LinkPaths, LeavesAwayFromWhatStandsAbove) {
+  // The line ends where the shank touches the ball overhead: straight up is 1.5 mm beside it all the way.
+  const Surface surface =
+      Build(testing::Join({testing::Plane(30), testing::Sphere(Vec3(0, 0, 12), 8, Half::kAll)}));
+  const Locator locator(surface, kRadius);
+  LinkParams params = Params();
+  params.clearance_z = 30;
+  params.stock_top_z = 20.5;
+  const auto result =
+      LinkPaths(locator, {}, {Line(locator, 0, {-25, 0}, {-8 - kRadius - 1e-6, 0})}, params, RunContext{});
+  ASSERT_TRUE(result.ok()) << result.status();
+  CheckMotion(surface, *result, params);
+  const double depth = params.allowance + params.approach_gap;
+  EXPECT_LE(WayOutLength(*result), 2.0 * depth);
+  EXPECT_EQ(result->stats.retract_count, 1);
+}
+
+TEST(LinkPaths, TakesTheQuickerWay) {
+  // Two short lines on either side of a ridge. Up one flank and down the other at plunge feed, or over it.
+  const Surface surface =
+      Build(testing::Join({testing::Plane(30), testing::Cylinder(Vec3::Zero(), 6, 25, Half::kUpper)}));
+  const Locator locator(surface, kRadius);
+  const std::vector<CutterPath> paths = {Line(locator, 0, {-8.5, 0}, {-8.5, 1}),
+                                         Line(locator, 1, {8.5, 1}, {8.5, 0})};
+  LinkParams params = Params();
+  params.max_link_length = 40;
+  const auto over = LinkPaths(locator, {}, paths, params, RunContext{});
+  ASSERT_TRUE(over.ok()) << over.status();
+  CheckMotion(surface, *over, params);
+  EXPECT_EQ(over->stats.retract_count, 2);
+  params.clearance_z = 500;  // now the way up takes longer than the ridge
+  const auto along = LinkPaths(locator, {}, paths, params, RunContext{});
+  ASSERT_TRUE(along.ok()) << along.status();
+  CheckMotion(surface, *along, params);
+  EXPECT_EQ(along->stats.retract_count, 1);
+  EXPECT_GT(along->stats.link_length, over->stats.link_length);
+}
+
 TEST(LinkPaths, NothingInNothingOut) {
   const Surface surface = Build(testing::Plane(10));
   const Locator locator(surface, kRadius);

@@ -73,5 +73,37 @@ TEST(RegionSteps, NoneWhereTheBallDoesNotFit) {
   EXPECT_TRUE(seen);
 }
 
+double LeastFeedOf(const PatchModel& model, const Job& job) {
+  const JobResult result = Mill(PlacedSurface(model), job);
+  EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
+  EXPECT_GT(result.report.verify.cut_length, result.report.least_feed);
+  return result.report.least_feed;
+}
+
+TEST(LeastFeed, IsTheAreaOfTheCentersOverTheWidestStep) {
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.05;
+  const double s = job.operation.scallop, flat = 2.0 * std::sqrt(6.0 * s - s * s);
+  EXPECT_NEAR(LeastFeedOf(Plane(8), job), 256.0 / flat, 1e-6);
+  // Every direction bends alike; the centres lie on the sphere of radius 13. The rim is cut off in cells.
+  const double dome = 2.0 * kPi * 13.0 * 13.0 / StepOnConvex(10, 3, s);
+  EXPECT_NEAR(LeastFeedOf(Sphere(Vec3::Zero(), 10, Half::kUpper), job), dome, 4e-3 * dome);
+  // Round one way: the widest step is that between lines along the axis, whichever way they run.
+  const double shell = kPi * 13.0 * 20.0 / StepOnConvex(10, 3, s);
+  EXPECT_NEAR(LeastFeedOf(Cylinder(Vec3::Zero(), 10, 10, Half::kUpper), job), shell, 2e-3 * shell);
+}
+
+TEST(LeastFeed, LeavesOutSkippedRegions) {
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.05;
+  const Surface dome = PlacedSurface(Sphere(Vec3::Zero(), 10, Half::kUpper));
+  const double all = Mill(dome, job).report.least_feed;
+  RegionOverride& cap = job.operation.overrides.emplace_back();  // the gentle one, above 45 degrees
+  cap.at = Vec3(0, 0, 10);
+  cap.skip = true;
+  const double share = std::cos(job.operation.steep_angle);
+  EXPECT_NEAR(Mill(dome, job).report.least_feed, all * share, 0.01 * all);
+}
+
 }  // namespace
 }  // namespace patchmill
