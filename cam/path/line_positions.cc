@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/base/status.h"
@@ -9,14 +11,18 @@
 namespace patchmill {
 namespace {
 
+constexpr double kSteady = 1.03;   // steps of neighbouring rows that differ by more want a row between them,
+constexpr double kNearest = 0.15;  // but none nearer than this many flat steps
+
 struct Row {
   double y = 0.0;
   std::vector<double> needs;  // of every wanted sample, sorted; may hold infinity
+  double step = 0.0;          // CheapestStep of a wanted row
   bool wanted() const { return !needs.empty(); }
 };
 
 Row SampleRow(const LineProber& prober, const Interval& range, double spacing, double y) {
-  Row row{y, {}};
+  Row row{y, {}, 0.0};
   const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
   for (const LineProbe& p : prober.ProbeRow(range.begin, range.end, count, y)) {
     if (p.wanted) row.needs.push_back(p.need);
@@ -50,14 +56,26 @@ double CheapestStep(const std::vector<double>& needs, double min_step, double ma
   return best;
 }
 
-// The limit of what is wanted between two rows of which only one has something.
-double WantedLimit(const LineProber& prober, const Interval& range, double spacing, double with,
-                   double without) {
-  while (std::abs(with - without) > 1e-3 * prober.flat_step() && !prober.Cancelled()) {
-    const double mid = 0.5 * (with + without);
-    (SampleRow(prober, range, spacing, mid).wanted() ? with : without) = mid;
+// The last row with something wanted between two rows of which only one has something.
+Row WantedLimit(const LineProber& prober, const Interval& range, double spacing, Row with, double without) {
+  while (std::abs(with.y - without) > 1e-3 * prober.flat_step() && !prober.Cancelled()) {
+    Row mid = SampleRow(prober, range, spacing, 0.5 * (with.y + without));
+    if (mid.wanted()) {
+      with = std::move(mid);
+    } else {
+      without = mid.y;
+    }
   }
   return with;
+}
+
+bool Steady(const Row& a, const Row& b) {
+  return std::max(a.step, b.step) <= kSteady * std::min(a.step, b.step);
+}
+
+// Lines per mm between two rows.
+double Density(const Row& a, const Row& b) {
+  return Steady(a, b) ? 0.5 / a.step + 0.5 / b.step : 1.0 / std::min(a.step, b.step);
 }
 
 }  // namespace
@@ -88,34 +106,60 @@ absl::StatusOr<std::vector<double>> LinePositions(const LineProber& prober, cons
   const double height = extent.y.end - extent.y.begin;
   if (!(height > 0.0)) return std::vector<double>{};
   const auto count = static_cast<std::size_t>(std::ceil(height / row_step)) + 1;
+  const auto judge = [&](Row& row) {
+    if (row.wanted()) row.step = CheapestStep(row.needs, min_step, 4.0 * flat);
+  };
+  const auto sample = [&](const char* what, std::vector<Row>& all) {
+    return ParallelFor(run, what, all.size(), [&](std::size_t i) {
+      all[i] = SampleRow(prober, extent.t, spacing, all[i].y);
+      judge(all[i]);
+    });
+  };
   std::vector<Row> rows(count);
-  PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: positions", count, [&](std::size_t i) {
-    const double y = extent.y.begin + height * static_cast<double>(i) / static_cast<double>(count - 1);
-    rows[i] = SampleRow(prober, extent.t, spacing, y);
-  }));
+  for (std::size_t i = 0; i < count; ++i)
+    rows[i].y = extent.y.begin + height * static_cast<double>(i) / static_cast<double>(count - 1);
+  PM_RETURN_IF_ERROR(sample("zigzag: positions", rows));
 
   std::vector<double> positions;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].wanted()) continue;
     std::size_t last = i;
-    while (last + 1 < count && rows[last + 1].wanted()) ++last;
+    while (last + 1 < rows.size() && rows[last + 1].wanted()) ++last;
     PM_RETURN_IF_ERROR(run.Check());
-    const double begin = i > 0 ? WantedLimit(prober, extent.t, spacing, rows[i].y, rows[i - 1].y) : rows[i].y;
-    const double end = last + 1 < count
-                           ? WantedLimit(prober, extent.t, spacing, rows[last].y, rows[last + 1].y)
-                           : rows[last].y;
-    // Steps of the band, constant between rows; density 1/step is integrated and cut into equal parts.
-    std::vector<double> edges{begin}, density;
-    const auto max_step = 4.0 * flat;
-    std::vector<double> step(last - i + 1);
-    for (std::size_t k = i; k <= last; ++k) step[k - i] = CheapestStep(rows[k].needs, min_step, max_step);
-    const auto add = [&](double to, double s) {
-      edges.push_back(to);
-      density.push_back(1.0 / s);
-    };
-    add(rows[i].y, step.front());
-    for (std::size_t k = i; k < last; ++k) add(rows[k + 1].y, std::min(step[k - i], step[k - i + 1]));
-    add(end, step.back());
+    // The rows of a band, from the first to the last place where something is wanted.
+    std::vector<Row> band(rows.begin() + static_cast<std::ptrdiff_t>(i),
+                          rows.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    if (i > 0) band.insert(band.begin(), WantedLimit(prober, extent.t, spacing, rows[i], rows[i - 1].y));
+    if (last + 1 < rows.size())
+      band.push_back(WantedLimit(prober, extent.t, spacing, rows[last], rows[last + 1].y));
+    judge(band.front());
+    judge(band.back());
+    for (;;) {
+      std::vector<Row> between;
+      for (std::size_t k = 0; k + 1 < band.size(); ++k) {
+        if (!Steady(band[k], band[k + 1]) && band[k + 1].y - band[k].y >= 2.0 * kNearest * flat)
+          between.push_back({0.5 * (band[k].y + band[k + 1].y), {}, 0.0});
+      }
+      if (between.empty()) break;
+      PM_RETURN_IF_ERROR(sample(nullptr, between));
+      std::erase_if(between, [](const Row& row) { return !row.wanted(); });
+      if (between.empty()) break;
+      band.insert(band.end(), std::make_move_iterator(between.begin()),
+                  std::make_move_iterator(between.end()));
+      std::sort(band.begin(), band.end(), [](const Row& a, const Row& b) { return a.y < b.y; });
+    }
+    const double end = band.back().y;
+    // Density 1/step, constant between rows, is integrated and cut into equal parts.
+    std::vector<double> edges{band.front().y}, density;
+    for (std::size_t k = 0; k + 1 < band.size(); ++k) {
+      edges.push_back(band[k + 1].y);
+      density.push_back(Density(band[k], band[k + 1]));
+    }
+    if (density.empty()) {  // one row has all
+      positions.push_back(end);
+      i = last;
+      continue;
+    }
     double total = 0.0;
     for (std::size_t k = 0; k < density.size(); ++k) total += density[k] * (edges[k + 1] - edges[k]);
     const int gaps = std::max(1, static_cast<int>(std::ceil(total - 1e-9)));

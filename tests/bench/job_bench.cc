@@ -36,6 +36,8 @@ void MeasureJob(benchmark::State& state, Part part) {
   }
   state.counters["peak_MB"] = PeakMemory();
   state.counters["moves"] = moves;
+  state.counters["feed_m"] = 1e-3 * report.verify.cut_length;
+  state.counters["over_least"] = report.verify.cut_length / report.least_feed;
   state.counters["program_MB"] = 1e-6 * bytes;
   for (const StageTime& stage : report.stages) state.counters["s_" + stage.name] = stage.seconds;
 }

@@ -1,6 +1,7 @@
 #include "cam/link/order_passes.h"
 
 #include <chrono>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,77 @@ TEST(OrderPasses, EachMountainIsCutFromTheTopBeforeTheNext) {
     EXPECT_EQ(out[i].points.front().center.x() < 20, out[i < 5 ? 0 : 5].points.front().center.x() < 20);
   }
   EXPECT_NE(out[0].points.front().center.x() < 20, out[5].points.front().center.x() < 20);
+}
+
+CutterPath SquareOf(int level, const Vec2& middle, double half, double z) {
+  const auto at = [&](double x, double y) { return Vec3(middle.x() + x, middle.y() + y, z); };
+  return Path(PassKind::kContour, level, {at(-half, -half), at(half, -half), at(half, half), at(-half, half)},
+              true);
+}
+
+TEST(OrderPasses, EachBasinIsCutFromTheTopInwards) {
+  // Two pits 60 mm apart: loops shrink with the depth.
+  std::vector<CutterPath> loops;
+  for (int level = 0; level < 6; ++level) {
+    for (const double x : {60.0, 0.0})
+      loops.push_back(SquareOf(level, {x, 0.0}, 10.0 - 1.5 * level, -1.0 * level));
+  }
+  const auto out = Ordered(loops, {});
+  ASSERT_EQ(out.size(), 12u);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(out[i].line, static_cast<int>(i % 6));
+    const auto pit = [&](std::size_t k) { return out[k].points.front().center.x() > 30.0; };
+    EXPECT_EQ(pit(i), pit(i < 6 ? 0 : 6));
+    if (i % 6 == 0) continue;
+    const double half = std::abs(out[i].points[0].center.x() - out[i].points[2].center.x());
+    const double before = std::abs(out[i - 1].points[0].center.x() - out[i - 1].points[2].center.x());
+    EXPECT_LT(half, before) << "inwards";
+  }
+}
+
+TEST(OrderPasses, BranchesAreCutBeforeWhatTheyJoin) {
+  // Two peaks on one mountain: levels 0 to 2 apart, 3 to 5 around both.
+  std::vector<CutterPath> loops;
+  for (int level = 0; level < 3; ++level) {
+    loops.push_back(SquareOf(level, {0.0, 0.0}, 2.0 + level, 10.0 - level));
+    loops.push_back(SquareOf(level, {12.0, 0.0}, 2.0 + level, 10.0 - level));
+  }
+  for (int level = 3; level < 6; ++level)
+    loops.push_back(SquareOf(level, {6.0, 0.0}, 9.0 + level, 10.0 - level));
+  const auto out = Ordered(loops, {});
+  ASSERT_EQ(out.size(), 9u);
+  for (std::size_t i = 1; i < out.size(); ++i)
+    EXPECT_LE(out[i].points.front().center.z(), out[i - 1].points.front().center.z()) << i;
+}
+
+TEST(OrderPasses, NeighboursStayTogether) {
+  // Three fields of lines in one region: each is finished before the next is begun.
+  std::vector<CutterPath> lines;
+  for (int i = 0; i < 8; ++i) {
+    for (const double x : {0.0, 50.0, 100.0})
+      lines.push_back(Path(PassKind::kZigzag, i, {{x, 0.5 * i, 0}, {x + 20, 0.5 * i, 0}}));
+  }
+  const auto out = Ordered(lines, {});
+  ASSERT_EQ(out.size(), 24u);
+  int changes = 0;
+  for (std::size_t i = 1; i < out.size(); ++i) {
+    const auto field = [&](std::size_t k) { return static_cast<int>(out[k].points.front().center.x()) / 45; };
+    changes += field(i) != field(i - 1);
+  }
+  EXPECT_EQ(changes, 2);
+}
+
+TEST(OrderPasses, SpiralsAreNeverTurned) {
+  CutterPath spiral = Path(PassKind::kContour, 0, {{0, 0, 5}, {9, 0, 4}, {30, 0, 3}});
+  spiral.spiral = true;
+  // The tool comes from the far end, and contours may be cut either way.
+  const auto out = Ordered({Path(PassKind::kContour, 0, {{60, 0, 9}, {31, 0, 9}}), spiral},
+                           {.neighbor_distance = 3.0, .reversible_contours = true});
+  ASSERT_EQ(out.size(), 2u);
+  for (const CutterPath& path : out) {
+    if (!path.spiral) continue;
+    EXPECT_GT(path.points.front().center.z(), path.points.back().center.z());
+  }
 }
 
 TEST(OrderPasses, ContoursKeepTheirDirectionUnlessFree) {
