@@ -117,6 +117,8 @@ void AddLimits(const Job& job, Canonical& out) {
     if (change.one_way) out.Add("one way").Add(std::int64_t{*change.one_way});
   }
   if (job.operation.one_way) out.Add("one way");
+  if (job.operation.spirals) out.Add("spirals");
+  if (job.operation.angle_auto) out.Add("angle auto");
   if (job.operation.top_z) out.Add("top").Add(*job.operation.top_z);
   for (const ObstacleOutline& o : job.setup.obstacles) {
     out.Add("obstacle").Add(o.id).Add(o.top_z).Add(o.margin);

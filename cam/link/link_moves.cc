@@ -13,7 +13,7 @@ constexpr double kBesideWallSlope = Radians(50.0);
 constexpr double kDetour = 3.0;
 // rad: how leads may turn from the normal; a way out this many times as long as the way through the stock is
 // good enough.
-constexpr std::array<double, 8> kTurns = {0.0,        kPi / 4.0,        -kPi / 4.0,       kPi / 2.0,
+constexpr std::array<double, 8> kTurns = {0.0,        kPi / 4.0,       -kPi / 4.0,       kPi / 2.0,
                                           -kPi / 2.0, 3.0 * kPi / 4.0, -3.0 * kPi / 4.0, kPi};
 constexpr double kWorthTurning = 1.5;
 
@@ -135,8 +135,7 @@ LinkMaker::WayOut LinkMaker::FindWayOut(const CutterPoint& point) const {
 void LinkMaker::Retract(const CutterPoint& from, std::vector<Move>& moves) const {
   const WayOut out = FindWayOut(from);
   if (out.beside != from.center) moves.push_back(Feed(MoveKind::kLead, from.center, out.beside));
-  if (out.clear.z() > out.beside.z() + 1e-9)
-    moves.push_back(Feed(MoveKind::kRetract, out.beside, out.clear));
+  if (out.clear.z() > out.beside.z() + 1e-9) moves.push_back(Feed(MoveKind::kRetract, out.beside, out.clear));
   if (clearance_center_z() > out.clear.z() + 1e-9) {
     moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(out.clear), clearance_center_z())});
   }
@@ -145,8 +144,7 @@ void LinkMaker::Retract(const CutterPoint& from, std::vector<Move>& moves) const
 void LinkMaker::Approach(const CutterPoint& to, std::vector<Move>& moves) const {
   const WayOut in = FindWayOut(to);
   moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(in.clear), clearance_center_z())});
-  if (in.clear.z() < clearance_center_z() - 1e-9)
-    moves.push_back({.kind = MoveKind::kRapid, .to = in.clear});
+  if (in.clear.z() < clearance_center_z() - 1e-9) moves.push_back({.kind = MoveKind::kRapid, .to = in.clear});
   if (in.clear.z() > in.beside.z() + 1e-9) moves.push_back(Feed(MoveKind::kPlunge, in.clear, in.beside));
   if (in.beside != to.center) moves.push_back(Feed(MoveKind::kLead, in.beside, to.center));
 }

@@ -27,10 +27,6 @@ void AppendPass(const CutterPath& pass, int index, const LinkMaker& maker, const
   }
 }
 
-double TimeOf(const Move& move, double length) {
-  return 60.0 * length / (move.kind == MoveKind::kRapid ? kAssumedRapid : move.feed);
-}
-
 // From one pass to the next: down along the surface, or over the top where that is quicker.
 std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const CutterPath& next) {
   const CutterPoint& start = next.points.front();
@@ -38,7 +34,7 @@ std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const C
     double sum = 0.0;
     Vec3 at = end.center;
     for (const Move& move : moves) {
-      sum += TimeOf(move, (move.to - at).norm());
+      sum += EstimatedTime(move, (move.to - at).norm());
       at = move.to;
     }
     return sum;
@@ -60,7 +56,7 @@ LinkStats Measure(const std::vector<Move>& moves) {
   for (std::size_t i = 1; i < moves.size(); ++i) {
     const Vec3 d = moves[i].to - moves[i - 1].to;
     const double length = d.norm();
-    stats.time += TimeOf(moves[i], length);
+    stats.time += EstimatedTime(moves[i], length);
     const bool up = moves[i].kind == MoveKind::kRetract || (moves[i].kind == MoveKind::kRapid && d.z() > 0.0);
     const MoveKind before = moves[i - 1].kind;
     if (up && before != MoveKind::kRetract && before != MoveKind::kRapid) ++stats.retract_count;
@@ -77,13 +73,17 @@ LinkStats Measure(const std::vector<Move>& moves) {
 
 }  // namespace
 
+double EstimatedTime(const Move& move, double length) {
+  return 60.0 * length / (move.kind == MoveKind::kRapid ? kAssumedRapid : move.feed);
+}
+
 absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& regions,
                                      std::vector<CutterPath> paths, const LinkParams& params,
                                      const RunContext& run) {
   std::erase_if(paths, [](const CutterPath& p) { return p.points.empty(); });
   if (params.contour_direction == CutDirection::kConventional) {
     for (CutterPath& path : paths) {
-      if (path.kind == PassKind::kContour) Reverse(path);
+      if (path.kind == PassKind::kContour && !path.spiral) Reverse(path);
     }
   }
   LinkResult result;

@@ -37,6 +37,9 @@ struct LinkStats {
   double steepest_descent = 0.0;  // rad, of any feed move
 };
 
+// s: of a move that is `length` mm long, at its feed; rapids as in LinkStats.
+double EstimatedTime(const Move& move, double length);
+
 struct LinkResult {
   Toolpath toolpath;
   std::vector<CutterPath> passes;  // in the order they are cut, as cut (direction, start point)

@@ -105,7 +105,7 @@ void TakeCluster(std::vector<CutterPath>& cluster, bool layered, bool reversible
     End best_end;
     for (std::size_t i = 0; i < cluster.size(); ++i) {
       if (done[i] || (layered && cluster[i].line != layer)) continue;
-      const End end = NearestEnd(cluster[i], at, reversible && !cluster[i].one_way);
+      const End end = NearestEnd(cluster[i], at, reversible && !cluster[i].one_way && !cluster[i].spiral);
       if (best == cluster.size() || end.distance < best_end.distance) {
         best = i;
         best_end = end;

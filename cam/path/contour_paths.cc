@@ -30,6 +30,7 @@ LevelPasses PassesAt(const LevelContext& context, const PlannedLevel& planned, d
   LevelPasses passes{{}, level.z, level.ambiguous_cells, level.ambiguous_at};
   ClipParams clip;
   clip.window = params.window;
+  clip.roll = params.roll;
   clip.overlap = 0.5 * CenterStep(context.locator.radius(), params.scallop, 0.0);
   if (planned.partial) {
     clip.spots = planned.spots;

@@ -130,6 +130,7 @@ class Clipper {
 
   // May the ball rest on this surface point from direction e?
   bool Holds(const SurfacePoint& at, const Vec3& e) const {
+    if (params_.roll) return true;
     const std::array<bool, 4> on = {at.v<kOnSide, at.u> 1.0 - kOnSide, at.v > 1.0 - kOnSide, at.u < kOnSide};
     for (int side = 0; side < 4; ++side) {
       if (!on[static_cast<std::size_t>(side)]) continue;

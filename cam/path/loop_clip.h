@@ -10,6 +10,7 @@ namespace patchmill {
 
 struct ClipParams {
   SlopeWindow window;
+  bool roll = false;     // over every open border, not only over rims that are locally highest
   double overlap = 0.0;  // mm along the loop, added at both ends of what lies in the window
   // Not empty: only within `near` (mm, in space) of one of these centres.
   std::vector<Vec3> spots;

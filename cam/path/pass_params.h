@@ -19,6 +19,8 @@ struct PassParams {
   double floor_z = -kInfinity;      // mm: the lowest TIP height; centres never go below floor_z + radius
   SlopeWindow window;               // passes cover contacts in here, dilated by half a step along the pass
   double min_step_fraction = 0.25;  // steps never fall below this part of the flat step-over
+  // The ball rolls over every open border, not only over rims that are locally highest (MACHINING A.12).
+  bool roll = false;
 };
 
 }  // namespace patchmill

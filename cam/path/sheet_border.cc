@@ -69,7 +69,8 @@ Vec3 UpwardNormalNear(const Surface& surface, const SurfacePoint& at) {
   return Vec3::UnitZ();
 }
 
-SheetBorder::SheetBorder(const Surface& surface) : surface_(surface), open_(surface.pieces.size()) {
+SheetBorder::SheetBorder(const Surface& surface, bool roll)
+    : surface_(surface), roll_(roll), open_(surface.pieces.size()) {
   const PatchNetwork& network = surface.network;
   same_point_ = std::max(network.join_tolerance, 1e-9 * surface.scale);
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
@@ -106,18 +107,27 @@ bool SheetBorder::OnSurfaceNormal(const SurfacePoint& contact, const Vec3& norma
   return UpwardNormalNear(surface_, contact).cross(normal).norm() <= kSameDirection;
 }
 
-bool SheetBorder::Allowed(const SurfacePoint& contact, const Vec3& normal) const {
-  bool on_any_side = false, on_open_side = false;
+SheetBorder::Sides SheetBorder::SidesAt(const SurfacePoint& contact) const {
+  Sides at;
   int sides = 0;
   for (int side = 0; side < 4; ++side) {
     if (!OnSide(contact, side)) continue;
     ++sides;
-    on_any_side = true;
-    on_open_side |= open_[contact.piece.index()][static_cast<std::size_t>(side)];
+    at.open |= open_[contact.piece.index()][static_cast<std::size_t>(side)];
   }
-  if (!on_any_side) return true;
   // A corner between closed sides may still be an end of the sheet's border (the middle patch of a fan).
-  const bool fan_corner = !on_open_side && sides == 2 && AtOpenVertex(contact.p);
+  at.fan_corner = !at.open && sides == 2 && AtOpenVertex(contact.p);
+  return at;
+}
+
+bool SheetBorder::On(const SurfacePoint& contact) const {
+  const Sides at = SidesAt(contact);
+  return at.open || at.fan_corner;
+}
+
+bool SheetBorder::Allowed(const SurfacePoint& contact, const Vec3& normal) const {
+  if (roll_) return true;
+  const auto [on_open_side, fan_corner] = SidesAt(contact);
   if (!on_open_side && !fan_corner) return true;
   if (OnSurfaceNormal(contact, normal)) return true;
   const SurfaceJet jet = Evaluate(surface_, contact.piece, contact.u, contact.v);

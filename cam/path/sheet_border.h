@@ -13,7 +13,8 @@ namespace patchmill {
 // vertices).
 class SheetBorder {
  public:
-  explicit SheetBorder(const Surface& surface);
+  // `roll`: the ball may roll over every border, as far as it touches it.
+  explicit SheetBorder(const Surface& surface, bool roll = false);
 
   // True where the ball touching `contact` in the direction `normal` ((centre - contact)/R) belongs to a
   // pass: inside the sheet, over creases, up to the surface normal at an outer border. A border from which
@@ -21,14 +22,22 @@ class SheetBorder {
   // of a wall.
   bool Allowed(const SurfacePoint& contact, const Vec3& normal) const;
 
+  // True at an open border, its vertices included.
+  bool On(const SurfacePoint& contact) const;
+
   // True where the direction is that of the surface itself, not that of a ball rolling over an edge or a
   // crease. Tolerance 1e-5 rad.
   bool OnSurfaceNormal(const SurfacePoint& contact, const Vec3& normal) const;
 
  private:
   bool AtOpenVertex(const Vec3& p) const;
+  struct Sides {
+    bool open = false, fan_corner = false;
+  };
+  Sides SidesAt(const SurfacePoint& contact) const;
 
   const Surface& surface_;
+  const bool roll_;
   // [piece][side]; sides 0: v=0, 1: u=1, 2: v=1, 3: u=0.
   std::vector<std::array<bool, 4>> open_;
   std::vector<Vec3> open_vertices_;  // ends of open edges, by x

@@ -28,7 +28,7 @@ class Mender {
         run_(run),
         radius_(locator.radius()),
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
-        border_(locator.surface()),
+        border_(locator.surface(), params.roll),
         grid_(spots, flat_),
         open_(spots.size(), true) {}
 

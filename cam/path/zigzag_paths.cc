@@ -45,7 +45,7 @@ void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& 
 absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, const ZigzagParams& params,
                                                     const RunContext& run) {
   const Surface& surface = locator.surface();
-  const SheetBorder border(surface);
+  const SheetBorder border(surface, params.roll);
   const LineProber prober(locator, border, LineFrame::At(params.angle), params, params.part, run);
   const double min_step = params.min_step_fraction * prober.flat_step();
   const FrameExtent extent = ExtentInFrame(surface, prober.frame(), locator.radius());

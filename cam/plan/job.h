@@ -55,6 +55,7 @@ struct RegionChoice {
   bool skip = false;  // not at all
   Strategy strategy = Strategy::kAuto;
   double zigzag_angle = 0.0;  // rad
+  bool angle_open = false;    // zigzag_angle is yet to be chosen (QuickestAngles)
   bool one_way = false;       // all its lines run along zigzag_angle, none back
   double scallop = 0.01;      // mm
   bool operator==(const RegionChoice&) const = default;
@@ -80,7 +81,9 @@ struct Operation {
   double steep_angle = Radians(45.0);
   Strategy strategy = Strategy::kAuto;
   double zigzag_angle = 0.0;
-  bool one_way = false;  // zig-zag lines run along their angle only
+  bool one_way = false;     // zig-zag lines run along their angle only
+  bool angle_auto = false;  // each region's lines in the direction that takes the least time
+  bool spirals = false;     // contours one below the other become one pass (SpiralPaths)
   double detail = RegionParams().detail;
   CutDirection contour_direction = CutDirection::kClimb;
   EdgeRule edge_rule = EdgeRule::kStop;

@@ -9,7 +9,9 @@
 #include "cam/path/contour_paths.h"
 #include "cam/path/coverage.h"
 #include "cam/path/keep_in_clip.h"
+#include "cam/path/run_on.h"
 #include "cam/path/spacing.h"
+#include "cam/path/spiral_paths.h"
 #include "cam/path/zigzag_paths.h"
 #include "core/base/status.h"
 
@@ -76,6 +78,12 @@ class PassMaker {
       const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
       PM_ASSIGN_OR_RETURN(paths, ClipToKeepIn(locator_, *keep_in, std::move(paths), reach, run_));
     }
+    if (op_.spirals) {
+      PassParams params;
+      SetPass(choice, params);
+      const bool backwards = op_.contour_direction == CutDirection::kConventional;
+      PM_ASSIGN_OR_RETURN(paths, SpiralPaths(locator_, std::move(paths), params, backwards, run_));
+    }
     NumberAfter(planned.paths, paths);
     Append(planned.paths, std::move(paths));
     return absl::OkStatus();
@@ -133,6 +141,7 @@ PassParams MakePassParams(const Job& job, const Resolved& resolved) {
   p.certificate_gap = std::max(0.1 * resolved.budget.certificate, 1e-6);
   // Generators hold the centre at floor + their own radius, which includes the stock to leave.
   p.floor_z = resolved.floor_z - job.operation.leave;
+  p.roll = job.operation.edge_rule == EdgeRule::kRoll;
   return p;
 }
 
@@ -157,6 +166,10 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
     PM_RETURN_IF_ERROR(maker.AddRest(parts[k].choice, limits(k), planned));
   }
   LabelRegions(regions, planned.paths);
+  if (job.operation.edge_rule == EdgeRule::kExtend) {
+    PM_ASSIGN_OR_RETURN(planned.paths, RunOn(locator, std::move(planned.paths), locator.radius(),
+                                             MakePassParams(job, resolved), keep_in, run));
+  }
   return planned;
 }
 

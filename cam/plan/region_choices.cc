@@ -71,6 +71,7 @@ RegionChoice ChoiceOf(const Operation& op) {
   RegionChoice choice;
   choice.strategy = op.strategy;
   choice.zigzag_angle = op.zigzag_angle;
+  choice.angle_open = op.angle_auto;
   choice.one_way = op.one_way;
   choice.scallop = op.scallop;
   return choice;
@@ -104,6 +105,7 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
     choice.skip = change.skip;
     choice.strategy = change.strategy.value_or(choice.strategy);
     choice.zigzag_angle = change.zigzag_angle.value_or(choice.zigzag_angle);
+    choice.angle_open = choice.angle_open && !change.zigzag_angle;
     choice.one_way = change.one_way.value_or(choice.one_way);
     choice.scallop = change.scallop.value_or(choice.scallop);
   }

@@ -64,8 +64,8 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
       const auto across =
           ByContours(choice, map.regions[id]) ? AcrossContours(e) : AcrossLines(e, choice.zigzag_angle);
       if (!across) return;
-      const double step = CenterStep(resolved.plan_radius, choice.scallop,
-                                     NormalCurvature(Forms(jet, e), jet, *across));
+      const double step =
+          CenterStep(resolved.plan_radius, choice.scallop, NormalCurvature(Forms(jet, e), jet, *across));
       if (step > 0.0) pieces[i][id].Add(step);
     });
   }));

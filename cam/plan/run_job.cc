@@ -7,6 +7,7 @@
 #include "cam/path/scan_line.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/plan_passes.h"
+#include "cam/plan/quickest_angles.h"
 #include "cam/plan/region_choices.h"
 #include "cam/plan/region_steps.h"
 #include "cam/plan/resolve.h"
@@ -185,14 +186,31 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   result.regions = std::move(regions.map);
   report.regions = result.regions.regions;
   report.choices = std::move(regions.choices);
-  PM_ASSIGN_OR_RETURN(report.least_feed,
-                      LeastFeed(surface, report.choices, resolved, run, result.regions));
-  const std::vector<PlanPart> parts = PartsOf(result.regions, report.choices);
-  const bool whole = parts.size() == 1 && parts.front().where == nullptr;
-  const KeepIn* limits = whole && !IsLimited(resolved) ? nullptr : &keep_in;
+  PM_ASSIGN_OR_RETURN(report.least_feed, LeastFeed(surface, report.choices, resolved, run, result.regions));
+  const auto limits_of = [&](const std::vector<PlanPart>& of) {
+    const bool whole = of.size() == 1 && of.front().where == nullptr;
+    return whole && !IsLimited(resolved) ? nullptr : &keep_in;
+  };
   clock.Done("regions");
 
   PM_ASSIGN_OR_RETURN(const Locator locator, Locator::Make(surface, resolved.plan_radius, run));
+  if (job.operation.angle_auto) {
+    const auto time = [&](const std::vector<RegionChoice>& choices) -> absl::StatusOr<RegionTimes> {
+      const std::vector<PlanPart> tried = PartsOf(result.regions, choices);
+      const KeepIn* within = limits_of(tried);
+      PM_ASSIGN_OR_RETURN(PlannedPasses passes,
+                          PlanPasses(locator, result.regions, tried, job, resolved, within, run));
+      PM_ASSIGN_OR_RETURN(const LinkResult motion, LinkPaths(locator, result.regions, std::move(passes.paths),
+                                                             MakeLinkParams(job, resolved, within), run));
+      return TimesOf(motion, result.regions.regions.size());
+    };
+    PM_ASSIGN_OR_RETURN(report.choices, QuickestAngles(result.regions, std::move(report.choices), time));
+    PM_RETURN_IF_ERROR(FillSteps(surface, report.choices, resolved, run, result.regions));
+    report.regions = result.regions.regions;
+    clock.Done("angles");
+  }
+  const std::vector<PlanPart> parts = PartsOf(result.regions, report.choices);
+  const KeepIn* limits = limits_of(parts);
   PM_ASSIGN_OR_RETURN(PlannedPasses planned,
                       PlanPasses(locator, result.regions, parts, job, resolved, limits, run));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());

@@ -24,6 +24,9 @@ struct CutterPath {
   bool closed = false;  // the last point joins the first (not repeated)
   // Is cut from its first point to its last, never back, and the ball comes to it from above.
   bool one_way = false;
+  // Winds down from its first point to its last and is cut like that, whatever the direction of contours: it
+  // was made for it.
+  bool spiral = false;
   int region = -1;  // RegionMap id of most of its length, -1: none
   int line = 0;     // index of the scan line or level it came from; orders passes within a region
   std::vector<CutterPoint> points;

@@ -27,6 +27,7 @@ constexpr struct {
     {"stock_to_leave_mm", "--leave"},
     {"steep_angle_deg", "--steep-angle"},
     {"zigzag_angle_deg", "--zigzag-angle"},
+    {"zigzag_angle_auto", "--auto-angle"},
     {"operations[0].detail", "--detail"},
     {"regions_sha256", "--regions"},
     {"setup.scale", "--scale"},

@@ -177,6 +177,12 @@ v1::Strategy MakeStrategy(const std::string& name) {
   return v1::STRATEGY_AUTO;
 }
 
+v1::EdgeRule MakeEdgeRule(const std::string& name) {
+  if (name == "roll") return v1::EDGE_RULE_ROLL;
+  if (name == "extend") return v1::EDGE_RULE_EXTEND;
+  return v1::EDGE_RULE_STOP;
+}
+
 v1::Operation MakeOperation(const OperationOptions& options) {
   v1::Operation op;
   v1::Tool& tool = *op.mutable_tool();
@@ -191,6 +197,9 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   op.set_strategy(MakeStrategy(options.strategy));
   op.set_zigzag_angle_deg(options.zigzag_angle);
   op.set_one_way_lines(options.one_way);
+  op.set_contour_spirals(options.spirals);
+  op.set_zigzag_angle_auto(options.auto_angle);
+  op.set_edge_rule(MakeEdgeRule(options.edges));
   op.set_detail(options.detail);
   op.set_contour_direction(MakeDirection(options.direction));
   op.mutable_heights()->set_clearance_above_mm(options.clearance);

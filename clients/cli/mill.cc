@@ -140,7 +140,8 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   fmt::print(stderr, "  motion    {:.1f} min ({}), {} points, {} retracts\n",
              report.estimated_time_s() / 60.0, report.time_basis(), report.point_count(),
              report.retract_count());
-  fmt::print(stderr, "            {:.1f} m of feed, {}\n", report.cut_length_mm() / 1000.0, OverLeast(report));
+  fmt::print(stderr, "            {:.1f} m of feed, {}\n", report.cut_length_mm() / 1000.0,
+             OverLeast(report));
   if (report.certificate_defect_count() > 0) {
     fmt::print(stderr,
                "  heights   {} put right by their certificates: a defect of the planner, please report\n",
@@ -189,7 +190,14 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();
   AddNumber(app, "--zigzag-angle", op.zigzag_angle, "direction of the lines from +X, degrees");
+  app.add_flag("--auto-angle", op.auto_angle,
+               "lines of each region in the direction that takes the least time, of 0, 30, ... 150 degrees");
   app.add_flag("--one-way", op.one_way, "cut all lines in that direction, and lift the ball back");
+  app.add_flag("--spirals", op.spirals, "wind closed contours down around walls in one pass");
+  app.add_option("--edges", op.edges,
+                 "stop at outer borders; roll over them; extend passes by a ball radius beyond them")
+      ->check(CLI::IsMember({"stop", "roll", "extend"}))
+      ->capture_default_str();
   app.add_option("--direction", op.direction, "of closed contours")
       ->check(CLI::IsMember({"climb", "conventional", "either"}))
       ->capture_default_str();

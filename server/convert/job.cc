@@ -38,12 +38,6 @@ void ReadHeights(const v1::Heights& proto, const std::string& at, Operation& op,
   if (proto.has_top_z_mm()) op.top_z = height("top_z_mm", proto.top_z_mm());
 }
 
-void RefuseWhatIsNotThere(const v1::Operation& proto, std::string_view at, FieldErrors& errors) {
-  if (proto.edge_rule() == v1::EDGE_RULE_ROLL || proto.edge_rule() == v1::EDGE_RULE_EXTEND) {
-    errors.NotYet(At(at, "edge_rule"), "leave it unset: STOP at outer borders, ROLL over rims and creases");
-  }
-}
-
 void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
   if (!proto.dialect().empty()) {
     bool known = false;
@@ -123,14 +117,18 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
     Require(errors, At(at, "zigzag_angle_deg"), angle, std::abs(angle) <= 360.0, "in [-360, 360]");
     op.zigzag_angle = Radians(angle);
   }
+  op.angle_auto = proto.zigzag_angle_auto();
+  if (op.angle_auto && op.zigzag_angle != 0.0) {
+    errors.Add(At(at, "zigzag_angle_auto"), "is set, and so is zigzag_angle_deg; set one of them");
+  }
   op.one_way = proto.one_way_lines();
+  op.spirals = proto.contour_spirals();
   if (proto.has_detail()) op.detail = ReadDetail(proto.detail(), at, errors);
   op.contour_direction = FromProto(proto.contour_direction(), At(at, "contour_direction"), errors);
   op.edge_rule = FromProto(proto.edge_rule(), At(at, "edge_rule"), errors);
   op.selection = FromProto(proto.selection(), At(at, "selection"), errors);
   ReadHeights(proto.heights(), At(at, "heights"), op, errors);
   ReadOverrides(proto.regions_sha256(), proto.region_overrides(), at, op, errors);
-  RefuseWhatIsNotThere(proto, at, errors);
   return op;
 }
 
@@ -168,6 +166,8 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   proto.set_strategy(ToProto(op.strategy));
   proto.set_zigzag_angle_deg(Degrees(op.zigzag_angle));
   if (op.one_way) proto.set_one_way_lines(true);
+  proto.set_contour_spirals(op.spirals);
+  proto.set_zigzag_angle_auto(op.angle_auto);
   proto.set_detail(op.detail);
   proto.set_contour_direction(ToProto(op.contour_direction));
   proto.set_edge_rule(ToProto(op.edge_rule));

@@ -84,6 +84,12 @@ INSTANTIATE_TEST_SUITE_P(
               "job.operations[0].steep_angle_deg = 90; must be in [5, 85]"},
         Wrong{"SteepAngleNan", [](Request& r) { OperationOf(r).set_steep_angle_deg(kNan); },
               "job.operations[0].steep_angle_deg = nan"},
+        Wrong{"ZigzagAngleTwice",
+              [](Request& r) {
+                OperationOf(r).set_zigzag_angle_deg(30);
+                OperationOf(r).set_zigzag_angle_auto(true);
+              },
+              "job.operations[0].zigzag_angle_auto is set, and so is zigzag_angle_deg; set one of them"},
         Wrong{"ZigzagAngle", [](Request& r) { OperationOf(r).set_zigzag_angle_deg(361); },
               "job.operations[0].zigzag_angle_deg = 361; must be in [-360, 360]"},
         Wrong{"DetailNan", [](Request& r) { OperationOf(r).set_detail(kNan); },
@@ -292,9 +298,6 @@ INSTANTIATE_TEST_SUITE_P(
     Next, WrongJobs,
     ::testing::Values(Wrong{"Holder", [](Request& r) { ToolOf(r).add_holder(); },
                             "job.operations[0].tool.holder is not there yet", kNext},
-                      Wrong{"EdgeRule",
-                            [](Request& r) { OperationOf(r).set_edge_rule(v1::EDGE_RULE_EXTEND); },
-                            "job.operations[0].edge_rule is not there yet", kNext},
                       Wrong{"SecondOperation",
                             [](Request& r) { *r.mutable_job()->add_operations() = OperationOf(r); },
                             "job.operations[1] is not there yet", kNext},
@@ -342,7 +345,9 @@ Request Unusual() {
   op.set_zigzag_angle_deg(90);
   op.set_detail(0.25);
   op.set_contour_direction(v1::CUT_DIRECTION_EITHER);
-  op.set_edge_rule(v1::EDGE_RULE_STOP);
+  op.set_contour_spirals(true);
+  op.set_zigzag_angle_auto(false);
+  op.set_edge_rule(v1::EDGE_RULE_ROLL);
   op.mutable_heights()->set_clearance_z_mm(70);
   op.mutable_heights()->set_approach_gap_mm(2);
   op.mutable_heights()->set_floor_z_mm(-3);
@@ -438,6 +443,9 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_skip(true); }));
   EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_scallop_mm(0.125); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_one_way_lines(true); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_contour_spirals(true); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_zigzag_angle_auto(true); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_edge_rule(v1::EDGE_RULE_EXTEND); }));
   EXPECT_TRUE(differs([](Request& r) {
     AddRing({0, 0, 9, 0, 0, 9}, SelectionOf(r).mutable_boundary_xy_mm());
   }));

@@ -1,0 +1,39 @@
+#include "cam/path/run_on.h"
+
+#include <optional>
+
+#include "cam/path/sheet_border.h"
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+
+absl::StatusOr<std::vector<CutterPath>> RunOn(const Locator& locator, std::vector<CutterPath> paths,
+                                              double length, const PassParams& params, const KeepIn* keep_in,
+                                              const RunContext& run) {
+  const SheetBorder border(locator.surface());
+  const double floor_center = params.floor_z + locator.radius();
+  const auto beyond = [&](const CutterPoint& end, const CutterPoint& before) -> std::optional<CutterPoint> {
+    const Vec3 way = end.center - before.center;
+    if (!end.contact || !border.On(*end.contact) || !(way.norm() > 0.0)) return std::nullopt;
+    for (const double part : {1.0, 0.5, 0.25}) {
+      const Vec3 to = end.center + part * length * way.normalized();
+      if (to.z() < floor_center) continue;
+      if (keep_in != nullptr && !keep_in->AllowsMove(end.center, to, true)) continue;
+      if (locator.GougeWithin(end.center, to, params.chord_tolerance, 0.1 * params.chord_tolerance))
+        return CutterPoint{to, std::nullopt, std::nullopt};
+    }
+    return std::nullopt;
+  };
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, paths.size(), [&](std::size_t i) {
+    std::vector<CutterPoint>& points = paths[i].points;
+    if (paths[i].closed || points.size() < 2) return;
+    const auto first = beyond(points.front(), points[1]);
+    const auto last = beyond(points.back(), points[points.size() - 2]);
+    if (first) points.insert(points.begin(), *first);
+    if (last) points.push_back(*last);
+  }));
+  return paths;
+}
+
+}  // namespace patchmill

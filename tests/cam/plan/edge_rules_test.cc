@@ -1,0 +1,154 @@
+// What the ball does at open borders: STOP, ROLL, EXTEND, judged by the program's text.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/post/program_reader.h"
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+constexpr double kHalf = 8.0, kRadius = 3.0;
+
+Job EdgeJob(EdgeRule rule) {
+  Job job = BallJob(kRadius);
+  job.operation.scallop = 0.03;
+  job.operation.edge_rule = rule;
+  return job;
+}
+
+// Centres of feed moves that no plunge or retract makes, from the text.
+struct Feed {
+  Vec3 from, to;
+};
+std::vector<Feed> LevelFeeds(const JobResult& result) {
+  const auto motion = ReadProgram(result.program);
+  EXPECT_TRUE(motion.ok()) << motion.status();
+  std::vector<Feed> feeds;
+  for (const ProgramMove& m : motion->moves) {
+    if (m.kind != ProgramMove::Kind::kFeed || Plan(Vec3(m.to - m.from)).norm() < 1e-9) continue;
+    feeds.push_back({m.from + Vec3(0, 0, kRadius), m.to + Vec3(0, 0, kRadius)});
+  }
+  return feeds;
+}
+
+double FarthestCut(const JobResult& result, int axis) {
+  double most = 0.0;
+  for (const CutterPath& pass : result.motion.passes) {
+    for (const CutterPoint& p : pass.points) most = std::max(most, std::abs(p.center[axis]));
+  }
+  return most;
+}
+
+double Distance(const Vec3& p, const std::vector<Feed>& feeds) {
+  double least = kInfinity;
+  for (const Feed& f : feeds) {
+    const Vec3 d = f.to - f.from;
+    const double t = std::clamp((p - f.from).dot(d) / d.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (p - f.from - t * d).norm());
+  }
+  return least;
+}
+
+// What stands at most of a layer as thick as the allowance around the border of the plate, seen from the
+// border outward in directions up to 90 degrees from the plate's normal: the fin.
+double Fin(const JobResult& result, double allowance) {
+  const std::vector<Feed> feeds = LevelFeeds(result);
+  double fin = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    const double along = kHalf * (2.0 * (k + 0.5) / 40.0 - 1.0);
+    for (int side = 0; side < 4; ++side) {
+      const Vec2 out = side < 2 ? Vec2(side == 0 ? 1 : -1, 0) : Vec2(0, side == 2 ? 1 : -1);
+      const Vec2 border = kHalf * out + along * Vec2(out.y(), out.x());
+      for (int a = 0; a <= 90; a += 10) {
+        const Vec3 e(std::sin(Radians(a)) * out.x(), std::sin(Radians(a)) * out.y(), std::cos(Radians(a)));
+        for (double t = 0.05; t <= allowance + 1e-9; t += 0.05) {
+          if (Distance(Lift(border, 0.0) + t * e, feeds) > kRadius) fin = std::max(fin, t);
+        }
+      }
+    }
+  }
+  return fin;
+}
+
+TEST(EdgeRules, StopStaysWithinTheBorder) {
+  const Job job = EdgeJob(EdgeRule::kStop);
+  const JobResult result = Mill(PlacedSurface(Plane(kHalf)), job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  for (int axis = 0; axis < 2; ++axis) EXPECT_LE(FarthestCut(result, axis), kHalf + 1e-3);
+}
+
+TEST(EdgeRules, RollLeavesNoFin) {
+  const Surface surface = PlacedSurface(Plane(kHalf));
+  const Job job = EdgeJob(EdgeRule::kRoll);
+  const JobResult result = Mill(surface, job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  // To the split angle of 45 degrees and half a step on, never farther than the ball touches.
+  const double reach = kRadius * std::sin(job.operation.steep_angle);
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_GE(FarthestCut(result, axis), kHalf + reach - 1e-3);
+    EXPECT_LE(FarthestCut(result, axis), kHalf + kRadius);
+  }
+  // Between lines that end with a contact at 45 degrees, seen at 90: the scallop over the cosine, in steps of
+  // 0.05.
+  EXPECT_LE(Fin(result, job.setup.allowance), job.operation.scallop / std::cos(Radians(45.0)) + 0.05);
+  const JobResult stopped = Mill(surface, EdgeJob(EdgeRule::kStop));
+  EXPECT_GT(Fin(stopped, job.setup.allowance), 0.3) << "else this test shows nothing";
+  Random random(3);
+  CheckProgram(surface, job, result, random, 2000);
+}
+
+TEST(EdgeRules, RollIsHeldByTheFloor) {
+  Job job = EdgeJob(EdgeRule::kRoll);
+  job.operation.floor_z = 0.0;
+  const JobResult result = Mill(PlacedSurface(Plane(kHalf)), job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  EXPECT_GE(result.report.verify.tip_z_min, -1e-4);
+}
+
+TEST(EdgeRules, ExtendRunsOnByABallRadius) {
+  const Surface surface = PlacedSurface(Plane(kHalf));
+  const Job job = EdgeJob(EdgeRule::kExtend);
+  const JobResult result = Mill(surface, job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  EXPECT_NEAR(FarthestCut(result, 0), kHalf + kRadius, 1e-3);  // lines run along x
+  EXPECT_LE(FarthestCut(result, 1), kHalf + 1e-3);
+  for (const CutterPath& pass : result.motion.passes) {
+    if (pass.kind != PassKind::kZigzag) continue;
+    EXPECT_NEAR(std::abs(pass.points.front().center.x()), kHalf + kRadius, 1e-3);
+    EXPECT_NEAR(std::abs(pass.points.back().center.x()), kHalf + kRadius, 1e-3);
+    EXPECT_FALSE(pass.points.front().contact.has_value());
+  }
+  Random random(4);
+  CheckProgram(surface, job, result, random, 2000);
+}
+
+TEST(EdgeRules, ExtendEndsBeforeWhatIsInTheWay) {
+  // A wall 2 mm beyond the border at x = 8: no room for a ball of 3 mm there, none at all for a run-on.
+  const Surface surface = PlacedSurface(Join(
+      {Plane(kHalf), Transformed(Plane(kHalf), Eigen::Affine3d(Eigen::Translation3d(10 + kRadius, 0, 0) *
+                                                               Eigen::AngleAxisd(kPi / 2, Vec3::UnitY())))}));
+  const Job job = EdgeJob(EdgeRule::kExtend);
+  const JobResult result = Mill(surface, job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  double least = 0.0, most = 0.0;
+  for (const CutterPath& pass : result.motion.passes) {
+    if (pass.kind != PassKind::kZigzag || std::abs(pass.points.front().center.z() - kRadius) > 1e-6) continue;
+    for (const CutterPoint* p : {&pass.points.front(), &pass.points.back()}) {
+      least = std::min(least, p->center.x());
+      most = std::max(most, p->center.x());
+    }
+  }
+  EXPECT_NEAR(least, -kHalf - kRadius, 1e-3);
+  EXPECT_NEAR(most, kHalf + 0.5 * kRadius, 1e-3);  // 2 mm of room, half a radius fits
+  Random random(5);
+  CheckProgram(surface, job, result, random, 2000);
+}
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,87 @@
+// Whole jobs with spirals: the verifier's consent, an independent look at the program, and what they save.
+#include <gtest/gtest.h>
+
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+Job SpiralJob(Strategy strategy = Strategy::kAuto) {
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.03;
+  job.operation.strategy = strategy;
+  job.operation.spirals = true;
+  return job;
+}
+
+std::size_t SpiralsOf(const JobResult& result) {
+  std::size_t n = 0;
+  for (const CutterPath& pass : result.motion.passes) n += pass.spiral;
+  return n;
+}
+
+void ExpectKept(const Surface& surface, const Job& job, std::size_t spirals) {
+  const JobResult result = Mill(surface, job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  EXPECT_EQ(SpiralsOf(result), spirals) << Describe(result);
+  Random random(11);
+  CheckProgram(surface, job, result, random, 3000);
+}
+
+TEST(Spirals, DomeOnAPlane) {
+  const Surface surface = PlacedSurface(Join({Sphere(Vec3::Zero(), 10, Half::kUpper), Plane(20)}));
+  ExpectKept(surface, SpiralJob(), 1);
+  Job conventional = SpiralJob();
+  conventional.operation.contour_direction = CutDirection::kConventional;
+  ExpectKept(surface, conventional, 1);
+  const JobResult result = Mill(surface, conventional);
+  for (const CutterPath& pass : result.motion.passes) {
+    if (!pass.spiral) continue;
+    EXPECT_GT(pass.points.front().center.z(), pass.points.back().center.z()) << "cut from the top";
+    EXPECT_GT(Cross(Plan(pass.points[0].center), Plan(pass.points[1].center)), 0.0);
+  }
+}
+
+TEST(Spirals, BlockTorusAndTwoDomes) {
+  ExpectKept(PlacedSurface(Block(8, 5, 16)), SpiralJob(), 1);
+  // The ring's outer side and its inner one.
+  ExpectKept(PlacedSurface(Torus(Vec3::Zero(), 20, 6, Half::kUpper)), SpiralJob(), 2);
+  // Levels above the saddle between the domes, where these are steep; then around both.
+  const JobResult domes = Mill(PlacedSurface(TwoSpheres(10, 12)), SpiralJob(Strategy::kContour));
+  EXPECT_TRUE(domes.report.verify.ok()) << Describe(domes);
+  EXPECT_GE(SpiralsOf(domes), 3u);
+}
+
+TEST(Spirals, TakeTheMarksAway) {
+  const Surface surface = PlacedSurface(Join({Sphere(Vec3::Zero(), 10, Half::kUpper), Plane(20)}));
+  Job job = SpiralJob();
+  const JobResult wound = Mill(surface, job);
+  job.operation.spirals = false;
+  const JobResult levels = Mill(surface, job);
+  const auto contours = [](const JobResult& result) {
+    std::size_t n = 0;
+    for (const CutterPath& pass : result.motion.passes) n += pass.kind == PassKind::kContour;
+    return n;
+  };
+  EXPECT_EQ(contours(wound), 1u);
+  EXPECT_GT(contours(levels), 5u);
+  // One turn more than there are levels, in place of the ways between them.
+  EXPECT_LT(wound.report.verify.cut_length, 1.15 * levels.report.verify.cut_length);
+}
+
+// Random folded parts keep their promises with spirals wherever they come about.
+TEST(Spirals, RandomParts) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Surface surface = PlacedSurface(RandomBspline(seed, {.spans = 4, .size = 16, .amplitude = 6}));
+    Job job = SpiralJob(seed % 2 == 0 ? Strategy::kContour : Strategy::kAuto);
+    job.operation.tool.cutter = BallEnd{1.0};
+    const JobResult result = Mill(surface, job);
+    EXPECT_TRUE(result.report.verify.ok()) << "seed " << seed << ": " << Describe(result);
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
