@@ -95,8 +95,9 @@ absl::StatusOr<double> LeastFeed(const Surface& surface, const std::vector<Regio
   }));
   double sum = 0.0;
   for (const double piece : pieces) sum += piece;
-  const double cell = static_cast<double>(stride) / map.cells;
-  return sum * cell * cell;
+  // Strides need not divide the cells: every point stands for an equal share of its piece.
+  const int points = (map.cells - stride / 2 + stride - 1) / stride;
+  return sum / (static_cast<double>(points) * points);
 }
 
 }  // namespace patchmill

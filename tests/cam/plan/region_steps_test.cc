@@ -93,6 +93,17 @@ TEST(LeastFeed, IsTheAreaOfTheCentersOverTheWidestStep) {
   EXPECT_NEAR(LeastFeedOf(Cylinder(Vec3::Zero(), 10, 10, Half::kUpper), job), shell, 2e-3 * shell);
 }
 
+TEST(LeastFeed, DoesNotDependOnHowManyPatchesThereAre) {
+  // A level plane of 20 x 20 spline patches: few points of each are looked at.
+  PatchModel plane;
+  plane.patches.push_back(
+      {"", InterpolatedHeights([](double, double) { return 0.0; }, 0.0, 16.0, 0.0, 16.0, 20, 20)});
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.05;
+  const double s = job.operation.scallop;
+  EXPECT_NEAR(LeastFeedOf(plane, job), 256.0 / (2.0 * std::sqrt(6.0 * s - s * s)), 1e-6);
+}
+
 TEST(LeastFeed, LeavesOutSkippedRegions) {
   Job job = BallJob(3.0);
   job.operation.scallop = 0.05;
