@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "cam/picture/facets.h"
+#include "cam/picture/label_places.h"
 #include "cam/picture/seen_lines.h"
 #include "cam/picture/svg_writer.h"
 #include "cam/picture/view.h"
-#include "core/diffgeo/forms.h"
 
 namespace patchmill {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kViewSize = 620.0;  // px, each of the two views
 constexpr double kMargin = 24.0;
 constexpr double kHead = 70.0;
 constexpr double kLegendWidth = 300.0;
-constexpr std::size_t kMaxFacets = 14000;  // of the shaded surface, per view
+constexpr double kLabelSize = 12.0, kLabelRoom = 14.0;  // px
 
 struct Style {
   const char* name;
@@ -32,52 +33,6 @@ constexpr std::array<Style, 4> kPassStyles{{{"zig-zag passes", "#1f4e9c", ""},
 constexpr Style kLinkStyle{"links and leads", "#e09000", "2,1.5"};
 constexpr Style kRapidStyle{"rapids", "#d0208f", "4,3"};
 
-struct Facet {
-  std::array<Vec3, 4> corners;
-  double nearness;
-  int region;
-  double shade;  // 0 dark .. 1 light
-};
-
-int CellsPerPiece(const Surface& surface) {
-  const double per_piece =
-      static_cast<double>(kMaxFacets) / static_cast<double>(std::max<std::size_t>(1, surface.pieces.size()));
-  return std::clamp(static_cast<int>(std::sqrt(per_piece)), 1, 24);
-}
-
-std::vector<Facet> MakeFacets(const PreviewInput& input, const View& view) {
-  const Surface& surface = *input.surface;
-  const int n = CellsPerPiece(surface);
-  const Vec3 light = Vec3(-0.4, -0.3, 0.87).normalized();
-  std::vector<Facet> facets;
-  facets.reserve(surface.pieces.size() * static_cast<std::size_t>(n * n));
-  std::vector<Vec3> grid(static_cast<std::size_t>((n + 1) * (n + 1)));
-  for (std::size_t k = 0; k < surface.pieces.size(); ++k) {
-    const Piece& piece = surface.pieces[k];
-    const auto at = [&](int i, int j) -> Vec3& { return grid[static_cast<std::size_t>(i * (n + 1) + j)]; };
-    for (int i = 0; i <= n; ++i) {
-      for (int j = 0; j <= n; ++j)
-        at(i, j) = Position(piece, static_cast<double>(i) / n, static_cast<double>(j) / n);
-    }
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) {
-        Facet f;
-        f.corners = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-        const Vec3 mid = 0.25 * (f.corners[0] + f.corners[1] + f.corners[2] + f.corners[3]);
-        f.nearness = view.Nearness(mid);
-        const double u = (i + 0.5) / n, v = (j + 0.5) / n;
-        f.region = input.region_of ? input.region_of({PieceId(k), u, v, mid}) : -1;
-        const auto normal = UpwardNormal(Evaluate(piece, u, v));
-        f.shade = normal ? std::clamp(0.35 + 0.65 * std::abs(normal->dot(light)), 0.0, 1.0) : 0.5;
-        facets.push_back(f);
-      }
-    }
-  }
-  std::stable_sort(facets.begin(), facets.end(),
-                   [](const Facet& a, const Facet& b) { return a.nearness < b.nearness; });
-  return facets;
-}
-
 // "#rrggbb" darkened by shade.
 std::string Shade(const std::string& color, double shade) {
   int rgb[3] = {200, 200, 200};
@@ -89,17 +44,32 @@ std::string Shade(const std::string& color, double shade) {
                      static_cast<int>(rgb[1] * shade), static_cast<int>(rgb[2] * shade));
 }
 
-void DrawSurface(const PreviewInput& input, const View& view, SvgWriter& svg) {
-  svg.OpenGroup("stroke-width=\"0.4\" stroke-linejoin=\"round\"");
+void DrawSurface(const PreviewInput& input, const View& view, LabelPlaces& places, SvgWriter& svg) {
+  // Strokes as wide as this close the seams that smoothing leaves between facets.
+  svg.OpenGroup("stroke-width=\"0.8\" stroke-linejoin=\"round\"");
   for (const Facet& f : MakeFacets(input, view)) {
     const bool known = f.region >= 0 && static_cast<std::size_t>(f.region) < input.regions.size();
     const std::string color =
         Shade(known ? input.regions[static_cast<std::size_t>(f.region)].color : "#d8d8d8", f.shade);
-    std::vector<Vec2> points;
-    for (const Vec3& c : f.corners) points.push_back(view(c));
-    svg.Polygon(points, fmt::format("fill=\"{0}\" stroke=\"{0}\"", color));
+    std::array<Vec2, 4> points;
+    for (std::size_t k = 0; k < 4; ++k) points[k] = view(f.corners[k]);
+    svg.Polygon({points.begin(), points.end()}, fmt::format("fill=\"{0}\" stroke=\"{0}\"", color));
+    places.Paint(points, f.region);
   }
   svg.CloseGroup();
+}
+
+// The regions' names where they show widest, white around them.
+void DrawLabels(const PreviewInput& input, const LabelPlaces& places, SvgWriter& svg) {
+  const auto found = places.Find(input.regions.size(), kLabelRoom);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k]) continue;
+    const Vec2 at = *found[k] + Vec2(0, 0.35 * kLabelSize);
+    for (const char* style : {"stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" ", ""}) {
+      svg.Text(at, kLabelSize, input.regions[k].label,
+               fmt::format("{}text-anchor=\"middle\" font-weight=\"bold\"", style));
+    }
+  }
 }
 
 void DrawBorders(const PreviewInput& input, const SeenLines& seen, SvgWriter& svg) {
@@ -265,13 +235,15 @@ std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes) {
       FitView(TopView(), box, {kMargin, kHead + 10}, kViewSize, kViewSize - 30),
       FitView(IsometricView(), box, {2 * kMargin + kViewSize, kHead + 10}, kViewSize, kViewSize - 30)};
   for (std::size_t k = 0; k < views.size(); ++k) {
-    DrawSurface(input, views[k], svg);
     const double side = static_cast<double>(k) * (kMargin + kViewSize);
+    LabelPlaces places({kMargin + side, kHead + 10}, {kViewSize, kViewSize});
+    DrawSurface(input, views[k], places, svg);
     const SeenLines seen(*input.surface, views[k], {kMargin + side, kHead + 10}, {kViewSize, kViewSize},
-                         2 * CellsPerPiece(*input.surface));
+                         2 * FacetsPerSide(*input.surface));
     DrawBorders(input, seen, svg);
     DrawOpenEdges(input, seen, svg);
     DrawLines(input, seen, svg);
+    if (input.toolpath == nullptr) DrawLabels(input, places, svg);
   }
   if (input.toolpath != nullptr) {
     // 14 bytes a vertex; the distance between drawn vertices grows until both views fit.

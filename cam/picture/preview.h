@@ -13,7 +13,8 @@
 namespace patchmill {
 
 struct PreviewRegion {
-  std::string name;   // "mountain steep 412.3 mm2"
+  std::string name;   // of the legend: "3 mountain steep 412.3 mm2"
+  std::string label;  // on the surface, where it has room and no passes run: "3"
   std::string color;  // CSS
   bool unreachable = false;
   std::vector<std::vector<Vec3>> border;

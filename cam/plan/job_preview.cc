@@ -11,8 +11,8 @@
 namespace patchmill {
 namespace {
 
-// Mountain red, basin blue, neutral green; steep stronger than gentle; neighbours of one class differ a
-// little in lightness.
+// Mountain red, basin blue, neutral green; steep stronger than gentle; out of reach grey, violet where the
+// ball is too large, brown below the floor; neighbours of one class differ a little in lightness.
 std::string Color(const Region& region, int nth) {
   int rgb[3];
   const bool steep = region.slope == SlopeClass::kSteep;
@@ -32,7 +32,9 @@ std::string Color(const Region& region, int nth) {
       steep ? set(120, 185, 110) : set(205, 232, 195);
       break;
     case RegionKind::kUnreachable:
-      set(120, 120, 120);
+      region.reason == UnreachableReason::kConcave ? set(150, 120, 165)
+      : region.reason == UnreachableReason::kFloor ? set(165, 150, 105)
+                                                   : set(120, 120, 120);
       break;
   }
   const int shift = (nth % 3 - 1) * 9;
@@ -99,6 +101,7 @@ PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::
     PreviewRegion r;
     r.unreachable = region.kind == RegionKind::kUnreachable;
     r.color = Color(region, region.id);
+    r.label = fmt::format("{}", region.id);
     r.name = r.unreachable
                  ? fmt::format("{} unreachable, {}: {:.1f} mm2", region.id, Name(region.reason), region.area)
                  : fmt::format("{} {}, {}: {:.1f} mm2", region.id, Name(region.kind), Name(region.slope),

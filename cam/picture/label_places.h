@@ -1,0 +1,34 @@
+// Where the names of areas of a picture have room.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/base/vec.h"
+
+namespace patchmill {
+
+class LabelPlaces {
+ public:
+  // A picture of `size` px from `corner`, seen in dots of 4 px.
+  LabelPlaces(const Vec2& corner, const Vec2& size);
+
+  // The quadrangle is area `id` (-1: none); it hides what was painted before.
+  void Paint(const std::array<Vec2, 4>& quad, int id);
+
+  // Of each of the areas 0 .. count - 1 the middle of the widest place that is left of it; nothing where it
+  // is not at least about `room` px wide.
+  std::vector<std::optional<Vec2>> Find(std::size_t count, double room) const;
+
+ private:
+  Vec2 Middle(int i, int j) const;
+  int& At(int i, int j) { return id_[static_cast<std::size_t>(j * columns_ + i)]; }
+  void PaintTriangle(const Vec2& a, const Vec2& b, const Vec2& c, int id);
+
+  Vec2 corner_;
+  int columns_, rows_;
+  std::vector<int> id_;
+};
+
+}  // namespace patchmill
