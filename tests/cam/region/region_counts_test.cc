@@ -2,42 +2,17 @@
 // shape moves by what nobody can see.
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <tuple>
 
 #include <gtest/gtest.h>
 
 #include "cam/region/region_map.h"
 #include "core/network/control_points.h"
-#include "tests/support/files.h"
+#include "tests/support/model_table.h"
 #include "tests/support/random.h"
 
 namespace patchmill {
 namespace {
-
-struct Row {
-  std::string file, why;
-  double scale = 1.0;
-  UpAxis up = UpAxis::kZ;
-  int count = 0;
-};
-
-std::vector<Row> Table() {
-  std::vector<Row> rows;
-  std::istringstream lines(testing::ReadRepositoryFile("tests/cam/region/region_counts.txt"));
-  for (std::string line; std::getline(lines, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    Row row;
-    std::string up;
-    std::istringstream words(line);
-    words >> row.file >> row.scale >> up >> row.count;
-    std::getline(words >> std::ws, row.why);
-    EXPECT_TRUE(words && !row.why.empty()) << line;
-    row.up = up == "y" ? UpAxis::kY : UpAxis::kZ;
-    rows.push_back(row);
-  }
-  return rows;
-}
 
 // Equal points stay equal, so that patches stay joined.
 void Shake(double by, PatchModel& model) {
@@ -76,14 +51,13 @@ int CountOf(const PatchModel& model) {
 }
 
 TEST(RegionCounts, AreThoseOfTheTableWithAndWithoutNoise) {
-  const std::vector<Row> table = Table();
+  const std::vector<testing::TableRow> table = testing::ModelTable();
   ASSERT_GE(table.size(), 11u);
-  for (const Row& row : table) {
+  for (const testing::TableRow& row : table) {
     SCOPED_TRACE(row.file + ": " + row.why);
-    const bool shared = row.file.rfind("shared/", 0) == 0;
-    if (shared && !testing::ReadSharedFile(row.file.substr(7))) continue;  // an extra
-    PatchModel model = Place(Placement{.scale = row.scale, .up = row.up},
-                             testing::LoadModel(shared ? "../" + row.file : row.file));
+    auto found = testing::ModelOf(row);
+    if (!found) continue;
+    PatchModel& model = *found;
     EXPECT_GE(row.count, 1);
     EXPECT_LE(row.count, 20);
     EXPECT_EQ(CountOf(model), row.count);

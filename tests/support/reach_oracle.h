@@ -1,0 +1,28 @@
+// How much of a part no ball gets to, counted by brute force, to judge planner and verifier by: random places
+// of every patch in its native form, normals by differences, and for each its ball against dense samples of
+// all patches, the nearest of them polished by a direct search. No pieces, no bounds, no derivatives.
+#pragma once
+
+#include <vector>
+
+#include "core/network/patch_model.h"
+#include "tests/support/random.h"
+
+namespace patchmill::testing {
+
+struct ReachQuestion {
+  double radius = 3.0;  // mm, ball and stock to leave
+  double tolerance = 0.01;
+  double floor_z = -kInfinity;  // mm, lowest tip
+};
+
+// mm^2; `deviation`: the standard deviation of the count.
+struct ReachCount {
+  double area = 0.0, unreachable = 0.0, deviation = 0.0;
+};
+
+// Some `places` places, spread evenly over the area, two to a cell. docs/reach.md has the rule.
+ReachCount CountUnreachable(const PatchModel& model, const ReachQuestion& question, int places,
+                            Random& random);
+
+}  // namespace patchmill::testing
