@@ -1,12 +1,12 @@
 // Jobs over awkward parts - every kind of patch, doubled ones, slivers, walls, tiny and huge ones - keep the
-// promises of DESIGN 2, or have nothing to cut. PATCHMILL_FUZZ_JOBS sets how many.
+// promises of DESIGN 2, or have nothing to cut.
 #include <algorithm>
-#include <cstdlib>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/surface/surface.h"
+#include "tests/support/fuzz.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/random_part.h"
 
@@ -43,7 +43,7 @@ AwkwardJob Draw(std::uint64_t seed) {
 class RandomAwkwardJobs : public ::testing::TestWithParam<int> {};
 
 TEST_P(RandomAwkwardJobs, KeepThePromises) {
-  const auto seed = static_cast<std::uint64_t>(7000 + GetParam());
+  const auto seed = static_cast<std::uint64_t>(GetParam());
   const AwkwardJob drawn = Draw(seed);
   SCOPED_TRACE(drawn.text);
   const JobResult result = Mill(drawn.surface, drawn.job);
@@ -55,11 +55,7 @@ TEST_P(RandomAwkwardJobs, KeepThePromises) {
   Random random(seed + 1000);
   CheckProgram(drawn.surface, drawn.job, result, random, kSanitized ? 50 : 500);
 }
-int Count() {
-  const char* asked = std::getenv("PATCHMILL_FUZZ_JOBS");
-  return asked != nullptr ? std::max(1, std::atoi(asked)) : kSanitized ? 4 : 24;
-}
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomAwkwardJobs, ::testing::Range(0, Count()));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomAwkwardJobs, JobSeeds(7000, kSanitized ? 4 : 24));
 
 }  // namespace
 }  // namespace patchmill

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/fuzz.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
 

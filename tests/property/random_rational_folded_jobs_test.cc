@@ -9,10 +9,10 @@ using namespace testing;  // NOLINT: the support folder's
 class RandomRationalFoldedJobs : public ::testing::TestWithParam<int> {};
 
 TEST_P(RandomRationalFoldedJobs, KeepThePromises) {
-  const auto seed = static_cast<std::uint64_t>(4000 + GetParam());
+  const auto seed = static_cast<std::uint64_t>(GetParam());
   ExpectPromisesKept(DrawJob(seed, /*folds=*/true, /*rational=*/true), seed);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomRationalFoldedJobs, ::testing::Range(0, kSanitized ? 2 : 12));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomRationalFoldedJobs, JobSeeds(4000, kSanitized ? 2 : 12));
 
 }  // namespace
 }  // namespace patchmill

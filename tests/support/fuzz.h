@@ -1,0 +1,27 @@
+// Random tests draw more, and others, when the environment says so. 200 random B-spline parts, none of them
+// among those of every day:
+//   for kind in smooth folded rational rational_folded; do
+//     PATCHMILL_FUZZ_JOBS=50 PATCHMILL_FUZZ_SEED=100 build/release/tests/property_random_${kind}_jobs_test
+//   done
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+namespace patchmill::testing {
+
+inline int FromEnvironment(const char* name, int usual) {
+  const char* asked = std::getenv(name);
+  return asked != nullptr ? std::max(0, std::atoi(asked)) : usual;
+}
+
+// Seeds of random jobs: `usual` of them from `first` on. PATCHMILL_FUZZ_JOBS sets how many,
+// PATCHMILL_FUZZ_SEED how far from `first` they begin.
+inline auto JobSeeds(int first, int usual) {
+  const int from = first + FromEnvironment("PATCHMILL_FUZZ_SEED", 0);
+  return ::testing::Range(from, from + std::max(1, FromEnvironment("PATCHMILL_FUZZ_JOBS", usual)));
+}
+
+}  // namespace patchmill::testing
