@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "cam/picture/preview.h"
-#include "cam/plan/region_choices.h"
 
 namespace patchmill {
 namespace {
@@ -133,10 +132,9 @@ const char* Name(Outcome outcome) {
   return "";
 }
 
-std::string DrawRegions(const Surface& surface, const RegionMap& regions,
-                        const std::vector<RegionChoice>& choices, const Resolved& resolved,
+std::string DrawRegions(const Surface& surface, const ChosenRegions& regions, const Resolved& resolved,
                         const std::string& title) {
-  return DrawPreview(BaseInput(surface, regions, choices, resolved, title));
+  return DrawPreview(BaseInput(surface, regions.map, regions.choices, resolved, title));
 }
 
 std::string DrawJob(const Surface& surface, const JobResult& result, const Resolved& resolved,

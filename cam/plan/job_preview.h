@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cam/plan/job.h"
+#include "cam/plan/region_choices.h"
 #include "cam/plan/resolve.h"
 #include "core/surface/surface.h"
 
@@ -13,8 +14,7 @@ namespace patchmill {
 // legend.
 std::string DrawJob(const Surface& surface, const JobResult& result, const Resolved& resolved,
                     const std::string& title);
-std::string DrawRegions(const Surface& surface, const RegionMap& regions,
-                        const std::vector<RegionChoice>& choices, const Resolved& resolved,
+std::string DrawRegions(const Surface& surface, const ChosenRegions& regions, const Resolved& resolved,
                         const std::string& title);
 
 const char* Name(Outcome outcome);  // "COMPLETE", ...

@@ -27,7 +27,8 @@ absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optiona
 // Checks ranges of the job itself; INVALID_ARGUMENT with field path, value and constraint.
 absl::Status ValidateJob(const Job& job);
 
-absl::StatusOr<RegionMap> PlanRegions(const Surface& surface, const Job& job, const RunContext& run);
+// The regions of a job and how each is cut. Errors as ValidateJob, ChooseRegions.
+absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job, const RunContext& run);
 
 // The parts that a program of this job is judged by (MakeVerifyParams); none when no region is chosen. Errors
 // as ChooseRegions.

@@ -15,6 +15,11 @@ namespace patchmill {
 // What holds where nothing overrides it.
 RegionChoice ChoiceOf(const Operation& op);
 
+struct ChosenRegions {
+  RegionMap map;
+  std::vector<RegionChoice> choices;  // by id
+};
+
 // One for each region of the map, by id. FAILED_PRECONDITION when the overrides were made for another map;
 // INVALID_ARGUMENT, with the field, for a region that is not there, a point that is on none, a region named
 // twice, an unreachable one that is not to be skipped.

@@ -58,11 +58,6 @@ RegionParams MakeRegionParams(const Job& job, const Resolved& resolved, const Ke
   return p;
 }
 
-struct ChosenRegions {
-  RegionMap map;
-  std::vector<RegionChoice> choices;
-};
-
 absl::StatusOr<ChosenRegions> MakeRegions(const Surface& surface, const Job& job, const Resolved& resolved,
                                           const KeepIn& keep_in, const RunContext& run) {
   ChosenRegions regions;
@@ -140,12 +135,11 @@ std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnos
 
 }  // namespace
 
-absl::StatusOr<RegionMap> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
+absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
   PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
-  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
-  return std::move(regions.map);
+  return MakeRegions(surface, job, resolved, keep_in, run);
 }
 
 absl::StatusOr<std::vector<PlanPart>> JudgedParts(const Surface& surface, const Job& job,

@@ -2,7 +2,6 @@
 
 #include "cam/plan/job_preview.h"
 #include "cam/plan/plan.h"
-#include "cam/plan/region_choices.h"
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
 #include "server/convert/report.h"
@@ -25,20 +24,18 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
     const Job& job = prepared.job;
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(prepared.model.model, job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
-    PM_ASSIGN_OR_RETURN(const RegionMap map, PlanRegions(surface, job, run));
-    PM_ASSIGN_OR_RETURN(const std::vector<RegionChoice> choices,
-                        ChooseRegions(surface, map, job.operation, resolved.program_zero));
+    PM_ASSIGN_OR_RETURN(const ChosenRegions regions, PlanRegions(surface, job, run));
     AddDiagnostics(job.model_remarks, resolved.program_zero, response->mutable_diagnostics());
     AddDiagnostics(surface.network.findings, resolved.program_zero, response->mutable_diagnostics());
     if (outputs.contains(v1::OUTPUT_REGIONS)) {
-      *response->mutable_regions() = ToProto(map, choices, resolved.program_zero);
+      *response->mutable_regions() = ToProto(regions.map, regions.choices, resolved.program_zero);
       *response->mutable_patch_ids() = PatchIds(prepared.model.model);
     }
     if (outputs.contains(v1::OUTPUT_PICTURE)) {
       v1::ArtifactChunk& picture = *response->mutable_picture();
       picture.set_name("regions.svg");
       picture.set_media_type("image/svg+xml");
-      picture.set_data(DrawRegions(surface, map, choices, resolved, prepared.name));
+      picture.set_data(DrawRegions(surface, regions, resolved, prepared.name));
     }
     return absl::OkStatus();
   });

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cam/plan/region_choices.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
 
@@ -28,12 +27,10 @@ class RegionPicture : public ::testing::Test {
   }
   std::string Draw() {
     const Surface surface = PlacedSurface(model_);
-    const auto map = PlanRegions(surface, job_, RunContext());
+    const auto regions = PlanRegions(surface, job_, RunContext());
     const auto resolved = Resolve(surface, job_);
-    EXPECT_TRUE(map.ok() && resolved.ok()) << map.status() << resolved.status();
-    const auto choices = ChooseRegions(surface, *map, job_.operation, Vec3::Zero());
-    EXPECT_TRUE(choices.ok()) << choices.status();
-    return DrawRegions(surface, *map, *choices, *resolved, "roof");
+    EXPECT_TRUE(regions.ok() && resolved.ok()) << regions.status() << resolved.status();
+    return DrawRegions(surface, *regions, *resolved, "roof");
   }
   PatchModel model_;
   Job job_;

@@ -17,10 +17,10 @@ using namespace testing;  // NOLINT: the support folder's
 enum Reason { kUndercut, kConcave, kFloor, kReasons };
 
 std::array<double, kReasons> FromRegions(const Surface& surface, const Job& job) {
-  const auto map = PlanRegions(surface, job, RunContext());
-  EXPECT_TRUE(map.ok()) << map.status();
+  const auto regions = PlanRegions(surface, job, RunContext());
+  EXPECT_TRUE(regions.ok()) << regions.status();
   std::array<double, kReasons> area{};
-  for (const Region& region : map->regions) {
+  for (const Region& region : regions->map.regions) {
     switch (region.reason) {
       case UnreachableReason::kUndercut:
         area[kUndercut] += region.area;

@@ -73,9 +73,9 @@ class RegionChoices : public ::testing::Test {
  protected:
   // The gentle cap is the larger one, region 0; the steep ring is region 1.
   void SetUp() override {
-    const auto map = PlanRegions(surface_, DomeJob(), RunContext());
-    ASSERT_TRUE(map.ok()) << map.status();
-    map_ = *map;
+    const auto regions = PlanRegions(surface_, DomeJob(), RunContext());
+    ASSERT_TRUE(regions.ok()) << regions.status();
+    map_ = regions->map;
     ASSERT_EQ(map_.regions.size(), 2u);
     for (const Region& r : map_.regions) (r.slope == SlopeClass::kSteep ? steep_ : gentle_) = r.id;
   }
@@ -243,9 +243,9 @@ TEST_F(RegionChoices, OverridesLeaveTheMapAsItIs) {
   Job job = DomeJob();
   job.operation.overrides = {Skip(steep_)};
   job.operation.scallop = 0.05;
-  const auto map = PlanRegions(surface_, job, RunContext());
-  ASSERT_TRUE(map.ok());
-  EXPECT_EQ(RegionsDigest(*map), RegionsDigest(map_));
+  const auto regions = PlanRegions(surface_, job, RunContext());
+  ASSERT_TRUE(regions.ok());
+  EXPECT_EQ(RegionsDigest(regions->map), RegionsDigest(map_));
 }
 
 TEST_F(RegionChoices, AllSkippedIsNothingToCut) {

@@ -20,10 +20,10 @@ double StepOnConvex(double rho, double radius, double scallop) {
 }
 
 void ExpectSteps(const PatchModel& model, const Job& job, double step) {
-  const auto map = PlanRegions(PlacedSurface(model), job, RunContext());
-  ASSERT_TRUE(map.ok()) << map.status();
+  const auto regions = PlanRegions(PlacedSurface(model), job, RunContext());
+  ASSERT_TRUE(regions.ok()) << regions.status();
   int reachable = 0;
-  for (const Region& region : map->regions) {
+  for (const Region& region : regions->map.regions) {
     if (region.kind == RegionKind::kUnreachable) {
       EXPECT_EQ(region.step_max, 0.0);
       continue;
@@ -59,11 +59,11 @@ TEST(RegionSteps, NoneWhereTheBallDoesNotFit) {
   Job job = BallJob(3.0);
   job.operation.strategy = Strategy::kZigzag;
   job.operation.zigzag_angle = kPi / 2.0;  // along the valley
-  const auto map = PlanRegions(PlacedSurface(ParabolicValley(0.25, 8)), job, RunContext());
-  ASSERT_TRUE(map.ok()) << map.status();
+  const auto regions = PlanRegions(PlacedSurface(ParabolicValley(0.25, 8)), job, RunContext());
+  ASSERT_TRUE(regions.ok()) << regions.status();
   const double flat = 2.0 * std::sqrt(6.0 * job.operation.scallop);
   bool seen = false;
-  for (const Region& region : map->regions) {
+  for (const Region& region : regions->map.regions) {
     if (region.kind == RegionKind::kUnreachable) continue;
     seen = true;
     EXPECT_GT(region.step_min, 0.0);
