@@ -1,6 +1,6 @@
 #include "cam/region/raw_regions.h"
 
-#include "cam/region/region_border.h"
+#include "core/base/parallel.h"
 #include "core/base/status.h"
 #include "core/base/union_find.h"
 
@@ -49,20 +49,23 @@ void Connect(const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>&
 
 // Moves the area between each border's chord and its true curve to the side it belongs to.
 absl::Status AddLenses(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                       const std::vector<Adjacency>& adjacency, std::span<const ZeroField> fields,
-                       double tolerance, const RunContext& run, RawRegions& raw) {
-  constexpr std::size_t kPollEvery = 4096;
+                       const std::vector<Adjacency>& adjacency, const RunContext& run, RawRegions& raw) {
+  std::vector<std::size_t> bent;
   for (std::size_t i = 0; i < adjacency.size(); ++i) {
-    if (i % kPollEvery == 0) PM_RETURN_IF_ERROR(run.Check());
     const Adjacency& a = adjacency[i];
-    if (a.other_piece != a.side.piece) continue;
-    const int own = RawOf(raw, a.side.piece, a.side.triangle);
-    const int other = RawOf(raw, a.other_piece, a.other_triangle);
-    if (own >= other) continue;
-    const double lens =
-        LensArea(surface, meshes[static_cast<std::size_t>(a.side.piece)], a.side, fields, tolerance);
-    raw.regions[static_cast<std::size_t>(own)].area += lens;
-    raw.regions[static_cast<std::size_t>(other)].area -= lens;
+    if (raw.arcs[i].empty() || a.other_piece != a.side.piece) continue;
+    if (RawOf(raw, a.side.piece, a.side.triangle) < RawOf(raw, a.other_piece, a.other_triangle))
+      bent.push_back(i);
+  }
+  std::vector<double> lens(bent.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, bent.size(), [&](std::size_t k) {
+    const TriangleSide& side = adjacency[bent[k]].side;
+    lens[k] = LensArea(surface, meshes[static_cast<std::size_t>(side.piece)], side, raw.arcs[bent[k]]);
+  }));
+  for (std::size_t k = 0; k < bent.size(); ++k) {
+    const Adjacency& a = adjacency[bent[k]];
+    raw.regions[static_cast<std::size_t>(RawOf(raw, a.side.piece, a.side.triangle))].area += lens[k];
+    raw.regions[static_cast<std::size_t>(RawOf(raw, a.other_piece, a.other_triangle))].area -= lens[k];
   }
   return absl::OkStatus();
 }
@@ -75,7 +78,8 @@ absl::StatusOr<RawRegions> FindRawRegions(const Surface& surface, const std::vec
                                           const RunContext& run) {
   RawRegions raw;
   Connect(meshes, adjacency, raw);
-  PM_RETURN_IF_ERROR(AddLenses(surface, meshes, adjacency, fields, tolerance, run, raw));
+  PM_ASSIGN_OR_RETURN(raw.arcs, FindBorderArcs(surface, meshes, adjacency, raw.of, fields, tolerance, run));
+  PM_RETURN_IF_ERROR(AddLenses(surface, meshes, adjacency, run, raw));
   for (const Adjacency& a : adjacency) {
     if (a.other_piece < 0) continue;
     const int own = RawOf(raw, a.side.piece, a.side.triangle);

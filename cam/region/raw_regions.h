@@ -6,8 +6,8 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/region/border_arcs.h"
 #include "cam/region/merge_regions.h"
-#include "cam/region/seams.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
@@ -16,6 +16,7 @@ struct RawRegions {
   std::vector<std::vector<int>> of;  // [piece][triangle]: its raw region, in order of their first triangles
   std::vector<RawRegion> regions;
   std::vector<RawContact> contacts;  // each border from both sides with half its length
+  BorderArcs arcs;                   // of their borders
 };
 
 // Areas include the lenses between chords and true curves, those refined to `tolerance` (mm). CANCELLED and

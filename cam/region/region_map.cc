@@ -179,9 +179,8 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_RETURN_IF_ERROR(
       DescribeRegions(surface, meshes, numbered.region_of, reach, params, run, numbered.regions));
   ListPatches(surface, numbered.region_of, numbered.regions);
-  PM_ASSIGN_OR_RETURN(auto borders,
-                      RegionBorders(surface, meshes, adjacency, numbered.region_of, numbered.regions.size(),
-                                    fields, params.border_tolerance, run));
+  PM_ASSIGN_OR_RETURN(auto borders, RegionBorders(surface, meshes, adjacency, raw.arcs, numbered.region_of,
+                                                  numbered.regions.size(), run));
   RegionMap map;
   map.regions = std::move(numbered.regions);
   for (std::size_t i = 0; i < map.regions.size(); ++i) map.regions[i].border = std::move(borders[i]);

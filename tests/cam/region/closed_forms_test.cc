@@ -43,6 +43,8 @@ int Count(const RegionMap& map, RegionKind kind) {
 }
 void ExpectArea(double area, double truth) { EXPECT_NEAR(area, truth, 1e-6 * truth); }
 
+double Hill(double x, double y) { return 12 * std::exp(-(x * x + y * y) / 200); }
+
 TEST(RegionClosedForms, TorusBands) {
   // Tube angle t from the outer equator (0) over the crest (90 degrees) to the inner one: a band from t0 to
   // t1 has the area 2 pi r (R (t1 - t0) + r (sin t1 - sin t0)).
@@ -155,7 +157,6 @@ TEST(RegionClosedForms, HemisphereOnAPlane) {
   const double r = 8, radius = 3, tolerance = 0.01, half = 20;
   RegionParams params = Exact(radius);
   params.tolerance = tolerance;
-  params.border_tolerance = 1e-4;
   const RegionMap map = Split(Join({Plane(half), Sphere(Vec3::Zero(), r, Half::kUpper)}), params);
   double total = 0, unreachable = 0;
   for (const Region& region : map.regions) {
@@ -168,7 +169,12 @@ TEST(RegionClosedForms, HemisphereOnAPlane) {
   const double reach = radius - tolerance;
   const double disc = kPi * ((r + reach) * (r + reach) - radius * radius);
   const double band = 2 * kPi * r * r * reach / (r + radius);
-  EXPECT_NEAR(unreachable, disc + band, 2e-4 * (disc + band));
+  ExpectArea(unreachable, disc + band);
+  // Plane, cap and steep band above the limit; below it the rest of the sphere, what surrounds it on the
+  // plane and what it covers.
+  EXPECT_EQ(Count(map, RegionKind::kNeutral), 1);
+  EXPECT_EQ(Count(map, RegionKind::kMountain), 2);
+  EXPECT_EQ(Count(map, RegionKind::kUnreachable), 3);
   // Limits of reach lie on these circles.
   const double limit = std::sqrt((r + reach) * (r + reach) - radius * radius);
   const double height = r * reach / (r + radius);
@@ -179,10 +185,10 @@ TEST(RegionClosedForms, HemisphereOnAPlane) {
         const double rho = std::hypot(p.x(), p.y());
         // Outer limit on the plane, upper limit on the sphere; the rest borders on UNDERCUT or is the rim.
         if (p.z() < 1e-9 && rho > r + 0.5) {
-          EXPECT_NEAR(rho, limit, 1e-3);
+          EXPECT_NEAR(rho, limit, 1e-6);
         }
         if (p.z() > 0.5 * height) {
-          EXPECT_NEAR(p.z(), height, 1e-3);
+          EXPECT_NEAR(p.z(), height, 1e-6);
         }
       }
     }
@@ -191,13 +197,61 @@ TEST(RegionClosedForms, HemisphereOnAPlane) {
 
 TEST(RegionClosedForms, GaussianHillIsOneMountain) {
   // Contours of exp(-r^2/2s^2) are circles: convex at every height, whatever the slope.
-  const auto hill = [](double x, double y) { return 12 * std::exp(-(x * x + y * y) / 200); };
-  PatchModel model = Single(InterpolatedHeights(hill, -15, 15, -15, 15, 20, 20));
+  PatchModel model = Single(InterpolatedHeights(Hill, -15, 15, -15, 15, 20, 20));
   RegionParams params = Exact();
   params.steep_angle = Radians(80);
   const RegionMap map = Split(model, params);
   EXPECT_EQ(map.regions.size(), 1u);
   EXPECT_EQ(map.regions[0].kind, RegionKind::kMountain);
+}
+
+TEST(RegionClosedForms, GaussianHillIsSteepInARing) {
+  // Steeper than 30 degrees from where |dz/dr| = tan 30 first to where it is so again. Border and area of the
+  // spline itself, its radii at 720 angles by halving, its slope by differences.
+  const BsplinePatch spline = InterpolatedHeights(Hill, -18, 18, -18, 18, 16, 16);
+  const auto height = [&](double x, double y) {
+    return Position(PatchShape(spline), (x + 18) / 36, (y + 18) / 36).z();
+  };
+  const auto tangent = [&](double x, double y) {
+    constexpr double h = 1e-4;
+    return std::hypot(height(x + h, y) - height(x - h, y), height(x, y + h) - height(x, y - h)) / (2 * h);
+  };
+  const double steep = std::tan(Radians(30));
+  const auto crossing = [&](double angle, double from, double to) {
+    const bool steep_at_from = tangent(from * std::cos(angle), from * std::sin(angle)) > steep;
+    for (int i = 0; i < 50; ++i) {
+      const double r = 0.5 * (from + to);
+      (tangent(r * std::cos(angle), r * std::sin(angle)) > steep) == steep_at_from ? from = r : to = r;
+    }
+    return from;
+  };
+  constexpr int kAngles = 720, kRadii = 120;
+  double ring = 0.0;
+  for (int i = 0; i < kAngles; ++i) {
+    const double angle = 2 * kPi * i / kAngles, c = std::cos(angle), s = std::sin(angle);
+    const double inner = crossing(angle, 0.5, 10), outer = crossing(angle, 10, 17.5);
+    for (int k = 0; k <= kRadii; ++k) {
+      const double r = inner + (outer - inner) * k / kRadii, t = tangent(r * c, r * s);
+      const double weight = (k == 0 || k == kRadii ? 1.0 : k % 2 == 1 ? 4.0 : 2.0) / 3.0;
+      ring += weight * r * std::sqrt(1 + t * t) * (outer - inner) / kRadii * 2 * kPi / kAngles;
+    }
+  }
+  RegionParams params = Exact();
+  params.steep_angle = Radians(30);
+  const RegionMap map = Split(Single(spline), params);
+  EXPECT_EQ(Count(map, RegionKind::kMountain), static_cast<int>(map.regions.size()));
+  ASSERT_EQ(map.regions.size(), 3u);
+  ExpectArea(Area(map, RegionKind::kMountain, SlopeClass::kSteep), ring);
+  for (const Region& r : map.regions) {
+    if (r.slope != SlopeClass::kSteep) continue;
+    ASSERT_EQ(r.border.size(), 2u);
+    for (const auto& loop : r.border) {
+      for (std::size_t i = 0; i < loop.size(); i += 37) {
+        const double t = tangent(loop[i].x(), loop[i].y());
+        EXPECT_NEAR(t, steep, 1e-6) << loop[i].transpose();
+      }
+    }
+  }
 }
 
 TEST(RegionClosedForms, WavySheet) {
