@@ -1,11 +1,14 @@
 // Regions listed, switched off and cut in a way of their own, through the wire: SplitRegions, then
 // GenerateProgram with its map, then VerifyProgram of what came out.
 #include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include "tests/service/embedded.h"
 #include "tests/service/requests.h"
 #include "tests/service/status_matchers.h"
+#include "tests/support/model_table.h"
+#include "tests/support/random.h"
 
 namespace patchmill {
 namespace {
@@ -161,6 +164,33 @@ TEST_F(Regions, AVerdictOnTheirScallopsNeedsOneForTheRest) {
   EXPECT_THAT(reader->Finish(),
               RpcStatusIs(StatusCode::INVALID_ARGUMENT,
                           HasSubstr("region_overrides[0].scallop_mm is set without scallop_mm")));
+}
+
+// The networks of tests/cam/region/region_counts.txt, as they are and with each vertex moved a little.
+TEST_F(Regions, OfNetworksAreAsManyAsTheTableSays) {
+  int networks = 0;
+  for (const testing::TableRow& row : testing::ModelTable()) {
+    if (!testing::IsNetwork(row)) continue;
+    SCOPED_TRACE(row.file + ": " + row.why);
+    ++networks;
+    v1::PatchModel& model = *job_.mutable_source()->mutable_model();
+    ASSERT_TRUE(
+        google::protobuf::util::JsonStringToMessage(testing::ReadRepositoryFile(row.file), &model).ok());
+    const auto count = [&] {
+      const grpc::Status status = Split();
+      EXPECT_TRUE(status.ok()) << status.error_message();
+      int reached = 0;
+      for (const v1::Region& r : map_.regions()) reached += r.kind() != v1::REGION_KIND_UNREACHABLE;
+      return reached;
+    };
+    EXPECT_EQ(count(), row.count);
+    testing::Random random(7);
+    for (v1::NetworkVertex& vertex : *model.mutable_network()->mutable_vertices()) {
+      for (double& x : *vertex.mutable_position()) x += random.Uniform(-0.005, 0.005);
+    }
+    EXPECT_LE(std::abs(count() - row.count), 2) << "with noise";
+  }
+  EXPECT_EQ(networks, 2);
 }
 
 }  // namespace

@@ -32,10 +32,13 @@ inline std::vector<TableRow> ModelTable() {
   return rows;
 }
 
-// The row's model, placed; nothing for one of ../shared that is not there.
+// A curve network, of which the server makes patches.
+inline bool IsNetwork(const TableRow& row) { return row.file.ends_with(".json"); }
+
+// The row's model, placed; nothing for one of ../shared that is not there, and for networks.
 inline std::optional<PatchModel> ModelOf(const TableRow& row) {
   const bool shared = row.file.rfind("shared/", 0) == 0;
-  if (shared && !ReadSharedFile(row.file.substr(7))) return std::nullopt;
+  if (IsNetwork(row) || (shared && !ReadSharedFile(row.file.substr(7)))) return std::nullopt;
   return Place(row.placement, LoadModel(shared ? "../" + row.file : row.file));
 }
 
