@@ -52,12 +52,15 @@ std::vector<std::size_t> FirstAlongEdge(const std::vector<SplitMesh>& meshes,
   return first;
 }
 
-// Where the sides of each piece begin among `sides`, and their end.
+// Runs of sides of one piece, each from where it begins among `sides`, and their end; no longer than is
+// refined between two looks at a cancelled run.
 std::vector<std::size_t> PieceRuns(const std::vector<Adjacency>& adjacency,
                                    const std::vector<std::size_t>& sides) {
+  constexpr std::size_t kLongest = 256;
   std::vector<std::size_t> runs;
   for (std::size_t k = 0; k < sides.size(); ++k) {
-    if (k == 0 || adjacency[sides[k]].side.piece != adjacency[sides[k - 1]].side.piece) runs.push_back(k);
+    const bool fresh = k == 0 || adjacency[sides[k]].side.piece != adjacency[sides[k - 1]].side.piece;
+    if (fresh || k - runs.back() == kLongest) runs.push_back(k);
   }
   runs.push_back(sides.size());
   return runs;
