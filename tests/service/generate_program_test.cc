@@ -12,6 +12,7 @@
 #include "tests/service/embedded.h"
 #include "tests/service/requests.h"
 #include "tests/service/status_matchers.h"
+#include "tests/support/sanitized.h"
 
 namespace patchmill {
 namespace {
@@ -298,7 +299,7 @@ TEST_F(GenerateProgram, AJobTooLargeIsRefusedBeforeItIsPlanned) {
   const Embedded::Stream stream = embedded_.Generate(request);
   EXPECT_THAT(stream.status,
               RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
-  EXPECT_LT(Clock::now() - begin, 2s);
+  EXPECT_LT(Clock::now() - begin, testing::kSanitized ? 10s : 2s);
   const v1::ErrorInfo info = testing::InfoOf(stream.status);
   EXPECT_EQ(info.reason(), "LIMIT_EXCEEDED");
   EXPECT_GT(info.actual_value(), info.limit_value());
@@ -358,7 +359,7 @@ TEST(Cancel, IsObeyedWithin200Milliseconds) {
     while (reader->Read(&event)) EXPECT_FALSE(event.has_program() || event.has_report());
     EXPECT_EQ(reader->Finish().error_code(), StatusCode::CANCELLED);
   }
-  EXPECT_LT(best, 200ms);
+  EXPECT_LT(best, testing::kSanitized ? 5s : 200ms);
 }
 
 TEST(Deadline, EndsAJobWithNothingValid) {
@@ -378,7 +379,7 @@ TEST(Deadline, TheServersOwnLimitHoldsToo) {
   const auto begin = Clock::now();
   const Embedded::Stream stream = embedded.Generate(testing::LongRequest());
   EXPECT_EQ(stream.status.error_code(), StatusCode::DEADLINE_EXCEEDED);
-  EXPECT_LT(Clock::now() - begin, 2s);
+  EXPECT_LT(Clock::now() - begin, testing::kSanitized ? 10s : 2s);
 }
 
 TEST(ProgressTest, ComesAtLeastTwiceASecond) {
