@@ -151,7 +151,8 @@ std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& dir
   const double reach = back + stretch.front;
   const Vec2 from = m - back * direction;
   LevelPoint root = Exit(from, start, direction, reach);
-  if ((root.q - from).norm() >= reach * (1.0 - 1e-12)) return std::nullopt;
+  // Stopped at the end of the stretch: nothing there says that it is free.
+  if ((root.q - from).norm() >= reach - kStill) return std::nullopt;
   return root;
 }
 

@@ -181,7 +181,7 @@ class Turn {
     const Vec2 start = base - kBackOff * radius_ * way;
     const double reach = radius_;
     const LevelPoint out = oracle.Exit(start, After(vertex), way, reach);
-    if ((out.q - start).norm() >= reach * (1.0 - 1e-12)) return std::nullopt;
+    if ((out.q - start).norm() >= reach - 1e-9) return std::nullopt;  // stopped there
     return CutterPoint{Lift(out.q, z), out.contact, out.other};
   }
 
