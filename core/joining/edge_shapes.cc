@@ -125,7 +125,8 @@ class Shaper {
       Error("UNSUPPORTED_CURVE", std::string(chain.status().message()));
       return std::nullopt;
     }
-    BezierChain curve = Elevated(*std::move(chain), std::max(3, chain->degree));
+    const int degree = std::max(3, chain->degree);
+    BezierChain curve = Elevated(*std::move(chain), degree);
     const double gap = std::max((curve.points.front() - p0_).norm(), (curve.points.back() - p1_).norm());
     if (!(gap <= 1e-9 * (p1_ - p0_).norm() + 1e-12 * p0_.norm())) {
       Error("CURVE_OFF_VERTEX", fmt::format("misses its vertices by {:g}", gap));
@@ -182,7 +183,8 @@ std::optional<BezierChain> MakeEdgeCurve(const JoinFrame& frame, const std::vect
     return frame.network.faces[At(s.face)].scheme == PatchScheme::kHosaka;
   });
   if (curve && !edge.crease && hosakas == 1 && edge.faces.size() == 2) {
-    curve = Elevated(*std::move(curve), std::max(4, curve->degree));
+    const int degree = std::max(4, curve->degree);
+    curve = Elevated(*std::move(curve), degree);
   }
   return curve;
 }

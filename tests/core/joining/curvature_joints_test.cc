@@ -16,14 +16,10 @@ namespace {
 
 using testing::Json;
 using testing::LoadJson;
+using testing::Text;
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
-std::string Text(const Diagnostics& findings) {
-  std::string text;
-  for (const Diagnostic& d : findings) text += d.code + ": " + d.message + "\n";
-  return text;
-}
 int Count(const JoinedNetwork& joined, const std::string& code) {
   return static_cast<int>(std::ranges::count(joined.findings, code, &Diagnostic::code));
 }

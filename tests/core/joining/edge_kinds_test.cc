@@ -4,36 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include "core/joining/continuity.h"
-#include "core/joining/join_network.h"
-#include "core/joining/network_findings.h"
+#include "tests/core/joining/expect_smooth.h"
 #include "tests/core/joining/networks.h"
 
 namespace patchmill {
 namespace {
 
+using testing::ExpectSmooth;
 using testing::Random;
+using testing::Text;
 
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
-
-std::string Text(const Diagnostics& findings) {
-  std::string text;
-  for (const Diagnostic& d : findings) text += d.code + ": " + d.message + "\n";
-  return text;
-}
-
-void ExpectSmooth(const JoinedNetwork& joined, std::size_t joints) {
-  ASSERT_FALSE(HasError(joined.findings)) << Text(joined.findings);
-  const auto network = BuildNetwork(joined.model);
-  ASSERT_TRUE(network.ok()) << network.status();
-  const auto report = MeasureContinuity(*network, 300, RunContext(1));
-  ASSERT_TRUE(report.ok());
-  EXPECT_EQ(report->edges.size(), joints);
-  for (const EdgeContinuity& e : report->edges) {
-    EXPECT_LE(e.max_gap, 1e-11);
-    EXPECT_LE(e.max_angle, 1e-10) << e.a.patch.value << "/" << e.b.patch.value;
-  }
-}
 
 // n x n quads over a ball's cap, normals radial, so that the edges through its middle are plane curves.
 CurveNetwork Cap(int n) {

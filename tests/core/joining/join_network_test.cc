@@ -18,12 +18,7 @@ namespace {
 
 using testing::Json;
 using testing::Random;
-
-std::string Text(const Diagnostics& findings) {
-  std::string text;
-  for (const Diagnostic& d : findings) text += d.code + ": " + d.message + "\n";
-  return text;
-}
+using testing::Text;
 
 ContinuityReport Continuity(const PatchModel& model, int steps = 200) {
   auto network = BuildNetwork(model);

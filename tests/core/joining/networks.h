@@ -1,13 +1,22 @@
-// Curve networks for the tests of joining.
+// Curve networks for the tests of joining, and their findings as text.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "core/base/diagnostic.h"
 #include "core/joining/curve_network.h"
 #include "tests/support/random.h"
 
 namespace patchmill::testing {
+
+// "CODE: message" a line.
+inline std::string Text(const Diagnostics& findings) {
+  std::string text;
+  for (const Diagnostic& d : findings) text += d.code + ": " + d.message + "\n";
+  return text;
+}
 
 // Closed: 12 vertices, 6 quads and 8 triangles with mixed orientation, moved and turned a little at random.
 inline CurveNetwork Cuboctahedron(std::uint64_t seed, double move = 0.12) {

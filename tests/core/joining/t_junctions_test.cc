@@ -14,6 +14,8 @@
 namespace patchmill {
 namespace {
 
+using testing::Text;
+
 std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 NetworkVertex OnEdge(int start, int end, double parameter) {
@@ -55,12 +57,6 @@ CurveNetwork Sheet(int parts, bool triangle, std::uint64_t seed) {
     from = to, far = next;
   }
   return n;
-}
-
-std::string Text(const Diagnostics& findings) {
-  std::string text;
-  for (const Diagnostic& d : findings) text += d.code + ": " + d.message + "\n";
-  return text;
 }
 
 // All joints of the patches, those at T-junctions as many as `parts`, and all of one plane where `smooth`.
