@@ -129,7 +129,7 @@ TEST(EdgeRules, ExtendRunsOnByABallRadius) {
 }
 
 TEST(EdgeRules, ExtendEndsBeforeWhatIsInTheWay) {
-  // A wall 2 mm beyond the border at x = 8: no room for a ball of 3 mm there, none at all for a run-on.
+  // A wall 5 mm beyond the border: the centre of a ball of 3 mm may go 2 mm beyond it, no whole radius.
   const Surface surface = PlacedSurface(Join(
       {Plane(kHalf), Transformed(Plane(kHalf), Eigen::Affine3d(Eigen::Translation3d(10 + kRadius, 0, 0) *
                                                                Eigen::AngleAxisd(kPi / 2, Vec3::UnitY())))}));
@@ -145,7 +145,7 @@ TEST(EdgeRules, ExtendEndsBeforeWhatIsInTheWay) {
     }
   }
   EXPECT_NEAR(least, -kHalf - kRadius, 1e-3);
-  EXPECT_NEAR(most, kHalf + 0.5 * kRadius, 1e-3);  // 2 mm of room, half a radius fits
+  EXPECT_NEAR(most, kHalf + 0.5 * kRadius, 1e-3);  // half a radius fits
   Random random(5);
   CheckProgram(surface, job, result, random, 2000);
 }

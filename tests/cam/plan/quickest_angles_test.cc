@@ -29,7 +29,8 @@ std::vector<RegionChoice> OpenChoices(std::size_t n) {
   return std::vector<RegionChoice>(n, open);
 }
 
-int Tenths(double angle) { return static_cast<int>(std::lround(Degrees(angle) / 30.0)); }
+// 0 .. 5: which of the angles that are tried.
+int Nth(double angle) { return static_cast<int>(std::lround(Degrees(angle) / 30.0)); }
 
 TEST(QuickestAngles, EachRegionTakesItsOwn) {
   // Region 0 likes 60 degrees, region 1 120, region 2 has a fixed angle.
@@ -41,8 +42,8 @@ TEST(QuickestAngles, EachRegionTakesItsOwn) {
     ++plans;
     for (const RegionChoice& c : with) EXPECT_FALSE(c.angle_open);
     EXPECT_EQ(with[2].zigzag_angle, Radians(17));
-    return RegionTimes{10.0 + std::abs(Tenths(with[0].zigzag_angle) - 2),
-                       10.0 + std::abs(Tenths(with[1].zigzag_angle) - 4), 1.0};
+    return RegionTimes{10.0 + std::abs(Nth(with[0].zigzag_angle) - 2),
+                       10.0 + std::abs(Nth(with[1].zigzag_angle) - 4), 1.0};
   };
   const auto chosen =
       QuickestAngles(MapOf({SlopeClass::kGentle, SlopeClass::kGentle, SlopeClass::kGentle}), choices, plan);
@@ -56,8 +57,8 @@ TEST(QuickestAngles, EachRegionTakesItsOwn) {
 TEST(QuickestAngles, AMixtureThatCostsMoreIsNotTaken) {
   const auto plan = [](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
     const bool mixed = with[0].zigzag_angle != with[1].zigzag_angle;  // the seam between them costs
-    return RegionTimes{10.0 + std::abs(Tenths(with[0].zigzag_angle) - 2) + (mixed ? 9.0 : 0.0),
-                       10.0 + 3.0 * std::abs(Tenths(with[1].zigzag_angle) - 4)};
+    return RegionTimes{10.0 + std::abs(Nth(with[0].zigzag_angle) - 2) + (mixed ? 9.0 : 0.0),
+                       10.0 + 3.0 * std::abs(Nth(with[1].zigzag_angle) - 4)};
   };
   const auto chosen = QuickestAngles(MapOf({SlopeClass::kGentle, SlopeClass::kGentle}), OpenChoices(2), plan);
   ASSERT_TRUE(chosen.ok()) << chosen.status();
