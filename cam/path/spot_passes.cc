@@ -7,6 +7,7 @@
 #include "cam/path/chord_bounds.h"
 #include "cam/path/chord_thinning.h"
 #include "cam/path/crease_trace.h"
+#include "cam/path/free_center.h"
 #include "cam/path/level_trace.h"
 #include "cam/path/scan_line.h"
 #include "cam/path/spacing.h"
@@ -241,13 +242,10 @@ bool Mender::AlongLevel(std::size_t i) {
   return !open_[i];
 }
 
-// The spot's own centre, or as near to it as the ball gets along the normal.
+// A centre that leaves less of the spot than the passes so far.
 std::optional<Vec3> Mender::FreeNear(std::size_t i) const {
-  for (int k = 0; k <= 8; ++k) {
-    const Vec3 c = spots_[i].center + (1e-7 + 0.25 * params_.tolerance * k) * spots_[i].normal;
-    if (locator_.Free(c)) return c;
-  }
-  return std::nullopt;
+  const LeftoverSpot& spot = spots_[i];
+  return FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover);
 }
 
 // From spot to spot over a wall, every chord proven by the swept query; the pass ends where one is not.

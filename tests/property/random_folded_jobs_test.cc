@@ -13,6 +13,8 @@ TEST_P(RandomFoldedJobs, KeepThePromises) {
   ExpectPromisesKept(DrawJob(seed, /*folds=*/true, /*rational=*/false), seed);
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFoldedJobs, JobSeeds(2000, kSanitized ? 2 : 12));
+// A wall whose spots are blocked by the wall beside it: away from both more stays than giving way sideways.
+INSTANTIATE_TEST_SUITE_P(BesideWalls, RandomFoldedJobs, ::testing::Values(2116));
 
 }  // namespace
 }  // namespace patchmill

@@ -1,0 +1,62 @@
+#include "cam/path/free_center.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "cam/location/ray_distance.h"
+#include "core/surface/closest.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kClear = 1e-7;  // mm: kept from everything, for rounding
+constexpr int kMostObstacles = 24;
+
+// normal . x >= offset
+struct HalfSpace {
+  Vec3 normal;
+  double offset = 0.0;
+};
+
+// The point of all half-spaces nearest to p, by Hildreth's method (1957); near it after the last sweep.
+Vec3 NearestIn(const std::vector<HalfSpace>& all, const Vec3& p) {
+  constexpr int kSweeps = 200;
+  std::vector<double> push(all.size(), 0.0);
+  Vec3 x = p;
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    double moved = 0.0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double more = std::max(-push[k], all[k].offset - all[k].normal.dot(x));
+      push[k] += more;
+      x += more * all[k].normal;
+      moved = std::max(moved, std::abs(more));
+    }
+    if (moved < 0.01 * kClear) break;
+  }
+  return x;
+}
+
+}  // namespace
+
+std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const Vec3& n, double lowest_z,
+                                   double most) {
+  const double radius = locator.radius();
+  std::vector<HalfSpace> allowed = {{n, n.dot(p) + radius + kClear}};
+  if (lowest_z > -kInfinity) allowed.push_back({Vec3::UnitZ(), lowest_z});
+  for (int k = 0; k < kMostObstacles; ++k) {
+    const Vec3 c = NearestIn(allowed, p);
+    if ((c - p).norm() > radius + most) break;
+    if (locator.Free(c)) return c;
+    // What is in the way keeps the centre out of a ball swept downwards: the half-space beyond it is free.
+    const auto obstacle = ClosestToUpwardRay(locator.surface(), c, radius + kClear, 0.1 * kClear);
+    if (!obstacle) break;
+    const Vec3 away = internal::ToRay(obstacle->at.p, c);
+    if (!(away.norm() > 0.0)) break;
+    const Vec3 d = away.normalized();
+    allowed.push_back({d, d.dot(obstacle->at.p) + radius + 2.0 * kClear});
+  }
+  return std::nullopt;
+}
+
+}  // namespace patchmill

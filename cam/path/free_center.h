@@ -1,0 +1,17 @@
+// Where a ball that nearly fits over a surface point can stand.
+#pragma once
+
+#include <optional>
+
+#include "cam/location/locator.h"
+
+namespace patchmill {
+
+// The free centre (whole radius, nothing above it, z >= lowest_z) nearest to the surface point p, on the side
+// of the unit normal n there; exact where planes are in the way, else near it. Where obstacles push along n
+// and sideways it gives way sideways, which leaves the square of it at p. nullopt when it would leave more
+// than `most` mm at p, or is not found. Cost: some ten microseconds for each of the few obstacles met.
+std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const Vec3& n, double lowest_z,
+                                   double most);
+
+}  // namespace patchmill
