@@ -23,8 +23,10 @@ class Refiner {
   void Way(const LevelPoint& a, const LevelPoint& b, const ChainCell& cell, int depth) {
     const double length = (b.q - a.q).norm();
     const double excess = ChordExcess(oracle_, a, b);
-    if ((length <= longest_ && excess <= tolerance_.excess) || depth >= kMaxDepth || length < kApart ||
-        cell.fixed) {
+    // Between two points that touch no chord leaves more than half its length: a shorter one that seems to
+    // has a contact known to no better than the tolerance, and would be divided without end.
+    const bool fine = excess <= tolerance_.excess || length <= 2.0 * tolerance_.excess;
+    if ((length <= longest_ && fine) || depth >= kMaxDepth || length < kApart || cell.fixed) {
       out_.push_back(b);
       return;
     }

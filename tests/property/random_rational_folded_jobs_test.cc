@@ -13,6 +13,8 @@ TEST_P(RandomRationalFoldedJobs, KeepThePromises) {
   ExpectPromisesKept(DrawJob(seed, /*folds=*/true, /*rational=*/true), seed);
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomRationalFoldedJobs, JobSeeds(4000, kSanitized ? 2 : 12));
+// A level beside a flat maximum: contacts known loosely had its chords divided without end.
+INSTANTIATE_TEST_SUITE_P(LooseContacts, RandomRationalFoldedJobs, ::testing::Values(4110));
 
 }  // namespace
 }  // namespace patchmill
