@@ -85,7 +85,7 @@ absl::StatusOr<double> LeastFeed(const Surface& surface, const std::vector<Regio
   std::vector<double> pieces(surface.pieces.size(), 0.0);
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
     VisitPiece(surface, i, map, stride, [&](std::size_t id, const SurfaceJet& jet, const Vec3& e) {
-      if (choices[id].skip) return;
+      if (choices[id].skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p)) return;
       const PrincipalCurvatures k = Principal(Forms(jet, e));
       const double step = CenterStep(radius, choices[id].scallop, k.k_min);
       if (!(k.k_max * radius < 1.0) || !(step > 0.0)) return;

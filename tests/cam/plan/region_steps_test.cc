@@ -116,5 +116,14 @@ TEST(LeastFeed, LeavesOutSkippedRegions) {
   EXPECT_NEAR(Mill(dome, job).report.least_feed, all * share, 0.01 * all);
 }
 
+TEST(LeastFeed, LeavesOutWhatIsNotSelected) {
+  const Surface surface = PlacedSurface(TwoPlanes(Radians(20), 12));
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.05;
+  const double all = Mill(surface, job).report.least_feed;
+  job.operation.selection.patches = {"#1"};
+  EXPECT_NEAR(Mill(surface, job).report.least_feed, 0.5 * all, 0.02 * all);
+}
+
 }  // namespace
 }  // namespace patchmill
