@@ -92,7 +92,8 @@ struct Prover {
 
 }  // namespace
 
-double Locator::Impl::Certify(const Ball& ball, const OpenLeaves& open, double eps, Contact& best) const {
+double Locator::Impl::Certify(const Ball& ball, const std::vector<std::int32_t>& open, double eps,
+                              Contact& best) const {
   if (open.empty()) return slack;
   thread_local std::vector<Vec4> buffer(2 * kMaxLevel * kMaxNetPoints);
   // What a proof allows itself counts as gap too, and so do roundings of heights.

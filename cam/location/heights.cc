@@ -3,6 +3,7 @@
 #include "cam/location/heights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -82,11 +83,15 @@ void PutContact(const Contact& c, LanePacket& p, int k) {
 class PacketSearch {
  public:
   PacketSearch(const Locator::Impl& impl, const LaneKernel& kernel, LanePacket& packet)
-      : impl_(impl), kernel_(kernel), limits_(LimitsOf(impl)), packet_(packet) {}
+      : impl_(impl), kernel_(kernel), limits_(LimitsOf(impl)), packet_(packet) {
+    tie_.fill(-kInfinity);
+  }
 
   // Newton on whole pieces, from where the contacts are expected.
   void Approach(const LaneStart& start);
   void Run();
+  // After Run: the lane's search has to be made again, leaves divided (OpenLeaves).
+  bool IsTie(std::size_t lane, const Contact& best) const { return impl_.IsTie(tie_[lane], best); }
   // Of balls that stand at the packet's heights: lanes that find anything are done and look no further.
   void RunFree() {
     free_only_ = true;
@@ -102,6 +107,8 @@ class PacketSearch {
   const LaneLimits limits_;
   LanePacket& packet_;
   bool free_only_ = false;
+  std::array<double, kLanes> tie_;  // of each lane, see OpenLeaves
+  Locator::Impl::OpenLeaves open_;
 };
 
 // As Locator::Impl::Search, for all lanes at the lowest height of one.
@@ -149,7 +156,10 @@ void PacketSearch::Visit(std::int32_t index) {
 
 void PacketSearch::VisitScalar(std::int32_t index, int k) {
   Contact best = ContactOf(packet_, k);
-  impl_.VisitLeaf(index, impl_.BallAt({packet_.qx[k], packet_.qy[k]}), best, nullptr);
+  open_.Clear();
+  impl_.VisitLeaf(index, impl_.BallAt({packet_.qx[k], packet_.qy[k]}), best, &open_);
+  double& tie = tie_[static_cast<std::size_t>(k)];
+  tie = std::max(tie, open_.tie);
   PutContact(best, packet_, k);
 }
 
@@ -227,7 +237,7 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
     forecast.Learn(packet);
     for (std::size_t k = 0; k < count; ++k) {
       Contact c = ContactOf(packet, static_cast<int>(k));
-      if (impl.Grazes(c)) impl.SearchAll(impl.BallAt(q[i + k]), c, open);
+      if (impl.Grazes(c) || search.IsTie(k, c)) impl.SearchAll(impl.BallAt(q[i + k]), c, open);
       heights[i + k].reset();
       if (c.piece >= 0) heights[i + k] = CenterPoint{c.z, impl.PointOf(c)};
     }

@@ -1,6 +1,7 @@
 #include "cam/location/locator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cam/location/locator_impl.h"
@@ -59,17 +60,23 @@ void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenL
 }
 
 void Locator::Impl::SearchAll(const Ball& ball, Contact& best, OpenLeaves& open) const {
-  open.clear();
+  open.Clear();
   Search(ball, kInfinity, best, &open);
-  if (!Grazes(best) || open.empty()) return;
+  if (open.all.empty() || !(Grazes(best) || IsTie(open.tie, best))) return;
   const double found = best.z;
-  Certify(ball, open, 1e-6, best);
+  Certify(ball, open.all, Grazes(best) ? 1e-6 : 1e-8, best);
   if (Raised(found, best)) equator_raises.fetch_add(1, std::memory_order_relaxed);
 }
 
 bool Locator::Impl::Raised(double before, const Contact& c) const {
   const double below = std::max(c.z - c.p.z(), 0.0);
   return c.z > before + 1e-9 + std::sqrt(below * below + 8.0 * radius * rounding) - below;
+}
+
+double Locator::Impl::RunnerUp(const SearchResult& ended, const Ball& ball, const Contact& best) const {
+  const double rim2 = radius * radius - (Plan(ended.p) - ball.q).squaredNorm();
+  if (!(rim2 > 0.0) || (ended.p - best.p).norm() <= 1e-5 * radius) return -kInfinity;
+  return ended.p.z() + std::sqrt(rim2);
 }
 
 void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& best, OpenLeaves* open) const {
@@ -98,17 +105,24 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
   const bool convex =
       found.improved ? internal::BoundBelow(model, Lift(ball.q, best.z)).convex : lower.convex;
   if (convex) {
-    if (found.convex_minimum < ProofF() && open != nullptr) open->push_back(index);
+    if (found.convex_minimum < ProofF() && open != nullptr) open->all.push_back(index);
     return;
   }
   options.lower = nullptr;
+  std::array<SearchResult, 5> ended = {found};
+  std::size_t count = 1;
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.5, 0.5}) {
       const Vec2 corner = at(x, y);
-      internal::RaiseOnPiece(piece, leaf.piece(), rect, corner.x(), corner.y(), ball, options, best);
+      ended[count++] =
+          internal::RaiseOnPiece(piece, leaf.piece(), rect, corner.x(), corner.y(), ball, options, best);
     }
   }
-  if (open != nullptr) open->push_back(index);
+  if (open == nullptr) return;
+  open->all.push_back(index);
+  double highest = -kInfinity;
+  for (const SearchResult& e : ended) highest = std::max(highest, RunnerUp(e, ball, best));
+  if (IsTie(highest, best)) open->tie = std::max(open->tie, highest);
 }
 
 absl::StatusOr<Locator> Locator::Make(const Surface& surface, double radius, const RunContext& run) {
@@ -155,7 +169,7 @@ std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double ep
   impl_->SearchAll(ball, best, open);
   const double found = best.z;
   const bool had = best.piece >= 0;
-  const double gap = impl_->Certify(ball, open, std::max(eps, 1e-7), best);
+  const double gap = impl_->Certify(ball, open.all, std::max(eps, 1e-7), best);
   if (best.piece >= 0 && (!had || impl_->Raised(found, best))) {
     impl_->defects.fetch_add(1, std::memory_order_relaxed);
   }

@@ -101,9 +101,10 @@ class Locator {
   // internal defect: the higher value is what is returned, the report of a job says how many there were, and
   // tests demand 0.
   std::uint64_t defect_count() const;
-  // Searches near the equator (see above) that dividing raised by more than that. Not defects: there dividing
-  // is a part of every search, of Height as of CertifiedHeight, because upright ground may hold more local
-  // maxima than a few starts find. What a certificate still improves after that counts above.
+  // Searches near the equator (see above), or with two contacts of about the same height on one unproven
+  // stretch, that dividing raised by more than that. Not defects: there dividing is a part of every search,
+  // of Height as of CertifiedHeight, because such ground may hold more local maxima than a few starts find.
+  // What a certificate still improves after that counts above.
   std::uint64_t equator_raise_count() const;
 
  private:

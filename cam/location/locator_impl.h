@@ -13,8 +13,17 @@ namespace patchmill {
 struct Locator::Impl {
   Impl(const Surface& surface, double radius, internal::SearchTree tree);
 
-  // Leaves a search could not prove, for the certificate.
-  using OpenLeaves = std::vector<std::int32_t>;
+  // Leaves a search could not prove, for the certificate. Where the ball nearly touches one of them elsewhere
+  // than at its contact, other maxima of about the same height are likely: they are divided at once.
+  struct OpenLeaves {
+    std::vector<std::int32_t> all;
+    double tie = -kInfinity;  // the highest centre at which one of them is touched besides the contact
+    void Clear() {
+      all.clear();
+      tie = -kInfinity;
+    }
+  };
+  bool IsTie(double z, const internal::Contact& best) const { return z > best.z - 1e-5 * radius; }
 
   internal::Ball BallAt(const Vec2& q) const { return {q, radius, rounding}; }
   double ProofF() const { return radius * (0.5 * radius - slack); }  // f a proof accepts as outside
@@ -25,18 +34,23 @@ struct Locator::Impl {
   // above `enough`. open (may be null) receives the leaves whose bound rests on local searches alone.
   void Search(const internal::Ball& ball, double enough, internal::Contact& best, OpenLeaves* open) const;
   // The whole search: where it ends with a contact near the ball's equator, upright ground has too many local
-  // maxima for a few starts, and its open leaves are divided until proven, to 1e-6 mm.
+  // maxima for a few starts, and its open leaves are divided until proven, to 1e-6 mm; so they
+  // are, to 1e-8 mm, where two contacts tie.
   void SearchAll(const internal::Ball& ball, internal::Contact& best, OpenLeaves& open) const;
   bool Grazes(const internal::Contact& c) const { return c.piece >= 0 && c.z - c.p.z() < 0.1 * radius; }
   // A contact above the height found before by more than rounding explains.
   bool Raised(double before, const internal::Contact& c) const;
+  // Centre height at which the ball touches where the search ended, away from its best contact; -infinity:
+  // nowhere.
+  double RunnerUp(const internal::SearchResult& ended, const internal::Ball& ball,
+                  const internal::Contact& best) const;
   void VisitLeaf(std::int32_t leaf, const internal::Ball& ball, internal::Contact& best,
                  OpenLeaves* open) const;
   void StartFromHint(const internal::Ball& ball, const SurfacePoint& hint, internal::Contact& best) const;
 
   // Proves the open leaves of a finished search, or improves `best`, by subdividing their nets. Returns the
   // gap: h <= best.z + gap. At most eps unless the budget of parts ran out; then the honest rest.
-  double Certify(const internal::Ball& ball, const OpenLeaves& open, double eps,
+  double Certify(const internal::Ball& ball, const std::vector<std::int32_t>& open, double eps,
                  internal::Contact& best) const;
 
   SurfacePoint PointOf(const internal::Contact& c) const { return {PieceId(c.piece), c.u, c.v, c.p}; }
