@@ -157,7 +157,7 @@ std::string JobDigest(const Job& job, std::string_view model_digest, std::string
   AddOptional(tool.stickout, out);
   out.Add(tool.spindle_rpm).Add(tool.feed).Add(tool.plunge_feed).Add(static_cast<std::int64_t>(tool.coolant));
   out.Add(op.scallop).Add(op.tolerance).Add(op.leave).Add(op.steep_angle);
-  out.Add(static_cast<std::int64_t>(op.strategy)).Add(op.zigzag_angle);
+  out.Add(static_cast<std::int64_t>(op.strategy)).Add(op.zigzag_angle).Add(op.zigzag_bend);
   out.Add(static_cast<std::int64_t>(op.contour_direction)).Add(static_cast<std::int64_t>(op.edge_rule));
   AddOptional(op.clearance_z, out);
   AddOptional(op.clearance_above, out);

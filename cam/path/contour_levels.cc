@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "cam/path/cheapest_step.h"
 #include "cam/path/spacing.h"
 
 namespace patchmill {
 namespace {
 
-constexpr int kBinsPerStep = 8;    // of the flat step
-constexpr double kServed = 0.1;    // share of the samples of a height that full levels may leave to partial
-constexpr double kStretch = 1.12;  // a step longer by this leaves a quarter more: within any tolerance
-constexpr int kMostPartial = 3;    // partial levels between two full ones
+constexpr int kBinsPerStep = 8;       // of the flat step
+constexpr double kMostFlat = 2.0;     // flat steps; a longer gap has no ground in it
+constexpr int kMostParts = 4;         // that partial levels cut the gap between two full ones into
 constexpr double kSameHeight = 2e-4;  // mm: lower ends this close together are one
 // mm: a level at a flat lies this much above it, so that the flat itself is out of its reach.
 constexpr double kAboveFlat = 1e-6;
@@ -49,27 +50,23 @@ std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius, double
   return apart;
 }
 
-Bins NeededSteps(const ContourGround& ground, double smallest, double width) {
+Bins NeededSteps(const ContourGround& ground, double smallest, double flat) {
   Bins bins;
   double lo = kInfinity, hi = -kInfinity;
   for (const ContourSample& s : ground.samples) {
     lo = std::min(lo, s.center.z() - s.down);
     hi = std::max(hi, s.center.z() + s.up);
   }
-  bins.width = std::max(width, (hi - lo) / kMostBins);
+  bins.width = std::max(flat / kBinsPerStep, (hi - lo) / kMostBins);
   bins.bottom = lo;
   bins.step.assign(static_cast<std::size_t>((hi - lo) / bins.width) + 1, kInfinity);
-  std::vector<std::vector<float>> steps(bins.step.size());
+  std::vector<std::vector<StepNeed>> needs(bins.step.size());
   for (const ContourSample& s : ground.samples) {
     for (int b = bins.Of(s.center.z() - s.down); b <= bins.Of(s.center.z() + s.up); ++b)
-      steps[static_cast<std::size_t>(b)].push_back(static_cast<float>(s.step));
+      needs[static_cast<std::size_t>(b)].push_back({s.step, s.width});
   }
-  for (std::size_t b = 0; b < steps.size(); ++b) {
-    std::vector<float>& all = steps[b];
-    if (all.empty()) continue;
-    const auto at = all.begin() + static_cast<std::ptrdiff_t>(kServed * static_cast<double>(all.size()));
-    std::nth_element(all.begin(), at, all.end());
-    bins.step[b] = std::max(smallest, static_cast<double>(*at));
+  for (std::size_t b = 0; b < needs.size(); ++b) {
+    if (!needs[b].empty()) bins.step[b] = CheapestStep(needs[b], smallest, kMostFlat * flat);
   }
   return bins;
 }
@@ -82,7 +79,7 @@ class StepCount {
     for (int b = 0; b < n; ++b) {
       double step = kInfinity;
       if (bins.step[static_cast<std::size_t>(b)] < kInfinity) {
-        for (int k = std::max(0, b - kBinsPerStep / 2); k <= std::min(n - 1, b + kBinsPerStep / 2); ++k)
+        for (int k = std::max(0, b - 1); k <= std::min(n - 1, b + 1); ++k)
           step = std::min(step, bins.step[static_cast<std::size_t>(k)]);
       }
       sum_[static_cast<std::size_t>(b) + 1] = sum_[static_cast<std::size_t>(b)] + bins.width / step;
@@ -136,7 +133,7 @@ std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourP
   if (ground.samples.empty()) return {};
   const double flat = CenterStep(radius, params.scallop, 0.0);
   const double smallest = std::max(1e-6, params.min_step_fraction * flat);
-  const Bins bins = NeededSteps(ground, smallest, flat / kBinsPerStep);
+  const Bins bins = NeededSteps(ground, smallest, flat);
   const StepCount count(bins);
 
   std::vector<Stop> stops;
@@ -170,21 +167,30 @@ std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourP
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double z = heights[i];
     const double gap = i + 1 < heights.size() ? z - heights[i + 1] : i > 0 ? heights[i - 1] - z : flat;
-    levels.push_back({z, std::min(gap, flat), false, {}});
+    levels.push_back({z, std::min(gap, kMostFlat * flat), false, {}});
     if (i + 1 == heights.size()) break;
     while (next < sorted.size() && sorted[next].center.z() > z) ++next;
-    double needed = kInfinity;
-    std::vector<Vec3> spots;
+    std::map<int, std::vector<Vec3>> spots;  // by the number of parts that the gap is cut into there
     for (std::size_t k = next; k < sorted.size() && sorted[k].center.z() > heights[i + 1]; ++k) {
-      if (kStretch * sorted[k].step >= gap || gap > 2.0 * flat) continue;
-      needed = std::min(needed, sorted[k].step);
-      spots.push_back(sorted[k].center);
+      if (gap > kMostFlat * flat) continue;
+      const int parts = std::min(kMostParts, PartsOfGap(gap, kWideGap * sorted[k].step, smallest));
+      if (parts > 1) spots[parts].push_back(sorted[k].center);
     }
-    if (spots.empty()) continue;
-    const int extra = std::clamp(
-        static_cast<int>(std::ceil(gap / (kStretch * std::max(needed, smallest)))) - 1, 0, kMostPartial);
-    for (int k = 1; k <= extra; ++k)
-      levels.push_back({z - gap * k / (extra + 1), gap / (extra + 1), true, spots});
+    const std::size_t first = levels.size();
+    for (const auto& [parts, centers] : spots) {
+      for (int k = 1; k < parts; ++k) {
+        const double below = gap * k / parts;
+        const auto same = std::find_if(levels.begin() + static_cast<std::ptrdiff_t>(first), levels.end(),
+                                       [&](const PlannedLevel& l) { return l.z == z - below; });
+        if (same == levels.end()) {
+          levels.push_back({z - below, gap / parts, true, centers});
+        } else {
+          same->spots.insert(same->spots.end(), centers.begin(), centers.end());
+        }
+      }
+    }
+    std::sort(levels.begin() + static_cast<std::ptrdiff_t>(first), levels.end(),
+              [](const PlannedLevel& a, const PlannedLevel& b) { return a.z > b.z; });
   }
   return levels;
 }

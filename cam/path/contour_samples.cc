@@ -82,6 +82,8 @@ class PieceSampler {
       for (int j = 0; j <= nv; ++j) {
         const Node& n = nodes[index(i, j)];
         double up = 0.0, down = 0.0;
+        double top = 0.0, bottom = 0.0;                // the same beyond the window
+        Vec3 along[2] = {Vec3::Zero(), Vec3::Zero()};  // half way to the neighbours, from side to side
         const Vec2 uv(double(i) / nu, double(j) / nv);
         for (const auto& [di, dj] : {std::pair{1, 0}, std::pair{0, 1}, std::pair{-1, 0}, std::pair{0, -1}}) {
           if (i + di < 0 || i + di > nu || j + dj < 0 || j + dj > nv) {
@@ -91,7 +93,10 @@ class PieceSampler {
           const Node& m = nodes[index(i + di, j + dj)];
           if (!n.reachable) continue;
           if (!m.regular) continue;
+          along[dj != 0] += 0.5 * (di + dj) * (m.center - n.center);
           double rise = m.center.z() - n.center.z();
+          top = std::max(top, 0.5 * rise);
+          bottom = std::max(bottom, -0.5 * rise);
           if (!m.steep) {  // up to where the slope leaves the window
             const double limit = m.slope < n.slope ? params_.window.min : params_.window.max;
             rise *= 2.0 * std::clamp((n.slope - limit) / (n.slope - m.slope), 0.0, 1.0);
@@ -102,7 +107,12 @@ class PieceSampler {
             ends_.push_back({uv, Vec2(double(i + di) / nu, double(j + dj) / nv), n.center.z(), m.center.z()});
         }
         const double most = 2.0 * spacing_;
-        if (n.reachable) samples.push_back({n.center, std::min(up, most), std::min(down, most), n.step});
+        // Levels through a stretch of ground are as long together as it is large, times the sine of its
+        // slope.
+        const double size = along[0].cross(along[1]).norm() * std::sin(n.slope);
+        const double width = top + bottom > 0.0 ? size / (top + bottom) : 0.0;
+        if (n.reachable)
+          samples.push_back({n.center, std::min(up, most), std::min(down, most), n.step, width});
       }
     }
     SolveEnds(run, ends);

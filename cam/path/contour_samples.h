@@ -13,6 +13,7 @@ struct ContourSample {
   Vec3 center = Vec3::Zero();   // ball centre over the sample
   double up = 0.0, down = 0.0;  // mm: it stands for the ground from center.z() - down to center.z() + up
   double step = 0.0;            // mm, dz = CenterStep(across the feed) sin(slope)
+  double width = 0.0;           // mm of every level through it that it stands for
 };
 
 // Where a steep face ends downward: the lowest centre that still touches it and is free.

@@ -10,14 +10,15 @@ constexpr double kSolved = 1e-9;  // mm
 
 class Clipper {
  public:
-  Clipper(const LineProber& prober, double y) : prober_(prober), y_(y), flat_(prober.flat_step()) {}
+  Clipper(const LineProber& prober, const LineShape& line)
+      : prober_(prober), line_(line), flat_(prober.flat_step()) {}
 
   std::vector<LineProbe> Stations(const Interval& range) const;
   std::vector<Interval> Keep(const std::vector<LineProbe>& stations) const;
 
  private:
   LineProbe Probe(double t, const LineProbe& near) const {
-    return prober_.Probe(t, y_, near.contact ? &*near.contact : nullptr);
+    return prober_.Probe(t, line_.At(t), line_.SlopeAt(t), near.contact ? &*near.contact : nullptr);
   }
   void Subdivide(const LineProbe& a, const LineProbe& b, std::vector<LineProbe>& out) const;
   bool WantedBeside(const LineProbe& s) const;
@@ -27,7 +28,7 @@ class Clipper {
                 int direction) const;
 
   const LineProber& prober_;
-  const double y_;
+  const LineShape& line_;
   const double flat_;
 };
 
@@ -44,7 +45,7 @@ void Clipper::Subdivide(const LineProbe& a, const LineProbe& b, std::vector<Line
 
 std::vector<LineProbe> Clipper::Stations(const Interval& range) const {
   const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / (0.6 * flat_))));
-  const std::vector<LineProbe> row = prober_.ProbeRow(range.begin, range.end, count, y_);
+  const std::vector<LineProbe> row = prober_.ProbeRow(range.begin, range.end, count, line_);
   std::vector<LineProbe> out = {row.front()};
   for (std::size_t i = 1; i < row.size() && !prober_.Cancelled(); ++i) Subdivide(row[i - 1], row[i], out);
   return out;
@@ -53,7 +54,8 @@ std::vector<LineProbe> Clipper::Stations(const Interval& range) const {
 // Dilation across the line: the window begins within half a step beside this place.
 bool Clipper::WantedBeside(const LineProbe& s) const {
   for (int side : {-1, 1}) {
-    const LineProbe beside = prober_.Probe(s.t, y_ + side * s.lateral, s.contact ? &*s.contact : nullptr);
+    const LineProbe beside = prober_.Probe(s.t, line_.At(s.t) + side * s.lateral, line_.SlopeAt(s.t),
+                                           s.contact ? &*s.contact : nullptr);
     if (beside.wanted && (beside.center - s.center).norm() <= 1.5 * s.half_step) return true;
   }
   return false;
@@ -144,11 +146,21 @@ std::vector<Interval> Union(std::vector<Interval> intervals, double gap) {
   return out;
 }
 
-ClippedLine ClipLine(const LineProber& prober, double y, const Interval& range) {
-  const Clipper clipper(prober, y);
-  ClippedLine line{y, {}, clipper.Stations(range)};
-  line.keep = Union(clipper.Keep(line.probes), 0.0);
-  return line;
+std::vector<Interval> Common(const std::vector<Interval>& a, const std::vector<Interval>& b) {
+  std::vector<Interval> out;
+  for (std::size_t i = 0, k = 0; i < a.size() && k < b.size();) {
+    const Interval both{std::max(a[i].begin, b[k].begin), std::min(a[i].end, b[k].end)};
+    if (both.begin < both.end) out.push_back(both);
+    a[i].end < b[k].end ? ++i : ++k;
+  }
+  return out;
+}
+
+ClippedLine ClipLine(const LineProber& prober, const LineShape& line, double rank, const Interval& range) {
+  const Clipper clipper(prober, line);
+  ClippedLine clipped{line, rank, {}, clipper.Stations(range)};
+  clipped.keep = Union(clipper.Keep(clipped.probes), 0.0);
+  return clipped;
 }
 
 }  // namespace patchmill

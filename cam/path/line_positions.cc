@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "cam/path/cheapest_step.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 
@@ -16,44 +17,23 @@ constexpr double kNearest = 0.15;  // but none nearer than this many flat steps
 
 struct Row {
   double y = 0.0;
-  std::vector<double> needs;  // of every wanted sample, sorted; may hold infinity
-  double step = 0.0;          // CheapestStep of a wanted row
+  std::vector<StepNeed> needs;  // of every wanted sample
+  double step = 0.0;            // CheapestStep of a wanted row
   bool wanted() const { return !needs.empty(); }
 };
 
 Row SampleRow(const LineProber& prober, const Interval& range, double spacing, double y) {
   Row row{y, {}, 0.0};
   const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
-  for (const LineProbe& p : prober.ProbeRow(range.begin, range.end, count, y)) {
-    if (p.wanted) row.needs.push_back(p.need);
+  const std::vector<LineProbe> probes =
+      prober.ProbeRow(range.begin, range.end, count, LineShape::Straight(y));
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (!probes[i].wanted) continue;
+    // Partial lines begin a flat step before the spot that needs them: half way from sample to sample.
+    for (const std::size_t k : {i > 0 ? i - 1 : i, i + 1 < probes.size() ? i + 1 : i})
+      row.needs.push_back({probes[k].wanted ? std::min(probes[i].need, probes[k].need) : probes[i].need});
   }
-  std::sort(row.needs.begin(), row.needs.end());
   return row;
-}
-
-// The step with the least length of full plus partial lines: a spot whose need is below the step gets lines
-// at step/2, step/4, ...
-double CheapestStep(const std::vector<double>& needs, double min_step, double max_step) {
-  double best = max_step, best_cost = kInfinity;
-  const auto cost = [&](double step) {
-    double sum = 0.0;
-    for (double need : needs) {
-      double lines = 1.0;
-      for (double s = step; s > need * (1 + 1e-9) && 0.5 * s >= min_step; s *= 0.5) lines *= 2.0;
-      sum += lines;
-    }
-    return sum / step;
-  };
-  const auto consider = [&](double step) {
-    step = std::clamp(step, min_step, max_step);
-    const double c = cost(step);
-    if (c < best_cost) {
-      best_cost = c;
-      best = step;
-    }
-  };
-  for (int k = 0; k <= 16; ++k) consider(needs[(needs.size() - 1) * static_cast<std::size_t>(k) / 16]);
-  return best;
 }
 
 // The last row with something wanted between two rows of which only one has something.
@@ -99,12 +79,12 @@ FrameExtent ExtentInFrame(const Surface& surface, const LineFrame& frame, double
   return e;
 }
 
-absl::StatusOr<std::vector<double>> LinePositions(const LineProber& prober, const FrameExtent& extent,
-                                                  double min_step, const RunContext& run) {
+absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, const FrameExtent& extent,
+                                                    double min_step, const RunContext& run) {
   const double flat = prober.flat_step();
   const double row_step = 1.5 * flat, spacing = 2.0 * flat;
   const double height = extent.y.end - extent.y.begin;
-  if (!(height > 0.0)) return std::vector<double>{};
+  if (!(height > 0.0)) return std::vector<LineBand>{};
   const auto count = static_cast<std::size_t>(std::ceil(height / row_step)) + 1;
   const auto judge = [&](Row& row) {
     if (row.wanted()) row.step = CheapestStep(row.needs, min_step, 4.0 * flat);
@@ -120,7 +100,7 @@ absl::StatusOr<std::vector<double>> LinePositions(const LineProber& prober, cons
     rows[i].y = extent.y.begin + height * static_cast<double>(i) / static_cast<double>(count - 1);
   PM_RETURN_IF_ERROR(sample("zigzag: positions", rows));
 
-  std::vector<double> positions;
+  std::vector<LineBand> bands;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].wanted()) continue;
     std::size_t last = i;
@@ -149,6 +129,8 @@ absl::StatusOr<std::vector<double>> LinePositions(const LineProber& prober, cons
       std::sort(band.begin(), band.end(), [](const Row& a, const Row& b) { return a.y < b.y; });
     }
     const double end = band.back().y;
+    std::vector<double>& positions = bands.emplace_back().positions;
+    bands.back().y = {band.front().y, end};
     // Density 1/step, constant between rows, is integrated and cut into equal parts.
     std::vector<double> edges{band.front().y}, density;
     for (std::size_t k = 0; k + 1 < band.size(); ++k) {
@@ -179,7 +161,7 @@ absl::StatusOr<std::vector<double>> LinePositions(const LineProber& prober, cons
     }
     i = last;
   }
-  return positions;
+  return bands;
 }
 
 }  // namespace patchmill

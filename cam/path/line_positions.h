@@ -18,11 +18,17 @@ struct FrameExtent {
 };
 FrameExtent ExtentInFrame(const Surface& surface, const LineFrame& frame, double margin);
 
-// Positions of full lines, rising. Rows 1.5 flat steps apart, and between those whose steps differ by more
-// than 3 % down to 0.15, are sampled every 2 flat steps; at each the step is the one that makes lines plus
-// the partial lines at narrow spots shortest. Gaps without anything wanted stay empty; their limits are found
-// to 1e-3 of the flat step at the sampling's resolution along the lines.
-absl::StatusOr<std::vector<double>> LinePositions(const LineProber& prober, const FrameExtent& extent,
-                                                  double min_step, const RunContext& run);
+// Full lines over a stretch of y in which every row has something wanted.
+struct LineBand {
+  Interval y;                     // limits of what is wanted
+  std::vector<double> positions;  // rising, the first and the last at the limits
+};
+
+// Bands, rising. Rows 1.5 flat steps apart, and between those whose steps differ by more than 3 % down to
+// 0.15, are sampled every 2 flat steps; at each the step is the one that makes lines plus the partial lines
+// at narrow spots shortest (CheapestStep). The limits of bands are found to 1e-3 of the flat step at the
+// sampling's resolution along the lines.
+absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, const FrameExtent& extent,
+                                                    double min_step, const RunContext& run);
 
 }  // namespace patchmill

@@ -25,16 +25,16 @@ LineProber::LineProber(const Locator& locator, const SheetBorder& border, const 
       run_(run),
       flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
 
-LineProbe LineProber::Probe(double t, double y, const SurfacePoint* hint) const {
-  return Judge(t, y, locator_.Height(frame_.At(t, y), hint));
+LineProbe LineProber::Probe(double t, double y, double slope, const SurfacePoint* hint) const {
+  return Judge(t, y, slope, locator_.Height(frame_.At(t, y), hint));
 }
 
-std::vector<LineProbe> LineProber::ProbeRow(double t0, double t1, int count, double y) const {
+std::vector<LineProbe> LineProber::ProbeRow(double t0, double t1, int count, const LineShape& line) const {
   std::vector<double> at;
   std::vector<Vec2> places;
   for (int i = 0; i <= count; ++i) {
     at.push_back(i == count ? t1 : t0 + (t1 - t0) * i / count);
-    places.push_back(frame_.At(at.back(), y));
+    places.push_back(frame_.At(at.back(), line.At(at.back())));
   }
   std::vector<std::optional<CenterPoint>> heights(places.size());
   constexpr std::size_t kBetweenPolls = 1024;
@@ -44,11 +44,12 @@ std::vector<LineProbe> LineProber::ProbeRow(double t0, double t1, int count, dou
   }
   std::vector<LineProbe> row;
   row.reserve(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) row.push_back(Judge(at[i], y, heights[i]));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    row.push_back(Judge(at[i], line.At(at[i]), line.SlopeAt(at[i]), heights[i]));
   return row;
 }
 
-LineProbe LineProber::Judge(double t, double y, const std::optional<CenterPoint>& h) const {
+LineProbe LineProber::Judge(double t, double y, double slope, const std::optional<CenterPoint>& h) const {
   LineProbe probe;
   probe.t = t;
   if (!h) return probe;
@@ -66,30 +67,33 @@ LineProbe LineProber::Judge(double t, double y, const std::optional<CenterPoint>
   probe.contact = h->contact;
   const Vec3 normal = (probe.center - h->contact.p) / radius;
   probe.allowed = border_.Allowed(h->contact, normal);
-  const double slope = std::atan2(Plan(normal).norm(), normal.z());
+  const double steepness = std::atan2(Plan(normal).norm(), normal.z());
   constexpr double kSlack = 1e-9;  // rad: a plane at the limit itself belongs to it
-  probe.wanted = probe.allowed && slope >= params_.window.min - kSlack &&
-                 slope <= params_.window.max + kSlack && (part_ == nullptr || part_->Wants(h->contact));
+  probe.wanted = probe.allowed && steepness >= params_.window.min - kSlack &&
+                 steepness <= params_.window.max + kSlack && (part_ == nullptr || part_->Wants(h->contact));
 
   // Across the feed on the centre surface: square to the feed in the common tangent plane. Its part in plan
-  // across the line is sqrt(1 - n_y^2).
-  const double nt = Plan(normal).dot(frame_.along), ny = Plan(normal).dot(frame_.across);
+  // across the line is sqrt(1 - n_y^2), and longer in y where the line slants.
+  const double slant = std::hypot(1.0, slope);
+  const Vec2 feed = (frame_.along + slope * frame_.across) / slant;
+  const Vec2 beside(-feed.y(), feed.x());
+  const double nt = Plan(normal).dot(feed), ny = Plan(normal).dot(beside);
   const double cosine = std::sqrt(std::max(0.0, 1.0 - ny * ny));
   const SurfaceJet jet = Evaluate(locator_.surface(), h->contact.piece, h->contact.u, h->contact.v);
   const auto surface_normal = UpwardNormal(jet);
   if (surface_normal && surface_normal->cross(normal).norm() < 1e-4) {
     const double in_plane = std::hypot(nt, normal.z());
-    const Vec3 across = in_plane > 1e-9
-                            ? Vec3(Lift((-nt * ny / in_plane) * frame_.along + in_plane * frame_.across,
-                                        -ny * normal.z() / in_plane))
-                            : Vec3(Vec3::UnitZ());
+    const Vec3 across =
+        in_plane > 1e-9
+            ? Vec3(Lift((-nt * ny / in_plane) * feed + in_plane * beside, -ny * normal.z() / in_plane))
+            : Vec3(Vec3::UnitZ());
     const double kappa = NormalCurvature(Forms(jet, *surface_normal), jet, across);
     const double step = std::clamp(CenterStep(radius, params_.scallop, kappa),
                                    params_.min_step_fraction * flat_step_, 4.0 * flat_step_);
-    probe.need = step * cosine;
+    probe.need = step * cosine * slant;
     probe.half_step = 0.5 * step;
   }
-  probe.lateral = probe.half_step * cosine;
+  probe.lateral = probe.half_step * cosine * slant;
   return probe;
 }
 

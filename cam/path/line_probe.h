@@ -7,6 +7,7 @@
 
 #include "cam/location/keep_in.h"
 #include "cam/location/locator.h"
+#include "cam/path/line_shape.h"
 #include "cam/path/pass_params.h"
 #include "cam/path/sheet_border.h"
 #include "core/base/run_context.h"
@@ -28,9 +29,9 @@ struct LineProbe {
   std::optional<SurfacePoint> contact;  // absent: h does not exist here, or the floor carries the ball
   bool allowed = false;                 // exists and is not rolled off a border
   bool wanted = false;                  // allowed, touched, and its slope lies in the window, in the part
-  double need = kInfinity;  // mm: largest distance in plan to the next line that keeps the scallop
-  double half_step = 0.0;   // mm on the centre surface, half the step across the line
-  double lateral = 0.0;     // the same in plan
+  double need = kInfinity;              // mm: largest distance in y to the next line that keeps the scallop
+  double half_step = 0.0;               // mm on the centre surface, half the step across the line
+  double lateral = 0.0;                 // the same in y
 
   bool exists() const { return half_step > 0.0; }
 };
@@ -42,17 +43,19 @@ class LineProber {
   LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
              const PassParams& params, const KeepIn* part, const RunContext& run);
 
-  // Cost: one exact height and one surface evaluation. `hint`: a contact nearby.
-  LineProbe Probe(double t, double y, const SurfacePoint* hint = nullptr) const;
+  // Of a line that runs at `slope` (dy/dt) through the place. Cost: one exact height and one surface
+  // evaluation. `hint`: a contact nearby.
+  LineProbe Probe(double t, double y, double slope, const SurfacePoint* hint = nullptr) const;
   // Of count + 1 places of one line, evenly spaced from t0 to t1, both included; heights in vector lanes.
-  std::vector<LineProbe> ProbeRow(double t0, double t1, int count, double y) const;
+  std::vector<LineProbe> ProbeRow(double t0, double t1, int count, const LineShape& line) const;
 
   bool Cancelled() const { return run_.Cancelled(); }
+  double radius() const { return locator_.radius(); }
   double flat_step() const { return flat_step_; }
   const LineFrame& frame() const { return frame_; }
 
  private:
-  LineProbe Judge(double t, double y, const std::optional<CenterPoint>& h) const;
+  LineProbe Judge(double t, double y, double slope, const std::optional<CenterPoint>& h) const;
 
   const Locator& locator_;
   const SheetBorder& border_;

@@ -2,6 +2,7 @@
 // plan.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "cam/location/locator.h"
@@ -24,5 +25,9 @@ struct ScanRun {
 // cancelled line is cut short, and of no use.
 std::vector<ScanRun> ScanLine(const Locator& locator, const Vec2& a, const Vec2& b, const PassParams& params,
                               const RunContext* run = nullptr);
+
+// The same over a line with corners (two or more), each of them a vertex; runs go on over corners.
+std::vector<ScanRun> ScanPolyline(const Locator& locator, std::span<const Vec2> corners,
+                                  const PassParams& params, const RunContext* run = nullptr);
 
 }  // namespace patchmill

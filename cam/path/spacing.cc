@@ -41,4 +41,11 @@ double ScallopOfStep(double radius, double center_step, double kappa) {
   return 2.0 * t / (p + std::sqrt(discriminant));
 }
 
+int PartsOfGap(double gap, double need, double least) {
+  constexpr double kSlack = 1e-9;  // of a part: a gap that was made to fit does fit
+  const double most = std::max(1.0, std::floor(gap / least + kSlack));
+  const double parts = need > 0.0 ? std::ceil(gap / need - kSlack) : most;
+  return static_cast<int>(std::clamp(parts, 1.0, most));
+}
+
 }  // namespace patchmill

@@ -170,20 +170,9 @@ bool Mender::AlongRidge(std::size_t i) {
   corners.insert(corners.begin(),
                  beyond(corners.front(), corners.size() > 1 ? corners[1] : Vec2(corners[0] + level)));
   corners.push_back(beyond(corners.back(), corners[corners.size() - 2]));
-  std::vector<CutterPoint> points;
   bool added = false;
-  for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
-    for (ScanRun& run : ScanLine(locator_, corners[k], corners[k + 1], params_, &run_)) {
-      if (run.points.empty()) continue;
-      const bool joined = !points.empty() && (points.back().center - run.points.front().center).norm() < 1e-9;
-      if (!joined) {
-        added |= Add(PassKind::kRest, std::move(points));
-        points.clear();
-      }
-      points.insert(points.end(), run.points.begin() + (joined ? 1 : 0), run.points.end());
-    }
-  }
-  added |= Add(PassKind::kRest, std::move(points));
+  for (ScanRun& run : ScanPolyline(locator_, corners, params_, &run_))
+    added |= Add(PassKind::kRest, std::move(run.points));
   return added && !open_[i];
 }
 

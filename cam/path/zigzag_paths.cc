@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
+#include "cam/path/line_bends.h"
 #include "cam/path/line_clip.h"
 #include "cam/path/line_positions.h"
 #include "cam/path/sheet_border.h"
@@ -13,31 +16,92 @@
 namespace patchmill {
 namespace {
 
-// Where the need of either line is below their distance: a line is missing in between.
-std::vector<Interval> NarrowSpots(const ClippedLine& a, const ClippedLine& b, const Interval& within,
-                                  double flat) {
-  const double gap = b.y - a.y;
-  std::vector<Interval> spots;
-  for (const ClippedLine* line : {&a, &b}) {
-    for (const LineProbe& p : line->probes) {
-      if (p.wanted && p.need < 0.995 * gap && p.t >= within.begin && p.t <= within.end) {
-        spots.push_back({std::max(within.begin, p.t - flat), std::min(within.end, p.t + flat)});
-      }
+constexpr double kShortest = 4.0;  // flat steps: a stretch of lines shorter than this joins its neighbour
+
+// A stretch of the gap between two lines that has to be cut into so many parts.
+struct Stretch {
+  Interval t;
+  int parts = 2;
+};
+
+// What lies in `within` beyond the parts of `less`, both rising and disjoint.
+std::vector<Interval> Without(const std::vector<Interval>& within, const std::vector<Interval>& less) {
+  std::vector<Interval> rest;
+  std::size_t k = 0;
+  for (const Interval& w : within) {
+    double from = w.begin;
+    for (; k < less.size() && less[k].end <= w.end; ++k) {
+      if (less[k].begin > from) rest.push_back({from, less[k].begin});
+      from = less[k].end;
     }
+    if (from < w.end) rest.push_back({from, w.end});
   }
-  return Union(std::move(spots), 4.0 * flat);
+  return rest;
 }
 
-// Halves the gap between two lines where it is too wide, again and again.
+// Where either line needs a neighbour nearer than the other one, and into how many parts that cuts their gap.
+std::vector<Stretch> NarrowStretches(const ClippedLine& a, const ClippedLine& b, const Interval& within,
+                                     double flat, double min_step) {
+  std::map<int, std::vector<Interval>> spots;
+  for (const ClippedLine* line : {&a, &b}) {
+    for (const LineProbe& p : line->probes) {
+      if (!p.wanted || p.t < within.begin || p.t > within.end) continue;
+      const int parts = PartsOfGap(b.line.At(p.t) - a.line.At(p.t), kWideGap * p.need, min_step);
+      if (parts > 1)
+        spots[parts].push_back({std::max(within.begin, p.t - flat), std::min(within.end, p.t + flat)});
+    }
+  }
+  // Nested, from the fewest parts up: what needs more lies within what needs fewer, and takes its ends over
+  // where they are near.
+  std::vector<Stretch> stretches;
+  std::vector<Interval> all = {within};
+  for (auto from = spots.begin(); from != spots.end(); ++from) {
+    std::vector<Interval> here;
+    for (auto more = from; more != spots.end(); ++more)
+      here.insert(here.end(), more->second.begin(), more->second.end());
+    here = Union(std::move(here), kShortest * flat);
+    if (from != spots.begin()) {
+      for (Interval& i : here) {
+        const auto whole =
+            std::find_if(all.begin(), all.end(), [&](const Interval& w) { return i.end <= w.end; });
+        if (i.begin - whole->begin < kShortest * flat) i.begin = whole->begin;
+        if (whole->end - i.end < kShortest * flat) i.end = whole->end;
+      }
+      for (const Interval& t : Without(all, here)) stretches.push_back({t, std::prev(from)->first});
+    }
+    all = std::move(here);
+  }
+  if (!spots.empty()) {
+    for (const Interval& t : all) stretches.push_back({t, spots.rbegin()->first});
+  }
+  return stretches;
+}
+
+// Cuts the gap between two lines into as many parts as it needs, stretch by stretch; the new lines may find
+// that they need more.
 void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& b, const Interval& within,
              double min_step, std::vector<ClippedLine>& out) {
-  if (0.5 * (b.y - a.y) < min_step || prober.Cancelled()) return;
-  for (const Interval& spot : NarrowSpots(a, b, within, prober.flat_step())) {
-    const ClippedLine mid = ClipLine(prober, 0.5 * (a.y + b.y), spot);
-    FillGap(prober, a, mid, spot, min_step, out);
-    out.push_back(mid);
-    FillGap(prober, mid, b, spot, min_step, out);
+  if (prober.Cancelled()) return;
+  for (const Stretch& stretch : NarrowStretches(a, b, within, prober.flat_step(), min_step)) {
+    ClippedLine last = a;
+    for (int k = 1; k < stretch.parts; ++k) {
+      const double share = static_cast<double>(k) / stretch.parts;
+      ClippedLine line =
+          ClipLine(prober, Between(a.line, b.line, share), a.rank + (b.rank - a.rank) * share, stretch.t);
+      FillGap(prober, last, line, stretch.t, min_step, out);
+      out.push_back(line);
+      last = std::move(line);
+    }
+    FillGap(prober, last, b, stretch.t, min_step, out);
   }
+}
+
+// The line's places in plan from t0 to t1, corners included.
+std::vector<Vec2> PlacesOf(const LineFrame& frame, const LineShape& line, const Interval& t) {
+  std::vector<Vec2> places;
+  for (const double corner : CornersOf(line, t.begin, t.end))
+    places.push_back(frame.At(corner, line.At(corner)));
+  return places;
 }
 
 }  // namespace
@@ -49,50 +113,61 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   const LineProber prober(locator, border, LineFrame::At(params.angle), params, params.part, run);
   const double min_step = params.min_step_fraction * prober.flat_step();
   const FrameExtent extent = ExtentInFrame(surface, prober.frame(), locator.radius());
-  PM_ASSIGN_OR_RETURN(const std::vector<double> positions, LinePositions(prober, extent, min_step, run));
+  PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands, LinePositions(prober, extent, min_step, run));
+  std::vector<ClippedLine> lines;
+  std::vector<char> last_of_band;
+  for (const LineBand& band : bands) {
+    PM_ASSIGN_OR_RETURN(const std::vector<BentLine> bent,
+                        BendLines(prober, extent.t, band, min_step, params.max_bend, run));
+    for (const BentLine& line : bent)
+      lines.push_back({line.line, static_cast<double>(lines.size()), line.where, {}});
+    last_of_band.resize(lines.size(), 0);
+    last_of_band.back() = 1;
+  }
 
-  std::vector<ClippedLine> lines(positions.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: ends", positions.size(), [&](std::size_t i) {
-    lines[i] = ClipLine(prober, positions[i], extent.t);
+  PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: ends", lines.size(), [&](std::size_t i) {
+    const std::vector<Interval> where = std::move(lines[i].keep);
+    lines[i] = ClipLine(prober, lines[i].line, lines[i].rank, extent.t);
+    lines[i].keep = Common(lines[i].keep, where);
   }));
   std::vector<std::vector<ClippedLine>> between(lines.empty() ? 0 : lines.size() - 1);
   PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: gaps", between.size(), [&](std::size_t i) {
-    FillGap(prober, lines[i], lines[i + 1], extent.t, min_step, between[i]);
+    if (!last_of_band[i]) FillGap(prober, lines[i], lines[i + 1], extent.t, min_step, between[i]);
   }));
 
   struct Part {
-    double y;
-    int line;
+    const ClippedLine* line;
+    int index;
     Interval t;
   };
   std::vector<Part> parts;
   int index = -1;
-  double last_y = kInfinity;
+  double last_rank = -1.0;
   const auto add = [&](const ClippedLine& line) {
     if (line.keep.empty()) return;
-    if (line.y != last_y) ++index;
-    last_y = line.y;
-    for (const Interval& t : line.keep) parts.push_back({line.y, index, t});
+    if (line.rank != last_rank) ++index;
+    last_rank = line.rank;
+    for (const Interval& t : line.keep) parts.push_back({&line, index, t});
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {
     add(lines[i]);
     if (i + 1 == lines.size()) break;
     std::stable_sort(between[i].begin(), between[i].end(),
-                     [](const ClippedLine& a, const ClippedLine& b) { return a.y < b.y; });
+                     [](const ClippedLine& a, const ClippedLine& b) { return a.rank < b.rank; });
     for (const ClippedLine& line : between[i]) add(line);
   }
 
   std::vector<std::vector<ScanRun>> runs(parts.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag", parts.size(), [&](std::size_t i) {
     const Part& part = parts[i];
-    runs[i] = ScanLine(locator, prober.frame().At(part.t.begin, part.y),
-                       prober.frame().At(part.t.end, part.y), params, &run);
+    const std::vector<Vec2> places = PlacesOf(prober.frame(), part.line->line, part.t);
+    runs[i] = ScanPolyline(locator, places, params, &run);
   }));
   std::vector<CutterPath> paths;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (ScanRun& r : runs[i]) {
       if (r.points.size() < 2) continue;
-      paths.push_back({.kind = PassKind::kZigzag, .line = parts[i].line, .points = std::move(r.points)});
+      paths.push_back({.kind = PassKind::kZigzag, .line = parts[i].index, .points = std::move(r.points)});
     }
   }
   return paths;

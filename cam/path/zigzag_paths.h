@@ -13,6 +13,7 @@ namespace patchmill {
 
 struct ZigzagParams : PassParams {
   double angle = 0.0;            // rad, direction of the lines in plan, from +x
+  double max_bend = 0.0;         // rad, how far lines may turn from it to keep their steps even; 0: straight
   const KeepIn* part = nullptr;  // lines only where the contact is wanted; null: everywhere
 };
 

@@ -71,7 +71,8 @@ struct RegionOverride {
   std::optional<double> zigzag_angle, scallop;  // absent: as the operation
   std::optional<bool> one_way;
 };
-inline constexpr double kPickReach = 1.0;  // mm
+inline constexpr double kPickReach = 1.0;          // mm
+inline constexpr double kMaxZigzagBendDeg = 30.0;  // of Operation::zigzag_bend
 
 struct Operation {
   Tool tool;
@@ -81,7 +82,9 @@ struct Operation {
   double steep_angle = Radians(45.0);
   Strategy strategy = Strategy::kAuto;
   double zigzag_angle = 0.0;
-  bool one_way = false;     // zig-zag lines run along their angle only
+  bool one_way = false;  // zig-zag lines run along their angle only
+  double zigzag_bend =
+      Radians(20.0);        // rad, how far lines may turn from their angle (BendLines); 0: straight
   bool angle_auto = false;  // each region's lines in the direction that takes the least time
   bool spirals = false;     // contours one below the other become one pass (SpiralPaths)
   double detail = RegionParams().detail;

@@ -69,6 +69,7 @@ class PassMaker {
       SetPass(choice, params);
       params.window.max = choice.strategy == Strategy::kAuto ? op_.steep_angle : kPi / 2.0;
       params.angle = choice.zigzag_angle;
+      params.max_bend = op_.zigzag_bend;
       if (keep_in != nullptr && keep_in->HasPart()) params.part = keep_in;
       PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator_, params, run_));
       for (CutterPath& line : lines) line.one_way = choice.one_way;

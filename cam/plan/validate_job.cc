@@ -90,6 +90,9 @@ absl::Status ValidateJob(const Job& job) {
   PM_RETURN_IF_ERROR(check("stock_to_leave_mm", op.leave, op.leave >= 0 && op.leave <= 100, "in [0, 100]"));
   PM_RETURN_IF_ERROR(check("steep_angle_deg", Degrees(op.steep_angle),
                            op.steep_angle >= Radians(5) && op.steep_angle <= Radians(85), "in [5, 85]"));
+  PM_RETURN_IF_ERROR(check("zigzag_bend_deg", Degrees(op.zigzag_bend),
+                           op.zigzag_bend >= 0.0 && op.zigzag_bend <= Radians(kMaxZigzagBendDeg),
+                           fmt::format("in [0, {:g}]", kMaxZigzagBendDeg)));
   PM_RETURN_IF_ERROR(check("zigzag_angle_deg", Degrees(op.zigzag_angle), std::abs(op.zigzag_angle) <= 2 * kPi,
                            "in [-360, 360]"));
   PM_RETURN_IF_ERROR(check("detail", op.detail, op.detail >= 0 && op.detail <= 1, "in [0, 1]"));

@@ -28,6 +28,7 @@ constexpr struct {
     {"steep_angle_deg", "--steep-angle"},
     {"zigzag_angle_deg", "--zigzag-angle"},
     {"zigzag_angle_auto", "--auto-angle"},
+    {"zigzag_bend_deg", "--bend"},
     {"operations[0].detail", "--detail"},
     {"regions_sha256", "--regions"},
     {"setup.scale", "--scale"},

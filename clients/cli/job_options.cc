@@ -196,6 +196,7 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   op.set_steep_angle_deg(options.steep_angle);
   op.set_strategy(MakeStrategy(options.strategy));
   op.set_zigzag_angle_deg(options.zigzag_angle);
+  op.set_zigzag_bend_deg(options.bend);
   op.set_one_way_lines(options.one_way);
   op.set_contour_spirals(options.spirals);
   op.set_zigzag_angle_auto(options.auto_angle);

@@ -190,6 +190,8 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();
   AddNumber(app, "--zigzag-angle", op.zigzag_angle, "direction of the lines from +X, degrees");
+  AddNumber(app, "--bend", op.bend,
+            "how far lines may turn from it to keep their steps even, degrees, 0 to 30; 0: straight");
   app.add_flag("--auto-angle", op.auto_angle,
                "lines of each region in the direction that takes the least time, of 0, 30, ... 150 degrees");
   app.add_flag("--one-way", op.one_way, "cut all lines in that direction, and lift the ball back");

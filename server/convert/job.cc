@@ -117,6 +117,12 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
     Require(errors, At(at, "zigzag_angle_deg"), angle, std::abs(angle) <= 360.0, "in [-360, 360]");
     op.zigzag_angle = Radians(angle);
   }
+  if (proto.has_zigzag_bend_deg()) {
+    const double bend = proto.zigzag_bend_deg();
+    Require(errors, At(at, "zigzag_bend_deg"), bend, bend >= 0.0 && bend <= kMaxZigzagBendDeg,
+            fmt::format("in [0, {:g}]", kMaxZigzagBendDeg));
+    op.zigzag_bend = Radians(bend);
+  }
   op.angle_auto = proto.zigzag_angle_auto();
   if (op.angle_auto && op.zigzag_angle != 0.0) {
     errors.Add(At(at, "zigzag_angle_auto"), "is set, and so is zigzag_angle_deg; set one of them");
@@ -167,6 +173,7 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   proto.set_zigzag_angle_deg(Degrees(op.zigzag_angle));
   if (op.one_way) proto.set_one_way_lines(true);
   proto.set_contour_spirals(op.spirals);
+  proto.set_zigzag_bend_deg(Degrees(op.zigzag_bend));
   proto.set_zigzag_angle_auto(op.angle_auto);
   proto.set_detail(op.detail);
   proto.set_contour_direction(ToProto(op.contour_direction));

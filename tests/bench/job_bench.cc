@@ -1,4 +1,6 @@
 // Whole jobs, from the model to the verified program, and the verifier alone; on all cores, wall clock.
+#include <array>
+
 #include <benchmark/benchmark.h>
 
 #include "cam/plan/job_preview.h"
@@ -17,6 +19,19 @@ absl::StatusOr<JobResult> RunVerified(const Surface& surface, const Job& job) {
   return result;
 }
 
+// m of passes of each kind.
+std::array<double, 4> LengthsByKind(const LinkResult& motion) {
+  std::array<double, 4> lengths{};
+  for (const CutterPath& pass : motion.passes) {
+    const std::size_t count = pass.points.size() + (pass.closed ? 1 : 0);
+    for (std::size_t i = 1; i < count; ++i) {
+      lengths[static_cast<std::size_t>(pass.kind)] +=
+          1e-3 * (pass.points[i % pass.points.size()].center - pass.points[i - 1].center).norm();
+    }
+  }
+  return lengths;
+}
+
 // Everything a request costs but the wire: placing, surface, RunJob. peak_MB is the process's largest
 // resident memory, other parts kept by earlier benchmarks included: run alone for a figure.
 void MeasureJob(benchmark::State& state, Part part) {
@@ -24,6 +39,7 @@ void MeasureJob(benchmark::State& state, Part part) {
   const Job job = JobOf(part);
   double moves = 0.0, bytes = 0.0;
   JobReport report;
+  std::array<double, 4> lengths{};
   ResetPeakMemory();
   for (auto _ : state) {
     const auto surface = BuildPlacedSurface(model, job.setup, RunContext());
@@ -33,11 +49,17 @@ void MeasureJob(benchmark::State& state, Part part) {
     moves = result->report.point_count;
     bytes = static_cast<double>(result->program.size());
     report = result->report;
+    lengths = LengthsByKind(result->motion);
   }
   state.counters["peak_MB"] = PeakMemory();
   state.counters["moves"] = moves;
   state.counters["feed_m"] = 1e-3 * report.verify.cut_length;
   state.counters["over_least"] = report.verify.cut_length / report.least_feed;
+  state.counters["lines_m"] = lengths[static_cast<std::size_t>(PassKind::kZigzag)];
+  state.counters["contours_m"] = lengths[static_cast<std::size_t>(PassKind::kContour)];
+  state.counters["rest_m"] = lengths[static_cast<std::size_t>(PassKind::kCrease)] +
+                             lengths[static_cast<std::size_t>(PassKind::kRest)];
+  state.counters["retracts"] = static_cast<double>(report.motion.retract_count);
   state.counters["program_MB"] = 1e-6 * bytes;
   for (const StageTime& stage : report.stages) state.counters["s_" + stage.name] = stage.seconds;
 }

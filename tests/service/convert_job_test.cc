@@ -90,6 +90,8 @@ INSTANTIATE_TEST_SUITE_P(
                 OperationOf(r).set_zigzag_angle_auto(true);
               },
               "job.operations[0].zigzag_angle_auto is set, and so is zigzag_angle_deg; set one of them"},
+        Wrong{"ZigzagBend", [](Request& r) { OperationOf(r).set_zigzag_bend_deg(31); },
+              "job.operations[0].zigzag_bend_deg = 31; must be in [0, 30]"},
         Wrong{"ZigzagAngle", [](Request& r) { OperationOf(r).set_zigzag_angle_deg(361); },
               "job.operations[0].zigzag_angle_deg = 361; must be in [-360, 360]"},
         Wrong{"DetailNan", [](Request& r) { OperationOf(r).set_detail(kNan); },
@@ -347,6 +349,7 @@ Request Unusual() {
   op.set_contour_direction(v1::CUT_DIRECTION_EITHER);
   op.set_contour_spirals(true);
   op.set_zigzag_angle_auto(false);
+  op.set_zigzag_bend_deg(12.5);
   op.set_edge_rule(v1::EDGE_RULE_ROLL);
   op.mutable_heights()->set_clearance_z_mm(70);
   op.mutable_heights()->set_approach_gap_mm(2);
@@ -445,6 +448,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_one_way_lines(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_contour_spirals(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_zigzag_angle_auto(true); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_zigzag_bend_deg(0); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_edge_rule(v1::EDGE_RULE_EXTEND); }));
   EXPECT_TRUE(differs([](Request& r) {
     AddRing({0, 0, 9, 0, 0, 9}, SelectionOf(r).mutable_boundary_xy_mm());

@@ -230,5 +230,32 @@ TEST(ScanLine, DegenerateLineIsOnePointOrNothing) {
   EXPECT_TRUE(ScanLine(locator, {20, 20}, {30, 20}, {}).empty());
 }
 
+TEST(ScanPolyline, GoesOnOverCornersAndKeepsThemAsVertices) {
+  const Surface surface = SurfaceOf(TwoHills());
+  const Locator locator(surface, 3.0);
+  PassParams params;
+  const std::vector<Vec2> corners = {{20, 30}, {40, 32}, {61, 29}, {80, 36}};
+  const auto runs = ScanPolyline(locator, corners, params);
+  ASSERT_EQ(runs.size(), 1u);
+  ExpectCertified(surface, 3.0, runs, params);
+  std::size_t next = 0;
+  for (const CutterPoint& p : runs[0].points) {
+    if (next < corners.size() && (Plan(p.center) - corners[next]).norm() < 1e-9) ++next;
+  }
+  EXPECT_EQ(next, corners.size());
+  EXPECT_EQ(Plan(runs[0].points.front().center), corners.front());
+}
+
+TEST(ScanPolyline, BreaksWhereThereIsNothingBelow) {
+  const Surface surface = SurfaceOf(Plane(5));
+  const Locator locator(surface, 1.0);
+  // Out over the border and back in: two runs.
+  const std::vector<Vec2> corners = {{0, 0}, {9, 1}, {0, 2}};
+  const auto runs = ScanPolyline(locator, corners, PassParams());
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(Plan(runs[0].points.front().center), corners.front());
+  EXPECT_EQ(Plan(runs[1].points.back().center), corners.back());
+}
+
 }  // namespace
 }  // namespace patchmill
