@@ -25,6 +25,15 @@ const ZeroField* CommonField(const ZeroVertex& a, const ZeroVertex& b, std::span
   return limit;
 }
 
+// The places along a watershed, if the side lies on one.
+std::vector<Vec2> LineAlong(const SplitMesh& mesh, const TriangleSide& side) {
+  const int a = VertexOf(mesh, side, 0), b = VertexOf(mesh, side, 1);
+  const auto line = mesh.lines.find(std::minmax(a, b));
+  if (line == mesh.lines.end()) return {};
+  const std::vector<Vec2>& places = line->second.places;
+  return a < b ? places : std::vector<Vec2>(places.rbegin(), places.rend());
+}
+
 // Of each of these sides the first one along the same edge of a piece: both see one arc.
 std::vector<std::size_t> FirstAlongEdge(const std::vector<SplitMesh>& meshes,
                                         const std::vector<Adjacency>& adjacency,
@@ -78,7 +87,10 @@ void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes,
     const ZeroVertex &a = EndOf(meshes[index], adjacency[i].side, 0),
                      &b = EndOf(meshes[index], adjacency[i].side, 1);
     const ZeroField* field = CommonField(a, b, fields);
-    if (field == nullptr) continue;
+    if (field == nullptr) {
+      arcs[i] = LineAlong(meshes[index], adjacency[i].side);
+      continue;
+    }
     const auto f = static_cast<std::size_t>(field - fields.data());
     along[f].push_back(i);
     chords[f].push_back({{a.u, a.v}, {b.u, b.v}});

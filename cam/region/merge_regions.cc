@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "cam/region/label_cut.h"
 
@@ -12,13 +13,26 @@ namespace {
 
 bool Reached(const SplitLabel& label) { return label.reason == UnreachableReason::kNone; }
 
-// The labels of least energy, in place.
+std::size_t WholeOf(const std::vector<RawRegion>& regions, int i) {
+  const int whole = regions[static_cast<std::size_t>(i)].whole;
+  return static_cast<std::size_t>(whole < 0 ? i : whole);
+}
+
+// The labels of least energy, in place: one for each whole.
 void Relabel(const std::vector<RawContact>& contacts, const MergeParams& params,
              std::vector<RawRegion>& regions) {
+  std::vector<RawRegion> wholes(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    RawRegion& whole = wholes[WholeOf(regions, static_cast<int>(i))];
+    whole.label = regions[i].label;
+    whole.area += regions[i].area;
+    whole.curvature += regions[i].curvature;
+    whole.steepness += regions[i].steepness;
+  }
   std::vector<double> basin(regions.size(), 0.0), no_mountain = basin, steep = basin;
   for (std::size_t i = 0; i < regions.size(); ++i) {
-    const RawRegion& r = regions[i];
-    if (!Reached(r.label)) continue;
+    const RawRegion& r = wholes[i];
+    if (!Reached(r.label) || WholeOf(regions, static_cast<int>(i)) != i) continue;
     const double bend = std::abs(r.curvature);
     const bool flat = r.label.curvature == 0 || bend < params.flat * r.area;
     // Cost of +1 against 0, and of 0 against -1: the loss is |label - own| times the bend.
@@ -30,8 +44,9 @@ void Relabel(const std::vector<RawContact>& contacts, const MergeParams& params,
   const auto pairs = [&](double cost) {
     std::vector<LabelPair> list;
     for (const RawContact& c : contacts) {
-      const auto reached = [&](int k) { return Reached(regions[static_cast<std::size_t>(k)].label); };
-      if (c.a != c.b && reached(c.a) && reached(c.b)) list.push_back({c.a, c.b, cost * c.length});
+      const std::size_t a = WholeOf(regions, c.a), b = WholeOf(regions, c.b);
+      if (a == b || !Reached(regions[a].label) || !Reached(regions[b].label)) continue;
+      list.push_back({static_cast<int>(a), static_cast<int>(b), cost * c.length});
     }
     return list;
   };
@@ -41,8 +56,9 @@ void Relabel(const std::vector<RawContact>& contacts, const MergeParams& params,
   for (std::size_t i = 0; i < regions.size(); ++i) {
     SplitLabel& label = regions[i].label;
     if (!Reached(label)) continue;
-    label.curvature = static_cast<std::int8_t>(is_basin[i] ? 1 : is_no_mountain[i] ? 0 : -1);
-    label.steep = is_steep[i];
+    const std::size_t whole = WholeOf(regions, static_cast<int>(i));
+    label.curvature = static_cast<std::int8_t>(is_basin[whole] ? 1 : is_no_mountain[whole] ? 0 : -1);
+    label.steep = is_steep[whole];
   }
 }
 
@@ -50,8 +66,22 @@ struct Node {
   SplitLabel label;
   double area = 0.0;
   double curvature = 0.0;
-  std::map<int, double> border;  // neighbour -> common length
+  int summit = 0, pit = 0;
+  double open_border = 0.0;
+  std::map<int, double> border = {};  // neighbour -> common length
   bool alive = true;
+  bool large = false;  // neither too small nor too narrow, when it was queued
+
+  // Together they are one region.
+  bool Like(const Node& other) const {
+    return label == other.label && (!(label.curvature < 0) || summit == other.summit) &&
+           (!(label.curvature > 0) || pit == other.pit);
+  }
+  double Width() const {
+    double length = open_border;
+    for (const auto& [other, common] : border) length += common;
+    return length > 0.0 ? 2.0 * area / length : kInfinity;
+  }
 };
 
 class Merger {
@@ -61,7 +91,8 @@ class Merger {
       : params_(params), parent_(raw.size()) {
     for (std::size_t i = 0; i < raw.size(); ++i) {
       parent_[i] = static_cast<int>(i);
-      nodes_.push_back({raw[i].label, raw[i].area, raw[i].curvature, {}, true});
+      nodes_.push_back(
+          {raw[i].label, raw[i].area, raw[i].curvature, raw[i].summit, raw[i].pit, raw[i].open_border});
       if (Reached(raw[i].label)) ++reached_;
     }
     for (const RawContact& c : contacts) {
@@ -75,20 +106,20 @@ class Merger {
     for (std::size_t i = 0; i < nodes_.size(); ++i) FuseEqual(static_cast<int>(i));
     for (Node& node : nodes_) Neutralise(node);
     for (std::size_t i = 0; i < nodes_.size(); ++i) FuseEqual(static_cast<int>(i));
-    // Regions queued by area; a region's place is renewed whenever it grows.
-    std::set<std::pair<double, int>> queue;
+    // Those too small or too narrow first, each by area; a region's place is renewed whenever it grows.
+    std::set<Place> queue;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      if (nodes_[i].alive && Reached(nodes_[i].label)) queue.insert({nodes_[i].area, static_cast<int>(i)});
+      if (nodes_[i].alive && Reached(nodes_[i].label)) Queue(static_cast<int>(i), queue);
     }
-    while (!queue.empty() && (queue.begin()->first < params_.min_area || reached_ > params_.max_regions)) {
-      const int small = queue.begin()->second;
+    while (!queue.empty() && (!std::get<0>(*queue.begin()) || reached_ > params_.max_regions)) {
+      const int small = std::get<2>(*queue.begin());
       queue.erase(queue.begin());
       const int into = BestNeighbour(small);
       if (into < 0) continue;
-      queue.erase({nodes_[static_cast<std::size_t>(into)].area, into});
+      queue.erase(PlaceOf(into));
       Join(into, small);
       FuseEqual(into, &queue);
-      queue.insert({nodes_[static_cast<std::size_t>(into)].area, into});
+      Queue(into, queue);
     }
     LumpIslands();
     LumpUnreachable();
@@ -104,6 +135,17 @@ class Merger {
   }
 
  private:
+  using Place = std::tuple<bool, double, int>;  // large enough, area, index
+  Place PlaceOf(int i) const {
+    const Node& node = nodes_[static_cast<std::size_t>(i)];
+    return {node.large, node.area, i};
+  }
+  void Queue(int i, std::set<Place>& queue) {
+    Node& node = nodes_[static_cast<std::size_t>(i)];
+    node.large = node.area >= params_.min_area && node.Width() >= params_.min_width;
+    queue.insert(PlaceOf(i));
+  }
+
   int Root(int i) {
     while (parent_[static_cast<std::size_t>(i)] != i) i = parent_[static_cast<std::size_t>(i)];
     return i;
@@ -164,9 +206,14 @@ class Merger {
   void Join(int into, int gone) {
     Node& a = nodes_[static_cast<std::size_t>(into)];
     Node& b = nodes_[static_cast<std::size_t>(gone)];
-    if (b.area > a.area) a.label = b.label;
+    if (b.area > a.area) {
+      a.label = b.label;
+      a.summit = b.summit;
+      a.pit = b.pit;
+    }
     a.area += b.area;
     a.curvature += b.curvature;
+    a.open_border += b.open_border;
     for (const auto& [other, length] : b.border) {
       Node& o = nodes_[static_cast<std::size_t>(other)];
       o.border.erase(gone);
@@ -181,13 +228,13 @@ class Merger {
     parent_[static_cast<std::size_t>(gone)] = into;
   }
 
-  void FuseEqual(int i, std::set<std::pair<double, int>>* queue = nullptr) {
+  void FuseEqual(int i, std::set<Place>* queue = nullptr) {
     if (!nodes_[static_cast<std::size_t>(i)].alive) return;
     for (bool again = true; again;) {
       again = false;
       for (const auto& [other, length] : nodes_[static_cast<std::size_t>(i)].border) {
-        if (nodes_[static_cast<std::size_t>(other)].label == nodes_[static_cast<std::size_t>(i)].label) {
-          if (queue != nullptr) queue->erase({nodes_[static_cast<std::size_t>(other)].area, other});
+        if (nodes_[static_cast<std::size_t>(other)].Like(nodes_[static_cast<std::size_t>(i)])) {
+          if (queue != nullptr) queue->erase(PlaceOf(other));
           Join(i, other);
           again = true;
           break;

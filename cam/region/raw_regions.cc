@@ -15,28 +15,44 @@ int RawOf(const RawRegions& raw, int piece, int triangle) {
   return raw.of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
 }
 
-void Connect(const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency, RawRegions& raw) {
+void Connect(const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency,
+             const Watersheds& watersheds, RawRegions& raw) {
   std::vector<std::size_t> first{0};  // triangles of all pieces numbered through
   for (const SplitMesh& mesh : meshes) first.push_back(first.back() + mesh.triangles.size());
   const auto number = [&](int piece, int triangle) {
     return first[static_cast<std::size_t>(piece)] + static_cast<std::size_t>(triangle);
   };
-  UnionFind sets(first.back());
+  // Summits and pits divide what is reached.
+  const auto same = [](const std::vector<std::vector<int>>& top, const Adjacency& a) {
+    return top[static_cast<std::size_t>(a.side.piece)][static_cast<std::size_t>(a.side.triangle)] ==
+           top[static_cast<std::size_t>(a.other_piece)][static_cast<std::size_t>(a.other_triangle)];
+  };
+  UnionFind wholes(first.back()), parts(first.back());
   for (const Adjacency& a : adjacency) {
     if (a.other_piece < 0) continue;
-    const auto& own = Triangle(meshes, a.side.piece, a.side.triangle);
-    if (own.label == Triangle(meshes, a.other_piece, a.other_triangle).label)
-      sets.Join(number(a.side.piece, a.side.triangle), number(a.other_piece, a.other_triangle));
+    const SplitLabel& own = Triangle(meshes, a.side.piece, a.side.triangle).label;
+    if (!(own == Triangle(meshes, a.other_piece, a.other_triangle).label)) continue;
+    const std::size_t here = number(a.side.piece, a.side.triangle),
+                      there = number(a.other_piece, a.other_triangle);
+    wholes.Join(here, there);
+    if (own.reason != UnreachableReason::kNone || (same(watersheds.summit, a) && same(watersheds.pit, a)))
+      parts.Join(here, there);
   }
-  std::vector<int> index(first.back(), -1);
+  std::vector<int> index(first.back(), -1), whole(first.back(), -1);
   for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
     raw.of.emplace_back();
     for (const SplitTriangle& t : meshes[piece].triangles) {
-      const int triangle = static_cast<int>(raw.of.back().size());
-      int& region = index[sets.Find(number(static_cast<int>(piece), triangle))];
+      const std::size_t triangle = raw.of.back().size();
+      const std::size_t at = number(static_cast<int>(piece), static_cast<int>(triangle));
+      int& region = index[parts.Find(at)];
       if (region < 0) {
         region = static_cast<int>(raw.regions.size());
-        raw.regions.push_back({t.label});
+        int& of = whole[wholes.Find(at)];
+        if (of < 0) of = region;
+        raw.regions.push_back({.label = t.label,
+                               .whole = of,
+                               .summit = watersheds.summit[piece][triangle],
+                               .pit = watersheds.pit[piece][triangle]});
       }
       RawRegion& r = raw.regions[static_cast<std::size_t>(region)];
       r.area += t.area;
@@ -74,15 +90,18 @@ absl::Status AddLenses(const Surface& surface, const std::vector<SplitMesh>& mes
 
 absl::StatusOr<RawRegions> FindRawRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                           const std::vector<Adjacency>& adjacency,
-                                          std::span<const ZeroField> fields, double tolerance,
-                                          const RunContext& run) {
+                                          const Watersheds& watersheds, std::span<const ZeroField> fields,
+                                          double tolerance, const RunContext& run) {
   RawRegions raw;
-  Connect(meshes, adjacency, raw);
+  Connect(meshes, adjacency, watersheds, raw);
   PM_ASSIGN_OR_RETURN(raw.arcs, FindBorderArcs(surface, meshes, adjacency, raw.of, fields, tolerance, run));
   PM_RETURN_IF_ERROR(AddLenses(surface, meshes, adjacency, run, raw));
   for (const Adjacency& a : adjacency) {
-    if (a.other_piece < 0) continue;
     const int own = RawOf(raw, a.side.piece, a.side.triangle);
+    if (a.other_piece < 0) {
+      raw.regions[static_cast<std::size_t>(own)].open_border += a.length;
+      continue;
+    }
     const int other = RawOf(raw, a.other_piece, a.other_triangle);
     if (own != other) raw.contacts.push_back({own, other, 0.5 * a.length});
   }

@@ -12,6 +12,11 @@
 
 namespace patchmill {
 
+// Which summit and which pit every triangle belongs to: [piece][triangle].
+struct Watersheds {
+  std::vector<std::vector<int>> summit, pit;
+};
+
 struct RawRegions {
   std::vector<std::vector<int>> of;  // [piece][triangle]: its raw region, in order of their first triangles
   std::vector<RawRegion> regions;
@@ -19,11 +24,11 @@ struct RawRegions {
   BorderArcs arcs;                   // of their borders
 };
 
-// Areas include the lenses between chords and true curves, those refined to `tolerance` (mm). CANCELLED and
-// DEADLINE_EXCEEDED from `run`.
+// Ground of one label is divided where summits or pits change. Areas include the lenses between chords and
+// true curves, those refined to `tolerance` (mm). CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<RawRegions> FindRawRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                           const std::vector<Adjacency>& adjacency,
-                                          std::span<const ZeroField> fields, double tolerance,
-                                          const RunContext& run);
+                                          const Watersheds& watersheds, std::span<const ZeroField> fields,
+                                          double tolerance, const RunContext& run);
 
 }  // namespace patchmill

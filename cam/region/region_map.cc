@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
+#include "cam/region/catchments.h"
 #include "cam/region/describe_regions.h"
 #include "cam/region/merge_regions.h"
 #include "cam/region/raw_regions.h"
 #include "cam/region/region_border.h"
 #include "cam/region/region_labels.h"
+#include "cam/region/watershed_lines.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 
@@ -22,6 +25,10 @@ constexpr double kMinCurvature = 0.5;  // mm
 // A strip whose normal turns by twice this across it is not worth its borders (at middle detail).
 constexpr double kBorderTurn = 0.1;  // rad
 constexpr int kMostRegions = 40;     // reachable ones, at full detail
+
+// Summits and pits that stand out by less than this part of the ball's radius are no mountains and basins of
+// their own; nor by less than this part of a cell, which triangles may miss.
+constexpr double kPersistence = 0.1;
 
 // Shapes below this part of the ball's radius are too small for it to feel.
 constexpr double kMinCell = 0.06;
@@ -36,21 +43,77 @@ ZeroMeshParams MeshParams(const Surface& surface, const RegionParams& params, co
   return p;
 }
 
+constexpr double kCoarsest = 0.05;
+
+// How much coarser than at middle detail regions are: 0 for the raw split.
+double Coarseness(const RegionParams& params) {
+  const double detail = std::clamp(params.detail, kCoarsest, 1.0);
+  return (1.0 - detail) / detail;
+}
+
+// Reachable ones; not of the raw split.
+std::size_t MostRegions(const RegionParams& params) {
+  return std::max<std::size_t>(1,
+                               static_cast<std::size_t>(kMostRegions * std::max(params.detail, kCoarsest)));
+}
+
+// Divides the meshes along the watersheds of summits, then of pits, that persist. The raw split is not
+// divided.
+absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& params,
+                                  std::span<const ZeroField> fields, double max_cell, const RunContext& run,
+                                  std::vector<SplitMesh>& meshes, std::vector<Adjacency>& adjacency) {
+  const double persistence =
+      std::max({2.0 * params.tolerance, kPersistence * params.radius, kPersistence * max_cell}) *
+      std::max(1.0, Coarseness(params));
+  WatershedParams line;
+  line.tolerance = params.border_tolerance;
+  line.spacing = params.radius;
+  line.steep_angle = params.steep_angle;
+  line.fields = fields;
+  constexpr double kSigns[] = {1.0, -1.0};
+  HeightTops tops[2];
+  if (params.detail < 1.0) {
+    PM_ASSIGN_OR_RETURN(const HeightGraph graph, HeightGraph::Make(meshes, adjacency, run));
+    absl::StatusOr<HeightTops> heights[2];
+    PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
+      heights[k] = graph.Find(kSigns[k], persistence, MostRegions(params), run);
+    }));
+    bool cut = false;
+    for (std::size_t k = 0; k < 2; ++k) {
+      line.sign = kSigns[k];
+      PM_ASSIGN_OR_RETURN(tops[k], std::move(heights[k]));
+      PM_ASSIGN_OR_RETURN(const bool more, CutWatersheds(surface, tops[k].passes, line, run, meshes));
+      cut = cut || more;
+    }
+    if (cut) {
+      PM_ASSIGN_OR_RETURN(adjacency, FindAdjacency(surface, meshes, run));
+    }
+  }
+  absl::StatusOr<std::vector<std::vector<int>>> found[2];
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
+    found[k] = Catchments(meshes, adjacency, tops[k].tops, kSigns[k], run);
+  }));
+  Watersheds watersheds;
+  PM_ASSIGN_OR_RETURN(watersheds.summit, std::move(found[0]));
+  PM_ASSIGN_OR_RETURN(watersheds.pit, std::move(found[1]));
+  return watersheds;
+}
+
 MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
-  constexpr double kCoarsest = 0.05;
   MergeParams p;
   if (params.detail >= 1.0) {
-    p.border_turn = p.border_slope = p.flat = p.min_area = p.min_curvature = 0.0;
+    p.border_turn = p.border_slope = p.flat = p.min_area = p.min_width = p.min_curvature = 0.0;
     p.max_regions = std::numeric_limits<int>::max();
   } else {
-    const double detail = std::max(params.detail, kCoarsest), coarse = (1.0 - detail) / detail;
+    const double coarse = Coarseness(params);
     p.border_turn = kBorderTurn * coarse;
     p.border_slope = p.border_turn * params.radius;
     p.flat = 8.0 * params.tolerance / (4.0 * params.radius * params.radius);
     p.flat_cost = 0.5 * kBorderTurn / params.radius;
     p.min_area = 2.0 * kPi * params.radius * params.radius * coarse;
+    p.min_width = params.radius * coarse;
     p.min_curvature = kMinCurvature;
-    p.max_regions = std::max(1, static_cast<int>(kMostRegions * detail));
+    p.max_regions = static_cast<int>(MostRegions(params));
   }
   return MergeRegions(raw.regions, raw.contacts, p);
 }
@@ -172,9 +235,11 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions", meshes.size(), [&](std::size_t i) {
     meshes[i] = BuildSplitMesh(surface.pieces[i], fields, params.steep_angle, mesh_params);
   }));
-  PM_ASSIGN_OR_RETURN(const std::vector<Adjacency> adjacency, FindAdjacency(surface, meshes, run));
-  PM_ASSIGN_OR_RETURN(const RawRegions raw,
-                      FindRawRegions(surface, meshes, adjacency, fields, params.border_tolerance, run));
+  PM_ASSIGN_OR_RETURN(std::vector<Adjacency> adjacency, FindAdjacency(surface, meshes, run));
+  PM_ASSIGN_OR_RETURN(const Watersheds watersheds,
+                      Divide(surface, params, fields, mesh_params.max_cell, run, meshes, adjacency));
+  PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(surface, meshes, adjacency, watersheds, fields,
+                                                           params.border_tolerance, run));
   Numbered numbered = Number(raw, Merge(raw, params));
   PM_RETURN_IF_ERROR(
       DescribeRegions(surface, meshes, numbered.region_of, reach, params, run, numbered.regions));

@@ -66,6 +66,25 @@ class VertexNormals {
   std::vector<bool> known_;
 };
 
+void Measure(const Piece& piece, const std::array<Vec2, 3>& q, const std::array<const Normal*, 3>& normal,
+             double steep_angle, SplitTriangle& triangle) {
+  triangle.area = triangle.curvature = triangle.steepness = 0.0;
+  Integrate(q, normal, [&](const Vec2& at, double weight) {
+    const SurfaceJet jet = Evaluate(piece, at.x(), at.y());
+    const double element = weight * jet.du.cross(jet.dv).norm();
+    triangle.area += element;
+    if (triangle.label.reason != UnreachableReason::kNone) return;
+    const auto unit = UnitNormal(jet);
+    if (!unit) return;
+    const double slope = std::atan2(std::hypot(unit->x(), unit->y()), std::abs(unit->z()));
+    triangle.steepness += element * (slope - steep_angle);
+    const double bend = triangle.turn * ContourCurvature(jet, Forms(jet, *unit));
+    if (std::isfinite(bend)) triangle.curvature += element * bend;  // none at a summit or a pit
+  });
+}
+
+Vec2 PlaceOf(const ZeroVertex& vertex) { return {vertex.u, vertex.v}; }
+
 }  // namespace
 
 double SurfaceArea(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -78,6 +97,17 @@ double SurfaceArea(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2&
   return area;
 }
 
+void MeasureTriangle(const Piece& piece, const std::vector<ZeroVertex>& vertices, double steep_angle,
+                     SplitTriangle& triangle) {
+  std::array<Vec2, 3> q;
+  std::array<Normal, 3> normal;
+  for (std::size_t k = 0; k < 3; ++k) {
+    q[k] = PlaceOf(vertices[static_cast<std::size_t>(triangle.vertex[k])]);
+    normal[k] = NormalAt(piece, q[k]);
+  }
+  Measure(piece, q, {&normal[0], &normal[1], &normal[2]}, steep_angle, triangle);
+}
+
 SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, double steep_angle,
                          const ZeroMeshParams& params) {
   ZeroMesh zero = BuildZeroMesh(piece, fields, params);
@@ -87,27 +117,14 @@ SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, 
   VertexNormals normals(piece, mesh.vertices);
   for (const ZeroTriangle& t : zero.triangles) {
     if (params.run != nullptr && params.run->Cancelled()) break;
-    SplitTriangle triangle{t.vertex, LabelOf(t)};
+    SplitTriangle triangle{t.vertex, LabelOf(t), t.sign[static_cast<std::size_t>(Field::kTurn)]};
     std::array<Vec2, 3> q;
     std::array<const Normal*, 3> normal{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(t.vertex[k])];
-      q[k] = {vertex.u, vertex.v};
+      q[k] = PlaceOf(mesh.vertices[static_cast<std::size_t>(t.vertex[k])]);
       normal[k] = &normals.At(t.vertex[k]);
     }
-    const int turn = t.sign[static_cast<std::size_t>(Field::kTurn)];
-    Integrate(q, normal, [&](const Vec2& at, double weight) {
-      const SurfaceJet jet = Evaluate(piece, at.x(), at.y());
-      const double element = weight * jet.du.cross(jet.dv).norm();
-      triangle.area += element;
-      if (triangle.label.reason != UnreachableReason::kNone) return;
-      const auto unit = UnitNormal(jet);
-      if (!unit) return;
-      const double slope = std::atan2(std::hypot(unit->x(), unit->y()), std::abs(unit->z()));
-      triangle.steepness += element * (slope - steep_angle);
-      const double bend = turn * ContourCurvature(jet, Forms(jet, *unit));
-      if (std::isfinite(bend)) triangle.curvature += element * bend;  // none at a summit or a pit
-    });
+    Measure(piece, q, normal, steep_angle, triangle);
     mesh.triangles.push_back(triangle);
   }
   return mesh;

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cam/region/region_fields.h"
@@ -12,7 +15,8 @@ namespace patchmill {
 struct SplitTriangle {
   std::array<int, 3> vertex{};  // counter-clockwise in (u,v)
   SplitLabel label;
-  double area = 0.0;  // mm^2 on the surface, of the triangle with straight sides in (u,v)
+  std::int8_t turn = 0;  // > 0 where the normal of the parametrisation looks up, < 0 where it looks down
+  double area = 0.0;     // mm^2 on the surface, of the triangle with straight sides in (u,v)
   // Of what is reached; else 0.
   double curvature = 0.0;  // integral of kappa_c (upward normal) over it, mm
   double steepness = 0.0;  // integral of slope - steep angle over it, rad mm^2
@@ -21,12 +25,22 @@ struct SplitTriangle {
 struct SplitMesh {
   std::vector<ZeroVertex> vertices;
   std::vector<SplitTriangle> triangles;
+  // Sides along watersheds (watershed_lines.h), by their vertices, the lower number first.
+  struct Line {
+    std::vector<Vec2> places = {};       // on the true line between the two, from the first to the second
+    bool summits = false, pits = false;  // what it divides
+  };
+  std::map<std::pair<int, int>, Line> lines;
 };
 
 // `fields` as RegionFields gives them. `steep_angle` in rad. Areas by a rule of degree 5 on triangles
 // whose normals turn by less than 0.35 rad: about 1e-8 of them.
 SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, double steep_angle,
                          const ZeroMeshParams& params);
+
+// Area, curvature and steepness of a triangle of these vertices, as BuildSplitMesh has them.
+void MeasureTriangle(const Piece& piece, const std::vector<ZeroVertex>& vertices, double steep_angle,
+                     SplitTriangle& triangle);
 
 // Area on the surface (mm^2) over a triangle of parameters, positive when counter-clockwise.
 double SurfaceArea(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2& c);

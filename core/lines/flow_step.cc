@@ -143,16 +143,28 @@ std::optional<FlowPlace> CrossBorder(const Surface& surface, const FlowParams& p
                                      double sign) {
   // What lies a little beyond the border, if anything does.
   const double beyond = std::max(1e-3 * params.spacing, 2.0 * surface.network.join_tolerance);
-  const auto next = ClosestToPoint(surface, from.at.p + beyond * from.tangent, 0.1 * beyond, 0.01 * beyond);
-  if (!next) return std::nullopt;
-  const auto place = PlaceOn(surface, params, next->at.piece, next->at.u, next->at.v, sign);
-  if (!place || place->tangent.dot(from.tangent) <= 0.0) return std::nullopt;
-  // On a border again, and leaving there: the surface ends here, at a slant.
-  const Vec2 q(next->at.u, next->at.v), to = Velocity(surface, params, next->at.piece, q, sign);
-  for (int k = 0; k < 2; ++k) {
-    if ((q[k] <= kOnBorder && to[k] < 0.0) || (q[k] >= 1.0 - kOnBorder && to[k] > 0.0)) return std::nullopt;
-  }
-  return place;
+  const auto enter = [&](const Vec3& p) -> std::optional<FlowPlace> {
+    const auto next = ClosestToPoint(surface, p, 0.1 * beyond, 0.01 * beyond);
+    if (!next) return std::nullopt;
+    const auto place = PlaceOn(surface, params, next->at.piece, next->at.u, next->at.v, sign);
+    if (!place || place->tangent.dot(from.tangent) <= 0.0) return std::nullopt;
+    // On a border again, and leaving there: the surface ends here, at a slant.
+    const Vec2 q(next->at.u, next->at.v), to = Velocity(surface, params, next->at.piece, q, sign);
+    for (int k = 0; k < 2; ++k) {
+      if ((q[k] <= kOnBorder && to[k] < 0.0) || (q[k] >= 1.0 - kOnBorder && to[k] > 0.0)) return std::nullopt;
+    }
+    return place;
+  };
+  const Vec3 ahead = from.at.p + beyond * from.tangent;
+  if (const auto place = enter(ahead)) return place;
+  // Or a flow along the seam, that leaves it by rounding: on its other side.
+  const SurfaceJet jet = Evaluate(surface, from.at.piece, from.at.u, from.at.v);
+  Vec3 out = Vec3::Zero();
+  if (from.at.u <= kOnBorder || from.at.u >= 1.0 - kOnBorder) out += (from.at.u < 0.5 ? -jet.du : jet.du);
+  if (from.at.v <= kOnBorder || from.at.v >= 1.0 - kOnBorder) out += (from.at.v < 0.5 ? -jet.dv : jet.dv);
+  out -= out.dot(from.tangent) * from.tangent;
+  if (!(out.norm() > 0.0)) return std::nullopt;
+  return enter(ahead + 0.1 * beyond * out.normalized());
 }
 
 }  // namespace patchmill

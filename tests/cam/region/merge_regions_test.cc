@@ -64,7 +64,7 @@ const std::vector<RawContact> kAlongTheStrip = {{0, 1, 100}, {1, 2, 100}};
 
 TEST(MergeRegions, StripsGoWithTheirSidesUntilTheyTurnEnough) {
   MergeParams params;
-  params.min_area = 0;
+  params.min_area = params.min_width = 0;
   // A strip gives up 2 turn a mm when it changes sides, and saves two borders.
   for (const double turn : {0.05, 0.19}) {
     const MergedRegions merged = MergeRegions(WithStrip(10, turn), kAlongTheStrip, params);
@@ -88,6 +88,77 @@ TEST(MergeRegions, SmallRegionsJoinTheNeighbourWithTheLongestBorder) {
       MergeRegions(raw, std::vector<RawContact>{{0, 1, 3}, {1, 2, 5}, {0, 2, 40}}, params);
   EXPECT_EQ(merged.group[1], merged.group[2]);
   EXPECT_NE(merged.group[1], merged.group[0]);
+}
+
+TEST(MergeRegions, NarrowRegionsJoinANeighbourHoweverLarge) {
+  // A strip 300 mm long between two halves, open at its ends: 2 areas over its border is nearly its width.
+  MergeParams params;
+  params.border_turn = params.border_slope = params.min_area = 0;
+  params.min_width = 3.0;
+  SplitLabel mountain, basin;
+  mountain.curvature = -1;
+  basin.curvature = 1;
+  for (const double width : {2.9, 3.2}) {
+    const std::vector<RawRegion> raw = {
+        {mountain, 9000, -900, -3000},
+        {.label = basin, .area = 300 * width, .curvature = 300, .open_border = 2 * width},
+        {mountain, 9000, -900, -3000}};
+    const std::vector<RawContact> contacts = {{0, 1, 300}, {1, 2, 300}};
+    EXPECT_EQ(MergeRegions(raw, contacts, params).label.size(), width < 3.0 ? 1u : 3u) << width;
+  }
+}
+
+TEST(MergeRegions, MountainsOfDifferentSummitsKeepApartAndBasinsOfDifferentPits) {
+  MergeParams params;
+  params.min_area = params.min_width = 0;
+  SplitLabel mountain, basin;
+  mountain.curvature = -1;
+  basin.curvature = 1;
+  // A mountain and a basin, each in four parts of two summits and two pits.
+  std::vector<RawRegion> raw;
+  std::vector<RawContact> contacts;
+  for (int k = 0; k < 8; ++k) {
+    const bool up = k < 4;
+    raw.push_back({.label = up ? mountain : basin,
+                   .area = 500,
+                   .curvature = up ? -60.0 : 60.0,
+                   .whole = up ? 0 : 4,
+                   .summit = k % 2,
+                   .pit = k / 2 % 2});
+    if (k % 4 > 0) contacts.push_back({k - 1, k, 10});
+  }
+  contacts.push_back({3, 0, 10});  // rings
+  contacts.push_back({7, 4, 10});
+  contacts.push_back({0, 2, 10});
+  contacts.push_back({1, 3, 10});
+  contacts.push_back({4, 6, 10});
+  contacts.push_back({5, 7, 10});
+  contacts.push_back({0, 4, 30});
+  const MergedRegions merged = MergeRegions(raw, contacts, params);
+  EXPECT_EQ(merged.label.size(), 4u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t j = 0; j < 8; ++j) {
+      const bool one = i / 4 == j / 4 && (i < 4 ? raw[i].summit == raw[j].summit : raw[i].pit == raw[j].pit);
+      EXPECT_EQ(merged.group[i] == merged.group[j], one) << i << " " << j;
+    }
+  }
+}
+
+TEST(MergeRegions, PartsOfOneWholeGetOneLabel) {
+  // Part 1 alone would go with the basin around it: it bends too little for its border. The whole does not.
+  MergeParams params;
+  params.min_area = params.min_width = 0;
+  SplitLabel mountain, basin;
+  mountain.curvature = -1;
+  basin.curvature = 1;
+  const std::vector<RawRegion> raw = {
+      {.label = mountain, .area = 900, .curvature = -90, .whole = 0, .summit = 0},
+      {.label = mountain, .area = 900, .curvature = -2, .whole = 0, .summit = 1},
+      {.label = basin, .area = 900, .curvature = 90}};
+  const std::vector<RawContact> contacts = {{0, 1, 5}, {1, 2, 60}, {0, 2, 60}};
+  const MergedRegions merged = MergeRegions(raw, contacts, params);
+  EXPECT_EQ(merged.label.size(), 3u);
+  EXPECT_EQ(merged.label[static_cast<std::size_t>(merged.group[1])].curvature, -1);
 }
 
 TEST(MergeRegions, NoMoreThanAskedForAndTheLargestStay) {
