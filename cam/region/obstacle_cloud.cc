@@ -24,7 +24,7 @@ double LengthAlong(const Piece& piece, bool u) {
 
 }  // namespace
 
-ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing) {
+ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunContext& run) {
   std::vector<Vec2> sides;
   double area = 0.0;
   for (const Piece& piece : surface.pieces) {
@@ -38,7 +38,7 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing) {
       return std::clamp(static_cast<int>(std::ceil(side / spacing)), 1, kMostCells);
     };
     const int nu = steps(sides[k].x()), nv = steps(sides[k].y());
-    for (int i = 0; i < nu; ++i) {
+    for (int i = 0; i < nu && !run.Cancelled(); ++i) {
       for (int j = 0; j < nv; ++j)
         points.push_back(Position(surface.pieces[k], (i + 0.5) / nu, (j + 0.5) / nv));
     }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
@@ -11,8 +12,8 @@ namespace patchmill {
 class ObstacleCloud {
  public:
   // Points about `spacing` (mm, > 0) apart on every piece; wider apart where a million would not do. Cost:
-  // some 0.1 us a point.
-  ObstacleCloud(const Surface& surface, double spacing);
+  // some 0.1 us a point. Cut short when `run` is cancelled.
+  ObstacleCloud(const Surface& surface, double spacing, const RunContext& run);
 
   // A point of the cloud nearer than `radius` to the upward vertical ray at c. Nothing proves nothing. Cost:
   // 1 ns a point of the disc of this radius.

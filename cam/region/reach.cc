@@ -1,7 +1,6 @@
 #include "cam/region/reach.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "core/diffgeo/forms.h"
 #include "core/surface/box_distance.h"
 #include "core/surface/closest.h"
+#include "core/surface/node_walk.h"
 
 namespace patchmill {
 
@@ -25,8 +25,8 @@ constexpr double kCloud = 0.15;   // of the radius: spacing of the points tried 
 
 }  // namespace
 
-ReachTest::ReachTest(const Locator& free_ball, const RegionParams& params)
-    : free_ball_(free_ball), params_(params), cloud_(free_ball.surface(), kCloud * params.radius) {}
+ReachTest::ReachTest(const Locator& free_ball, const RegionParams& params, const RunContext& run)
+    : free_ball_(free_ball), params_(params), cloud_(free_ball.surface(), kCloud * params.radius, run) {}
 
 bool ReachTest::Free(const Vec3& p, const Vec3& normal) const {
   const auto free = [&](const Vec3& center) {
@@ -89,20 +89,15 @@ namespace {
 
 // False proves that nothing higher than c lies within `radius` of it in plan.
 bool MayBeAbove(const Surface& surface, const Vec3& c, double radius) {
-  std::array<std::int32_t, 256> open;  // as in core/surface/closest
-  std::size_t size = 0;
-  if (!surface.nodes.empty()) open[size++] = 0;
-  while (size > 0) {
-    const std::int32_t index = open[--size];
-    const SurfaceNode& node = surface.nodes[static_cast<std::size_t>(index)];
-    if (node.box.max.z() <= c.z() || SquaredDistance<Reach::kUpwardRay>(node.box, c) >= radius * radius)
-      continue;
-    if (node.leaf >= 0) return true;
-    PM_CHECK(size + 2 <= open.size());
-    open[size++] = node.right;
-    open[size++] = index + 1;
-  }
-  return false;
+  bool above = false;
+  WalkNearestFirst(
+      surface.nodes,
+      [&](const SurfaceNode& node) {
+        return node.box.max.z() <= c.z() ? kInfinity : SquaredDistance<Reach::kUpwardRay>(node.box, c);
+      },
+      [&](double squared) { return squared >= radius * radius; },
+      [&](const SurfaceNode&) { return above = true; });
+  return above;
 }
 
 }  // namespace

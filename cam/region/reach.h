@@ -12,8 +12,9 @@ namespace patchmill {
 
 class ReachTest {
  public:
-  // `free_ball`: locator of radius params.radius - params.tolerance.
-  ReachTest(const Locator& free_ball, const RegionParams& params);
+  // `free_ball`: locator of radius params.radius - params.tolerance. Of a cancelled `run` its answers mean
+  // nothing.
+  ReachTest(const Locator& free_ball, const RegionParams& params, const RunContext& run);
 
   // The ball that touches p, where the upward normal is `normal`, is free; the floor does not count. On a
   // vertical face either side will do.

@@ -228,7 +228,8 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_ASSIGN_OR_RETURN(
       const Locator free_ball,
       Locator::Make(surface, std::max(params.radius - params.tolerance, 0.5 * params.radius), run));
-  const ReachTest reach(free_ball, params);
+  const ReachTest reach(free_ball, params, run);
+  PM_RETURN_IF_ERROR(run.Check());
   const std::vector<ZeroField> fields = RegionFields(reach, params);
   const ZeroMeshParams mesh_params = MeshParams(surface, params, run);
   std::vector<SplitMesh> meshes(surface.pieces.size());

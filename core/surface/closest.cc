@@ -8,6 +8,7 @@
 #include "core/surface/box_distance.h"
 #include "core/surface/distance_form.h"
 #include "core/surface/net_kernel.h"
+#include "core/surface/node_walk.h"
 
 namespace patchmill {
 namespace {
@@ -38,30 +39,13 @@ class Search {
 
   std::optional<ClosestPoint> Run() {
     if (!c_.allFinite() || surface_.nodes.empty()) return std::nullopt;
-    struct Open {
-      double squared;
-      std::int32_t node;
-    };
-    std::array<Open, 256> stack;  // BuildLeafTree: depth < 30 + log2(leaves)
-    std::size_t size = 0;
-    stack[size++] = {SquaredDistance<kReach>(surface_.nodes.front().box, c_), 0};
-    while (size > 0) {
-      const Open open = stack[--size];
-      if (Done()) break;
-      if (Excluded(open.squared)) continue;
-      const SurfaceNode& node = surface_.nodes[static_cast<std::size_t>(open.node)];
-      if (node.leaf >= 0) {
-        VisitLeaf(surface_.leaves[static_cast<std::size_t>(node.leaf)], node.box);
-        continue;
-      }
-      Open left{0.0, open.node + 1}, right{0.0, node.right};
-      left.squared = SquaredDistance<kReach>(surface_.nodes[static_cast<std::size_t>(left.node)].box, c_);
-      right.squared = SquaredDistance<kReach>(surface_.nodes[static_cast<std::size_t>(right.node)].box, c_);
-      if (left.squared < right.squared) std::swap(left, right);  // the nearer one on top
-      PM_CHECK(size + 2 <= stack.size());
-      if (!Excluded(left.squared)) stack[size++] = left;
-      if (!Excluded(right.squared)) stack[size++] = right;
-    }
+    WalkNearestFirst(
+        surface_.nodes, [&](const SurfaceNode& node) { return SquaredDistance<kReach>(node.box, c_); },
+        [&](double squared) { return Excluded(squared); },
+        [&](const SurfaceNode& node) {
+          VisitLeaf(surface_.leaves[static_cast<std::size_t>(node.leaf)], node.box);
+          return Done();
+        });
     return best_;
   }
 

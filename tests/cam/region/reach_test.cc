@@ -25,11 +25,20 @@ Surface Folded(std::uint64_t seed) {
   return SurfaceOf(RandomBspline(seed, part));
 }
 
+TEST(ObstacleCloud, OfACancelledRunIsCutShort) {
+  const Surface surface = SurfaceOf(Plane(20));
+  const Vec3 low(0, 0, -1);
+  RunContext run;
+  EXPECT_TRUE(ObstacleCloud(surface, 0.4, run).InTheWay(low, 2.0));
+  run.Cancel();
+  EXPECT_FALSE(ObstacleCloud(surface, 0.4, run).InTheWay(low, 2.0));
+}
+
 TEST(ObstacleCloud, ItsPointsAreOfTheSurfaceAndInTheWay) {
   int found = 0;
   for (const std::uint64_t seed : {1u, 2u}) {
     const Surface surface = Folded(seed);
-    const ObstacleCloud cloud(surface, 0.4);
+    const ObstacleCloud cloud(surface, 0.4, RunContext());
     Random random(seed);
     for (int i = 0; i < 300; ++i) {
       const Vec3 c = random.Point(-4, 24) - Vec3(0, 0, 10);
@@ -57,7 +66,7 @@ TEST(ReachTest, AgreesWithTheDefinition) {
     params.radius = 1.5;
     const double free_radius = params.radius - params.tolerance;
     const Locator free_ball(surface, free_radius);
-    const ReachTest reach(free_ball, params);
+    const ReachTest reach(free_ball, params, RunContext());
     Random random(seed);
     std::vector<SurfaceJet> jets;
     for (int i = 0; i < 400; ++i) {
@@ -99,7 +108,7 @@ TEST(ReachLimits, AreThoseOfAHemisphereOnAPlane) {
   params.radius = radius;
   params.tolerance = tolerance;
   const Locator free_ball(surface, radius - tolerance);
-  const ReachTest reach(free_ball, params);
+  const ReachTest reach(free_ball, params, RunContext());
   // On the plane, outwards from the rim in all directions: free from this circle on.
   const double reached = r + radius - tolerance, limit = std::sqrt(reached * reached - radius * radius);
   std::vector<ZeroSegment> segments;
