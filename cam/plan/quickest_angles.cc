@@ -8,7 +8,7 @@
 namespace patchmill {
 namespace {
 
-constexpr int kAngles = 6;
+constexpr int kAngles = kQuickestAnglePlans - 1;  // and the mixture
 
 double AngleOf(int k) { return k * kPi / kAngles; }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cam/plan/quickest_angles.h"
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
 #include "server/call.h"
@@ -31,8 +32,10 @@ absl::Status CheckPathSize(const Job& job, const PatchModel& model) {
   const double step = 2.0 * std::sqrt(h * (2.0 * radius - h));
   const double once = (size.x() * size.y() + 2.0 * (size.x() + size.y()) * size.z()) / step;
   const double length = static_cast<double>(scallops.size()) * once;
-  if (!(length <= limits::kMaxCutLengthMm)) {
-    return LimitError("estimated_cut_length_mm", limits::kMaxCutLengthMm, length);
+  // What is planned is work, what is kept of it is one plan.
+  const double planned = job.operation.angle_auto ? kQuickestAnglePlans * length : length;
+  if (!(planned <= limits::kMaxCutLengthMm)) {
+    return LimitError("estimated_cut_length_mm", limits::kMaxCutLengthMm, planned);
   }
   const double sagitta = SplitBudget(job.operation.tolerance).chord;
   const double points = length / (2.0 * std::sqrt(sagitta * (2.0 * radius - sagitta)));

@@ -320,6 +320,23 @@ TEST_F(GenerateProgram, ScallopsOfRegionsAreCountedToo) {
               RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
 }
 
+// An angle to be chosen is seven plans.
+TEST_F(GenerateProgram, PlansForAnAngleAreCountedToo) {
+  const auto refused = [&](double size, bool chosen) {
+    v1::GenerateProgramRequest request = BumpRequest(size);
+    request.set_validate_only(true);
+    request.mutable_job()->mutable_operations(0)->set_zigzag_angle_auto(chosen);
+    const grpc::Status status = embedded_.Generate(request).status;
+    if (status.ok()) return false;
+    EXPECT_THAT(status, RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
+    return true;
+  };
+  double size = 100.0;  // mm: the first that one plan is refused for, to 2 %
+  while (!refused(size, false)) size *= 1.02;
+  EXPECT_FALSE(refused(0.95 * size / std::sqrt(7.0), true));
+  EXPECT_TRUE(refused(1.05 * size / std::sqrt(7.0), true));
+}
+
 // Neither hides behind a small plan: a wall has no plan, and small steps make many points.
 TEST_F(GenerateProgram, WallsAndPointsAreCountedToo) {
   v1::GenerateProgramRequest wall = BumpRequest(90'000.0);
