@@ -1,4 +1,5 @@
 // Every long computation stops within 0.2 s of being told to, wherever it stands.
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -27,6 +28,15 @@ namespace {
 
 using testing::PlacedSurface;
 using testing::SurfaceOf;
+
+// Sanitizers make everything ten times slower: smaller parts then, no other code.
+int Size(int full, int sanitized) { return testing::kSanitized ? sanitized : full; }
+
+// A random part of that many spans each way; sanitized, a third of them.
+PatchModel RandomPart(std::uint64_t seed, int spans, double size) {
+  const int used = Size(spans, std::max(3, spans / 3));
+  return testing::RandomBspline(seed, {.spans = used, .size = size * used / spans});
+}
 
 // Done alone, it tells twice a second how far it is; told to stop at any of `count` moments, it does. Times
 // are processor time.
@@ -79,46 +89,49 @@ PatchModel Waves(int side) {
 // Five metres long, four millimetres wide: lines of ten thousand samples.
 PatchModel LongPart() {
   return testing::Single(testing::InterpolatedHeights(
-      [](double x, double y) { return 3.0 * std::sin(0.31 * x) * std::cos(0.2 * y); }, 0.0, 5000.0, 0.0, 4.0,
-      1000, 3));
+      [](double x, double y) { return 3.0 * std::sin(0.31 * x) * std::cos(0.2 * y); }, 0.0, Size(5000, 500),
+      0.0, 4.0, Size(1000, 100), 3));
 }
 
+PatchModel BumpyPart() { return testing::kSanitized ? RandomPart(7, 18, 40.0) : testing::Bumpy(); }
+
 TEST(Cancel, Adjacency) {
-  const PatchModel model = Waves(200);
+  const PatchModel model = Waves(Size(200, 60));
   ExpectStops([&](const RunContext& run) { return BuildNetwork(model, run).status(); });
 }
 
 // Each row half a patch beside the last: T-junctions everywhere.
 TEST(Cancel, AdjacencyOfPatchesThatDoNotMeet) {
-  PatchModel model = Waves(100);
+  const int side = Size(100, 40);
+  PatchModel model = Waves(side);
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
     for (Vec3& p : std::get<BezierPatch>(model.patches[i].shape).points) {
-      p.y() += static_cast<double>((i / 100) % 2);
+      p.y() += static_cast<double>((i / static_cast<std::size_t>(side)) % 2);
     }
   }
   ExpectStops([&](const RunContext& run) { return BuildNetwork(model, run).status(); });
 }
 
 TEST(Cancel, PlacedModels) {
-  const PatchModel model = Waves(150);
+  const PatchModel model = Waves(Size(150, 40));
   ExpectStops([&](const RunContext& run) { return BuildPlacedSurface(model, {}, run).status(); });
 }
 
 TEST(Cancel, Surface) {
   PatchNetwork network;
-  network.model = testing::Bumpy();
+  network.model = BumpyPart();
   ExpectStops(
       [&](const RunContext& run) { return BuildSurface(network, {.leaf_thickness = 1e-3}, run).status(); });
 }
 
 TEST(Cancel, ManyPatches) {
   PatchNetwork network;
-  network.model = Waves(300);
+  network.model = Waves(Size(300, 80));
   ExpectStops([&](const RunContext& run) { return BuildSurface(network, {}, run).status(); });
 }
 
 TEST(Cancel, Locator) {
-  const Surface surface = SurfaceOf(testing::Bumpy());
+  const Surface surface = SurfaceOf(BumpyPart());
   ExpectStops([&](const RunContext& run) { return Locator::Make(surface, 0.6, run).status(); });
 }
 
@@ -132,7 +145,7 @@ TEST(Cancel, Zigzag) {
 }
 
 TEST(Cancel, Contours) {
-  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 12, .size = 50.0}));
+  const Surface surface = PlacedSurface(RandomPart(7, 12, 50.0));
   const Locator locator(surface, 2.0);
   ContourParams params;
   params.scallop = 0.1;
@@ -141,7 +154,7 @@ TEST(Cancel, Contours) {
 }
 
 TEST(Cancel, RestPasses) {
-  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 8, .size = 40.0}));
+  const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
   const Locator locator(surface, 2.0);
   CoverageParams params;
   params.scallop = 0.05;
@@ -150,19 +163,19 @@ TEST(Cancel, RestPasses) {
 }
 
 TEST(Cancel, Regions) {
-  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 25, .size = 60.0}));
+  const Surface surface = PlacedSurface(RandomPart(7, 25, 60.0));
   ExpectStops([&](const RunContext& run) { return SplitRegions(surface, {}, run).status(); });
 }
 
 TEST(Cancel, ReachOfManyBalls) {
-  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 8, .size = 40.0}));
+  const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
   ExpectStops([&](const RunContext& run) {
     return ReachTable(surface, {.radii = {0.5, 1.0, 2.0, 3.0, 5.0}}, run).status();
   });
 }
 
 TEST(Cancel, Jobs) {
-  const Surface surface = PlacedSurface(testing::RandomBspline(5, {.spans = 8, .size = 40}));
+  const Surface surface = PlacedSurface(RandomPart(5, 8, 40.0));
   Job job = testing::BallJob(2.0);
   job.operation.scallop = 0.02;
   ExpectStops([&](const RunContext& run) { return RunJob(surface, job, run).status(); }, 12);
@@ -170,7 +183,8 @@ TEST(Cancel, Jobs) {
 
 // One patch is the whole part: nothing to go round, everything inside.
 TEST(Cancel, OnePatch) {
-  const PatchModel hull = testing::Single(testing::RandomBezier(3, 15, 15, true, 100.0));
+  const PatchModel hull =
+      testing::Single(testing::RandomBezier(3, Size(15, 7), Size(15, 7), true, Size(100, 20)));
   PatchNetwork network;
   network.model = hull;
   ExpectStops(
@@ -201,7 +215,7 @@ TEST(Cancel, OneLeaf) {
 }
 
 TEST(Cancel, Lines) {
-  const Surface surface = SurfaceOf(testing::Bumpy());
+  const Surface surface = SurfaceOf(BumpyPart());
   const ZeroField field = FieldOf(ContourInflectionLines(), 0.0);
   ExpectStops([&](const RunContext& run) {
     return TraceZeroCurves(surface, field, ZeroMeshParams(), 1e-3, run).status();
@@ -209,7 +223,7 @@ TEST(Cancel, Lines) {
 }
 
 TEST(Cancel, FlowLines) {
-  const Surface surface = PlacedSurface(testing::RandomBspline(7, {.spans = 8, .size = 40.0}));
+  const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
   ExpectStops([&](const RunContext& run) { return TraceFlowLines(surface, {.spacing = 0.5}, run).status(); });
 }
 
