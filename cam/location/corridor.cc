@@ -54,7 +54,7 @@ void Halve(NetShape shape, const Vec4* points, const Rect& r, Halves& out) {
 // returned upper bound, which is at most lower + gap unless the budget runs out. Stops as soon as more than
 // `enough` is attained.
 //   box(b): upper bound of the quantity over a box; oriented(center, axis, half): over an oriented one, as in
-//   SurfaceLeaf; at(p): its value at a surface point.
+//   RectBounds; at(p): its value at a surface point.
 // `among` (may be null): leaves of a search tree, in place of the whole surface.
 struct LeafSet {
   const internal::SearchTree& tree;
@@ -79,7 +79,7 @@ double Maximize(const Surface& surface, const LeafSet* among, double lower, doub
     Part part{box(node.box), index, -1, {}, 0};
     if (node.leaf >= 0 && part.bound > lower) {
       const SurfaceLeaf& leaf = surface.leaves[static_cast<std::size_t>(node.leaf)];
-      part.bound = std::min(part.bound, oriented(leaf.center, leaf.axis, leaf.half));
+      part.bound = std::min(part.bound, oriented(leaf.center(), leaf.axis(), leaf.half()));
     }
     push(part);
   };

@@ -36,7 +36,7 @@ struct LeafGrid {
   explicit LeafGrid(const Box3& box);
 };
 
-// Oriented box as in SurfaceLeaf; the axes may point either way.
+// Oriented box as in RectBounds; the axes may point either way.
 struct LeafBox {
   Vec3 center;
   Eigen::Matrix3d axis;

@@ -219,8 +219,7 @@ absl::StatusOr<ContourGround> SampleGround(const LevelContext& context, const Co
                                            const RunContext& run) {
   const Surface& surface = context.locator.surface();
   double area = 0.0;
-  for (const SurfaceLeaf& leaf : surface.leaves)
-    area += 4.0 * static_cast<double>(leaf.half.x()) * static_cast<double>(leaf.half.y());
+  for (const SurfaceLeaf& leaf : surface.leaves) area += 4.0 * leaf.half().x() * leaf.half().y();
   ContourGround ground;
   ground.spacing = std::max(context.locator.radius() / 6.0, std::sqrt(area / kMostSamples));
   std::vector<ContourGround> parts(surface.pieces.size());

@@ -151,7 +151,7 @@ LevelBounds::LevelBounds(const Surface& surface, const PieceSides& sides, double
                         static_cast<float>(normals.axis.z())},
                        std::nextafterf(static_cast<float>(std::min(kPi, angle)), HUGE_VALF)};
           const auto node = static_cast<std::size_t>(node_of[i]);
-          const RectBounds part{surface.nodes[node].box, leaf.center, leaf.axis, leaf.half};
+          const RectBounds part = leaf.Bounds(surface.nodes[node].box);
           nodes_[node] = Outward(HasCurves(leaf, sides) ? Around(part.box, radius)
                                                         : CentersOfFace(part, Normals(i), radius));
         }

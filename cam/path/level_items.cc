@@ -121,7 +121,7 @@ std::pair<std::int32_t, std::int32_t> LevelItems::OfLeaf(std::int32_t node) {
   item.v0 = leaf.v0;
   item.v1 = leaf.v1;
   item.normals = bounds_.Normals(index);
-  AddFace(item, {n.box, leaf.center, leaf.axis, leaf.half});
+  AddFace(item, leaf.Bounds(n.box));
   Item& range = items_[static_cast<std::size_t>(holder)];
   range.first = holder + 1;
   range.last = static_cast<std::int32_t>(items_.size());

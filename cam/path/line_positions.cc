@@ -63,11 +63,11 @@ double Density(const Row& a, const Row& b) {
 FrameExtent ExtentInFrame(const Surface& surface, const LineFrame& frame, double margin) {
   FrameExtent e{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}};
   for (const SurfaceLeaf& leaf : surface.leaves) {
-    const Eigen::Matrix3d axis = leaf.axis.cast<double>();
+    const Eigen::Matrix3d axis = leaf.axis();
     const auto grow = [&](Interval& i, const Vec2& d) {
       const Vec3 direction = Lift(d, 0.0);
-      const double mid = leaf.center.dot(direction);
-      const double half = (axis.transpose() * direction).cwiseAbs().dot(leaf.half.cast<double>());
+      const double mid = leaf.center().dot(direction);
+      const double half = (axis.transpose() * direction).cwiseAbs().dot(leaf.half());
       i.begin = std::min(i.begin, mid - half);
       i.end = std::max(i.end, mid + half);
     };

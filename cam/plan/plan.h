@@ -11,9 +11,9 @@
 
 namespace patchmill {
 
-// Places the model and builds the surface. INVALID_ARGUMENT for a model that cannot be used.
-absl::StatusOr<Surface> BuildPlacedSurface(const PatchModel& model, const Setup& setup,
-                                           const RunContext& run);
+// Places the model (moved in: no copy is made) and builds the surface, which keeps it. INVALID_ARGUMENT for a
+// model that cannot be used.
+absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup, const RunContext& run);
 
 // Model findings of CheckModel: network, curvature against the tool, size warnings.
 struct ModelCheck {

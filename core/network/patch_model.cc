@@ -26,13 +26,20 @@ Vec3 Place(const Placement& placement, const Vec3& p) {
   return t + q;
 }
 
-PatchModel Place(const Placement& placement, const PatchModel& model) {
-  PatchModel placed = model;
-  for (Patch& patch : placed.patches) {
+Box3 Place(const Placement& placement, const Box3& box) {
+  Box3 placed;  // axes go to axes, and rounding keeps their order
+  if (box.Empty()) return placed;
+  placed.Add(Place(placement, box.min));
+  placed.Add(Place(placement, box.max));
+  return placed;
+}
+
+PatchModel Place(const Placement& placement, PatchModel model) {
+  for (Patch& patch : model.patches) {
     for (Vec3& p : ControlPoints(patch.shape)) p = Place(placement, p);
   }
-  if (placed.join_tolerance) *placed.join_tolerance *= placement.scale;
-  return placed;
+  if (model.join_tolerance) *model.join_tolerance *= placement.scale;
+  return model;
 }
 
 Box3 ControlBox(const PatchModel& model) {

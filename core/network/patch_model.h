@@ -34,8 +34,10 @@ struct Placement {
   Vec3 translation = Vec3::Zero();
 };
 Vec3 Place(const Placement& placement, const Vec3& p);
-// All control points placed, and join_tolerance scaled with them. The kinds are affine-invariant: exact.
-PatchModel Place(const Placement& placement, const PatchModel& model);
+Box3 Place(const Placement& placement, const Box3& box);  // exactly the box of the placed points
+// All control points placed, and join_tolerance scaled with them. The kinds are affine-invariant: exact. A
+// model moved in is placed where it lies.
+PatchModel Place(const Placement& placement, PatchModel model);
 
 // Everything that makes a single patch unusable: sizes, degrees, knots, weights, finite numbers, magnitude.
 // One error diagnostic per kind of fault and patch, with patch index, field path and reason (the first bad

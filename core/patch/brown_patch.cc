@@ -273,7 +273,6 @@ BernsteinNet NetOn(const Lofts& lofts) {
 }  // namespace
 
 std::vector<Piece> ShapePieces(const BrownPatch& patch) {
-  const auto shape = std::make_shared<const PatchShape>(patch);
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i <= patch.breaks_u.size(); ++i) {
     const Span u = SpanNumber(patch.breaks_u, i);
@@ -281,7 +280,6 @@ std::vector<Piece> ShapePieces(const BrownPatch& patch) {
       const Span v = SpanNumber(patch.breaks_v, j);
       Piece& piece = pieces.emplace_back();
       piece.net = NetOn(LoftsOf(patch, u, v));
-      piece.shape = shape;
       piece.native = NativeRectangle(u.t0, u.t1, v.t0, v.t1);
     }
   }

@@ -131,7 +131,6 @@ std::vector<Piece> ShapePieces(const G2GregoryPatch& patch) {
   }
   std::vector<Piece> pieces(1);
   pieces[0].net = {n + 8, n + 8, true, net.Unscaled()};
-  pieces[0].shape = std::make_shared<const PatchShape>(patch);
   pieces[0].native = NativeRectangle(0, 1, 0, 1);
   return pieces;
 }

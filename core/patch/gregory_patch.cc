@@ -191,7 +191,6 @@ std::vector<Piece> ShapePieces(const GregoryPatch& patch) {
   piece.net.degree_v = form.n;
   piece.net.rational = true;
   piece.net.points = form.Unscaled();
-  piece.gregory = patch;
   piece.native = NativeRectangle(0, 1, 0, 1);
   return pieces;
 }

@@ -108,10 +108,7 @@ std::vector<Piece> ShapePieces(const GregoryTriangle& patch) {
       }
     }
   }
-  std::vector<Piece> pieces = TrianglePieces(net.n, net.Unscaled(), true);
-  const auto shape = std::make_shared<const PatchShape>(patch);
-  for (Piece& piece : pieces) piece.shape = shape;
-  return pieces;
+  return TrianglePieces(net.n, net.Unscaled(), true);
 }
 
 }  // namespace patchmill::internal

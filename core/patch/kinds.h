@@ -3,6 +3,7 @@
 // Every kind has its native evaluation and its cutting into Bernstein nets (ALGORITHMS 1).
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "core/math/jet2.h"
@@ -31,7 +32,15 @@ Vec3 ShapePosition(const LoftTriangle& patch, double s, double t);
 Vec3 ShapePosition(const G2GregoryPatch& patch, double u, double v);
 Vec3 ShapePosition(const HosakaPatch& patch, double u, double v);
 
-// Without the patch id.
+// Whether the kind's nets lose weight at corners, so that they bound it there but do not evaluate it.
+template <class Shape>
+constexpr bool HasSingularNet(const Shape&) {
+  return std::is_same_v<Shape, GregoryPatch> || std::is_same_v<Shape, BrownPatch> ||
+         std::is_same_v<Shape, GregoryTriangle> || std::is_same_v<Shape, LoftTriangle> ||
+         std::is_same_v<Shape, G2GregoryPatch>;
+}
+
+// Without the patch id and what points to the patch.
 std::vector<Piece> ShapePieces(const BezierPatch& patch);
 std::vector<Piece> ShapePieces(const BsplinePatch& patch);
 std::vector<Piece> ShapePieces(const GregoryPatch& patch);

@@ -178,10 +178,7 @@ std::vector<Piece> ShapePieces(const LoftTriangle& patch) {
     if (patch.squared) weight = weight * weight;
     own.MultiplyInto(weight * beside(e) * beside(f), net);
   }
-  std::vector<Piece> pieces = TrianglePieces(net.n, net.Unscaled(), true);
-  const auto shape = std::make_shared<const PatchShape>(patch);
-  for (Piece& piece : pieces) piece.shape = shape;
-  return pieces;
+  return TrianglePieces(net.n, net.Unscaled(), true);
 }
 
 }  // namespace patchmill::internal

@@ -133,7 +133,12 @@ BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, do
 
 std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape) {
   std::vector<Piece> pieces = std::visit([](const auto& s) { return internal::ShapePieces(s); }, shape);
-  for (Piece& piece : pieces) piece.patch = id;
+  const bool singular = std::visit([](const auto& s) { return internal::HasSingularNet(s); }, shape);
+  for (Piece& piece : pieces) {
+    piece.patch = id;
+    piece.gregory = std::get_if<GregoryPatch>(&shape);
+    if (singular && piece.gregory == nullptr) piece.shape = &shape;
+  }
   return pieces;
 }
 

@@ -10,8 +10,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/base/typed_id.h"
@@ -35,17 +33,19 @@ BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, do
 struct Piece {
   PatchId patch;
   BernsteinNet net;  // exact for every kind
-  // Gregory pieces are evaluated natively (faster, and right at the corners); others from the net.
-  std::optional<GregoryPatch> gregory;
+  // Gregory pieces are evaluated natively (faster, and right at the corners), others from the net.
+  const GregoryPatch* gregory = nullptr;
   // The patch itself where the net is singular at a corner and the kind has no field of its own: evaluated
-  // through `native`. Shared by the pieces of one patch.
-  std::shared_ptr<const PatchShape> shape;
+  // through `native`.
+  const PatchShape* shape = nullptr;
   // Native parameters of the piece's corners (0,0) (1,0) (0,1) (1,1); bilinear in between, exactly.
   std::array<Vec2, 4> native;
 };
 
-// Never empty for a valid patch. Pieces of a B-spline in order of u span, then v span.
+// Never empty for a valid patch. Pieces of a B-spline in order of u span, then v span. They may point to
+// `shape`, which must outlive them where it is.
 std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape);
+std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape&& shape) = delete;
 
 // Jet in the piece's own parameters (u,v) in [0,1]^2.
 SurfaceJet Evaluate(const Piece& piece, double u, double v);

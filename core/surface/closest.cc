@@ -72,7 +72,7 @@ class Search {
   }
 
   void VisitLeaf(const SurfaceLeaf& leaf, const Box3& box) {
-    const RectBounds bounds{box, leaf.center, leaf.axis, leaf.half};
+    const RectBounds bounds = leaf.Bounds(box);
     if (Excluded(OrientedSquared(bounds, c_, box))) return;
     piece_ = leaf.piece;
     const BernsteinNet& net = surface_.piece(leaf.piece).net;

@@ -142,12 +142,9 @@ int HullPoints(NetShape shape, const Vec4* points, Vec3* hull) {
   return count;
 }
 
-RectBounds BoundPoints(NetShape shape, const Vec4* points, const Vec3* hull, int hull_count) {
+RectBounds BoundInFrame(const Eigen::Matrix3d& axis, const Vec3* hull, int hull_count) {
   RectBounds bounds;
-  const int row = shape.degree_v + 1;
-  const Vec3 along_u = SumOfChords(row, 1, shape.degree_u, row, points);
-  const Vec3 along_v = SumOfChords(shape.degree_u + 1, row, shape.degree_v, 1, points);
-  bounds.axis = FrameOfTangents(along_u, along_v, hull, hull_count);
+  bounds.axis = axis;
   Box3 oriented;  // coordinates relative to the first point: no digits lost far from the origin
   for (int i = 0; i < hull_count; ++i) {
     bounds.box.Add(hull[i]);
@@ -160,6 +157,13 @@ RectBounds BoundPoints(NetShape shape, const Vec4* points, const Vec3* hull, int
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * coordinate;
   bounds.half = 0.5 * (oriented.max - oriented.min) + Vec3::Constant(rounding);
   return bounds;
+}
+
+RectBounds BoundPoints(NetShape shape, const Vec4* points, const Vec3* hull, int hull_count) {
+  const int row = shape.degree_v + 1;
+  const Vec3 along_u = SumOfChords(row, 1, shape.degree_u, row, points);
+  const Vec3 along_v = SumOfChords(shape.degree_u + 1, row, shape.degree_v, 1, points);
+  return BoundInFrame(FrameOfTangents(along_u, along_v, hull, hull_count), hull, hull_count);
 }
 
 RectBounds BoundNet(const BernsteinNet& net) {

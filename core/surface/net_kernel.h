@@ -26,6 +26,9 @@ void RestrictNet(NetShape shape, Vec4* points, double u0, double u1, double v0, 
 // Cartesian points of the hull; points without weight (ALGORITHMS 1) are left out. Returns how many.
 int HullPoints(NetShape shape, const Vec4* points, Vec3* hull);
 
+// Of at least one point, in a given frame.
+RectBounds BoundInFrame(const Eigen::Matrix3d& axis, const Vec3* hull, int hull_count);
+
 // Bounds of a net. `hull` and `hull_count` as from HullPoints.
 RectBounds BoundPoints(NetShape shape, const Vec4* points, const Vec3* hull, int hull_count);
 

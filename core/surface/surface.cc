@@ -19,9 +19,16 @@ namespace {
 // air.
 constexpr double kMaxCurl = 0.1;
 
-struct PieceLeaves {
+constexpr std::size_t kBatch = 2048;  // pieces
+
+struct Leaves {
   std::vector<SurfaceLeaf> leaves;
-  std::vector<Box3> boxes;
+  std::vector<Box3> boxes;  // one per leaf
+
+  void Append(const Leaves& more) {
+    leaves.insert(leaves.end(), more.leaves.begin(), more.leaves.end());
+    boxes.insert(boxes.end(), more.boxes.begin(), more.boxes.end());
+  }
 };
 
 // Shared by the pieces of one attempt: gives up as soon as the sum of leaves is beyond the budget. Whether it
@@ -44,7 +51,7 @@ class LeafSplitter {
     buffer_.resize(static_cast<std::size_t>(2 * (2 * budget.max_depth) * shape_.count()));
     Split(net.points.data(), {}, 0);
   }
-  PieceLeaves Take() { return std::move(out_); }
+  Leaves Take() { return std::move(out_); }
 
  private:
   struct Rect {
@@ -83,11 +90,11 @@ class LeafSplitter {
   void Split(const Vec4* points, const Rect& rect, int level) {
     if (budget_.exceeded.load(std::memory_order_relaxed)) return;
     std::array<Vec3, kMaxNetPoints> hull;
-    const RectBounds bounds =
-        BoundPoints(shape_, points, hull.data(), HullPoints(shape_, points, hull.data()));
+    const int hull_count = HullPoints(shape_, points, hull.data());
+    const RectBounds bounds = BoundPoints(shape_, points, hull.data(), hull_count);
     const Cut cut = Choose(points, bounds, rect);
     if (cut == Cut::kNone) {
-      Keep(bounds, rect);
+      Keep(bounds, rect, hull.data(), hull_count);
       return;
     }
     Vec4* low = buffer_.data() + 2 * level * shape_.count();
@@ -105,16 +112,14 @@ class LeafSplitter {
     Split(high, second, level + 1);
   }
 
-  void Keep(const RectBounds& bounds, const Rect& rect) {
+  void Keep(const RectBounds& bounds, const Rect& rect, const Vec3* hull, int hull_count) {
     SurfaceLeaf leaf;
     leaf.piece = id_;
     leaf.u0 = static_cast<float>(rect.u0);
     leaf.u1 = static_cast<float>(rect.u1);
     leaf.v0 = static_cast<float>(rect.v0);
     leaf.v1 = static_cast<float>(rect.v1);
-    leaf.center = bounds.center;
-    leaf.axis = bounds.axis;
-    leaf.half = bounds.half;
+    leaf.SetBox(bounds.axis, hull, hull_count);
     out_.leaves.push_back(leaf);
     out_.boxes.push_back(bounds.box);
     budget_.progress.Add(rect.depth_u + rect.depth_v);
@@ -129,7 +134,7 @@ class LeafSplitter {
   NetShape shape_;
   Budget& budget_;
   std::vector<Vec4> buffer_;
-  PieceLeaves out_;
+  Leaves out_;
 };
 
 absl::Status CheckParams(const PatchNetwork& network, const SurfaceParams& params) {
@@ -162,15 +167,28 @@ absl::Status MakePieces(Surface& surface, const RunContext& run) {
   return absl::OkStatus();
 }
 
-// One attempt; false when the budget does not suffice.
-absl::StatusOr<bool> MakeLeaves(Surface& surface, Budget& budget, std::vector<PieceLeaves>& parts) {
-  parts.assign(surface.pieces.size(), {});
-  PM_RETURN_IF_ERROR(ParallelFor(budget.run, nullptr, surface.pieces.size(), [&](std::size_t i) {
-    if (!budget.exceeded.load(std::memory_order_relaxed)) {
-      parts[i] = LeafSplitter(PieceId(i), surface.pieces[i].net, budget).Take();
-    }
-  }));
-  return !budget.exceeded.load();
+// One attempt, of pieces by the batch; false when the budget does not suffice.
+absl::StatusOr<bool> MakeLeaves(const Surface& surface, Budget& budget, std::vector<Leaves>& batches) {
+  batches.clear();
+  const std::size_t count = surface.pieces.size();
+  std::vector<Leaves> parts(std::min(count, kBatch));
+  for (std::size_t begin = 0; begin < count; begin += kBatch) {
+    const std::size_t here = std::min(count - begin, kBatch);
+    PM_RETURN_IF_ERROR(ParallelFor(budget.run, nullptr, here, [&](std::size_t k) {
+      const std::size_t i = begin + k;
+      if (!budget.exceeded.load(std::memory_order_relaxed)) {
+        parts[k] = LeafSplitter(PieceId(i), surface.pieces[i].net, budget).Take();
+      }
+    }));
+    if (budget.exceeded.load()) return false;
+    std::size_t leaves = 0;
+    for (std::size_t k = 0; k < here; ++k) leaves += parts[k].leaves.size();
+    Leaves& batch = batches.emplace_back();
+    batch.leaves.reserve(leaves);
+    batch.boxes.reserve(leaves);
+    for (std::size_t k = 0; k < here; ++k) batch.Append(parts[k]);
+  }
+  return true;
 }
 
 // Leaves wanted at a thickness, from how the nets of the whole pieces bend; rather too many.
@@ -200,10 +218,10 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   const auto pieces = static_cast<std::int64_t>(surface.pieces.size());
   const std::int64_t max_leaves = std::max<std::int64_t>(params.max_leaves, pieces);
   double thickness = params.leaf_thickness;
-  std::vector<PieceLeaves> parts;
+  std::vector<Leaves> batches;
   for (int max_depth = params.max_depth;;) {
     Budget budget{thickness, max_depth, max_leaves, run, {run, "bounds", surface.pieces.size()}};
-    PM_ASSIGN_OR_RETURN(const bool fits, MakeLeaves(surface, budget, parts));
+    PM_ASSIGN_OR_RETURN(const bool fits, MakeLeaves(surface, budget, batches));
     if (fits) break;
     // Skip what is hopeless even if the estimate is 16 times too high.
     do {
@@ -214,16 +232,16 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   }
 
   std::size_t count = 0;
-  for (const PieceLeaves& part : parts) count += part.leaves.size();
-  std::vector<Box3> boxes;
-  boxes.reserve(count);
-  surface.leaves.reserve(count);
-  for (PieceLeaves& part : parts) {
-    surface.leaves.insert(surface.leaves.end(), part.leaves.begin(), part.leaves.end());
-    boxes.insert(boxes.end(), part.boxes.begin(), part.boxes.end());
-    part = {};
+  for (const Leaves& batch : batches) count += batch.leaves.size();
+  Leaves all;
+  all.leaves.reserve(count);
+  all.boxes.reserve(count);
+  for (Leaves& batch : batches) {  // each freed before the next is held twice
+    all.Append(batch);
+    batch = {};
   }
-  surface.nodes = BuildLeafTree(boxes, run);
+  surface.leaves = std::move(all.leaves);
+  surface.nodes = BuildLeafTree(all.boxes, run);
   PM_RETURN_IF_ERROR(run.Check());
   surface.box = surface.nodes.front().box;
   surface.scale = std::max(surface.box.min.cwiseAbs().maxCoeff(), surface.box.max.cwiseAbs().maxCoeff());

@@ -10,6 +10,7 @@
 #include "core/base/typed_id.h"
 #include "core/network/patch_network.h"
 #include "core/patch/piece.h"
+#include "core/surface/surface_leaf.h"
 
 namespace patchmill {
 
@@ -20,19 +21,6 @@ struct SurfacePoint {
   Vec3 p = Vec3::Zero();
 };
 
-// A sub-rectangle of a piece with outer bounds, all proven from the Bernstein net (ALGORITHMS 1, 2.2).
-// About 150 bytes; control points are not kept (SubNet of the piece gives them again).
-struct SurfaceLeaf {
-  PieceId piece;
-  float u0 = 0, u1 = 1, v0 = 0, v1 = 1;  // dyadic, hence exact
-  // Oriented box: |(x - center) . axis.col(k)| <= half[k] for every x of the leaf, rounded outward by a few
-  // ulps of the coordinates. axis is orthonormal to 1e-15 and right-handed; col(2) is the leaf's mean normal
-  // (along du x dv), col(0) runs along its longer side.
-  Vec3 center = Vec3::Zero();
-  Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();
-  Vec3 half = Vec3::Zero();
-};
-
 // Node of a binary tree in depth-first order. Inner: left child is the next node, right child is `right`.
 struct SurfaceNode {
   Box3 box;  // of all control points below
@@ -40,8 +28,13 @@ struct SurfaceNode {
   std::int32_t leaf = -1;  // >= 0: index into leaves, no children
 };
 
+// May be moved, not copied: pieces point to the patches of the network's model.
 struct Surface {
-  PatchNetwork network;
+  Surface() = default;
+  Surface(Surface&&) = default;
+  Surface& operator=(Surface&&) = default;
+
+  PatchNetwork network;  // the model must stay as it is
   std::vector<Piece> pieces;
   std::vector<PieceId> first_piece;  // of each patch
   std::vector<SurfaceLeaf> leaves;
@@ -53,9 +46,9 @@ struct Surface {
 };
 
 struct SurfaceParams {
-  double leaf_thickness = 0.02;  // mm, > 0: leaves are split until half[2] is at most this
+  double leaf_thickness = 0.02;  // mm, > 0: leaves are split until half().z() is at most this
   int max_depth = 10;            // halvings of a piece per direction, 0..20
-  // Bounds memory (about 300 B a leaf with its nodes): when more would be needed, the thickness is raised by
+  // Bounds memory (about 190 B a leaf with its nodes): when more would be needed, the thickness is raised by
   // factors of 4 until they suffice. Coarse leaves cost time, never correctness. At least one per piece.
   int max_leaves = 1'000'000;
 };
@@ -71,14 +64,8 @@ inline SurfaceJet Evaluate(const Surface& s, PieceId id, double u, double v) {
   return Evaluate(s.piece(id), u, v);
 }
 
-// Outer bounds of any sub-rectangle, computed afresh from its net: what certificates subdivide with. Meaning
-// of center, axis and half as in SurfaceLeaf; box is axis-parallel. Cost O(points).
-struct RectBounds {
-  Box3 box;
-  Vec3 center = Vec3::Zero();
-  Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();
-  Vec3 half = Vec3::Zero();
-};
+// Outer bounds of any sub-rectangle, computed afresh from its net (ALGORITHMS 1, 2.2): what certificates
+// subdivide with. Cost O(points).
 RectBounds BoundNet(const BernsteinNet& net);
 
 }  // namespace patchmill

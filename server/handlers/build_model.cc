@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cam/plan/plan.h"
@@ -15,7 +17,7 @@
 namespace patchmill {
 namespace {
 
-absl::Status TakeNormals(const v1::BuildModelRequest& request, double unit, const PatchModel& model,
+absl::Status TakeNormals(const v1::BuildModelRequest& request, double unit, PatchModel model,
                          const RunContext& run, v1::BuildModelResponse* response) {
   const auto findings = [response](const Diagnostics& list) {
     AddDiagnostics(list, Vec3::Zero(), response->mutable_diagnostics());
@@ -26,7 +28,7 @@ absl::Status TakeNormals(const v1::BuildModelRequest& request, double unit, cons
     findings(faults);
     return absl::OkStatus();
   }
-  PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model, Setup(), run));
+  PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model), Setup(), run));
   PM_ASSIGN_OR_RETURN(const NetworkOnSurface made, WithNormalsOf(surface, before, run));
   v1::PatchModel& to = *response->mutable_network_model();
   to.set_length_unit(request.length_unit());
@@ -64,7 +66,8 @@ absl::Status HandleBuildModel(const Call& call, const v1::BuildModelRequest& req
     }
     *response->mutable_model() = ToProto(model);
     PM_RETURN_IF_ERROR(run.Check());
-    return request.has_network() ? TakeNormals(request, *unit, model, run, response) : absl::OkStatus();
+    return request.has_network() ? TakeNormals(request, *unit, std::move(model), run, response)
+                                 : absl::OkStatus();
   });
 }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -65,7 +66,7 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
   PM_RETURN_IF_ERROR(errors.ToStatus());
   if (tool) job.operation.tool = *tool;
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source", run));
+    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run));
     response->set_model_sha256(model.digest);
     if (!model.faults.empty()) {
       response->set_patch_count(static_cast<int>(model.model.patches.size()));
@@ -73,7 +74,7 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
       return absl::OkStatus();
     }
     PM_RETURN_IF_ERROR(run.Check());
-    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, job.setup, run));
+    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
     PM_ASSIGN_OR_RETURN(ModelCheck check, CheckModel(surface, tool, run));
     for (const Diagnostic& remark : Placed(model.remarks, job.setup.placement))

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cam/plan/plan.h"
@@ -81,10 +83,10 @@ absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRe
   }
   PM_RETURN_IF_ERROR(errors.ToStatus());
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source", run));
+    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run));
     PM_RETURN_IF_ERROR(RequireSound(model));
     PM_RETURN_IF_ERROR(CheckPoints(request, model.model));
-    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, job.setup, run));
+    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
     for (int k = 0; k < count; ++k) {
       const Patch& patch = surface.network.model.patches[static_cast<std::size_t>(request.patch_index(k))];

@@ -52,9 +52,10 @@ struct Made {
   std::string picture;
 };
 
-absl::Status Make(const PreparedJob& prepared, bool with_picture, const RunContext& run, Made* made) {
+// Takes the model away: nothing else needs it.
+absl::Status Make(PreparedJob& prepared, bool with_picture, const RunContext& run, Made* made) {
   PM_ASSIGN_OR_RETURN(const Surface surface,
-                      BuildPlacedSurface(prepared.model.model, prepared.job.setup, run));
+                      BuildPlacedSurface(std::move(prepared.model.model), prepared.job.setup, run));
   PM_ASSIGN_OR_RETURN(made->resolved, Resolve(surface, prepared.job));
   PM_ASSIGN_OR_RETURN(made->result, RunJob(surface, prepared.job, run));
   if (made->result.program.size() > limits::kMaxProgramBytes) {

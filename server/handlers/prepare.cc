@@ -20,7 +20,7 @@ namespace {
 // Passes over the control points' box, its plan and its walls, at the flat step-over: an estimate that costs
 // nothing.
 absl::Status CheckPathSize(const Job& job, const PatchModel& model) {
-  const Box3 box = ControlBox(Place(job.setup.placement, model));
+  const Box3 box = Place(job.setup.placement, ControlBox(model));
   const Vec3 size = box.max - box.min;
   const double radius = BallRadius(job.operation.tool) + job.operation.leave;
   // Contours are made over the whole part for every scallop in use.

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cam/plan/job_preview.h"
@@ -19,17 +21,18 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
       const Outputs outputs,
       ReadOutputs(request.outputs(), {v1::OUTPUT_REGIONS, v1::OUTPUT_PICTURE}, {v1::OUTPUT_REGIONS}));
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run));
+    PM_ASSIGN_OR_RETURN(PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run));
     PM_RETURN_IF_ERROR(run.Check());
     const Job& job = prepared.job;
-    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(prepared.model.model, job.setup, run));
+    PM_ASSIGN_OR_RETURN(const Surface surface,
+                        BuildPlacedSurface(std::move(prepared.model.model), job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
     PM_ASSIGN_OR_RETURN(const ChosenRegions regions, PlanRegions(surface, job, run));
     AddDiagnostics(job.model_remarks, resolved.program_zero, response->mutable_diagnostics());
     AddDiagnostics(surface.network.findings, resolved.program_zero, response->mutable_diagnostics());
     if (outputs.contains(v1::OUTPUT_REGIONS)) {
       *response->mutable_regions() = ToProto(regions.map, regions.choices, resolved.program_zero);
-      *response->mutable_patch_ids() = PatchIds(prepared.model.model);
+      *response->mutable_patch_ids() = PatchIds(surface.network.model);
     }
     if (outputs.contains(v1::OUTPUT_PICTURE)) {
       v1::ArtifactChunk& picture = *response->mutable_picture();

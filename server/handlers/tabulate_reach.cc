@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cam/plan/plan.h"
@@ -44,13 +46,14 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_RETURN_IF_ERROR(CheckDiameters(request.tool_diameters_mm()));
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(const PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run));
+    PM_ASSIGN_OR_RETURN(PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run));
     const Job& job = prepared.job;
     ReachTableParams params;
     for (const double d : request.tool_diameters_mm()) params.radii.push_back(0.5 * d + job.operation.leave);
     params.tolerance = job.operation.tolerance;
     PM_RETURN_IF_ERROR(run.Check());
-    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(prepared.model.model, job.setup, run));
+    PM_ASSIGN_OR_RETURN(const Surface surface,
+                        BuildPlacedSurface(std::move(prepared.model.model), job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
     params.floor_z = resolved.floor_z - job.operation.leave;
     PM_ASSIGN_OR_RETURN(const ReachTableResult table, ReachTable(surface, params, run));

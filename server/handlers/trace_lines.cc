@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -167,9 +168,10 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_ASSIGN_OR_RETURN(const Order order, ReadOrder(request));
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source", run));
+    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run));
     PM_RETURN_IF_ERROR(RequireSound(model));
-    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, order.job.setup, run));
+    PM_ASSIGN_OR_RETURN(const Surface surface,
+                        BuildPlacedSurface(std::move(model.model), order.job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, order.job));
     const Vec3& zero = resolved.program_zero;
     std::vector<LineOrder> lines;
@@ -189,7 +191,7 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
       set.set_length_mm(length);
     }
     AddDiagnostics(surface.network.findings, zero, response->mutable_diagnostics());
-    *response->mutable_patch_ids() = PatchIds(model.model);
+    *response->mutable_patch_ids() = PatchIds(surface.network.model);
     if (request.picture()) {
       v1::ArtifactChunk& picture = *response->mutable_picture();
       picture.set_name("lines.svg");

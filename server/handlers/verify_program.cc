@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "cam/plan/plan.h"
@@ -92,7 +94,7 @@ v1::Outcome Judge(const v1::Report& report) {
 absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const RunContext& run,
                   v1::Report* report) {
   run.Progress("model", 0.0);
-  PM_ASSIGN_OR_RETURN(const LoadedModel model, LoadModel(request.source(), "source", run));
+  PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run));
   PM_RETURN_IF_ERROR(RequireSound(model));
   PM_RETURN_IF_ERROR(run.Check());
   absl::StatusOr<ProgramMotion> motion = ReadProgram(request.program(), {.run = &run});
@@ -101,7 +103,7 @@ absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const
     return ProgramUnreadableError("program: " + std::string(motion.status().message()));
   }
   PM_RETURN_IF_ERROR(run.Check());
-  PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model.model, job.setup, run));
+  PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
   PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, JudgedParts(surface, job, resolved, run));
   VerifyParams params = MakeVerifyParams(job, resolved, parts);

@@ -2,6 +2,7 @@
 // more bicubic Bezier patches of 2 x 2 mm each, every one a patch of the model by itself.
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include <benchmark/benchmark.h>
 
@@ -59,16 +60,16 @@ double Seconds(std::chrono::steady_clock::time_point since) {
 void Growth(benchmark::State& state) {
   const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(state.range(0)))));
   ResetPeakMemory();
-  const PatchModel model = Waves(side);
+  PatchModel model = Waves(side);
   auto start = std::chrono::steady_clock::now();
-  const auto surface = BuildPlacedSurface(model, {}, RunContext());
+  const auto surface = BuildPlacedSurface(std::move(model), {}, RunContext());
   if (!surface.ok()) return state.SkipWithError(surface.status().ToString().c_str());
   state.counters["s_surface"] = Seconds(start);
   start = std::chrono::steady_clock::now();
   const Locator locator(*surface, kRadius);
   state.counters["s_locator"] = Seconds(start);
   state.counters["peak_MB"] = PeakMemory();
-  state.counters["patches"] = static_cast<double>(model.patches.size());
+  state.counters["patches"] = static_cast<double>(surface->network.model.patches.size());
   testing::Random random(1);
   for (auto _ : state) {
     const double x = random.Uniform(0.0, kSide * side);

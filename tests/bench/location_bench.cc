@@ -1,10 +1,13 @@
 // Centre heights: how many exact heights of a ball of diameter 6 one core finds in a second.
+#include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "cam/location/heights.h"
 #include "tests/bench/bench_parts.h"
+#include "tests/support/clock.h"
 #include "tests/support/random.h"
 
 namespace patchmill::bench {
@@ -13,34 +16,49 @@ namespace {
 constexpr double kRadius = 3.0;
 constexpr double kGrid = 0.25;  // mm
 
-// A grid over the part's box, row by row along x, each query hinted by the contact before, as scan lines do.
-// Only places with a surface below count. `height(locator, q, hint)` is the query.
+// A grid over the part's box. Only places with a surface below count as found.
+struct Grid {
+  Vec2 origin;
+  int nx, ny;
+
+  explicit Grid(const Surface& surface)
+      : origin(Plan(surface.box.min)),
+        nx(1 + static_cast<int>((surface.box.max.x() - surface.box.min.x()) / kGrid)),
+        ny(1 + static_cast<int>((surface.box.max.y() - surface.box.min.y()) / kGrid)) {}
+  Vec2 At(int i, int j) const { return origin + kGrid * Vec2(i, j); }
+};
+
+// Row j along x, each query hinted by the contact before, as scan lines do. `height(locator, q, hint)` is the
+// query. Returns how many were found.
+template <class Query>
+std::int64_t OneByOne(const Locator& locator, const Grid& grid, int j, const Query& height) {
+  std::int64_t found = 0;
+  decltype(height(locator, Vec2(), nullptr)) last;
+  for (int i = 0; i < grid.nx; ++i) {
+    last = height(locator, grid.At(i, j), last ? &last->contact : nullptr);
+    found += last.has_value();
+  }
+  return found;
+}
+
 template <class Query>
 void MeasureGrid(benchmark::State& state, Part part, const Query& height) {
   const Surface& surface = SurfaceOf(part);
   const Locator locator(surface, kRadius);
-  const int nx = 1 + static_cast<int>((surface.box.max.x() - surface.box.min.x()) / kGrid);
-  const int ny = 1 + static_cast<int>((surface.box.max.y() - surface.box.min.y()) / kGrid);
+  const Grid grid(surface);
   std::int64_t found = 0;
   for (auto _ : state) {
-    for (int j = 0; j < ny; ++j) {
-      decltype(height(locator, Vec2(), nullptr)) last;
-      for (int i = 0; i < nx; ++i) {
-        const Vec2 q = Plan(surface.box.min) + kGrid * Vec2(i, j);
-        last = height(locator, q, last ? &last->contact : nullptr);
-        found += last.has_value();
-      }
-    }
+    for (int j = 0; j < grid.ny; ++j) found += OneByOne(locator, grid, j, height);
   }
   state.SetItemsProcessed(found);
   state.counters["defects"] = static_cast<double>(locator.defect_count());
 }
 
-void CenterHeight(benchmark::State& state, Part part) {
-  MeasureGrid(state, part, [](const Locator& locator, const Vec2& q, const SurfacePoint* hint) {
-    return locator.Height(q, hint);
-  });
+std::optional<CenterPoint> Height(const Locator& locator, const Vec2& q, const SurfacePoint* hint) {
+  return locator.Height(q, hint);
 }
+
+void CenterHeight(benchmark::State& state, Part part) { MeasureGrid(state, part, Height); }
 BENCHMARK_CAPTURE(CenterHeight, two_hills, Part::kTwoHills)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(CenterHeight, teapot, Part::kTeapot)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(CenterHeight, toroidal_tet, Part::kToroidalTet)->Unit(benchmark::kMillisecond);
@@ -57,33 +75,64 @@ BENCHMARK_CAPTURE(CenterHeightCertified, teapot, Part::kTeapot)->Unit(benchmark:
 BENCHMARK_CAPTURE(CenterHeightCertified, toroidal_tet, Part::kToroidalTet)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(CenterHeightCertified, bumpy, Part::kBumpy)->Unit(benchmark::kMillisecond);
 
-// The same grid in the processor's vector lanes, two rows at a time in tiles of 4 x 2 places;
-// `instruction_set` as in Heights(), its name is the label. The ratio to CenterHeight is that of lanes
-// to one place after another.
+// Rows j and j + 1 in the processor's vector lanes, in tiles of 4 x 2 places.
+class LaneRows {
+ public:
+  LaneRows(const Locator& locator, const Grid& grid, std::size_t instruction_set)
+      : locator_(locator), grid_(grid), instruction_set_(instruction_set) {}
+
+  std::int64_t Run(int j) {
+    places_.clear();
+    for (int i = 0; i + 3 < grid_.nx; i += 4) {
+      for (int k = 0; k < 8; ++k) places_.push_back(grid_.At(i + k % 4, j + k / 4));
+    }
+    heights_.resize(places_.size());
+    Heights(locator_, places_, heights_, instruction_set_);
+    return std::count_if(heights_.begin(), heights_.end(), [](const auto& h) { return h.has_value(); });
+  }
+
+ private:
+  const Locator& locator_;
+  const Grid& grid_;
+  std::size_t instruction_set_;
+  std::vector<Vec2> places_;
+  std::vector<std::optional<CenterPoint>> heights_;
+};
+
+// What lanes gain over one place after another: places a second of the two, both on every eighth pair of
+// rows, in turn; the best of three rounds each, in this thread's processor time.
+double OverScalar(const Locator& locator, const Grid& grid, LaneRows& lanes) {
+  const auto seconds = [&](const auto& pair) {
+    const double start = testing::ClockSeconds(CLOCK_THREAD_CPUTIME_ID);
+    std::int64_t found = 0;
+    for (int j = 0; j + 1 < grid.ny; j += 16) found += pair(j);
+    return (testing::ClockSeconds(CLOCK_THREAD_CPUTIME_ID) - start) / static_cast<double>(found);
+  };
+  double scalar = kInfinity, in_lanes = kInfinity;
+  for (int round = 0; round < 3; ++round) {
+    scalar = std::min(scalar, seconds([&](int j) {
+                        return OneByOne(locator, grid, j, Height) + OneByOne(locator, grid, j + 1, Height);
+                      }));
+    in_lanes = std::min(in_lanes, seconds([&](int j) { return lanes.Run(j); }));
+  }
+  return scalar / in_lanes;
+}
+
+// The same grid in lanes; `instruction_set` as in Heights(), its name is the label. over_scalar is the ratio
+// to the plain scalar path, in the same run.
 void CenterHeightLanes(benchmark::State& state, Part part) {
   const Surface& surface = SurfaceOf(part);
   const Locator locator(surface, kRadius);
   const auto instruction_set = static_cast<std::size_t>(state.range(0));
-  const int nx = 1 + static_cast<int>((surface.box.max.x() - surface.box.min.x()) / kGrid);
-  const int ny = 1 + static_cast<int>((surface.box.max.y() - surface.box.min.y()) / kGrid);
-  std::vector<Vec2> places;
-  std::vector<std::optional<CenterPoint>> heights;
+  const Grid grid(surface);
+  LaneRows lanes(locator, grid, instruction_set);
   std::int64_t found = 0;
   for (auto _ : state) {
-    for (int j = 0; j + 1 < ny; j += 2) {
-      places.clear();
-      for (int i = 0; i + 3 < nx; i += 4) {
-        for (int k = 0; k < 8; ++k) {
-          places.push_back(Plan(surface.box.min) + kGrid * Vec2(i + k % 4, j + k / 4));
-        }
-      }
-      heights.resize(places.size());
-      Heights(locator, places, heights, instruction_set);
-      for (const auto& h : heights) found += h.has_value();
-    }
+    for (int j = 0; j + 1 < grid.ny; j += 2) found += lanes.Run(j);
   }
   state.SetItemsProcessed(found);
   state.SetLabel(InstructionSets()[instruction_set]);
+  state.counters["over_scalar"] = OverScalar(locator, grid, lanes);
 }
 void EachInstructionSet(benchmark::internal::Benchmark* rows) {
   rows->Unit(benchmark::kMillisecond);

@@ -8,18 +8,12 @@
 
 #include <absl/status/status.h>
 #include <pthread.h>
-#include <time.h>
 
 #include "core/base/run_context.h"
 #include "core/base/vec.h"
+#include "tests/support/clock.h"
 
 namespace patchmill::testing {
-
-inline double ClockSeconds(clockid_t clock) {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 struct CancelLatency {
   absl::Status status;   // what the work ended with

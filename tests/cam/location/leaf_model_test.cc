@@ -24,7 +24,7 @@ using internal::SearchLeaf;
 using internal::UpperBound;
 using testing::Random;
 
-std::vector<Piece> SomePieces() {
+std::vector<PatchShape> SomeShapes() {
   std::vector<PatchShape> shapes;
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     testing::RandomBsplineParams params;
@@ -44,6 +44,11 @@ std::vector<Piece> SomePieces() {
   for (const Patch& patch : testing::Sphere(Vec3(1, 2, 3), 5.0).patches) shapes.push_back(patch.shape);
   for (const Patch& patch : testing::Torus(Vec3(1, 2, 3), 8.0, 3.0).patches) shapes.push_back(patch.shape);
   shapes.push_back(testing::Bilinear({0, 0, 0}, {5, 0, 1}, {0, 6, 2}, {7, 8, -1}));
+  return shapes;
+}
+
+std::vector<Piece> SomePieces() {
+  static const std::vector<PatchShape> shapes = SomeShapes();  // what pieces point to
   std::vector<Piece> pieces;
   for (const PatchShape& shape : shapes) {
     for (Piece& piece : SplitIntoPieces(PatchId(0), shape)) pieces.push_back(std::move(piece));

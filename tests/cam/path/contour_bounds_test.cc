@@ -52,8 +52,7 @@ Count CheckSurface(const Surface& surface) {
         ++count.centers;
         if (normals.angle < kWidestNormals) {
           const int side = e.dot(normals.axis) > 0.0 ? 1 : -1;
-          const CenterBounds part =
-              BoundCenters({node.box, leaf.center, leaf.axis, leaf.half}, normals, side, kR);
+          const CenterBounds part = BoundCenters(leaf.Bounds(node.box), normals, side, kR);
           EXPECT_TRUE(part.possible);
           for (int a = 0; a < 3; ++a) {
             EXPECT_LE(std::abs((c - part.center).dot(part.axis.col(a))), part.half[a] + 1e-9);

@@ -41,8 +41,10 @@ TEST(ContourSlopes, HoldAllNormalsOfRandomPatches) {
       const PatchShape shape = testing::RandomBezier(seed, 3, 4, rational);
       CheckNet(SplitIntoPieces(PatchId(0), shape)[0]);
     }
-    for (const auto blend : {GregoryPatch::Blend::kCorner, GregoryPatch::Blend::kEdge})
-      CheckNet(SplitIntoPieces(PatchId(0), testing::RandomGregory(seed, blend))[0]);
+    for (const auto blend : {GregoryPatch::Blend::kCorner, GregoryPatch::Blend::kEdge}) {
+      const PatchShape shape = testing::RandomGregory(seed, blend);
+      CheckNet(SplitIntoPieces(PatchId(0), shape)[0]);
+    }
   }
 }
 

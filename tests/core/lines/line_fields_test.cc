@@ -146,7 +146,8 @@ Piece Example() {
           Vec3(2 * u + 0.1 * u * v, 1.5 * v - 0.2 * uu, 0.8 * uu * v - 0.6 * vv + 0.5 * u - 0.3 * uuu));
     }
   }
-  return SplitIntoPieces(PatchId(0), patch)[0];
+  const PatchShape shape = patch;
+  return SplitIntoPieces(PatchId(0), shape)[0];
 }
 
 class SlopeLinesVector : public ::testing::Test {

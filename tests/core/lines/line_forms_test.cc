@@ -159,10 +159,14 @@ TEST(LineForms, PlanesAreZeroNotNoise) {
 }
 
 TEST(LineForms, TooHighDegreesHaveNone) {
-  EXPECT_FALSE(ContourCurvatureForm(SplitIntoPieces(PatchId(0), RandomBezier(1, 7, 2, false))[0].net));
-  EXPECT_FALSE(SlopeForm(SplitIntoPieces(PatchId(0), RandomBezier(1, 6, 2, true))[0].net, 0.7));
-  EXPECT_FALSE(SlopeExtremumForm(SplitIntoPieces(PatchId(0), RandomBezier(1, 5, 2, false))[0].net));
-  EXPECT_FALSE(EyeForm(SplitIntoPieces(PatchId(0), RandomBezier(1, 11, 2, false))[0].net, Vec3::Zero()));
+  const auto net = [](int degree, bool rational) {
+    const PatchShape shape = RandomBezier(1, degree, 2, rational);
+    return SplitIntoPieces(PatchId(0), shape)[0].net;
+  };
+  EXPECT_FALSE(ContourCurvatureForm(net(7, false)));
+  EXPECT_FALSE(SlopeForm(net(6, true), 0.7));
+  EXPECT_FALSE(SlopeExtremumForm(net(5, false)));
+  EXPECT_FALSE(EyeForm(net(11, false), Vec3::Zero()));
 }
 
 }  // namespace

@@ -116,8 +116,8 @@ void ExpectCountsOfSignGrid(PatchModel model, const Vec3& axis, bool symmetric =
   const double weld = std::max(1e-5, 2 * surface->network.join_tolerance);
   double low = kInfinity, high = -kInfinity;
   for (const SurfaceLeaf& leaf : surface->leaves) {
-    low = std::min(low, axis.dot(leaf.center));
-    high = std::max(high, axis.dot(leaf.center));
+    low = std::min(low, axis.dot(leaf.center()));
+    high = std::max(high, axis.dot(leaf.center()));
   }
   const Vec3 f = axis.normalized();
   std::vector<Kind> kinds = Kinds(f, f.unitOrthogonal(), low, high);

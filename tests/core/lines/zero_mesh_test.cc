@@ -83,7 +83,8 @@ TEST(ZeroMesh, SmallLoopsAreFound) {
       patch.points.push_back(Vec3(-20 + 20 * i, -20 + 20 * j, -square(7.3, i) - square(-4.1, j)));
     }
   }
-  const Piece piece = SplitIntoPieces(PatchId(0), patch)[0];
+  const PatchShape shape = patch;
+  const Piece piece = SplitIntoPieces(PatchId(0), shape)[0];
   const std::vector<ZeroField> fields = {ContourField(-0.09)};
   ZeroMeshParams params;
   params.max_cell = 20;
@@ -103,7 +104,8 @@ TEST(ZeroMesh, SmallLoopsAreFound) {
 Piece MovedSaddle(double a, double b, const Vec2& node) {
   auto patch = std::get<BezierPatch>(Saddle(a, b, 8).patches[0].shape);
   for (Vec3& p : patch.points) p.z() += -2 * a * node.x() * p.x() + 2 * b * node.y() * p.y();
-  return SplitIntoPieces(PatchId(0), patch)[0];
+  const PatchShape shape = patch;
+  return SplitIntoPieces(PatchId(0), shape)[0];
 }
 
 TEST(ZeroMesh, SaddlesAreVerticesWithFourSectorsWhereverTheyLie) {

@@ -183,7 +183,8 @@ TEST(Invariance, BsplineKnotsMayBeShiftedAndStretched) {
 }
 
 TEST(Pieces, OfOneBsplineFitBitForBit) {
-  const auto pieces = SplitIntoPieces(PatchId(0), testing::RandomKnots(15, 3, 4, true));
+  const PatchShape shape = testing::RandomKnots(15, 3, 4, true);
+  const auto pieces = SplitIntoPieces(PatchId(0), shape);
   ASSERT_EQ(pieces.size(), 25u);
   for (int a = 0; a < 5; ++a) {
     for (int b = 0; b < 5; ++b) {
@@ -205,7 +206,8 @@ TEST(Pieces, OfOneBsplineFitBitForBit) {
 }
 
 TEST(Pieces, KeepTheOrientationOfATriangle) {
-  for (const Piece& piece : SplitIntoPieces(PatchId(0), testing::RandomTriangle(1, 4, false))) {
+  const PatchShape shape = testing::RandomTriangle(1, 4, false);
+  for (const Piece& piece : SplitIntoPieces(PatchId(0), shape)) {
     double area = 0;
     for (int k = 0; k < 400; ++k) {
       const double u = (k % 20 + 0.5) / 20, v = (k / 20 + 0.5) / 20;

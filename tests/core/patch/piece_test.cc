@@ -118,14 +118,15 @@ TEST(Pieces, BrownOnePerBreakRectangle) {
 TEST(Pieces, HosakaOnePerBreakRectangle) {
   for (const bool inner : {false, true}) {
     for (const int n : {1, 3, 11}) {
-      HosakaPatch patch = testing::RandomHosaka(n, n, false, inner, 1.0);
-      EXPECT_EQ(SplitIntoPieces(PatchId(0), patch).size(), 1u);
-      ExpectPiecesMatch(patch, 200);
-      patch.blend = HosakaPatch::Blend::kLinear;
-      ExpectPiecesMatch(patch, 200);
-      patch = testing::RandomHosaka(n, n, true, inner, 1.0);
-      EXPECT_EQ(SplitIntoPieces(PatchId(0), patch).size(), 6u);
-      ExpectPiecesMatch(patch, 200);
+      HosakaPatch linear = testing::RandomHosaka(n, n, false, inner, 1.0);
+      linear.blend = HosakaPatch::Blend::kLinear;
+      ExpectPiecesMatch(linear, 200);
+      const PatchShape whole = testing::RandomHosaka(n, n, false, inner, 1.0);
+      EXPECT_EQ(SplitIntoPieces(PatchId(0), whole).size(), 1u);
+      ExpectPiecesMatch(whole, 200);
+      const PatchShape broken = testing::RandomHosaka(n, n, true, inner, 1.0);
+      EXPECT_EQ(SplitIntoPieces(PatchId(0), broken).size(), 6u);
+      ExpectPiecesMatch(broken, 200);
     }
   }
 }
@@ -133,7 +134,8 @@ TEST(Pieces, HosakaOnePerBreakRectangle) {
 TEST(SubNet, IsThePartOfTheNet) {
   for (auto blend : {GregoryPatch::Blend::kCorner, GregoryPatch::Blend::kEdge}) {
     Random random(6);
-    const BernsteinNet net = SplitIntoPieces(PatchId(0), testing::RandomGregory(1, blend, 1.0))[0].net;
+    const PatchShape shape = testing::RandomGregory(1, blend, 1.0);
+    const BernsteinNet net = SplitIntoPieces(PatchId(0), shape)[0].net;
     for (int k = 0; k < 1000; ++k) {
       const double u0 = 0.9 * random.Unit(), v0 = 0.9 * random.Unit(), u1 = u0 + (1 - u0) * random.Unit(),
                    v1 = v0 + (1 - v0) * random.Unit();

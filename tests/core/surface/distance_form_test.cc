@@ -14,8 +14,8 @@ using testing::Random;
 Vec4 PointOf(const BernsteinNet& net, double u, double v) { return SubNet(net, u, u, v, v).points.front(); }
 
 BernsteinNet RandomNet(std::uint64_t seed, int degree_u, int degree_v, bool rational) {
-  BernsteinNet net =
-      SplitIntoPieces(PatchId(0), testing::RandomBezier(seed, degree_u, degree_v, rational)).front().net;
+  const PatchShape shape = testing::RandomBezier(seed, degree_u, degree_v, rational);
+  BernsteinNet net = SplitIntoPieces(PatchId(0), shape).front().net;
   for (Vec4& p : net.points) p.head<3>() -= p.w() * Vec3(8, 9, 3);  // centre of the ball
   return net;
 }

@@ -20,7 +20,8 @@ class NetKernel : public ::testing::TestWithParam<std::pair<int, int>> {
  protected:
   BernsteinNet Net(bool rational) const {
     const auto [u, v] = GetParam();
-    return SplitIntoPieces(PatchId(0), testing::RandomBezier(5, u, v, rational)).front().net;
+    const PatchShape shape = testing::RandomBezier(5, u, v, rational);
+    return SplitIntoPieces(PatchId(0), shape).front().net;
   }
 };
 
@@ -64,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(Degrees, NetKernel,
 
 TEST(MeasureBend, OfAParabolicArchAndAQuarterCircle) {
   // z = 4 h t (1 - t) over a length of 10, straight along v: the arch leaves its chord by h.
-  BezierPatch arch{2, 1, {{0, 0, 0}, {0, 3, 0}, {5, 0, 4}, {5, 3, 4}, {10, 0, 0}, {10, 3, 0}}, {}};
+  const PatchShape arch =
+      BezierPatch{2, 1, {{0, 0, 0}, {0, 3, 0}, {5, 0, 4}, {5, 3, 4}, {10, 0, 0}, {10, 3, 0}}, {}};
   const BernsteinNet net = SplitIntoPieces(PatchId(0), arch).front().net;
   const NetBend bend = MeasureBend({2, 1}, net.points.data(), Vec3::UnitZ(), 0.0);
   EXPECT_NEAR(bend.normal_u, 2.0, 1e-12);
