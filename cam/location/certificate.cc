@@ -41,9 +41,8 @@ struct Prover {
     top = std::max(top, z);
     return true;
   }
-  bool Excluded(const LowerModel& low, double z) {
-    if (!low.minorant) return false;
-    if (low.f0 + MinimizeOnBox(low.q, {-0.5, 0.5, -0.5, 0.5}).value < free_f) return false;
+  bool Excluded(const LeafModel& model, const LowerModel& low, double z) {
+    if (!(internal::LeastOn(model, low, Lift(ball.q, z)) >= free_f)) return false;
     top = std::max(top, z);
     return true;
   }
@@ -63,20 +62,21 @@ struct Prover {
     const double mu = 0.5 * (rect.u0 + rect.u1), mv = 0.5 * (rect.v0 + rect.v1);
     const LeafModel model = internal::MakeLeafModel(piece, points, hull.data(), hull_count, rect);
     LowerModel low = internal::BoundBelow(model, Lift(ball.q, best.z));
-    if (Excluded(low, best.z)) return;
+    if (Excluded(model, low, best.z)) return;
     if (low.convex || level <= 2) {
       const Vec3 c = Lift(ball.q, best.z);
       const BoxMinimum guess = internal::GuessMinimum(model, c);
-      const internal::SearchResult found =
-          internal::RaiseOnPiece(piece, piece_index, rect, mu + guess.x * (rect.u1 - rect.u0),
-                                 mv + guess.y * (rect.v1 - rect.v0), ball, {}, best);
+      const internal::SearchResult found = internal::RaiseOnPiece(
+          piece, piece_index, rect, mu + guess.x * (rect.u1 - rect.u0), mv + guess.y * (rect.v1 - rect.v0),
+          ball, {.model = &model, .lower = &low}, best);
       if (found.improved) low = internal::BoundBelow(model, Lift(ball.q, best.z));
-      if (low.convex && found.convex_minimum >= free_f) {
+      if (found.out || (low.convex && found.convex_minimum >= free_f)) {
         top = std::max(top, best.z);
         return;
       }
     }
-    if (Excluded(internal::BoundBelow(model, Lift(ball.q, best.z + eps)), best.z + eps)) return;
+    const double above = best.z + eps;
+    if (Excluded(model, internal::BoundBelow(model, Lift(ball.q, above)), above)) return;
 
     const bool along_u = model.a.squaredNorm() >= model.b.squaredNorm();
     Vec4* low_half = buffer.data() + 2 * level * kMaxNetPoints;
@@ -102,10 +102,18 @@ double Locator::Impl::Certify(const Ball& ball, const std::vector<std::int32_t>&
   std::array<Vec4, kMaxNetPoints> points;
   for (const std::int32_t index : open) {
     const internal::SearchLeaf& leaf = tree.leaves[index];
+    const Rect rect = leaf.rect();
+    // The ball may have been raised since.
+    const LeafModel model = leaf.Model(tree.grid);
+    const LowerModel low = internal::BoundBelow(model, Lift(ball.q, best.z));
+    if (prover.Excluded(model, low, best.z)) continue;
+    if (IsOnlyContact(best, leaf.piece(), rect, model, low, ball)) {
+      prover.top = std::max(prover.top, best.z);
+      continue;
+    }
     const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece())];
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
     std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
-    const Rect rect = leaf.rect();
     RestrictNet(shape, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
     prover.Prove(piece, leaf.piece(), rect, points.data(), 0);
   }

@@ -44,6 +44,28 @@ struct LowerModel {
 };
 LowerModel BoundBelow(const LeafModel& model, const Vec3& c);
 
+// Where the rectangle rises above c: for any depth t >= 0, f >= 1/2 |S_xy - c_xy|^2 + t (c_z - S_z) - t^2 /
+// 2, a half-space's squared distance in height for the ray's; with equality where S lies t below c, or not
+// below it and t = 0. Its own quadratic, always a minorant; `convex` says nothing.
+LowerModel BoundBelowAtDepth(const LeafModel& model, const Vec3& c, double depth);
+
+// A lower bound of f over the rectangle: the least of the minorant `low` = BoundBelow(model, c), or, where
+// that is none, of the one at the depth where the model comes nearest.
+double LeastOn(const LeafModel& model, const LowerModel& low, const Vec3& c);
+
+// f and its gradient at a place (x, y) of the rectangle, all in local parameters; `depth` is how far S lies
+// below c there, 0 where it does not.
+struct LocalJet {
+  double x = 0.0, y = 0.0;
+  double f = 0.0;
+  Vec2 gradient = Vec2::Zero();
+  double depth = 0.0;
+};
+// A lower bound of f over the rectangle from its value at one place: f and the bound at that depth touch
+// there, so the Taylor polynomial with the bound's least Hessian lies below both. Much tighter than LeastOn
+// where the place is near the minimum. `low` as for LeastOn.
+double LeastFrom(const LeafModel& model, const LowerModel& low, const Vec3& c, const LocalJet& at);
+
 // The middle model's own minimiser: where to start a search.
 BoxMinimum GuessMinimum(const LeafModel& model, const Vec3& c);
 

@@ -161,6 +161,12 @@ Vec2 KktSlope(const Step& step, const Box2& box) {
 
 }  // namespace
 
+LocalJet LocalJetAt(const Rect& rect, double u, double v, const Vec3& d, const Vec2& slope) {
+  const double lu = rect.u1 - rect.u0, lv = rect.v1 - rect.v0;
+  return {(u - rect.u0) / lu - 0.5, (v - rect.v0) / lv - 0.5, 0.5 * d.squaredNorm(),
+          Vec2(-lu * slope.x(), -lv * slope.y()), d.z()};
+}
+
 double LinearMinimum(double f, const Vec2& slope, const Rect& rect, double u, double v) {
   const double x = slope.x() > 0.0 ? rect.u1 - u : rect.u0 - u;
   const double y = slope.y() > 0.0 ? rect.v1 - v : rect.v0 - v;
@@ -221,9 +227,12 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
         break;
       }
     } else {
-      if (options.lower != nullptr && !result.improved && options.lower->convex) {
-        result.convex_minimum = LinearMinimum(s.f, Vec2(-step.model.gx, -step.model.gy), rect, s.u, s.v);
-        if (result.convex_minimum >= ball.FreeF()) return end();
+      if (options.lower != nullptr && !result.improved) {
+        const Vec2 slope(s.d.dot(s.jet.du), s.d.dot(s.jet.dv));
+        result.out = LeastFrom(*options.model, *options.lower, Lift(ball.q, best.z),
+                               LocalJetAt(rect, s.u, s.v, s.d, slope)) >= ball.FreeF() ||
+                     (options.lower->convex && LinearMinimum(s.f, slope, rect, s.u, s.v) >= ball.FreeF());
+        if (result.out) return end();
       }
       if (!(promise > 1e-15 * (s.f + ball.radius * ball.radius))) break;
     }

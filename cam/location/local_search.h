@@ -26,13 +26,16 @@ struct Ball {
 
 struct SearchOptions {
   double max_step = kInfinity;  // mm, longest move on the surface per iteration
-  const LowerModel* lower =
-      nullptr;  // with `rect` as its rectangle: gives up when it proves the rectangle out
+  // The model of `rect` and BoundBelow of it for the centre at the first best.z, both or none: the search
+  // gives up where they prove the rectangle out.
+  const LeafModel* model = nullptr;
+  const LowerModel* lower = nullptr;
 };
 
 // How a search ended. Where f is convex on `rect` (for the final best.z), it is nowhere below convex_minimum.
 struct SearchResult {
   bool improved = false;
+  bool out = false;  // f is proven to be nowhere below FreeF() on `rect`
   double convex_minimum = -kInfinity;
   double u = 0.0, v = 0.0;  // where the search ended, and f there
   Vec3 p = Vec3::Zero();
@@ -45,6 +48,9 @@ struct SearchResult {
 // box, line search. best.z must be finite. The contact's g is exact to about 1e-12 mm.
 SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect, double u, double v,
                           const Ball& ball, const SearchOptions& options, Contact& best);
+
+// f at a place of `rect` in local parameters: its vector d to the ray there, and S_u.d, S_v.d.
+LocalJet LocalJetAt(const Rect& rect, double u, double v, const Vec3& d, const Vec2& slope);
 
 // Smallest value over `rect` of the linear minorant f + grad.(x - x0) of a convex f with -grad = slope.
 double LinearMinimum(double f, const Vec2& slope, const Rect& rect, double u, double v);

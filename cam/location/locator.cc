@@ -79,6 +79,16 @@ double Locator::Impl::RunnerUp(const SearchResult& ended, const Ball& ball, cons
   return ended.p.z() + std::sqrt(rim2);
 }
 
+bool Locator::Impl::IsOnlyContact(const Contact& best, std::int32_t piece, const Rect& rect,
+                                  const internal::LeafModel& model, const LowerModel& low,
+                                  const Ball& ball) const {
+  if (best.piece != piece || !Holds(rect, best.u, best.v)) return false;
+  if (low.convex && IsKkt(best, rect)) return true;
+  const Vec3 c = Lift(ball.q, best.z), d = internal::ToRay(best.p, c);
+  return internal::LeastFrom(model, low, c, internal::LocalJetAt(rect, best.u, best.v, d, best.slope)) >=
+         ProofF();
+}
+
 void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& best, OpenLeaves* open) const {
   const internal::SearchLeaf& leaf = tree.leaves[index];
   const double free_f = ball.FreeF();
@@ -88,8 +98,8 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
   const internal::LeafModel model = leaf.Model(tree.grid);
   const LowerModel lower = internal::BoundBelow(model, c);
   const Rect rect = leaf.rect();
-  if (lower.convex && best.piece == leaf.piece() && Holds(rect, best.u, best.v) && IsKkt(best, rect)) return;
-  if (lower.minorant && lower.f0 + MinimizeOnBox(lower.q, {-0.5, 0.5, -0.5, 0.5}).value >= free_f) return;
+  if (IsOnlyContact(best, leaf.piece(), rect, model, lower, ball)) return;
+  if (internal::LeastOn(model, lower, c) >= free_f) return;
 
   const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece())];
   const auto at = [&](double x, double y) {
@@ -97,18 +107,20 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
   };
   const BoxMinimum guess = internal::GuessMinimum(model, c);
   SearchOptions options;
+  options.model = &model;
   options.lower = &lower;
   const Vec2 start = at(guess.x, guess.y);
   const SearchResult found =
       internal::RaiseOnPiece(piece, leaf.piece(), rect, start.x(), start.y(), ball, options, best);
+  if (found.out) return;
   // One maximum, proven? Then the search has found it.
-  const bool convex =
-      found.improved ? internal::BoundBelow(model, Lift(ball.q, best.z)).convex : lower.convex;
-  if (convex) {
+  const LowerModel raised = found.improved ? internal::BoundBelow(model, Lift(ball.q, best.z)) : lower;
+  if (raised.convex) {
     if (found.convex_minimum < ProofF() && open != nullptr) open->all.push_back(index);
     return;
   }
-  options.lower = nullptr;
+  if (found.improved && IsOnlyContact(best, leaf.piece(), rect, model, raised, ball)) return;
+  options = {};
   std::array<SearchResult, 5> ended = {found};
   std::size_t count = 1;
   for (const double x : {-0.5, 0.5}) {

@@ -44,6 +44,11 @@ struct Locator::Impl {
   // nowhere.
   double RunnerUp(const internal::SearchResult& ended, const internal::Ball& ball,
                   const internal::Contact& best) const;
+  // Whether the best contact lies on this part of a piece and is proven to be all of it that a ball at best.z
+  // meets. `low` as BoundBelow gives it for that ball.
+  bool IsOnlyContact(const internal::Contact& best, std::int32_t piece, const internal::Rect& rect,
+                     const internal::LeafModel& model, const internal::LowerModel& low,
+                     const internal::Ball& ball) const;
   void VisitLeaf(std::int32_t leaf, const internal::Ball& ball, internal::Contact& best,
                  OpenLeaves* open) const;
   void StartFromHint(const internal::Ball& ball, const SurfacePoint& hint, internal::Contact& best) const;

@@ -1,4 +1,5 @@
 // What a leaf's model proves for one centre.
+#include <algorithm>
 #include <cmath>
 
 #include "cam/location/leaf_model.h"
@@ -42,6 +43,47 @@ LowerModel BoundBelow(const LeafModel& m, const Vec3& c) {
   const double cc = m.b.head<2>().squaredNorm() + d.head<2>().dot(m.vv.head<2>()) - h_vv - h_uv;
   low.convex = a > 0.0 && cc > 0.0 && a * cc > b * b;
   return low;
+}
+
+// With d = (s_xy - c_xy, -t), the gradient of the bound at s in space, and everything of the plan as that of
+// space without its z-part:
+//   S_u.S_u of the plan >= a.a of the plan + 2 (S_u - a).a - 2 (S_u - a)_z a_z,
+//   (S - s).S_uu of the plan = (S - s).uu - (S - s)_z uu_z + (S - s).(S_uu - uu) of the plan,
+//   d.S_uu = d.uu + d.(S_uu - uu),
+// where gram_uu bounds 2 (S_u - a).a + (S - s).uu from below; the mixed entry likewise.
+LowerModel BoundBelowAtDepth(const LeafModel& m, const Vec3& c, double depth) {
+  LowerModel low;
+  low.minorant = true;
+  const Vec3 d(m.s.x() - c.x(), m.s.y() - c.y(), -depth);
+  const double size = d.norm() + m.reach, drift_a = m.drift_a, drift_b = m.drift_b;
+  const double az = std::abs(m.a.z()), bz = std::abs(m.b.z());
+  const double e_uu = m.gram_uu + 2.0 * az * drift_a + m.reach * std::abs(m.uu.z()) + size * m.drift_uu;
+  const double e_vv = m.gram_vv + 2.0 * bz * drift_b + m.reach * std::abs(m.vv.z()) + size * m.drift_vv;
+  const double e_uv =
+      m.gram_uv + az * drift_b + bz * drift_a + m.reach * std::abs(m.uv.z()) + size * m.drift_uv;
+  low.f0 = 0.5 * (d.x() * d.x() + d.y() * d.y() - depth * depth) + depth * (c.z() - m.s.z()) - m.rest * size;
+  low.q.a = m.a.head<2>().squaredNorm() + d.dot(m.uu) - e_uu - e_uv;
+  low.q.b = m.a.head<2>().dot(m.b.head<2>()) + d.dot(m.uv);
+  low.q.c = m.b.head<2>().squaredNorm() + d.dot(m.vv) - e_vv - e_uv;
+  low.q.gx = d.dot(m.a);
+  low.q.gy = d.dot(m.b);
+  return low;
+}
+
+double LeastOn(const LeafModel& m, const LowerModel& low, const Vec3& c) {
+  if (low.minorant) return low.f0 + MinimizeOnBox(low.q, kUnit).value;
+  const BoxMinimum at = GuessMinimum(m, c);
+  const double z = m.s.z() + at.x * (m.a.z() + 0.5 * at.x * m.uu.z() + at.y * m.uv.z()) +
+                   at.y * (m.b.z() + 0.5 * at.y * m.vv.z());
+  const LowerModel beside = BoundBelowAtDepth(m, c, std::max(0.0, c.z() - z));
+  return beside.f0 + MinimizeOnBox(beside.q, kUnit).value;
+}
+
+double LeastFrom(const LeafModel& m, const LowerModel& low, const Vec3& c, const LocalJet& at) {
+  Quadratic2 q = low.minorant ? low.q : BoundBelowAtDepth(m, c, at.depth).q;
+  q.gx = at.gradient.x();
+  q.gy = at.gradient.y();
+  return at.f + MinimizeOnBox(q, {-0.5 - at.x, 0.5 - at.x, -0.5 - at.y, 0.5 - at.y}).value;
 }
 
 BoxMinimum GuessMinimum(const LeafModel& m, const Vec3& c) {

@@ -31,10 +31,18 @@ class LeafProof {
         distance2_(distance * distance),
         spare2_(2.0 * distance * spare) {}
 
+  // The dearer bounds only where T2 does not get along with the cheaper ones of both ends.
   bool Out() {
+    double d0 = BoxDistance2(a_), d1 = BoxDistance2(b_);
+    if (ChordDistance2(d0, d1, length_) >= distance2_) return true;
+    model_ = leaf_.Model(grid_);
+    const LowerModel low0 = BoundBelow(*model_, a_), low1 = BoundBelow(*model_, b_);
+    d0 = std::max(d0, 2.0 * LeastOn(*model_, low0, a_));
+    d1 = std::max(d1, 2.0 * LeastOn(*model_, low1, b_));
+    if (ChordDistance2(d0, d1, length_) >= distance2_) return true;
     const double enough = Enough(length_);
-    const double d0 = Distance2(a_, enough);
-    return d0 >= distance2_ && Out(0.0, d0, 1.0, Distance2(b_, enough));
+    d0 = NearDistance2(a_, low0, enough, d0);
+    return d0 >= distance2_ && Out(0.0, d0, 1.0, NearDistance2(b_, low1, enough, d1));
   }
   bool met() const { return met_; }  // a point of the leaf is nearer than `distance`
 
@@ -51,22 +59,21 @@ class LeafProof {
     return Out(t0, d0, t, d) && Out(t, d, t1, d1);
   }
 
-  // A lower bound of the squared distance from the leaf to the centre c with everything above it; the dearer
-  // bounds only where the cheaper ones are below `enough`.
+  // Lower bounds of the squared distance from the leaf to the centre c with everything above it.
+  double BoxDistance2(const Vec3& c) const {
+    return OrientedBoxDistance2(box_.center, box_.axis, box_.half, c);
+  }
   double Distance2(const Vec3& c, double enough) {
-    const double box2 = OrientedBoxDistance2(box_.center, box_.axis, box_.half, c);
+    const double box2 = BoxDistance2(c);
     if (box2 >= enough) return box2;
-    if (!model_) model_ = leaf_.Model(grid_);
     const LowerModel low = BoundBelow(*model_, c);
-    double bound = box2;
-    if (low.minorant) {
-      bound = std::max(bound, 2.0 * (low.f0 + MinimizeOnBox(low.q, {-0.5, 0.5, -0.5, 0.5}).value));
-    }
-    return bound < enough && low.convex ? ConvexDistance2(c, enough, bound) : bound;
+    return NearDistance2(c, low, enough, std::max(box2, 2.0 * LeastOn(*model_, low, c)));
   }
 
-  // f convex on the leaf: its tangent plane anywhere is a lower bound, near the minimum a tight one.
-  double ConvexDistance2(const Vec3& c, double enough, double bound) {
+  // From places near the minimum. Where f is convex on the leaf its tangent plane is a lower bound, too, and
+  // Newton's steps find better places.
+  double NearDistance2(const Vec3& c, const LowerModel& low, double enough, double bound) {
+    if (bound >= enough) return bound;
     const Rect r = leaf_.rect();
     const BoxMinimum guess = GuessMinimum(*model_, c);
     double u = r.u0 + (0.5 + guess.x) * (r.u1 - r.u0), v = r.v0 + (0.5 + guess.y) * (r.v1 - r.v0);
@@ -79,8 +86,9 @@ class LeafProof {
         return bound;
       }
       const Vec2 slope(d.dot(j.du), d.dot(j.dv));
-      bound = std::max(bound, 2.0 * LinearMinimum(f, slope, r, u, v));
-      if (bound >= std::min(enough, 2.0 * f - 0.1 * spare2_)) break;
+      bound = std::max(bound, 2.0 * LeastFrom(*model_, low, c, LocalJetAt(r, u, v, d, slope)));
+      if (low.convex) bound = std::max(bound, 2.0 * LinearMinimum(f, slope, r, u, v));
+      if (!low.convex || bound >= std::min(enough, 2.0 * f - 0.1 * spare2_)) break;
       const int n = d.z() > 0.0 ? 3 : 2;  // above the centre f measures horizontally
       const Quadratic2 model{j.du.head(n).squaredNorm() - d.dot(j.duu),
                              j.du.head(n).dot(j.dv.head(n)) - d.dot(j.duv),
@@ -95,7 +103,7 @@ class LeafProof {
   const SearchLeaf& leaf_;
   const LeafBox& box_;
   const LeafGrid& grid_;
-  std::optional<LeafModel> model_;  // once asked for
+  std::optional<LeafModel> model_;  // once the box does not suffice
   const Piece& piece_;
   const Vec3 &a_, &b_;
   const double length_, distance2_, spare2_;

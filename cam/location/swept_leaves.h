@@ -13,9 +13,9 @@ namespace patchmill::internal {
 // that is met on the way. Cost: one walk over the tree, and per leaf met a few bounds at centres on the move.
 //
 // Proof for a leaf: at centres on the move its distance is bounded from below by its oriented box, by its
-// second-order model (LowerModel, where the leaf does not rise above the centre), or, where f is convex on
-// it, by the tangent plane of f near the minimum; between two centres by T2 (ChordDistance2). Intervals are
-// halved until that suffices, and no further than where T2 takes `spare` (mm) of the distance.
+// second-order model (LeastOn), or from f and its slope near the minimum (LeastFrom, and where f is convex on
+// it, the tangent plane); between two centres by T2 (ChordDistance2). Intervals are halved until that
+// suffices, and no further than where T2 takes `spare` (mm) of the distance.
 bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b, double distance,
                         double spare, std::vector<std::int32_t>& open);
 

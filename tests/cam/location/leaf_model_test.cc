@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cam/location/local_search.h"
 #include "cam/location/ray_distance.h"
 #include "cam/location/search_leaf.h"
 #include "tests/support/random.h"
@@ -98,7 +99,7 @@ Part DyadicPart(const Piece& piece, Random& random) {
 
 // How often each claim was made.
 struct Claims {
-  int minorants = 0, convex = 0, above = 0;
+  int minorants = 0, convex = 0, above = 0, beside = 0, tight = 0, tight_from = 0;
 };
 
 // Whatever `model` claims about a piece's part for a centre c holds at random places of it.
@@ -117,6 +118,32 @@ void CheckClaims(const Piece& piece, const Rect& r, const LeafModel& model, cons
       ASSERT_LE(low.f0 + low.q(x, y), f(x, y) + 1e-10);
     }
   }
+  const LowerModel beside = internal::BoundBelowAtDepth(model, c, std::max(0.0, random.Uniform(-1.0, 5.0)));
+  const double least = internal::LeastOn(model, low, c);
+  if (std::isfinite(beside.q.a)) {
+    claims.beside += !low.minorant;
+    for (int k = 0; k < 6; ++k) {
+      const double x = local(), y = local();
+      ASSERT_LE(beside.f0 + beside.q(x, y), f(x, y) + 1e-10);
+      ASSERT_LE(least, f(x, y) + 1e-10);
+      claims.tight += !low.minorant && least > 0.95 * f(x, y);
+    }
+  }
+  if (std::isfinite(beside.q.a)) {
+    const double x0 = local(), y0 = local();
+    const double u = r.u0 + (0.5 + x0) * (r.u1 - r.u0), v = r.v0 + (0.5 + y0) * (r.v1 - r.v0);
+    const SurfaceJet jet = Evaluate(piece, u, v);
+    const Vec3 d = internal::ToRay(jet.p, c);
+    const internal::LocalJet at = internal::LocalJetAt(r, u, v, d, Vec2(d.dot(jet.du), d.dot(jet.dv)));
+    EXPECT_NEAR(at.x, x0, 1e-9);
+    EXPECT_NEAR(at.f, f(x0, y0), 1e-9);
+    const double from = internal::LeastFrom(model, low, c, at);
+    for (int k = 0; k < 6; ++k) {
+      const double x = local(), y = local();
+      ASSERT_LE(from, f(x, y) + 1e-10);
+      claims.tight_from += from > 0.98 * f(x, y);
+    }
+  }
   if (low.convex) {
     ++claims.convex;
     claims.above += !low.minorant;
@@ -131,6 +158,9 @@ void ExpectNotVacuous(const Claims& claims) {
   EXPECT_GT(claims.minorants, 1000);
   EXPECT_GT(claims.convex, 5000);
   EXPECT_GT(claims.above, 1000);
+  EXPECT_GT(claims.beside, 1000);
+  EXPECT_GT(claims.tight, 1000);
+  EXPECT_GT(claims.tight_from, 1000);
 }
 
 TEST(LeafModel, LowerModelIsBelowAndConvexMeansConvex) {
