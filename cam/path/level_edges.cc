@@ -9,6 +9,9 @@ namespace {
 
 // mm: edges are not searched for pairs of crossings closer than this (ALGORITHMS 11).
 constexpr double kFinestEdge = 2e-4;
+// Items of the surface looked at for one edge. Where folds lie within microns of each other they are tens of
+// thousands for every stretch; such an edge is searched as coarsely as undecided cells are.
+constexpr std::size_t kMostItems = 2'000'000;
 
 // mm: a point this far inside of a known disc is forbidden without asking h.
 constexpr double kClearlyInside = 1e-7;
@@ -118,6 +121,7 @@ class Search {
   void Solve(Edge& edge) {
     edge.first = static_cast<std::int32_t>(out_.crossings.size());
     floor_ = 0.25 * cells_.grid.unit;
+    looked_at_ = 0;
     Candidates& mine = pool_[0];
     for (std::size_t k = 0; k < 2; ++k) {
       mine[k].clear();
@@ -167,6 +171,8 @@ class Search {
       finer[k].clear();
       if (edge_->cell[k] >= 0) items_.Collect(known[k], Beside(a, b, k), length, finer[k]);
     }
+    looked_at_ += known[0].size() + known[1].size() + finer[0].size() + finer[1].size();
+    if (looked_at_ > kMostItems) floor_ = 0.25 * cells_.grid.unit;
     return OneWay(a, b, along, finer) || Narrow(a, b, finer);
   }
 
@@ -220,6 +226,7 @@ class Search {
   const Edge* edge_ = nullptr;
   std::array<Candidates, 40> pool_;  // by depth of halving
   double floor_ = kFinestEdge;
+  std::size_t looked_at_ = 0;
   std::optional<SurfacePoint> hint_;
   RecentDiscs recent_;
   LevelEdges out_;

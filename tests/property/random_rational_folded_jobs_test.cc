@@ -15,6 +15,8 @@ TEST_P(RandomRationalFoldedJobs, KeepThePromises) {
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomRationalFoldedJobs, JobSeeds(4000, kSanitized ? 2 : 12));
 // A level beside a flat maximum: contacts known loosely had its chords divided without end.
 INSTANTIATE_TEST_SUITE_P(LooseContacts, RandomRationalFoldedJobs, ::testing::Values(4110));
+// Folds within microns of each other: tens of thousands of items for every stretch of an edge.
+INSTANTIATE_TEST_SUITE_P(CloseFolds, RandomRationalFoldedJobs, ::testing::Values(4137));
 
 }  // namespace
 }  // namespace patchmill
