@@ -21,6 +21,7 @@ struct Builder {
   std::vector<Vec3> centers;
   std::vector<std::int32_t> order;
   std::vector<SurfaceNode> nodes;
+  double next_report = 0.0;
 
   // Where to cut order[begin, end): items below `bin` of `axis` go left. cost is +inf when bins cannot part
   // them.
@@ -90,6 +91,13 @@ struct Builder {
     return half;
   }
 
+  void Report() {
+    const double share = static_cast<double>(nodes.size()) / (2.0 * static_cast<double>(boxes.size()));
+    if (share < next_report) return;
+    run.Progress("bounds: tree", share);
+    next_report = share + 1.0 / 64.0;
+  }
+
   void Build(std::span<std::int32_t> items, int depth) {
     const std::size_t self = nodes.size();
     nodes.emplace_back();
@@ -103,7 +111,10 @@ struct Builder {
       nodes[self].leaf = items.front();
       return;
     }
-    if (items.size() > 256 && run.Cancelled()) return;
+    if (items.size() > 256) {
+      if (run.Cancelled()) return;
+      Report();
+    }
     const std::size_t left = Part(items, spread, depth);
     Build(items.first(left), depth + 1);
     nodes[self].right = static_cast<std::int32_t>(nodes.size());
@@ -114,7 +125,7 @@ struct Builder {
 }  // namespace
 
 std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const RunContext& run) {
-  Builder builder{boxes, run, {}, {}, {}};
+  Builder builder{.boxes = boxes, .run = run, .centers = {}, .order = {}, .nodes = {}};
   if (boxes.empty()) return {};
   builder.centers.reserve(boxes.size());
   for (const Box3& box : boxes) builder.centers.push_back(box.Center());
