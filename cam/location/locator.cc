@@ -86,7 +86,7 @@ bool Locator::Impl::IsOnlyContact(const Contact& best, std::int32_t piece, const
   if (low.convex && IsKkt(best, rect)) return true;
   const Vec3 c = Lift(ball.q, best.z), d = internal::ToRay(best.p, c);
   return internal::LeastFrom(model, low, c, internal::LocalJetAt(rect, best.u, best.v, d, best.slope)) >=
-         ProofF();
+         ball.FreeF();
 }
 
 void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& best, OpenLeaves* open) const {

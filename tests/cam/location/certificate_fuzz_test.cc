@@ -178,6 +178,14 @@ TEST(CertificateFuzz, BordersThatLetGo) {
   ExpectClean(tally);
 }
 
+// A contact on the border of a leaf that holds the maximum 4e-6 of the parameter further, 1.4e-9 mm higher,
+// once taken for all of it within what a proof allows itself.
+TEST(CertificateFuzz, MaximaBesideBorders) {
+  Tally tally;
+  Judge(984, tally);
+  ExpectClean(tally);
+}
+
 // A ball that rests on a singular corner of a part of 107 m: only division closes the gap there, 70 halvings.
 TEST(CertificateFuzz, SingularCornerOfAHugePart) {
   Tally tally;
