@@ -67,19 +67,21 @@ std::vector<Interval> OffLimits(const LineShape& line, const Interval& limits) {
   return where;
 }
 
-// Lines as dense as the lattice asks, mixed with the straight ones. They bend as little as can be from knot
-// to knot on average, end where they meet the band's limits, and both limits are lines themselves.
+// Lines as dense as the lattice asks, mixed with straight ones as dense as the densest place of their row.
+// They bend as little as can be from knot to knot on average, end where they meet the band's limits, and both
+// limits are lines themselves.
 Family ShareWay(const LineLattice& lattice, const LineBand& band, double straight) {
   const std::size_t rows = lattice.rows.size(), knots = lattice.knots();
   Family family;
   family.density.assign(rows, std::vector<double>(knots));
   std::vector<std::vector<double>> counts;
   double least = kInfinity, most = -kInfinity;
+  std::vector<double> densest;
+  for (const std::vector<double>& row : lattice.density)
+    densest.push_back(*std::max_element(row.begin(), row.end()));
   for (std::size_t k = 0; k < knots; ++k) {
-    for (std::size_t r = 0; r < rows; ++r) {
-      family.density[r][k] =
-          (1.0 - straight) * lattice.density[r][k] + straight * StraightDensity(band, lattice.RowAt(r, k));
-    }
+    for (std::size_t r = 0; r < rows; ++r)
+      family.density[r][k] = (1.0 - straight) * lattice.density[r][k] + straight * densest[r];
     counts.push_back(CountsAt(lattice, family.density, k));
     double shift = 0.0;
     if (k > 0) {

@@ -22,13 +22,8 @@ absl::StatusOr<JobResult> RunVerified(const Surface& surface, const Job& job) {
 // m of passes of each kind.
 std::array<double, 4> LengthsByKind(const LinkResult& motion) {
   std::array<double, 4> lengths{};
-  for (const CutterPath& pass : motion.passes) {
-    const std::size_t count = pass.points.size() + (pass.closed ? 1 : 0);
-    for (std::size_t i = 1; i < count; ++i) {
-      lengths[static_cast<std::size_t>(pass.kind)] +=
-          1e-3 * (pass.points[i % pass.points.size()].center - pass.points[i - 1].center).norm();
-    }
-  }
+  for (const CutterPath& pass : motion.passes)
+    lengths[static_cast<std::size_t>(pass.kind)] += 1e-3 * Length(pass);
   return lengths;
 }
 

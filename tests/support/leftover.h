@@ -65,4 +65,10 @@ class PathDistance {
   std::map<std::pair<int, int>, std::vector<std::size_t>> cells_;
 };
 
+inline double TotalLength(const std::vector<CutterPath>& paths) {
+  double sum = 0.0;
+  for (const CutterPath& path : paths) sum += Length(path);
+  return sum;
+}
+
 }  // namespace patchmill::testing

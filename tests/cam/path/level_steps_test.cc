@@ -27,16 +27,6 @@ ContourParams WallParams() {
   return params;
 }
 
-double LengthOf(const std::vector<CutterPath>& paths) {
-  double sum = 0.0;
-  for (const CutterPath& path : paths) {
-    const std::size_t count = path.points.size() + (path.closed ? 1 : 0);
-    for (std::size_t i = 1; i < count; ++i)
-      sum += (path.points[i % path.points.size()].center - path.points[i - 1].center).norm();
-  }
-  return sum;
-}
-
 // The worst leftover where the slope is within the levels' window by 5 degrees.
 double WorstLeftover(const Surface& surface, const std::vector<CutterPath>& paths) {
   const PathDistance distance(paths);
@@ -68,7 +58,7 @@ TEST(LevelSteps, OfADomeAreAsWideAsItsCurvatureAllows) {
   EXPECT_GE(worst, 0.85 * kScallop);
   // No more than two levels above the area of the centres over the step.
   const double least = 2.0 * kPi * c * c * std::cos(Radians(40)) / CenterStep(kRadius, kScallop, -1.0 / rho);
-  EXPECT_LE(LengthOf(paths), least + 2.0 * 2.0 * kPi * c);
+  EXPECT_LE(TotalLength(paths), least + 2.0 * 2.0 * kPi * c);
 }
 
 TEST(LevelSteps, LeaveTheScallopWhereTheyDifferAroundALevel) {

@@ -34,15 +34,6 @@ std::vector<CutterPath> Lines(const Locator& locator, const ZigzagParams& params
   return *std::move(paths);
 }
 
-double LengthOf(const std::vector<CutterPath>& paths) {
-  double sum = 0.0;
-  for (const CutterPath& path : paths) {
-    for (std::size_t i = 1; i < path.points.size(); ++i)
-      sum += (path.points[i].center - path.points[i - 1].center).norm();
-  }
-  return sum;
-}
-
 // rad: how far the moves turn from the lines' angle in plan.
 double FarthestTurn(const std::vector<CutterPath>& paths, double angle) {
   const Vec2 along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
@@ -67,7 +58,7 @@ TEST_P(BentOverHills, ShorterAsFineAndWithinTheAngle) {
   EXPECT_LT(FarthestTurn(straight, angle), 1e-6);
   EXPECT_LE(FarthestTurn(bent, angle), Radians(bend) + 1e-6);
   EXPECT_GT(FarthestTurn(bent, angle), Radians(5.0));
-  EXPECT_LT(LengthOf(bent), 0.96 * LengthOf(straight));
+  EXPECT_LT(TotalLength(bent), 0.96 * TotalLength(straight));
 
   const PathDistance distance(bent);
   Random random(11);
@@ -86,6 +77,17 @@ TEST_P(BentOverHills, ShorterAsFineAndWithinTheAngle) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Angles, BentOverHills, ::testing::Values(0.0, kPi / 2.0, 0.4, 2.35));
+
+// Lines bend only for 4 %, from fine finishes to coarse ones.
+TEST(LineBends, AreShorterByWhatTheyAreAskedFor) {
+  const Surface surface = JoinedSurface(TwoHills());
+  const Locator locator(surface, 3.0);
+  for (const double scallop : {0.01, 0.03, 0.1, 0.2}) {
+    ZigzagParams straight = BendParams(0.0), bent = BendParams(20.0);
+    straight.scallop = bent.scallop = scallop;
+    EXPECT_LT(TotalLength(Lines(locator, bent)), 0.96 * TotalLength(Lines(locator, straight))) << scallop;
+  }
+}
 
 void ExpectTheSameAsStraight(const PatchModel& model) {
   const Surface surface = JoinedSurface(model);
