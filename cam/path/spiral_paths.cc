@@ -16,7 +16,9 @@
 namespace patchmill {
 namespace {
 
-constexpr double kBeside = 4.0;    // flat steps: contours farther apart somewhere do not belong together
+// Flat steps: contours farther apart somewhere do not belong together. Full levels lie up to two apart, and
+// twice that on the surface where they pass a saddle.
+constexpr double kBeside = 4.0;
 constexpr double kBackOff = 0.02;  // radii: how far behind the upper contour the way out begins
 constexpr double kNoWay = 1e-6;    // mm: contours this near leave the way out to the normal
 constexpr int kMostHalvings = 24;  // of a chord

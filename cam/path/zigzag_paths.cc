@@ -114,21 +114,20 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   const double min_step = params.min_step_fraction * prober.flat_step();
   const FrameExtent extent = ExtentInFrame(surface, prober.frame(), locator.radius());
   PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands, LinePositions(prober, extent, min_step, run));
-  std::vector<ClippedLine> lines;
+  std::vector<BentLine> bent;
   std::vector<char> last_of_band;
   for (const LineBand& band : bands) {
-    PM_ASSIGN_OR_RETURN(const std::vector<BentLine> bent,
+    PM_ASSIGN_OR_RETURN(const std::vector<BentLine> more,
                         BendLines(prober, extent.t, band, min_step, params.max_bend, run));
-    for (const BentLine& line : bent)
-      lines.push_back({line.line, static_cast<double>(lines.size()), line.where, {}});
-    last_of_band.resize(lines.size(), 0);
+    bent.insert(bent.end(), more.begin(), more.end());
+    last_of_band.resize(bent.size(), 0);
     last_of_band.back() = 1;
   }
 
+  std::vector<ClippedLine> lines(bent.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: ends", lines.size(), [&](std::size_t i) {
-    const std::vector<Interval> where = std::move(lines[i].keep);
-    lines[i] = ClipLine(prober, lines[i].line, lines[i].rank, extent.t);
-    lines[i].keep = Common(lines[i].keep, where);
+    lines[i] = ClipLine(prober, bent[i].line, static_cast<double>(i), extent.t);
+    lines[i].keep = Common(lines[i].keep, bent[i].where);
   }));
   std::vector<std::vector<ClippedLine>> between(lines.empty() ? 0 : lines.size() - 1);
   PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: gaps", between.size(), [&](std::size_t i) {

@@ -1,4 +1,5 @@
-// Zig-zag passes over the gentle ground: parallel scan lines, spaced for the scallop by the centre formula.
+// Zig-zag passes over the gentle ground: scan lines side by side, spaced for the scallop by the centre
+// formula, straight or bent a little (BendLines).
 #pragma once
 
 #include <vector>
@@ -21,7 +22,7 @@ struct ZigzagParams : PassParams {
 // half a step along the centre curve; lines end at a sheet's outer border and roll over rims and creases that
 // are locally highest (MACHINING A.12). Local narrow spots get partial lines; no step falls below
 // min_step_fraction of the flat one. Ordered by line, then along the line; every path runs in +angle
-// direction (linking turns them). Deterministic; parallel over lines.
+// direction, up to its bend (linking turns them). Deterministic; parallel over lines.
 absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, const ZigzagParams& params,
                                                     const RunContext& run);
 
