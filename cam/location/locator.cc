@@ -75,7 +75,7 @@ bool Locator::Impl::Raised(double before, const Contact& c) const {
 
 double Locator::Impl::RunnerUp(const SearchResult& ended, const Ball& ball, const Contact& best) const {
   const double rim2 = radius * radius - (Plan(ended.p) - ball.q).squaredNorm();
-  if (!(rim2 > 0.0) || (ended.p - best.p).norm() <= 1e-5 * radius) return -kInfinity;
+  if (!(rim2 > 0.0) || (ended.p - best.p).norm() <= kNearly * radius) return -kInfinity;
   return ended.p.z() + std::sqrt(rim2);
 }
 

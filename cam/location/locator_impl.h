@@ -23,7 +23,10 @@ struct Locator::Impl {
       tie = -kInfinity;
     }
   };
-  bool IsTie(double z, const internal::Contact& best) const { return z > best.z - 1e-5 * radius; }
+  // Centre heights differ by less than kNearly radii: where a ball touches two places of an unproven leaf so
+  // nearly at once, a few starts may have missed a third.
+  static constexpr double kNearly = 1e-5;
+  bool IsTie(double z, const internal::Contact& best) const { return z > best.z - kNearly * radius; }
 
   internal::Ball BallAt(const Vec2& q) const { return {q, radius, rounding}; }
   double ProofF() const { return radius * (0.5 * radius - slack); }  // f a proof accepts as outside
@@ -40,8 +43,8 @@ struct Locator::Impl {
   bool Grazes(const internal::Contact& c) const { return c.piece >= 0 && c.z - c.p.z() < 0.1 * radius; }
   // A contact above the height found before by more than rounding explains.
   bool Raised(double before, const internal::Contact& c) const;
-  // Centre height at which the ball touches where the search ended, away from its best contact; -infinity:
-  // nowhere.
+  // Centre height at which the ball touches where the search ended, if more than kNearly radii away from its
+  // best contact; -infinity: nowhere.
   double RunnerUp(const internal::SearchResult& ended, const internal::Ball& ball,
                   const internal::Contact& best) const;
   // Whether the best contact lies on this part of a piece and is proven to be all of it that a ball at best.z

@@ -29,8 +29,9 @@ struct RegionParams {
   double floor_z = -kInfinity;     // mm, lowest tip
   double border_tolerance = 0.01;  // mm, sagitta of border polylines on the true loci
   // How finely the surface is divided, 0 (coarse) to 1 (the raw split: nothing is merged). Of less than 1, at
-  // detail d: regions below 2 pi R^2 (1-d)/d join a neighbour, borders cost in the same proportion
-  // (merge_regions.h), and at most 40 d reachable regions remain, those without a neighbour not counted.
+  // detail d: regions below 2 pi R^2 (1-d)/d, or narrower than R (1-d)/d, join a neighbour, borders cost in
+  // the same proportion (merge_regions.h), summits and pits that persist divide mountains and basins
+  // (height_tops.h), and at most 40 d reachable regions remain, those without a neighbour not counted.
   double detail = 0.5;
   const KeepIn* keep_in = nullptr;  // where it allows no centre the reason is kAvoided; null: allows all
 };
