@@ -9,11 +9,6 @@
 namespace patchmill {
 namespace {
 
-int VertexOf(const SplitMesh& mesh, const TriangleSide& side, int which) {
-  const auto& v = mesh.triangles[static_cast<std::size_t>(side.triangle)].vertex;
-  return v[static_cast<std::size_t>((side.side + which) % 3)];
-}
-
 // The field on whose zero curve both ends lie, a smooth one first.
 const ZeroField* CommonField(const ZeroVertex& a, const ZeroVertex& b, std::span<const ZeroField> fields) {
   const ZeroField* limit = nullptr;
@@ -34,61 +29,51 @@ std::vector<Vec2> LineAlong(const SplitMesh& mesh, const TriangleSide& side) {
   return a < b ? places : std::vector<Vec2>(places.rbegin(), places.rend());
 }
 
-// Of each of these sides the first one along the same edge of a piece: both see one arc.
-std::vector<std::size_t> FirstAlongEdge(const std::vector<SplitMesh>& meshes,
-                                        const std::vector<Adjacency>& adjacency,
-                                        const std::vector<std::size_t>& sides) {
+// The borders of one piece: sides with different regions on them, and of each the first one of these along
+// the same edge (both see one arc).
+struct PieceBorders {
+  std::vector<std::size_t> sides, first;
+};
+PieceBorders BordersOf(const SplitMesh& mesh, const AdjacencyList& adjacency, std::size_t piece,
+                       const std::vector<std::vector<int>>& region_of) {
   struct Edge {
-    int piece, low, high;
+    int low, high;
     std::size_t place;
     auto operator<=>(const Edge&) const = default;
   };
+  PieceBorders borders;
   std::vector<Edge> edges;
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    const TriangleSide& side = adjacency[sides[k]].side;
-    const SplitMesh& mesh = meshes[static_cast<std::size_t>(side.piece)];
-    const int a = VertexOf(mesh, side, 0), b = VertexOf(mesh, side, 1);
-    edges.push_back({side.piece, std::min(a, b), std::max(a, b), k});
-  }
+  adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {
+    const int own = region_of[piece][static_cast<std::size_t>(a.side.triangle)];
+    if (a.other_piece >= 0 &&
+        own == region_of[static_cast<std::size_t>(a.other_piece)][static_cast<std::size_t>(a.other_triangle)])
+      return;
+    const auto [low, high] = std::minmax({VertexOf(mesh, a.side, 0), VertexOf(mesh, a.side, 1)});
+    edges.push_back({low, high, borders.sides.size()});
+    borders.sides.push_back(i);
+  });
   std::sort(edges.begin(), edges.end());
-  std::vector<std::size_t> first(sides.size());
+  borders.first.resize(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Edge &edge = edges[i], &before = edges[i > 0 ? i - 1 : 0];
-    const bool again =
-        i > 0 && edge.piece == before.piece && edge.low == before.low && edge.high == before.high;
-    first[edge.place] = again ? first[before.place] : edge.place;
+    const bool again = i > 0 && edge.low == before.low && edge.high == before.high;
+    borders.first[edge.place] = again ? borders.first[before.place] : edge.place;
   }
-  return first;
+  return borders;
 }
 
-// Runs of sides of one piece, each from where it begins among `sides`, and their end; no longer than is
-// refined between two looks at a cancelled run.
-std::vector<std::size_t> PieceRuns(const std::vector<Adjacency>& adjacency,
-                                   const std::vector<std::size_t>& sides) {
-  constexpr std::size_t kLongest = 256;
-  std::vector<std::size_t> runs;
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    const bool fresh = k == 0 || adjacency[sides[k]].side.piece != adjacency[sides[k - 1]].side.piece;
-    if (fresh || k - runs.back() == kLongest) runs.push_back(k);
-  }
-  runs.push_back(sides.size());
-  return runs;
-}
-
-// The arcs of these sides of one piece, those of one field all at once.
-void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                 const std::vector<Adjacency>& adjacency, const std::vector<std::size_t>& sides,
+// The arcs of some borders (places in `arcs`) of one piece, those of one field all at once.
+void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
+                 std::size_t index, const std::vector<std::size_t>& borders,
                  std::span<const ZeroField> fields, double tolerance, BorderArcs& arcs) {
-  if (sides.empty()) return;
-  const auto index = static_cast<std::size_t>(adjacency[sides.front()].side.piece);
   std::vector<std::vector<std::size_t>> along(fields.size());  // their field
   std::vector<std::vector<ZeroSegment>> chords(fields.size());
-  for (const std::size_t i : sides) {
-    const ZeroVertex &a = EndOf(meshes[index], adjacency[i].side, 0),
-                     &b = EndOf(meshes[index], adjacency[i].side, 1);
+  for (const std::size_t i : borders) {
+    const TriangleSide side = adjacency[arcs.sides[i]].side;
+    const ZeroVertex &a = EndOf(meshes[index], side, 0), &b = EndOf(meshes[index], side, 1);
     const ZeroField* field = CommonField(a, b, fields);
     if (field == nullptr) {
-      arcs[i] = LineAlong(meshes[index], adjacency[i].side);
+      arcs.places[i] = LineAlong(meshes[index], side);
       continue;
     }
     const auto f = static_cast<std::size_t>(field - fields.data());
@@ -97,42 +82,53 @@ void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes,
   }
   for (std::size_t f = 0; f < fields.size(); ++f) {
     auto refined = RefineZeroArcs(surface.pieces[index], fields[f], chords[f], tolerance);
-    for (std::size_t k = 0; k < refined.size(); ++k) arcs[along[f][k]] = std::move(refined[k]);
+    for (std::size_t k = 0; k < refined.size(); ++k) arcs.places[along[f][k]] = std::move(refined[k]);
   }
 }
 
 }  // namespace
 
-const ZeroVertex& EndOf(const SplitMesh& mesh, const TriangleSide& side, int which) {
-  return mesh.vertices[static_cast<std::size_t>(VertexOf(mesh, side, which))];
+const std::vector<Vec2>& BorderArcs::operator[](std::size_t side) const {
+  static const std::vector<Vec2> none;
+  const auto at = std::lower_bound(sides.begin(), sides.end(), side);
+  return at != sides.end() && *at == side ? places[static_cast<std::size_t>(at - sides.begin())] : none;
 }
 
 absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                          const std::vector<Adjacency>& adjacency,
+                                          const AdjacencyList& adjacency,
                                           const std::vector<std::vector<int>>& region_of,
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run) {
-  const auto region = [&](int piece, int triangle) {
-    return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
-  };
-  std::vector<std::size_t> sides;
-  for (std::size_t i = 0; i < adjacency.size(); ++i) {
-    const Adjacency& a = adjacency[i];
-    if (region(a.side.piece, a.side.triangle) != region(a.other_piece, a.other_triangle)) sides.push_back(i);
-  }
-  const std::vector<std::size_t> first = FirstAlongEdge(meshes, adjacency, sides);
-  const std::vector<std::size_t> runs = PieceRuns(adjacency, sides);
-  BorderArcs arcs(adjacency.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: borders", runs.size() - 1, [&](std::size_t r) {
-    std::vector<std::size_t> own;
-    for (std::size_t k = runs[r]; k < runs[r + 1]; ++k) {
-      if (first[k] == k) own.push_back(sides[k]);
-    }
-    RefineSides(surface, meshes, adjacency, own, fields, tolerance, arcs);
+  std::vector<PieceBorders> pieces(meshes.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
+    pieces[piece] = BordersOf(meshes[piece], adjacency, piece, region_of);
   }));
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    const std::vector<Vec2>& arc = arcs[sides[first[k]]];
-    if (first[k] != k) arcs[sides[k]].assign(arc.rbegin(), arc.rend());
+  // Runs of borders of one piece, no longer than is refined between two looks at a cancelled run.
+  struct Run {
+    std::size_t piece, begin, end;
+  };
+  constexpr std::size_t kLongest = 256;
+  std::vector<Run> runs;
+  BorderArcs arcs;
+  std::vector<std::size_t> first;
+  for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
+    const std::size_t begin = arcs.sides.size(), end = begin + pieces[piece].sides.size();
+    arcs.sides.insert(arcs.sides.end(), pieces[piece].sides.begin(), pieces[piece].sides.end());
+    for (const std::size_t k : pieces[piece].first) first.push_back(begin + k);
+    for (std::size_t k = begin; k < end; k += kLongest)
+      runs.push_back({piece, k, std::min(end, k + kLongest)});
+  }
+  arcs.places.resize(arcs.sides.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: borders", runs.size(), [&](std::size_t r) {
+    std::vector<std::size_t> own;
+    for (std::size_t k = runs[r].begin; k < runs[r].end; ++k) {
+      if (first[k] == k) own.push_back(k);
+    }
+    RefineSides(surface, meshes, adjacency, runs[r].piece, own, fields, tolerance, arcs);
+  }));
+  for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
+    const std::vector<Vec2>& arc = arcs.places[first[k]];
+    if (first[k] != k) arcs.places[k].assign(arc.rbegin(), arc.rend());
   }
   return arcs;
 }

@@ -1,6 +1,7 @@
 // The sides between triangles of different regions, bent onto the true curves.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -11,15 +12,21 @@
 
 namespace patchmill {
 
-// [adjacency]: places on the curve between the ends of the side, in its direction; none where the side is
-// straight, or no border.
-using BorderArcs = std::vector<std::vector<Vec2>>;
+// The borders of a split.
+struct BorderArcs {
+  std::vector<std::size_t> sides;  // of the adjacency, rising: those with different regions on them
+  // Of each: places on the curve between its ends, in its direction; none where it is straight.
+  std::vector<std::vector<Vec2>> places;
+
+  // Of any side of the adjacency; none where it is no border. log(borders).
+  const std::vector<Vec2>& operator[](std::size_t side) const;
+};
 
 // Of all sides with different regions on them (`region_of[piece][triangle]`). What lies on the zero curve or
 // limit of a field is refined to `tolerance` (mm), once for both triangles. CANCELLED, DEADLINE_EXCEEDED from
 // `run`.
 absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                          const std::vector<Adjacency>& adjacency,
+                                          const AdjacencyList& adjacency,
                                           const std::vector<std::vector<int>>& region_of,
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run);
@@ -28,8 +35,5 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
 // triangle the side belongs to.
 double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
                 const std::vector<Vec2>& arc);
-
-// A vertex of a side: its first or its second.
-const ZeroVertex& EndOf(const SplitMesh& mesh, const TriangleSide& side, int which);
 
 }  // namespace patchmill

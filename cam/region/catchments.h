@@ -14,9 +14,9 @@ namespace patchmill {
 // `sign` -1 from the pits up), over the highest sides of triangles first (a spanning forest; Cousty,
 // Bertrand, Najman and Couprie 2009), and over the lines of the meshes (SplitMesh::lines) that divide them
 // only where nothing else leads: where lines divide the surface they are the borders, elsewhere sides of
-// triangles. Deterministic. Cost n log n. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// triangles. Deterministic; cost n log n in the worst case. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<SplitMesh>& meshes,
-                                                         const std::vector<Adjacency>& adjacency,
+                                                         const AdjacencyList& adjacency,
                                                          const std::vector<MeshVertex>& tops, double sign,
                                                          const RunContext& run);
 

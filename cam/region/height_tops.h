@@ -1,6 +1,8 @@
 // Summits that stand out, and the passes between what drains to them (ALGORITHMS 4: multiple peaks).
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -24,28 +26,39 @@ class HeightGraph {
  public:
   // CANCELLED, DEADLINE_EXCEEDED from `run`, here and below.
   static absl::StatusOr<HeightGraph> Make(const std::vector<SplitMesh>& meshes,
-                                          const std::vector<Adjacency>& adjacency, const RunContext& run);
+                                          const AdjacencyList& adjacency, const RunContext& run);
 
   // Summits for `sign` +1, pits for -1. One persists when the way from it to a higher one (lower, for pits)
-  // leads down (up) by at least `persistence` mm: vertices from the highest down, each joined with its higher
-  // neighbours; where two summits meet the lower one is the younger (Edelsbrunner, Letscher and Zomorodian
-  // 2002). Deterministic; cost n log n.
+  // leads down (up) by at least `persistence` mm (Edelsbrunner, Letscher and Zomorodian 2002): every vertex
+  // climbs the steepest way; where several summits are climbed to from one vertex, highest such vertices
+  // first, they are joined, and all but the highest of those joined so far are the younger ones.
+  // Deterministic; cost n, and m log m of the m vertices where summits meet.
   // `most`: of those beside the highest of each sheet, as many that persist longest.
   absl::StatusOr<HeightTops> Find(double sign, double persistence, std::size_t most,
                                   const RunContext& run) const;
 
  private:
-  HeightGraph(const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency,
-              const RunContext& run);
-  MeshVertex At(std::size_t i) const;
+  using Index = std::uint32_t;
+  static constexpr Index kNone = UINT32_MAX;
+
+  MeshVertex At(Index i) const;
+  // Which of two comes first from the top down: for pits from the bottom up.
+  bool Above(Index a, Index b, double sign) const {
+    const double za = sign * points_[a].z(), zb = sign * points_[b].z();
+    return za > zb || (za == zb && a < b);
+  }
   template <class Visit>
-  void Neighbours(std::size_t i, const Visit& visit) const {
+  void Neighbours(Index i, const Visit& visit) const {
     for (std::size_t k = first_neighbour_[i]; k < first_neighbour_[i + 1]; ++k) visit(neighbours_[k]);
   }
+  Index Steepest(Index i, double sign) const;
 
-  std::vector<std::size_t> first_;  // vertices of all meshes numbered through
+  std::vector<std::size_t> first_{0};  // vertices of all meshes numbered through
   std::vector<Vec3> points_;
-  std::vector<std::size_t> first_neighbour_, neighbours_;
+  std::vector<std::size_t> first_neighbour_;
+  std::vector<Index> neighbours_;
+  // Where the steepest way leads, up [0] and down [1]; to itself from a summit, kNone without neighbours.
+  std::array<std::vector<Index>, 2> steepest_;
 };
 
 }  // namespace patchmill

@@ -1,8 +1,10 @@
 #include "cam/region/raw_regions.h"
 
-#include "core/base/parallel.h"
-#include "core/base/status.h"
-#include "core/base/union_find.h"
+#include <algorithm>
+#include <cstdint>
+#include <unordered_map>
+
+#include "cam/region/side_groups.h"
 
 namespace patchmill {
 namespace {
@@ -15,35 +17,29 @@ int RawOf(const RawRegions& raw, int piece, int triangle) {
   return raw.of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
 }
 
-void Connect(const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency,
-             const Watersheds& watersheds, RawRegions& raw) {
-  std::vector<std::size_t> first{0};  // triangles of all pieces numbered through
-  for (const SplitMesh& mesh : meshes) first.push_back(first.back() + mesh.triangles.size());
-  const auto number = [&](int piece, int triangle) {
-    return first[static_cast<std::size_t>(piece)] + static_cast<std::size_t>(triangle);
+absl::Status Connect(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
+                     const Watersheds& watersheds, const RunContext& run, RawRegions& raw) {
+  const auto alike = [&](const Adjacency& a) {
+    return Triangle(meshes, a.side.piece, a.side.triangle).label ==
+           Triangle(meshes, a.other_piece, a.other_triangle).label;
   };
   // Summits and pits divide what is reached.
   const auto same = [](const std::vector<std::vector<int>>& top, const Adjacency& a) {
     return top[static_cast<std::size_t>(a.side.piece)][static_cast<std::size_t>(a.side.triangle)] ==
            top[static_cast<std::size_t>(a.other_piece)][static_cast<std::size_t>(a.other_triangle)];
   };
-  UnionFind wholes(first.back()), parts(first.back());
-  for (const Adjacency& a : adjacency) {
-    if (a.other_piece < 0) continue;
-    const SplitLabel& own = Triangle(meshes, a.side.piece, a.side.triangle).label;
-    if (!(own == Triangle(meshes, a.other_piece, a.other_triangle).label)) continue;
-    const std::size_t here = number(a.side.piece, a.side.triangle),
-                      there = number(a.other_piece, a.other_triangle);
-    wholes.Join(here, there);
-    if (own.reason != UnreachableReason::kNone || (same(watersheds.summit, a) && same(watersheds.pit, a)))
-      parts.Join(here, there);
-  }
-  std::vector<int> index(first.back(), -1), whole(first.back(), -1);
+  PM_ASSIGN_OR_RETURN(UnionFind wholes, JoinAcross(adjacency, run, alike));
+  PM_ASSIGN_OR_RETURN(UnionFind parts, JoinAcross(adjacency, run, [&](const Adjacency& a) {
+                        return alike(a) && (Triangle(meshes, a.side.piece, a.side.triangle).label.reason !=
+                                                UnreachableReason::kNone ||
+                                            (same(watersheds.summit, a) && same(watersheds.pit, a)));
+                      }));
+  std::vector<int> index(adjacency.beside.size(), -1), whole(adjacency.beside.size(), -1);
   for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
     raw.of.emplace_back();
     for (const SplitTriangle& t : meshes[piece].triangles) {
       const std::size_t triangle = raw.of.back().size();
-      const std::size_t at = number(static_cast<int>(piece), static_cast<int>(triangle));
+      const std::size_t at = adjacency.first[piece] + triangle;
       int& region = index[parts.Find(at)];
       if (region < 0) {
         region = static_cast<int>(raw.regions.size());
@@ -61,50 +57,69 @@ void Connect(const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>&
       raw.of.back().push_back(region);
     }
   }
+  return absl::OkStatus();
 }
 
 // Moves the area between each border's chord and its true curve to the side it belongs to.
 absl::Status AddLenses(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                       const std::vector<Adjacency>& adjacency, const RunContext& run, RawRegions& raw) {
-  std::vector<std::size_t> bent;
-  for (std::size_t i = 0; i < adjacency.size(); ++i) {
-    const Adjacency& a = adjacency[i];
-    if (raw.arcs[i].empty() || a.other_piece != a.side.piece) continue;
-    if (RawOf(raw, a.side.piece, a.side.triangle) < RawOf(raw, a.other_piece, a.other_triangle))
-      bent.push_back(i);
+                       const AdjacencyList& adjacency, const RunContext& run, RawRegions& raw) {
+  struct Lens {
+    TriangleSide side;
+    int own = 0, other = 0;  // regions
+    const std::vector<Vec2>* arc = nullptr;
+    double area = 0.0;
+  };
+  std::vector<Lens> lenses;
+  for (std::size_t k = 0; k < raw.arcs.sides.size(); ++k) {
+    if (raw.arcs.places[k].empty()) continue;
+    const Adjacency a = adjacency[raw.arcs.sides[k]];
+    if (a.other_piece != a.side.piece) continue;
+    const int own = RawOf(raw, a.side.piece, a.side.triangle),
+              other = RawOf(raw, a.other_piece, a.other_triangle);
+    if (own < other) lenses.push_back({a.side, own, other, &raw.arcs.places[k]});
   }
-  std::vector<double> lens(bent.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, bent.size(), [&](std::size_t k) {
-    const TriangleSide& side = adjacency[bent[k]].side;
-    lens[k] = LensArea(surface, meshes[static_cast<std::size_t>(side.piece)], side, raw.arcs[bent[k]]);
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, lenses.size(), [&](std::size_t k) {
+    const TriangleSide& side = lenses[k].side;
+    lenses[k].area = LensArea(surface, meshes[static_cast<std::size_t>(side.piece)], side, *lenses[k].arc);
   }));
-  for (std::size_t k = 0; k < bent.size(); ++k) {
-    const Adjacency& a = adjacency[bent[k]];
-    raw.regions[static_cast<std::size_t>(RawOf(raw, a.side.piece, a.side.triangle))].area += lens[k];
-    raw.regions[static_cast<std::size_t>(RawOf(raw, a.other_piece, a.other_triangle))].area -= lens[k];
+  for (const Lens& lens : lenses) {
+    raw.regions[static_cast<std::size_t>(lens.own)].area += lens.area;
+    raw.regions[static_cast<std::size_t>(lens.other)].area -= lens.area;
   }
   return absl::OkStatus();
+}
+
+// Lengths of the regions' borders with each other (half from each side) and with nothing.
+void MeasureBorders(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency, RawRegions& raw) {
+  std::unordered_map<std::uint64_t, std::size_t> contact_of;  // looked up, never walked
+  for (const std::size_t i : raw.arcs.sides) {
+    const Adjacency a = adjacency[i];
+    const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
+    const double length = (EndOf(mesh, a.side, 1).p - EndOf(mesh, a.side, 0).p).norm();
+    const int own = RawOf(raw, a.side.piece, a.side.triangle);
+    if (a.other_piece < 0) {
+      raw.regions[static_cast<std::size_t>(own)].open_border += length;
+      continue;
+    }
+    const auto [low, high] = std::minmax({own, RawOf(raw, a.other_piece, a.other_triangle)});
+    const std::uint64_t pair = (static_cast<std::uint64_t>(low) << 32) | static_cast<std::uint64_t>(high);
+    const auto [at, fresh] = contact_of.try_emplace(pair, raw.contacts.size());
+    if (fresh) raw.contacts.push_back({low, high, 0.0});
+    raw.contacts[at->second].length += 0.5 * length;
+  }
 }
 
 }  // namespace
 
 absl::StatusOr<RawRegions> FindRawRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                          const std::vector<Adjacency>& adjacency,
-                                          const Watersheds& watersheds, std::span<const ZeroField> fields,
-                                          double tolerance, const RunContext& run) {
+                                          const AdjacencyList& adjacency, const Watersheds& watersheds,
+                                          std::span<const ZeroField> fields, double tolerance,
+                                          const RunContext& run) {
   RawRegions raw;
-  Connect(meshes, adjacency, watersheds, raw);
+  PM_RETURN_IF_ERROR(Connect(meshes, adjacency, watersheds, run, raw));
   PM_ASSIGN_OR_RETURN(raw.arcs, FindBorderArcs(surface, meshes, adjacency, raw.of, fields, tolerance, run));
   PM_RETURN_IF_ERROR(AddLenses(surface, meshes, adjacency, run, raw));
-  for (const Adjacency& a : adjacency) {
-    const int own = RawOf(raw, a.side.piece, a.side.triangle);
-    if (a.other_piece < 0) {
-      raw.regions[static_cast<std::size_t>(own)].open_border += a.length;
-      continue;
-    }
-    const int other = RawOf(raw, a.other_piece, a.other_triangle);
-    if (own != other) raw.contacts.push_back({own, other, 0.5 * a.length});
-  }
+  MeasureBorders(meshes, adjacency, raw);
   return raw;
 }
 

@@ -20,15 +20,15 @@ struct Watersheds {
 struct RawRegions {
   std::vector<std::vector<int>> of;  // [piece][triangle]: its raw region, in order of their first triangles
   std::vector<RawRegion> regions;
-  std::vector<RawContact> contacts;  // each border from both sides with half its length
+  std::vector<RawContact> contacts;  // one for any two regions with a common border
   BorderArcs arcs;                   // of their borders
 };
 
 // Ground of one label is divided where summits or pits change. Areas include the lenses between chords and
 // true curves, those refined to `tolerance` (mm). CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<RawRegions> FindRawRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                          const std::vector<Adjacency>& adjacency,
-                                          const Watersheds& watersheds, std::span<const ZeroField> fields,
-                                          double tolerance, const RunContext& run);
+                                          const AdjacencyList& adjacency, const Watersheds& watersheds,
+                                          std::span<const ZeroField> fields, double tolerance,
+                                          const RunContext& run);
 
 }  // namespace patchmill

@@ -15,7 +15,7 @@ namespace patchmill {
 // to end (seams cut differently on their two sides) are joined to the nearest open end. CANCELLED,
 // DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
-    const Surface& surface, const std::vector<SplitMesh>& meshes, const std::vector<Adjacency>& adjacency,
+    const Surface& surface, const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
     const BorderArcs& arcs, const std::vector<std::vector<int>>& region_of, std::size_t region_count,
     const RunContext& run);
 

@@ -61,7 +61,7 @@ std::size_t MostRegions(const RegionParams& params) {
 // divided.
 absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& params,
                                   std::span<const ZeroField> fields, double max_cell, const RunContext& run,
-                                  std::vector<SplitMesh>& meshes, std::vector<Adjacency>& adjacency) {
+                                  std::vector<SplitMesh>& meshes, AdjacencyList& adjacency) {
   const double persistence =
       std::max({2.0 * params.tolerance, kPersistence * params.radius, kPersistence * max_cell}) *
       std::max(1.0, Coarseness(params));
@@ -89,13 +89,9 @@ absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& pa
       PM_ASSIGN_OR_RETURN(adjacency, FindAdjacency(surface, meshes, run));
     }
   }
-  absl::StatusOr<std::vector<std::vector<int>>> found[2];
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
-    found[k] = Catchments(meshes, adjacency, tops[k].tops, kSigns[k], run);
-  }));
   Watersheds watersheds;
-  PM_ASSIGN_OR_RETURN(watersheds.summit, std::move(found[0]));
-  PM_ASSIGN_OR_RETURN(watersheds.pit, std::move(found[1]));
+  PM_ASSIGN_OR_RETURN(watersheds.summit, Catchments(meshes, adjacency, tops[0].tops, kSigns[0], run));
+  PM_ASSIGN_OR_RETURN(watersheds.pit, Catchments(meshes, adjacency, tops[1].tops, kSigns[1], run));
   return watersheds;
 }
 
@@ -236,7 +232,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions", meshes.size(), [&](std::size_t i) {
     meshes[i] = BuildSplitMesh(surface.pieces[i], fields, params.steep_angle, mesh_params);
   }));
-  PM_ASSIGN_OR_RETURN(std::vector<Adjacency> adjacency, FindAdjacency(surface, meshes, run));
+  PM_ASSIGN_OR_RETURN(AdjacencyList adjacency, FindAdjacency(surface, meshes, run));
   PM_ASSIGN_OR_RETURN(const Watersheds watersheds,
                       Divide(surface, params, fields, mesh_params.max_cell, run, meshes, adjacency));
   PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(surface, meshes, adjacency, watersheds, fields,

@@ -1,10 +1,12 @@
 #include "cam/region/seams.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
-#include <unordered_map>
+#include <span>
 
 #include "core/base/parallel.h"
 #include "core/base/segment.h"
@@ -14,9 +16,11 @@ namespace patchmill {
 namespace {
 
 struct BorderSide {
-  std::size_t adjacency;  // index into the result
-  Vec3 a, b, mid;         // ends, and the true middle of the arc
+  TriangleSide side;
+  Vec3 a, b, mid;  // ends, and the true middle of the arc
   double sagitta = 0.0;
+
+  double Length() const { return (b - a).norm(); }
 };
 
 bool OnBorder(const ZeroVertex& a, const ZeroVertex& b) {
@@ -24,38 +28,43 @@ bool OnBorder(const ZeroVertex& a, const ZeroVertex& b) {
          (a.v == 1.0 && b.v == 1.0);
 }
 
-// Hash grid over the border sides' boxes.
+// Hash grid over the border sides' boxes, in one array: the sides of all cells with one last part of their
+// hash stand together, rising.
 class SideGrid {
  public:
   SideGrid(const std::vector<BorderSide>& sides, double cell) : cell_(cell) {
+    std::vector<Entry> entries;
+    entries.reserve(3 * sides.size());
     for (std::size_t i = 0; i < sides.size(); ++i) {
       Box3 box;
       box.Add(sides[i].a);
       box.Add(sides[i].b);
       box.Add(sides[i].mid);
-      const auto low = Key(box.min), high = Key(box.max);
-      for (auto x = low[0]; x <= high[0]; ++x) {
-        for (auto y = low[1]; y <= high[1]; ++y) {
-          for (auto z = low[2]; z <= high[2]; ++z) cells_[Hash({x, y, z})].push_back(i);
-        }
-      }
+      VisitCells(box.min, box.max, [&](std::uint64_t hash) { entries.push_back({hash, i}); });
     }
+    const std::size_t slots = std::bit_ceil(entries.size() + 1);
+    mask_ = slots - 1;
+    first_.assign(slots + 2, 0);
+    for (const Entry& e : entries) ++first_[(e.hash & mask_) + 2];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    entries_.resize(entries.size());
+    for (const Entry& e : entries) entries_[first_[(e.hash & mask_) + 1]++] = e;
   }
   template <class Visit>
   void Near(const Vec3& p, double reach, const Visit& visit) const {
-    const auto low = Key(p - Vec3::Constant(reach)), high = Key(p + Vec3::Constant(reach));
-    for (auto x = low[0]; x <= high[0]; ++x) {
-      for (auto y = low[1]; y <= high[1]; ++y) {
-        for (auto z = low[2]; z <= high[2]; ++z) {
-          const auto it = cells_.find(Hash({x, y, z}));
-          if (it == cells_.end()) continue;
-          for (const std::size_t i : it->second) visit(i);
-        }
+    VisitCells(p - Vec3::Constant(reach), p + Vec3::Constant(reach), [&](std::uint64_t hash) {
+      const std::size_t slot = hash & mask_;
+      for (std::size_t k = first_[slot]; k < first_[slot + 1]; ++k) {
+        if (entries_[k].hash == hash) visit(entries_[k].side);
       }
-    }
+    });
   }
 
  private:
+  struct Entry {
+    std::uint64_t hash = 0;
+    std::size_t side = 0;
+  };
   using Index = std::array<std::int64_t, 3>;
   Index Key(const Vec3& p) const {
     return {static_cast<std::int64_t>(std::floor(p.x() / cell_)),
@@ -65,36 +74,46 @@ class SideGrid {
   static std::uint64_t Hash(const Index& k) {
     std::uint64_t h = 1469598103934665603ull;
     for (const std::int64_t x : k) h = (h ^ static_cast<std::uint64_t>(x)) * 1099511628211ull;
-    return h;
+    return h ^ (h >> 32);
   }
+  template <class Visit>
+  void VisitCells(const Vec3& min, const Vec3& max, const Visit& visit) const {
+    const Index low = Key(min), high = Key(max);
+    for (auto x = low[0]; x <= high[0]; ++x) {
+      for (auto y = low[1]; y <= high[1]; ++y) {
+        for (auto z = low[2]; z <= high[2]; ++z) visit(Hash({x, y, z}));
+      }
+    }
+  }
+
   double cell_;
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;  // looked up, never walked
+  std::size_t mask_ = 0;
+  std::vector<std::size_t> first_;  // entries of slot k are [first_[k], first_[k + 1])
+  std::vector<Entry> entries_;
 };
 
-// Sides of one piece: neighbours within it, and those on its border that may have one elsewhere.
-struct PieceSides {
-  std::vector<Adjacency> all;
-  std::vector<BorderSide> border;  // .adjacency counts within `all`
-};
-
-PieceSides InnerSides(const Piece& piece, int index, const SplitMesh& mesh) {
-  PieceSides sides;
-  const auto corner = [&](std::size_t t, int s) {
-    return static_cast<std::size_t>(mesh.triangles[t].vertex[static_cast<std::size_t>(s % 3)]);
+// Fills the neighbours of one piece's triangles within it; returns those of its other sides that lie on its
+// border, and may have one elsewhere.
+std::vector<BorderSide> FindInner(const Piece& piece, int index, const SplitMesh& mesh,
+                                  std::span<std::array<int, 3>> beside) {
+  const auto corner = [&](std::size_t t, std::size_t s) {
+    return static_cast<std::size_t>(mesh.triangles[t].vertex[s % 3]);
   };
   // Directed sides by their first vertex: those of vertex i are [first[i], first[i + 1]).
-  std::vector<std::size_t> first(mesh.vertices.size() + 2, 0);
+  std::vector<std::uint32_t> first(mesh.vertices.size() + 2, 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int s = 0; s < 3; ++s) ++first[corner(t, s) + 2];
+    for (std::size_t s = 0; s < 3; ++s) ++first[corner(t, s) + 2];
   }
   std::partial_sum(first.begin(), first.end(), first.begin());
   struct Directed {
-    std::size_t to;
+    std::uint32_t to;
     int triangle;
   };
   std::vector<Directed> directed(3 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int s = 0; s < 3; ++s) directed[first[corner(t, s) + 1]++] = {corner(t, s + 1), static_cast<int>(t)};
+    for (std::size_t s = 0; s < 3; ++s)
+      directed[first[corner(t, s) + 1]++] = {static_cast<std::uint32_t>(corner(t, s + 1)),
+                                             static_cast<int>(t)};
   }
   const auto facing = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = first[from]; i < first[from + 1]; ++i) {
@@ -102,74 +121,87 @@ PieceSides InnerSides(const Piece& piece, int index, const SplitMesh& mesh) {
     }
     return -1;
   };
-  sides.all.reserve(3 * mesh.triangles.size());
+  std::vector<BorderSide> border;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int s = 0; s < 3; ++s) {
-      const ZeroVertex& a = mesh.vertices[corner(t, s)];
-      const ZeroVertex& b = mesh.vertices[corner(t, s + 1)];
-      Adjacency adjacency;
-      adjacency.side = {index, static_cast<int>(t), s};
-      adjacency.length = (b.p - a.p).norm();
-      const int other = facing(corner(t, s + 1), corner(t, s));
-      if (other >= 0) {
-        adjacency.other_piece = index;
-        adjacency.other_triangle = other;
-      } else if (OnBorder(a, b)) {
-        BorderSide side{sides.all.size(), a.p, b.p, Position(piece, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v)),
-                        0.0};
-        side.sagitta = SegmentDistance(side.mid, side.a, side.b);
-        sides.border.push_back(side);
-      }
-      sides.all.push_back(adjacency);
+    for (std::size_t s = 0; s < 3; ++s) {
+      const std::size_t from = corner(t, s), to = corner(t, s + 1);
+      beside[t][s] = facing(to, from);
+      const ZeroVertex &a = mesh.vertices[from], &b = mesh.vertices[to];
+      if (beside[t][s] >= 0 || !OnBorder(a, b)) continue;
+      BorderSide side{{index, static_cast<int>(t), static_cast<int>(s)},
+                      a.p,
+                      b.p,
+                      Position(piece, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v))};
+      side.sagitta = SegmentDistance(side.mid, side.a, side.b);
+      border.push_back(side);
     }
   }
-  return sides;
+  return border;
+}
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+// The side that border[k] faces across a seam, or kNone.
+std::size_t Facing(const std::vector<BorderSide>& border, const SideGrid& grid, std::size_t k, double join) {
+  const BorderSide& side = border[k];
+  std::size_t found = kNone;
+  double best = kInfinity;
+  grid.Near(side.mid, join + 2.0 * side.sagitta, [&](std::size_t i) {
+    const BorderSide& other = border[i];
+    if (i == k) return;
+    const double d = SegmentDistance(side.mid, other.a, other.b);
+    if (d > join + 2.0 * (side.sagitta + other.sagitta) || d >= best) return;
+    // A piece may meet itself (a closed surface of one patch), but never its own neighbour triangle along
+    // the same border.
+    if (other.side.piece == side.side.piece && (other.a - side.b).norm() < 1e-12) return;
+    best = d;
+    found = i;
+  });
+  return found;
 }
 
 }  // namespace
 
-absl::StatusOr<std::vector<Adjacency>> FindAdjacency(const Surface& surface,
-                                                     const std::vector<SplitMesh>& meshes,
-                                                     const RunContext& run) {
-  std::vector<PieceSides> sides(meshes.size());
+Adjacency AdjacencyList::operator[](std::size_t side) const {
+  const std::size_t n = side / 3;
+  const auto piece = std::upper_bound(first.begin(), first.end(), n) - first.begin() - 1;
+  return Of(static_cast<std::size_t>(piece), n, static_cast<int>(side % 3));
+}
+
+absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                            const RunContext& run) {
+  AdjacencyList list;
+  for (const SplitMesh& mesh : meshes) list.first.push_back(list.first.back() + mesh.triangles.size());
+  list.beside.resize(list.first.back());
+  std::vector<std::vector<BorderSide>> borders(meshes.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t i) {
-    sides[i] = InnerSides(surface.pieces[i], static_cast<int>(i), meshes[i]);
+    borders[i] = FindInner(surface.pieces[i], static_cast<int>(i), meshes[i],
+                           std::span(list.beside).subspan(list.first[i], meshes[i].triangles.size()));
   }));
-  std::vector<Adjacency> result;
   std::vector<BorderSide> border;
+  for (const auto& part : borders) border.insert(border.end(), part.begin(), part.end());
   double longest = 0.0;
-  for (PieceSides& s : sides) {
-    for (BorderSide& side : s.border) {
-      longest = std::max(longest, s.all[side.adjacency].length);
-      side.adjacency += result.size();
-      border.push_back(side);
-    }
-    result.insert(result.end(), s.all.begin(), s.all.end());
-    s = {};
-  }
+  for (const BorderSide& side : border) longest = std::max(longest, side.Length());
   const double join = std::max(surface.network.join_tolerance, 1e-9);
   const SideGrid grid(border, std::max(0.25 * longest, 4.0 * join));
-  // Each writes its own side's neighbour and reads of the others only what is never written here.
-  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: neighbours", border.size(), [&](std::size_t k) {
-    const BorderSide& side = border[k];
-    Adjacency& adjacency = result[side.adjacency];
-    double best = kInfinity;
-    grid.Near(side.mid, join + 2.0 * side.sagitta, [&](std::size_t i) {
-      const BorderSide& other = border[i];
-      const TriangleSide& candidate = result[other.adjacency].side;
-      if (other.adjacency == side.adjacency) return;
-      const double d = SegmentDistance(side.mid, other.a, other.b);
-      if (d > join + 2.0 * (side.sagitta + other.sagitta) || d >= best) return;
-      // A piece may meet itself (a closed surface of one patch), but never its own neighbour triangle along
-      // the same border.
-      if (candidate.piece == adjacency.side.piece && (other.a - side.b).norm() < 1e-12) return;
-      best = d;
-      adjacency.other_piece = candidate.piece;
-      adjacency.other_triangle = candidate.triangle;
-      adjacency.across_seam = true;
-    });
-  }));
-  return result;
+  constexpr std::size_t kAtOnce = 64;  // sides
+  std::vector<std::size_t> facing(border.size());
+  PM_RETURN_IF_ERROR(
+      ParallelFor(run, "regions: neighbours", (border.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t part) {
+        for (std::size_t k = part * kAtOnce; k < std::min(border.size(), (part + 1) * kAtOnce); ++k)
+          facing[k] = Facing(border, grid, k, join);
+      }));
+  for (std::size_t k = 0; k < border.size(); ++k) {
+    if (facing[k] == kNone) continue;
+    const TriangleSide &side = border[k].side, &other = border[facing[k]].side;
+    const std::size_t n = list.NumberOf(side.piece, side.triangle);
+    list.beside[n][static_cast<std::size_t>(side.side)] = -2 - static_cast<int>(list.seams.size());
+    list.seams.push_back({3 * n + static_cast<std::size_t>(side.side), other.piece, other.triangle});
+  }
+  list.into.resize(meshes.size());
+  for (const AdjacencyList::Seam& seam : list.seams)
+    list.into[static_cast<std::size_t>(seam.other_piece)].push_back(seam.side);
+  return list;
 }
 
 }  // namespace patchmill
