@@ -93,13 +93,12 @@ class PacketSearch {
   // After Run: the lane's search has to be made again, leaves divided (OpenLeaves).
   bool IsTie(std::size_t lane, const Contact& best) const { return impl_.IsTie(tie_[lane], best); }
   // Of balls that stand at the packet's heights: lanes that find anything are done and look no further.
-  void RunFree() {
-    free_only_ = true;
-    Run();
-  }
+  void RunFree();
 
  private:
-  void Visit(std::int32_t index);
+  template <class Meets, class OnLeaf>
+  void Walk(const Meets& meets, const OnLeaf& on_leaf);
+  void Visit(std::int32_t index, const internal::LeafBox& box);
   void VisitScalar(std::int32_t index, int lane);
 
   const Locator::Impl& impl_;
@@ -112,7 +111,8 @@ class PacketSearch {
 };
 
 // As Locator::Impl::Search, for all lanes at the lowest height of one.
-void PacketSearch::Run() {
+template <class Meets, class OnLeaf>
+void PacketSearch::Walk(const Meets& meets, const OnLeaf& on_leaf) {
   const double r = impl_.radius;
   const auto limit = static_cast<float>(r * r + 1e-6 * r * r + 1e-6 * r * impl_.reach);
   const auto [x0, x1] = std::minmax_element(packet_.qx, packet_.qx + kLanes);
@@ -122,10 +122,73 @@ void PacketSearch::Run() {
   internal::WalkTree(
       impl_.tree, at, limit,
       [&] { return static_cast<float>(*std::min_element(packet_.z, packet_.z + kLanes)); },
+      [&](const internal::SearchNode& node, int k) { return meets(node, k, limit); },
       [&](std::int32_t leaf) {
-        Visit(leaf);
+        on_leaf(leaf);
         return true;
       });
+}
+
+void PacketSearch::Run() {
+  Walk([](const internal::SearchNode&, int, float) { return true; },
+       [&](std::int32_t leaf) { Visit(leaf, impl_.tree.leaves[leaf].Box(impl_.tree.grid)); });
+}
+
+namespace {
+
+// The packet's balls as the tree's boxes are stored.
+struct FloatLanes {
+  static constexpr std::size_t kGroups = kLanes / 4;
+  internal::Float4 x[kGroups], y[kGroups], z[kGroups];
+
+  explicit FloatLanes(const LanePacket& packet) {
+    for (int k = 0; k < kLanes; ++k) {
+      x[k / 4][k % 4] = static_cast<float>(packet.qx[k]);
+      y[k / 4][k % 4] = static_cast<float>(packet.qy[k]);
+    }
+    SetHeights(packet);
+  }
+  void SetHeights(const LanePacket& packet) {
+    for (int k = 0; k < kLanes; ++k) z[k / 4][k % 4] = static_cast<float>(packet.z[k]);
+  }
+  // WalkTree's test of child k, lane by lane.
+  bool Meet(const internal::SearchNode& node, int k, float limit) const {
+    using internal::Max, internal::Splat;
+    const internal::Float4 zero{}, min_x = Splat(node.min_x[k]), max_x = Splat(node.max_x[k]),
+                                   min_y = Splat(node.min_y[k]), max_y = Splat(node.max_y[k]),
+                                   max_z = Splat(node.max_z[k]);
+    unsigned meeting = 0;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      const internal::Float4 dx = Max(Max(min_x - x[g], x[g] - max_x), zero),
+                             dy = Max(Max(min_y - y[g], y[g] - max_y), zero), below = Max(z[g] - max_z, zero);
+      meeting |= internal::BelowBits(dx * dx + dy * dy + below * below, Splat(limit));
+    }
+    return meeting != 0;
+  }
+};
+
+}  // namespace
+
+// Balls do not rise here, and lie less close together than those of neighbouring heights: boxes are tried
+// against each of them, most leaves are out of the way of all, and little is done before that is known.
+void PacketSearch::RunFree() {
+  free_only_ = true;
+  FloatLanes lanes(packet_);
+  Walk([&](const internal::SearchNode& node, int k, float limit) { return lanes.Meet(node, k, limit); },
+       [&](std::int32_t leaf) {
+         const internal::LeafBox box = impl_.tree.leaves[leaf].Box(impl_.tree.grid);
+         LaneLeaf bounds{};
+         bounds.center = box.center.data();
+         bounds.axis = box.axis.data();
+         bounds.half = box.half.data();
+         if (kernel_.meets(bounds, limits_, packet_) == 0) return;
+         Visit(leaf, box);
+         // Nothing reaches a ball above everything.
+         for (int k = 0; k < kLanes; ++k) {
+           if (packet_.piece[k] >= 0) packet_.z[k] = impl_.surface.box.max.z() + 2.0 * impl_.radius;
+         }
+         lanes.SetHeights(packet_);
+       });
 }
 
 void PacketSearch::Approach(const LaneStart& start) {
@@ -141,23 +204,20 @@ void PacketSearch::Approach(const LaneStart& start) {
   }
 }
 
-void PacketSearch::Visit(std::int32_t index) {
+void PacketSearch::Visit(std::int32_t index, const internal::LeafBox& box) {
   const internal::SearchLeaf& leaf = impl_.tree.leaves[index];
-  const internal::LeafBox box = leaf.Box(impl_.tree.grid);
   const internal::LeafModel model = leaf.Model(impl_.tree.grid);
   const unsigned unresolved =
       kernel_.visit(ViewOf(impl_.surface, leaf.piece(), leaf.rect(), box, model), limits_, packet_);
   for (int k = 0; k < kLanes; ++k) {
-    if ((unresolved >> k & 1U) != 0 && !(free_only_ && packet_.piece[k] >= 0)) VisitScalar(index, k);
-    // Nothing reaches a ball above everything.
-    if (free_only_ && packet_.piece[k] >= 0) packet_.z[k] = impl_.surface.box.max.z() + 2.0 * impl_.radius;
+    if ((unresolved >> k & 1U) != 0) VisitScalar(index, k);
   }
 }
 
 void PacketSearch::VisitScalar(std::int32_t index, int k) {
   Contact best = ContactOf(packet_, k);
   open_.Clear();
-  impl_.VisitLeaf(index, impl_.BallAt({packet_.qx[k], packet_.qy[k]}), best, &open_);
+  impl_.VisitLeaf(index, impl_.BallAt({packet_.qx[k], packet_.qy[k]}), best, free_only_ ? nullptr : &open_);
   double& tie = tie_[static_cast<std::size_t>(k)];
   tie = std::max(tie, open_.tie);
   PutContact(best, packet_, k);
@@ -247,7 +307,7 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
 namespace {
 
 // Fewer balls are searched for one by one.
-constexpr std::size_t kWorthLanes = 3;
+constexpr std::size_t kWorthLanes = 2;
 
 std::optional<Vec3> FindObstacle(const Locator::Impl& impl, const Vec3& center) {
   Contact contact;

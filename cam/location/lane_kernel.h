@@ -58,6 +58,9 @@ struct LaneLimits {
 // proven maximum, bit k of the result is set for lane k: that lane needs the scalar search of this leaf.
 using LaneVisitor = unsigned (*)(const LaneLeaf& leaf, const LaneLimits& limits, LanePacket& packet);
 
+// Bit k: the ball of lane k meets the leaf's oriented box, of which the rest is not used.
+using LaneMeets = unsigned (*)(const LaneLeaf& leaf, const LaneLimits& limits, const LanePacket& packet);
+
 // Where each lane's search begins, on which piece.
 struct alignas(64) LaneStart {
   double u[kLanes], v[kLanes];
@@ -72,6 +75,7 @@ using LaneApproach = void (*)(const LaneLeaf& piece, const LaneLimits& limits, c
 struct LaneKernel {
   const char* name;  // "avx512", "avx2", "plain"
   LaneVisitor visit;
+  LaneMeets meets;
   LaneApproach approach;
 };
 

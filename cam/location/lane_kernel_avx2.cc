@@ -14,7 +14,9 @@
 
 namespace patchmill::internal {
 
-LaneKernel Avx2LaneKernel() { return {"avx2", lanes_avx2::VisitLeafLanes, lanes_avx2::ApproachLanes}; }
+LaneKernel Avx2LaneKernel() {
+  return {"avx2", lanes_avx2::VisitLeafLanes, lanes_avx2::MeetsLanes, lanes_avx2::ApproachLanes};
+}
 
 }  // namespace patchmill::internal
 #endif

@@ -15,7 +15,7 @@
 namespace patchmill::internal {
 
 LaneKernel Avx512LaneKernel() {
-  return {"avx512", lanes_avx512::VisitLeafLanes, lanes_avx512::ApproachLanes};
+  return {"avx512", lanes_avx512::VisitLeafLanes, lanes_avx512::MeetsLanes, lanes_avx512::ApproachLanes};
 }
 
 }  // namespace patchmill::internal

@@ -5,7 +5,9 @@
 
 namespace patchmill::internal {
 
-LaneKernel PlainLaneKernel() { return {"plain", lanes_plain::VisitLeafLanes, lanes_plain::ApproachLanes}; }
+LaneKernel PlainLaneKernel() {
+  return {"plain", lanes_plain::VisitLeafLanes, lanes_plain::MeetsLanes, lanes_plain::ApproachLanes};
+}
 
 namespace {
 

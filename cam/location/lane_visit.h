@@ -211,6 +211,15 @@ inline unsigned VisitLeafLanes(const LaneLeaf& leaf, const LaneLimits& limits, L
   return unresolved;
 }
 
+inline unsigned MeetsLanes(const LaneLeaf& leaf, const LaneLimits& limits, const LanePacket& packet) {
+  unsigned meeting = 0;
+  for (int k = 0; k < kLanes; k += kWidth) {
+    const V3 c{Load(packet.qx + k), Load(packet.qy + k), Load(packet.z + k)};
+    meeting |= Bits(~BoxOutsideLanes(leaf, c, Splat(2.0 * limits.free_f))) << k;
+  }
+  return meeting;
+}
+
 inline void ApproachLanes(const LaneLeaf& piece, const LaneLimits& limits, const LaneStart& start,
                           LanePacket& packet) {
   for (int first = 0; first < kLanes; first += kWidth) {

@@ -112,7 +112,7 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
   const Vec2 start = at(guess.x, guess.y);
   const SearchResult found =
       internal::RaiseOnPiece(piece, leaf.piece(), rect, start.x(), start.y(), ball, options, best);
-  if (found.out) return;
+  if (found.out || (open == nullptr && found.improved)) return;  // without list: any contact will do
   // One maximum, proven? Then the search has found it.
   const LowerModel raised = found.improved ? internal::BoundBelow(model, Lift(ball.q, best.z)) : lower;
   if (raised.convex) {

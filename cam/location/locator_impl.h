@@ -34,7 +34,8 @@ struct Locator::Impl {
   double Lowest() const { return surface.box.min.z() - radius - 1.0; }
 
   // Raises best.z to h(q) by branch and bound over the leaves. best.z >= Lowest(); stops at the first contact
-  // above `enough`. open (may be null) receives the leaves whose bound rests on local searches alone.
+  // above `enough`. open receives the leaves whose bound rests on local searches alone; null: any contact of
+  // a leaf is as good as its highest.
   void Search(const internal::Ball& ball, double enough, internal::Contact& best, OpenLeaves* open) const;
   // The whole search: where it ends with a contact near the ball's equator, upright ground has too many local
   // maxima for a few starts, and its open leaves are divided until proven, to 1e-6 mm; so they

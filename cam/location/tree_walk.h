@@ -34,10 +34,10 @@ struct PlanBox {
 
 // Calls visit(leaf), until it returns false, for every leaf whose box reaches into the way of a ball over
 // `at` (and everything above it) at height lowest(): plan distance^2 + max(0, lowest - max_z)^2 < limit.
-// `lowest` may rise from call to call.
-template <class Lowest, class Visit>
+// `lowest` may rise from call to call. meets(node, k): child k of the node, which does so, is wanted.
+template <class Lowest, class Meets, class Visit>
 void WalkTree(const SearchTree& tree, const PlanBox& at, float limit, const Lowest& lowest,
-              const Visit& visit) {
+              const Meets& meets, const Visit& visit) {
   // A node or leaf still to visit: its squared distance in plan, and how high it reaches.
   struct Pending {
     std::int32_t child;
@@ -58,6 +58,7 @@ void WalkTree(const SearchTree& tree, const PlanBox& at, float limit, const Lowe
     const std::size_t first = size;
     for (unsigned in = BelowBits(distance2 + below * below, limit4); in != 0; in &= in - 1) {
       const int k = std::countr_zero(in);
+      if (!meets(node, k)) continue;
       const Pending p{node.child[k], distance2[k], node.max_z[k], promise[k]};
       tree.Prefetch(p.child);
       std::size_t i = size++;
@@ -77,6 +78,13 @@ void WalkTree(const SearchTree& tree, const PlanBox& at, float limit, const Lowe
       }
     }
   }
+}
+
+template <class Lowest, class Visit>
+void WalkTree(const SearchTree& tree, const PlanBox& at, float limit, const Lowest& lowest,
+              const Visit& visit) {
+  WalkTree(
+      tree, at, limit, lowest, [](const SearchNode&, int) { return true; }, visit);
 }
 
 }  // namespace patchmill::internal

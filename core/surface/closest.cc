@@ -28,11 +28,13 @@ Vec4* CellBuffer(int halving, int count) {
   return buffer.data();
 }
 
+enum class Wanted { kNearest, kAny, kNearestAbove };
+
 template <Reach kReach>
 class Search {
  public:
-  Search(const Surface& surface, const Vec3& c, double limit, double tolerance, bool any)
-      : surface_(surface), c_(c), any_(any), limit_(limit) {
+  Search(const Surface& surface, const Vec3& c, double limit, double tolerance, Wanted wanted)
+      : surface_(surface), c_(c), wanted_(wanted), limit_(limit) {
     rounding_ = 1e-12 * (surface.scale + c.cwiseAbs().maxCoeff());
     tolerance_ = std::max(tolerance, rounding_);
   }
@@ -40,7 +42,11 @@ class Search {
   std::optional<ClosestPoint> Run() {
     if (!c_.allFinite() || surface_.nodes.empty()) return std::nullopt;
     WalkNearestFirst(
-        surface_.nodes, [&](const SurfaceNode& node) { return SquaredDistance<kReach>(node.box, c_); },
+        surface_.nodes,
+        [&](const SurfaceNode& node) {
+          if (wanted_ == Wanted::kNearestAbove && node.box.max.z() <= c_.z()) return kInfinity;
+          return SquaredDistance<kReach>(node.box, c_);
+        },
         [&](double squared) { return Excluded(squared); },
         [&](const SurfaceNode& node) {
           VisitLeaf(surface_.leaves[static_cast<std::size_t>(node.leaf)], node.box);
@@ -62,7 +68,7 @@ class Search {
     const double target = Target();
     return target <= 0.0 || squared >= target * target;
   }
-  bool Done() const { return Target() <= 0.0 || (any_ && best_.has_value()); }
+  bool Done() const { return Target() <= 0.0 || (wanted_ == Wanted::kAny && best_.has_value()); }
 
   static double OrientedSquared(const RectBounds& b, const Vec3& c, const Box3& box) {
     // A ray passes a box that lies below its start as its start does.
@@ -205,7 +211,7 @@ class Search {
 
   const Surface& surface_;
   const Vec3 c_;
-  const bool any_;
+  const Wanted wanted_;
   const double limit_;
   double rounding_;
   double tolerance_;
@@ -220,16 +226,21 @@ class Search {
 
 std::optional<ClosestPoint> ClosestToUpwardRay(const Surface& surface, const Vec3& c, double limit,
                                                double tolerance) {
-  return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, false).Run();
+  return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, Wanted::kNearest).Run();
+}
+
+std::optional<ClosestPoint> ClosestAbove(const Surface& surface, const Vec3& c, double limit,
+                                         double tolerance) {
+  return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, Wanted::kNearestAbove).Run();
 }
 
 std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c, double limit,
                                            double tolerance) {
-  return Search<Reach::kPoint>(surface, c, limit, tolerance, false).Run();
+  return Search<Reach::kPoint>(surface, c, limit, tolerance, Wanted::kNearest).Run();
 }
 
 bool AnythingNearUpwardRay(const Surface& surface, const Vec3& c, double limit, double tolerance) {
-  return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, true).Run().has_value();
+  return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, Wanted::kAny).Run().has_value();
 }
 
 }  // namespace patchmill

@@ -22,6 +22,11 @@ struct ClosestPoint {
 // Thread-safe.
 std::optional<ClosestPoint> ClosestToUpwardRay(const Surface& surface, const Vec3& c, double limit,
                                                double tolerance);
+// What is above c: as ClosestToUpwardRay, but only of the leaves that reach above it. nullopt proves that
+// nothing above c is nearer to the ray than limit - tolerance; a point found that is not above c, that
+// nothing above is nearer than this point, up to the tolerance.
+std::optional<ClosestPoint> ClosestAbove(const Surface& surface, const Vec3& c, double limit,
+                                         double tolerance);
 // Nearest point of the surface to the point c, if nearer than `limit`; otherwise as above.
 std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c, double limit,
                                            double tolerance);

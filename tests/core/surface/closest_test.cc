@@ -231,6 +231,36 @@ TEST(Closest, RayUpThroughATorusTouchesItsInnerSide) {
   EXPECT_NEAR(found->distance, std::hypot(19.5, 7.0) - 6.0, 2.0 * kTight);
 }
 
+TEST(Closest, AboveNothingThatIsAboveIsLeftOut) {
+  const Surface s = MakeSurface(testing::Torus(Vec3::Zero(), 10.0, 4.0));
+  std::vector<Vec3> samples;
+  for (const Piece& piece : s.pieces) {
+    for (int k = 0; k < 400; ++k) samples.push_back(Position(piece, k % 20 / 19.0, k / 20 / 19.0));
+  }
+  Random random(5);
+  int above = 0, below = 0, none = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 c = random.Point(-15, 15).cwiseProduct(Vec3(1, 1, 0.4));
+    const double limit = random.Uniform(0.5, 8.0);
+    const auto found = ClosestAbove(s, c, limit, 1e-6);
+    const double proven = (found ? found->distance : limit) - 1e-6;
+    for (const Vec3& p : samples) EXPECT_FALSE(p.z() > c.z() && (Plan(p) - Plan(c)).norm() < proven);
+    if (found) {
+      EXPECT_NEAR(DistanceTo(To::kRay, found->at.p, c), found->distance, 1e-12);
+    }
+    // Where the nearest of all is above, it is the same.
+    const auto all = ClosestToUpwardRay(s, c, limit, 1e-6);
+    if (all && all->at.p.z() > c.z()) {
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(found->distance, all->distance, 2e-6);
+    }
+    (!found ? none : found->at.p.z() > c.z() ? above : below) += 1;
+  }
+  EXPECT_GT(above, 50);
+  EXPECT_GT(below, 5);
+  EXPECT_GT(none, 50);
+}
+
 TEST(Closest, RayAlongAVerticalWall) {
   const Surface s = MakeSurface(testing::Block(10.0, 8.0, 30.0));
   // Beside the wall: the wall as long as the start is lower than its top, then its upper edge.
