@@ -1,6 +1,7 @@
 #include "cam/region/obstacle_cloud.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -10,6 +11,7 @@ namespace {
 constexpr double kMostPoints = 1e6;
 constexpr double kCell = 2.0;     // spacings
 constexpr int kMostCells = 1024;  // along x, and along y
+constexpr int kBlock = 8;         // cells looked at together
 
 double LengthAlong(const Piece& piece, bool u) {
   double longest = 0.0;
@@ -57,7 +59,7 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
   first_.assign(static_cast<std::size_t>(rows_ * columns_) + 2, 0);
   for (const Vec3& p : points) ++first_[place(p) + 2];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  highest_.assign(first_.size() - 2, -kInfinity);
+  highest_.assign(first_.size() - 2 + kBlock, -kInfinity);
   points_.resize(points.size());
   for (const Vec3& p : points) {
     const std::size_t cell = place(p);
@@ -66,23 +68,34 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
   }
 }
 
-// The cells whose points the ball may reach: the walk is by rows.
+// The walk is by rows, and in these by blocks of cells without branches.
 template <class Visit>
-void ObstacleCloud::Cells(const Vec3& c, double radius, const Visit& visit) const {
-  const Vec2 q = (Plan(c) - low_) / cell_;
-  const double reach = radius / cell_, top = c.z() / cell_;
-  const auto clamped = [](double x, int count) {
-    return static_cast<int>(std::clamp(std::floor(x), 0.0, static_cast<double>(count - 1)));
+void ObstacleCloud::Cells(const Vec3& c, const double& reach, const Visit& visit) const {
+  const Vec2 q = Plan(c) - low_;
+  const Vec2 extent = Vec2(columns_, rows_) * cell_;
+  if (q.x() + reach < 0.0 || q.y() + reach < 0.0 || q.x() - reach > extent.x() || q.y() - reach > extent.y())
+    return;
+  const auto clamped = [&](double x, int count) {
+    return static_cast<int>(std::clamp(std::floor(x / cell_), 0.0, static_cast<double>(count - 1)));
   };
-  if (q.x() + reach < 0.0 || q.y() + reach < 0.0 || q.x() - reach > columns_ || q.y() - reach > rows_) return;
-  const int last_row = clamped(q.y() + reach, rows_), last = clamped(q.x() + reach, columns_);
+  const int last_row = clamped(q.y() + reach, rows_), first = clamped(q.x() - reach, columns_),
+            last = clamped(q.x() + reach, columns_);
   for (int row = clamped(q.y() - reach, rows_); row <= last_row; ++row) {
-    const double y = std::max({0.0, row - q.y(), q.y() - (row + 1)});
-    for (int column = clamped(q.x() - reach, columns_); column <= last; ++column) {
+    const double y = std::max({0.0, row * cell_ - q.y(), q.y() - (row + 1) * cell_});
+    for (int column = first; column <= last; column += kBlock) {
       const auto cell = static_cast<std::size_t>(row * columns_ + column);
-      const double x = std::max({0.0, column - q.x(), q.x() - (column + 1)});
-      const double z = std::max(0.0, top - highest_[cell] / cell_);
-      if (x * x + y * y + z * z < reach * reach && visit(first_[cell], first_[cell + 1])) return;
+      const double* highest = &highest_[cell];
+      const double from = column * cell_ - q.x();
+      std::array<double, kBlock> squared;
+      for (std::size_t k = 0; k < kBlock; ++k) {
+        const double left = from + static_cast<double>(k) * cell_;
+        const double x = std::max(0.0, std::max(left, -left - cell_)), z = std::max(0.0, c.z() - highest[k]);
+        squared[k] = x * x + y * y + z * z;
+      }
+      const auto count = static_cast<std::size_t>(std::min<int>(kBlock, last - column + 1));
+      for (std::size_t k = 0; k < count; ++k) {
+        if (squared[k] < reach * reach && visit(first_[cell + k], first_[cell + k + 1])) return;
+      }
     }
   }
 }
@@ -100,13 +113,21 @@ std::optional<Vec3> ObstacleCloud::InTheWay(const Vec3& c, double radius) const 
   return found;
 }
 
-double ObstacleCloud::Nearest(const Vec3& c, double limit) const {
-  double nearest = limit * limit;
-  Cells(c, limit, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) nearest = std::min(nearest, (points_[i] - c).squaredNorm());
+std::optional<Vec3> ObstacleCloud::Nearest(const Vec3& c, double limit) const {
+  double nearest = limit;
+  std::optional<Vec3> found;
+  Cells(c, nearest, [&](std::size_t from, std::size_t to) {
+    double squared = nearest * nearest;
+    for (std::size_t i = from; i < to; ++i) {
+      const double d = (points_[i] - c).squaredNorm();
+      if (d >= squared) continue;
+      squared = d;
+      found = points_[i];
+    }
+    nearest = std::min(nearest, std::sqrt(squared));
     return false;
   });
-  return std::sqrt(nearest);
+  return found;
 }
 
 }  // namespace patchmill

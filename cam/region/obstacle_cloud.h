@@ -18,19 +18,20 @@ class ObstacleCloud {
   // A point of the cloud nearer than `radius` to the upward vertical ray at c. Nothing proves nothing. Cost:
   // 1 ns a point of the disc of this radius.
   std::optional<Vec3> InTheWay(const Vec3& c, double radius) const;
-  // Distance of the point of the cloud nearest to c, at most `limit`.
-  double Nearest(const Vec3& c, double limit) const;
+  // The point of the cloud nearest to c, where one is nearer than `limit`; the less that is, the faster.
+  std::optional<Vec3> Nearest(const Vec3& c, double limit) const;
 
  private:
-  // visit(first, last): the points of a cell; until it says true.
+  // visit(first, last): the points of a cell that may be nearer to the ray than `reach`, which may shrink on
+  // the way; until it says true.
   template <class Visit>
-  void Cells(const Vec3& c, double radius, const Visit& visit) const;
+  void Cells(const Vec3& c, const double& reach, const Visit& visit) const;
 
   Vec2 low_ = Vec2::Zero();
   double cell_ = 1.0;
   int rows_ = 0, columns_ = 0;
   std::vector<std::size_t> first_;  // [row * columns + column]: of the cell's points, and the end
-  std::vector<double> highest_;     // of a cell
+  std::vector<double> highest_;     // of a cell; some more at the end
   std::vector<Vec3> points_;
 };
 

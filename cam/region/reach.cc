@@ -9,7 +9,6 @@
 #include "core/diffgeo/forms.h"
 #include "core/surface/box_distance.h"
 #include "core/surface/closest.h"
-#include "core/surface/node_walk.h"
 
 namespace patchmill {
 
@@ -17,11 +16,9 @@ namespace {
 
 // The constants of docs/reach.md.
 constexpr double kVertical = 1e-6;    // |e_z| below this: no side is the upper one
-constexpr double kNearer = 0.02;      // of the radius: what blocks above is nearer by this
 constexpr double kFloorSlack = 1e-6;  // mm
 
-constexpr double kProof = 0.004;  // of the radius: how exactly distances are known here
-constexpr double kCloud = 0.15;   // of the radius: spacing of the points tried first
+constexpr double kCloud = 0.15;  // of the radius: spacing of the points tried first
 
 }  // namespace
 
@@ -70,9 +67,22 @@ double ReachTest::Clearance(const Vec3& obstacle, const SurfaceJet& jet) const {
          free_ball_.radius();
 }
 
+bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal, ShankFinder& shank) const {
+  return shank.Blocked(p + params_.radius * normal) &&
+         (normal.z() >= kVertical || shank.Blocked(p - params_.radius * normal));
+}
+
 bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal) const {
-  return CenterBlockedAbove(p + params_.radius * normal) &&
-         (normal.z() >= kVertical || CenterBlockedAbove(p - params_.radius * normal));
+  ShankFinder shank(free_ball_, cloud_, params_.radius);
+  return BlockedAbove(p, normal, shank);
+}
+
+void ReachTest::BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<double> signs) const {
+  ShankFinder shank(free_ball_, cloud_, params_.radius);
+  for (std::size_t i = 0; i < jets.size(); ++i) {
+    const auto normal = UpwardNormal(jets[i]);
+    signs[i] = !normal ? 0.0 : BlockedAbove(jets[i].p, *normal, shank) ? -1.0 : 1.0;
+  }
 }
 
 bool ReachTest::Allowed(const Vec3& p, const Vec3& normal) const {
@@ -83,34 +93,6 @@ bool ReachTest::Allowed(const Vec3& p, const Vec3& normal) const {
 
 double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {
   return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - kFloorSlack);
-}
-
-namespace {
-
-// False proves that nothing higher than c lies within `radius` of it in plan.
-bool MayBeAbove(const Surface& surface, const Vec3& c, double radius) {
-  bool above = false;
-  WalkNearestFirst(
-      surface.nodes,
-      [&](const SurfaceNode& node) {
-        return node.box.max.z() <= c.z() ? kInfinity : SquaredDistance<Reach::kUpwardRay>(node.box, c);
-      },
-      [&](double squared) { return squared >= radius * radius; },
-      [&](const SurfaceNode&) { return above = true; });
-  return above;
-}
-
-}  // namespace
-
-bool ReachTest::CenterBlockedAbove(const Vec3& center) const {
-  const Surface& surface = free_ball_.surface();
-  const double proof = kProof * params_.radius, nearer = kNearer * params_.radius;
-  // What lies above counts only where it comes nearer than anything known.
-  const double limit = std::min(free_ball_.radius() + proof, cloud_.Nearest(center, params_.radius) - nearer);
-  if (limit <= 0.0 || !MayBeAbove(surface, center, limit)) return false;
-  const auto shank = ClosestToUpwardRay(surface, center, limit, proof);
-  return shank && shank->at.p.z() > center.z() &&
-         !ClosestToPoint(surface, center, shank->distance + nearer, proof);
 }
 
 double ReachTest::LeftoverAbove(const Vec3& p) const {

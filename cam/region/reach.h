@@ -7,6 +7,7 @@
 #include "cam/location/locator.h"
 #include "cam/region/obstacle_cloud.h"
 #include "cam/region/region_map.h"
+#include "cam/region/shank_finder.h"
 
 namespace patchmill {
 
@@ -26,8 +27,11 @@ class ReachTest {
   // How far an obstacle is outside the ball that touches the surface at `jet` and all above it, mm; negative
   // when it is in the way.
   double Clearance(const Vec3& obstacle, const SurfaceJet& jet) const;
-  // Where it is not: UNDERCUT, and not CONCAVE. Cost some ten microseconds.
+  // Where it is not: UNDERCUT, and not CONCAVE. Cost some microseconds.
   bool BlockedAbove(const Vec3& p, const Vec3& normal) const;
+  // The same at many places near each other, faster: signs[i] = -1 blocked above, 1 not, 0 where there is no
+  // normal.
+  void BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<double> signs) const;
   // Height of its tip over the floor, mm, the slack for rounding counted in: below 0 the place is FLOOR.
   double OverFloor(const Vec3& p, const Vec3& normal) const;
   // params.keep_in allows the ball's centre; on a vertical face on either side.
@@ -37,7 +41,7 @@ class ReachTest {
   double LeftoverAbove(const Vec3& p) const;
 
  private:
-  bool CenterBlockedAbove(const Vec3& center) const;
+  bool BlockedAbove(const Vec3& p, const Vec3& normal, ShankFinder& shank) const;
   const Locator& free_ball_;
   const RegionParams& params_;
   ObstacleCloud cloud_;

@@ -34,6 +34,9 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
     const auto normal = UpwardNormal(jet);
     return !normal ? 0.0 : reach.BlockedAbove(jet.p, *normal) ? -1.0 : 1.0;
   };
+  above.values = [&reach](std::span<const SurfaceJet> jets, std::span<double> values) {
+    reach.BlockedAboveAt(jets, values);
+  };
   at(Field::kFloor).value = [&reach](const SurfaceJet& jet) {
     const auto normal = UpwardNormal(jet);
     return !normal ? 0.0 : reach.OverFloor(jet.p, *normal);

@@ -51,16 +51,19 @@ int ZeroVertices::Sign(int id, std::size_t k) {
 }
 
 void ZeroVertices::Ask(const std::vector<int>& ids, std::size_t k) {
-  if (!fields_[k].values || fields_[k].where >= 0) {
+  if (!fields_[k].values) {
     for (const int id : ids) Sign(id, k);
     return;
   }
+  const int where = fields_[k].where;
+  if (where >= 0) Ask(ids, static_cast<std::size_t>(where));
   std::vector<int> asked;
   std::vector<Vec2> places;
   for (const int id : ids) {
     ZeroVertex& vertex = (*this)[id];
     if (((vertex.known >> k) & 1u) != 0) continue;
     vertex.known |= static_cast<std::uint8_t>(1u << k);
+    if (where >= 0 && Sign(id, static_cast<std::size_t>(where)) >= 0) continue;  // sign 0
     asked.push_back(id);
     places.emplace_back(vertex.u, vertex.v);
   }

@@ -1,0 +1,57 @@
+#include "cam/region/shank_finder.h"
+
+#include <algorithm>
+
+#include "core/surface/closest.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kNearer = 0.02;  // of the radius: what blocks above is nearer by this (docs/reach.md)
+constexpr double kProof = 0.001;  // of the radius: how exactly distances are known here
+
+}  // namespace
+
+ShankFinder::ShankFinder(const Locator& ball, const ObstacleCloud& cloud, double radius)
+    : surface_(ball.surface()),
+      cloud_(cloud),
+      ball_radius_(ball.radius()),
+      radius_(radius),
+      proof_(kProof * radius),
+      nearer_(kNearer * radius) {
+  last_.fill(Vec3::Constant(kInfinity));
+}
+
+double ShankFinder::KnownAbove(const Vec3& center) const {
+  double least = kInfinity;
+  for (const Vec3& p : last_) {
+    if (p.z() > center.z()) least = std::min(least, (Plan(p) - Plan(center)).squaredNorm());
+  }
+  return std::sqrt(least);
+}
+
+// With T the distance from the upward ray and B that from the centre: T < B - nearer. Any point above gives
+// an upper bound of T, any point one of B.
+bool ShankFinder::Blocked(const Vec3& center) {
+  double limit = ball_radius_ + proof_;
+  if (const double above = KnownAbove(center); above < ball_radius_) {
+    const auto near = ClosestToPoint(surface_, center, above + nearer_, proof_);
+    if (!near) return true;
+    limit = std::min(limit, near->distance - nearer_ + proof_);
+  } else {
+    double near = std::min(radius_, (near_ - center).norm());
+    if (const auto point = cloud_.Nearest(center, near)) {
+      near_ = *point;
+      near = (near_ - center).norm();
+    }
+    limit = std::min(limit, near - nearer_);
+  }
+  if (limit <= 0.0) return false;
+  const auto shank = ClosestAbove(surface_, center, limit, proof_);
+  if (!shank || !(shank->at.p.z() > center.z())) return false;
+  if (ClosestToPoint(surface_, center, shank->distance + nearer_, proof_)) return false;
+  last_[next_++ % last_.size()] = shank->at.p;
+  return true;
+}
+
+}  // namespace patchmill
