@@ -108,6 +108,10 @@ int MeshCutter::Split(int a, int b, const Vec2& at) {
     halves.first.assign(all.begin() + 1, all.begin() + static_cast<std::ptrdiff_t>(before) + 1);
     halves.second.assign(all.begin() + static_cast<std::ptrdiff_t>(before) + 1, all.end() - 1);
   }
+  for (int c = 0; c < 2; ++c) {  // a point of the piece's border stays on it
+    const double border = Place(a)[c];
+    if (border == Place(b)[c] && (border == 0.0 || border == 1.0)) q[c] = border;
+  }
   fresh.u = q.x();
   fresh.v = q.y();
   fresh.p = Position(piece_, q.x(), q.y());
