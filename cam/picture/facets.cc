@@ -3,34 +3,43 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diffgeo/forms.h"
-
 namespace patchmill {
 namespace {
 
 constexpr std::size_t kMaxFacets = 14000;  // per view, before any is cut finer
+constexpr std::size_t kMaxShaded = 10000;  // by slope or curvature
 constexpr double kFine = 4.0;              // px: facets at borders are cut to about this
 constexpr int kFinest = 4;                 // times, along each side
+constexpr const char* kNoRegion = "#d8d8d8";
+
+int PerSide(const Surface& surface, std::size_t facets, int most) {
+  const double per_piece =
+      static_cast<double>(facets) / static_cast<double>(std::max<std::size_t>(1, surface.pieces.size()));
+  return std::clamp(static_cast<int>(std::sqrt(per_piece)), 1, most);
+}
 
 class FacetMaker {
  public:
-  FacetMaker(const PreviewInput& input, const View& view, int piece)
-      : input_(input), view_(view), id_(piece), piece_(input.surface->piece(id_)) {}
+  FacetMaker(const PreviewInput& input, const View& view, Paint paint, int piece)
+      : input_(input), view_(view), paint_(paint), id_(piece), piece_(input.surface->piece(id_)) {}
 
   // The rectangle from (u,v), `side` wide.
   Facet Make(double u, double v, double side) const {
-    const Vec3 light = Vec3(-0.4, -0.3, 0.87).normalized();
     Facet f;
     f.corners = {Position(piece_, u, v), Position(piece_, u + side, v), Position(piece_, u + side, v + side),
                  Position(piece_, u, v + side)};
     const Vec3 mid = 0.25 * (f.corners[0] + f.corners[1] + f.corners[2] + f.corners[3]);
     f.nearness = view_.Nearness(mid);
-    f.region = RegionAt(u + 0.5 * side, v + 0.5 * side, mid);
-    const auto normal = UpwardNormal(Evaluate(piece_, u + 0.5 * side, v + 0.5 * side));
-    f.shade = normal ? std::clamp(0.35 + 0.65 * std::abs(normal->dot(light)), 0.0, 1.0) : 0.5;
+    const SurfaceJet jet = Evaluate(piece_, u + 0.5 * side, v + 0.5 * side);
+    f.region = paint_ == Paint::kRegions ? RegionAt(u + 0.5 * side, v + 0.5 * side, mid) : -1;
+    const bool known = f.region >= 0 && static_cast<std::size_t>(f.region) < input_.regions.size();
+    f.color = paint_ != Paint::kRegions
+                  ? PaintedColor(paint_, jet, input_.scales)
+                  : Lit(known ? input_.regions[static_cast<std::size_t>(f.region)].color : kNoRegion, jet);
     return f;
   }
   bool Uniform(double u, double v, double side, const Facet& f) const {
+    if (paint_ != Paint::kRegions) return true;
     constexpr double kIn = 0.02;  // of the side: corners belong to neighbours too
     for (int k = 0; k < 4; ++k) {
       const double x = k == 1 || k == 2 ? 1.0 - kIn : kIn, y = k >= 2 ? 1.0 - kIn : kIn;
@@ -47,25 +56,22 @@ class FacetMaker {
 
   const PreviewInput& input_;
   const View& view_;
+  Paint paint_;
   PieceId id_;
   const Piece& piece_;
 };
 
 }  // namespace
 
-int FacetsPerSide(const Surface& surface) {
-  const double per_piece =
-      static_cast<double>(kMaxFacets) / static_cast<double>(std::max<std::size_t>(1, surface.pieces.size()));
-  return std::clamp(static_cast<int>(std::sqrt(per_piece)), 1, 24);
-}
+int FacetsPerSide(const Surface& surface) { return PerSide(surface, kMaxFacets, 24); }
 
-std::vector<Facet> MakeFacets(const PreviewInput& input, const View& view) {
+std::vector<Facet> MakeFacets(const PreviewInput& input, const View& view, Paint paint) {
   const Surface& surface = *input.surface;
-  const int n = FacetsPerSide(surface);
+  const int n = paint == Paint::kRegions ? FacetsPerSide(surface) : PerSide(surface, kMaxShaded, 80);
   const double side = 1.0 / n;
   std::vector<Facet> facets;
   for (std::size_t k = 0; k < surface.pieces.size(); ++k) {
-    const FacetMaker maker(input, view, static_cast<int>(k));
+    const FacetMaker maker(input, view, paint, static_cast<int>(k));
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) {
         const double u = i * side, v = j * side;

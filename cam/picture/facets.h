@@ -1,7 +1,8 @@
-// The surface as shaded facets, the farthest first.
+// The surface as coloured facets, the farthest first.
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "cam/picture/preview.h"
@@ -12,14 +13,15 @@ namespace patchmill {
 struct Facet {
   std::array<Vec3, 4> corners;
   double nearness;
-  int region;    // index into PreviewInput::regions, -1 none
-  double shade;  // 0 dark .. 1 light
+  int region;         // index into PreviewInput::regions, -1 none
+  std::string color;  // CSS
 };
 
 // How finely pieces are cut, along each side.
 int FacetsPerSide(const Surface& surface);
 
-// Facets across which the region changes are cut finer, so that colours keep to the borders.
-std::vector<Facet> MakeFacets(const PreviewInput& input, const View& view);
+// Painted by region, facets across which the region changes are cut finer, so that colours keep to the
+// borders; by slope or curvature, all are finer.
+std::vector<Facet> MakeFacets(const PreviewInput& input, const View& view, Paint paint);
 
 }  // namespace patchmill

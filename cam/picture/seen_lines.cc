@@ -15,10 +15,12 @@ SeenLines::SeenLines(const Surface& surface, const View& view, const Vec2& corne
       depth_(surface, view, corner, size.x(), size.y(), kDot, cells),
       slack_(kSlack * kDot / view.scale) {}
 
+bool SeenLines::Sees(const Vec3& p) const { return depth_.Visible(p, slack_); }
+
 void SeenLines::Draw(const std::vector<Vec3>& line, SvgWriter& svg) const {
   std::vector<Vec2> points;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    if (!depth_.Visible(line[i], slack_)) {
+    if (!Sees(line[i])) {
       if (points.size() > 1) svg.Polyline(points, "");
       points.clear();
       continue;

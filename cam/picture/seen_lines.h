@@ -15,6 +15,7 @@ class SeenLines {
 
   // The parts of the polyline that are not hidden, vertices closer than 0.6 px dropped.
   void Draw(const std::vector<Vec3>& line, SvgWriter& svg) const;
+  bool Sees(const Vec3& p) const;
 
  private:
   View view_;

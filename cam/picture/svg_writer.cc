@@ -59,6 +59,11 @@ void SvgWriter::Line(const Vec2& a, const Vec2& b, std::string_view style) {
                  b.y(), style);
 }
 
+void SvgWriter::Circle(const Vec2& middle, double radius, std::string_view style) {
+  fmt::format_to(std::back_inserter(out_), "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" {}/>\n",
+                 middle.x(), middle.y(), radius, style);
+}
+
 void SvgWriter::Rect(const Vec2& corner, double width, double height, std::string_view style) {
   fmt::format_to(std::back_inserter(out_),
                  "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" {}/>\n", corner.x(),

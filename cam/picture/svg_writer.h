@@ -17,6 +17,7 @@ class SvgWriter {
   void Polyline(const std::vector<Vec2>& points, std::string_view style);
   void Line(const Vec2& a, const Vec2& b, std::string_view style);
   void Rect(const Vec2& corner, double width, double height, std::string_view style);
+  void Circle(const Vec2& middle, double radius, std::string_view style);
   void Text(const Vec2& at, double size, std::string_view text, std::string_view style = "");
   void OpenGroup(std::string_view style);
   void CloseGroup();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -86,6 +87,55 @@ std::vector<bool> SeenRegions(const Surface& surface, const RegionMap& map, cons
   return seen;
 }
 
+struct BorderStyle {
+  BorderKind kind;
+  const char* color;
+  std::optional<Paint> on;
+};
+constexpr BorderStyle kBorderStyles[] = {{BorderKind::kReach, "#303030", std::nullopt},
+                                         {BorderKind::kSlope, "#c2410c", Paint::kSlope},
+                                         {BorderKind::kCurvature, "#0f766e", Paint::kCurvature},
+                                         {BorderKind::kSilhouette, "#7c3aed", Paint::kCurvature},
+                                         {BorderKind::kWatershed, "#1d4ed8", std::nullopt},
+                                         {BorderKind::kSeam, "#be185d", std::nullopt}};
+
+double Length(const BorderLine& line) {
+  double sum = line.closed ? (line.points.front() - line.points.back()).norm() : 0.0;
+  for (std::size_t i = 1; i < line.points.size(); ++i) sum += (line.points[i] - line.points[i - 1]).norm();
+  return sum;
+}
+
+// The borders of what is seen and reached, by kind, and the nodes on them. Open edges of the sheet are drawn
+// anyway.
+void AddBorders(const RegionMap& map, const std::vector<bool>& seen, PreviewInput& input) {
+  const auto shown = [&](int id) {
+    return id >= 0 && seen[static_cast<std::size_t>(id)] &&
+           map.regions[static_cast<std::size_t>(id)].kind != RegionKind::kUnreachable;
+  };
+  std::vector<char> met(map.nodes.size(), 0);
+  for (const BorderStyle& style : kBorderStyles) {
+    PreviewLines drawn;
+    double length = 0.0;
+    for (const BorderLine& line : map.lines) {
+      if (line.kind != style.kind || !(shown(line.region) || shown(line.other))) continue;
+      length += Length(line);
+      drawn.polylines.push_back(line.points);
+      if (line.closed) drawn.polylines.back().push_back(line.points.front());
+      for (const int node : {line.from, line.to}) {
+        if (node >= 0) met[static_cast<std::size_t>(node)] = 1;
+      }
+    }
+    if (drawn.polylines.empty()) continue;
+    drawn.name = fmt::format("{}: {:.1f} mm", Name(style.kind), length);
+    drawn.color = style.color;
+    drawn.on = style.on;
+    input.borders.push_back(std::move(drawn));
+  }
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    if (met[i]) input.nodes.push_back(map.nodes[i]);
+  }
+}
+
 PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::vector<RegionChoice>& choices,
                        const Resolved& resolved, const std::string& title) {
   PreviewInput input;
@@ -98,17 +148,17 @@ PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::
     const auto id = static_cast<std::size_t>(region.id);
     if (!seen[id]) continue;
     PreviewRegion r;
-    r.unreachable = region.kind == RegionKind::kUnreachable;
+    const bool unreachable = region.kind == RegionKind::kUnreachable;
     r.color = Color(region, region.id);
     r.label = fmt::format("{}", region.id);
-    r.name = r.unreachable
+    r.name = unreachable
                  ? fmt::format("{} unreachable, {}: {:.1f} mm2", region.id, Name(region.reason), region.area)
                  : fmt::format("{} {}, {}: {:.1f} mm2", region.id, Name(region.kind), Name(region.slope),
                                region.area);
-    r.border = region.border;
     index[id] = static_cast<int>(input.regions.size());
     input.regions.push_back(std::move(r));
   }
+  AddBorders(map, seen, input);
   input.region_of = [&map, wanted, index](const SurfacePoint& p) {
     const int id = map.At(p);
     return id >= 0 && wanted->Has(p) ? index[static_cast<std::size_t>(id)] : -1;
@@ -133,8 +183,11 @@ const char* Name(Outcome outcome) {
 }
 
 std::string DrawRegions(const Surface& surface, const ChosenRegions& regions, const Resolved& resolved,
-                        const std::string& title) {
-  return DrawPreview(BaseInput(surface, regions.map, regions.choices, resolved, title));
+                        double steep_angle, const std::string& title) {
+  PreviewInput input = BaseInput(surface, regions.map, regions.choices, resolved, title);
+  input.shadings = true;
+  input.scales = {steep_angle, resolved.plan_radius};
+  return DrawPreview(input);
 }
 
 std::string DrawJob(const Surface& surface, const JobResult& result, const Resolved& resolved,

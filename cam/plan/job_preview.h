@@ -11,11 +11,12 @@
 namespace patchmill {
 
 // Ground that is not selected, or whose region is skipped, is grey; regions without other ground have no
-// legend.
+// legend. Borders are drawn by kind, with their nodes. A region map also has views by slope, whose colours
+// change at `steep_angle` (rad), and by the curvature of contours.
 std::string DrawJob(const Surface& surface, const JobResult& result, const Resolved& resolved,
                     const std::string& title);
 std::string DrawRegions(const Surface& surface, const ChosenRegions& regions, const Resolved& resolved,
-                        const std::string& title);
+                        double steep_angle, const std::string& title);
 
 const char* Name(Outcome outcome);  // "COMPLETE", ...
 

@@ -4,6 +4,7 @@
 #include <compare>
 
 #include "core/base/parallel.h"
+#include "core/base/segment.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -18,6 +19,15 @@ const ZeroField* CommonField(const ZeroVertex& a, const ZeroVertex& b, std::span
     if (limit == nullptr) limit = &fields[k];
   }
   return limit;
+}
+
+// A smooth field that has no sign at either end: the grid met its curve exactly.
+const ZeroField* FieldWithoutSign(const ZeroVertex& a, const ZeroVertex& b,
+                                  std::span<const ZeroField> fields) {
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (fields[k].smooth && a.sign[k] == 0 && b.sign[k] == 0) return &fields[k];
+  }
+  return nullptr;
 }
 
 // The places along a watershed, if the side lies on one.
@@ -74,8 +84,9 @@ void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes, c
     const ZeroField* field = CommonField(a, b, fields);
     if (field == nullptr) {
       arcs.places[i] = LineAlong(meshes[index], side);
-      continue;
+      if (arcs.places[i].empty()) field = FieldWithoutSign(a, b, fields);
     }
+    if (field == nullptr) continue;
     const auto f = static_cast<std::size_t>(field - fields.data());
     along[f].push_back(i);
     chords[f].push_back({{a.u, a.v}, {b.u, b.v}});
@@ -84,6 +95,27 @@ void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes, c
     auto refined = RefineZeroArcs(surface.pieces[index], fields[f], chords[f], tolerance);
     for (std::size_t k = 0; k < refined.size(); ++k) arcs.places[along[f][k]] = std::move(refined[k]);
   }
+}
+
+constexpr int kMostHalvings = 12;
+
+// Points of the surface along a line straight in the parameters, from a to b without these.
+void AddBetween(const Piece& piece, const Vec2& a, const Vec3& at_a, const Vec2& b, const Vec3& at_b,
+                double tolerance, int halvings, std::vector<Vec3>& out) {
+  if (halvings == 0 || (at_b - at_a).norm() <= tolerance) return;
+  const auto at = [&](double t) {
+    const Vec2 q = (1.0 - t) * a + t * b;
+    return Position(piece, q.x(), q.y());
+  };
+  const Vec3 mid = at(0.5);
+  const auto near = [&](const Vec3& p) { return SegmentDistance(p, at_a, at_b) <= tolerance; };
+  // The first chord is looked at in three places: a line of two bends may cross it in the middle.
+  const bool first = halvings == kMostHalvings;
+  if (near(mid) && (!first || (near(at(0.25)) && near(at(0.75))))) return;
+  const Vec2 middle = 0.5 * (a + b);
+  AddBetween(piece, a, at_a, middle, mid, tolerance, halvings - 1, out);
+  out.push_back(mid);
+  AddBetween(piece, middle, mid, b, at_b, tolerance, halvings - 1, out);
 }
 
 }  // namespace
@@ -145,6 +177,21 @@ double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSid
   for (std::size_t i = 0; i < arc.size(); ++i)
     area += SurfaceArea(piece, from, arc[i], i + 1 < arc.size() ? arc[i + 1] : to);
   return area;
+}
+
+bool OnWatershed(const SplitMesh& mesh, const TriangleSide& side) {
+  return mesh.lines.contains(std::minmax({VertexOf(mesh, side, 0), VertexOf(mesh, side, 1)}));
+}
+
+std::vector<Vec3> PointsAlong(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
+                              const std::vector<Vec2>& arc, double tolerance) {
+  const Piece& piece = surface.pieces[static_cast<std::size_t>(side.piece)];
+  const ZeroVertex &a = EndOf(mesh, side, 0), &b = EndOf(mesh, side, 1);
+  std::vector<Vec3> points{a.p};
+  for (const Vec2& q : arc) points.push_back(Position(piece, q.x(), q.y()));
+  if (arc.empty()) AddBetween(piece, {a.u, a.v}, a.p, {b.u, b.v}, b.p, tolerance, kMostHalvings, points);
+  points.push_back(b.p);
+  return points;
 }
 
 }  // namespace patchmill

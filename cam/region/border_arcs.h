@@ -36,4 +36,12 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
 double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
                 const std::vector<Vec2>& arc);
 
+// The side on the surface: its ends and the places of its arc between them, or, where it is straight in the
+// parameters, so many that chords keep to `tolerance` (mm).
+std::vector<Vec3> PointsAlong(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
+                              const std::vector<Vec2>& arc, double tolerance);
+
+// Whether the side lies on a watershed.
+bool OnWatershed(const SplitMesh& mesh, const TriangleSide& side);
+
 }  // namespace patchmill

@@ -80,7 +80,7 @@ std::vector<std::vector<Vec3>> Chain(std::vector<std::vector<Vec3>> strands, dou
 absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Surface& surface, const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
     const BorderArcs& arcs, const std::vector<std::vector<int>>& region_of, std::size_t region_count,
-    const RunContext& run) {
+    double tolerance, const RunContext& run) {
   const auto region = [&](int piece, int triangle) {
     return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
@@ -89,12 +89,9 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Adjacency a = adjacency[arcs.sides[k]];
     const int own = region(a.side.piece, a.side.triangle);
     if (own < 0 || own == region(a.other_piece, a.other_triangle)) continue;
-    const auto index = static_cast<std::size_t>(a.side.piece);
-    const ZeroVertex &from = EndOf(meshes[index], a.side, 0), &to = EndOf(meshes[index], a.side, 1);
-    std::vector<Vec3> strand{from.p};
-    for (const Vec2& q : arcs.places[k]) strand.push_back(Position(surface.pieces[index], q.x(), q.y()));
-    strand.push_back(to.p);
-    if ((to.p - from.p).norm() > 0.0 || strand.size() > 2)
+    std::vector<Vec3> strand = PointsAlong(surface, meshes[static_cast<std::size_t>(a.side.piece)], a.side,
+                                           arcs.places[k], tolerance);
+    if (strand.size() > 2 || strand.front() != strand.back())
       strands[static_cast<std::size_t>(own)].push_back(std::move(strand));
   }
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "cam/region/border_lines.h"
 #include "cam/region/catchments.h"
 #include "cam/region/describe_regions.h"
 #include "cam/region/merge_regions.h"
@@ -219,6 +220,26 @@ const char* Name(UnreachableReason reason) {
   return "";
 }
 
+const char* Name(BorderKind kind) {
+  switch (kind) {
+    case BorderKind::kOpenEdge:
+      return "open edge";
+    case BorderKind::kReach:
+      return "limit of reach";
+    case BorderKind::kSlope:
+      return "steep angle";
+    case BorderKind::kCurvature:
+      return "contours turn";
+    case BorderKind::kSilhouette:
+      return "upright";
+    case BorderKind::kWatershed:
+      return "watershed";
+    case BorderKind::kSeam:
+      return "patch border";
+  }
+  return "";
+}
+
 absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParams& params,
                                        const RunContext& run) {
   PM_ASSIGN_OR_RETURN(
@@ -242,8 +263,12 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
       DescribeRegions(surface, meshes, numbered.region_of, reach, params, run, numbered.regions));
   ListPatches(surface, numbered.region_of, numbered.regions);
   PM_ASSIGN_OR_RETURN(auto borders, RegionBorders(surface, meshes, adjacency, raw.arcs, numbered.region_of,
-                                                  numbered.regions.size(), run));
+                                                  numbered.regions.size(), params.border_tolerance, run));
+  PM_ASSIGN_OR_RETURN(BorderNet net, FindBorderLines(surface, meshes, adjacency, raw.arcs, numbered.region_of,
+                                                     numbered.regions, params.border_tolerance, run));
   RegionMap map;
+  map.lines = std::move(net.lines);
+  map.nodes = std::move(net.nodes);
   map.regions = std::move(numbered.regions);
   for (std::size_t i = 0; i < map.regions.size(); ++i) map.regions[i].border = std::move(borders[i]);
   PM_RETURN_IF_ERROR(FillLabels(meshes, numbered.region_of, run, map));

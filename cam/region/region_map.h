@@ -18,9 +18,21 @@ enum class RegionKind { kMountain, kBasin, kNeutral, kUnreachable };
 enum class SlopeClass { kUnspecified, kSteep, kGentle };
 enum class UnreachableReason { kNone, kUndercut, kConcave, kFloor, kAvoided, kStrategy, kHolder };
 
+// What makes a line a border of regions.
+enum class BorderKind {
+  kOpenEdge,    // the surface ends
+  kReach,       // limit of reach
+  kSlope,       // slope = steep angle
+  kCurvature,   // contour curvature 0: contours turn from bending outward to bending inward
+  kSilhouette,  // the surface is upright, and its contours bend the other way beyond
+  kWatershed,   // between two mountains or two basins
+  kSeam,        // a border of patches across which slope or curvature jump
+};
+
 const char* Name(RegionKind kind);
 const char* Name(SlopeClass slope);
 const char* Name(UnreachableReason reason);
+const char* Name(BorderKind kind);
 
 struct RegionParams {
   double radius = 3.0;      // mm, ball + stock to leave
@@ -51,9 +63,20 @@ struct Region {
   std::vector<PatchId> patches;           // those it has a part of, rising
 };
 
+// A line on the surface between two regions, or where one ends.
+struct BorderLine {
+  BorderKind kind = BorderKind::kSlope;
+  int region = -1, other = -1;  // ids, the lower one first; other = -1: the surface ends
+  bool closed = false;          // the last point joins the first and is not repeated
+  int from = -1, to = -1;       // nodes of the map, of lines that are not closed
+  std::vector<Vec3> points;
+};
+
 struct RegionMap {
   std::vector<Region>
       regions;  // ids are positions; reachable ones first, by falling area; then unreachable ones
+  std::vector<BorderLine> lines;  // all their borders, each once
+  std::vector<Vec3> nodes;        // where lines end: three or more meet, or two of different kinds
   // Labels for lookup: per piece a grid of cells x cells, label of the cell's centre (id into regions, -1
   // none).
   int cells = 0;

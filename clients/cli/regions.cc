@@ -1,4 +1,6 @@
+#include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include <fmt/format.h>
@@ -60,6 +62,25 @@ std::string HowItIsCut(const v1::Region& region) {
                             region.step_min_mm(), region.step_max_mm());
 }
 
+double Length(const v1::BorderLine& line) {
+  const auto& p = line.points_mm();
+  double sum = 0.0;
+  const int count = p.size() / 3;
+  for (int i = line.closed() ? 0 : 1; i < count; ++i) {
+    const int a = 3 * ((i + count - 1) % count), b = 3 * i;
+    sum += std::hypot(p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]);
+  }
+  return sum;
+}
+
+void PrintBorders(const v1::RegionMap& map) {
+  std::map<v1::BorderKind, double> lengths;
+  for (const v1::BorderLine& line : map.lines()) lengths[line.kind()] += Length(line);
+  std::string text;
+  for (const auto& [kind, length] : lengths) text += fmt::format("{} {:.1f} mm, ", Short(kind), length);
+  fmt::print("borders: {}{} nodes\n", text, map.nodes_size());
+}
+
 void Print(const v1::RegionMap& map) {
   std::string digest;
   for (const char c : map.regions_sha256()) digest += fmt::format("{:02x}", static_cast<unsigned char>(c));
@@ -72,6 +93,7 @@ void Print(const v1::RegionMap& map) {
     fmt::print("{:>4} {:<18} {:>12.3f}  {:<27} {}\n", region.id(), name, region.area_mm2(),
                fmt::format("{:.3f},{:.3f},{:.3f}", p.x_mm(), p.y_mm(), p.z_mm()), HowItIsCut(region));
   }
+  PrintBorders(map);
 }
 
 absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {

@@ -19,6 +19,7 @@ std::string Short(v1::UnreachableReason value) {
   return Without(v1::UnreachableReason_Name(value), "UNREACHABLE_REASON_");
 }
 std::string Short(v1::LineKind value) { return Without(v1::LineKind_Name(value), "LINE_KIND_"); }
+std::string Short(v1::BorderKind value) { return Without(v1::BorderKind_Name(value), "BORDER_KIND_"); }
 std::string Short(v1::RegionKind value) { return Without(v1::RegionKind_Name(value), "REGION_KIND_"); }
 std::string Short(v1::Slope value) { return Without(v1::Slope_Name(value), "SLOPE_"); }
 std::string Short(v1::Strategy value) { return Without(v1::Strategy_Name(value), "STRATEGY_"); }

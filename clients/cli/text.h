@@ -17,6 +17,7 @@ std::string Short(v1::Outcome value);
 std::string Short(v1::UnreachableReason value);
 std::string Short(v1::CheckState value);
 std::string Short(v1::LineKind value);
+std::string Short(v1::BorderKind value);
 std::string Short(v1::RegionKind value);
 std::string Short(v1::Slope value);
 std::string Short(v1::Strategy value);

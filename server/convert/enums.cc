@@ -240,6 +240,26 @@ v1::MoveKind ToProto(MoveKind value) {
   return v1::MOVE_KIND_UNSPECIFIED;
 }
 
+v1::BorderKind ToProto(BorderKind value) {
+  switch (value) {
+    case BorderKind::kOpenEdge:
+      return v1::BORDER_KIND_OPEN_EDGE;
+    case BorderKind::kReach:
+      return v1::BORDER_KIND_REACH;
+    case BorderKind::kSlope:
+      return v1::BORDER_KIND_SLOPE;
+    case BorderKind::kCurvature:
+      return v1::BORDER_KIND_CURVATURE;
+    case BorderKind::kSilhouette:
+      return v1::BORDER_KIND_SILHOUETTE;
+    case BorderKind::kWatershed:
+      return v1::BORDER_KIND_WATERSHED;
+    case BorderKind::kSeam:
+      return v1::BORDER_KIND_SEAM;
+  }
+  return v1::BORDER_KIND_UNSPECIFIED;
+}
+
 v1::RegionKind ToProto(RegionKind value) {
   switch (value) {
     case RegionKind::kMountain:

@@ -128,6 +128,14 @@ v1::Box ToProto(const Box3& box, const Vec3& zero) {
   return proto;
 }
 
+void AddPoints(const std::vector<Vec3>& points, const Vec3& zero,
+               google::protobuf::RepeatedField<double>* to) {
+  to->Reserve(to->size() + static_cast<int>(3 * points.size()));
+  for (const Vec3& p : points) {
+    for (int k = 0; k < 3; ++k) to->Add(Number(p[k] - zero[k]));
+  }
+}
+
 v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3& zero, Detail detail) {
   v1::Region proto;
   proto.set_id(region.id);
@@ -149,13 +157,8 @@ v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3&
   proto.set_skipped(choice.skip);
   if (detail == Detail::kFigures) return proto;
   for (const PatchId patch : region.patches) proto.add_patch_index(patch.value);
-  for (const std::vector<Vec3>& loop : region.border) {
-    auto* points = proto.add_border()->mutable_points_mm();
-    points->Reserve(static_cast<int>(3 * loop.size()));
-    for (const Vec3& p : loop) {
-      for (int k = 0; k < 3; ++k) points->Add(Number(p[k] - zero[k]));
-    }
-  }
+  for (const std::vector<Vec3>& loop : region.border)
+    AddPoints(loop, zero, proto.add_border()->mutable_points_mm());
   return proto;
 }
 
@@ -173,6 +176,19 @@ v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& cho
   for (std::size_t id = 0; id < map.regions.size(); ++id) {
     *proto.add_regions() = ToProto(map.regions[id], choices[id], zero, Detail::kAll);
   }
+  for (const BorderLine& line : map.lines) {
+    v1::BorderLine& border = *proto.add_lines();
+    border.set_kind(ToProto(line.kind));
+    border.set_region_id(line.region);
+    border.set_other_region_id(line.other);
+    border.set_closed(line.closed);
+    if (!line.closed) {
+      border.set_from_node(line.from);
+      border.set_to_node(line.to);
+    }
+    AddPoints(line.points, zero, border.mutable_points_mm());
+  }
+  for (const Vec3& node : map.nodes) *proto.add_nodes() = ToProto(Vec3(node - zero));
   return proto;
 }
 

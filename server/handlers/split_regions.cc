@@ -38,7 +38,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
       v1::ArtifactChunk& picture = *response->mutable_picture();
       picture.set_name("regions.svg");
       picture.set_media_type("image/svg+xml");
-      picture.set_data(DrawRegions(surface, regions, resolved, prepared.name));
+      picture.set_data(DrawRegions(surface, regions, resolved, job.operation.steep_angle, prepared.name));
     }
     return absl::OkStatus();
   });

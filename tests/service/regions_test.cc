@@ -1,5 +1,7 @@
 // Regions listed, switched off and cut in a way of their own, through the wire: SplitRegions, then
 // GenerateProgram with its map, then VerifyProgram of what came out.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
@@ -85,6 +87,37 @@ class Regions : public ::testing::Test {
   v1::Report report_, judged_;
   std::string program_;
 };
+
+TEST_F(Regions, TheirBordersAreLinesFromNodeToNode) {
+  ASSERT_TRUE(Split().ok());
+  ASSERT_GT(map_.lines_size(), 0);
+  for (const v1::BorderLine& line : map_.lines()) {
+    EXPECT_NE(line.kind(), v1::BORDER_KIND_UNSPECIFIED);
+    EXPECT_EQ(line.other_region_id() == -1, line.kind() == v1::BORDER_KIND_OPEN_EDGE);
+    EXPECT_NE(line.region_id(), line.other_region_id());
+    EXPECT_LT(std::max(line.region_id(), line.other_region_id()), map_.regions_size());
+    EXPECT_EQ(line.points_mm_size() % 3, 0);
+    EXPECT_EQ(line.has_from_node(), !line.closed());
+    EXPECT_EQ(line.has_to_node(), !line.closed());
+    if (line.closed()) continue;
+    ASSERT_LT(std::max(line.from_node(), line.to_node()), map_.nodes_size());
+    const v1::Point3& from = map_.nodes(line.from_node());
+    EXPECT_NEAR(from.x_mm(), line.points_mm(0), 1e-4);
+    EXPECT_NEAR(from.z_mm(), line.points_mm(2), 1e-4);
+  }
+}
+
+TEST_F(Regions, ThePictureShowsBordersByKindSlopeAndCurvature) {
+  grpc::ClientContext context;
+  v1::SplitRegionsRequest request;
+  *request.mutable_job() = job_;
+  request.add_outputs(v1::OUTPUT_PICTURE);
+  v1::SplitRegionsResponse response;
+  ASSERT_TRUE(embedded_.analysis->SplitRegions(&context, request, &response).ok());
+  for (const char* text :
+       {"borders of regions", "contours turn: ", "slope, from above", "curvature of contours, 1/mm"})
+    EXPECT_THAT(response.picture().data(), HasSubstr(text));
+}
 
 TEST_F(Regions, ASkippedOneIsLeftOutOfProgramReportAndVerdict) {
   ASSERT_TRUE(Split().ok());

@@ -30,7 +30,7 @@ class RegionPicture : public ::testing::Test {
     const auto regions = PlanRegions(surface, job_, RunContext());
     const auto resolved = Resolve(surface, job_);
     EXPECT_TRUE(regions.ok() && resolved.ok()) << regions.status() << resolved.status();
-    return DrawRegions(surface, *regions, *resolved, "roof");
+    return DrawRegions(surface, *regions, *resolved, job_.operation.steep_angle, "roof");
   }
   PatchModel model_;
   Job job_;

@@ -1,0 +1,290 @@
+#include "cam/region/border_lines.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+#include "core/base/union_find.h"
+
+namespace patchmill {
+namespace {
+
+// One side of a triangle that is a border.
+struct Strand {
+  BorderKind kind = BorderKind::kSlope;
+  int region = -1, other = -1;
+  std::vector<Vec3> points;
+  std::size_t ends[2] = {0, 0};  // places of its first and last point
+
+  bool Continues(const Strand& s) const {
+    return std::tie(kind, region, other) == std::tie(s.kind, s.region, s.other);
+  }
+};
+
+BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region>& regions,
+                  const Adjacency& a, const Strand& strand) {
+  if (strand.other < 0) return BorderKind::kOpenEdge;
+  const Region &own = regions[static_cast<std::size_t>(strand.region)],
+               &other = regions[static_cast<std::size_t>(strand.other)];
+  if (own.reason != other.reason) return BorderKind::kReach;
+  const bool slope = own.slope != other.slope, curvature = own.kind != other.kind;
+  if (!slope && !curvature) return BorderKind::kWatershed;
+  const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
+  const ZeroVertex &from = EndOf(mesh, a.side, 0), &to = EndOf(mesh, a.side, 1);
+  const auto on = [&](Field field) {  // the zero curve; vertices on it have no sign
+    const auto k = static_cast<std::size_t>(field);
+    return from.sign[k] == 0 && to.sign[k] == 0;
+  };
+  // What differs first. Merged ground may also end where something else does.
+  for (const bool differs : {true, false}) {
+    if (slope == differs && on(Field::kSlope)) return BorderKind::kSlope;
+    if (curvature == differs && on(Field::kCurvature)) return BorderKind::kCurvature;
+    if (curvature == differs && on(Field::kTurn)) return BorderKind::kSilhouette;
+  }
+  if (OnWatershed(mesh, a.side)) return BorderKind::kWatershed;
+  if (a.across_seam) return BorderKind::kSeam;
+  return slope ? BorderKind::kSlope : BorderKind::kCurvature;
+}
+
+// The places where strands end.
+class EndPlaces {
+ public:
+  // Ends within `weld` (mm) of each other are one place.
+  EndPlaces(double weld, const std::vector<Strand>& strands)
+      : strands_(strands), by_x_(2 * strands.size()), sets_(2 * strands.size()) {
+    for (std::size_t i = 0; i < by_x_.size(); ++i) by_x_[i] = i;
+    std::sort(by_x_.begin(), by_x_.end(), [&](std::size_t a, std::size_t b) {
+      return std::make_pair(At(a).x(), a) < std::make_pair(At(b).x(), b);
+    });
+    for (std::size_t i = 0; i < by_x_.size(); ++i)
+      ForNear(by_x_[i], weld, [&](std::size_t j, double) { sets_.Join(by_x_[i], j); });
+  }
+
+  // Where a seam is cut differently on its two sides lines end beside each other: loose ends of lines that
+  // continue each other become one place, the nearest first, then those that are left join the place nearest
+  // to them; none farther away than `reach` (mm).
+  void JoinLoose(double reach) {
+    struct Pair {
+      double distance;
+      std::size_t a, b;
+    };
+    const std::vector<int> counts = Counts();
+    const auto loose = [&](std::size_t end) { return counts[sets_.Find(end)] == 1; };
+    std::vector<Pair> pairs;
+    for (std::size_t a = 0; a < by_x_.size(); ++a) {
+      if (!loose(a)) continue;
+      ForNear(a, reach, [&](std::size_t b, double distance) {
+        if (a < b && loose(b) && a / 2 != b / 2 && strands_[a / 2].Continues(strands_[b / 2]))
+          pairs.push_back({distance, a, b});
+      });
+    }
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+      return std::tie(x.distance, x.a, x.b) < std::tie(y.distance, y.a, y.b);
+    });
+    std::vector<char> taken(by_x_.size(), 0);
+    for (const Pair& pair : pairs) {
+      if (taken[pair.a] || taken[pair.b]) continue;
+      taken[pair.a] = taken[pair.b] = 1;
+      sets_.Join(pair.a, pair.b);
+    }
+    for (std::size_t a = 0; a < by_x_.size(); ++a) {
+      if (!loose(a) || taken[a]) continue;
+      std::size_t best = a;
+      double nearest = reach;
+      ForNear(a, reach, [&](std::size_t b, double distance) {
+        if (a / 2 == b / 2 || distance > nearest) return;
+        if (distance == nearest && b > best) return;
+        nearest = distance;
+        best = b;
+      });
+      sets_.Join(a, best);
+    }
+  }
+
+  // A number for the place of every end, 2 for each strand in turn, and how many places there are.
+  std::pair<std::vector<std::size_t>, std::size_t> Number() {
+    std::vector<std::size_t> number(by_x_.size());
+    std::size_t count = 0;
+    for (std::size_t end = 0; end < number.size(); ++end) {
+      const std::size_t set = sets_.Find(end);  // the smallest of them
+      number[end] = set == end ? count++ : number[set];
+    }
+    return {std::move(number), count};
+  }
+
+ private:
+  const Vec3& At(std::size_t end) const {
+    const std::vector<Vec3>& points = strands_[end / 2].points;
+    return end % 2 == 0 ? points.front() : points.back();
+  }
+
+  template <typename Visit>
+  void ForNear(std::size_t end, double reach, const Visit& visit) const {
+    const Vec3& p = At(end);
+    auto at = std::lower_bound(by_x_.begin(), by_x_.end(), p.x() - reach,
+                               [&](std::size_t i, double x) { return At(i).x() < x; });
+    for (; at != by_x_.end() && At(*at).x() <= p.x() + reach; ++at) {
+      const double distance = (At(*at) - p).norm();
+      if (*at != end && distance <= reach) visit(*at, distance);
+    }
+  }
+
+  // How many ends are in each set, by the smallest of them.
+  std::vector<int> Counts() {
+    std::vector<int> counts(by_x_.size(), 0);
+    for (std::size_t end = 0; end < by_x_.size(); ++end) ++counts[sets_.Find(end)];
+    return counts;
+  }
+
+  const std::vector<Strand>& strands_;
+  std::vector<std::size_t> by_x_;  // ends: 2 i and 2 i + 1 of strand i
+  UnionFind sets_;
+};
+
+// Strands put together: from every end where others than one like it begin, then around.
+class Chainer {
+ public:
+  Chainer(const std::vector<Strand>& strands, std::size_t places, double weld)
+      : strands_(strands),
+        weld_(weld),
+        at_(places),
+        where_(places),
+        node_(places, -1),
+        used_(strands.size(), 0) {
+    for (std::size_t i = 0; i < strands.size(); ++i) {
+      for (const std::size_t which : {0, 1}) {
+        std::vector<std::size_t>& here = at_[strands[i].ends[which]];
+        if (here.empty()) where_[strands[i].ends[which]] = EndOf(strands[i], which);
+        here.push_back(i);
+      }
+    }
+  }
+
+  BorderNet Chain() {
+    BorderNet net;
+    for (std::size_t i = 0; i < strands_.size(); ++i) {
+      for (const std::size_t which : {0, 1}) {
+        if (!used_[i] && !Passes(strands_[i].ends[which])) net.lines.push_back(LineFrom(i, which, net.nodes));
+      }
+    }
+    for (std::size_t i = 0; i < strands_.size(); ++i) {
+      if (!used_[i]) net.lines.push_back(LineFrom(i, 0, net.nodes));
+    }
+    return net;
+  }
+
+ private:
+  // A line runs on through this place.
+  bool Passes(std::size_t place) const {
+    const std::vector<std::size_t>& here = at_[place];
+    return here.size() == 2 && strands_[here[0]].Continues(strands_[here[1]]);
+  }
+
+  static const Vec3& EndOf(const Strand& strand, std::size_t which) {
+    return which == 0 ? strand.points.front() : strand.points.back();
+  }
+
+  // A line runs straight to where it meets others, if that is not where it ends.
+  void Append(const Vec3& p, std::vector<Vec3>& points) const {
+    if (points.empty() || (points.back() - p).norm() > weld_) points.push_back(p);
+  }
+
+  int NodeAt(std::size_t place, std::vector<Vec3>& nodes) {
+    if (node_[place] < 0) {
+      node_[place] = static_cast<int>(nodes.size());
+      nodes.push_back(where_[place]);
+    }
+    return node_[place];
+  }
+
+  BorderLine LineFrom(std::size_t i, std::size_t which, std::vector<Vec3>& nodes) {
+    BorderLine line;
+    line.kind = strands_[i].kind;
+    line.region = strands_[i].region;
+    line.other = strands_[i].other;
+    const std::size_t start = strands_[i].ends[which];
+    if (!Passes(start)) {
+      line.from = NodeAt(start, nodes);
+      line.points.push_back(where_[start]);
+    }
+    while (true) {
+      used_[i] = 1;
+      std::vector<Vec3> points = strands_[i].points;
+      if (which == 1) std::reverse(points.begin(), points.end());
+      Append(points.front(), line.points);
+      line.points.insert(line.points.end(), points.begin() + 1, points.end());
+      const std::size_t end = strands_[i].ends[1 - which];
+      if (!Passes(end)) {
+        line.to = NodeAt(end, nodes);
+        Append(where_[end], line.points);
+        return line;
+      }
+      if (end == start) break;
+      i = at_[end][at_[end][0] == i ? 1 : 0];
+      which = strands_[i].ends[0] == end ? 0 : 1;
+    }
+    line.closed = true;
+    if ((line.points.back() - line.points.front()).norm() <= weld_) line.points.pop_back();
+    return line;
+  }
+
+  const std::vector<Strand>& strands_;
+  double weld_;
+  std::vector<std::vector<std::size_t>> at_;  // strands by the places they end at
+  std::vector<Vec3> where_;                   // those places
+  std::vector<int> node_;                     // their nodes, once lines end there
+  std::vector<char> used_;
+};
+
+// mm, between the ends.
+double LongestSeamSide(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency) {
+  double longest = 0.0;
+  for (const AdjacencyList::Seam& seam : adjacency.seams) {
+    const TriangleSide side = adjacency[seam.side].side;
+    const SplitMesh& mesh = meshes[static_cast<std::size_t>(side.piece)];
+    longest = std::max(longest, (EndOf(mesh, side, 1).p - EndOf(mesh, side, 0).p).norm());
+  }
+  return longest;
+}
+
+}  // namespace
+
+absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                          const AdjacencyList& adjacency, const BorderArcs& arcs,
+                                          const std::vector<std::vector<int>>& region_of,
+                                          const std::vector<Region>& regions, double tolerance,
+                                          const RunContext& run) {
+  const auto region = [&](int piece, int triangle) {
+    return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
+  };
+  std::vector<Strand> strands;
+  std::vector<std::size_t> borders;  // places in `arcs`
+  for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
+    const Adjacency a = adjacency[arcs.sides[k]];
+    const int own = region(a.side.piece, a.side.triangle), other = region(a.other_piece, a.other_triangle);
+    if (own < 0 || own == other || (other >= 0 && other < own)) continue;
+    borders.push_back(k);
+    strands.push_back({BorderKind::kOpenEdge, own, other, {}, {}});
+    strands.back().kind = KindOf(meshes, regions, a, strands.back());
+  }
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, borders.size(), [&](std::size_t i) {
+    const TriangleSide side = adjacency[arcs.sides[borders[i]]].side;
+    strands[i].points = PointsAlong(surface, meshes[static_cast<std::size_t>(side.piece)], side,
+                                    arcs.places[borders[i]], tolerance);
+  }));
+  const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
+  EndPlaces places(weld, strands);
+  places.JoinLoose(LongestSeamSide(meshes, adjacency));
+  const auto [number, count] = places.Number();
+  for (std::size_t i = 0; i < strands.size(); ++i) {
+    strands[i].ends[0] = number[2 * i];
+    strands[i].ends[1] = number[2 * i + 1];
+  }
+  // A side shorter than what is one place is nothing.
+  std::erase_if(strands, [](const Strand& s) { return s.ends[0] == s.ends[1] && s.points.size() == 2; });
+  return Chainer(strands, count, weld).Chain();
+}
+
+}  // namespace patchmill
