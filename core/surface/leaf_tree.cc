@@ -4,11 +4,17 @@
 #include <array>
 #include <numeric>
 #include <span>
+#include <utility>
+
+#include "core/base/parallel.h"
 
 namespace patchmill {
 namespace {
 
 constexpr int kBins = 16;
+constexpr std::size_t kFew = 8, kMostSteps = kBins;
+// Subtrees are built in parallel, at least so many where there are enough items.
+constexpr std::size_t kShares = 32, kAlone = 512;
 
 double HalfArea(const Box3& box) {
   const Vec3 d = box.max - box.min;
@@ -21,7 +27,6 @@ struct Builder {
   std::vector<Vec3> centers;
   std::vector<std::int32_t> order;
   std::vector<SurfaceNode> nodes;
-  double next_report = 0.0;
 
   // Where to cut order[begin, end): items below `bin` of `axis` go left. cost is +inf when bins cannot part
   // them.
@@ -33,51 +38,97 @@ struct Builder {
   static int BinOf(double x, double min, double width) {
     return std::clamp(static_cast<int>((x - min) / width * kBins), 0, kBins - 1);
   }
+  const Vec3& Center(std::int32_t item) const { return centers[static_cast<std::size_t>(item)]; }
+  const Box3& Box(std::int32_t item) const { return boxes[static_cast<std::size_t>(item)]; }
 
-  Cut BestCut(std::span<const std::int32_t> items, const Box3& spread) const {
+  // Of some boxes in a row, after each of which a cut at the given bin is possible.
+  struct Step {
+    Box3 box;
+    int count = 0, bin = 0;
+  };
+  static void Sweep(std::span<const Step> steps, int axis, Cut& best) {
+    std::array<double, kMostSteps> right_cost{};
+    Box3 right;
+    int right_count = 0;
+    for (std::size_t k = steps.size() - 1; k > 0; --k) {
+      right.Add(steps[k].box);
+      right_count += steps[k].count;
+      right_cost[k] = HalfArea(right) * right_count;
+    }
+    Box3 left;
+    int left_count = 0;
+    for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
+      left.Add(steps[k].box);
+      left_count += steps[k].count;
+      const double cost = HalfArea(left) * left_count + right_cost[k + 1];
+      if (cost < best.cost) best = {cost, axis, steps[k].bin};
+    }
+  }
+
+  // Most nodes have few items: these are put in order of their bins, and no bins are filled.
+  Cut BestCutOfFew(std::span<const std::int32_t> items, const Box3& spread) const {
     Cut best;
     for (int axis = 0; axis < 3; ++axis) {
       const double min = spread.min[axis], width = spread.max[axis] - min;
       if (!(width > 0.0)) continue;
-      std::array<Box3, kBins> box;
-      std::array<int, kBins> count{};
-      for (const std::int32_t item : items) {
-        const auto bin =
-            static_cast<std::size_t>(BinOf(centers[static_cast<std::size_t>(item)][axis], min, width));
-        box[bin].Add(boxes[static_cast<std::size_t>(item)]);
-        ++count[bin];
+      std::array<std::pair<int, std::int32_t>, kFew> in_order;
+      for (std::size_t k = 0; k < items.size(); ++k) {
+        const std::pair<int, std::int32_t> at(BinOf(Center(items[k])[axis], min, width), items[k]);
+        std::size_t i = k;
+        for (; i > 0 && in_order[i - 1].first > at.first; --i) in_order[i] = in_order[i - 1];
+        in_order[i] = at;
       }
-      std::array<double, kBins> right_cost{};
-      Box3 right;
-      int right_count = 0;
-      for (std::size_t b = kBins - 1; b > 0; --b) {
-        right.Add(box[b]);
-        right_count += count[b];
-        right_cost[b] = right_count > 0 ? HalfArea(right) * right_count : 0.0;
+      std::array<Step, kFew> steps;
+      std::size_t count = 0;
+      for (std::size_t k = 0; k < items.size(); ++k) {
+        if (k > 0 && in_order[k].first != in_order[k - 1].first) ++count;
+        Step& step = steps[count];
+        step.box.Add(Box(in_order[k].second));
+        ++step.count;
+        step.bin = in_order[k].first + 1;
       }
-      Box3 left;
-      int left_count = 0;
-      for (std::size_t b = 1; b < kBins; ++b) {
-        left.Add(box[b - 1]);
-        left_count += count[b - 1];
-        if (left_count == 0 || left_count == static_cast<int>(items.size())) continue;
-        const double cost = HalfArea(left) * left_count + right_cost[b];
-        if (cost < best.cost) best = {cost, axis, static_cast<int>(b)};
+      Sweep(std::span(steps).first(count + 1), axis, best);
+    }
+    return best;
+  }
+
+  Cut BestCut(std::span<const std::int32_t> items, const Box3& spread) const {
+    if (items.size() <= kFew) return BestCutOfFew(items, spread);
+    std::array<std::array<Step, kBins>, 3> bins;
+    const Vec3 width = spread.max - spread.min;
+    for (const std::int32_t item : items) {
+      const Box3& box = Box(item);
+      const Vec3& center = Center(item);
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!(width[axis] > 0.0)) continue;
+        Step& bin = bins[static_cast<std::size_t>(axis)]
+                        [static_cast<std::size_t>(BinOf(center[axis], spread.min[axis], width[axis]))];
+        bin.box.Add(box);
+        ++bin.count;
       }
+    }
+    Cut best;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(width[axis] > 0.0)) continue;
+      std::array<Step, kBins>& steps = bins[static_cast<std::size_t>(axis)];
+      std::size_t count = 0;
+      for (std::size_t b = 0; b < kBins; ++b) {
+        if (steps[b].count == 0) continue;
+        steps[count] = steps[b];
+        steps[count++].bin = static_cast<int>(b) + 1;
+      }
+      Sweep(std::span(steps).first(count), axis, best);
     }
     return best;
   }
 
   // Returns the number of items that go left, at least 1 and fewer than all.
   std::size_t Part(std::span<std::int32_t> items, const Box3& spread, int depth) const {
-    const auto center = [&](std::int32_t item) -> const Vec3& {
-      return centers[static_cast<std::size_t>(item)];
-    };
     const Cut cut = depth < 30 ? BestCut(items, spread) : Cut{};  // too deep: medians end it in log2(n)
     if (cut.cost < kInfinity) {
       const double min = spread.min[cut.axis], width = spread.max[cut.axis] - min;
       const auto middle = std::stable_partition(items.begin(), items.end(), [&](std::int32_t item) {
-        return BinOf(center(item)[cut.axis], min, width) < cut.bin;
+        return BinOf(Center(item)[cut.axis], min, width) < cut.bin;
       });
       return static_cast<std::size_t>(middle - items.begin());
     }
@@ -86,39 +137,39 @@ struct Builder {
     const std::size_t half = items.size() / 2;
     std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
                      [&](std::int32_t a, std::int32_t b) {
-                       return std::pair(center(a)[axis], a) < std::pair(center(b)[axis], b);
+                       return std::pair(Center(a)[axis], a) < std::pair(Center(b)[axis], b);
                      });
     return half;
   }
 
-  void Report() {
-    const double share = static_cast<double>(nodes.size()) / (2.0 * static_cast<double>(boxes.size()));
-    if (share < next_report) return;
-    run.Progress("bounds: tree", share);
-    next_report = share + 1.0 / 64.0;
-  }
-
-  void Build(std::span<std::int32_t> items, int depth) {
-    const std::size_t self = nodes.size();
-    nodes.emplace_back();
-    Box3 box, spread;
-    for (const std::int32_t item : items) {
-      box.Add(boxes[static_cast<std::size_t>(item)]);
-      spread.Add(centers[static_cast<std::size_t>(item)]);
-    }
-    nodes[self].box = box;
-    if (items.size() == 1) {
-      nodes[self].leaf = items.front();
+  // A node over `items` and all below it; they take 2 items - 1 places from `self` on.
+  struct Task {
+    std::span<std::int32_t> items;
+    std::size_t self = 0;
+    int depth = 0;
+  };
+  // Nodes of at most `enough` items are left to be built: they go to `rest`.
+  void Build(const Task& task, std::size_t enough, std::vector<Task>* rest) {
+    const auto [items, self, depth] = task;
+    if (items.size() <= enough && rest != nullptr) {
+      rest->push_back(task);
       return;
     }
-    if (items.size() > 256) {
-      if (run.Cancelled()) return;
-      Report();
+    SurfaceNode& node = nodes[self];
+    Box3 spread;
+    for (const std::int32_t item : items) {
+      node.box.Add(Box(item));
+      spread.Add(Center(item));
     }
+    if (items.size() == 1) {
+      node.leaf = items.front();
+      return;
+    }
+    if (items.size() > 256 && run.Cancelled()) return;
     const std::size_t left = Part(items, spread, depth);
-    Build(items.first(left), depth + 1);
-    nodes[self].right = static_cast<std::int32_t>(nodes.size());
-    Build(items.subspan(left), depth + 1);
+    node.right = static_cast<std::int32_t>(self + 2 * left);
+    Build({items.first(left), self + 1, depth + 1}, enough, rest);
+    Build({items.subspan(left), self + 2 * left, depth + 1}, enough, rest);
   }
 };
 
@@ -131,8 +182,13 @@ std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const Run
   for (const Box3& box : boxes) builder.centers.push_back(box.Center());
   builder.order.resize(boxes.size());
   std::iota(builder.order.begin(), builder.order.end(), 0);
-  builder.nodes.reserve(2 * boxes.size() - 1);
-  builder.Build(builder.order, 0);
+  builder.nodes.resize(2 * boxes.size() - 1);
+  std::vector<Builder::Task> rest;
+  builder.Build({builder.order, 0, 0}, std::max(kAlone, boxes.size() / kShares), &rest);
+  // A cancel shows in `run`.
+  ParallelFor(run, "bounds: tree", rest.size(), [&](std::size_t k) {
+    builder.Build(rest[k], 0, nullptr);
+  }).IgnoreError();
   return std::move(builder.nodes);
 }
 

@@ -1,8 +1,11 @@
 #include "core/surface/leaf_tree.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "tests/support/random.h"
 
 namespace patchmill {
 namespace {
@@ -38,6 +41,33 @@ TEST(LeafTree, PartsClustersFirst) {
   const auto nodes = BuildLeafTree(boxes, RunContext(1));
   EXPECT_LT(nodes[1].box.max.x(), 1.0);
   EXPECT_GT(nodes[static_cast<std::size_t>(nodes[0].right)].box.min.x(), 99.0);
+}
+
+TEST(LeafTree, HoldsEveryBoxOnceAndIsTheSameForAnyNumberOfThreads) {
+  testing::Random random(3);
+  std::vector<Box3> boxes;
+  for (int i = 0; i < 5000; ++i) boxes.push_back(Cube(random.Point(-10, 10), random.Uniform(0.0, 1.0)));
+  const auto nodes = BuildLeafTree(boxes, RunContext(1));
+  const auto parallel = BuildLeafTree(boxes, RunContext(4));
+  ASSERT_EQ(nodes.size(), 9999u);
+  ASSERT_EQ(parallel.size(), nodes.size());
+  std::vector<int> held(boxes.size(), 0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    EXPECT_EQ(nodes[i].right, parallel[i].right);
+    EXPECT_EQ(nodes[i].leaf, parallel[i].leaf);
+    EXPECT_EQ(nodes[i].box.min, parallel[i].box.min);
+    EXPECT_EQ(nodes[i].box.max, parallel[i].box.max);
+    if (nodes[i].leaf >= 0) {
+      ++held[static_cast<std::size_t>(nodes[i].leaf)];
+      continue;
+    }
+    Box3 both = nodes[i + 1].box;
+    both.Add(nodes[static_cast<std::size_t>(nodes[i].right)].box);
+    EXPECT_EQ(both.min, nodes[i].box.min);
+    EXPECT_EQ(both.max, nodes[i].box.max);
+  }
+  EXPECT_EQ(std::count(held.begin(), held.end(), 1), 5000);
+  EXPECT_LE(Depth(nodes, 0), 20);
 }
 
 TEST(LeafTree, NothingInNothingOut) { EXPECT_TRUE(BuildLeafTree({}, RunContext(1)).empty()); }
