@@ -44,7 +44,8 @@ void ReachLimits(const ReachTest& reach, const Piece& piece, std::span<const Zer
     for (std::size_t k = 0; k < segments.size(); ++k) {
       Bracket& b = brackets[k];
       if (!b.Open()) continue;
-      b.ask = 0.5 * (b.blocked + b.free);
+      // What is in the way at the start is mostly known to be: it costs little to hear of it.
+      b.ask = round == 0 ? 0.0 : 0.5 * (b.blocked + b.free);
       if (b.obstacle && round < kFollowed) {
         // The obstacle lets go between `blocked`, where it is in the way, and `free`, where nothing is.
         const auto clearance = [&](double t) {

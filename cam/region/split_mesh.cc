@@ -76,7 +76,7 @@ void Measure(const Piece& piece, const std::array<Vec2, 3>& q, const std::array<
     if (triangle.label.reason != UnreachableReason::kNone) return;
     const auto unit = UnitNormal(jet);
     if (!unit) return;
-    const double slope = std::atan2(std::hypot(unit->x(), unit->y()), std::abs(unit->z()));
+    const double slope = std::atan2(Plan(*unit).norm(), std::abs(unit->z()));
     triangle.steepness += element * (slope - steep_angle);
     const double bend = triangle.turn * ContourCurvature(jet, Forms(jet, *unit));
     if (std::isfinite(bend)) triangle.curvature += element * bend;  // none at a summit or a pit
