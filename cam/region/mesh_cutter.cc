@@ -39,6 +39,12 @@ std::pair<Vec2, std::size_t> NearestOn(const std::vector<Vec2>& line, const Vec2
   return best;
 }
 
+// Two places that lie on one border of the piece.
+bool AlongBorder(const Vec2& a, const Vec2& b) {
+  return (a.x() == b.x() && (a.x() == 0.0 || a.x() == 1.0)) ||
+         (a.y() == b.y() && (a.y() == 0.0 || a.y() == 1.0));
+}
+
 }  // namespace
 
 MeshCutter::MeshCutter(const Piece& piece, SplitMesh& mesh, bool summits, std::span<const ZeroField> fields,
@@ -51,9 +57,14 @@ MeshCutter::MeshCutter(const Piece& piece, SplitMesh& mesh, bool summits, std::s
       around_(mesh.vertices.size()),
       on_line_(mesh.vertices.size(), false),
       cut_(mesh.triangles.size(), false) {
+  constexpr std::size_t kUsual = 8;  // triangles around a vertex
+  for (std::vector<int>& triangles : around_) triangles.reserve(kUsual);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const int vertex : mesh.triangles[t].vertex)
-      around_[static_cast<std::size_t>(vertex)].push_back(static_cast<int>(t));
+    const auto& v = mesh.triangles[t].vertex;
+    for (const int vertex : v) around_[static_cast<std::size_t>(vertex)].push_back(static_cast<int>(t));
+    if (AlongBorder(Place(v[0]), Place(v[1])) || AlongBorder(Place(v[1]), Place(v[2])) ||
+        AlongBorder(Place(v[2]), Place(v[0])))
+      rim_.push_back(static_cast<int>(t));
   }
 }
 
@@ -138,6 +149,7 @@ int MeshCutter::Split(int a, int b, const Vec2& at) {
     around_.back().push_back(added);
     mesh_.triangles.push_back(half);
     cut_.push_back(true);
+    if (std::binary_search(rim_.begin(), rim_.end(), t)) rim_.push_back(added);
   }
   if (line != mesh_.lines.end()) {
     const SplitMesh::Line old = std::move(line->second);
@@ -160,21 +172,18 @@ int MeshCutter::VertexAt(int a, int b, const Vec2& at) {
 }
 
 std::optional<int> MeshCutter::OnBorder(const Vec3& p, double reach) {
-  const auto on_border = [](const Vec2& a, const Vec2& b) {
-    return (a.x() == b.x() && (a.x() == 0.0 || a.x() == 1.0)) ||
-           (a.y() == b.y() && (a.y() == 0.0 || a.y() == 1.0));
-  };
   double nearest = reach;
   struct Found {
     int a, b;
     Vec2 at;
   };
   std::optional<Found> best;
-  for (const SplitTriangle& t : mesh_.triangles) {
+  for (const int t : rim_) {
+    const auto& v = mesh_.triangles[static_cast<std::size_t>(t)].vertex;
     for (std::size_t k = 0; k < 3; ++k) {
-      const int a = t.vertex[k], b = t.vertex[(k + 1) % 3];
+      const int a = v[k], b = v[(k + 1) % 3];
       const Vec2 from = Place(a), along = Place(b) - from;
-      if (!on_border(from, Place(b))) continue;
+      if (!AlongBorder(from, Place(b))) continue;
       const Vec3 &pa = mesh_.vertices[static_cast<std::size_t>(a)].p,
                  &pb = mesh_.vertices[static_cast<std::size_t>(b)].p;
       // No side bends by more than its length.

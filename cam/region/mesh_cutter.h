@@ -53,6 +53,7 @@ class MeshCutter {
   std::vector<std::vector<int>> around_;  // triangles of each vertex
   std::vector<bool> on_line_;
   std::vector<bool> cut_;  // of each triangle
+  std::vector<int> rim_;   // triangles that may have a side on the piece's border, rising
 };
 
 }  // namespace patchmill

@@ -79,13 +79,10 @@ absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& pa
     PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
       heights[k] = graph.Find(kSigns[k], persistence, MostRegions(params), run);
     }));
-    bool cut = false;
-    for (std::size_t k = 0; k < 2; ++k) {
-      line.sign = kSigns[k];
-      PM_ASSIGN_OR_RETURN(tops[k], std::move(heights[k]));
-      PM_ASSIGN_OR_RETURN(const bool more, CutWatersheds(surface, tops[k].passes, line, run, meshes));
-      cut = cut || more;
-    }
+    PM_ASSIGN_OR_RETURN(tops[0], std::move(heights[0]));
+    PM_ASSIGN_OR_RETURN(tops[1], std::move(heights[1]));
+    PM_ASSIGN_OR_RETURN(const bool cut,
+                        CutWatersheds(surface, {tops[0].passes, tops[1].passes}, line, run, meshes));
     if (cut) {
       PM_ASSIGN_OR_RETURN(adjacency, FindAdjacency(surface, meshes, run));
     }
