@@ -180,25 +180,27 @@ class Collapser {
 
   std::int32_t Emit(std::int32_t root, std::size_t depth) {
     PM_CHECK(3 * depth + 1 <= kMaxPending);
-    std::vector<std::int32_t> children = {root};
-    while (children.size() < 4) {
-      std::size_t largest = children.size();
-      for (std::size_t k = 0; k < children.size(); ++k) {
+    std::array<std::int32_t, 4> children = {root};
+    std::size_t count = 1;
+    while (count < 4) {
+      std::size_t largest = count;
+      for (std::size_t k = 0; k < count; ++k) {
         if (IsLeaf(children[k])) continue;
-        if (largest == children.size() || Size(Node(children[k]).box) > Size(Node(children[largest]).box)) {
+        if (largest == count || Size(Node(children[k]).box) > Size(Node(children[largest]).box)) {
           largest = k;
         }
       }
-      if (largest == children.size()) break;
+      if (largest == count) break;
       const std::int32_t open = children[largest];
+      for (std::size_t k = count++; k > largest + 1; --k) children[k] = children[k - 1];
       children[largest] = open + 1;
-      children.insert(children.begin() + static_cast<std::ptrdiff_t>(largest) + 1, Node(open).right);
+      children[largest + 1] = Node(open).right;
     }
     const std::size_t self = out_.size();
     out_.emplace_back();
     SearchNode node;
     for (std::size_t k = 0; k < 4; ++k) {
-      const Box3 box = k < children.size() ? Node(children[k]).box : Box3{};
+      const Box3 box = k < count ? Node(children[k]).box : Box3{};
       node.child[k] = 0;
       node.min_x[k] = RoundDown(box.min.x());
       node.min_y[k] = RoundDown(box.min.y());
@@ -207,7 +209,7 @@ class Collapser {
       node.max_y[k] = RoundUp(box.max.y());
       node.max_z[k] = RoundUp(box.max.z());
     }
-    for (std::size_t k = 0; k < children.size(); ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
       node.child[k] = IsLeaf(children[k]) ? ~Node(children[k]).leaf : Emit(children[k], depth + 1);
     }
     out_[self] = node;

@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "core/base/vec.h"
-#include "core/math/bernstein.h"
 
 namespace patchmill {
 namespace {
@@ -72,25 +71,31 @@ bool MayBeFlat(const BernsteinForm& form) {
   return true;
 }
 
+namespace {
+
+// De Casteljau at the middle for the n + 1 rows of `width` numbers at `low`, `stride` apart: afterwards these
+// are of the first half, those at `high` of the second. What KeepLeft and KeepRight give, to the bit.
+void Halve(double* low, double* high, int n, int stride, int width) {
+  for (int r = 0;; ++r) {
+    std::copy_n(low + n * stride, width, high + (n - r) * stride);
+    if (r == n) return;
+    for (int i = n; i > r; --i) {
+      const double* before = low + (i - 1) * stride;
+      double* at = low + i * stride;
+      for (int k = 0; k < width; ++k) at[k] = 0.5 * before[k] + 0.5 * at[k];
+    }
+  }
+}
+
+}  // namespace
+
 std::array<BernsteinForm, 4> Quarters(const BernsteinForm& form) {
-  const auto m = static_cast<std::size_t>(form.m), row = static_cast<std::size_t>(form.n) + 1;
-  const auto halve_u = [&](BernsteinForm& low, BernsteinForm& high) {
-    high = low;
-    for (std::size_t j = 0; j < row; ++j) {
-      KeepLeft(&low.c[j], form.m, static_cast<std::ptrdiff_t>(row), 0.5);
-      KeepRight(&high.c[j], form.m, static_cast<std::ptrdiff_t>(row), 0.5);
-    }
-  };
+  const int row = form.n + 1;
   const auto halve_v = [&](BernsteinForm& low, BernsteinForm& high) {
-    high = low;
-    for (std::size_t i = 0; i <= m; ++i) {
-      KeepLeft(&low.c[i * row], form.n, 1, 0.5);
-      KeepRight(&high.c[i * row], form.n, 1, 0.5);
-    }
+    for (int i = 0; i <= form.m; ++i) Halve(low.c.data() + i * row, high.c.data() + i * row, form.n, 1, 1);
   };
-  std::array<BernsteinForm, 4> quarters;
-  quarters[0] = form;
-  halve_u(quarters[0], quarters[2]);
+  std::array<BernsteinForm, 4> quarters = {form, form, form, form};
+  Halve(quarters[0].c.data(), quarters[2].c.data(), form.m, row, row);
   halve_v(quarters[0], quarters[1]);
   halve_v(quarters[2], quarters[3]);
   return quarters;
