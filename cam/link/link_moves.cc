@@ -29,7 +29,7 @@ LinkMaker::LinkMaker(const Locator& locator, const Locator& stock_locator, const
       t2_length_(2.0 *
                  std::sqrt(std::max(0.0, 2.0 * locator.radius() * params.pass.chord_tolerance -
                                              params.pass.chord_tolerance * params.pass.chord_tolerance))),
-      max_link_(params.max_link_length > 0.0 ? params.max_link_length : 6.0 * params.radius) {}
+      max_link_(MaxLinkLength(params)) {}
 
 Move LinkMaker::Feed(MoveKind kind, const Vec3& from, const Vec3& to) const {
   const Vec3 d = to - from;

@@ -91,6 +91,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
   PM_ASSIGN_OR_RETURN(result.passes,
                       OrderPasses(regions, std::move(paths),
                                   {.neighbor_distance = params.radius,
+                                   .at_hand = MaxLinkLength(params),  // no farther than a link may lead
                                    .reversible_contours = params.contour_direction == CutDirection::kEither},
                                   run));
   const Locator stock_locator(locator.surface(), params.radius + params.allowance + params.approach_gap);

@@ -30,6 +30,11 @@ struct LinkParams {
   const KeepIn* keep_in = nullptr;  // feeds stay where it allows them; null: anywhere
 };
 
+// mm, the length that holds.
+inline double MaxLinkLength(const LinkParams& params) {
+  return params.max_link_length > 0.0 ? params.max_link_length : 6.0 * params.radius;
+}
+
 struct LinkStats {
   double cut_length = 0.0, link_length = 0.0, rapid_length = 0.0;  // mm
   double time = 0.0;  // s, feeds only; rapids counted at 5000 mm/min

@@ -89,56 +89,119 @@ void StartAt(CutterPath& path, std::size_t start) {
   }
 }
 
-// Takes the passes of one cluster nearest first; `layered`: a line is finished before the next one is begun.
-// Stops when cancelled.
-void TakeCluster(std::vector<CutterPath>& cluster, bool layered, bool reversible, const RunContext& run,
-                 Vec3& at, std::vector<CutterPath>& out) {
-  std::vector<bool> done(cluster.size(), false);
-  for (std::size_t n = 0; n < cluster.size() && !run.Cancelled(); ++n) {
-    int layer = std::numeric_limits<int>::max();
-    if (layered) {
-      for (std::size_t i = 0; i < cluster.size(); ++i) {
-        if (!done[i]) layer = std::min(layer, cluster[i].line);
-      }
-    }
-    std::size_t best = cluster.size();
+// Passes of one kind and region that belong together: one mountain, one field of lines. Ordered by line.
+struct Cluster {
+  std::vector<CutterPath> passes;
+  std::vector<std::vector<std::size_t>> above;  // of each: nearby ones of lines before its own
+};
+
+// Cuts a pass from this end.
+void Take(CutterPath& pass, const End& end, Vec3& at, std::vector<CutterPath>& out) {
+  StartAt(pass, end.start);
+  at = pass.closed ? pass.points.front().center : pass.points.back().center;
+  out.push_back(std::move(pass));
+}
+
+End EndOf(const CutterPath& pass, const Vec3& from, bool reversible) {
+  return NearestEnd(pass, from, reversible && !pass.one_way && !pass.spiral);
+}
+
+// Nearest first. Stops when cancelled.
+void TakeNearest(Cluster& cluster, const RunContext& run, Vec3& at, std::vector<CutterPath>& out) {
+  std::vector<bool> done(cluster.passes.size(), false);
+  for (std::size_t n = 0; n < cluster.passes.size() && !run.Cancelled(); ++n) {
+    std::size_t best = cluster.passes.size();
     End best_end;
-    for (std::size_t i = 0; i < cluster.size(); ++i) {
-      if (done[i] || (layered && cluster[i].line != layer)) continue;
-      const End end = NearestEnd(cluster[i], at, reversible && !cluster[i].one_way && !cluster[i].spiral);
-      if (best == cluster.size() || end.distance < best_end.distance) {
+    for (std::size_t i = 0; i < cluster.passes.size(); ++i) {
+      if (done[i]) continue;
+      const End end = EndOf(cluster.passes[i], at, true);
+      if (best == cluster.passes.size() || end.distance < best_end.distance) {
         best = i;
         best_end = end;
       }
     }
     done[best] = true;
-    StartAt(cluster[best], best_end.start);
-    at = cluster[best].closed ? cluster[best].points.front().center : cluster[best].points.back().center;
-    out.push_back(std::move(cluster[best]));
+    Take(cluster.passes[best], best_end, at, out);
   }
 }
 
-// Passes of one kind and region, split into connected clusters (one mountain, one field of lines), in order
-// of their first line.
-std::vector<std::vector<CutterPath>> Clusters(std::vector<CutterPath> group, double distance, int line_reach,
-                                              const RunContext& run) {
+// From the top down, never before what lies above: a mountain or a basin is cut to its foot, or to where it
+// joins another that is not cut yet, before the next is begun. Stops when cancelled.
+void TakeDownwards(Cluster& cluster, const OrderParams& params, const RunContext& run, Vec3& at,
+                   std::vector<CutterPath>& out) {
+  const std::size_t count = cluster.passes.size();
+  std::vector<std::vector<std::size_t>> below(count);
+  std::vector<std::size_t> waiting(count);  // how many above are not cut
+  for (std::size_t i = 0; i < count; ++i) {
+    waiting[i] = cluster.above[i].size();
+    for (const std::size_t j : cluster.above[i]) below[j].push_back(i);
+  }
+  struct Ready {
+    std::size_t pass;
+    std::ptrdiff_t after;  // when the last one above it was cut
+  };
+  std::vector<Ready> ready;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (waiting[i] == 0) ready.push_back({i, -1});
+  }
+  for (std::ptrdiff_t n = 0; !ready.empty() && !run.Cancelled(); ++n) {
+    // What is at hand goes first, the higher before the lower; else what lies below the latest one.
+    using Rank = std::tuple<int, std::ptrdiff_t, int, double>;
+    std::size_t best = 0;
+    Rank best_rank;
+    End best_end;
+    for (std::size_t k = 0; k < ready.size(); ++k) {
+      const CutterPath& pass = cluster.passes[ready[k].pass];
+      const End end = EndOf(pass, at, params.reversible_contours);
+      const Rank rank = end.distance <= params.at_hand ? Rank{0, 0, pass.line, end.distance}
+                                                       : Rank{1, -ready[k].after, pass.line, end.distance};
+      if (k > 0 && rank >= best_rank) continue;
+      best = k;
+      best_rank = rank;
+      best_end = end;
+    }
+    const std::size_t taken = ready[best].pass;
+    ready.erase(ready.begin() + static_cast<std::ptrdiff_t>(best));
+    Take(cluster.passes[taken], best_end, at, out);
+    for (const std::size_t i : below[taken]) {
+      if (--waiting[i] == 0) ready.push_back({i, n});
+    }
+  }
+}
+
+// In order of their first line. Stops when cancelled.
+std::vector<Cluster> Clusters(std::vector<CutterPath> group, double distance, int line_reach,
+                              const RunContext& run) {
   std::stable_sort(group.begin(), group.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
+  const bool levels = group.front().kind == PassKind::kContour;
   std::vector<Box3> boxes;
   for (const CutterPath& path : group) boxes.push_back(PlanBox(path));
   UnionFind sets(group.size());
+  std::vector<std::vector<std::size_t>> above(group.size());
   for (std::size_t i = 0; i < group.size() && !run.Cancelled(); ++i) {
     for (std::size_t j = i + 1; j < group.size() && group[j].line - group[i].line <= line_reach; ++j) {
-      if (sets.Find(i) == sets.Find(j)) continue;
-      if (Near(group[i], boxes[i], group[j], boxes[j], distance) ||
-          Near(group[j], boxes[j], group[i], boxes[i], distance)) {
-        sets.Join(i, j);
-      }
+      const bool lower = levels && group[j].line > group[i].line;
+      if (!lower && sets.Find(i) == sets.Find(j)) continue;
+      if (!Near(group[i], boxes[i], group[j], boxes[j], distance) &&
+          !Near(group[j], boxes[j], group[i], boxes[i], distance))
+        continue;
+      sets.Join(i, j);
+      if (lower) above[j].push_back(i);
     }
   }
-  std::map<std::size_t, std::vector<CutterPath>> by_root;
-  for (std::size_t i = 0; i < group.size(); ++i) by_root[sets.Find(i)].push_back(std::move(group[i]));
-  std::vector<std::vector<CutterPath>> clusters;
-  for (auto& [root, cluster] : by_root) clusters.push_back(std::move(cluster));
+  std::map<std::size_t, std::vector<std::size_t>> by_root;
+  for (std::size_t i = 0; i < group.size(); ++i) by_root[sets.Find(i)].push_back(i);
+  std::vector<Cluster> clusters;
+  std::vector<std::size_t> place(group.size());
+  for (const auto& [root, members] : by_root) {
+    Cluster& cluster = clusters.emplace_back();
+    for (const std::size_t i : members) {
+      place[i] = cluster.passes.size();
+      cluster.passes.push_back(std::move(group[i]));
+      std::vector<std::size_t>& own = cluster.above.emplace_back();
+      for (const std::size_t j : above[i]) own.push_back(place[j]);
+    }
+  }
   return clusters;
 }
 
@@ -178,10 +241,14 @@ absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, st
     const PassKind kind = group.front().kind;
     const bool contour = kind == PassKind::kContour;
     const int reach = contour || kind == PassKind::kZigzag ? 2 : std::numeric_limits<int>::max();
-    for (auto& cluster : Clusters(std::move(group), params.neighbor_distance, reach, run)) {
-      if (!started) at = cluster.front().points.front().center;
+    for (Cluster& cluster : Clusters(std::move(group), params.neighbor_distance, reach, run)) {
+      if (!started) at = cluster.passes.front().points.front().center;
       started = true;
-      TakeCluster(cluster, contour, contour ? params.reversible_contours : true, run, at, out);
+      if (contour) {
+        TakeDownwards(cluster, params, run, at, out);
+      } else {
+        TakeNearest(cluster, run, at, out);
+      }
     }
     PM_RETURN_IF_ERROR(run.Check());
   }

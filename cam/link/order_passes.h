@@ -14,15 +14,18 @@ namespace patchmill {
 
 struct OrderParams {
   double neighbor_distance =
-      3.0;  // mm in plan: passes of neighbouring lines closer than this belong together
+      3.0;               // mm in plan: passes of neighbouring lines closer than this belong together
+  double at_hand = 0.0;  // mm: contours that begin this near to the tool go before others, the higher first
   bool reversible_contours = false;
 };
 
-// Steep ground first, then gentle ground, then creases and rest; regions from the highest down. Within
-// contours each mountain or basin is cut from the top before the next begins (levels never run ahead of a
-// higher one that touches them in plan); zig-zag lines follow each other to and fro; everything else goes to
-// the nearest end. Closed passes are turned so that they start nearest to where the tool is. Deterministic.
-// Cost O(n^2) in the passes of one group. CANCELLED or DEADLINE_EXCEEDED when `run` says so.
+// Steep ground first, then gentle ground, then creases and rest; regions from the highest down. A contour is
+// never cut before those of the two levels above it that it touches in plan; beyond that each mountain is cut
+// from its top and each basin from its top inwards, down to where they end or join others that are not cut
+// yet, before the next is begun, but for those at hand. Zig-zag lines follow each other to and fro;
+// everything else goes to the nearest end. Closed passes are turned so that they start nearest to where the
+// tool is. Deterministic. Cost O(n^2) in the passes of one group. CANCELLED or DEADLINE_EXCEEDED when `run`
+// says so.
 absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
                                                     const OrderParams& params, const RunContext& run);
 

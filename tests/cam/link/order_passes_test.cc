@@ -1,14 +1,19 @@
 #include "cam/link/order_passes.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/random.h"
 #include "tests/support/sanitized.h"
 
 namespace patchmill {
 namespace {
+
+using testing::Random;
 
 CutterPath Path(PassKind kind, int line, std::vector<Vec3> centers, bool closed = false) {
   CutterPath path;
@@ -93,8 +98,88 @@ TEST(OrderPasses, BranchesAreCutBeforeWhatTheyJoin) {
     loops.push_back(SquareOf(level, {6.0, 0.0}, 9.0 + level, 10.0 - level));
   const auto out = Ordered(loops, {});
   ASSERT_EQ(out.size(), 9u);
-  for (std::size_t i = 1; i < out.size(); ++i)
-    EXPECT_LE(out[i].points.front().center.z(), out[i - 1].points.front().center.z()) << i;
+  // One peak, the other, then around both.
+  const auto peak = [&](std::size_t i) {
+    return out[i].line > 2 ? 2 : out[i].points.front().center.x() > 6.0 ? 1 : 0;
+  };
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    EXPECT_EQ(out[i].line, static_cast<int>(i < 6 ? i % 3 : i - 3)) << i;
+    EXPECT_EQ(peak(i), peak(i / 3 * 3)) << i;
+  }
+  EXPECT_NE(peak(0), peak(3));
+}
+
+TEST(OrderPasses, PitsBelowOneRimAreCutOneAfterTheOther) {
+  // A basin that divides in two below its third level, beside a mountain of its own.
+  std::vector<CutterPath> loops;
+  for (int level = 0; level < 3; ++level) {
+    loops.push_back(SquareOf(level, {0.0, 0.0}, 20.0 - level, -1.0 * level));
+    loops.push_back(SquareOf(level, {70.0, 0.0}, 4.0 + level, -1.0 * level));
+  }
+  for (int level = 3; level < 7; ++level) {
+    for (const double x : {-10.0, 10.0})
+      loops.push_back(SquareOf(level, {x, 0.0}, 10.0 - level, -1.0 * level));
+  }
+  const auto out = Ordered(loops, {});
+  ASSERT_EQ(out.size(), 14u);
+  // Which of the four each belongs to, in order: rim, pit, pit, or the mountain before or after these.
+  std::vector<int> parts;
+  for (const CutterPath& path : out) {
+    const double x = 0.5 * (path.points[0].center.x() + path.points[1].center.x());
+    const int part = x > 60.0 ? 3 : path.line < 3 ? 0 : x < 0.0 ? 1 : 2;
+    if (parts.empty() || parts.back() != part) parts.push_back(part);
+  }
+  EXPECT_EQ(parts.size(), 4u);
+  EXPECT_EQ(std::set<int>(parts.begin(), parts.end()).size(), 4u);
+}
+
+TEST(OrderPasses, WhatIsAtHandIsCutLevelByLevel) {
+  // Two walls side by side below one ledge.
+  std::vector<CutterPath> arcs{Path(PassKind::kContour, 0, {{0, 0, 1}, {30, 0, 1}})};
+  for (int level = 1; level < 6; ++level) {
+    for (const double x : {0.0, 18.0})
+      arcs.push_back(Path(PassKind::kContour, level,
+                          {{x, 0.5 * level, 1.0 - level}, {x + 12, 0.5 * level, 1.0 - level}}));
+  }
+  const auto sides = [&](double at_hand) {
+    const auto out = Ordered(arcs, {.at_hand = at_hand, .reversible_contours = true});
+    int changes = 0;
+    for (std::size_t i = 2; i < out.size(); ++i)
+      changes += (out[i].points.front().center.x() > 15) != (out[i - 1].points.front().center.x() > 15);
+    return changes;
+  };
+  EXPECT_EQ(sides(0.0), 1);
+  EXPECT_GE(sides(8.0), 5);
+}
+
+// However levels lie, none is cut before one of the two above it that it touches.
+TEST(OrderPasses, NoLevelRunsAheadOfWhatItTouches) {
+  Random random(5);
+  for (int round = 0; round < 30; ++round) {
+    std::vector<CutterPath> loops;
+    for (int level = 0; level < 8; ++level) {
+      const int count = 1 + static_cast<int>(4 * random.Uniform(0, 1));
+      for (int k = 0; k < count; ++k) {
+        loops.push_back(SquareOf(level, {random.Uniform(0, 40), random.Uniform(0, 40)}, random.Uniform(1, 6),
+                                 -1.0 * level));
+      }
+    }
+    const auto out = Ordered(loops, {});
+    ASSERT_EQ(out.size(), loops.size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      for (std::size_t j = i + 1; j < out.size(); ++j) {
+        const int down = out[i].line - out[j].line;
+        if (down < 1 || down > 2) continue;
+        // j is above i and cut later: they may not touch.
+        double nearest = kInfinity;
+        for (const CutterPoint& p : out[i].points) {
+          for (const CutterPoint& q : out[j].points)
+            nearest = std::min(nearest, (Plan(p.center) - Plan(q.center)).norm());
+        }
+        EXPECT_GT(nearest, 3.0) << round;
+      }
+    }
+  }
 }
 
 TEST(OrderPasses, NeighboursStayTogether) {
