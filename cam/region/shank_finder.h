@@ -16,7 +16,7 @@ class ShankFinder {
   ShankFinder(const Locator& ball, const ObstacleCloud& cloud, double radius);
 
   // Something over the ball at `center` comes nearer to its axis than anything does to the centre, by 0.02
-  // radii; distances are known to 0.004 of them.
+  // radii; distances are known to 0.001 of them.
   bool Blocked(const Vec3& center);
 
  private:
