@@ -84,15 +84,26 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
   const auto region = [&](int piece, int triangle) {
     return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
-  std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
+  struct Strand {
+    std::size_t border, region;  // place in `arcs`
+    std::vector<Vec3> points;
+  };
+  std::vector<Strand> all;
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     const Adjacency a = adjacency[arcs.sides[k]];
     const int own = region(a.side.piece, a.side.triangle);
-    if (own < 0 || own == region(a.other_piece, a.other_triangle)) continue;
-    std::vector<Vec3> strand = PointsAlong(surface, meshes[static_cast<std::size_t>(a.side.piece)], a.side,
-                                           arcs.places[k], tolerance);
-    if (strand.size() > 2 || strand.front() != strand.back())
-      strands[static_cast<std::size_t>(own)].push_back(std::move(strand));
+    if (own >= 0 && own != region(a.other_piece, a.other_triangle))
+      all.push_back({k, static_cast<std::size_t>(own), {}});
+  }
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, all.size(), [&](std::size_t i) {
+    const TriangleSide side = adjacency[arcs.sides[all[i].border]].side;
+    all[i].points = PointsAlong(surface, meshes[static_cast<std::size_t>(side.piece)], side,
+                                arcs.places[all[i].border], tolerance);
+  }));
+  std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
+  for (Strand& strand : all) {
+    if (strand.points.size() > 2 || strand.points.front() != strand.points.back())
+      strands[strand.region].push_back(std::move(strand.points));
   }
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
   std::vector<std::vector<std::vector<Vec3>>> borders(region_count);

@@ -8,11 +8,18 @@
 namespace patchmill {
 namespace {
 
-// Every cell whose centre lies in a triangle gets that triangle's region.
+// Every cell whose centre lies in a triangle gets that triangle's region. Triangles tile the piece. n is a
+// power of two, by which products are as exact as quotients.
 std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& region_of, int n) {
-  std::vector<int> labels(static_cast<std::size_t>(n * n), -1);
+  const auto size = static_cast<std::size_t>(n * n);
+  if (!region_of.empty() &&
+      std::all_of(region_of.begin(), region_of.end(), [&](int id) { return id == region_of.front(); }))
+    return std::vector<int>(size, region_of.front());
+  std::vector<int> labels(size, -1);
+  const double cell = 1.0 / n;
+  const auto cell_at = [&](double x) { return std::clamp(static_cast<int>(x * n), 0, n - 1); };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Vec2 q[3];
+    Vec2 q[3], side[3];
     Vec2 low(1, 1), high(0, 0);
     for (std::size_t k = 0; k < 3; ++k) {
       const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t].vertex[k])];
@@ -20,13 +27,15 @@ std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& regi
       low = low.cwiseMin(q[k]);
       high = high.cwiseMax(q[k]);
     }
-    const auto cell = [&](double x) { return std::clamp(static_cast<int>(x * n), 0, n - 1); };
-    for (int i = cell(low.x()); i <= cell(high.x()); ++i) {
-      for (int j = cell(low.y()); j <= cell(high.y()); ++j) {
-        const Vec2 c((i + 0.5) / n, (j + 0.5) / n);
-        bool inside = true;
-        for (int k = 0; k < 3; ++k) inside = inside && Cross(q[(k + 1) % 3] - q[k], c - q[k]) >= -1e-12;
-        if (inside) labels[static_cast<std::size_t>(i * n + j)] = region_of[t];
+    for (int k = 0; k < 3; ++k) side[k] = q[(k + 1) % 3] - q[k];
+    const int first = cell_at(low.y()), last = cell_at(high.y());
+    for (int i = cell_at(low.x()); i <= cell_at(high.x()); ++i) {
+      double across[3];  // what the cross product of a side with the way to a cell of this column has of u
+      for (int k = 0; k < 3; ++k) across[k] = side[k].y() * ((i + 0.5) * cell - q[k].x());
+      for (int j = first; j <= last; ++j) {
+        const double v = (j + 0.5) * cell;
+        const auto left = [&](int k) { return side[k].x() * (v - q[k].y()) - across[k] >= -1e-12; };
+        if (left(0) && left(1) && left(2)) labels[static_cast<std::size_t>(i * n + j)] = region_of[t];
       }
     }
   }

@@ -87,9 +87,13 @@ absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& pa
       PM_ASSIGN_OR_RETURN(adjacency, FindAdjacency(surface, meshes, run));
     }
   }
+  absl::StatusOr<std::vector<std::vector<int>>> found[2];
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
+    found[k] = Catchments(meshes, adjacency, tops[k].tops, kSigns[k], run);
+  }));
   Watersheds watersheds;
-  PM_ASSIGN_OR_RETURN(watersheds.summit, Catchments(meshes, adjacency, tops[0].tops, kSigns[0], run));
-  PM_ASSIGN_OR_RETURN(watersheds.pit, Catchments(meshes, adjacency, tops[1].tops, kSigns[1], run));
+  PM_ASSIGN_OR_RETURN(watersheds.summit, std::move(found[0]));
+  PM_ASSIGN_OR_RETURN(watersheds.pit, std::move(found[1]));
   return watersheds;
 }
 
@@ -256,19 +260,35 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(surface, meshes, adjacency, watersheds, fields,
                                                            params.border_tolerance, run));
   Numbered numbered = Number(raw, Merge(raw, params));
-  PM_RETURN_IF_ERROR(
-      DescribeRegions(surface, meshes, numbered.region_of, reach, params, run, numbered.regions));
-  ListPatches(surface, numbered.region_of, numbered.regions);
-  PM_ASSIGN_OR_RETURN(auto borders, RegionBorders(surface, meshes, adjacency, raw.arcs, numbered.region_of,
-                                                  numbered.regions.size(), params.border_tolerance, run));
-  PM_ASSIGN_OR_RETURN(BorderNet net, FindBorderLines(surface, meshes, adjacency, raw.arcs, numbered.region_of,
-                                                     numbered.regions, params.border_tolerance, run));
+  // What is told of the regions, at once: none of it needs any other.
   RegionMap map;
+  BorderNet net;
+  std::vector<std::vector<std::vector<Vec3>>> borders;
+  std::vector<Region>& regions = numbered.regions;
+  const std::vector<std::vector<int>>& region_of = numbered.region_of;
+  const double chord = params.border_tolerance;
+  absl::Status told[4];
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 4, [&](std::size_t k) {
+    if (k == 0) {
+      auto found = FindBorderLines(surface, meshes, adjacency, raw.arcs, region_of, regions, chord, run);
+      told[k] = found.status();
+      if (found.ok()) net = *std::move(found);
+    } else if (k == 1) {
+      auto found = RegionBorders(surface, meshes, adjacency, raw.arcs, region_of, regions.size(), chord, run);
+      told[k] = found.status();
+      if (found.ok()) borders = *std::move(found);
+    } else if (k == 2) {
+      told[k] = DescribeRegions(surface, meshes, region_of, reach, params, run, regions);
+      ListPatches(surface, region_of, regions);
+    } else {
+      told[k] = FillLabels(meshes, region_of, run, map);
+    }
+  }));
+  for (const absl::Status& status : told) PM_RETURN_IF_ERROR(status);
   map.lines = std::move(net.lines);
   map.nodes = std::move(net.nodes);
-  map.regions = std::move(numbered.regions);
+  map.regions = std::move(regions);
   for (std::size_t i = 0; i < map.regions.size(); ++i) map.regions[i].border = std::move(borders[i]);
-  PM_RETURN_IF_ERROR(FillLabels(meshes, numbered.region_of, run, map));
   return map;
 }
 
