@@ -193,6 +193,7 @@ std::string DrawRegions(const Surface& surface, const ChosenRegions& regions, co
 std::string DrawJob(const Surface& surface, const JobResult& result, const Resolved& resolved,
                     const std::string& title) {
   PreviewInput input = BaseInput(surface, result.regions, result.report.choices, resolved, title);
+  input.nodes.clear();  // passes are to be seen
   input.toolpath = &result.motion.toolpath;
   input.program_zero = result.program_zero;
   for (const CutterPath& pass : result.motion.passes) input.pass_kinds.push_back(pass.kind);

@@ -11,7 +11,7 @@
 namespace patchmill {
 
 // Ground that is not selected, or whose region is skipped, is grey; regions without other ground have no
-// legend. Borders are drawn by kind, with their nodes. A region map also has views by slope, whose colours
+// legend. Borders are drawn by kind. A region map also has their nodes, and views by slope, whose colours
 // change at `steep_angle` (rad), and by the curvature of contours.
 std::string DrawJob(const Surface& surface, const JobResult& result, const Resolved& resolved,
                     const std::string& title);
