@@ -144,7 +144,8 @@ class LeftoverSearch {
     if (!IsWantedAt(surface_, params_, r.piece, r.u(), r.v(), cell.middle)) return false;
     const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
     const auto facing = FacingAt(jet);
-    return facing && ReachAt(surface_, jet.p, *facing, params_.reach, obstacles_) == ReachClass::kReachable;
+    return facing && ReachOn(surface_, {r.piece, r.u(), r.v(), jet.p}, *facing, params_.reach, obstacles_) ==
+                         ReachClass::kReachable;
   }
 
   // No point of the cell is reachable, as the centre over it cannot move far enough from the one over its

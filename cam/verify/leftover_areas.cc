@@ -140,7 +140,7 @@ class AreaSampler {
     if (!facing) return std::nullopt;
     if (!IsWantedAt(surface_, params_, piece, u, v, jet.p)) return FinishClass::kUnwanted;
     FinishClass kind = FinishClass::kDone;
-    switch (ReachAt(surface_, jet.p, *facing, params_.reach, obstacles_)) {
+    switch (ReachOn(surface_, {piece, u, v, jet.p}, *facing, params_.reach, obstacles_)) {
       case ReachClass::kReachable:
         break;
       case ReachClass::kUndercut:

@@ -27,6 +27,7 @@ absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::
   std::vector<LeftoverSpread> parts(chunks, LeftoverSpread{});
   PM_RETURN_IF_ERROR(ParallelFor(run, "verify: spread", chunks, [&](std::size_t chunk) {
     int hint = -1;
+    Obstacles obstacles;
     const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) {
       const CellRect& cell = roots[i];
@@ -35,7 +36,8 @@ absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::
       const SurfaceJet jet = Evaluate(surface, cell.piece, u, v);
       const auto facing = FacingAt(jet);
       if (!facing || !IsWantedAt(surface, params, cell.piece, u, v, jet.p)) continue;
-      if (ReachAt(surface, jet.p, *facing, params.reach) != ReachClass::kReachable) continue;
+      const SurfacePoint at{cell.piece, u, v, jet.p};
+      if (ReachOn(surface, at, *facing, params.reach, obstacles) != ReachClass::kReachable) continue;
       const auto nearest = tree.FindNearest(jet.p, kInfinity, hint);
       hint = nearest.segment;
       const double left = nearest.distance - params.reach.radius;

@@ -10,6 +10,7 @@ namespace patchmill {
 namespace {
 
 constexpr double kVertical = 1e-6;  // e_z below this: a vertical face
+constexpr double kBeside = 0.02;    // of the radius: how far beside a place it is looked at again
 constexpr double kProof = 0.02;     // of the tolerance: how exactly "free" is decided
 constexpr double kCoarse = 0.02;    // of the radius: how exactly a blocked depth is known
 constexpr double kNearer = 0.02;    // of the radius: the shank is blocked by more than this beyond the ball
@@ -111,6 +112,28 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
     if (side == 0 || found > reason) reason = found;
   }
   return reason;
+}
+
+ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
+                   const ReachParams& params, Obstacles& obstacles) {
+  const ReachClass own = ReachAt(surface, at.p, facing, params, obstacles);
+  if (own != ReachClass::kReachable || !facing.both) return own;
+  const SurfaceJet here = Evaluate(surface, at.piece, at.u, at.v);
+  const double aside = kBeside * params.radius;
+  const double du = aside / std::max(here.du.norm(), 4.0 * aside),
+               dv = aside / std::max(here.dv.norm(), 4.0 * aside);
+  std::optional<ReachClass> beside;
+  for (int k = 0; k < 4; ++k) {
+    const double u = at.u + (k / 2 == 0 ? du : -du), v = at.v + (k % 2 == 0 ? dv : -dv);
+    if (u < 0.0 || u > 1.0 || v < 0.0 || v > 1.0) continue;
+    const SurfaceJet jet = Evaluate(surface, at.piece, u, v);
+    const auto there = FacingAt(jet);
+    if (!there) continue;
+    const ReachClass found = ReachAt(surface, jet.p, *there, params, obstacles);
+    if (found == ReachClass::kReachable) return found;
+    beside = beside ? std::max(*beside, found) : found;
+  }
+  return beside.value_or(own);
 }
 
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,

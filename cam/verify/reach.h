@@ -66,6 +66,13 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
                    Obstacles& obstacles);
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);
 
+// The same of a place of a piece. Ground that stands upright there (Facing::both) by no more than a line
+// counts as what lies beside it, 0.02 R away (a quarter of the piece at most) in both parameters: where a
+// sheet ends upright and is undercut behind its rim there is nothing to cut, though the ball touches the rim.
+// What a piece shares with another counts by either.
+ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
+                   const ReachParams& params, Obstacles& obstacles);
+
 // How far the centre may move and the point still cannot be reached: > 0 only for an unreachable point; a
 // lower bound (mm).
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
