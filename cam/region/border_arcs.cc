@@ -39,6 +39,14 @@ std::vector<Vec2> LineAlong(const SplitMesh& mesh, const TriangleSide& side) {
   return a < b ? places : std::vector<Vec2>(places.rbegin(), places.rend());
 }
 
+bool IsBorder(const Adjacency& a, const std::vector<std::vector<int>>& region_of) {
+  const auto region = [&](int piece, int triangle) {
+    return region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
+  };
+  return a.other_piece < 0 ||
+         region(a.side.piece, a.side.triangle) != region(a.other_piece, a.other_triangle);
+}
+
 // The borders of one piece: sides with different regions on them, and of each the first one of these along
 // the same edge (both see one arc).
 struct PieceBorders {
@@ -54,10 +62,7 @@ PieceBorders BordersOf(const SplitMesh& mesh, const AdjacencyList& adjacency, st
   PieceBorders borders;
   std::vector<Edge> edges;
   adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {
-    const int own = region_of[piece][static_cast<std::size_t>(a.side.triangle)];
-    if (a.other_piece >= 0 &&
-        own == region_of[static_cast<std::size_t>(a.other_piece)][static_cast<std::size_t>(a.other_triangle)])
-      return;
+    if (!IsBorder(a, region_of)) return;
     const auto [low, high] = std::minmax({VertexOf(mesh, a.side, 0), VertexOf(mesh, a.side, 1)});
     edges.push_back({low, high, borders.sides.size()});
     borders.sides.push_back(i);
@@ -179,18 +184,24 @@ double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSid
   return area;
 }
 
-bool OnWatershed(const SplitMesh& mesh, const TriangleSide& side) {
-  return mesh.lines.contains(std::minmax({VertexOf(mesh, side, 0), VertexOf(mesh, side, 1)}));
-}
-
-std::vector<Vec3> PointsAlong(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
-                              const std::vector<Vec2>& arc, double tolerance) {
-  const Piece& piece = surface.pieces[static_cast<std::size_t>(side.piece)];
-  const ZeroVertex &a = EndOf(mesh, side, 0), &b = EndOf(mesh, side, 1);
-  std::vector<Vec3> points{a.p};
-  for (const Vec2& q : arc) points.push_back(Position(piece, q.x(), q.y()));
-  if (arc.empty()) AddBetween(piece, {a.u, a.v}, a.p, {b.u, b.v}, b.p, tolerance, kMostHalvings, points);
-  points.push_back(b.p);
+absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                              const AdjacencyList& adjacency, const BorderArcs& arcs,
+                                              const std::vector<std::vector<int>>& region_of,
+                                              double tolerance, const RunContext& run) {
+  BorderPoints points(arcs.sides.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, points.size(), [&](std::size_t k) {
+    const Adjacency a = adjacency[arcs.sides[k]];
+    if (!IsBorder(a, region_of)) return;
+    const auto index = static_cast<std::size_t>(a.side.piece);
+    const Piece& piece = surface.pieces[index];
+    const ZeroVertex &from = EndOf(meshes[index], a.side, 0), &to = EndOf(meshes[index], a.side, 1);
+    const std::vector<Vec2>& arc = arcs.places[k];
+    points[k].push_back(from.p);
+    for (const Vec2& q : arc) points[k].push_back(Position(piece, q.x(), q.y()));
+    if (arc.empty())
+      AddBetween(piece, {from.u, from.v}, from.p, {to.u, to.v}, to.p, tolerance, kMostHalvings, points[k]);
+    points[k].push_back(to.p);
+  }));
   return points;
 }
 

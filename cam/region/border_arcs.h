@@ -36,12 +36,15 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
 double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
                 const std::vector<Vec2>& arc);
 
-// The side on the surface: its ends and the places of its arc between them, or, where it is straight in the
-// parameters, so many that chords keep to `tolerance` (mm).
-std::vector<Vec3> PointsAlong(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
-                              const std::vector<Vec2>& arc, double tolerance);
+// The borders on the surface, each from end to end (as many as BorderArcs has).
+using BorderPoints = std::vector<std::vector<Vec3>>;
 
-// Whether the side lies on a watershed.
-bool OnWatershed(const SplitMesh& mesh, const TriangleSide& side);
+// Of those between different regions (`region_of[piece][triangle]`), none of others: along their arcs, and,
+// where they are straight in the parameters, so dense that chords keep to `tolerance` (mm). CANCELLED,
+// DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                              const AdjacencyList& adjacency, const BorderArcs& arcs,
+                                              const std::vector<std::vector<int>>& region_of,
+                                              double tolerance, const RunContext& run);
 
 }  // namespace patchmill

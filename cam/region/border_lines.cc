@@ -1,10 +1,13 @@
 #include "cam/region/border_lines.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <tuple>
 #include <utility>
 
-#include "core/base/parallel.h"
+#include "cam/region/catchments.h"
 #include "core/base/status.h"
 #include "core/base/union_find.h"
 
@@ -43,7 +46,7 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
     if (curvature == differs && on(Field::kCurvature)) return BorderKind::kCurvature;
     if (curvature == differs && on(Field::kTurn)) return BorderKind::kSilhouette;
   }
-  if (OnWatershed(mesh, a.side)) return BorderKind::kWatershed;
+  if (OnWatershed(meshes, a, 0.0)) return BorderKind::kWatershed;
   if (a.across_seam) return BorderKind::kSeam;
   return slope ? BorderKind::kSlope : BorderKind::kCurvature;
 }
@@ -51,21 +54,22 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
 // The places where strands end.
 class EndPlaces {
  public:
-  // Ends within `weld` (mm) of each other are one place.
-  EndPlaces(double weld, const std::vector<Strand>& strands)
-      : strands_(strands), by_x_(2 * strands.size()), sets_(2 * strands.size()) {
-    for (std::size_t i = 0; i < by_x_.size(); ++i) by_x_[i] = i;
-    std::sort(by_x_.begin(), by_x_.end(), [&](std::size_t a, std::size_t b) {
-      return std::make_pair(At(a).x(), a) < std::make_pair(At(b).x(), b);
-    });
-    for (std::size_t i = 0; i < by_x_.size(); ++i)
-      ForNear(by_x_[i], weld, [&](std::size_t j, double) { sets_.Join(by_x_[i], j); });
+  // Ends within `weld` (mm) of each other are one place; others are looked for up to `reach` (mm) away.
+  EndPlaces(double weld, double reach, const std::vector<Strand>& strands)
+      : strands_(strands), reach_(std::max(weld, reach)), sets_(2 * strands.size()) {
+    for (std::size_t end = 0; end < 2 * strands.size(); ++end) ends_.emplace_back(CellOf(At(end)), end);
+    std::sort(ends_.begin(), ends_.end());
+    for (std::size_t end = 0; end < ends_.size(); ++end) {
+      ForNear(end, [&](std::size_t other, double distance) {
+        if (distance <= weld) sets_.Join(end, other);
+      });
+    }
   }
 
   // Where a seam is cut differently on its two sides lines end beside each other: loose ends of lines that
   // continue each other become one place, the nearest first, then those that are left join the place nearest
-  // to them; none farther away than `reach` (mm).
-  void JoinLoose(double reach) {
+  // to them.
+  void JoinLoose() {
     struct Pair {
       double distance;
       std::size_t a, b;
@@ -73,9 +77,9 @@ class EndPlaces {
     const std::vector<int> counts = Counts();
     const auto loose = [&](std::size_t end) { return counts[sets_.Find(end)] == 1; };
     std::vector<Pair> pairs;
-    for (std::size_t a = 0; a < by_x_.size(); ++a) {
+    for (std::size_t a = 0; a < ends_.size(); ++a) {
       if (!loose(a)) continue;
-      ForNear(a, reach, [&](std::size_t b, double distance) {
+      ForNear(a, [&](std::size_t b, double distance) {
         if (a < b && loose(b) && a / 2 != b / 2 && strands_[a / 2].Continues(strands_[b / 2]))
           pairs.push_back({distance, a, b});
       });
@@ -83,17 +87,17 @@ class EndPlaces {
     std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
       return std::tie(x.distance, x.a, x.b) < std::tie(y.distance, y.a, y.b);
     });
-    std::vector<char> taken(by_x_.size(), 0);
+    std::vector<char> taken(ends_.size(), 0);
     for (const Pair& pair : pairs) {
       if (taken[pair.a] || taken[pair.b]) continue;
       taken[pair.a] = taken[pair.b] = 1;
       sets_.Join(pair.a, pair.b);
     }
-    for (std::size_t a = 0; a < by_x_.size(); ++a) {
+    for (std::size_t a = 0; a < ends_.size(); ++a) {
       if (!loose(a) || taken[a]) continue;
       std::size_t best = a;
-      double nearest = reach;
-      ForNear(a, reach, [&](std::size_t b, double distance) {
+      double nearest = reach_;
+      ForNear(a, [&](std::size_t b, double distance) {
         if (a / 2 == b / 2 || distance > nearest) return;
         if (distance == nearest && b > best) return;
         nearest = distance;
@@ -105,7 +109,7 @@ class EndPlaces {
 
   // A number for the place of every end, 2 for each strand in turn, and how many places there are.
   std::pair<std::vector<std::size_t>, std::size_t> Number() {
-    std::vector<std::size_t> number(by_x_.size());
+    std::vector<std::size_t> number(ends_.size());
     std::size_t count = 0;
     for (std::size_t end = 0; end < number.size(); ++end) {
       const std::size_t set = sets_.Find(end);  // the smallest of them
@@ -120,26 +124,41 @@ class EndPlaces {
     return end % 2 == 0 ? points.front() : points.back();
   }
 
+  using Cell = std::array<std::int64_t, 3>;
+  Cell CellOf(const Vec3& p) const {
+    Cell cell;
+    for (int k = 0; k < 3; ++k)
+      cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(std::floor(p[k] / reach_));
+    return cell;
+  }
+
+  // visit(other end, distance) for those within reach.
   template <typename Visit>
-  void ForNear(std::size_t end, double reach, const Visit& visit) const {
+  void ForNear(std::size_t end, const Visit& visit) const {
     const Vec3& p = At(end);
-    auto at = std::lower_bound(by_x_.begin(), by_x_.end(), p.x() - reach,
-                               [&](std::size_t i, double x) { return At(i).x() < x; });
-    for (; at != by_x_.end() && At(*at).x() <= p.x() + reach; ++at) {
-      const double distance = (At(*at) - p).norm();
-      if (*at != end && distance <= reach) visit(*at, distance);
+    const Cell own = CellOf(p);
+    for (const std::int64_t x : {-1, 0, 1}) {
+      for (const std::int64_t y : {-1, 0, 1}) {
+        const Cell first{own[0] + x, own[1] + y, own[2] - 1}, last{own[0] + x, own[1] + y, own[2] + 1};
+        auto at = std::lower_bound(ends_.begin(), ends_.end(), std::make_pair(first, std::size_t{0}));
+        for (; at != ends_.end() && at->first <= last; ++at) {
+          const double distance = (At(at->second) - p).norm();
+          if (at->second != end && distance <= reach_) visit(at->second, distance);
+        }
+      }
     }
   }
 
   // How many ends are in each set, by the smallest of them.
   std::vector<int> Counts() {
-    std::vector<int> counts(by_x_.size(), 0);
-    for (std::size_t end = 0; end < by_x_.size(); ++end) ++counts[sets_.Find(end)];
+    std::vector<int> counts(ends_.size(), 0);
+    for (std::size_t end = 0; end < ends_.size(); ++end) ++counts[sets_.Find(end)];
     return counts;
   }
 
   const std::vector<Strand>& strands_;
-  std::vector<std::size_t> by_x_;  // ends: 2 i and 2 i + 1 of strand i
+  double reach_;
+  std::vector<std::pair<Cell, std::size_t>> ends_;  // 2 i and 2 i + 1 of strand i, by cells `reach_` wide
   UnionFind sets_;
 };
 
@@ -253,30 +272,24 @@ double LongestSeamSide(const std::vector<SplitMesh>& meshes, const AdjacencyList
 
 absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency, const BorderArcs& arcs,
+                                          const BorderPoints& points,
                                           const std::vector<std::vector<int>>& region_of,
-                                          const std::vector<Region>& regions, double tolerance,
-                                          const RunContext& run) {
+                                          const std::vector<Region>& regions, const RunContext& run) {
   const auto region = [&](int piece, int triangle) {
     return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
   std::vector<Strand> strands;
-  std::vector<std::size_t> borders;  // places in `arcs`
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     const Adjacency a = adjacency[arcs.sides[k]];
     const int own = region(a.side.piece, a.side.triangle), other = region(a.other_piece, a.other_triangle);
     if (own < 0 || own == other || (other >= 0 && other < own)) continue;
-    borders.push_back(k);
-    strands.push_back({BorderKind::kOpenEdge, own, other, {}, {}});
+    strands.push_back({BorderKind::kOpenEdge, own, other, points[k], {}});
     strands.back().kind = KindOf(meshes, regions, a, strands.back());
   }
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, borders.size(), [&](std::size_t i) {
-    const TriangleSide side = adjacency[arcs.sides[borders[i]]].side;
-    strands[i].points = PointsAlong(surface, meshes[static_cast<std::size_t>(side.piece)], side,
-                                    arcs.places[borders[i]], tolerance);
-  }));
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
-  EndPlaces places(weld, strands);
-  places.JoinLoose(LongestSeamSide(meshes, adjacency));
+  EndPlaces places(weld, LongestSeamSide(meshes, adjacency), strands);
+  places.JoinLoose();
+  PM_RETURN_IF_ERROR(run.Check());
   const auto [number, count] = places.Number();
   for (std::size_t i = 0; i < strands.size(); ++i) {
     strands[i].ends[0] = number[2 * i];

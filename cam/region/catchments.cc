@@ -21,10 +21,6 @@ bool HasLine(const SplitMesh& mesh, int triangle, int side, double sign) {
   return (sign >= 0.0 && line->second.summits) || (sign <= 0.0 && line->second.pits);
 }
 
-bool OnBorder(const ZeroVertex& a, const ZeroVertex& b) {
-  return (a.u == b.u && (a.u == 0.0 || a.u == 1.0)) || (a.v == b.v && (a.v == 0.0 || a.v == 1.0));
-}
-
 constexpr std::size_t kOutside = std::numeric_limits<std::size_t>::max();
 
 // A side that water comes over, from one triangle (by its number) to the other: over the highest first.
@@ -103,7 +99,7 @@ bool OnWatershed(const std::vector<SplitMesh>& meshes, const Adjacency& a, doubl
   const SplitMesh& other = meshes[static_cast<std::size_t>(a.other_piece)];
   for (int side = 0; side < 3; ++side) {
     const TriangleSide facing{a.other_piece, a.other_triangle, side};
-    if (OnBorder(EndOf(other, facing, 0), EndOf(other, facing, 1)) &&
+    if (AlongBorder(EndOf(other, facing, 0), EndOf(other, facing, 1)) &&
         HasLine(other, a.other_triangle, side, sign))
       return true;
   }

@@ -39,12 +39,6 @@ std::pair<Vec2, std::size_t> NearestOn(const std::vector<Vec2>& line, const Vec2
   return best;
 }
 
-// Two places that lie on one border of the piece.
-bool AlongBorder(const Vec2& a, const Vec2& b) {
-  return (a.x() == b.x() && (a.x() == 0.0 || a.x() == 1.0)) ||
-         (a.y() == b.y() && (a.y() == 0.0 || a.y() == 1.0));
-}
-
 }  // namespace
 
 MeshCutter::MeshCutter(const Piece& piece, SplitMesh& mesh, bool summits, std::span<const ZeroField> fields,
@@ -62,8 +56,10 @@ MeshCutter::MeshCutter(const Piece& piece, SplitMesh& mesh, bool summits, std::s
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t].vertex;
     for (const int vertex : v) around_[static_cast<std::size_t>(vertex)].push_back(static_cast<int>(t));
-    if (AlongBorder(Place(v[0]), Place(v[1])) || AlongBorder(Place(v[1]), Place(v[2])) ||
-        AlongBorder(Place(v[2]), Place(v[0])))
+    const auto at = [&](std::size_t k) -> const ZeroVertex& {
+      return mesh.vertices[static_cast<std::size_t>(v[k % 3])];
+    };
+    if (AlongBorder(at(0), at(1)) || AlongBorder(at(1), at(2)) || AlongBorder(at(2), at(0)))
       rim_.push_back(static_cast<int>(t));
   }
 }
@@ -182,10 +178,11 @@ std::optional<int> MeshCutter::OnBorder(const Vec3& p, double reach) {
     const auto& v = mesh_.triangles[static_cast<std::size_t>(t)].vertex;
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = v[k], b = v[(k + 1) % 3];
-      const Vec2 from = Place(a), along = Place(b) - from;
-      if (!AlongBorder(from, Place(b))) continue;
-      const Vec3 &pa = mesh_.vertices[static_cast<std::size_t>(a)].p,
-                 &pb = mesh_.vertices[static_cast<std::size_t>(b)].p;
+      const ZeroVertex &va = mesh_.vertices[static_cast<std::size_t>(a)],
+                       &vb = mesh_.vertices[static_cast<std::size_t>(b)];
+      if (!AlongBorder(va, vb)) continue;
+      const Vec2 from(va.u, va.v), along = Vec2(vb.u, vb.v) - from;
+      const Vec3 &pa = va.p, &pb = vb.p;
       // No side bends by more than its length.
       if (SegmentDistance(p, pa, pb) > nearest + (pb - pa).norm()) continue;
       double share = SegmentFoot(p, pa, pb);

@@ -78,32 +78,19 @@ std::vector<std::vector<Vec3>> Chain(std::vector<std::vector<Vec3>> strands, dou
 }  // namespace
 
 absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
-    const Surface& surface, const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
-    const BorderArcs& arcs, const std::vector<std::vector<int>>& region_of, std::size_t region_count,
-    double tolerance, const RunContext& run) {
+    const Surface& surface, const AdjacencyList& adjacency, const BorderArcs& arcs,
+    const BorderPoints& points, const std::vector<std::vector<int>>& region_of, std::size_t region_count,
+    const RunContext& run) {
   const auto region = [&](int piece, int triangle) {
     return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
-  struct Strand {
-    std::size_t border, region;  // place in `arcs`
-    std::vector<Vec3> points;
-  };
-  std::vector<Strand> all;
+  std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     const Adjacency a = adjacency[arcs.sides[k]];
     const int own = region(a.side.piece, a.side.triangle);
-    if (own >= 0 && own != region(a.other_piece, a.other_triangle))
-      all.push_back({k, static_cast<std::size_t>(own), {}});
-  }
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, all.size(), [&](std::size_t i) {
-    const TriangleSide side = adjacency[arcs.sides[all[i].border]].side;
-    all[i].points = PointsAlong(surface, meshes[static_cast<std::size_t>(side.piece)], side,
-                                arcs.places[all[i].border], tolerance);
-  }));
-  std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
-  for (Strand& strand : all) {
-    if (strand.points.size() > 2 || strand.points.front() != strand.points.back())
-      strands[strand.region].push_back(std::move(strand.points));
+    if (own < 0 || own == region(a.other_piece, a.other_triangle)) continue;
+    if (points[k].size() > 2 || points[k].front() != points[k].back())
+      strands[static_cast<std::size_t>(own)].push_back(points[k]);
   }
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
   std::vector<std::vector<std::vector<Vec3>>> borders(region_count);

@@ -266,15 +266,16 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   std::vector<std::vector<std::vector<Vec3>>> borders;
   std::vector<Region>& regions = numbered.regions;
   const std::vector<std::vector<int>>& region_of = numbered.region_of;
-  const double chord = params.border_tolerance;
+  PM_ASSIGN_OR_RETURN(const BorderPoints points, FindBorderPoints(surface, meshes, adjacency, raw.arcs,
+                                                                  region_of, params.border_tolerance, run));
   absl::Status told[4];
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 4, [&](std::size_t k) {
     if (k == 0) {
-      auto found = FindBorderLines(surface, meshes, adjacency, raw.arcs, region_of, regions, chord, run);
+      auto found = FindBorderLines(surface, meshes, adjacency, raw.arcs, points, region_of, regions, run);
       told[k] = found.status();
       if (found.ok()) net = *std::move(found);
     } else if (k == 1) {
-      auto found = RegionBorders(surface, meshes, adjacency, raw.arcs, region_of, regions.size(), chord, run);
+      auto found = RegionBorders(surface, adjacency, raw.arcs, points, region_of, regions.size(), run);
       told[k] = found.status();
       if (found.ok()) borders = *std::move(found);
     } else if (k == 2) {

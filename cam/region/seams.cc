@@ -23,11 +23,6 @@ struct BorderSide {
   double Length() const { return (b - a).norm(); }
 };
 
-bool OnBorder(const ZeroVertex& a, const ZeroVertex& b) {
-  return (a.u == 0.0 && b.u == 0.0) || (a.u == 1.0 && b.u == 1.0) || (a.v == 0.0 && b.v == 0.0) ||
-         (a.v == 1.0 && b.v == 1.0);
-}
-
 // Hash grid over the border sides' boxes, in one array: the sides of all cells with one last part of their
 // hash stand together, rising.
 class SideGrid {
@@ -127,7 +122,7 @@ std::vector<BorderSide> FindInner(const Piece& piece, int index, const SplitMesh
       const std::size_t from = corner(t, s), to = corner(t, s + 1);
       beside[t][s] = facing(to, from);
       const ZeroVertex &a = mesh.vertices[from], &b = mesh.vertices[to];
-      if (beside[t][s] >= 0 || !OnBorder(a, b)) continue;
+      if (beside[t][s] >= 0 || !AlongBorder(a, b)) continue;
       BorderSide side{{index, static_cast<int>(t), static_cast<int>(s)},
                       a.p,
                       b.p,

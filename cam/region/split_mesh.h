@@ -33,6 +33,11 @@ struct SplitMesh {
   std::map<std::pair<int, int>, Line> lines;
 };
 
+// Two places that lie on one border of the piece.
+inline bool AlongBorder(const ZeroVertex& a, const ZeroVertex& b) {
+  return (a.u == b.u && (a.u == 0.0 || a.u == 1.0)) || (a.v == b.v && (a.v == 0.0 || a.v == 1.0));
+}
+
 // `fields` as RegionFields gives them. `steep_angle` in rad. Areas by a rule of degree 5 on triangles
 // whose normals turn by less than 0.35 rad: about 1e-8 of them.
 SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, double steep_angle,
