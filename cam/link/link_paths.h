@@ -30,7 +30,7 @@ struct LinkParams {
   const KeepIn* keep_in = nullptr;  // feeds stay where it allows them; null: anywhere
 };
 
-// mm, the length that holds.
+// mm in plan: the longest link made instead of a retract.
 inline double MaxLinkLength(const LinkParams& params) {
   return params.max_link_length > 0.0 ? params.max_link_length : 6.0 * params.radius;
 }

@@ -34,7 +34,7 @@ class Legend {
     Text(text);
   }
   void Dot(const std::string& text) {
-    svg_.Circle(at_ + Vec2(11, -4), kNodeDot, kNodeStyle);
+    DrawNode(at_ + Vec2(11, -4), svg_);
     Text(text);
   }
   // A strip of colours, `color(share)` for shares from 0 to 1, with texts at its ends and at one share.
@@ -90,6 +90,11 @@ void AddScales(const PaintScales& scales, Legend& legend) {
 }
 
 }  // namespace
+
+void DrawNode(const Vec2& at, SvgWriter& svg) {
+  constexpr double kRadius = 2.6;  // px
+  svg.Circle(at, kRadius, "fill=\"#ffffff\" stroke=\"#202020\" stroke-width=\"1\"");
+}
 
 void DrawLegend(const PreviewInput& input, const Vec2& corner, SvgWriter& svg) {
   Legend legend(corner, svg);

@@ -6,6 +6,9 @@
 
 namespace patchmill {
 
+// The dot that stands for a node, in the views as in the legend.
+void DrawNode(const Vec2& at, SvgWriter& svg);
+
 // A column from `corner` (px) down.
 void DrawLegend(const PreviewInput& input, const Vec2& corner, SvgWriter& svg);
 

@@ -62,7 +62,7 @@ void DrawBorders(const PreviewInput& input, Paint paint, const SeenLines& seen, 
 
 void DrawNodes(const PreviewInput& input, const View& view, const SeenLines& seen, SvgWriter& svg) {
   for (const Vec3& node : input.nodes) {
-    if (seen.Sees(node)) svg.Circle(view(node), kNodeDot, kNodeStyle);
+    if (seen.Sees(node)) DrawNode(view(node), svg);
   }
 }
 

@@ -45,10 +45,6 @@ struct PreviewInput {
   std::vector<std::string> notes;  // lines under the title: outcome, gouge, leftover, ...
 };
 
-// Nodes in views and legend: radius, px.
-inline constexpr double kNodeDot = 2.6;
-inline constexpr const char* kNodeStyle = "fill=\"#ffffff\" stroke=\"#202020\" stroke-width=\"1\"";
-
 // At most about `max_bytes` (moves are thinned for display, never in the program).
 std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes = 8'000'000);
 

@@ -116,7 +116,7 @@ void AddBorders(const RegionMap& map, const std::vector<bool>& seen, PreviewInpu
   for (const BorderStyle& style : kBorderStyles) {
     PreviewLines drawn;
     double length = 0.0;
-    for (const BorderLine& line : map.lines) {
+    for (const BorderLine& line : map.border_lines) {
       if (line.kind != style.kind || !(shown(line.region) || shown(line.other))) continue;
       length += Length(line);
       drawn.polylines.push_back(line.points);

@@ -286,7 +286,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
     }
   }));
   for (const absl::Status& status : told) PM_RETURN_IF_ERROR(status);
-  map.lines = std::move(net.lines);
+  map.border_lines = std::move(net.lines);
   map.nodes = std::move(net.nodes);
   map.regions = std::move(regions);
   for (std::size_t i = 0; i < map.regions.size(); ++i) map.regions[i].border = std::move(borders[i]);

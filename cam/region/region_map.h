@@ -75,8 +75,8 @@ struct BorderLine {
 struct RegionMap {
   std::vector<Region>
       regions;  // ids are positions; reachable ones first, by falling area; then unreachable ones
-  std::vector<BorderLine> lines;  // all their borders, each once
-  std::vector<Vec3> nodes;        // where lines end: three or more meet, or two of different kinds
+  std::vector<BorderLine> border_lines;  // each once
+  std::vector<Vec3> nodes;               // where lines end: three or more meet, or two of different kinds
   // Labels for lookup: per piece a grid of cells x cells, label of the cell's centre (id into regions, -1
   // none).
   int cells = 0;

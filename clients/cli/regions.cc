@@ -75,7 +75,7 @@ double Length(const v1::BorderLine& line) {
 
 void PrintBorders(const v1::RegionMap& map) {
   std::map<v1::BorderKind, double> lengths;
-  for (const v1::BorderLine& line : map.lines()) lengths[line.kind()] += Length(line);
+  for (const v1::BorderLine& line : map.border_lines()) lengths[line.kind()] += Length(line);
   std::string text;
   for (const auto& [kind, length] : lengths) text += fmt::format("{} {:.1f} mm, ", Short(kind), length);
   fmt::print("borders: {}{} nodes\n", text, map.nodes_size());

@@ -176,8 +176,8 @@ v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& cho
   for (std::size_t id = 0; id < map.regions.size(); ++id) {
     *proto.add_regions() = ToProto(map.regions[id], choices[id], zero, Detail::kAll);
   }
-  for (const BorderLine& line : map.lines) {
-    v1::BorderLine& border = *proto.add_lines();
+  for (const BorderLine& line : map.border_lines) {
+    v1::BorderLine& border = *proto.add_border_lines();
     border.set_kind(ToProto(line.kind));
     border.set_region_id(line.region);
     border.set_other_region_id(line.other);

@@ -90,8 +90,8 @@ class Regions : public ::testing::Test {
 
 TEST_F(Regions, TheirBordersAreLinesFromNodeToNode) {
   ASSERT_TRUE(Split().ok());
-  ASSERT_GT(map_.lines_size(), 0);
-  for (const v1::BorderLine& line : map_.lines()) {
+  ASSERT_GT(map_.border_lines_size(), 0);
+  for (const v1::BorderLine& line : map_.border_lines()) {
     EXPECT_NE(line.kind(), v1::BORDER_KIND_UNSPECIFIED);
     EXPECT_EQ(line.other_region_id() == -1, line.kind() == v1::BORDER_KIND_OPEN_EDGE);
     EXPECT_NE(line.region_id(), line.other_region_id());
