@@ -104,6 +104,70 @@ TEST(Oracle, TrianglesOfManyDegrees) {
   ExpectOracleMostlyAgrees(counts);
 }
 
+// The kinds blended from data along their borders.
+TEST(Oracle, BrownPatches) {
+  Counts counts;
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    Compare(testing::Single(testing::RandomBrown(seed, 3, 3)), 2.0, 100, 80, seed, counts);
+    Compare(testing::Single(testing::RandomBrown(seed, 4, 3, 20.0, {0.3}, {0.25, 0.7})), 2.0, 100, 80, seed,
+            counts);
+  }
+  ExpectOracleMostlyAgrees(counts);
+}
+
+TEST(Oracle, GregoryTrianglesOfBothBlends) {
+  Counts counts;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    for (const auto blend : {GregoryPatch::Blend::kCorner, GregoryPatch::Blend::kEdge}) {
+      Compare(testing::Single(testing::RandomGregoryTriangle(seed, blend)), 2.0, 100, 80, seed, counts);
+    }
+  }
+  ExpectOracleMostlyAgrees(counts);
+}
+
+TEST(Oracle, LoftTriangles) {
+  Counts counts;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    Compare(testing::Single(testing::RandomLoftTriangle(seed, 3, false)), 2.0, 100, 80, seed, counts);
+    Compare(testing::Single(testing::RandomLoftTriangle(seed, 3, true)), 2.0, 100, 80, seed, counts);
+    Compare(testing::Single(testing::RandomLoftTriangle(seed, 4, true)), 2.0, 100, 80, seed, counts);
+  }
+  ExpectOracleMostlyAgrees(counts);
+}
+
+TEST(Oracle, G2GregoryPatches) {
+  Counts counts;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    for (const int degree : {5, 6, 7}) {
+      Compare(testing::Single(testing::RandomG2Gregory(seed, degree)), 2.0, 100, 80, seed, counts);
+    }
+  }
+  ExpectOracleMostlyAgrees(counts);
+}
+
+TEST(Oracle, HosakaPatches) {
+  Counts counts;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    for (const bool breaks : {false, true}) {
+      for (const bool inner : {false, true}) {
+        Compare(testing::Single(testing::RandomHosaka(seed, 3, breaks, inner)), 2.0, 100, 80, seed, counts);
+      }
+    }
+  }
+  ExpectOracleMostlyAgrees(counts);
+}
+
+// Nets that are singular at corners, under a small ball and a wide one.
+TEST(Oracle, SingularCorners) {
+  Counts counts;
+  std::uint64_t seed = 50;
+  for (const PatchShape& shape : testing::SingularKinds()) {
+    Compare(testing::Single(shape), 0.7, 100, 60, seed++, counts);
+    Compare(testing::Single(shape), 6.0, 100, 60, seed++, counts);
+  }
+  ExpectOracleMostlyAgrees(counts);
+}
+
 // The shipped teapot: closed loops 0.03 mm wide at the lid's apex, handle and spout inside the body, open
 // rim.
 PatchModel Teapot(double scale) {

@@ -93,6 +93,10 @@ void CompareWhole(const PatchModel& model, double radius) {
   Judge(model, radius, 0.002, std::nullopt).Compare(1500, 1);
 }
 
+constexpr double kFine = 0.0002;  // mm: 0.2 microns
+
+Area WindowAt(const Vec2& middle) { return {middle - Vec2::Constant(2.5), middle + Vec2::Constant(2.5)}; }
+
 // Windows about random places of the part.
 void CompareWindows(const PatchModel& model, double radius, int windows) {
   const Surface surface = SurfaceOf(model);
@@ -100,8 +104,21 @@ void CompareWindows(const PatchModel& model, double radius, int windows) {
   for (int k = 0; k < windows; ++k) {
     const Vec2 middle(random.Uniform(surface.box.min.x(), surface.box.max.x()),
                       random.Uniform(surface.box.min.y(), surface.box.max.y()));
-    const Vec2 half = Vec2::Constant(2.5);
-    Judge(model, radius, 0.0002, Area{middle - half, middle + half}).Compare(500, 100 + k);
+    Judge(model, radius, kFine, WindowAt(middle)).Compare(500, 100 + k);
+  }
+}
+
+// A place worth a window, in the plan of the file's own units.
+struct Place2 {
+  const char* what;
+  Vec2 at;
+};
+
+void CompareAt(const PatchModel& model, double scale, double radius, std::initializer_list<Place2> places) {
+  std::uint64_t seed = 200;
+  for (const Place2& place : places) {
+    SCOPED_TRACE(place.what);
+    Judge(model, radius, kFine, WindowAt(scale * place.at)).Compare(500, seed++);
   }
 }
 
@@ -118,6 +135,31 @@ TEST(MeshHeight, GregoryPatches) {
   CompareWhole(Placed("tests/models/toroidal_tet.patches", 25.0, UpAxis::kY), 3.0);
 }
 TEST(MeshHeight, Teacup) { CompareWhole(Placed("tests/models/teacup.bpt", 15.0, UpAxis::kY), 2.0); }
+TEST(MeshHeight, TeapotInWindows) {
+  CompareAt(Placed("examples/teapot.bpt", 30.0, UpAxis::kY), 30.0, 2.0,
+            {{"handle where it leaves the body", {-0.46, 0.0}},
+             {"bend of the handle", {-0.83, 0.06}},
+             {"spout where it leaves the body", {0.58, 0.08}},
+             {"open mouth of the spout", {0.92, 0.0}},
+             {"gap between lid and rim", {0.28, 0.28}},
+             {"knob with its singular top", {0.0, 0.0}}});
+}
+TEST(MeshHeight, TeacupInWindows) {
+  CompareAt(Placed("tests/models/teacup.bpt", 25.0, UpAxis::kY), 25.0, 1.5,
+            {{"handle where it leaves the rim", {-0.45, 0.0}},
+             {"bend of the handle", {-0.85, 0.03}},
+             {"rim", {0.3, 0.3}},
+             {"open bottom inside", {0.2, 0.19}},
+             {"edge of the saucer", {0.69, 0.69}}});
+}
+// Gregory patches and what they join, where four and six of them meet, and in the hollow below.
+TEST(MeshHeight, GregoryPatchesInWindows) {
+  CompareAt(Placed("tests/models/toroidal_tet.patches", 25.0, UpAxis::kY), 25.0, 2.0,
+            {{"four on the top", {0.0, 0.0}},
+             {"six on the upper corner", {-0.5636, 0.5636}},
+             {"beside an arm", {0.1705, -0.5608}},
+             {"six in the hollow", {0.2727, 0.2727}}});
+}
 TEST(MeshHeight, FoldedSplines) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     testing::RandomBsplineParams params;

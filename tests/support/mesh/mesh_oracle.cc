@@ -33,71 +33,76 @@ class Divider {
       : shape_(shape), triangle_(IsTriangle(shape)), params_(params), out_(out) {}
 
   void Run() {
+    const Corner at00 = At({0, 0}), at10 = At({1, 0}), at01 = At({0, 1});
     if (triangle_) {
-      Divide({Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}, 0);
+      Divide({at00, at10, at01}, 0);
     } else {
-      Divide({Vec2(0, 0), Vec2(1, 0), Vec2(1, 1)}, 0);
-      Divide({Vec2(0, 0), Vec2(1, 1), Vec2(0, 1)}, 0);
+      const Corner at11 = At({1, 1});
+      Divide({at00, at10, at11}, 0);
+      Divide({at00, at11, at01}, 0);
     }
   }
 
  private:
-  using Corners = std::array<Vec2, 3>;
-  Vec3 At(const Vec2& q) const {
-    return Position(shape_, std::clamp(q.x(), 0.0, 1.0), std::clamp(q.y(), 0.0, 1.0));
+  struct Corner {
+    Vec2 q;
+    Vec3 p;
+  };
+  using Corners = std::array<Corner, 3>;
+  Corner At(const Vec2& q) const {
+    return {q, Position(shape_, std::clamp(q.x(), 0.0, 1.0), std::clamp(q.y(), 0.0, 1.0))};
   }
 
   // The longest side is halved: neighbours that halve another one leave gaps within the error.
   void Divide(const Corners& c, int depth) {
-    const std::array<Vec3, 3> p = {At(c[0]), At(c[1]), At(c[2])};
     if (depth >= 2 * kFirstDepth) {
       double off = 0.0;
       Box3 box;
+      for (const Corner& corner : c) box.Add(corner.p);
       const auto look = [&](double a, double b) {
-        const Vec3 on = At(c[0] + a * (c[1] - c[0]) + b * (c[2] - c[0]));
-        off = std::max(off, (on - p[0] - a * (p[1] - p[0]) - b * (p[2] - p[0])).norm());
+        const Vec3 on = At(c[0].q + a * (c[1].q - c[0].q) + b * (c[2].q - c[0].q)).p;
+        off = std::max(off, (on - c[0].p - a * (c[1].p - c[0].p) - b * (c[2].p - c[0].p)).norm());
         box.Add(on);
       };
       look(1.0 / 3.0, 1.0 / 3.0);  // most are too large, and seen to be so at once
-      for (int i = 0; i <= kSamples && off <= 0.5 * params_.error; ++i) {
-        for (int j = 0; i + j <= kSamples; ++j)
+      for (int i = 0; i < kSamples && off <= 0.5 * params_.error; ++i) {
+        for (int j = i == 0 ? 1 : 0; i + j <= kSamples && j < kSamples; ++j)
           look(static_cast<double>(i) / kSamples, static_cast<double>(j) / kSamples);
       }
-      for (const Vec3& corner : p) box.Add(corner);
       if (Outside(box, off)) return;
       PM_CHECK(depth < kDeepest);
       if (off <= 0.5 * params_.error) {
-        const Kernel::Triangle_3 t(ToCgal(p[0]), ToCgal(p[1]), ToCgal(p[2]));
+        const Kernel::Triangle_3 t(ToCgal(c[0].p), ToCgal(c[1].p), ToCgal(c[2].p));
         if (!t.is_degenerate()) out_.push_back(t);
         return;
       }
     }
-    int longest = 0;
+    std::size_t longest = 0;
     double length = -1.0;
-    for (int k = 0; k < 3; ++k) {
-      const Vec2 &from = c[static_cast<std::size_t>(k)], &to = c[static_cast<std::size_t>((k + 1) % 3)];
-      const double here = depth < 2 * kFirstDepth ? (to - from).norm() : LengthOf(from, to);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Corner &from = c[k], &to = c[(k + 1) % 3];
+      const double here = depth < 2 * kFirstDepth ? (to.q - from.q).norm() : LengthOf(from, to);
       if (here > length) {
         length = here;
         longest = k;
       }
     }
-    const auto corner = [&](int k) { return c[static_cast<std::size_t>((longest + k) % 3)]; };
-    const Vec2 middle = 0.5 * (corner(0) + corner(1));
-    Divide({corner(0), middle, corner(2)}, depth + 1);
-    Divide({middle, corner(1), corner(2)}, depth + 1);
+    const Corner &from = c[longest], &to = c[(longest + 1) % 3], &apex = c[(longest + 2) % 3];
+    const Corner middle = At(0.5 * (from.q + to.q));
+    Divide({from, middle, apex}, depth + 1);
+    Divide({middle, to, apex}, depth + 1);
   }
 
   // Along the surface: the ends of a side that is folded over lie together.
-  double LengthOf(const Vec2& from, const Vec2& to) const {
+  double LengthOf(const Corner& from, const Corner& to) const {
     double length = 0.0;
-    Vec3 last = At(from);
-    for (int k = 1; k <= kSamples; ++k) {
-      const Vec3 next = At(from + static_cast<double>(k) / kSamples * (to - from));
+    Vec3 last = from.p;
+    for (int k = 1; k < kSamples; ++k) {
+      const Vec3 next = At(from.q + static_cast<double>(k) / kSamples * (to.q - from.q)).p;
       length += (next - last).norm();
       last = next;
     }
-    return length;
+    return length + (to.p - last).norm();
   }
 
   bool Outside(const Box3& box, double off) const {
@@ -108,7 +113,7 @@ class Divider {
            box.max.y() < params_.window->first.y() - more || box.min.y() > params_.window->second.y() + more;
   }
 
-  static constexpr int kSamples = 4;  // 15 places
+  static constexpr int kSamples = 4;  // a side: 12 places and the corners
   const PatchShape& shape_;
   bool triangle_;
   const MeshParams& params_;
