@@ -7,6 +7,8 @@
 
 #include "cam/path/line_trace.h"
 #include "cam/path/scan_line.h"
+#include "core/joining/join_network.h"
+#include "tests/support/files.h"
 #include "tests/support/random.h"
 #include "tests/support/same_part.h"
 #include "tests/support/shapes.h"
@@ -124,6 +126,9 @@ TEST(LineSwitches, AreSolvedRealKeptAndNoneIsMissed) {
   }
   Judge(testing::TwoSpheres(6.0, 10.0), 3.0, 10, 10, tally);
   Judge(testing::TwoPlanes(Radians(35), 15.0), 3.0, 11, 10, tally);
+  Placement ring;
+  ring.scale = 40.0;
+  Judge(Place(ring, testing::LoadModel("tests/models/toroidal_tet.patches")), 3.0, 12, 10, tally);
   EXPECT_GT(tally.switches, 50);
   EXPECT_GT(tally.jumps, 50);
   EXPECT_LT(tally.passed, tally.jumps / 4);
@@ -164,20 +169,119 @@ TEST(LineSwitches, AreTheSameHoweverThePartIsCut) {
   EXPECT_GT(count, 70u);
 }
 
-// Ground that the ball follows everywhere, cut into a thousand patches: borders are no switches.
-TEST(LineSwitches, NoneOnSmoothGroundWhereverPatchesMeet) {
-  const Surface surface = SurfaceOf(testing::AsBezierPatches(testing::TwoHills()));
-  ASSERT_GT(surface.pieces.size(), 1000u);
-  const double radius = 3.0;
-  const Locator locator(surface, radius);
-  Random random(5);
-  std::size_t stations = 0;
-  for (int i = 0; i < 20; ++i) {
-    const Runs runs = TraceLine(locator, RandomLine(surface, random), {.chord_tolerance = kTolerance});
-    for (const auto& run : runs) stations += run.size();
-    EXPECT_TRUE(Switches(runs, radius).empty());
+// Ground that the ball follows everywhere: joints of patches that it crosses are no switches.
+class NoneOnSmoothGround {
+ public:
+  explicit NoneOnSmoothGround(PatchModel model) : surface_(SurfaceOf(std::move(model))) {}
+
+  // Lines within `middle` +- `reach`, each way.
+  void Cross(const Vec2& middle, double reach, int lines, std::uint64_t seed) {
+    const Locator locator(surface_, kRadius);
+    Random random(seed);
+    const auto place = [&]() -> Vec2 {
+      const double x = random.Uniform(-reach, reach);
+      return middle + Vec2(x, random.Uniform(-reach, reach));
+    };
+    for (int i = 0; i < lines; ++i) {
+      SCOPED_TRACE(::testing::Message() << "line " << i);
+      const Vec2 a = place();
+      const PlanLine line = PlanLine::Through(a, place());
+      const Runs runs = TraceLine(locator, line, {.chord_tolerance = kTolerance});
+      EXPECT_TRUE(Switches(runs, kRadius).empty());
+      for (const auto& run : runs) CountJoints(run);
+    }
   }
-  EXPECT_GT(stations, 1000u);
+
+  int joints() const { return joints_; }  // crossed so far
+
+ private:
+  void CountJoints(const std::vector<LineStation>& run) {
+    for (std::size_t n = 0; n + 1 < run.size(); ++n) {
+      ASSERT_TRUE(run[n].hint && run[n + 1].hint);
+      joints_ += surface_.piece(run[n].hint->piece).patch != surface_.piece(run[n + 1].hint->piece).patch;
+    }
+    // Nothing but its ends is kept.
+    for (std::size_t n = 1; n + 1 < run.size(); ++n) EXPECT_FALSE(run[n].keep) << run[n].t;
+  }
+
+  static constexpr double kRadius = 3.0;
+  Surface surface_;
+  int joints_ = 0;
+};
+
+TEST(LineSwitches, NoneOnSmoothGroundCutIntoAThousandPatches) {
+  const PatchModel model = testing::AsBezierPatches(testing::TwoHills());
+  ASSERT_GT(model.patches.size(), 1000u);
+  NoneOnSmoothGround ground(model);
+  ground.Cross({50, 50}, 50, 20, 5);
+  EXPECT_GT(ground.joints(), 200);
+}
+
+// A gentle sheet of 8 x 8 fields joined with equal tangent planes: Gregory quads, and where `triangles` says
+// so, two triangles. It bends by 1/20 mm at most.
+PatchModel GentleSheet(PatchScheme quads, PatchScheme triangles, int triangles_every) {
+  constexpr int kFields = 8;
+  constexpr double kField = 6.0, kHeight = 2.0, kWave = 2.0 * kPi / 40.0;
+  CurveNetwork network;
+  Random random(3);
+  for (int i = 0; i <= kFields; ++i) {
+    for (int k = 0; k <= kFields; ++k) {
+      const Vec2 q = kField * Vec2(i, k) + Vec2(random.Uniform(-1, 1), random.Uniform(-1, 1));
+      const double x = kWave * q.x(), y = kWave * q.y();
+      NetworkVertex vertex;
+      vertex.position = Lift(q, kHeight * std::sin(x) * std::cos(y));
+      vertex.normals = {{Vec3(-kHeight * kWave * std::cos(x) * std::cos(y),
+                              kHeight * kWave * std::sin(x) * std::sin(y), 1.0),
+                         {}}};
+      network.vertices.push_back(vertex);
+    }
+  }
+  const auto at = [&](int i, int k) { return i * (kFields + 1) + k; };
+  for (int i = 0; i < kFields; ++i) {
+    for (int k = 0; k < kFields; ++k) {
+      const auto add = [&](std::vector<int> vertices, PatchScheme scheme) {
+        network.faces.push_back({"", std::move(vertices), scheme});
+      };
+      if ((i + k) % triangles_every == 0) {
+        add({at(i, k), at(i + 1, k), at(i + 1, k + 1)}, triangles);
+        add({at(i, k), at(i + 1, k + 1), at(i, k + 1)}, triangles);
+      } else {
+        add({at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)}, quads);
+      }
+    }
+  }
+  JoinedNetwork joined = JoinNetwork(network);
+  EXPECT_TRUE(joined.findings.empty());
+  return std::move(joined.model);
+}
+
+TEST(LineSwitches, NoneOnJoinedQuadsAndTriangles) {
+  using enum PatchScheme;
+  for (const auto& [quads, triangles, every] :
+       {std::tuple(kGregory, kGregoryTriangle, 1000), std::tuple(kGregory, kGregoryTriangle, 2),
+        std::tuple(kBrown, kLoftTriangle, 3), std::tuple(kGregory, kGregoryTriangle, 1)}) {
+    SCOPED_TRACE(::testing::Message() << "one in " << every << " as triangles");
+    NoneOnSmoothGround ground(GentleSheet(quads, triangles, every));
+    ground.Cross({24, 24}, 22, 20, 6);
+    EXPECT_GT(ground.joints(), 80);
+  }
+}
+
+// Made by others: patches of a limit surface, about whose irregular points are Gregory patches.
+TEST(LineSwitches, NoneOnGregoryPatchesOfSubdivisionSurfaces) {
+  Placement placement;
+  placement.up = UpAxis::kY;
+  placement.scale = 40.0;  // the top of the ring, up to its nearest corners
+  NoneOnSmoothGround ring(Place(placement, testing::LoadModel("tests/models/toroidal_tet.patches")));
+  ring.Cross({0, 0}, 7, 40, 7);
+  EXPECT_GT(ring.joints(), 30);
+  placement.scale = 60.0;  // a ball of triangles
+  NoneOnSmoothGround ball(Place(placement, testing::LoadModel("tests/models/icosahedron.patches")));
+  ball.Cross({0, 0}, 42, 30, 8);
+  EXPECT_GT(ball.joints(), 100);
+  NoneOnSmoothGround saddle(Place(placement, testing::LoadModel("tests/models/saddle.patches")));
+  saddle.Cross({0, 0}, 60, 30, 9);
+  EXPECT_GT(saddle.joints(), 30);
 }
 
 }  // namespace
