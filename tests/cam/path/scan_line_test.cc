@@ -1,5 +1,6 @@
 #include "cam/path/scan_line.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -118,6 +119,83 @@ TEST(ScanLine, WallOfABlockIsADropInItsPlace) {
       EXPECT_GT((points[i + 1].center - points[i].center).norm(), 1e-3) << i;
     }
     ExpectCertified(surface, radius, runs, {});
+  }
+}
+
+// An upright tube, exact: quarters of a rational cylinder; with `lid`, closed by a flat disc.
+PatchModel Boss(const Vec2& axis, double radius, double height, bool lid) {
+  Eigen::Affine3d up = Eigen::Affine3d::Identity();
+  up.translate(Lift(axis, 0.5 * height)).rotate(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitX()));
+  PatchModel boss = Transformed(Cylinder(Vec3::Zero(), radius, 0.5 * height), up);
+  for (int k = 0; lid && k < 4; ++k) {
+    const double from = 0.5 * kPi * k;
+    const Vec2 a(std::cos(from), std::sin(from)), b(-a.y(), a.x());
+    BezierPatch sector;
+    sector.degree_u = 2;
+    sector.degree_v = 1;
+    for (const Vec2& rim : {a, Vec2(a + b), b}) {
+      sector.points.push_back(Lift(axis, height));
+      sector.points.push_back(Lift(axis + radius * rim, height));
+    }
+    const double w = std::sqrt(0.5);
+    sector.weights = {1.0, 1.0, w, w, 1.0, 1.0};
+    boss.patches.push_back({"", std::move(sector)});
+  }
+  return boss;
+}
+
+// Where the ball leaves a round wall it falls from the wall's upper rim, just beside it, to the plane. A tube
+// is a wall on its inside as well.
+TEST(ScanLine, RoundWallIsADropInItsPlaceAtAnyHeading) {
+  const double radius = 3.0, boss = 5.0, height = 10.0;
+  const Vec2 axis(1.3, -0.7);
+  for (const bool lid : {true, false}) {
+    const Surface surface = SurfaceOf(Join({Plane(40), Boss(axis, boss, height, lid)}));
+    const Locator locator(surface, radius);
+    for (const double heading : {0.0, 0.4, 2.5}) {
+      for (const double off : {0.0, 1.2, 4.5, 7.7, 7.99}) {
+        SCOPED_TRACE(::testing::Message() << "lid " << lid << " heading " << heading << " off " << off);
+        const Vec2 d(std::cos(heading), std::sin(heading)), middle = axis + off * Vec2(-d.y(), d.x());
+        const Vec2 from = middle - 25.0 * d;
+        const auto runs = ScanLine(locator, from, middle + 25.3 * d, {});
+        ASSERT_EQ(runs.size(), 1u);
+        ExpectCertified(surface, radius, runs, {});
+        std::vector<double> truth;  // where the walls are left or met, along the line from its middle
+        for (const double reach : {boss + radius, lid ? 0.0 : boss - radius}) {
+          if (reach <= off) continue;
+          truth.push_back(std::sqrt(reach * reach - off * off));
+          truth.push_back(-truth.back());
+        }
+        std::sort(truth.begin(), truth.end());
+        std::vector<double> found;
+        const auto& points = runs[0].points;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const Vec3& c = points[i].center;
+          if (i + 1 < points.size() && (Plan(points[i + 1].center) - Plan(c)).norm() == 0.0) {
+            found.push_back((Plan(c) - middle).dot(d));
+            EXPECT_NEAR(Cross(d, Plan(c) - middle), 0.0, 1e-12);
+            const double top = std::max(c.z(), points[i + 1].center.z()),
+                         foot = std::min(c.z(), points[i + 1].center.z());
+            // The top stands where the ball's side still holds the rim, 1e-8 mm inside.
+            EXPECT_GE(top, height);
+            EXPECT_LE(top, height + 2.5e-4);
+            EXPECT_NEAR(foot, radius, 1e-9);
+            continue;
+          }
+          if (i > 0 && (Plan(points[i - 1].center) - Plan(c)).norm() == 0.0) continue;
+          // Between the drops: on the lid, around the rim or on the plane.
+          const double beside = (Plan(c) - axis).norm() - boss;
+          const double on_rim = height + std::sqrt(std::max(0.0, radius * radius - beside * beside));
+          const double h = lid && beside < 0.0         ? height + radius
+                           : std::abs(beside) < radius ? on_rim
+                                                       : radius;
+          EXPECT_GE(c.z(), h - 1e-8);
+          EXPECT_LE(c.z(), h + 1.1e-4);
+        }
+        ASSERT_EQ(found.size(), truth.size());
+        for (std::size_t k = 0; k < truth.size(); ++k) EXPECT_NEAR(found[k], truth[k], 1.1e-8);
+      }
+    }
   }
 }
 
