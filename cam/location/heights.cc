@@ -270,19 +270,9 @@ void Forecast::Start(const Locator::Impl& impl, std::span<const Vec2> q, LanePac
 
 }  // namespace
 
-std::vector<const char*> InstructionSets() {
-  std::vector<const char*> names;
-  const internal::LaneKernels& kernels = internal::AvailableLaneKernels();
-  for (int k = 0; k < kernels.count; ++k) names.push_back(kernels.kernel[k].name);
-  return names;
-}
-
-void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights,
-             std::size_t instruction_set) {
+void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights) {
   PM_CHECK(q.size() == heights.size());
-  const internal::LaneKernels& kernels = internal::AvailableLaneKernels();
-  PM_CHECK(instruction_set < static_cast<std::size_t>(kernels.count));
-  const LaneKernel& kernel = kernels.kernel[instruction_set];
+  const LaneKernel& kernel = internal::UsedLaneKernel();
   const Locator::Impl& impl = locator.impl();
   LanePacket packet;
   LaneStart start;
@@ -322,7 +312,7 @@ std::optional<Vec3> FindObstacle(const Locator::Impl& impl, const Vec3& center) 
 void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
                    std::span<std::optional<Vec3>> obstacles) {
   PM_CHECK(centers.size() == obstacles.size());
-  const LaneKernel& kernel = internal::AvailableLaneKernels().kernel[0];
+  const LaneKernel& kernel = internal::UsedLaneKernel();
   const Locator::Impl& impl = locator.impl();
   LanePacket packet;
   for (std::size_t i = 0; i < centers.size(); i += kLanes) {

@@ -1,10 +1,8 @@
 // Heights of many places at once, in the processor's vector lanes.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "cam/location/locator.h"
 
@@ -16,17 +14,13 @@ namespace patchmill {
 // leaves, Newton finds the maximum of those proven convex, what is neither goes through Height's own search.
 //
 // A height depends on its neighbours in the list by rounding alone (less than 1e-9), never on the processor:
-// `instruction_set` is an index into InstructionSets(), all of which give the same bits; 0 is the fastest.
-void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights,
-             std::size_t instruction_set = 0);
+// the lanes are those of UsedInstructionSet() (core/base/instruction_set.h), all of which give the same bits.
+void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights);
 
 // obstacles[k]: nothing where locator.Free(centers[k]), within the error of heights, else a point of the
-// surface in the ball or above it, not always the one that is most in the way. The same way: eight
-// consecutive centres at once, and nothing looked at that lies below them.
+// surface in the ball or above it, not always the one that is most in the way. The same way, with the same
+// bits everywhere: eight consecutive centres at once, and nothing looked at that lies below them.
 void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
                    std::span<std::optional<Vec3>> obstacles);
-
-// What this processor can run, fastest first: "avx512", "avx2" (x86-64, compiled by GCC), and always "plain".
-std::vector<const char*> InstructionSets();
 
 }  // namespace patchmill

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "cam/location/leaf_errors.h"
+#include "core/base/instruction_set.h"
 
 namespace patchmill::internal {
 
@@ -73,22 +74,16 @@ using LaneApproach = void (*)(const LaneLeaf& piece, const LaneLimits& limits, c
                               LanePacket& packet);
 
 struct LaneKernel {
-  const char* name;  // "avx512", "avx2", "plain"
   LaneVisitor visit;
   LaneMeets meets;
   LaneApproach approach;
 };
 
-// Those this processor can run, fastest first; the last one is plain.
-struct LaneKernels {
-  LaneKernel kernel[3];
-  int count = 0;
-};
-const LaneKernels& AvailableLaneKernels();
+// Of UsedInstructionSet().
+const LaneKernel& UsedLaneKernel();
 
 LaneKernel PlainLaneKernel();
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PATCHMILL_X86_LANES 1
+#ifdef PATCHMILL_X86_VECTORS
 LaneKernel Avx2LaneKernel();
 LaneKernel Avx512LaneKernel();
 #endif

@@ -1,7 +1,7 @@
 // The lanes for processors with AVX2.
 #include "cam/location/lane_kernel.h"
 
-#ifdef PATCHMILL_X86_LANES
+#ifdef PATCHMILL_X86_VECTORS
 // What others share comes before the instruction set, so that no copy of it is made for this one.
 #include <immintrin.h>
 
@@ -15,7 +15,7 @@
 namespace patchmill::internal {
 
 LaneKernel Avx2LaneKernel() {
-  return {"avx2", lanes_avx2::VisitLeafLanes, lanes_avx2::MeetsLanes, lanes_avx2::ApproachLanes};
+  return {lanes_avx2::VisitLeafLanes, lanes_avx2::MeetsLanes, lanes_avx2::ApproachLanes};
 }
 
 }  // namespace patchmill::internal

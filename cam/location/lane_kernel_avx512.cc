@@ -1,7 +1,7 @@
 // The lanes for processors with AVX512.
 #include "cam/location/lane_kernel.h"
 
-#ifdef PATCHMILL_X86_LANES
+#ifdef PATCHMILL_X86_VECTORS
 // What others share comes before the instruction set, so that no copy of it is made for this one.
 #include <immintrin.h>
 
@@ -15,7 +15,7 @@
 namespace patchmill::internal {
 
 LaneKernel Avx512LaneKernel() {
-  return {"avx512", lanes_avx512::VisitLeafLanes, lanes_avx512::MeetsLanes, lanes_avx512::ApproachLanes};
+  return {lanes_avx512::VisitLeafLanes, lanes_avx512::MeetsLanes, lanes_avx512::ApproachLanes};
 }
 
 }  // namespace patchmill::internal

@@ -6,27 +6,7 @@
 namespace patchmill::internal {
 
 LaneKernel PlainLaneKernel() {
-  return {"plain", lanes_plain::VisitLeafLanes, lanes_plain::MeetsLanes, lanes_plain::ApproachLanes};
-}
-
-namespace {
-
-LaneKernels Detect() {
-  LaneKernels found;
-  const auto add = [&](const LaneKernel& kernel) { found.kernel[found.count++] = kernel; };
-#ifdef PATCHMILL_X86_LANES
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) add(Avx512LaneKernel());
-  if (__builtin_cpu_supports("avx2")) add(Avx2LaneKernel());
-#endif
-  add(PlainLaneKernel());
-  return found;
-}
-
-}  // namespace
-
-const LaneKernels& AvailableLaneKernels() {
-  static const LaneKernels kernels = Detect();
-  return kernels;
+  return {lanes_plain::VisitLeafLanes, lanes_plain::MeetsLanes, lanes_plain::ApproachLanes};
 }
 
 }  // namespace patchmill::internal

@@ -1,5 +1,6 @@
 #include "core/patch/piece.h"
 
+#include "core/patch/bicubic_sums.h"
 #include "core/patch/kinds.h"
 #include "core/patch/tensor_kernel.h"
 
@@ -20,47 +21,12 @@ HomogeneousJet NetJet(const BernsteinNet& net, double u, double v) {
                              [&](int i, int j) -> const Vec4& { return points[i * (degree_v + 1) + j]; });
 }
 
-// The common case, four numbers at once: an AVX register where the processor has them, else two of SSE2; the
-// operations of TensorJet in its order either way, hence the same bits.
-using Four = double __attribute__((vector_size(32)));
-
-// ThreadSanitizer would instrument the resolver, which runs before the sanitizer does.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
-__attribute__((target_clones("avx2", "default")))
-#endif
-void SumBicubic(const double* points, const BasisJet& bu, const BasisJet& bv, double* out) {
-  Four p{}, du{}, dv{}, duu{}, duv{}, dvv{};
-  for (int i = 0; i < 4; ++i) {
-    Four r{}, rv{}, rvv{};
-    for (int j = 0; j < 4; ++j, points += 4) {
-      const Four q{points[0], points[1], points[2], points[3]};
-      r += bv.f[j] * q;
-      rv += bv.d[j] * q;
-      rvv += bv.dd[j] * q;
-    }
-    p += bu.f[i] * r;
-    du += bu.d[i] * r;
-    duu += bu.dd[i] * r;
-    dv += bu.f[i] * rv;
-    duv += bu.d[i] * rv;
-    dvv += bu.f[i] * rvv;
-  }
-  for (int k = 0; k < 4; ++k) {
-    out[k] = p[k];
-    out[4 + k] = du[k];
-    out[8 + k] = dv[k];
-    out[12 + k] = duu[k];
-    out[16 + k] = duv[k];
-    out[20 + k] = dvv[k];
-  }
-}
-
 HomogeneousJet BicubicJet(const BernsteinNet& net, double u, double v) {
   BasisJet bu, bv;
   AllBernsteinJet(3, u, bu);
   AllBernsteinJet(3, v, bv);
   double sums[24];
-  SumBicubic(net.points.front().data(), bu, bv, sums);
+  internal::SumBicubic(net.points.front().data(), bu, bv, sums);
   const auto four = [&](int k) { return Vec4(sums[k], sums[k + 1], sums[k + 2], sums[k + 3]); };
   return {four(0), four(4), four(8), four(12), four(16), four(20)};
 }

@@ -54,10 +54,7 @@ const PatchModel& ModelOf(Part part) {
 
 Placement PlacementOf(Part part) {
   if (part == Part::kTeapot) return {.scale = 54.8, .up = UpAxis::kY};
-  if (part == Part::kToroidalTet) {
-    const Box3 box = ControlBox(ModelOf(part));
-    return {.scale = 100.0 / (box.max.x() - box.min.x())};
-  }
+  if (part == Part::kToroidalTet) return {.scale = 40.0};
   return {};
 }
 

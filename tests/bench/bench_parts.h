@@ -7,8 +7,8 @@ namespace patchmill::bench {
 
 enum class Part { kTwoHills, kBumpy, kTeapot, kToroidalTet };
 
-// Two hills and bumpy cover [0,100]^2; the teapot lies at scale 54.8, up y; the toroidal tetrahedron is
-// scaled to 100 mm in x. A file that cannot be read ends the program with its name.
+// Two hills and bumpy cover [0,100]^2; the teapot lies at scale 54.8, up y; the toroidal tetrahedron at scale
+// 40. A file that cannot be read ends the program with its name.
 const PatchModel& ModelOf(Part part);
 Placement PlacementOf(Part part);
 const Surface& SurfaceOf(Part part);

@@ -6,7 +6,9 @@
 #include "cam/plan/job_preview.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
+#include "core/base/status.h"
 #include "tests/bench/bench_parts.h"
+#include "tests/bench/over_plain.h"
 
 namespace patchmill::bench {
 namespace {
@@ -27,8 +29,13 @@ std::array<double, 4> LengthsByKind(const LinkResult& motion) {
   return lengths;
 }
 
-// Everything a request costs but the wire: placing, surface, RunJob. peak_MB is the process's largest
-// resident memory, other parts kept by earlier benchmarks included: run alone for a figure.
+absl::StatusOr<JobResult> RunFromModel(const PatchModel& model, const Job& job) {
+  PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model, job.setup, RunContext()));
+  return RunVerified(surface, job);
+}
+
+// Everything a request costs but the wire (JobOverWire): placing, surface, RunJob. peak_MB is the process's
+// largest resident memory, other parts kept by earlier benchmarks included: run alone for a figure.
 void MeasureJob(benchmark::State& state, Part part) {
   const PatchModel& model = ModelOf(part);
   const Job job = JobOf(part);
@@ -37,9 +44,7 @@ void MeasureJob(benchmark::State& state, Part part) {
   std::array<double, 4> lengths{};
   ResetPeakMemory();
   for (auto _ : state) {
-    const auto surface = BuildPlacedSurface(model, job.setup, RunContext());
-    if (!surface.ok()) return state.SkipWithError(surface.status().ToString().c_str());
-    const auto result = RunVerified(*surface, job);
+    const auto result = RunFromModel(model, job);
     if (!result.ok()) return state.SkipWithError(result.status().ToString().c_str());
     moves = result->report.point_count;
     bytes = static_cast<double>(result->program.size());
@@ -57,6 +62,7 @@ void MeasureJob(benchmark::State& state, Part part) {
   state.counters["retracts"] = static_cast<double>(report.motion.retract_count);
   state.counters["program_MB"] = 1e-6 * bytes;
   for (const StageTime& stage : report.stages) state.counters["s_" + stage.name] = stage.seconds;
+  TellInstructionSet(state, 2, [&] { benchmark::DoNotOptimize(RunFromModel(model, job)); });
 }
 BENCHMARK_CAPTURE(MeasureJob, two_hills, Part::kTwoHills)
     ->Name("Job/two_hills")

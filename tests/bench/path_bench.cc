@@ -1,7 +1,6 @@
 // Passes and regions, on all cores (the clock is the wall's).
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -11,7 +10,9 @@
 #include "cam/path/scan_line.h"
 #include "cam/region/region_map.h"
 #include "core/base/parallel.h"
+#include "core/base/status.h"
 #include "tests/bench/bench_parts.h"
+#include "tests/bench/over_plain.h"
 
 namespace patchmill::bench {
 namespace {
@@ -56,69 +57,105 @@ double FewestPerMillimetre(const Locator& locator, const std::vector<double>& y,
   return static_cast<double>(count) / (static_cast<double>(y.size()) * (x1 - x0));
 }
 
+constexpr std::size_t kLines = 320;
+
+double LineY(const Surface& surface, std::size_t k) {
+  return surface.box.min.y() +
+         (static_cast<double>(k) + 0.5) / kLines * (surface.box.max.y() - surface.box.min.y());
+}
+
+// What all lines together have. Switches are contact switches that a vertex stands on, solved, with both
+// contacts.
+struct LineCounts {
+  std::int64_t points = 0, switches = 0;
+
+  void operator+=(const LineCounts& other) {
+    points += other.points;
+    switches += other.switches;
+  }
+};
+
+LineCounts CountLine(const Locator& locator, std::size_t k, const PassParams& params) {
+  const Box3& box = locator.surface().box;
+  const double y = LineY(locator.surface(), k);
+  LineCounts count;
+  for (const ScanRun& run : ScanLine(locator, {box.min.x(), y}, {box.max.x(), y}, params)) {
+    count.points += static_cast<std::int64_t>(run.points.size());
+    count.switches += std::count_if(run.points.begin(), run.points.end(),
+                                    [](const CutterPoint& p) { return p.other_contact.has_value(); });
+  }
+  return count;
+}
+
+absl::StatusOr<LineCounts> CountAllLines(const Locator& locator, const PassParams& params) {
+  std::vector<LineCounts> lines(kLines);
+  PM_RETURN_IF_ERROR(ParallelFor(RunContext(), nullptr, kLines,
+                                 [&](std::size_t k) { lines[k] = CountLine(locator, k, params); }));
+  LineCounts all;
+  for (const LineCounts& line : lines) all += line;
+  return all;
+}
+
 // 320 certified scan lines along x; the items are their points. points_per_mm of all lines, fewest_per_mm of
 // every twentieth: what the tolerance allows when vertices lie on the curve.
 void ZigzagLines(benchmark::State& state, Part part) {
-  constexpr std::size_t kLines = 320;
   const Surface& surface = SurfaceOf(part);
   const Locator locator(surface, kRadius);
   PassParams params;
   params.chord_tolerance = 0.01;
-  std::int64_t points = 0;
+  absl::StatusOr<LineCounts> count;
   for (auto _ : state) {
-    std::vector<std::int64_t> count(kLines, 0);
-    const absl::Status status = ParallelFor(RunContext(), nullptr, kLines, [&](std::size_t k) {
-      const double y = surface.box.min.y() +
-                       (static_cast<double>(k) + 0.5) / kLines * (surface.box.max.y() - surface.box.min.y());
-      for (const ScanRun& run :
-           ScanLine(locator, {surface.box.min.x(), y}, {surface.box.max.x(), y}, params)) {
-        count[k] += static_cast<std::int64_t>(run.points.size());
-      }
-    });
-    if (!status.ok()) state.SkipWithError(status.ToString().c_str());
-    points += std::accumulate(count.begin(), count.end(), std::int64_t{0});
+    count = CountAllLines(locator, params);
+    if (!count.ok()) return state.SkipWithError(count.status().ToString().c_str());
   }
-  state.SetItemsProcessed(points);
+  state.SetItemsProcessed(count->points * static_cast<std::int64_t>(state.iterations()));
   const double x0 = surface.box.min.x(), x1 = surface.box.max.x();
   std::vector<double> every;
-  for (std::size_t k = 0; k < kLines; k += 20) {
-    every.push_back(surface.box.min.y() +
-                    (static_cast<double>(k) + 0.5) / kLines * (surface.box.max.y() - surface.box.min.y()));
-  }
-  state.counters["points_per_mm"] = static_cast<double>(points) / static_cast<double>(state.iterations()) /
-                                    (static_cast<double>(kLines) * (x1 - x0));
+  for (std::size_t k = 0; k < kLines; k += 20) every.push_back(LineY(surface, k));
+  state.counters["switches"] = static_cast<double>(count->switches);
+  state.counters["points_per_mm"] =
+      static_cast<double>(count->points) / (static_cast<double>(kLines) * (x1 - x0));
   state.counters["fewest_per_mm"] = FewestPerMillimetre(locator, every, x0, x1, params.chord_tolerance);
+  TellInstructionSet(state, 3, [&] { benchmark::DoNotOptimize(CountAllLines(locator, params)); });
 }
 BENCHMARK_CAPTURE(ZigzagLines, bumpy, Part::kBumpy)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// 24 equally spaced levels of h with what they share; the items are the levels.
-void ContourLevels(benchmark::State& state, Part part) {
+// 24 equally spaced levels of h, with what they share.
+absl::StatusOr<std::vector<LevelContours>> TraceLevels(const Locator& locator, const ContourParams& params) {
   constexpr std::size_t kLevels = 24;
-  const Surface& surface = SurfaceOf(part);
-  const Locator locator(surface, kRadius);
+  const Box3& box = locator.surface().box;
+  const RunContext run;
+  const LevelContext context(locator, run);
+  std::vector<LevelContours> levels(kLevels);
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, kLevels, [&](std::size_t k) {
+    const double share = (static_cast<double>(k) + 0.5) / kLevels;
+    levels[k] = TraceLevel(context, kRadius + box.min.z() + share * (box.max.z() - box.min.z()), params, run);
+  }));
+  return levels;
+}
+
+// The items are the levels.
+void ContourLevels(benchmark::State& state, Part part) {
+  const Locator locator(SurfaceOf(part), kRadius);
   ContourParams params;
   params.chord_tolerance = 0.01;
   params.resolution = 0.1;
-  std::size_t loops = 0, ambiguous = 0;
+  absl::StatusOr<std::vector<LevelContours>> levels;
   for (auto _ : state) {
-    const RunContext run;
-    const LevelContext context(locator, run);
-    std::vector<LevelContours> levels(kLevels);
-    const absl::Status status = ParallelFor(run, nullptr, kLevels, [&](std::size_t k) {
-      const double share = (static_cast<double>(k) + 0.5) / kLevels;
-      const double z = kRadius + surface.box.min.z() + share * (surface.box.max.z() - surface.box.min.z());
-      levels[k] = TraceLevel(context, z, params, run);
-    });
-    if (!status.ok()) state.SkipWithError(status.ToString().c_str());
-    loops = ambiguous = 0;
-    for (const LevelContours& level : levels) {
-      loops += level.loops.size();
-      ambiguous += static_cast<std::size_t>(level.ambiguous_cells);
-    }
+    levels = TraceLevels(locator, params);
+    if (!levels.ok()) return state.SkipWithError(levels.status().ToString().c_str());
   }
-  state.SetItemsProcessed(static_cast<std::int64_t>(kLevels) * state.iterations());
+  std::size_t loops = 0, points = 0, ambiguous = 0;
+  for (const LevelContours& level : *levels) {
+    loops += level.loops.size();
+    for (const auto& loop : level.loops) points += loop.points.size();
+    ambiguous += static_cast<std::size_t>(level.ambiguous_cells);
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(levels->size() * state.iterations()));
   state.counters["loops"] = static_cast<double>(loops);
+  state.counters["points"] = static_cast<double>(points);
   state.counters["ambiguous_cells"] = static_cast<double>(ambiguous);
+  TellInstructionSet(state, 3, [&] { benchmark::DoNotOptimize(TraceLevels(locator, params)); });
 }
 BENCHMARK_CAPTURE(ContourLevels, bumpy, Part::kBumpy)->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -1,4 +1,5 @@
-// Heights of many places: the same bits on every instruction set, the same heights as one place at a time.
+// Heights of many places and what is in the way: the same bits on every instruction set, the same heights as
+// one place at a time.
 #include "cam/location/heights.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "core/network/patch_model.h"
 #include "tests/support/files.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
@@ -113,19 +115,23 @@ bool SameBits(const std::optional<CenterPoint>& a, const std::optional<CenterPoi
   return a->contact.piece == b->contact.piece && std::memcmp(x.data(), y.data(), sizeof x) == 0;
 }
 
+Answers HeightsOn(InstructionSet set, const Locator& locator, const std::vector<Vec2>& places) {
+  const testing::OnInstructionSet on(set);
+  Answers answers(places.size());
+  Heights(locator, places, answers);
+  return answers;
+}
+
 TEST(Heights, SameBitsOnEveryInstructionSet) {
-  ASSERT_STREQ(InstructionSets().back(), "plain");
   for (const Case& c : Cases()) {
     SCOPED_TRACE(c.name);
     const Surface surface = SurfaceOf(c.model);
     const Locator locator(surface, c.radius);
     const std::vector<Vec2> places = Places(surface, c.radius, 19);
-    Answers plain(places.size());
-    Heights(locator, places, plain, InstructionSets().size() - 1);
-    for (std::size_t set = 0; set + 1 < InstructionSets().size(); ++set) {
-      SCOPED_TRACE(InstructionSets()[set]);
-      Answers answers(places.size());
-      Heights(locator, places, answers, set);
+    const Answers plain = HeightsOn(InstructionSet::kPlain, locator, places);
+    for (const InstructionSet set : InstructionSets()) {
+      SCOPED_TRACE(Name(set));
+      const Answers answers = HeightsOn(set, locator, places);
       for (std::size_t k = 0; k < places.size(); ++k) {
         ASSERT_TRUE(SameBits(plain[k], answers[k])) << places[k].transpose();
       }
@@ -170,7 +176,6 @@ TEST(Heights, AreThoseOfOnePlaceAtATime) {
   }
 }
 
-// A ball on a sphere, in closed form.
 TEST(Obstacles, StandBelowTheHeightsAndNotAbove) {
   for (const Case& c : Cases()) {
     SCOPED_TRACE(c.name);
@@ -197,14 +202,59 @@ TEST(Obstacles, StandBelowTheHeightsAndNotAbove) {
   }
 }
 
+// Centres at the heights themselves, within rounding and a little more of them, and far from them: where a
+// ball that only just touches is free or not.
+std::vector<Vec3> CentersNearTheHeights(const Surface& surface, const Locator& locator) {
+  const std::vector<Vec2> places = Places(surface, locator.radius(), 15);
+  const Answers heights = HeightsOn(InstructionSet::kPlain, locator, places);
+  Random random(7);
+  std::vector<Vec3> centers;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double h = heights[k] ? heights[k]->z : surface.box.min.z();
+    const double tiny = std::pow(10.0, random.Uniform(-16.0, 0.5));
+    for (const double over : {0.0, tiny, -tiny}) centers.push_back(Lift(places[k], h + over));
+  }
+  return centers;
+}
+
+TEST(Obstacles, SameBitsOnEveryInstructionSet) {
+  for (const Case& c : Cases()) {
+    SCOPED_TRACE(c.name);
+    const Surface surface = SurfaceOf(c.model);
+    const Locator locator(surface, c.radius);
+    const std::vector<Vec3> centers = CentersNearTheHeights(surface, locator);
+    const auto obstacles_on = [&](InstructionSet set) {
+      const testing::OnInstructionSet on(set);
+      std::vector<std::optional<Vec3>> obstacles(centers.size());
+      FindObstacles(locator, centers, obstacles);
+      return obstacles;
+    };
+    const auto plain = obstacles_on(InstructionSet::kPlain);
+    const auto found = std::count_if(plain.begin(), plain.end(), [](const auto& p) { return p.has_value(); });
+    EXPECT_GT(found, 100);
+    EXPECT_GT(static_cast<std::int64_t>(centers.size()) - found, 100);
+    for (const InstructionSet set : InstructionSets()) {
+      SCOPED_TRACE(Name(set));
+      const auto obstacles = obstacles_on(set);
+      for (std::size_t k = 0; k < centers.size(); ++k) {
+        ASSERT_EQ(plain[k].has_value(), obstacles[k].has_value()) << centers[k].transpose();
+        if (plain[k]) {
+          ASSERT_EQ(std::memcmp(plain[k]->data(), obstacles[k]->data(), sizeof(Vec3)), 0)
+              << centers[k].transpose();
+        }
+      }
+    }
+  }
+}
+
+// A ball on a sphere, in closed form.
 TEST(Heights, OnASphere) {
   const Surface surface = SurfaceOf(testing::Sphere(Vec3(1, 2, 3), 6.0));
   const Locator locator(surface, 2.0);
   std::vector<Vec2> places;
   AddGrid(surface, 2.0, 60, places);
-  for (std::size_t set = 0; set < InstructionSets().size(); ++set) {
-    Answers answers(places.size());
-    Heights(locator, places, answers, set);
+  for (const InstructionSet set : InstructionSets()) {
+    const Answers answers = HeightsOn(set, locator, places);
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double d = (places[k] - Vec2(1, 2)).norm();
       ASSERT_EQ(answers[k].has_value(), d <= 8.0);

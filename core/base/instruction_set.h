@@ -1,0 +1,36 @@
+// The vector instructions that code with a choice of them runs on. Every choice gives the same bits (P5): it
+// is a matter of speed alone.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+// Where the build holds code for more than every processor of its kind has. GCC alone: others do not compile
+// functions for another instruction set from the same pragma.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define PATCHMILL_X86_VECTORS 1
+#endif
+
+namespace patchmill {
+
+// kPlain: what every processor of its kind has, two doubles at a time (SSE2, NEON). kAvx512: F and DQ.
+enum class InstructionSet { kPlain, kAvx2, kAvx512 };
+const char* Name(InstructionSet set);  // "plain", "avx2", "avx512"
+
+// What this processor can run and the build has code for, fastest first; kPlain is always the last.
+std::vector<InstructionSet> InstructionSets();
+
+namespace internal {
+extern std::atomic<InstructionSet> used_instruction_set;
+}
+
+// What everything runs on: the fastest, unless UseInstructionSet says otherwise.
+inline InstructionSet UsedInstructionSet() {
+  return internal::used_instruction_set.load(std::memory_order_relaxed);
+}
+
+// One of InstructionSets(), for the whole process, from the next query on. For tests, measurements and the
+// search for faults.
+void UseInstructionSet(InstructionSet set);
+
+}  // namespace patchmill
