@@ -92,8 +92,10 @@ class PacketSearch {
   void Run();
   // After Run: the lane's search has to be made again, leaves divided (OpenLeaves).
   bool IsTie(std::size_t lane, const Contact& best) const { return impl_.IsTie(tie_[lane], best); }
-  // Of balls that stand at the packet's heights: lanes that find anything are done and look no further.
+  // Of balls that stand at the packet's heights: lanes that find anything are done and look no further. Those
+  // that found nothing and may be wrong (OpenLeaves::doubtful) are to be searched for one by one.
   void RunFree();
+  bool IsDoubtful(std::size_t lane) const { return doubtful_[lane]; }
 
  private:
   template <class Meets, class OnLeaf>
@@ -105,7 +107,8 @@ class PacketSearch {
   const LaneKernel& kernel_;
   const LaneLimits limits_;
   LanePacket& packet_;
-  bool free_only_ = false;
+  Locator::Impl::Aim aim_ = Locator::Impl::Aim::kHighest;
+  std::array<bool, kLanes> doubtful_{};
   std::array<double, kLanes> tie_;  // of each lane, see OpenLeaves
   Locator::Impl::OpenLeaves open_;
 };
@@ -172,7 +175,7 @@ struct FloatLanes {
 // Balls do not rise here, and lie less close together than those of neighbouring heights: boxes are tried
 // against each of them, most leaves are out of the way of all, and little is done before that is known.
 void PacketSearch::RunFree() {
-  free_only_ = true;
+  aim_ = Locator::Impl::Aim::kAny;
   FloatLanes lanes(packet_);
   Walk([&](const internal::SearchNode& node, int k, float limit) { return lanes.Meet(node, k, limit); },
        [&](std::int32_t leaf) {
@@ -217,9 +220,10 @@ void PacketSearch::Visit(std::int32_t index, const internal::LeafBox& box) {
 void PacketSearch::VisitScalar(std::int32_t index, int k) {
   Contact best = ContactOf(packet_, k);
   open_.Clear();
-  impl_.VisitLeaf(index, impl_.BallAt({packet_.qx[k], packet_.qy[k]}), best, free_only_ ? nullptr : &open_);
-  double& tie = tie_[static_cast<std::size_t>(k)];
-  tie = std::max(tie, open_.tie);
+  impl_.VisitLeaf(index, impl_.BallAt({packet_.qx[k], packet_.qy[k]}), aim_, best, open_);
+  const auto lane = static_cast<std::size_t>(k);
+  tie_[lane] = std::max(tie_[lane], open_.tie);
+  doubtful_[lane] = doubtful_[lane] || open_.doubtful || open_.nearly;
   PutContact(best, packet_, k);
 }
 
@@ -300,9 +304,8 @@ namespace {
 constexpr std::size_t kWorthLanes = 2;
 
 std::optional<Vec3> FindObstacle(const Locator::Impl& impl, const Vec3& center) {
-  Contact contact;
-  contact.z = std::max(center.z(), impl.Lowest());
-  impl.Search(impl.BallAt(Plan(center)), contact.z, contact, nullptr);
+  thread_local Locator::Impl::OpenLeaves open;
+  const Contact contact = impl.AnyContact(impl.BallAt(Plan(center)), center.z(), open);
   if (contact.piece < 0) return std::nullopt;
   return contact.p;
 }
@@ -329,10 +332,15 @@ void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
       none.z = std::max(at.z(), impl.Lowest());
       PutContact(none, packet, static_cast<int>(k));
     }
-    PacketSearch(impl, kernel, packet).RunFree();
+    PacketSearch search(impl, kernel, packet);
+    search.RunFree();
     for (std::size_t k = 0; k < count; ++k) {
       obstacles[i + k].reset();
-      if (packet.piece[k] >= 0) obstacles[i + k] = ContactOf(packet, static_cast<int>(k)).p;
+      if (packet.piece[k] >= 0) {
+        obstacles[i + k] = ContactOf(packet, static_cast<int>(k)).p;
+      } else if (search.IsDoubtful(k)) {
+        obstacles[i + k] = FindObstacle(impl, centers[i + k]);
+      }
     }
   }
 }

@@ -48,24 +48,36 @@ void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Co
 
 // A box is out of the ball's way iff plan distance^2 + max(0, z - max_z)^2 >= R^2, for the current centre
 // height z. In floats, with a margin for their rounding.
-void Locator::Impl::Search(const Ball& ball, double enough, Contact& best, OpenLeaves* open) const {
+void Locator::Impl::Search(const Ball& ball, double enough, Aim aim, Contact& best, OpenLeaves& open) const {
   const auto limit = static_cast<float>(radius * radius + 1e-6 * radius * radius + 1e-6 * radius * reach);
   const auto x = static_cast<float>(ball.q.x()), y = static_cast<float>(ball.q.y());
   internal::WalkTree(
       tree, {x, x, y, y}, limit, [&] { return static_cast<float>(best.z); },
       [&](std::int32_t leaf) {
-        VisitLeaf(leaf, ball, best, open);
+        VisitLeaf(leaf, ball, aim, best, open);
         return best.z <= enough;
       });
 }
 
 void Locator::Impl::SearchAll(const Ball& ball, Contact& best, OpenLeaves& open) const {
   open.Clear();
-  Search(ball, kInfinity, best, &open);
+  Search(ball, kInfinity, Aim::kHighest, best, open);
   if (open.all.empty() || !(Grazes(best) || IsTie(open.tie, best))) return;
   const double found = best.z;
   Certify(ball, open.all, Grazes(best) ? 1e-6 : 1e-8, best);
   if (Raised(found, best)) equator_raises.fetch_add(1, std::memory_order_relaxed);
+}
+
+Contact Locator::Impl::AnyContact(const Ball& ball, double z, OpenLeaves& open) const {
+  open.Clear();
+  Contact best;
+  best.z = std::max(z, Lowest());  // below nothing changes
+  Search(ball, best.z, Aim::kAny, best, open);
+  if (best.piece >= 0 || !open.doubtful) return best;
+  const double found = best.z;
+  Certify(ball, open.all, 1e-6, best);
+  if (best.piece >= 0 && Raised(found, best)) equator_raises.fetch_add(1, std::memory_order_relaxed);
+  return best;
 }
 
 bool Locator::Impl::Raised(double before, const Contact& c) const {
@@ -89,7 +101,19 @@ bool Locator::Impl::IsOnlyContact(const Contact& best, std::int32_t piece, const
          ball.FreeF();
 }
 
-void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& best, OpenLeaves* open) const {
+void Locator::Impl::NoteMissed(std::span<const SearchResult> ended, const Ball& ball, double z,
+                               OpenLeaves& open) const {
+  for (const SearchResult& e : ended) {
+    open.doubtful = open.doubtful || NearEquator(z, e.p);
+    const double rim2 = radius * radius - (Plan(e.p) - ball.q).squaredNorm();
+    if (!(rim2 > 0.0) || e.p.z() + std::sqrt(rim2) < z - kNearly * radius) continue;
+    if (!open.nearly) open.nearly = e.p;
+    open.doubtful = open.doubtful || (e.p - *open.nearly).norm() > kNearly * radius;
+  }
+}
+
+void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Aim aim, Contact& best,
+                              OpenLeaves& open) const {
   const internal::SearchLeaf& leaf = tree.leaves[index];
   const double free_f = ball.FreeF();
   const Vec3 c = Lift(ball.q, best.z);
@@ -112,11 +136,11 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
   const Vec2 start = at(guess.x, guess.y);
   const SearchResult found =
       internal::RaiseOnPiece(piece, leaf.piece(), rect, start.x(), start.y(), ball, options, best);
-  if (found.out || (open == nullptr && found.improved)) return;  // without list: any contact will do
+  if (found.out || (aim == Aim::kAny && found.improved)) return;
   // One maximum, proven? Then the search has found it.
   const LowerModel raised = found.improved ? internal::BoundBelow(model, Lift(ball.q, best.z)) : lower;
   if (raised.convex) {
-    if (found.convex_minimum < ProofF() && open != nullptr) open->all.push_back(index);
+    if (found.convex_minimum < ProofF()) open.all.push_back(index);
     return;
   }
   if (found.improved && IsOnlyContact(best, leaf.piece(), rect, model, raised, ball)) return;
@@ -130,11 +154,14 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Contact& bes
           internal::RaiseOnPiece(piece, leaf.piece(), rect, corner.x(), corner.y(), ball, options, best);
     }
   }
-  if (open == nullptr) return;
-  open->all.push_back(index);
+  open.all.push_back(index);
+  if (aim == Aim::kAny) {
+    if (best.piece < 0) NoteMissed(ended, ball, best.z, open);
+    return;
+  }
   double highest = -kInfinity;
   for (const SearchResult& e : ended) highest = std::max(highest, RunnerUp(e, ball, best));
-  if (IsTie(highest, best)) open->tie = std::max(open->tie, highest);
+  if (IsTie(highest, best)) open.tie = std::max(open.tie, highest);
 }
 
 absl::StatusOr<Locator> Locator::Make(const Surface& surface, double radius, const RunContext& run) {
@@ -165,10 +192,23 @@ std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hi
 }
 
 bool Locator::Free(const Vec3& c, double slack) const {
-  Contact best;
-  best.z = std::max(c.z() + slack, impl_->Lowest());  // below Lowest() nothing changes
-  impl_->Search(impl_->BallAt(Plan(c)), best.z, best, nullptr);
-  return best.piece < 0;
+  thread_local Impl::OpenLeaves open;
+  return impl_->AnyContact(impl_->BallAt(Plan(c)), c.z() + slack, open).piece < 0;
+}
+
+std::optional<double> Locator::CertifiedFree(const Vec3& c, double eps) const {
+  thread_local Impl::OpenLeaves open;
+  const Ball ball = impl_->BallAt(Plan(c));
+  Contact best = impl_->AnyContact(ball, c.z(), open);
+  if (best.piece >= 0) return std::nullopt;
+  const double found = best.z;
+  const double gap = impl_->Certify(ball, open.all, std::max(eps, 1e-7), best);
+  // What lies within rounding of the ball's surface is as much outside as inside.
+  if (best.piece >= 0 && impl_->Raised(found, best)) {
+    impl_->defects.fetch_add(1, std::memory_order_relaxed);
+    return std::nullopt;
+  }
+  return best.z + gap - found;
 }
 
 std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double eps,

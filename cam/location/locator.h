@@ -13,7 +13,8 @@
 //     differentiable across it. On a part where both forms have positive definite Hessians f is convex, and a
 //     point that satisfies the KKT conditions is its only minimum (T6), wherever the level runs.
 //   - Where the contact lies less than 0.1 R below the centre, every search, lanes included, divides the
-//     leaves that no such proof has closed; elsewhere only CertifiedHeight does.
+//     leaves that no such proof has closed, and so does Free where one of them stands so; elsewhere only
+//     CertifiedHeight and CertifiedFree do.
 //   - Proofs take f >= R (R/2 - d), d = 1e-12 of the scale, for outside: [z, z + gap] holds for the
 //     surface up to d, in heights up to d R / b, at most sqrt(2 R d), b the height of the centre above the
 //     contact.
@@ -63,7 +64,8 @@ class Locator {
   double radius() const;
 
   // h(q); nullopt where no surface point lies within R of q in plan. Error <= 1e-9 mm against closed forms
-  // where the branch and bound closes, always <= 1e-6 mm. `hint`: a contact nearby, only for speed; never
+  // where the branch and bound closes, always <= 1e-6 mm; with a contact near the equator, where heights
+  // answer roundings of the surface by their square root, what those explain (see defect_count). `hint`: a contact nearby, only for speed; never
   // changes the value beyond 1e-9.
   std::optional<CenterPoint> Height(const Vec2& q, const SurfacePoint* hint = nullptr) const;
 
@@ -81,6 +83,10 @@ class Locator {
   // True iff a ball (and everything above it) centred at c is free: h(c_xy) <= c_z + slack. Early-out,
   // cheaper than Height.
   bool Free(const Vec3& c, double slack = 0.0) const;
+
+  // The same with proof: how far the ball has to be lifted at most to be proven free (mm; at most eps as for
+  // CertifiedHeight, or what is left); nullopt where it is not free.
+  std::optional<double> CertifiedFree(const Vec3& c, double eps) const;
 
   // Upper bound of h over the stadium of points within `half_width` (>= 0) of the segment a b in plan, within
   // about `slack` of the true maximum; -infinity where there is nothing. For retract heights.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "cam/location/local_search.h"
@@ -18,11 +20,19 @@ struct Locator::Impl {
   struct OpenLeaves {
     std::vector<std::int32_t> all;
     double tie = -kInfinity;  // the highest centre at which one of them is touched besides the contact
+    // Of a search for any contact: one of them stands near the equator of the ball, or it nearly touches two
+    // places of them.
+    bool doubtful = false;
+    std::optional<Vec3> nearly;  // touched
     void Clear() {
       all.clear();
       tie = -kInfinity;
+      doubtful = false;
+      nearly.reset();
     }
   };
+  // What a search is for: the highest contact, or any, as good as the highest where only a free ball counts.
+  enum class Aim { kHighest, kAny };
   // Centre heights differ by less than kNearly radii: where a ball touches two places of an unproven leaf so
   // nearly at once, a few starts may have missed a third.
   static constexpr double kNearly = 1e-5;
@@ -34,14 +44,18 @@ struct Locator::Impl {
   double Lowest() const { return surface.box.min.z() - radius - 1.0; }
 
   // Raises best.z to h(q) by branch and bound over the leaves. best.z >= Lowest(); stops at the first contact
-  // above `enough`. open receives the leaves whose bound rests on local searches alone; null: any contact of
-  // a leaf is as good as its highest.
-  void Search(const internal::Ball& ball, double enough, internal::Contact& best, OpenLeaves* open) const;
+  // above `enough`. open receives the leaves whose bound rests on local searches alone.
+  void Search(const internal::Ball& ball, double enough, Aim aim, internal::Contact& best,
+              OpenLeaves& open) const;
   // The whole search: where it ends with a contact near the ball's equator, upright ground has too many local
   // maxima for a few starts, and its open leaves are divided until proven, to 1e-6 mm; so they
   // are, to 1e-8 mm, where two contacts tie.
   void SearchAll(const internal::Ball& ball, internal::Contact& best, OpenLeaves& open) const;
-  bool Grazes(const internal::Contact& c) const { return c.piece >= 0 && c.z - c.p.z() < 0.1 * radius; }
+  bool Grazes(const internal::Contact& c) const { return c.piece >= 0 && NearEquator(c.z, c.p); }
+  bool NearEquator(double z, const Vec3& p) const { return z - p.z() < 0.1 * radius; }
+  // A contact of the ball at height z, none where it is free: with the same divisions as SearchAll where
+  // nothing is found.
+  internal::Contact AnyContact(const internal::Ball& ball, double z, OpenLeaves& open) const;
   // A contact above the height found before by more than rounding explains.
   bool Raised(double before, const internal::Contact& c) const;
   // Centre height at which the ball touches where the search ended, if more than kNearly radii away from its
@@ -53,8 +67,11 @@ struct Locator::Impl {
   bool IsOnlyContact(const internal::Contact& best, std::int32_t piece, const internal::Rect& rect,
                      const internal::LeafModel& model, const internal::LowerModel& low,
                      const internal::Ball& ball) const;
-  void VisitLeaf(std::int32_t leaf, const internal::Ball& ball, internal::Contact& best,
-                 OpenLeaves* open) const;
+  void VisitLeaf(std::int32_t leaf, const internal::Ball& ball, Aim aim, internal::Contact& best,
+                 OpenLeaves& open) const;
+  // What a search for any contact leaves of an unproven leaf: where it ended, none of it in the ball's way.
+  void NoteMissed(std::span<const internal::SearchResult> ended, const internal::Ball& ball, double z,
+                  OpenLeaves& open) const;
   void StartFromHint(const internal::Ball& ball, const SurfacePoint& hint, internal::Contact& best) const;
 
   // Proves the open leaves of a finished search, or improves `best`, by subdividing their nets. Returns the

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cam/path/certify_centers.h"
+#include "cam/path/chord_thinning.h"
 #include "cam/path/contour_levels.h"
 #include "cam/path/contour_samples.h"
 #include "cam/path/level_trace.h"
@@ -38,7 +40,10 @@ LevelPasses PassesAt(const LevelContext& context, const PlannedLevel& planned, d
   }
   for (const CutterPath& loop : level.loops) {
     if (run.Cancelled()) break;
-    for (CutterPath& part : ClipLoop(context, loop, clip)) passes.paths.push_back(std::move(part));
+    for (CutterPath& part : ClipLoop(context, loop, clip)) {
+      CertifyCenters(context.locator, CertificateGap(params), part);
+      passes.paths.push_back(std::move(part));
+    }
   }
   return passes;
 }

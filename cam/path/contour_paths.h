@@ -39,7 +39,8 @@ struct ContourResult {
 // only a spot needs them, one level exactly at each flat, silhouette bottom and lower end. A part of a loop
 // is a pass where its contact lies in the slope window (dilated by half a step along the loop), has z <= c,
 // and is interior or lies on an edge or vertex with (c - p)/R inside the normal cone there; all else is
-// clipped with the clip points solved (ALGORITHMS 3, "which part of the zero set is a pass").
+// clipped with the clip points solved (ALGORITHMS 3, "which part of the zero set is a pass"). Every centre is
+// certified (CertifyCenters).
 absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const ContourParams& params,
                                            const RunContext& run);
 

@@ -6,7 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "cam/path/certify_centers.h"
 #include "cam/path/chord_bounds.h"
+#include "cam/path/chord_thinning.h"
 #include "cam/path/level_oracle.h"
 #include "cam/path/level_trace.h"
 #include "cam/path/spacing.h"
@@ -288,6 +290,7 @@ absl::StatusOr<std::vector<CutterPath>> SpiralPaths(const Locator& locator, std:
         spiral.closed = false;
         spiral.spiral = true;
         spiral.points = std::move(points);
+        CertifyCenters(locator, CertificateGap(params), spiral);
         points.clear();
       }
       spirals[t].push_back(std::move(spiral));

@@ -1,6 +1,7 @@
 // Certificates against the lanes on random parts: no certificate ever improves a height that was found, by
 // lanes or by the search it belongs to. PATCHMILL_FUZZ_QUERIES sets how many heights are asked for,
 // PATCHMILL_FUZZ_SEED the number of the first part.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -80,6 +81,8 @@ struct Tally {
   long open = 0;      // gaps that did not close
   long defects = 0;   // as the locator counts them
   long raises = 0;    // by division near the equator, likewise
+  long blocked = 0;   // balls above the certified height that are not free
+  long free = 0;      // balls below it that are
   std::string first;  // where the first went wrong
 };
 
@@ -97,6 +100,8 @@ void Judge(std::uint64_t seed, Tally& tally) {
   }
   std::vector<std::optional<CenterPoint>> heights(places.size());
   Heights(locator, places, heights);
+  // Balls on both sides of the heights, asked for together below.
+  std::vector<Vec3> over, under;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto c = locator.CertifiedHeight(places[i], kEps);
     ++tally.asked;
@@ -115,7 +120,20 @@ void Judge(std::uint64_t seed, Tally& tally) {
     if (heights[i]->z < c->z - rounding) bad(tally.below, "below");
     if (heights[i]->z > c->z + rounding) bad(tally.above, "above");
     if (c->gap > kEps) bad(tally.open, "open");
+    over.push_back(Lift(places[i], c->z + c->gap + rounding));
+    under.push_back(Lift(places[i], c->z - rounding));
+    const auto lift = locator.CertifiedFree(over.back(), kEps);
+    if (!lift || !locator.Free(over.back())) bad(tally.blocked, "blocked");
+    if (lift.value_or(0.0) > kEps) bad(tally.open, "open above");
+    if (locator.CertifiedFree(under.back(), kEps) || locator.Free(under.back())) bad(tally.free, "free");
   }
+  std::vector<std::optional<Vec3>> obstacles(over.size());
+  const auto found = [&](const std::vector<Vec3>& centers) {
+    FindObstacles(locator, centers, obstacles);
+    return std::count_if(obstacles.begin(), obstacles.end(), [](const auto& o) { return o.has_value(); });
+  };
+  tally.blocked += found(over);
+  tally.free += static_cast<long>(under.size()) - found(under);
   tally.raises = static_cast<long>(locator.equator_raise_count());
   if (locator.defect_count() > 0) {
     tally.defects += static_cast<long>(locator.defect_count());
@@ -129,6 +147,8 @@ void ExpectClean(const Tally& all) {
   EXPECT_EQ(all.above, 0) << all.first;
   EXPECT_EQ(all.missing, 0) << all.first;
   EXPECT_EQ(all.open, 0) << all.first;
+  EXPECT_EQ(all.blocked, 0) << all.first;
+  EXPECT_EQ(all.free, 0) << all.first;
   EXPECT_EQ(all.defects, 0) << all.first;
 }
 
@@ -150,6 +170,8 @@ TEST(CertificateFuzz, NoCertificateImprovesAHeight) {
     all.above += t.above;
     all.missing += t.missing;
     all.open += t.open;
+    all.blocked += t.blocked;
+    all.free += t.free;
     all.defects += t.defects;
     if (all.first.empty()) all.first = t.first;
   }
