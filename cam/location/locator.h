@@ -65,8 +65,8 @@ class Locator {
 
   // h(q); nullopt where no surface point lies within R of q in plan. Error <= 1e-9 mm against closed forms
   // where the branch and bound closes, always <= 1e-6 mm; with a contact near the equator, where heights
-  // answer roundings of the surface by their square root, what those explain (see defect_count). `hint`: a contact nearby, only for speed; never
-  // changes the value beyond 1e-9.
+  // answer roundings of the surface by their square root, what those explain (see defect_count). `hint`: a
+  // contact nearby, only for speed; never changes the value beyond 1e-9.
   std::optional<CenterPoint> Height(const Vec2& q, const SurfacePoint* hint = nullptr) const;
 
   // The same with proof: bounds subdivided until the gap is at most eps (mm, >= 1e-7), or eps / 2 and what a
