@@ -1,12 +1,10 @@
 #include "cam/region/border_lines.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <tuple>
 #include <utility>
 
+#include "cam/region/box_grid.h"
 #include "cam/region/catchments.h"
 #include "core/base/status.h"
 #include "core/base/union_find.h"
@@ -56,14 +54,12 @@ class EndPlaces {
  public:
   // Ends within `weld` (mm) of each other are one place; others are looked for up to `reach` (mm) away.
   EndPlaces(double weld, double reach, const std::vector<Strand>& strands)
-      : strands_(strands), reach_(std::max(weld, reach)), sets_(2 * strands.size()) {
-    for (std::size_t end = 0; end < 2 * strands.size(); ++end) ends_.emplace_back(CellOf(At(end)), end);
-    std::sort(ends_.begin(), ends_.end());
-    for (std::size_t end = 0; end < ends_.size(); ++end) {
-      ForNear(end, [&](std::size_t other, double distance) {
-        if (distance <= weld) sets_.Join(end, other);
-      });
-    }
+      : strands_(strands),
+        reach_(std::max(weld, reach)),
+        grid_(PlacesOf(strands), std::max(kCell * reach_, 4.0 * weld)),
+        sets_(2 * strands.size()) {
+    for (std::size_t end = 0; end < Ends(); ++end)
+      ForNear(end, weld, [&](std::size_t other, double) { sets_.Join(end, other); });
   }
 
   // Where a seam is cut differently on its two sides lines end beside each other: loose ends of lines that
@@ -77,9 +73,9 @@ class EndPlaces {
     const std::vector<int> counts = Counts();
     const auto loose = [&](std::size_t end) { return counts[sets_.Find(end)] == 1; };
     std::vector<Pair> pairs;
-    for (std::size_t a = 0; a < ends_.size(); ++a) {
+    for (std::size_t a = 0; a < Ends(); ++a) {
       if (!loose(a)) continue;
-      ForNear(a, [&](std::size_t b, double distance) {
+      ForNear(a, reach_, [&](std::size_t b, double distance) {
         if (a < b && loose(b) && a / 2 != b / 2 && strands_[a / 2].Continues(strands_[b / 2]))
           pairs.push_back({distance, a, b});
       });
@@ -87,17 +83,17 @@ class EndPlaces {
     std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
       return std::tie(x.distance, x.a, x.b) < std::tie(y.distance, y.a, y.b);
     });
-    std::vector<char> taken(ends_.size(), 0);
+    std::vector<char> taken(Ends(), 0);
     for (const Pair& pair : pairs) {
       if (taken[pair.a] || taken[pair.b]) continue;
       taken[pair.a] = taken[pair.b] = 1;
       sets_.Join(pair.a, pair.b);
     }
-    for (std::size_t a = 0; a < ends_.size(); ++a) {
+    for (std::size_t a = 0; a < Ends(); ++a) {
       if (!loose(a) || taken[a]) continue;
       std::size_t best = a;
       double nearest = reach_;
-      ForNear(a, [&](std::size_t b, double distance) {
+      ForNear(a, reach_, [&](std::size_t b, double distance) {
         if (a / 2 == b / 2 || distance > nearest) return;
         if (distance == nearest && b > best) return;
         nearest = distance;
@@ -109,7 +105,7 @@ class EndPlaces {
 
   // A number for the place of every end, 2 for each strand in turn, and how many places there are.
   std::pair<std::vector<std::size_t>, std::size_t> Number() {
-    std::vector<std::size_t> number(ends_.size());
+    std::vector<std::size_t> number(Ends());
     std::size_t count = 0;
     for (std::size_t end = 0; end < number.size(); ++end) {
       const std::size_t set = sets_.Find(end);  // the smallest of them
@@ -119,46 +115,44 @@ class EndPlaces {
   }
 
  private:
+  static constexpr double kCell = 0.25;  // of the reach
+
+  std::size_t Ends() const { return 2 * strands_.size(); }
+
   const Vec3& At(std::size_t end) const {
     const std::vector<Vec3>& points = strands_[end / 2].points;
     return end % 2 == 0 ? points.front() : points.back();
   }
 
-  using Cell = std::array<std::int64_t, 3>;
-  Cell CellOf(const Vec3& p) const {
-    Cell cell;
-    for (int k = 0; k < 3; ++k)
-      cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(std::floor(p[k] / reach_));
-    return cell;
+  static std::vector<Box3> PlacesOf(const std::vector<Strand>& strands) {
+    std::vector<Box3> places;
+    for (const Strand& s : strands) {
+      places.push_back({s.points.front(), s.points.front()});
+      places.push_back({s.points.back(), s.points.back()});
+    }
+    return places;
   }
 
-  // visit(other end, distance) for those within reach.
+  // visit(other end, distance) for those within `reach`.
   template <typename Visit>
-  void ForNear(std::size_t end, const Visit& visit) const {
+  void ForNear(std::size_t end, double reach, const Visit& visit) const {
     const Vec3& p = At(end);
-    const Cell own = CellOf(p);
-    for (const std::int64_t x : {-1, 0, 1}) {
-      for (const std::int64_t y : {-1, 0, 1}) {
-        const Cell first{own[0] + x, own[1] + y, own[2] - 1}, last{own[0] + x, own[1] + y, own[2] + 1};
-        auto at = std::lower_bound(ends_.begin(), ends_.end(), std::make_pair(first, std::size_t{0}));
-        for (; at != ends_.end() && at->first <= last; ++at) {
-          const double distance = (At(at->second) - p).norm();
-          if (at->second != end && distance <= reach_) visit(at->second, distance);
-        }
-      }
-    }
+    grid_.Near(p, reach, [&](std::size_t other) {
+      const double distance = (At(other) - p).norm();
+      if (other != end && distance <= reach) visit(other, distance);
+    });
   }
 
   // How many ends are in each set, by the smallest of them.
   std::vector<int> Counts() {
-    std::vector<int> counts(ends_.size(), 0);
-    for (std::size_t end = 0; end < ends_.size(); ++end) ++counts[sets_.Find(end)];
+    std::vector<int> counts(Ends(), 0);
+    for (std::size_t end = 0; end < Ends(); ++end) ++counts[sets_.Find(end)];
     return counts;
   }
 
   const std::vector<Strand>& strands_;
   double reach_;
-  std::vector<std::pair<Cell, std::size_t>> ends_;  // 2 i and 2 i + 1 of strand i, by cells `reach_` wide
+  BoxGrid grid_;  // of the ends: 2 i and 2 i + 1 of strand i
   UnionFind sets_;
 };
 

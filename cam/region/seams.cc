@@ -1,13 +1,13 @@
 #include "cam/region/seams.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 #include <span>
 
+#include "cam/region/box_grid.h"
 #include "core/base/parallel.h"
 #include "core/base/segment.h"
 #include "core/base/status.h"
@@ -21,70 +21,6 @@ struct BorderSide {
   double sagitta = 0.0;
 
   double Length() const { return (b - a).norm(); }
-};
-
-// Hash grid over the border sides' boxes, in one array: the sides of all cells with one last part of their
-// hash stand together, rising.
-class SideGrid {
- public:
-  SideGrid(const std::vector<BorderSide>& sides, double cell) : cell_(cell) {
-    std::vector<Entry> entries;
-    entries.reserve(3 * sides.size());
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      Box3 box;
-      box.Add(sides[i].a);
-      box.Add(sides[i].b);
-      box.Add(sides[i].mid);
-      VisitCells(box.min, box.max, [&](std::uint64_t hash) { entries.push_back({hash, i}); });
-    }
-    const std::size_t slots = std::bit_ceil(entries.size() + 1);
-    mask_ = slots - 1;
-    first_.assign(slots + 2, 0);
-    for (const Entry& e : entries) ++first_[(e.hash & mask_) + 2];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    entries_.resize(entries.size());
-    for (const Entry& e : entries) entries_[first_[(e.hash & mask_) + 1]++] = e;
-  }
-  template <class Visit>
-  void Near(const Vec3& p, double reach, const Visit& visit) const {
-    VisitCells(p - Vec3::Constant(reach), p + Vec3::Constant(reach), [&](std::uint64_t hash) {
-      const std::size_t slot = hash & mask_;
-      for (std::size_t k = first_[slot]; k < first_[slot + 1]; ++k) {
-        if (entries_[k].hash == hash) visit(entries_[k].side);
-      }
-    });
-  }
-
- private:
-  struct Entry {
-    std::uint64_t hash = 0;
-    std::size_t side = 0;
-  };
-  using Index = std::array<std::int64_t, 3>;
-  Index Key(const Vec3& p) const {
-    return {static_cast<std::int64_t>(std::floor(p.x() / cell_)),
-            static_cast<std::int64_t>(std::floor(p.y() / cell_)),
-            static_cast<std::int64_t>(std::floor(p.z() / cell_))};
-  }
-  static std::uint64_t Hash(const Index& k) {
-    std::uint64_t h = 1469598103934665603ull;
-    for (const std::int64_t x : k) h = (h ^ static_cast<std::uint64_t>(x)) * 1099511628211ull;
-    return h ^ (h >> 32);
-  }
-  template <class Visit>
-  void VisitCells(const Vec3& min, const Vec3& max, const Visit& visit) const {
-    const Index low = Key(min), high = Key(max);
-    for (auto x = low[0]; x <= high[0]; ++x) {
-      for (auto y = low[1]; y <= high[1]; ++y) {
-        for (auto z = low[2]; z <= high[2]; ++z) visit(Hash({x, y, z}));
-      }
-    }
-  }
-
-  double cell_;
-  std::size_t mask_ = 0;
-  std::vector<std::size_t> first_;  // entries of slot k are [first_[k], first_[k + 1])
-  std::vector<Entry> entries_;
 };
 
 // Fills the neighbours of one piece's triangles within it; returns those of its other sides that lie on its
@@ -137,7 +73,7 @@ std::vector<BorderSide> FindInner(const Piece& piece, int index, const SplitMesh
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 // The side that border[k] faces across a seam, or kNone.
-std::size_t Facing(const std::vector<BorderSide>& border, const SideGrid& grid, std::size_t k, double join) {
+std::size_t Facing(const std::vector<BorderSide>& border, const BoxGrid& grid, std::size_t k, double join) {
   const BorderSide& side = border[k];
   std::size_t found = kNone;
   double best = kInfinity;
@@ -178,7 +114,11 @@ absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::v
   double longest = 0.0;
   for (const BorderSide& side : border) longest = std::max(longest, side.Length());
   const double join = std::max(surface.network.join_tolerance, 1e-9);
-  const SideGrid grid(border, std::max(0.25 * longest, 4.0 * join));
+  std::vector<Box3> boxes(border.size());
+  for (std::size_t k = 0; k < border.size(); ++k) {
+    for (const Vec3& p : {border[k].a, border[k].b, border[k].mid}) boxes[k].Add(p);
+  }
+  const BoxGrid grid(boxes, std::max(0.25 * longest, 4.0 * join));
   constexpr std::size_t kAtOnce = 64;  // sides
   std::vector<std::size_t> facing(border.size());
   PM_RETURN_IF_ERROR(
