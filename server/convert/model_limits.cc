@@ -1,0 +1,91 @@
+#include "server/convert/model_limits.h"
+
+#include <algorithm>
+
+#include "core/base/status.h"
+#include "core/patch/patch.h"
+#include "server/convert/fields.h"
+#include "server/convert/network.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+using Numbers = google::protobuf::RepeatedField<double>;
+
+std::size_t Count(const Numbers& numbers) { return static_cast<std::size_t>(numbers.size()); }
+
+struct Sizes {
+  std::size_t points = 0, knots = 0;
+};
+
+// Few breaks cut a patch into many pieces, so it counts with the points of these.
+std::size_t HosakaPoints(const v1::HosakaPatch& patch) {
+  std::size_t columns = 1, rows = 1;
+  for (const v1::HosakaBreak& b : patch.breaks()) ++(b.side() % 2 == 0 ? columns : rows);
+  const auto across = static_cast<std::size_t>(std::clamp(patch.degree() + 4, 7, kMaxDegree + 1));
+  return std::max(Count(patch.points()) / 3, columns * rows * across * across);
+}
+
+// So do those of a Brown quad.
+std::size_t BrownPoints(const v1::BrownPatch& patch) {
+  const std::size_t pieces = (Count(patch.breaks_u()) + 1) * (Count(patch.breaks_v()) + 1);
+  if (pieces == 1) return Count(patch.points()) / 3;
+  const auto across = [](int degree) {
+    return static_cast<std::size_t>(std::clamp(degree, 3, kMaxBrownDegree) + 5);
+  };
+  return std::max(Count(patch.points()) / 3, pieces * across(patch.degree_u()) * across(patch.degree_v()));
+}
+
+Sizes SizesOf(const v1::Patch& patch) {
+  switch (patch.shape_case()) {
+    case v1::Patch::kBezier:
+      return {Count(patch.bezier().points()) / 3, 0};
+    case v1::Patch::kBspline:
+      return {Count(patch.bspline().points()) / 3,
+              Count(patch.bspline().knots_u()) + Count(patch.bspline().knots_v())};
+    case v1::Patch::kGregory:
+      return {Count(patch.gregory().points()) / 3, 0};
+    case v1::Patch::kTriangle:
+      return {Count(patch.triangle().points()) / 3, 0};
+    case v1::Patch::kBrown:
+      return {BrownPoints(patch.brown()), Count(patch.brown().breaks_u()) + Count(patch.brown().breaks_v())};
+    case v1::Patch::kGregoryTriangle:
+      return {Count(patch.gregory_triangle().points()) / 3, 0};
+    case v1::Patch::kLoftTriangle:
+      return {Count(patch.loft_triangle().points()) / 3, 0};
+    case v1::Patch::kG2Gregory:
+      return {Count(patch.g2_gregory().points()) / 3, 0};
+    case v1::Patch::kHosaka:
+      return {HosakaPoints(patch.hosaka()), static_cast<std::size_t>(patch.hosaka().breaks_size())};
+    case v1::Patch::SHAPE_NOT_SET:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+absl::Status CheckLimits(const v1::PatchModel& proto) {
+  const auto patches = static_cast<std::size_t>(proto.patches_size());
+  if (patches > limits::kMaxPatches) {
+    return LimitError("model.patch_count", limits::kMaxPatches, static_cast<double>(patches));
+  }
+  PM_RETURN_IF_ERROR(CheckNetworkLimits(proto.network()));
+  Sizes all;
+  for (const v1::Patch& patch : proto.patches()) {
+    const Sizes sizes = SizesOf(patch);
+    all.points += sizes.points;
+    all.knots += sizes.knots;
+  }
+  if (all.points > limits::kMaxControlPoints) {
+    return LimitError("model.control_point_count", limits::kMaxControlPoints,
+                      static_cast<double>(all.points));
+  }
+  if (all.knots > limits::kMaxKnots) {
+    return LimitError("model.knot_count", limits::kMaxKnots, static_cast<double>(all.knots));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace patchmill

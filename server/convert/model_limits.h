@@ -1,0 +1,13 @@
+// How much a model may hold, counted before anything of it is copied.
+#pragma once
+
+#include <absl/status/status.h>
+
+#include "patchmill/v1/model.pb.h"
+
+namespace patchmill {
+
+// RESOURCE_EXHAUSTED with the first limit of server/limits.h that the model passes.
+absl::Status CheckLimits(const v1::PatchModel& proto);
+
+}  // namespace patchmill
