@@ -34,7 +34,9 @@ struct Surface {
   Surface(Surface&&) = default;
   Surface& operator=(Surface&&) = default;
 
-  PatchNetwork network;  // the model must stay as it is
+  // The model must stay as it is. Its points are kept beside the Bernstein nets of the pieces: parts of the
+  // surface are built from it (PartOf), pieces of some kinds are evaluated by it.
+  PatchNetwork network;
   std::vector<Piece> pieces;
   std::vector<PieceId> first_piece;  // of each patch
   std::vector<SurfaceLeaf> leaves;
