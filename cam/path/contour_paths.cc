@@ -1,5 +1,6 @@
 #include "cam/path/contour_paths.h"
 
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,15 +22,38 @@ constexpr std::size_t kMostLevels = 50000;
 
 struct LevelPasses {
   std::vector<CutterPath> paths;
-  double z = 0.0;
-  int ambiguous = 0;
-  Vec3 ambiguous_at = Vec3::Zero();
+  Diagnostics findings;
 };
+
+Diagnostics FindingsOf(const LevelContours& level, const ContourParams& params) {
+  Diagnostics findings;
+  const auto add = [&](const char* code, Severity severity, std::string message) {
+    Diagnostic& finding = findings.emplace_back();
+    finding.code = code;
+    finding.severity = severity;
+    finding.message = fmt::format("contour at centre height {:.4f} mm: {}", level.z, message);
+    if (level.ambiguous_cells > 0) finding.where.point = level.ambiguous_at;
+  };
+  const double held = kCellsPerResolution * level.cell;
+  if (held > params.resolution * (1.0 + 1e-9)) {
+    add("CONTOUR_COARSE", Severity::kWarning,
+        fmt::format(
+            "a resolution of {:.4g} mm takes too many cells, {:.4g} mm is held: loops and holes below "
+            "that may be missing, and count as material",
+            params.resolution, held));
+  }
+  if (level.ambiguous_cells > 0) {
+    add("CONTOUR_AMBIGUOUS", Severity::kInfo,
+        fmt::format("{} cells of {:.4f} mm, the first here, could not be decided; they count as material",
+                    level.ambiguous_cells, level.cell));
+  }
+  return findings;
+}
 
 LevelPasses PassesAt(const LevelContext& context, const PlannedLevel& planned, double spacing,
                      const ContourParams& params, const RunContext& run) {
   const LevelContours level = TracePasses(context, planned.z, params, run);
-  LevelPasses passes{{}, level.z, level.ambiguous_cells, level.ambiguous_at};
+  LevelPasses passes{{}, FindingsOf(level, params)};
   ClipParams clip;
   clip.window = params.window;
   clip.roll = params.roll;
@@ -77,18 +101,7 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
       path.line = static_cast<int>(i);
       result.paths.push_back(std::move(path));
     }
-    if (passes[i].ambiguous > 0) {
-      Diagnostic finding;
-      finding.code = "CONTOUR_AMBIGUOUS";
-      finding.severity = Severity::kInfo;
-      finding.message = fmt::format(
-          "contour at centre height {:.4f} mm: {} cells of {:.4f} mm, the first here, could not be decided; "
-          "they "
-          "count as material",
-          passes[i].z, passes[i].ambiguous, params.resolution / 8.0);
-      finding.where.point = passes[i].ambiguous_at;
-      result.findings.push_back(std::move(finding));
-    }
+    for (Diagnostic& finding : passes[i].findings) result.findings.push_back(std::move(finding));
   }
   return result;
 }

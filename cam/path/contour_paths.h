@@ -22,8 +22,11 @@ struct ContourParams : PassParams {
 // two contacts are exact, chords are certified (T2 / two discs) to the chord tolerance on both sides. Nothing
 // is clipped yet.
 struct LevelContours {
-  double z = 0.0;  // centre height actually used (a level at a flat moves up by up to 1e-3 mm steps)
+  double z = 0.0;  // centre height actually used (a level at a flat moves up, by 3e-3 mm at most)
   std::vector<CutterPath> loops;
+  // mm, side of the finest cells: an eighth of the resolution asked for. More where that would have taken too
+  // many cells: loops and holes are then found if they hold a disc of eight times this.
+  double cell = 0.0;
   int ambiguous_cells = 0;           // cells below the resolution left undecided, closed on the safe side
   Vec3 ambiguous_at = Vec3::Zero();  // the first of them
 };
@@ -31,9 +34,11 @@ LevelContours TraceLevel(const Locator& locator, double z, const ContourParams& 
                          const RunContext& run);
 
 struct ContourResult {
-  std::vector<CutterPath>
-      paths;             // clipped to what is a pass (see below); `line` is the level's index, 0 highest
-  Diagnostics findings;  // CONTOUR_AMBIGUOUS with place and size
+  // Clipped to what is a pass (see below); `line` is the level's index, 0 highest.
+  std::vector<CutterPath> paths;
+  // By level: CONTOUR_AMBIGUOUS with how many cells were left undecided, their size and a place (info);
+  // CONTOUR_COARSE with the resolution held in place of the one asked for (warning).
+  Diagnostics findings;
 };
 // Levels spaced so that dz = CenterStep sin(slope) holds on all contacts in the window, partial levels where
 // only a spot needs them, one level exactly at each flat, silhouette bottom and lower end. A part of a loop

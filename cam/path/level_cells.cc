@@ -35,7 +35,7 @@ class Search {
   }
 
  private:
-  bool Stopped() const { return out_.overflow || out_.cancelled; }
+  bool Stopped() const { return out_.overflow || out_.exhausted || out_.cancelled; }
 
   // Is the whole cell inside the disc of the deepest point found below its middle?
   bool MiddleCovers(const PlanCell& cell) {
@@ -58,7 +58,7 @@ class Search {
       return;
     }
     if (looked_ > limits_.max_cells) {
-      out_.overflow = true;
+      out_.exhausted = true;
       return;
     }
     const LevelCell here{.x = x, .y = y, .side = side};
@@ -168,10 +168,10 @@ LevelCells FindCells(LevelItems& items, const Surface& surface, const LevelOracl
                      const LevelCellLimits& limits, const RunContext& run, const SlopeWindow* wanted) {
   LevelCells out;
   const Box3& box = surface.box;
+  out.grid.unit = limits.smallest;
   if (box.Empty()) return out;
   const double margin = oracle.radius() + 4.0 * limits.smallest;
   const double extent = std::max(box.max.x() - box.min.x(), box.max.y() - box.min.y()) + 2.0 * margin;
-  out.grid.unit = limits.smallest;
   while (out.grid.levels < 28 && out.grid.unit * (std::int32_t{1} << out.grid.levels) < extent)
     ++out.grid.levels;
   out.grid.unit = std::max(out.grid.unit, extent / (std::int32_t{1} << out.grid.levels));

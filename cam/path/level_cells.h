@@ -52,14 +52,15 @@ struct LevelCells {
   std::vector<std::int32_t> items;  // candidates, slices by cell
   GridMap vertices;                 // corners of all cells ever looked at (T-junctions)
   int ambiguous = 0;
-  bool overflow = false;  // more ambiguous cells (or cells at all) than allowed: nothing here is usable
+  // More ambiguous cells than allowed, more cells looked at than allowed: nothing here is usable.
+  bool overflow = false, exhausted = false;
   bool cancelled = false;
 };
 
 struct LevelCellLimits {
   double smallest = 0.0125;  // mm, side of the finest cells
-  int max_ambiguous = 4000;
-  int max_cells = 400000;  // looked at
+  int max_ambiguous = 4'000;
+  int max_cells = 1'000'000;  // looked at, five for each that is kept: 150 m of contour at R = 3 mm
 };
 
 // The quadtree over the plan box of the surface widened by R. Every loop or hole of the level that is not in

@@ -69,7 +69,7 @@ void LevelItems::Collect(const std::vector<std::int32_t>& candidates, const Plan
       const SurfaceNode& n = surface_.nodes[static_cast<std::size_t>(node)];
       if (width > radius_) {
         const LevelBounds::NodeBox& box = bounds_.nodes()[static_cast<std::size_t>(node)];
-        if (n.leaf >= 0 || std::max(box.max[0] - box.min[0], box.max[1] - box.min[1]) <= 0.5 * width) {
+        if (std::max(box.max[0] - box.min[0], box.max[1] - box.min[1]) <= 0.5 * width) {
           out.push_back(index);
           continue;
         }

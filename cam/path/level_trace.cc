@@ -10,8 +10,7 @@
 namespace patchmill {
 namespace {
 
-constexpr double kCellsPerResolution = 8.0;  // finest cells; ALGORITHMS 11's table: 0.0125 for 0.1 mm
-constexpr double kShift = 1e-3;              // mm upward, away from a flat at the level
+constexpr double kShift = 1e-3;  // mm upward, away from a flat at the level
 // rad: ground this far outside of the window is still traced, for the overlap at the ends of passes.
 constexpr double kWindowMargin = Radians(15.0);
 constexpr int kMostShifts = 3;  // then the finest cells grow instead
@@ -29,19 +28,24 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
   level.z = z;
   LevelCellLimits limits;
   limits.smallest = params.resolution / kCellsPerResolution;
-  for (int attempt = 0; !run.Cancelled(); ++attempt) {
+  for (int shifts = 0; !run.Cancelled();) {
     LevelItems items(context.locator, context.sides, context.bounds, level.z);
     const LevelOracle oracle(context.locator, context.sides, level.z);
     LevelCells cells = FindCells(items, context.locator.surface(), oracle, limits, run, wanted);
     if (cells.cancelled) return level;
-    if (cells.overflow) {
+    if (cells.overflow && shifts < kMostShifts) {
       level.z += kShift;
-      if (attempt >= kMostShifts) limits.smallest *= 2.0;
+      ++shifts;
+      continue;
+    }
+    if (cells.overflow || cells.exhausted) {
+      limits.smallest *= 2.0;
       continue;
     }
     const LoopTolerance tolerance{
         std::max(params.chord_tolerance - params.certificate_gap, 0.5 * params.chord_tolerance),
         params.chord_tolerance};
+    level.cell = cells.grid.unit;
     level.ambiguous_cells = cells.ambiguous;
     const auto first = std::find_if(cells.cells.begin(), cells.cells.end(),
                                     [](const LevelCell& cell) { return cell.ambiguous; });

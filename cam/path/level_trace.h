@@ -6,6 +6,9 @@
 
 namespace patchmill {
 
+// Sides of the finest cells to the resolution; 0.0125 mm for 0.1 mm, as ALGORITHMS 11 has it.
+inline constexpr double kCellsPerResolution = 8.0;
+
 // What does not depend on the level. References are kept by those who use it; const after construction.
 struct LevelContext {
   // Cost about 3 us a leaf of the surface, parallel. Unusable when the run was cancelled meanwhile.

@@ -149,5 +149,129 @@ TEST(ContourLimits, HolesAsWideAsTheTool) {
   }
 }
 
+// Two upright sheets without thickness, `length` long, with `width` more than the tool between them.
+PatchModel Gap(double width, double length) {
+  const double x = kR + 0.5 * width, y = 0.5 * length;
+  const auto sheet = [&](double at) {
+    return testing::Single(testing::Bilinear({at, -y, 0}, {at, y, 0}, {at, -y, 8}, {at, y, 8}));
+  };
+  return testing::Join({sheet(-x), sheet(x)});
+}
+
+bool CountsAsMaterial(const LevelContours& level, const Vec2& q) {
+  int winding = 0;
+  for (const CutterPath& loop : level.loops) winding += testing::Winding(loop, q);
+  return winding == -1;
+}
+
+// What is free by less than a cell, or not free by as little, is left standing: its cells are counted, the
+// first is named, and the ball stays out.
+TEST(ContourLimits, WhatCannotBeDecidedCountsAsMaterial) {
+  for (const double width : {-1e-6, 0.0, 1e-6, 1e-3}) {
+    SCOPED_TRACE(width);
+    const Level gap(Gap(width, 10.0));
+    const double cell = gap.params.resolution / 8.0;
+    const LevelContours level = gap.At(5.0, cell);
+    EXPECT_EQ(level.cell, cell);
+    EXPECT_GE(level.ambiguous_cells, 10.0 / cell);  // all along the gap
+    EXPECT_NEAR(level.ambiguous_at.x(), 0.0, cell);
+    EXPECT_LE(std::abs(level.ambiguous_at.y()), 5.0 + 0.1);
+    EXPECT_EQ(level.ambiguous_at.z(), 5.0);
+    ASSERT_EQ(level.loops.size(), 1u);
+    for (const double y : {-4.9, 0.0, 3.3}) EXPECT_TRUE(CountsAsMaterial(level, {0.0, y}));
+  }
+  // As wide as the resolution, the gap is free: two loops, and nothing is left undecided.
+  const Level open(Gap(0.1, 10.0));
+  const LevelContours level = open.At(5.0);
+  EXPECT_EQ(level.loops.size(), 2u);
+  EXPECT_EQ(level.ambiguous_cells, 0);
+  EXPECT_FALSE(CountsAsMaterial(level, Vec2::Zero()));
+  // The neck between two spheres at the height of the saddle.
+  const Level spheres(testing::TwoSpheres(5.0, 10.0));
+  const double saddle = std::sqrt(39.0);
+  for (const double off : {-1e-6, 0.0, 1e-6}) {
+    const LevelContours neck = spheres.At(saddle + off, spheres.params.resolution / 8.0);
+    EXPECT_GT(neck.ambiguous_cells, 0);
+    EXPECT_LE(Plan(neck.ambiguous_at).norm(), 0.5);
+    EXPECT_TRUE(CountsAsMaterial(neck, Vec2::Zero()));
+  }
+}
+
+// Passes between `bottom` and the rims of the sheets.
+absl::StatusOr<ContourResult> PassesOf(const Level& part) {
+  ContourParams params = part.params;
+  params.scallop = 0.1;
+  return ContourPaths(part.locator, params, RunContext());
+}
+
+TEST(ContourLimits, FindingsTellWhatWasNotDecided) {
+  const Level gap(Gap(1e-6, 10.0));
+  const auto result = PassesOf(gap);
+  ASSERT_TRUE(result.ok()) << result.status();
+  ASSERT_FALSE(result->paths.empty());
+  ASSERT_FALSE(result->findings.empty());
+  for (const Diagnostic& finding : result->findings) {
+    EXPECT_EQ(finding.code, "CONTOUR_AMBIGUOUS");
+    EXPECT_EQ(finding.severity, Severity::kInfo);
+    EXPECT_NE(finding.message.find(" cells of 0.0125 mm"), std::string::npos) << finding.message;
+    ASSERT_TRUE(finding.where.point.has_value());
+    EXPECT_NEAR(finding.where.point->x(), 0.0, 0.0125);
+    EXPECT_LE(std::abs(finding.where.point->y()), 5.1);
+  }
+  const Locator smaller(gap.surface, kR - 1.001 * gap.params.chord_tolerance);
+  for (const CutterPath& path : result->paths) {
+    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+      const Vec3 &a = path.points[i].center, &b = path.points[i + 1].center;
+      for (const double t : {0.0, 0.25, 0.5, 0.75}) EXPECT_TRUE(smaller.Free(a + t * (b - a), 1e-9));
+      EXPECT_FALSE(a.z() < 8.0 && std::abs(a.x()) < 1.0 && std::abs(a.y()) < 4.9) << a.transpose();
+    }
+  }
+  const auto open = PassesOf(Level(Gap(0.2, 10.0)));
+  ASSERT_TRUE(open.ok());
+  EXPECT_TRUE(open->findings.empty()) << open->findings[0].message;
+}
+
+// A gap so long that its undecided cells are too many: cells of twice the side, and that is said.
+TEST(ContourLimits, ALostResolutionIsSaid) {
+  const Level gap(Gap(1e-6, 80.0));
+  const LevelContours level = gap.At(5.0, gap.params.resolution / 4.0);
+  EXPECT_EQ(level.cell, gap.params.resolution / 4.0);
+  EXPECT_GT(level.ambiguous_cells, 80.0 / level.cell);
+  EXPECT_NEAR(level.z, 5.0, 3.001e-3);
+  EXPECT_EQ(level.loops.size(), 1u);
+  EXPECT_TRUE(CountsAsMaterial(level, Vec2::Zero()));
+  const auto result = PassesOf(gap);
+  ASSERT_TRUE(result.ok()) << result.status();
+  int coarse = 0;
+  for (const Diagnostic& finding : result->findings) {
+    if (finding.code == "CONTOUR_COARSE") {
+      ++coarse;
+      EXPECT_EQ(finding.severity, Severity::kWarning);
+      EXPECT_NE(finding.message.find("0.1 mm takes too many cells, 0.2 mm is held"), std::string::npos)
+          << finding.message;
+      ASSERT_TRUE(finding.where.point.has_value());
+      EXPECT_NEAR(finding.where.point->x(), 0.0, 0.025);
+    } else {
+      EXPECT_EQ(finding.code, "CONTOUR_AMBIGUOUS");
+      EXPECT_NE(finding.message.find(" cells of 0.0250 mm"), std::string::npos) << finding.message;
+    }
+  }
+  EXPECT_GT(coarse, 0);
+}
+
+// Large flats with open borders and a small tool: what is looked at grows with the border, not with the flat.
+TEST(ContourLimits, LargePlatesKeepTheResolution) {
+  const double a = 150.0, radius = 0.3, rho = 0.2;
+  const Level plate(testing::Plane(a), radius);
+  const double c = std::sqrt(radius * radius - rho * rho);
+  const LevelContours level = plate.At(c);
+  EXPECT_EQ(level.cell, plate.params.resolution / 8.0);
+  EXPECT_EQ(level.z, c);
+  EXPECT_EQ(level.ambiguous_cells, 0);
+  ASSERT_EQ(level.loops.size(), 1u);
+  for (const CutterPoint& p : level.loops[0].points)
+    EXPECT_NEAR(RectangleDistance(Plan(p.center), a, a), rho, 1e-9);
+}
+
 }  // namespace
 }  // namespace patchmill
