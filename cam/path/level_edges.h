@@ -7,7 +7,7 @@
 //    signs at the ends hide a pair of crossings, the contour between these has all its tangents within a
 //    quarter turn of the stretch: it stays in the right-angled triangle over the pair, of height <= l/2. No
 //    vertex and no other edge reaches in there (both cells are at least l wide), so that the pair can be
-//    removed by moving the contour there and the rest keeps its topology.
+//    removed by moving the contour there and the rest keeps its topology (the proof: docs/contours.md).
 // Else the stretch is halved, down to 2e-4 mm, or a quarter of the finest cell where more of the surface
 // would have to be looked at than is worth it.
 #pragma once
