@@ -8,6 +8,10 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 
 # P5, same bytes: no contraction of a*b+c (it differs by processor), no fast-math, no -march=native.
 add_compile_options(-ffp-contract=off -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+# Eigen asks for such instructions by name where the processor is known to have them; ARM's compilers tell by this macro.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  add_compile_options(-U__ARM_FEATURE_FMA)
+endif()
 # g++ 12 raises these two falsely inside Eigen and std::variant at -O3.
 add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
 option(PATCHMILL_WERROR "Warnings are errors" ON)
