@@ -12,7 +12,7 @@
 //   - Above the centre f measures in plan: f = 1/2 |p - c|^2 below its level, 1/2 |p_xy - c_xy|^2 above, once
 //     differentiable across it. On a part where both forms have positive definite Hessians f is convex, and a
 //     point that satisfies the KKT conditions is its only minimum (T6), wherever the level runs.
-//   - Where the contact lies less than 0.1 R below the centre, every search, lanes included, divides the
+//   - Where the contact lies less than 0.2 R below the centre, every search, lanes included, divides the
 //     leaves that no such proof has closed, and so does Free where one of them stands so; elsewhere only
 //     CertifiedHeight and CertifiedFree do.
 //   - Proofs take f >= R (R/2 - d), d = 1e-12 of the scale, for outside: [z, z + gap] holds for the

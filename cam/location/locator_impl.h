@@ -51,8 +51,11 @@ struct Locator::Impl {
   // maxima for a few starts, and its open leaves are divided until proven, to 1e-6 mm; so they
   // are, to 1e-8 mm, where two contacts tie.
   void SearchAll(const internal::Ball& ball, internal::Contact& best, OpenLeaves& open) const;
+  // Radii below the centre: contacts above are near the equator. Ten million heights found a maximum missed
+  // at 0.13, none lower.
+  static constexpr double kEquator = 0.2;
   bool Grazes(const internal::Contact& c) const { return c.piece >= 0 && NearEquator(c.z, c.p); }
-  bool NearEquator(double z, const Vec3& p) const { return z - p.z() < 0.1 * radius; }
+  bool NearEquator(double z, const Vec3& p) const { return z - p.z() < kEquator * radius; }
   // A contact of the ball at height z, none where it is free: with the same divisions as SearchAll where
   // nothing is found.
   internal::Contact AnyContact(const internal::Ball& ball, double z, OpenLeaves& open) const;

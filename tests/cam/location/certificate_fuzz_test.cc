@@ -208,6 +208,14 @@ TEST(CertificateFuzz, MaximaBesideBorders) {
   ExpectClean(tally);
 }
 
+// Two maxima 0.13 R below the centre in one unproven leaf, the higher one 5e-4 mm above the one on the leaf's
+// border that every start ended at: such ground counts as near the equator.
+TEST(CertificateFuzz, SteepGround) {
+  Tally tally;
+  Judge(50061, tally);
+  ExpectClean(tally);
+}
+
 // A ball that rests on a singular corner of a part of 107 m: only division closes the gap there, 70 halvings.
 TEST(CertificateFuzz, SingularCornerOfAHugePart) {
   Tally tally;
