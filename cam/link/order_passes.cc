@@ -51,12 +51,14 @@ int KindRank(PassKind kind) {
       return 0;
     case PassKind::kZigzag:
       return 1;
-    case PassKind::kCrease:
+    case PassKind::kBorder:
       return 2;
-    case PassKind::kRest:
+    case PassKind::kCrease:
       return 3;
+    case PassKind::kRest:
+      return 4;
   }
-  return 3;
+  return 4;
 }
 
 struct End {

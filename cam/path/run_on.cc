@@ -27,7 +27,8 @@ absl::StatusOr<std::vector<CutterPath>> RunOn(const Locator& locator, std::vecto
   };
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, paths.size(), [&](std::size_t i) {
     std::vector<CutterPoint>& points = paths[i].points;
-    if (paths[i].closed || points.size() < 2) return;
+    // Passes along a border end on it, but do not leave it.
+    if (paths[i].closed || paths[i].kind == PassKind::kBorder || points.size() < 2) return;
     const auto first = beyond(points.front(), points[1]);
     const auto last = beyond(points.back(), points[points.size() - 2]);
     if (first) points.insert(points.begin(), *first);

@@ -7,8 +7,8 @@
 namespace patchmill {
 
 std::size_t StyleOf(const PreviewInput& input, const Move& move) {
-  if (move.kind == MoveKind::kRapid) return 5;
-  if (move.kind != MoveKind::kCut) return 4;
+  if (move.kind == MoveKind::kRapid) return kRapidStyle;
+  if (move.kind != MoveKind::kCut) return kLinkStyle;
   const auto pass = static_cast<std::size_t>(std::max(0, move.pass));
   return pass < input.pass_kinds.size() ? static_cast<std::size_t>(input.pass_kinds[pass]) : 0;
 }
@@ -18,7 +18,7 @@ void DrawMoves(const PreviewInput& input, const View& view, std::size_t style, d
   const Vec3 tip(0, 0, -path.ball_radius);
   const MoveStyle& s = kMoveStyles[style];
   svg.OpenGroup(fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\"{}",
-                            s.color, style >= 4 ? 0.5 : 0.45, style == 5 ? 0.5 : 0.9,
+                            s.color, style >= kLinkStyle ? 0.5 : 0.45, style == kRapidStyle ? 0.5 : 0.9,
                             *s.dash ? fmt::format(" stroke-dasharray=\"{}\"", s.dash) : std::string()));
   std::vector<Vec2> points;
   const auto flush = [&] {

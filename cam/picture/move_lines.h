@@ -15,13 +15,16 @@ struct MoveStyle {
   const char* dash;
 };
 
-// The first four are pass kinds.
-inline constexpr std::array<MoveStyle, 6> kMoveStyles{{{"zig-zag passes", "#1f4e9c", ""},
+// Those of cuts are pass kinds, in their order.
+inline constexpr std::array<MoveStyle, 7> kMoveStyles{{{"zig-zag passes", "#1f4e9c", ""},
                                                        {"contour passes", "#9c2f1f", ""},
+                                                       {"border passes", "#5d7a00", ""},
                                                        {"crease passes", "#7a1fa2", ""},
                                                        {"rest passes", "#00796b", ""},
                                                        {"links and leads", "#e09000", "2,1.5"},
                                                        {"rapids", "#d0208f", "4,3"}}};
+inline constexpr std::size_t kRapidStyle = kMoveStyles.size() - 1, kLinkStyle = kRapidStyle - 1;
+static_assert(static_cast<std::size_t>(PassKind::kRest) + 1 == kLinkStyle);
 
 // Which of them a move is drawn in.
 std::size_t StyleOf(const PreviewInput& input, const Move& move);

@@ -171,7 +171,11 @@ std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes) {
     const double apart =
         std::clamp(0.5 * 14.0 * vertices / std::max(1.0, static_cast<double>(left)), 0.6, 12.0);
     for (std::size_t k = 0; k < 2; ++k) {
-      for (const std::size_t style : {5, 4, 0, 1, 2, 3}) DrawMoves(input, panels[k].view, style, apart, svg);
+      // Rapids first, then links; cuts lie over them.
+      DrawMoves(input, panels[k].view, kRapidStyle, apart, svg);
+      DrawMoves(input, panels[k].view, kLinkStyle, apart, svg);
+      for (std::size_t style = 0; style < kLinkStyle; ++style)
+        DrawMoves(input, panels[k].view, style, apart, svg);
     }
   }
   for (std::size_t k = 0; k < 2; ++k) {

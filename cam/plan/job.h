@@ -84,9 +84,10 @@ struct Operation {
   double zigzag_angle = 0.0;
   bool one_way = false;  // zig-zag lines run along their angle only
   double zigzag_bend =
-      Radians(20.0);        // rad, how far lines may turn from their angle (BendLines); 0: straight
-  bool angle_auto = false;  // each region's lines in the direction that takes the least time
-  bool spirals = false;     // contours one below the other become one pass (SpiralPaths)
+      Radians(20.0);          // rad, how far lines may turn from their angle (BendLines); 0: straight
+  bool angle_auto = false;    // each region's lines in the direction that takes the least time
+  bool border_passes = true;  // along the borders that lines run along (BorderPasses)
+  bool spirals = false;       // contours one below the other become one pass (SpiralPaths)
   double detail = RegionParams().detail;
   CutDirection contour_direction = CutDirection::kClimb;
   EdgeRule edge_rule = EdgeRule::kStop;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "cam/path/border_passes.h"
 #include "cam/path/contour_paths.h"
 #include "cam/path/coverage.h"
 #include "cam/path/keep_in_clip.h"
@@ -90,6 +91,45 @@ class PassMaker {
     return absl::OkStatus();
   }
 
+  // Along the borders that end the lines of this choice: the edge of the surface, the floor, and ground that
+  // is cut in another way or not at all. Limits of the operation and of the ball's own shape are none: the
+  // ball cannot stand on them.
+  absl::Status AddBorders(const RegionMap& regions, const std::vector<RegionChoice>& choices,
+                          const RegionChoice& choice, const KeepIn* keep_in, PlannedPasses& planned) const {
+    const auto region = [&](int id) -> const Region& {
+      return regions.regions[static_cast<std::size_t>(id)];
+    };
+    const auto has_lines = [&](int id) {
+      if (id < 0 || region(id).kind == RegionKind::kUnreachable) return false;
+      const RegionChoice& own = choices[static_cast<std::size_t>(id)];
+      return !own.skip && (own.strategy == Strategy::kZigzag ||
+                           (own.strategy == Strategy::kAuto && region(id).slope == SlopeClass::kGentle));
+    };
+    const auto ends = [&](int id, int other) {
+      if (!has_lines(id) || !(choices[static_cast<std::size_t>(id)] == choice) || has_lines(other))
+        return false;
+      return other < 0 || region(other).kind != RegionKind::kUnreachable ||
+             region(other).reason == UnreachableReason::kFloor;
+    };
+    std::vector<BorderCurve> borders;
+    for (const BorderLine& line : regions.border_lines) {
+      if (ends(line.region, line.other) || (line.other >= 0 && ends(line.other, line.region)))
+        borders.push_back({line.points, line.closed});
+    }
+    if (borders.empty()) return absl::OkStatus();
+    PassParams params;
+    SetPass(choice, params);
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> passes,
+                        BorderPasses(locator_, borders, planned.paths, params, run_));
+    if (keep_in != nullptr) {
+      const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
+      PM_ASSIGN_OR_RETURN(passes, ClipToKeepIn(locator_, *keep_in, std::move(passes), reach, run_));
+      std::erase_if(passes, [&](const CutterPath& pass) { return Length(pass) < 4.0 * reach; });
+    }
+    Append(planned.paths, std::move(passes));
+    return absl::OkStatus();
+  }
+
   absl::Status AddRest(const RegionChoice& choice, const KeepIn* keep_in, PlannedPasses& planned) const {
     CoverageParams params;
     SetPass(choice, params);
@@ -147,6 +187,7 @@ PassParams MakePassParams(const Job& job, const Resolved& resolved) {
 }
 
 absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions,
+                                         const std::vector<RegionChoice>& choices,
                                          const std::vector<PlanPart>& parts, const Job& job,
                                          const Resolved& resolved, const KeepIn* keep_in,
                                          const RunContext& run) {
@@ -161,6 +202,11 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
       own[k].emplace(std::move(within));
     }
     PM_RETURN_IF_ERROR(maker.AddStrategies(parts[k].choice, limits(k), planned));
+  }
+  if (job.operation.border_passes) {
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      PM_RETURN_IF_ERROR(maker.AddBorders(regions, choices, parts[k].choice, limits(k), planned));
+    }
   }
   // After all of them: along a border the passes of one part finish some of the next.
   for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -20,11 +20,13 @@ struct PlannedPasses {
 
 PassParams MakePassParams(const Job& job, const Resolved& resolved);
 
-// `keep_in`: what is wanted and allowed; null: all of it, and there is one part. Part by part contours over
-// the steep ground, zig-zag lines over the gentle one (or one of them over all, when forced), then crease and
-// rest passes wherever more than the part's scallop would stay; each labelled with the region most of it lies
-// in.
+// `parts`: of the regions and their `choices` (PartsOf). `keep_in`: what is wanted and allowed; null: all of
+// it, and there is one part. Part by part contours over the steep ground, zig-zag lines over the gentle one
+// (or one of them over all, when forced), then passes along borders that lines run along
+// (Operation.border_passes), then crease and rest passes wherever more than the part's scallop would stay;
+// each labelled with the region most of it lies in.
 absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions,
+                                         const std::vector<RegionChoice>& choices,
                                          const std::vector<PlanPart>& parts, const Job& job,
                                          const Resolved& resolved, const KeepIn* keep_in,
                                          const RunContext& run);

@@ -193,7 +193,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
       const std::vector<PlanPart> tried = PartsOf(result.regions, choices);
       const KeepIn* within = limits_of(tried);
       PM_ASSIGN_OR_RETURN(PlannedPasses passes,
-                          PlanPasses(locator, result.regions, tried, job, resolved, within, run));
+                          PlanPasses(locator, result.regions, choices, tried, job, resolved, within, run));
       PM_ASSIGN_OR_RETURN(const LinkResult motion, LinkPaths(locator, result.regions, std::move(passes.paths),
                                                              MakeLinkParams(job, resolved, within), run));
       return TimesOf(motion, result.regions.regions.size());
@@ -206,7 +206,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   const std::vector<PlanPart> parts = PartsOf(result.regions, report.choices);
   const KeepIn* limits = limits_of(parts);
   PM_ASSIGN_OR_RETURN(PlannedPasses planned,
-                      PlanPasses(locator, result.regions, parts, job, resolved, limits, run));
+                      PlanPasses(locator, result.regions, report.choices, parts, job, resolved, limits, run));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
   const auto count_defects = [&] {
     report.certificate_defects = locator.defect_count();

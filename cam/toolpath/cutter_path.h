@@ -8,7 +8,8 @@
 
 namespace patchmill {
 
-enum class PassKind { kZigzag, kContour, kCrease, kRest };
+// kBorder: along the border of what lines cover.
+enum class PassKind { kZigzag, kContour, kBorder, kCrease, kRest };
 
 // A ball centre, gouge-free, and what it touches.
 struct CutterPoint {

@@ -199,6 +199,7 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   op.set_zigzag_bend_deg(options.bend);
   op.set_one_way_lines(options.one_way);
   op.set_contour_spirals(options.spirals);
+  op.set_border_passes(!options.no_border_passes);
   op.set_zigzag_angle_auto(options.auto_angle);
   op.set_edge_rule(MakeEdgeRule(options.edges));
   op.set_detail(options.detail);

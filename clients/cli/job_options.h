@@ -27,7 +27,7 @@ struct OperationOptions {
   double tool_diameter = 6.0, scallop = 0.01, tolerance = 0.01, leave = 0.0, steep_angle = 45.0;
   std::string strategy = "auto", direction = "climb", coolant = "off", edges = "stop";
   double zigzag_angle = 0.0, bend = 20.0, clearance = 5.0, detail = 0.5;
-  bool one_way = false, spirals = false, auto_angle = false;
+  bool one_way = false, spirals = false, auto_angle = false, no_border_passes = false;
   std::optional<double> floor, feed, plunge_feed, spindle;
   int tool_number = 1;
 };

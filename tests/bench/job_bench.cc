@@ -22,8 +22,8 @@ absl::StatusOr<JobResult> RunVerified(const Surface& surface, const Job& job) {
 }
 
 // m of passes of each kind.
-std::array<double, 4> LengthsByKind(const LinkResult& motion) {
-  std::array<double, 4> lengths{};
+std::array<double, 5> LengthsByKind(const LinkResult& motion) {
+  std::array<double, 5> lengths{};
   for (const CutterPath& pass : motion.passes)
     lengths[static_cast<std::size_t>(pass.kind)] += 1e-3 * Length(pass);
   return lengths;
@@ -41,7 +41,7 @@ void MeasureJob(benchmark::State& state, Part part) {
   const Job job = JobOf(part);
   double moves = 0.0, bytes = 0.0;
   JobReport report;
-  std::array<double, 4> lengths{};
+  std::array<double, 5> lengths{};
   ResetPeakMemory();
   for (auto _ : state) {
     const auto result = RunFromModel(model, job);
@@ -57,6 +57,7 @@ void MeasureJob(benchmark::State& state, Part part) {
   state.counters["over_least"] = report.verify.cut_length / report.least_feed;
   state.counters["lines_m"] = lengths[static_cast<std::size_t>(PassKind::kZigzag)];
   state.counters["contours_m"] = lengths[static_cast<std::size_t>(PassKind::kContour)];
+  state.counters["borders_m"] = lengths[static_cast<std::size_t>(PassKind::kBorder)];
   state.counters["rest_m"] = lengths[static_cast<std::size_t>(PassKind::kCrease)] +
                              lengths[static_cast<std::size_t>(PassKind::kRest)];
   state.counters["retracts"] = static_cast<double>(report.motion.retract_count);

@@ -348,6 +348,7 @@ Request Unusual() {
   op.set_detail(0.25);
   op.set_contour_direction(v1::CUT_DIRECTION_EITHER);
   op.set_contour_spirals(true);
+  op.set_border_passes(false);
   op.set_zigzag_angle_auto(false);
   op.set_zigzag_bend_deg(12.5);
   op.set_edge_rule(v1::EDGE_RULE_ROLL);
@@ -447,6 +448,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_scallop_mm(0.125); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_one_way_lines(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_contour_spirals(true); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_border_passes(false); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_zigzag_angle_auto(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_zigzag_bend_deg(0); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_edge_rule(v1::EDGE_RULE_EXTEND); }));

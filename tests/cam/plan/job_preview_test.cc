@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cam/picture/move_lines.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
 
@@ -59,6 +60,30 @@ TEST_F(RegionPicture, LeavesOutWhatIsSkipped) {
   change.skip = true;
   job_.operation.overrides = {change};
   EXPECT_THAT(Draw(), AllOf(HasSubstr("neutral, steep"), Not(HasSubstr("neutral, gentle"))));
+}
+
+// Every kind of move in the legend is drawn, in both views: a group of its colour that is not empty.
+TEST_F(RegionPicture, ShowsEveryKindOfMove) {
+  job_.operation.zigzag_angle = Radians(5);
+  job_.operation.scallop = 0.05;
+  const Surface surface = PlacedSurface(model_);
+  const JobResult result = Mill(surface, job_);
+  const auto resolved = Resolve(surface, job_);
+  ASSERT_TRUE(resolved.ok()) << resolved.status();
+  const std::string picture = DrawJob(surface, result, *resolved, "roof");
+  int kinds = 0;
+  for (const MoveStyle& style : kMoveStyles) {
+    if (picture.find(std::string(">") + style.name + "<") == std::string::npos) continue;
+    ++kinds;
+    const std::string group = std::string("<g fill=\"none\" stroke=\"") + style.color;
+    int drawn = 0;
+    for (std::size_t at = picture.find(group); at != std::string::npos; at = picture.find(group, at + 1)) {
+      const std::size_t inside = picture.find('\n', at) + 1;
+      drawn += picture.compare(inside, 9, "<polyline") == 0;
+    }
+    EXPECT_GE(drawn, 2) << style.name;
+  }
+  EXPECT_GE(kinds, 5);  // lines, contours, borders, links, rapids
 }
 
 }  // namespace
