@@ -64,7 +64,7 @@ void MeasureAngles(const EdgeCurves& curves, const RunContext& run, std::vector<
     const auto& back = links[At(index(*neighbor))].neighbor;
     return !(back && *back == links[At(e)].self && index(*neighbor) < e);
   };
-  (void)ParallelFor(run, nullptr, links.size(), [&](std::size_t k) {
+  (void)ParallelFor(run, "joins: angles", links.size(), [&](std::size_t k) {
     const int e = static_cast<int>(k);
     if (!measures(e)) return;
     links[k].max_angle = MaxAngle(curves, e, index(*links[k].neighbor), links[k].reversed);

@@ -128,7 +128,7 @@ EdgeCurves::EdgeCurves(const PatchModel& model, const RunContext& run) : model_(
   first_sample_.push_back(samples);
   samples_.resize(samples);
   // A cancelled run leaves zeros behind; BuildNetwork checks it next.
-  (void)ParallelFor(run, nullptr, edges_.size(), [&](std::size_t e) {
+  (void)ParallelFor(run, "joins: edges", edges_.size(), [&](std::size_t e) {
     const std::size_t begin = first_sample_[e], end = first_sample_[e + 1];
     const double steps = static_cast<double>(end - begin - 1);
     for (std::size_t i = begin; i < end; ++i) {

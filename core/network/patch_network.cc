@@ -177,6 +177,11 @@ const EdgeLink& PatchNetwork::Link(PatchEdge edge) const {
 }
 
 absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& run) {
+  const auto done = [&run](double fraction) {
+    run.Progress("joins", fraction);
+    return run.Check();
+  };
+  PM_RETURN_IF_ERROR(done(0.0));
   const Diagnostics faults = ValidateModel(model);
   if (!faults.empty()) return FaultsAsStatus(faults);
   PatchNetwork network;
@@ -185,8 +190,9 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
   const double tolerance = network.model.join_tolerance.value_or(kDefaultJoinTolerance * diagonal);
   network.join_tolerance = tolerance;
 
+  PM_RETURN_IF_ERROR(done(0.1));
   const EdgeCurves curves(network.model, run);
-  PM_RETURN_IF_ERROR(run.Check());
+  PM_RETURN_IF_ERROR(done(0.3));
   network.first_edge = curves.first_edge();
   std::vector<Vec3> edge_ends;
   for (int e = 0; e < curves.count(); ++e) {
@@ -194,12 +200,13 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
     edge_ends.push_back(curves.end(e));
   }
   const CornerVertices corners = MergeCorners(edge_ends, tolerance);
+  PM_RETURN_IF_ERROR(done(0.4));
   const std::vector<EdgeEnds> ends = EdgeEndVertices(curves, corners);
   const EdgeClusters clusters = ClusterEdges(curves, ends, tolerance, run);
-  PM_RETURN_IF_ERROR(run.Check());
+  PM_RETURN_IF_ERROR(done(0.5));
   const auto duplicate_of = FindDuplicates(network.model, curves, clusters, tolerance);
   network.edges = LinkEdges(curves, clusters, duplicate_of, tolerance, run);
-  PM_RETURN_IF_ERROR(run.Check());
+  PM_RETURN_IF_ERROR(done(0.6));
 
   const std::vector<bool> nearly = NearlyCollapsed(curves, network.edges, diagonal);
   std::vector<int> open;
@@ -209,7 +216,7 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
   }
   const double gap_limit = std::max(10.0 * tolerance, kGapOfModel * diagonal);
   const OpenEdgeReport meetings = InspectOpenEdges(curves, ends, open, tolerance, gap_limit, run);
-  PM_RETURN_IF_ERROR(run.Check());
+  PM_RETURN_IF_ERROR(done(0.7));
   for (const int e : open) network.edges[At(e)].on_t_junction = meetings.covered[At(e)];
   for (const EdgeGap& gap : meetings.gaps) {
     if (gap.distance <= tolerance) {
@@ -219,13 +226,13 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
     }
   }
   MeasureAngles(curves, run, network.edges);
-  PM_RETURN_IF_ERROR(run.Check());
+  PM_RETURN_IF_ERROR(done(0.8));
   for (EdgeLink& link : network.edges) {  // a copy does not fold back onto its original
     const auto& original = duplicate_of[link.self.patch.index()];
     if (original && link.neighbor && link.neighbor->patch == *original) link.max_angle = 0.0;
   }
   const Topology topology = InspectTopology(curves, ends, network.edges, duplicate_of, run);
-  PM_RETURN_IF_ERROR(run.Check());
+  PM_RETURN_IF_ERROR(done(0.9));
   network.vertex_count = topology.vertex_count;
   network.boundary_loop_count = topology.boundary_loop_count;
   network.component_count = static_cast<int>(topology.components.size());
