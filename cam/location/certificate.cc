@@ -1,4 +1,4 @@
-// The proof behind CertifiedHeight: what local searches alone cannot exclude is subdivided until hulls,
+// The proof behind every search: what local searches alone cannot exclude is subdivided until hulls,
 // oriented boxes or convexity (ALGORITHMS T6) exclude it.
 #include <algorithm>
 #include <array>
@@ -21,12 +21,15 @@ constexpr int kBudget = 20000;  // parts of one query
 constexpr int kMaxLevel = 100;
 
 struct Prover {
-  const Surface& surface;
+  const Locator::Impl& impl;
+  const bool any;      // the first contact that is no rounding ends it: `done`
+  const double start;  // the ball's first height
   const Ball& ball;
   double free_f;  // f from which a part counts as outside
   double eps;
   Contact& best;
   int budget = kBudget;
+  bool done = false;
   double top = -kInfinity;  // everything handled so far is proven to lie below this centre height
   std::vector<Vec4>& buffer;
 
@@ -48,6 +51,7 @@ struct Prover {
   }
 
   void Prove(const Piece& piece, int piece_index, const Rect& rect, const Vec4* points, int level) {
+    if (done) return;
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
     std::array<Vec3, kMaxNetPoints> hull;
     const int hull_count = HullPoints(shape, points, hull.data());
@@ -69,6 +73,8 @@ struct Prover {
       const internal::SearchResult found = internal::RaiseOnPiece(
           piece, piece_index, rect, mu + guess.x * (rect.u1 - rect.u0), mv + guess.y * (rect.v1 - rect.v0),
           ball, {.model = &model, .lower = &low}, best);
+      done = any && found.improved && impl.Raised(start, best);
+      if (done) return;
       if (found.improved) low = internal::BoundBelow(model, Lift(ball.q, best.z));
       if (found.out || (low.convex && found.convex_minimum >= free_f)) {
         top = std::max(top, best.z);
@@ -92,15 +98,23 @@ struct Prover {
 
 }  // namespace
 
-double Locator::Impl::Certify(const Ball& ball, const std::vector<std::int32_t>& open, double eps,
+double Locator::Impl::Certify(const Ball& ball, std::span<const std::int32_t> open, double eps, Aim aim,
                               Contact& best) const {
   if (open.empty()) return slack;
   thread_local std::vector<Vec4> buffer(2 * kMaxLevel * kMaxNetPoints);
   // What a proof allows itself counts as gap too, and so do roundings of heights.
-  Prover prover{surface, ball,    ProofF(), std::max(eps - 2.0 * slack, 0.5 * eps),
-                best,    kBudget, best.z,   buffer};
+  Prover prover{.impl = *this,
+                .any = aim == Aim::kAny,
+                .start = best.z,
+                .ball = ball,
+                .free_f = ProofF(),
+                .eps = std::max(eps - 2.0 * slack, 0.5 * eps),
+                .best = best,
+                .top = best.z,
+                .buffer = buffer};
   std::array<Vec4, kMaxNetPoints> points;
   for (const std::int32_t index : open) {
+    if (prover.done) break;
     const internal::SearchLeaf& leaf = tree.leaves[index];
     const Rect rect = leaf.rect();
     // The ball may have been raised since.
@@ -111,6 +125,8 @@ double Locator::Impl::Certify(const Ball& ball, const std::vector<std::int32_t>&
       prover.top = std::max(prover.top, best.z);
       continue;
     }
+    const double above = best.z + prover.eps;
+    if (prover.Excluded(model, internal::BoundBelow(model, Lift(ball.q, above)), above)) continue;
     const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece())];
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
     std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());

@@ -84,33 +84,33 @@ class PacketSearch {
  public:
   PacketSearch(const Locator::Impl& impl, const LaneKernel& kernel, LanePacket& packet)
       : impl_(impl), kernel_(kernel), limits_(LimitsOf(impl)), packet_(packet) {
-    tie_.fill(-kInfinity);
+    for (auto& open : open_) open.clear();
   }
 
   // Newton on whole pieces, from where the contacts are expected.
   void Approach(const LaneStart& start);
   void Run();
-  // After Run: the lane's search has to be made again, leaves divided (OpenLeaves).
-  bool IsTie(std::size_t lane, const Contact& best) const { return impl_.IsTie(tie_[lane], best); }
-  // Of balls that stand at the packet's heights: lanes that find anything are done and look no further. Those
-  // that found nothing and may be wrong (OpenLeaves::doubtful) are to be searched for one by one.
+  // Of balls that stand at the packet's heights: lanes that find anything are done and look no further.
   void RunFree();
-  bool IsDoubtful(std::size_t lane) const { return doubtful_[lane]; }
+  // What a lane's search left unproven.
+  const Locator::Impl::OpenLeaves& open(std::size_t lane) const { return open_[lane]; }
 
  private:
   template <class Meets, class OnLeaf>
   void Walk(const Meets& meets, const OnLeaf& on_leaf);
   void Visit(std::int32_t index, const internal::LeafBox& box);
   void VisitScalar(std::int32_t index, int lane);
+  static std::array<Locator::Impl::OpenLeaves, kLanes>& Scratch() {
+    thread_local std::array<Locator::Impl::OpenLeaves, kLanes> open;
+    return open;
+  }
 
   const Locator::Impl& impl_;
   const LaneKernel& kernel_;
   const LaneLimits limits_;
   LanePacket& packet_;
   Locator::Impl::Aim aim_ = Locator::Impl::Aim::kHighest;
-  std::array<bool, kLanes> doubtful_{};
-  std::array<double, kLanes> tie_;  // of each lane, see OpenLeaves
-  Locator::Impl::OpenLeaves open_;
+  std::array<Locator::Impl::OpenLeaves, kLanes>& open_ = Scratch();
 };
 
 // As Locator::Impl::Search, for all lanes at the lowest height of one.
@@ -219,11 +219,8 @@ void PacketSearch::Visit(std::int32_t index, const internal::LeafBox& box) {
 
 void PacketSearch::VisitScalar(std::int32_t index, int k) {
   Contact best = ContactOf(packet_, k);
-  open_.Clear();
-  impl_.VisitLeaf(index, impl_.BallAt({packet_.qx[k], packet_.qy[k]}), aim_, best, open_);
-  const auto lane = static_cast<std::size_t>(k);
-  tie_[lane] = std::max(tie_[lane], open_.tie);
-  doubtful_[lane] = doubtful_[lane] || open_.doubtful || open_.nearly;
+  impl_.VisitLeaf(index, impl_.BallAt({packet_.qx[k], packet_.qy[k]}), aim_, best,
+                  open_[static_cast<std::size_t>(k)]);
   PutContact(best, packet_, k);
 }
 
@@ -281,7 +278,6 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
   LanePacket packet;
   LaneStart start;
   Forecast forecast;
-  Locator::Impl::OpenLeaves open;
   for (std::size_t i = 0; i < q.size(); i += kLanes) {
     const std::size_t count = std::min<std::size_t>(kLanes, q.size() - i);
     forecast.Start(impl, q.subspan(i, count), packet, start);
@@ -291,7 +287,8 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
     forecast.Learn(packet);
     for (std::size_t k = 0; k < count; ++k) {
       Contact c = ContactOf(packet, static_cast<int>(k));
-      if (impl.Grazes(c) || search.IsTie(k, c)) impl.SearchAll(impl.BallAt(q[i + k]), c, open);
+      impl.Divide(impl.BallAt(q[i + k]), search.open(k), Locator::Impl::kGap, Locator::Impl::Aim::kHighest,
+                  c);
       heights[i + k].reset();
       if (c.piece >= 0) heights[i + k] = CenterPoint{c.z, impl.PointOf(c)};
     }
@@ -305,9 +302,9 @@ constexpr std::size_t kWorthLanes = 2;
 
 std::optional<Vec3> FindObstacle(const Locator::Impl& impl, const Vec3& center) {
   thread_local Locator::Impl::OpenLeaves open;
-  const Contact contact = impl.AnyContact(impl.BallAt(Plan(center)), center.z(), open);
-  if (contact.piece < 0) return std::nullopt;
-  return contact.p;
+  const auto found = impl.TryFree(impl.BallAt(Plan(center)), center.z(), Locator::Impl::kGap, open);
+  if (!found.contact) return std::nullopt;
+  return found.contact->p;
 }
 
 }  // namespace
@@ -338,9 +335,11 @@ void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
       obstacles[i + k].reset();
       if (packet.piece[k] >= 0) {
         obstacles[i + k] = ContactOf(packet, static_cast<int>(k)).p;
-      } else if (search.IsDoubtful(k)) {
-        obstacles[i + k] = FindObstacle(impl, centers[i + k]);
+        continue;
       }
+      const Vec3& at = centers[i + k];
+      const auto found = impl.ProveFree(impl.BallAt(Plan(at)), at.z(), Locator::Impl::kGap, search.open(k));
+      if (found.contact) obstacles[i + k] = found.contact->p;
     }
   }
 }

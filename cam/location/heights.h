@@ -11,9 +11,10 @@ namespace patchmill {
 // heights[k] = h(q[k]), as Locator::Height finds it; heights.size() == q.size(). Eight consecutive places
 // walk the tree together, a leaf meets all eight at once: fast when they lie much nearer to each other than
 // R, as along a row or in a tile of a grid. The method is that of Height, with its error: proofs exclude
-// leaves, Newton finds the maximum of those proven convex, what is neither goes through Height's own search.
+// leaves, Newton finds the maximum of those proven convex, what is neither goes through Height's own search
+// and division.
 //
-// A height depends on its neighbours in the list by rounding alone (less than 1e-9), never on the processor:
+// A height depends on its neighbours in the list within its error alone, never on the processor:
 // the lanes are those of UsedInstructionSet() (core/base/instruction_set.h), all of which give the same bits.
 void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights);
 

@@ -63,8 +63,10 @@ struct LocalJet {
 };
 // A lower bound of f over the rectangle from its value at one place: f and the bound at that depth touch
 // there, so the Taylor polynomial with the bound's least Hessian lies below both. Much tighter than LeastOn
-// where the place is near the minimum. `low` as for LeastOn.
-double LeastFrom(const LeafModel& model, const LowerModel& low, const Vec3& c, const LocalJet& at);
+// where the place is near the minimum. `low` as for LeastOn. Over `part` of the rectangle, in local
+// parameters.
+double LeastFrom(const LeafModel& model, const LowerModel& low, const Vec3& c, const LocalJet& at,
+                 const Box2& part = {-0.5, 0.5, -0.5, 0.5});
 
 // The middle model's own minimiser: where to start a search.
 BoxMinimum GuessMinimum(const LeafModel& model, const Vec3& c);

@@ -190,9 +190,10 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
   Measure(ball, best.z, s);
   const auto end = [&] {
     if (result.improved) {
-      result.u = best.u, result.v = best.v, result.p = best.p;
+      result.u = best.u, result.v = best.v, result.p = best.p, result.slope = best.slope;
     } else {
       result.u = s.u, result.v = s.v, result.p = s.jet.p;
+      result.slope = Vec2(s.d.dot(s.jet.du), s.d.dot(s.jet.dv));
     }
     result.f = s.f;
     return result;

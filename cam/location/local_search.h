@@ -40,6 +40,7 @@ struct SearchResult {
   double u = 0.0, v = 0.0;  // where the search ended, and f there
   Vec3 p = Vec3::Zero();
   double f = 0.0;
+  Vec2 slope = Vec2::Zero();  // derivative of -f there; NaN where the search was cut short
 };
 
 // Minimises f(u,v) = 1/2 dist^2(S, upward ray from (q, best.z)) on `rect` from (u,v); whenever the surface

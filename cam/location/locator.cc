@@ -1,7 +1,6 @@
 #include "cam/location/locator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "cam/location/locator_impl.h"
@@ -59,36 +58,44 @@ void Locator::Impl::Search(const Ball& ball, double enough, Aim aim, Contact& be
       });
 }
 
-void Locator::Impl::SearchAll(const Ball& ball, Contact& best, OpenLeaves& open) const {
-  open.Clear();
+double Locator::Impl::SearchAll(const Ball& ball, double eps, Contact& best, OpenLeaves& open) const {
+  open.clear();
   Search(ball, kInfinity, Aim::kHighest, best, open);
-  if (open.all.empty() || !(Grazes(best) || IsTie(open.tie, best))) return;
-  const double found = best.z;
-  Certify(ball, open.all, Grazes(best) ? 1e-6 : 1e-8, best);
-  if (Raised(found, best)) equator_raises.fetch_add(1, std::memory_order_relaxed);
+  return Divide(ball, open, eps, Aim::kHighest, best);
 }
 
-Contact Locator::Impl::AnyContact(const Ball& ball, double z, OpenLeaves& open) const {
-  open.Clear();
+Locator::Impl::FreeBall Locator::Impl::TryFree(const Ball& ball, double z, double eps,
+                                               OpenLeaves& open) const {
+  open.clear();
   Contact best;
   best.z = std::max(z, Lowest());  // below nothing changes
   Search(ball, best.z, Aim::kAny, best, open);
-  if (best.piece >= 0 || !open.doubtful) return best;
+  if (best.piece >= 0) return {.contact = best, .lift = 0.0};
+  return ProveFree(ball, z, eps, open);
+}
+
+// What lies within rounding of the ball's surface is as much outside as inside.
+Locator::Impl::FreeBall Locator::Impl::ProveFree(const Ball& ball, double z, double eps,
+                                                 std::span<const std::int32_t> open) const {
+  Contact best;
+  const double start = best.z = std::max(z, Lowest());
+  const double gap = Divide(ball, open, eps, Aim::kAny, best);
+  if (best.piece >= 0 && Raised(start, best)) return {.contact = best, .lift = 0.0};
+  return {.contact = std::nullopt, .lift = best.z + gap - start};
+}
+
+double Locator::Impl::Divide(const Ball& ball, std::span<const std::int32_t> open, double eps, Aim aim,
+                             Contact& best) const {
   const double found = best.z;
-  Certify(ball, open.all, 1e-6, best);
-  if (best.piece >= 0 && Raised(found, best)) equator_raises.fetch_add(1, std::memory_order_relaxed);
-  return best;
+  const double gap = Certify(ball, open, eps, aim, best);
+  if (aim == Aim::kHighest && best.piece >= 0 && Raised(found, best))
+    defects.fetch_add(1, std::memory_order_relaxed);
+  return gap;
 }
 
 bool Locator::Impl::Raised(double before, const Contact& c) const {
   const double below = std::max(c.z - c.p.z(), 0.0);
   return c.z > before + 1e-9 + std::sqrt(below * below + 8.0 * radius * rounding) - below;
-}
-
-double Locator::Impl::RunnerUp(const SearchResult& ended, const Ball& ball, const Contact& best) const {
-  const double rim2 = radius * radius - (Plan(ended.p) - ball.q).squaredNorm();
-  if (!(rim2 > 0.0) || (ended.p - best.p).norm() <= kNearly * radius) return -kInfinity;
-  return ended.p.z() + std::sqrt(rim2);
 }
 
 bool Locator::Impl::IsOnlyContact(const Contact& best, std::int32_t piece, const Rect& rect,
@@ -99,17 +106,6 @@ bool Locator::Impl::IsOnlyContact(const Contact& best, std::int32_t piece, const
   const Vec3 c = Lift(ball.q, best.z), d = internal::ToRay(best.p, c);
   return internal::LeastFrom(model, low, c, internal::LocalJetAt(rect, best.u, best.v, d, best.slope)) >=
          ball.FreeF();
-}
-
-void Locator::Impl::NoteMissed(std::span<const SearchResult> ended, const Ball& ball, double z,
-                               OpenLeaves& open) const {
-  for (const SearchResult& e : ended) {
-    open.doubtful = open.doubtful || NearEquator(z, e.p);
-    const double rim2 = radius * radius - (Plan(e.p) - ball.q).squaredNorm();
-    if (!(rim2 > 0.0) || e.p.z() + std::sqrt(rim2) < z - kNearly * radius) continue;
-    if (!open.nearly) open.nearly = e.p;
-    open.doubtful = open.doubtful || (e.p - *open.nearly).norm() > kNearly * radius;
-  }
 }
 
 void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Aim aim, Contact& best,
@@ -140,28 +136,25 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Aim aim, Con
   // One maximum, proven? Then the search has found it.
   const LowerModel raised = found.improved ? internal::BoundBelow(model, Lift(ball.q, best.z)) : lower;
   if (raised.convex) {
-    if (found.convex_minimum < ProofF()) open.all.push_back(index);
+    if (found.convex_minimum < ProofF()) open.push_back(index);
     return;
   }
   if (found.improved && IsOnlyContact(best, leaf.piece(), rect, model, raised, ball)) return;
-  options = {};
-  std::array<SearchResult, 5> ended = {found};
-  std::size_t count = 1;
+  // From the corners of the quarters that may hold more.
+  const Vec3 now = Lift(ball.q, best.z);
+  const internal::LocalJet ended =
+      internal::LocalJetAt(rect, found.u, found.v, internal::ToRay(found.p, now), found.slope);
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.5, 0.5}) {
+      const Box2 quarter{std::min(x, 0.0), std::max(x, 0.0), std::min(y, 0.0), std::max(y, 0.0)};
+      if (internal::LeastFrom(model, raised, now, ended, quarter) >= free_f) continue;
       const Vec2 corner = at(x, y);
-      ended[count++] =
-          internal::RaiseOnPiece(piece, leaf.piece(), rect, corner.x(), corner.y(), ball, options, best);
+      const bool better =
+          internal::RaiseOnPiece(piece, leaf.piece(), rect, corner.x(), corner.y(), ball, {}, best).improved;
+      if (aim == Aim::kAny && better) return;
     }
   }
-  open.all.push_back(index);
-  if (aim == Aim::kAny) {
-    if (best.piece < 0) NoteMissed(ended, ball, best.z, open);
-    return;
-  }
-  double highest = -kInfinity;
-  for (const SearchResult& e : ended) highest = std::max(highest, RunnerUp(e, ball, best));
-  if (IsTie(highest, best)) open.tie = std::max(open.tie, highest);
+  open.push_back(index);
 }
 
 absl::StatusOr<Locator> Locator::Make(const Surface& surface, double radius, const RunContext& run) {
@@ -178,7 +171,6 @@ Locator::Locator(Locator&&) noexcept = default;
 const Surface& Locator::surface() const { return impl_->surface; }
 double Locator::radius() const { return impl_->radius; }
 std::uint64_t Locator::defect_count() const { return impl_->defects.load(); }
-std::uint64_t Locator::equator_raise_count() const { return impl_->equator_raises.load(); }
 
 std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hint) const {
   thread_local Impl::OpenLeaves open;
@@ -186,29 +178,21 @@ std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hi
   Contact best;
   best.z = impl_->Lowest();
   if (hint != nullptr) impl_->StartFromHint(ball, *hint, best);
-  impl_->SearchAll(ball, best, open);
+  impl_->SearchAll(ball, Impl::kGap, best, open);
   if (best.piece < 0) return std::nullopt;
   return CenterPoint{best.z, impl_->PointOf(best)};
 }
 
 bool Locator::Free(const Vec3& c, double slack) const {
   thread_local Impl::OpenLeaves open;
-  return impl_->AnyContact(impl_->BallAt(Plan(c)), c.z() + slack, open).piece < 0;
+  return !impl_->TryFree(impl_->BallAt(Plan(c)), c.z() + slack, Impl::kGap, open).contact;
 }
 
 std::optional<double> Locator::CertifiedFree(const Vec3& c, double eps) const {
   thread_local Impl::OpenLeaves open;
-  const Ball ball = impl_->BallAt(Plan(c));
-  Contact best = impl_->AnyContact(ball, c.z(), open);
-  if (best.piece >= 0) return std::nullopt;
-  const double found = best.z;
-  const double gap = impl_->Certify(ball, open.all, std::max(eps, 1e-7), best);
-  // What lies within rounding of the ball's surface is as much outside as inside.
-  if (best.piece >= 0 && impl_->Raised(found, best)) {
-    impl_->defects.fetch_add(1, std::memory_order_relaxed);
-    return std::nullopt;
-  }
-  return best.z + gap - found;
+  const auto found = impl_->TryFree(impl_->BallAt(Plan(c)), c.z(), std::max(eps, 1e-7), open);
+  if (found.contact) return std::nullopt;
+  return found.lift;
 }
 
 std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double eps,
@@ -218,13 +202,7 @@ std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double ep
   Contact best;
   best.z = impl_->Lowest();
   if (hint != nullptr) impl_->StartFromHint(ball, *hint, best);
-  impl_->SearchAll(ball, best, open);
-  const double found = best.z;
-  const bool had = best.piece >= 0;
-  const double gap = impl_->Certify(ball, open.all, std::max(eps, 1e-7), best);
-  if (best.piece >= 0 && (!had || impl_->Raised(found, best))) {
-    impl_->defects.fetch_add(1, std::memory_order_relaxed);
-  }
+  const double gap = impl_->SearchAll(ball, std::max(eps, 1e-7), best, open);
   if (best.piece < 0) return std::nullopt;
   return CertifiedCenter{best.z, gap, impl_->PointOf(best)};
 }

@@ -12,9 +12,8 @@
 //   - Above the centre f measures in plan: f = 1/2 |p - c|^2 below its level, 1/2 |p_xy - c_xy|^2 above, once
 //     differentiable across it. On a part where both forms have positive definite Hessians f is convex, and a
 //     point that satisfies the KKT conditions is its only minimum (T6), wherever the level runs.
-//   - Where the contact lies less than 0.2 R below the centre, every search, lanes included, divides the
-//     leaves that no such proof has closed, and so does Free where one of them stands so; elsewhere only
-//     CertifiedHeight and CertifiedFree do.
+//   - Every search, lanes included, divides the leaves that no such proof has closed until one does, or the
+//     gap is at most 1e-6 mm: starts alone miss maxima (certificate_fuzz_test has them).
 //   - Proofs take f >= R (R/2 - d), d = 1e-12 of the scale, for outside: [z, z + gap] holds for the
 //     surface up to d, in heights up to d R / b, at most sqrt(2 R d), b the height of the centre above the
 //     contact.
@@ -63,10 +62,11 @@ class Locator {
   const Surface& surface() const;
   double radius() const;
 
-  // h(q); nullopt where no surface point lies within R of q in plan. Error <= 1e-9 mm against closed forms
-  // where the branch and bound closes, always <= 1e-6 mm; with a contact near the equator, where heights
-  // answer roundings of the surface by their square root, what those explain (see defect_count). `hint`: a
-  // contact nearby, only for speed; never changes the value beyond 1e-9.
+  // h(q); nullopt where no surface point lies within R of q in plan. Proven to 1e-6 mm as CertifiedHeight is,
+  // without saying so (20,000 parts may not suffice); error <= 1e-9 mm against closed forms where the branch
+  // and bound closes; with a contact near the equator, where heights answer roundings of the surface by their
+  // square root, what those explain (see defect_count). `hint`: a contact nearby, only for speed;
+  // changes the value within these errors only.
   std::optional<CenterPoint> Height(const Vec2& q, const SurfacePoint* hint = nullptr) const;
 
   // The same with proof: bounds subdivided until the gap is at most eps (mm, >= 1e-7), or eps / 2 and what a
@@ -81,7 +81,8 @@ class Locator {
   std::optional<CenterPoint> Follow(const SurfacePoint& from, const Vec2& q) const;
 
   // True iff a ball (and everything above it) centred at c is free: h(c_xy) <= c_z + slack. Early-out,
-  // cheaper than Height.
+  // cheaper than Height. Proven as Height is: to 1e-6 mm and what rounding explains, but for the rare place
+  // where 20,000 parts do not suffice.
   bool Free(const Vec3& c, double slack = 0.0) const;
 
   // The same with proof: how far the ball has to be lifted at most to be proven free (mm; at most eps as for
@@ -101,17 +102,11 @@ class Locator {
   // than the value: parts well below the limit are never divided.
   bool GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps) const;
 
-  // Certificates that improved the value found by search by more than 1e-9 mm and what rounding explains:
-  // with b = z - p_z the height of the centre above the contact, sqrt(b^2 + 2 R d) - b for a rounding d of
-  // the surface (4e-14 of the scale), that is R d / b, but 5e-6 mm at most for R = 3 on a part of 100 mm. An
-  // internal defect: the higher value is what is returned, the report of a job says how many there were, and
-  // tests demand 0.
+  // Heights that the local searches had missed and only their proof found, by more than 1e-9 mm and what
+  // rounding explains: with b = z - p_z the height of the centre above the contact, sqrt(b^2 + 2 R d) - b for
+  // a rounding d of the surface (4e-14 of the scale), that is R d / b, but 5e-6 mm at most for R = 3 on a
+  // part of 100 mm. What is returned is the proven value; that it was needed is a defect of the searches.
   std::uint64_t defect_count() const;
-  // Searches near the equator (see above), or with two contacts of about the same height on one unproven
-  // stretch, that dividing raised by more than that. Not defects: there dividing is a part of every search,
-  // of Height as of CertifiedHeight, because such ground may hold more local maxima than a few starts find.
-  // What a certificate still improves after that counts above.
-  std::uint64_t equator_raise_count() const;
 
  private:
   explicit Locator(std::unique_ptr<Impl> impl);

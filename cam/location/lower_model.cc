@@ -79,11 +79,12 @@ double LeastOn(const LeafModel& m, const LowerModel& low, const Vec3& c) {
   return beside.f0 + MinimizeOnBox(beside.q, kUnit).value;
 }
 
-double LeastFrom(const LeafModel& m, const LowerModel& low, const Vec3& c, const LocalJet& at) {
+double LeastFrom(const LeafModel& m, const LowerModel& low, const Vec3& c, const LocalJet& at,
+                 const Box2& part) {
   Quadratic2 q = low.minorant ? low.q : BoundBelowAtDepth(m, c, at.depth).q;
   q.gx = at.gradient.x();
   q.gy = at.gradient.y();
-  return at.f + MinimizeOnBox(q, {-0.5 - at.x, 0.5 - at.x, -0.5 - at.y, 0.5 - at.y}).value;
+  return at.f + MinimizeOnBox(q, {part.x0 - at.x, part.x1 - at.x, part.y0 - at.y, part.y1 - at.y}).value;
 }
 
 BoxMinimum GuessMinimum(const LeafModel& m, const Vec3& c) {

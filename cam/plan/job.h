@@ -126,8 +126,7 @@ struct JobReport {
   double controller_tolerance = 0.0;      // mm
   double least_feed = 0.0;                // mm: no passes of this finish are shorter together (LeastFeed)
   int point_count = 0;
-  // Of all heights of the passes and links: see Locator::defect_count, equator_raise_count.
-  std::uint64_t certificate_defects = 0, equator_raises = 0;
+  std::uint64_t certificate_defects = 0;  // of all heights of the passes and links: Locator::defect_count
   std::vector<Region> regions;
   std::vector<RegionChoice> choices;  // of each region
   Diagnostics diagnostics;

@@ -208,10 +208,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   PM_ASSIGN_OR_RETURN(PlannedPasses planned,
                       PlanPasses(locator, result.regions, report.choices, parts, job, resolved, limits, run));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
-  const auto count_defects = [&] {
-    report.certificate_defects = locator.defect_count();
-    report.equator_raises = locator.equator_raise_count();
-  };
+  const auto count_defects = [&] { report.certificate_defects = locator.defect_count(); };
   count_defects();
   clock.Done("passes");
   if (planned.paths.empty()) {

@@ -144,7 +144,7 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
              OverLeast(report));
   if (report.certificate_defect_count() > 0) {
     fmt::print(stderr,
-               "  heights   {} put right by their certificates: a defect of the planner, please report\n",
+               "  heights   {} found by their proofs alone: the program is right, please report the part\n",
                report.certificate_defect_count());
   }
   for (const v1::Diagnostic& finding : report.diagnostics()) {
@@ -196,6 +196,7 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
                "lines of each region in the direction that takes the least time, of 0, 30, ... 150 degrees");
   app.add_flag("--one-way", op.one_way, "cut all lines in that direction, and lift the ball back");
   app.add_flag("--spirals", op.spirals, "wind closed contours down around walls in one pass");
+  app.add_flag("--no-border-passes", op.no_border_passes, "no passes along borders that lines run along");
   app.add_option("--edges", op.edges,
                  "stop at outer borders; roll over them; extend passes by a ball radius beyond them")
       ->check(CLI::IsMember({"stop", "roll", "extend"}))

@@ -270,7 +270,6 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   report.set_point_count(from.point_count);
   report.set_retract_count(from.motion.retract_count);
   report.set_certificate_defect_count(static_cast<int>(from.certificate_defects));
-  report.set_equator_raise_count(static_cast<int>(from.equator_raises));
   for (std::size_t id = 0; id < from.regions.size(); ++id) {
     *report.add_regions() = ToProto(from.regions[id], from.choices[id], zero, Detail::kFigures);
   }

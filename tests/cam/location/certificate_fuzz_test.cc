@@ -1,5 +1,5 @@
-// Certificates against the lanes on random parts: no certificate ever improves a height that was found, by
-// lanes or by the search it belongs to. PATCHMILL_FUZZ_QUERIES sets how many heights are asked for,
+// Certificates against the lanes on random parts: no certificate ever improves a height that was given, in
+// lanes or one by one, nor a ball that counted as free. PATCHMILL_FUZZ_QUERIES sets how many heights are asked for,
 // PATCHMILL_FUZZ_SEED the number of the first part.
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,8 @@ using testing::SurfaceOf;
 
 constexpr long kQueries = 300'000;
 constexpr std::size_t kRows = 250;  // of eight places, on each part
-constexpr double kEps = 1e-6;
+constexpr double kFree = 1e-6;      // mm: what Free and FindObstacles may overlook
+constexpr double kEps = 5e-7;       // finer than heights are divided to
 
 // A random place on the surface whose normal is level, if one is met between two random places.
 std::optional<SurfaceJet> Silhouette(const Piece& piece, Random& random) {
@@ -79,10 +80,9 @@ struct Tally {
   long above = 0;     // above them: no contact can be there
   long missing = 0;   // found by one of the two only
   long open = 0;      // gaps that did not close
-  long defects = 0;   // as the locator counts them
-  long raises = 0;    // by division near the equator, likewise
+  long saved = 0;     // heights that only their proof found (Locator::defect_count)
   long blocked = 0;   // balls above the certified height that are not free
-  long free = 0;      // balls below it that are
+  long free = 0;      // balls further below it than they may be that are
   std::string first;  // where the first went wrong
 };
 
@@ -121,7 +121,7 @@ void Judge(std::uint64_t seed, Tally& tally) {
     if (heights[i]->z > c->z + rounding) bad(tally.above, "above");
     if (c->gap > kEps) bad(tally.open, "open");
     over.push_back(Lift(places[i], c->z + c->gap + rounding));
-    under.push_back(Lift(places[i], c->z - rounding));
+    under.push_back(Lift(places[i], c->z - kFree - rounding));
     const auto lift = locator.CertifiedFree(over.back(), kEps);
     if (!lift || !locator.Free(over.back())) bad(tally.blocked, "blocked");
     if (lift.value_or(0.0) > kEps) bad(tally.open, "open above");
@@ -134,11 +134,7 @@ void Judge(std::uint64_t seed, Tally& tally) {
   };
   tally.blocked += found(over);
   tally.free += static_cast<long>(under.size()) - found(under);
-  tally.raises = static_cast<long>(locator.equator_raise_count());
-  if (locator.defect_count() > 0) {
-    tally.defects += static_cast<long>(locator.defect_count());
-    if (tally.first.empty()) tally.first = "defects, seed " + std::to_string(seed);
-  }
+  tally.saved = static_cast<long>(locator.defect_count());
 }
 
 void ExpectClean(const Tally& all) {
@@ -149,7 +145,6 @@ void ExpectClean(const Tally& all) {
   EXPECT_EQ(all.open, 0) << all.first;
   EXPECT_EQ(all.blocked, 0) << all.first;
   EXPECT_EQ(all.free, 0) << all.first;
-  EXPECT_EQ(all.defects, 0) << all.first;
 }
 
 TEST(CertificateFuzz, NoCertificateImprovesAHeight) {
@@ -172,24 +167,27 @@ TEST(CertificateFuzz, NoCertificateImprovesAHeight) {
     all.open += t.open;
     all.blocked += t.blocked;
     all.free += t.free;
-    all.defects += t.defects;
+    all.saved += t.saved;
     if (all.first.empty()) all.first = t.first;
   }
   EXPECT_GE(all.asked, queries);
   ExpectClean(all);
+  // Each height is asked for twice. On a handful of parts in thousands searches need their proof.
+  EXPECT_LE(all.saved, all.asked / 10'000);
+  RecordProperty("saved", static_cast<int>(all.saved));
 }
 
 // Upright leaves that were too hollow for the ball on one side only, or touched on their rim, or near the
 // equator: maxima once missed.
 TEST(CertificateFuzz, UprightGround) {
-  long raises = 0;
+  long saved = 0;
   for (const std::uint64_t seed : {457, 816, 916}) {
     Tally tally;
     Judge(seed, tally);
     ExpectClean(tally);
-    raises += tally.raises;
+    saved += tally.saved;
   }
-  EXPECT_GT(raises, 0);  // they are counted
+  EXPECT_GT(saved, 0);  // they are counted
 }
 
 // A search held by a border of its leaf that stopped pushing back on the way: a maximum 3e-5 of the
@@ -209,11 +207,20 @@ TEST(CertificateFuzz, MaximaBesideBorders) {
 }
 
 // Two maxima 0.13 R below the centre in one unproven leaf, the higher one 5e-4 mm above the one on the leaf's
-// border that every start ended at: such ground counts as near the equator.
+// border that every start ended at.
 TEST(CertificateFuzz, SteepGround) {
   Tally tally;
   Judge(50061, tally);
   ExpectClean(tally);
+}
+
+// Searches that ended in a singular corner, the contact 0.04 mm higher on the border beside it, 0.65 R below
+// the centre: only division finds it.
+TEST(CertificateFuzz, BesideASingularCorner) {
+  Tally tally;
+  Judge(50568, tally);
+  ExpectClean(tally);
+  EXPECT_GT(tally.saved, 0);
 }
 
 // A ball that rests on a singular corner of a part of 107 m: only division closes the gap there, 70 halvings.
