@@ -1,6 +1,5 @@
 // A model of a hundred thousand patches, joined, with all that heights on it need: memory and time.
 #include <cmath>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -8,6 +7,7 @@
 #include "cam/location/locator.h"
 #include "cam/plan/plan.h"
 #include "tests/support/clock.h"
+#include "tests/support/peak_memory.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
 
@@ -16,19 +16,6 @@ namespace {
 
 constexpr double kSide = 2.0;  // mm, of a patch
 constexpr int kAcross = 316;
-
-// High-water mark of this process, MB.
-double PeakMemory() {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    if (word == "VmHWM:") {
-      double kilobytes = 0.0;
-      status >> kilobytes;
-      return kilobytes / 1024.0;
-    }
-  }
-  return 0.0;
-}
 
 PatchModel Waves() {
   PatchModel model;
@@ -46,7 +33,7 @@ PatchModel Waves() {
 }
 
 TEST(LargeModel, AHundredThousandPatchesStayBelowAGigabyte) {
-  [[maybe_unused]] const double before = PeakMemory();
+  [[maybe_unused]] const double before = testing::PeakMemory();
   ASSERT_GT(before, 0.0);
   const double start = testing::ClockSeconds(CLOCK_PROCESS_CPUTIME_ID);
   const auto surface = BuildPlacedSurface(Waves(), {}, RunContext(2));
@@ -64,10 +51,10 @@ TEST(LargeModel, AHundredThousandPatchesStayBelowAGigabyte) {
   const double seconds = testing::ClockSeconds(CLOCK_PROCESS_CPUTIME_ID) - start;
   EXPECT_LT(seconds, testing::kSanitized ? 400.0 : 30.0);            // of all threads
 #if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)  // which keep shadows of all memory
-  EXPECT_LT(PeakMemory() - before, 1000.0);
+  EXPECT_LT(testing::PeakMemory() - before, 1000.0);
 #endif
   RecordProperty("seconds", std::to_string(seconds));
-  RecordProperty("megabytes", std::to_string(PeakMemory() - before));
+  RecordProperty("megabytes", std::to_string(testing::PeakMemory() - before));
 }
 
 }  // namespace

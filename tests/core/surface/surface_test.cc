@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -11,6 +10,7 @@
 
 #include "tests/core/surface/surface_models.h"
 #include "tests/support/clock.h"
+#include "tests/support/peak_memory.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
 
@@ -244,19 +244,6 @@ TEST(Surface, CancelIsObeyedWithin200ms) {
   EXPECT_LT(std::chrono::duration<double>(end - cancelled).count(), testing::kSanitized ? 3.0 : 0.2);
 }
 
-// High-water mark of this process, MB.
-double PeakMemory() {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    if (word == "VmHWM:") {
-      double kilobytes = 0.0;
-      status >> kilobytes;
-      return kilobytes / 1024.0;
-    }
-  }
-  return 0.0;
-}
-
 TEST(Surface, AHundredThousandPatches) {
   PatchNetwork network;
   const testing::HeightFunction f = testing::BumpyHeight;
@@ -271,7 +258,7 @@ TEST(Surface, AHundredThousandPatches) {
       network.model.patches.push_back({"", patch});
     }
   }
-  [[maybe_unused]] const double before = PeakMemory();
+  [[maybe_unused]] const double before = testing::PeakMemory();
   const double start = testing::ClockSeconds(CLOCK_PROCESS_CPUTIME_ID);
   const auto s = BuildSurface(std::move(network), {}, RunContext(2));
   const double seconds = testing::ClockSeconds(CLOCK_PROCESS_CPUTIME_ID) - start;
@@ -279,7 +266,7 @@ TEST(Surface, AHundredThousandPatches) {
   EXPECT_GE(s->leaves.size(), 320u * 320u);
   EXPECT_LT(seconds, testing::kSanitized ? 200.0 : 10.0);  // of all threads; 0.8 s
 #if !defined(__SANITIZE_THREAD__)                          // which keeps several shadows of all memory
-  EXPECT_LT(PeakMemory() - before, 500.0);
+  EXPECT_LT(testing::PeakMemory() - before, 500.0);
 #endif
 }
 
