@@ -287,8 +287,8 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
     forecast.Learn(packet);
     for (std::size_t k = 0; k < count; ++k) {
       Contact c = ContactOf(packet, static_cast<int>(k));
-      impl.Divide(impl.BallAt(q[i + k]), search.open(k), Locator::Impl::kGap, Locator::Impl::Aim::kHighest,
-                  c);
+      impl.Certify(impl.BallAt(q[i + k]), search.open(k), Locator::Impl::kGap, Locator::Impl::Aim::kHighest,
+                   c);
       heights[i + k].reset();
       if (c.piece >= 0) heights[i + k] = CenterPoint{c.z, impl.PointOf(c)};
     }

@@ -61,7 +61,7 @@ void Locator::Impl::Search(const Ball& ball, double enough, Aim aim, Contact& be
 double Locator::Impl::SearchAll(const Ball& ball, double eps, Contact& best, OpenLeaves& open) const {
   open.clear();
   Search(ball, kInfinity, Aim::kHighest, best, open);
-  return Divide(ball, open, eps, Aim::kHighest, best);
+  return Certify(ball, open, eps, Aim::kHighest, best);
 }
 
 Locator::Impl::FreeBall Locator::Impl::TryFree(const Ball& ball, double z, double eps,
@@ -79,18 +79,9 @@ Locator::Impl::FreeBall Locator::Impl::ProveFree(const Ball& ball, double z, dou
                                                  std::span<const std::int32_t> open) const {
   Contact best;
   const double start = best.z = std::max(z, Lowest());
-  const double gap = Divide(ball, open, eps, Aim::kAny, best);
+  const double gap = Certify(ball, open, eps, Aim::kAny, best);
   if (best.piece >= 0 && Raised(start, best)) return {.contact = best, .lift = 0.0};
   return {.contact = std::nullopt, .lift = best.z + gap - start};
-}
-
-double Locator::Impl::Divide(const Ball& ball, std::span<const std::int32_t> open, double eps, Aim aim,
-                             Contact& best) const {
-  const double found = best.z;
-  const double gap = Certify(ball, open, eps, aim, best);
-  if (aim == Aim::kHighest && best.piece >= 0 && Raised(found, best))
-    defects.fetch_add(1, std::memory_order_relaxed);
-  return gap;
 }
 
 bool Locator::Impl::Raised(double before, const Contact& c) const {
@@ -205,6 +196,17 @@ std::optional<CertifiedCenter> Locator::CertifiedHeight(const Vec2& q, double ep
   const double gap = impl_->SearchAll(ball, std::max(eps, 1e-7), best, open);
   if (best.piece < 0) return std::nullopt;
   return CertifiedCenter{best.z, gap, impl_->PointOf(best)};
+}
+
+std::optional<CertifiedCenter> Locator::Correction(const Vec3& c, double gap,
+                                                   const SurfacePoint* hint) const {
+  constexpr double kKnown = 1e-9;  // mm
+  const auto lift = CertifiedFree(c + Vec3(0, 0, kKnown), gap);
+  if (lift && *lift <= gap) return std::nullopt;
+  const auto h = CertifiedHeight(Plan(c), gap, hint);
+  if (!h || h->z + h->gap <= c.z()) return std::nullopt;
+  impl_->defects.fetch_add(1, std::memory_order_relaxed);
+  return h;
 }
 
 }  // namespace patchmill

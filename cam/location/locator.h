@@ -65,8 +65,10 @@ class Locator {
   // h(q); nullopt where no surface point lies within R of q in plan. Proven to 1e-6 mm as CertifiedHeight is,
   // without saying so (20,000 parts may not suffice); error <= 1e-9 mm against closed forms where the branch
   // and bound closes; with a contact near the equator, where heights answer roundings of the surface by their
-  // square root, what those explain (see defect_count). `hint`: a contact nearby, only for speed;
-  // changes the value within these errors only.
+  // square root, what those explain: with b = z - p_z the height of the centre above the contact, sqrt(b^2 +
+  // 2 R d) - b for a rounding d of the surface (4e-14 of the scale), that is R d / b, but 5e-6 mm at most for
+  // R = 3 on a part of 100 mm. `hint`: a contact nearby, only for speed; changes the value within these
+  // errors only.
   std::optional<CenterPoint> Height(const Vec2& q, const SurfacePoint* hint = nullptr) const;
 
   // The same with proof: bounds subdivided until the gap is at most eps (mm, >= 1e-7), or eps / 2 and what a
@@ -102,10 +104,12 @@ class Locator {
   // than the value: parts well below the limit are never divided.
   bool GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps) const;
 
-  // Heights that the local searches had missed and only their proof found, by more than 1e-9 mm and what
-  // rounding explains: with b = z - p_z the height of the centre above the contact, sqrt(b^2 + 2 R d) - b for
-  // a rounding d of the surface (4e-14 of the scale), that is R d / b, but 5e-6 mm at most for R = 3 on a
-  // part of 100 mm. What is returned is the proven value; that it was needed is a defect of the searches.
+  // The certificate of a centre that was found otherwise, along a contour: nullopt where it is free as it is,
+  // proven to `gap` (CertifiedFree) and the 1e-9 mm to which such centres are known; else the height that it
+  // should have had. That one is above it, and counts as a defect.
+  std::optional<CertifiedCenter> Correction(const Vec3& c, double gap,
+                                            const SurfacePoint* hint = nullptr) const;
+  // Centres whose certificate improved them; tests demand 0.
   std::uint64_t defect_count() const;
 
  private:

@@ -59,9 +59,6 @@ struct Locator::Impl {
   // contact it stops at the first that is no rounding, and proves nothing then.
   double Certify(const internal::Ball& ball, std::span<const std::int32_t> open, double eps, Aim aim,
                  internal::Contact& best) const;
-  // The same, counting heights it raises as defects.
-  double Divide(const internal::Ball& ball, std::span<const std::int32_t> open, double eps, Aim aim,
-                internal::Contact& best) const;
 
   SurfacePoint PointOf(const internal::Contact& c) const { return {PieceId(c.piece), c.u, c.v, c.p}; }
 

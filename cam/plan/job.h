@@ -126,7 +126,7 @@ struct JobReport {
   double controller_tolerance = 0.0;      // mm
   double least_feed = 0.0;                // mm: no passes of this finish are shorter together (LeastFeed)
   int point_count = 0;
-  std::uint64_t certificate_defects = 0;  // of all heights of the passes and links: Locator::defect_count
+  std::uint64_t certificate_defects = 0;  // Locator::defect_count of the passes
   std::vector<Region> regions;
   std::vector<RegionChoice> choices;  // of each region
   Diagnostics diagnostics;

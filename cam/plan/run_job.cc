@@ -208,8 +208,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   PM_ASSIGN_OR_RETURN(PlannedPasses planned,
                       PlanPasses(locator, result.regions, report.choices, parts, job, resolved, limits, run));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
-  const auto count_defects = [&] { report.certificate_defects = locator.defect_count(); };
-  count_defects();
+  report.certificate_defects = locator.defect_count();
   clock.Done("passes");
   if (planned.paths.empty()) {
     report.outcome = Outcome::kNothingToCut;
@@ -226,7 +225,6 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
 
   PM_ASSIGN_OR_RETURN(result.motion, LinkPaths(locator, result.regions, std::move(planned.paths),
                                                MakeLinkParams(job, resolved, limits), run));
-  count_defects();
   report.motion = result.motion.stats;
   report.point_count = static_cast<int>(result.motion.toolpath.moves.size());
   clock.Done("link");

@@ -144,7 +144,7 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
              OverLeast(report));
   if (report.certificate_defect_count() > 0) {
     fmt::print(stderr,
-               "  heights   {} found by their proofs alone: the program is right, please report the part\n",
+               "  heights   {} put right by their certificates: a defect of the planner, please report\n",
                report.certificate_defect_count());
   }
   for (const v1::Diagnostic& finding : report.diagnostics()) {

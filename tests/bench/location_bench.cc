@@ -56,7 +56,6 @@ void MeasureGrid(benchmark::State& state, Part part, const Query& height) {
   }
   state.SetItemsProcessed(found);
   state.SetLabel(Name(UsedInstructionSet()));
-  state.counters["defects"] = static_cast<double>(locator.defect_count());
 }
 
 std::optional<CenterPoint> Height(const Locator& locator, const Vec2& q, const SurfacePoint* hint) {
@@ -122,7 +121,6 @@ void CenterHeight(benchmark::State& state, Part part, InstructionSet set) {
   state.SetItemsProcessed(found);
   state.SetLabel(Name(set));
   state.counters["over_scalar"] = OverScalar(locator, grid, lanes);
-  state.counters["defects"] = static_cast<double>(locator.defect_count());
 }
 
 // One place after another.
@@ -170,7 +168,6 @@ void CenterHeightRandom(benchmark::State& state, Part part) {
   std::int64_t found = 0;
   for (auto _ : state) found += is_found(random);
   state.SetItemsProcessed(found);
-  state.counters["defects"] = static_cast<double>(locator.defect_count());
   TellInstructionSet(state, 3, [&] {
     testing::Random same(2);
     for (int k = 0; k < 20'000; ++k) is_found(same);

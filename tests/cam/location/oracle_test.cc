@@ -55,7 +55,6 @@ void Compare(const PatchModel& model, double radius, int samples, int queries, s
     EXPECT_NEAR(c.p.z() + std::sqrt(std::max(0.0, radius * radius - (Plan(c.p) - q).squaredNorm())), h->z,
                 1e-9);
   }
-  EXPECT_EQ(locator.defect_count(), 0u) << "seed " << seed;
 }
 
 // The oracle may miss a hill now and then (we are then higher, and certified), but not often.

@@ -1,5 +1,5 @@
-// Centres that are free come back as they were, with no defect; one that is not is raised to where it is, and
-// forgets its contact.
+// Centres that are free come back as they were, with no defect; one that is not is raised to where it is,
+// with the contact there, and counted.
 #include "cam/path/certify_centers.h"
 
 #include <gtest/gtest.h>
@@ -48,6 +48,7 @@ TEST(CertifyCenters, RaisesWhatIsNotFree) {
     ASSERT_TRUE(path.points[i].contact);
     EXPECT_NEAR((path.points[i].contact->p - path.points[i].center).norm(), radius, kGap + 1e-9);
   }
+  EXPECT_EQ(locator.defect_count(), 2u);
   EXPECT_EQ(path.points[2].center.z(), h + 1e-5);
   EXPECT_EQ(path.points[3].center.z(), h + 0.5);
 }
