@@ -60,6 +60,7 @@ void ExpectStops(const std::function<absl::Status(const RunContext&)>& work, int
   report("the end", 1.0);
   const double all = now() - start;
   EXPECT_LE(silence, kSilence) << "nothing said after " << after;
+  ::testing::Test::RecordProperty("silence after " + after, std::to_string(silence));
 
   if (testing::kSanitized) count = 2;
   int stopped = 0;
