@@ -271,7 +271,8 @@ void Forecast::Start(const Locator::Impl& impl, std::span<const Vec2> q, LanePac
 
 }  // namespace
 
-void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights) {
+void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights,
+             double gap) {
   PM_CHECK(q.size() == heights.size());
   const LaneKernel& kernel = internal::UsedLaneKernel();
   const Locator::Impl& impl = locator.impl();
@@ -287,8 +288,7 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
     forecast.Learn(packet);
     for (std::size_t k = 0; k < count; ++k) {
       Contact c = ContactOf(packet, static_cast<int>(k));
-      impl.Certify(impl.BallAt(q[i + k]), search.open(k), Locator::Impl::kGap, Locator::Impl::Aim::kHighest,
-                   c);
+      impl.Certify(impl.BallAt(q[i + k]), search.open(k), gap, Locator::Impl::Aim::kHighest, c);
       heights[i + k].reset();
       if (c.piece >= 0) heights[i + k] = CenterPoint{c.z, impl.PointOf(c)};
     }
@@ -302,7 +302,7 @@ constexpr std::size_t kWorthLanes = 2;
 
 std::optional<Vec3> FindObstacle(const Locator::Impl& impl, const Vec3& center) {
   thread_local Locator::Impl::OpenLeaves open;
-  const auto found = impl.TryFree(impl.BallAt(Plan(center)), center.z(), Locator::Impl::kGap, open);
+  const auto found = impl.TryFree(impl.BallAt(Plan(center)), center.z(), kProofGap, open);
   if (!found.contact) return std::nullopt;
   return found.contact->p;
 }
@@ -338,7 +338,7 @@ void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
         continue;
       }
       const Vec3& at = centers[i + k];
-      const auto found = impl.ProveFree(impl.BallAt(Plan(at)), at.z(), Locator::Impl::kGap, search.open(k));
+      const auto found = impl.ProveFree(impl.BallAt(Plan(at)), at.z(), kProofGap, search.open(k));
       if (found.contact) obstacles[i + k] = found.contact->p;
     }
   }

@@ -16,7 +16,8 @@ namespace patchmill {
 //
 // A height depends on its neighbours in the list within its error alone, never on the processor:
 // the lanes are those of UsedInstructionSet() (core/base/instruction_set.h), all of which give the same bits.
-void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights);
+void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::optional<CenterPoint>> heights,
+             double gap = kProofGap);
 
 // obstacles[k]: nothing where locator.Free(centers[k]), within the error of heights, else a point of the
 // surface in the ball or above it, not always the one that is most in the way. The same way, with the same

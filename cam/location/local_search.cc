@@ -9,7 +9,9 @@ namespace {
 
 constexpr int kMaxIterations = 200;
 constexpr int kMaxHalvings = 30;
-constexpr int kPatience = 6;  // iterations after which every other step models g instead of f
+// Iterations after which every other step models g instead of f, steps on hollow or flat ground go as far as
+// the model falls, and a search ends whose model stays out of the ball.
+constexpr int kPatience = 6;
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 // Stop when the model promises less (mm of height); the last step is then taken on the Taylor polynomial,
 // whose error is of third order in a step of about 1e-4 mm.
@@ -99,7 +101,9 @@ bool PushesBack(double slope, double lo, double hi) {
   return (lo == 0.0 && slope > 0.0) || (hi == 0.0 && slope < 0.0);
 }
 
-Step NewtonStep(const State& s, const Box2& box) {
+// `definite`: hollow and flat directions count as convex. Where the ball nearly fits the ground that makes
+// small steps only; without, the step ends at the border of the box.
+Step NewtonStep(const State& s, const Box2& box, bool definite) {
   Step step;
   const SurfaceJet& j = s.jet;
   const Vec3& d = s.d;
@@ -121,7 +125,7 @@ Step NewtonStep(const State& s, const Box2& box) {
   // curvature, however hollow the surface is across. The bound must still push back where that one ends.
   const bool holds_u = PushesBack(m.gx, box.x0, box.x1), holds_v = PushesBack(m.gy, box.y0, box.y1);
   if (holds_u && holds_v) return step;
-  if (holds_u || holds_v) {
+  if (definite && (holds_u || holds_v)) {
     double used = 0.0;
     if (holds_u) {
       step.exact = m.c > 1e-2 * g;
@@ -143,7 +147,7 @@ Step NewtonStep(const State& s, const Box2& box) {
   const double det = m.a * m.c - m.b * m.b;
   if (m.a > kSmall * e && m.c > kSmall * g && det > kSmall * e * g) {
     step.exact = det > 1e-2 * (e * g - f * f);
-  } else {
+  } else if (definite) {
     MakeDefinite(e, f, g, tiny, m);
   }
   step.to = MinimizeOnBox(m, box);
@@ -203,7 +207,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
     const bool touching = result.improved && best.u == s.u && best.v == s.v;
     const bool rise =
         touching && iteration >= kPatience && iteration % 2 == 0 && s.d.z() > 1e-9 * ball.radius;
-    const Step step = rise ? RiseStep(s, box) : NewtonStep(s, box);
+    const Step step = rise ? RiseStep(s, box) : NewtonStep(s, box, iteration < kPatience);
     const double promise = -step.to.value;  // decrease of f
 
     const double gain = std::sqrt(s.d.z() * s.d.z() + 2.0 * std::max(0.0, promise)) - s.d.z();
@@ -236,6 +240,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
         if (result.out) return end();
       }
       if (!(promise > 1e-15 * (s.f + ball.radius * ball.radius))) break;
+      if (iteration >= kPatience && !result.improved && s.f - promise >= ball.FreeF()) break;
     }
 
     double t = 1.0;

@@ -163,20 +163,20 @@ const Surface& Locator::surface() const { return impl_->surface; }
 double Locator::radius() const { return impl_->radius; }
 std::uint64_t Locator::defect_count() const { return impl_->defects.load(); }
 
-std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hint) const {
+std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hint, double gap) const {
   thread_local Impl::OpenLeaves open;
   const Ball ball = impl_->BallAt(q);
   Contact best;
   best.z = impl_->Lowest();
   if (hint != nullptr) impl_->StartFromHint(ball, *hint, best);
-  impl_->SearchAll(ball, Impl::kGap, best, open);
+  impl_->SearchAll(ball, gap, best, open);
   if (best.piece < 0) return std::nullopt;
   return CenterPoint{best.z, impl_->PointOf(best)};
 }
 
-bool Locator::Free(const Vec3& c, double slack) const {
+bool Locator::Free(const Vec3& c, double slack, double gap) const {
   thread_local Impl::OpenLeaves open;
-  return !impl_->TryFree(impl_->BallAt(Plan(c)), c.z() + slack, Impl::kGap, open).contact;
+  return !impl_->TryFree(impl_->BallAt(Plan(c)), c.z() + slack, gap, open).contact;
 }
 
 std::optional<double> Locator::CertifiedFree(const Vec3& c, double eps) const {

@@ -33,6 +33,10 @@
 
 namespace patchmill {
 
+// mm: what heights and free balls are proven to where nothing else is asked for. Where a ball fits a hollow
+// exactly that costs milliseconds, and 1e-4 mm a tenth of it: who needs less should say so.
+inline constexpr double kProofGap = 1e-6;
+
 struct CenterPoint {
   double z = 0.0;  // mm, centre height
   SurfacePoint contact;
@@ -62,14 +66,15 @@ class Locator {
   const Surface& surface() const;
   double radius() const;
 
-  // h(q); nullopt where no surface point lies within R of q in plan. Proven to 1e-6 mm as CertifiedHeight is,
+  // h(q); nullopt where no surface point lies within R of q in plan. Proven to `gap` as CertifiedHeight is,
   // without saying so (20,000 parts may not suffice); error <= 1e-9 mm against closed forms where the branch
   // and bound closes; with a contact near the equator, where heights answer roundings of the surface by their
   // square root, what those explain: with b = z - p_z the height of the centre above the contact, sqrt(b^2 +
   // 2 R d) - b for a rounding d of the surface (4e-14 of the scale), that is R d / b, but 5e-6 mm at most for
   // R = 3 on a part of 100 mm. `hint`: a contact nearby, only for speed; changes the value within these
   // errors only.
-  std::optional<CenterPoint> Height(const Vec2& q, const SurfacePoint* hint = nullptr) const;
+  std::optional<CenterPoint> Height(const Vec2& q, const SurfacePoint* hint = nullptr,
+                                    double gap = kProofGap) const;
 
   // The same with proof: bounds subdivided until the gap is at most eps (mm, >= 1e-7), or eps / 2 and what a
   // proof allows itself, 1e-12 of the scale (more than that half only beyond 250 m for eps 1e-6). Should
@@ -83,9 +88,9 @@ class Locator {
   std::optional<CenterPoint> Follow(const SurfacePoint& from, const Vec2& q) const;
 
   // True iff a ball (and everything above it) centred at c is free: h(c_xy) <= c_z + slack. Early-out,
-  // cheaper than Height. Proven as Height is: to 1e-6 mm and what rounding explains, but for the rare place
+  // cheaper than Height. Proven as Height is: to `gap` and what rounding explains, but for the rare place
   // where 20,000 parts do not suffice.
-  bool Free(const Vec3& c, double slack = 0.0) const;
+  bool Free(const Vec3& c, double slack = 0.0, double gap = kProofGap) const;
 
   // The same with proof: how far the ball has to be lifted at most to be proven free (mm; at most eps as for
   // CertifiedHeight, or what is left); nullopt where it is not free.

@@ -23,7 +23,6 @@ struct Locator::Impl {
   // A centre height below every contact: c = (q, lowest) makes the upward ray a vertical line.
   double Lowest() const { return surface.box.min.z() - radius - 1.0; }
 
-  static constexpr double kGap = 1e-6;  // mm, to which a search divides when nothing else is asked for
   // Leaves a search could not prove: their bounds rest on a few local searches, which may miss a maximum.
   using OpenLeaves = std::vector<std::int32_t>;
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "cam/path/chord_thinning.h"
 #include "cam/path/path_tree.h"
 #include "cam/path/scan_line.h"
 #include "cam/path/spacing.h"
@@ -48,14 +49,14 @@ struct Stand {
 // place in plan is moved to where the normal of the contact found would have the ball over p, times what the
 // contact has been found to lag behind (by more than 1 on ridges, less in hollows). Nothing where it does not
 // come within `near` of that. `last`: at a place nearby.
-std::optional<Stand> BallTouching(const Locator& locator, const Vec3& p, double near,
+std::optional<Stand> BallTouching(const Locator& locator, double gap, const Vec3& p, double near,
                                   const std::optional<Stand>& last) {
   Vec2 q = Plan(p), before_q = q, before_off = Vec2::Zero();
   if (last) q += Plan(last->center - last->contact.p);
   const SurfacePoint* hint = last ? &last->contact : nullptr;
   std::optional<CenterPoint> at;
   for (int k = 0; k < kSteps; ++k) {
-    at = locator.Height(q, at ? &at->contact : hint);
+    at = locator.Height(q, at ? &at->contact : hint, gap);
     if (!at) return std::nullopt;
     const SurfacePoint& contact = at->contact;
     const auto n = UpwardNormal(Evaluate(locator.surface(), contact.piece, contact.u, contact.v));
@@ -87,7 +88,8 @@ class BorderWalk {
       : locator_(locator),
         lines_(lines),
         all_(all),
-        flat_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
+        flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
+        gap_(CertificateGap(params)) {}
 
   double flat() const { return flat_; }
 
@@ -97,7 +99,7 @@ class BorderWalk {
     std::optional<Stand> last;
     for (std::size_t i = 0; i < points.size() && !run.Cancelled(); ++i) {
       BorderPlace& place = places[i];
-      last = place.stand = BallTouching(locator_, points[i], kTouch * flat_, last);
+      last = place.stand = BallTouching(locator_, gap_, points[i], kTouch * flat_, last);
       if (!place.stand) continue;
       const Vec3& c = place.stand->center;
       const auto line = lines_.Find(c, kReach * flat_);
@@ -150,7 +152,7 @@ class BorderWalk {
  private:
   const Locator& locator_;
   const PathTree &lines_, &all_;
-  const double flat_;
+  const double flat_, gap_;
 };
 
 // Fewest of `places` that stay within `tolerance` (mm) of all.

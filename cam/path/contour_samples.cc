@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/path/chord_thinning.h"
 #include "cam/path/spacing.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
@@ -126,7 +127,7 @@ class PieceSampler {
 
   bool Free(const Vec3& center) const {
     return center.z() >= params_.floor_z + context_.locator.radius() - kFreeSlack &&
-           context_.locator.Free(center, kFreeSlack);
+           context_.locator.Free(center, kFreeSlack, CertificateGap(params_));
   }
 
   Node MakeNode(const Vec2& uv) const {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "cam/location/heights.h"
+#include "cam/path/chord_thinning.h"
 #include "cam/path/spacing.h"
 #include "core/diffgeo/forms.h"
 
@@ -26,7 +27,7 @@ LineProber::LineProber(const Locator& locator, const SheetBorder& border, const 
       flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
 
 LineProbe LineProber::Probe(double t, double y, double slope, const SurfacePoint* hint) const {
-  return Judge(t, y, slope, locator_.Height(frame_.At(t, y), hint));
+  return Judge(t, y, slope, locator_.Height(frame_.At(t, y), hint, CertificateGap(params_)));
 }
 
 std::vector<LineProbe> LineProber::ProbeRow(double t0, double t1, int count, const LineShape& line) const {
@@ -40,7 +41,8 @@ std::vector<LineProbe> LineProber::ProbeRow(double t0, double t1, int count, con
   constexpr std::size_t kBetweenPolls = 1024;
   for (std::size_t i = 0; i < places.size() && !Cancelled(); i += kBetweenPolls) {
     const std::size_t n = std::min(kBetweenPolls, places.size() - i);
-    Heights(locator_, std::span(places).subspan(i, n), std::span(heights).subspan(i, n));
+    Heights(locator_, std::span(places).subspan(i, n), std::span(heights).subspan(i, n),
+            CertificateGap(params_));
   }
   std::vector<LineProbe> row;
   row.reserve(places.size());
