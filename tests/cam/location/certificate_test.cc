@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "cam/location/locator.h"
+#include "tests/support/clock.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
@@ -122,6 +124,37 @@ TEST(Certificate, WhereTheBallJustFits) {
           1e-6, tally);
   }
   ExpectClosed(tally, 8000);
+}
+
+// A floor, a fillet of exactly the ball's radius, a wall: all along the fillet the ball touches at once where
+// it meets the wall, and nothing but division can prove it. Common in drawings, so it must not take long.
+TEST(Certificate, AFilletOfTheBallsRadius) {
+  constexpr double kR = 3.0, kX = 20.0, kLength = 40.0, kTop = 12.0;
+  const double w = std::sqrt(0.5);
+  BezierPatch fillet{2, 1, {}, {1.0, 1.0, w, w, 1.0, 1.0}};
+  for (const Vec2& p : {Vec2(kX, 0.0), Vec2(kX + kR, 0.0), Vec2(kX + kR, kR)}) {
+    for (const double y : {0.0, kLength}) fillet.points.emplace_back(p.x(), y, p.y());
+  }
+  PatchModel model;
+  model.patches = {{"", testing::Bilinear({0, 0, 0}, {kX, 0, 0}, {0, kLength, 0}, {kX, kLength, 0})},
+                   {"", fillet},
+                   {"", testing::Bilinear({kX + kR, 0, kR}, {kX + kR, kLength, kR}, {kX + kR, 0, kTop},
+                                          {kX + kR, kLength, kTop})}};
+  const Surface surface = SurfaceOf(std::move(model));
+  const Locator locator(surface, kR);
+  Random random(12);
+  const double start = testing::ClockSeconds(CLOCK_THREAD_CPUTIME_ID);
+  for (int i = 0; i < 1000; ++i) {
+    const double off = std::pow(10.0, random.Uniform(-9.0, -4.0));
+    const Vec2 q(kX - off, random.Uniform(kR, kLength - kR));
+    const auto h = locator.CertifiedHeight(q, 1e-6);
+    ASSERT_TRUE(h.has_value());
+    EXPECT_NEAR(h->z, kR, 1e-9) << off;
+    EXPECT_LE(h->gap, 1e-6) << off;
+    EXPECT_TRUE(locator.Free(Lift(q, kR + 2e-6))) << off;
+    EXPECT_FALSE(locator.Free(Lift(q, kR - 2e-6))) << off;
+  }
+  EXPECT_LT(testing::ClockSeconds(CLOCK_THREAD_CPUTIME_ID) - start, testing::kSanitized ? 60.0 : 4.0);
 }
 
 TEST(Certificate, HeightIsTheMaximumOverNeighboursContacts) {
