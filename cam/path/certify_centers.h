@@ -6,8 +6,8 @@
 
 namespace patchmill {
 
-// Every centre is proven free to `gap` mm. One that is not is raised to its certified height, with the contact
-// there, and counts as a defect (Locator::Correction). Cost of some microseconds a point.
+// Every centre is proven free to `gap` mm. One that is not is raised to its certified height, with the
+// contact there, and counts as a defect (Locator::Correction). Cost of some microseconds a point.
 void CertifyCenters(const Locator& locator, double gap, CutterPath& path);
 
 }  // namespace patchmill
