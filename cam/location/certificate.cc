@@ -133,6 +133,11 @@ double Locator::Impl::Certify(const Ball& ball, std::span<const std::int32_t> op
     RestrictNet(shape, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
     prover.Prove(piece, leaf.piece(), rect, points.data(), 0);
   }
+  // Found on a part of a leaf, whose neighbours the gap excluded: the maximum may lie beyond its border.
+  if (!prover.any && best.z > prover.start) {
+    internal::RaiseOnPiece(surface.pieces[static_cast<std::size_t>(best.piece)], best.piece, Rect{}, best.u,
+                           best.v, ball, {}, best);
+  }
   return std::max(0.0, prover.top - best.z) + slack;
 }
 

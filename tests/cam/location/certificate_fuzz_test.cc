@@ -214,6 +214,14 @@ TEST(CertificateFuzz, BesideASingularCorner) {
   ExpectClean(tally);
 }
 
+// A hollow that the ball all but fits: division found a contact on the border of a part, the maximum 2e-7 mm
+// higher beyond it.
+TEST(CertificateFuzz, AHollowThatNearlyFits) {
+  Tally tally;
+  Judge(60013, tally);
+  ExpectClean(tally);
+}
+
 // A ball that rests on a singular corner of a part of 107 m: only division closes the gap there, 70 halvings.
 TEST(CertificateFuzz, SingularCornerOfAHugePart) {
   Tally tally;
