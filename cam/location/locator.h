@@ -13,7 +13,7 @@
 //     differentiable across it. On a part where both forms have positive definite Hessians f is convex, and a
 //     point that satisfies the KKT conditions is its only minimum (T6), wherever the level runs.
 //   - Every search, lanes included, divides the leaves that no such proof has closed until one does, or the
-//     gap is at most 1e-6 mm: starts alone miss maxima (certificate_fuzz_test has them).
+//     gap is what was asked for (kProofGap): starts alone miss maxima (certificate_fuzz_test has them).
 //   - Proofs take f >= R (R/2 - d), d = 1e-12 of the scale, for outside: [z, z + gap] holds for the
 //     surface up to d, in heights up to d R / b, at most sqrt(2 R d), b the height of the centre above the
 //     contact.
@@ -34,7 +34,8 @@
 namespace patchmill {
 
 // mm: what heights and free balls are proven to where nothing else is asked for. Where a ball fits a hollow
-// exactly that costs milliseconds, and 1e-4 mm a tenth of it: who needs less should say so.
+// exactly that takes half a millisecond: who needs less should say so (tests/bench/README.md has what it
+// saves).
 inline constexpr double kProofGap = 1e-6;
 
 struct CenterPoint {
