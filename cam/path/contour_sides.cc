@@ -90,7 +90,7 @@ PieceSides::PieceSides(const Surface& surface, const RunContext& run) : surface_
       return std::min(a.t0, a.t1) < std::min(b.t0, b.t1);
     });
   }
-  for (const PartLink& link : FindPartLinks(surface.network, run)) {
+  for (const PartLink& link : surface.network.part_links) {
     junctions_[link.part].push_back(link);
     junctions_[link.whole].push_back(link);
   }

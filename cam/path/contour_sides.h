@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/base/run_context.h"
-#include "core/network/part_links.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {

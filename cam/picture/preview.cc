@@ -72,11 +72,12 @@ void DrawOpenEdges(const PreviewInput& input, const SeenLines& seen, SvgWriter& 
   const PatchNetwork& network = input.surface->network;
   for (const EdgeLink& link : network.edges) {
     if (link.neighbor || link.collapsed || link.on_t_junction) continue;
-    const PatchShape& shape = network.model.patches[link.self.patch.index()].shape;
+    const PatchId patch = link.self.patch;
     std::vector<Vec3> points;
     for (int i = 0; i <= kSteps; ++i) {
-      const Vec2 uv = EdgeParameters(shape, link.self.edge, static_cast<double>(i) / kSteps);
-      points.push_back(Position(shape, uv.x(), uv.y()));
+      const Vec2 uv = EdgeParameters(network.model.patches[patch.index()].shape, link.self.edge,
+                                     static_cast<double>(i) / kSteps);
+      points.push_back(Evaluate(*input.surface, patch, uv.x(), uv.y()).p);
     }
     seen.Draw(points, svg);
   }

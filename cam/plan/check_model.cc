@@ -8,7 +8,7 @@
 
 namespace patchmill {
 
-absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup, const RunContext& run) {
+absl::StatusOr<PatchNetwork> BuildPlacedNetwork(PatchModel model, const Setup& setup, const RunContext& run) {
   const Placement& p = setup.placement;
   if (!(p.scale > 0.0) || !(p.scale <= 1e9)) {
     return absl::InvalidArgumentError(fmt::format("setup.scale = {:.6g}; must be in (0, 1e9]", p.scale));
@@ -16,7 +16,11 @@ absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup,
   if (!p.translation.allFinite() || p.translation.norm() > 1e6) {
     return absl::InvalidArgumentError("setup.translation_mm; must be finite and within 1e6 mm");
   }
-  PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(Place(p, std::move(model)), run));
+  return BuildNetwork(Place(p, std::move(model)), run);
+}
+
+absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup, const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildPlacedNetwork(std::move(model), setup, run));
   PM_RETURN_IF_ERROR(run.Check());
   return BuildSurface(std::move(network), SurfaceParams{}, run);
 }

@@ -8,7 +8,6 @@
 #include "core/diffgeo/forms.h"
 #include "core/network/edge_angles.h"
 #include "core/network/edge_curves.h"
-#include "core/network/part_links.h"
 
 namespace patchmill {
 namespace {
@@ -95,7 +94,7 @@ absl::StatusOr<ContinuityReport> MeasureContinuity(const PatchNetwork& network, 
     if (mutual && other < static_cast<int>(k)) continue;
     pairs.push_back({static_cast<int>(k), other, link.reversed ? 1.0 : 0.0, link.reversed ? 0.0 : 1.0});
   }
-  for (const PartLink& link : FindPartLinks(network, run)) {
+  for (const PartLink& link : network.part_links) {
     pairs.push_back({index(link.part), index(link.whole), link.from, link.to, true});
   }
   ContinuityReport report;

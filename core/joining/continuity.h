@@ -34,6 +34,7 @@ struct ContinuityReport {
 // point of equal parameter, or the closest one where that is farther than 1e-9 of the edge. Exact at these
 // points: gap to 1e-15 of the model, angle to 1e-14 rad, curvatures to about 1e-13 of 1/edge on regular
 // patches. Parallel over edges. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// The network's own model is evaluated: before a Surface takes it.
 absl::StatusOr<ContinuityReport> MeasureContinuity(const PatchNetwork& network, int steps,
                                                    const RunContext& run);
 

@@ -2,28 +2,17 @@
 
 #include <algorithm>
 
-#include "core/network/edge_links.h"
-#include "core/network/open_edges.h"
-
 namespace patchmill {
 
-std::vector<PartLink> FindPartLinks(const PatchNetwork& network, const RunContext& run) {
+std::vector<PartLink> FindPartLinks(const EdgeCurves& curves, const std::vector<EdgeLink>& edges,
+                                    const std::vector<TJunction>& junctions, const RunContext& run) {
+  const auto taken = [&edges](int e) { return edges[static_cast<std::size_t>(e)].neighbor.has_value(); };
   std::vector<PartLink> links;
-  if (std::ranges::none_of(network.edges, &EdgeLink::on_t_junction)) return links;
-  const EdgeCurves curves(network.model, run);
-  if (run.Cancelled()) return links;
-  std::vector<Vec3> edge_ends;
-  std::vector<int> open;
-  for (int e = 0; e < curves.count(); ++e) {
-    edge_ends.push_back(curves.start(e));
-    edge_ends.push_back(curves.end(e));
-    const EdgeLink& link = network.edges[static_cast<std::size_t>(e)];
-    if (!link.neighbor && !link.collapsed) open.push_back(e);
-  }
-  const auto ends = EdgeEndVertices(curves, MergeCorners(edge_ends, network.join_tolerance));
-  for (const TJunction& t :
-       InspectOpenEdges(curves, ends, open, network.join_tolerance, 0.0, run).t_junctions) {
+  for (const TJunction& t : junctions) {
+    if (run.Cancelled()) return links;
+    if (taken(t.long_edge)) continue;
     for (const int e : t.short_edges) {
+      if (taken(e)) continue;
       PartLink link{curves.edge(e), curves.edge(t.long_edge)};
       link.from = ClosestOnEdge(curves, t.long_edge, curves.start(e)).t;
       link.to = ClosestOnEdge(curves, t.long_edge, curves.end(e)).t;

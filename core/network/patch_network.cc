@@ -13,6 +13,7 @@
 #include "core/network/findings.h"
 #include "core/network/half_edges.h"
 #include "core/network/open_edges.h"
+#include "core/network/part_links.h"
 
 namespace patchmill {
 namespace {
@@ -53,6 +54,24 @@ void Join(const EdgeCurves& curves, const EdgeGap& match, std::vector<EdgeLink>&
     links[At(from)].reversed = match.reversed;
     links[At(from)].gap = match.distance;
   }
+}
+
+// Nearly collapsed edges are no news, but lines cross them: they count where anything lies along another
+// edge.
+std::vector<PartLink> LinkParts(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
+                                const std::vector<bool>& nearly, const OpenEdgeReport& meetings,
+                                double tolerance, const std::vector<EdgeLink>& links, const RunContext& run) {
+  if (std::ranges::none_of(links, &EdgeLink::on_t_junction)) return {};
+  std::vector<int> open;
+  bool more = false;
+  for (int e = 0; e < curves.count(); ++e) {
+    if (links[At(e)].neighbor || links[At(e)].collapsed) continue;
+    open.push_back(e);
+    more = more || nearly[At(e)];
+  }
+  if (!more) return FindPartLinks(curves, links, meetings.t_junctions, run);
+  const OpenEdgeReport all = InspectOpenEdges(curves, ends, open, tolerance, 0.0, run);
+  return FindPartLinks(curves, links, all.t_junctions, run);
 }
 
 // Everything BuildNetwork knows before it speaks.
@@ -225,6 +244,8 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
       network.edges[At(gap.edge)].gap = network.edges[At(gap.other)].gap = gap.distance;
     }
   }
+  network.part_links = LinkParts(curves, ends, nearly, meetings, tolerance, network.edges, run);
+  PM_RETURN_IF_ERROR(done(0.75));
   MeasureAngles(curves, run, network.edges);
   PM_RETURN_IF_ERROR(done(0.8));
   for (EdgeLink& link : network.edges) {  // a copy does not fold back onto its original

@@ -38,10 +38,18 @@ struct EdgeLink {
                            // turned to one side of the joined sheet: 0 smooth, pi folded back
 };
 
+// An edge that lies all along a longer one of another patch: the link of a T-junction.
+struct PartLink {
+  PatchEdge part, whole;
+  double from = 0.0, to = 1.0;  // parameters of the whole at the start and end of the part; may run backwards
+  double gap = 0.0;             // mm, largest distance found of the part from the whole
+};
+
 struct PatchNetwork {
   PatchModel model;
-  double join_tolerance = 0.0;  // mm, resolved
-  std::vector<EdgeLink> edges;  // 4 (triangle 3) per patch, in order of patch, then edge index
+  double join_tolerance = 0.0;       // mm, resolved
+  std::vector<EdgeLink> edges;       // 4 (triangle 3) per patch, in order of patch, then edge index
+  std::vector<PartLink> part_links;  // by whole, then by part: the edges told by T_JUNCTION findings
   // What is remarkable, by code, then by edge; at most 1000 of a code and one line that counts the rest.
   //   OPEN_EDGE              no neighbour: a border (info)
   //   COLLAPSED_EDGE         a point, a pole (info)

@@ -1,10 +1,12 @@
 // Tensor Bezier patches, polynomial and rational.
+#include "core/base/status.h"
 #include "core/patch/kinds.h"
 #include "core/patch/tensor_kernel.h"
 
 namespace patchmill::internal {
 
 SurfaceJet EvaluateShape(const BezierPatch& patch, double u, double v) {
+  PM_CHECK(!patch.points.empty());  // of a Surface's model: its piece has them
   BasisJet bu, bv;
   AllBernsteinJet(patch.degree_u, u, bu);
   AllBernsteinJet(patch.degree_v, v, bv);
@@ -16,6 +18,7 @@ SurfaceJet EvaluateShape(const BezierPatch& patch, double u, double v) {
 }
 
 Vec3 ShapePosition(const BezierPatch& patch, double u, double v) {
+  PM_CHECK(!patch.points.empty());
   double bu[kMaxBasisDegree + 1], bv[kMaxBasisDegree + 1];
   AllBernstein(patch.degree_u, u, bu);
   AllBernstein(patch.degree_v, v, bv);

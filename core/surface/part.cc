@@ -13,7 +13,7 @@ absl::StatusOr<Surface> PartOf(const Surface& surface, const std::vector<bool>& 
   PatchModel part;
   part.join_tolerance = whole.join_tolerance;
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (patches[i]) part.patches.push_back(whole.patches[i]);
+    if (patches[i]) part.patches.push_back({whole.patches[i].id, ShapeOf(surface, PatchId(i))});
   }
   PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(std::move(part), run));
   return BuildSurface(std::move(network), SurfaceParams{}, run);

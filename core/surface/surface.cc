@@ -150,11 +150,19 @@ absl::Status CheckParams(const PatchNetwork& network, const SurfaceParams& param
   return absl::OkStatus();
 }
 
+// Leaves the points of a patch to its piece where they are that piece's net.
+void LeavePointsTo(const std::vector<Piece>& pieces, PatchShape& shape) {
+  const bool bezier = std::holds_alternative<BezierPatch>(shape);
+  const bool one_span = std::holds_alternative<BsplinePatch>(shape) && pieces.size() == 1;
+  if (bezier || one_span) shape = BezierPatch{pieces[0].net.degree_u, pieces[0].net.degree_v, {}, {}};
+}
+
 absl::Status MakePieces(Surface& surface, const RunContext& run) {
-  const std::vector<Patch>& patches = surface.network.model.patches;
+  std::vector<Patch>& patches = surface.network.model.patches;
   std::vector<std::vector<Piece>> parts(patches.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "pieces", patches.size(), [&](std::size_t i) {
     parts[i] = SplitIntoPieces(PatchId(i), patches[i].shape);
+    LeavePointsTo(parts[i], patches[i].shape);
   }));
   std::size_t count = 0;
   for (const auto& part : parts) count += part.size();
@@ -246,6 +254,24 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   surface.box = surface.nodes.front().box;
   surface.scale = std::max(surface.box.min.cwiseAbs().maxCoeff(), surface.box.max.cwiseAbs().maxCoeff());
   return surface;
+}
+
+SurfaceJet Evaluate(const Surface& s, PatchId id, double u, double v) {
+  const PatchShape& shape = s.network.model.patches[id.index()].shape;
+  if (std::holds_alternative<BezierPatch>(shape)) return Evaluate(s, s.first_piece[id.index()], u, v);
+  return Evaluate(shape, u, v);
+}
+
+PatchShape ShapeOf(const Surface& s, PatchId id) {
+  const PatchShape& shape = s.network.model.patches[id.index()].shape;
+  if (!std::holds_alternative<BezierPatch>(shape)) return shape;
+  const BernsteinNet& net = s.piece(s.first_piece[id.index()]).net;
+  BezierPatch whole{net.degree_u, net.degree_v, {}, {}};
+  for (const Vec4& p : net.points) {
+    whole.points.emplace_back(p.head<3>() / p.w());
+    if (net.rational) whole.weights.push_back(p.w());
+  }
+  return whole;
 }
 
 }  // namespace patchmill

@@ -34,8 +34,9 @@ struct Surface {
   Surface(Surface&&) = default;
   Surface& operator=(Surface&&) = default;
 
-  // The model must stay as it is. Its points are kept beside the Bernstein nets of the pieces: parts of the
-  // surface are built from it (PartOf), pieces of some kinds are evaluated by it.
+  // The model must stay as it is: pieces of some kinds are evaluated by it. No net is kept twice: a
+  // BezierPatch in it has its degrees but no points, its piece's net has them. What asks for the whole
+  // patch, whatever its kind, goes through Evaluate and ShapeOf.
   PatchNetwork network;
   std::vector<Piece> pieces;
   std::vector<PieceId> first_piece;  // of each patch
@@ -65,6 +66,12 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
 inline SurfaceJet Evaluate(const Surface& s, PieceId id, double u, double v) {
   return Evaluate(s.piece(id), u, v);
 }
+// In the patch's own parameters, as Evaluate of its shape.
+SurfaceJet Evaluate(const Surface& s, PatchId id, double u, double v);
+
+// A copy of the patch with all its points. A B-spline patch of one knot rectangle comes back as the Bezier
+// patch it is; points of a rational one to 1e-16 of their size.
+PatchShape ShapeOf(const Surface& s, PatchId id);
 
 // Outer bounds of any sub-rectangle, computed afresh from its net (ALGORITHMS 1, 2.2): what certificates
 // subdivide with. Cost O(points).

@@ -74,7 +74,12 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
       return absl::OkStatus();
     }
     PM_RETURN_IF_ERROR(run.Check());
-    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
+    PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildPlacedNetwork(std::move(model.model), job.setup, run));
+    ContinuityReport continuity;
+    if (steps > 0) {
+      PM_ASSIGN_OR_RETURN(continuity, MeasureContinuity(network, steps, run));
+    }
+    PM_ASSIGN_OR_RETURN(const Surface surface, BuildSurface(std::move(network), SurfaceParams{}, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
     PM_ASSIGN_OR_RETURN(ModelCheck check, CheckModel(surface, tool, run));
     for (const Diagnostic& remark : Placed(model.remarks, job.setup.placement))
@@ -85,9 +90,7 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
     if (std::isfinite(check.min_concave_radius))
       response->set_min_concave_radius_mm(check.min_concave_radius);
     FillNetwork(surface.network, response);
-    if (steps == 0) return absl::OkStatus();
-    PM_ASSIGN_OR_RETURN(const ContinuityReport continuity, MeasureContinuity(surface.network, steps, run));
-    AddJoints(continuity, response->mutable_joints());
+    if (steps > 0) AddJoints(continuity, response->mutable_joints());
     return absl::OkStatus();
   });
 }

@@ -89,8 +89,8 @@ absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRe
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
     for (int k = 0; k < count; ++k) {
-      const Patch& patch = surface.network.model.patches[static_cast<std::size_t>(request.patch_index(k))];
-      AddPoint(Evaluate(patch.shape, request.uv(2 * k), request.uv(2 * k + 1)), resolved.program_zero,
+      const PatchId patch(request.patch_index(k));
+      AddPoint(Evaluate(surface, patch, request.uv(2 * k), request.uv(2 * k + 1)), resolved.program_zero,
                response);
     }
     return run.Check();

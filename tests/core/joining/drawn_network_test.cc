@@ -5,7 +5,6 @@
 
 #include "core/joining/continuity.h"
 #include "core/joining/join_network.h"
-#include "core/network/part_links.h"
 #include "tests/support/drawn_nets.h"
 
 namespace patchmill {
@@ -43,7 +42,7 @@ TEST(DrawnNetwork, AMouseIsSmoothButForItsShoulder) {
   auto checked = BuildNetwork(joined.model);
   ASSERT_TRUE(checked.ok());
   EXPECT_EQ(checked->open_edge_count, 10);
-  EXPECT_EQ(FindPartLinks(*checked, RunContext(1)).size(), 4u);
+  EXPECT_EQ(checked->part_links.size(), 4u);
   const auto report = MeasureContinuity(*checked, 300, RunContext(1));
   ASSERT_TRUE(report.ok());
   EXPECT_EQ(report->edges.size(), 36u);

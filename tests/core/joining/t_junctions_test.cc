@@ -8,7 +8,6 @@
 #include "core/joining/continuity.h"
 #include "core/joining/join_network.h"
 #include "core/joining/network_findings.h"
-#include "core/network/part_links.h"
 #include "tests/core/joining/networks.h"
 
 namespace patchmill {
@@ -65,7 +64,7 @@ void ExpectJoined(const CurveNetwork& network, std::size_t parts, bool smooth = 
   ASSERT_FALSE(HasError(joined.findings)) << Text(joined.findings);
   const auto patches = BuildNetwork(joined.model);
   ASSERT_TRUE(patches.ok());
-  EXPECT_EQ(FindPartLinks(*patches, RunContext(1)).size(), parts);
+  EXPECT_EQ(patches->part_links.size(), parts);
   const auto report = MeasureContinuity(*patches, 200, RunContext(1));
   ASSERT_TRUE(report.ok());
   std::size_t seen = 0;

@@ -108,8 +108,8 @@ std::vector<Kind> Kinds(const Vec3& f, const Vec3& across, double low, double hi
 
 // `symmetric`: without the kinds whose lines then run along borders of patches, where a grid inside them sees
 // one sign only.
-void ExpectCountsOfSignGrid(PatchModel model, const Vec3& axis, bool symmetric = false) {
-  auto network = BuildNetwork(std::move(model));
+void ExpectCountsOfSignGrid(const PatchModel& model, const Vec3& axis, bool symmetric = false) {
+  auto network = BuildNetwork(model);
   ASSERT_TRUE(network.ok()) << network.status();
   auto surface = BuildSurface(*std::move(network), SurfaceParams(), RunContext());
   ASSERT_TRUE(surface.ok()) << surface.status();
@@ -136,7 +136,7 @@ void ExpectCountsOfSignGrid(PatchModel model, const Vec3& axis, bool symmetric =
   std::vector<Counts> counts, before;
   int cells = 50;
   do {
-    before = std::exchange(counts, SignGrid(surface->network.model, f, cells, weld).Count(seen));
+    before = std::exchange(counts, SignGrid(model, f, cells, weld).Count(seen));
     cells *= 2;
   } while (counts != before && cells <= 1600);
   EXPECT_EQ(counts, before) << "the grid does not settle";

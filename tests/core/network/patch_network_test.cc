@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "core/network/control_points.h"
-#include "core/network/part_links.h"
 #include "tests/support/files.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
@@ -245,7 +244,7 @@ TEST(BuildNetwork, FindsTJunctions) {
   EXPECT_TRUE(network.Link({PatchId(2), 3}).on_t_junction);
   EXPECT_FALSE(network.Link({PatchId(1), 1}).on_t_junction);
   EXPECT_EQ(network.t_junction_count, 1);
-  const std::vector<PartLink> parts = FindPartLinks(network, RunContext(1));
+  const std::vector<PartLink>& parts = network.part_links;
   ASSERT_EQ(parts.size(), 2u);
   for (const int k : {0, 1}) {
     const PartLink& link = parts[static_cast<std::size_t>(k)];

@@ -51,6 +51,7 @@ inline std::vector<NamedModel> EveryKindOfPatch() {
       {"Degree15", Single(RandomBezier(3, 15, 15, false))},
       {"Degree1By7Rational", Single(RandomBezier(4, 1, 7, true))},
       {"Bspline", RandomBspline(5)},
+      {"OneSpanNurbs", RandomBspline(12, {.spans = 1, .rational = true})},
       {"FoldedNurbs", RandomBspline(6, {.spans = 4, .folds = true, .rational = true})},
       {"UnevenKnotsWithCrease", Single(RandomKnots(11, 3, 2, true))},
       {"GregoryCorner", Single(RandomGregory(7, Blend::kCorner))},

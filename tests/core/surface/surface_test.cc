@@ -1,13 +1,16 @@
 #include "core/surface/surface.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/network/control_points.h"
 #include "tests/core/surface/surface_models.h"
 #include "tests/support/clock.h"
 #include "tests/support/peak_memory.h"
@@ -146,6 +149,43 @@ TEST_P(EverySurface, DoesNotDependOnThreads) {
   for (std::size_t i = 0; i < a.nodes.size(); ++i) {
     const SurfaceNode &x = a.nodes[i], &y = b.nodes[i];
     ASSERT_TRUE(x.box.min == y.box.min && x.box.max == y.box.max && x.right == y.right && x.leaf == y.leaf);
+  }
+}
+
+// What takes a patch as a whole finds it as it was given, though its points may be with its piece alone.
+TEST_P(EverySurface, GivesEveryPatchBack) {
+  const PatchModel& given = GetParam().model;
+  const Surface s = MakeSurface(given);
+  Random random(5);
+  const double slack = 1e-13 * (1.0 + s.scale);
+  for (std::size_t i = 0; i < given.patches.size(); ++i) {
+    const PatchShape& shape = given.patches[i].shape;
+    const PatchShape back = ShapeOf(s, PatchId(i));
+    EXPECT_EQ(IsTriangle(back), IsTriangle(shape));
+    for (int k = 0; k < 20; ++k) {
+      const double u = random.Unit(), v = IsTriangle(shape) ? (1.0 - u) * random.Unit() : random.Unit();
+      const SurfaceJet at = Evaluate(shape, u, v);
+      for (const SurfaceJet& jet : {Evaluate(s, PatchId(i), u, v), Evaluate(back, u, v)}) {
+        EXPECT_LE((jet.p - at.p).norm(), slack);
+        EXPECT_LE((jet.du - at.du).norm() + (jet.dv - at.dv).norm(), 100.0 * slack);
+        EXPECT_LE((jet.duu - at.duu).norm() + (jet.duv - at.duv).norm() + (jet.dvv - at.dvv).norm(),
+                  1e4 * slack);
+      }
+    }
+  }
+}
+
+TEST_P(EverySurface, KeepsNoNetTwice) {
+  const Surface s = MakeSurface(GetParam().model);
+  for (const Piece& piece : s.pieces) {
+    const std::span<const Vec3> kept = ControlPoints(s.network.model.patches[piece.patch.index()].shape);
+    if (kept.empty()) continue;
+    const auto& net = piece.net.points;
+    const bool same =
+        kept.size() == net.size() && std::ranges::equal(kept, net, [](const Vec3& p, const Vec4& q) {
+          return (p * q.w() - q.head<3>()).norm() <= 1e-12 * (1.0 + p.norm());
+        });
+    EXPECT_FALSE(same) << "patch " << piece.patch.index();
   }
 }
 
