@@ -189,7 +189,7 @@ absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std:
                                               const std::vector<std::vector<int>>& region_of,
                                               double tolerance, const RunContext& run) {
   BorderPoints points(arcs.sides.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, points.size(), [&](std::size_t k) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: border points", points.size(), [&](std::size_t k) {
     const Adjacency a = adjacency[arcs.sides[k]];
     if (!IsBorder(a, region_of)) return;
     const auto index = static_cast<std::size_t>(a.side.piece);

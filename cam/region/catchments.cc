@@ -138,7 +138,7 @@ absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<Split
     std::vector<Link> inner, seams, lines;
   };
   std::vector<Rest> rest(meshes.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: catchments", meshes.size(), [&](std::size_t piece) {
     Rest& own = rest[piece];
     own.inner.reserve(2 * meshes[piece].triangles.size());
     adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {

@@ -64,7 +64,7 @@ absl::StatusOr<HeightGraph> HeightGraph::Make(const std::vector<SplitMesh>& mesh
   // First how many neighbours each has, one place further; then where they begin.
   std::vector<std::size_t>& first = graph.first_neighbour_;
   first.assign(count + 2, 0);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: heights", meshes.size(), [&](std::size_t piece) {
     for (std::size_t k = 0; k < meshes[piece].vertices.size(); ++k)
       graph.points_[graph.first_[piece] + k] = meshes[piece].vertices[k].p;
     VisitEdges(meshes, adjacency, graph.first_, piece,
@@ -73,14 +73,14 @@ absl::StatusOr<HeightGraph> HeightGraph::Make(const std::vector<SplitMesh>& mesh
   for (std::size_t k = 2; k < first.size(); ++k) first[k] += first[k - 1];
   graph.neighbours_.resize(first.back());
   // A vertex' end so far stands where the next one's first is to be: nobody else writes there.
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: heights", meshes.size(), [&](std::size_t piece) {
     VisitEdges(meshes, adjacency, graph.first_, piece, [&](std::size_t from, std::size_t to) {
       graph.neighbours_[first[from + 1]++] = static_cast<Index>(to);
     });
   }));
   first.pop_back();
   for (std::vector<Index>& steepest : graph.steepest_) steepest.resize(count);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: heights", meshes.size(), [&](std::size_t piece) {
     for (std::size_t i = graph.first_[piece]; i < graph.first_[piece + 1]; ++i) {
       graph.steepest_[0][i] = graph.Steepest(static_cast<Index>(i), 1.0);
       graph.steepest_[1][i] = graph.Steepest(static_cast<Index>(i), -1.0);

@@ -78,7 +78,7 @@ absl::Status AddLenses(const Surface& surface, const std::vector<SplitMesh>& mes
               other = RawOf(raw, a.other_piece, a.other_triangle);
     if (own < other) lenses.push_back({a.side, own, other, &raw.arcs.places[k]});
   }
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, lenses.size(), [&](std::size_t k) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: areas", lenses.size(), [&](std::size_t k) {
     const TriangleSide& side = lenses[k].side;
     lenses[k].area = LensArea(surface, meshes[static_cast<std::size_t>(side.piece)], side, *lenses[k].arc);
   }));

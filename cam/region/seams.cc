@@ -105,7 +105,7 @@ absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::v
   for (const SplitMesh& mesh : meshes) list.first.push_back(list.first.back() + mesh.triangles.size());
   list.beside.resize(list.first.back());
   std::vector<std::vector<BorderSide>> borders(meshes.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: seams", meshes.size(), [&](std::size_t i) {
     borders[i] = FindInner(surface.pieces[i], static_cast<int>(i), meshes[i],
                            std::span(list.beside).subspan(list.first[i], meshes[i].triangles.size()));
   }));

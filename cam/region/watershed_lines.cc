@@ -39,7 +39,7 @@ class Cutter {
     }
     std::vector<MeshCutter*> cutters;
     for (auto& [piece, cutter] : cutters_) cutters.push_back(&cutter);
-    PM_RETURN_IF_ERROR(ParallelFor(run_, nullptr, cutters.size(),
+    PM_RETURN_IF_ERROR(ParallelFor(run_, "regions: watersheds cut", cutters.size(),
                                    [&](std::size_t k) { cutters[k]->Finish(params_.steep_angle); }));
     return !cutters.empty();
   }
@@ -187,12 +187,13 @@ absl::StatusOr<bool> CutWatersheds(const Surface& surface, const WatershedPasses
   // followed side by side.
   const std::size_t down = passes.summits.size();
   std::vector<std::vector<WatershedStart>> falls(down), climbs(passes.pits.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, falls.size() + climbs.size(), [&](std::size_t k) {
-    std::vector<WatershedStart>& starts = k < down ? falls[k] : climbs[k - down];
-    starts = FindStarts(surface, flow, k < down ? 1.0 : -1.0, meshes, boxes,
-                        k < down ? passes.summits[k] : passes.pits[k - down]);
-    for (WatershedStart& start : starts) start.track.GoAhead(run);
-  }));
+  PM_RETURN_IF_ERROR(
+      ParallelFor(run, "regions: watersheds", falls.size() + climbs.size(), [&](std::size_t k) {
+        std::vector<WatershedStart>& starts = k < down ? falls[k] : climbs[k - down];
+        starts = FindStarts(surface, flow, k < down ? 1.0 : -1.0, meshes, boxes,
+                            k < down ? passes.summits[k] : passes.pits[k - down]);
+        for (WatershedStart& start : starts) start.track.GoAhead(run);
+      }));
   PM_ASSIGN_OR_RETURN(const bool summits, Cutter(surface, params, flow, 1.0, run, meshes).Run(falls));
   PM_ASSIGN_OR_RETURN(const bool pits, Cutter(surface, params, flow, -1.0, run, meshes).Run(climbs));
   return summits || pits;

@@ -8,6 +8,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/base/silence.h"
+
 namespace patchmill {
 namespace {
 
@@ -43,11 +45,13 @@ absl::Status ParallelFor(const RunContext& run, const char* stage, std::size_t c
                          const std::function<void(std::size_t)>& body) {
   std::atomic<std::size_t> done{0};
   const std::size_t report_every = std::max<std::size_t>(1, count / 64);
+  Silence silence;
   const auto one = [&](std::size_t i) {
     if (run.Cancelled()) return;
     body(i);
     const std::size_t n = done.fetch_add(1, std::memory_order_relaxed) + 1;
-    if (stage != nullptr && (n % report_every == 0 || n == count)) {
+    if (stage != nullptr && (n % report_every == 0 || n == count || silence.TooLong())) {
+      silence.Break();
       run.Progress(stage, static_cast<double>(n) / static_cast<double>(count));
     }
   };
