@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "cam/path/chord_thinning.h"
-#include "cam/path/path_tree.h"
 #include "cam/path/scan_line.h"
 #include "cam/path/spacing.h"
+#include "cam/toolpath/segment_tree.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
@@ -84,7 +84,8 @@ struct BorderPlace {
 
 class BorderWalk {
  public:
-  BorderWalk(const Locator& locator, const PassParams& params, const PathTree& lines, const PathTree& all)
+  BorderWalk(const Locator& locator, const PassParams& params, const SegmentTree& lines,
+             const SegmentTree& all)
       : locator_(locator),
         lines_(lines),
         all_(all),
@@ -102,16 +103,16 @@ class BorderWalk {
       last = place.stand = BallTouching(locator_, gap_, points[i], kTouch * flat_, last);
       if (!place.stand) continue;
       const Vec3& c = place.stand->center;
-      const auto line = lines_.Find(c, kReach * flat_);
-      if (!line) continue;
-      const PathTree::Segment& segment = lines_.segment(line->segment);
+      const int line = lines_.FindNearest(c, kReach * flat_).segment;
+      if (line < 0) continue;
+      const PathSegment segment = lines_.segment(line);
       const Vec2 runs = Plan(segment.b - segment.a);
       const Vec2 way = Plan(points[std::min(i + 1, points.size() - 1)] - points[i > 0 ? i - 1 : 0]);
       // Drops have no direction.
       const double size = runs.norm() * way.norm();
       place.along = runs.norm() > 1e-6 * (segment.b - segment.a).norm() && size > 0.0 &&
                     std::abs(Cross(runs, way)) <= std::sin(kAlongBorder) * size;
-      place.left = !all_.Find(c, kLeft * flat_);
+      place.left = all_.FindNearest(c, kLeft * flat_).segment < 0;
     }
     if (border.closed && places.size() > 2) {
       // Begins where no pass runs, so that none is cut in two there.
@@ -151,7 +152,7 @@ class BorderWalk {
 
  private:
   const Locator& locator_;
-  const PathTree &lines_, &all_;
+  const SegmentTree &lines_, &all_;
   const double flat_, gap_;
 };
 
@@ -188,7 +189,8 @@ absl::StatusOr<std::vector<CutterPath>> BorderPasses(const Locator& locator,
   std::copy_if(paths.begin(), paths.end(), std::back_inserter(lines),
                [](const CutterPath& path) { return path.kind == PassKind::kZigzag; });
   if (lines.empty()) return std::vector<CutterPath>();
-  const PathTree line_tree(lines), all(paths);
+  const SegmentTree line_tree(MovesOf(lines), Metric::kPath, kInfinity, run);
+  const SegmentTree all(MovesOf(paths), Metric::kPath, kInfinity, run);
   const BorderWalk walk(locator, params, line_tree, all);
   std::vector<std::vector<CutterPath>> found(borders.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "border passes", borders.size(), [&](std::size_t k) {

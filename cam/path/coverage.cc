@@ -5,7 +5,6 @@
 
 #include "cam/path/keep_in_clip.h"
 #include "cam/path/leftover_spots.h"
-#include "cam/path/path_tree.h"
 #include "cam/path/spacing.h"
 #include "cam/path/spot_passes.h"
 #include "core/base/status.h"
@@ -21,10 +20,10 @@ absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,
   for (const SurfaceLeaf& leaf : locator.surface().leaves) {
     rects.push_back({leaf.piece, leaf.u0, leaf.u1, leaf.v0, leaf.v1});
   }
-  std::vector<std::unique_ptr<PathTree>> owned;
-  std::vector<const PathTree*> trees;
+  std::vector<std::unique_ptr<SegmentTree>> owned;
+  std::vector<const SegmentTree*> trees;
   const auto grow = [&](const std::vector<CutterPath>& more) {
-    owned.push_back(std::make_unique<PathTree>(more));
+    owned.push_back(std::make_unique<SegmentTree>(MovesOf(more), Metric::kPath, kInfinity, run));
     trees.push_back(owned.back().get());
   };
   grow(paths);

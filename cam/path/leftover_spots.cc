@@ -29,6 +29,7 @@ struct Nearby {
 
 // Of the flat step.
 constexpr double kCoarse = 0.25;   // larger rectangles are not looked at by their middles
+constexpr double kPair = 1.0;      // larger ones lie over more than two moves
 constexpr double kFinest = 0.002;  // smaller ones are left, and narrower strips beside silhouettes
 constexpr double kLimit = 0.05;    // the same at a limit of params.keep_in
 
@@ -37,7 +38,7 @@ constexpr double kForcedMargin = 1.05;
 
 class SpotFinder {
  public:
-  SpotFinder(const Locator& locator, const Locator& reach, const std::vector<const PathTree*>& trees,
+  SpotFinder(const Locator& locator, const Locator& reach, const std::vector<const SegmentTree*>& trees,
              const CoverageParams& params, const RunContext& run)
       : surface_(locator.surface()),
         reach_(reach),
@@ -46,6 +47,8 @@ class SpotFinder {
         run_(run),
         radius_(locator.radius()),
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
+        covered_(radius_ + params.limit + kProofMargin * params.tolerance),
+        covered2_(covered_ * covered_),
         cell_reach_{radius_, params.tolerance, params.floor_z + radius_, kFinest * flat_} {}
 
   void Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
@@ -58,6 +61,7 @@ class SpotFinder {
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
                    const NearMove& near) const;
   bool Covered(const Vec3* hull, int count, const NearMove& move) const;
+  bool CoveredByTwo(const Vec3* hull, int count, const Vec3& e, const NearMove& move) const;
   bool Asked(const SurfaceJet& jet, const Vec3& e) const;
   std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e) const;
   bool Wanted(const SurfacePoint& at) const {
@@ -67,11 +71,12 @@ class SpotFinder {
 
   const Surface& surface_;
   const Locator& reach_;
-  const std::vector<const PathTree*>& trees_;
+  const std::vector<const SegmentTree*>& trees_;
   const CoverageParams& params_;
   const RunContext& run_;
   const double radius_;
   const double flat_;
+  const double covered_, covered2_;  // mm, from a move: and the square
   const CellReachParams cell_reach_;
 };
 
@@ -79,7 +84,8 @@ NearMove SpotFinder::NearestTo(const Vec3& p, double limit, const NearMove& hint
   NearMove best{0, -1, limit};
   for (std::size_t t = 0; t < trees_.size(); ++t) {
     const std::int32_t known = hint.segment >= 0 && hint.tree == t ? hint.segment : -1;
-    if (const auto n = trees_[t]->Find(p, best.distance, known)) best = {t, n->segment, n->distance};
+    const SegmentTree::Nearest n = trees_[t]->FindNearest(p, best.distance, known);
+    if (n.segment >= 0) best = {t, n.segment, n.distance};
   }
   if (best.segment < 0) best.distance = kInfinity;
   return best;
@@ -87,12 +93,21 @@ NearMove SpotFinder::NearestTo(const Vec3& p, double limit, const NearMove& hint
 
 bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) const {
   if (move.segment < 0) return false;
-  const double limit = radius_ + params_.limit + kProofMargin * params_.tolerance;
-  const PathTree::Segment& s = trees_[move.tree]->segment(move.segment);
-  for (int i = 0; i < count; ++i) {
-    if (SegmentDistance(hull[i], s.a, s.b) > limit) return false;
-  }
-  return true;
+  const PathRuler to_move(trees_[move.tree]->segment(move.segment));
+  return std::all_of(hull, hull + count, [&](const Vec3& p) { return to_move.Distance2(p) <= covered2_; });
+}
+
+// The crest between two passes: that move and the one nearest to the ball over the point farthest from it.
+bool SpotFinder::CoveredByTwo(const Vec3* hull, int count, const Vec3& e, const NearMove& move) const {
+  if (move.segment < 0) return false;
+  const PathSegment one = trees_[move.tree]->segment(move.segment);
+  const PathRuler to_move(one);
+  const Vec3* farthest = std::max_element(hull, hull + count, [&](const Vec3& p, const Vec3& q) {
+    return to_move.Distance2(p) < to_move.Distance2(q);
+  });
+  const NearMove other = NearestTo(*farthest + radius_ * e, flat_, {});
+  if (other.segment < 0 || (other.tree == move.tree && other.segment == move.segment)) return false;
+  return DistanceToEither(one, trees_[other.tree]->segment(other.segment), hull, count, covered_) <= covered_;
 }
 
 bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
@@ -156,7 +171,7 @@ bool SpotFinder::SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, cons
   const double lu = du.norm(), lv = dv.norm();
   constexpr double kSlender = 6.0;
   if (near.segment < 0 || lu > kSlender * lv || lv > kSlender * lu) return lu >= lv;
-  const PathTree::Segment& s = trees_[near.tree]->segment(near.segment);
+  const PathSegment s = trees_[near.tree]->segment(near.segment);
   const auto off = [&](const Vec3& x) -> Vec3 {
     const Vec3 d = s.b - s.a;
     const double l2 = d.squaredNorm();
@@ -196,6 +211,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   if (size < 4.0 * flat_) {
     near = NearestTo(p + radius_ * e, flat_, hint.move);
     if (Covered(hull.data(), count, near)) return;
+    if (size < kPair * flat_ && CoveredByTwo(hull.data(), count, e, near)) return;
   }
   if (size < kCoarse * flat_) {
     const NearMove nearest = NearestTo(p, 2.0 * radius_, near);
@@ -260,7 +276,7 @@ absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParam
 }
 
 absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,
-                                                    const std::vector<const PathTree*>& trees,
+                                                    const std::vector<const SegmentTree*>& trees,
                                                     const std::vector<SurfaceRect>& rects,
                                                     const CoverageParams& params, const RunContext& run) {
   const SpotFinder finder(locator, reach, trees, params, run);

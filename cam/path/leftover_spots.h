@@ -7,7 +7,7 @@
 
 #include "cam/path/cell_reach.h"
 #include "cam/path/coverage.h"
-#include "cam/path/path_tree.h"
+#include "cam/toolpath/segment_tree.h"
 
 namespace patchmill {
 
@@ -40,7 +40,7 @@ absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParam
 //   all its control points lie within R + limit of one move (for zero-weight points see ALGORITHMS 1).
 // Deterministic, parallel. `trees`: all passes, in any number of trees.
 absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,
-                                                    const std::vector<const PathTree*>& trees,
+                                                    const std::vector<const SegmentTree*>& trees,
                                                     const std::vector<SurfaceRect>& rects,
                                                     const CoverageParams& params, const RunContext& run);
 

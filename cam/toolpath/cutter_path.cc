@@ -13,4 +13,16 @@ double Length(const CutterPath& path) {
   return length;
 }
 
+std::vector<PathSegment> MovesOf(const std::vector<CutterPath>& paths) {
+  std::vector<PathSegment> moves;
+  for (const CutterPath& path : paths) {
+    const std::size_t n = path.points.size();
+    if (n == 0) continue;
+    const std::size_t count = n == 1 ? 1 : n - 1 + (path.closed ? 1 : 0);
+    for (std::size_t i = 0; i < count; ++i)
+      moves.push_back({path.points[i].center, path.points[(i + 1) % n].center});
+  }
+  return moves;
+}
+
 }  // namespace patchmill

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "cam/toolpath/segment_metric.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
@@ -34,5 +35,8 @@ struct CutterPath {
 };
 
 double Length(const CutterPath& path);  // mm, closing move included
+
+// All straight moves of passes, in their order; a pass of one point is a move of no length.
+std::vector<PathSegment> MovesOf(const std::vector<CutterPath>& paths);
 
 }  // namespace patchmill

@@ -2,8 +2,8 @@
 // wider, the ball with the stock around the surface.
 #pragma once
 
+#include "cam/toolpath/segment_tree.h"
 #include "cam/verify/extreme.h"
-#include "cam/verify/segment_tree.h"
 
 namespace patchmill {
 

@@ -36,6 +36,11 @@ class LeftoverSearch {
     return std::min(params_.most, distance + params_.chord_error - params_.reach.radius);
   }
 
+  // The distance that leaves so much.
+  double Distance(double leftover) const {
+    return params_.most <= leftover ? kInfinity : leftover + params_.reach.radius - params_.chord_error;
+  }
+
   // How small an unreachable cell must be to be left at the border of the reachable set.
   double BorderCell(double upper, const Threshold& threshold, const Extreme& here) const {
     const double known = std::max(threshold.known, here.value);
@@ -86,8 +91,7 @@ class LeftoverSearch {
 
   // The segment alone leaves no more than `enough` on the whole cell.
   bool IsDone(const SurfaceCell& cell, int segment, double enough) const {
-    if (params_.most <= enough) return true;
-    const double reach = enough + params_.reach.radius - params_.chord_error;
+    const double reach = Distance(enough);
     if (!(reach >= 0.0)) return false;
     const PathRuler ruler(tree_.segment(segment));
     return std::all_of(cell.hull, cell.hull + cell.hull_count,
@@ -98,37 +102,21 @@ class LeftoverSearch {
   // nearest one alone does not keep it below what would count.
   double UpperDistance(const SurfaceCell& cell, int nearest, double enough) {
     if (nearest < 0) return kInfinity;
-    const auto n = static_cast<std::size_t>(cell.hull_count);
-    first_.resize(n);
-    second_.resize(n);
-    std::size_t farthest = 0;
     const PathRuler to_nearest(tree_.segment(nearest));
-    for (std::size_t k = 0; k < n; ++k) {
-      first_[k] = std::sqrt(to_nearest.Distance2(cell.hull[k]));
-      if (first_[k] > first_[farthest]) farthest = k;
+    double one2 = 0.0;
+    const Vec3* farthest = cell.hull;
+    for (const Vec3* p = cell.hull; p != cell.hull + cell.hull_count; ++p) {
+      const double distance2 = to_nearest.Distance2(*p);
+      if (distance2 > one2) farthest = p;
+      one2 = std::max(one2, distance2);
     }
-    const double one = first_[farthest];
+    const double one = std::sqrt(one2);
     if (Leftover(one) <= enough) return one;
-    const auto other = tree_.FindNearest(cell.hull[farthest], one, other_hint_);
+    const auto other = tree_.FindNearest(*farthest, one, other_hint_);
     if (other.segment < 0 || other.segment == nearest) return one;
     other_hint_ = other.segment;
-    const PathRuler to_other(tree_.segment(other.segment));
-    for (std::size_t k = 0; k < n; ++k) second_[k] = std::sqrt(to_other.Distance2(cell.hull[k]));
-    const auto at = [&](double share) {
-      double most = 0.0;
-      for (std::size_t k = 0; k < n; ++k)
-        most = std::max(most, (1.0 - share) * first_[k] + share * second_[k]);
-      return most;
-    };
-    // Convex in the share: narrow it down.
-    double low = 0.0, high = 1.0, best = one;
-    for (int i = 0; i < 10; ++i) {
-      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-      const double fa = at(a), fb = at(b);
-      best = std::min({best, fa, fb});
-      (fa < fb ? high : low) = fa < fb ? b : a;
-    }
-    return best;
+    return std::min(one, DistanceToEither(tree_.segment(nearest), tree_.segment(other.segment), cell.hull,
+                                          cell.hull_count, Distance(enough)));
   }
 
   // No point of the cell is to be finished.
@@ -176,7 +164,6 @@ class LeftoverSearch {
   const RunContext& run_;
   Obstacles obstacles_;
   int hint_ = -1, other_hint_ = -1;
-  std::vector<double> first_, second_;
 };
 
 }  // namespace

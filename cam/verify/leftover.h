@@ -3,9 +3,9 @@
 
 #include <array>
 
+#include "cam/toolpath/segment_tree.h"
 #include "cam/verify/extreme.h"
 #include "cam/verify/reach.h"
-#include "cam/verify/segment_tree.h"
 
 namespace patchmill {
 

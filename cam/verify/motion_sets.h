@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "cam/toolpath/segment_metric.h"
 #include "cam/toolpath/toolpath.h"
-#include "cam/verify/segment_metric.h"
 
 namespace patchmill {
 

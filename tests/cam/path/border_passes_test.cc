@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cam/path/path_tree.h"
 #include "cam/path/spacing.h"
 #include "cam/path/zigzag_paths.h"
+#include "cam/toolpath/segment_tree.h"
 #include "tests/support/joined_surface.h"
 #include "tests/support/shapes.h"
 
@@ -46,10 +46,11 @@ Passes PassesOn(const Locator& locator, const ZigzagParams& params, const std::v
 double LongestBare(const std::vector<Vec3>& centers, std::vector<CutterPath> paths,
                    const std::vector<CutterPath>& more, double near) {
   paths.insert(paths.end(), more.begin(), more.end());
-  const PathTree tree(paths);
+  const SegmentTree tree(MovesOf(paths), Metric::kPath, kInfinity, RunContext(1));
   double longest = 0.0, length = 0.0;
   for (std::size_t i = 1; i < centers.size(); ++i) {
-    length = tree.Find(centers[i], near) ? 0.0 : length + (centers[i] - centers[i - 1]).norm();
+    length =
+        tree.FindNearest(centers[i], near).segment >= 0 ? 0.0 : length + (centers[i] - centers[i - 1]).norm();
     longest = std::max(longest, length);
   }
   return longest;

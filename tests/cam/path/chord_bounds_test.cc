@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "cam/path/path_tree.h"
 #include "tests/support/random.h"
 
 namespace patchmill {
@@ -111,39 +110,6 @@ TEST(ChordBounds, NoPointOfTheChordIsFartherThanT3AndTheBoundIsReached) {
       ASSERT_LE(bound, std::max({largest + 0.01, sa.Clearance(a, radius), sb.Clearance(b, radius)}) + 1e-9);
     }
   }
-}
-
-TEST(PathTree, FindsWhatBruteForceFinds) {
-  Random random(3);
-  std::vector<CutterPath> paths(7);
-  std::vector<std::pair<Vec3, Vec3>> moves;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    Vec3 at = random.Point(-10, 10);
-    paths[i].closed = i % 2 == 0;
-    for (int k = 0; k < 40; ++k) {
-      at += random.Point(-1, 1);
-      paths[i].points.push_back({at, {}, {}});
-    }
-    for (std::size_t k = 0; k + 1 < 40; ++k)
-      moves.push_back({paths[i].points[k].center, paths[i].points[k + 1].center});
-    if (paths[i].closed) moves.push_back({paths[i].points.back().center, paths[i].points.front().center});
-  }
-  paths.push_back({});
-  const PathTree tree(paths);
-  std::int32_t hint = -1;
-  for (int trial = 0; trial < 3000; ++trial) {
-    const Vec3 p = random.Point(-12, 12);
-    double best = kInfinity;
-    for (const auto& [a, b] : moves) best = std::min(best, SegmentDistance(p, a, b));
-    const auto found = tree.Find(p, 100.0, hint);
-    ASSERT_TRUE(found);
-    ASSERT_NEAR(found->distance, best, 1e-12);
-    ASSERT_NEAR(SegmentDistance(p, tree.segment(found->segment).a, tree.segment(found->segment).b), best,
-                1e-12);
-    ASSERT_FALSE(tree.Find(p, best * 0.999));
-    hint = found->segment;
-  }
-  EXPECT_FALSE(PathTree({}).Find(Vec3::Zero(), 10.0));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "cam/verify/reach.h"
-#include "cam/verify/segment_tree.h"
 #include "core/surface/closest.h"
 #include "tests/cam/verify/verify_models.h"
 #include "tests/support/random.h"
@@ -11,98 +10,6 @@ namespace patchmill {
 namespace {
 
 using namespace testing;  // NOLINT: the support folder's
-
-double PathBySampling(const PathSegment& s, const Vec3& p, int n) {
-  double least = kInfinity;
-  for (int i = 0; i <= n; ++i) least = std::min(least, (s.a + (s.b - s.a) * (double(i) / n) - p).norm());
-  return least;
-}
-
-double SweptBySampling(const PathSegment& s, const Vec3& p, int n) {
-  double least = kInfinity;
-  for (int i = 0; i <= n; ++i) {
-    const Vec3 c = s.a + (s.b - s.a) * (double(i) / n);
-    const Vec3 d(c.x() - p.x(), c.y() - p.y(), std::max(0.0, c.z() - p.z()));
-    least = std::min(least, d.norm());
-  }
-  return least;
-}
-
-double ShankBySampling(const PathSegment& s, const Vec3& p, double r, int n) {
-  double least = kInfinity;
-  for (int i = 0; i <= n; ++i) {
-    const Vec3 c = s.a + (s.b - s.a) * (double(i) / n);
-    least = std::min(least, std::max(Plan(Vec3(c - p)).norm(), r - (p.z() - c.z())));
-  }
-  return least;
-}
-
-std::vector<PathSegment> RandomSegments(Random& random, int n) {
-  std::vector<PathSegment> segments;
-  for (int i = 0; i < n; ++i) {
-    PathSegment s;
-    s.a = random.Point(-10, 10);
-    s.b = s.a + random.Point(-3, 3);
-    if (i % 7 == 0) s.b = s.a;
-    if (i % 7 == 1) s.b = s.a + Vec3(0, 0, random.Uniform(-3, 3));
-    if (i % 7 == 2) s.b.z() = s.a.z();
-    s.move = i;
-    segments.push_back(s);
-  }
-  return segments;
-}
-
-TEST(SegmentMetric, EqualsSampling) {
-  Random random(11);
-  for (const PathSegment& s : RandomSegments(random, 400)) {
-    const Vec3 p = s.a + random.Point(-5, 5);
-    const double step = 2.0 * (s.b - s.a).norm() / 4000.0;
-    EXPECT_NEAR(PathDistance(s, p), PathBySampling(s, p, 4000), step);
-    EXPECT_NEAR(SweptDistance(s, p), SweptBySampling(s, p, 4000), step);
-    EXPECT_NEAR(ShankDistance(s, p, 2.0), ShankBySampling(s, p, 2.0, 4000), step);
-    EXPECT_LE(SweptDistance(s, p), PathDistance(s, p) + 1e-12);
-    // The gradients support the convex functions from below.
-    for (int k = 0; k < 20; ++k) {
-      const Vec3 q = p + random.Point(-4, 4);
-      const MetricValue f = PathDistanceAndGradient(s, p), g = SweptDistanceAndGradient(s, p);
-      const MetricValue h = ShankDistanceAndGradient(s, p, 2.0);
-      EXPECT_GE(PathDistance(s, q), f.distance + f.gradient.dot(q - p) - 1e-9);
-      EXPECT_GE(SweptDistance(s, q), g.distance + g.gradient.dot(q - p) - 1e-9);
-      EXPECT_GE(ShankDistance(s, q, 2.0), h.distance + h.gradient.dot(q - p) - 1e-9);
-    }
-  }
-}
-
-TEST(SegmentTree, EqualsBruteForce) {
-  Random random(12);
-  for (const Metric metric : {Metric::kPath, Metric::kSwept, Metric::kShank}) {
-    for (const int n : {1, 2, 5, 300}) {
-      const SegmentTree tree(RandomSegments(random, n), metric, 1.0, RunContext(1), 2.0);
-      std::vector<int> within;
-      for (int i = 0; i < 300; ++i) {
-        const Vec3 p = random.Point(-14, 14);
-        double least = kInfinity;
-        std::vector<int> expected;
-        const auto nearest = tree.FindNearest(p, kInfinity, i % 3 == 0 ? 0 : -1);
-        ASSERT_GE(nearest.segment, 0);
-        EXPECT_EQ(nearest.distance, tree.Distance(nearest.segment, p));
-        tree.FindWithin(p, 1e9, within);
-        EXPECT_GE(within.size(), static_cast<std::size_t>(n));
-        for (const int k : within) least = std::min(least, tree.Distance(k, p));
-        EXPECT_EQ(nearest.distance, least);
-        for (const int k : within) {
-          if (tree.Distance(k, p) < least + 1.0) expected.push_back(k);
-        }
-        std::vector<int> some;
-        tree.FindWithin(p, least + 1.0, some);
-        EXPECT_EQ(some, expected);
-        EXPECT_LE(tree.FindNearest(p, kInfinity, -1, 0.02).distance * 0.98,
-                  std::abs(least) + 1e-12 + std::abs(least) * 0.02);
-        EXPECT_EQ(tree.FindNearest(p, least, -1).segment, -1);
-      }
-    }
-  }
-}
 
 // Passes over a random surface, guided only roughly: some gouge, some leave material.
 std::string RandomProgram(Random& random, double size, double top) {

@@ -46,6 +46,14 @@ class PathRuler {
   double scale_ = 0.0;
 };
 
+// Upper bound of the distance to the nearer of two segments all over the convex hull of up to kMaxNetPoints
+// points. The distance to one is convex, and so is every mean of both: over the hull it is nowhere above its
+// largest value at the points, and never below the distance to the nearer one. Of all means the one that
+// makes it least, or the first that makes it `enough`. One segment from each side of a crest between two
+// passes makes the bound second-order there.
+double DistanceToEither(const PathSegment& a, const PathSegment& b, const Vec3* hull, int count,
+                        double enough);
+
 double SweptDistance(const PathSegment& s, const Vec3& p);
 double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius);
 MetricValue PathDistanceAndGradient(const PathSegment& s, const Vec3& p);

@@ -1,7 +1,11 @@
-#include "cam/verify/segment_metric.h"
+#include "cam/toolpath/segment_metric.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "core/base/status.h"
+#include "core/surface/net_kernel.h"
 
 namespace patchmill {
 
@@ -45,6 +49,32 @@ MetricValue From(const Vec3& nearest, const Vec3& p) {
 }
 
 }  // namespace
+
+double DistanceToEither(const PathSegment& a, const PathSegment& b, const Vec3* hull, int count,
+                        double enough) {
+  const auto n = static_cast<std::size_t>(count);
+  PM_CHECK(n <= kMaxNetPoints);
+  std::array<double, kMaxNetPoints> to_a, to_b;
+  const PathRuler ruler_a(a), ruler_b(b);
+  for (std::size_t k = 0; k < n; ++k) {
+    to_a[k] = std::sqrt(ruler_a.Distance2(hull[k]));
+    to_b[k] = std::sqrt(ruler_b.Distance2(hull[k]));
+  }
+  const auto at = [&](double share) {
+    double most = 0.0;
+    for (std::size_t k = 0; k < n; ++k) most = std::max(most, (1.0 - share) * to_a[k] + share * to_b[k]);
+    return most;
+  };
+  // Convex in the share: narrow it down.
+  double low = 0.0, high = 1.0, best = at(0.5);
+  for (int i = 0; i < 10 && best > enough; ++i) {
+    const double left = low + (high - low) / 3.0, right = high - (high - low) / 3.0;
+    const double at_left = at(left), at_right = at(right);
+    best = std::min({best, at_left, at_right});
+    (at_left < at_right ? high : low) = at_left < at_right ? right : left;
+  }
+  return best;
+}
 
 double PathDistance(const PathSegment& s, const Vec3& p) { return (p - NearestOnPath(s, p)).norm(); }
 double SweptDistance(const PathSegment& s, const Vec3& p) { return (p - NearestOnSwept(s, p)).norm(); }
