@@ -11,8 +11,8 @@
 
 namespace patchmill {
 
-// Places the model (moved in: no copy is made), joins it and builds the surface, which keeps it.
-// INVALID_ARGUMENT for a model that cannot be used.
+// Places the model (moved in: no copy is made) and joins it; the second builds the surface too, which keeps
+// it. INVALID_ARGUMENT for a model that cannot be used.
 absl::StatusOr<PatchNetwork> BuildPlacedNetwork(PatchModel model, const Setup& setup, const RunContext& run);
 absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup, const RunContext& run);
 

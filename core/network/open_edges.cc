@@ -94,7 +94,9 @@ void Search::Cover(int e, OpenEdgeReport& report, std::vector<std::vector<int>>&
     single = found;
   }
   report.covered[At(e)] = true;
-  if (!several && single >= 0) along[At(single)].push_back(e);
+  // The corners may lie beyond its end, by less than the way between two points.
+  if (!several && single >= 0 && LiesOn(samples.front(), single) && LiesOn(samples.back(), single))
+    along[At(single)].push_back(e);
 }
 
 void Search::FindTJunctions(OpenEdgeReport& report) {

@@ -9,9 +9,9 @@ std::vector<PartLink> FindPartLinks(const EdgeCurves& curves, const std::vector<
   const auto taken = [&edges](int e) { return edges[static_cast<std::size_t>(e)].neighbor.has_value(); };
   std::vector<PartLink> links;
   for (const TJunction& t : junctions) {
-    if (run.Cancelled()) return links;
     if (taken(t.long_edge)) continue;
     for (const int e : t.short_edges) {
+      if (run.Cancelled()) return links;
       if (taken(e)) continue;
       PartLink link{curves.edge(e), curves.edge(t.long_edge)};
       link.from = ClosestOnEdge(curves, t.long_edge, curves.start(e)).t;

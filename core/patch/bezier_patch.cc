@@ -30,6 +30,7 @@ Vec3 ShapePosition(const BezierPatch& patch, double u, double v) {
 }
 
 std::vector<Piece> ShapePieces(const BezierPatch& patch) {
+  PM_CHECK(!patch.points.empty());
   std::vector<Piece> pieces(1);
   BernsteinNet& net = pieces[0].net;
   net.degree_u = patch.degree_u;

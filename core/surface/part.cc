@@ -1,5 +1,6 @@
 #include "core/surface/part.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/status.h"
@@ -11,10 +12,12 @@ absl::StatusOr<Surface> PartOf(const Surface& surface, const std::vector<bool>& 
   const PatchModel& whole = surface.network.model;
   PM_CHECK(patches.size() == whole.patches.size());
   PatchModel part;
-  part.join_tolerance = whole.join_tolerance;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (patches[i]) part.patches.push_back({whole.patches[i].id, ShapeOf(surface, PatchId(i))});
   }
+  // What is joined in the whole is joined here, as far as so small a part may have it.
+  part.join_tolerance =
+      std::min(surface.network.join_tolerance, kMaxJoinTolerance * ControlBox(part).Diagonal());
   PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(std::move(part), run));
   return BuildSurface(std::move(network), SurfaceParams{}, run);
 }

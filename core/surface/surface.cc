@@ -153,7 +153,9 @@ absl::Status CheckParams(const PatchNetwork& network, const SurfaceParams& param
 // Leaves the points of a patch to its piece where they are that piece's net.
 void LeavePointsTo(const std::vector<Piece>& pieces, PatchShape& shape) {
   const bool bezier = std::holds_alternative<BezierPatch>(shape);
-  const bool one_span = std::holds_alternative<BsplinePatch>(shape) && pieces.size() == 1;
+  const auto* spline = std::get_if<BsplinePatch>(&shape);
+  const bool one_span =
+      spline != nullptr && pieces.size() == 1 && spline->points.size() == pieces[0].net.points.size();
   if (bezier || one_span) shape = BezierPatch{pieces[0].net.degree_u, pieces[0].net.degree_v, {}, {}};
 }
 

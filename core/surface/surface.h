@@ -57,9 +57,10 @@ struct SurfaceParams {
 };
 
 // Builds pieces, leaves and tree. The network must be placed (mm, machine axes) and its model sound
-// (ValidateModel). Deterministic, parallel over pieces. Cost about 1 us a leaf. INVALID_ARGUMENT for a model
-// without patches or bad params; CANCELLED and DEADLINE_EXCEEDED from `run`. Stage names for progress:
-// "pieces", "bounds".
+// (ValidateModel); its Bezier patches, and B-spline patches of one knot rectangle, leave their points to
+// their pieces (ShapeOf gives them back). Deterministic, parallel over pieces. Cost about 1 us a leaf.
+// INVALID_ARGUMENT for a model without patches or bad params; CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Stage names for progress: "pieces", "bounds".
 absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& params,
                                      const RunContext& run);
 
@@ -70,7 +71,7 @@ inline SurfaceJet Evaluate(const Surface& s, PieceId id, double u, double v) {
 SurfaceJet Evaluate(const Surface& s, PatchId id, double u, double v);
 
 // A copy of the patch with all its points. A B-spline patch of one knot rectangle comes back as the Bezier
-// patch it is; points of a rational one to 1e-16 of their size.
+// patch it is; points of a rational one to 2.3e-16 of their size.
 PatchShape ShapeOf(const Surface& s, PatchId id);
 
 // Outer bounds of any sub-rectangle, computed afresh from its net (ALGORITHMS 1, 2.2): what certificates

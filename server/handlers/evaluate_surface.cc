@@ -6,7 +6,6 @@
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
-#include "core/patch/domain.h"
 #include "server/convert/fields.h"
 #include "server/convert/setup.h"
 #include "server/handlers/handlers.h"
@@ -49,15 +48,12 @@ absl::Status CheckPoints(const v1::EvaluateSurfaceRequest& request, const PatchM
                  fmt::format("= {}; must be in [0, {}]", index, model.patches.size() - 1));
       continue;
     }
-    const ParameterDomain domain = DomainOf(model.patches[static_cast<std::size_t>(index)].shape);
+    const bool triangle = IsTriangle(model.patches[static_cast<std::size_t>(index)].shape);
     const Vec2 uv(request.uv(2 * k), request.uv(2 * k + 1));
-    if (Contains(domain, uv)) continue;
-    errors.Add(
-        fmt::format("uv[{}]", 2 * k),
-        domain.triangle
-            ? fmt::format("and the next = ({:g}, {:g}); must be >= 0 with a sum <= 1", uv.x(), uv.y())
-            : fmt::format("and the next = ({:g}, {:g}); must be in [{:g}, {:g}] x [{:g}, {:g}]", uv.x(),
-                          uv.y(), domain.low.x(), domain.high.x(), domain.low.y(), domain.high.y()));
+    if (uv.minCoeff() >= 0.0 && (triangle ? uv.sum() : uv.maxCoeff()) <= 1.0) continue;
+    errors.Add(fmt::format("uv[{}]", 2 * k),
+               fmt::format("and the next = ({:g}, {:g}); must be {}", uv.x(), uv.y(),
+                           triangle ? ">= 0 with a sum <= 1" : "in [0, 1] x [0, 1]"));
   }
   return errors.ToStatus();
 }

@@ -227,6 +227,32 @@ TEST_F(Evaluations, ABowlInClosedForm) {
   EXPECT_NEAR(response_.dv_mm(4), 20, 1e-12);
 }
 
+// Knots are no parameters: a spline over 5 to 25 is asked for places in [0,1], as any patch.
+TEST_F(Evaluations, ASplineWhoseKnotsAreFarFromZeroAndOne) {
+  v1::PatchModel& model = *request_.mutable_source()->mutable_model();
+  model.clear_patches();
+  v1::BsplinePatch& spline = *model.add_patches()->mutable_bspline();
+  spline.set_degree_u(1);
+  spline.set_degree_v(1);
+  for (const double knot : {5, 5, 10, 25, 25}) spline.add_knots_u(knot);
+  for (const double knot : {-3, -3, 3, 3}) spline.add_knots_v(knot);
+  for (const auto& [x, z] : {std::pair(0.0, 0.0), std::pair(10.0, 2.0), std::pair(40.0, 0.0)}) {
+    for (const double y : {0.0, 8.0}) {
+      for (const double value : {x, y, z}) spline.add_points(value);
+    }
+  }
+  Add(0, 0.125, 0.5);  // knot 7.5
+  Add(0, 1.0, 1.0);
+  const grpc::Status status = Evaluate();
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  const auto near = [](double x) { return ::testing::DoubleNear(x, 1e-12); };
+  EXPECT_THAT(response_.points_mm(), ElementsAre(near(5), near(4), near(1), near(40), near(8), near(0)));
+  request_.set_uv(0, 7.5);
+  EXPECT_THAT(Evaluate(),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT,
+                          HasSubstr("uv[0] and the next = (7.5, 0.5); must be in [0, 1] x [0, 1]")));
+}
+
 TEST_F(Evaluations, WrongPlaces) {
   EXPECT_THAT(Evaluate(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("patch_index is missing")));
   Add(0, 0.5, 0.5);

@@ -12,9 +12,9 @@
 namespace patchmill::testing {
 
 // Distances to the segments of many paths, hashed by plan cells of 1 mm.
-class PathDistance {
+class DistanceToPaths {
  public:
-  explicit PathDistance(const std::vector<CutterPath>& paths) {
+  explicit DistanceToPaths(const std::vector<CutterPath>& paths) {
     for (const CutterPath& path : paths) {
       const std::size_t n = path.points.size();
       for (std::size_t i = 0; i + 1 < n + (path.closed && n > 1 ? 1 : 0); ++i) {

@@ -61,7 +61,7 @@ struct Leftover {
 Leftover Measure(const Surface& surface, double radius, const std::vector<CutterPath>& paths, int samples,
                  double floor_z = -kInfinity, double max_slope = kPi / 2) {
   const Locator reach(surface, radius - kTolerance);
-  const PathDistance distance(paths);
+  const DistanceToPaths distance(paths);
   Random random(11);
   Leftover out;
   for (int k = 0; k < samples; ++k) {

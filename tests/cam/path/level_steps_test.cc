@@ -29,7 +29,7 @@ ContourParams WallParams() {
 
 // The worst leftover where the slope is within the levels' window by 5 degrees.
 double WorstLeftover(const Surface& surface, const std::vector<CutterPath>& paths) {
-  const PathDistance distance(paths);
+  const DistanceToPaths distance(paths);
   Random random(3);
   double worst = 0.0;
   for (int k = 0; k < 30000; ++k) {

@@ -60,7 +60,7 @@ TEST_P(BentOverHills, ShorterAsFineAndWithinTheAngle) {
   EXPECT_GT(FarthestTurn(bent, angle), Radians(5.0));
   EXPECT_LT(TotalLength(bent), 0.96 * TotalLength(straight));
 
-  const PathDistance distance(bent);
+  const DistanceToPaths distance(bent);
   Random random(11);
   double worst = 0.0;
   for (int k = 0; k < 20000; ++k) {

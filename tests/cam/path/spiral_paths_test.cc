@@ -74,7 +74,7 @@ struct Extremes {
   int points = 0;
 };
 Extremes Measure(const Wound& wound, int n, double slope_from) {
-  const testing::PathDistance distance(wound.paths);
+  const testing::DistanceToPaths distance(wound.paths);
   Extremes e;
   for (std::size_t i = 0; i < wound.surface.pieces.size(); ++i) {
     for (int k = 0; k < n * n; ++k) {

@@ -44,7 +44,7 @@ struct Leftover {
 // out.
 Leftover Measure(const Surface& surface, const Locator& locator, const std::vector<CutterPath>& paths,
                  const SlopeWindow& window, int samples, double margin = 0.0) {
-  const PathDistance distance(paths);
+  const DistanceToPaths distance(paths);
   const double radius = locator.radius();
   Random random(7);
   Leftover out;

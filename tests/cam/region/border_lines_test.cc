@@ -115,7 +115,7 @@ double OpenEdges(const Surface& surface) {
     std::vector<Vec3> points;
     for (int i = 0; i <= kSteps; ++i) {
       const Vec2 uv = EdgeParameters(shape, link.self.edge, static_cast<double>(i) / kSteps);
-      points.push_back(Position(shape, uv.x(), uv.y()));
+      points.push_back(Evaluate(surface, link.self.patch, uv.x(), uv.y()).p);
     }
     sum += Length(points, false);
   }

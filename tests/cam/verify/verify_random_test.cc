@@ -1,6 +1,7 @@
 // The verifier against dense sampling that shares nothing with it but the evaluation of the surface.
 #include <cmath>
 
+#include "cam/toolpath/segment_metric.h"
 #include "cam/verify/reach.h"
 #include "core/surface/closest.h"
 #include "tests/cam/verify/verify_models.h"

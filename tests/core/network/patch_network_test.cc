@@ -256,6 +256,18 @@ TEST(BuildNetwork, FindsTJunctions) {
   }
 }
 
+// A sliver is no finding along a junction, but what goes along the long edge crosses it.
+TEST(BuildNetwork, LinksNearlyCollapsedPartsOfATJunction) {
+  constexpr double kSliver = 1e-3;
+  const PatchNetwork network = Build(Join({Single(Square(0, 0, 1, 2)), Single(Square(1, 0, 1, 2 - kSliver)),
+                                           Single(Square(1, 2 - kSliver, 1, kSliver))}));
+  EXPECT_THAT(Codes(network), ::testing::Contains(Pair("NEARLY_COLLAPSED_EDGE", 2)));
+  ASSERT_EQ(network.part_links.size(), 2u);
+  EXPECT_EQ(network.part_links[1].part, (PatchEdge{PatchId(2), 3}));
+  EXPECT_NEAR(network.part_links[1].from, 1.0 - 0.5 * kSliver, 1e-12);
+  EXPECT_NEAR(network.part_links[1].to, 1.0, 1e-12);
+}
+
 TEST(BuildNetwork, LeavesTheUncoveredEndOfATJunctionOpen) {
   const PatchNetwork network = Build(Join({Single(Square(0, 0, 1, 2)), Single(Square(1, 0))}));
   EXPECT_TRUE(network.Link({PatchId(1), 3}).on_t_junction);

@@ -45,7 +45,14 @@ inline std::vector<NamedModel> EveryKindOfPatch() {
   const double w = std::sqrt(0.5);
   BezierPatch ring{
       2, 1, {{10, 0, 0}, {8, 0, 0}, {10, 10, 0}, {8, 8, 0}, {0, 10, 0}, {0, 8, 0}}, {1, 1, w, w, 1, 1}};
+  // Pieces of the patches before each other patch: several, one, one, one.
+  PatchModel mixed = RandomBspline(13, {.spans = 3});
+  for (const PatchModel& more : {Single(RandomTriangle(14, 3, false)), Single(RandomBezier(15, 3, 2, false)),
+                                 RandomBspline(16, {.spans = 1}), Single(RandomBezier(17, 2, 3, true))}) {
+    mixed.patches.push_back(more.patches[0]);
+  }
   return {
+      {"Mixed", mixed},
       {"Bicubic", Single(RandomBezier(1, 3, 3, false))},
       {"RationalBicubic", Single(RandomBezier(2, 3, 3, true))},
       {"Degree15", Single(RandomBezier(3, 15, 15, false))},

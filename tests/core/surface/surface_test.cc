@@ -162,6 +162,12 @@ TEST_P(EverySurface, GivesEveryPatchBack) {
     const PatchShape& shape = given.patches[i].shape;
     const PatchShape back = ShapeOf(s, PatchId(i));
     EXPECT_EQ(IsTriangle(back), IsTriangle(shape));
+    if (const auto* bezier = std::get_if<BezierPatch>(&shape); bezier != nullptr && bezier->weights.empty()) {
+      const auto& same = std::get<BezierPatch>(back);
+      EXPECT_EQ(std::pair(same.degree_u, same.degree_v), std::pair(bezier->degree_u, bezier->degree_v));
+      EXPECT_EQ(same.points, bezier->points);
+      EXPECT_TRUE(same.weights.empty());
+    }
     for (int k = 0; k < 20; ++k) {
       const double u = random.Unit(), v = IsTriangle(shape) ? (1.0 - u) * random.Unit() : random.Unit();
       const SurfaceJet at = Evaluate(shape, u, v);

@@ -105,7 +105,7 @@ class ProgramJudge {
       cut.points[1].center = c.to;
       cuts.push_back(std::move(cut));
     }
-    const PathDistance distance(cuts);
+    const DistanceToPaths distance(cuts);
     const double limit = kept_ + job_.operation.scallop + job_.operation.tolerance + kRounding;
     for (int i = 0; i < samples; ++i) {
       const auto piece = static_cast<std::size_t>(random.Int(static_cast<int>(surface_.pieces.size())));
