@@ -55,21 +55,33 @@ void Place(const Surface& surface, const std::vector<SplitMesh>& meshes,
 // Deepest leftover and largest tool of an unreachable region.
 void Probe(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
            const RegionParams& params, const std::vector<TriangleRef>& triangles, Region& region) {
-  constexpr std::size_t kLooked = 200, kProbed = 12;
+  constexpr std::size_t kLooked = 200, kSpread = 8, kBent = 4;
+  struct Concave {
+    double bends = 0.0;  // the larger principal curvature, > 0 concave
+    Vec3 p, normal;
+  };
+  std::vector<Concave> places;
   const std::size_t look = std::max<std::size_t>(1, triangles.size() / kLooked);
-  const std::size_t probe = std::max<std::size_t>(1, triangles.size() / kProbed);
-  double largest = params.radius;
   for (std::size_t i = 0; i < triangles.size(); i += look) {
     const Vec2 q = Centroid(meshes[triangles[i].piece], triangles[i].triangle);
     const SurfaceJet jet = Evaluate(surface.pieces[triangles[i].piece], q.x(), q.y());
     region.deepest_leftover = std::max(region.deepest_leftover, reach.LeftoverAbove(jet.p));
     const auto normal = UpwardNormal(jet);
-    if (region.reason == UnreachableReason::kConcave && i % probe < look && normal) {
-      largest =
-          std::min(largest, LargestFreeRadius(surface, jet.p, *normal, params.radius, params.tolerance));
-    }
+    if (region.reason == UnreachableReason::kConcave && normal)
+      places.push_back({Principal(Forms(jet, *normal)).k_max, jet.p, *normal});
   }
-  if (region.reason == UnreachableReason::kConcave) region.largest_tool_diameter = 2.0 * largest;
+  if (region.reason != UnreachableReason::kConcave) return;
+  // The ball that reaches some places spread over the region, and those where it bends most.
+  double largest = params.radius;
+  const auto probe = [&](const Concave& at) {
+    largest = std::min(largest, LargestFreeRadius(surface, at.p, at.normal, largest, params.tolerance));
+  };
+  const std::size_t spread = std::max<std::size_t>(1, places.size() / kSpread);
+  for (std::size_t i = 0; i < places.size(); i += spread) probe(places[i]);
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Concave& a, const Concave& b) { return a.bends > b.bends; });
+  for (std::size_t i = 0; i < std::min(kBent, places.size()); ++i) probe(places[i]);
+  region.largest_tool_diameter = 2.0 * largest;
 }
 
 }  // namespace

@@ -276,5 +276,78 @@ TEST(RegionClosedForms, WavySheet) {
   }
 }
 
+TEST(RegionClosedForms, SheetOfManyWaves) {
+  // As above, with the uniform cubic spline of coefficients A, -A, A, ... for f: f'' is +-4 A / h^2 at its
+  // knots and linear between them, so every span has a border in its middle.
+  constexpr int kSpans = 6;
+  const double slope = 0.5, h = 10.0, a = 3.0, width = 20.0;
+  BsplinePatch sheet;
+  sheet.degree_u = 1;
+  sheet.degree_v = 3;
+  sheet.knots_u = {0, 0, 1, 1};
+  for (int k = -3; k <= kSpans + 3; ++k) sheet.knots_v.push_back(k);
+  for (const double x : {0.0, width}) {
+    for (int j = 0; j < kSpans + 3; ++j)
+      sheet.points.emplace_back(x, (j - 1) * h, slope * x + (j % 2 == 0 ? a : -a));
+  }
+  RegionParams params = Exact();
+  params.steep_angle = Radians(80);
+  const RegionMap map = Split(Single(sheet), params);
+  ASSERT_EQ(map.regions.size(), kSpans + 1u);
+  // f' = 4 A / h (s - s^2) over a span: half a span by Simpson's rule, exact to 1e-12.
+  const auto half_span = [&](double from) {
+    constexpr int kSteps = 200;
+    double sum = 0.0;
+    for (int k = 0; k <= kSteps; ++k) {
+      const double t = from + 0.5 * k / kSteps, rise = 4.0 * a / h * (t - t * t);
+      sum += (k == 0 || k == kSteps ? 1.0
+              : k % 2 == 1          ? 4.0
+                                    : 2.0) *
+             std::sqrt(1.0 + slope * slope + rise * rise);
+    }
+    return sum * 0.5 * h / (3.0 * kSteps) * width;
+  };
+  std::vector<int> seen(kSpans + 1);
+  for (const Region& r : map.regions) {
+    // Strip k lies around the knot k, and half of it beyond either end.
+    const int k = static_cast<int>(std::lround(r.inside.y() / h));
+    ASSERT_TRUE(k >= 0 && k <= kSpans);
+    ++seen[static_cast<std::size_t>(k)];
+    EXPECT_EQ(r.kind, k % 2 == 0 ? RegionKind::kBasin : RegionKind::kMountain) << k;
+    ExpectArea(r.area, (k > 0 ? half_span(0.5) : 0.0) + (k < kSpans ? half_span(0.0) : 0.0));
+    ASSERT_EQ(r.border.size(), 1u);
+    for (const Vec3& p : r.border[0]) {
+      const bool side = p.x() < 1e-9 || p.x() > width - 1e-9;
+      const double off = std::min({std::abs(p.y() - std::max(0.0, (k - 0.5) * h)),
+                                   std::abs(p.y() - std::min(kSpans * h, (k + 0.5) * h))});
+      EXPECT_TRUE(side || off < 1e-6) << p.transpose();
+    }
+  }
+  EXPECT_EQ(seen, std::vector<int>(kSpans + 1, 1));
+}
+
+TEST(RegionClosedForms, TheToolForAParabolicGroove) {
+  // z = x^2 / (2 q) bends by 1 / q at its bottom: a ball of q reaches all of it, none larger does.
+  const double half = 6.0, length = 30.0;
+  for (const double q : {1.0, 2.0, 2.5}) {
+    SCOPED_TRACE(q);
+    BezierPatch groove{2, 1, {}, {}};
+    for (const double x : {-half, 0.0, half}) {
+      for (const double y : {0.0, length})
+        groove.points.emplace_back(x, y, (x == 0.0 ? -1 : 1) * half * half / (2 * q));
+    }
+    RegionParams params = Exact(3.0);
+    const RegionMap map = Split(Single(groove), params);
+    int grooves = 0;
+    for (const Region& r : map.regions) {
+      if (r.kind != RegionKind::kUnreachable) continue;
+      ++grooves;
+      EXPECT_EQ(r.reason, UnreachableReason::kConcave);
+      EXPECT_NEAR(r.largest_tool_diameter, 2 * q, 0.05 * 2 * q);
+    }
+    EXPECT_EQ(grooves, 1);
+  }
+}
+
 }  // namespace
 }  // namespace patchmill

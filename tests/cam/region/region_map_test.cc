@@ -2,10 +2,13 @@
 
 #include <cmath>
 #include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "core/surface/closest.h"
 #include "core/surface/surface.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
@@ -167,34 +170,93 @@ TEST(SplitRegions, FloorTakesWhatLiesTooDeep) {
   EXPECT_NEAR(Area(map, UnreachableReason::kFloor), 2 * kPi * 100 * 3.0 / 13.0, 0.05);
 }
 
-TEST(SplitRegions, AreasAddUpAndLabelsAgreeOnARandomPart) {
-  for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    const Surface surface = Build(testing::RandomBspline(seed));
-    const RegionMap map = Split(surface, RegionParams{});
-    double area = 0.0;
-    for (const Piece& piece : surface.pieces) {
-      constexpr int n = 24;
-      for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-          const SurfaceJet jet = Evaluate(piece, (i + 0.5) / n, (j + 0.5) / n);
-          area += jet.du.cross(jet.dv).norm() / (n * n);
+// By Gauss' rule of five points, 8 x 8 times in each piece.
+double AreaByQuadrature(const Surface& surface) {
+  constexpr int kParts = 8;
+  const double inner = std::sqrt(5.0 - 2.0 * std::sqrt(10.0 / 7.0)) / 3.0;
+  const double outer = std::sqrt(5.0 + 2.0 * std::sqrt(10.0 / 7.0)) / 3.0;
+  const double w_inner = (322.0 + 13.0 * std::sqrt(70.0)) / 900.0;
+  const double w_outer = (322.0 - 13.0 * std::sqrt(70.0)) / 900.0;
+  const std::pair<double, double> rule[] = {
+      {-outer, w_outer}, {-inner, w_inner}, {0.0, 128.0 / 225.0}, {inner, w_inner}, {outer, w_outer}};
+  double area = 0.0;
+  for (const Piece& piece : surface.pieces) {
+    for (int cell = 0; cell < kParts * kParts; ++cell) {
+      for (const auto& [x, weight_x] : rule) {
+        for (const auto& [y, weight_y] : rule) {
+          const SurfaceJet jet = Evaluate(piece, (cell / kParts + 0.5 + 0.5 * x) / kParts,
+                                          (cell % kParts + 0.5 + 0.5 * y) / kParts);
+          area += 0.25 * weight_x * weight_y / (kParts * kParts) * jet.du.cross(jet.dv).norm();
         }
       }
     }
-    EXPECT_NEAR(Total(map), area, 1e-3 * area) << seed;
+  }
+  return area;
+}
+
+// Whatever the ground, and however finely it is divided.
+TEST(SplitRegions, OfAnyPartAreLargeClosedAndTileIt) {
+  std::vector<std::pair<std::string, PatchModel>> parts;
+  if (!testing::kSanitized) parts.emplace_back("bumpy", testing::Bumpy());  // minutes otherwise
+  for (const std::uint64_t seed : {1u, 2u, 3u})
+    parts.emplace_back("random " + std::to_string(seed), testing::RandomBspline(seed));
+  for (const auto& [name, model] : parts) {
+    SCOPED_TRACE(name);
+    const Surface surface = Build(model);
+    RegionParams params;
+    const RegionMap map = Split(surface, params);
+    params.detail = 1.0;
+    const RegionMap raw = Split(surface, params);
+    const double area = AreaByQuadrature(surface);
+    EXPECT_NEAR(Total(map), area, 1e-6 * area);
+    EXPECT_NEAR(Total(raw), area, 1e-6 * area);
+
+    // Regions that have a reachable neighbour are no smaller than a turn of the ball.
+    std::vector<bool> has_neighbour(map.regions.size(), false);
+    const auto reached = [&](int id) {
+      return id >= 0 && map.regions[static_cast<std::size_t>(id)].kind != RegionKind::kUnreachable;
+    };
+    for (const BorderLine& line : map.border_lines) {
+      if (!reached(line.region) || !reached(line.other)) continue;
+      has_neighbour[static_cast<std::size_t>(line.region)] = true;
+      has_neighbour[static_cast<std::size_t>(line.other)] = true;
+    }
+    int counted = 0;
     for (const Region& r : map.regions) {
       EXPECT_GT(r.area, 0.0);
-      if (r.kind != RegionKind::kUnreachable && map.regions.size() > 1) {
-        EXPECT_GE(r.area, 2 * kPi * 9 * 0.5) << seed;
+      counted += has_neighbour[static_cast<std::size_t>(r.id)];
+      EXPECT_GE(r.area, has_neighbour[static_cast<std::size_t>(r.id)] ? 2 * kPi * 9 : 0.0) << r.id;
+      ASSERT_FALSE(r.border.empty());
+      for (const auto& loop : r.border) {
+        ASSERT_GE(loop.size(), 3u);
+        // Closed along the surface: no step leaves it, the last one to the first point neither.
+        double farthest = 0.0;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          const Vec3 middle = 0.5 * (loop[i] + loop[(i + 1) % loop.size()]);
+          const auto at = ClosestToPoint(surface, middle, 1.0, 1e-4);
+          farthest = std::max(farthest, at ? at->distance : 1.0);
+        }
+        EXPECT_LE(farthest, 2.0 * params.border_tolerance) << r.id;
       }
-      for (const auto& loop : r.border) EXPECT_GE(loop.size(), 3u);
     }
-    for (const auto& labels : map.labels) {
-      for (const int label : labels) {
-        ASSERT_GE(label, 0);
-        ASSERT_LT(label, static_cast<int>(map.regions.size()));
+    EXPECT_LE(counted, 20);  // 40 times the detail
+
+    // Merging only groups: most of the ground keeps what the split says it is, and what no ball reaches is
+    // the same.
+    ASSERT_EQ(map.cells, raw.cells);
+    int cells = 0, relabelled = 0;
+    for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
+      for (std::size_t k = 0; k < map.labels[piece].size(); ++k) {
+        const int label = map.labels[piece][k], was = raw.labels[piece][k];
+        ASSERT_TRUE(label >= 0 && label < static_cast<int>(map.regions.size()));
+        const Region &now = map.regions[static_cast<std::size_t>(label)],
+                     &then = raw.regions[static_cast<std::size_t>(was)];
+        ASSERT_EQ(now.kind == RegionKind::kUnreachable, then.kind == RegionKind::kUnreachable);
+        ++cells;
+        relabelled += now.kind != then.kind || now.slope != then.slope;
       }
     }
+    EXPECT_LE(relabelled, cells / 2);
   }
 }
 
