@@ -50,6 +50,12 @@ struct Prover {
     return true;
   }
 
+  // The ball on p stands higher than the best by more than the gap.
+  bool Touches(const Vec3& p) const {
+    const double rim2 = ball.radius * ball.radius - (Plan(p) - ball.q).squaredNorm();
+    return rim2 > 0.0 && p.z() + std::sqrt(rim2) > best.z + eps;
+  }
+
   void Prove(const Piece& piece, int piece_index, const Rect& rect, const Vec4* points, int level) {
     if (done) return;
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
@@ -67,7 +73,8 @@ struct Prover {
     const LeafModel model = internal::MakeLeafModel(piece, points, hull.data(), hull_count, rect);
     LowerModel low = internal::BoundBelow(model, Lift(ball.q, best.z));
     if (Excluded(model, low, best.z)) return;
-    if (low.convex || level <= 2) {
+    // Hollow ground well inside the ball would be divided without end, and nothing be found on it.
+    if (low.convex || level <= 2 || Touches(model.s)) {
       const Vec3 c = Lift(ball.q, best.z);
       const BoxMinimum guess = internal::GuessMinimum(model, c);
       const internal::SearchResult found = internal::RaiseOnPiece(

@@ -206,6 +206,10 @@ TEST(CertificateFuzz, BesideASingularCorner) { EXPECT_EQ(Faults(Judge(50568)), "
 // higher beyond it.
 TEST(CertificateFuzz, AHollowThatNearlyFits) { EXPECT_EQ(Faults(Judge(60013)), ""); }
 
+// Hollow ground 1e-4 mm inside a ball: no part of it is outside, and no part convex, so that the budget ended
+// before anything was found there.
+TEST(CertificateFuzz, HollowGroundBesideABorder) { EXPECT_EQ(Faults(Judge(84578)), ""); }
+
 // A ball that rests on a singular corner of a part of 107 m: only division closes the gap there, 70 halvings.
 TEST(CertificateFuzz, SingularCornerOfAHugePart) { EXPECT_EQ(Faults(Judge(20778)), ""); }
 
