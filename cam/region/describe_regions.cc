@@ -61,15 +61,17 @@ void Probe(const Surface& surface, const std::vector<SplitMesh>& meshes, const R
     Vec3 p, normal;
   };
   std::vector<Concave> places;
+  std::vector<Vec3> looked;
   const std::size_t look = std::max<std::size_t>(1, triangles.size() / kLooked);
   for (std::size_t i = 0; i < triangles.size(); i += look) {
     const Vec2 q = Centroid(meshes[triangles[i].piece], triangles[i].triangle);
     const SurfaceJet jet = Evaluate(surface.pieces[triangles[i].piece], q.x(), q.y());
-    region.deepest_leftover = std::max(region.deepest_leftover, reach.LeftoverAbove(jet.p));
+    looked.push_back(jet.p);
     const auto normal = UpwardNormal(jet);
     if (region.reason == UnreachableReason::kConcave && normal)
       places.push_back({Principal(Forms(jet, *normal)).k_max, jet.p, *normal});
   }
+  region.deepest_leftover = reach.DeepestLeftover(looked);
   if (region.reason != UnreachableReason::kConcave) return;
   // The ball that reaches some places spread over the region, and those where it bends most.
   double largest = params.radius;

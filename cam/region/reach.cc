@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cam/region/leftover.h"
 #include "cam/region/obstacle_finder.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
@@ -95,11 +96,8 @@ double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {
   return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - kFloorSlack);
 }
 
-double ReachTest::LeftoverAbove(const Vec3& p) const {
-  const auto above = free_ball_.Height(Plan(p));
-  if (!above) return 0.0;
-  const double center = std::max(above->z, params_.floor_z + params_.radius);
-  return std::max(0.0, center - p.z() - params_.radius);
+double ReachTest::DeepestLeftover(std::span<const Vec3> places) const {
+  return patchmill::DeepestLeftover(free_ball_, {params_.floor_z, params_.keep_in}, places);
 }
 
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,

@@ -37,8 +37,8 @@ class ReachTest {
   // params.keep_in allows the ball's centre; on a vertical face on either side.
   bool Allowed(const Vec3& p, const Vec3& normal) const;
 
-  // Rough depth of material left over p when it is unreachable: from the ball that comes down right above it.
-  double LeftoverAbove(const Vec3& p) const;
+  // The largest of what stays over some places, mm (leftover.h).
+  double DeepestLeftover(std::span<const Vec3> places) const;
 
  private:
   bool BlockedAbove(const Vec3& p, const Vec3& normal, ShankFinder& shank) const;

@@ -54,8 +54,15 @@ absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& option
 
 std::string HowItIsCut(const v1::Region& region) {
   if (region.skipped()) return "off";
-  if (region.kind() == v1::REGION_KIND_UNREACHABLE) return Short(region.unreachable_reason());
-  std::string text = Short(region.strategy());
+  std::string text;
+  if (region.kind() == v1::REGION_KIND_UNREACHABLE) {
+    text = fmt::format("{}, up to {:.3f} mm stays", Short(region.unreachable_reason()),
+                       region.deepest_leftover_mm());
+    if (region.largest_tool_diameter_mm() > 0.0)
+      text += fmt::format(", reached by D {:.2f}", region.largest_tool_diameter_mm());
+    return text;
+  }
+  text = Short(region.strategy());
   if (region.has_zigzag_angle_deg())
     text += fmt::format(" {:g} deg{}", region.zigzag_angle_deg(), region.one_way_lines() ? " one way" : "");
   return text + fmt::format(", scallop {:g}, step {:.3f} to {:.3f} mm", region.scallop_mm(),

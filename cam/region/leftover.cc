@@ -1,0 +1,205 @@
+#include "cam/region/leftover.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace patchmill {
+namespace {
+
+constexpr double kHeightGap = 1e-3;   // of R: what heights are proven to
+constexpr double kStill = 1e-3;       // of R: a step this short ends a descent
+constexpr double kWorthwhile = 0.02;  // of the leftover: more than that much deeper is looked for
+constexpr int kSteps = 30;
+constexpr int kMisses = 2;
+constexpr int kRing = 16;
+
+// The centre in the column over a place of the plane that is nearest to what is asked for.
+struct Column {
+  Vec3 center = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();  // of the free centres' border there, towards them
+  bool held = false;            // stands on that border
+  double distance = kInfinity;  // infinite: not allowed
+};
+
+// Free centres are those with normal . c >= offset, as far as one column tells.
+struct HalfSpace {
+  Vec3 normal;
+  double offset = 0.0;
+};
+
+double Outside(const HalfSpace& space, const Vec3& x) { return space.offset - space.normal.dot(x); }
+
+// The point nearest to p of what up to three of the half-spaces leave, when they alone decide it.
+std::optional<Vec3> Foot(std::span<const HalfSpace* const> active, const Vec3& p) {
+  const auto n = static_cast<Eigen::Index>(active.size());
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> normals(3, n);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> lack(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    normals.col(i) = active[static_cast<std::size_t>(i)]->normal;
+    lack[i] = Outside(*active[static_cast<std::size_t>(i)], p);
+  }
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> gram = normals.transpose() * normals;
+  if (gram.determinant() < 1e-9) return std::nullopt;
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> push = gram.inverse() * lack;
+  if (push.minCoeff() < 0.0) return std::nullopt;
+  return p + normals * push;
+}
+
+// The point of all half-spaces that is nearest to p; nullopt when rounding hides it.
+std::optional<Vec3> NearestIn(std::span<const HalfSpace> spaces, const Vec3& p, double slack) {
+  if (spaces.empty()) return p;
+  const auto try_these = [&](std::initializer_list<const HalfSpace*> active) -> std::optional<Vec3> {
+    const auto foot = Foot({active.begin(), active.size()}, p);
+    const auto in = [&](const HalfSpace& space) { return Outside(space, *foot) <= slack; };
+    return foot && std::all_of(spaces.begin(), spaces.end(), in) ? foot : std::nullopt;
+  };
+  for (const HalfSpace& a : spaces)
+    if (const auto foot = try_these({&a})) return foot;
+  for (std::size_t i = 0; i < spaces.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (const auto foot = try_these({&spaces[i], &spaces[j]})) return foot;
+  for (std::size_t i = 0; i < spaces.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k)
+        if (const auto foot = try_these({&spaces[i], &spaces[j], &spaces[k]})) return foot;
+  return std::nullopt;
+}
+
+// Search for the free centre that is nearest to one place.
+class NearestCenter {
+ public:
+  NearestCenter(const Locator& locator, const LeftoverParams& params, const Vec3& p)
+      : locator_(locator), params_(params), p_(p) {}
+
+  // From right above it; no distance: nothing is allowed there.
+  Column Above() const { return At(Plan(p_)); }
+
+  // Each column looked at adds the half-space that it knows; the next one is towards the point of all of them
+  // that is nearest to p. Exact in kinks, where two contacts hold the ball and coordinate searches stop.
+  Column Descend(Column at) const {
+    if (at.distance == kInfinity) return at;
+    const double slack = kStill * kStill * locator_.radius();
+    std::vector<HalfSpace> spaces;
+    // Where the border bends away from p, what is known at one place excludes free centres at another.
+    const auto excludes = [&](const HalfSpace& space) { return Outside(space, at.center) > slack; };
+    const auto learn = [&](const Column& column) {
+      if (column.held) spaces.push_back({column.normal, column.normal.dot(column.center)});
+      return std::erase_if(spaces, excludes) == 0 && column.held;
+    };
+    learn(at);
+    double share = 1.0;
+    int misses = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const auto foot = NearestIn(spaces, p_, slack);
+      if (!foot) break;
+      const Vec2 step = share * Plan(*foot - at.center);
+      if (step.norm() < kStill * locator_.radius()) break;
+      const Column next = At(Plan(at.center) + step);
+      const bool nearer = next.distance < at.distance;
+      if (nearer) at = next;
+      const bool told = learn(next);
+      misses = nearer ? 0 : misses + 1;
+      if (nearer) share = std::min(1.0, 2.0 * share);
+      if (misses > 0 && (!told || misses > kMisses)) share *= 0.5;
+    }
+    return at;
+  }
+
+  // From all around, as far as something nearer than `known` may be.
+  Column FromAround(Column known) const {
+    const double farthest = 0.95 * std::min(known.distance, 33.0 * locator_.radius());
+    const double nearest = 0.12 * std::min(known.distance, locator_.radius());
+    std::array<Column, kRing> ring;  // the nearest of some columns in each direction
+    for (int i = 0; i < kRing; ++i) {
+      const double angle = 2.0 * kPi * i / kRing;
+      Column& best = ring[static_cast<std::size_t>(i)];
+      for (double radius = farthest; radius > nearest; radius *= 0.75) {
+        const Column column = At(Plan(p_) + radius * Vec2(std::cos(angle), std::sin(angle)));
+        if (column.distance < best.distance) best = column;
+      }
+    }
+    for (std::size_t i = 0; i < kRing; ++i) {
+      const double before = ring[(i + kRing - 1) % kRing].distance, after = ring[(i + 1) % kRing].distance;
+      if (ring[i].distance == kInfinity || ring[i].distance > before || ring[i].distance >= after) continue;
+      const Column found = Descend(ring[i]);
+      if (found.distance < known.distance) known = found;
+    }
+    return Polish(known);
+  }
+
+ private:
+  // Around p and down again: along the foot of an upright wall, whose columns tell of no side.
+  Column Polish(Column at) const {
+    for (double turn = kPi / kRing; turn > 0.01; turn *= 0.5)
+      for (const double angle : {turn, -turn}) {
+        const Column turned = At(Plan(p_) + Eigen::Rotation2Dd(angle) * Plan(at.center - p_));
+        if (turned.distance > (1.0 + kStill) * at.distance) continue;
+        const Column found = Descend(turned);
+        if (found.distance < at.distance) at = found;
+      }
+    return at;
+  }
+
+  Column At(const Vec2& q) const {
+    const double radius = locator_.radius();
+    const auto height = locator_.Height(q, nullptr, kHeightGap * radius);
+    Column column;
+    double z = params_.floor_z + radius;
+    if (height && height->z > z) {
+      z = height->z;
+      column.normal = (Vec3(q.x(), q.y(), z) - height->contact.p) / radius;
+    }
+    column.center = Vec3(q.x(), q.y(), std::max(z, p_.z()));
+    if (params_.keep_in == nullptr || params_.keep_in->Allows(column.center))
+      column.distance = (column.center - p_).norm();
+    column.held = z > p_.z() && column.distance < kInfinity;
+    return column;
+  }
+
+  const Locator& locator_;
+  const LeftoverParams& params_;
+  const Vec3 p_;
+};
+
+}  // namespace
+
+double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places) {
+  // Every free centre found for one place is a bound for all.
+  std::vector<Column> found;
+  for (const Vec3& p : places) found.push_back(NearestCenter(locator, params, p).Above());
+  const auto nearest = [&](const Vec3& p) {
+    Column best;
+    for (const Column& column : found) {
+      const double distance = (column.center - p).norm();
+      if (column.distance == kInfinity || distance >= best.distance) continue;
+      best = column;
+      best.distance = distance;
+    }
+    return best;
+  };
+  std::vector<double> bounds;
+  for (const Vec3& p : places) bounds.push_back(nearest(p).distance);
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return bounds[a] > bounds[b]; });
+  double deepest = locator.radius();
+  for (const std::size_t i : order) {
+    const double enough = deepest + kWorthwhile * (deepest - locator.radius()) + kStill * locator.radius();
+    if (bounds[i] <= enough) break;
+    const NearestCenter search(locator, params, places[i]);
+    Column column = nearest(places[i]);
+    for (const bool around : {false, true}) {
+      if (column.distance <= enough) break;
+      column = around ? search.FromAround(column) : search.Descend(column);
+      found.push_back(column);
+    }
+    if (column.distance > enough && column.distance < kInfinity) deepest = column.distance;
+  }
+  return deepest - locator.radius();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,24 @@
+// What stays over a place that no free ball touches: the distance to the nearest centre where one may stand,
+// less R (the leftover of DESIGN 2, with all of those centres as the path).
+#pragma once
+
+#include <span>
+
+#include "cam/location/keep_in.h"
+#include "cam/location/locator.h"
+
+namespace patchmill {
+
+struct LeftoverParams {
+  double floor_z = -kInfinity;      // mm, lowest tip
+  const KeepIn* keep_in = nullptr;  // null: allows all centres
+};
+
+// mm, >= 0: the largest over `places`, points of the surface, of a ball of locator.radius(). Measured to
+// centres that are free, so a place's own is never too small; too large where the search for the nearest ends
+// in another local minimum. What is at most a fiftieth deeper than another, and R / 1000, is not looked for.
+// A place is left out when nothing is allowed within 32 R of it. Cost: a height a place, ten for those that
+// may be the deepest, two hundred for the few that are.
+double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places);
+
+}  // namespace patchmill

@@ -1,0 +1,150 @@
+// What stays where no ball gets to, against closed forms: from the places that matter, not from above them.
+#include "cam/region/leftover.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+constexpr double kR = 3.0, kNear = 0.01 * kR;
+
+double LeftoverAt(const Surface& surface, const Vec3& p, const LeftoverParams& params = {}) {
+  return DeepestLeftover(Locator(surface, kR), params, {&p, 1});
+}
+
+TEST(Leftover, InAValleyOfTwoPlanes) {
+  // The ball's centres are a valley of the same slope, R / cos(a) higher. From a place that none of its
+  // sides sees at a right angle its bottom is nearest.
+  for (const double degrees : {20.0, 45.0, 75.0}) {
+    const double a = Radians(degrees);
+    const Surface surface = SurfaceOf(TwoPlanes(a, 20));
+    const double bottom = kR / std::cos(a), touched = kR * std::sin(a);
+    for (const double share : {0.0, 0.1, 0.5, 0.9}) {
+      const double x = share * touched;
+      const Vec3 p(x, 0.7, x * std::tan(a));
+      const double expected = std::hypot(x, bottom - p.z()) - kR;
+      EXPECT_NEAR(LeftoverAt(surface, p), expected, kNear) << degrees << " " << share;
+    }
+    const double beyond = 1.5 * touched;
+    EXPECT_NEAR(LeftoverAt(surface, Vec3(beyond, 0, beyond * std::tan(a))), 0.0, kNear) << degrees;
+  }
+}
+
+TEST(Leftover, InAValleyThatRunsAslant) {
+  // The same, with a bottom along no axis: what stops a search along x and y.
+  const double a = Radians(70);
+  Eigen::Affine3d turn = Eigen::Affine3d::Identity();
+  turn.rotate(Eigen::AngleAxisd(Radians(33), Vec3::UnitZ()));
+  const Surface surface = SurfaceOf(Transformed(TwoPlanes(a, 20), turn));
+  const double bottom = kR / std::cos(a);
+  for (const double x : {0.0, 0.4, 1.5}) {
+    const Vec3 p = turn * Vec3(x, 2.0, x * std::tan(a));
+    EXPECT_NEAR(LeftoverAt(surface, p), std::hypot(x, bottom - p.z()) - kR, kNear) << x;
+  }
+}
+
+TEST(Leftover, InASteepGroove) {
+  // z = a x^2: offset curves touch both sides from below x_t on and meet at (0, a R^2 + 1 / (4 a)).
+  for (const double a : {0.25, 0.5, 1.0}) {
+    const Surface surface = SurfaceOf(ParabolicValley(a, 12));
+    const Locator locator(surface, kR);
+    const double meet = a * kR * kR + 0.25 / a, touch = std::sqrt(kR * kR - 0.25 / (a * a));
+    for (const double share : {0.0, 0.3, 0.7, 0.95}) {
+      const double x = share * touch;
+      const Vec3 p(x, -1.0, a * x * x);
+      double nearest = std::hypot(x, meet - p.z());
+      for (int i = 0; i <= 4000; ++i) {
+        const double t = touch + (12.0 - touch) * i / 4000.0, s = std::hypot(1.0, 2.0 * a * t);
+        nearest = std::min(nearest, std::hypot(t - 2.0 * a * t * kR / s - x, a * t * t + kR / s - p.z()));
+      }
+      EXPECT_NEAR(DeepestLeftover(locator, {}, {&p, 1}), nearest - kR, kNear) << a << " " << share;
+    }
+  }
+}
+
+TEST(Leftover, UnderASlabIsMeasuredFromItsSide) {
+  // Ball and shank keep R from its edge x = 0.
+  const double height = 20;
+  const Surface surface = SurfaceOf(Join({Plane(60), Single(Bilinear({-30, -30, height}, {0, -30, height},
+                                                                     {-30, 30, height}, {0, 30, height}))}));
+  for (const double x : {-2.0, -5.0, -9.0})
+    EXPECT_NEAR(LeftoverAt(surface, Vec3(x, 0, 0)), std::hypot(x - kR, kR) - kR, kNear) << x;
+  // From further in the way over the slab is shorter than the way around.
+  const double over = height + kR - kR;
+  EXPECT_NEAR(LeftoverAt(surface, Vec3(-28.0, 0, 0)), std::min(over, std::hypot(5.0, kR) - kR), kNear);
+}
+
+TEST(Leftover, OverALowFloorIsNone) {
+  // Beside an upright wall the ball stands anywhere; a floor keeps it up.
+  const Surface surface = SurfaceOf(Sphere(Vec3::Zero(), 10, Half::kUpper));
+  const Vec3 rim(10, 0, 0);
+  EXPECT_NEAR(LeftoverAt(surface, rim), 0.0, kNear);
+  EXPECT_NEAR(LeftoverAt(surface, rim, {.floor_z = 0.0}), std::hypot(std::sqrt(160.0) - 10.0, kR) - kR,
+              kNear);
+}
+
+TEST(Leftover, KeepsToWhatIsAllowed) {
+  // Centres inside x <= 4: of a place beyond, the nearest is that border's.
+  const Surface surface = SurfaceOf(Plane(30));
+  Containment containment;
+  const Outline outline({{{-20, -20}, {4, -20}, {4, 20}, {-20, 20}}});
+  containment.boundary = Boundary{outline, BoundaryMode::kCenter, 0.0};
+  const auto keep_in =
+      KeepIn::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
+  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+  const LeftoverParams params{.keep_in = &*keep_in};
+  for (const double x : {5.0, 9.0, 17.0})
+    EXPECT_NEAR(LeftoverAt(surface, Vec3(x, 1, 0), params), std::hypot(x - 4.0, kR) - kR, kNear) << x;
+  EXPECT_EQ(LeftoverAt(surface, Vec3(3, 1, 0), params), 0.0);
+}
+
+TEST(Leftover, IsAsBruteForceFindsIt) {
+  // Columns all over the disk that could hold a nearer centre, on rough parts with folds: never much farther.
+  int deep = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Surface surface = SurfaceOf(RandomBspline(seed, {.size = 20.0, .amplitude = 8.0, .folds = true}));
+    const Locator locator(surface, kR);
+    Random random(seed);
+    for (int i = 0; i < 12; ++i) {
+      const auto& piece = surface.pieces[seed * 7919 % surface.pieces.size()];
+      const Vec3 p = Evaluate(piece, random.Uniform(0, 1), random.Uniform(0, 1)).p;
+      const double found = DeepestLeftover(locator, {}, {&p, 1});
+      double nearest = kInfinity;
+      for (int k = 0; k < 4000; ++k) {
+        const double angle = random.Uniform(0, 2 * kPi), out = (found + kR) * std::sqrt(random.Uniform(0, 1));
+        const Vec2 q = Plan(p) + out * Vec2(std::cos(angle), std::sin(angle));
+        const auto height = locator.Height(q, nullptr, 1e-3);
+        const double up = height ? std::max(0.0, height->z - p.z()) : 0.0;
+        nearest = std::min(nearest, std::hypot((q - Plan(p)).norm(), up));
+      }
+      EXPECT_LE(found, nearest - kR + 0.03 * nearest) << seed << " " << p.transpose();
+      deep += found > 0.3 * kR;
+    }
+  }
+  EXPECT_GT(deep, 10);
+}
+
+TEST(Leftover, OfManyPlacesIsThatOfTheDeepest) {
+  const Surface surface = SurfaceOf(TwoPlanes(Radians(60), 20));
+  std::vector<Vec3> places;
+  double deepest = 0.0;
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    const double x = random.Uniform(-2.0, 2.0);
+    places.push_back({x, random.Uniform(-15, 15), std::abs(x) * std::tan(Radians(60))});
+    deepest = std::max(deepest, LeftoverAt(surface, places.back()));
+  }
+  EXPECT_DOUBLE_EQ(DeepestLeftover(Locator(surface, kR), {}, places), deepest);
+  EXPECT_EQ(DeepestLeftover(Locator(surface, kR), {}, {}), 0.0);
+}
+
+}  // namespace
+}  // namespace patchmill
