@@ -32,6 +32,12 @@ absl::StatusOr<int> FindRegion(const Surface& surface, const RegionMap& map, con
                   change.at->y(), change.at->z(), kPickReach));
 }
 
+bool HasCell(const RegionMap& map, int region) {
+  return std::any_of(map.labels.begin(), map.labels.end(), [&](const std::vector<int>& labels) {
+    return std::find(labels.begin(), labels.end(), region) != labels.end();
+  });
+}
+
 // Which region each cell of a piece follows: its own when that is reachable or skipped, else the reachable
 // one that the fewest steps from cell to cell lead to; -1 where there is none.
 std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
@@ -100,6 +106,12 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
     if (map.regions[id].kind == RegionKind::kUnreachable && !change.skip) {
       return absl::InvalidArgumentError(
           fmt::format("{} names region {}, which is unreachable; it can only be skipped", Path(k), region));
+    }
+    if (!HasCell(map, region)) {
+      return absl::InvalidArgumentError(fmt::format(
+          "{} names region {} of {:.3g} mm2, which is too small to be cut apart from what is around it "
+          "(regions are told apart on {} x {} cells of each patch)",
+          Path(k), region, map.regions[id].area, map.cells, map.cells));
     }
     RegionChoice& choice = choices[id];
     choice.skip = change.skip;

@@ -22,7 +22,7 @@ struct ChosenRegions {
 
 // One for each region of the map, by id. FAILED_PRECONDITION when the overrides were made for another map;
 // INVALID_ARGUMENT, with the field, for a region that is not there, a point that is on none, a region named
-// twice, an unreachable one that is not to be skipped.
+// twice, an unreachable one that is not to be skipped, one too small to have a cell of the map.
 absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, const RegionMap& map,
                                                         const Operation& op, const Vec3& program_zero);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/parallel.h"
+#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
@@ -42,10 +43,43 @@ std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& regi
   return labels;
 }
 
+Vec2 Middle(const SplitMesh& mesh, const SplitTriangle& triangle) {
+  Vec2 sum = Vec2::Zero();
+  for (const int k : triangle.vertex) {
+    const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(k)];
+    sum += Vec2(vertex.u, vertex.v);
+  }
+  return sum / 3.0;
+}
+
+// A cell for each region that has none.
+void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
+               std::size_t regions, RegionMap& map) {
+  std::vector<std::size_t> cells_of(regions, 0);
+  for (const std::vector<int>& labels : map.labels)
+    for (const int id : labels)
+      if (id >= 0) ++cells_of[static_cast<std::size_t>(id)];
+  if (std::none_of(cells_of.begin(), cells_of.end(), [](std::size_t count) { return count == 0; })) return;
+  for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
+    for (std::size_t t = 0; t < region_of[piece].size(); ++t) {
+      const int id = region_of[piece][t];
+      if (id < 0 || cells_of[static_cast<std::size_t>(id)] > 0) continue;
+      const Vec2 at = map.cells * Middle(meshes[piece], meshes[piece].triangles[t]);
+      const auto i = std::min(static_cast<int>(at.x()), map.cells - 1);
+      const auto j = std::min(static_cast<int>(at.y()), map.cells - 1);
+      int& label = map.labels[piece][static_cast<std::size_t>(i * map.cells + j)];
+      if (label >= 0 && cells_of[static_cast<std::size_t>(label)] == 1) continue;
+      if (label >= 0) --cells_of[static_cast<std::size_t>(label)];
+      label = id;
+      cells_of[static_cast<std::size_t>(id)] = 1;
+    }
+  }
+}
+
 }  // namespace
 
 absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
-                        const RunContext& run, RegionMap& map) {
+                        std::size_t regions, const RunContext& run, RegionMap& map) {
   constexpr double kMaxLabels = 8e6;
   constexpr int kMaxCells = 256;
   const auto pieces = static_cast<double>(std::max<std::size_t>(1, meshes.size()));
@@ -53,9 +87,11 @@ absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<
   map.cells = 1;
   while (map.cells < kMaxCells && 4.0 * map.cells * map.cells * pieces <= kMaxLabels) map.cells *= 2;
   map.labels.resize(meshes.size());
-  return ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
     map.labels[piece] = PieceLabels(meshes[piece], region_of[piece], map.cells);
-  });
+  }));
+  GiveCells(meshes, region_of, regions, map);
+  return absl::OkStatus();
 }
 
 }  // namespace patchmill

@@ -8,9 +8,11 @@
 
 namespace patchmill {
 
-// Fills map.cells and map.labels from `region_of[piece][triangle]`; at most 8 million labels, 256 x 256 a
-// piece. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// Fills map.cells and map.labels from `region_of[piece][triangle]`, ids below `regions`; at most 8 million
+// labels, 256 x 256 a piece. A region that holds no cell's centre gets the cell of one of its triangles from
+// a neighbour that has others, so that it can be picked and switched off too; only regions crowded into
+// single cells may stay without one. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
-                        const RunContext& run, RegionMap& map);
+                        std::size_t regions, const RunContext& run, RegionMap& map);
 
 }  // namespace patchmill

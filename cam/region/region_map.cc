@@ -282,7 +282,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
       told[k] = DescribeRegions(surface, meshes, region_of, reach, params, run, regions);
       ListPatches(surface, region_of, regions);
     } else {
-      told[k] = FillLabels(meshes, region_of, run, map);
+      told[k] = FillLabels(meshes, region_of, regions.size(), run, map);
     }
   }));
   for (const absl::Status& status : told) PM_RETURN_IF_ERROR(status);

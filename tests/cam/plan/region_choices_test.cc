@@ -12,6 +12,7 @@
 #include "core/surface/closest.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
 
 namespace patchmill {
 namespace {
@@ -293,6 +294,27 @@ TEST(RegionParts, UnreachableGroundGoesWithWhatSurroundsIt) {
   EXPECT_TRUE(parts[0].where->HasAny(PieceId(0), 0.0, 0.51, 0.0, 1.0));
   EXPECT_FALSE(parts[0].where->Has(PieceId(0), 0.499, 1.0));
   EXPECT_TRUE(parts[0].where->Has(PieceId(0), 0.5, 1.0));
+}
+
+// Switching off what no cell belongs to would do nothing: that is said.
+TEST(RegionParts, ARegionWithoutACellIsRefused) {
+  const Surface surface = SurfaceOf(Plane(5));
+  RegionMap map;
+  map.cells = 2;
+  map.regions.resize(2);
+  for (int id = 0; id < 2; ++id) map.regions[static_cast<std::size_t>(id)].id = id;
+  map.labels.assign(surface.pieces.size(), std::vector<int>(4, 0));
+  Operation op;
+  RegionOverride change;
+  change.region = 1;
+  change.skip = true;
+  op.overrides = {change};
+  const auto choices = ChooseRegions(surface, map, op, Vec3::Zero());
+  ASSERT_EQ(choices.status().code(), absl::StatusCode::kInvalidArgument) << choices.status();
+  EXPECT_NE(choices.status().message().find("region_overrides[0] names region 1"), std::string::npos)
+      << choices.status();
+  op.overrides[0].region = 0;
+  EXPECT_TRUE(ChooseRegions(surface, map, op, Vec3::Zero()).ok());
 }
 
 }  // namespace
