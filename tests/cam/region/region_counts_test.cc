@@ -1,6 +1,7 @@
 // How many regions a machinist is shown: tests/cam/region/region_counts.txt, and no other number when the
 // shape moves by what nobody can see. Networks: tests/service/regions_test.cc.
 #include <cmath>
+#include <iostream>
 #include <map>
 #include <tuple>
 
@@ -15,8 +16,8 @@ namespace patchmill {
 namespace {
 
 // Equal points stay equal, so that patches stay joined.
-void Shake(double by, PatchModel& model) {
-  testing::Random random(7);
+void Shake(double by, std::uint64_t seed, PatchModel& model) {
+  testing::Random random(seed);
   std::map<std::tuple<long, long, long>, Vec3> moves;
   for (Patch& patch : model.patches) {
     for (Vec3& p : ControlPoints(patch.shape)) {
@@ -56,13 +57,18 @@ TEST(RegionCounts, AreThoseOfTheTableWithAndWithoutNoise) {
   for (const testing::TableRow& row : table) {
     SCOPED_TRACE(row.file + ": " + row.why);
     auto found = testing::ModelOf(row);
-    if (!found) continue;
-    PatchModel& model = *found;
+    if (!found) {
+      std::cerr << row.file << " is not here: not tested\n";
+      continue;
+    }
     EXPECT_GE(row.count, 1);
     EXPECT_LE(row.count, 20);
-    EXPECT_EQ(CountOf(model), row.count);
-    Shake(0.005, model);
-    EXPECT_LE(std::abs(CountOf(model) - row.count), 2) << "with noise";
+    EXPECT_EQ(CountOf(*found), row.count);
+    for (const std::uint64_t seed : {7, 8, 9}) {
+      PatchModel model = *found;
+      Shake(0.005, seed, model);
+      EXPECT_LE(std::abs(CountOf(model) - row.count), 2) << "with noise " << seed;
+    }
   }
 }
 
