@@ -170,6 +170,9 @@ TEST(RegionClosedForms, HemisphereOnAPlane) {
   const double disc = kPi * ((r + reach) * (r + reach) - radius * radius);
   const double band = 2 * kPi * r * r * reach / (r + radius);
   ExpectArea(unreachable, disc + band);
+  const double cap = 2 * kPi * r * r * (1 - std::cos(params.steep_angle));
+  ExpectArea(Area(map, RegionKind::kMountain, SlopeClass::kGentle), cap);
+  ExpectArea(Area(map, RegionKind::kMountain, SlopeClass::kSteep), 2 * kPi * r * r - cap - band);
   // Plane, cap and steep band above the limit; below it the rest of the sphere, what surrounds it on the
   // plane and what it covers.
   EXPECT_EQ(Count(map, RegionKind::kNeutral), 1);
