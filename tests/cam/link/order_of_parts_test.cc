@@ -1,0 +1,136 @@
+// The order of the passes of a whole part: hills from the top, pits from the rim inwards, one after the
+// other.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/link/order_passes.h"
+#include "cam/path/contour_paths.h"
+#include "cam/path/zigzag_paths.h"
+#include "tests/support/joined_surface.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kRadius = 2.0;
+
+struct Feature {
+  Vec2 at;
+  double height;  // below 0: a pit
+};
+constexpr double kWide = 7.0;
+const std::array<Feature, 4> kFeatures{
+    {{{20, 20}, 12.0}, {{60, 24}, 9.0}, {{24, 60}, -10.0}, {{60, 62}, 11.0}}};
+
+double Ground(double x, double y) {
+  double z = 0.0;
+  for (const Feature& f : kFeatures)
+    z += f.height * std::exp(-(Vec2(x, y) - f.at).squaredNorm() / (2.0 * kWide * kWide));
+  return z;
+}
+
+std::size_t FeatureOf(const CutterPath& path) {
+  Vec2 middle = Vec2::Zero();
+  for (const CutterPoint& p : path.points) middle += Plan(p.center) / static_cast<double>(path.points.size());
+  const auto nearer = [&](const Feature& a, const Feature& b) {
+    return (a.at - middle).norm() < (b.at - middle).norm();
+  };
+  return static_cast<std::size_t>(std::min_element(kFeatures.begin(), kFeatures.end(), nearer) -
+                                  kFeatures.begin());
+}
+
+class OrderOfParts : public ::testing::Test {
+ protected:
+  OrderOfParts()
+      : surface_(testing::JoinedSurface(
+            testing::Single(testing::InterpolatedHeights(Ground, 0.0, 84.0, 0.0, 84.0, 40, 40)))),
+        locator_(surface_, kRadius) {
+    ContourParams steep;
+    steep.scallop = 0.02;
+    steep.window.min = Radians(25);
+    const auto contours = ContourPaths(locator_, steep, RunContext());
+    EXPECT_TRUE(contours.ok()) << contours.status();
+    ZigzagParams gentle;
+    gentle.scallop = 0.05;
+    gentle.window.max = Radians(25);
+    const auto lines = ZigzagPaths(locator_, gentle, RunContext());
+    EXPECT_TRUE(lines.ok()) << lines.status();
+    auto map = SplitRegions(surface_, {.radius = kRadius, .steep_angle = Radians(25)}, RunContext());
+    EXPECT_TRUE(map.ok()) << map.status();
+    std::vector<CutterPath> all = *lines;
+    all.insert(all.end(), contours->paths.begin(), contours->paths.end());
+    count_ = all.size();
+    lines_ = lines->size();
+    auto ordered = OrderPasses(*map, std::move(all), {.neighbor_distance = kRadius, .at_hand = 2.0 * kRadius},
+                               RunContext(1));
+    EXPECT_TRUE(ordered.ok()) << ordered.status();
+    ordered_ = *std::move(ordered);
+  }
+  static double Step() { return 2.0 * std::sqrt(2.0 * kRadius * 0.05); }
+
+  std::vector<const CutterPath*> Of(PassKind kind) const {
+    std::vector<const CutterPath*> paths;
+    for (const CutterPath& path : ordered_)
+      if (path.kind == kind) paths.push_back(&path);
+    return paths;
+  }
+
+  Surface surface_;
+  Locator locator_;
+  std::size_t count_ = 0, lines_ = 0;
+  std::vector<CutterPath> ordered_;
+};
+
+TEST_F(OrderOfParts, OneHillOrPitAfterTheOther) {
+  const auto contours = Of(PassKind::kContour);
+  ASSERT_EQ(ordered_.size(), count_);
+  ASSERT_GT(contours.size(), 80u);
+  int changes = 0;
+  std::array<int, 4> passes{};
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    ++passes[FeatureOf(*contours[i])];
+    changes += i > 0 && FeatureOf(*contours[i]) != FeatureOf(*contours[i - 1]);
+  }
+  EXPECT_EQ(changes, 3);
+  for (const int count : passes) EXPECT_GT(count, 10);
+}
+
+TEST_F(OrderOfParts, EachFromTheTop) {
+  // On a hill that is outwards, in a pit inwards.
+  const auto contours = Of(PassKind::kContour);
+  for (std::size_t i = 1; i < contours.size(); ++i) {
+    const std::size_t feature = FeatureOf(*contours[i]);
+    if (feature != FeatureOf(*contours[i - 1])) continue;
+    const Vec3 before = contours[i - 1]->points.front().center, now = contours[i]->points.front().center;
+    EXPECT_LE(now.z(), before.z()) << i;
+    const double out =
+        (Plan(now) - kFeatures[feature].at).norm() - (Plan(before) - kFeatures[feature].at).norm();
+    if (now.z() < before.z() - 1e-3) {
+      EXPECT_GT(kFeatures[feature].height > 0 ? out : -out, 0.0) << i;
+    }
+  }
+}
+
+TEST_F(OrderOfParts, SteepGroundBeforeGentleAndNeighboursTogether) {
+  const auto lines = Of(PassKind::kZigzag);
+  ASSERT_EQ(lines.size(), lines_);
+  std::size_t last_contour = 0, first_line = ordered_.size();
+  for (std::size_t i = 0; i < ordered_.size(); ++i) {
+    if (ordered_[i].kind == PassKind::kContour) last_contour = i;
+    if (ordered_[i].kind == PassKind::kZigzag) first_line = std::min(first_line, i);
+  }
+  EXPECT_LT(last_contour, first_line);
+  // To and fro: but for few jumps around the hills the next line begins where the last one ended.
+  std::size_t jumps = 0;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const Vec3 gap = lines[i]->points.front().center - lines[i - 1]->points.back().center;
+    jumps += Plan(gap).norm() > 6.0 * Step();
+  }
+  EXPECT_LE(jumps, lines.size() / 8) << lines.size();
+}
+
+}  // namespace
+}  // namespace patchmill
