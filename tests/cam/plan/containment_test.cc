@@ -123,6 +123,23 @@ TEST(Containment, ContactBoundaryIsWhatMustBeFinished) {
       });
 }
 
+TEST(Containment, ContactBoundaryIsWidenedAndNarrowedByItsOffset) {
+  const double slope = 0.5;
+  const Surface surface = PlacedSurface(Plane(15, 0, slope));
+  Job job = LimitedJob();
+  job.operation.selection.boundary = {Box(-6, -4, 6, 4)};
+  job.operation.selection.boundary_mode = BoundaryMode::kContact;
+  for (const double offset : {2.0, -1.5}) {
+    job.operation.selection.boundary_offset = offset;
+    const JobResult result = Mill(surface, job);
+    ASSERT_EQ(result.report.outcome, Outcome::kComplete) << Describe(result);
+    // All places within the offset of the outline: its corners are round outside.
+    const double corners = offset > 0 ? (kPi - 4) * offset * offset : 0.0;
+    const double area = ((12 + 2 * offset) * (8 + 2 * offset) + corners) * std::sqrt(1 + slope * slope);
+    EXPECT_NEAR(result.report.verify.total_area, area, 0.01 * area) << offset;
+  }
+}
+
 TEST(Containment, OneOfTwoPatches) {
   const PatchModel model = TwoPlanes(Radians(-20), 12);
   const Surface surface = PlacedSurface(model);
@@ -194,6 +211,29 @@ TEST(Containment, ObstacleIsGoneAroundAndOver) {
   const auto low = RunJob(surface, job, RunContext());
   EXPECT_EQ(low.status().code(), absl::StatusCode::kInvalidArgument);
   EXPECT_NE(low.status().message().find("31"), std::string::npos) << low.status();
+}
+
+// A clamp is kept off by the wider one of ball and shank.
+TEST(Containment, ObstacleIsKeptOffByTheShank) {
+  const Surface surface = PlacedSurface(Plane(25));
+  Job job = LimitedJob();
+  Tool& tool = job.operation.tool;
+  tool.shank_diameter = 12.0;
+  tool.flute_length = 10.0;
+  const double margin = 1.0, top = 20.0, keep = 6.0 + margin;
+  job.setup.obstacles.push_back({"clamp", Box(-4, -30, 4, 2), top, margin});
+  const JobResult result = Mill(surface, job);
+  ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+  double least = kInfinity;
+  AlongMoves(
+      result, [&](const Move&) { return true; },
+      [&](const Vec3& c) {
+        if (c.z() - kRadius >= top + margin - 0.01) return;
+        least = std::min(least, FromBox(Plan(c), Vec2(-4, -30), Vec2(4, 2)));
+      });
+  EXPECT_NEAR(least, keep, 0.02);
+  const double area = (8 + 2 * keep) * 27 + 8 * keep + 0.5 * kPi * keep * keep;
+  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoided], area, 0.01 * area);
 }
 
 TEST(Containment, TopLimitsTheTip) {

@@ -150,5 +150,59 @@ TEST(EdgeRules, ExtendEndsBeforeWhatIsInTheWay) {
   CheckProgram(surface, job, result, random, 2000);
 }
 
+// A sheet that bends both ways, so that its borders are curves in space.
+class CurvedSheet : public ::testing::TestWithParam<double> {
+ protected:
+  static Surface Sheet(double bend) {
+    const auto height = [bend](double x, double y) { return bend * (x * x - 0.5 * y * y) + 0.1 * x; };
+    return PlacedSurface(Single(InterpolatedHeights(height, -kHalf, kHalf, -kHalf, kHalf, 8, 8)));
+  }
+};
+
+TEST_P(CurvedSheet, RollGoesOverTheBorderAndKeepsThePromises) {
+  const Surface surface = Sheet(GetParam());
+  const Job job = EdgeJob(EdgeRule::kRoll);
+  const JobResult result = Mill(surface, job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  const JobResult stopped = Mill(surface, EdgeJob(EdgeRule::kStop));
+  ASSERT_TRUE(stopped.report.verify.ok()) << Describe(stopped);
+  for (int axis = 0; axis < 2; ++axis) {
+    // To where it touches the border at the split angle at least, and farther than when it stops there.
+    EXPECT_GE(FarthestCut(result, axis), kHalf + kRadius * std::sin(job.operation.steep_angle) - 1e-3);
+    EXPECT_GE(FarthestCut(result, axis), FarthestCut(stopped, axis) + 0.2 * kRadius);
+    EXPECT_LE(FarthestCut(result, axis), kHalf + kRadius + 1e-6);
+  }
+  Random random(6);
+  CheckProgram(surface, job, result, random, 2000);
+}
+
+TEST_P(CurvedSheet, ExtendLeavesAlongTheSurface) {
+  const Surface surface = Sheet(GetParam());
+  const Job job = EdgeJob(EdgeRule::kExtend);
+  const JobResult result = Mill(surface, job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  int ends = 0;
+  for (const CutterPath& pass : result.motion.passes) {
+    if (pass.kind != PassKind::kZigzag || pass.points.size() < 3) continue;
+    for (const bool last : {false, true}) {
+      const std::size_t n = pass.points.size();
+      const CutterPoint &end = pass.points[last ? n - 1 : 0], &border = pass.points[last ? n - 2 : 1],
+                        &before = pass.points[last ? n - 3 : 2];
+      if (end.contact || !border.contact) continue;
+      ++ends;
+      EXPECT_NEAR(std::abs(border.contact->p.x()), kHalf, 1e-6);
+      EXPECT_NEAR((end.center - border.center).norm(), kRadius, 1e-6);
+      const Vec3 out = (end.center - border.center).normalized();
+      const Vec3 along = (border.center - before.center).normalized();
+      EXPECT_LT(std::acos(std::min(1.0, out.dot(along))), Radians(10.0));
+    }
+  }
+  EXPECT_GE(ends, 20);
+  Random random(7);
+  CheckProgram(surface, job, result, random, 2000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bends, CurvedSheet, ::testing::Values(0.02, -0.02, 0.05));
+
 }  // namespace
 }  // namespace patchmill

@@ -171,6 +171,22 @@ TEST(SplitRegions, FloorTakesWhatLiesTooDeep) {
   EXPECT_NEAR(Area(map, UnreachableReason::kFloor), 2 * kPi * 100 * 3.0 / 13.0, 0.05);
 }
 
+// A ramp whose slope sways about the split angle, in bands larger than any area that is merged for its size.
+TEST(SplitRegions, ASlopeThatSwaysAboutTheSplitAngleDividesNothing) {
+  const auto ramp = [](double sway) {
+    const double k = kPi / 10.0;
+    const auto height = [=](double x, double) { return x + sway / k * std::sin(k * x); };
+    const Surface surface = Build(testing::Single(testing::InterpolatedHeights(height, 0, 60, 0, 40, 60, 8)));
+    RegionParams params;
+    params.floor_z = -100.0;
+    int count = 0;
+    for (const Region& r : Split(surface, params).regions) count += r.kind != RegionKind::kUnreachable;
+    return count;
+  };
+  EXPECT_EQ(ramp(0.03), 1);  // by one degree
+  EXPECT_GE(ramp(0.6), 6);   // from 22 to 58 degrees
+}
+
 // By Gauss' rule of five points, so many times in each direction of each piece.
 double AreaByQuadrature(const Surface& surface, int parts = 8) {
   const double inner = std::sqrt(5.0 - 2.0 * std::sqrt(10.0 / 7.0)) / 3.0;
