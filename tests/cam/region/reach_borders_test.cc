@@ -1,0 +1,110 @@
+// Limits of reach under what hangs over the ground: where they lie, the areas they bound, and the nodes where
+// other lines end on them, in closed form.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/region/region_map.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+constexpr double kR = 3.0, kTolerance = 0.01, kKept = kR - kTolerance;  // of the shank's axis from an edge
+constexpr double kHigh = 40.0;
+
+RegionParams Exact() {
+  RegionParams p;
+  p.radius = kR;
+  p.tolerance = kTolerance;
+  p.detail = 1.0;
+  p.border_tolerance = 1e-7;
+  p.floor_z = -1000.0;
+  return p;
+}
+
+RegionMap Split(const PatchModel& model) {
+  const Surface surface = SurfaceOf(model);
+  auto map = SplitRegions(surface, Exact(), RunContext());
+  EXPECT_TRUE(map.ok()) << map.status();
+  return *std::move(map);
+}
+
+// A level slab of half sizes `hx` and `hy`, high above the ground.
+PatchModel Slab(const Vec2& middle, double hx, double hy) {
+  const auto at = [&](double x, double y) { return Vec3(middle.x() + x, middle.y() + y, kHigh); };
+  return Single(Bilinear(at(-hx, -hy), at(hx, -hy), at(-hx, hy), at(hx, hy)));
+}
+
+// The node of the map nearest to a place.
+double ToNode(const RegionMap& map, const Vec3& p) {
+  double least = kInfinity;
+  for (const Vec3& node : map.nodes) least = std::min(least, (node - p).norm());
+  return least;
+}
+
+TEST(ReachBorders, UnderASlabIsARoundedRectangle) {
+  const double half = 30.0, hx = 9.0, hy = 6.0;
+  const RegionMap map = Split(Join({Plane(half), Slab({2, 1}, hx, hy)}));
+  const double under = 4 * hx * hy + 4 * (hx + hy) * kKept + kPi * kKept * kKept;
+  double unreachable = 0.0;
+  for (const Region& region : map.regions)
+    unreachable += region.kind == RegionKind::kUnreachable ? region.area : 0.0;
+  EXPECT_NEAR(unreachable, under, 1e-6 * under);
+  double length = 0.0;
+  for (const BorderLine& line : map.border_lines) {
+    if (line.kind != BorderKind::kReach) continue;
+    const auto reachable = [&](int id) {
+      return map.regions[static_cast<std::size_t>(id)].kind != RegionKind::kUnreachable;
+    };
+    // Lines between two reasons lie within.
+    const bool limit = reachable(line.region) || reachable(line.other);
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const Vec3& p = line.points[i];
+      const Vec2 beside = ((Plan(p) - Vec2(2, 1)).cwiseAbs() - Vec2(hx, hy)).cwiseMax(0.0);
+      EXPECT_LE(beside.norm(), kKept + 1e-6);
+      if (!limit) continue;
+      EXPECT_GE(beside.norm(), kKept - 1e-6) << p.transpose();
+      if (i + 1 < line.points.size() || line.closed)
+        length += (line.points[(i + 1) % line.points.size()] - p).norm();
+    }
+  }
+  EXPECT_NEAR(length, 4 * (hx + hy) + 2 * kPi * kKept, 1e-5);
+}
+
+TEST(ReachBorders, TheSlopeLinesOfACylinderEndOnThem) {
+  const double r = 10.0;
+  const RegionMap map = Split(Join({Cylinder(Vec3::Zero(), r, 40.0, Half::kUpper), Slab({0, -50}, 40, 50)}));
+  // Its axis is y; slopes of 45 degrees are at x = +-r sin 45, the slab ends at y = 0.
+  for (const double side : {-1.0, 1.0}) {
+    const double s = std::sqrt(0.5);
+    EXPECT_LT(ToNode(map, Vec3(side * r * s, kKept, r * s)), 1e-6);
+  }
+}
+
+TEST(ReachBorders, TheInflectionsOfASaddleEndOnThem) {
+  const double a = 0.02, b = 0.03, ratio = std::sqrt(a / b);
+  const auto height = [=](double x, double y) { return a * x * x - b * y * y; };
+  const RegionMap map =
+      Split(Join({Single(InterpolatedHeights(height, -15, 15, -15, 15, 4, 4)), Slab({-50, 0}, 50, 60)}));
+  // Along y = +-ratio x the centre is as far from the slab, which ends at x = 0, as it must be at one place.
+  const auto center_x = [&](double x) {
+    return x - kR * 2 * a * x / std::sqrt(1 + 4 * a * a * x * x + 4 * b * b * ratio * ratio * x * x);
+  };
+  double low = 0.0, high = 10.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (center_x(middle) < kKept ? low : high) = middle;
+  }
+  for (const double side : {-1.0, 1.0}) {
+    const double y = side * ratio * low;
+    // On the one line exactly, on the other as near as the chords of the split are that they cross on.
+    EXPECT_LT(ToNode(map, Vec3(low, y, height(low, y))), 5e-5);
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
