@@ -153,6 +153,23 @@ TEST(RegionClosedForms, SaddleNodeAnywhereInThePatch) {
   }
 }
 
+TEST(RegionClosedForms, SaddleSlopeLinesCrossItsInflections) {
+  // |grad|^2 = 4 a^2 x^2 + 4 b^2 y^2 = 1 along y = sqrt(a / b) x. The sheet is not symmetric, so that no
+  // crossing is where a mesh would have a vertex anyway.
+  const double a = 0.03, b = 0.04;
+  const auto height = [&](double x, double y) { return a * x * x - b * y * y; };
+  const RegionMap map = Split(Single(InterpolatedHeights(height, -15, 15, -14, 15.5, 4, 4)), Exact());
+  const double x = std::sqrt(1 / (4 * a * (a + b))), y = std::sqrt(a / b) * x;
+  for (const double side_x : {-1.0, 1.0}) {
+    for (const double side_y : {-1.0, 1.0}) {
+      const Vec3 crossing(side_x * x, side_y * y, height(x, y));
+      double least = kInfinity;
+      for (const Vec3& node : map.nodes) least = std::min(least, (node - crossing).norm());
+      EXPECT_LT(least, 1e-9) << crossing.transpose();
+    }
+  }
+}
+
 TEST(RegionClosedForms, HemisphereOnAPlane) {
   const double r = 8, radius = 3, tolerance = 0.01, half = 20;
   RegionParams params = Exact(radius);
