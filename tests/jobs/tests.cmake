@@ -14,6 +14,7 @@ if(PATCHMILL_SERVICE AND NOT PATCHMILL_SANITIZE)
   patchmill_job(toroidal_tet tests/models/toroidal_tet.patches --up y --scale 40 --tool-diameter 6 --scallop 0.02)
   patchmill_job(triangle_fan tests/models/triangle_fan.bv --up y --scale 40 --tool-diameter 6 --scallop 0.02)
   patchmill_job(mouse examples/mouse.json --tool-diameter 6 --scallop 0.02)
+  patchmill_job(bonnet examples/bonnet.json --tool-diameter 6 --scallop 0.02)
   patchmill_job(sheet docs/sheet.json --tool-diameter 6 --scallop 0.02)
   patchmill_job(sphere tests/models/sphere.bv --scale 20 --tool-diameter 6 --scallop 0.02)
 
