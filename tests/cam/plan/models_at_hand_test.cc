@@ -1,7 +1,5 @@
 // A program for every model at hand: verified, and judged again by plain distances. Networks:
 // tests/jobs/tests.cmake.
-#include <iostream>
-
 #include <gtest/gtest.h>
 
 #include "tests/support/jobs/jobs.h"
