@@ -32,10 +32,13 @@ absl::StatusOr<int> FindRegion(const Surface& surface, const RegionMap& map, con
                   change.at->y(), change.at->z(), kPickReach));
 }
 
-bool HasCell(const RegionMap& map, int region) {
-  return std::any_of(map.labels.begin(), map.labels.end(), [&](const std::vector<int>& labels) {
-    return std::find(labels.begin(), labels.end(), region) != labels.end();
-  });
+// By id: whether a cell of the map is the region's.
+std::vector<bool> WithCells(const RegionMap& map) {
+  std::vector<bool> with(map.regions.size(), false);
+  for (const std::vector<int>& labels : map.labels)
+    for (const int id : labels)
+      if (id >= 0) with[static_cast<std::size_t>(id)] = true;
+  return with;
 }
 
 // Which region each cell of a piece follows: its own when that is reachable or skipped, else the reachable
@@ -94,7 +97,9 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
     }
   }
   std::vector<RegionChoice> choices(map.regions.size(), ChoiceOf(op));
+  if (op.overrides.empty()) return choices;
   std::vector<bool> named(choices.size(), false);
+  const std::vector<bool> with_cells = WithCells(map);
   for (std::size_t k = 0; k < op.overrides.size(); ++k) {
     const RegionOverride& change = op.overrides[k];
     PM_ASSIGN_OR_RETURN(const int region, FindRegion(surface, map, change, Path(k), program_zero));
@@ -107,7 +112,7 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
       return absl::InvalidArgumentError(
           fmt::format("{} names region {}, which is unreachable; it can only be skipped", Path(k), region));
     }
-    if (!HasCell(map, region)) {
+    if (!with_cells[id]) {
       return absl::InvalidArgumentError(fmt::format(
           "{} names region {} of {:.3g} mm2, which is too small to be cut apart from what is around it "
           "(regions are told apart on {} x {} cells of each patch)",

@@ -54,7 +54,8 @@ void Place(const Surface& surface, const std::vector<SplitMesh>& meshes,
 
 // Deepest leftover and largest tool of an unreachable region.
 void Probe(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
-           const RegionParams& params, const std::vector<TriangleRef>& triangles, Region& region) {
+           const RegionParams& params, const std::vector<TriangleRef>& triangles, const RunContext& run,
+           Region& region) {
   constexpr std::size_t kLooked = 200, kSpread = 8, kBent = 4;
   struct Concave {
     double bends = 0.0;  // the larger principal curvature, > 0 concave
@@ -71,7 +72,7 @@ void Probe(const Surface& surface, const std::vector<SplitMesh>& meshes, const R
     if (region.reason == UnreachableReason::kConcave && normal)
       places.push_back({Principal(Forms(jet, *normal)).k_max, jet.p, *normal});
   }
-  region.deepest_leftover = reach.DeepestLeftover(looked);
+  region.deepest_leftover = reach.DeepestLeftover(looked, run);
   if (region.reason != UnreachableReason::kConcave) return;
   // The ball that reaches some places spread over the region, and those where it bends most.
   double largest = params.radius;
@@ -102,7 +103,7 @@ absl::Status DescribeRegions(const Surface& surface, const std::vector<SplitMesh
   }
   return ParallelFor(run, "regions: figures", regions.size(), [&](std::size_t i) {
     if (regions[i].kind == RegionKind::kUnreachable)
-      Probe(surface, meshes, reach, params, unreachable[i], regions[i]);
+      Probe(surface, meshes, reach, params, unreachable[i], run, regions[i]);
   });
 }
 

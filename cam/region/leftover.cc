@@ -15,6 +15,7 @@ constexpr double kWorthwhile = 0.02;  // of the leftover: more than that much de
 constexpr int kSteps = 30;
 constexpr int kMisses = 2;
 constexpr int kRing = 16;
+constexpr std::size_t kMostSpaces = 8;  // the latest; all triples of them are tried
 
 // The centre in the column over a place of the plane that is nearest to what is asked for.
 struct Column {
@@ -86,7 +87,10 @@ class NearestCenter {
     // Where the border bends away from p, what is known at one place excludes free centres at another.
     const auto excludes = [&](const HalfSpace& space) { return Outside(space, at.center) > slack; };
     const auto learn = [&](const Column& column) {
-      if (column.held) spaces.push_back({column.normal, column.normal.dot(column.center)});
+      if (column.held) {
+        if (spaces.size() == kMostSpaces) spaces.erase(spaces.begin());
+        spaces.push_back({column.normal, column.normal.dot(column.center)});
+      }
       return std::erase_if(spaces, excludes) == 0 && column.held;
     };
     learn(at);
@@ -166,10 +170,14 @@ class NearestCenter {
 
 }  // namespace
 
-double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places) {
+double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
+                       const RunContext& run) {
   // Every free centre found for one place is a bound for all.
   std::vector<Column> found;
-  for (const Vec3& p : places) found.push_back(NearestCenter(locator, params, p).Above());
+  for (const Vec3& p : places) {
+    if (run.Cancelled()) break;
+    found.push_back(NearestCenter(locator, params, p).Above());
+  }
   const auto nearest = [&](const Vec3& p) {
     Column best;
     for (const Column& column : found) {
@@ -188,6 +196,7 @@ double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std
                    [&](std::size_t a, std::size_t b) { return bounds[a] > bounds[b]; });
   double deepest = locator.radius();
   for (const std::size_t i : order) {
+    if (run.Cancelled()) break;
     const double enough = deepest + kWorthwhile * (deepest - locator.radius()) + kStill * locator.radius();
     if (bounds[i] <= enough) break;
     const NearestCenter search(locator, params, places[i]);

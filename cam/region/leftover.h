@@ -6,6 +6,7 @@
 
 #include "cam/location/keep_in.h"
 #include "cam/location/locator.h"
+#include "core/base/run_context.h"
 
 namespace patchmill {
 
@@ -18,7 +19,9 @@ struct LeftoverParams {
 // centres that are free, so a place's own is never too small; too large where the search for the nearest ends
 // in another local minimum. What is at most a fiftieth deeper than another, and R / 1000, is not looked for.
 // A place is left out when nothing is allowed within 32 R of it. Cost: a height a place, ten for those that
-// may be the deepest, two hundred for the few that are.
-double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places);
+// may be the deepest, two hundred for the few that are. Means nothing when
+// `run` was cancelled meanwhile.
+double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
+                       const RunContext& run);
 
 }  // namespace patchmill

@@ -38,7 +38,7 @@ class ReachTest {
   bool Allowed(const Vec3& p, const Vec3& normal) const;
 
   // The largest of what stays over some places, mm (leftover.h).
-  double DeepestLeftover(std::span<const Vec3> places) const;
+  double DeepestLeftover(std::span<const Vec3> places, const RunContext& run) const;
 
  private:
   bool BlockedAbove(const Vec3& p, const Vec3& normal, ShankFinder& shank) const;

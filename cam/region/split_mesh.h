@@ -39,8 +39,7 @@ inline bool AlongBorder(const ZeroVertex& a, const ZeroVertex& b) {
 }
 
 // `fields` as RegionFields gives them. `steep_angle` in rad. Areas by a rule of degree 5 on triangles
-// whose normals turn by less than 0.35 rad and whose elements of area are close to quadratic: about 1e-8 of
-// them.
+// whose normals turn by less than 0.35 rad and whose elements of area are close to quadratic: 1e-7 of them.
 SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, double steep_angle,
                          const ZeroMeshParams& params);
 

@@ -17,7 +17,7 @@ using namespace testing;  // NOLINT: the support folder's
 constexpr double kR = 3.0, kNear = 0.01 * kR;
 
 double LeftoverAt(const Surface& surface, const Vec3& p, const LeftoverParams& params = {}) {
-  return DeepestLeftover(Locator(surface, kR), params, {&p, 1});
+  return DeepestLeftover(Locator(surface, kR), params, {&p, 1}, RunContext());
 }
 
 TEST(Leftover, InAValleyOfTwoPlanes) {
@@ -65,7 +65,8 @@ TEST(Leftover, InASteepGroove) {
         const double t = touch + (12.0 - touch) * i / 4000.0, s = std::hypot(1.0, 2.0 * a * t);
         nearest = std::min(nearest, std::hypot(t - 2.0 * a * t * kR / s - x, a * t * t + kR / s - p.z()));
       }
-      EXPECT_NEAR(DeepestLeftover(locator, {}, {&p, 1}), nearest - kR, kNear) << a << " " << share;
+      EXPECT_NEAR(DeepestLeftover(locator, {}, {&p, 1}, RunContext()), nearest - kR, kNear)
+          << a << " " << share;
     }
   }
 }
@@ -116,7 +117,7 @@ TEST(Leftover, IsAsBruteForceFindsIt) {
     for (int i = 0; i < 12; ++i) {
       const auto& piece = surface.pieces[seed * 7919 % surface.pieces.size()];
       const Vec3 p = Evaluate(piece, random.Uniform(0, 1), random.Uniform(0, 1)).p;
-      const double found = DeepestLeftover(locator, {}, {&p, 1});
+      const double found = DeepestLeftover(locator, {}, {&p, 1}, RunContext());
       double nearest = kInfinity;
       for (int k = 0; k < 4000; ++k) {
         const double angle = random.Uniform(0, 2 * kPi), out = (found + kR) * std::sqrt(random.Uniform(0, 1));
@@ -142,8 +143,8 @@ TEST(Leftover, OfManyPlacesIsThatOfTheDeepest) {
     places.push_back({x, random.Uniform(-15, 15), std::abs(x) * std::tan(Radians(60))});
     deepest = std::max(deepest, LeftoverAt(surface, places.back()));
   }
-  EXPECT_DOUBLE_EQ(DeepestLeftover(Locator(surface, kR), {}, places), deepest);
-  EXPECT_EQ(DeepestLeftover(Locator(surface, kR), {}, {}), 0.0);
+  EXPECT_DOUBLE_EQ(DeepestLeftover(Locator(surface, kR), {}, places, RunContext()), deepest);
+  EXPECT_EQ(DeepestLeftover(Locator(surface, kR), {}, {}, RunContext()), 0.0);
 }
 
 }  // namespace
