@@ -43,9 +43,8 @@ double ScallopOfStep(double radius, double center_step, double kappa) {
 
 int PartsOfGap(double gap, double need, double least) {
   constexpr double kSlack = 1e-9;  // of a part: a gap that was made to fit does fit
-  const double most = std::max(1.0, std::floor(gap / least + kSlack));
-  const double parts = need > 0.0 ? std::ceil(gap / need - kSlack) : most;
-  return static_cast<int>(std::clamp(parts, 1.0, most));
+  const double parts = need >= least ? std::ceil(gap / need - kSlack) : std::floor(gap / least + kSlack);
+  return static_cast<int>(std::max(1.0, parts));
 }
 
 }  // namespace patchmill

@@ -15,8 +15,9 @@ double CenterStep(double radius, double scallop, double kappa);
 // meet only beyond the ball's own height).
 double ScallopOfStep(double radius, double center_step, double kappa);
 
-// Into how many parts a gap between two passes is divided so that none is wider than `need`, nor narrower
-// than `least`; 1 where the gap is narrow enough. All in mm, gap and least > 0.
+// Into how many parts a gap between two passes is divided so that none is wider than `need`; 1 where the gap
+// is narrow enough. A need below `least` is not met: the parts are as narrow as they can be without being
+// narrower than that. All in mm, gap and least > 0.
 int PartsOfGap(double gap, double need, double least);
 
 // A gap that is wider than its need by less than this factor leaves 4 % more than the scallop at most: no

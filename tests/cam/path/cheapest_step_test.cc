@@ -17,7 +17,7 @@ double LengthAt(const std::vector<StepNeed>& needs, double step, double least) {
   return sum;
 }
 
-TEST(PartsOfGap, AsFewAsTheNeedAllowsAndNoneBelowTheLeast) {
+TEST(PartsOfGap, AsFewAsTheNeedAllows) {
   EXPECT_EQ(PartsOfGap(1.0, 2.0, 0.1), 1);
   EXPECT_EQ(PartsOfGap(1.0, 1.0, 0.1), 1);
   EXPECT_EQ(PartsOfGap(1.0, 0.99, 0.1), 2);
@@ -25,10 +25,17 @@ TEST(PartsOfGap, AsFewAsTheNeedAllowsAndNoneBelowTheLeast) {
   EXPECT_EQ(PartsOfGap(1.0, 0.48, 0.1), 3);
   EXPECT_EQ(PartsOfGap(1.0, 0.34, 0.1), 3);
   EXPECT_EQ(PartsOfGap(1.0, 1.0 / 3.0, 0.1), 3);
+  EXPECT_EQ(PartsOfGap(1.0, kInfinity, 0.1), 1);
+}
+
+// A need that is no less than the least is met, though two parts of a gap may be narrower than the least.
+TEST(PartsOfGap, ANeedBelowTheLeastGetsTheLeast) {
+  EXPECT_EQ(PartsOfGap(1.9, 1.2, 1.0), 2);
+  EXPECT_EQ(PartsOfGap(1.9, 1.0, 1.0), 2);
+  EXPECT_EQ(PartsOfGap(1.9, 0.9, 1.0), 1);
   EXPECT_EQ(PartsOfGap(1.0, 0.01, 0.1), 10);
   EXPECT_EQ(PartsOfGap(1.0, 0.0, 0.3), 3);
   EXPECT_EQ(PartsOfGap(1.0, 0.5, 2.0), 1);
-  EXPECT_EQ(PartsOfGap(1.0, kInfinity, 0.1), 1);
 }
 
 TEST(CheapestStep, OfTwoNeedsTheOneThatCostsLess) {
