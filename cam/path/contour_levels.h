@@ -18,8 +18,8 @@ struct PlannedLevel {
 // rims: those get a level of their own) levels share the way evenly in units of the step at which full levels
 // and the partial ones in between are shortest together (CheapestStep, samples weighed by their width). Where
 // the ground needs less than the gap, partial levels cut it into as many parts as each spot needs, four at
-// most. No step falls below min_step_fraction of the flat one, no level below floor_z + radius. Cost
-// O(n log n).
+// most. What needs steps below min_step_fraction of the flat one gets those; no level lies below floor_z +
+// radius. Cost O(n log n).
 std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourParams& params, double radius);
 
 }  // namespace patchmill

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "cam/path/cheapest_step.h"
 #include "cam/path/line_lattice.h"
 #include "cam/path/spacing.h"
 #include "core/base/status.h"
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kRowStep = 1.5;      // flat steps
 constexpr double kWorthwhile = 0.96;  // of the straight lines' length
-constexpr double kWayToRun = 2.0;     // ball radii: what the way to one run more costs
 
 // Lines per mm of the straight lines at y.
 double StraightDensity(const LineBand& band, double y) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cam/path/cheapest_step.h"
+#include "cam/path/spacing.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 
@@ -17,21 +18,24 @@ constexpr double kNearest = 0.15;  // but none nearer than this many flat steps
 
 struct Row {
   double y = 0.0;
-  std::vector<StepNeed> needs;  // of every wanted sample
+  std::vector<StepNeed> needs;  // of every wanted sample, in their order, half a sample's way each
+  std::vector<char> first;      // of each: nothing is wanted before it
   double step = 0.0;            // CheapestStep of a wanted row
   bool wanted() const { return !needs.empty(); }
 };
 
 Row SampleRow(const LineProber& prober, const Interval& range, double spacing, double y) {
-  Row row{y, {}, 0.0};
+  Row row{y, {}, {}, 0.0};
   const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
   const std::vector<LineProbe> probes =
       prober.ProbeRow(range.begin, range.end, count, LineShape::Straight(y));
   for (std::size_t i = 0; i < probes.size(); ++i) {
     if (!probes[i].wanted) continue;
     // Partial lines begin a flat step before the spot that needs them: half way from sample to sample.
-    for (const std::size_t k : {i > 0 ? i - 1 : i, i + 1 < probes.size() ? i + 1 : i})
+    for (const std::size_t k : {i > 0 ? i - 1 : i, i + 1 < probes.size() ? i + 1 : i}) {
+      row.first.push_back(k < i && !probes[k].wanted);
       row.needs.push_back({probes[k].wanted ? std::min(probes[i].need, probes[k].need) : probes[i].need});
+    }
   }
   return row;
 }
@@ -56,6 +60,56 @@ bool Steady(const Row& a, const Row& b) {
 // Lines per mm between two rows.
 double Density(const Row& a, const Row& b) {
   return Steady(a, b) ? 0.5 / a.step + 0.5 / b.step : 1.0 / std::min(a.step, b.step);
+}
+
+// Full lines and the partial ones between them where gaps of this width run along a row, in samples' halves;
+// `way`: what one run more costs.
+double LinesAlong(const Row& row, double gap, double way, double least) {
+  double length = 0.0;
+  int last = 0;
+  for (std::size_t i = 0; i < row.needs.size(); ++i) {
+    const int parts = PartsOfGap(gap, kWideGap * row.needs[i].step, least);
+    length += row.needs[i].weight * parts;
+    if (i == 0 || row.first[i]) {
+      length += way * parts;
+    } else if (parts != last) {
+      length += way * (parts - 1);
+    }
+    last = parts;
+  }
+  return length;
+}
+
+// How many gaps a band gets, `total` or more: with the fewest every gap is shortened a little, and where
+// partial lines cut a gap into parts those end up far below what they may be. A few gaps more can need fewer
+// parts. Once the prober is cancelled the answer means nothing.
+int CheapestCount(const LineProber& prober, const std::vector<Row>& band, const std::vector<double>& density,
+                  double total, double way, double least) {
+  constexpr int kCandidates = 24;
+  const int fewest = std::max(1, static_cast<int>(std::ceil(total - 1e-9)));
+  const int stride = 1 + fewest / kCandidates;
+  const auto length_of = [&](int count, bool full_lines_only) {
+    double length = 0.0;
+    for (std::size_t i = 0; i < density.size() && !prober.Cancelled(); ++i) {
+      const double gap = total / (count * density[i]), lines = 0.5 * (band[i + 1].y - band[i].y) / gap;
+      for (const Row* row : {&band[i], &band[i + 1]})
+        length += lines * LinesAlong(*row, full_lines_only ? 0.0 : gap, way, least);
+    }
+    return length;
+  };
+  int best = fewest;
+  double best_length = length_of(best, false);
+  const double full_line = length_of(best, true) / best;
+  for (int k = 1; k <= kCandidates; ++k) {
+    const int count = fewest + k * stride;
+    if (prober.Cancelled() || count * full_line >= best_length) break;
+    const double length = length_of(count, false);
+    if (length < best_length * (1.0 - 1e-9)) {
+      best_length = length;
+      best = count;
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -87,7 +141,9 @@ absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, co
   if (!(height > 0.0)) return std::vector<LineBand>{};
   const auto count = static_cast<std::size_t>(std::ceil(height / row_step)) + 1;
   const auto judge = [&](Row& row) {
-    if (row.wanted()) row.step = CheapestStep(row.needs, min_step, 4.0 * flat);
+    if (!row.wanted()) return;
+    std::vector<StepNeed> sorted = row.needs;
+    row.step = CheapestStep(sorted, min_step, 4.0 * flat);
   };
   const auto sample = [&](const char* what, std::vector<Row>& all) {
     return ParallelFor(run, what, all.size(), [&](std::size_t i) {
@@ -118,7 +174,7 @@ absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, co
       std::vector<Row> between;
       for (std::size_t k = 0; k + 1 < band.size(); ++k) {
         if (!Steady(band[k], band[k + 1]) && band[k + 1].y - band[k].y >= 2.0 * kNearest * flat)
-          between.push_back({0.5 * (band[k].y + band[k + 1].y), {}, 0.0});
+          between.push_back({0.5 * (band[k].y + band[k + 1].y), {}, {}, 0.0});
       }
       if (between.empty()) break;
       PM_RETURN_IF_ERROR(sample(nullptr, between));
@@ -144,7 +200,9 @@ absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, co
     }
     double total = 0.0;
     for (std::size_t k = 0; k < density.size(); ++k) total += density[k] * (edges[k + 1] - edges[k]);
-    const int gaps = std::max(1, static_cast<int>(std::ceil(total - 1e-9)));
+    const int gaps =
+        CheapestCount(prober, band, density, total, kWayToRun * prober.radius() / (0.5 * spacing), min_step);
+    PM_RETURN_IF_ERROR(run.Check());
     std::size_t k = 0;
     double passed = 0.0;
     for (int g = 0; g <= gaps; ++g) {

@@ -26,8 +26,8 @@ struct LineBand {
 
 // Bands, rising. Rows 1.5 flat steps apart, and between those whose steps differ by more than 3 % down to
 // 0.15, are sampled every 2 flat steps; at each the step is the one that makes lines plus the partial lines
-// at narrow spots shortest (CheapestStep). The limits of bands are found to 1e-3 of the flat step at the
-// sampling's resolution along the lines.
+// at narrow spots shortest (CheapestStep); of the whole numbers of gaps that are as narrow, the one that
+// does. The limits of bands are found to 1e-3 of the flat step at the sampling's resolution along the lines.
 absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, const FrameExtent& extent,
                                                     double min_step, const RunContext& run);
 

@@ -18,7 +18,7 @@ struct PassParams {
   double certificate_gap = 1e-4;    // mm: emitted heights are certified to this and raised by their gap
   double floor_z = -kInfinity;      // mm: the lowest TIP height; centres never go below floor_z + radius
   SlopeWindow window;               // passes cover contacts in here, dilated by half a step along the pass
-  double min_step_fraction = 0.25;  // steps never fall below this part of the flat step-over
+  double min_step_fraction = 0.25;  // needs below this part of the flat step-over count as this part
   // The ball rolls over every open border, not only over rims that are locally highest (MACHINING A.12).
   bool roll = false;
 };

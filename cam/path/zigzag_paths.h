@@ -20,9 +20,9 @@ struct ZigzagParams : PassParams {
 
 // Lines cover every contact of the part whose slope lies in the window, each clipped to the window dilated by
 // half a step along the centre curve; lines end at a sheet's outer border and roll over rims and creases that
-// are locally highest (MACHINING A.12). Local narrow spots get partial lines; no step falls below
-// min_step_fraction of the flat one. Ordered by line, then along the line; every path runs in +angle
-// direction, up to its bend (linking turns them). Deterministic; parallel over lines.
+// are locally highest (MACHINING A.12). Local narrow spots get partial lines; what needs steps below
+// min_step_fraction of the flat one gets those. Ordered by line, then along the line; every path runs in
+// +angle direction, up to its bend (linking turns them). Deterministic; parallel over lines.
 absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, const ZigzagParams& params,
                                                     const RunContext& run);
 
