@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kBinsPerStep = 8;       // of the flat step
 constexpr double kMostFlat = 2.0;     // flat steps; a longer gap has no ground in it
-constexpr int kMostParts = 4;         // that partial levels cut the gap between two full ones into
 constexpr double kSameHeight = 2e-4;  // mm: lower ends this close together are one
 // mm: a level at a flat lies this much above it, so that the flat itself is out of its reach.
 constexpr double kAboveFlat = 1e-6;
@@ -173,7 +172,7 @@ std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourP
     std::map<int, std::vector<Vec3>> spots;  // by the number of parts that the gap is cut into there
     for (std::size_t k = next; k < sorted.size() && sorted[k].center.z() > heights[i + 1]; ++k) {
       if (gap > kMostFlat * flat) continue;
-      const int parts = std::min(kMostParts, PartsOfGap(gap, kWideGap * sorted[k].step, smallest));
+      const int parts = PartsOfGap(gap, kWideGap * sorted[k].step, smallest);
       if (parts > 1) spots[parts].push_back(sorted[k].center);
     }
     const std::size_t first = levels.size();

@@ -212,5 +212,26 @@ INSTANTIATE_TEST_SUITE_P(
                       LevelGround{"long dome", LongDome, 1.0, 0.5, kInfinity, Pairs::kSomeAreParted},
                       LevelGround{"long bowl", LongDome, -1.0, 0.5, kInfinity, Pairs::kSomeAreParted}));
 
+// A rod of a small radius lets levels lie far apart; a trough at the same height needs five to each gap.
+TEST(LevelsBesideARod, AreAsNearAsHollowGroundNeeds) {
+  Eigen::Affine3d place(Eigen::Translation3d(15, 0, 2.4));
+  place.rotate(Eigen::AngleAxisd(kPi, Vec3::UnitY()));
+  const PatchModel trough = Moved(Cylinder(Vec3::Zero(), 1.25 * kR, 1.5, Half::kUpper), place);
+  const PatchModel rod = Cylinder(Vec3::Zero(), 0.6, 10.0, Half::kUpper);
+  const Surface surface = JoinedSurface(Join({rod, trough}));
+  const Locator locator(surface, kR);
+  ContourParams params;
+  params.scallop = kScallop;
+  params.chord_tolerance = kChord;
+  params.window = {Radians(45), Radians(90)};
+  const auto contours = ContourPaths(locator, params, RunContext(2));
+  ASSERT_TRUE(contours.ok()) << contours.status();
+  const Measured all = Measure(surface, contours->paths, 0.25, [&](const Vec3& p, const Vec3& e) {
+    return p.x() > 10.0 && e.z() < std::cos(Radians(49)) && e.z() > 1e-3;
+  });
+  EXPECT_GE(all.pairs, 6);
+  EXPECT_LE(all.worst, 1.05);
+}
+
 }  // namespace
 }  // namespace patchmill
