@@ -151,8 +151,8 @@ PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::
     const bool unreachable = region.kind == RegionKind::kUnreachable;
     r.color = Color(region, region.id);
     r.label = fmt::format("{}", region.id);
-    r.name = unreachable ? fmt::format("{} unreachable, {}: {:.1f} mm2, {:.2f} mm stays", region.id,
-                                       Name(region.reason), region.area, region.deepest_leftover)
+    r.name = unreachable ? fmt::format("{} {}: {:.1f} mm2, {:.2f} mm stays", region.id, Name(region.reason),
+                                       region.area, region.deepest_leftover)
                          : fmt::format("{} {}, {}: {:.1f} mm2", region.id, Name(region.kind),
                                        Name(region.slope), region.area);
     index[id] = static_cast<int>(input.regions.size());
