@@ -9,6 +9,7 @@
 #include "cam/path/chord_thinning.h"
 #include "cam/path/contour_levels.h"
 #include "cam/path/contour_samples.h"
+#include "cam/path/level_heights.h"
 #include "cam/path/level_trace.h"
 #include "cam/path/loop_clip.h"
 #include "cam/path/spacing.h"
@@ -60,7 +61,7 @@ LevelPasses PassesAt(const LevelContext& context, const PlannedLevel& planned, d
   clip.overlap = 0.5 * CenterStep(context.locator.radius(), params.scallop, 0.0);
   if (planned.partial) {
     clip.spots = planned.spots;
-    clip.near = 1.5 * spacing + 2.0 * planned.gap;
+    clip.near = ReachOfSpot(spacing, planned.gap);
   }
   for (const CutterPath& loop : level.loops) {
     if (run.Cancelled()) break;

@@ -1,0 +1,273 @@
+#include "cam/path/level_heights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "cam/path/cheapest_step.h"
+#include "cam/path/spacing.h"
+
+namespace patchmill {
+namespace {
+
+constexpr int kBinsPerStep = 8;       // of the flat step
+constexpr double kMostFlat = 2.0;     // flat steps; a longer gap has no ground in it
+constexpr double kSameHeight = 2e-4;  // mm: lower ends this close together are one
+// mm: a level at a flat lies this much above it, so that the flat itself is out of its reach.
+constexpr double kAboveFlat = 1e-6;
+constexpr double kMostBins = 4e5;
+constexpr double kFewest = 0.9, kMost = 1.1;  // of the gaps that steps ask for: those tried
+
+// Whose need rules at each height: 0 that of the least length, else this share of the ground.
+constexpr std::array<double, 5> kRules = {0.0, 0.02, 0.1, 0.25, 0.5};
+
+struct Bins {
+  double bottom = 0.0, width = 1.0;
+  std::vector<double> step;  // needed; infinity: nothing there
+  int Of(double z) const {
+    return std::clamp(static_cast<int>(std::floor((z - bottom) / width)), 0,
+                      static_cast<int>(step.size()) - 1);
+  }
+  bool Has(std::size_t b) const { return step[b] < kInfinity; }
+};
+
+// Heights at which lower ends gather: at least a ball radius of border at one height.
+std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius, double nearest) {
+  std::sort(ends.begin(), ends.end(), [](const LowerEnd& a, const LowerEnd& b) { return a.z < b.z; });
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < ends.size();) {
+    std::size_t k = i;
+    double length = 0.0;
+    while (k < ends.size() && ends[k].z - ends[i].z <= kSameHeight) length += ends[k++].length;
+    if (length >= radius) {
+      heights.push_back(ends[k - 1].z + kAboveFlat);
+      i = k;
+    } else {
+      ++i;
+    }
+  }
+  // A rim that is level only nearly gathers many such heights: the highest serves those closely below.
+  std::vector<double> apart;
+  for (std::size_t k = heights.size(); k-- > 0;) {
+    if (apart.empty() || apart.back() - heights[k] >= nearest) apart.push_back(heights[k]);
+  }
+  return apart;
+}
+
+// What this share of the needs, sorted, is met by; 0: the step of the least length.
+double Ruling(std::vector<StepNeed>& needs, double rule, double smallest, double most) {
+  const double cheapest = CheapestStep(needs, smallest, most);  // sorts them
+  if (rule == 0.0) return cheapest;
+  double total = 0.0, passed = 0.0;
+  for (const StepNeed& need : needs) total += need.weight;
+  for (const StepNeed& need : needs) {
+    passed += need.weight;
+    if (passed >= rule * total) return std::clamp(need.step, smallest, most);
+  }
+  return cheapest;
+}
+
+std::array<Bins, kRules.size()> RulingSteps(const ContourGround& ground, const HeightParams& params) {
+  Bins bins;
+  double lo = kInfinity, hi = -kInfinity;
+  for (const ContourSample& s : ground.samples) {
+    lo = std::min(lo, s.center.z() - s.down);
+    hi = std::max(hi, s.center.z() + s.up);
+  }
+  bins.width = std::max(params.flat / kBinsPerStep, (hi - lo) / kMostBins);
+  bins.bottom = lo;
+  bins.step.assign(static_cast<std::size_t>((hi - lo) / bins.width) + 1, kInfinity);
+  std::vector<std::vector<StepNeed>> needs(bins.step.size());
+  for (const ContourSample& s : ground.samples) {
+    for (int b = bins.Of(s.center.z() - s.down); b <= bins.Of(s.center.z() + s.up); ++b)
+      needs[static_cast<std::size_t>(b)].push_back({s.step, s.width});
+  }
+  std::array<Bins, kRules.size()> all;
+  all.fill(bins);
+  for (std::size_t b = 0; b < needs.size(); ++b) {
+    for (std::size_t k = 0; k < kRules.size() && !needs[b].empty(); ++k)
+      all[k].step[b] = Ruling(needs[b], kRules[k], params.smallest, kMostFlat * params.flat);
+  }
+  return all;
+}
+
+// How many steps the ground between two heights takes, per bin the worst of its neighbours.
+class StepCount {
+ public:
+  StepCount() = default;
+  explicit StepCount(const Bins& bins)
+      : bottom_(bins.bottom), width_(bins.width), sum_(bins.step.size() + 1, 0.0) {
+    const int n = static_cast<int>(bins.step.size());
+    for (int b = 0; b < n; ++b) {
+      double step = kInfinity;
+      if (bins.Has(static_cast<std::size_t>(b))) {
+        for (int k = std::max(0, b - 1); k <= std::min(n - 1, b + 1); ++k)
+          step = std::min(step, bins.step[static_cast<std::size_t>(k)]);
+      }
+      sum_[static_cast<std::size_t>(b) + 1] = sum_[static_cast<std::size_t>(b)] + width_ / step;
+    }
+  }
+  double At(double z) const {
+    const double x = std::clamp((z - bottom_) / width_, 0.0, static_cast<double>(sum_.size() - 1));
+    const auto b = std::min(static_cast<std::size_t>(x), sum_.size() - 2);
+    return sum_[b] + (x - static_cast<double>(b)) * (sum_[b + 1] - sum_[b]);
+  }
+  // The height at which the count from the bottom reaches `steps`.
+  double HeightOf(double steps) const {
+    const auto above = std::upper_bound(sum_.begin(), sum_.end(), steps);
+    if (above == sum_.end()) return bottom_ + width_ * static_cast<double>(sum_.size() - 1);
+    const auto b = static_cast<std::size_t>(above - sum_.begin()) - 1;
+    return bottom_ + width_ * (static_cast<double>(b) + (steps - sum_[b]) / (sum_[b + 1] - sum_[b]));
+  }
+
+ private:
+  double bottom_ = 0.0, width_ = 1.0;
+  std::vector<double> sum_ = {0.0, 0.0};
+};
+
+struct Stop {
+  double z = 0.0;
+  bool level = false;  // a level lies exactly here; else the ground merely ends
+};
+
+std::vector<Stop> StopsOf(const ContourGround& ground, const Bins& bins, const HeightParams& params) {
+  std::vector<Stop> stops;
+  for (std::size_t b = 0; b < bins.step.size(); ++b) {
+    if (bins.Has(b) != (b > 0 && bins.Has(b - 1)))
+      stops.push_back({bins.bottom + bins.width * static_cast<double>(b), false});
+  }
+  if (bins.Has(bins.step.size() - 1))
+    stops.push_back({bins.bottom + bins.width * static_cast<double>(bins.step.size()), false});
+  for (const double z : CommonEnds(ground.lower_ends, params.radius, 0.25 * params.smallest))
+    stops.push_back({z, true});
+  std::sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) { return a.z < b.z; });
+  return stops;
+}
+
+// Heights that cut the steps between two stops into `gaps` equal gaps, those of levels at the stops included;
+// an end without a level of its own is half a gap from the nearest.
+std::vector<double> Divided(const StepCount& count, const Stop& low, const Stop& high, int gaps) {
+  std::vector<double> heights;
+  if (low.level) heights.push_back(low.z);
+  const double from = count.At(low.z), steps = count.At(high.z) - from;
+  const double step = steps / (gaps + (low.level ? 0.0 : 0.5) + (high.level ? 0.0 : 0.5));
+  const int inner = gaps + (low.level && high.level ? -1 : !low.level && !high.level ? 1 : 0);
+  for (int k = 0; k < inner; ++k)
+    heights.push_back(count.HeightOf(from + ((low.level ? 1.0 : 0.5) + k) * step));
+  if (high.level) heights.push_back(high.z);
+  return heights;
+}
+
+// About how long a level is that runs within `near` of these places, from the squares of that size that it
+// touches, with the ways to its runs.
+double PartialLength(std::span<const Vec2> places, double near, double radius) {
+  using Square = std::pair<std::int64_t, std::int64_t>;
+  std::vector<Square> squares;
+  for (const Vec2& q : places) {
+    const Square square(std::floor(q.x() / near), std::floor(q.y() / near));
+    if (squares.empty() || squares.back() != square) squares.push_back(square);
+  }
+  std::sort(squares.begin(), squares.end());
+  squares.erase(std::unique(squares.begin(), squares.end()), squares.end());
+  std::vector<bool> seen(squares.size(), false);
+  std::vector<std::size_t> open;
+  int runs = 0;
+  for (std::size_t first = 0; first < squares.size(); ++first) {
+    if (seen[first]) continue;
+    ++runs;
+    seen[first] = true;
+    open.push_back(first);
+    while (!open.empty()) {
+      const auto [x, y] = squares[open.back()];
+      open.pop_back();
+      for (std::int64_t dx = -1; dx <= 1; ++dx) {
+        auto next = std::lower_bound(squares.begin(), squares.end(), Square(x + dx, y - 1));
+        for (; next != squares.end() && *next <= Square(x + dx, y + 1); ++next) {
+          const auto k = static_cast<std::size_t>(next - squares.begin());
+          if (!seen[k]) open.push_back(k);
+          seen[k] = true;
+        }
+      }
+    }
+  }
+  return 0.25 * kPi * near * static_cast<double>(squares.size()) + runs * kWayToRun * radius;
+}
+
+// How long these levels, rising, are with the partial ones between them, over ground that rises likewise from
+// one stop to the other; anything once it is more than `enough`. Beyond the last level before an end without
+// one, the gap goes on as far again as the ground does.
+double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
+                std::span<const ContourSample> ground, double spacing, const HeightParams& params,
+                double enough) {
+  if (!high.level) heights.push_back(2.0 * high.z - heights.back());
+  if (!low.level) heights.insert(heights.begin(), 2.0 * low.z - heights.front());
+  double length = 0.0;
+  for (std::size_t k = 0, next = 0; k + 1 < heights.size() && length < enough; ++k) {
+    const bool last = k + 2 == heights.size();
+    const double gap = heights[k + 1] - heights[k];
+    std::map<int, std::vector<Vec2>> spots;  // by the number of parts that they need
+    for (; next < ground.size() && (last || ground[next].center.z() < heights[k + 1]); ++next) {
+      const ContourSample& s = ground[next];
+      length += s.width * (s.up + s.down) / gap;
+      const int parts = PartsOfGap(gap, kWideGap * s.step, params.smallest);
+      if (parts > 1) spots[parts].push_back(Plan(s.center));
+    }
+    for (const auto& [parts, places] : spots)
+      length += (parts - 1) * PartialLength(places, ReachOfSpot(spacing, gap / parts), params.radius);
+  }
+  return length;
+}
+
+}  // namespace
+
+std::vector<double> LevelHeights(const ContourGround& ground, const HeightParams& params) {
+  if (ground.samples.empty()) return {};
+  const std::array<Bins, kRules.size()> ruling = RulingSteps(ground, params);
+  std::array<StepCount, kRules.size()> counts;
+  for (std::size_t k = 0; k < kRules.size(); ++k) counts[k] = StepCount(ruling[k]);
+  const std::vector<Stop> stops = StopsOf(ground, ruling.front(), params);
+  std::vector<ContourSample> rising = ground.samples;
+  std::stable_sort(rising.begin(), rising.end(), [](const ContourSample& a, const ContourSample& b) {
+    return a.center.z() < b.center.z();
+  });
+  const auto from = [&](double z) {
+    return std::lower_bound(rising.begin(), rising.end(), z,
+                            [](const ContourSample& s, double height) { return s.center.z() < height; });
+  };
+  std::vector<double> heights;
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const Stop &low = stops[i], &high = stops[i + 1];
+    const std::span<const ContourSample> between(from(low.z), from(high.z));
+    const double halves = (low.level ? 0.0 : 0.5) + (high.level ? 0.0 : 0.5);
+    std::vector<double> best;
+    double length = kInfinity;
+    for (const StepCount& count : counts) {
+      const double steps = count.At(high.z) - count.At(low.z);
+      if (steps <= 0.0) {  // nothing to cut
+        if (best.empty() && low.level) best.push_back(low.z);
+        if (best.empty() && high.level) best.push_back(high.z);
+        break;
+      }
+      const auto gaps = [&](double of_steps) {
+        const int least = low.level && high.level ? 1 : 0;
+        return std::max(least, static_cast<int>(std::ceil(of_steps * steps - halves - 1e-9)));
+      };
+      for (int n = gaps(kFewest); n <= gaps(kMost); ++n) {
+        std::vector<double> tried = Divided(count, low, high, n);
+        const double its = LengthOf(tried, low, high, between, ground.spacing, params, length);
+        if (!best.empty() && its >= length * (1.0 - 1e-9)) continue;
+        length = its;
+        best = std::move(tried);
+      }
+    }
+    heights.insert(heights.end(), best.begin(), best.end());
+  }
+  std::sort(heights.begin(), heights.end());
+  return heights;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,27 @@
+// At which heights the full levels of contours lie.
+#pragma once
+
+#include <vector>
+
+#include "cam/path/contour_samples.h"
+
+namespace patchmill {
+
+// mm: how near to the places that need it a partial level runs; `gap`: to its neighbours.
+inline double ReachOfSpot(double spacing, double gap) { return 1.5 * spacing + 2.0 * gap; }
+
+struct HeightParams {
+  double radius = 3.0;    // mm, of the ball
+  double flat = 0.5;      // mm: the step over a plane
+  double smallest = 0.1;  // mm: needs below it count as this
+};
+
+// Centre heights, rising: where faces end on a common level (floors, flats, level rims) exactly there, and
+// between these so many, and so shared out, that they and the partial levels where the ground needs less than
+// their gap (PartsOfGap) are shortest. Shared out in units of a step that rules at each height: the one with
+// the least length there (CheapestStep), or what 2, 10, 25 or 50 % of the ground need at most; of each as
+// many as its steps ask for, up to a tenth fewer or more. Gaps wider than their need by kWideGap are none.
+// Cost O(n log n) in the samples, and their number for every trial.
+std::vector<double> LevelHeights(const ContourGround& ground, const HeightParams& params);
+
+}  // namespace patchmill
