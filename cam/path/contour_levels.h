@@ -14,12 +14,9 @@ struct PlannedLevel {
   std::vector<Vec3> spots;  // centres of samples that the full levels alone would leave too far apart
 };
 
-// Levels from the top down. Between the heights where steep faces end on a common level (floors, flats, level
-// rims: those get a level of their own) levels share the way evenly in units of the step at which full levels
-// and the partial ones in between are shortest together (CheapestStep, samples weighed by their width). Where
-// the ground needs less than the gap, partial levels cut it into as many parts as each spot needs. What needs
-// steps below min_step_fraction of the flat one gets those; no level lies below floor_z + radius. Cost
-// O(n log n).
+// Levels from the top down: full ones (LevelHeights), and where the ground needs less than their gap, partial
+// levels that cut it into as many parts as each spot needs. What needs steps below min_step_fraction of the
+// flat one gets those; no level lies below floor_z + radius. Cost O(n log n), and LevelHeights.
 std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourParams& params, double radius);
 
 }  // namespace patchmill

@@ -1,16 +1,38 @@
 #include "cam/plan/quickest_angles.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
+#include "cam/plan/main_directions.h"
 #include "core/base/status.h"
 
 namespace patchmill {
 namespace {
 
-constexpr int kAngles = kQuickestAnglePlans - 1;  // and the mixture
+constexpr int kAngles = 6;
+constexpr std::array<double, 3> kTurns = {kPi / 12.0, kPi / 24.0, kPi / 48.0};
+constexpr int kAlongBorders = 2;
+// All of them and their mixture; of each turn both sides and their mixture.
+static_assert(kQuickestAnglePlans == kAngles + kAlongBorders + 1 + 3 * static_cast<int>(kTurns.size()));
 
-double AngleOf(int k) { return k * kPi / kAngles; }
+// The loop seen from above in strides of a hundredth of its length: its vertices are as exact as a border's
+// tolerance, directions from one to the next are not.
+void AddStrides(const std::vector<Vec3>& loop, std::vector<Vec2>& strides) {
+  double length = 0.0;
+  const auto at = [&](std::size_t i) { return Plan(loop[i % loop.size()]); };
+  for (std::size_t i = 0; i < loop.size(); ++i) length += (at(i + 1) - at(i)).norm();
+  if (loop.empty()) return;
+  Vec2 from = at(0);
+  for (std::size_t i = 1; i <= loop.size(); ++i) {
+    const Vec2 stride = at(i) - from;
+    if (i < loop.size() && stride.norm() < 0.01 * length) continue;
+    strides.push_back(stride);
+    from = at(i);
+  }
+}
 
 double Sum(const RegionTimes& times) { return std::accumulate(times.begin(), times.end(), 0.0); }
 
@@ -36,41 +58,81 @@ RegionTimes TimesOf(const LinkResult& motion, std::size_t regions) {
 absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
                                                          std::vector<RegionChoice> choices,
                                                          const TimePlan& plan) {
-  const auto filled = [&](const std::function<double(std::size_t)>& angle) {
-    std::vector<RegionChoice> with = choices;
-    for (std::size_t id = 0; id < with.size(); ++id) {
-      if (with[id].angle_open) with[id].zigzag_angle = angle(id);
-      with[id].angle_open = false;
-    }
-    return with;
+  struct Tried {
+    std::vector<double> angles;  // of every region
+    RegionTimes times;
+    double sum = kInfinity;
   };
-  std::vector<int> own(choices.size(), 0);
-  std::vector<double> least(choices.size(), kInfinity);
-  std::vector<RegionChoice> best;
-  double best_time = kInfinity;
-  int quickest = 0;
-  for (int k = 0; k < kAngles; ++k) {
-    std::vector<RegionChoice> with = filled([&](std::size_t) { return AngleOf(k); });
-    PM_ASSIGN_OR_RETURN(const RegionTimes times, plan(with));
-    for (std::size_t id = 0; id < choices.size(); ++id) {
-      if (times[id] >= least[id]) continue;
-      least[id] = times[id];
-      own[id] = k;
+  const auto with = [&](const std::vector<double>& angles) {
+    std::vector<RegionChoice> filled = choices;
+    for (std::size_t id = 0; id < filled.size(); ++id) {
+      if (filled[id].angle_open) filled[id].zigzag_angle = angles[id];
+      filled[id].angle_open = false;
     }
-    if (Sum(times) >= best_time) continue;
-    best_time = Sum(times);
-    best = std::move(with);
-    quickest = k;
+    return filled;
+  };
+  const auto attempt = [&](std::vector<double> angles) -> absl::StatusOr<Tried> {
+    PM_ASSIGN_OR_RETURN(RegionTimes times, plan(with(angles)));
+    const double sum = Sum(times);
+    return Tried{std::move(angles), std::move(times), sum};
+  };
+  const auto by_contours = [&](std::size_t id) {
+    return choices[id].strategy == Strategy::kContour ||
+           (choices[id].strategy == Strategy::kAuto && map.regions[id].slope != SlopeClass::kGentle);
+  };
+  // Of plans that are tried, the first of the quickest, and what every region likes best.
+  const auto best_of = [&](const std::vector<Tried>& plans) -> absl::StatusOr<Tried> {
+    const Tried* best = &plans.front();
+    for (const Tried& tried : plans) {
+      if (tried.sum < best->sum) best = &tried;
+    }
+    std::vector<double> mixed = best->angles;
+    for (std::size_t id = 0; id < mixed.size(); ++id) {
+      if (by_contours(id)) continue;
+      double least = kInfinity;
+      for (const Tried& tried : plans) {
+        if (tried.times[id] >= least) continue;
+        least = tried.times[id];
+        mixed[id] = tried.angles[id];
+      }
+    }
+    const std::vector<RegionChoice> new_mixture = with(mixed);
+    for (const Tried& tried : plans) {
+      if (with(tried.angles) == new_mixture) return *best;
+    }
+    PM_ASSIGN_OR_RETURN(Tried mixture, attempt(std::move(mixed)));
+    return mixture.sum < best->sum ? std::move(mixture) : *best;
+  };
+
+  std::vector<Vec2> border;
+  for (const Region& region : map.regions) {
+    const auto id = static_cast<std::size_t>(region.id);
+    if (!choices[id].angle_open || by_contours(id) || region.kind == RegionKind::kUnreachable) continue;
+    for (const std::vector<Vec3>& loop : region.border) AddStrides(loop, border);
   }
-  std::vector<RegionChoice> mixed = filled([&](std::size_t id) {
-    const bool by_contours =
-        choices[id].strategy == Strategy::kContour ||
-        (choices[id].strategy == Strategy::kAuto && map.regions[id].slope != SlopeClass::kGentle);
-    return AngleOf(by_contours ? quickest : own[id]);
-  });
-  if (mixed == best) return best;
-  PM_ASSIGN_OR_RETURN(const RegionTimes times, plan(mixed));
-  return Sum(times) < best_time ? mixed : best;
+  std::vector<double> angles;
+  for (int k = 0; k < kAngles; ++k) angles.push_back(k * kPi / kAngles);
+  for (const double angle : MainDirections(border, kAlongBorders)) {
+    if (std::all_of(angles.begin(), angles.end(), [&](double a) { return DirectionsApart(a, angle) > 1e-3; }))
+      angles.push_back(angle);
+  }
+  std::vector<Tried> plans;
+  for (const double angle : angles) {
+    PM_ASSIGN_OR_RETURN(Tried tried, attempt(std::vector<double>(choices.size(), angle)));
+    plans.push_back(std::move(tried));
+  }
+  PM_ASSIGN_OR_RETURN(Tried best, best_of(plans));
+  for (const double turn : kTurns) {
+    plans = {best};
+    for (const double by : {turn, -turn}) {
+      std::vector<double> turned = best.angles;
+      for (double& angle : turned) angle = AsDirection(angle + by);
+      PM_ASSIGN_OR_RETURN(Tried tried, attempt(std::move(turned)));
+      plans.push_back(std::move(tried));
+    }
+    PM_ASSIGN_OR_RETURN(best, best_of(plans));
+  }
+  return with(best.angles);
 }
 
 }  // namespace patchmill

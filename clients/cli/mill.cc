@@ -193,7 +193,7 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
   AddNumber(app, "--bend", op.bend,
             "how far lines may turn from it to keep their steps even, degrees, 0 to 30; 0: straight");
   app.add_flag("--auto-angle", op.auto_angle,
-               "lines of each region in the direction that takes the least time, of 0, 30, ... 150 degrees");
+               "lines of each region in the direction that takes the least time, to within 4 degrees");
   app.add_flag("--one-way", op.one_way, "cut all lines in that direction, and lift the ball back");
   app.add_flag("--spirals", op.spirals, "wind closed contours down around walls in one pass");
   app.add_flag("--no-border-passes", op.no_border_passes, "no passes along borders that lines run along");

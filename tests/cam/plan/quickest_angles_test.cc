@@ -1,7 +1,9 @@
 // The direction of lines that takes the least time: by the choice itself, and by whole jobs.
 #include "cam/plan/quickest_angles.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,40 +31,50 @@ std::vector<RegionChoice> OpenChoices(std::size_t n) {
   return std::vector<RegionChoice>(n, open);
 }
 
-// 0 .. 5: which of the angles that are tried.
-int Nth(double angle) { return static_cast<int>(std::lround(Degrees(angle) / 30.0)); }
+// Degrees between two directions of lines.
+double Apart(double a, double b) {
+  const double d = std::abs(Degrees(a) - b);
+  return std::min(d, 180.0 - d);
+}
 
 TEST(QuickestAngles, EachRegionTakesItsOwn) {
-  // Region 0 likes 60 degrees, region 1 120, region 2 has a fixed angle.
-  std::vector<RegionChoice> choices = OpenChoices(3);
-  choices[2].angle_open = false;
-  choices[2].zigzag_angle = Radians(17);
-  int plans = 0;
-  const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
-    ++plans;
-    for (const RegionChoice& c : with) EXPECT_FALSE(c.angle_open);
-    EXPECT_EQ(with[2].zigzag_angle, Radians(17));
-    return RegionTimes{10.0 + std::abs(Nth(with[0].zigzag_angle) - 2),
-                       10.0 + std::abs(Nth(with[1].zigzag_angle) - 4), 1.0};
-  };
-  const auto chosen =
-      QuickestAngles(MapOf({SlopeClass::kGentle, SlopeClass::kGentle, SlopeClass::kGentle}), choices, plan);
-  ASSERT_TRUE(chosen.ok()) << chosen.status();
-  EXPECT_EQ(plans, 7);
-  EXPECT_NEAR(Degrees((*chosen)[0].zigzag_angle), 60.0, 1e-9);
-  EXPECT_NEAR(Degrees((*chosen)[1].zigzag_angle), 120.0, 1e-9);
-  EXPECT_EQ((*chosen)[2], choices[2]);
+  // What two regions like, degrees; the third has a fixed angle, the fourth is cut by contours.
+  for (const auto& [first, second] : {std::pair{60.0, 120.0}, {53.0, 118.0}, {178.0, 20.0}, {7.0, 16.0}}) {
+    std::vector<RegionChoice> choices = OpenChoices(4);
+    choices[2].angle_open = false;
+    choices[2].zigzag_angle = Radians(17);
+    int plans = 0;
+    const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
+      ++plans;
+      for (const RegionChoice& c : with) {
+        EXPECT_FALSE(c.angle_open);
+        EXPECT_GE(c.zigzag_angle, 0.0);
+        EXPECT_LT(c.zigzag_angle, kPi);
+      }
+      EXPECT_EQ(with[2].zigzag_angle, Radians(17));
+      return RegionTimes{10.0 + Apart(with[0].zigzag_angle, first),
+                         10.0 + Apart(with[1].zigzag_angle, second), 1.0, 5.0};
+    };
+    const auto chosen = QuickestAngles(
+        MapOf({SlopeClass::kGentle, SlopeClass::kGentle, SlopeClass::kGentle, SlopeClass::kSteep}), choices,
+        plan);
+    ASSERT_TRUE(chosen.ok()) << chosen.status();
+    EXPECT_LE(plans, kQuickestAnglePlans);
+    EXPECT_LE(Apart((*chosen)[0].zigzag_angle, first), 0.5 * 3.75 + 1e-9) << first;
+    EXPECT_LE(Apart((*chosen)[1].zigzag_angle, second), 0.5 * 3.75 + 1e-9) << second;
+    EXPECT_EQ((*chosen)[2], choices[2]);
+  }
 }
 
 TEST(QuickestAngles, AMixtureThatCostsMoreIsNotTaken) {
   const auto plan = [](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
     const bool mixed = with[0].zigzag_angle != with[1].zigzag_angle;  // the seam between them costs
-    return RegionTimes{10.0 + std::abs(Nth(with[0].zigzag_angle) - 2) + (mixed ? 9.0 : 0.0),
-                       10.0 + 3.0 * std::abs(Nth(with[1].zigzag_angle) - 4)};
+    return RegionTimes{10.0 + Apart(with[0].zigzag_angle, 60.0) / 30.0 + (mixed ? 9.0 : 0.0),
+                       10.0 + Apart(with[1].zigzag_angle, 127.0) / 10.0};
   };
   const auto chosen = QuickestAngles(MapOf({SlopeClass::kGentle, SlopeClass::kGentle}), OpenChoices(2), plan);
   ASSERT_TRUE(chosen.ok()) << chosen.status();
-  for (const RegionChoice& c : *chosen) EXPECT_NEAR(Degrees(c.zigzag_angle), 120.0, 1e-9);
+  for (const RegionChoice& c : *chosen) EXPECT_NEAR(Degrees(c.zigzag_angle), 127.5, 1e-9);
 }
 
 TEST(QuickestAngles, AnErrorEndsIt) {
@@ -71,6 +83,27 @@ TEST(QuickestAngles, AnErrorEndsIt) {
   };
   EXPECT_EQ(QuickestAngles(MapOf({SlopeClass::kGentle}), OpenChoices(1), plan).status().code(),
             absl::StatusCode::kCancelled);
+}
+
+// A ridge that lies askew: none of the angles that are tried first.
+TEST(QuickestAngles, AlongARidgeThatLiesAskew) {
+  for (const double askew : {17.0, 100.0}) {
+    Eigen::Affine3d turn = Eigen::Affine3d::Identity();
+    turn.rotate(Eigen::AngleAxisd(Radians(askew), Vec3::UnitZ()));
+    const Surface surface = PlacedSurface(Transformed(Quadratic(0.0, -0.03, 10.0), turn));
+    Job job = BallJob(3.0);
+    job.operation.scallop = 0.02;
+    job.operation.angle_auto = true;
+    const JobResult result = Mill(surface, job);
+    ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+    ASSERT_FALSE(result.report.choices.empty());
+    EXPECT_LE(Apart(result.report.choices.front().zigzag_angle, askew), 4.0) << askew;
+    job.operation.angle_auto = false;
+    for (int k = 0; k < 6; ++k) {
+      job.operation.zigzag_angle = k * kPi / 6.0;
+      EXPECT_GT(Mill(surface, job).report.motion.time, 1.02 * result.report.motion.time) << askew << " " << k;
+    }
+  }
 }
 
 // Widest steps, fewest lines: along a ridge, which bends across them, and across a hollow, which would bend
