@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
-#include "core/base/parallel.h"
 #include "core/diffgeo/forms.h"
 
 namespace patchmill {
 namespace {
-
-struct TriangleRef {
-  std::size_t piece = 0, triangle = 0;
-};
 
 Vec2 Centroid(const SplitMesh& mesh, std::size_t triangle) {
   Vec2 sum = Vec2::Zero();
@@ -21,9 +16,11 @@ Vec2 Centroid(const SplitMesh& mesh, std::size_t triangle) {
   return sum / 3.0;
 }
 
-// Heights of all regions, and the middle of the largest triangle of each as a point inside.
-void Place(const Surface& surface, const std::vector<SplitMesh>& meshes,
-           const std::vector<std::vector<int>>& region_of, std::vector<Region>& regions) {
+}  // namespace
+
+// The middle of the largest triangle of each is the point inside.
+void PlaceRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                  const std::vector<std::vector<int>>& region_of, std::vector<Region>& regions) {
   std::vector<TriangleRef> largest(regions.size());
   std::vector<double> area(regions.size(), -1.0);
   for (Region& region : regions) {
@@ -52,10 +49,9 @@ void Place(const Surface& surface, const std::vector<SplitMesh>& meshes,
   }
 }
 
-// Deepest leftover and largest tool of an unreachable region.
-void Probe(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
-           const RegionParams& params, const std::vector<TriangleRef>& triangles, const RunContext& run,
-           Region& region) {
+void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
+                 const RegionParams& params, const std::vector<TriangleRef>& triangles, const RunContext& run,
+                 Region& region) {
   constexpr std::size_t kLooked = 200, kSpread = 8, kBent = 4;
   struct Concave {
     double bends = 0.0;  // the larger principal curvature, > 0 concave
@@ -87,13 +83,9 @@ void Probe(const Surface& surface, const std::vector<SplitMesh>& meshes, const R
   region.largest_tool_diameter = 2.0 * largest;
 }
 
-}  // namespace
-
-absl::Status DescribeRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                             const std::vector<std::vector<int>>& region_of, const ReachTest& reach,
-                             const RegionParams& params, const RunContext& run,
-                             std::vector<Region>& regions) {
-  Place(surface, meshes, region_of, regions);
+std::vector<std::vector<TriangleRef>> UnreachableTriangles(const std::vector<SplitMesh>& meshes,
+                                                           const std::vector<std::vector<int>>& region_of,
+                                                           const std::vector<Region>& regions) {
   std::vector<std::vector<TriangleRef>> unreachable(regions.size());
   for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
     for (std::size_t t = 0; t < meshes[piece].triangles.size(); ++t) {
@@ -101,10 +93,7 @@ absl::Status DescribeRegions(const Surface& surface, const std::vector<SplitMesh
       if (regions[id].kind == RegionKind::kUnreachable) unreachable[id].push_back({piece, t});
     }
   }
-  return ParallelFor(run, "regions: figures", regions.size(), [&](std::size_t i) {
-    if (regions[i].kind == RegionKind::kUnreachable)
-      Probe(surface, meshes, reach, params, unreachable[i], run, regions[i]);
-  });
+  return unreachable;
 }
 
 }  // namespace patchmill

@@ -9,10 +9,24 @@
 
 namespace patchmill {
 
-// Fills inside, z_min, z_max and, for unreachable regions, deepest_leftover and largest_tool_diameter (both
-// estimated from spread triangles). `region_of[piece][triangle]`. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::Status DescribeRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                             const std::vector<std::vector<int>>& region_of, const ReachTest& reach,
-                             const RegionParams& params, const RunContext& run, std::vector<Region>& regions);
+// Fills inside, z_min and z_max of all regions. `region_of[piece][triangle]`.
+void PlaceRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                  const std::vector<std::vector<int>>& region_of, std::vector<Region>& regions);
+
+struct TriangleRef {
+  std::size_t piece = 0, triangle = 0;
+};
+
+// The triangles of each unreachable region; none of others.
+std::vector<std::vector<TriangleRef>> UnreachableTriangles(const std::vector<SplitMesh>& meshes,
+                                                           const std::vector<std::vector<int>>& region_of,
+                                                           const std::vector<Region>& regions);
+
+// Fills deepest_leftover and largest_tool_diameter of an unreachable region of these triangles (both
+// estimated from some spread over them). Means nothing once `run` is cancelled. One region's after the
+// other's take time: regions are independent of each other.
+void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
+                 const RegionParams& params, const std::vector<TriangleRef>& triangles, const RunContext& run,
+                 Region& region);
 
 }  // namespace patchmill

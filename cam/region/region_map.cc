@@ -268,9 +268,14 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   const std::vector<std::vector<int>>& region_of = numbered.region_of;
   PM_ASSIGN_OR_RETURN(const BorderPoints points, FindBorderPoints(surface, meshes, adjacency, raw.arcs,
                                                                   region_of, params.border_tolerance, run));
-  absl::Status told[4];
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 4, [&](std::size_t k) {
-    if (k == 0) {
+  PlaceRegions(surface, meshes, region_of, regions);
+  const auto unreachable = UnreachableTriangles(meshes, region_of, regions);
+  absl::Status told[3];
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: figures", 3 + regions.size(), [&](std::size_t k) {
+    if (k >= 3) {
+      if (const std::size_t id = k - 3; regions[id].kind == RegionKind::kUnreachable)
+        ProbeRegion(surface, meshes, reach, params, unreachable[id], run, regions[id]);
+    } else if (k == 0) {
       auto found = FindBorderLines(surface, meshes, adjacency, raw.arcs, points, region_of, regions, run);
       told[k] = found.status();
       if (found.ok()) net = *std::move(found);
@@ -278,13 +283,11 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
       auto found = RegionBorders(surface, adjacency, raw.arcs, points, region_of, regions.size(), run);
       told[k] = found.status();
       if (found.ok()) borders = *std::move(found);
-    } else if (k == 2) {
-      told[k] = DescribeRegions(surface, meshes, region_of, reach, params, run, regions);
-      ListPatches(surface, region_of, regions);
     } else {
       told[k] = FillLabels(meshes, region_of, regions.size(), run, map);
     }
   }));
+  ListPatches(surface, region_of, regions);
   for (const absl::Status& status : told) PM_RETURN_IF_ERROR(status);
   map.border_lines = std::move(net.lines);
   map.nodes = std::move(net.nodes);

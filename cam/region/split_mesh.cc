@@ -15,19 +15,22 @@ namespace {
 constexpr double kMaxTurn = 0.35;  // rad, of the normal over one application of the rule
 constexpr double kMaxOff = 1e-4;   // of OffQuadratic
 constexpr int kMaxHalvings = 3;
+// Up to these the surface is so simple over a triangle that its corners and its middle tell its area to about
+// 1e-7: turn (rad), spread of the element of area over the corners and its bend in the middle, of its size.
+constexpr double kSmallTurn = 0.15, kSmallSpread = 0.1, kSmallBend = 2e-3;
 
 double Turn(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
   return a && b ? std::atan2(a->cross(*b).norm(), a->dot(*b)) : 0.0;
 }
 
-// Of the surface over parameters, or of one point of them: per unit of (u,v).
+// Of the surface over some parameters.
 struct Measures {
   double area = 0.0, curvature = 0.0, steepness = 0.0;
 
-  void Add(double weight, const Measures& m) {
-    area += weight * m.area;
-    curvature += weight * m.curvature;
-    steepness += weight * m.steepness;
+  void Add(const Measures& m) {
+    area += m.area;
+    curvature += m.curvature;
+    steepness += m.steepness;
   }
 };
 
@@ -43,82 +46,112 @@ double OffQuadratic(const std::array<double, 7>& element) {
   return size > 0.0 ? std::abs(off) / size : 0.0;
 }
 
+// Of one point: the element of area for a unit of (u,v), and for a unit of area how it bends and how much
+// steeper than the limit it is.
+struct PointMeasures {
+  double element = 0.0, bend = 0.0, steeper = 0.0;
+};
+
 // Of the triangle a b c: halved so often for certain, and more often where the element of area asks for it.
+// at(q, whole) is asked for more than the element only where `whole`, in the middle of each part: what it
+// bends and how steep it is decides which regions are merged, and needs no more.
 template <class MeasuresAt>
 Measures Integral(const MeasuresAt& at, const Vec2& a, const Vec2& b, const Vec2& c, int halvings, int more) {
   Measures sum;
   if (halvings == 0) {
     std::array<double, 7> element{};
     std::size_t n = 0;
+    PointMeasures middle;
     ForQuadraturePoints(a, b, c, [&](const Vec2& q, double weight) {
-      const Measures m = at(q);
-      element[n++] = m.area;
-      sum.Add(weight, m);
+      const PointMeasures m = at(q, n == 0);
+      if (n == 0) middle = m;
+      element[n++] = m.element;
+      sum.area += weight * m.element;
     });
+    sum.curvature = middle.bend * sum.area;
+    sum.steepness = middle.steeper * sum.area;
     if (more == 0 || OffQuadratic(element) <= kMaxOff) return sum;
     sum = {};
     halvings = 1;
     --more;
   }
   const Vec2 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-  sum.Add(1.0, Integral(at, a, ab, ca, halvings - 1, more));
-  sum.Add(1.0, Integral(at, ab, b, bc, halvings - 1, more));
-  sum.Add(1.0, Integral(at, ca, bc, c, halvings - 1, more));
-  sum.Add(1.0, Integral(at, ab, bc, ca, halvings - 1, more));
+  sum.Add(Integral(at, a, ab, ca, halvings - 1, more));
+  sum.Add(Integral(at, ab, b, bc, halvings - 1, more));
+  sum.Add(Integral(at, ca, bc, c, halvings - 1, more));
+  sum.Add(Integral(at, ab, bc, ca, halvings - 1, more));
   return sum;
 }
 
-using Normal = std::optional<Vec3>;
+// What is known of a corner of triangles.
+struct Corner {
+  std::optional<Vec3> normal;
+  double element = 0.0;  // of area
+};
 
-Normal NormalAt(const Piece& piece, const Vec2& q) { return UnitNormal(Evaluate(piece, q.x(), q.y())); }
+Corner CornerAt(const Piece& piece, const Vec2& q) {
+  const SurfaceJet jet = Evaluate(piece, q.x(), q.y());
+  return {UnitNormal(jet), jet.du.cross(jet.dv).norm()};
+}
 
-// By a rule fine enough for how far the normal turns between the corners, and for the element of area.
+// By a rule fine enough for how far the normal turns between the corners, and for the element of area: where
+// this is all but linear, by its values in the corners and the middle.
 template <class MeasuresAt>
 Measures Integral(const MeasuresAt& at, const std::array<Vec2, 3>& q,
-                  const std::array<const Normal*, 3>& normal) {
+                  const std::array<const Corner*, 3>& corner) {
   double turn =
-      std::max({Turn(*normal[0], *normal[1]), Turn(*normal[1], *normal[2]), Turn(*normal[2], *normal[0])});
+      std::max({Turn(corner[0]->normal, corner[1]->normal), Turn(corner[1]->normal, corner[2]->normal),
+                Turn(corner[2]->normal, corner[0]->normal)});
+  if (turn <= kSmallTurn) {
+    const PointMeasures middle = at((q[0] + q[1] + q[2]) / 3.0, true);
+    const double e[3] = {corner[0]->element, corner[1]->element, corner[2]->element};
+    const double mean = (e[0] + e[1] + e[2]) / 3.0;
+    const double spread = std::max({e[0], e[1], e[2]}) - std::min({e[0], e[1], e[2]});
+    if (spread <= kSmallSpread * mean && std::abs(middle.element - mean) <= kSmallBend * mean) {
+      const double area = 0.5 * Cross(q[1] - q[0], q[2] - q[0]) * (0.75 * middle.element + 0.25 * mean);
+      return {area, middle.bend * area, middle.steeper * area};
+    }
+  }
   int halvings = 0;
   for (; turn > kMaxTurn && halvings < kMaxHalvings; turn *= 0.5) ++halvings;
   return Integral(at, q[0], q[1], q[2], halvings, kMaxHalvings - halvings);
 }
 
-// Normals at the vertices of a mesh, once each, where triangles ask for them.
-class VertexNormals {
+// The vertices of a mesh, looked at once each, where triangles ask for them.
+class Corners {
  public:
-  VertexNormals(const Piece& piece, const std::vector<ZeroVertex>& vertices)
-      : piece_(piece), vertices_(vertices), normals_(vertices.size()), known_(vertices.size(), false) {}
+  Corners(const Piece& piece, const std::vector<ZeroVertex>& vertices)
+      : piece_(piece), vertices_(vertices), corners_(vertices.size()), known_(vertices.size(), false) {}
 
-  const Normal& At(int vertex) {
+  const Corner& At(int vertex) {
     const auto i = static_cast<std::size_t>(vertex);
-    if (!known_[i]) normals_[i] = NormalAt(piece_, {vertices_[i].u, vertices_[i].v});
+    if (!known_[i]) corners_[i] = CornerAt(piece_, {vertices_[i].u, vertices_[i].v});
     known_[i] = true;
-    return normals_[i];
+    return corners_[i];
   }
 
  private:
   const Piece& piece_;
   const std::vector<ZeroVertex>& vertices_;
-  std::vector<Normal> normals_;
+  std::vector<Corner> corners_;
   std::vector<bool> known_;
 };
 
-void Measure(const Piece& piece, const std::array<Vec2, 3>& q, const std::array<const Normal*, 3>& normal,
+void Measure(const Piece& piece, const std::array<Vec2, 3>& q, const std::array<const Corner*, 3>& corner,
              double steep_angle, SplitTriangle& triangle) {
   const Measures measures = Integral(
-      [&](const Vec2& at) {
+      [&](const Vec2& at, bool whole) {
         const SurfaceJet jet = Evaluate(piece, at.x(), at.y());
-        Measures m{.area = jet.du.cross(jet.dv).norm()};
-        if (triangle.label.reason != UnreachableReason::kNone) return m;
+        PointMeasures m{.element = jet.du.cross(jet.dv).norm()};
+        if (!whole || triangle.label.reason != UnreachableReason::kNone) return m;
         const auto unit = UnitNormal(jet);
         if (!unit) return m;
-        const double slope = std::atan2(Plan(*unit).norm(), std::abs(unit->z()));
-        m.steepness = m.area * (slope - steep_angle);
+        m.steeper = std::atan2(Plan(*unit).norm(), std::abs(unit->z())) - steep_angle;
         const double bend = triangle.turn * ContourCurvature(jet, Forms(jet, *unit));
-        if (std::isfinite(bend)) m.curvature = m.area * bend;  // none at a summit or a pit
+        if (std::isfinite(bend)) m.bend = bend;  // none at a summit or a pit
         return m;
       },
-      q, normal);
+      q, corner);
   triangle.area = measures.area;
   triangle.curvature = measures.curvature;
   triangle.steepness = measures.steepness;
@@ -129,23 +162,23 @@ Vec2 PlaceOf(const ZeroVertex& vertex) { return {vertex.u, vertex.v}; }
 }  // namespace
 
 double SurfaceArea(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2& c) {
-  const Normal na = NormalAt(piece, a), nb = NormalAt(piece, b), nc = NormalAt(piece, c);
-  const auto at = [&](const Vec2& q) {
+  const Corner at_a = CornerAt(piece, a), at_b = CornerAt(piece, b), at_c = CornerAt(piece, c);
+  const auto at = [&](const Vec2& q, bool) {
     const SurfaceJet jet = Evaluate(piece, q.x(), q.y());
-    return Measures{.area = jet.du.cross(jet.dv).norm()};
+    return PointMeasures{.element = jet.du.cross(jet.dv).norm()};
   };
-  return Integral(at, {a, b, c}, {&na, &nb, &nc}).area;
+  return Integral(at, {a, b, c}, {&at_a, &at_b, &at_c}).area;
 }
 
 void MeasureTriangle(const Piece& piece, const std::vector<ZeroVertex>& vertices, double steep_angle,
                      SplitTriangle& triangle) {
   std::array<Vec2, 3> q;
-  std::array<Normal, 3> normal;
+  std::array<Corner, 3> corner;
   for (std::size_t k = 0; k < 3; ++k) {
     q[k] = PlaceOf(vertices[static_cast<std::size_t>(triangle.vertex[k])]);
-    normal[k] = NormalAt(piece, q[k]);
+    corner[k] = CornerAt(piece, q[k]);
   }
-  Measure(piece, q, {&normal[0], &normal[1], &normal[2]}, steep_angle, triangle);
+  Measure(piece, q, {&corner[0], &corner[1], &corner[2]}, steep_angle, triangle);
 }
 
 SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, double steep_angle,
@@ -154,17 +187,17 @@ SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, 
   SplitMesh mesh;
   mesh.vertices = std::move(zero.vertices);
   mesh.triangles.reserve(zero.triangles.size());
-  VertexNormals normals(piece, mesh.vertices);
+  Corners corners(piece, mesh.vertices);
   for (const ZeroTriangle& t : zero.triangles) {
     if (params.run != nullptr && params.run->Cancelled()) break;
     SplitTriangle triangle{t.vertex, LabelOf(t), t.sign[static_cast<std::size_t>(Field::kTurn)]};
     std::array<Vec2, 3> q;
-    std::array<const Normal*, 3> normal{};
+    std::array<const Corner*, 3> corner{};
     for (std::size_t k = 0; k < 3; ++k) {
       q[k] = PlaceOf(mesh.vertices[static_cast<std::size_t>(t.vertex[k])]);
-      normal[k] = &normals.At(t.vertex[k]);
+      corner[k] = &corners.At(t.vertex[k]);
     }
-    Measure(piece, q, normal, steep_angle, triangle);
+    Measure(piece, q, corner, steep_angle, triangle);
     mesh.triangles.push_back(triangle);
   }
   return mesh;
