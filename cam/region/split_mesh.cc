@@ -23,6 +23,11 @@ double Turn(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
   return a && b ? std::atan2(a->cross(*b).norm(), a->dot(*b)) : 0.0;
 }
 
+// What is all but the turn where this is small, and costs less.
+double Chord(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
+  return a && b ? (*a - *b).norm() : 0.0;
+}
+
 // Of the surface over some parameters.
 struct Measures {
   double area = 0.0, curvature = 0.0, steepness = 0.0;
@@ -99,10 +104,12 @@ Corner CornerAt(const Piece& piece, const Vec2& q) {
 template <class MeasuresAt>
 Measures Integral(const MeasuresAt& at, const std::array<Vec2, 3>& q,
                   const std::array<const Corner*, 3>& corner) {
-  double turn =
-      std::max({Turn(corner[0]->normal, corner[1]->normal), Turn(corner[1]->normal, corner[2]->normal),
-                Turn(corner[2]->normal, corner[0]->normal)});
-  if (turn <= kSmallTurn) {
+  const auto of_sides = [&](const auto& of_two) {
+    return std::max({of_two(corner[0]->normal, corner[1]->normal),
+                     of_two(corner[1]->normal, corner[2]->normal),
+                     of_two(corner[2]->normal, corner[0]->normal)});
+  };
+  if (of_sides(Chord) <= kSmallTurn) {
     const PointMeasures middle = at((q[0] + q[1] + q[2]) / 3.0, true);
     const double e[3] = {corner[0]->element, corner[1]->element, corner[2]->element};
     const double mean = (e[0] + e[1] + e[2]) / 3.0;
@@ -113,7 +120,7 @@ Measures Integral(const MeasuresAt& at, const std::array<Vec2, 3>& q,
     }
   }
   int halvings = 0;
-  for (; turn > kMaxTurn && halvings < kMaxHalvings; turn *= 0.5) ++halvings;
+  for (double turn = of_sides(Turn); turn > kMaxTurn && halvings < kMaxHalvings; turn *= 0.5) ++halvings;
   return Integral(at, q[0], q[1], q[2], halvings, kMaxHalvings - halvings);
 }
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
+
+#include <absl/container/flat_hash_map.h>
 
 #include "core/lines/fan_middle.h"
 #include "core/lines/zero_cells.h"
@@ -271,7 +272,7 @@ class Builder {
   ZeroVertices vertices_;
   ZeroCells cells_;
   std::vector<ZeroTriangle> triangles_;
-  std::unordered_map<std::uint64_t, int> crossings_;  // of one field; looked up, never walked
+  absl::flat_hash_map<std::uint64_t, int> crossings_;  // of one field; looked up, never walked
 };
 
 }  // namespace

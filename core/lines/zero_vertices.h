@@ -2,8 +2,9 @@
 #pragma once
 
 #include <span>
-#include <unordered_map>
 #include <vector>
+
+#include <absl/container/flat_hash_map.h>
 
 #include "core/lines/zero_mesh.h"
 
@@ -42,7 +43,7 @@ class ZeroVertices {
   std::span<const ZeroField> fields_;
   const RunContext* run_;
   std::vector<ZeroVertex> all_;
-  std::unordered_map<int, int> grid_;  // looked up, never walked
+  absl::flat_hash_map<int, int> grid_;  // looked up, never walked
 };
 
 }  // namespace patchmill
