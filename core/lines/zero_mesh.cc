@@ -7,6 +7,7 @@
 #include <absl/container/flat_hash_map.h>
 
 #include "core/lines/fan_middle.h"
+#include "core/lines/limit_on_curve.h"
 #include "core/lines/zero_cells.h"
 #include "core/lines/zero_root.h"
 
@@ -158,16 +159,17 @@ class Builder {
   }
 
   int AddCrossing(std::size_t k, const Edge& e, double t) {
-    const ZeroField& field = fields_[k];
     const ZeroVertex x = vertices_[e.a], y = vertices_[e.b];
     const Vec2 from(x.u, x.v), to(y.u, y.v);
     Vec2 q = from + t * (to - from);
     // An edge along another field's curve: the crossing is where both vanish.
     const std::uint8_t both = x.on & y.on;
     for (std::size_t other = 0; other < k; ++other) {
-      if (((both >> other) & 1u) == 0 || !fields_[other].smooth || !field.smooth) continue;
-      if (const auto common = CommonZero(k, other, q, 0.5 * (to - from).norm())) q = *common;
-      break;
+      if (((both >> other) & 1u) == 0) continue;
+      if (const auto common = CommonPlace(k, other, q, 0.5 * (to - from).norm())) {
+        q = *common;
+        break;
+      }
     }
     for (int c = 0; c < 2; ++c) {  // a point of the piece's border stays on it
       if (from[c] == to[c] && (from[c] == 0.0 || from[c] == 1.0)) q[c] = from[c];
@@ -183,6 +185,15 @@ class Builder {
       }
     }
     return id;
+  }
+
+  // Where two fields change sign, near q.
+  std::optional<Vec2> CommonPlace(std::size_t k, std::size_t other, const Vec2& q, double reach) const {
+    const ZeroField &a = fields_[k], &b = fields_[other];
+    if (a.smooth && b.smooth) return CommonZero(k, other, q, reach);
+    if (a.smooth && b.limits) return LimitOnCurve(a, b, piece_, q, reach);
+    if (b.smooth && a.limits) return LimitOnCurve(b, a, piece_, q, reach);
+    return std::nullopt;
   }
 
   // Newton on two fields from q with differences; nothing when it leaves the piece or the neighbourhood.

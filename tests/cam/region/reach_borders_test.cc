@@ -81,7 +81,7 @@ TEST(ReachBorders, TheSlopeLinesOfACylinderEndOnThem) {
   // Its axis is y; slopes of 45 degrees are at x = +-r sin 45, the slab ends at y = 0.
   for (const double side : {-1.0, 1.0}) {
     const double s = std::sqrt(0.5);
-    EXPECT_LT(ToNode(map, Vec3(side * r * s, kKept, r * s)), 1e-6);
+    EXPECT_LT(ToNode(map, Vec3(side * r * s, kKept, r * s)), 2e-7);
   }
 }
 
@@ -101,8 +101,7 @@ TEST(ReachBorders, TheInflectionsOfASaddleEndOnThem) {
   }
   for (const double side : {-1.0, 1.0}) {
     const double y = side * ratio * low;
-    // On the one line exactly, on the other as near as the chords of the split are that they cross on.
-    EXPECT_LT(ToNode(map, Vec3(low, y, height(low, y))), 5e-5);
+    EXPECT_LT(ToNode(map, Vec3(low, y, height(low, y))), 2e-7);
   }
 }
 
