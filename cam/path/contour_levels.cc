@@ -6,6 +6,7 @@
 
 #include "cam/path/level_heights.h"
 #include "cam/path/spacing.h"
+#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
@@ -14,12 +15,14 @@ constexpr double kMostFlat = 2.0;  // flat steps; a longer gap has no ground in 
 
 }  // namespace
 
-std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourParams& params,
-                                     double radius) {
-  if (ground.samples.empty()) return {};
+absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground, const ContourParams& params,
+                                                     double radius, const RunContext& run) {
+  std::vector<PlannedLevel> levels;
+  if (ground.samples.empty()) return levels;
   const double flat = CenterStep(radius, params.scallop, 0.0);
   const double smallest = std::max(1e-6, params.min_step_fraction * flat);
-  std::vector<double> heights = LevelHeights(ground, {.radius = radius, .flat = flat, .smallest = smallest});
+  PM_ASSIGN_OR_RETURN(std::vector<double> heights,
+                      LevelHeights(ground, {.radius = radius, .flat = flat, .smallest = smallest}, run));
   const double floor = params.floor_z + radius;
   for (double& z : heights) z = std::max(z, floor);
   std::sort(heights.begin(), heights.end(), std::greater<>());
@@ -32,7 +35,6 @@ std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourP
   std::stable_sort(sorted.begin(), sorted.end(), [](const ContourSample& a, const ContourSample& b) {
     return a.center.z() > b.center.z();
   });
-  std::vector<PlannedLevel> levels;
   std::size_t next = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double z = heights[i];

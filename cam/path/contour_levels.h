@@ -17,6 +17,7 @@ struct PlannedLevel {
 // Levels from the top down: full ones (LevelHeights), and where the ground needs less than their gap, partial
 // levels that cut it into as many parts as each spot needs. What needs steps below min_step_fraction of the
 // flat one gets those; no level lies below floor_z + radius. Cost O(n log n), and LevelHeights.
-std::vector<PlannedLevel> PlanLevels(const ContourGround& ground, const ContourParams& params, double radius);
+absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground, const ContourParams& params,
+                                                     double radius, const RunContext& run);
 
 }  // namespace patchmill

@@ -85,7 +85,8 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
   const LevelContext context(locator, run);
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(const ContourGround ground, SampleGround(context, params, run));
-  const std::vector<PlannedLevel> levels = PlanLevels(ground, params, locator.radius());
+  PM_ASSIGN_OR_RETURN(const std::vector<PlannedLevel> levels,
+                      PlanLevels(ground, params, locator.radius(), run));
   if (levels.size() > kMostLevels) {
     return absl::ResourceExhaustedError(
         fmt::format("contours would need {} levels, more than {}: raise the scallop or the tool's radius",

@@ -10,6 +10,8 @@
 
 #include "cam/path/cheapest_step.h"
 #include "cam/path/spacing.h"
+#include "core/base/parallel.h"
+#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
@@ -20,7 +22,8 @@ constexpr double kSameHeight = 2e-4;  // mm: lower ends this close together are 
 // mm: a level at a flat lies this much above it, so that the flat itself is out of its reach.
 constexpr double kAboveFlat = 1e-6;
 constexpr double kMostBins = 4e5;
-constexpr double kFewest = 0.9, kMost = 1.1;  // of the gaps that steps ask for: those tried
+constexpr double kFewest = 0.9, kMost = 1.1;  // of the gaps that steps ask for: those tried,
+constexpr int kTrials = 40;                   // so many numbers at most, and one
 
 // Whose need rules at each height: 0 that of the least length, else this share of the ground.
 constexpr std::array<double, 5> kRules = {0.0, 0.02, 0.1, 0.25, 0.5};
@@ -58,20 +61,24 @@ std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius, double
   return apart;
 }
 
-// What this share of the needs, sorted, is met by; 0: the step of the least length.
-double Ruling(std::vector<StepNeed>& needs, double rule, double smallest, double most) {
-  const double cheapest = CheapestStep(needs, smallest, most);  // sorts them
-  if (rule == 0.0) return cheapest;
+// The steps that rule over ground of these needs.
+std::array<double, kRules.size()> Ruling(std::vector<StepNeed>& needs, double smallest, double most) {
+  std::array<double, kRules.size()> steps;
+  steps.fill(CheapestStep(needs, smallest, most));  // sorts them
   double total = 0.0, passed = 0.0;
   for (const StepNeed& need : needs) total += need.weight;
+  std::size_t rule = 1;
   for (const StepNeed& need : needs) {
     passed += need.weight;
-    if (passed >= rule * total) return std::clamp(need.step, smallest, most);
+    for (; rule < kRules.size() && passed >= kRules[rule] * total; ++rule)
+      steps[rule] = std::clamp(need.step, smallest, most);
   }
-  return cheapest;
+  return steps;
 }
 
-std::array<Bins, kRules.size()> RulingSteps(const ContourGround& ground, const HeightParams& params) {
+absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourGround& ground,
+                                                            const HeightParams& params,
+                                                            const RunContext& run) {
   Bins bins;
   double lo = kInfinity, hi = -kInfinity;
   for (const ContourSample& s : ground.samples) {
@@ -88,10 +95,11 @@ std::array<Bins, kRules.size()> RulingSteps(const ContourGround& ground, const H
   }
   std::array<Bins, kRules.size()> all;
   all.fill(bins);
-  for (std::size_t b = 0; b < needs.size(); ++b) {
-    for (std::size_t k = 0; k < kRules.size() && !needs[b].empty(); ++k)
-      all[k].step[b] = Ruling(needs[b], kRules[k], params.smallest, kMostFlat * params.flat);
-  }
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, needs.size(), [&](std::size_t b) {
+    if (needs[b].empty()) return;
+    const auto steps = Ruling(needs[b], params.smallest, kMostFlat * params.flat);
+    for (std::size_t k = 0; k < kRules.size(); ++k) all[k].step[b] = steps[k];
+  }));
   return all;
 }
 
@@ -198,15 +206,14 @@ double PartialLength(std::span<const Vec2> places, double near, double radius) {
 }
 
 // How long these levels, rising, are with the partial ones between them, over ground that rises likewise from
-// one stop to the other; anything once it is more than `enough`. Beyond the last level before an end without
-// one, the gap goes on as far again as the ground does.
+// one stop to the other. Beyond the last level before an end without one, the gap goes on as far again as the
+// ground does.
 double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
-                std::span<const ContourSample> ground, double spacing, const HeightParams& params,
-                double enough) {
+                std::span<const ContourSample> ground, double spacing, const HeightParams& params) {
   if (!high.level) heights.push_back(2.0 * high.z - heights.back());
   if (!low.level) heights.insert(heights.begin(), 2.0 * low.z - heights.front());
   double length = 0.0;
-  for (std::size_t k = 0, next = 0; k + 1 < heights.size() && length < enough; ++k) {
+  for (std::size_t k = 0, next = 0; k + 1 < heights.size(); ++k) {
     const bool last = k + 2 == heights.size();
     const double gap = heights[k + 1] - heights[k];
     std::map<int, std::vector<Vec2>> spots;  // by the number of parts that they need
@@ -224,9 +231,10 @@ double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
 
 }  // namespace
 
-std::vector<double> LevelHeights(const ContourGround& ground, const HeightParams& params) {
-  if (ground.samples.empty()) return {};
-  const std::array<Bins, kRules.size()> ruling = RulingSteps(ground, params);
+absl::StatusOr<std::vector<double>> LevelHeights(const ContourGround& ground, const HeightParams& params,
+                                                 const RunContext& run) {
+  if (ground.samples.empty()) return std::vector<double>();
+  PM_ASSIGN_OR_RETURN(const auto ruling, RulingSteps(ground, params, run));
   std::array<StepCount, kRules.size()> counts;
   for (std::size_t k = 0; k < kRules.size(); ++k) counts[k] = StepCount(ruling[k]);
   const std::vector<Stop> stops = StopsOf(ground, ruling.front(), params);
@@ -241,30 +249,33 @@ std::vector<double> LevelHeights(const ContourGround& ground, const HeightParams
   std::vector<double> heights;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     const Stop &low = stops[i], &high = stops[i + 1];
-    const std::span<const ContourSample> between(from(low.z), from(high.z));
-    const double halves = (low.level ? 0.0 : 0.5) + (high.level ? 0.0 : 0.5);
-    std::vector<double> best;
-    double length = kInfinity;
+    if (counts.front().At(high.z) - counts.front().At(low.z) <= 0.0) {  // nothing to cut
+      if (low.level) heights.push_back(low.z);
+      if (high.level) heights.push_back(high.z);
+      continue;
+    }
+    std::vector<std::vector<double>> trials;
     for (const StepCount& count : counts) {
       const double steps = count.At(high.z) - count.At(low.z);
-      if (steps <= 0.0) {  // nothing to cut
-        if (best.empty() && low.level) best.push_back(low.z);
-        if (best.empty() && high.level) best.push_back(high.z);
-        break;
-      }
+      const double halves = (low.level ? 0.0 : 0.5) + (high.level ? 0.0 : 0.5);
       const auto gaps = [&](double of_steps) {
         const int least = low.level && high.level ? 1 : 0;
         return std::max(least, static_cast<int>(std::ceil(of_steps * steps - halves - 1e-9)));
       };
-      for (int n = gaps(kFewest); n <= gaps(kMost); ++n) {
-        std::vector<double> tried = Divided(count, low, high, n);
-        const double its = LengthOf(tried, low, high, between, ground.spacing, params, length);
-        if (!best.empty() && its >= length * (1.0 - 1e-9)) continue;
-        length = its;
-        best = std::move(tried);
-      }
+      const int fewest = gaps(kFewest), most = gaps(kMost);
+      for (int n = fewest; n <= most; n += 1 + (most - fewest) / kTrials)
+        trials.push_back(Divided(count, low, high, n));
     }
-    heights.insert(heights.end(), best.begin(), best.end());
+    const std::span<const ContourSample> between(from(low.z), from(high.z));
+    std::vector<double> lengths(trials.size());
+    PM_RETURN_IF_ERROR(ParallelFor(run, "contours: levels", trials.size(), [&](std::size_t k) {
+      lengths[k] = LengthOf(trials[k], low, high, between, ground.spacing, params);
+    }));
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < trials.size(); ++k) {
+      if (lengths[k] < lengths[best] * (1.0 - 1e-9)) best = k;
+    }
+    heights.insert(heights.end(), trials[best].begin(), trials[best].end());
   }
   std::sort(heights.begin(), heights.end());
   return heights;

@@ -3,7 +3,10 @@
 
 #include <vector>
 
+#include <absl/status/statusor.h>
+
 #include "cam/path/contour_samples.h"
+#include "core/base/run_context.h"
 
 namespace patchmill {
 
@@ -20,8 +23,10 @@ struct HeightParams {
 // between these so many, and so shared out, that they and the partial levels where the ground needs less than
 // their gap (PartsOfGap) are shortest. Shared out in units of a step that rules at each height: the one with
 // the least length there (CheapestStep), or what 2, 10, 25 or 50 % of the ground need at most; of each as
-// many as its steps ask for, up to a tenth fewer or more. Gaps wider than their need by kWideGap are none.
-// Cost O(n log n) in the samples, and their number for every trial.
-std::vector<double> LevelHeights(const ContourGround& ground, const HeightParams& params);
+// many as its steps ask for, up to a tenth fewer or more (41 numbers of them at most). Gaps wider than their
+// need by kWideGap are none. Cost O(n log n) in the samples, and their number for each of 205 trials at most,
+// side by side; deterministic. CANCELLED or DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<std::vector<double>> LevelHeights(const ContourGround& ground, const HeightParams& params,
+                                                 const RunContext& run);
 
 }  // namespace patchmill

@@ -31,6 +31,12 @@ void AddWall(double x0, double x1, double z0, double z1, double step, double y, 
   ground.spacing = kSpacing;
 }
 
+std::vector<double> HeightsOf(const ContourGround& ground) {
+  const auto heights = LevelHeights(ground, kParams, RunContext(2));
+  EXPECT_TRUE(heights.ok()) << heights.status();
+  return *heights;
+}
+
 double WidestGap(const std::vector<double>& heights) {
   double widest = 0.0;
   for (std::size_t i = 0; i + 1 < heights.size(); ++i) widest = std::max(widest, heights[i + 1] - heights[i]);
@@ -41,7 +47,7 @@ TEST(LevelHeights, OfOneNeedAreThatFarApartAndHalfOfItFromTheEnds) {
   for (const double height : {1.3, 5.0, 12.4, 12.6}) {
     ContourGround ground;
     AddWall(0.0, 40.0, 0.0, height, 0.5, 0.0, ground);
-    const std::vector<double> heights = LevelHeights(ground, kParams);
+    const std::vector<double> heights = HeightsOf(ground);
     ASSERT_FALSE(heights.empty());
     const double to = (std::floor(height / 0.0625 + 1e-9) + 1.0) * 0.0625;  // ground is seen in eighths
     // As few as gaps that are wider by no more than a pass is added for allow.
@@ -57,7 +63,7 @@ TEST(LevelHeights, LieAtCommonLowerEnds) {
   AddWall(0.0, 40.0, 0.0, 6.05, 0.5, 0.0, ground);
   ground.lower_ends.push_back({0.0, 40.0});
   ground.lower_ends.push_back({3.0, 40.0});
-  const std::vector<double> heights = LevelHeights(ground, kParams);
+  const std::vector<double> heights = HeightsOf(ground);
   for (const double end : {0.0, 3.0}) {
     EXPECT_TRUE(std::any_of(heights.begin(), heights.end(), [&](double z) {
       return z >= end && z <= end + 1e-5;
@@ -73,7 +79,7 @@ TEST(LevelHeights, FollowTheNarrowGroundWhereThatIsShorter) {
     ContourGround ground;
     AddWall(0.0, length * (1.0 - share), 0.0, height, wide, 0.0, ground);
     AddWall(length * (1.0 - share), length, 0.0, height, narrow, 0.0, ground);
-    const std::vector<double> heights = LevelHeights(ground, kParams);
+    const std::vector<double> heights = HeightsOf(ground);
     const double all = length / narrow, both = length * (1.0 + share) / wide;  // a mm of height
     const double best = both < all ? wide : narrow;
     EXPECT_NEAR(height / static_cast<double>(heights.size()), best, 0.03 * best) << share;
@@ -85,7 +91,7 @@ TEST(LevelHeights, AreNearerOnlyWhereTheGroundAsksForIt) {
   ContourGround ground;
   AddWall(0.0, 50.0, 0.0, 10.0, 0.5, 0.0, ground);
   AddWall(0.0, 50.0, 10.0, 14.0, 0.25, 0.0, ground);
-  const std::vector<double> heights = LevelHeights(ground, kParams);
+  const std::vector<double> heights = HeightsOf(ground);
   int low = 0, high = 0;
   for (const double z : heights) ++(z < 9.8 ? low : high);
   EXPECT_NEAR(low, 9.8 / 0.5, 2.0);
@@ -99,15 +105,15 @@ TEST(LevelHeights, DoNotDependOnTheOrderOfSamples) {
     const double z = random.Uniform(0.0, 12.0);
     AddWall(0.0, 10.0, z, z + random.Uniform(1.0, 6.0), random.Uniform(0.2, 0.6), 3.0 * k, ground);
   }
-  const std::vector<double> heights = LevelHeights(ground, kParams);
+  const std::vector<double> heights = HeightsOf(ground);
   ContourGround other = ground;
   std::reverse(other.samples.begin(), other.samples.end());
-  const std::vector<double> again = LevelHeights(other, kParams);
+  const std::vector<double> again = HeightsOf(other);
   ASSERT_EQ(heights.size(), again.size());
   for (std::size_t i = 0; i < heights.size(); ++i) EXPECT_NEAR(heights[i], again[i], 1e-9);
 }
 
-TEST(LevelHeights, AreNoneWithoutGround) { EXPECT_TRUE(LevelHeights({}, kParams).empty()); }
+TEST(LevelHeights, AreNoneWithoutGround) { EXPECT_TRUE(HeightsOf({}).empty()); }
 
 }  // namespace
 }  // namespace patchmill
