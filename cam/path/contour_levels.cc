@@ -9,20 +9,15 @@
 #include "core/base/status.h"
 
 namespace patchmill {
-namespace {
-
-constexpr double kMostFlat = 2.0;  // flat steps; a longer gap has no ground in it
-
-}  // namespace
-
 absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground, const ContourParams& params,
                                                      double radius, const RunContext& run) {
   std::vector<PlannedLevel> levels;
   if (ground.samples.empty()) return levels;
   const double flat = CenterStep(radius, params.scallop, 0.0);
   const double smallest = std::max(1e-6, params.min_step_fraction * flat);
-  PM_ASSIGN_OR_RETURN(std::vector<double> heights,
-                      LevelHeights(ground, {.radius = radius, .flat = flat, .smallest = smallest}, run));
+  const double wide = WideGap(params.scallop, params.chord_tolerance);
+  const HeightParams height_params{.radius = radius, .flat = flat, .smallest = smallest, .wide = wide};
+  PM_ASSIGN_OR_RETURN(std::vector<double> heights, LevelHeights(ground, height_params, run));
   const double floor = params.floor_z + radius;
   for (double& z : heights) z = std::max(z, floor);
   std::sort(heights.begin(), heights.end(), std::greater<>());
@@ -39,13 +34,13 @@ absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double z = heights[i];
     const double gap = i + 1 < heights.size() ? z - heights[i + 1] : i > 0 ? heights[i - 1] - z : flat;
-    levels.push_back({z, std::min(gap, kMostFlat * flat), false, {}});
+    levels.push_back({z, std::min(gap, kMostGap * flat), false, {}});
     if (i + 1 == heights.size()) break;
     while (next < sorted.size() && sorted[next].center.z() > z) ++next;
     std::map<int, std::vector<Vec3>> spots;  // by the number of parts that the gap is cut into there
     for (std::size_t k = next; k < sorted.size() && sorted[k].center.z() > heights[i + 1]; ++k) {
-      if (gap > kMostFlat * flat) continue;
-      const int parts = PartsOfGap(gap, kWideGap * sorted[k].step, smallest);
+      if (gap > kMostGap * flat) continue;
+      const int parts = PartsOfGap(gap, wide * sorted[k].step, smallest);
       if (parts > 1) spots[parts].push_back(sorted[k].center);
     }
     const std::size_t first = levels.size();

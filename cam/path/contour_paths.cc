@@ -19,8 +19,6 @@
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kMostLevels = 50000;
-
 struct LevelPasses {
   std::vector<CutterPath> paths;
   Diagnostics findings;

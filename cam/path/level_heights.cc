@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "cam/path/cheapest_step.h"
 #include "cam/path/spacing.h"
 #include "core/base/parallel.h"
@@ -22,7 +24,9 @@ constexpr double kSameHeight = 2e-4;  // mm: lower ends this close together are 
 // mm: a level at a flat lies this much above it, so that the flat itself is out of its reach.
 constexpr double kAboveFlat = 1e-6;
 constexpr double kMostBins = 4e5;
+constexpr std::size_t kBetweenPolls = 1024;   // samples
 constexpr double kFewest = 0.9, kMost = 1.1;  // of the gaps that steps ask for: those tried,
+constexpr double kNothing = 1e-9;             // steps
 constexpr int kTrials = 40;                   // so many numbers at most, and one
 
 // Whose need rules at each height: 0 that of the least length, else this share of the ground.
@@ -89,7 +93,9 @@ absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourGround&
   bins.bottom = lo;
   bins.step.assign(static_cast<std::size_t>((hi - lo) / bins.width) + 1, kInfinity);
   std::vector<std::vector<StepNeed>> needs(bins.step.size());
-  for (const ContourSample& s : ground.samples) {
+  for (std::size_t i = 0; i < ground.samples.size(); ++i) {
+    if (i % kBetweenPolls == 0) PM_RETURN_IF_ERROR(run.Check());
+    const ContourSample& s = ground.samples[i];
     for (int b = bins.Of(s.center.z() - s.down); b <= bins.Of(s.center.z() + s.up); ++b)
       needs[static_cast<std::size_t>(b)].push_back({s.step, s.width});
   }
@@ -206,10 +212,11 @@ double PartialLength(std::span<const Vec2> places, double near, double radius) {
 }
 
 // How long these levels, rising, are with the partial ones between them, over ground that rises likewise from
-// one stop to the other. Beyond the last level before an end without one, the gap goes on as far again as the
-// ground does.
+// one stop to the other; anything once cancelled. Beyond the last level before an end without one, the gap
+// goes on as far again as the ground does.
 double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
-                std::span<const ContourSample> ground, double spacing, const HeightParams& params) {
+                std::span<const ContourSample> ground, double spacing, const HeightParams& params,
+                const RunContext& run) {
   if (!high.level) heights.push_back(2.0 * high.z - heights.back());
   if (!low.level) heights.insert(heights.begin(), 2.0 * low.z - heights.front());
   double length = 0.0;
@@ -219,8 +226,9 @@ double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
     std::map<int, std::vector<Vec2>> spots;  // by the number of parts that they need
     for (; next < ground.size() && (last || ground[next].center.z() < heights[k + 1]); ++next) {
       const ContourSample& s = ground[next];
+      if (next % kBetweenPolls == 0 && run.Cancelled()) return length;
       length += s.width * (s.up + s.down) / gap;
-      const int parts = PartsOfGap(gap, kWideGap * s.step, params.smallest);
+      const int parts = PartsOfGap(gap, params.wide * s.step, params.smallest);
       if (parts > 1) spots[parts].push_back(Plan(s.center));
     }
     for (const auto& [parts, places] : spots)
@@ -246,38 +254,61 @@ absl::StatusOr<std::vector<double>> LevelHeights(const ContourGround& ground, co
     return std::lower_bound(rising.begin(), rising.end(), z,
                             [](const ContourSample& s, double height) { return s.center.z() < height; });
   };
-  std::vector<double> heights;
+  // What is tried between two stops: by which rule, and with how many gaps.
+  struct Trial {
+    std::size_t stop = 0, rule = 0;
+    int gaps = 0;
+  };
+  std::vector<Trial> trials;
+  std::vector<std::size_t> first;  // of each pair of stops, and the end
+  double fewest_levels = 0.0;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     const Stop &low = stops[i], &high = stops[i + 1];
-    if (counts.front().At(high.z) - counts.front().At(low.z) <= 0.0) {  // nothing to cut
-      if (low.level) heights.push_back(low.z);
-      if (high.level) heights.push_back(high.z);
-      continue;
-    }
-    std::vector<std::vector<double>> trials;
-    for (const StepCount& count : counts) {
-      const double steps = count.At(high.z) - count.At(low.z);
+    first.push_back(trials.size());
+    double fewest = kInfinity;
+    for (std::size_t rule = 0; rule < kRules.size(); ++rule) {
+      const double steps = counts[rule].At(high.z) - counts[rule].At(low.z);
+      if (steps <= kNothing) continue;
       const double halves = (low.level ? 0.0 : 0.5) + (high.level ? 0.0 : 0.5);
       const auto gaps = [&](double of_steps) {
-        const int least = low.level && high.level ? 1 : 0;
-        return std::max(least, static_cast<int>(std::ceil(of_steps * steps - halves - 1e-9)));
+        const double least = low.level && high.level ? 1.0 : 0.0;
+        return std::clamp(std::ceil(of_steps * steps - halves - 1e-9), least, 2.0 * kMostLevels);
       };
-      const int fewest = gaps(kFewest), most = gaps(kMost);
-      for (int n = fewest; n <= most; n += 1 + (most - fewest) / kTrials)
-        trials.push_back(Divided(count, low, high, n));
+      fewest = std::min(fewest, gaps(kFewest));
+      const int few = static_cast<int>(gaps(kFewest)), many = static_cast<int>(gaps(kMost));
+      for (int n = few; n <= many; n += 1 + (many - few) / kTrials) trials.push_back({i, rule, n});
     }
-    const std::span<const ContourSample> between(from(low.z), from(high.z));
-    std::vector<double> lengths(trials.size());
-    PM_RETURN_IF_ERROR(ParallelFor(run, "contours: levels", trials.size(), [&](std::size_t k) {
-      lengths[k] = LengthOf(trials[k], low, high, between, ground.spacing, params);
-    }));
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < trials.size(); ++k) {
+    if (fewest < kInfinity) fewest_levels += fewest;
+  }
+  first.push_back(trials.size());
+  if (fewest_levels > static_cast<double>(kMostLevels)) {
+    return absl::ResourceExhaustedError(
+        fmt::format("contours would need {:.0f} levels, more than {}: raise the scallop or the tool's radius",
+                    fewest_levels, kMostLevels));
+  }
+  const auto heights_of = [&](const Trial& trial) {
+    return Divided(counts[trial.rule], stops[trial.stop], stops[trial.stop + 1], trial.gaps);
+  };
+  std::vector<double> lengths(trials.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, "contours: levels", trials.size(), [&](std::size_t k) {
+    const Stop &low = stops[trials[k].stop], &high = stops[trials[k].stop + 1];
+    lengths[k] =
+        LengthOf(heights_of(trials[k]), low, high, {from(low.z), from(high.z)}, ground.spacing, params, run);
+  }));
+  std::vector<double> heights;
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    if (stops[i].level) heights.push_back(stops[i].z);
+    if (first[i] == first[i + 1]) continue;  // nothing to cut
+    std::size_t best = first[i];
+    for (std::size_t k = first[i] + 1; k < first[i + 1]; ++k) {
       if (lengths[k] < lengths[best] * (1.0 - 1e-9)) best = k;
     }
-    heights.insert(heights.end(), trials[best].begin(), trials[best].end());
+    const std::vector<double> chosen = heights_of(trials[best]);
+    heights.insert(heights.end(), chosen.begin(), chosen.end());
   }
+  if (stops.back().level) heights.push_back(stops.back().z);
   std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
   return heights;
 }
 

@@ -47,4 +47,9 @@ int PartsOfGap(double gap, double need, double least) {
   return static_cast<int>(std::max(1.0, parts));
 }
 
+double WideGap(double scallop, double chord_tolerance) {
+  constexpr double kMost = 1.02;
+  return std::min(kMost, std::sqrt(1.0 + 0.5 * chord_tolerance / scallop));  // leftovers grow by its square
+}
+
 }  // namespace patchmill

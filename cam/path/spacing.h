@@ -20,8 +20,9 @@ double ScallopOfStep(double radius, double center_step, double kappa);
 // narrower than that. All in mm, gap and least > 0.
 int PartsOfGap(double gap, double need, double least);
 
-// A gap that is wider than its need by less than this factor leaves 4 % more than the scallop at most: no
-// pass is added for that.
-inline constexpr double kWideGap = 1.02;
+// No pass is added for a gap that is wider than its need by less than this factor: it leaves 4 % more than
+// the scallop at most, and no more above it than half the chord tolerance (mm), which rest passes begin
+// beyond.
+double WideGap(double scallop, double chord_tolerance);
 
 }  // namespace patchmill

@@ -105,9 +105,11 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
   };
 
   std::vector<Vec2> border;
+  bool any_lines = false;
   for (const Region& region : map.regions) {
     const auto id = static_cast<std::size_t>(region.id);
     if (!choices[id].angle_open || by_contours(id) || region.kind == RegionKind::kUnreachable) continue;
+    any_lines = true;
     for (const std::vector<Vec3>& loop : region.border) AddStrides(loop, border);
   }
   std::vector<double> angles;
@@ -122,6 +124,7 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
     plans.push_back(std::move(tried));
   }
   PM_ASSIGN_OR_RETURN(Tried best, best_of(plans));
+  if (!any_lines) return with(best.angles);  // no lines to turn but what is left over
   for (const double turn : kTurns) {
     plans = {best};
     for (const double by : {turn, -turn}) {

@@ -17,7 +17,8 @@ struct SplitTriangle {
   SplitLabel label;
   std::int8_t turn = 0;  // > 0 where the normal of the parametrisation looks up, < 0 where it looks down
   double area = 0.0;     // mm^2 on the surface, of the triangle with straight sides in (u,v)
-  // Of what is reached; else 0.
+  // Of what is reached; else 0. By the value in the middle of each part that the area is found from, where
+  // there is one (none at a summit or a pit).
   double curvature = 0.0;  // integral of kappa_c (upward normal) over it, mm
   double steepness = 0.0;  // integral of slope - steep angle over it, rad mm^2
 };
@@ -39,7 +40,8 @@ inline bool AlongBorder(const ZeroVertex& a, const ZeroVertex& b) {
 }
 
 // `fields` as RegionFields gives them. `steep_angle` in rad. Areas by a rule of degree 5 on triangles
-// whose normals turn by less than 0.35 rad and whose elements of area are close to quadratic: 1e-7 of them.
+// whose normals turn by less than 0.35 rad and whose elements of area are close to quadratic, by one of
+// degree 2 where they are close to linear: 1e-7 of them.
 SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, double steep_angle,
                          const ZeroMeshParams& params);
 

@@ -12,6 +12,15 @@ namespace {
 constexpr double kStep = 1e-6, kDone = 1e-12;  // of the parameters
 constexpr double kFirst = 1e-3;                // of the reach
 
+// How far along the way from q, of length 1, the piece goes; `most` at most.
+double Room(const Vec2& q, const Vec2& way, double most) {
+  for (int c = 0; c < 2; ++c) {
+    if (way[c] > 0.0) most = std::min(most, (1.0 - q[c]) / way[c]);
+    if (way[c] < 0.0) most = std::min(most, -q[c] / way[c]);
+  }
+  return std::max(0.0, most);
+}
+
 bool Within(const Vec2& q) { return q.minCoeff() >= 0.0 && q.maxCoeff() <= 1.0; }
 
 Vec2 Gradient(const ZeroField& field, const Piece& piece, const Vec2& q, double at) {
@@ -49,8 +58,8 @@ std::optional<Vec2> LimitOnCurve(const ZeroField& curve, const ZeroField& limit,
   bool found = false;
   for (double half = kFirst * reach; at && half > kDone;) {
     if (!(half <= reach)) return std::nullopt;
-    ZeroSegment tangent{at->q - half * at->along, at->q + half * at->along};
-    if (!Within(tangent.from) || !Within(tangent.to)) return std::nullopt;
+    const Vec2 &q = at->q, &along = at->along;
+    ZeroSegment tangent{q - Room(q, -along, half) * along, q + Room(q, along, half) * along};
     const double from = Value(limit, piece, tangent.from), to = Value(limit, piece, tangent.to);
     if (!(from * to < 0.0)) {
       if (found) break;  // nearer than signs tell

@@ -191,8 +191,9 @@ class Builder {
   std::optional<Vec2> CommonPlace(std::size_t k, std::size_t other, const Vec2& q, double reach) const {
     const ZeroField &a = fields_[k], &b = fields_[other];
     if (a.smooth && b.smooth) return CommonZero(k, other, q, reach);
-    if (a.smooth && b.limits) return LimitOnCurve(a, b, piece_, q, reach);
-    if (b.smooth && a.limits) return LimitOnCurve(b, a, piece_, q, reach);
+    // Chords of a limit leave it by less than this.
+    if (a.smooth && b.limits) return LimitOnCurve(a, b, piece_, q, 0.4 * reach);
+    if (b.smooth && a.limits) return LimitOnCurve(b, a, piece_, q, 0.4 * reach);
     return std::nullopt;
   }
 

@@ -51,7 +51,7 @@ TEST(LevelHeights, OfOneNeedAreThatFarApartAndHalfOfItFromTheEnds) {
     ASSERT_FALSE(heights.empty());
     const double to = (std::floor(height / 0.0625 + 1e-9) + 1.0) * 0.0625;  // ground is seen in eighths
     // As few as gaps that are wider by no more than a pass is added for allow.
-    const double count = std::ceil(to / (0.5 * kWideGap) - 1e-9);
+    const double count = std::ceil(to / (0.5 * kParams.wide) - 1e-9);
     ASSERT_EQ(static_cast<double>(heights.size()), count) << height;
     for (std::size_t i = 0; i < heights.size(); ++i)
       EXPECT_NEAR(heights[i], (static_cast<double>(i) + 0.5) * to / count, 1e-6) << height;
@@ -69,7 +69,7 @@ TEST(LevelHeights, LieAtCommonLowerEnds) {
       return z >= end && z <= end + 1e-5;
     })) << end;
   }
-  EXPECT_LE(WidestGap(heights), kWideGap * 0.5 + 1e-9);
+  EXPECT_LE(WidestGap(heights), kParams.wide * 0.5 + 1e-9);
 }
 
 // A wall of which some needs less: full levels for all of it, or partial ones besides, whatever is shorter.
@@ -111,6 +111,40 @@ TEST(LevelHeights, DoNotDependOnTheOrderOfSamples) {
   const std::vector<double> again = HeightsOf(other);
   ASSERT_EQ(heights.size(), again.size());
   for (std::size_t i = 0; i < heights.size(); ++i) EXPECT_NEAR(heights[i], again[i], 1e-9);
+}
+
+// Rounded tops allow steps of three times that on a plane; what stands beside them does not.
+TEST(LevelHeights, AreNeverSoFarApartThatTheyWouldTakeTheGroundForNone) {
+  for (const double share : {0.0, 0.02, 0.1, 0.3}) {
+    ContourGround ground;
+    AddWall(0.0, 100.0 * (1.0 - share), 0.0, 20.0, 3.0 * kParams.flat, 0.0, ground);
+    AddWall(100.0 * (1.0 - share), 100.0, 0.0, 20.0, kParams.flat, 0.0, ground);
+    const std::vector<double> heights = HeightsOf(ground);
+    EXPECT_LE(WidestGap(heights), kMostGap * kParams.flat) << share;
+    EXPECT_GE(heights.size(), 20.0 / (kMostGap * kParams.flat)) << share;
+  }
+}
+
+TEST(LevelHeights, DoNotDependOnThreadsAndEndWhenCancelled) {
+  ContourGround ground;
+  Random random(6);
+  for (int k = 0; k < 30; ++k) {
+    const double z = random.Uniform(0.0, 12.0);
+    AddWall(0.0, 10.0, z, z + random.Uniform(1.0, 6.0), random.Uniform(0.2, 1.6), 3.0 * k, ground);
+  }
+  EXPECT_EQ(*LevelHeights(ground, kParams, RunContext(1)), *LevelHeights(ground, kParams, RunContext(8)));
+  RunContext stopped(2);
+  stopped.Cancel();
+  EXPECT_EQ(LevelHeights(ground, kParams, stopped).status().code(), absl::StatusCode::kCancelled);
+}
+
+TEST(LevelHeights, AreRefusedWhereThereAreTooMany) {
+  ContourGround ground;
+  AddWall(0.0, 10.0, 0.0, 10.0, 1e-4, 0.0, ground);
+  HeightParams fine = kParams;
+  fine.flat = 1e-4;
+  fine.smallest = 2.5e-5;
+  EXPECT_EQ(LevelHeights(ground, fine, RunContext(2)).status().code(), absl::StatusCode::kResourceExhausted);
 }
 
 TEST(LevelHeights, AreNoneWithoutGround) { EXPECT_TRUE(HeightsOf({}).empty()); }

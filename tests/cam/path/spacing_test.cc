@@ -1,5 +1,6 @@
 #include "cam/path/spacing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -101,6 +102,20 @@ RC_GTEST_PROP(Spacing, FallsWithCurvatureAndGrowsWithScallop, ()) {
 TEST(Spacing, BallsThatDoNotMeetLeaveEverything) {
   EXPECT_EQ(ScallopOfStep(3.0, 7.0, 0.0), kInfinity);
   EXPECT_EQ(ScallopOfStep(3.0, 0.0, 0.0), 0.0);
+}
+
+// What a gap as wide as that leaves, against the scallop: ScallopOfStep.
+TEST(WideGap, LeavesLittleMore) {
+  for (const double scallop : {0.001, 0.01, 0.1}) {
+    for (const double chord : {0.0005, 0.005, 0.05}) {
+      const double left =
+          ScallopOfStep(3.0, WideGap(scallop, chord) * CenterStep(3.0, scallop, 0.0), 0.0) - scallop;
+      EXPECT_GT(left, 0.0);
+      EXPECT_LE(left, 0.042 * scallop);
+      EXPECT_LE(left, 0.53 * chord);
+      EXPECT_GE(left, std::min(0.039 * scallop, 0.49 * chord));
+    }
+  }
 }
 
 }  // namespace

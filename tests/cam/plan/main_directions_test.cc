@@ -41,11 +41,16 @@ TEST(MainDirections, AreTheMeanOfASideThatIsNotQuiteStraight) {
   EXPECT_LT(DirectionsApart(found[0], Radians(179.5)), 1e-9);
 }
 
-TEST(MainDirections, DoNotDependOnWhichWayTheStepsGo) {
-  const auto there = MainDirections(Rectangle(0.3, 5.0, 2.0), 2);
-  const auto back = MainDirections(Rectangle(0.3 + kPi, 5.0, 2.0), 2);
-  ASSERT_EQ(there.size(), back.size());
-  for (std::size_t i = 0; i < there.size(); ++i) EXPECT_NEAR(there[i], back[i], 1e-12);
+TEST(MainDirections, DoNotDependOnWhichWayAStepGoes) {
+  // A way there and back along a wall, with a stretch across.
+  std::vector<Vec2> steps;
+  for (int k = 0; k < 12; ++k)
+    steps.push_back((k % 3 == 0 ? -1.0 : 1.0) * Vec2(std::cos(0.3), std::sin(0.3)));
+  for (int k = 0; k < 5; ++k) steps.push_back((k % 2 == 0 ? -1.0 : 1.0) * Vec2(std::cos(1.4), std::sin(1.4)));
+  const auto found = MainDirections(steps, 2);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0], 0.3, 1e-12);
+  EXPECT_NEAR(found[1], 1.4, 1e-12);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST(LimitOnCurve, IsNothingOutOfReachOrBeyondThePiece) {
   const ZeroField circle = Circle(0.55, -1.0);
   EXPECT_FALSE(LimitOnCurve(Parabola(), circle, surface.pieces[0], crossing + Vec2(0.05, 0.0), 0.02));
   EXPECT_FALSE(LimitOnCurve(Parabola(), Circle(3.0, -1.0), surface.pieces[0], crossing, 0.2));
-  EXPECT_FALSE(LimitOnCurve(Parabola(), Circle(0.3, -1.0), surface.pieces[0], {0.0, 0.3}, 0.1));
+  EXPECT_FALSE(LimitOnCurve(Parabola(), Circle(0.25, -1.0), surface.pieces[0], {0.0, 0.3}, 0.1));
   ZeroField nowhere = Parabola();
   nowhere.value = [](const SurfaceJet&) { return 1.0; };
   EXPECT_FALSE(LimitOnCurve(nowhere, circle, surface.pieces[0], crossing, 0.1));
