@@ -15,8 +15,10 @@ absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground
   if (ground.samples.empty()) return levels;
   const double flat = CenterStep(radius, params.scallop, 0.0);
   const double smallest = std::max(1e-6, params.min_step_fraction * flat);
-  const double wide = WideGap(params.scallop, params.chord_tolerance);
-  const HeightParams height_params{.radius = radius, .flat = flat, .smallest = smallest, .wide = wide};
+  const HeightParams height_params{.radius = radius,
+                                   .flat = flat,
+                                   .smallest = smallest,
+                                   .wide = WideGap(params.scallop, params.chord_tolerance)};
   PM_ASSIGN_OR_RETURN(std::vector<double> heights, LevelHeights(ground, height_params, run));
   const double floor = params.floor_z + radius;
   for (double& z : heights) z = std::max(z, floor);
@@ -40,7 +42,7 @@ absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground
     std::map<int, std::vector<Vec3>> spots;  // by the number of parts that the gap is cut into there
     for (std::size_t k = next; k < sorted.size() && sorted[k].center.z() > heights[i + 1]; ++k) {
       if (gap > kMostGap * flat) continue;
-      const int parts = PartsOfGap(gap, wide * sorted[k].step, smallest);
+      const int parts = PartsOfGap(gap, kWideGap * sorted[k].step, smallest);
       if (parts > 1) spots[parts].push_back(sorted[k].center);
     }
     const std::size_t first = levels.size();

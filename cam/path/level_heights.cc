@@ -26,6 +26,7 @@ constexpr double kAboveFlat = 1e-6;
 constexpr double kMostBins = 4e5;
 constexpr std::size_t kBetweenPolls = 1024;   // samples
 constexpr double kFewest = 0.9, kMost = 1.1;  // of the gaps that steps ask for: those tried,
+constexpr double kTooWide = 0.1;              // of a level: what a gap wider than `wide` costs
 constexpr double kNothing = 1e-9;             // steps
 constexpr int kTrials = 40;                   // so many numbers at most, and one
 
@@ -227,8 +228,11 @@ double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
     for (; next < ground.size() && (last || ground[next].center.z() < heights[k + 1]); ++next) {
       const ContourSample& s = ground[next];
       if (next % kBetweenPolls == 0 && run.Cancelled()) return length;
-      length += s.width * (s.up + s.down) / gap;
-      const int parts = PartsOfGap(gap, params.wide * s.step, params.smallest);
+      const double own = s.width * (s.up + s.down) / gap;
+      const int parts = PartsOfGap(gap, kWideGap * s.step, params.smallest);
+      // No level is added there, but what rest passes may have to do counts.
+      const bool too_wide = parts == 1 && gap > params.wide * s.step && s.step >= params.smallest;
+      length += too_wide ? (1.0 + kTooWide) * own : own;
       if (parts > 1) spots[parts].push_back(Plan(s.center));
     }
     for (const auto& [parts, places] : spots)

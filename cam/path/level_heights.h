@@ -24,7 +24,7 @@ struct HeightParams {
   double radius = 3.0;    // mm, of the ball
   double flat = 0.5;      // mm: the step over a plane
   double smallest = 0.1;  // mm: needs below it count as this
-  double wide = 1.02;     // WideGap
+  double wide = 1.02;     // how much wider than their needs gaps may be throughout: WideGap
 };
 
 // Centre heights, rising: where faces end on a common level (floors, flats, level rims) exactly there, and
@@ -32,10 +32,10 @@ struct HeightParams {
 // their gap (PartsOfGap) are shortest; what an end without a level needs besides counts alike, whoever cuts
 // it. Shared out in units of a step that rules at each height: the one with the least length there
 // (CheapestStep), or what 2, 10, 25 or 50 % of the ground need at most; of each as many as its steps ask for,
-// up to a tenth fewer or more (41 numbers of them at most). Gaps wider than their need by WideGap are none.
-// Cost O(n log n) in the samples times the eighths of a flat step that each stands for, and their number for
-// each of 205 trials at most, side by side; deterministic. RESOURCE_EXHAUSTED beyond kMostLevels; CANCELLED
-// or DEADLINE_EXCEEDED from `run`.
+// up to a tenth fewer or more (41 numbers of them at most). Gaps wider than their need by kWideGap get none;
+// beyond `wide` they count for a tenth more. Cost O(n log n) in the samples times the eighths of a flat
+// step that each stands for, and their number for each of 205 trials at most, side by side; deterministic.
+// RESOURCE_EXHAUSTED beyond kMostLevels; CANCELLED or DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<double>> LevelHeights(const ContourGround& ground, const HeightParams& params,
                                                  const RunContext& run);
 

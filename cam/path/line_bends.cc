@@ -130,7 +130,7 @@ double SteepestBend(const LineLattice& lattice, const Family& family) {
 
 // mm of full and partial lines where something is wanted; density(row, sample): lines per mm of y.
 template <class Density>
-double LengthOf(const LineLattice& lattice, double min_step, double wide, const Density& density) {
+double LengthOf(const LineLattice& lattice, double min_step, const Density& density) {
   double sum = 0.0;
   for (std::size_t r = 0; r < lattice.rows.size(); ++r) {
     for (std::size_t s = 0; s < lattice.needs[r].size(); ++s) {
@@ -141,15 +141,15 @@ double LengthOf(const LineLattice& lattice, double min_step, double wide, const 
       const double above =
           r + 1 < lattice.rows.size() ? lattice.rows[r + 1].At(t) - lattice.rows[r].At(t) : 0.0;
       const double d = density(r, s);
-      sum += d * PartsOfGap(1.0 / d, wide * need, min_step) * 0.5 * (below + above) *
+      sum += d * PartsOfGap(1.0 / d, kWideGap * need, min_step) * 0.5 * (below + above) *
              std::hypot(1.0, lattice.rows[r].SlopeAt(t));
     }
   }
   return sum * lattice.spacing / kSamplesPerKnot;
 }
 
-double LengthOf(const LineLattice& lattice, double min_step, double wide, const Family& family) {
-  return LengthOf(lattice, min_step, wide, [&](std::size_t r, std::size_t s) {
+double LengthOf(const LineLattice& lattice, double min_step, const Family& family) {
+  return LengthOf(lattice, min_step, [&](std::size_t r, std::size_t s) {
     const std::size_t k = s / kSamplesPerKnot, m = s % kSamplesPerKnot;
     if (m == 0) return family.density[r][k];
     const double share = static_cast<double>(m) / kSamplesPerKnot;
@@ -197,15 +197,14 @@ absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const 
     (bends_too_far ? low : high) = share;
     if (!bends_too_far) family = std::move(mixed);
   }
-  const double least = LengthOf(lattice, min_step, prober.wide_gap(), [&](std::size_t r, std::size_t) {
+  const double least = LengthOf(lattice, min_step, [&](std::size_t r, std::size_t) {
     return StraightDensity(band, lattice.rows[r].y.front());
   });
   std::size_t runs = 0;
   for (const BentLine& line : family.lines) runs += line.where.size();
   const double ways =
       kWayToRun * prober.radius() * (static_cast<double>(runs) - static_cast<double>(straight.size()));
-  if (high == 1.0 || LengthOf(lattice, min_step, prober.wide_gap(), family) + ways > kWorthwhile * least)
-    return straight;
+  if (high == 1.0 || LengthOf(lattice, min_step, family) + ways > kWorthwhile * least) return straight;
 
   // Again along the lines themselves: needs change with the direction.
   PM_ASSIGN_OR_RETURN(const LineLattice bent,

@@ -64,11 +64,11 @@ double Density(const Row& a, const Row& b) {
 
 // Full lines and the partial ones between them where gaps of this width run along a row, in samples' halves;
 // `way`: what one run more costs.
-double LinesAlong(const Row& row, double gap, double way, double least, double wide) {
+double LinesAlong(const Row& row, double gap, double way, double least) {
   double length = 0.0;
   int last = 0;
   for (std::size_t i = 0; i < row.needs.size(); ++i) {
-    const int parts = PartsOfGap(gap, wide * row.needs[i].step, least);
+    const int parts = PartsOfGap(gap, kWideGap * row.needs[i].step, least);
     length += row.needs[i].weight * parts;
     if (i == 0 || row.first[i]) {
       length += way * parts;
@@ -93,7 +93,7 @@ int CheapestCount(const LineProber& prober, const std::vector<Row>& band, const 
     for (std::size_t i = 0; i < density.size() && !prober.Cancelled(); ++i) {
       const double gap = total / (count * density[i]), lines = 0.5 * (band[i + 1].y - band[i].y) / gap;
       for (const Row* row : {&band[i], &band[i + 1]})
-        length += lines * LinesAlong(*row, full_lines_only ? 0.0 : gap, way, least, prober.wide_gap());
+        length += lines * LinesAlong(*row, full_lines_only ? 0.0 : gap, way, least);
     }
     return length;
   };

@@ -24,8 +24,7 @@ LineProber::LineProber(const Locator& locator, const SheetBorder& border, const 
       params_(params),
       part_(part),
       run_(run),
-      flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)),
-      wide_gap_(WideGap(params.scallop, params.chord_tolerance)) {}
+      flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
 
 LineProbe LineProber::Probe(double t, double y, double slope, const SurfacePoint* hint) const {
   return Judge(t, y, slope, locator_.Height(frame_.At(t, y), hint, CertificateGap(params_)));

@@ -52,7 +52,6 @@ class LineProber {
   bool Cancelled() const { return run_.Cancelled(); }
   double radius() const { return locator_.radius(); }
   double flat_step() const { return flat_step_; }
-  double wide_gap() const { return wide_gap_; }  // WideGap
   const LineFrame& frame() const { return frame_; }
 
  private:
@@ -64,7 +63,7 @@ class LineProber {
   const PassParams params_;
   const KeepIn* const part_;
   const RunContext& run_;
-  const double flat_step_, wide_gap_;
+  const double flat_step_;
 };
 
 }  // namespace patchmill

@@ -48,8 +48,8 @@ int PartsOfGap(double gap, double need, double least) {
 }
 
 double WideGap(double scallop, double chord_tolerance) {
-  constexpr double kMost = 1.02;
-  return std::min(kMost, std::sqrt(1.0 + 0.5 * chord_tolerance / scallop));  // leftovers grow by its square
+  return std::min(kWideGap,
+                  std::sqrt(1.0 + 0.5 * chord_tolerance / scallop));  // leftovers grow by its square
 }
 
 }  // namespace patchmill

@@ -20,9 +20,12 @@ double ScallopOfStep(double radius, double center_step, double kappa);
 // narrower than that. All in mm, gap and least > 0.
 int PartsOfGap(double gap, double need, double least);
 
-// No pass is added for a gap that is wider than its need by less than this factor: it leaves 4 % more than
-// the scallop at most, and no more above it than half the chord tolerance (mm), which rest passes begin
-// beyond.
+// A gap that is wider than its need by less than this factor leaves 4 % more than the scallop at most: no
+// pass is added for that.
+inline constexpr double kWideGap = 1.02;
+
+// How much wider than their needs gaps may be throughout: kWideGap, or less where that would leave half the
+// chord tolerance (mm) more than the scallop and so begin to cost rest passes.
 double WideGap(double scallop, double chord_tolerance);
 
 }  // namespace patchmill

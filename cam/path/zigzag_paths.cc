@@ -40,14 +40,13 @@ std::vector<Interval> Without(const std::vector<Interval>& within, const std::ve
 }
 
 // Where either line needs a neighbour nearer than the other one, and into how many parts that cuts their gap.
-std::vector<Stretch> NarrowStretches(const LineProber& prober, const ClippedLine& a, const ClippedLine& b,
-                                     const Interval& within, double min_step) {
-  const double flat = prober.flat_step();
+std::vector<Stretch> NarrowStretches(const ClippedLine& a, const ClippedLine& b, const Interval& within,
+                                     double flat, double min_step) {
   std::map<int, std::vector<Interval>> spots;
   for (const ClippedLine* line : {&a, &b}) {
     for (const LineProbe& p : line->probes) {
       if (!p.wanted || p.t < within.begin || p.t > within.end) continue;
-      const int parts = PartsOfGap(b.line.At(p.t) - a.line.At(p.t), prober.wide_gap() * p.need, min_step);
+      const int parts = PartsOfGap(b.line.At(p.t) - a.line.At(p.t), kWideGap * p.need, min_step);
       if (parts > 1)
         spots[parts].push_back({std::max(within.begin, p.t - flat), std::min(within.end, p.t + flat)});
     }
@@ -83,7 +82,7 @@ std::vector<Stretch> NarrowStretches(const LineProber& prober, const ClippedLine
 void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& b, const Interval& within,
              double min_step, std::vector<ClippedLine>& out) {
   if (prober.Cancelled()) return;
-  for (const Stretch& stretch : NarrowStretches(prober, a, b, within, min_step)) {
+  for (const Stretch& stretch : NarrowStretches(a, b, within, prober.flat_step(), min_step)) {
     ClippedLine last = a;
     for (int k = 1; k < stretch.parts; ++k) {
       const double share = static_cast<double>(k) / stretch.parts;

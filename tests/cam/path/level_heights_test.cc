@@ -58,6 +58,20 @@ TEST(LevelHeights, OfOneNeedAreThatFarApartAndHalfOfItFromTheEnds) {
   }
 }
 
+// Where the tolerance bears no more than the scallop, and a level more is less than a tenth, gaps are not
+// wider than their need.
+TEST(LevelHeights, AreNotTooWideThroughout) {
+  for (const double height : {9.55, 15.0, 20.02}) {
+    ContourGround ground;
+    AddWall(0.0, 40.0, 0.0, height, 0.5, 0.0, ground);
+    HeightParams exact = kParams;
+    exact.wide = 1.001;
+    const auto heights = LevelHeights(ground, exact, RunContext(1));
+    ASSERT_TRUE(heights.ok());
+    EXPECT_LE(WidestGap(*heights), 1.001 * 0.5) << height;
+  }
+}
+
 TEST(LevelHeights, LieAtCommonLowerEnds) {
   ContourGround ground;
   AddWall(0.0, 40.0, 0.0, 6.05, 0.5, 0.0, ground);
