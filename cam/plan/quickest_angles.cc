@@ -106,8 +106,8 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
 
   std::vector<Vec2> border;
   bool any_lines = false;
-  for (const Region& region : map.regions) {
-    const auto id = static_cast<std::size_t>(region.id);
+  for (std::size_t id = 0; id < map.regions.size(); ++id) {
+    const Region& region = map.regions[id];
     if (!choices[id].angle_open || by_contours(id) || region.kind == RegionKind::kUnreachable) continue;
     any_lines = true;
     for (const std::vector<Vec3>& loop : region.border) AddStrides(loop, border);

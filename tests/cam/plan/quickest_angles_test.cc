@@ -19,8 +19,9 @@ using namespace testing;  // NOLINT: the support folder's
 RegionMap MapOf(std::vector<SlopeClass> slopes) {
   RegionMap map;
   for (const SlopeClass slope : slopes) {
-    map.regions.emplace_back().id = static_cast<int>(map.regions.size()) - 1;
-    map.regions.back().slope = slope;
+    Region& region = map.regions.emplace_back();
+    region.id = static_cast<int>(map.regions.size()) - 1;
+    region.slope = slope;
   }
   return map;
 }
