@@ -11,6 +11,10 @@ namespace {
 constexpr double kBesideWallSlope = Radians(50.0);
 // A link along the surface may be this much longer than straight, plus one ball.
 constexpr double kDetour = 3.0;
+// One this many times as long as straight needs no better.
+constexpr double kShortDetour = 1.5;
+// How far off a wall, in parts of its length, a link between two places at it may lead.
+constexpr std::array<double, 4> kBulges = {0.0625, 0.125, 0.25, 0.5};
 // rad: how leads may turn from the normal; a way out this many times as long as the way through the stock is
 // good enough.
 constexpr std::array<double, 8> kTurns = {0.0,        kPi / 4.0,       -kPi / 4.0,       kPi / 2.0,
@@ -54,13 +58,9 @@ bool LinkMaker::StraightIsFree(const Vec3& a, const Vec3& b) const {
   return locator_.GougeWithin(a, b, tolerance, 0.1 * tolerance);
 }
 
-std::optional<std::vector<Move>> LinkMaker::StayDown(const Vec3& a, const Vec3& b) const {
-  const double plan = (Plan(b) - Plan(a)).norm();
-  const double length = (b - a).norm();
-  if (length > max_link_) return std::nullopt;
-  if (StraightIsFree(a, b)) return std::vector<Move>{Feed(MoveKind::kLink, a, b)};
-  if (plan < 1e-6) return std::nullopt;
-  const std::vector<ScanRun> runs = ScanLine(locator_, Plan(a), Plan(b), params_.pass, &run_);
+std::optional<LinkMaker::Way> LinkMaker::AlongSurface(const Vec3& a, const Vec3& b,
+                                                      std::span<const Vec2> corners) const {
+  const std::vector<ScanRun> runs = ScanPolyline(locator_, corners, params_.pass, &run_);
   if (runs.size() != 1 || runs.front().points.size() < 2) return std::nullopt;
   const auto& points = runs.front().points;
   // The run must start and end over or under a and b: straight up or down from a free centre to one on the
@@ -69,21 +69,56 @@ std::optional<std::vector<Move>> LinkMaker::StayDown(const Vec3& a, const Vec3& 
       (Plan(points.back().center) - Plan(b)).norm() > 1e-6) {
     return std::nullopt;
   }
-  std::vector<Move> moves;
+  Way way;
   Vec3 at = a;
-  double along = 0.0;
   bool allowed = true;
   const auto go = [&](const Vec3& to) {
-    if ((to - at).norm() < 1e-9) return;
-    along += (to - at).norm();
+    const double step = (to - at).norm();
+    if (step < 1e-9) return;
+    way.length += step;
     allowed = allowed && Allowed(at, to);
-    moves.push_back(Feed(MoveKind::kLink, at, to));
+    way.moves.push_back(Feed(MoveKind::kLink, at, to));
     at = to;
   };
   for (const CutterPoint& p : points) go(p.center);
   go(b);
-  if (!allowed || along > kDetour * length + 2.0 * params_.radius) return std::nullopt;
-  return moves;
+  if (!allowed || way.length > kDetour * (b - a).norm() + 2.0 * params_.radius) return std::nullopt;
+  return way;
+}
+
+std::optional<std::vector<Move>> LinkMaker::StayDown(const CutterPoint& from, const CutterPoint& to) const {
+  const Vec3 &a = from.center, &b = to.center;
+  const double length = (b - a).norm();
+  if (length > max_link_) return std::nullopt;
+  if (StraightIsFree(a, b)) return std::vector<Move>{Feed(MoveKind::kLink, a, b)};
+  const double plan = (Plan(b) - Plan(a)).norm();
+  if (plan < 1e-6) return std::nullopt;
+  std::optional<Way> best = AlongSurface(a, b, std::array{Plan(a), Plan(b)});
+  if (length <= 2.0 * params_.radius) {
+    // Ends at a wall that bends: straight on would climb it, a little off it the way is short.
+    const Vec2 along = Plan(b) - Plan(a);
+    const Vec2 across(-along.y(), along.x());
+    const double off = across.dot(Plan(OffWalls(from) + OffWalls(to)));
+    for (const double bulge : kBulges) {
+      for (const double side : {1.0, -1.0}) {
+        if (best && best->length <= kShortDetour * length) break;
+        if (side * off < -1e-3 * across.norm()) continue;  // into the wall
+        const Vec2 middle = 0.5 * (Plan(a) + Plan(b)) + side * bulge * across;
+        std::optional<Way> round = AlongSurface(a, b, std::array{Plan(a), middle, Plan(b)});
+        if (round && (!best || round->length < best->length)) best = std::move(round);
+      }
+    }
+  }
+  if (!best) return std::nullopt;
+  return std::move(best->moves);
+}
+
+Vec3 LinkMaker::OffWalls(const CutterPoint& point) {
+  Vec3 sum = Vec3::Zero();
+  for (const auto& contact : {point.contact, point.other_contact}) {
+    if (contact) sum += (point.center - contact->p).normalized();
+  }
+  return sum;
 }
 
 double LinkMaker::ClearOfStock(const Vec3& place) const {

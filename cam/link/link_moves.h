@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cam/link/link_paths.h"
@@ -17,10 +18,10 @@ class LinkMaker {
   LinkMaker(const Locator& locator, const Locator& stock_locator, const LinkParams& params,
             const RunContext& run);
 
-  // Feed moves from centre a to centre b that stay down: straight when certified gouge-free (T2 or the swept
-  // ball), else along the centre surface; nullopt when neither is short enough. b itself is the last move's
-  // end.
-  std::optional<std::vector<Move>> StayDown(const Vec3& a, const Vec3& b) const;
+  // Feed moves that stay down: straight when certified gouge-free (T2 or the swept ball), else along the
+  // centre surface, where both ends stand at a wall also a little off it; nullopt when none is short enough.
+  // The centre of `to` is the last move's end.
+  std::optional<std::vector<Move>> StayDown(const CutterPoint& from, const CutterPoint& to) const;
 
   // Leaves `from` upward to the clearance plane: at feed until clear of the stock, beside walls where that is
   // free, then rapid.
@@ -45,6 +46,13 @@ class LinkMaker {
   // The shortest of a few: beside walls level, off the contact along its normal or turned from it; on gentle
   // ground straight up, or aslant where something stands above.
   WayOut FindWayOut(const CutterPoint& point) const;
+  struct Way {
+    std::vector<Move> moves;
+    double length = 0.0;  // mm
+  };
+  // Feed moves over the corners, which begin above a and end above b; nullopt: none, or too long.
+  std::optional<Way> AlongSurface(const Vec3& a, const Vec3& b, std::span<const Vec2> corners) const;
+  static Vec3 OffWalls(const CutterPoint& point);  // sum of the unit normals at its contacts
   // Centre height over `place`, at least its own, where the ball is clear of the stock, the clearance plane
   // at most.
   double ClearOfStock(const Vec3& place) const;

@@ -40,7 +40,7 @@ std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const C
     return sum;
   };
   std::optional<std::vector<Move>> down;
-  if (!next.one_way) down = maker.StayDown(end.center, start.center);
+  if (!next.one_way) down = maker.StayDown(end, start);
   // Straight and no longer than out of the stock and back: nothing over the top is shorter.
   const bool near = (start.center - end.center).norm() <= 2.0 * maker.stock_depth();
   if (down && down->size() <= 1 && near) return *std::move(down);
@@ -86,13 +86,21 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
       if (path.kind == PassKind::kContour && !path.spiral) Reverse(path);
     }
   }
+  const double leads = 2.0 * (params.allowance + params.approach_gap);
+  const auto travel = [&](const Vec3& a, const Vec3& b) {
+    const double length = (b - a).norm();
+    const double over = std::max(0.0, 2.0 * (params.clearance_z + params.radius) - a.z() - b.z());
+    const double time = leads / params.feed + (over + Plan(b - a).norm()) / kAssumedRapid;
+    return 60.0 * (length <= MaxLinkLength(params) ? std::min(time, length / params.feed) : time);
+  };
   LinkResult result;
   result.toolpath.ball_radius = params.radius;
   PM_ASSIGN_OR_RETURN(result.passes,
                       OrderPasses(regions, std::move(paths),
                                   {.neighbor_distance = params.radius,
                                    .at_hand = MaxLinkLength(params),  // no farther than a link may lead
-                                   .reversible_contours = params.contour_direction == CutDirection::kEither},
+                                   .reversible_contours = params.contour_direction == CutDirection::kEither,
+                                   .travel = travel},
                                   run));
   const Locator stock_locator(locator.surface(), params.radius + params.allowance + params.approach_gap);
   const LinkMaker maker(locator, stock_locator, params, run);

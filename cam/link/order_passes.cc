@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "cam/link/order_search.h"
 #include "core/base/status.h"
 #include "core/base/union_find.h"
 
@@ -127,10 +128,26 @@ void TakeNearest(Cluster& cluster, const RunContext& run, Vec3& at, std::vector<
   }
 }
 
+// Which pass is cut next, and where it starts (as in End).
+struct Choice {
+  std::size_t pass;
+  std::size_t start;
+};
+
+Vec3 Enter(const CutterPath& pass, std::size_t start) {
+  if (pass.closed) return pass.points[start].center;
+  return start == 1 ? pass.points.back().center : pass.points.front().center;
+}
+
+Vec3 Leave(const CutterPath& pass, std::size_t start) {
+  if (pass.closed) return pass.points[start].center;
+  return start == 1 ? pass.points.front().center : pass.points.back().center;
+}
+
 // From the top down, never before what lies above: a mountain or a basin is cut to its foot, or to where it
 // joins another that is not cut yet, before the next is begun. Stops when cancelled.
-void TakeDownwards(Cluster& cluster, const OrderParams& params, const RunContext& run, Vec3& at,
-                   std::vector<CutterPath>& out) {
+std::vector<Choice> Downwards(const Cluster& cluster, const OrderParams& params, const RunContext& run,
+                              Vec3 at) {
   const std::size_t count = cluster.passes.size();
   std::vector<std::vector<std::size_t>> below(count);
   std::vector<std::size_t> waiting(count);  // how many above are not cut
@@ -146,6 +163,7 @@ void TakeDownwards(Cluster& cluster, const OrderParams& params, const RunContext
   for (std::size_t i = 0; i < count; ++i) {
     if (waiting[i] == 0) ready.push_back({i, -1});
   }
+  std::vector<Choice> order;
   for (std::ptrdiff_t n = 0; !ready.empty() && !run.Cancelled(); ++n) {
     // What is at hand goes first, the higher before the lower; else what lies below the latest one.
     using Rank = std::tuple<int, std::ptrdiff_t, int, double>;
@@ -164,10 +182,43 @@ void TakeDownwards(Cluster& cluster, const OrderParams& params, const RunContext
     }
     const std::size_t taken = ready[best].pass;
     ready.erase(ready.begin() + static_cast<std::ptrdiff_t>(best));
-    Take(cluster.passes[taken], best_end, at, out);
+    order.push_back({taken, best_end.start});
+    at = Leave(cluster.passes[taken], best_end.start);
     for (const std::size_t i : below[taken]) {
       if (--waiting[i] == 0) ready.push_back({i, n});
     }
+  }
+  return order;
+}
+
+// The same passes on a quicker way, still none before what lies above it.
+std::vector<Choice> Quicker(const Cluster& cluster, const std::vector<Choice>& order,
+                            const OrderParams& params, const RunContext& run, Vec3 at) {
+  std::vector<Stop> stops(cluster.passes.size());
+  std::vector<std::size_t> sequence;
+  for (const Choice& c : order) {
+    const CutterPath& pass = cluster.passes[c.pass];
+    stops[c.pass] = {Enter(pass, c.start), Leave(pass, c.start), cluster.above[c.pass]};
+    sequence.push_back(c.pass);
+  }
+  std::vector<Choice> quicker;
+  for (const std::size_t i : ShortenOrder(stops, std::move(sequence), at, params.travel, run)) {
+    const CutterPath& pass = cluster.passes[i];
+    quicker.push_back({i, EndOf(pass, at, params.reversible_contours).start});
+    at = Leave(pass, quicker.back().start);
+  }
+  return quicker;
+}
+
+void TakeDownwards(Cluster& cluster, const OrderParams& params, const RunContext& run, Vec3& at,
+                   std::vector<CutterPath>& out) {
+  std::vector<Choice> order = Downwards(cluster, params, run, at);
+  if (run.Cancelled()) return;
+  if (params.travel) order = Quicker(cluster, order, params, run, at);
+  for (const Choice& c : order) {
+    at = Leave(cluster.passes[c.pass], c.start);
+    StartAt(cluster.passes[c.pass], c.start);
+    out.push_back(std::move(cluster.passes[c.pass]));
   }
 }
 

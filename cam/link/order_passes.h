@@ -6,6 +6,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/link/order_search.h"
 #include "cam/region/region_map.h"
 #include "cam/toolpath/cutter_path.h"
 #include "core/base/run_context.h"
@@ -17,6 +18,8 @@ struct OrderParams {
       3.0;               // mm in plan: passes of neighbouring lines closer than this belong together
   double at_hand = 0.0;  // mm: contours that begin this near to the tool go before others, the higher first
   bool reversible_contours = false;
+  TravelTime travel =
+      nullptr;  // about how long the way between two passes takes; none: no search for quicker orders
 };
 
 // Steep ground first, then gentle ground, its borders, creases and rest; regions from the highest down. A

@@ -1,6 +1,7 @@
 #include "cam/link/link_paths.h"
 
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -196,6 +197,40 @@ TEST(LinkPaths, TakesTheQuickerWay) {
   CheckMotion(surface, *along, params);
   EXPECT_EQ(along->stats.retract_count, 1);
   EXPECT_GT(along->stats.link_length, over->stats.link_length);
+}
+
+TEST(LinkPaths, LinesThatEndAtARoundWallAreJoinedAroundIt) {
+  // An upright pin. The straight way from one line's end to the next one's leads through it, along the centre
+  // surface up and over it.
+  const Eigen::Affine3d upright(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitX()));
+  const Surface surface = Build(testing::Join(
+      {testing::Plane(30),
+       testing::Transformed(testing::Cylinder(Vec3::Zero(), 8, 6, Half::kAll), Eigen::Affine3d(upright))}));
+  const Locator locator(surface, kRadius);
+  std::vector<CutterPath> paths;
+  double steps = 0.0;
+  std::optional<Vec2> last;
+  for (int i = 0; i < 10; ++i) {
+    const double y = -4.5 + i, r = 8.0 + kRadius + 1e-7;
+    const Vec2 at_wall(std::sqrt(r * r - y * y), y);
+    if (last && i % 2 == 0) steps += (at_wall - *last).norm();
+    last = at_wall;
+    paths.push_back(Line(locator, i, at_wall, {25, y}));
+  }
+  const LinkParams params = Params();
+  const auto result = LinkPaths(locator, {}, paths, params, RunContext{});
+  ASSERT_TRUE(result.ok()) << result.status();
+  CheckMotion(surface, *result, params);
+  EXPECT_EQ(result->passes.size(), 10u);
+  EXPECT_EQ(result->stats.retract_count, 1);
+  double links = 0.0;  // at the wall
+  const auto& moves = result->toolpath.moves;
+  for (std::size_t i = 1; i < moves.size(); ++i) {
+    if (moves[i].kind == MoveKind::kLink && moves[i].to.x() < 20.0)
+      links += (moves[i].to - moves[i - 1].to).norm();
+  }
+  EXPECT_GT(links, 0.9 * steps);
+  EXPECT_LT(links, 1.1 * steps);
 }
 
 TEST(LinkPaths, NothingInNothingOut) {

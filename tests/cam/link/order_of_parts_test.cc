@@ -64,7 +64,10 @@ class OrderOfParts : public ::testing::Test {
     all.insert(all.end(), contours->paths.begin(), contours->paths.end());
     count_ = all.size();
     lines_ = lines->size();
-    auto ordered = OrderPasses(*map, std::move(all), {.neighbor_distance = kRadius, .at_hand = 2.0 * kRadius},
+    auto ordered = OrderPasses(*map, std::move(all),
+                               {.neighbor_distance = kRadius,
+                                .at_hand = 2.0 * kRadius,
+                                .travel = [](const Vec3& a, const Vec3& b) { return (b - a).norm(); }},
                                RunContext(1));
     EXPECT_TRUE(ordered.ok()) << ordered.status();
     ordered_ = *std::move(ordered);
