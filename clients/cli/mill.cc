@@ -201,7 +201,8 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
                  "stop at outer borders; roll over them; extend passes by a ball radius beyond them")
       ->check(CLI::IsMember({"stop", "roll", "extend"}))
       ->capture_default_str();
-  app.add_option("--direction", op.direction, "of closed contours")
+  app.add_option("--direction", op.direction,
+                 "of contours; either: open ones to and fro, with fewer retracts")
       ->check(CLI::IsMember({"climb", "conventional", "either"}))
       ->capture_default_str();
   AddNumber(app, "--clearance", op.clearance,
