@@ -116,16 +116,15 @@ class PacketSearch {
 // As Locator::Impl::Search, for all lanes at the lowest height of one.
 template <class Meets, class OnLeaf>
 void PacketSearch::Walk(const Meets& meets, const OnLeaf& on_leaf) {
-  const double r = impl_.radius;
-  const auto limit = static_cast<float>(r * r + 1e-6 * r * r + 1e-6 * r * impl_.reach);
+  const internal::WalkLimits limits = impl_.Limits();
   const auto [x0, x1] = std::minmax_element(packet_.qx, packet_.qx + kLanes);
   const auto [y0, y1] = std::minmax_element(packet_.qy, packet_.qy + kLanes);
   const internal::PlanBox at{static_cast<float>(*x0), static_cast<float>(*x1), static_cast<float>(*y0),
                              static_cast<float>(*y1)};
   internal::WalkTree(
-      impl_.tree, at, limit,
+      impl_.tree, at, limits,
       [&] { return static_cast<float>(*std::min_element(packet_.z, packet_.z + kLanes)); },
-      [&](const internal::SearchNode& node, int k) { return meets(node, k, limit); },
+      [&](const internal::SearchNode& node, int k) { return meets(node, k, limits); },
       [&](std::int32_t leaf) {
         on_leaf(leaf);
         return true;
@@ -133,7 +132,7 @@ void PacketSearch::Walk(const Meets& meets, const OnLeaf& on_leaf) {
 }
 
 void PacketSearch::Run() {
-  Walk([](const internal::SearchNode&, int, float) { return true; },
+  Walk([](const internal::SearchNode&, int, const internal::WalkLimits&) { return true; },
        [&](std::int32_t leaf) { Visit(leaf, impl_.tree.leaves[leaf].Box(impl_.tree.grid)); });
 }
 
@@ -155,16 +154,19 @@ struct FloatLanes {
     for (int k = 0; k < kLanes; ++k) z[k / 4][k % 4] = static_cast<float>(packet.z[k]);
   }
   // WalkTree's test of child k, lane by lane.
-  bool Meet(const internal::SearchNode& node, int k, float limit) const {
+  bool Meet(const internal::SearchNode& node, int k, const internal::WalkLimits& limits) const {
     using internal::Max, internal::Splat;
     const internal::Float4 zero{}, min_x = Splat(node.min_x[k]), max_x = Splat(node.max_x[k]),
                                    min_y = Splat(node.min_y[k]), max_y = Splat(node.max_y[k]),
-                                   max_z = Splat(node.max_z[k]);
+                                   max_z = Splat(node.max_z[k]), up_x = Splat(node.up_x[k]),
+                                   up_y = Splat(node.up_y[k]), up_z = Splat(node.up_z[k]),
+                                   top = Splat(node.top[k] + limits.radius);
     unsigned meeting = 0;
     for (std::size_t g = 0; g < kGroups; ++g) {
       const internal::Float4 dx = Max(Max(min_x - x[g], x[g] - max_x), zero),
                              dy = Max(Max(min_y - y[g], y[g] - max_y), zero), below = Max(z[g] - max_z, zero);
-      meeting |= internal::BelowBits(dx * dx + dy * dy + below * below, Splat(limit));
+      meeting |= internal::BelowBits(dx * dx + dy * dy + below * below, Splat(limits.square)) &
+                 internal::BelowBits(up_x * x[g] + up_y * y[g] + up_z * z[g], top);
     }
     return meeting != 0;
   }
@@ -177,7 +179,9 @@ struct FloatLanes {
 void PacketSearch::RunFree() {
   aim_ = Locator::Impl::Aim::kAny;
   FloatLanes lanes(packet_);
-  Walk([&](const internal::SearchNode& node, int k, float limit) { return lanes.Meet(node, k, limit); },
+  Walk([&](const internal::SearchNode& node, int k, const internal::WalkLimits& limits) {
+         return lanes.Meet(node, k, limits);
+       },
        [&](std::int32_t leaf) {
          const internal::LeafBox box = impl_.tree.leaves[leaf].Box(impl_.tree.grid);
          LaneLeaf bounds{};

@@ -48,10 +48,9 @@ void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Co
 // A box is out of the ball's way iff plan distance^2 + max(0, z - max_z)^2 >= R^2, for the current centre
 // height z. In floats, with a margin for their rounding.
 void Locator::Impl::Search(const Ball& ball, double enough, Aim aim, Contact& best, OpenLeaves& open) const {
-  const auto limit = static_cast<float>(radius * radius + 1e-6 * radius * radius + 1e-6 * radius * reach);
   const auto x = static_cast<float>(ball.q.x()), y = static_cast<float>(ball.q.y());
   internal::WalkTree(
-      tree, {x, x, y, y}, limit, [&] { return static_cast<float>(best.z); },
+      tree, {x, x, y, y}, Limits(), [&] { return static_cast<float>(best.z); },
       [&](std::int32_t leaf) {
         VisitLeaf(leaf, ball, aim, best, open);
         return best.z <= enough;

@@ -9,11 +9,17 @@
 #include "cam/location/local_search.h"
 #include "cam/location/locator.h"
 #include "cam/location/search_tree.h"
+#include "cam/location/tree_walk.h"
 
 namespace patchmill {
 
 struct Locator::Impl {
   Impl(const Surface& surface, double radius, internal::SearchTree tree);
+
+  internal::WalkLimits Limits() const {
+    return {static_cast<float>(radius * radius + 1e-6 * radius * (radius + reach)),
+            static_cast<float>(radius + 1e-6 * (radius + reach))};
+  }
 
   // What a search is for: the highest contact, or any, as good as the highest where only a free ball counts.
   enum class Aim { kHighest, kAny };

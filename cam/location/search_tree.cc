@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "cam/location/half_spaces.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 #include "core/surface/leaf_tree.h"
@@ -259,10 +260,13 @@ absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius
     }
   }
   parts = {};
-  const std::vector<SurfaceNode> binary = BuildLeafTree(boxes, run);
-  PM_RETURN_IF_ERROR(run.Check());
-  boxes = {};
-  Collapser(binary, tree.nodes);
+  {
+    const std::vector<SurfaceNode> binary = BuildLeafTree(boxes, run);
+    PM_RETURN_IF_ERROR(run.Check());
+    boxes = {};
+    Collapser(binary, tree.nodes);
+  }
+  PM_RETURN_IF_ERROR(BoundByHalfSpaces(run, tree));
   return tree;
 }
 

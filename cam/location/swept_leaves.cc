@@ -140,6 +140,12 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
     const Float4 dz = Max(Splat(static_cast<float>(end.z())) - node.max_z, zero);
     return dx * dx + dy * dy + dz * dz;
   };
+  // Both ends, and so all centres between them.
+  const Float4 away = Splat(static_cast<float>(distance + 4e-6 * (radius + impl.reach)));
+  const auto over_half_space = [&](const SearchNode& node, const Vec3& end) {
+    return node.up_x * Splat(static_cast<float>(end.x())) + node.up_y * Splat(static_cast<float>(end.y())) +
+           node.up_z * Splat(static_cast<float>(end.z())) - away;
+  };
   const SweptBall swept(a, b);
 
   thread_local std::vector<std::int32_t> stack;
@@ -171,6 +177,7 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
     unsigned in = BelowBits(all, Splat(limit));
     if (in == 0) continue;
     in &= BelowBits(from_end(node, a), both) | BelowBits(from_end(node, b), both);
+    in &= BelowBits(Min(over_half_space(node, a), over_half_space(node, b)), node.top);
     for (; in != 0; in &= in - 1) {
       const std::int32_t child = node.child[std::countr_zero(in)];
       impl.tree.Prefetch(child);

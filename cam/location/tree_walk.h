@@ -15,6 +15,7 @@ namespace patchmill::internal {
 
 inline Float4 Splat(float x) { return Float4{x, x, x, x}; }
 inline Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
+inline Float4 Min(Float4 a, Float4 b) { return a < b ? a : b; }
 
 // Bit k: a < b in lane k.
 inline unsigned BelowBits(Float4 a, Float4 b) {
@@ -32,12 +33,20 @@ struct PlanBox {
   float x0, x1, y0, y1;
 };
 
+// How near a leaf has to be, with a margin for the rounding of floats.
+struct WalkLimits {
+  float square;  // of the distance from boxes
+  float radius;  // above half-spaces
+};
+
 // Calls visit(leaf), until it returns false, for every leaf whose box reaches into the way of a ball over
-// `at` (and everything above it) at height lowest(): plan distance^2 + max(0, lowest - max_z)^2 < limit.
+// `at` (and everything above it) at height lowest(): plan distance^2 + max(0, lowest - max_z)^2 <
+// limits.square, and whose half-space does, and so on for the nodes above it.
 // `lowest` may rise from call to call. meets(node, k): child k of the node, which does so, is wanted.
 template <class Lowest, class Meets, class Visit>
-void WalkTree(const SearchTree& tree, const PlanBox& at, float limit, const Lowest& lowest,
+void WalkTree(const SearchTree& tree, const PlanBox& at, const WalkLimits& limits, const Lowest& lowest,
               const Meets& meets, const Visit& visit) {
+  const float limit = limits.square;
   // A node or leaf still to visit: its squared distance in plan, and how high it reaches.
   struct Pending {
     std::int32_t child;
@@ -56,7 +65,10 @@ void WalkTree(const SearchTree& tree, const PlanBox& at, float limit, const Lowe
     const Float4 distance2 = dx * dx + dy * dy, promise = node.max_z - distance2;
     // The most promising child comes last, on top of the stack.
     const std::size_t first = size;
-    for (unsigned in = BelowBits(distance2 + below * below, limit4); in != 0; in &= in - 1) {
+    const Float4 over = Min(node.up_x * x0, node.up_x * x1) + Min(node.up_y * y0, node.up_y * y1) +
+                        node.up_z * Splat(z) - Splat(limits.radius);
+    for (unsigned in = BelowBits(distance2 + below * below, limit4) & BelowBits(over, node.top); in != 0;
+         in &= in - 1) {
       const int k = std::countr_zero(in);
       if (!meets(node, k)) continue;
       const Pending p{node.child[k], distance2[k], node.max_z[k], promise[k]};
@@ -81,10 +93,10 @@ void WalkTree(const SearchTree& tree, const PlanBox& at, float limit, const Lowe
 }
 
 template <class Lowest, class Visit>
-void WalkTree(const SearchTree& tree, const PlanBox& at, float limit, const Lowest& lowest,
+void WalkTree(const SearchTree& tree, const PlanBox& at, const WalkLimits& limits, const Lowest& lowest,
               const Visit& visit) {
   WalkTree(
-      tree, at, limit, lowest, [](const SearchNode&, int) { return true; }, visit);
+      tree, at, limits, lowest, [](const SearchNode&, int) { return true; }, visit);
 }
 
 }  // namespace patchmill::internal
