@@ -48,6 +48,11 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
     const auto normal = UpwardNormal(jet);
     return !normal ? 0.0 : reach.Allowed(jet.p, *normal) ? 1.0 : -1.0;
   };
+  // Ground out of reach has no other label.
+  for (const Field field : {Field::kFloor, Field::kTurn, Field::kSlope, Field::kCurvature}) {
+    at(field).where = static_cast<int>(Field::kFree);
+    at(field).where_sign = 1;
+  }
   if (params.keep_in == nullptr) fields.pop_back();
   return fields;
 }

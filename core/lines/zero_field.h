@@ -1,6 +1,7 @@
 // A function of the jet whose zero curves on the surface are wanted: lines to draw, or borders of regions.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -38,7 +39,10 @@ struct ZeroField {
   bool smooth = true;
   double noise = 1e-9;       // values up to this are rounding: sign 0
   double resolution = 0.01;  // mm: how exactly the limits of a field that is not smooth are placed
-  int where = -1;            // asked only where this earlier field of a list is negative; elsewhere 0
+  // Counts only where this earlier field of a list has this sign, -1 or +1: elsewhere its curves are not cut
+  // in, triangles have no sign of it, and one that is not smooth is not asked for.
+  int where = -1;
+  std::int8_t where_sign = -1;
 };
 
 }  // namespace patchmill

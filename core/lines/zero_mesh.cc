@@ -95,6 +95,17 @@ class Builder {
     }
   }
 
+  // Whether field k counts on a triangle, which the curves of the field that tells have been cut out of.
+  bool Counts(const ZeroTriangle& t, std::size_t k) {
+    const int where = fields_[k].where;
+    if (where < 0) return true;
+    for (const int id : t.vertex) {
+      if (const int sign = vertices_.Sign(id, static_cast<std::size_t>(where)); sign != 0)
+        return sign == fields_[k].where_sign;
+    }
+    return true;
+  }
+
   struct Edge {
     int a, b;  // a < b
     ZeroBracket bracket;
@@ -110,6 +121,7 @@ class Builder {
     const bool by_sign = !fields_[k].smooth;
     std::vector<Edge> edges;
     for (const ZeroTriangle& t : triangles_) {
+      if (!Counts(t, k)) continue;
       for (std::size_t s = 0; s < 3; ++s) {
         const int a = std::min(t.vertex[s], t.vertex[(s + 1) % 3]),
                   b = std::max(t.vertex[s], t.vertex[(s + 1) % 3]);
@@ -229,10 +241,26 @@ class Builder {
     vertices_.Ask(corners, k);
     FindCrossings(k);
     const auto crossing = [&](int a, int b) { return crossings_.at(EdgeKey(a, b)); };
+    // Where the field does not count: divided only for the sake of a neighbour on which it does.
+    const auto keep = [&](ZeroTriangle t, const auto& self) -> void {
+      for (std::size_t s = 0; s < 3; ++s) {
+        const int a = t.vertex[s], b = t.vertex[(s + 1) % 3], c = t.vertex[(s + 2) % 3];
+        const auto found = crossings_.find(EdgeKey(a, b));
+        if (found == crossings_.end()) continue;
+        self({{a, found->second, c}, {}}, self);
+        self({{found->second, b, c}, {}}, self);
+        return;
+      }
+      triangles_.push_back(t);
+    };
     std::vector<ZeroTriangle> whole = std::move(triangles_);
     triangles_.clear();
     triangles_.reserve(whole.size() + whole.size() / 4);
     for (const ZeroTriangle& t : whole) {
+      if (!Counts(t, k)) {
+        keep(t, keep);
+        continue;
+      }
       const int sign[3] = {vertices_.Sign(t.vertex[0], k), vertices_.Sign(t.vertex[1], k),
                            vertices_.Sign(t.vertex[2], k)};
       // Turn the triangle so that corner 0 is the odd one out: alone on its side, or the vertex on the curve.
@@ -266,7 +294,7 @@ class Builder {
   void Label(ZeroTriangle& t) {
     for (std::size_t k = 0; k < fields_.size(); ++k) {
       const int where = fields_[k].where;
-      if (where >= 0 && t.sign[static_cast<std::size_t>(where)] >= 0) continue;
+      if (where >= 0 && t.sign[static_cast<std::size_t>(where)] != fields_[k].where_sign) continue;
       for (const int id : t.vertex) {
         if (((vertices_[id].on >> k) & 1u) == 0 && t.sign[k] == 0)
           t.sign[k] = static_cast<std::int8_t>(vertices_.Sign(id, k));
