@@ -39,12 +39,13 @@ std::vector<Vec2> LineAlong(const SplitMesh& mesh, const TriangleSide& side) {
   return a < b ? places : std::vector<Vec2>(places.rbegin(), places.rend());
 }
 
+int RegionOf(const std::vector<std::vector<int>>& region_of, int piece, int triangle) {
+  return region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
+}
+
 bool IsBorder(const Adjacency& a, const std::vector<std::vector<int>>& region_of) {
-  const auto region = [&](int piece, int triangle) {
-    return region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
-  };
-  return a.other_piece < 0 ||
-         region(a.side.piece, a.side.triangle) != region(a.other_piece, a.other_triangle);
+  return a.other_piece < 0 || RegionOf(region_of, a.side.piece, a.side.triangle) !=
+                                  RegionOf(region_of, a.other_piece, a.other_triangle);
 }
 
 // The borders of one piece: sides with different regions on them, and of each the first one of these along
@@ -123,12 +124,42 @@ void AddBetween(const Piece& piece, const Vec2& a, const Vec3& at_a, const Vec2&
   AddBetween(piece, middle, mid, b, at_b, tolerance, halvings - 1, out);
 }
 
+// mm^2 between the chord of a side and its arc, positive when the arc bulges out of the triangle the side
+// belongs to.
+double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
+                const std::vector<Vec2>& arc) {
+  if (arc.empty()) return 0.0;
+  const Piece& piece = surface.pieces[static_cast<std::size_t>(side.piece)];
+  const ZeroVertex &a = EndOf(mesh, side, 0), &b = EndOf(mesh, side, 1);
+  const Vec2 from(a.u, a.v), to(b.u, b.v);
+  // The triangle lies on the left of its side (counter-clockwise): an arc to the right adds to it, and turns
+  // counter-clockwise around the side's start.
+  double area = 0.0;
+  for (std::size_t i = 0; i < arc.size(); ++i)
+    area += SurfaceArea(piece, from, arc[i], i + 1 < arc.size() ? arc[i + 1] : to);
+  return area;
+}
+
 }  // namespace
 
 const std::vector<Vec2>& BorderArcs::operator[](std::size_t side) const {
   static const std::vector<Vec2> none;
   const auto at = std::lower_bound(sides.begin(), sides.end(), side);
   return at != sides.end() && *at == side ? places[static_cast<std::size_t>(at - sides.begin())] : none;
+}
+
+absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList& adjacency,
+                                                     const std::vector<std::vector<int>>& region_of,
+                                                     const RunContext& run) {
+  std::vector<std::vector<std::size_t>> pieces(region_of.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t piece) {
+    adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {
+      if (IsBorder(a, region_of)) pieces[piece].push_back(i);
+    });
+  }));
+  std::vector<std::size_t> sides;
+  for (const std::vector<std::size_t>& own : pieces) sides.insert(sides.end(), own.begin(), own.end());
+  return sides;
 }
 
 absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vector<SplitMesh>& meshes,
@@ -170,28 +201,43 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
   return arcs;
 }
 
-double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
-                const std::vector<Vec2>& arc) {
-  if (arc.empty()) return 0.0;
-  const Piece& piece = surface.pieces[static_cast<std::size_t>(side.piece)];
-  const ZeroVertex &a = EndOf(mesh, side, 0), &b = EndOf(mesh, side, 1);
-  const Vec2 from(a.u, a.v), to(b.u, b.v);
-  // The triangle lies on the left of its side (counter-clockwise): an arc to the right adds to it, and turns
-  // counter-clockwise around the side's start.
-  double area = 0.0;
-  for (std::size_t i = 0; i < arc.size(); ++i)
-    area += SurfaceArea(piece, from, arc[i], i + 1 < arc.size() ? arc[i + 1] : to);
-  return area;
+absl::StatusOr<std::vector<double>> LensAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                              const AdjacencyList& adjacency, const BorderArcs& arcs,
+                                              const std::vector<std::vector<int>>& region_of,
+                                              std::size_t count, const RunContext& run) {
+  struct Lens {
+    TriangleSide side;
+    int own = 0, other = 0;  // regions
+    const std::vector<Vec2>* arc = nullptr;
+    double area = 0.0;
+  };
+  std::vector<Lens> lenses;
+  for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
+    if (arcs.places[k].empty()) continue;
+    const Adjacency a = adjacency[arcs.sides[k]];
+    if (a.other_piece != a.side.piece) continue;
+    const int own = RegionOf(region_of, a.side.piece, a.side.triangle),
+              other = RegionOf(region_of, a.other_piece, a.other_triangle);
+    if (own < other) lenses.push_back({a.side, own, other, &arcs.places[k]});
+  }
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: areas", lenses.size(), [&](std::size_t k) {
+    const TriangleSide& side = lenses[k].side;
+    lenses[k].area = LensArea(surface, meshes[static_cast<std::size_t>(side.piece)], side, *lenses[k].arc);
+  }));
+  std::vector<double> gained(count, 0.0);
+  for (const Lens& lens : lenses) {
+    gained[static_cast<std::size_t>(lens.own)] += lens.area;
+    gained[static_cast<std::size_t>(lens.other)] -= lens.area;
+  }
+  return gained;
 }
 
 absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                               const AdjacencyList& adjacency, const BorderArcs& arcs,
-                                              const std::vector<std::vector<int>>& region_of,
                                               double tolerance, const RunContext& run) {
   BorderPoints points(arcs.sides.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions: border points", points.size(), [&](std::size_t k) {
     const Adjacency a = adjacency[arcs.sides[k]];
-    if (!IsBorder(a, region_of)) return;
     const auto index = static_cast<std::size_t>(a.side.piece);
     const Piece& piece = surface.pieces[index];
     const ZeroVertex &from = EndOf(meshes[index], a.side, 0), &to = EndOf(meshes[index], a.side, 1);

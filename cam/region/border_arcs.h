@@ -22,6 +22,12 @@ struct BorderArcs {
   const std::vector<Vec2>& operator[](std::size_t side) const;
 };
 
+// The sides of the adjacency with different regions on them (`region_of[piece][triangle]`), or with nothing
+// beyond, rising. CANCELLED, DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList& adjacency,
+                                                     const std::vector<std::vector<int>>& region_of,
+                                                     const RunContext& run);
+
 // Of all sides with different regions on them (`region_of[piece][triangle]`). What lies on the zero curve or
 // limit of a field is refined to `tolerance` (mm), once for both triangles. CANCELLED, DEADLINE_EXCEEDED from
 // `run`.
@@ -31,20 +37,20 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run);
 
-// Area (mm^2) between the chord of a side and its arc, counted positive when the arc bulges out of the
-// triangle the side belongs to.
-double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
-                const std::vector<Vec2>& arc);
+// What the areas (mm^2) of `count` regions gain when borders bend from chords to arcs; they add up to nothing.
+// CANCELLED, DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<std::vector<double>> LensAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                              const AdjacencyList& adjacency, const BorderArcs& arcs,
+                                              const std::vector<std::vector<int>>& region_of,
+                                              std::size_t count, const RunContext& run);
 
 // The borders on the surface, each from end to end (as many as BorderArcs has).
 using BorderPoints = std::vector<std::vector<Vec3>>;
 
-// Of those between different regions (`region_of[piece][triangle]`), none of others: along their arcs, and,
-// where they are straight in the parameters, so dense that chords keep to `tolerance` (mm). CANCELLED,
-// DEADLINE_EXCEEDED from `run`.
+// Along the arcs, and, where these are straight in the parameters, so dense that chords keep to `tolerance`
+// (mm). CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                               const AdjacencyList& adjacency, const BorderArcs& arcs,
-                                              const std::vector<std::vector<int>>& region_of,
                                               double tolerance, const RunContext& run);
 
 }  // namespace patchmill

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "cam/region/border_arcs.h"
 #include "cam/region/side_groups.h"
+#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
@@ -60,39 +62,12 @@ absl::Status Connect(const std::vector<SplitMesh>& meshes, const AdjacencyList& 
   return absl::OkStatus();
 }
 
-// Moves the area between each border's chord and its true curve to the side it belongs to.
-absl::Status AddLenses(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                       const AdjacencyList& adjacency, const RunContext& run, RawRegions& raw) {
-  struct Lens {
-    TriangleSide side;
-    int own = 0, other = 0;  // regions
-    const std::vector<Vec2>* arc = nullptr;
-    double area = 0.0;
-  };
-  std::vector<Lens> lenses;
-  for (std::size_t k = 0; k < raw.arcs.sides.size(); ++k) {
-    if (raw.arcs.places[k].empty()) continue;
-    const Adjacency a = adjacency[raw.arcs.sides[k]];
-    if (a.other_piece != a.side.piece) continue;
-    const int own = RawOf(raw, a.side.piece, a.side.triangle),
-              other = RawOf(raw, a.other_piece, a.other_triangle);
-    if (own < other) lenses.push_back({a.side, own, other, &raw.arcs.places[k]});
-  }
-  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: areas", lenses.size(), [&](std::size_t k) {
-    const TriangleSide& side = lenses[k].side;
-    lenses[k].area = LensArea(surface, meshes[static_cast<std::size_t>(side.piece)], side, *lenses[k].arc);
-  }));
-  for (const Lens& lens : lenses) {
-    raw.regions[static_cast<std::size_t>(lens.own)].area += lens.area;
-    raw.regions[static_cast<std::size_t>(lens.other)].area -= lens.area;
-  }
-  return absl::OkStatus();
-}
-
 // Lengths of the regions' borders with each other (half from each side) and with nothing.
-void MeasureBorders(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency, RawRegions& raw) {
+absl::Status MeasureBorders(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
+                            const RunContext& run, RawRegions& raw) {
+  PM_ASSIGN_OR_RETURN(const std::vector<std::size_t> sides, BorderSides(adjacency, raw.of, run));
   std::unordered_map<std::uint64_t, std::size_t> contact_of;  // looked up, never walked
-  for (const std::size_t i : raw.arcs.sides) {
+  for (const std::size_t i : sides) {
     const Adjacency a = adjacency[i];
     const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
     const double length = (EndOf(mesh, a.side, 1).p - EndOf(mesh, a.side, 0).p).norm();
@@ -107,19 +82,17 @@ void MeasureBorders(const std::vector<SplitMesh>& meshes, const AdjacencyList& a
     if (fresh) raw.contacts.push_back({low, high, 0.0});
     raw.contacts[at->second].length += 0.5 * length;
   }
+  return absl::OkStatus();
 }
 
 }  // namespace
 
-absl::StatusOr<RawRegions> FindRawRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
+absl::StatusOr<RawRegions> FindRawRegions(const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency, const Watersheds& watersheds,
-                                          std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run) {
   RawRegions raw;
   PM_RETURN_IF_ERROR(Connect(meshes, adjacency, watersheds, run, raw));
-  PM_ASSIGN_OR_RETURN(raw.arcs, FindBorderArcs(surface, meshes, adjacency, raw.of, fields, tolerance, run));
-  PM_RETURN_IF_ERROR(AddLenses(surface, meshes, adjacency, run, raw));
-  MeasureBorders(meshes, adjacency, raw);
+  PM_RETURN_IF_ERROR(MeasureBorders(meshes, adjacency, run, raw));
   return raw;
 }
 

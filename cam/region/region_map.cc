@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "cam/region/border_arcs.h"
 #include "cam/region/border_lines.h"
 #include "cam/region/catchments.h"
 #include "cam/region/describe_regions.h"
@@ -129,14 +130,31 @@ Region FromLabel(const SplitLabel& label) {
   return region;
 }
 
-// The merged groups as regions in their final order, and the region of every triangle.
+// The groups of merged regions, borders bent onto the true curves, as regions in their final order.
 struct Numbered {
   std::vector<Region> regions;
-  std::vector<std::vector<int>> region_of;
+  std::vector<std::vector<int>> region_of;  // [piece][triangle]
+  BorderArcs arcs;
 };
-Numbered Number(const RawRegions& raw, const MergedRegions& merged) {
+absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                const AdjacencyList& adjacency, const RawRegions& raw,
+                                const MergedRegions& merged, std::span<const ZeroField> fields,
+                                double tolerance, const RunContext& run) {
+  Numbered numbered;
+  numbered.region_of = raw.of;
+  for (std::vector<int>& piece : numbered.region_of) {
+    for (int& id : piece) id = merged.group[static_cast<std::size_t>(id)];
+  }
+  PM_ASSIGN_OR_RETURN(numbered.arcs, FindBorderArcs(surface, meshes, adjacency, numbered.region_of, fields,
+                                                    tolerance, run));
+  PM_ASSIGN_OR_RETURN(const std::vector<double> lenses,
+                      LensAreas(surface, meshes, adjacency, numbered.arcs, numbered.region_of,
+                                merged.label.size(), run));
   std::vector<Region> groups;
-  for (const SplitLabel& label : merged.label) groups.push_back(FromLabel(label));
+  for (std::size_t k = 0; k < merged.label.size(); ++k) {
+    groups.push_back(FromLabel(merged.label[k]));
+    groups.back().area = lenses[k];
+  }
   for (std::size_t i = 0; i < raw.regions.size(); ++i)
     groups[static_cast<std::size_t>(merged.group[i])].area += raw.regions[i].area;
   std::vector<std::size_t> order(groups.size());
@@ -146,7 +164,6 @@ Numbered Number(const RawRegions& raw, const MergedRegions& merged) {
                ub = groups[b].kind == RegionKind::kUnreachable;
     return ua != ub ? ub : groups[a].area > groups[b].area;
   });
-  Numbered numbered;
   std::vector<int> id_of(groups.size());
   for (const std::size_t group : order) {
     const int id = static_cast<int>(numbered.regions.size());
@@ -154,9 +171,8 @@ Numbered Number(const RawRegions& raw, const MergedRegions& merged) {
     numbered.regions.push_back(groups[group]);
     numbered.regions.back().id = id;
   }
-  numbered.region_of = raw.of;
   for (std::vector<int>& piece : numbered.region_of) {
-    for (int& id : piece) id = id_of[static_cast<std::size_t>(merged.group[static_cast<std::size_t>(id)])];
+    for (int& id : piece) id = id_of[static_cast<std::size_t>(id)];
   }
   return numbered;
 }
@@ -257,17 +273,18 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_ASSIGN_OR_RETURN(AdjacencyList adjacency, FindAdjacency(surface, meshes, run));
   PM_ASSIGN_OR_RETURN(const Watersheds watersheds,
                       Divide(surface, params, fields, mesh_params.max_cell, run, meshes, adjacency));
-  PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(surface, meshes, adjacency, watersheds, fields,
-                                                           params.border_tolerance, run));
-  Numbered numbered = Number(raw, Merge(raw, params));
+  PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(meshes, adjacency, watersheds, run));
+  PM_ASSIGN_OR_RETURN(Numbered numbered, Number(surface, meshes, adjacency, raw, Merge(raw, params), fields,
+                                                params.border_tolerance, run));
   // What is told of the regions, at once: none of it needs any other.
   RegionMap map;
   BorderNet net;
   std::vector<std::vector<std::vector<Vec3>>> borders;
   std::vector<Region>& regions = numbered.regions;
   const std::vector<std::vector<int>>& region_of = numbered.region_of;
-  PM_ASSIGN_OR_RETURN(const BorderPoints points, FindBorderPoints(surface, meshes, adjacency, raw.arcs,
-                                                                  region_of, params.border_tolerance, run));
+  const BorderArcs& arcs = numbered.arcs;
+  PM_ASSIGN_OR_RETURN(const BorderPoints points, FindBorderPoints(surface, meshes, adjacency, arcs,
+                                                                  params.border_tolerance, run));
   PlaceRegions(surface, meshes, region_of, regions);
   const auto unreachable = UnreachableTriangles(meshes, region_of, regions);
   absl::Status told[3];
@@ -276,11 +293,11 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
       if (const std::size_t id = k - 3; regions[id].kind == RegionKind::kUnreachable)
         ProbeRegion(surface, meshes, reach, params, unreachable[id], run, regions[id]);
     } else if (k == 0) {
-      auto found = FindBorderLines(surface, meshes, adjacency, raw.arcs, points, region_of, regions, run);
+      auto found = FindBorderLines(surface, meshes, adjacency, arcs, points, region_of, regions, run);
       told[k] = found.status();
       if (found.ok()) net = *std::move(found);
     } else if (k == 1) {
-      auto found = RegionBorders(surface, adjacency, raw.arcs, points, region_of, regions.size(), run);
+      auto found = RegionBorders(surface, adjacency, arcs, points, region_of, regions.size(), run);
       told[k] = found.status();
       if (found.ok()) borders = *std::move(found);
     } else {

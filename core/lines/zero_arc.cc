@@ -82,7 +82,8 @@ class Refiner {
     const Vec2 mid = 0.5 * (from + to), across(-(to - from).y(), (to - from).x());
     const double at_mid = Value(field_, piece_, mid);
     if (at_mid == 0.0) return mid;
-    for (const double reach : {0.05, 0.15, 0.5}) {
+    for (const double reach : {0.05, 0.15, 0.5, 1.0}) {
+      if (reach > 0.5 && field_.smooth) break;
       for (const double side : {reach, -reach}) {
         const Vec2 q = mid + Inside(mid, side * across) * side * across;
         const double at_q = Value(field_, piece_, q);

@@ -1,12 +1,31 @@
 #include "core/lines/zero_cells.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 
 #include "core/diffgeo/forms.h"
 
 namespace patchmill {
 namespace {
+
+// Bits of a 3 x 3 grid of places that a straight line can divide from the others: all half-planes with small
+// whole numbers cut every set that there is.
+std::bitset<512> CutsByLines() {
+  std::bitset<512> cuts;
+  for (int a = -3; a <= 3; ++a) {
+    for (int b = -3; b <= 3; ++b) {
+      for (int c = -13; c <= 13; c += 2) {  // halves
+        unsigned in = 0;
+        for (int place = 0; place < 9; ++place) {
+          if (2 * (a * (place / 3 - 1) + b * (place % 3 - 1)) > c) in |= 1U << place;
+        }
+        cuts.set(in);
+      }
+    }
+  }
+  return cuts;
+}
 
 constexpr int kExtraLevels = 2;  // finer than the shape asks for, where only samples tell
 // A node this near to a side of its cell (in sides) is a vertex of the side; coordinates of nodes are known
@@ -102,15 +121,14 @@ class Divider {
 
   // The points at which samples of field k are looked at: 3 x 3 of smooth ones, of limits corners and middle.
   std::vector<int> Samples(const ZeroCell& cell, std::size_t k) {
-    const int step = kZeroGrid >> cell.level;
     std::vector<int> ids;
-    for (int a = 0; a <= 2; ++a) {
-      for (int b = 0; b <= 2; ++b) {
-        if (!fields_[k].smooth && (a + b) % 2 == 1) continue;
-        ids.push_back(vertices_.OnGrid(cell.i * step + a * step / 2, cell.j * step + b * step / 2));
-      }
-    }
+    for (int place = 0; place < 9; place += fields_[k].smooth ? 1 : 2) ids.push_back(Place(cell, place));
     return ids;
+  }
+  // The 3 x 3 vertices of a cell, row by row.
+  int Place(const ZeroCell& cell, int place) {
+    const int step = kZeroGrid >> cell.level;
+    return vertices_.OnGrid(cell.i * step + place / 3 * step / 2, cell.j * step + place % 3 * step / 2);
   }
   bool Differ(const ZeroCell& cell, std::size_t k) {
     bool seen[2] = {false, false};
@@ -119,6 +137,19 @@ class Divider {
       if (sign != 0) seen[sign > 0] = true;
     }
     return seen[0] && seen[1];
+  }
+
+  // As far as 3 x 3 places tell, a straight line divides the signs: the limit is not looked at more closely,
+  // its bend is found when arcs are refined.
+  bool MayBeStraight(const ZeroCell& cell, std::size_t k) {
+    static const std::bitset<512> cuts = CutsByLines();
+    unsigned positive = 0;
+    for (int place = 0; place < 9; ++place) {
+      const int sign = vertices_.Sign(Place(cell, place), k);
+      if (sign == 0) return false;
+      if (sign > 0) positive |= 1U << place;
+    }
+    return cuts.test(positive);
   }
 
   // One level of cells; those of the next. A level at a time, so that signs are asked for many at once.
@@ -141,7 +172,17 @@ class Divider {
           for (const int id : Samples(task.cell, k)) ids.push_back(id);
         }
         vertices_.Ask(ids, k);
-        for (Task& task : level) task.divide = task.divide || Differ(task.cell, k);
+        std::vector<Task*> differing;
+        ids.clear();
+        for (Task& task : level) {
+          if (task.divide || !Differ(task.cell, k)) continue;
+          differing.push_back(&task);
+          if (fields_[k].smooth || depth < levels_.start) continue;
+          for (int place = 1; place < 9; place += 2) ids.push_back(Place(task.cell, place));
+        }
+        vertices_.Ask(ids, k);
+        for (Task* task : differing)
+          task->divide = fields_[k].smooth || depth < levels_.start || !MayBeStraight(task->cell, k);
       }
     }
     std::vector<Task> next;
