@@ -110,32 +110,36 @@ class PieceSplitter {
   }
 
  private:
-  bool IsFine(const LeafModel& model, const RectBounds& bounds, const Rect& r) const {
+  // How thick (half, mm) a leaf of this model may be; negative: it is too large however thin.
+  double MostThickness(const LeafModel& model, const Rect& r) const {
     const bool small = model.reach <= kOpenReach * radius_ * coarseness_;
     switch (ProofOf(model, radius_)) {
       case Proof::kConvex:
-        return bounds.half.z() <= kConvexThickness * radius_ * coarseness_;
+        return kConvexThickness * radius_ * coarseness_;
       case Proof::kHollow:
         // Not inside, but the ball may well rest on the piece's own border.
-        if (!small && (r.u0 == 0.0 || r.u1 == 1.0 || r.v0 == 0.0 || r.v1 == 1.0)) return false;
-        return bounds.half.z() <= kHollowThickness * radius_ * coarseness_;
+        if (!small && (r.u0 == 0.0 || r.u1 == 1.0 || r.v0 == 0.0 || r.v1 == 1.0)) return -1.0;
+        return kHollowThickness * radius_ * coarseness_;
       case Proof::kOpen:
         break;
     }
-    return small;
+    return small ? kInfinity : -1.0;
   }
 
   void Split(const Vec4* points, const Rect& rect, int level) {
     if (out_.leaves.size() > max_leaves_ || stopped_) return;
     std::array<Vec3, kMaxNetPoints> hull;
     const int hull_count = HullPoints(shape_, points, hull.data());
-    const RectBounds bounds = BoundPoints(shape_, points, hull.data(), hull_count);
     const LeafModel model = MakeLeafModel(piece_, points, hull.data(), hull_count, rect);
-    if (level == kMaxLevel || IsFine(model, bounds, rect)) {
-      out_.boxes.push_back(bounds.box);
-      out_.leaves.emplace_back(grid_, piece_index_, rect, model, bounds.axis, hull.data(), hull_count);
-      stopped_ = out_.leaves.size() % 256 == 0 && run_.Cancelled();
-      return;
+    const double thickness = level == kMaxLevel ? kInfinity : MostThickness(model, rect);
+    if (thickness >= 0.0) {
+      const RectBounds bounds = BoundPoints(shape_, points, hull.data(), hull_count);
+      if (bounds.half.z() <= thickness) {
+        out_.boxes.push_back(bounds.box);
+        out_.leaves.emplace_back(grid_, piece_index_, rect, model, bounds.axis, hull.data(), hull_count);
+        stopped_ = out_.leaves.size() % 256 == 0 && run_.Cancelled();
+        return;
+      }
     }
     const bool along_u = model.a.squaredNorm() >= model.b.squaredNorm();
     Vec4* low = buffer_.data() + 2 * level * shape_.count();

@@ -39,6 +39,7 @@ bool ShankFinder::Blocked(const Vec3& center) {
     if (!near) return true;
     limit = std::min(limit, near->distance - nearer_ + proof_);
   } else {
+    if (!MayRiseAbove(surface_, center, radius_)) return false;
     double near = std::min(radius_, (near_ - center).norm());
     if (const auto point = cloud_.Nearest(center, near)) {
       near_ = *point;

@@ -234,6 +234,18 @@ std::optional<ClosestPoint> ClosestAbove(const Surface& surface, const Vec3& c, 
   return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, Wanted::kNearestAbove).Run();
 }
 
+bool MayRiseAbove(const Surface& surface, const Vec3& c, double limit) {
+  bool found = false;
+  WalkNearestFirst(
+      surface.nodes,
+      [&](const SurfaceNode& node) {
+        return node.box.max.z() > c.z() ? SquaredDistance<Reach::kUpwardRay>(node.box, c) : kInfinity;
+      },
+      [&](double squared) { return squared >= limit * limit; },
+      [&](const SurfaceNode&) { return found = true; });
+  return found;
+}
+
 std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c, double limit,
                                            double tolerance) {
   return Search<Reach::kPoint>(surface, c, limit, tolerance, Wanted::kNearest).Run();
