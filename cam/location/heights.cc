@@ -156,17 +156,21 @@ struct FloatLanes {
   // WalkTree's test of child k, lane by lane.
   bool Meet(const internal::SearchNode& node, int k, const internal::WalkLimits& limits) const {
     using internal::Max, internal::Splat;
+    const internal::Float4 up_x = Splat(node.up_x[k]), up_y = Splat(node.up_y[k]), up_z = Splat(node.up_z[k]),
+                           top = Splat(node.top[k] + limits.radius);
+    std::array<unsigned, kGroups> in;
+    unsigned any = 0;
+    for (std::size_t g = 0; g < kGroups; ++g)
+      any |= in[g] = internal::BelowBits(up_x * x[g] + up_y * y[g] + up_z * z[g], top);
+    if (any == 0) return false;
     const internal::Float4 zero{}, min_x = Splat(node.min_x[k]), max_x = Splat(node.max_x[k]),
                                    min_y = Splat(node.min_y[k]), max_y = Splat(node.max_y[k]),
-                                   max_z = Splat(node.max_z[k]), up_x = Splat(node.up_x[k]),
-                                   up_y = Splat(node.up_y[k]), up_z = Splat(node.up_z[k]),
-                                   top = Splat(node.top[k] + limits.radius);
+                                   max_z = Splat(node.max_z[k]);
     unsigned meeting = 0;
     for (std::size_t g = 0; g < kGroups; ++g) {
       const internal::Float4 dx = Max(Max(min_x - x[g], x[g] - max_x), zero),
                              dy = Max(Max(min_y - y[g], y[g] - max_y), zero), below = Max(z[g] - max_z, zero);
-      meeting |= internal::BelowBits(dx * dx + dy * dy + below * below, Splat(limits.square)) &
-                 internal::BelowBits(up_x * x[g] + up_y * y[g] + up_z * z[g], top);
+      meeting |= in[g] & internal::BelowBits(dx * dx + dy * dy + below * below, Splat(limits.square));
     }
     return meeting != 0;
   }

@@ -116,12 +116,15 @@ class NearestCenter {
   Column FromAround(Column known) const {
     const double farthest = 0.95 * std::min(known.distance, 33.0 * locator_.radius());
     const double nearest = 0.12 * std::min(known.distance, locator_.radius());
+    std::vector<double> radii;
+    for (double radius = farthest; radius > nearest; radius *= 0.75) radii.push_back(radius);
     std::array<Column, kRing> ring;  // the nearest of some columns in each direction
     for (int i = 0; i < kRing; ++i) {
       const double angle = 2.0 * kPi * i / kRing;
       Column& best = ring[static_cast<std::size_t>(i)];
-      for (double radius = farthest; radius > nearest; radius *= 0.75) {
-        const Column column = At(Plan(p_) + radius * Vec2(std::cos(angle), std::sin(angle)));
+      // A column is no nearer than its radius.
+      for (auto radius = radii.rbegin(); radius != radii.rend() && *radius < best.distance; ++radius) {
+        const Column column = At(Plan(p_) + *radius * Vec2(std::cos(angle), std::sin(angle)));
         if (column.distance < best.distance) best = column;
       }
     }

@@ -104,13 +104,19 @@ Form Derivative(int m, int n, const std::vector<double>& c, int du, int dv) {
   return Scaled(m, n, d);
 }
 
-Coordinate CoordinateOf(const BernsteinNet& net, int k) {
+// `second`: its second derivatives are wanted too.
+Coordinate CoordinateOf(const BernsteinNet& net, int k, bool second) {
   std::vector<double> c;
   c.reserve(net.points.size());
   for (const Vec4& p : net.points) c.push_back(p[k]);
   const int m = net.degree_u, n = net.degree_v;
-  return {Scaled(m, n, c),           Derivative(m, n, c, 1, 0), Derivative(m, n, c, 0, 1),
-          Derivative(m, n, c, 2, 0), Derivative(m, n, c, 1, 1), Derivative(m, n, c, 0, 2)};
+  const Form none(0, 0, 0.0);
+  return {Scaled(m, n, c),
+          Derivative(m, n, c, 1, 0),
+          Derivative(m, n, c, 0, 1),
+          second ? Derivative(m, n, c, 2, 0) : none,
+          second ? Derivative(m, n, c, 1, 1) : none,
+          second ? Derivative(m, n, c, 0, 2) : none};
 }
 
 // Degree a n + b of a form, of a polynomial or a rational net, is beyond what is worth its cost.
@@ -131,10 +137,10 @@ struct Parts {
   std::vector<Form> normal;
 };
 
-Parts MakeParts(const BernsteinNet& net) {
+Parts MakeParts(const BernsteinNet& net, bool second = false) {
   Parts parts;
   parts.rational = net.rational;
-  for (int k = 0; k < (net.rational ? 4 : 3); ++k) parts.x.push_back(CoordinateOf(net, k));
+  for (int k = 0; k < (net.rational ? 4 : 3); ++k) parts.x.push_back(CoordinateOf(net, k, second));
   for (std::size_t k = 0; k < 3; ++k) {
     const Coordinate &b = parts.x[(k + 1) % 3], &c = parts.x[(k + 2) % 3];
     parts.normal.push_back(net.rational ? Triple(b, c, parts.x[3]) : b.u * c.v - b.v * c.u);
@@ -218,7 +224,7 @@ std::optional<BernsteinForm> EyeForm(const BernsteinNet& net, const Vec3& eye) {
 
 std::optional<BernsteinForm> ContourCurvatureForm(const BernsteinNet& net) {
   if (TooHigh(net, 5, -3, 8, -3)) return std::nullopt;
-  const Parts parts = MakeParts(net);
+  const Parts parts = MakeParts(net, true);
   const Form zu = Rise(parts, &Coordinate::u), zv = Rise(parts, &Coordinate::v);
   const auto degree = [&](int n) { return net.rational ? 8 * n - 3 : 5 * n - 3; };
   // A coordinate of degree 1 has no second derivative along it; its place is left out.
