@@ -183,9 +183,8 @@ struct FloatLanes {
 void PacketSearch::RunFree() {
   aim_ = Locator::Impl::Aim::kAny;
   FloatLanes lanes(packet_);
-  Walk([&](const internal::SearchNode& node, int k, const internal::WalkLimits& limits) {
-         return lanes.Meet(node, k, limits);
-       },
+  Walk([&](const internal::SearchNode& node, int k,
+           const internal::WalkLimits& limits) { return lanes.Meet(node, k, limits); },
        [&](std::int32_t leaf) {
          const internal::LeafBox box = impl_.tree.leaves[leaf].Box(impl_.tree.grid);
          LaneLeaf bounds{};

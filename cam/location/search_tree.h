@@ -17,9 +17,9 @@ namespace patchmill::internal {
 using Float4 = float __attribute__((vector_size(16)));
 
 // Four children and their boxes, rounded outward to floats. Empty lanes have boxes that nothing meets.
-// Below each child everything lies in a half-space up . p <= top as well, up a unit vector that does not point
-// down, mostly the normal there: of ground that slopes the box reaches far under a ball that rests on it, the
-// half-space does not.
+// Below each child everything lies in a half-space up . p <= top as well, up a unit vector that does not
+// point down, mostly the normal there: of ground that slopes the box reaches far under a ball that rests on
+// it, the half-space does not.
 struct alignas(64) SearchNode {
   Float4 min_x, min_y, min_z, max_x, max_y, max_z;
   Float4 up_x, up_y, up_z, top;

@@ -242,10 +242,20 @@ absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std:
     const Piece& piece = surface.pieces[index];
     const ZeroVertex &from = EndOf(meshes[index], a.side, 0), &to = EndOf(meshes[index], a.side, 1);
     const std::vector<Vec2>& arc = arcs.places[k];
+    Vec2 last(from.u, from.v);
     points[k].push_back(from.p);
-    for (const Vec2& q : arc) points[k].push_back(Position(piece, q.x(), q.y()));
-    if (arc.empty())
-      AddBetween(piece, {from.u, from.v}, from.p, {to.u, to.v}, to.p, tolerance, kMostHalvings, points[k]);
+    // Where the curve was not found the chord between its neighbours follows the surface at least.
+    const int halvings = arc.empty() ? kMostHalvings : kMostHalvings - 1;
+    const auto go_on = [&](const Vec2& q, const Vec3& p) {
+      AddBetween(piece, last, Vec3(points[k].back()), q, p, tolerance, halvings, points[k]);
+      last = q;
+    };
+    for (const Vec2& q : arc) {
+      const Vec3 p = Position(piece, q.x(), q.y());
+      go_on(q, p);
+      points[k].push_back(p);
+    }
+    go_on({to.u, to.v}, to.p);
     points[k].push_back(to.p);
   }));
   return points;

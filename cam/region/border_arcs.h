@@ -37,8 +37,8 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run);
 
-// What the areas (mm^2) of `count` regions gain when borders bend from chords to arcs; they add up to nothing.
-// CANCELLED, DEADLINE_EXCEEDED from `run`.
+// What the areas (mm^2) of `count` regions gain when borders bend from chords to arcs; they add up to
+// nothing. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<double>> LensAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                               const AdjacencyList& adjacency, const BorderArcs& arcs,
                                               const std::vector<std::vector<int>>& region_of,

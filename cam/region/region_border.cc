@@ -4,13 +4,30 @@
 
 #include "core/base/parallel.h"
 #include "core/base/status.h"
+#include "core/surface/closest.h"
 
 namespace patchmill {
 namespace {
 
+constexpr int kMostHalvings = 12;
+
+// Points of the surface from a to b without these, so dense that chords keep to `tolerance` (mm).
+void AddBetween(const Surface& surface, const Vec3& a, const Vec3& b, double tolerance, int halvings,
+                std::vector<Vec3>& out) {
+  if (halvings == 0 || (b - a).norm() <= tolerance) return;
+  const auto mid = ClosestToPoint(surface, 0.5 * (a + b), (b - a).norm(), 0.1 * tolerance);
+  if (!mid || mid->distance <= tolerance) return;
+  const Vec3 p = mid->at.p;
+  AddBetween(surface, a, p, tolerance, halvings - 1, out);
+  out.push_back(p);
+  AddBetween(surface, p, b, tolerance, halvings - 1, out);
+}
+
 // Directed strands of one region's outline -> closed loops. Strands are matched end to start exactly first,
-// then to the nearest.
-std::vector<std::vector<Vec3>> Chain(std::vector<std::vector<Vec3>> strands, double weld) {
+// then to the nearest, along the surface: where a seam is cut differently on its two sides, a side may be
+// missing.
+std::vector<std::vector<Vec3>> Chain(const Surface& surface, std::vector<std::vector<Vec3>> strands,
+                                     double weld, double tolerance) {
   std::vector<std::vector<Vec3>> loops;
   // Starts sorted by x, so that an end finds the starts near it without looking at all.
   std::vector<std::size_t> by_x(strands.size());
@@ -68,8 +85,12 @@ std::vector<std::vector<Vec3>> Chain(std::vector<std::vector<Vec3>> strands, dou
       }
       if (best == open.size()) break;
       taken[best] = true;
+      const Vec3 end = loop.back();
+      AddBetween(surface, end, open[best].front(), tolerance, kMostHalvings, loop);
       loop.insert(loop.end(), open[best].begin(), open[best].end());
     }
+    const Vec3 start = loop.front(), end = loop.back();
+    AddBetween(surface, end, start, tolerance, kMostHalvings, loop);
     if (loop.size() > 2) loops.push_back(std::move(loop));
   }
   return loops;
@@ -80,7 +101,7 @@ std::vector<std::vector<Vec3>> Chain(std::vector<std::vector<Vec3>> strands, dou
 absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Surface& surface, const AdjacencyList& adjacency, const BorderArcs& arcs,
     const BorderPoints& points, const std::vector<std::vector<int>>& region_of, std::size_t region_count,
-    const RunContext& run) {
+    double tolerance, const RunContext& run) {
   const auto region = [&](int piece, int triangle) {
     return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
@@ -94,8 +115,9 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
   }
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
   std::vector<std::vector<std::vector<Vec3>>> borders(region_count);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, region_count,
-                                 [&](std::size_t i) { borders[i] = Chain(std::move(strands[i]), weld); }));
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, region_count, [&](std::size_t i) {
+    borders[i] = Chain(surface, std::move(strands[i]), weld, tolerance);
+  }));
   return borders;
 }
 

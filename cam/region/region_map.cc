@@ -145,11 +145,11 @@ absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitM
   for (std::vector<int>& piece : numbered.region_of) {
     for (int& id : piece) id = merged.group[static_cast<std::size_t>(id)];
   }
-  PM_ASSIGN_OR_RETURN(numbered.arcs, FindBorderArcs(surface, meshes, adjacency, numbered.region_of, fields,
-                                                    tolerance, run));
-  PM_ASSIGN_OR_RETURN(const std::vector<double> lenses,
-                      LensAreas(surface, meshes, adjacency, numbered.arcs, numbered.region_of,
-                                merged.label.size(), run));
+  PM_ASSIGN_OR_RETURN(numbered.arcs,
+                      FindBorderArcs(surface, meshes, adjacency, numbered.region_of, fields, tolerance, run));
+  PM_ASSIGN_OR_RETURN(
+      const std::vector<double> lenses,
+      LensAreas(surface, meshes, adjacency, numbered.arcs, numbered.region_of, merged.label.size(), run));
   std::vector<Region> groups;
   for (std::size_t k = 0; k < merged.label.size(); ++k) {
     groups.push_back(FromLabel(merged.label[k]));
@@ -283,8 +283,8 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   std::vector<Region>& regions = numbered.regions;
   const std::vector<std::vector<int>>& region_of = numbered.region_of;
   const BorderArcs& arcs = numbered.arcs;
-  PM_ASSIGN_OR_RETURN(const BorderPoints points, FindBorderPoints(surface, meshes, adjacency, arcs,
-                                                                  params.border_tolerance, run));
+  PM_ASSIGN_OR_RETURN(const BorderPoints points,
+                      FindBorderPoints(surface, meshes, adjacency, arcs, params.border_tolerance, run));
   PlaceRegions(surface, meshes, region_of, regions);
   const auto unreachable = UnreachableTriangles(meshes, region_of, regions);
   absl::Status told[3];
@@ -297,7 +297,8 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
       told[k] = found.status();
       if (found.ok()) net = *std::move(found);
     } else if (k == 1) {
-      auto found = RegionBorders(surface, adjacency, arcs, points, region_of, regions.size(), run);
+      auto found = RegionBorders(surface, adjacency, arcs, points, region_of, regions.size(),
+                                 params.border_tolerance, run);
       told[k] = found.status();
       if (found.ok()) borders = *std::move(found);
     } else {
