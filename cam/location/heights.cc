@@ -158,11 +158,11 @@ struct FloatLanes {
     using internal::Max, internal::Splat;
     const internal::Float4 up_x = Splat(node.up_x[k]), up_y = Splat(node.up_y[k]), up_z = Splat(node.up_z[k]),
                            top = Splat(node.top[k] + limits.radius);
-    std::array<unsigned, kGroups> in;
-    unsigned any = 0;
+    std::array<unsigned, kGroups> out;
+    unsigned all = 0xF;
     for (std::size_t g = 0; g < kGroups; ++g)
-      any |= in[g] = internal::BelowBits(up_x * x[g] + up_y * y[g] + up_z * z[g], top);
-    if (any == 0) return false;
+      all &= out[g] = internal::BelowBits(top, up_x * x[g] + up_y * y[g] + up_z * z[g]);
+    if (all == 0xF) return false;
     const internal::Float4 zero{}, min_x = Splat(node.min_x[k]), max_x = Splat(node.max_x[k]),
                                    min_y = Splat(node.min_y[k]), max_y = Splat(node.max_y[k]),
                                    max_z = Splat(node.max_z[k]);
@@ -170,7 +170,7 @@ struct FloatLanes {
     for (std::size_t g = 0; g < kGroups; ++g) {
       const internal::Float4 dx = Max(Max(min_x - x[g], x[g] - max_x), zero),
                              dy = Max(Max(min_y - y[g], y[g] - max_y), zero), below = Max(z[g] - max_z, zero);
-      meeting |= in[g] & internal::BelowBits(dx * dx + dy * dy + below * below, Splat(limits.square));
+      meeting |= ~out[g] & internal::BelowBits(dx * dx + dy * dy + below * below, Splat(limits.square));
     }
     return meeting != 0;
   }

@@ -46,7 +46,7 @@ void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Co
 }
 
 // A box is out of the ball's way iff plan distance^2 + max(0, z - max_z)^2 >= R^2, for the current centre
-// height z. In floats, with a margin for their rounding.
+// height z; and where it ends below the ball, see SearchNode. In floats, with a margin for their rounding.
 void Locator::Impl::Search(const Ball& ball, double enough, Aim aim, Contact& best, OpenLeaves& open) const {
   const auto x = static_cast<float>(ball.q.x()), y = static_cast<float>(ball.q.y());
   internal::WalkTree(

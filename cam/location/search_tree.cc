@@ -134,7 +134,7 @@ class PieceSplitter {
     const double thickness = level == kMaxLevel ? kInfinity : MostThickness(model, rect);
     if (thickness >= 0.0) {
       const RectBounds bounds = BoundPoints(shape_, points, hull.data(), hull_count);
-      if (bounds.half.z() <= thickness) {
+      if (!(bounds.half.z() > thickness)) {
         out_.boxes.push_back(bounds.box);
         out_.leaves.emplace_back(grid_, piece_index_, rect, model, bounds.axis, hull.data(), hull_count);
         stopped_ = out_.leaves.size() % 256 == 0 && run_.Cancelled();

@@ -54,6 +54,7 @@ struct SearchTree {
                                 : reinterpret_cast<const char*>(&leaves[~child]);
     __builtin_prefetch(at);
     __builtin_prefetch(at + 64);
+    if (child >= 0) __builtin_prefetch(at + 128);
   }
 };
 

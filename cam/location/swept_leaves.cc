@@ -113,7 +113,7 @@ class LeafProof {
 }  // namespace
 
 // A node is out of the way when its boxes are: in plan from the move's box or across the move, and below it;
-// or by T2 from both ends.
+// or by T2 from both ends; or its half-space is, under both ends.
 bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b, double distance,
                         double spare, std::vector<std::int32_t>& open) {
   const double radius = impl.radius;
@@ -132,7 +132,9 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
   const Float4 offset = Splat(static_cast<float>(across.dot(Plan(a))));
   const Float4 zero = Splat(0.0F), half = Splat(0.5F);
   const bool is_long = plan_length > radius;
-  const Float4 both = Splat(static_cast<float>(static_cast<double>(limit) + 0.25 * (b - a).squaredNorm()));
+  // With what rounding hides of squares as large as the chord's.
+  const Float4 both =
+      Splat(static_cast<float>(static_cast<double>(limit) + (0.25 + 1e-6) * (b - a).squaredNorm()));
   const auto from_end = [&](const SearchNode& node, const Vec3& end) {
     const Float4 x = Splat(static_cast<float>(end.x())), y = Splat(static_cast<float>(end.y()));
     const Float4 dx = Max(Max(node.min_x - x, x - node.max_x), zero);
@@ -141,7 +143,8 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
     return dx * dx + dy * dy + dz * dz;
   };
   // Both ends, and so all centres between them.
-  const Float4 away = Splat(static_cast<float>(distance + 4e-6 * (radius + impl.reach)));
+  const double coordinate = std::max({impl.reach, a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()});
+  const Float4 away = Splat(static_cast<float>(distance + 4e-6 * (radius + coordinate)));
   const auto over_half_space = [&](const SearchNode& node, const Vec3& end) {
     return node.up_x * Splat(static_cast<float>(end.x())) + node.up_y * Splat(static_cast<float>(end.y())) +
            node.up_z * Splat(static_cast<float>(end.z())) - away;
@@ -177,7 +180,7 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
     unsigned in = BelowBits(all, Splat(limit));
     if (in == 0) continue;
     in &= BelowBits(from_end(node, a), both) | BelowBits(from_end(node, b), both);
-    in &= BelowBits(Min(over_half_space(node, a), over_half_space(node, b)), node.top);
+    in &= ~BelowBits(node.top, Min(over_half_space(node, a), over_half_space(node, b)));
     for (; in != 0; in &= in - 1) {
       const std::int32_t child = node.child[std::countr_zero(in)];
       impl.tree.Prefetch(child);

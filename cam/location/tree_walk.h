@@ -67,7 +67,7 @@ void WalkTree(const SearchTree& tree, const PlanBox& at, const WalkLimits& limit
     const std::size_t first = size;
     const Float4 over = Min(node.up_x * x0, node.up_x * x1) + Min(node.up_y * y0, node.up_y * y1) +
                         node.up_z * Splat(z) - Splat(limits.radius);
-    for (unsigned in = BelowBits(distance2 + below * below, limit4) & BelowBits(over, node.top); in != 0;
+    for (unsigned in = BelowBits(distance2 + below * below, limit4) & ~BelowBits(node.top, over); in != 0;
          in &= in - 1) {
       const int k = std::countr_zero(in);
       if (!meets(node, k)) continue;

@@ -48,6 +48,15 @@ bool IsBorder(const Adjacency& a, const std::vector<std::vector<int>>& region_of
                                   RegionOf(region_of, a.other_piece, a.other_triangle);
 }
 
+std::vector<std::size_t> SidesOf(const AdjacencyList& adjacency, std::size_t piece,
+                                 const std::vector<std::vector<int>>& region_of) {
+  std::vector<std::size_t> sides;
+  adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {
+    if (IsBorder(a, region_of)) sides.push_back(i);
+  });
+  return sides;
+}
+
 // The borders of one piece: sides with different regions on them, and of each the first one of these along
 // the same edge (both see one arc).
 struct PieceBorders {
@@ -60,14 +69,13 @@ PieceBorders BordersOf(const SplitMesh& mesh, const AdjacencyList& adjacency, st
     std::size_t place;
     auto operator<=>(const Edge&) const = default;
   };
-  PieceBorders borders;
+  PieceBorders borders{SidesOf(adjacency, piece, region_of), {}};
   std::vector<Edge> edges;
-  adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {
-    if (!IsBorder(a, region_of)) return;
-    const auto [low, high] = std::minmax({VertexOf(mesh, a.side, 0), VertexOf(mesh, a.side, 1)});
-    edges.push_back({low, high, borders.sides.size()});
-    borders.sides.push_back(i);
-  });
+  for (const std::size_t i : borders.sides) {
+    const TriangleSide side = adjacency[i].side;
+    const auto [low, high] = std::minmax({VertexOf(mesh, side, 0), VertexOf(mesh, side, 1)});
+    edges.push_back({low, high, edges.size()});
+  }
   std::sort(edges.begin(), edges.end());
   borders.first.resize(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -142,20 +150,12 @@ double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSid
 
 }  // namespace
 
-const std::vector<Vec2>& BorderArcs::operator[](std::size_t side) const {
-  static const std::vector<Vec2> none;
-  const auto at = std::lower_bound(sides.begin(), sides.end(), side);
-  return at != sides.end() && *at == side ? places[static_cast<std::size_t>(at - sides.begin())] : none;
-}
-
 absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList& adjacency,
                                                      const std::vector<std::vector<int>>& region_of,
                                                      const RunContext& run) {
   std::vector<std::vector<std::size_t>> pieces(region_of.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t piece) {
-    adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {
-      if (IsBorder(a, region_of)) pieces[piece].push_back(i);
-    });
+    pieces[piece] = SidesOf(adjacency, piece, region_of);
   }));
   std::vector<std::size_t> sides;
   for (const std::vector<std::size_t>& own : pieces) sides.insert(sides.end(), own.begin(), own.end());

@@ -17,9 +17,6 @@ struct BorderArcs {
   std::vector<std::size_t> sides;  // of the adjacency, rising: those with different regions on them
   // Of each: places on the curve between its ends, in its direction; none where it is straight.
   std::vector<std::vector<Vec2>> places;
-
-  // Of any side of the adjacency; none where it is no border. log(borders).
-  const std::vector<Vec2>& operator[](std::size_t side) const;
 };
 
 // The sides of the adjacency with different regions on them (`region_of[piece][triangle]`), or with nothing

@@ -276,7 +276,7 @@ absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vec
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     const Adjacency a = adjacency[arcs.sides[k]];
     const int own = region(a.side.piece, a.side.triangle), other = region(a.other_piece, a.other_triangle);
-    if (own < 0 || own == other || (other >= 0 && other < own)) continue;
+    if (other >= 0 && other < own) continue;  // seen from there
     strands.push_back({BorderKind::kOpenEdge, own, other, points[k], {}});
     strands.back().kind = KindOf(meshes, regions, a, strands.back());
   }

@@ -7,13 +7,13 @@
 namespace patchmill {
 namespace {
 
+Vec2 Corner(const SplitMesh& mesh, std::size_t triangle, std::size_t k) {
+  const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle].vertex[k])];
+  return {vertex.u, vertex.v};
+}
+
 Vec2 Centroid(const SplitMesh& mesh, std::size_t triangle) {
-  Vec2 sum = Vec2::Zero();
-  for (const int id : mesh.triangles[triangle].vertex) {
-    const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(id)];
-    sum += Vec2(vertex.u, vertex.v);
-  }
-  return sum / 3.0;
+  return (Corner(mesh, triangle, 0) + Corner(mesh, triangle, 1) + Corner(mesh, triangle, 2)) / 3.0;
 }
 
 }  // namespace
@@ -60,13 +60,21 @@ void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, c
   std::vector<Concave> places;
   std::vector<Vec3> looked;
   const std::size_t look = std::max<std::size_t>(1, triangles.size() / kLooked);
-  for (std::size_t i = 0; i < triangles.size(); i += look) {
-    const Vec2 q = Centroid(meshes[triangles[i].piece], triangles[i].triangle);
-    const SurfaceJet jet = Evaluate(surface.pieces[triangles[i].piece], q.x(), q.y());
+  const auto look_at = [&](const Piece& piece, const Vec2& q) {
+    const SurfaceJet jet = Evaluate(piece, q.x(), q.y());
     looked.push_back(jet.p);
     const auto normal = UpwardNormal(jet);
     if (region.reason == UnreachableReason::kConcave && normal)
       places.push_back({Principal(Forms(jet, *normal)).k_max, jet.p, *normal});
+  };
+  for (std::size_t i = 0; i < triangles.size(); i += look) {
+    const Piece& piece = surface.pieces[triangles[i].piece];
+    const SplitMesh& mesh = meshes[triangles[i].piece];
+    const Vec2 middle = Centroid(mesh, triangles[i].triangle);
+    look_at(piece, middle);
+    if (4 * triangles.size() > kLooked) continue;  // few large ones: between middle and corners too
+    for (const std::size_t k : {0, 1, 2})
+      look_at(piece, 0.5 * (middle + Corner(mesh, triangles[i].triangle, k)));
   }
   region.deepest_leftover = reach.DeepestLeftover(looked, run);
   if (region.reason != UnreachableReason::kConcave) return;

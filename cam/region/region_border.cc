@@ -9,13 +9,15 @@
 namespace patchmill {
 namespace {
 
-constexpr int kMostHalvings = 12;
+constexpr int kMostHalvings = 8;
 
-// Points of the surface from a to b without these, so dense that chords keep to `tolerance` (mm).
+// Points of the surface from a to b without these, so dense that chords keep to `tolerance` (mm); none where
+// it does not go on from a to b.
 void AddBetween(const Surface& surface, const Vec3& a, const Vec3& b, double tolerance, int halvings,
                 std::vector<Vec3>& out) {
-  if (halvings == 0 || (b - a).norm() <= tolerance) return;
-  const auto mid = ClosestToPoint(surface, 0.5 * (a + b), (b - a).norm(), 0.1 * tolerance);
+  const double length = (b - a).norm();
+  if (halvings == 0 || length <= tolerance) return;
+  const auto mid = ClosestToPoint(surface, 0.5 * (a + b), 0.4 * length, 0.1 * tolerance);
   if (!mid || mid->distance <= tolerance) return;
   const Vec3 p = mid->at.p;
   AddBetween(surface, a, p, tolerance, halvings - 1, out);
@@ -102,14 +104,11 @@ absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Surface& surface, const AdjacencyList& adjacency, const BorderArcs& arcs,
     const BorderPoints& points, const std::vector<std::vector<int>>& region_of, std::size_t region_count,
     double tolerance, const RunContext& run) {
-  const auto region = [&](int piece, int triangle) {
-    return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
-  };
   std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     const Adjacency a = adjacency[arcs.sides[k]];
-    const int own = region(a.side.piece, a.side.triangle);
-    if (own < 0 || own == region(a.other_piece, a.other_triangle)) continue;
+    const int own =
+        region_of[static_cast<std::size_t>(a.side.piece)][static_cast<std::size_t>(a.side.triangle)];
     if (points[k].size() > 2 || points[k].front() != points[k].back())
       strands[static_cast<std::size_t>(own)].push_back(points[k]);
   }

@@ -15,8 +15,9 @@ namespace patchmill {
 struct SplitTriangle {
   std::array<int, 3> vertex{};  // counter-clockwise in (u,v)
   SplitLabel label;
-  std::int8_t turn = 0;  // > 0 where the normal of the parametrisation looks up, < 0 where it looks down
-  double area = 0.0;     // mm^2 on the surface, of the triangle with straight sides in (u,v)
+  // > 0 where the normal of the parametrisation looks up, < 0 where it looks down; 0 out of reach.
+  std::int8_t turn = 0;
+  double area = 0.0;  // mm^2 on the surface, of the triangle with straight sides in (u,v)
   // Of what is reached; else 0. By the value in the middle of each part that the area is found from, where
   // there is one (none at a summit or a pit).
   double curvature = 0.0;  // integral of kappa_c (upward normal) over it, mm

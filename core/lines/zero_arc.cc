@@ -77,7 +77,8 @@ class Refiner {
     Add(*root, to, depth - 1, out);
   }
 
-  // The root on the perpendicular through the chord's middle, at most half a chord away, inside the piece.
+  // The root on the perpendicular through the chord's middle, at most half a chord away (of a
+  // limit, which cells may hold a sharper bend of, a whole one), inside the piece.
   std::optional<Vec2> OnPerpendicular(const Vec2& from, const Vec2& to, double length) const {
     const Vec2 mid = 0.5 * (from + to), across(-(to - from).y(), (to - from).x());
     const double at_mid = Value(field_, piece_, mid);

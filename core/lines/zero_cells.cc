@@ -4,13 +4,14 @@
 #include <bitset>
 #include <cmath>
 
+#include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 
 namespace patchmill {
 namespace {
 
-// Bits of a 3 x 3 grid of places that a straight line can divide from the others: all half-planes with small
-// whole numbers cut every set that there is.
+// Bits of a 3 x 3 grid of places that a straight line can divide from the others: half-planes with small
+// whole numbers cut every set that there is, 58 of them.
 std::bitset<512> CutsByLines() {
   std::bitset<512> cuts;
   for (int a = -3; a <= 3; ++a) {
@@ -24,6 +25,7 @@ std::bitset<512> CutsByLines() {
       }
     }
   }
+  PM_CHECK(cuts.count() == 58);
   return cuts;
 }
 
@@ -139,8 +141,22 @@ class Divider {
     return seen[0] && seen[1];
   }
 
-  // As far as 3 x 3 places tell, a straight line divides the signs: the limit is not looked at more closely,
-  // its bend is found when arcs are refined.
+  // The curve of a smooth field, as far as 3 x 3 places tell.
+  bool CurvesMeet(const ZeroCell& cell) {
+    for (std::size_t other = 0; other < fields_.size(); ++other) {
+      if (!fields_[other].smooth) continue;
+      bool seen[2] = {false, false};
+      for (int place = 0; place < 9; ++place) {
+        if (const int sign = vertices_.Sign(Place(cell, place), other); sign != 0) seen[sign > 0] = true;
+      }
+      if (seen[0] && seen[1]) return true;
+    }
+    return false;
+  }
+
+  // As far as 3 x 3 places tell, a straight line divides the signs, and no curve meets the limit here: it is
+  // not looked at more closely, its bend is found when arcs are refined. Where curves meet it their common
+  // place is looked for near its chord, which had better be short.
   bool MayBeStraight(const ZeroCell& cell, std::size_t k) {
     static const std::bitset<512> cuts = CutsByLines();
     unsigned positive = 0;
@@ -149,7 +165,7 @@ class Divider {
       if (sign == 0) return false;
       if (sign > 0) positive |= 1U << place;
     }
-    return cuts.test(positive);
+    return cuts.test(positive) && !CurvesMeet(cell);
   }
 
   // One level of cells; those of the next. A level at a time, so that signs are asked for many at once.
@@ -177,12 +193,11 @@ class Divider {
         for (Task& task : level) {
           if (task.divide || !Differ(task.cell, k)) continue;
           differing.push_back(&task);
-          if (fields_[k].smooth || depth < levels_.start) continue;
+          if (fields_[k].smooth) continue;
           for (int place = 1; place < 9; place += 2) ids.push_back(Place(task.cell, place));
         }
         vertices_.Ask(ids, k);
-        for (Task* task : differing)
-          task->divide = fields_[k].smooth || depth < levels_.start || !MayBeStraight(task->cell, k);
+        for (Task* task : differing) task->divide = fields_[k].smooth || !MayBeStraight(task->cell, k);
       }
     }
     std::vector<Task> next;

@@ -188,7 +188,8 @@ class Builder {
     }
     const int id = vertices_.Add(q);
     vertices_.PutOn(id, k);
-    // Between fields already cut the edge lies on one side of their curves, or on them.
+    // Of fields already cut the edge lies on one side of their curves, or on them; where they do not count
+    // nobody asks.
     for (std::size_t other = 0; other < k; ++other) {
       if ((both >> other) & 1u) {
         vertices_.PutOn(id, other);

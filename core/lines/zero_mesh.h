@@ -29,7 +29,8 @@ struct ZeroVertex {
 
 struct ZeroTriangle {
   std::array<int, 3> vertex{};                     // counter-clockwise in (u,v)
-  std::array<std::int8_t, kMaxZeroFields> sign{};  // of each field on it; 0: nothing but rounding
+  std::array<std::int8_t, kMaxZeroFields> sign{};  // of each field on it; 0: nothing but rounding,
+                                                   // or the field does not count there
 };
 
 struct ZeroMesh {

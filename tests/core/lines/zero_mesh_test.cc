@@ -69,6 +69,44 @@ TEST(ZeroMesh, TilesThePieceWhateverTheFields) {
   }
 }
 
+// Curves that count only on one side of a limit are cut in there alone, and the mesh has no gap along it.
+TEST(ZeroMesh, FieldsCountWhereAnotherSaysSo) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const PatchShape shape = RandomBezier(seed, 3, 3, false);
+    const Piece piece = SplitIntoPieces(PatchId(0), shape)[0];
+    const Vec3 middle = Position(piece, 0.45, 0.55);
+    const double radius = 0.4 * (Position(piece, 1.0, 1.0) - Position(piece, 0.0, 0.0)).norm();
+    ZeroField limit;
+    limit.smooth = false;
+    limit.resolution = 1e-6;
+    limit.value = [&](const SurfaceJet& jet) { return (jet.p - middle).norm() < radius ? 1.0 : -1.0; };
+    for (const int wanted : {1, -1}) {
+      std::vector<ZeroField> fields = {limit, SlopeField(Radians(30)), ContourCurvatureField(),
+                                       ContourField(middle.z())};
+      for (const std::size_t k : {1u, 2u}) {
+        fields[k].where = 0;
+        fields[k].where_sign = static_cast<std::int8_t>(wanted);
+      }
+      const ZeroMesh mesh = BuildZeroMesh(piece, fields, ZeroMeshParams());
+      ExpectWhole(mesh);
+      int count = 0;
+      for (const ZeroTriangle& t : mesh.triangles) {
+        for (const std::size_t k : {1u, 2u}) {
+          if (t.sign[0] != wanted) {
+            EXPECT_EQ(t.sign[k], 0);
+            continue;
+          }
+          ++count;
+          for (const int id : t.vertex) EXPECT_GE(mesh.vertices[id].sign[k] * t.sign[k], 0);
+        }
+        for (const int id : t.vertex) EXPECT_GE(mesh.vertices[id].sign[3] * t.sign[3], 0);
+      }
+      EXPECT_GT(count, 0);
+      EXPECT_LT(count, 2 * static_cast<int>(mesh.triangles.size()));
+    }
+  }
+}
+
 TEST(ZeroMesh, SmallLoopsAreFound) {
   // Two bumps of radius 0.3 mm cut a level of a 40 mm patch: sampling every cell would miss them.
   BezierPatch patch;

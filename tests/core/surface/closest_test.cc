@@ -238,13 +238,17 @@ TEST(Closest, AboveNothingThatIsAboveIsLeftOut) {
     for (int k = 0; k < 400; ++k) samples.push_back(Position(piece, k % 20 / 19.0, k / 20 / 19.0));
   }
   Random random(5);
-  int above = 0, below = 0, none = 0;
+  int above = 0, below = 0, none = 0, low = 0;
   for (int i = 0; i < 300; ++i) {
     const Vec3 c = random.Point(-15, 15).cwiseProduct(Vec3(1, 1, 0.4));
     const double limit = random.Uniform(0.5, 8.0);
     const auto found = ClosestAbove(s, c, limit, 1e-6);
     const double proven = (found ? found->distance : limit) - 1e-6;
     for (const Vec3& p : samples) EXPECT_FALSE(p.z() > c.z() && (Plan(p) - Plan(c)).norm() < proven);
+    // What boxes alone say is a proof one way.
+    const bool may = MayRiseAbove(s, c, limit);
+    EXPECT_TRUE(may || !found || !(found->at.p.z() > c.z()));
+    low += !may;
     if (found) {
       EXPECT_NEAR(DistanceTo(To::kRay, found->at.p, c), found->distance, 1e-12);
     }
@@ -256,6 +260,7 @@ TEST(Closest, AboveNothingThatIsAboveIsLeftOut) {
     }
     (!found ? none : found->at.p.z() > c.z() ? above : below) += 1;
   }
+  EXPECT_GT(low, 20);
   EXPECT_GT(above, 50);
   EXPECT_GT(below, 5);
   EXPECT_GT(none, 50);
