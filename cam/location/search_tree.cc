@@ -168,10 +168,26 @@ class PieceSplitter {
 // Writes nodes of four children: each takes the binary node's children and opens the largest ones.
 class Collapser {
  public:
-  Collapser(const std::vector<SurfaceNode>& binary, std::vector<SearchNode>& out)
-      : binary_(binary), out_(out) {
-    out_.reserve(binary.size() / 4 + 1);
+  explicit Collapser(const std::vector<SurfaceNode>& binary) : binary_(binary) {
+    children_.reserve(binary.size() / 4 + 1);
     Emit(0, 1);
+  }
+
+  absl::Status Write(const RunContext& run, std::vector<SearchNode>& out) const {
+    out.resize(children_.size());
+    return ParallelFor(run, nullptr, children_.size(), [&](std::size_t i) {
+      const Children& own = children_[i];
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Box3 box = k < own.count ? Node(own.binary[k]).box : Box3{};
+        out[i].child[k] = own.child[k];
+        out[i].min_x[k] = RoundDown(box.min.x());
+        out[i].min_y[k] = RoundDown(box.min.y());
+        out[i].min_z[k] = RoundDown(box.min.z());
+        out[i].max_x[k] = RoundUp(box.max.x());
+        out[i].max_y[k] = RoundUp(box.max.y());
+        out[i].max_z[k] = RoundUp(box.max.z());
+      }
+    });
   }
 
  private:
@@ -183,10 +199,18 @@ class Collapser {
     return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
   }
 
+  // Of a node: in the binary tree, and where they stand.
+  struct Children {
+    std::array<std::int32_t, 4> binary{}, child{};
+    std::size_t count = 1;
+  };
+
   std::int32_t Emit(std::int32_t root, std::size_t depth) {
     PM_CHECK(3 * depth + 1 <= kMaxPending);
-    std::array<std::int32_t, 4> children = {root};
-    std::size_t count = 1;
+    Children own;
+    std::array<std::int32_t, 4>& children = own.binary;
+    std::size_t& count = own.count;
+    children[0] = root;
     while (count < 4) {
       std::size_t largest = count;
       for (std::size_t k = 0; k < count; ++k) {
@@ -201,28 +225,17 @@ class Collapser {
       children[largest] = open + 1;
       children[largest + 1] = Node(open).right;
     }
-    const std::size_t self = out_.size();
-    out_.emplace_back();
-    SearchNode node;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Box3 box = k < count ? Node(children[k]).box : Box3{};
-      node.child[k] = 0;
-      node.min_x[k] = RoundDown(box.min.x());
-      node.min_y[k] = RoundDown(box.min.y());
-      node.min_z[k] = RoundDown(box.min.z());
-      node.max_x[k] = RoundUp(box.max.x());
-      node.max_y[k] = RoundUp(box.max.y());
-      node.max_z[k] = RoundUp(box.max.z());
-    }
+    const std::size_t self = children_.size();
+    children_.emplace_back();
     for (std::size_t k = 0; k < count; ++k) {
-      node.child[k] = IsLeaf(children[k]) ? ~Node(children[k]).leaf : Emit(children[k], depth + 1);
+      own.child[k] = IsLeaf(children[k]) ? ~Node(children[k]).leaf : Emit(children[k], depth + 1);
     }
-    out_[self] = node;
+    children_[self] = own;
     return static_cast<std::int32_t>(self);
   }
 
   const std::vector<SurfaceNode>& binary_;
-  std::vector<SearchNode>& out_;
+  std::vector<Children> children_;
 };
 
 }  // namespace
@@ -268,7 +281,7 @@ absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius
     const std::vector<SurfaceNode> binary = BuildLeafTree(boxes, run);
     PM_RETURN_IF_ERROR(run.Check());
     boxes = {};
-    Collapser(binary, tree.nodes);
+    PM_RETURN_IF_ERROR(Collapser(binary).Write(run, tree.nodes));
   }
   PM_RETURN_IF_ERROR(BoundByHalfSpaces(run, tree));
   return tree;

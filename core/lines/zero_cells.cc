@@ -141,22 +141,8 @@ class Divider {
     return seen[0] && seen[1];
   }
 
-  // The curve of a smooth field, as far as 3 x 3 places tell.
-  bool CurvesMeet(const ZeroCell& cell) {
-    for (std::size_t other = 0; other < fields_.size(); ++other) {
-      if (!fields_[other].smooth) continue;
-      bool seen[2] = {false, false};
-      for (int place = 0; place < 9; ++place) {
-        if (const int sign = vertices_.Sign(Place(cell, place), other); sign != 0) seen[sign > 0] = true;
-      }
-      if (seen[0] && seen[1]) return true;
-    }
-    return false;
-  }
-
-  // As far as 3 x 3 places tell, a straight line divides the signs, and no curve meets the limit here: it is
-  // not looked at more closely, its bend is found when arcs are refined. Where curves meet it their common
-  // place is looked for near its chord, which had better be short.
+  // As far as 3 x 3 places tell, a straight line divides the signs: the limit is not looked at more closely,
+  // its bend is found when arcs are refined, and where curves meet it.
   bool MayBeStraight(const ZeroCell& cell, std::size_t k) {
     static const std::bitset<512> cuts = CutsByLines();
     unsigned positive = 0;
@@ -165,7 +151,7 @@ class Divider {
       if (sign == 0) return false;
       if (sign > 0) positive |= 1U << place;
     }
-    return cuts.test(positive) && !CurvesMeet(cell);
+    return cuts.test(positive);
   }
 
   // One level of cells; those of the next. A level at a time, so that signs are asked for many at once.
