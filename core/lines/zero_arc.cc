@@ -31,16 +31,17 @@ class Refiner {
   void AddFirst(const Vec2& from, const Vec2& to, std::vector<Vec2>& out) const {
     const Vec3 a = At(from), b = At(to);
     if ((b - a).norm() <= tolerance_) return;
-    if (Straight(from, to, 0.5, a, b) &&
+    double at_mid = 0.0;
+    if (Straight(from, to, 0.5, a, b, &at_mid) &&
         (!field_.smooth || (Straight(from, to, 0.25, a, b) && Straight(from, to, 0.75, a, b)))) {
       return;
     }
-    AddBent(from, to, out);
+    AddBent(from, to, at_mid, out);
   }
 
-  // One that is known not to be straight.
-  void AddBent(const Vec2& from, const Vec2& to, std::vector<Vec2>& out) const {
-    const std::optional<Vec2> root = OnPerpendicular(from, to, (At(to) - At(from)).norm());
+  // One that is known not to be straight. `at_mid`: the value at its middle, 0 where it is not known.
+  void AddBent(const Vec2& from, const Vec2& to, double at_mid, std::vector<Vec2>& out) const {
+    const std::optional<Vec2> root = OnPerpendicular(from, to, (At(to) - At(from)).norm(), at_mid);
     if (!root) return;
     Add(from, *root, kMostHalvings, out);
     out.push_back(*root);
@@ -60,17 +61,23 @@ class Refiner {
     const double millimetres = (across.x() * jet.du + across.y() * jet.dv).norm();
     return millimetres > 0.0 ? Vec2(across / millimetres) : Vec2(Vec2(-along.y(), along.x()) / length);
   }
-  // The curve passes within the tolerance of the point `at` of the chord a b: the cheap test.
-  bool Straight(const Vec2& from, const Vec2& to, double at, const Vec3& a, const Vec3& b) const {
+  // The curve passes within the tolerance of the point `at` of the chord a b: the cheap test. Where it does
+  // not, the point is on the same side of a limit as what lies beside it: `value`.
+  bool Straight(const Vec2& from, const Vec2& to, double at, const Vec3& a, const Vec3& b,
+                double* value = nullptr) const {
     const auto beside = Beside(from, to, at, a, b);
-    return beside && Value(field_, piece_, (*beside)[0]) * Value(field_, piece_, (*beside)[1]) <= 0.0;
+    if (!beside) return false;
+    const double one = Value(field_, piece_, (*beside)[0]), other = Value(field_, piece_, (*beside)[1]);
+    if (value != nullptr && !field_.smooth && one * other > 0.0) *value = one;
+    return one * other <= 0.0;
   }
 
   void Add(const Vec2& from, const Vec2& to, int depth, std::vector<Vec2>& out) const {
     const Vec3 a = At(from), b = At(to);
     if (depth == 0 || (b - a).norm() <= tolerance_) return;
-    if (Straight(from, to, 0.5, a, b)) return;
-    const std::optional<Vec2> root = OnPerpendicular(from, to, (b - a).norm());
+    double at_mid = 0.0;
+    if (Straight(from, to, 0.5, a, b, &at_mid)) return;
+    const std::optional<Vec2> root = OnPerpendicular(from, to, (b - a).norm(), at_mid);
     if (!root || Near(*root, a, b)) return;
     Add(from, *root, depth - 1, out);
     out.push_back(*root);
@@ -79,9 +86,9 @@ class Refiner {
 
   // The root on the perpendicular through the chord's middle, at most half a chord away (of a
   // limit, which cells may hold a sharper bend of, a whole one), inside the piece.
-  std::optional<Vec2> OnPerpendicular(const Vec2& from, const Vec2& to, double length) const {
+  std::optional<Vec2> OnPerpendicular(const Vec2& from, const Vec2& to, double length, double at_mid) const {
     const Vec2 mid = 0.5 * (from + to), across(-(to - from).y(), (to - from).x());
-    const double at_mid = Value(field_, piece_, mid);
+    if (at_mid == 0.0) at_mid = Value(field_, piece_, mid);
     if (at_mid == 0.0) return mid;
     for (const double reach : {0.05, 0.15, 0.5, 1.0}) {
       if (reach > 0.5 && field_.smooth) break;
@@ -89,6 +96,12 @@ class Refiner {
         const Vec2 q = mid + Inside(mid, side * across) * side * across;
         const double at_q = Value(field_, piece_, q);
         if ((at_q > 0.0) == (at_mid > 0.0)) continue;
+        if (field_.limits) {
+          const ZeroSegment segment = at_mid > 0.0 ? ZeroSegment{q, mid} : ZeroSegment{mid, q};
+          double share = 0.0;
+          field_.limits(piece_, {&segment, 1}, {&share, 1});
+          return Vec2(segment.from + share * (segment.to - segment.from));
+        }
         const double stop = EnoughFor(field_, length * reach);
         return Vec2(mid + ZeroBetween(field_, piece_, mid, q, at_mid, at_q, stop) * (q - mid));
       }
@@ -129,22 +142,24 @@ std::vector<std::vector<Vec2>> RefineZeroArcs(const Piece& piece, const ZeroFiel
     return arcs;
   }
   // Most are straight: they are asked at once.
-  std::vector<std::size_t> asked, bent;
+  std::vector<std::size_t> asked;
+  std::vector<std::pair<std::size_t, double>> bent;  // and the value in the middle
   std::vector<SurfaceJet> jets;
   for (std::size_t k = 0; k < chords.size(); ++k) {
     const Vec3 a = refiner.At(chords[k].from), b = refiner.At(chords[k].to);
     if ((b - a).norm() <= tolerance) continue;
     const auto beside = refiner.Beside(chords[k].from, chords[k].to, 0.5, a, b);
-    (beside ? asked : bent).push_back(k);
+    if (!beside) bent.emplace_back(k, 0.0);
     if (!beside) continue;
+    asked.push_back(k);
     for (const Vec2& q : *beside) jets.push_back(Evaluate(piece, q.x(), q.y()));
   }
   std::vector<double> values(jets.size());
   field.values(jets, values);
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (!(values[2 * i] * values[2 * i + 1] <= 0.0)) bent.push_back(asked[i]);
+    if (!(values[2 * i] * values[2 * i + 1] <= 0.0)) bent.emplace_back(asked[i], values[2 * i]);
   }
-  for (const std::size_t k : bent) refiner.AddBent(chords[k].from, chords[k].to, arcs[k]);
+  for (const auto& [k, at_mid] : bent) refiner.AddBent(chords[k].from, chords[k].to, at_mid, arcs[k]);
   return arcs;
 }
 
