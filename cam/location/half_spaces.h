@@ -10,7 +10,7 @@ namespace patchmill::internal {
 
 // Sets up_x, up_y, up_z and top of all nodes from the boxes of the leaves below them: `up` is the mean of
 // their normals by area; straight up, with the box's own height, where these cancel or where more than a few
-// thousand leaves lie below. About 0.1 us a leaf, parallel, deterministic. CANCELLED and DEADLINE_EXCEEDED
+// thousand leaves lie below. About 0.25 us a leaf, parallel, deterministic. CANCELLED and DEADLINE_EXCEEDED
 // from `run`.
 absl::Status BoundByHalfSpaces(const RunContext& run, SearchTree& tree);
 

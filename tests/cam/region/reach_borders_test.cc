@@ -1,10 +1,14 @@
 // Limits of reach under what hangs over the ground: where they lie, the areas they bound, and the nodes where
-// other lines end on them, in closed form.
+// other lines end on them, in closed form; and on ground without one, by balls on both sides.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "cam/region/reach.h"
 #include "cam/region/region_map.h"
+#include "core/diffgeo/forms.h"
+#include "core/surface/closest.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
@@ -103,6 +107,44 @@ TEST(ReachBorders, TheInflectionsOfASaddleEndOnThem) {
     const double y = side * ratio * low;
     EXPECT_LT(ToNode(map, Vec3(low, y, height(low, y))), 2e-7);
   }
+}
+
+// Where nothing has a closed form: of the limits drawn on ground that bends tighter than the ball nearly
+// everywhere, all but a few hundredths lie where balls begin to be free. Those that do not are corners where
+// one thing in the way takes over from another within a cell.
+TEST(ReachBorders, OfAnyGroundAreWhereBallsBeginToBeFree) {
+  if (kSanitized) GTEST_SKIP() << "minutes otherwise";
+  constexpr double kOff = 0.02;  // mm
+  const Surface surface = SurfaceOf(Bumpy());
+  const RegionParams params;
+  const auto map = SplitRegions(surface, params, RunContext());
+  ASSERT_TRUE(map.ok()) << map.status();
+  const Locator ball(surface, params.radius - params.tolerance);
+  const ReachTest reach(ball, params, RunContext());
+  const auto free = [&](const Vec3& near) {
+    const auto at = ClosestToPoint(surface, near, 1.0, 1e-5);
+    if (!at) return false;
+    const SurfaceJet jet = Evaluate(surface, at->at.piece, at->at.u, at->at.v);
+    const auto normal = UpwardNormal(jet);
+    return normal && reach.Free(jet.p, *normal);
+  };
+  double length = 0.0, off = 0.0;
+  for (const BorderLine& line : map->border_lines) {
+    if (line.kind != BorderKind::kReach) continue;
+    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < line.points.size(); ++i) {
+      const Vec3 &a = line.points[i], &b = line.points[(i + 1) % line.points.size()];
+      if ((b - a).norm() < 1e-9) continue;
+      const auto at = ClosestToPoint(surface, 0.5 * (a + b), 1.0, 1e-5);
+      ASSERT_TRUE(at);
+      const auto normal = UpwardNormal(Evaluate(surface, at->at.piece, at->at.u, at->at.v));
+      ASSERT_TRUE(normal);
+      const Vec3 across = kOff * normal->cross(b - a).normalized();
+      length += (b - a).norm();
+      if (free(at->at.p + across) == free(at->at.p - across)) off += (b - a).norm();
+    }
+  }
+  EXPECT_GT(length, 3000.0);
+  EXPECT_LT(off, 0.025 * length);
 }
 
 }  // namespace
