@@ -16,6 +16,7 @@ namespace patchmill {
 struct Locator::Impl {
   Impl(const Surface& surface, double radius, internal::SearchTree tree);
 
+  // For floats of centres and boxes as large as `reach`, which are off by 6e-8 of it each.
   internal::WalkLimits Limits() const {
     return {static_cast<float>(radius * radius + 1e-6 * radius * (radius + reach)),
             static_cast<float>(radius + 1e-6 * (radius + reach))};

@@ -84,8 +84,8 @@ class Refiner {
     Add(*root, to, depth - 1, out);
   }
 
-  // The root on the perpendicular through the chord's middle, at most half a chord away (of a
-  // limit, which cells may hold a sharper bend of, a whole one), inside the piece.
+  // The root on the perpendicular through the chord's middle, at most half a chord away (of a limit, which
+  // cells may hold a sharper bend of, a whole one), inside the piece. `at_mid` as for AddBent.
   std::optional<Vec2> OnPerpendicular(const Vec2& from, const Vec2& to, double length, double at_mid) const {
     const Vec2 mid = 0.5 * (from + to), across(-(to - from).y(), (to - from).x());
     if (at_mid == 0.0) at_mid = Value(field_, piece_, mid);
@@ -149,8 +149,10 @@ std::vector<std::vector<Vec2>> RefineZeroArcs(const Piece& piece, const ZeroFiel
     const Vec3 a = refiner.At(chords[k].from), b = refiner.At(chords[k].to);
     if ((b - a).norm() <= tolerance) continue;
     const auto beside = refiner.Beside(chords[k].from, chords[k].to, 0.5, a, b);
-    if (!beside) bent.emplace_back(k, 0.0);
-    if (!beside) continue;
+    if (!beside) {
+      bent.emplace_back(k, 0.0);
+      continue;
+    }
     asked.push_back(k);
     for (const Vec2& q : *beside) jets.push_back(Evaluate(piece, q.x(), q.y()));
   }

@@ -204,8 +204,7 @@ class Builder {
   std::optional<Vec2> CommonPlace(std::size_t k, std::size_t other, const Vec2& q, double reach) const {
     const ZeroField &a = fields_[k], &b = fields_[other];
     if (a.smooth && b.smooth) return CommonZero(k, other, q, reach);
-    // Limits may bend within a cell: chords leave them by less than their length (measured on bumpy ground:
-    // 13 of 1,091 such places are not found, 77 within a fifth of it).
+    // Limits may bend within a cell: chords leave them by less than their length.
     if (a.smooth && b.limits) return LimitOnCurve(a, b, piece_, q, 2.0 * reach);
     if (b.smooth && a.limits) return LimitOnCurve(b, a, piece_, q, 2.0 * reach);
     return std::nullopt;

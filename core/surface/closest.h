@@ -27,9 +27,6 @@ std::optional<ClosestPoint> ClosestToUpwardRay(const Surface& surface, const Vec
 // nothing above is nearer than this point, up to the tolerance.
 std::optional<ClosestPoint> ClosestAbove(const Surface& surface, const Vec3& c, double limit,
                                          double tolerance);
-// Whether anything above c may be nearer than `limit` to the ray, as far as boxes tell: false proves that
-// nothing is. Below a microsecond.
-bool MayRiseAbove(const Surface& surface, const Vec3& c, double limit);
 // Nearest point of the surface to the point c, if nearer than `limit`; otherwise as above.
 std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c, double limit,
                                            double tolerance);
@@ -37,5 +34,8 @@ std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c
 // Whether some point of the surface is nearer than `limit` to the upward ray: true with such a point found
 // (the first one, not the nearest), false proves that nothing is nearer than limit - tolerance.
 bool AnythingNearUpwardRay(const Surface& surface, const Vec3& c, double limit, double tolerance);
+// Whether anything above c may be nearer than `limit` to the upward ray, as far as boxes tell: false proves
+// that nothing is. Below a microsecond.
+bool MayRiseAbove(const Surface& surface, const Vec3& c, double limit);
 
 }  // namespace patchmill

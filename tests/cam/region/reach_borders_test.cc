@@ -109,25 +109,39 @@ TEST(ReachBorders, TheInflectionsOfASaddleEndOnThem) {
   }
 }
 
+// Of a surface, whether the ball that touches it nearest to a place is free.
+class FreeBeside {
+ public:
+  FreeBeside(const Surface& surface, const RegionParams& params)
+      : surface_(surface),
+        ball_(surface, params.radius - params.tolerance),
+        reach_(ball_, params, RunContext()) {}
+  bool operator()(const Vec3& near) const {
+    const auto at = ClosestToPoint(surface_, near, 1.0, 1e-5);
+    if (!at) return false;
+    const SurfaceJet jet = Evaluate(surface_, at->at.piece, at->at.u, at->at.v);
+    const auto normal = UpwardNormal(jet);
+    return normal && reach_.Free(jet.p, *normal);
+  }
+
+ private:
+  const Surface& surface_;
+  const Locator ball_;
+  const ReachTest reach_;
+};
+
+constexpr double kOff = 0.02;  // mm
+
 // Where nothing has a closed form: of the limits drawn on ground that bends tighter than the ball nearly
 // everywhere, all but a few hundredths lie where balls begin to be free. Those that do not are corners where
 // one thing in the way takes over from another within a cell.
 TEST(ReachBorders, OfAnyGroundAreWhereBallsBeginToBeFree) {
   if (kSanitized) GTEST_SKIP() << "minutes otherwise";
-  constexpr double kOff = 0.02;  // mm
   const Surface surface = SurfaceOf(Bumpy());
   const RegionParams params;
   const auto map = SplitRegions(surface, params, RunContext());
   ASSERT_TRUE(map.ok()) << map.status();
-  const Locator ball(surface, params.radius - params.tolerance);
-  const ReachTest reach(ball, params, RunContext());
-  const auto free = [&](const Vec3& near) {
-    const auto at = ClosestToPoint(surface, near, 1.0, 1e-5);
-    if (!at) return false;
-    const SurfaceJet jet = Evaluate(surface, at->at.piece, at->at.u, at->at.v);
-    const auto normal = UpwardNormal(jet);
-    return normal && reach.Free(jet.p, *normal);
-  };
+  const FreeBeside free(surface, params);
   double length = 0.0, off = 0.0;
   for (const BorderLine& line : map->border_lines) {
     if (line.kind != BorderKind::kReach) continue;
@@ -144,7 +158,46 @@ TEST(ReachBorders, OfAnyGroundAreWhereBallsBeginToBeFree) {
     }
   }
   EXPECT_GT(length, 3000.0);
-  EXPECT_LT(off, 0.025 * length);
+  EXPECT_LT(off, 0.015 * length);
+}
+
+// Where lines of slope or curvature end at limits of reach, both balls that are free and balls that are not
+// touch the ground close by.
+TEST(ReachBorders, NodesOfAnyGroundAreOnThem) {
+  if (kSanitized) GTEST_SKIP() << "minutes otherwise";
+  const Surface surface = SurfaceOf(Bumpy());
+  RegionParams params;
+  params.detail = 1.0;
+  const auto map = SplitRegions(surface, params, RunContext());
+  ASSERT_TRUE(map.ok()) << map.status();
+  const FreeBeside free(surface, params);
+  std::vector<bool> of_reach(map->nodes.size(), false), of_curve = of_reach;
+  for (const BorderLine& line : map->border_lines) {
+    for (const int node : {line.from, line.to}) {
+      if (node < 0) continue;
+      if (line.kind == BorderKind::kReach) of_reach[static_cast<std::size_t>(node)] = true;
+      if (line.kind == BorderKind::kSlope || line.kind == BorderKind::kCurvature)
+        of_curve[static_cast<std::size_t>(node)] = true;
+    }
+  }
+  int nodes = 0, off = 0;
+  for (std::size_t i = 0; i < map->nodes.size(); ++i) {
+    if (!of_reach[i] || !of_curve[i]) continue;
+    const auto at = ClosestToPoint(surface, map->nodes[i], 1.0, 1e-5);
+    ASSERT_TRUE(at);
+    const auto normal = UpwardNormal(Evaluate(surface, at->at.piece, at->at.u, at->at.v));
+    ASSERT_TRUE(normal);
+    const Vec3 one = normal->unitOrthogonal(), other = normal->cross(one);
+    bool seen[2] = {false, false};
+    for (int k = 0; k < 16; ++k) {
+      const double angle = kPi * k / 8.0;
+      seen[free(at->at.p + kOff * (std::cos(angle) * one + std::sin(angle) * other))] = true;
+    }
+    ++nodes;
+    off += !(seen[0] && seen[1]);
+  }
+  EXPECT_GT(nodes, 500);
+  EXPECT_LT(off, 0.02 * nodes) << off << " of " << nodes;
 }
 
 }  // namespace
