@@ -119,6 +119,7 @@ void AddLimits(const Job& job, Canonical& out) {
   if (job.operation.one_way) out.Add("one way");
   if (job.operation.spirals) out.Add("spirals");
   if (!job.operation.border_passes) out.Add("no border passes");
+  if (!job.operation.round_lines) out.Add("no round lines");
   if (job.operation.angle_auto) out.Add("angle auto");
   if (job.operation.top_z) out.Add("top").Add(*job.operation.top_z);
   for (const ObstacleOutline& o : job.setup.obstacles) {

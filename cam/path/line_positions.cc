@@ -53,6 +53,30 @@ Row WantedLimit(const LineProber& prober, const Interval& range, double spacing,
   return with;
 }
 
+// Of a limit along which round lines run, whose ground is not exactly round: the row of the limit itself sees
+// little of it, and would leave it to rest passes. The last place before it with nine tenths of what `inside`
+// has, if that is near.
+Row AlongLimit(const LineProber& prober, const Interval& range, double spacing, const Row& inside,
+               Row limit) {
+  const auto sees = [&](const Row& row) { return 10 * row.needs.size() >= 9 * inside.needs.size(); };
+  if (!prober.frame().round() || sees(limit)) return limit;
+  const double near = kNearest * prober.flat_step(), way = inside.y - limit.y;
+  Row along = SampleRow(prober, range, spacing, limit.y + std::copysign(std::min(near, std::abs(way)), way));
+  if (!sees(along)) return limit;
+  double without = limit.y;
+  while (std::abs(along.y - without) > 1e-3 * prober.flat_step() && !prober.Cancelled()) {
+    Row mid = SampleRow(prober, range, spacing, 0.5 * (along.y + without));
+    if (sees(mid)) {
+      along = std::move(mid);
+    } else {
+      without = mid.y;
+    }
+  }
+  // Circles are cut along chords.
+  return SampleRow(prober, range, spacing,
+                   along.y + std::copysign(2.0 * kRoundSagitta * prober.flat_step(), way));
+}
+
 bool Steady(const Row& a, const Row& b) {
   return std::max(a.step, b.step) <= kSteady * std::min(a.step, b.step);
 }
@@ -92,8 +116,10 @@ int CheapestCount(const LineProber& prober, const std::vector<Row>& band, const 
     double length = 0.0;
     for (std::size_t i = 0; i < density.size() && !prober.Cancelled(); ++i) {
       const double gap = total / (count * density[i]), lines = 0.5 * (band[i + 1].y - band[i].y) / gap;
-      for (const Row* row : {&band[i], &band[i + 1]})
-        length += lines * LinesAlong(*row, full_lines_only ? 0.0 : gap, way, least);
+      for (const Row* row : {&band[i], &band[i + 1]}) {
+        const double stretch = prober.frame().Stretch(row->y);
+        length += lines * stretch * LinesAlong(*row, full_lines_only ? 0.0 : gap, way / stretch, least);
+      }
     }
     return length;
   };
@@ -114,7 +140,8 @@ int CheapestCount(const LineProber& prober, const std::vector<Row>& band, const 
 
 }  // namespace
 
-FrameExtent ExtentInFrame(const Surface& surface, const LineFrame& frame, double margin) {
+FrameExtent ExtentOfParallels(const Surface& surface, double angle, double margin) {
+  const LineFrame frame = LineFrame::At(angle);
   FrameExtent e{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}};
   for (const SurfaceLeaf& leaf : surface.leaves) {
     const Eigen::Matrix3d axis = leaf.axis();
@@ -125,8 +152,8 @@ FrameExtent ExtentInFrame(const Surface& surface, const LineFrame& frame, double
       i.begin = std::min(i.begin, mid - half);
       i.end = std::max(i.end, mid + half);
     };
-    grow(e.t, frame.along);
-    grow(e.y, frame.across);
+    grow(e.t, frame.Along(0.0));
+    grow(e.y, frame.Across(0.0));
   }
   e.t = {e.t.begin - margin, e.t.end + margin};
   e.y = {e.y.begin - margin, e.y.end + margin};
@@ -165,9 +192,12 @@ absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, co
     // The rows of a band, from the first to the last place where something is wanted.
     std::vector<Row> band(rows.begin() + static_cast<std::ptrdiff_t>(i),
                           rows.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-    if (i > 0) band.insert(band.begin(), WantedLimit(prober, extent.t, spacing, rows[i], rows[i - 1].y));
-    if (last + 1 < rows.size())
-      band.push_back(WantedLimit(prober, extent.t, spacing, rows[last], rows[last + 1].y));
+    const auto limit = [&](const Row& inside, double outside) {
+      return AlongLimit(prober, extent.t, spacing, inside,
+                        WantedLimit(prober, extent.t, spacing, inside, outside));
+    };
+    if (i > 0) band.insert(band.begin(), limit(rows[i], rows[i - 1].y));
+    if (last + 1 < rows.size()) band.push_back(limit(rows[last], rows[last + 1].y));
     judge(band.front());
     judge(band.back());
     for (;;) {

@@ -11,12 +11,12 @@
 
 namespace patchmill {
 
-// The extent of everything a line can touch, in the frame of the lines: bounds of the leaves plus the ball
-// radius.
+// Where lines are looked for, in their frame.
 struct FrameExtent {
   Interval t, y;
 };
-FrameExtent ExtentInFrame(const Surface& surface, const LineFrame& frame, double margin);
+// Of everything that straight lines can touch: bounds of the leaves plus the margin (a ball radius).
+FrameExtent ExtentOfParallels(const Surface& surface, double angle, double margin);
 
 // Full lines over a stretch of y in which every row has something wanted.
 struct LineBand {

@@ -11,18 +11,15 @@
 
 namespace patchmill {
 
-LineFrame LineFrame::At(double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {{c, s}, {-s, c}};
-}
-
 LineProber::LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-                       const PassParams& params, const KeepIn* part, const RunContext& run)
+                       const PassParams& params, const KeepIn* part, const SurfaceMask* where,
+                       const RunContext& run)
     : locator_(locator),
       border_(border),
       frame_(frame),
       params_(params),
       part_(part),
+      where_(where),
       run_(run),
       flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
 
@@ -72,12 +69,13 @@ LineProbe LineProber::Judge(double t, double y, double slope, const std::optiona
   const double steepness = std::atan2(Plan(normal).norm(), normal.z());
   constexpr double kSlack = 1e-9;  // rad: a plane at the limit itself belongs to it
   probe.wanted = probe.allowed && steepness >= params_.window.min - kSlack &&
-                 steepness <= params_.window.max + kSlack && (part_ == nullptr || part_->Wants(h->contact));
+                 steepness <= params_.window.max + kSlack && (part_ == nullptr || part_->Wants(h->contact)) &&
+                 (where_ == nullptr || where_->Has(h->contact.piece, h->contact.u, h->contact.v));
 
   // Across the feed on the centre surface: square to the feed in the common tangent plane. Its part in plan
   // across the line is sqrt(1 - n_y^2), and longer in y where the line slants.
-  const double slant = std::hypot(1.0, slope);
-  const Vec2 feed = (frame_.along + slope * frame_.across) / slant;
+  const double rise = slope / frame_.Stretch(y), slant = std::hypot(1.0, rise);
+  const Vec2 feed = (frame_.Along(t) + rise * frame_.Across(t)) / slant;
   const Vec2 beside(-feed.y(), feed.x());
   const double nt = Plan(normal).dot(feed), ny = Plan(normal).dot(beside);
   const double cosine = std::sqrt(std::max(0.0, 1.0 - ny * ny));

@@ -7,21 +7,14 @@
 
 #include "cam/location/keep_in.h"
 #include "cam/location/locator.h"
+#include "cam/path/line_frame.h"
 #include "cam/path/line_shape.h"
 #include "cam/path/pass_params.h"
 #include "cam/path/sheet_border.h"
+#include "cam/tool/surface_mask.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
-
-// The plan frame of parallel lines: t along them, y across.
-struct LineFrame {
-  Vec2 along = Vec2::UnitX();
-  Vec2 across = Vec2::UnitY();
-
-  static LineFrame At(double angle);
-  Vec2 At(double t, double y) const { return t * along + y * across; }
-};
 
 struct LineProbe {
   double t = 0.0;
@@ -36,12 +29,12 @@ struct LineProbe {
   bool exists() const { return half_step > 0.0; }
 };
 
-// Probes along and beside lines of one direction; `part`: only what it wants is wanted, null: all. Once `run`
-// is cancelled, rows end early and mean nothing. Thread-safe.
+// Probes along and beside lines of one frame; only what `part` wants and `where` has is wanted, null: all.
+// Once `run` is cancelled, rows end early and mean nothing. Thread-safe.
 class LineProber {
  public:
   LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-             const PassParams& params, const KeepIn* part, const RunContext& run);
+             const PassParams& params, const KeepIn* part, const SurfaceMask* where, const RunContext& run);
 
   // Of a line that runs at `slope` (dy/dt) through the place. Cost: one exact height and one surface
   // evaluation. `hint`: a contact nearby.
@@ -62,6 +55,7 @@ class LineProber {
   const LineFrame frame_;
   const PassParams params_;
   const KeepIn* const part_;
+  const SurfaceMask* const where_;
   const RunContext& run_;
   const double flat_step_;
 };

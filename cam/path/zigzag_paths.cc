@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 
+#include "cam/path/chord_thinning.h"
 #include "cam/path/line_bends.h"
 #include "cam/path/line_clip.h"
 #include "cam/path/line_positions.h"
@@ -16,6 +17,8 @@
 namespace patchmill {
 namespace {
 
+constexpr double kOverlap =
+    6.0;  // flat steps beyond once around: more than a line runs on past what is wanted
 constexpr double kShortest = 4.0;  // flat steps: a stretch of lines shorter than this joins its neighbour
 
 // A stretch of the gap between two lines that has to be cut into so many parts.
@@ -39,14 +42,37 @@ std::vector<Interval> Without(const std::vector<Interval>& within, const std::ve
   return rest;
 }
 
-// Where either line needs a neighbour nearer than the other one, and into how many parts that cuts their gap.
-std::vector<Stretch> NarrowStretches(const ClippedLine& a, const ClippedLine& b, const Interval& within,
-                                     double flat, double min_step) {
+// Into how many parts the gap between a place of one line and another line has to be cut. Ground between them
+// that curves evenly needs the mean of what both need; where that is not enough the place half way is asked,
+// which counts most (Simpson's rule: the surface bulges between two places by its curvature in the mean, with
+// weights that rise towards the middle).
+int PartsTowards(const LineProber& prober, const LineProbe& p, const ClippedLine& line,
+                 const ClippedLine& other, double min_step) {
+  const double y = line.line.At(p.t), across = other.line.At(p.t) - y;
+  const auto parts = [&](double need) { return PartsOfGap(std::abs(across), kWideGap * need, min_step); };
+  const auto tells = [](const LineProbe& q) { return q.wanted && q.need < kInfinity; };
+  const std::vector<LineProbe>& probes = other.probes;
+  auto at = std::lower_bound(probes.begin(), probes.end(), p.t,
+                             [](const LineProbe& q, double t) { return q.t < t; });
+  if (at == probes.end() || (at != probes.begin() && p.t - std::prev(at)->t < at->t - p.t)) --at;
+  if (!tells(p) || !tells(*at)) return parts(p.need);
+  const double ends = 1.0 / p.need + 1.0 / at->need;
+  const int by_ends = parts(2.0 / ends);
+  if (by_ends == 1) return 1;
+  const double slope = 0.5 * (line.line.SlopeAt(p.t) + other.line.SlopeAt(p.t));
+  const LineProbe middle = prober.Probe(p.t, y + 0.5 * across, slope, p.contact ? &*p.contact : nullptr);
+  return tells(middle) ? parts(6.0 / (ends + 4.0 / middle.need)) : by_ends;
+}
+
+// Where two lines need a neighbour nearer than the other one, and into how many parts that cuts their gap.
+std::vector<Stretch> NarrowStretches(const LineProber& prober, const ClippedLine& a, const ClippedLine& b,
+                                     const Interval& within, double min_step) {
+  const double flat = prober.flat_step();
   std::map<int, std::vector<Interval>> spots;
   for (const ClippedLine* line : {&a, &b}) {
     for (const LineProbe& p : line->probes) {
       if (!p.wanted || p.t < within.begin || p.t > within.end) continue;
-      const int parts = PartsOfGap(b.line.At(p.t) - a.line.At(p.t), kWideGap * p.need, min_step);
+      const int parts = PartsTowards(prober, p, *line, line == &a ? b : a, min_step);
       if (parts > 1)
         spots[parts].push_back({std::max(within.begin, p.t - flat), std::min(within.end, p.t + flat)});
     }
@@ -82,7 +108,7 @@ std::vector<Stretch> NarrowStretches(const ClippedLine& a, const ClippedLine& b,
 void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& b, const Interval& within,
              double min_step, std::vector<ClippedLine>& out) {
   if (prober.Cancelled()) return;
-  for (const Stretch& stretch : NarrowStretches(a, b, within, prober.flat_step(), min_step)) {
+  for (const Stretch& stretch : NarrowStretches(prober, a, b, within, min_step)) {
     ClippedLine last = a;
     for (int k = 1; k < stretch.parts; ++k) {
       const double share = static_cast<double>(k) / stretch.parts;
@@ -96,12 +122,64 @@ void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& 
   }
 }
 
-// The line's places in plan from t0 to t1, corners included.
-std::vector<Vec2> PlacesOf(const LineFrame& frame, const LineShape& line, const Interval& t) {
+// The line's places in plan from t0 to t1, corners included; of circles as many as keep chords within
+// `sagitta` (mm) of them.
+std::vector<Vec2> PlacesOf(const LineFrame& frame, const LineShape& line, const Interval& t, double sagitta) {
   std::vector<Vec2> places;
-  for (const double corner : CornersOf(line, t.begin, t.end))
-    places.push_back(frame.At(corner, line.At(corner)));
+  if (!frame.round()) {
+    for (const double corner : CornersOf(line, t.begin, t.end))
+      places.push_back(frame.At(corner, line.At(corner)));
+    return places;
+  }
+  const double distance = line.At(t.begin);
+  const double turn = (t.end - t.begin) * frame.Stretch(distance) / distance;
+  const double most = 2.0 * std::acos(std::clamp(1.0 - sagitta / distance, 0.5, 1.0));
+  const int count = std::max(1, static_cast<int>(std::ceil(turn / most)));
+  for (int i = 0; i <= count; ++i)
+    places.push_back(frame.At(i == count ? t.end : t.begin + (t.end - t.begin) * i / count, distance));
   return places;
+}
+
+// Where round lines are looked for: a little more than once around, so that no stretch is cut off where t
+// begins again.
+FrameExtent ExtentOfRound(const RoundLines& around, double margin, double flat) {
+  const Interval y{std::max(around.inner - margin, 0.25 * flat), around.outer + margin};
+  const double once = LineFrame::Around(around.center, y.end).period();
+  return {{0.0, once + std::min(once, kOverlap * flat * y.end / y.begin)}, y};
+}
+
+// Stretches of a round line that was looked at from 0 to more than once around, each once; all of it is one
+// that begins and ends at 0 and `once`.
+std::vector<Interval> OnceAround(const std::vector<Interval>& keep, double end, double once) {
+  std::vector<Interval> twice = keep;
+  for (const Interval& i : keep) twice.push_back({i.begin + once, i.end + once});
+  twice = Union(std::move(twice), 0.0);
+  std::vector<Interval> rest;
+  for (const Interval& i : twice) {
+    if (i.end - i.begin >= once) return {{0.0, once}};
+    if (i.begin >= end - once && i.begin < end) rest.push_back(i);
+  }
+  return rest;
+}
+
+// All of a round line: runs over the place where it begins and ends become one, closed where nothing breaks
+// it, which is the answer.
+bool CloseAround(double certificate_gap, std::vector<ScanRun>& runs) {
+  if (runs.empty()) return false;
+  CutterPoint &first = runs.front().points.front(), &last = runs.back().points.back();
+  const Vec3 step = last.center - first.center;  // the same place, each height certified to its own gap
+  if (step.norm() > 1e-9 + certificate_gap) return false;
+  if (step.z() > 0.0) first = last;
+  if (runs.size() == 1) {
+    const bool closed = runs.front().points.size() > 3;
+    if (closed) runs.front().points.pop_back();
+    return closed;
+  }
+  last = first;
+  std::vector<CutterPoint>& points = runs.back().points;
+  points.insert(points.end(), runs.front().points.begin() + 1, runs.front().points.end());
+  runs.erase(runs.begin());
+  return false;
 }
 
 }  // namespace
@@ -110,15 +188,21 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
                                                     const RunContext& run) {
   const Surface& surface = locator.surface();
   const SheetBorder border(surface, params.roll);
-  const LineProber prober(locator, border, LineFrame::At(params.angle), params, params.part, run);
-  const double min_step = params.min_step_fraction * prober.flat_step();
-  const FrameExtent extent = ExtentInFrame(surface, prober.frame(), locator.radius());
+  const double flat = CenterStep(locator.radius(), params.scallop, 0.0);
+  const FrameExtent extent = params.around ? ExtentOfRound(*params.around, locator.radius(), flat)
+                                           : ExtentOfParallels(surface, params.angle, locator.radius());
+  const LineFrame frame =
+      params.around ? LineFrame::Around(params.around->center, extent.y.end) : LineFrame::At(params.angle);
+  const LineProber prober(locator, border, frame, params, params.part, params.where, run);
+  const double min_step = params.min_step_fraction * flat, once = frame.period();
+  const double sagitta = std::min(params.chord_tolerance, kRoundSagitta * flat);
+  const double max_bend = frame.round() ? 0.0 : params.max_bend;
   PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands, LinePositions(prober, extent, min_step, run));
   std::vector<BentLine> bent;
   std::vector<char> last_of_band;
   for (const LineBand& band : bands) {
     PM_ASSIGN_OR_RETURN(const std::vector<BentLine> more,
-                        BendLines(prober, extent.t, band, min_step, params.max_bend, run));
+                        BendLines(prober, extent.t, band, min_step, max_bend, run));
     bent.insert(bent.end(), more.begin(), more.end());
     last_of_band.resize(bent.size(), 0);
     last_of_band.back() = 1;
@@ -146,7 +230,8 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
     if (line.keep.empty()) return;
     if (line.rank != last_rank) ++index;
     last_rank = line.rank;
-    for (const Interval& t : line.keep) parts.push_back({&line, index, t});
+    const std::vector<Interval> keep = frame.round() ? OnceAround(line.keep, extent.t.end, once) : line.keep;
+    for (const Interval& t : keep) parts.push_back({&line, index, t});
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {
     add(lines[i]);
@@ -157,16 +242,23 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   }
 
   std::vector<std::vector<ScanRun>> runs(parts.size());
+  std::vector<char> closed(parts.size(), 0);
   PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag", parts.size(), [&](std::size_t i) {
     const Part& part = parts[i];
-    const std::vector<Vec2> places = PlacesOf(prober.frame(), part.line->line, part.t);
+    std::vector<Vec2> places = PlacesOf(frame, part.line->line, part.t, sagitta);
+    const bool whole = part.t.end - part.t.begin == once;
+    if (whole) places.back() = places.front();
     runs[i] = ScanPolyline(locator, places, params, &run);
+    if (whole) closed[i] = CloseAround(CertificateGap(params), runs[i]);
   }));
   std::vector<CutterPath> paths;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (ScanRun& r : runs[i]) {
       if (r.points.size() < 2) continue;
-      paths.push_back({.kind = PassKind::kZigzag, .line = parts[i].index, .points = std::move(r.points)});
+      paths.push_back({.kind = PassKind::kZigzag,
+                       .closed = closed[i] != 0,
+                       .line = parts[i].index,
+                       .points = std::move(r.points)});
     }
   }
   return paths;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cam/link/link_paths.h"
+#include "cam/path/line_frame.h"
 #include "cam/post/program_writer.h"
 #include "cam/region/region_map.h"
 #include "cam/tool/containment.h"
@@ -54,10 +55,12 @@ struct Selection {
 struct RegionChoice {
   bool skip = false;  // not at all
   Strategy strategy = Strategy::kAuto;
-  double zigzag_angle = 0.0;  // rad
-  bool angle_open = false;    // zigzag_angle is yet to be chosen (QuickestAngles)
-  bool one_way = false;       // all its lines run along zigzag_angle, none back
-  double scallop = 0.01;      // mm
+  double zigzag_angle = 0.0;         // rad
+  bool angle_open = false;           // zigzag_angle is yet to be chosen (QuickestAngles)
+  bool round_open = false;           // and whether its lines are circles (ChooseRoundLines)
+  bool one_way = false;              // all its lines run along zigzag_angle, none back
+  double scallop = 0.01;             // mm
+  std::optional<RoundLines> around;  // its lines are circles, whatever zigzag_angle says (ChooseRoundLines)
   bool operator==(const RegionChoice&) const = default;
 };
 
@@ -86,6 +89,7 @@ struct Operation {
   double zigzag_bend =
       Radians(20.0);          // rad, how far lines may turn from their angle (BendLines); 0: straight
   bool angle_auto = false;    // each region's lines in the direction that takes the least time
+  bool round_lines = true;    // lines of ring-shaped regions may be circles (ChooseRoundLines)
   bool border_passes = true;  // along the borders that lines run along (BorderPasses)
   bool spirals = false;       // contours one below the other become one pass (SpiralPaths)
   double detail = RegionParams().detail;

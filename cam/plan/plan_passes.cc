@@ -60,7 +60,8 @@ class PassMaker {
   PassMaker(const Locator& locator, const Job& job, const Resolved& resolved, const RunContext& run)
       : locator_(locator), op_(job.operation), base_(MakePassParams(job, resolved)), run_(run) {}
 
-  absl::Status AddStrategies(const RegionChoice& choice, const KeepIn* keep_in, PlannedPasses& planned) {
+  absl::Status AddStrategies(const PlanPart& part, const KeepIn* keep_in, PlannedPasses& planned) {
+    const RegionChoice& choice = part.choice;
     std::vector<CutterPath> paths;
     if (choice.strategy != Strategy::kZigzag) {
       PM_ASSIGN_OR_RETURN(paths, Contours(choice, planned.findings));
@@ -72,8 +73,16 @@ class PassMaker {
       params.angle = choice.zigzag_angle;
       params.max_bend = op_.zigzag_bend;
       if (keep_in != nullptr && keep_in->HasPart()) params.part = keep_in;
+      params.where = part.straight.get();
       PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator_, params, run_));
       for (CutterPath& line : lines) line.one_way = choice.one_way;
+      for (const PlanPart::Round& round : part.round) {
+        params.where = round.where.get();
+        params.around = round.around;
+        PM_ASSIGN_OR_RETURN(std::vector<CutterPath> circles, ZigzagPaths(locator_, params, run_));
+        NumberAfter(lines, circles);
+        Append(lines, std::move(circles));
+      }
       Append(paths, std::move(lines));
     }
     if (keep_in != nullptr) {
@@ -106,7 +115,7 @@ class PassMaker {
                            (own.strategy == Strategy::kAuto && region(id).slope == SlopeClass::kGentle));
     };
     const auto ends = [&](int id, int other) {
-      if (!has_lines(id) || !(choices[static_cast<std::size_t>(id)] == choice) || has_lines(other))
+      if (!has_lines(id) || !CutTogether(choices[static_cast<std::size_t>(id)], choice) || has_lines(other))
         return false;
       return other < 0 || region(other).kind != RegionKind::kUnreachable ||
              region(other).reason == UnreachableReason::kFloor;
@@ -201,7 +210,7 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
       PM_ASSIGN_OR_RETURN(KeepIn within, keep_in->Within(parts[k].where, run));
       own[k].emplace(std::move(within));
     }
-    PM_RETURN_IF_ERROR(maker.AddStrategies(parts[k].choice, limits(k), planned));
+    PM_RETURN_IF_ERROR(maker.AddStrategies(parts[k], limits(k), planned));
   }
   if (job.operation.border_passes) {
     for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -74,13 +76,95 @@ std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
   return leader;
 }
 
+// The cells of a piece that are the region's, or at most kBeside steps from cell to cell away: its border
+// runs through cells, and what is left of them would be cut by short ends of other lines.
+std::vector<bool> CellsOf(const RegionMap& map, const std::vector<int>& labels, int region) {
+  constexpr int kBeside = 4;
+  const int n = map.cells;
+  std::vector<bool> own(labels.size());
+  std::vector<int> edge;
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    own[k] = labels[k] == region;
+    if (own[k]) edge.push_back(static_cast<int>(k));
+  }
+  for (int step = 0; step < kBeside; ++step) {
+    std::vector<int> next;
+    for (const int k : edge) {
+      const int i = k / n, j = k % n;
+      for (const auto& [a, b] : {std::pair(i - 1, j), {i + 1, j}, {i, j - 1}, {i, j + 1}}) {
+        if (a < 0 || b < 0 || a >= n || b >= n || own[static_cast<std::size_t>(a * n + b)]) continue;
+        own[static_cast<std::size_t>(a * n + b)] = true;
+        next.push_back(a * n + b);
+      }
+    }
+    edge = std::move(next);
+  }
+  return own;
+}
+
+// Circles around places this near to each other are one family.
+constexpr double kSamePlace = 0.05;  // mm
+
+std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<RegionChoice>& choices,
+                                     const std::vector<int>& part_of, std::vector<PlanPart> parts) {
+  using Cells = std::vector<std::vector<bool>>;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    std::vector<RoundLines> families;
+    std::vector<Cells> cells;
+    for (std::size_t id = 0; id < choices.size(); ++id) {
+      if (part_of[id] != static_cast<int>(p) || !choices[id].around) continue;
+      const RoundLines& own = *choices[id].around;
+      std::size_t k = 0;
+      while (k < families.size() && (families[k].center - own.center).norm() > kSamePlace) ++k;
+      if (k == families.size()) {
+        families.push_back(own);
+        cells.emplace_back(map.labels.size());
+      }
+      families[k].inner = std::min(families[k].inner, own.inner);
+      families[k].outer = std::max(families[k].outer, own.outer);
+      for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
+        const std::vector<bool> more = CellsOf(map, map.labels[piece], static_cast<int>(id));
+        std::vector<bool>& in = cells[k][piece];
+        in.resize(more.size(), false);
+        std::transform(in.begin(), in.end(), more.begin(), in.begin(), std::logical_or<>());
+      }
+    }
+    if (families.empty()) continue;
+    // Beside two families cells are the first one's.
+    Cells straight(map.labels.size());
+    for (std::size_t piece = 0; piece < straight.size(); ++piece) {
+      straight[piece].resize(map.labels[piece].size(), true);
+      for (Cells& own : cells) {
+        for (std::size_t i = 0; i < own[piece].size(); ++i) {
+          own[piece][i] = own[piece][i] && straight[piece][i];
+          if (own[piece][i]) straight[piece][i] = false;
+        }
+      }
+    }
+    for (std::size_t k = 0; k < families.size(); ++k)
+      parts[p].round.push_back({families[k], std::make_shared<const SurfaceMask>(map.cells, cells[k])});
+    parts[p].straight = std::make_shared<const SurfaceMask>(map.cells, straight);
+  }
+  return parts;
+}
+
 }  // namespace
+
+bool CutTogether(const RegionChoice& a, const RegionChoice& b) {
+  if (!a.around && !b.around) return a == b;
+  RegionChoice c = b;
+  c.zigzag_angle = a.zigzag_angle;
+  c.angle_open = a.angle_open;
+  c.around = a.around;
+  return a == c;
+}
 
 RegionChoice ChoiceOf(const Operation& op) {
   RegionChoice choice;
   choice.strategy = op.strategy;
   choice.zigzag_angle = op.zigzag_angle;
   choice.angle_open = op.angle_auto;
+  choice.round_open = op.round_lines;
   choice.one_way = op.one_way;
   choice.scallop = op.scallop;
   return choice;
@@ -123,6 +207,7 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
     choice.strategy = change.strategy.value_or(choice.strategy);
     choice.zigzag_angle = change.zigzag_angle.value_or(choice.zigzag_angle);
     choice.angle_open = choice.angle_open && !change.zigzag_angle;
+    choice.round_open = choice.round_open && !change.zigzag_angle;
     choice.one_way = change.one_way.value_or(choice.one_way);
     choice.scallop = change.scallop.value_or(choice.scallop);
   }
@@ -132,17 +217,23 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
 std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoice>& choices) {
   std::vector<PlanPart> parts;
   std::vector<int> part_of(choices.size(), -1);
-  for (std::size_t id = 0; id < choices.size(); ++id) {
-    if (choices[id].skip || map.regions[id].kind == RegionKind::kUnreachable) continue;
-    const auto known = std::find_if(parts.begin(), parts.end(),
-                                    [&](const PlanPart& part) { return part.choice == choices[id]; });
-    part_of[id] = static_cast<int>(known - parts.begin());
-    if (known == parts.end()) parts.push_back({choices[id], nullptr});
+  for (const bool round : {false, true}) {
+    for (std::size_t id = 0; id < choices.size(); ++id) {
+      if (choices[id].skip || map.regions[id].kind == RegionKind::kUnreachable) continue;
+      if (choices[id].around.has_value() != round) continue;
+      const auto known = std::find_if(parts.begin(), parts.end(), [&](const PlanPart& part) {
+        return CutTogether(choices[id], part.choice);
+      });
+      part_of[id] = static_cast<int>(known - parts.begin());
+      if (known != parts.end()) continue;
+      parts.emplace_back().choice = choices[id];
+      parts.back().choice.around.reset();
+    }
   }
   const bool any_skipped =
       std::any_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.skip; });
   if (parts.empty()) parts.emplace_back();
-  if (parts.size() == 1 && !any_skipped) return parts;
+  if (parts.size() == 1 && !any_skipped) return WithRoundLines(map, choices, part_of, std::move(parts));
   using Cells = std::vector<std::vector<bool>>;
   std::vector<Cells> marked(parts.size(), Cells(map.labels.size()));
   for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
@@ -157,7 +248,7 @@ std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoi
   for (std::size_t p = 0; p < parts.size(); ++p) {
     parts[p].where = std::make_shared<const SurfaceMask>(map.cells, marked[p]);
   }
-  return parts;
+  return WithRoundLines(map, choices, part_of, std::move(parts));
 }
 
 }  // namespace patchmill

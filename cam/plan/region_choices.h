@@ -26,13 +26,25 @@ struct ChosenRegions {
 absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, const RegionMap& map,
                                                         const Operation& op, const Vec3& program_zero);
 
+// They are the same but for the direction of lines, if either has round ones: one set of contours cuts both.
+bool CutTogether(const RegionChoice& a, const RegionChoice& b);
+
 // A part of the surface that is cut in one way.
 struct PlanPart {
   RegionChoice choice;
   std::shared_ptr<const SurfaceMask> where;  // null: all of it
+
+  // Ground of it whose lines are circles.
+  struct Round {
+    RoundLines around;
+    std::shared_ptr<const SurfaceMask> where;
+  };
+  std::vector<Round> round;
+  std::shared_ptr<const SurfaceMask> straight;  // what the other lines cover; null: all of it
 };
 
-// Parts of equal choices, in the order of their first regions, in cells of the map; skipped regions are in
+// Parts of equal choices, in the order of their first regions, in cells of the map; regions of round lines go
+// with those that are the same but for the direction of lines. Skipped regions are in
 // none. Unreachable ground goes with the reachable ground nearest to it in its piece (cell by cell), so that
 // no pass runs around what lies within a skipped region. At least one part, which may be empty.
 std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoice>& choices);

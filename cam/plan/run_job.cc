@@ -11,6 +11,7 @@
 #include "cam/plan/region_choices.h"
 #include "cam/plan/region_steps.h"
 #include "cam/plan/resolve.h"
+#include "cam/plan/round_lines.h"
 #include "cam/post/program_reader.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"
@@ -65,6 +66,8 @@ absl::StatusOr<ChosenRegions> MakeRegions(const Surface& surface, const Job& job
   PM_ASSIGN_OR_RETURN(regions.map, SplitRegions(surface, params, run));
   PM_ASSIGN_OR_RETURN(regions.choices,
                       ChooseRegions(surface, regions.map, job.operation, resolved.program_zero));
+  PM_RETURN_IF_ERROR(
+      ChooseRoundLines(surface, regions.map, job.operation.steep_angle, resolved, run, regions.choices));
   PM_RETURN_IF_ERROR(FillSteps(surface, regions.choices, resolved, run, regions.map));
   return regions;
 }

@@ -200,6 +200,7 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   op.set_one_way_lines(options.one_way);
   op.set_contour_spirals(options.spirals);
   op.set_border_passes(!options.no_border_passes);
+  op.set_round_lines(!options.no_round_lines);
   op.set_zigzag_angle_auto(options.auto_angle);
   op.set_edge_rule(MakeEdgeRule(options.edges));
   op.set_detail(options.detail);

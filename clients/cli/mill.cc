@@ -196,6 +196,8 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
                "lines of each region in the direction that takes the least time, to within 4 degrees");
   app.add_flag("--one-way", op.one_way, "cut all lines in that direction, and lift the ball back");
   app.add_flag("--spirals", op.spirals, "wind closed contours down around walls in one pass");
+  app.add_flag("--no-round-lines", op.no_round_lines,
+               "straight lines on rims and shoulders too, where circles around an axis are a tenth shorter");
   app.add_flag("--no-border-passes", op.no_border_passes, "no passes along borders that lines run along");
   app.add_option("--edges", op.edges,
                  "stop at outer borders; roll over them; extend passes by a ball radius beyond them")

@@ -63,6 +63,12 @@ std::string HowItIsCut(const v1::Region& region) {
     return text;
   }
   text = Short(region.strategy());
+  if (region.has_lines_around()) {
+    if (region.strategy() != v1::STRATEGY_ZIGZAG) text += ", lines";
+    const auto micron = [](double mm) { return std::round(1e3 * mm) / 1e3 + 0.0; };  // no -0.000
+    text += fmt::format(" around {:.3f},{:.3f}", micron(region.lines_around().x_mm()),
+                        micron(region.lines_around().y_mm()));
+  }
   if (region.has_zigzag_angle_deg())
     text += fmt::format(" {:g} deg{}", region.zigzag_angle_deg(), region.one_way_lines() ? " one way" : "");
   return text + fmt::format(", scallop {:g}, step {:.3f} to {:.3f} mm", region.scallop_mm(),
@@ -129,6 +135,8 @@ Command AddRegions(CLI::App& app) {
       ->capture_default_str();
   AddNumber(app, "--zigzag-angle", options->operation.zigzag_angle,
             "direction of the lines from +X, degrees");
+  app.add_flag("--no-round-lines", options->operation.no_round_lines,
+               "straight lines on rims and shoulders too");
   AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);

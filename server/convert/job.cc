@@ -130,6 +130,7 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
   op.one_way = proto.one_way_lines();
   op.spirals = proto.contour_spirals();
   if (proto.has_border_passes()) op.border_passes = proto.border_passes();
+  if (proto.has_round_lines()) op.round_lines = proto.round_lines();
   if (proto.has_detail()) op.detail = ReadDetail(proto.detail(), at, errors);
   op.contour_direction = FromProto(proto.contour_direction(), At(at, "contour_direction"), errors);
   op.edge_rule = FromProto(proto.edge_rule(), At(at, "edge_rule"), errors);
@@ -175,6 +176,7 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   if (op.one_way) proto.set_one_way_lines(true);
   proto.set_contour_spirals(op.spirals);
   proto.set_border_passes(op.border_passes);
+  proto.set_round_lines(op.round_lines);
   proto.set_zigzag_bend_deg(Degrees(op.zigzag_bend));
   proto.set_zigzag_angle_auto(op.angle_auto);
   proto.set_detail(op.detail);

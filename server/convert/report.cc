@@ -74,14 +74,18 @@ void AddLeftoverClasses(const VerifyReport& verify, v1::Report* report) {
   }
 }
 
-void SetChoice(const RegionChoice& choice, SlopeClass slope, v1::Region& proto) {
+void SetChoice(const RegionChoice& choice, SlopeClass slope, const Vec3& zero, v1::Region& proto) {
   Strategy strategy = choice.strategy;
   if (strategy == Strategy::kAuto) {
     strategy = slope == SlopeClass::kSteep ? Strategy::kContour : Strategy::kZigzag;
   }
   proto.set_strategy(ToProto(strategy));
   proto.set_scallop_mm(choice.scallop);
-  if (strategy != Strategy::kZigzag) return;
+  if (choice.around) {
+    proto.mutable_lines_around()->set_x_mm(choice.around->center.x() - zero.x());
+    proto.mutable_lines_around()->set_y_mm(choice.around->center.y() - zero.y());
+  }
+  if (strategy != Strategy::kZigzag || choice.around) return;
   proto.set_zigzag_angle_deg(Degrees(choice.zigzag_angle));
   proto.set_one_way_lines(choice.one_way);
 }
@@ -152,7 +156,7 @@ v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3&
     proto.set_slope(ToProto(region.slope));
     proto.set_step_min_mm(Number(region.step_min));
     proto.set_step_max_mm(Number(region.step_max));
-    if (!choice.skip) SetChoice(choice, region.slope, proto);
+    if (!choice.skip) SetChoice(choice, region.slope, zero, proto);
   }
   proto.set_skipped(choice.skip);
   if (detail == Detail::kFigures) return proto;

@@ -12,15 +12,24 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-// Where the passes of one kind lie: heights of the levels, or offsets of the
-// lines across the feed; each once.
+// What round lines of the job run around.
+std::optional<Vec2> Around(const JobResult& result) {
+  for (const RegionChoice& choice : result.report.choices)
+    if (choice.around) return choice.around->center;
+  return std::nullopt;
+}
+
+// Where the passes of one kind lie: heights of the levels, offsets of the lines across the feed, or distances
+// of round ones from what they run around; each once.
 std::vector<double> Places(const JobResult& result, PassKind kind, double angle) {
   const Vec3 across(-std::sin(angle), std::cos(angle), 0.0);
+  const std::optional<Vec2> around = Around(result);
   std::vector<double> all;
   for (const CutterPath& path : result.motion.passes) {
     if (path.kind != kind) continue;
     const Vec3& c = path.points.front().center;
-    all.push_back(kind == PassKind::kContour ? c.z() : across.dot(c));
+    const double place = around ? (Plan(c) - *around).norm() : across.dot(c);
+    all.push_back(kind == PassKind::kContour ? c.z() : place);
   }
   std::sort(all.begin(), all.end());
   std::vector<double> places;
@@ -58,7 +67,7 @@ void ExpectSameJob(const PatchModel& model, const Job& job) {
     const double angle = job.operation.zigzag_angle;
     ExpectSamePlaces(*first, result, PassKind::kContour, angle, way.shift.z());
     ExpectSamePlaces(*first, result, PassKind::kZigzag, angle,
-                     Vec3(-std::sin(angle), std::cos(angle), 0.0).dot(way.shift));
+                     Around(*first) ? 0.0 : Vec3(-std::sin(angle), std::cos(angle), 0.0).dot(way.shift));
     double total = 0.0;
     for (const auto& [kind, area] : AreasByKind(*first)) total += area;
     const auto areas = AreasByKind(result);
@@ -86,7 +95,11 @@ TEST(SameJob, Torus) {
   Job job = BallJob(2.0);
   job.operation.zigzag_bend = 0.0;
   job.operation.scallop = 0.03;
-  ExpectSameJob(Torus({0, 0, 0}, 10, 4, Half::kUpper), job);
+  for (const bool round : {false, true}) {
+    SCOPED_TRACE(round);
+    job.operation.round_lines = round;
+    ExpectSameJob(Torus({0, 0, 0}, 10, 4, Half::kUpper), job);
+  }
 }
 
 TEST(SameJob, BentLinesAreAsLong) {

@@ -349,6 +349,7 @@ Request Unusual() {
   op.set_contour_direction(v1::CUT_DIRECTION_EITHER);
   op.set_contour_spirals(true);
   op.set_border_passes(false);
+  op.set_round_lines(false);
   op.set_zigzag_angle_auto(false);
   op.set_zigzag_bend_deg(12.5);
   op.set_edge_rule(v1::EDGE_RULE_ROLL);
@@ -449,6 +450,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_one_way_lines(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_contour_spirals(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_border_passes(false); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_round_lines(false); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_zigzag_angle_auto(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_zigzag_bend_deg(0); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_edge_rule(v1::EDGE_RULE_EXTEND); }));

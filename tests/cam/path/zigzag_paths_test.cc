@@ -243,7 +243,8 @@ TEST(ZigzagPaths, NarrowSpotsGetPartialLines) {
     for (std::size_t k = 0; k < i; ++k) {  // those beside it, of other lines
       const Vec3 &a = paths[k].points.front().center, &b = paths[k].points.back().center;
       if (paths[k].line == paths[i].line || a.x() >= to.x() || b.x() <= from.x()) continue;
-      EXPECT_GE(from.y() - a.y(), 0.999 * params.min_step_fraction * flat);
+      // A gap a little wider than a need that is no shorter than the least is cut in two.
+      EXPECT_GE(from.y() - a.y(), 0.5 * params.min_step_fraction * flat);
     }
   }
   EXPECT_GT(full, 20u);
@@ -290,6 +291,78 @@ TEST(ZigzagPaths, CancelIsObeyedAndEmptyWindowsGiveNothing) {
   ZigzagParams steep = Params(0.01, 90);
   steep.window.min = Radians(45);
   EXPECT_TRUE(Zigzag(locator, steep).empty());
+}
+
+// A rim: the upper part of a torus, of tube radius kTube, its axis at kAxis.
+constexpr double kRim = 12.0, kTube = 5.0;
+const Vec3 kAxis(4, -3, 0);
+
+ZigzagParams AroundRim(double scallop) {
+  ZigzagParams params = Params(scallop, 45);
+  const double reach = kTube * std::sqrt(0.5);
+  params.around = RoundLines{Plan(kAxis), kRim - reach, kRim + reach};
+  return params;
+}
+
+TEST(ZigzagPaths, RoundLinesLieOnARimAtTheStepItNeeds) {
+  const double radius = 3.0, scallop = 0.01, tube = kTube + radius;
+  const Surface surface = JoinedSurface(Torus(kAxis, kRim, kTube, Half::kUpper));
+  const Locator locator(surface, radius);
+  const auto paths = Zigzag(locator, AroundRim(scallop));
+  const double step = CenterStep(radius, scallop, -1.0 / kTube);  // on the circle of centres, radius `tube`
+  const double gaps = std::ceil(tube * kPi / 2.0 / step);
+  EXPECT_GE(paths.size(), static_cast<std::size_t>(gaps));
+  EXPECT_LE(paths.size(), static_cast<std::size_t>(gaps) + 2);
+  double last = -kPi / 4.0 - 1e-2;
+  for (const CutterPath& path : paths) {
+    EXPECT_TRUE(path.closed);
+    EXPECT_EQ(path.kind, PassKind::kZigzag);
+    double inner = kInfinity, outer = 0.0;
+    for (const CutterPoint& p : path.points) {
+      const double r = (Plan(p.center) - Plan(kAxis)).norm();
+      inner = std::min(inner, r);
+      outer = std::max(outer, r);
+      EXPECT_NEAR(p.center.z(), std::sqrt(tube * tube - (r - kRim) * (r - kRim)), 2e-4 + 1e-6);
+    }
+    EXPECT_LE(outer - inner, 0.002);  // the chord tolerance
+    const double angle = std::asin((outer - kRim) / tube);
+    EXPECT_GT(angle, last);
+    EXPECT_LE(tube * (angle - last), 1.02 * step + 0.002);
+    last = angle;
+  }
+  EXPECT_NEAR(last, kPi / 4.0, 1e-2);
+  const Leftover left = Measure(surface, locator, paths, {0, Radians(44)}, 20000);
+  EXPECT_GT(left.samples, 5000);
+  EXPECT_LE(left.worst, scallop + 0.002);
+  EXPECT_GE(left.worst, 0.8 * scallop);
+}
+
+// Three quarters of the rim, turned: where angles begin again is no place of the part.
+TEST(ZigzagPaths, RoundLinesDoNotSeeWhereTheyBegin) {
+  PatchModel sector = Torus(Vec3::Zero(), kRim, kTube, Half::kUpper);
+  std::erase_if(sector.patches, [](const Patch& patch) {
+    const auto& points = std::get<BezierPatch>(patch.shape).points;
+    return std::all_of(points.begin(), points.end(),
+                       [](const Vec3& p) { return p.x() > -1e-9 && p.y() > -1e-9; });
+  });
+  ASSERT_EQ(sector.patches.size(), 6u);
+  std::vector<double> lengths;
+  for (const double turn : {0.0, 0.7, 2.2, 4.0}) {
+    Eigen::Affine3d motion(Eigen::AngleAxisd(turn, Vec3::UnitZ()));
+    motion.pretranslate(kAxis);
+    const Surface surface = JoinedSurface(Transformed(sector, motion));
+    const Locator locator(surface, 3.0);
+    std::vector<double> now;
+    for (const CutterPath& path : Zigzag(locator, AroundRim(0.02))) {
+      EXPECT_FALSE(path.closed);
+      now.push_back(Length(path));
+    }
+    ASSERT_GT(now.size(), 8u);
+    if (lengths.empty()) lengths = now;
+    ASSERT_EQ(now.size(), lengths.size()) << turn;
+    // Corners lie elsewhere on the circles: up to one chord's difference at an end.
+    for (std::size_t i = 0; i < now.size(); ++i) EXPECT_NEAR(now[i], lengths[i], 2e-2) << turn;
+  }
 }
 
 }  // namespace

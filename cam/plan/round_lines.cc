@@ -1,0 +1,217 @@
+#include "cam/plan/round_lines.h"
+
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "cam/path/across_feed.h"
+#include "cam/path/cheapest_step.h"
+#include "cam/path/spacing.h"
+#include "cam/plan/region_points.h"
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kWorthwhile = 0.9;  // of the straight lines' length
+
+// Calls visit(from, to), in plan, for the stretches from point to point of a gentle region's borders.
+template <class Visit>
+void VisitBorders(const RegionMap& map, std::size_t id, const Visit& visit) {
+  if (map.regions[id].slope != SlopeClass::kGentle) return;
+  for (const BorderLine& line : map.border_lines) {
+    if (line.region != map.regions[id].id && line.other != map.regions[id].id) continue;
+    const std::size_t n = line.points.size();
+    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i)
+      visit(Plan(line.points[i]), Plan(line.points[(i + 1) % n]));
+  }
+}
+
+// A direction in plan that should run around the center: m . (p - c) = 0.
+struct Tangent {
+  Vec2 p, m;
+  double weight = 0.0;
+};
+
+// c of the least sum of weight (m . (p - c))^2; then, so that a spout or a handle beside a rim does not draw
+// it away, with weights that fall off for what misses it by more than `near` (mm). None where all m are about
+// parallel.
+std::optional<Vec2> CenterOf(const std::vector<Tangent>& tangents, double near) {
+  constexpr int kRounds = 10;
+  std::optional<Vec2> center;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix2d a = Eigen::Matrix2d::Zero();
+    Vec2 b = Vec2::Zero();
+    for (const Tangent& t : tangents) {
+      const double length2 = t.m.squaredNorm();
+      if (!(length2 > 0.0)) continue;
+      const double miss = center ? t.m.dot(t.p - *center) : 0.0;
+      const double counts = 1.0 / (1.0 + miss * miss / (near * near * length2)),
+                   weight = t.weight * counts * counts;
+      a += weight * t.m * t.m.transpose();
+      b += weight * t.m.dot(t.p) * t.m;
+    }
+    const double trace = a.trace();
+    if (!(a.determinant() > 1e-6 * trace * trace)) return std::nullopt;
+    center = a.inverse() * b;
+  }
+  return center;
+}
+
+// A point of gentle ground.
+struct GentlePoint {
+  std::size_t region = 0;
+  SurfaceJet jet;
+  Vec3 normal = Vec3::UnitZ();
+  double centers = 0.0;                                       // mm2 of the centre surface that it stands for
+  Vec2 to_steep_u = Vec2::Zero(), to_steep_v = Vec2::Zero();  // mm: of the limit of slope, beside it
+};
+
+// The gentle points of a piece, of regions with an `open` choice.
+std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece, const RegionMap& map,
+                                      int stride, double steep_angle, double radius,
+                                      const std::vector<bool>& open) {
+  std::vector<int> steep(map.labels[piece].size(), 0);
+  std::vector<std::pair<std::size_t, GentlePoint>> found;  // cell, point
+  const double share = ShareOfPoint(map, stride), way = std::sqrt(share), limit = std::cos(steep_angle);
+  VisitPiece(
+      surface, piece, map, stride, [&](std::size_t id) { return open[id]; },
+      [&](std::size_t id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
+        if (e.z() < limit) {
+          steep[cell] = map.labels[piece][cell] + 1;
+          return;
+        }
+        const PrincipalCurvatures k = Principal(Forms(jet, e));
+        if (!(k.k_max * radius < 1.0)) return;
+        const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
+        found.push_back({cell, {id, jet, e, share * centers * jet.du.cross(jet.dv).norm(), {}, {}}});
+      });
+  const int n = map.cells;
+  std::vector<GentlePoint> points;
+  points.reserve(found.size());
+  for (auto& [cell, point] : found) {
+    const int i = static_cast<int>(cell) / n, j = static_cast<int>(cell) % n;
+    const auto is_steep = [&](int a, int b) {
+      return a >= 0 && b >= 0 && a < n && b < n &&
+             steep[static_cast<std::size_t>(a * n + b)] == static_cast<int>(point.region) + 1;
+    };
+    const int u = is_steep(i - stride, j) + is_steep(i + stride, j);
+    const int v = is_steep(i, j - stride) + is_steep(i, j + stride);
+    point.to_steep_u = u * way * Plan(point.jet.dv);
+    point.to_steep_v = v * way * Plan(point.jet.du);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+// What lines over a region's gentle ground come to.
+struct Lengths {
+  double passes = 0.0;  // mm, for the steps needed
+  double ends = 0.0;    // mm of borders, as seen along the lines
+
+  void Add(const GentlePoint& point, const RegionChoice& choice, double radius) {
+    const Vec2 line = LineAt(choice, point.jet.p);
+    ends += std::abs(Cross(line, point.to_steep_u)) + std::abs(Cross(line, point.to_steep_v));
+    const auto across = AcrossLines(point.normal, line);
+    if (!across) return;
+    const double kappa = NormalCurvature(Forms(point.jet, point.normal), point.jet, *across);
+    const double step = CenterStep(radius, choice.scallop, kappa);
+    if (step > 0.0) passes += point.centers / step;
+  }
+  // One line ends for every step of border, at half of what a run costs.
+  double Sum(double radius, double step) const { return passes + 0.5 * kWayToRun * radius * ends / step; }
+};
+
+// How ground lies around a place.
+struct Extent {
+  static constexpr int kSectors = 24;
+  double nearest = kInfinity, farthest = 0.0;  // mm
+  std::bitset<kSectors> sectors;               // in which there is some
+
+  void Add(const Vec2& from_center) {
+    nearest = std::min(nearest, from_center.norm());
+    farthest = std::max(farthest, from_center.norm());
+    const double turns = std::atan2(from_center.y(), from_center.x()) / (2.0 * kPi) + 0.5;
+    sectors.set(static_cast<std::size_t>(std::clamp(static_cast<int>(turns * kSectors), 0, kSectors - 1)));
+  }
+  bool GoesAround() const { return 4 * sectors.count() >= 3 * kSectors; }
+};
+
+}  // namespace
+
+absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, double steep_angle,
+                              const Resolved& resolved, const RunContext& run,
+                              std::vector<RegionChoice>& choices) {
+  const double radius = resolved.plan_radius;
+  std::vector<bool> open(choices.size());
+  for (std::size_t id = 0; id < choices.size(); ++id) {
+    const RegionChoice& choice = choices[id];
+    open[id] = choice.round_open && !choice.skip && !choice.one_way && choice.strategy == Strategy::kAuto &&
+               map.regions[id].kind != RegionKind::kUnreachable;
+    choices[id].round_open = false;
+  }
+  if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) return absl::OkStatus();
+
+  const int stride = std::min(2 * StrideOf(map), map.cells);
+  std::vector<std::vector<GentlePoint>> pieces(surface.pieces.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
+    pieces[i] = GentlePoints(surface, i, map, stride, steep_angle, radius, open);
+  }));
+  std::vector<std::vector<Tangent>> tangents(choices.size());
+  for (const std::vector<GentlePoint>& piece : pieces) {
+    for (const GentlePoint& point : piece)
+      tangents[point.region].push_back(
+          {Plan(point.jet.p), {-point.normal.y(), point.normal.x()}, point.centers});
+  }
+  // As they would be cut along circles.
+  std::vector<std::optional<RegionChoice>> tried(choices.size());
+  std::vector<Lengths> straight(choices.size()), round(choices.size());
+  std::vector<Extent> extents(choices.size());
+  for (std::size_t id = 0; id < choices.size(); ++id) {
+    if (!open[id]) continue;
+    const double flat = CenterStep(radius, choices[id].scallop, 0.0);
+    VisitBorders(map, id, [&](const Vec2& from, const Vec2& to) {
+      const double length = (to - from).norm();
+      if (length > 0.0) tangents[id].push_back({0.5 * (from + to), (to - from) / length, flat * length});
+    });
+    const auto center = CenterOf(tangents[id], radius);
+    if (!center) continue;
+    tried[id] = choices[id];
+    tried[id]->around = RoundLines{*center, 0.0, 0.0};
+    tried[id]->angle_open = false;
+    VisitBorders(map, id, [&](const Vec2& from, const Vec2& to) {
+      const Vec3 p = Lift(0.5 * (from + to), 0.0);
+      straight[id].ends += std::abs(Cross(LineAt(choices[id], p), to - from));
+      round[id].ends += std::abs(Cross(LineAt(*tried[id], p), to - from));
+    });
+  }
+  for (const std::vector<GentlePoint>& piece : pieces) {
+    for (const GentlePoint& point : piece) {
+      const std::size_t id = point.region;
+      if (!tried[id]) continue;
+      straight[id].Add(point, choices[id], radius);
+      round[id].Add(point, *tried[id], radius);
+      extents[id].Add(Plan(point.jet.p) - tried[id]->around->center);
+    }
+  }
+  for (std::size_t id = 0; id < choices.size(); ++id) {
+    if (!tried[id]) continue;
+    const double flat = CenterStep(radius, choices[id].scallop, 0.0);
+    const Extent& extent = extents[id];
+    if (!(extent.nearest > radius + flat) || !extent.GoesAround()) continue;
+    if (!(round[id].Sum(radius, flat) < kWorthwhile * straight[id].Sum(radius, flat))) continue;
+    // Outwards to whole ball radii: where lines are looked for is not to hang on which points were visited.
+    tried[id]->around->inner = radius * std::floor(extent.nearest / radius);
+    tried[id]->around->outer = radius * std::ceil(extent.farthest / radius);
+    choices[id] = *tried[id];
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace patchmill

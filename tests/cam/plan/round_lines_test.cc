@@ -1,0 +1,191 @@
+// Where lines become circles, and that whole jobs with them keep what every job does.
+#include "cam/plan/round_lines.h"
+
+#include <cmath>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+const Vec3 kAxis(4, -3, 1);
+
+// The map with its choices; every region of it.
+ChosenRegions Regions(const PatchModel& model, const Job& job) {
+  auto regions = PlanRegions(PlacedSurface(model), job, RunContext());
+  EXPECT_TRUE(regions.ok()) << regions.status();
+  return *std::move(regions);
+}
+
+std::vector<RoundLines> RoundOnes(const PatchModel& model, const Job& job) {
+  std::vector<RoundLines> found;
+  for (const RegionChoice& choice : Regions(model, job).choices) {
+    EXPECT_FALSE(choice.round_open);
+    if (choice.around) found.push_back(*choice.around);
+  }
+  return found;
+}
+
+// Outside its crest a mountain, inside a basin: two regions, one axis.
+TEST(RoundLines, AWideRimHasThemAroundItsAxis) {
+  const auto found = RoundOnes(Torus(kAxis, 20, 8, Half::kUpper), BallJob(3.0));
+  ASSERT_EQ(found.size(), 2u);
+  double inner = kInfinity, outer = 0.0;
+  for (const RoundLines& around : found) {
+    EXPECT_NEAR((around.center - Plan(kAxis)).norm(), 0.0, 1e-6);
+    inner = std::min(inner, around.inner);
+    outer = std::max(outer, around.outer);
+  }
+  const double reach = 8.0 * std::sqrt(0.5);
+  EXPECT_EQ(inner, 3.0 * std::floor((20 - reach) / 3.0));  // whole ball radii
+  EXPECT_EQ(outer, 3.0 * std::ceil((20 + reach) / 3.0));
+}
+
+// One part, one family of circles, over cells of both regions.
+TEST(RoundLines, RegionsAroundOneAxisShareThem) {
+  const ChosenRegions regions = Regions(Torus(kAxis, 20, 8, Half::kUpper), BallJob(3.0));
+  const std::vector<PlanPart> parts = PartsOf(regions.map, regions.choices);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0].where, nullptr);
+  EXPECT_FALSE(parts[0].choice.around);
+  ASSERT_EQ(parts[0].round.size(), 1u);
+  ASSERT_NE(parts[0].straight, nullptr);
+  const SurfaceMask &round = *parts[0].round[0].where, &straight = *parts[0].straight;
+  for (std::size_t piece = 0; piece < regions.map.labels.size(); ++piece) {
+    for (int i = 0; i < regions.map.cells; ++i) {
+      for (int j = 0; j < regions.map.cells; ++j) {
+        const PieceId id(static_cast<int>(piece));
+        const int region = regions.map.labels[piece][static_cast<std::size_t>(i * regions.map.cells + j)];
+        ASSERT_NE(round.HasCell(id, i, j), straight.HasCell(id, i, j));
+        if (region >= 0 && regions.choices[static_cast<std::size_t>(region)].around) {
+          ASSERT_TRUE(round.HasCell(id, i, j));
+        }
+      }
+    }
+  }
+}
+
+TEST(RoundLines, ANarrowRimOfASteepRegionHasThemToo) {
+  const PatchModel bead = Torus(kAxis, 15, 0.8, Half::kUpper);
+  const ChosenRegions regions = Regions(bead, BallJob(3.0));
+  int round = 0;
+  for (std::size_t id = 0; id < regions.choices.size(); ++id) {
+    if (!regions.choices[id].around) continue;
+    ++round;
+    EXPECT_NEAR((regions.choices[id].around->center - Plan(kAxis)).norm(), 0.0, 1e-6);
+  }
+  EXPECT_GT(round, 0);
+}
+
+TEST(RoundLines, NotWhereTheyDoNotPay) {
+  const Job job = BallJob(3.0);
+  EXPECT_TRUE(RoundOnes(Plane(15), job).empty());
+  EXPECT_TRUE(RoundOnes(Saddle(0.02, 0.02, 12), job).empty());
+  EXPECT_TRUE(RoundOnes(Paraboloid(-0.02, 15), job).empty());  // holds its axis
+  EXPECT_TRUE(RoundOnes(Cylinder(Vec3::Zero(), 10, 20, Half::kUpper), job).empty());
+  EXPECT_TRUE(RoundOnes(TwoHills(), job).empty());
+}
+
+TEST(RoundLines, NotAgainstWhatIsAsked) {
+  const PatchModel rim = Torus(kAxis, 20, 8, Half::kUpper);
+  const auto count = [&](auto change) {
+    Job job = BallJob(3.0);
+    change(job.operation);
+    return RoundOnes(rim, job).size();
+  };
+  const auto none = [&](auto change) { return count(change) == 0; };
+  EXPECT_FALSE(none([](Operation&) {}));
+  EXPECT_TRUE(none([](Operation& op) { op.round_lines = false; }));
+  EXPECT_TRUE(none([](Operation& op) { op.one_way = true; }));
+  EXPECT_TRUE(none([](Operation& op) { op.strategy = Strategy::kZigzag; }));
+  EXPECT_TRUE(none([](Operation& op) { op.strategy = Strategy::kContour; }));
+  RegionOverride change;  // of one region of the two
+  change.at = kAxis + Vec3(21, 0, std::sqrt(63.0));
+  const auto with = [&](const RegionOverride& c) {
+    return count([&](Operation& op) { op.overrides = {c}; });
+  };
+  change.scallop = 0.02;
+  EXPECT_EQ(with(change), 2u);
+  change.zigzag_angle = 0.0;
+  EXPECT_EQ(with(change), 1u);
+  change.zigzag_angle.reset();
+  change.one_way = true;
+  EXPECT_EQ(with(change), 1u);
+}
+
+struct Rim {
+  const char* name;
+  double major, minor;
+};
+
+class RoundJobs : public ::testing::TestWithParam<Rim> {};
+
+TEST_P(RoundJobs, AreShorterAndKeepWhatEveryJobKeeps) {
+  const Surface surface = PlacedSurface(Torus(kAxis, GetParam().major, GetParam().minor, Half::kUpper));
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.02;
+  const JobResult round = Mill(surface, job);
+  Random random(3);
+  CheckProgram(surface, job, round, random, 4000);
+  int closed = 0;
+  for (const CutterPath& pass : round.motion.passes)
+    closed += pass.kind == PassKind::kZigzag && pass.closed ? 1 : 0;
+  EXPECT_GT(closed, 2);
+  job.operation.round_lines = false;
+  const JobResult straight = Mill(surface, job);
+  const auto lines = [](const JobResult& result) {
+    double length = result.report.motion.link_length;
+    for (const CutterPath& pass : result.motion.passes)
+      length += pass.kind == PassKind::kContour ? 0.0 : Length(pass);
+    return length;
+  };
+  EXPECT_LT(lines(round), 0.9 * lines(straight));
+  EXPECT_LT(round.report.motion.retract_count, straight.report.motion.retract_count + 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rims, RoundJobs, ::testing::Values(Rim{"Wide", 20, 8}, Rim{"Narrow", 15, 0.8}),
+                         [](const auto& rim) { return rim.param.name; });
+
+TEST(RoundLines, OfTwoRimsEachItsOwn) {
+  const PatchModel model =
+      Join({Torus({-20, 0, 0}, 14, 5, Half::kUpper), Torus({21, 3, 0}, 12, 4, Half::kUpper)});
+  const auto found = RoundOnes(model, BallJob(3.0));
+  int first = 0, second = 0;
+  for (const RoundLines& around : found) {
+    first += (around.center - Vec2(-20, 0)).norm() < 1e-6 ? 1 : 0;
+    second += (around.center - Vec2(21, 3)).norm() < 1e-6 ? 1 : 0;
+  }
+  EXPECT_EQ(first, 2);
+  EXPECT_EQ(second, 2);
+  EXPECT_EQ(found.size(), 4u);
+}
+
+// A rim beside gentle ground of another kind: straight lines there, circles here, and nothing between them is
+// left.
+TEST(RoundLines, BesideStraightOnes) {
+  const Surface surface = PlacedSurface(
+      Join({Torus({-20, 0, 0}, 14, 5, Half::kUpper),
+            Transformed(Paraboloid(-0.02, 12), Eigen::Affine3d(Eigen::Translation3d(14, 0, 2)))}));
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.02;
+  const JobResult result = Mill(surface, job);
+  Random random(5);
+  CheckProgram(surface, job, result, random, 4000);
+  int round = 0, straight = 0;
+  for (const CutterPath& pass : result.motion.passes) {
+    if (pass.kind != PassKind::kZigzag) continue;
+    ++(pass.closed ? round : straight);
+  }
+  EXPECT_GT(round, 5);
+  EXPECT_GT(straight, 20);
+}
+
+}  // namespace
+}  // namespace patchmill
