@@ -8,7 +8,7 @@ namespace patchmill {
 // Lines in circles around a place in plan, where something is wanted between two distances from it.
 struct RoundLines {
   Vec2 center = Vec2::Zero();
-  double inner = 0.0, outer = 0.0;  // mm, 0 < inner < outer
+  double inner = 0.0, outer = 0.0;  // mm, 0 <= inner < outer
 
   bool operator==(const RoundLines&) const = default;
 };

@@ -73,8 +73,9 @@ Row AlongLimit(const LineProber& prober, const Interval& range, double spacing, 
     }
   }
   // Circles are cut along chords.
-  return SampleRow(prober, range, spacing,
-                   along.y + std::copysign(2.0 * kRoundSagitta * prober.flat_step(), way));
+  const double chords = std::min(2.0 * kRoundSagitta * prober.flat_step(), std::abs(inside.y - along.y));
+  Row clear = SampleRow(prober, range, spacing, along.y + std::copysign(chords, way));
+  return clear.wanted() ? clear : along;
 }
 
 bool Steady(const Row& a, const Row& b) {
@@ -198,6 +199,7 @@ absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, co
     };
     if (i > 0) band.insert(band.begin(), limit(rows[i], rows[i - 1].y));
     if (last + 1 < rows.size()) band.push_back(limit(rows[last], rows[last + 1].y));
+    PM_RETURN_IF_ERROR(run.Check());
     judge(band.front());
     judge(band.back());
     for (;;) {

@@ -9,6 +9,7 @@
 #include "cam/path/line_bends.h"
 #include "cam/path/line_clip.h"
 #include "cam/path/line_positions.h"
+#include "cam/path/once_around.h"
 #include "cam/path/sheet_border.h"
 #include "cam/path/spacing.h"
 #include "core/base/parallel.h"
@@ -17,8 +18,6 @@
 namespace patchmill {
 namespace {
 
-constexpr double kOverlap =
-    6.0;  // flat steps beyond once around: more than a line runs on past what is wanted
 constexpr double kShortest = 4.0;  // flat steps: a stretch of lines shorter than this joins its neighbour
 
 // A stretch of the gap between two lines that has to be cut into so many parts.
@@ -42,10 +41,9 @@ std::vector<Interval> Without(const std::vector<Interval>& within, const std::ve
   return rest;
 }
 
-// Into how many parts the gap between a place of one line and another line has to be cut. Ground between them
-// that curves evenly needs the mean of what both need; where that is not enough the place half way is asked,
-// which counts most (Simpson's rule: the surface bulges between two places by its curvature in the mean, with
-// weights that rise towards the middle).
+// Into how many parts the gap between a place of one line and another line has to be cut. Where one of them
+// needs less than the gap, the place half way is asked, which counts most (Simpson's rule: the surface bulges
+// between two places by its curvature in the mean, with weights that rise towards the middle).
 int PartsTowards(const LineProber& prober, const LineProbe& p, const ClippedLine& line,
                  const ClippedLine& other, double min_step) {
   const double y = line.line.At(p.t), across = other.line.At(p.t) - y;
@@ -56,12 +54,11 @@ int PartsTowards(const LineProber& prober, const LineProbe& p, const ClippedLine
                              [](const LineProbe& q, double t) { return q.t < t; });
   if (at == probes.end() || (at != probes.begin() && p.t - std::prev(at)->t < at->t - p.t)) --at;
   if (!tells(p) || !tells(*at)) return parts(p.need);
+  if (parts(std::min(p.need, at->need)) == 1) return 1;
   const double ends = 1.0 / p.need + 1.0 / at->need;
-  const int by_ends = parts(2.0 / ends);
-  if (by_ends == 1) return 1;
   const double slope = 0.5 * (line.line.SlopeAt(p.t) + other.line.SlopeAt(p.t));
   const LineProbe middle = prober.Probe(p.t, y + 0.5 * across, slope, p.contact ? &*p.contact : nullptr);
-  return tells(middle) ? parts(6.0 / (ends + 4.0 / middle.need)) : by_ends;
+  return parts(tells(middle) ? 6.0 / (ends + 4.0 / middle.need) : 2.0 / ends);
 }
 
 // Where two lines need a neighbour nearer than the other one, and into how many parts that cuts their gap.
@@ -122,64 +119,12 @@ void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& 
   }
 }
 
-// The line's places in plan from t0 to t1, corners included; of circles as many as keep chords within
-// `sagitta` (mm) of them.
-std::vector<Vec2> PlacesOf(const LineFrame& frame, const LineShape& line, const Interval& t, double sagitta) {
+// The line's places in plan from t0 to t1, corners included.
+std::vector<Vec2> PlacesOf(const LineFrame& frame, const LineShape& line, const Interval& t) {
   std::vector<Vec2> places;
-  if (!frame.round()) {
-    for (const double corner : CornersOf(line, t.begin, t.end))
-      places.push_back(frame.At(corner, line.At(corner)));
-    return places;
-  }
-  const double distance = line.At(t.begin);
-  const double turn = (t.end - t.begin) * frame.Stretch(distance) / distance;
-  const double most = 2.0 * std::acos(std::clamp(1.0 - sagitta / distance, 0.5, 1.0));
-  const int count = std::max(1, static_cast<int>(std::ceil(turn / most)));
-  for (int i = 0; i <= count; ++i)
-    places.push_back(frame.At(i == count ? t.end : t.begin + (t.end - t.begin) * i / count, distance));
+  for (const double corner : CornersOf(line, t.begin, t.end))
+    places.push_back(frame.At(corner, line.At(corner)));
   return places;
-}
-
-// Where round lines are looked for: a little more than once around, so that no stretch is cut off where t
-// begins again.
-FrameExtent ExtentOfRound(const RoundLines& around, double margin, double flat) {
-  const Interval y{std::max(around.inner - margin, 0.25 * flat), around.outer + margin};
-  const double once = LineFrame::Around(around.center, y.end).period();
-  return {{0.0, once + std::min(once, kOverlap * flat * y.end / y.begin)}, y};
-}
-
-// Stretches of a round line that was looked at from 0 to more than once around, each once; all of it is one
-// that begins and ends at 0 and `once`.
-std::vector<Interval> OnceAround(const std::vector<Interval>& keep, double end, double once) {
-  std::vector<Interval> twice = keep;
-  for (const Interval& i : keep) twice.push_back({i.begin + once, i.end + once});
-  twice = Union(std::move(twice), 0.0);
-  std::vector<Interval> rest;
-  for (const Interval& i : twice) {
-    if (i.end - i.begin >= once) return {{0.0, once}};
-    if (i.begin >= end - once && i.begin < end) rest.push_back(i);
-  }
-  return rest;
-}
-
-// All of a round line: runs over the place where it begins and ends become one, closed where nothing breaks
-// it, which is the answer.
-bool CloseAround(double certificate_gap, std::vector<ScanRun>& runs) {
-  if (runs.empty()) return false;
-  CutterPoint &first = runs.front().points.front(), &last = runs.back().points.back();
-  const Vec3 step = last.center - first.center;  // the same place, each height certified to its own gap
-  if (step.norm() > 1e-9 + certificate_gap) return false;
-  if (step.z() > 0.0) first = last;
-  if (runs.size() == 1) {
-    const bool closed = runs.front().points.size() > 3;
-    if (closed) runs.front().points.pop_back();
-    return closed;
-  }
-  last = first;
-  std::vector<CutterPoint>& points = runs.back().points;
-  points.insert(points.end(), runs.front().points.begin() + 1, runs.front().points.end());
-  runs.erase(runs.begin());
-  return false;
 }
 
 }  // namespace
@@ -195,6 +140,7 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
       params.around ? LineFrame::Around(params.around->center, extent.y.end) : LineFrame::At(params.angle);
   const LineProber prober(locator, border, frame, params, params.part, params.where, run);
   const double min_step = params.min_step_fraction * flat, once = frame.period();
+  const Interval once_over = frame.round() ? Interval{extent.t.end - once, extent.t.end} : extent.t;
   const double sagitta = std::min(params.chord_tolerance, kRoundSagitta * flat);
   const double max_bend = frame.round() ? 0.0 : params.max_bend;
   PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands, LinePositions(prober, extent, min_step, run));
@@ -215,7 +161,7 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   }));
   std::vector<std::vector<ClippedLine>> between(lines.empty() ? 0 : lines.size() - 1);
   PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: gaps", between.size(), [&](std::size_t i) {
-    if (!last_of_band[i]) FillGap(prober, lines[i], lines[i + 1], extent.t, min_step, between[i]);
+    if (!last_of_band[i]) FillGap(prober, lines[i], lines[i + 1], once_over, min_step, between[i]);
   }));
 
   struct Part {
@@ -226,30 +172,30 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   std::vector<Part> parts;
   int index = -1;
   double last_rank = -1.0;
-  const auto add = [&](const ClippedLine& line) {
+  const auto add = [&](const ClippedLine& line, const Interval& looked) {
     if (line.keep.empty()) return;
     if (line.rank != last_rank) ++index;
     last_rank = line.rank;
-    const std::vector<Interval> keep = frame.round() ? OnceAround(line.keep, extent.t.end, once) : line.keep;
+    const std::vector<Interval> keep = frame.round() ? OnceAround(line.keep, looked, once) : line.keep;
     for (const Interval& t : keep) parts.push_back({&line, index, t});
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    add(lines[i]);
+    add(lines[i], extent.t);
     if (i + 1 == lines.size()) break;
     std::stable_sort(between[i].begin(), between[i].end(),
                      [](const ClippedLine& a, const ClippedLine& b) { return a.rank < b.rank; });
-    for (const ClippedLine& line : between[i]) add(line);
+    for (const ClippedLine& line : between[i]) add(line, once_over);
   }
 
   std::vector<std::vector<ScanRun>> runs(parts.size());
   std::vector<char> closed(parts.size(), 0);
   PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag", parts.size(), [&](std::size_t i) {
     const Part& part = parts[i];
-    std::vector<Vec2> places = PlacesOf(frame, part.line->line, part.t, sagitta);
-    const bool whole = part.t.end - part.t.begin == once;
-    if (whole) places.back() = places.front();
+    const LineShape& line = part.line->line;
+    const std::vector<Vec2> places = frame.round() ? ArcPlaces(frame, line.At(part.t.begin), part.t, sagitta)
+                                                   : PlacesOf(frame, line, part.t);
     runs[i] = ScanPolyline(locator, places, params, &run);
-    if (whole) closed[i] = CloseAround(CertificateGap(params), runs[i]);
+    if (places.front() == places.back()) closed[i] = CloseAround(CertificateGap(params), runs[i]);
   }));
   std::vector<CutterPath> paths;
   for (std::size_t i = 0; i < parts.size(); ++i) {

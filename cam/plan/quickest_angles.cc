@@ -112,6 +112,8 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
     any_lines = true;
     for (const std::vector<Vec3>& loop : region.border) AddStrides(loop, border);
   }
+  if (std::none_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.angle_open; }))
+    return choices;  // every region has its angle, or circles
   std::vector<double> angles;
   for (int k = 0; k < kAngles; ++k) angles.push_back(k * kPi / kAngles);
   for (const double angle : MainDirections(border, kAlongBorders)) {

@@ -76,10 +76,9 @@ std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
   return leader;
 }
 
-// The cells of a piece that are the region's, or at most kBeside steps from cell to cell away: its border
-// runs through cells, and what is left of them would be cut by short ends of other lines.
+// The cells of a piece that are the region's, or at most kRoundBeside steps from cell to cell away: its
+// border runs through cells, and what is left of them would be cut by short ends of other lines.
 std::vector<bool> CellsOf(const RegionMap& map, const std::vector<int>& labels, int region) {
-  constexpr int kBeside = 4;
   const int n = map.cells;
   std::vector<bool> own(labels.size());
   std::vector<int> edge;
@@ -87,7 +86,7 @@ std::vector<bool> CellsOf(const RegionMap& map, const std::vector<int>& labels, 
     own[k] = labels[k] == region;
     if (own[k]) edge.push_back(static_cast<int>(k));
   }
-  for (int step = 0; step < kBeside; ++step) {
+  for (int step = 0; step < kRoundBeside; ++step) {
     std::vector<int> next;
     for (const int k : edge) {
       const int i = k / n, j = k % n;

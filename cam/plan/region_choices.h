@@ -26,6 +26,9 @@ struct ChosenRegions {
 absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, const RegionMap& map,
                                                         const Operation& op, const Vec3& program_zero);
 
+// Cells beside a region that are cut with it, along circles.
+inline constexpr int kRoundBeside = 4;
+
 // They are the same but for the direction of lines, if either has round ones: one set of contours cuts both.
 bool CutTogether(const RegionChoice& a, const RegionChoice& b);
 
@@ -43,10 +46,11 @@ struct PlanPart {
   std::shared_ptr<const SurfaceMask> straight;  // what the other lines cover; null: all of it
 };
 
-// Parts of equal choices, in the order of their first regions, in cells of the map; regions of round lines go
-// with those that are the same but for the direction of lines. Skipped regions are in
-// none. Unreachable ground goes with the reachable ground nearest to it in its piece (cell by cell), so that
-// no pass runs around what lies within a skipped region. At least one part, which may be empty.
+// Parts of equal choices, in cells of the map: those of regions without round lines in the order of their
+// first regions; regions with round lines go with the first part that is the same but for the direction of
+// lines, or make parts after these. Skipped regions are in none. Unreachable ground goes with the reachable
+// ground nearest to it in its piece (cell by cell), so that no pass runs around what lies within a skipped
+// region. At least one part, which may be empty.
 std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoice>& choices);
 
 }  // namespace patchmill

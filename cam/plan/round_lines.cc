@@ -20,6 +20,7 @@ namespace patchmill {
 namespace {
 
 constexpr double kWorthwhile = 0.9;  // of the straight lines' length
+constexpr int kAngles = 6;           // of straight lines whose angle is open
 
 // Calls visit(from, to), in plan, for the stretches from point to point of a gentle region's borders.
 template <class Visit>
@@ -73,10 +74,11 @@ struct GentlePoint {
   Vec2 to_steep_u = Vec2::Zero(), to_steep_v = Vec2::Zero();  // mm: of the limit of slope, beside it
 };
 
-// The gentle points of a piece, of regions with an `open` choice.
+// The gentle points of a piece that are wanted, of regions with an `open` choice.
 std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece, const RegionMap& map,
-                                      int stride, double steep_angle, double radius,
+                                      int stride, double steep_angle, const Resolved& resolved,
                                       const std::vector<bool>& open) {
+  const double radius = resolved.plan_radius;
   std::vector<int> steep(map.labels[piece].size(), 0);
   std::vector<std::pair<std::size_t, GentlePoint>> found;  // cell, point
   const double share = ShareOfPoint(map, stride), way = std::sqrt(share), limit = std::cos(steep_angle);
@@ -88,7 +90,8 @@ std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece,
           return;
         }
         const PrincipalCurvatures k = Principal(Forms(jet, e));
-        if (!(k.k_max * radius < 1.0)) return;
+        if (!(k.k_max * radius < 1.0) || !IsWanted(resolved.containment, surface.pieces[piece].patch, jet.p))
+          return;
         const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
         found.push_back({cell, {id, jet, e, share * centers * jet.du.cross(jet.dv).norm(), {}, {}}});
       });
@@ -132,11 +135,13 @@ struct Lengths {
 struct Extent {
   static constexpr int kSectors = 24;
   double nearest = kInfinity, farthest = 0.0;  // mm
+  double cell = 0.0;                           // mm, the largest side of a cell of the map
   std::bitset<kSectors> sectors;               // in which there is some
 
-  void Add(const Vec2& from_center) {
+  void Add(const Vec2& from_center, double cell_here) {
     nearest = std::min(nearest, from_center.norm());
     farthest = std::max(farthest, from_center.norm());
+    cell = std::max(cell, cell_here);
     const double turns = std::atan2(from_center.y(), from_center.x()) / (2.0 * kPi) + 0.5;
     sectors.set(static_cast<std::size_t>(std::clamp(static_cast<int>(turns * kSectors), 0, kSectors - 1)));
   }
@@ -161,7 +166,7 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, doub
   const int stride = std::min(2 * StrideOf(map), map.cells);
   std::vector<std::vector<GentlePoint>> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
-    pieces[i] = GentlePoints(surface, i, map, stride, steep_angle, radius, open);
+    pieces[i] = GentlePoints(surface, i, map, stride, steep_angle, resolved, open);
   }));
   std::vector<std::vector<Tangent>> tangents(choices.size());
   for (const std::vector<GentlePoint>& piece : pieces) {
@@ -171,7 +176,10 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, doub
   }
   // As they would be cut along circles.
   std::vector<std::optional<RegionChoice>> tried(choices.size());
-  std::vector<Lengths> straight(choices.size()), round(choices.size());
+  std::vector<Lengths> round(choices.size());
+  // And along lines of the angle they have, or of some where that is open.
+  std::vector<std::vector<RegionChoice>> turned(choices.size());
+  std::vector<std::vector<Lengths>> straight(choices.size());
   std::vector<Extent> extents(choices.size());
   for (std::size_t id = 0; id < choices.size(); ++id) {
     if (!open[id]) continue;
@@ -185,9 +193,14 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, doub
     tried[id] = choices[id];
     tried[id]->around = RoundLines{*center, 0.0, 0.0};
     tried[id]->angle_open = false;
+    const int angles = choices[id].angle_open ? kAngles : 1;
+    turned[id].assign(static_cast<std::size_t>(angles), choices[id]);
+    straight[id].resize(turned[id].size());
+    for (int k = 0; k < angles; ++k) turned[id][static_cast<std::size_t>(k)].zigzag_angle += k * kPi / angles;
     VisitBorders(map, id, [&](const Vec2& from, const Vec2& to) {
       const Vec3 p = Lift(0.5 * (from + to), 0.0);
-      straight[id].ends += std::abs(Cross(LineAt(choices[id], p), to - from));
+      for (std::size_t k = 0; k < straight[id].size(); ++k)
+        straight[id][k].ends += std::abs(Cross(LineAt(turned[id][k], p), to - from));
       round[id].ends += std::abs(Cross(LineAt(*tried[id], p), to - from));
     });
   }
@@ -195,9 +208,10 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, doub
     for (const GentlePoint& point : piece) {
       const std::size_t id = point.region;
       if (!tried[id]) continue;
-      straight[id].Add(point, choices[id], radius);
+      for (std::size_t k = 0; k < straight[id].size(); ++k) straight[id][k].Add(point, turned[id][k], radius);
       round[id].Add(point, *tried[id], radius);
-      extents[id].Add(Plan(point.jet.p) - tried[id]->around->center);
+      const double cell = std::max(Plan(point.jet.du).norm(), Plan(point.jet.dv).norm()) / map.cells;
+      extents[id].Add(Plan(point.jet.p) - tried[id]->around->center, cell);
     }
   }
   for (std::size_t id = 0; id < choices.size(); ++id) {
@@ -205,10 +219,14 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, doub
     const double flat = CenterStep(radius, choices[id].scallop, 0.0);
     const Extent& extent = extents[id];
     if (!(extent.nearest > radius + flat) || !extent.GoesAround()) continue;
-    if (!(round[id].Sum(radius, flat) < kWorthwhile * straight[id].Sum(radius, flat))) continue;
-    // Outwards to whole ball radii: where lines are looked for is not to hang on which points were visited.
-    tried[id]->around->inner = radius * std::floor(extent.nearest / radius);
-    tried[id]->around->outer = radius * std::ceil(extent.farthest / radius);
+    double least = kInfinity;
+    for (const Lengths& lengths : straight[id]) least = std::min(least, lengths.Sum(radius, flat));
+    if (!(round[id].Sum(radius, flat) < kWorthwhile * least)) continue;
+    // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are
+    // looked for is not to hang on which points were visited.
+    const double more = (stride + kRoundBeside) * extent.cell;
+    tried[id]->around->inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
+    tried[id]->around->outer = radius * std::ceil((extent.farthest + more) / radius);
     choices[id] = *tried[id];
   }
   return absl::OkStatus();

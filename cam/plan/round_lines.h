@@ -11,16 +11,16 @@
 namespace patchmill {
 
 // Gives `around` to the choices whose round_open is set (which is cleared) where it pays: of reachable
-// regions cut in the way that suits them (strategy AUTO), both ways. What counts is their gentle ground, all
-// of a gentle region, and of a steep one what merging left in it. The circles' place c is where normals point
-// to and borders run around: the least sum of squares of m . (p - c), over points p, by area, of their
-// horizontal direction m square to the normal (as long as the slope's sine), and over the borders of gentle
-// regions of their direction m, by length times a flat step; what misses c by more than a ball radius counts
-// less. Circles pay where their length, the way to each
-// run included, is a tenth shorter than that of straight lines, both estimated from the steps needed at the
-// points of FillSteps (one in four of them) and from how many lines end at borders and at the steep angle.
-// Only for ground that goes around the place, three quarters of the way at least, and that keeps a ball
-// radius and a step away from it. Such regions need no angle: angle_open is cleared. CANCELLED,
+// regions cut in the way that suits them (strategy AUTO), both ways. What counts is their gentle ground that
+// is wanted, all of a gentle region, and of a steep one what merging left in it. The circles' place c is
+// where normals point to and borders run around: the least sum of squares of m . (p - c), over points p, by
+// area, of their horizontal direction m square to the normal (as long as the slope's sine), and over the
+// borders of gentle regions of their direction m, by length times a flat step; what misses c by more than a
+// ball radius counts less. Circles pay where their length, the way to each run included, is a tenth shorter
+// than that of straight lines at their angle (the best of six where it is open), both estimated from the
+// steps needed at the points of FillSteps (one in four of them) and from how many lines end at borders and at
+// the steep angle. Only for ground that goes around the place, three quarters of the way at least, and that
+// keeps a ball radius and a step away from it. Such regions need no angle: angle_open is cleared. CANCELLED,
 // DEADLINE_EXCEEDED from `run`.
 absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, double steep_angle,
                               const Resolved& resolved, const RunContext& run,

@@ -365,5 +365,38 @@ TEST(ZigzagPaths, RoundLinesDoNotSeeWhereTheyBegin) {
   }
 }
 
+// A rim that is narrower in one place: partial lines there, each once, wherever angles begin.
+TEST(ZigzagPaths, PartialRoundLinesAreCutOnce) {
+  std::vector<double> lengths;
+  for (const double turn : {0.0, 0.15, 2.0, -0.15}) {
+    const auto height = [&](double x, double y) {
+      const double r = std::hypot(x, y), d = std::remainder(std::atan2(y, x) - turn, 2.0 * kPi);
+      const double bump = std::exp(-d * d / 0.08);
+      return -0.5 * (0.02 + 0.3 * bump) * (r - 12.0) * (r - 12.0);
+    };
+    const Surface surface = JoinedSurface(Single(InterpolatedHeights(height, -18, 18, -18, 18, 60, 60)));
+    const Locator locator(surface, 3.0);
+    ZigzagParams params = Params(0.01, 45);
+    params.around = RoundLines{{0, 0}, 9, 15};
+    double length = 0.0;
+    std::size_t partial = 0;
+    std::vector<std::pair<Vec2, Vec2>> ends;
+    for (const CutterPath& path : Zigzag(locator, params)) {
+      length += Length(path);
+      if (path.closed) continue;
+      ++partial;
+      ends.emplace_back(Plan(path.points.front().center), Plan(path.points.back().center));
+    }
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_GT((ends[i].first - ends[k].first).norm() + (ends[i].second - ends[k].second).norm(), 0.05)
+            << turn;
+    }
+    EXPECT_GT(partial, 2u) << turn;
+    lengths.push_back(length);
+  }
+  for (const double length : lengths) EXPECT_NEAR(length, lengths[0], 0.03 * lengths[0]);
+}
+
 }  // namespace
 }  // namespace patchmill

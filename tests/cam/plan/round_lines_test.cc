@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/diffgeo/forms.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
@@ -165,6 +166,60 @@ TEST(RoundLines, OfTwoRimsEachItsOwn) {
   EXPECT_EQ(first, 2);
   EXPECT_EQ(second, 2);
   EXPECT_EQ(found.size(), 4u);
+}
+
+// Whatever is taken from straight lines lies where circles are looked for, up to the ball radius that these
+// are looked for beyond.
+TEST(RoundLines, TheirCellsLieWhereTheyAreLookedFor) {
+  const auto height = [](double x, double y) {
+    const double d = (std::hypot(x - 100.0, y - 100.0) - 60.0) / 10.0;
+    return 6.0 * std::exp(-d * d) - 0.002 * x;
+  };
+  const PatchModel wide = Single(InterpolatedHeights(height, 0, 200, 0, 200, 40, 40));
+  for (const PatchModel& model :
+       {wide, Torus(kAxis, 20, 8, Half::kUpper), Torus(kAxis, 15, 0.8, Half::kUpper)}) {
+    const Surface surface = PlacedSurface(model);
+    const auto regions = PlanRegions(surface, BallJob(3.0), RunContext());
+    ASSERT_TRUE(regions.ok()) << regions.status();
+    for (const PlanPart& part : PartsOf(regions->map, regions->choices)) {
+      for (const PlanPart::Round& round : part.round) {
+        const int n = regions->map.cells;
+        for (std::size_t piece = 0; piece < surface.pieces.size(); ++piece) {
+          for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < n; ++j) {
+              if (!round.where->HasCell(PieceId(piece), i, j)) continue;
+              const SurfaceJet jet = Evaluate(surface.pieces[piece], (i + 0.5) / n, (j + 0.5) / n);
+              const auto normal = UpwardNormal(jet);
+              if (!normal || normal->z() < std::sqrt(0.5)) continue;
+              const double r = (Plan(jet.p) - round.around.center).norm();
+              ASSERT_GE(r, round.around.inner - 1e-9);
+              ASSERT_LE(r, round.around.outer + 1e-9);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(RoundLines, OnlyWhatIsWantedCounts) {
+  // A quarter of the rim goes around nothing.
+  Job job = BallJob(3.0);
+  const PatchModel rim = Torus(kAxis, 20, 8, Half::kUpper);
+  ASSERT_FALSE(RoundOnes(rim, job).empty());
+  job.operation.selection.patches = {"#0", "#1"};
+  EXPECT_TRUE(RoundOnes(rim, job).empty());
+}
+
+// With open angles too, and then nothing is left to turn.
+TEST(RoundLines, NeedNoAngle) {
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.05;
+  job.operation.angle_auto = true;
+  const Surface surface = PlacedSurface(Torus(kAxis, 20, 8, Half::kUpper));
+  const JobResult chosen = Mill(surface, job);
+  job.operation.angle_auto = false;
+  EXPECT_EQ(chosen.program, Mill(surface, job).program);
 }
 
 // A rim beside gentle ground of another kind: straight lines there, circles here, and nothing between them is
