@@ -81,6 +81,7 @@ std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
 std::vector<bool> CellsOf(const RegionMap& map, const std::vector<int>& labels, int region) {
   const int n = map.cells;
   std::vector<bool> own(labels.size());
+  if (std::find(labels.begin(), labels.end(), region) == labels.end()) return own;
   std::vector<int> edge;
   for (std::size_t k = 0; k < labels.size(); ++k) {
     own[k] = labels[k] == region;
@@ -122,10 +123,13 @@ std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<Reg
       families[k].inner = std::min(families[k].inner, own.inner);
       families[k].outer = std::max(families[k].outer, own.outer);
       for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
-        const std::vector<bool> more = CellsOf(map, map.labels[piece], static_cast<int>(id));
+        std::vector<bool> more = CellsOf(map, map.labels[piece], static_cast<int>(id));
         std::vector<bool>& in = cells[k][piece];
-        in.resize(more.size(), false);
-        std::transform(in.begin(), in.end(), more.begin(), in.begin(), std::logical_or<>());
+        if (in.empty()) {
+          in = std::move(more);
+        } else {
+          std::transform(in.begin(), in.end(), more.begin(), in.begin(), std::logical_or<>());
+        }
       }
     }
     if (families.empty()) continue;
@@ -134,6 +138,7 @@ std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<Reg
     for (std::size_t piece = 0; piece < straight.size(); ++piece) {
       straight[piece].resize(map.labels[piece].size(), true);
       for (Cells& own : cells) {
+        if (std::find(own[piece].begin(), own[piece].end(), true) == own[piece].end()) continue;
         for (std::size_t i = 0; i < own[piece].size(); ++i) {
           own[piece][i] = own[piece][i] && straight[piece][i];
           if (own[piece][i]) straight[piece][i] = false;
