@@ -13,8 +13,8 @@ struct RoundLines {
   bool operator==(const RoundLines&) const = default;
 };
 
-inline constexpr double kRoundSagitta =
-    0.01;  // flat steps: the chords that circles are cut along are as near
+// Flat steps: how near to circles the chords are that they are cut along.
+inline constexpr double kRoundSagitta = 0.01;
 
 // Straight: parallel lines, y to the left of them. Round: y is the distance from a place, and t the way
 // around it, counter-clockwise from +x, in mm at the distance `at`; both repeat after period(). In either,

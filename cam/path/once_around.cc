@@ -6,8 +6,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kOverlap =
-    6.0;  // flat steps beyond once around: more than a line runs on past what is wanted
+// Flat steps beyond once around: more than a line runs on past what is wanted.
+constexpr double kOverlap = 6.0;
 constexpr double kWhole = 1e-9;  // mm: a turn is whole up to this
 
 }  // namespace
