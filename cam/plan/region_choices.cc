@@ -102,8 +102,9 @@ std::vector<bool> CellsOf(const RegionMap& map, const std::vector<int>& labels, 
   return own;
 }
 
-// Circles around places this near to each other are one family.
-constexpr double kSamePlace = 0.05;  // mm
+// mm: circles around places this near to each other are one family. That is right at any distance, for what
+// steps are needed is looked for along the circles as they lie; farther apart it would cost length.
+constexpr double kSamePlace = 0.05;
 
 std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<RegionChoice>& choices,
                                      const std::vector<int>& part_of, std::vector<PlanPart> parts) {

@@ -113,12 +113,16 @@ std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece,
   return points;
 }
 
-// What lines over a region's gentle ground come to.
-struct Lengths {
+// Lines in one way over a region's gentle ground, and what they come to.
+struct Family {
+  RegionChoice choice;
   double passes = 0.0;  // mm, for the steps needed
   double ends = 0.0;    // mm of borders, as seen along the lines
 
-  void Add(const GentlePoint& point, const RegionChoice& choice, double radius) {
+  void AddBorder(const Vec2& from, const Vec2& to) {
+    ends += std::abs(Cross(LineAt(choice, Lift(0.5 * (from + to), 0.0)), to - from));
+  }
+  void Add(const GentlePoint& point, double radius) {
     const Vec2 line = LineAt(choice, point.jet.p);
     ends += std::abs(Cross(line, point.to_steep_u)) + std::abs(Cross(line, point.to_steep_v));
     const auto across = AcrossLines(point.normal, line);
@@ -148,6 +152,33 @@ struct Extent {
   bool GoesAround() const { return 4 * sectors.count() >= 3 * kSectors; }
 };
 
+// A region that may be cut along circles, and the straight lines they are compared with.
+struct Candidate {
+  Family round;
+  std::vector<Family> straight;  // at the angle it has, or at some where that is open
+  Extent extent;
+
+  template <class Visit>
+  void VisitFamilies(const Visit& visit) {
+    visit(round);
+    for (Family& family : straight) visit(family);
+  }
+};
+
+Candidate CandidateOf(const RegionChoice& choice, const Vec2& center) {
+  Candidate candidate;
+  candidate.round.choice = choice;
+  candidate.round.choice.around = RoundLines{center, 0.0, 0.0};
+  candidate.round.choice.angle_open = false;
+  const int angles = choice.angle_open ? kAngles : 1;
+  for (int k = 0; k < angles; ++k) {
+    Family& family = candidate.straight.emplace_back();
+    family.choice = choice;
+    family.choice.zigzag_angle += k * kPi / angles;
+  }
+  return candidate;
+}
+
 }  // namespace
 
 absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, double steep_angle,
@@ -174,13 +205,7 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, doub
       tangents[point.region].push_back(
           {Plan(point.jet.p), {-point.normal.y(), point.normal.x()}, point.centers});
   }
-  // As they would be cut along circles.
-  std::vector<std::optional<RegionChoice>> tried(choices.size());
-  std::vector<Lengths> round(choices.size());
-  // And along lines of the angle they have, or of some where that is open.
-  std::vector<std::vector<RegionChoice>> turned(choices.size());
-  std::vector<std::vector<Lengths>> straight(choices.size());
-  std::vector<Extent> extents(choices.size());
+  std::vector<std::optional<Candidate>> candidates(choices.size());
   for (std::size_t id = 0; id < choices.size(); ++id) {
     if (!open[id]) continue;
     const double flat = CenterStep(radius, choices[id].scallop, 0.0);
@@ -190,44 +215,34 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, doub
     });
     const auto center = CenterOf(tangents[id], radius);
     if (!center) continue;
-    tried[id] = choices[id];
-    tried[id]->around = RoundLines{*center, 0.0, 0.0};
-    tried[id]->angle_open = false;
-    const int angles = choices[id].angle_open ? kAngles : 1;
-    turned[id].assign(static_cast<std::size_t>(angles), choices[id]);
-    straight[id].resize(turned[id].size());
-    for (int k = 0; k < angles; ++k) turned[id][static_cast<std::size_t>(k)].zigzag_angle += k * kPi / angles;
+    candidates[id] = CandidateOf(choices[id], *center);
     VisitBorders(map, id, [&](const Vec2& from, const Vec2& to) {
-      const Vec3 p = Lift(0.5 * (from + to), 0.0);
-      for (std::size_t k = 0; k < straight[id].size(); ++k)
-        straight[id][k].ends += std::abs(Cross(LineAt(turned[id][k], p), to - from));
-      round[id].ends += std::abs(Cross(LineAt(*tried[id], p), to - from));
+      candidates[id]->VisitFamilies([&](Family& family) { family.AddBorder(from, to); });
     });
   }
   for (const std::vector<GentlePoint>& piece : pieces) {
     for (const GentlePoint& point : piece) {
-      const std::size_t id = point.region;
-      if (!tried[id]) continue;
-      for (std::size_t k = 0; k < straight[id].size(); ++k) straight[id][k].Add(point, turned[id][k], radius);
-      round[id].Add(point, *tried[id], radius);
+      if (!candidates[point.region]) continue;
+      Candidate& candidate = *candidates[point.region];
+      candidate.VisitFamilies([&](Family& family) { family.Add(point, radius); });
       const double cell = std::max(Plan(point.jet.du).norm(), Plan(point.jet.dv).norm()) / map.cells;
-      extents[id].Add(Plan(point.jet.p) - tried[id]->around->center, cell);
+      candidate.extent.Add(Plan(point.jet.p) - candidate.round.choice.around->center, cell);
     }
   }
   for (std::size_t id = 0; id < choices.size(); ++id) {
-    if (!tried[id]) continue;
+    if (!candidates[id]) continue;
     const double flat = CenterStep(radius, choices[id].scallop, 0.0);
-    const Extent& extent = extents[id];
+    const Extent& extent = candidates[id]->extent;
     if (!(extent.nearest > radius + flat) || !extent.GoesAround()) continue;
     double least = kInfinity;
-    for (const Lengths& lengths : straight[id]) least = std::min(least, lengths.Sum(radius, flat));
-    if (!(round[id].Sum(radius, flat) < kWorthwhile * least)) continue;
+    for (const Family& family : candidates[id]->straight) least = std::min(least, family.Sum(radius, flat));
+    if (!(candidates[id]->round.Sum(radius, flat) < kWorthwhile * least)) continue;
+    choices[id] = candidates[id]->round.choice;
     // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are
     // looked for is not to hang on which points were visited.
     const double more = (stride + kRoundBeside) * extent.cell;
-    tried[id]->around->inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
-    tried[id]->around->outer = radius * std::ceil((extent.farthest + more) / radius);
-    choices[id] = *tried[id];
+    choices[id].around->inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
+    choices[id].around->outer = radius * std::ceil((extent.farthest + more) / radius);
   }
   return absl::OkStatus();
 }
