@@ -1,6 +1,8 @@
 // Regions listed, switched off and cut in a way of their own, through the wire: SplitRegions, then
 // GenerateProgram with its map, then VerifyProgram of what came out.
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 
 #include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
@@ -224,6 +226,38 @@ TEST_F(Regions, OfNetworksAreAsManyAsTheTableSays) {
     EXPECT_LE(std::abs(count() - row.count), 2) << "with noise";
   }
   EXPECT_EQ(networks, 2);
+}
+
+// The lid and the rim of the teapot lie around its axis, which is told in the program's frame.
+TEST_F(Regions, SayWhatTheirLinesRunAround) {
+  std::ifstream in(PATCHMILL_SOURCE_DIR "/examples/teapot.bpt");
+  v1::ModelFile& file = *job_.mutable_source()->mutable_file();
+  file.set_format("bpt");
+  file.set_content(std::string(std::istreambuf_iterator<char>(in), {}));
+  v1::Setup& setup = *job_.mutable_setup();
+  setup.set_scale(54.8);
+  setup.set_up(v1::UP_AXIS_Y);
+  setup.mutable_program_zero()->set_x_mm(5.0);
+  setup.mutable_program_zero()->set_y_mm(-2.0);
+  Op().clear_heights();
+  Op().mutable_tool()->mutable_ball_end()->set_diameter_mm(6.0);
+  Op().set_scallop_mm(0.02);
+  const auto around = [&] {
+    int count = 0;
+    for (const v1::Region& region : map_.regions()) {
+      if (!region.has_lines_around()) continue;
+      ++count;
+      EXPECT_NEAR(region.lines_around().x_mm(), -5.0, 1e-3);
+      EXPECT_NEAR(region.lines_around().y_mm(), 2.0, 1e-3);
+      EXPECT_FALSE(region.has_zigzag_angle_deg());
+    }
+    return count;
+  };
+  ASSERT_TRUE(Split().ok());
+  EXPECT_EQ(around(), 2);
+  Op().set_round_lines(false);
+  ASSERT_TRUE(Split().ok());
+  EXPECT_EQ(around(), 0);
 }
 
 }  // namespace

@@ -243,8 +243,7 @@ TEST(ZigzagPaths, NarrowSpotsGetPartialLines) {
     for (std::size_t k = 0; k < i; ++k) {  // those beside it, of other lines
       const Vec3 &a = paths[k].points.front().center, &b = paths[k].points.back().center;
       if (paths[k].line == paths[i].line || a.x() >= to.x() || b.x() <= from.x()) continue;
-      // A gap a little wider than a need that is no shorter than the least is cut in two.
-      EXPECT_GE(from.y() - a.y(), 0.5 * params.min_step_fraction * flat);
+      EXPECT_GE(from.y() - a.y(), 0.999 * params.min_step_fraction * flat);
     }
   }
   EXPECT_GT(full, 20u);
