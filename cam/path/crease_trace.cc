@@ -30,8 +30,12 @@ class CreaseTracer {
   std::optional<Vec2> Direction(const CreasePoint& p) const;
   std::optional<CreasePoint> Advance(const CreasePoint& from, const Vec2& heading, double step) const;
   bool ChordIsGood(const CreasePoint& a, const CreasePoint& b) const;
-  std::vector<CreasePoint> Follow(const CreasePoint& seed, double sign, double patience,
-                                  const std::function<bool(const Vec3&)>& wanted) const;
+  struct Run {
+    std::vector<CreasePoint> points;
+    bool ring = false;  // came back to the seed
+  };
+  Run Follow(const CreasePoint& seed, double sign, double patience,
+             const std::function<bool(const Vec3&)>& wanted) const;
 
  private:
   Vec3 DirectionTo(const CreasePoint& p, const SurfacePoint& contact) const {
@@ -105,11 +109,12 @@ bool CreaseTracer::ChordIsGood(const CreasePoint& a, const CreasePoint& b) const
   return std::min(excess(a.first, b.first), excess(a.second, b.second)) <= tolerance_;
 }
 
-std::vector<CreasePoint> CreaseTracer::Follow(const CreasePoint& seed, double sign, double patience,
-                                              const std::function<bool(const Vec3&)>& wanted) const {
-  std::vector<CreasePoint> out;
+CreaseTracer::Run CreaseTracer::Follow(const CreasePoint& seed, double sign, double patience,
+                                       const std::function<bool(const Vec3&)>& wanted) const {
+  Run run;
+  std::vector<CreasePoint>& out = run.points;
   const auto start = Direction(seed);
-  if (!start) return out;
+  if (!start) return run;
   const double full = LongestChord(radius_, 0.95 * tolerance_);
   Vec2 heading = sign * *start;
   CreasePoint at = seed;
@@ -123,7 +128,10 @@ std::vector<CreasePoint> CreaseTracer::Follow(const CreasePoint& seed, double si
       continue;
     }
     unwanted += (next->center - at.center).norm();
-    if ((next->center - seed.center).norm() < 0.5 * step && out.size() > 4) break;  // round a ring
+    if ((next->center - seed.center).norm() < 0.5 * step && out.size() > 4 && ChordIsGood(at, seed)) {
+      run.ring = true;
+      return run;
+    }
     out.push_back(*next);
     if (wanted(next->center)) {
       unwanted = 0.0;
@@ -136,7 +144,7 @@ std::vector<CreasePoint> CreaseTracer::Follow(const CreasePoint& seed, double si
     step = std::min(full, 2.0 * step);
   }
   out.resize(keep);
-  return out;
+  return run;
 }
 
 }  // namespace
@@ -174,10 +182,15 @@ std::vector<LineStation> TraceCrease(const Locator& locator, const SheetBorder& 
                                      const CreasePoint& seed, const PassParams& params, double patience,
                                      const std::function<bool(const Vec3&)>& wanted) {
   const CreaseTracer tracer(locator, border, params);
-  std::vector<CreasePoint> points = tracer.Follow(seed, -1.0, patience, wanted);
-  std::reverse(points.begin(), points.end());
+  CreaseTracer::Run onward = tracer.Follow(seed, 1.0, patience, wanted);
+  std::vector<CreasePoint> points;
+  if (!onward.ring) {
+    points = tracer.Follow(seed, -1.0, patience, wanted).points;
+    std::reverse(points.begin(), points.end());
+  }
   points.push_back(seed);
-  for (const CreasePoint& p : tracer.Follow(seed, 1.0, patience, wanted)) points.push_back(p);
+  points.insert(points.end(), onward.points.begin(), onward.points.end());
+  if (onward.ring) points.push_back(seed);
   std::vector<LineStation> stations;
   double t = 0.0;
   for (const CreasePoint& p : points) {

@@ -147,6 +147,36 @@ TEST(RestPaths, CreasePassIsTheExactTwoContactLine) {
   EXPECT_NEAR(crease_length, 20.0, 1.0);
 }
 
+// Around the foot of a hemisphere the crease is a ring: once around.
+TEST(RestPaths, ACreaseThatIsARingIsCutOnce) {
+  const double r = 6.0, radius = 3.0, half = 14.0;
+  const Surface surface = JoinedSurface(Join({Plane(half), Sphere(Vec3::Zero(), r, Half::kUpper)}));
+  const Locator locator(surface, radius);
+  const double reached = r + radius, ring = std::sqrt(reached * reached - radius * radius);
+  // Circles at heights and distances of a quarter mm, none at the foot.
+  std::vector<CutterPath> plain;
+  const auto circle = [&](double across, double z) {
+    CutterPath path;
+    path.closed = true;
+    for (int k = 0; k < 720; ++k) {
+      const double angle = kPi * k / 360;
+      path.points.push_back({{across * std::cos(angle), across * std::sin(angle), z}, {}, {}});
+    }
+    plain.push_back(std::move(path));
+  };
+  for (double out = 0.5; ring + out < half - 1.0; out += 0.2) circle(ring + out, radius);
+  for (double up = 0.5; radius + up < reached; up += 0.1)
+    circle(std::sqrt(reached * reached - (radius + up) * (radius + up)), radius + up);
+  const auto rest = Rest(locator, plain);
+  double crease_length = 0;
+  for (const auto& path : rest) {
+    if (path.kind != PassKind::kCrease) continue;
+    crease_length += Length(path);
+    for (const auto& p : path.points) EXPECT_NEAR(Plan(p.center).norm(), ring, 2e-4);
+  }
+  EXPECT_NEAR(crease_length, 2 * kPi * ring, 0.5);
+}
+
 TEST(RestPaths, NothingIsAddedWhereNothingIsMissing) {
   const double radius = 3.0;
   const Surface surface = JoinedSurface(Plane(10));
