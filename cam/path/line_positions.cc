@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSteady = 1.03;   // steps of neighbouring rows that differ by more want a row between them,
 constexpr double kNearest = 0.15;  // but none nearer than this many flat steps
+constexpr double kInsetShare = 0.98;  // of a step: the passes beside it bend between the places asked
 
 struct Row {
   double y = 0.0;
@@ -78,6 +79,39 @@ Row AlongLimit(const LineProber& prober, const Interval& range, double spacing, 
   return clear.wanted() ? clear : along;
 }
 
+// How far (in y) a line at this limit of a band may move inwards: as long as no place of it is farther from
+// the passes beside it than its own step. Half way between the two, that is the ground of the limit.
+double InsetOf(const LineProber& prober, const Interval& range, double spacing, double y,
+               const SegmentTree& beside) {
+  const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
+  double inset = kInfinity;
+  int hint = -1;
+  for (const LineProbe& p : prober.ProbeRow(range.begin, range.end, count, LineShape::Straight(y))) {
+    if (!p.wanted || p.need == kInfinity) continue;
+    const double step = kInsetShare * 2.0 * p.half_step;
+    const SegmentTree::Nearest pass = beside.FindNearest(p.center, step, hint);
+    if (pass.segment < 0) return 0.0;
+    hint = pass.segment;
+    inset = std::min(inset, (step - pass.distance) * p.lateral / p.half_step);
+  }
+  return inset < kInfinity ? inset : 0.0;
+}
+
+// Moves the ends of a band inwards, each up to the band's middle.
+absl::Status MoveInwards(const LineProber& prober, const Interval& range, double spacing,
+                         const SegmentTree& beside, std::vector<Row>& band, const RunContext& run) {
+  const double low = band.front().y, high = band.back().y, middle = 0.5 * (low + high);
+  const double from = std::min(middle, low + InsetOf(prober, range, spacing, low, beside));
+  const double to = std::max(middle, high - InsetOf(prober, range, spacing, high, beside));
+  PM_RETURN_IF_ERROR(run.Check());
+  if (from == low && to == high) return absl::OkStatus();
+  std::erase_if(band, [&](const Row& row) { return row.y <= from || row.y >= to; });
+  Row first = SampleRow(prober, range, spacing, from), last = SampleRow(prober, range, spacing, to);
+  if (first.wanted()) band.insert(band.begin(), std::move(first));
+  if (last.wanted() && to > from) band.push_back(std::move(last));
+  return run.Check();
+}
+
 bool Steady(const Row& a, const Row& b) {
   return std::max(a.step, b.step) <= kSteady * std::min(a.step, b.step);
 }
@@ -105,11 +139,17 @@ double LinesAlong(const Row& row, double gap, double way, double least) {
   return length;
 }
 
+// How many gaps, and what full and partial lines come to, in samples' halves.
+struct Count {
+  int gaps = 1;
+  double length = 0.0;
+};
+
 // How many gaps a band gets, `total` or more: with the fewest every gap is shortened a little, and where
 // partial lines cut a gap into parts those end up far below what they may be. A few gaps more can need fewer
 // parts. Once the prober is cancelled the answer means nothing.
-int CheapestCount(const LineProber& prober, const std::vector<Row>& band, const std::vector<double>& density,
-                  double total, double way, double least) {
+Count CheapestCount(const LineProber& prober, const std::vector<Row>& band,
+                    const std::vector<double>& density, double total, double way, double least) {
   constexpr int kCandidates = 24;
   const int fewest = std::max(1, static_cast<int>(std::ceil(total - 1e-9)));
   const int stride = 1 + fewest / kCandidates;
@@ -136,7 +176,80 @@ int CheapestCount(const LineProber& prober, const std::vector<Row>& band, const 
       best = count;
     }
   }
-  return best;
+  return {best, best_length};
+}
+
+// Reads off the step of a row.
+void Judge(Row& row, double min_step, double flat) {
+  if (!row.wanted()) return;
+  std::vector<StepNeed> sorted = row.needs;
+  row.step = CheapestStep(sorted, min_step, 4.0 * flat);
+}
+
+// Rows at their y, side by side.
+absl::Status SampleRows(const LineProber& prober, const Interval& range, double spacing, double min_step,
+                        const char* what, std::vector<Row>& rows, const RunContext& run) {
+  return ParallelFor(run, what, rows.size(), [&](std::size_t i) {
+    rows[i] = SampleRow(prober, range, spacing, rows[i].y);
+    Judge(rows[i], min_step, prober.flat_step());
+  });
+}
+
+struct DividedBand {
+  LineBand lines;
+  double length = 0.0;  // of Count
+};
+
+// The lines of a band from its first row to its last, both among them.
+absl::StatusOr<DividedBand> Divide(const LineProber& prober, const Interval& range, double spacing,
+                                   double min_step, std::vector<Row> band, const RunContext& run) {
+  const double flat = prober.flat_step();
+  Judge(band.front(), min_step, flat);
+  Judge(band.back(), min_step, flat);
+  for (;;) {
+    std::vector<Row> between;
+    for (std::size_t k = 0; k + 1 < band.size(); ++k) {
+      if (!Steady(band[k], band[k + 1]) && band[k + 1].y - band[k].y >= 2.0 * kNearest * flat)
+        between.push_back({0.5 * (band[k].y + band[k + 1].y), {}, {}, 0.0});
+    }
+    if (between.empty()) break;
+    PM_RETURN_IF_ERROR(SampleRows(prober, range, spacing, min_step, nullptr, between, run));
+    std::erase_if(between, [](const Row& row) { return !row.wanted(); });
+    if (between.empty()) break;
+    band.insert(band.end(), std::make_move_iterator(between.begin()), std::make_move_iterator(between.end()));
+    std::sort(band.begin(), band.end(), [](const Row& a, const Row& b) { return a.y < b.y; });
+  }
+  const double end = band.back().y;
+  DividedBand divided{{{band.front().y, end}, {}}, 0.0};
+  std::vector<double>& positions = divided.lines.positions;
+  // Density 1/step, constant between rows, is integrated and cut into equal parts.
+  std::vector<double> edges{band.front().y}, density;
+  for (std::size_t k = 0; k + 1 < band.size(); ++k) {
+    edges.push_back(band[k + 1].y);
+    density.push_back(Density(band[k], band[k + 1]));
+  }
+  if (density.empty()) {  // one row has all
+    positions.push_back(end);
+    return divided;
+  }
+  double total = 0.0;
+  for (std::size_t k = 0; k < density.size(); ++k) total += density[k] * (edges[k + 1] - edges[k]);
+  const Count count =
+      CheapestCount(prober, band, density, total, kWayToRun * prober.radius() / (0.5 * spacing), min_step);
+  PM_RETURN_IF_ERROR(run.Check());
+  std::size_t k = 0;
+  double passed = 0.0;
+  for (int g = 0; g < count.gaps; ++g) {
+    const double target = total * g / count.gaps;
+    while (k + 1 < density.size() && passed + density[k] * (edges[k + 1] - edges[k]) < target) {
+      passed += density[k] * (edges[k + 1] - edges[k]);
+      ++k;
+    }
+    positions.push_back(edges[k] + (target - passed) / density[k]);
+  }
+  positions.push_back(end);
+  divided.length = count.length;
+  return divided;
 }
 
 }  // namespace
@@ -162,27 +275,17 @@ FrameExtent ExtentOfParallels(const Surface& surface, double angle, double margi
 }
 
 absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, const FrameExtent& extent,
-                                                    double min_step, const RunContext& run) {
+                                                    double min_step, const SegmentTree* beside,
+                                                    const RunContext& run) {
   const double flat = prober.flat_step();
   const double row_step = 1.5 * flat, spacing = 2.0 * flat;
   const double height = extent.y.end - extent.y.begin;
   if (!(height > 0.0)) return std::vector<LineBand>{};
   const auto count = static_cast<std::size_t>(std::ceil(height / row_step)) + 1;
-  const auto judge = [&](Row& row) {
-    if (!row.wanted()) return;
-    std::vector<StepNeed> sorted = row.needs;
-    row.step = CheapestStep(sorted, min_step, 4.0 * flat);
-  };
-  const auto sample = [&](const char* what, std::vector<Row>& all) {
-    return ParallelFor(run, what, all.size(), [&](std::size_t i) {
-      all[i] = SampleRow(prober, extent.t, spacing, all[i].y);
-      judge(all[i]);
-    });
-  };
   std::vector<Row> rows(count);
   for (std::size_t i = 0; i < count; ++i)
     rows[i].y = extent.y.begin + height * static_cast<double>(i) / static_cast<double>(count - 1);
-  PM_RETURN_IF_ERROR(sample("zigzag: positions", rows));
+  PM_RETURN_IF_ERROR(SampleRows(prober, extent.t, spacing, min_step, "zigzag: positions", rows, run));
 
   std::vector<LineBand> bands;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -200,55 +303,19 @@ absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, co
     if (i > 0) band.insert(band.begin(), limit(rows[i], rows[i - 1].y));
     if (last + 1 < rows.size()) band.push_back(limit(rows[last], rows[last + 1].y));
     PM_RETURN_IF_ERROR(run.Check());
-    judge(band.front());
-    judge(band.back());
-    for (;;) {
-      std::vector<Row> between;
-      for (std::size_t k = 0; k + 1 < band.size(); ++k) {
-        if (!Steady(band[k], band[k + 1]) && band[k + 1].y - band[k].y >= 2.0 * kNearest * flat)
-          between.push_back({0.5 * (band[k].y + band[k + 1].y), {}, {}, 0.0});
-      }
-      if (between.empty()) break;
-      PM_RETURN_IF_ERROR(sample(nullptr, between));
-      std::erase_if(between, [](const Row& row) { return !row.wanted(); });
-      if (between.empty()) break;
-      band.insert(band.end(), std::make_move_iterator(between.begin()),
-                  std::make_move_iterator(between.end()));
-      std::sort(band.begin(), band.end(), [](const Row& a, const Row& b) { return a.y < b.y; });
+    std::vector<Row> inner;
+    if (prober.frame().round() && beside != nullptr && !beside->empty()) {
+      inner = band;
+      PM_RETURN_IF_ERROR(MoveInwards(prober, extent.t, spacing, *beside, inner, run));
     }
-    const double end = band.back().y;
-    std::vector<double>& positions = bands.emplace_back().positions;
-    bands.back().y = {band.front().y, end};
-    // Density 1/step, constant between rows, is integrated and cut into equal parts.
-    std::vector<double> edges{band.front().y}, density;
-    for (std::size_t k = 0; k + 1 < band.size(); ++k) {
-      edges.push_back(band[k + 1].y);
-      density.push_back(Density(band[k], band[k + 1]));
+    PM_ASSIGN_OR_RETURN(DividedBand lines, Divide(prober, extent.t, spacing, min_step, std::move(band), run));
+    if (!inner.empty()) {
+      PM_ASSIGN_OR_RETURN(DividedBand fewer,
+                          Divide(prober, extent.t, spacing, min_step, std::move(inner), run));
+      if (fewer.lines.positions.size() < lines.lines.positions.size() && fewer.length < lines.length)
+        lines = std::move(fewer);
     }
-    if (density.empty()) {  // one row has all
-      positions.push_back(end);
-      i = last;
-      continue;
-    }
-    double total = 0.0;
-    for (std::size_t k = 0; k < density.size(); ++k) total += density[k] * (edges[k + 1] - edges[k]);
-    const int gaps =
-        CheapestCount(prober, band, density, total, kWayToRun * prober.radius() / (0.5 * spacing), min_step);
-    PM_RETURN_IF_ERROR(run.Check());
-    std::size_t k = 0;
-    double passed = 0.0;
-    for (int g = 0; g <= gaps; ++g) {
-      if (g == gaps) {
-        positions.push_back(end);
-        break;
-      }
-      const double target = total * g / gaps;
-      while (k + 1 < density.size() && passed + density[k] * (edges[k + 1] - edges[k]) < target) {
-        passed += density[k] * (edges[k + 1] - edges[k]);
-        ++k;
-      }
-      positions.push_back(edges[k] + (target - passed) / density[k]);
-    }
+    bands.push_back(std::move(lines.lines));
     i = last;
   }
   return bands;

@@ -143,7 +143,8 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   const Interval once_over = frame.round() ? Interval{extent.t.end - once, extent.t.end} : extent.t;
   const double sagitta = std::min(params.chord_tolerance, kRoundSagitta * flat);
   const double max_bend = frame.round() ? 0.0 : params.max_bend;
-  PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands, LinePositions(prober, extent, min_step, run));
+  PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands,
+                      LinePositions(prober, extent, min_step, params.beside, run));
   std::vector<BentLine> bent;
   std::vector<char> last_of_band;
   for (const LineBand& band : bands) {

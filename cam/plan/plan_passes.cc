@@ -63,8 +63,14 @@ class PassMaker {
   absl::Status AddStrategies(const PlanPart& part, const KeepIn* keep_in, PlannedPasses& planned) {
     const RegionChoice& choice = part.choice;
     std::vector<CutterPath> paths;
+    const auto clip = [&](std::vector<CutterPath> of) -> absl::StatusOr<std::vector<CutterPath>> {
+      if (keep_in == nullptr) return of;
+      const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
+      return ClipToKeepIn(locator_, *keep_in, std::move(of), reach, run_);
+    };
     if (choice.strategy != Strategy::kZigzag) {
       PM_ASSIGN_OR_RETURN(paths, Contours(choice, planned.findings));
+      PM_ASSIGN_OR_RETURN(paths, clip(std::move(paths)));
     }
     if (choice.strategy != Strategy::kContour) {
       ZigzagParams params;
@@ -76,18 +82,18 @@ class PassMaker {
       params.where = part.straight.get();
       PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator_, params, run_));
       for (CutterPath& line : lines) line.one_way = choice.one_way;
+      std::optional<SegmentTree> contours;
+      if (!part.round.empty()) contours.emplace(MovesOf(paths), Metric::kPath, locator_.radius(), run_);
       for (const PlanPart::Round& round : part.round) {
+        params.beside = &*contours;
         params.where = round.where.get();
         params.around = round.around;
         PM_ASSIGN_OR_RETURN(std::vector<CutterPath> circles, ZigzagPaths(locator_, params, run_));
         NumberAfter(lines, circles);
         Append(lines, std::move(circles));
       }
+      PM_ASSIGN_OR_RETURN(lines, clip(std::move(lines)));
       Append(paths, std::move(lines));
-    }
-    if (keep_in != nullptr) {
-      const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
-      PM_ASSIGN_OR_RETURN(paths, ClipToKeepIn(locator_, *keep_in, std::move(paths), reach, run_));
     }
     if (op_.spirals) {
       PassParams params;

@@ -336,6 +336,54 @@ TEST(ZigzagPaths, RoundLinesLieOnARimAtTheStepItNeeds) {
   EXPECT_GE(left.worst, 0.8 * scallop);
 }
 
+// Passes that run beside both limits of the rim take the ground up to half a step of it.
+TEST(ZigzagPaths, RoundLinesKeepAStepFromPassesBesideThem) {
+  const double radius = 3.0, scallop = 0.01, tube = kTube + radius;
+  const Surface surface = JoinedSurface(Torus(kAxis, kRim, kTube, Half::kUpper));
+  const Locator locator(surface, radius);
+  const double step = CenterStep(radius, scallop, -1.0 / kTube);
+  const auto beside = [&](double gap) {  // mm from the limits, outside
+    std::vector<CutterPath> circles;
+    for (const double side : {-1.0, 1.0}) {
+      const double angle = side * (kPi / 4.0 + gap / tube), across = kRim + tube * std::sin(angle);
+      CutterPath& circle = circles.emplace_back();
+      circle.closed = true;
+      for (int k = 0; k < 720; ++k) {
+        const double a = kPi * k / 360;
+        circle.points.push_back(
+            {kAxis + Vec3(across * std::cos(a), across * std::sin(a), tube * std::cos(angle)), {}, {}});
+      }
+    }
+    return circles;
+  };
+  ZigzagParams params = AroundRim(scallop);
+  const std::size_t alone = Zigzag(locator, params).size();
+  for (const double gap : {0.1, 0.5}) {
+    const std::vector<CutterPath> known = beside(gap * step);
+    const SegmentTree tree(MovesOf(known), Metric::kPath, radius, RunContext());
+    params.beside = &tree;
+    const auto paths = Zigzag(locator, params);
+    EXPECT_LT(paths.size(), alone) << gap;
+    EXPECT_GE(paths.size() + 2, alone) << gap;
+    const auto angle_of = [&](const CutterPath& path) {
+      return std::asin(((Plan(path.points.front().center) - Plan(kAxis)).norm() - kRim) / tube);
+    };
+    const double from = tube * (angle_of(paths.front()) + kPi / 4.0) + gap * step,
+                 to = tube * (kPi / 4.0 - angle_of(paths.back())) + gap * step;
+    EXPECT_LE(std::max(from, to), step) << gap;
+    EXPECT_GE(std::min(from, to), 0.9 * step) << gap;
+    std::vector<CutterPath> all = paths;
+    all.insert(all.end(), known.begin(), known.end());
+    const Leftover left = Measure(surface, locator, all, {0, Radians(45)}, 20000);
+    EXPECT_LE(left.worst, scallop + 0.002) << gap;
+  }
+  // Too far away to help.
+  const std::vector<CutterPath> far = beside(1.1 * step);
+  const SegmentTree tree(MovesOf(far), Metric::kPath, radius, RunContext());
+  params.beside = &tree;
+  EXPECT_EQ(Zigzag(locator, params).size(), alone);
+}
+
 // Three quarters of the rim, turned: where angles begin again is no place of the part.
 TEST(ZigzagPaths, RoundLinesDoNotSeeWhereTheyBegin) {
   PatchModel sector = Torus(Vec3::Zero(), kRim, kTube, Half::kUpper);
