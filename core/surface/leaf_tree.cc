@@ -180,9 +180,12 @@ std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const Run
   if (boxes.empty()) return {};
   builder.centers.reserve(boxes.size());
   for (const Box3& box : boxes) builder.centers.push_back(box.Center());
+  if (run.Cancelled()) return {};  // memory new to the process takes its time
   builder.order.resize(boxes.size());
   std::iota(builder.order.begin(), builder.order.end(), 0);
   builder.nodes.resize(2 * boxes.size() - 1);
+  if (run.Cancelled()) return {};
+  run.Progress("bounds: tree", 0.0);
   std::vector<Builder::Task> rest;
   builder.Build({builder.order, 0, 0}, std::max(kAlone, boxes.size() / kShares), &rest);
   // A cancel shows in `run`.

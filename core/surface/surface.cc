@@ -247,9 +247,11 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   all.leaves.reserve(count);
   all.boxes.reserve(count);
   for (Leaves& batch : batches) {  // each freed before the next is held twice
+    PM_RETURN_IF_ERROR(run.Check());
     all.Append(batch);
     batch = {};
   }
+  run.Progress("bounds: tree", 0.0);
   surface.leaves = std::move(all.leaves);
   surface.nodes = BuildLeafTree(all.boxes, run);
   PM_RETURN_IF_ERROR(run.Check());
