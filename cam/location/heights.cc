@@ -307,17 +307,17 @@ namespace {
 // Fewer balls are searched for one by one.
 constexpr std::size_t kWorthLanes = 2;
 
-std::optional<Vec3> FindObstacle(const Locator::Impl& impl, const Vec3& center) {
+std::optional<SurfacePoint> FindObstacle(const Locator::Impl& impl, const Vec3& center) {
   thread_local Locator::Impl::OpenLeaves open;
   const auto found = impl.TryFree(impl.BallAt(Plan(center)), center.z(), kProofGap, open);
   if (!found.contact) return std::nullopt;
-  return found.contact->p;
+  return impl.PointOf(*found.contact);
 }
 
 }  // namespace
 
 void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
-                   std::span<std::optional<Vec3>> obstacles) {
+                   std::span<std::optional<SurfacePoint>> obstacles) {
   PM_CHECK(centers.size() == obstacles.size());
   const LaneKernel& kernel = internal::UsedLaneKernel();
   const Locator::Impl& impl = locator.impl();
@@ -341,12 +341,12 @@ void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
     for (std::size_t k = 0; k < count; ++k) {
       obstacles[i + k].reset();
       if (packet.piece[k] >= 0) {
-        obstacles[i + k] = ContactOf(packet, static_cast<int>(k)).p;
+        obstacles[i + k] = impl.PointOf(ContactOf(packet, static_cast<int>(k)));
         continue;
       }
       const Vec3& at = centers[i + k];
       const auto found = impl.ProveFree(impl.BallAt(Plan(at)), at.z(), kProofGap, search.open(k));
-      if (found.contact) obstacles[i + k] = found.contact->p;
+      if (found.contact) obstacles[i + k] = impl.PointOf(*found.contact);
     }
   }
 }

@@ -23,6 +23,6 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
 // surface in the ball or above it, not always the one that is most in the way. The same way, with the same
 // bits everywhere: eight consecutive centres at once, and nothing looked at that lies below them.
 void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
-                   std::span<std::optional<Vec3>> obstacles);
+                   std::span<std::optional<SurfacePoint>> obstacles);
 
 }  // namespace patchmill

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "cam/location/bicubic_bounds.h"
 #include "cam/location/gregory_bounds.h"
 
 namespace patchmill::internal {
@@ -225,11 +226,24 @@ void SetErrors(const HullReach& reach, const std::optional<Derivatives>& bounds,
   m.gram_uv = RoundUp(du.along_b + dv.along_a + du.Length() * dv.Length() + reach.uv);
 }
 
+// Most patches there are: the same bounds, several points at a time.
+void SetErrorsOfBicubic(const double* points, LeafModel& m) {
+  const BicubicBounds b =
+      BoundBicubic(points, {m.s.data(), m.a.data(), m.b.data(), m.uu.data(), m.uv.data(), m.vv.data()});
+  const Derivatives derivatives{
+      {b.du2, b.du_a, b.du_b}, {b.dv2, b.dv_a, b.dv_b}, std::sqrt(b.uu2), std::sqrt(b.uv2), std::sqrt(b.vv2)};
+  SetErrors({b.reach2, b.reach_a, b.reach_b, b.reach_uu, b.reach_uv, b.reach_vv, b.z_max}, derivatives, m);
+}
+
 }  // namespace
 
 LeafModel MakeLeafModel(NetShape shape, const Vec4* points, bool rational, const Vec3* hull, int hull_count,
                         const SurfaceJet& middle, const Rect& rect) {
   LeafModel m = MiddleModel(middle, rect);
+  if (!rational && shape.degree_u == 3 && shape.degree_v == 3) {
+    SetErrorsOfBicubic(points->data(), m);
+    return m;
+  }
   const HullReach reach = ReachOf(hull, hull_count, m);
   SetErrors(reach, BoundNetDerivatives({shape, points}, rational, reach, m), m);
   return m;

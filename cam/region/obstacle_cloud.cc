@@ -35,14 +35,18 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
   }
   spacing = std::max(spacing, std::sqrt(area / kMostPoints));
   std::vector<Vec3> points;
+  std::vector<Parameters> at;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const auto steps = [&](double side) {
       return std::clamp(static_cast<int>(std::ceil(side / spacing)), 1, kMostCells);
     };
     const int nu = steps(sides[k].x()), nv = steps(sides[k].y());
     for (int i = 0; i < nu && !run.Cancelled(); ++i) {
-      for (int j = 0; j < nv; ++j)
-        points.push_back(Position(surface.pieces[k], (i + 0.5) / nu, (j + 0.5) / nv));
+      for (int j = 0; j < nv; ++j) {
+        const double u = (i + 0.5) / nu, v = (j + 0.5) / nv;
+        points.push_back(Position(surface.pieces[k], u, v));
+        at.push_back({static_cast<std::int32_t>(k), static_cast<float>(u), static_cast<float>(v)});
+      }
     }
   }
   low_ = Plan(surface.box.min);
@@ -61,8 +65,11 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   highest_.assign(first_.size() - 2 + kBlock, -kInfinity);
   points_.resize(points.size());
-  for (const Vec3& p : points) {
+  at_.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3& p = points[i];
     const std::size_t cell = place(p);
+    at_[first_[cell + 1]] = at[i];
     points_[first_[cell + 1]++] = p;
     highest_[cell] = std::max(highest_[cell], p.z());
   }
@@ -100,13 +107,14 @@ void ObstacleCloud::Cells(const Vec3& c, const double& reach, const Visit& visit
   }
 }
 
-std::optional<Vec3> ObstacleCloud::InTheWay(const Vec3& c, double radius) const {
-  std::optional<Vec3> found;
+std::optional<SurfacePoint> ObstacleCloud::InTheWay(const Vec3& c, double radius) const {
+  std::optional<SurfacePoint> found;
   Cells(c, radius, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to && !found; ++i) {
       const Vec3 d = points_[i] - c;
       const double below = std::min(d.z(), 0.0);
-      if (Plan(d).squaredNorm() + below * below < radius * radius) found = points_[i];
+      if (Plan(d).squaredNorm() + below * below < radius * radius)
+        found = SurfacePoint{PieceId(at_[i].piece), at_[i].u, at_[i].v, points_[i]};
     }
     return found.has_value();
   });

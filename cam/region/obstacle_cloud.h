@@ -1,6 +1,7 @@
 // Points of the surface by their place in plan: a quick proof that something is in a ball's way.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -15,13 +16,17 @@ class ObstacleCloud {
   // some 0.1 us a point. Cut short when `run` is cancelled.
   ObstacleCloud(const Surface& surface, double spacing, const RunContext& run);
 
-  // A point of the cloud nearer than `radius` to the upward vertical ray at c. Nothing proves nothing. Cost:
-  // 1 ns a point of the disc of this radius.
-  std::optional<Vec3> InTheWay(const Vec3& c, double radius) const;
+  // A point of the cloud nearer than `radius` to the upward vertical ray at c; its parameters are floats.
+  // Nothing proves nothing. Cost: 1 ns a point of the disc of this radius.
+  std::optional<SurfacePoint> InTheWay(const Vec3& c, double radius) const;
   // The point of the cloud nearest to c, where one is nearer than `limit`; the less that is, the faster.
   std::optional<Vec3> Nearest(const Vec3& c, double limit) const;
 
  private:
+  struct Parameters {
+    std::int32_t piece = 0;
+    float u = 0.0F, v = 0.0F;
+  };
   // visit(first, last): the points of a cell that may be nearer to the ray than `reach`, which may shrink on
   // the way; until it says true.
   template <class Visit>
@@ -33,6 +38,7 @@ class ObstacleCloud {
   std::vector<std::size_t> first_;  // [row * columns + column]: of the cell's points, and the end
   std::vector<double> highest_;     // of a cell; some more at the end
   std::vector<Vec3> points_;
+  std::vector<Parameters> at_;  // of each point
 };
 
 }  // namespace patchmill

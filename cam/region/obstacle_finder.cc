@@ -16,19 +16,19 @@ constexpr std::size_t kTogether = 8;  // balls searched at once
 
 ObstacleFinder::ObstacleFinder(const Locator& ball, const ObstacleCloud& cloud)
     : ball_(ball), cloud_(cloud), radius_(ball.radius() * (1.0 - kRounding)) {
-  last_.fill(Vec3::Constant(kInfinity));
+  last_.fill({PieceId(), 0.0, 0.0, Vec3::Constant(kInfinity)});
 }
 
-std::optional<Vec3> ObstacleFinder::Known(const Vec3& center) {
-  for (const Vec3& obstacle : last_) {
-    if (FromSet<Reach::kUpwardRay>(obstacle - center).squaredNorm() < radius_ * radius_) return obstacle;
+std::optional<SurfacePoint> ObstacleFinder::Known(const Vec3& center) {
+  for (const SurfacePoint& obstacle : last_) {
+    if (FromSet<Reach::kUpwardRay>(obstacle.p - center).squaredNorm() < radius_ * radius_) return obstacle;
   }
-  const std::optional<Vec3> obstacle = cloud_.InTheWay(center, radius_);
+  const std::optional<SurfacePoint> obstacle = cloud_.InTheWay(center, radius_);
   if (obstacle) Remember(*obstacle);
   return obstacle;
 }
 
-void ObstacleFinder::Find(std::span<const Vec3> centers, std::span<std::optional<Vec3>> obstacles) {
+void ObstacleFinder::Find(std::span<const Vec3> centers, std::span<std::optional<SurfacePoint>> obstacles) {
   open_.clear();
   for (std::size_t i = 0; i < centers.size(); ++i) {
     obstacles[i] = Known(centers[i]);
@@ -38,9 +38,9 @@ void ObstacleFinder::Find(std::span<const Vec3> centers, std::span<std::optional
   Search(centers, obstacles);
 }
 
-void ObstacleFinder::Search(std::span<const Vec3> centers, std::span<std::optional<Vec3>> obstacles) {
+void ObstacleFinder::Search(std::span<const Vec3> centers, std::span<std::optional<SurfacePoint>> obstacles) {
   std::array<Vec3, kTogether> asked;
-  std::array<std::optional<Vec3>, kTogether> found;
+  std::array<std::optional<SurfacePoint>, kTogether> found;
   for (std::size_t k = 0; k < open_.size(); ++k) asked[k] = centers[open_[k]];
   FindObstacles(ball_, std::span(asked).first(open_.size()), std::span(found).first(open_.size()));
   for (std::size_t k = 0; k < open_.size(); ++k) {

@@ -19,17 +19,17 @@ class ObstacleFinder {
 
   // obstacles[k]: a point of the surface in the ball at centers[k] or above it, deeper than rounding; none
   // when it is free. Free as Locator::Free has it.
-  void Find(std::span<const Vec3> centers, std::span<std::optional<Vec3>> obstacles);
+  void Find(std::span<const Vec3> centers, std::span<std::optional<SurfacePoint>> obstacles);
 
  private:
-  std::optional<Vec3> Known(const Vec3& center);
-  void Remember(const Vec3& obstacle) { last_[next_++ % last_.size()] = obstacle; }
-  void Search(std::span<const Vec3> centers, std::span<std::optional<Vec3>> obstacles);
+  std::optional<SurfacePoint> Known(const Vec3& center);
+  void Remember(const SurfacePoint& obstacle) { last_[next_++ % last_.size()] = obstacle; }
+  void Search(std::span<const Vec3> centers, std::span<std::optional<SurfacePoint>> obstacles);
 
   const Locator& ball_;
   const ObstacleCloud& cloud_;
   const double radius_;  // smaller than the ball's by rounding
-  std::array<Vec3, 8> last_;
+  std::array<SurfacePoint, 8> last_;
   std::size_t next_ = 0;
   std::vector<std::size_t> open_;  // of the balls at hand
 };

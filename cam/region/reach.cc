@@ -19,6 +19,8 @@ namespace {
 constexpr double kVertical = 1e-6;    // |e_z| below this: no side is the upper one
 constexpr double kFloorSlack = 1e-6;  // mm
 
+constexpr int kMostSlides = 12;  // Newton steps of an obstacle, unless one is
+constexpr double kSlid = 1e-4;   // of the radius: what is left then is the square
 constexpr double kCloud = 0.15;  // of the radius: spacing of the points tried first
 
 }  // namespace
@@ -26,28 +28,30 @@ constexpr double kCloud = 0.15;  // of the radius: spacing of the points tried f
 ReachTest::ReachTest(const Locator& free_ball, const RegionParams& params, const RunContext& run)
     : free_ball_(free_ball), params_(params), cloud_(free_ball.surface(), kCloud * params.radius, run) {}
 
+bool ReachTest::Upright(const Vec3& normal) { return normal.z() < kVertical; }
+
 bool ReachTest::Free(const Vec3& p, const Vec3& normal) const {
   const auto free = [&](const Vec3& center) {
-    std::optional<Vec3> obstacle;
+    std::optional<SurfacePoint> obstacle;
     ObstacleFinder(free_ball_, cloud_).Find({&center, 1}, {&obstacle, 1});
     return !obstacle;
   };
-  return free(p + params_.radius * normal) || (normal.z() < kVertical && free(p - params_.radius * normal));
+  return free(p + params_.radius * normal) || (Upright(normal) && free(p - params_.radius * normal));
 }
 
 void ReachTest::FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs,
-                       std::span<std::optional<Vec3>> obstacles) const {
+                       std::span<std::optional<SurfacePoint>> obstacles) const {
   std::fill(signs.begin(), signs.end(), 0.0);
   std::fill(obstacles.begin(), obstacles.end(), std::nullopt);
   std::vector<std::size_t> asked;
   std::vector<Vec3> centers;
-  std::vector<std::optional<Vec3>> found;
+  std::vector<std::optional<SurfacePoint>> found;
   for (const double side : {1.0, -1.0}) {
     asked.clear();
     centers.clear();
     for (std::size_t i = 0; i < jets.size(); ++i) {
       const auto normal = UpwardNormal(jets[i]);
-      if (!normal || (side < 0.0 && !(signs[i] < 0.0 && normal->z() < kVertical))) continue;
+      if (!normal || (side < 0.0 && !(signs[i] < 0.0 && Upright(*normal)))) continue;
       asked.push_back(i);
       centers.push_back(jets[i].p + side * params_.radius * *normal);
     }
@@ -68,9 +72,18 @@ double ReachTest::Clearance(const Vec3& obstacle, const SurfaceJet& jet) const {
          free_ball_.radius();
 }
 
+double ReachTest::Slide(RaySlide& obstacle, const SurfaceJet& jet) const {
+  const auto normal = UpwardNormal(jet);
+  if (!normal) return -free_ball_.radius();
+  const Vec3 center = jet.p + params_.radius * *normal;
+  for (int k = 0; k < kMostSlides && obstacle.Step(center) > kSlid * params_.radius; ++k) {
+  }
+  return FromSet<Reach::kUpwardRay>(obstacle.at().p - center).norm() - free_ball_.radius();
+}
+
 bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal, ShankFinder& shank) const {
   return shank.Blocked(p + params_.radius * normal) &&
-         (normal.z() >= kVertical || shank.Blocked(p - params_.radius * normal));
+         (!Upright(normal) || shank.Blocked(p - params_.radius * normal));
 }
 
 bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal) const {
@@ -89,7 +102,7 @@ void ReachTest::BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<doubl
 bool ReachTest::Allowed(const Vec3& p, const Vec3& normal) const {
   if (params_.keep_in == nullptr) return true;
   return params_.keep_in->Allows(p + params_.radius * normal) ||
-         (normal.z() < kVertical && params_.keep_in->Allows(p - params_.radius * normal));
+         (Upright(normal) && params_.keep_in->Allows(p - params_.radius * normal));
 }
 
 double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {

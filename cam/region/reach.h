@@ -5,6 +5,7 @@
 #include <span>
 
 #include "cam/location/locator.h"
+#include "cam/location/ray_slide.h"
 #include "cam/region/obstacle_cloud.h"
 #include "cam/region/region_map.h"
 #include "cam/region/shank_finder.h"
@@ -23,10 +24,15 @@ class ReachTest {
   // The same at many places near each other, faster: signs[i] = 1 free, -1 not, 0 where there is no normal.
   // `obstacles`, as many or none: something in the way of the ball, where it is known and decides.
   void FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs,
-              std::span<std::optional<Vec3>> obstacles = {}) const;
+              std::span<std::optional<SurfacePoint>> obstacles = {}) const;
+  // The ball may touch upright ground, with this upward normal, from either side.
+  static bool Upright(const Vec3& normal);
   // How far an obstacle is outside the ball that touches the surface at `jet` and all above it, mm; negative
   // when it is in the way.
   double Clearance(const Vec3& obstacle, const SurfaceJet& jet) const;
+  // The same of the deepest place of the obstacle's branch of the surface, which `obstacle` slides to.
+  double Slide(RaySlide& obstacle, const SurfaceJet& jet) const;
+  const Surface& surface() const { return free_ball_.surface(); }
   // Where it is not: UNDERCUT, and not CONCAVE. Cost some microseconds.
   bool BlockedAbove(const Vec3& p, const Vec3& normal) const;
   // The same at many places near each other, faster: signs[i] = -1 blocked above, 1 not, 0 where there is no

@@ -1,5 +1,6 @@
 #include "cam/region/region_fields.h"
 
+#include "cam/region/limit_follower.h"
 #include "cam/region/reach_limits.h"
 #include "core/diffgeo/forms.h"
 #include "core/lines/line_fields.h"
@@ -25,6 +26,12 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   free.limits = [&reach, exact = free.resolution](const Piece& piece, std::span<const ZeroSegment> segments,
                                                   std::span<double> limits) {
     ReachLimits(reach, piece, segments, exact, limits);
+  };
+  free.follow = [&reach, exact = free.resolution](const Piece& piece) {
+    return [follower = LimitFollower(reach, piece, exact)](const ZeroSegment& chord, const Vec2& across,
+                                                           double least, double most) mutable {
+      return follower.Find(chord, across, least, most);
+    };
   };
   ZeroField& above = at(Field::kAbove);
   above.smooth = false;

@@ -95,7 +95,7 @@ struct Corner {
 };
 
 Corner CornerAt(const Piece& piece, const Vec2& q) {
-  const SurfaceJet jet = Evaluate(piece, q.x(), q.y());
+  const SurfaceJet jet = EvaluateSlopes(piece, q.x(), q.y());
   return {UnitNormal(jet), jet.du.cross(jet.dv).norm()};
 }
 
@@ -148,9 +148,10 @@ void Measure(const Piece& piece, const std::array<Vec2, 3>& q, const std::array<
              double steep_angle, SplitTriangle& triangle) {
   const Measures measures = Integral(
       [&](const Vec2& at, bool whole) {
-        const SurfaceJet jet = Evaluate(piece, at.x(), at.y());
+        const bool more = whole && triangle.label.reason == UnreachableReason::kNone;
+        const SurfaceJet jet = more ? Evaluate(piece, at.x(), at.y()) : EvaluateSlopes(piece, at.x(), at.y());
         PointMeasures m{.element = jet.du.cross(jet.dv).norm()};
-        if (!whole || triangle.label.reason != UnreachableReason::kNone) return m;
+        if (!more) return m;
         const auto unit = UnitNormal(jet);
         if (!unit) return m;
         m.steeper = std::atan2(Plan(*unit).norm(), std::abs(unit->z())) - steep_angle;
@@ -171,7 +172,7 @@ Vec2 PlaceOf(const ZeroVertex& vertex) { return {vertex.u, vertex.v}; }
 double SurfaceArea(const Piece& piece, const Vec2& a, const Vec2& b, const Vec2& c) {
   const Corner at_a = CornerAt(piece, a), at_b = CornerAt(piece, b), at_c = CornerAt(piece, c);
   const auto at = [&](const Vec2& q, bool) {
-    const SurfaceJet jet = Evaluate(piece, q.x(), q.y());
+    const SurfaceJet jet = EvaluateSlopes(piece, q.x(), q.y());
     return PointMeasures{.element = jet.du.cross(jet.dv).norm()};
   };
   return Integral(at, {a, b, c}, {&at_a, &at_b, &at_c}).area;

@@ -14,9 +14,16 @@ constexpr double kLeastGrowth = 0.3;  // of the function over a step, of what th
 constexpr double kOnBorder = 1e-9;    // of a piece
 constexpr double kStray = 1e-12;      // of a piece, by rounding
 
+// As far as FlowGradient needs it.
+SurfaceJet JetFor(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q) {
+  const Piece& on = surface.piece(piece);
+  return params.kind == FlowKind::kAlongHeight ? EvaluateSlopes(on, q.x(), q.y())
+                                               : Evaluate(on, q.x(), q.y());
+}
+
 // Unit speed in space, in parameters; zero where the flow has no direction.
 Vec2 Velocity(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q, double sign) {
-  const SurfaceJet jet = Evaluate(surface, piece, q.x(), q.y());
+  const SurfaceJet jet = JetFor(surface, params, piece, q);
   const Vec3 g = FlowGradient(jet, params);
   const double flat = params.kind == FlowKind::kAlongHeight ? kFlat : kFlat / params.spacing;
   const double size = g.norm();
@@ -77,7 +84,7 @@ Vec3 FlowGradient(const SurfaceJet& jet, const FlowParams& params) {
 
 std::optional<FlowPlace> PlaceOn(const Surface& surface, const FlowParams& params, PieceId piece, double u,
                                  double v, double sign) {
-  const SurfaceJet jet = Evaluate(surface, piece, u, v);
+  const SurfaceJet jet = JetFor(surface, params, piece, {u, v});
   const auto normal = UnitNormal(jet);
   const Vec2 velocity = Velocity(surface, params, piece, {u, v}, sign);
   if (!normal || velocity.isZero()) return std::nullopt;

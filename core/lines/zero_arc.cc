@@ -13,7 +13,9 @@ constexpr int kMostHalvings = 12;
 class Refiner {
  public:
   Refiner(const Piece& piece, const ZeroField& field, double tolerance)
-      : piece_(piece), field_(field), tolerance_(tolerance) {}
+      : piece_(piece), field_(field), tolerance_(tolerance) {
+    if (field.follow) follow_ = field.follow(piece);
+  }
 
   // The places on both sides of the point `at` of the chord a b, within the tolerance of it, between which
   // the curve passes if it is straight there.
@@ -41,7 +43,8 @@ class Refiner {
 
   // One that is known not to be straight. `at_mid`: the value at its middle, 0 where it is not known.
   void AddBent(const Vec2& from, const Vec2& to, double at_mid, std::vector<Vec2>& out) const {
-    const std::optional<Vec2> root = OnPerpendicular(from, to, (At(to) - At(from)).norm(), at_mid);
+    std::optional<Vec2> root = Followed(from, to);
+    if (!root) root = OnPerpendicular(from, to, (At(to) - At(from)).norm(), at_mid);
     if (!root) return;
     Add(from, *root, kMostHalvings, out);
     out.push_back(*root);
@@ -75,13 +78,26 @@ class Refiner {
   void Add(const Vec2& from, const Vec2& to, int depth, std::vector<Vec2>& out) const {
     const Vec3 a = At(from), b = At(to);
     if (depth == 0 || (b - a).norm() <= tolerance_) return;
-    double at_mid = 0.0;
-    if (Straight(from, to, 0.5, a, b, &at_mid)) return;
-    const std::optional<Vec2> root = OnPerpendicular(from, to, (b - a).norm(), at_mid);
+    std::optional<Vec2> root = Followed(from, to);
+    if (!root) {
+      double at_mid = 0.0;
+      if (Straight(from, to, 0.5, a, b, &at_mid)) return;
+      root = OnPerpendicular(from, to, (b - a).norm(), at_mid);
+    }
     if (!root || Near(*root, a, b)) return;
     Add(from, *root, depth - 1, out);
     out.push_back(*root);
     Add(*root, to, depth - 1, out);
+  }
+
+  // As OnPerpendicular, for fields that can be followed.
+  std::optional<Vec2> Followed(const Vec2& from, const Vec2& to) const {
+    if (!follow_) return std::nullopt;
+    const Vec2 mid = 0.5 * (from + to), across(-(to - from).y(), (to - from).x());
+    const std::optional<double> share =
+        follow_({from, to}, across, -Inside(mid, -across), Inside(mid, across));
+    if (!share) return std::nullopt;
+    return Vec2(mid + *share * across);
   }
 
   // The root on the perpendicular through the chord's middle, at most half a chord away (of a limit, which
@@ -122,6 +138,7 @@ class Refiner {
   const Piece& piece_;
   const ZeroField& field_;
   double tolerance_;
+  ZeroField::Follow follow_;
 };
 
 }  // namespace

@@ -34,6 +34,13 @@ struct ZeroField {
   // The shares of such segments where the sign changes, to `resolution`, of a field that is not smooth and
   // has a better way than asking for signs. May be empty.
   std::function<void(const Piece&, std::span<const ZeroSegment>, std::span<double>)> limits;
+  // For one piece: where the sign changes half way between two places where it does, a share t in
+  // [least, most] of `across` from the middle of their chord, to `resolution`; for chords near each other,
+  // one after the other. Nothing where it is not found that way. Of a field that is not smooth and has a
+  // better way than asking for signs. May be empty.
+  using Follow = std::function<std::optional<double>(const ZeroSegment& chord, const Vec2& across,
+                                                     double least, double most)>;
+  std::function<Follow(const Piece&)> follow;
   // A point of the closed box where curves of the field cross each other, or nothing. May be empty.
   std::function<std::optional<Vec2>(const Piece&, const ParameterBox&)> node;
   bool smooth = true;

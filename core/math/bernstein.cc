@@ -1,12 +1,30 @@
 #include "core/math/bernstein.h"
 
 #include <algorithm>
+#include <array>
 
 namespace patchmill {
 
+namespace {
+
+constexpr int kRows = 2 * kMaxBasisDegree + 1;
+
+// Pascal's triangle.
+constexpr auto kBinomials = [] {
+  std::array<std::array<double, kRows>, kRows> c{};
+  for (std::size_t n = 0; n < c.size(); ++n) {
+    c[n][0] = 1.0;
+    for (std::size_t k = 1; k <= n; ++k) c[n][k] = c[n - 1][k - 1] + c[n - 1][k];
+  }
+  return c;
+}();
+
+}  // namespace
+
 double Binomial(int n, int k) {
+  if (n < kRows) return kBinomials[static_cast<std::size_t>(n)][static_cast<std::size_t>(k)];
   double c = 1.0;
-  for (int i = 1; i <= std::min(k, n - k); ++i) c = c * (n - i + 1) / i;  // stays an integer after each step
+  for (int i = 1; i <= std::min(k, n - k); ++i) c = c * (n - i + 1) / i;
   return c;
 }
 

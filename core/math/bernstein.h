@@ -63,7 +63,20 @@ inline void AllBernsteinJet(int n, double t, BasisJet& out) {
   for (int i = 0; i <= n; ++i) out.f[i] = lower[i];
 }
 
-// C(n,k), exact for n <= 2 * kMaxBasisDegree.
+// The same without second derivatives: `dd` is unset.
+inline void AllBernsteinSlopes(int n, double t, BasisJet& out) {
+  double lower[kMaxBasisDegree + 1];
+  AllBernstein(n - 1, t, lower);  // as it is for n = 0
+  for (int i = 0; i <= n; ++i) {
+    const double a = i >= 1 ? lower[i - 1] : 0.0;
+    const double b = i <= n - 1 ? lower[i] : 0.0;
+    out.d[i] = n * (a - b);
+  }
+  if (n >= 1) RaiseBernstein(n, t, lower);
+  for (int i = 0; i <= n; ++i) out.f[i] = lower[i];
+}
+
+// C(n,k), 0 <= k <= n; exact for n <= 2 * kMaxBasisDegree.
 double Binomial(int n, int k);
 
 // Coefficients of the product of two polynomials; degree is the sum of the degrees. Never empty arguments.

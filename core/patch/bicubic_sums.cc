@@ -38,10 +38,37 @@ inline __attribute__((always_inline)) void Sum(const double* points, const Basis
   }
 }
 
+template <class Numbers>
+inline __attribute__((always_inline)) void SumSlopes(const double* points, const BasisJet& bu,
+                                                     const BasisJet& bv, double* out) {
+  constexpr int kWidth = sizeof(Numbers) / sizeof(double);
+  for (int at = 0; at < 4; at += kWidth) {
+    Numbers p{}, du{}, dv{};
+    for (int i = 0; i < 4; ++i) {
+      Numbers r{}, rv{};
+      for (int j = 0; j < 4; ++j) {
+        Numbers q;
+        std::memcpy(&q, points + 16 * i + 4 * j + at, sizeof q);
+        r += bv.f[j] * q;
+        rv += bv.d[j] * q;
+      }
+      p += bu.f[i] * r;
+      du += bu.d[i] * r;
+      dv += bu.f[i] * rv;
+    }
+    const Numbers sums[] = {p, du, dv};
+    for (int k = 0; k < 3; ++k) std::memcpy(out + 4 * k + at, &sums[k], sizeof p);
+  }
+}
+
 #ifdef PATCHMILL_X86_VECTORS
 __attribute__((target("avx2"))) void SumWithAvx2(const double* points, const BasisJet& bu, const BasisJet& bv,
                                                  double* out) {
   Sum<Four>(points, bu, bv, out);
+}
+__attribute__((target("avx2"))) void SumSlopesWithAvx2(const double* points, const BasisJet& bu,
+                                                       const BasisJet& bv, double* out) {
+  SumSlopes<Four>(points, bu, bv, out);
 }
 #endif
 
@@ -52,6 +79,13 @@ void SumBicubic(const double* points, const BasisJet& bu, const BasisJet& bv, do
   if (UsedInstructionSet() != InstructionSet::kPlain) return SumWithAvx2(points, bu, bv, out);
 #endif
   Sum<Two>(points, bu, bv, out);
+}
+
+void SumBicubicSlopes(const double* points, const BasisJet& bu, const BasisJet& bv, double* out) {
+#ifdef PATCHMILL_X86_VECTORS
+  if (UsedInstructionSet() != InstructionSet::kPlain) return SumSlopesWithAvx2(points, bu, bv, out);
+#endif
+  SumSlopes<Two>(points, bu, bv, out);
 }
 
 }  // namespace patchmill::internal

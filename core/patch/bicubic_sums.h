@@ -9,5 +9,7 @@ namespace patchmill::internal {
 // dvv, four numbers each, to out[24]. Four numbers at once: an AVX register where UsedInstructionSet() has
 // them, else two of SSE2 or NEON; the operations of TensorJet in its order either way, hence its bits.
 void SumBicubic(const double* points, const BasisJet& bu, const BasisJet& bv, double* out);
+// Only p, du and dv of these, to out[12].
+void SumBicubicSlopes(const double* points, const BasisJet& bu, const BasisJet& bv, double* out);
 
 }  // namespace patchmill::internal

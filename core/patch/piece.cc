@@ -21,18 +21,21 @@ HomogeneousJet NetJet(const BernsteinNet& net, double u, double v) {
                              [&](int i, int j) -> const Vec4& { return points[i * (degree_v + 1) + j]; });
 }
 
-HomogeneousJet BicubicJet(const BernsteinNet& net, double u, double v) {
+SurfaceJet BicubicJet(const BernsteinNet& net, double u, double v) {
   BasisJet bu, bv;
   AllBernsteinJet(3, u, bu);
   AllBernsteinJet(3, v, bv);
   double sums[24];
   internal::SumBicubic(net.points.front().data(), bu, bv, sums);
+  if (!net.rational) {  // most of all: no copies on the way
+    const auto three = [&](int k) { return Vec3(sums[k], sums[k + 1], sums[k + 2]); };
+    return {three(0), three(4), three(8), three(12), three(16), three(20)};
+  }
   const auto four = [&](int k) { return Vec4(sums[k], sums[k + 1], sums[k + 2], sums[k + 3]); };
-  return {four(0), four(4), four(8), four(12), four(16), four(20)};
+  return internal::RationalJet({four(0), four(4), four(8), four(12), four(16), four(20)});
 }
 
 HomogeneousJet NetJet(const BernsteinNet& net, double u, double v) {
-  if (net.degree_u == 3 && net.degree_v == 3) return BicubicJet(net, u, v);
   if (net.degree_u == 2 && net.degree_v == 2) return NetJet<2, 2>(net, u, v);
   return NetJet<-1, -1>(net, u, v);
 }
@@ -111,8 +114,26 @@ std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape) {
 SurfaceJet Evaluate(const Piece& piece, double u, double v) {
   if (piece.gregory) return internal::EvaluateShape(*piece.gregory, u, v);
   if (piece.shape) return ShapeJet(piece, u, v);
+  if (piece.net.degree_u == 3 && piece.net.degree_v == 3) return BicubicJet(piece.net, u, v);
   const HomogeneousJet h = NetJet(piece.net, u, v);
   return piece.net.rational ? internal::RationalJet(h) : internal::PolynomialJet(h);
+}
+
+SurfaceJet EvaluateSlopes(const Piece& piece, double u, double v) {
+  const BernsteinNet& net = piece.net;
+  if (piece.gregory || piece.shape || net.rational || net.degree_u != 3 || net.degree_v != 3)
+    return Evaluate(piece, u, v);
+  BasisJet bu, bv;
+  AllBernsteinSlopes(3, u, bu);
+  AllBernsteinSlopes(3, v, bv);
+  double sums[12];
+  internal::SumBicubicSlopes(net.points.front().data(), bu, bv, sums);
+  const auto three = [&](int k) { return Vec3(sums[k], sums[k + 1], sums[k + 2]); };
+  SurfaceJet jet;
+  jet.p = three(0);
+  jet.du = three(4);
+  jet.dv = three(8);
+  return jet;
 }
 
 Vec3 Position(const Piece& piece, double u, double v) {

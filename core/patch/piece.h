@@ -49,6 +49,9 @@ std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape&& shape) = delet
 
 // Jet in the piece's own parameters (u,v) in [0,1]^2.
 SurfaceJet Evaluate(const Piece& piece, double u, double v);
+// The same, the same bits, where second derivatives are not wanted: they may be zero. Half the time for
+// polynomial bicubic pieces.
+SurfaceJet EvaluateSlopes(const Piece& piece, double u, double v);
 Vec3 Position(const Piece& piece, double u, double v);
 Vec2 NativeParameters(const Piece& piece, double u, double v);
 

@@ -128,7 +128,7 @@ Tally Judge(std::uint64_t seed) {
     if (lift.value_or(0.0) > kEps) bad(tally.open, "open above");
     if (locator.CertifiedFree(under.back(), kEps) || locator.Free(under.back())) bad(tally.free, "free");
   }
-  std::vector<std::optional<Vec3>> obstacles(over.size());
+  std::vector<std::optional<SurfacePoint>> obstacles(over.size());
   const auto found = [&](const std::vector<Vec3>& centers) {
     FindObstacles(locator, centers, obstacles);
     return std::count_if(obstacles.begin(), obstacles.end(), [](const auto& o) { return o.has_value(); });

@@ -115,8 +115,9 @@ void AddTo(Canonical& digest, const std::optional<CenterPoint>& h) {
   if (!h) return;
   digest.Add(h->z).Add(h->contact.u).Add(h->contact.v).Add(std::int64_t{h->contact.piece.value});
 }
-void AddTo(Canonical& digest, const std::optional<Vec3>& p) {
-  if (p) digest.Add(p->x()).Add(p->y()).Add(p->z());
+void AddTo(Canonical& digest, const std::optional<SurfacePoint>& p) {
+  if (!p) return;
+  digest.Add(p->p.x()).Add(p->p.y()).Add(p->p.z()).Add(p->u).Add(p->v).Add(std::int64_t{p->piece.value});
 }
 
 template <class Answer>
@@ -211,12 +212,12 @@ TEST(Obstacles, StandBelowTheHeightsAndNotAbove) {
       std::vector<Vec3> centers;
       for (std::size_t i = 0; i < places.size(); ++i)
         centers.push_back(Lift(places[i], heights[i] ? heights[i]->z + over : -100.0));
-      std::vector<std::optional<Vec3>> obstacles(centers.size());
+      std::vector<std::optional<SurfacePoint>> obstacles(centers.size());
       FindObstacles(locator, centers, obstacles);
       for (std::size_t i = 0; i < centers.size(); ++i) {
         EXPECT_EQ(!obstacles[i], !heights[i] || over > 0.0) << centers[i].transpose() << " over " << over;
         if (!obstacles[i]) continue;
-        const Vec3 d = *obstacles[i] - centers[i];  // in the ball, or above it and beside its axis
+        const Vec3 d = obstacles[i]->p - centers[i];  // in the ball, or above it and beside its axis
         EXPECT_LT(Vec3(d.x(), d.y(), std::min(d.z(), 0.0)).norm(), c.radius) << centers[i].transpose();
       }
     }
@@ -247,7 +248,7 @@ TEST(Obstacles, SameBitsOnEveryInstructionSet) {
     const std::vector<Vec3> centers = CentersNearTheHeights(surface, locator);
     const auto obstacles_on = [&](InstructionSet set) {
       const testing::OnInstructionSet on(set);
-      std::vector<std::optional<Vec3>> obstacles(centers.size());
+      std::vector<std::optional<SurfacePoint>> obstacles(centers.size());
       FindObstacles(locator, centers, obstacles);
       return obstacles;
     };
@@ -261,10 +262,10 @@ TEST(Obstacles, SameBitsOnEveryInstructionSet) {
       const auto obstacles = obstacles_on(set);
       for (std::size_t k = 0; k < centers.size(); ++k) {
         ASSERT_EQ(plain[k].has_value(), obstacles[k].has_value()) << centers[k].transpose();
-        if (plain[k]) {
-          ASSERT_EQ(std::memcmp(plain[k]->data(), obstacles[k]->data(), sizeof(Vec3)), 0)
-              << centers[k].transpose();
-        }
+        if (!plain[k]) continue;
+        const SurfacePoint &a = *plain[k], &b = *obstacles[k];
+        ASSERT_EQ(std::memcmp(a.p.data(), b.p.data(), sizeof(Vec3)), 0) << centers[k].transpose();
+        ASSERT_TRUE(a.piece == b.piece && a.u == b.u && a.v == b.v) << centers[k].transpose();
       }
     }
   }

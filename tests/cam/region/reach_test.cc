@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cam/region/limit_follower.h"
 #include "cam/region/reach_limits.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
@@ -45,8 +46,10 @@ TEST(ObstacleCloud, ItsPointsAreOfTheSurfaceAndInTheWay) {
       const double radius = random.Uniform(0.3, 4.0);
       if (const auto p = cloud.InTheWay(c, radius)) {
         ++found;
-        EXPECT_TRUE(ClosestToPoint(surface, *p, 1e-9, 1e-10)) << p->transpose();
-        EXPECT_LT(std::hypot(p->x() - c.x(), p->y() - c.y(), std::min(p->z() - c.z(), 0.0)), radius);
+        EXPECT_TRUE(ClosestToPoint(surface, p->p, 1e-9, 1e-10)) << p->p.transpose();
+        EXPECT_LT((Evaluate(surface, p->piece, p->u, p->v).p - p->p).norm(), 1e-4);
+        const Vec3 d = p->p - c;
+        EXPECT_LT(std::hypot(d.x(), d.y(), std::min(d.z(), 0.0)), radius);
       }
       const auto nearest = ClosestToPoint(surface, c, kInfinity, 1e-6);
       ASSERT_TRUE(nearest);
@@ -83,7 +86,7 @@ TEST(ReachTest, AgreesWithTheDefinition) {
     }
     std::vector<double> signs(jets.size()), shank(jets.size());
     reach.BlockedAboveAt(jets, shank);
-    std::vector<std::optional<Vec3>> obstacles(jets.size());
+    std::vector<std::optional<SurfacePoint>> obstacles(jets.size());
     reach.FreeAt(jets, signs, obstacles);
     for (std::size_t i = 0; i < jets.size(); ++i) {
       const auto normal = UpwardNormal(jets[i]);
@@ -99,7 +102,7 @@ TEST(ReachTest, AgreesWithTheDefinition) {
       if (signs[i] > 0.0) continue;
       ++blocked;
       ASSERT_TRUE(obstacles[i]);
-      EXPECT_LT(reach.Clearance(*obstacles[i], jets[i]), 0.0);
+      EXPECT_LT(reach.Clearance(obstacles[i]->p, jets[i]), 0.0);
       const double nearer = ball->distance - ray->distance - 0.02 * params.radius;
       if (std::abs(nearer) < 0.003 * params.radius) continue;
       EXPECT_EQ(reach.BlockedAbove(jets[i].p, *normal), nearer > 0.0);
@@ -137,6 +140,67 @@ TEST(ReachLimits, AreThoseOfAHemisphereOnAPlane) {
       const Vec2 q = segments[k].from + limits[k] * (segments[k].to - segments[k].from);
       EXPECT_NEAR(Plan(Position(surface.pieces[0], q.x(), q.y())).norm(), limit, exact) << exact;
     }
+  }
+}
+
+// Beside a hemisphere, chord by chord around it: on the circle, as deep inside the chord as it bulges.
+TEST(LimitFollower, StaysOnTheLimitOfAHemisphereOnAPlane) {
+  const double r = 8, radius = 3, tolerance = 0.01, half = 20, exact = 0.01;
+  const Surface surface = SurfaceOf(Join({Plane(half), Sphere(Vec3::Zero(), r, Half::kUpper)}));
+  RegionParams params;
+  params.radius = radius;
+  params.tolerance = tolerance;
+  const Locator free_ball(surface, radius - tolerance);
+  const ReachTest reach(free_ball, params, RunContext());
+  const double reached = r + radius - tolerance, limit = std::sqrt(reached * reached - radius * radius);
+  const Vec2 middle(0.5, 0.5);
+  const auto on_limit = [&](double angle) {
+    return Vec2(middle + limit / (2 * half) * Vec2(std::cos(angle), std::sin(angle)));
+  };
+  LimitFollower follower(reach, surface.pieces[0], exact);
+  for (const double turn : {0.02, 0.3, 1.0}) {
+    for (double angle = 0.0; angle < 2 * kPi; angle += turn) {
+      const ZeroSegment chord{on_limit(angle), on_limit(angle + turn)};
+      const Vec2 way = chord.to - chord.from, across(-way.y(), way.x());
+      const auto share = follower.Find(chord, across, -1.0, 1.0);
+      ASSERT_TRUE(share) << angle;
+      const Vec2 q = 0.5 * (chord.from + chord.to) + *share * across;
+      EXPECT_NEAR(2 * half * (q - middle).norm(), limit, 0.1 * exact) << angle;
+    }
+    // No limit within reach: far outside, and where the chord leads past the hemisphere's top.
+    const ZeroSegment off{on_limit(0.0) + Vec2(0.2, 0.0), on_limit(0.1) + Vec2(0.2, 0.0)};
+    EXPECT_FALSE(follower.Find(off, Vec2(0.01, 0.0), -1.0, 1.0));
+  }
+}
+
+// Two hemispheres side by side: what one of them leaves free the other may not.
+TEST(LimitFollower, SeesWhatElseIsInTheWay) {
+  const double r = 5, radius = 3, tolerance = 0.01, half = 30, apart = 6, exact = 0.01;
+  const Surface surface = SurfaceOf(Join({Plane(half), Sphere(Vec3(-apart, 0, 0), r, Half::kUpper),
+                                          Sphere(Vec3(apart, 0, 0), r, Half::kUpper)}));
+  RegionParams params;
+  params.radius = radius;
+  params.tolerance = tolerance;
+  const Locator free_ball(surface, radius - tolerance);
+  const ReachTest reach(free_ball, params, RunContext());
+  const double reached = r + radius - tolerance, limit = std::sqrt(reached * reached - radius * radius);
+  ASSERT_GT(limit, apart);  // the circles cross
+  const auto place = [&](double x, double y) { return Vec2(0.5 + x / (2 * half), 0.5 + y / (2 * half)); };
+  const auto on_circle = [&](double x, double center) {
+    return std::sqrt(limit * limit - (x - center) * (x - center));
+  };
+  const Vec2 across = place(0.0, 4.0) - place(0.0, 0.0);
+  const auto find = [&](LimitFollower& follower, double from, double to, double center) {
+    const ZeroSegment chord{place(from, on_circle(from, center)), place(to, on_circle(to, center))};
+    const auto share = follower.Find(chord, across, -1.0, 1.0);
+    return share ? 2 * half * (0.5 * (chord.from + chord.to) + *share * across - Vec2(0.5, 0.5)).y() : -1.0;
+  };
+  LimitFollower follower(reach, surface.pieces[0], exact);
+  for (double x = 0.3; x < 1.2; x += 0.2) {
+    // By the left one; then, with that in mind, by the right one where the left one lets go earlier.
+    EXPECT_NEAR(find(follower, -x - 0.1, -x + 0.1, -apart), on_circle(-x, -apart), 0.1 * exact) << x;
+    ASSERT_GT(on_circle(x, apart), on_circle(x, -apart) + 0.2);
+    EXPECT_NEAR(find(follower, x - 0.1, x + 0.1, apart), on_circle(x, apart), 0.1 * exact) << x;
   }
 }
 

@@ -48,6 +48,12 @@ TEST(BicubicSums, AreTheGenericOnesToTheBitOnEveryInstructionSet) {
       internal::SumBicubic(points.data(), bu, bv, sums.data());
       const Sums generic = Generic(points, bu, bv);
       ASSERT_EQ(std::memcmp(sums.data(), generic.data(), sizeof sums), 0) << "u " << u << " v " << v;
+      BasisJet su, sv;
+      AllBernsteinSlopes(3, u, su);
+      AllBernsteinSlopes(3, v, sv);
+      std::array<double, 12> slopes;
+      internal::SumBicubicSlopes(points.data(), su, sv, slopes.data());
+      ASSERT_EQ(std::memcmp(slopes.data(), generic.data(), sizeof slopes), 0) << "u " << u << " v " << v;
     }
   }
 }

@@ -33,6 +33,8 @@ void ExpectPiecesMatch(const PatchShape& shape, int tries) {
       ASSERT_LE((Position(shape, q.x(), q.y()) - native.p).norm(), 1e-12);
       const SurfaceJet own = Evaluate(piece, u, v);
       ASSERT_LE((own.p - native.p).norm(), 1e-12);
+      const SurfaceJet slopes = EvaluateSlopes(piece, u, v);
+      ASSERT_TRUE(slopes.p == own.p && slopes.du == own.du && slopes.dv == own.dv);
       const auto& c = piece.native;
       const Vec2 qu = (1 - v) * (c[1] - c[0]) + v * (c[3] - c[2]),
                  qv = (1 - u) * (c[2] - c[0]) + u * (c[3] - c[1]);
