@@ -68,7 +68,7 @@ template <class Lanes>
 PM_LANE_INLINE double Largest(const Lanes& lanes) {
   double most = lanes[0];
   for (std::size_t k = 1; k < sizeof(Lanes) / sizeof(double); ++k) most = most > lanes[k] ? most : lanes[k];
-  return most;
+  return most + 0.0;  // which of two zeros came first is no matter
 }
 
 // Visits the net's difference of this order along the grid's rows, its lanes at a time, less `middle`.

@@ -121,17 +121,20 @@ CreaseTracer::Run CreaseTracer::Follow(const CreasePoint& seed, double sign, dou
   std::size_t keep = 0;
   double unwanted = 0.0, step = full;
   while (out.size() < kMostStations && unwanted <= patience) {
-    const auto next = Advance(at, heading, step);
+    // The seed lies ahead within a step: the chord to it closes the ring, if need be after a shorter step.
+    const Vec3 back = seed.center - at.center;
+    const bool round = out.size() > 4 && back.norm() <= step && Plan(back).dot(heading) > 0.0;
+    if (round && ChordIsGood(at, seed)) {
+      run.ring = true;
+      return run;
+    }
+    const auto next = round ? std::nullopt : Advance(at, heading, step);
     if (!next) {
       step *= 0.5;
       if (step < 1e-3 * full) break;
       continue;
     }
     unwanted += (next->center - at.center).norm();
-    if ((next->center - seed.center).norm() < 0.5 * step && out.size() > 4 && ChordIsGood(at, seed)) {
-      run.ring = true;
-      return run;
-    }
     out.push_back(*next);
     if (wanted(next->center)) {
       unwanted = 0.0;

@@ -97,19 +97,23 @@ double InsetOf(const LineProber& prober, const Interval& range, double spacing, 
   return inset < kInfinity ? inset : 0.0;
 }
 
-// Moves the ends of a band inwards, each up to the band's middle.
+// Moves the ends of a band inwards, each up to the band's middle; leaves none of it where they stay.
 absl::Status MoveInwards(const LineProber& prober, const Interval& range, double spacing,
                          const SegmentTree& beside, std::vector<Row>& band, const RunContext& run) {
   const double low = band.front().y, high = band.back().y, middle = 0.5 * (low + high);
   const double from = std::min(middle, low + InsetOf(prober, range, spacing, low, beside));
   const double to = std::max(middle, high - InsetOf(prober, range, spacing, high, beside));
   PM_RETURN_IF_ERROR(run.Check());
-  if (from == low && to == high) return absl::OkStatus();
-  std::erase_if(band, [&](const Row& row) { return row.y <= from || row.y >= to; });
   Row first = SampleRow(prober, range, spacing, from), last = SampleRow(prober, range, spacing, to);
-  if (first.wanted()) band.insert(band.begin(), std::move(first));
-  if (last.wanted() && to > from) band.push_back(std::move(last));
-  return run.Check();
+  PM_RETURN_IF_ERROR(run.Check());
+  if ((from == low && to == high) || !first.wanted() || !last.wanted()) {
+    band.clear();
+    return absl::OkStatus();
+  }
+  std::erase_if(band, [&](const Row& row) { return row.y <= from || row.y >= to; });
+  band.insert(band.begin(), std::move(first));
+  if (to > from) band.push_back(std::move(last));
+  return absl::OkStatus();
 }
 
 bool Steady(const Row& a, const Row& b) {

@@ -13,9 +13,12 @@ constexpr double kBesideHeld = 0.05;  // where the obstacle is held back
 constexpr double kWell = 0.05;        // of `exact`: how exactly an obstacle's limit is found
 constexpr double kSame = 0.1;         // of `exact`, of clearance
 constexpr double kGrazing = 0.001;    // mm of clearance a mm: with less the limit is where it may be
+constexpr double kFarthest = 0.5;     // chords beside its middle
 constexpr int kMostSteps = 8;
 constexpr int kMostObstacles = 6;
 constexpr std::size_t kRemembered = 4;
+
+bool OnPiece(const Vec2& q) { return q.minCoeff() >= 0.0 && q.maxCoeff() <= 1.0; }
 
 }  // namespace
 
@@ -88,7 +91,13 @@ std::optional<double> LimitFollower::Find(const ZeroSegment& chord, const Vec2& 
   const double length = (across.x() * jet.du + across.y() * jet.dv).norm();
   // Beside upright ground one ball's obstacle says nothing of the other.
   if (!normal || ReachTest::Upright(*normal) || !(length > 0.0)) return std::nullopt;
-  bool known = obstacle_.has_value();  // from the chord before, which may be another limit's
+  // Farther away lie other limits.
+  least = std::max(least, -kFarthest);
+  most = std::min(most, kFarthest);
+  // What was in the way of the chord before may make another limit.
+  const auto touches = [&](const Vec2& end) { return std::abs(reach_->Slide(*obstacle_, At(end))) < exact_; };
+  if (obstacle_ && !touches(chord.from) && !touches(chord.to)) obstacle_.reset();
+  bool known = obstacle_.has_value();
   if (!known && !FindObstacle(at, across, least, most)) return std::nullopt;
   for (int k = 0; k < kMostObstacles; ++k) {
     std::optional<LetGo> limit = FollowObstacle(at, across, least, most, length);
@@ -99,8 +108,11 @@ std::optional<double> LimitFollower::Find(const ZeroSegment& chord, const Vec2& 
     // Held at the border of its piece the branch may go on beyond it.
     const double share = obstacle_->held_by() < 0 ? kBeside : kBesideHeld;
     const double beside = std::copysign(share * exact_ / length, limit->rate);
-    if (!(reach_->Slide(*obstacle_, At(at + (limit->share - beside) * across)) < 0.0)) break;
-    const SurfaceJet free = At(at + (limit->share + beside) * across);
+    const Vec2 blocked_at = at + (limit->share - beside) * across,
+               free_at = at + (limit->share + beside) * across;
+    if (!OnPiece(blocked_at) || !OnPiece(free_at)) break;
+    if (!(reach_->Slide(*obstacle_, At(blocked_at)) < 0.0)) break;
+    const SurfaceJet free = At(free_at);
     if (const auto before = InTheWay(free)) {
       std::swap(*obstacle_, *before);
       continue;

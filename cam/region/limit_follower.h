@@ -13,17 +13,20 @@ namespace patchmill {
 // Where a ball begins to be free the branch of the surface that is in its way beyond it changes little from
 // one place of the limit to the next: how far it is outside the ball is a smooth function of the place, whose
 // zero is found without a search of the whole surface. Where the ends of a chord lie on the zero of one
-// branch, so does what is between; elsewhere a search tells whether anything else is in the way.
+// branch, what is between is taken to do so too, which something small in between can make wrong (on bumpy
+// ground 1 chord in 100: tests/bench/README.md); elsewhere a search tells whether anything else is in the
+// way.
 class LimitFollower {
  public:
   // Of limits on `piece`, to `exact` mm on the surface. Keeps references.
   LimitFollower(const ReachTest& reach, const Piece& piece, double exact)
       : reach_(&reach), piece_(&piece), exact_(exact) {}
 
-  // A share t in [least, most] of `across` (parameters) by which the middle of a chord between two places of
-  // a limit lies beside it. For chords near each other, one after the other: begins with what was in the way
-  // last. Nothing where no obstacle leads to a limit, and on upright ground. Cost: some evaluations; a search
-  // for one ball where the chord's ends are of two branches, some more where the branch is a new one.
+  // A share t in [least, most], no farther than 1/2, of `across` (parameters) by which the middle of a chord
+  // between two places of a limit lies beside it. For chords near each other, one after the other: begins
+  // with what was in the way last. Nothing where no obstacle leads to a limit, and on upright ground. Cost:
+  // some evaluations; a search for one ball where the chord's ends are of two branches, some more where the
+  // branch is a new one.
   std::optional<double> Find(const ZeroSegment& chord, const Vec2& across, double least, double most);
 
  private:

@@ -132,6 +132,32 @@ class FreeBeside {
 
 constexpr double kOff = 0.02;  // mm
 
+// Two bosses whose limits come within a mm of each other: each is a circle, and none goes over to the other.
+TEST(ReachBorders, OfTwoBossesSideBySideAreTwoCircles) {
+  const double half = 30.0, r = 2.0, reached = r + kKept;
+  const double limit = std::sqrt(reached * reached - kR * kR);
+  for (const Vec2& c : {Vec2(0.0912, 4.3865), Vec2(0.5167, 4.2562), Vec2(4.2, 0.3)}) {
+    const auto boss = [&](double side) { return Sphere(side * Vec3(c.x(), c.y(), 0.0), r, Half::kUpper); };
+    const Surface surface = SurfaceOf(Join({Plane(half), boss(1.0), boss(-1.0)}));
+    RegionParams params = Exact();
+    params.border_tolerance = 0.01;
+    const auto map = SplitRegions(surface, params, RunContext());
+    ASSERT_TRUE(map.ok()) << map.status();
+    double length = 0.0;
+    for (const BorderLine& line : map->border_lines) {
+      if (line.kind != BorderKind::kReach) continue;
+      for (std::size_t i = 0; i + (line.closed ? 0 : 1) < line.points.size(); ++i) {
+        const Vec3 &a = line.points[i], &b = line.points[(i + 1) % line.points.size()];
+        if (std::max(a.z(), b.z()) > 1e-6) continue;  // on a boss
+        length += (b - a).norm();
+        const Vec2 middle = Plan(0.5 * (a + b));
+        EXPECT_NEAR(std::min((middle - c).norm(), (middle + c).norm()), limit, 0.0201) << middle.transpose();
+      }
+    }
+    EXPECT_NEAR(length, 4 * kPi * limit, 0.1);
+  }
+}
+
 // Where nothing has a closed form: of the limits drawn on ground that bends tighter than the ball nearly
 // everywhere, all but a few hundredths lie where balls begin to be free. Those that do not are corners where
 // one thing in the way takes over from another within a cell.

@@ -204,5 +204,38 @@ TEST(LimitFollower, SeesWhatElseIsInTheWay) {
   }
 }
 
+// Two limits side by side, a strip of free ground between them: each chord finds its own.
+TEST(LimitFollower, DoesNotGoOverToALimitBeside) {
+  const double r = 5, radius = 3, tolerance = 0.01, half = 30, exact = 0.01;
+  RegionParams params;
+  params.radius = radius;
+  params.tolerance = tolerance;
+  const double reached = r + radius - tolerance, limit = std::sqrt(reached * reached - radius * radius);
+  for (const double strip : {0.2, 0.6, 1.0}) {
+    const double apart = limit + 0.5 * strip;
+    const Surface surface = SurfaceOf(Join({Plane(half), Sphere(Vec3(-apart, 0, 0), r, Half::kUpper),
+                                            Sphere(Vec3(apart, 0, 0), r, Half::kUpper)}));
+    const Locator free_ball(surface, radius - tolerance);
+    const ReachTest reach(free_ball, params, RunContext());
+    LimitFollower follower(reach, surface.pieces[0], exact);
+    for (const double chord : {0.1, 0.3, 1.0, 2.0}) {
+      for (const double side : {-1.0, 1.0}) {
+        const double angle = std::asin(0.5 * chord / limit);
+        const auto end = [&](double way) {
+          const double a = way * angle;
+          return Vec2(0.5 + side * (apart - limit * std::cos(a)) / (2 * half),
+                      0.5 + limit * std::sin(a) / (2 * half));
+        };
+        const ZeroSegment between{end(-1.0), end(1.0)};
+        const Vec2 way = between.to - between.from, across(-way.y(), way.x());
+        const auto share = follower.Find(between, across, -1.0, 1.0);
+        if (!share) continue;  // asked for otherwise
+        const Vec2 q = 0.5 * (between.from + between.to) + *share * across;
+        EXPECT_NEAR(2 * half * (q.x() - 0.5), side * 0.5 * strip, exact) << strip << " " << chord;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace patchmill
