@@ -272,6 +272,7 @@ absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius
       report();
     }));
     for (std::size_t k = 0; k < end - begin; ++k) {
+      if (k % 64 == 0) PM_RETURN_IF_ERROR(run.Check());
       tree.leaves.Append(parts[k].leaves);
       boxes.insert(boxes.end(), parts[k].boxes.begin(), parts[k].boxes.end());
     }

@@ -25,9 +25,10 @@ struct Leaves {
   std::vector<SurfaceLeaf> leaves;
   std::vector<Box3> boxes;  // one per leaf
 
-  void Append(const Leaves& more) {
-    leaves.insert(leaves.end(), more.leaves.begin(), more.leaves.end());
-    boxes.insert(boxes.end(), more.boxes.begin(), more.boxes.end());
+  void Append(const Leaves& more) { Append(more, 0, more.leaves.size()); }
+  void Append(const Leaves& more, std::size_t from, std::size_t to) {
+    leaves.insert(leaves.end(), more.leaves.data() + from, more.leaves.data() + to);
+    boxes.insert(boxes.end(), more.boxes.data() + from, more.boxes.data() + to);
   }
 };
 
@@ -196,7 +197,10 @@ absl::StatusOr<bool> MakeLeaves(const Surface& surface, Budget& budget, std::vec
     Leaves& batch = batches.emplace_back();
     batch.leaves.reserve(leaves);
     batch.boxes.reserve(leaves);
-    for (std::size_t k = 0; k < here; ++k) batch.Append(parts[k]);
+    for (std::size_t k = 0; k < here; ++k) {
+      if (k % 64 == 0) PM_RETURN_IF_ERROR(budget.run.Check());
+      batch.Append(parts[k]);
+    }
   }
   return true;
 }
@@ -247,8 +251,11 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   all.leaves.reserve(count);
   all.boxes.reserve(count);
   for (Leaves& batch : batches) {  // each freed before the next is held twice
-    PM_RETURN_IF_ERROR(run.Check());
-    all.Append(batch);
+    constexpr std::size_t kBetweenPolls = 1 << 14;
+    for (std::size_t from = 0; from < batch.leaves.size(); from += kBetweenPolls) {
+      PM_RETURN_IF_ERROR(run.Check());
+      all.Append(batch, from, std::min(from + kBetweenPolls, batch.leaves.size()));
+    }
     batch = {};
   }
   run.Progress("bounds: tree", 0.0);
