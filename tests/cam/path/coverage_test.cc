@@ -153,7 +153,7 @@ void ExpectOneRing(double r) {
   const Surface surface = JoinedSurface(Join({Plane(half), Sphere(Vec3::Zero(), r, Half::kUpper)}));
   const Locator locator(surface, radius);
   const double reached = r + radius, ring = std::sqrt(reached * reached - radius * radius);
-  // Circles at heights and distances of a quarter mm, none at the foot.
+  // Circles from half a mm outside the foot on, and above it.
   std::vector<CutterPath> plain;
   const auto circle = [&](double across, double z) {
     CutterPath path;

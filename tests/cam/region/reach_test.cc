@@ -143,21 +143,46 @@ TEST(ReachLimits, AreThoseOfAHemisphereOnAPlane) {
   }
 }
 
-// Beside a hemisphere, chord by chord around it: on the circle, as deep inside the chord as it bulges.
-TEST(LimitFollower, StaysOnTheLimitOfAHemisphereOnAPlane) {
-  const double r = 8, radius = 3, tolerance = 0.01, half = 20, exact = 0.01;
-  const Surface surface = SurfaceOf(Join({Plane(half), Sphere(Vec3::Zero(), r, Half::kUpper)}));
+// Upper hemispheres on a plane, and the circles on it from which on a ball is free.
+struct Bosses {
+  double half, limit;
   RegionParams params;
-  params.radius = radius;
-  params.tolerance = tolerance;
-  const Locator free_ball(surface, radius - tolerance);
-  const ReachTest reach(free_ball, params, RunContext());
-  const double reached = r + radius - tolerance, limit = std::sqrt(reached * reached - radius * radius);
-  const Vec2 middle(0.5, 0.5);
+  Surface surface;
+  Locator free_ball;
+  ReachTest reach;
+
+  Bosses(double half_size, double r, const std::vector<double>& at_x)
+      : half(half_size),
+        limit(LimitAround(r)),
+        surface(SurfaceOf(Model(half_size, r, at_x))),
+        free_ball(surface, params.radius - params.tolerance),
+        reach(free_ball, params, RunContext()) {}
+  // The place (mm) on the plane in its parameters.
+  Vec2 Place(double x, double y) const { return {0.5 + x / (2 * half), 0.5 + y / (2 * half)}; }
+  Vec2 InMm(const Vec2& q) const { return 2 * half * (q - Vec2(0.5, 0.5)); }
+
+ private:
+  static double LimitAround(double r) {
+    const RegionParams p;
+    const double reached = r + p.radius - p.tolerance;
+    return std::sqrt(reached * reached - p.radius * p.radius);
+  }
+  static PatchModel Model(double half, double r, const std::vector<double>& at_x) {
+    PatchModel model = Plane(half);
+    for (const double x : at_x) model = Join({model, Sphere(Vec3(x, 0, 0), r, Half::kUpper)});
+    return model;
+  }
+};
+
+constexpr double kExact = 0.01;  // mm, of followed limits
+
+// Beside a hemisphere, chord by chord around it: on the circle, as far beside the chord as it bulges.
+TEST(LimitFollower, StaysOnTheLimitOfAHemisphereOnAPlane) {
+  const Bosses boss(20, 8, {0.0});
   const auto on_limit = [&](double angle) {
-    return Vec2(middle + limit / (2 * half) * Vec2(std::cos(angle), std::sin(angle)));
+    return boss.Place(boss.limit * std::cos(angle), boss.limit * std::sin(angle));
   };
-  LimitFollower follower(reach, surface.pieces[0], exact);
+  LimitFollower follower(boss.reach, boss.surface.pieces[0], kExact);
   for (const double turn : {0.02, 0.3, 1.0}) {
     for (double angle = 0.0; angle < 2 * kPi; angle += turn) {
       const ZeroSegment chord{on_limit(angle), on_limit(angle + turn)};
@@ -165,9 +190,9 @@ TEST(LimitFollower, StaysOnTheLimitOfAHemisphereOnAPlane) {
       const auto share = follower.Find(chord, across, -1.0, 1.0);
       ASSERT_TRUE(share) << angle;
       const Vec2 q = 0.5 * (chord.from + chord.to) + *share * across;
-      EXPECT_NEAR(2 * half * (q - middle).norm(), limit, 0.1 * exact) << angle;
+      EXPECT_NEAR(boss.InMm(q).norm(), boss.limit, 0.1 * kExact) << angle;
     }
-    // No limit within reach: far outside, and where the chord leads past the hemisphere's top.
+    // Far outside there is none.
     const ZeroSegment off{on_limit(0.0) + Vec2(0.2, 0.0), on_limit(0.1) + Vec2(0.2, 0.0)};
     EXPECT_FALSE(follower.Find(off, Vec2(0.01, 0.0), -1.0, 1.0));
   }
@@ -175,66 +200,54 @@ TEST(LimitFollower, StaysOnTheLimitOfAHemisphereOnAPlane) {
 
 // Two hemispheres side by side: what one of them leaves free the other may not.
 TEST(LimitFollower, SeesWhatElseIsInTheWay) {
-  const double r = 5, radius = 3, tolerance = 0.01, half = 30, apart = 6, exact = 0.01;
-  const Surface surface = SurfaceOf(Join({Plane(half), Sphere(Vec3(-apart, 0, 0), r, Half::kUpper),
-                                          Sphere(Vec3(apart, 0, 0), r, Half::kUpper)}));
-  RegionParams params;
-  params.radius = radius;
-  params.tolerance = tolerance;
-  const Locator free_ball(surface, radius - tolerance);
-  const ReachTest reach(free_ball, params, RunContext());
-  const double reached = r + radius - tolerance, limit = std::sqrt(reached * reached - radius * radius);
-  ASSERT_GT(limit, apart);  // the circles cross
-  const auto place = [&](double x, double y) { return Vec2(0.5 + x / (2 * half), 0.5 + y / (2 * half)); };
+  const double apart = 6;
+  const Bosses bosses(30, 5, {-apart, apart});
+  ASSERT_GT(bosses.limit, apart);  // the circles cross
   const auto on_circle = [&](double x, double center) {
-    return std::sqrt(limit * limit - (x - center) * (x - center));
+    return std::sqrt(bosses.limit * bosses.limit - (x - center) * (x - center));
   };
-  const Vec2 across = place(0.0, 4.0) - place(0.0, 0.0);
-  const auto find = [&](LimitFollower& follower, double from, double to, double center) {
-    const ZeroSegment chord{place(from, on_circle(from, center)), place(to, on_circle(to, center))};
+  const Vec2 across = bosses.Place(0.0, 4.0) - bosses.Place(0.0, 0.0);
+  LimitFollower follower(bosses.reach, bosses.surface.pieces[0], kExact);
+  const auto find = [&](double from, double to, double center) {
+    const ZeroSegment chord{bosses.Place(from, on_circle(from, center)),
+                            bosses.Place(to, on_circle(to, center))};
     const auto share = follower.Find(chord, across, -1.0, 1.0);
-    return share ? 2 * half * (0.5 * (chord.from + chord.to) + *share * across - Vec2(0.5, 0.5)).y() : -1.0;
+    return share ? bosses.InMm(0.5 * (chord.from + chord.to) + *share * across).y() : -1.0;
   };
-  LimitFollower follower(reach, surface.pieces[0], exact);
   for (double x = 0.3; x < 1.2; x += 0.2) {
     // By the left one; then, with that in mind, by the right one where the left one lets go earlier.
-    EXPECT_NEAR(find(follower, -x - 0.1, -x + 0.1, -apart), on_circle(-x, -apart), 0.1 * exact) << x;
+    EXPECT_NEAR(find(-x - 0.1, -x + 0.1, -apart), on_circle(-x, -apart), 0.1 * kExact) << x;
     ASSERT_GT(on_circle(x, apart), on_circle(x, -apart) + 0.2);
-    EXPECT_NEAR(find(follower, x - 0.1, x + 0.1, apart), on_circle(x, apart), 0.1 * exact) << x;
+    EXPECT_NEAR(find(x - 0.1, x + 0.1, apart), on_circle(x, apart), 0.1 * kExact) << x;
   }
 }
 
 // Two limits side by side, a strip of free ground between them: each chord finds its own.
 TEST(LimitFollower, DoesNotGoOverToALimitBeside) {
-  const double r = 5, radius = 3, tolerance = 0.01, half = 30, exact = 0.01;
-  RegionParams params;
-  params.radius = radius;
-  params.tolerance = tolerance;
-  const double reached = r + radius - tolerance, limit = std::sqrt(reached * reached - radius * radius);
+  const double limit = Bosses(20, 5, {0.0}).limit;
+  int found = 0;
   for (const double strip : {0.2, 0.6, 1.0}) {
     const double apart = limit + 0.5 * strip;
-    const Surface surface = SurfaceOf(Join({Plane(half), Sphere(Vec3(-apart, 0, 0), r, Half::kUpper),
-                                            Sphere(Vec3(apart, 0, 0), r, Half::kUpper)}));
-    const Locator free_ball(surface, radius - tolerance);
-    const ReachTest reach(free_ball, params, RunContext());
-    LimitFollower follower(reach, surface.pieces[0], exact);
+    const Bosses bosses(30, 5, {-apart, apart});
+    LimitFollower follower(bosses.reach, bosses.surface.pieces[0], kExact);
     for (const double chord : {0.1, 0.3, 1.0, 2.0}) {
       for (const double side : {-1.0, 1.0}) {
         const double angle = std::asin(0.5 * chord / limit);
         const auto end = [&](double way) {
           const double a = way * angle;
-          return Vec2(0.5 + side * (apart - limit * std::cos(a)) / (2 * half),
-                      0.5 + limit * std::sin(a) / (2 * half));
+          return bosses.Place(side * (apart - limit * std::cos(a)), limit * std::sin(a));
         };
         const ZeroSegment between{end(-1.0), end(1.0)};
         const Vec2 way = between.to - between.from, across(-way.y(), way.x());
         const auto share = follower.Find(between, across, -1.0, 1.0);
         if (!share) continue;  // asked for otherwise
+        ++found;
         const Vec2 q = 0.5 * (between.from + between.to) + *share * across;
-        EXPECT_NEAR(2 * half * (q.x() - 0.5), side * 0.5 * strip, exact) << strip << " " << chord;
+        EXPECT_NEAR(bosses.InMm(q).x(), side * 0.5 * strip, kExact) << strip << " " << chord;
       }
     }
   }
+  EXPECT_GE(found, 20);  // of 24
 }
 
 }  // namespace
