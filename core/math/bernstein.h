@@ -36,6 +36,17 @@ inline void AllBernstein(int n, double t, double* b) {
   for (int k = 1; k <= n; ++k) RaiseBernstein(k, t, b);
 }
 
+// f and d from lower[0..n-1] = B^(n-1) (any for n = 0), which becomes B^n.
+inline void SlopesFromLower(int n, double t, double* lower, BasisJet& out) {
+  for (int i = 0; i <= n; ++i) {
+    const double a = i >= 1 ? lower[i - 1] : 0.0;
+    const double b = i <= n - 1 ? lower[i] : 0.0;
+    out.d[i] = n * (a - b);
+  }
+  if (n >= 1) RaiseBernstein(n, t, lower);
+  for (int i = 0; i <= n; ++i) out.f[i] = lower[i];
+}
+
 // B' = n (B_{i-1}^{n-1} - B_i^{n-1}), B'' = n(n-1) (B_{i-2}^{n-2} - 2 B_{i-1}^{n-2} + B_i^{n-2}). Inline so
 // that a constant n unrolls.
 inline void AllBernsteinJet(int n, double t, BasisJet& out) {
@@ -54,26 +65,14 @@ inline void AllBernsteinJet(int n, double t, BasisJet& out) {
   } else {
     for (int i = 0; i <= n; ++i) out.dd[i] = 0.0;
   }
-  for (int i = 0; i <= n; ++i) {
-    const double a = i >= 1 ? lower[i - 1] : 0.0;
-    const double b = i <= n - 1 ? lower[i] : 0.0;
-    out.d[i] = n * (a - b);
-  }
-  if (n >= 1) RaiseBernstein(n, t, lower);
-  for (int i = 0; i <= n; ++i) out.f[i] = lower[i];
+  SlopesFromLower(n, t, lower, out);
 }
 
 // The same without second derivatives: `dd` is unset.
 inline void AllBernsteinSlopes(int n, double t, BasisJet& out) {
   double lower[kMaxBasisDegree + 1];
-  AllBernstein(n - 1, t, lower);  // as it is for n = 0
-  for (int i = 0; i <= n; ++i) {
-    const double a = i >= 1 ? lower[i - 1] : 0.0;
-    const double b = i <= n - 1 ? lower[i] : 0.0;
-    out.d[i] = n * (a - b);
-  }
-  if (n >= 1) RaiseBernstein(n, t, lower);
-  for (int i = 0; i <= n; ++i) out.f[i] = lower[i];
+  AllBernstein(n - 1, t, lower);
+  SlopesFromLower(n, t, lower, out);
 }
 
 // C(n,k), 0 <= k <= n; exact for n <= 2 * kMaxBasisDegree.

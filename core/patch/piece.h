@@ -49,8 +49,8 @@ std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape&& shape) = delet
 
 // Jet in the piece's own parameters (u,v) in [0,1]^2.
 SurfaceJet Evaluate(const Piece& piece, double u, double v);
-// The same, the same bits, where second derivatives are not wanted: they may be zero. Half the time for
-// polynomial bicubic pieces.
+// The same, the same bits, where second derivatives are not wanted: they may be zero. Fewer operations
+// for polynomial bicubic pieces, the same for others.
 SurfaceJet EvaluateSlopes(const Piece& piece, double u, double v);
 Vec3 Position(const Piece& piece, double u, double v);
 Vec2 NativeParameters(const Piece& piece, double u, double v);
