@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cam/location/half_spaces.h"
+#include "core/base/grow.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 #include "core/surface/leaf_tree.h"
@@ -174,7 +175,7 @@ class Collapser {
   }
 
   absl::Status Write(const RunContext& run, std::vector<SearchNode>& out) const {
-    out.resize(children_.size());
+    PM_RETURN_IF_ERROR(Grow(out, children_.size(), run));
     return ParallelFor(run, nullptr, children_.size(), [&](std::size_t i) {
       const Children& own = children_[i];
       for (std::size_t k = 0; k < 4; ++k) {

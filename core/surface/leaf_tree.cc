@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/grow.h"
 #include "core/base/parallel.h"
 
 namespace patchmill {
@@ -178,13 +179,13 @@ struct Builder {
 std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const RunContext& run) {
   Builder builder{.boxes = boxes, .run = run, .centers = {}, .order = {}, .nodes = {}};
   if (boxes.empty()) return {};
-  builder.centers.reserve(boxes.size());
-  for (const Box3& box : boxes) builder.centers.push_back(box.Center());
-  if (run.Cancelled()) return {};  // memory new to the process takes its time
-  builder.order.resize(boxes.size());
+  if (!Grow(builder.centers, boxes.size(), run).ok() || !Grow(builder.order, boxes.size(), run).ok() ||
+      !Grow(builder.nodes, 2 * boxes.size() - 1, run).ok()) {
+    return {};
+  }
+  std::transform(boxes.begin(), boxes.end(), builder.centers.begin(),
+                 [](const Box3& b) { return b.Center(); });
   std::iota(builder.order.begin(), builder.order.end(), 0);
-  builder.nodes.resize(2 * boxes.size() - 1);
-  if (run.Cancelled()) return {};
   run.Progress("bounds: tree", 0.0);
   std::vector<Builder::Task> rest;
   builder.Build({builder.order, 0, 0}, std::max(kAlone, boxes.size() / kShares), &rest);

@@ -1,0 +1,31 @@
+#include "core/base/grow.h"
+
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace patchmill {
+namespace {
+
+TEST(Grow, IsAsResize) {
+  std::vector<int> v(100), old(100);
+  std::iota(v.begin(), v.end(), 1);
+  old = v;
+  for (const std::size_t size : {100, 101, 20'000, 100'000}) {
+    EXPECT_TRUE(Grow(v, size, RunContext()).ok());
+    old.resize(size);
+    EXPECT_EQ(v, old);
+  }
+}
+
+TEST(Grow, StopsBetweenSteps) {
+  RunContext told;
+  told.Cancel();
+  std::vector<int> v;
+  EXPECT_EQ(Grow(v, 100'000, told).code(), absl::StatusCode::kCancelled);
+  EXPECT_LT(v.size(), 100'000U);
+}
+
+}  // namespace
+}  // namespace patchmill
