@@ -10,6 +10,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "core/base/keep_memory.h"
 #include "core/base/status.h"
 #include "server/limits.h"
 #include "server/services.h"
@@ -112,6 +113,7 @@ std::unique_ptr<RunningServer> StartEmbeddedServer(ServerOptions options) {
 }
 
 int Serve(const ServerOptions& options) {
+  KeepFreedMemory();
   // Blocked before any thread starts, so that only the wait below sees them.
   sigset_t signals;
   sigemptyset(&signals);

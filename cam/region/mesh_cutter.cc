@@ -48,14 +48,11 @@ MeshCutter::MeshCutter(const Piece& piece, SplitMesh& mesh, bool summits, std::s
       summits_(summits),
       fields_(fields),
       snap_(snap),
-      around_(mesh.vertices.size()),
+      fans_(mesh.triangles, mesh.vertices.size()),
       on_line_(mesh.vertices.size(), false),
       cut_(mesh.triangles.size(), false) {
-  constexpr std::size_t kUsual = 8;  // triangles around a vertex
-  for (std::vector<int>& triangles : around_) triangles.reserve(kUsual);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& v = mesh.triangles[t].vertex;
-    for (const int vertex : v) around_[static_cast<std::size_t>(vertex)].push_back(static_cast<int>(t));
     const auto at = [&](std::size_t k) -> const ZeroVertex& {
       return mesh.vertices[static_cast<std::size_t>(v[k % 3])];
     };
@@ -71,12 +68,12 @@ Vec2 MeshCutter::Place(int vertex) const {
 
 std::vector<int> MeshCutter::Around(int at) const {
   std::vector<int> found;
-  for (const int t : around_[static_cast<std::size_t>(at)]) {
+  fans_.ForEach(at, [&](int t) {
     for (const int vertex : mesh_.triangles[static_cast<std::size_t>(t)].vertex) {
       if (vertex != at && std::find(found.begin(), found.end(), vertex) == found.end())
         found.push_back(vertex);
     }
-  }
+  });
   return found;
 }
 
@@ -124,29 +121,29 @@ int MeshCutter::Split(int a, int b, const Vec2& at) {
   fresh.p = Position(piece_, q.x(), q.y());
   const int vertex = static_cast<int>(mesh_.vertices.size());
   mesh_.vertices.push_back(fresh);
-  around_.emplace_back();
+  fans_.AddVertex();
   on_line_.push_back(false);
-  const std::vector<int> triangles = around_[static_cast<std::size_t>(a)];
-  for (const int t : triangles) {
+  // The fan of a stays as it is: each triangle keeps its corner there, and the other half goes to b.
+  fans_.ForEach(a, [&](int t) {
     SplitTriangle& old = mesh_.triangles[static_cast<std::size_t>(t)];
     const auto corner = [&](int v) { return std::find(old.vertex.begin(), old.vertex.end(), v); };
-    if (corner(b) == old.vertex.end()) continue;
+    if (corner(b) == old.vertex.end()) return;
+    const int of_a = static_cast<int>(corner(a) - old.vertex.begin()),
+              of_b = static_cast<int>(corner(b) - old.vertex.begin()), of_third = 3 - of_a - of_b;
     const int added = static_cast<int>(mesh_.triangles.size());
     SplitTriangle half = old;
-    *std::find(half.vertex.begin(), half.vertex.end(), a) = vertex;
+    half.vertex[static_cast<std::size_t>(of_a)] = vertex;
     *corner(b) = vertex;
-    cut_[static_cast<std::size_t>(t)] = true;
-    auto& at_b = around_[static_cast<std::size_t>(b)];
-    std::replace(at_b.begin(), at_b.end(), t, added);
-    for (const int v : half.vertex) {
-      if (v != b && v != vertex) around_[static_cast<std::size_t>(v)].push_back(added);
-    }
-    around_.back().push_back(t);
-    around_.back().push_back(added);
+    fans_.AddTriangle();
+    fans_.Replace(b, 3 * t + of_b, 3 * added + of_b);
+    fans_.Append(half.vertex[static_cast<std::size_t>(of_third)], 3 * added + of_third);
+    fans_.Append(vertex, 3 * t + of_b);
+    fans_.Append(vertex, 3 * added + of_a);
     mesh_.triangles.push_back(half);
+    cut_[static_cast<std::size_t>(t)] = true;
     cut_.push_back(true);
     if (std::binary_search(rim_.begin(), rim_.end(), t)) rim_.push_back(added);
-  }
+  });
   if (line != mesh_.lines.end()) {
     const SplitMesh::Line old = std::move(line->second);
     mesh_.lines.erase(line);
@@ -208,15 +205,15 @@ std::optional<MeshCutter::Next> MeshCutter::Advance(int at, std::vector<Vec2>& p
   for (std::size_t k = known; k < places.size(); ++k) {
     std::optional<Crossing> first;
     std::pair<int, int> side;
-    for (const int t : around_[static_cast<std::size_t>(at)]) {
+    fans_.ForEach(at, [&](int t) {
       const auto& v = mesh_.triangles[static_cast<std::size_t>(t)].vertex;
       const auto own = static_cast<std::size_t>(std::find(v.begin(), v.end(), at) - v.begin());
       const int a = v[(own + 1) % 3], b = v[(own + 2) % 3];
       const auto crossing = Cross(from, places[k], Place(a), Place(b));
-      if (!crossing || (first && crossing->along >= first->along)) continue;
+      if (!crossing || (first && crossing->along >= first->along)) return;
       first = crossing;
       side = {a, b};
-    }
+    });
     if (!first) {
       from = places[k];
       continue;

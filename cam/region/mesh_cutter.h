@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cam/region/split_mesh.h"
+#include "cam/region/vertex_fans.h"
 
 namespace patchmill {
 
@@ -50,10 +51,10 @@ class MeshCutter {
   const bool summits_;
   std::span<const ZeroField> fields_;
   double snap_;
-  std::vector<std::vector<int>> around_;  // triangles of each vertex
-  std::vector<bool> on_line_;
-  std::vector<bool> cut_;  // of each triangle
-  std::vector<int> rim_;   // triangles that may have a side on the piece's border, rising
+  VertexFans fans_;
+  std::vector<bool> on_line_;  // of each vertex
+  std::vector<bool> cut_;      // of each triangle
+  std::vector<int> rim_;       // triangles that may have a side on the piece's border, rising
 };
 
 }  // namespace patchmill

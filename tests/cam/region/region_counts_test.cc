@@ -59,6 +59,7 @@ TEST(RegionCounts, AreThoseOfTheTableWithAndWithoutNoise) {
     SCOPED_TRACE(row.file + ": " + row.why);
     auto found = testing::ModelOf(row);
     if (!found) {
+      if (testing::IsNetwork(row)) continue;  // service/regions_test.cc counts them
       std::cerr << row.file << " is not here: not tested\n";
       continue;
     }

@@ -1,0 +1,19 @@
+#include "core/base/keep_memory.h"
+
+#include <cstdlib>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace patchmill {
+
+void KeepFreedMemory() {
+#if defined(__GLIBC__)
+  // Either alone does harm: it ends that glibc raises both as it sees large arrays freed.
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 128 << 20);
+#endif
+}
+
+}  // namespace patchmill

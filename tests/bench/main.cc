@@ -1,0 +1,13 @@
+// The benchmarks in the state of a server that has done jobs before.
+#include <benchmark/benchmark.h>
+
+#include "core/base/keep_memory.h"
+
+int main(int argc, char** argv) {
+  patchmill::KeepFreedMemory();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}
