@@ -21,13 +21,11 @@ struct LeafOrder {
   std::vector<std::array<std::pair<std::int32_t, std::int32_t>, 4>> of_child;
 };
 
-bool IsEmpty(const SearchNode& node, int k) { return !(node.min_x[k] <= node.max_x[k]); }
-
 void Order(const SearchTree& tree, std::int32_t at, LeafOrder& order) {
   const SearchNode& node = tree.nodes[static_cast<std::size_t>(at)];
   for (int k = 0; k < 4; ++k) {
     const auto first = static_cast<std::int32_t>(order.leaves.size());
-    if (!IsEmpty(node, k)) {
+    if (!node.IsEmpty(k)) {
       if (node.child[k] >= 0) {
         Order(tree, node.child[k], order);
       } else {

@@ -141,7 +141,7 @@ namespace {
 // The packet's balls as the tree's boxes are stored.
 struct FloatLanes {
   static constexpr std::size_t kGroups = kLanes / 4;
-  internal::Float4 x[kGroups], y[kGroups], z[kGroups];
+  Float4 x[kGroups], y[kGroups], z[kGroups];
 
   explicit FloatLanes(const LanePacket& packet) {
     for (int k = 0; k < kLanes; ++k) {
@@ -155,21 +155,20 @@ struct FloatLanes {
   }
   // WalkTree's test of child k, lane by lane.
   bool Meet(const internal::SearchNode& node, int k, const internal::WalkLimits& limits) const {
-    using internal::Max, internal::Splat;
-    const internal::Float4 up_x = Splat(node.up_x[k]), up_y = Splat(node.up_y[k]), up_z = Splat(node.up_z[k]),
-                           top = Splat(node.top[k] + limits.radius);
+    const Float4 up_x = Splat(node.up_x[k]), up_y = Splat(node.up_y[k]), up_z = Splat(node.up_z[k]),
+                 top = Splat(node.top[k] + limits.radius);
     std::array<unsigned, kGroups> out;
     unsigned all = 0xF;
     for (std::size_t g = 0; g < kGroups; ++g)
       all &= out[g] = internal::BelowBits(top, up_x * x[g] + up_y * y[g] + up_z * z[g]);
     if (all == 0xF) return false;
-    const internal::Float4 zero{}, min_x = Splat(node.min_x[k]), max_x = Splat(node.max_x[k]),
-                                   min_y = Splat(node.min_y[k]), max_y = Splat(node.max_y[k]),
-                                   max_z = Splat(node.max_z[k]);
+    const Float4 zero{}, min_x = Splat(node.min_x[k]), max_x = Splat(node.max_x[k]),
+                         min_y = Splat(node.min_y[k]), max_y = Splat(node.max_y[k]),
+                         max_z = Splat(node.max_z[k]);
     unsigned meeting = 0;
     for (std::size_t g = 0; g < kGroups; ++g) {
-      const internal::Float4 dx = Max(Max(min_x - x[g], x[g] - max_x), zero),
-                             dy = Max(Max(min_y - y[g], y[g] - max_y), zero), below = Max(z[g] - max_z, zero);
+      const Float4 dx = Max(Max(min_x - x[g], x[g] - max_x), zero),
+                   dy = Max(Max(min_y - y[g], y[g] - max_y), zero), below = Max(z[g] - max_z, zero);
       meeting |= ~out[g] & internal::BelowBits(dx * dx + dy * dy + below * below, Splat(limits.square));
     }
     return meeting != 0;

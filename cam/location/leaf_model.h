@@ -6,11 +6,8 @@
 // rectangle by at most  e_ij = gram_ij + (|s - c| + reach) drift_ij  from its middle value.
 #pragma once
 
-#include <bit>
-#include <cmath>
-#include <cstdint>
-
 #include "cam/location/leaf_errors.h"
+#include "core/base/outward.h"
 #include "core/math/box_qp.h"
 #include "core/surface/net_kernel.h"
 
@@ -23,16 +20,6 @@ struct Rect {
 struct LeafModel : LeafErrors {
   Vec3 s, a, b, uu, uv, vv;
 };
-
-// std::nextafterf(x, HUGE_VALF), which is a call.
-inline float NextUp(float x) {
-  if (!(x < HUGE_VALF)) return x;
-  const auto bits = std::bit_cast<std::int32_t>(x + 0.0F);  // -0 as 0
-  return std::bit_cast<float>(bits >= 0 ? bits + 1 : bits - 1);
-}
-// To floats without falling below, resp. rising above.
-inline float RoundUp(double x) { return NextUp(static_cast<float>(x)); }
-inline float RoundDown(double x) { return -NextUp(-static_cast<float>(x)); }
 
 // Model of the part `rect` of a piece; `points` is its net (already restricted), hull as from HullPoints,
 // `middle` the piece's jet at the middle of `rect` in the piece's own parameters. Cost O(points).

@@ -9,6 +9,7 @@
 #include "core/base/grow.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
+#include "core/surface/collapse.h"
 #include "core/surface/leaf_tree.h"
 
 namespace patchmill::internal {
@@ -166,78 +167,12 @@ class PieceSplitter {
   PieceLeaves out_;
 };
 
-// Writes nodes of four children: each takes the binary node's children and opens the largest ones.
-class Collapser {
- public:
-  explicit Collapser(const std::vector<SurfaceNode>& binary) : binary_(binary) {
-    children_.reserve(binary.size() / 4 + 1);
-    Emit(0, 1);
-  }
-
-  absl::Status Write(const RunContext& run, std::vector<SearchNode>& out) const {
-    PM_RETURN_IF_ERROR(Grow(out, children_.size(), run));
-    return ParallelFor(run, nullptr, children_.size(), [&](std::size_t i) {
-      const Children& own = children_[i];
-      for (std::size_t k = 0; k < 4; ++k) {
-        const Box3 box = k < own.count ? Node(own.binary[k]).box : Box3{};
-        out[i].child[k] = own.child[k];
-        out[i].min_x[k] = RoundDown(box.min.x());
-        out[i].min_y[k] = RoundDown(box.min.y());
-        out[i].min_z[k] = RoundDown(box.min.z());
-        out[i].max_x[k] = RoundUp(box.max.x());
-        out[i].max_y[k] = RoundUp(box.max.y());
-        out[i].max_z[k] = RoundUp(box.max.z());
-      }
-    });
-  }
-
- private:
-  const SurfaceNode& Node(std::int32_t i) const { return binary_[static_cast<std::size_t>(i)]; }
-  bool IsLeaf(std::int32_t i) const { return Node(i).leaf >= 0; }
-
-  static double Size(const Box3& box) {
-    const Vec3 d = box.max - box.min;
-    return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
-  }
-
-  // Of a node: in the binary tree, and where they stand.
-  struct Children {
-    std::array<std::int32_t, 4> binary{}, child{};
-    std::size_t count = 1;
-  };
-
-  std::int32_t Emit(std::int32_t root, std::size_t depth) {
-    PM_CHECK(3 * depth + 1 <= kMaxPending);
-    Children own;
-    std::array<std::int32_t, 4>& children = own.binary;
-    std::size_t& count = own.count;
-    children[0] = root;
-    while (count < 4) {
-      std::size_t largest = count;
-      for (std::size_t k = 0; k < count; ++k) {
-        if (IsLeaf(children[k])) continue;
-        if (largest == count || Size(Node(children[k]).box) > Size(Node(children[largest]).box)) {
-          largest = k;
-        }
-      }
-      if (largest == count) break;
-      const std::int32_t open = children[largest];
-      for (std::size_t k = count++; k > largest + 1; --k) children[k] = children[k - 1];
-      children[largest] = open + 1;
-      children[largest + 1] = Node(open).right;
-    }
-    const std::size_t self = children_.size();
-    children_.emplace_back();
-    for (std::size_t k = 0; k < count; ++k) {
-      own.child[k] = IsLeaf(children[k]) ? ~Node(children[k]).leaf : Emit(children[k], depth + 1);
-    }
-    children_[self] = own;
-    return static_cast<std::int32_t>(self);
-  }
-
-  const std::vector<SurfaceNode>& binary_;
-  std::vector<Children> children_;
-};
+absl::Status WriteNodes(const std::vector<SurfaceNode>& binary, const RunContext& run,
+                        std::vector<SearchNode>& out) {
+  const std::vector<FourChildren> all = Collapse(binary);
+  PM_RETURN_IF_ERROR(Grow(out, all.size(), run));
+  return ParallelFor(run, nullptr, all.size(), [&](std::size_t i) { SetBoxes(binary, all[i], out[i]); });
+}
 
 }  // namespace
 
@@ -283,7 +218,7 @@ absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius
     const std::vector<SurfaceNode> binary = BuildLeafTree(boxes, run);
     PM_RETURN_IF_ERROR(run.Check());
     boxes = {};
-    PM_RETURN_IF_ERROR(Collapser(binary).Write(run, tree.nodes));
+    PM_RETURN_IF_ERROR(WriteNodes(binary, run, tree.nodes));
   }
   PM_RETURN_IF_ERROR(BoundByHalfSpaces(run, tree));
   return tree;

@@ -9,21 +9,15 @@
 
 #include "cam/location/search_leaf.h"
 #include "core/base/run_context.h"
+#include "core/surface/box_node.h"
 
 namespace patchmill::internal {
 
-// Four lanes of floats; arithmetic and comparisons work lane by lane (GCC and Clang vectors, same bits as
-// scalar code).
-using Float4 = float __attribute__((vector_size(16)));
-
-// Four children and their boxes, rounded outward to floats. Empty lanes have boxes that nothing meets.
 // Below each child everything lies in a half-space up . p <= top as well, up a unit vector that does not
 // point down, mostly the normal there: of ground that slopes the box reaches far under a ball that rests on
 // it, the half-space does not.
-struct alignas(64) SearchNode {
-  Float4 min_x, min_y, min_z, max_x, max_y, max_z;
+struct SearchNode : BoxNode {
   Float4 up_x, up_y, up_z, top;
-  std::int32_t child[4];  // >= 0: node, < 0: leaf ~child
 };
 
 // Leaves by number, in blocks: they never move, so they are never held twice.
@@ -39,9 +33,6 @@ class SearchLeaves {
   static constexpr std::size_t kBlock = 4096;
   std::vector<std::vector<SearchLeaf>> blocks_;
 };
-
-// Of a walk that keeps what it has not visited on a stack: three siblings a level.
-inline constexpr std::size_t kMaxPending = 512;
 
 struct SearchTree {
   std::vector<SearchNode> nodes;  // nodes[0] is the root

@@ -10,12 +10,10 @@
 #endif
 
 #include "cam/location/search_tree.h"
+#include "core/base/lanes.h"
+#include "core/surface/collapse.h"
 
 namespace patchmill::internal {
-
-inline Float4 Splat(float x) { return Float4{x, x, x, x}; }
-inline Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
-inline Float4 Min(Float4 a, Float4 b) { return a < b ? a : b; }
 
 // Bit k: a < b in lane k.
 inline unsigned BelowBits(Float4 a, Float4 b) {

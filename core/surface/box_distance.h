@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "core/base/vec.h"
+#include "core/surface/box_node.h"
 
 namespace patchmill {
 
@@ -22,6 +24,28 @@ inline double SquaredDistance(const Box3& box, const Vec3& c) {
   const double above = kReach == Reach::kUpwardRay ? 0.0 : box.min.z() - c.z();
   const double z = std::max({above, c.z() - box.max.z(), 0.0});
   return x * x + y * y + z * z;
+}
+
+// The same of the four boxes of a node, in double lanes.
+template <Reach kReach>
+inline std::array<double, 4> SquaredDistances(const BoxNode& node, const Vec3& c) {
+  using Lanes = double __attribute__((vector_size(16)));  // two: what every processor has
+  std::array<double, 4> squared;
+  for (int half = 0; half < 2; ++half) {
+    const auto lanes = [half](const Float4& four) {
+      return Lanes{static_cast<double>(four[2 * half]), static_cast<double>(four[2 * half + 1])};
+    };
+    const auto max = [](const Lanes& a, const Lanes& b) { return a > b ? a : b; };
+    const Lanes zero{};
+    const Lanes x = max(max(lanes(node.min_x) - c.x(), c.x() - lanes(node.max_x)), zero);
+    const Lanes y = max(max(lanes(node.min_y) - c.y(), c.y() - lanes(node.max_y)), zero);
+    Lanes z = max(c.z() - lanes(node.max_z), zero);
+    if (kReach == Reach::kPoint) z = max(z, lanes(node.min_z) - c.z());
+    const Lanes sum = x * x + y * y + z * z;
+    squared[static_cast<std::size_t>(2 * half)] = sum[0];
+    squared[static_cast<std::size_t>(2 * half + 1)] = sum[1];
+  }
+  return squared;
 }
 
 // Oriented box: center, orthonormal axes (columns), half sides. The point c.

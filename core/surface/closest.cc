@@ -28,6 +28,13 @@ Vec4* CellBuffer(int halving, int count) {
   return buffer.data();
 }
 
+// Boxes that do not rise above c are infinitely far away.
+void LeaveBelow(const BoxNode& node, const Vec3& c, std::array<double, 4>& squared) {
+  for (int k = 0; k < 4; ++k) {
+    if (static_cast<double>(node.max_z[k]) <= c.z()) squared[static_cast<std::size_t>(k)] = kInfinity;
+  }
+}
+
 enum class Wanted { kNearest, kAny, kNearestAbove };
 
 template <Reach kReach>
@@ -40,16 +47,17 @@ class Search {
   }
 
   std::optional<ClosestPoint> Run() {
-    if (!c_.allFinite() || surface_.nodes.empty()) return std::nullopt;
+    if (!c_.allFinite()) return std::nullopt;
     WalkNearestFirst(
-        surface_.nodes,
-        [&](const SurfaceNode& node) {
-          if (wanted_ == Wanted::kNearestAbove && node.box.max.z() <= c_.z()) return kInfinity;
-          return SquaredDistance<kReach>(node.box, c_);
+        surface_.box_nodes,
+        [&](const BoxNode& node) {
+          std::array<double, 4> squared = SquaredDistances<kReach>(node, c_);
+          if (wanted_ == Wanted::kNearestAbove) LeaveBelow(node, c_, squared);
+          return squared;
         },
         [&](double squared) { return Excluded(squared); },
-        [&](const SurfaceNode& node) {
-          VisitLeaf(surface_.leaves[static_cast<std::size_t>(node.leaf)], node.box);
+        [&](std::int32_t leaf, double max_z) {
+          VisitLeaf(surface_.leaves[static_cast<std::size_t>(leaf)], max_z);
           return Done();
         });
     return best_;
@@ -70,16 +78,15 @@ class Search {
   }
   bool Done() const { return Target() <= 0.0 || (wanted_ == Wanted::kAny && best_.has_value()); }
 
-  static double OrientedSquared(const RectBounds& b, const Vec3& c, const Box3& box) {
+  static double OrientedSquared(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half,
+                                const Vec3& c, double max_z) {
     // A ray passes a box that lies below its start as its start does.
-    return kReach == Reach::kPoint || box.max.z() <= c.z()
-               ? SquaredDistanceToPoint(b.center, b.axis, b.half, c)
-               : SquaredDistanceToUpwardRay(b.center, b.axis, b.half, c);
+    return kReach == Reach::kPoint || max_z <= c.z() ? SquaredDistanceToPoint(center, axis, half, c)
+                                                     : SquaredDistanceToUpwardRay(center, axis, half, c);
   }
 
-  void VisitLeaf(const SurfaceLeaf& leaf, const Box3& box) {
-    const RectBounds bounds = leaf.Bounds(box);
-    if (Excluded(OrientedSquared(bounds, c_, box))) return;
+  void VisitLeaf(const SurfaceLeaf& leaf, double max_z) {
+    if (Excluded(OrientedSquared(leaf.center(), leaf.axis(), leaf.half(), c_, max_z))) return;
     piece_ = leaf.piece;
     const BernsteinNet& net = surface_.piece(leaf.piece).net;
     shape_ = {net.degree_u, net.degree_v};
@@ -91,7 +98,7 @@ class Search {
       points[i].head<3>() -= points[i].w() * c_;
     }
     RestrictNet(shape_, points, leaf.u0, leaf.u1, leaf.v0, leaf.v1);
-    VisitCell({points, leaf.u0, leaf.u1, leaf.v0, leaf.v1, 0}, box.max.z() - c_.z());
+    VisitCell({points, leaf.u0, leaf.u1, leaf.v0, leaf.v1, 0}, max_z - c_.z());
   }
 
   // The cell's boxes have not excluded it. z_max bounds its height relative to c.
@@ -156,8 +163,9 @@ class Search {
       const int hull_count = HullPoints(shape_, part[k].points, hull.data());
       const RectBounds bounds = BoundPoints(shape_, part[k].points, hull.data(), hull_count);
       box[k] = bounds.box;
-      squared[k] = std::max(SquaredDistance<kReach>(box[k], Vec3::Zero()),
-                            OrientedSquared(bounds, Vec3::Zero(), box[k]));
+      squared[k] =
+          std::max(SquaredDistance<kReach>(box[k], Vec3::Zero()),
+                   OrientedSquared(bounds.center, bounds.axis, bounds.half, Vec3::Zero(), box[k].max.z()));
     }
     const std::size_t first = squared[1] < squared[0] ? 1 : 0;
     for (const std::size_t k : {first, 1 - first}) {
@@ -237,12 +245,14 @@ std::optional<ClosestPoint> ClosestAbove(const Surface& surface, const Vec3& c, 
 bool MayRiseAbove(const Surface& surface, const Vec3& c, double limit) {
   bool found = false;
   WalkNearestFirst(
-      surface.nodes,
-      [&](const SurfaceNode& node) {
-        return node.box.max.z() > c.z() ? SquaredDistance<Reach::kUpwardRay>(node.box, c) : kInfinity;
+      surface.box_nodes,
+      [&](const BoxNode& node) {
+        std::array<double, 4> squared = SquaredDistances<Reach::kUpwardRay>(node, c);
+        LeaveBelow(node, c, squared);
+        return squared;
       },
       [&](double squared) { return squared >= limit * limit; },
-      [&](const SurfaceNode&) { return found = true; });
+      [&](std::int32_t, double) { return found = true; });
   return found;
 }
 

@@ -3,42 +3,49 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "core/base/status.h"
-#include "core/surface/surface.h"
+#include "core/surface/box_node.h"
+#include "core/surface/collapse.h"
 
 namespace patchmill {
 
-// bound(node): the square of how near anything in the node may be. excluded(bound): nodes so far away are
-// left out; asked again when their turn comes. leaf(node) is called for the rest of the leaves, until it
-// returns true.
+// bound(node): of each child the square of how near anything in it may be. excluded(bound): children so far
+// away are left out; asked again when their turn comes. leaf(number, max_z), with the top of its box, is
+// called for the rest of the leaves, until it returns true.
 template <class Bound, class Excluded, class Leaf>
-void WalkNearestFirst(const std::vector<SurfaceNode>& nodes, const Bound& bound, const Excluded& excluded,
+void WalkNearestFirst(const std::vector<BoxNode>& nodes, const Bound& bound, const Excluded& excluded,
                       const Leaf& leaf) {
   struct Open {
     double squared;
-    std::int32_t node;
+    std::int32_t child;
+    float max_z;
   };
-  std::array<Open, 256> stack;  // BuildLeafTree: depth < 30 + log2(leaves)
+  std::array<Open, kMaxPending> stack;
   std::size_t size = 0;
-  if (!nodes.empty()) stack[size++] = {bound(nodes.front()), 0};
-  while (size > 0) {
-    const Open open = stack[--size];
-    if (excluded(open.squared)) continue;
-    const SurfaceNode& node = nodes[static_cast<std::size_t>(open.node)];
-    if (node.leaf >= 0) {
-      if (leaf(node)) return;
-      continue;
+  for (std::int32_t next = nodes.empty() ? -1 : 0; next >= 0;) {
+    const BoxNode& node = nodes[static_cast<std::size_t>(next)];
+    const std::array<double, 4> squared = bound(node);
+    const std::size_t first = size;  // the nearest child comes last, on top of the stack
+    for (int k = 0; k < 4; ++k) {
+      const Open child{squared[static_cast<std::size_t>(k)], node.child[k], node.max_z[k]};
+      if (excluded(child.squared) || node.IsEmpty(k)) continue;
+      if (child.child >= 0) __builtin_prefetch(&nodes[static_cast<std::size_t>(child.child)]);
+      std::size_t i = size++;
+      for (; i > first && stack[i - 1].squared < child.squared; --i) stack[i] = stack[i - 1];
+      stack[i] = child;
     }
-    Open left{0.0, open.node + 1}, right{0.0, node.right};
-    left.squared = bound(nodes[static_cast<std::size_t>(left.node)]);
-    right.squared = bound(nodes[static_cast<std::size_t>(right.node)]);
-    if (left.squared < right.squared) std::swap(left, right);  // the nearer one on top
-    PM_CHECK(size + 2 <= stack.size());
-    if (!excluded(left.squared)) stack[size++] = left;
-    if (!excluded(right.squared)) stack[size++] = right;
+    for (next = -1; next < 0;) {
+      if (size == 0) return;
+      const Open& top = stack[--size];
+      if (excluded(top.squared)) continue;
+      if (top.child >= 0) {
+        next = top.child;
+      } else if (leaf(~top.child, static_cast<double>(top.max_z))) {
+        return;
+      }
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "core/base/typed_id.h"
 #include "core/network/patch_network.h"
 #include "core/patch/piece.h"
+#include "core/surface/box_node.h"
 #include "core/surface/surface_leaf.h"
 
 namespace patchmill {
@@ -42,6 +43,7 @@ struct Surface {
   std::vector<PieceId> first_piece;  // of each patch
   std::vector<SurfaceLeaf> leaves;
   std::vector<SurfaceNode> nodes;  // nodes[0] is the root
+  std::vector<BoxNode> box_nodes;  // the same tree, four children a node: what closest.h walks
   Box3 box;                        // tight to leaf bounds
   double scale = 1.0;              // largest absolute coordinate; rounding slack is 1e-12 of it
 
@@ -51,7 +53,7 @@ struct Surface {
 struct SurfaceParams {
   double leaf_thickness = 0.02;  // mm, > 0: leaves are split until half().z() is at most this
   int max_depth = 10;            // halvings of a piece per direction, 0..20
-  // Bounds memory (about 190 B a leaf with its nodes): when more would be needed, the thickness is raised by
+  // Bounds memory (about 250 B a leaf with its nodes): when more would be needed, the thickness is raised by
   // factors of 4 until they suffice. Coarse leaves cost time, never correctness. At least one per piece.
   int max_leaves = 1'000'000;
 };

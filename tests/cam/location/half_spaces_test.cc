@@ -14,7 +14,7 @@ void VisitCorners(const SearchTree& tree, std::int32_t child, const auto& visit)
   if (child >= 0) {
     const SearchNode& node = tree.nodes[static_cast<std::size_t>(child)];
     for (int k = 0; k < 4; ++k) {
-      if (node.min_x[k] <= node.max_x[k]) VisitCorners(tree, node.child[k], visit);
+      if (!node.IsEmpty(k)) VisitCorners(tree, node.child[k], visit);
     }
     return;
   }
@@ -36,7 +36,7 @@ TEST(HalfSpaces, HoldAllLeavesBelow) {
       int tight = 0, bounded = 0;
       for (const SearchNode& node : tree->nodes) {
         for (int k = 0; k < 4; ++k) {
-          if (!(node.min_x[k] <= node.max_x[k])) continue;
+          if (node.IsEmpty(k)) continue;
           const Vec3 up(node.up_x[k], node.up_y[k], node.up_z[k]);
           EXPECT_NEAR(up.norm(), 1.0, 1e-6);
           EXPECT_GE(up.z(), 0.0);

@@ -66,10 +66,10 @@ TEST(RoundUp, IsTheNextFloat) {
     numbers.push_back(random.Uniform(-1.0, 1.0) * std::pow(10.0, random.Uniform(-46.0, 38.0)));
   for (const double x : numbers) {
     const auto f = static_cast<float>(x);
-    EXPECT_EQ(internal::RoundUp(x), std::nextafterf(f, HUGE_VALF)) << x;
-    EXPECT_EQ(internal::RoundDown(x), std::nextafterf(f, -HUGE_VALF)) << x;
+    EXPECT_EQ(RoundUp(x), std::nextafterf(f, HUGE_VALF)) << x;
+    EXPECT_EQ(RoundDown(x), std::nextafterf(f, -HUGE_VALF)) << x;
   }
-  EXPECT_TRUE(std::isnan(internal::RoundUp(std::nan(""))));
+  EXPECT_TRUE(std::isnan(RoundUp(std::nan(""))));
 }
 
 struct Part {

@@ -1,0 +1,132 @@
+#include "core/surface/box_node.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/surface/box_distance.h"
+#include "core/surface/leaf_tree.h"
+#include "core/surface/node_walk.h"
+#include "core/surface/surface.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Random;
+
+struct Tree {
+  std::vector<Box3> boxes;  // of the leaves
+  std::vector<BoxNode> nodes;
+};
+
+Tree MakeTree(std::size_t leaves, Random& random) {
+  Tree tree;
+  for (std::size_t i = 0; i < leaves; ++i) {
+    Box3 box;
+    box.Add(Vec3(random.Uniform(-50, 50), random.Uniform(-50, 50), random.Uniform(-5, 5)));
+    box.Add(Vec3(box.min + Vec3(random.Uniform(0, 2), random.Uniform(0, 2), random.Uniform(0, 2))));
+    tree.boxes.push_back(box);
+  }
+  EXPECT_TRUE(MakeBoxNodes(BuildLeafTree(tree.boxes, RunContext()), RunContext(), tree.nodes).ok());
+  return tree;
+}
+
+Box3 BoxOf(const BoxNode& node, int k) {
+  Box3 box;
+  box.min = Vec3(node.min_x[k], node.min_y[k], node.min_z[k]);
+  box.max = Vec3(node.max_x[k], node.max_y[k], node.max_z[k]);
+  return box;
+}
+
+bool Holds(const Box3& outer, const Box3& inner) {
+  return (outer.min.array() <= inner.min.array()).all() && (outer.max.array() >= inner.max.array()).all();
+}
+
+// Every leaf below a node counts, and lies in the boxes of all that are above it.
+void Visit(const Tree& tree, std::int32_t at, const std::vector<Box3>& above, std::vector<int>& seen) {
+  const BoxNode& node = tree.nodes[static_cast<std::size_t>(at)];
+  for (int k = 0; k < 4; ++k) {
+    if (node.IsEmpty(k)) continue;
+    std::vector<Box3> all = above;
+    all.push_back(BoxOf(node, k));
+    if (node.child[k] >= 0) {
+      Visit(tree, node.child[k], all, seen);
+      continue;
+    }
+    const auto leaf = static_cast<std::size_t>(~node.child[k]);
+    ++seen[leaf];
+    for (const Box3& box : all) EXPECT_TRUE(Holds(box, tree.boxes[leaf]));
+    EXPECT_LT((all.back().max - tree.boxes[leaf].max).cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_LT((all.back().min - tree.boxes[leaf].min).cwiseAbs().maxCoeff(), 1e-5);
+  }
+}
+
+TEST(BoxNodes, HoldEveryLeafOnce) {
+  Random random(3);
+  for (const std::size_t leaves : {1, 2, 3, 4, 5, 17, 1000}) {
+    SCOPED_TRACE(leaves);
+    const Tree tree = MakeTree(leaves, random);
+    std::vector<int> seen(leaves, 0);
+    Visit(tree, 0, {}, seen);
+    EXPECT_EQ(seen, std::vector<int>(leaves, 1));
+    EXPECT_LE(tree.nodes.size(), leaves);
+  }
+}
+
+template <Reach kReach>
+void ExpectBounds(const Tree& tree, const Vec3& c) {
+  for (const BoxNode& node : tree.nodes) {
+    const std::array<double, 4> squared = SquaredDistances<kReach>(node, c);
+    for (int k = 0; k < 4; ++k) {
+      if (node.IsEmpty(k)) continue;
+      EXPECT_EQ(squared[static_cast<std::size_t>(k)], SquaredDistance<kReach>(BoxOf(node, k), c));
+    }
+  }
+}
+
+TEST(BoxNodes, DistancesAreThoseOfTheirBoxes) {
+  Random random(4);
+  const Tree tree = MakeTree(500, random);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 c(random.Uniform(-60, 60), random.Uniform(-60, 60), random.Uniform(-8, 8));
+    ExpectBounds<Reach::kPoint>(tree, c);
+    ExpectBounds<Reach::kUpwardRay>(tree, c);
+  }
+}
+
+// Leaves in the order of their distances, near enough that a search may stop at the first: each not farther
+// than the nearest one, none left out, also when nothing is excluded.
+TEST(BoxNodes, WalksFindTheNearestLeafWithAndWithoutALimit) {
+  Random random(5);
+  for (const std::size_t leaves : {1, 3, 400}) {
+    const Tree tree = MakeTree(leaves, random);
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 c(random.Uniform(-60, 60), random.Uniform(-60, 60), random.Uniform(-8, 8));
+      double least = kInfinity;
+      for (const Box3& box : tree.boxes) least = std::min(least, SquaredDistance<Reach::kPoint>(box, c));
+      double nearest = kInfinity;
+      std::size_t visited = 0;
+      const auto bound = [&](const BoxNode& node) { return SquaredDistances<Reach::kPoint>(node, c); };
+      WalkNearestFirst(
+          tree.nodes, bound, [&](double squared) { return squared >= nearest; },
+          [&](std::int32_t leaf, double max_z) {
+            const Box3& box = tree.boxes[static_cast<std::size_t>(leaf)];
+            EXPECT_GE(max_z, box.max.z());
+            nearest = std::min(nearest, SquaredDistance<Reach::kPoint>(box, c));
+            return false;
+          });
+      EXPECT_EQ(nearest, least);
+      WalkNearestFirst(
+          tree.nodes, bound, [](double squared) { return squared >= kInfinity; },
+          [&](std::int32_t, double) { return ++visited, false; });
+      EXPECT_EQ(visited, leaves);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
