@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/outward.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -13,11 +14,6 @@ namespace {
 
 constexpr double kMostPieces = 2'000'000;  // of cut segments
 constexpr float kFar = 1e30F;              // its square is infinite: never near
-
-float Down(double x) {
-  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
-}
-float Up(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
 std::vector<PathSegment> CutLong(std::vector<PathSegment> segments, double longest) {
   double total = 0.0;
@@ -134,8 +130,8 @@ std::int32_t SegmentTree::Build(Order& order, std::size_t begin, std::size_t end
     Node& node = nodes_[static_cast<std::size_t>(self)];
     node.child[k] = child;
     for (int axis = 0; axis < 3; ++axis) {
-      node.low[axis][k] = k < parts ? Down(box.min[axis]) : kFar;
-      node.high[axis][k] = k < parts ? Up(box.max[axis]) : kFar;
+      node.low[axis][k] = k < parts ? RoundDown(box.min[axis]) : kFar;
+      node.high[axis][k] = k < parts ? RoundUp(box.max[axis]) : kFar;
     }
   }
   return self;
@@ -151,7 +147,7 @@ struct SegmentTree::Query {
   // Boxes whose squared distance is less may hold something nearer than `distance`.
   float Near2(double distance) const {
     const double wide = distance * (1.0 + kUlps) + hidden;
-    return Up(wide * wide * (1.0 + kUlps));
+    return RoundUp(wide * wide * (1.0 + kUlps));
   }
 
   static constexpr double kUlps = 8.0 / (1 << 23);

@@ -31,7 +31,11 @@ void WalkNearestFirst(const std::vector<BoxNode>& nodes, const Bound& bound, con
     for (int k = 0; k < 4; ++k) {
       const Open child{squared[static_cast<std::size_t>(k)], node.child[k], node.max_z[k]};
       if (excluded(child.squared) || node.IsEmpty(k)) continue;
-      if (child.child >= 0) __builtin_prefetch(&nodes[static_cast<std::size_t>(child.child)]);
+      if (child.child >= 0) {
+        const auto* at = reinterpret_cast<const char*>(&nodes[static_cast<std::size_t>(child.child)]);
+        __builtin_prefetch(at);
+        __builtin_prefetch(at + 64);
+      }
       std::size_t i = size++;
       for (; i > first && stack[i - 1].squared < child.squared; --i) stack[i] = stack[i - 1];
       stack[i] = child;
