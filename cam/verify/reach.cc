@@ -39,32 +39,59 @@ std::optional<Obstacles::Near> NearestToRay(const Surface& surface, const Vec3& 
   return Obstacles::Near{found->at.p, found->distance};
 }
 
-// What stands above the centre comes nearer to the shank than anything to the ball (docs/reach.md).
-bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
-  const double proof = kReasonProof * radius;
-  const auto nearest = NearestToRay(surface, c, limit, proof, obstacles);
-  if (!nearest || nearest->at.z() <= c.z()) return false;
-  const double ball = nearest->distance + kNearer * radius;
-  if (obstacles.AnyNear(c, ball)) return false;
-  const auto found = ClosestToPoint(surface, c, ball, proof);
+// Anything nearer to the upward ray at c than `limit`.
+bool InTheWay(const Surface& surface, const Vec3& c, double limit, double tolerance, Obstacles& obstacles) {
+  if (obstacles.NearestToRay(c, limit)) return true;
+  const auto found = FirstNearUpwardRay(surface, c, limit, tolerance);
+  if (found) obstacles.Add(found->at.p);
+  return found.has_value();
+}
+
+bool NothingNear(const Surface& surface, const Vec3& c, double limit, double proof, Obstacles& obstacles) {
+  if (obstacles.DistanceTo(c, limit) < limit) return false;
+  const auto found = ClosestToPoint(surface, c, limit, proof);
   if (found) obstacles.Add(found->at.p);
   return !found;
 }
 
+// What stands above the centre comes nearer to the shank than anything to the ball (docs/reach.md), which
+// touches the surface at `radius`.
+bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
+  const double proof = kReasonProof * radius, nearer = kNearer * radius;
+  limit = std::min(limit, obstacles.DistanceTo(c, radius) - nearer + proof);
+  if (!(limit > 0.0)) return false;
+  // Anything above that does so will do: what is nearest to the ray then does so too.
+  const auto above = obstacles.NearestAbove(c, limit);
+  if (above && NothingNear(surface, c, above->distance + nearer, proof, obstacles)) return true;
+  const auto nearest = NearestToRay(surface, c, limit, proof, obstacles);
+  return nearest && nearest->at.z() > c.z() &&
+         NothingNear(surface, c, nearest->distance + nearer, proof, obstacles);
+}
+
 }  // namespace
 
-std::optional<Obstacles::Near> Obstacles::NearestToRay(const Vec3& c, double limit) const {
+template <typename Counts>
+std::optional<Obstacles::Near> Obstacles::Nearest(const Vec3& c, double limit, const Counts& counts) const {
   std::optional<Near> nearest;
   for (std::size_t k = 0; k < std::min(count_, kKept); ++k) {
+    if (!counts(kept_[k])) continue;
     const double distance = FromRay(kept_[k], c).norm();
     if (distance < (nearest ? nearest->distance : limit)) nearest = {kept_[k], distance};
   }
   return nearest;
 }
 
-bool Obstacles::AnyNear(const Vec3& c, double limit) const {
-  return std::any_of(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kKept)),
-                     [&](const Vec3& p) { return (p - c).norm() < limit; });
+std::optional<Obstacles::Near> Obstacles::NearestToRay(const Vec3& c, double limit) const {
+  return Nearest(c, limit, [](const Vec3&) { return true; });
+}
+
+std::optional<Obstacles::Near> Obstacles::NearestAbove(const Vec3& c, double limit) const {
+  return Nearest(c, limit, [&](const Vec3& p) { return p.z() > c.z(); });
+}
+
+double Obstacles::DistanceTo(const Vec3& c, double limit) const {
+  for (std::size_t k = 0; k < std::min(count_, kKept); ++k) limit = std::min(limit, (kept_[k] - c).norm());
+  return limit;
 }
 
 void Obstacles::Add(const Vec3& p) { kept_[count_++ % kKept] = p; }
@@ -97,8 +124,7 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
-    if (obstacles.NearestToRay(c, limit) ||
-        AnythingNearUpwardRay(surface, c, limit, kProof * params.tolerance)) {
+    if (InTheWay(surface, c, limit, kProof * params.tolerance, obstacles)) {
       found = BlockedAbove(surface, c, params.radius, limit, obstacles) ? ReachClass::kUndercut
                                                                         : ReachClass::kConcave;
     } else if (c.z() < params.floor_z - kFloorSlack) {

@@ -50,11 +50,16 @@ class Obstacles {
   };
   // The one nearest to the upward ray at c, if nearer than `limit`.
   std::optional<Near> NearestToRay(const Vec3& c, double limit) const;
-  // One of them is nearer to c than `limit`.
-  bool AnyNear(const Vec3& c, double limit) const;
+  // The same of those above c.
+  std::optional<Near> NearestAbove(const Vec3& c, double limit) const;
+  // Of the one nearest to c, or `limit` where that is less.
+  double DistanceTo(const Vec3& c, double limit) const;
   void Add(const Vec3& p);
 
  private:
+  template <typename Counts>
+  std::optional<Near> Nearest(const Vec3& c, double limit, const Counts& counts) const;
+
   static constexpr std::size_t kKept = 8;
   std::array<Vec3, kKept> kept_;
   std::size_t count_ = 0;  // of all that were added; the last kKept are kept

@@ -86,12 +86,17 @@ class Search {
   }
 
   void VisitLeaf(const SurfaceLeaf& leaf, double max_z) {
-    if (Excluded(OrientedSquared(leaf.center(), leaf.axis(), leaf.half(), c_, max_z))) return;
+    const double squared = OrientedSquared(leaf.center(), leaf.axis(), leaf.half(), c_, max_z);
+    if (Excluded(squared)) return;
     piece_ = leaf.piece;
     const BernsteinNet& net = surface_.piece(leaf.piece).net;
     shape_ = {net.degree_u, net.degree_v};
     rational_ = net.rational;
-    if (!(Target() < kInfinity)) Improve(0.5 * (leaf.u0 + leaf.u1), 0.5 * (leaf.v0 + leaf.v1));
+    // What goes through a leaf's box mostly meets the leaf: no polynomial is needed then.
+    if (!(Target() < kInfinity) || squared <= 0.0) {
+      Improve(0.5 * (leaf.u0 + leaf.u1), 0.5 * (leaf.v0 + leaf.v1));
+      if (Done()) return;
+    }
     Vec4* points = CellBuffer(0, shape_.count());
     for (int i = 0; i < shape_.count(); ++i) {
       points[i] = net.points[static_cast<std::size_t>(i)];
@@ -261,8 +266,13 @@ std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c
   return Search<Reach::kPoint>(surface, c, limit, tolerance, Wanted::kNearest).Run();
 }
 
+std::optional<ClosestPoint> FirstNearUpwardRay(const Surface& surface, const Vec3& c, double limit,
+                                               double tolerance) {
+  return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, Wanted::kAny).Run();
+}
+
 bool AnythingNearUpwardRay(const Surface& surface, const Vec3& c, double limit, double tolerance) {
-  return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, Wanted::kAny).Run().has_value();
+  return FirstNearUpwardRay(surface, c, limit, tolerance).has_value();
 }
 
 }  // namespace patchmill

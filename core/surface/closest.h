@@ -34,6 +34,9 @@ std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c
 // Whether some point of the surface is nearer than `limit` to the upward ray: true with such a point found
 // (the first one, not the nearest), false proves that nothing is nearer than limit - tolerance.
 bool AnythingNearUpwardRay(const Surface& surface, const Vec3& c, double limit, double tolerance);
+// The same, with the point.
+std::optional<ClosestPoint> FirstNearUpwardRay(const Surface& surface, const Vec3& c, double limit,
+                                               double tolerance);
 // Whether anything above c may be nearer than `limit` to the upward ray, as far as boxes tell: false proves
 // that nothing is. Below a microsecond.
 bool MayRiseAbove(const Surface& surface, const Vec3& c, double limit);
