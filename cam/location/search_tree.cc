@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "cam/location/half_spaces.h"
-#include "core/base/grow.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
-#include "core/surface/collapse.h"
 #include "core/surface/leaf_tree.h"
+#include "core/surface/write_nodes.h"
 
 namespace patchmill::internal {
 namespace {
@@ -166,13 +165,6 @@ class PieceSplitter {
   bool stopped_ = false;  // cancelled
   PieceLeaves out_;
 };
-
-absl::Status WriteNodes(const std::vector<SurfaceNode>& binary, const RunContext& run,
-                        std::vector<SearchNode>& out) {
-  const std::vector<FourChildren> all = Collapse(binary);
-  PM_RETURN_IF_ERROR(Grow(out, all.size(), run));
-  return ParallelFor(run, nullptr, all.size(), [&](std::size_t i) { SetBoxes(binary, all[i], out[i]); });
-}
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace patchmill {
 
 void KeepFreedMemory() {
 #if defined(__GLIBC__)
-  // Either alone does harm: it ends that glibc raises both as it sees large arrays freed.
+  // Both, for setting either ends that glibc raises both as it sees large arrays freed (mallopt(3)).
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 128 << 20);
 #endif

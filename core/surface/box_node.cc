@@ -1,9 +1,6 @@
 #include "core/surface/box_node.h"
 
-#include "core/base/grow.h"
 #include "core/base/outward.h"
-#include "core/base/parallel.h"
-#include "core/base/status.h"
 #include "core/surface/collapse.h"
 #include "core/surface/surface.h"
 
@@ -20,13 +17,6 @@ void SetBoxes(const std::vector<SurfaceNode>& binary, const FourChildren& own, B
     node.max_y[k] = RoundUp(box.max.y());
     node.max_z[k] = RoundUp(box.max.z());
   }
-}
-
-absl::Status MakeBoxNodes(const std::vector<SurfaceNode>& binary, const RunContext& run,
-                          std::vector<BoxNode>& nodes) {
-  const std::vector<FourChildren> all = Collapse(binary);
-  PM_RETURN_IF_ERROR(Grow(nodes, all.size(), run));
-  return ParallelFor(run, nullptr, all.size(), [&](std::size_t i) { SetBoxes(binary, all[i], nodes[i]); });
 }
 
 }  // namespace patchmill

@@ -4,10 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <absl/status/status.h>
-
 #include "core/base/lanes.h"
-#include "core/base/run_context.h"
 
 namespace patchmill {
 
@@ -22,10 +19,7 @@ struct alignas(64) BoxNode {
   bool IsEmpty(int k) const { return !(min_x[k] <= max_x[k]); }
 };
 
+// The boxes of `own.binary` and the numbers of `own.child`.
 void SetBoxes(const std::vector<SurfaceNode>& binary, const FourChildren& own, BoxNode& node);
-
-// nodes[0] is the root. About 150 ns a leaf, parallel. CANCELLED and DEADLINE_EXCEEDED from `run`.
-absl::Status MakeBoxNodes(const std::vector<SurfaceNode>& binary, const RunContext& run,
-                          std::vector<BoxNode>& nodes);
 
 }  // namespace patchmill

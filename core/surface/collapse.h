@@ -20,7 +20,7 @@ struct FourChildren {
 };
 
 // Each node takes the binary node's children and opens the largest ones. The root comes first; a tree of one
-// leaf is a root with one child. Serial, 50 ns a leaf.
+// leaf is a root with one child. Serial.
 std::vector<FourChildren> Collapse(const std::vector<SurfaceNode>& binary);
 
 }  // namespace patchmill

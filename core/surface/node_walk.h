@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/status.h"
 #include "core/surface/box_node.h"
 #include "core/surface/collapse.h"
 

@@ -11,6 +11,7 @@
 #include "core/base/status.h"
 #include "core/surface/leaf_tree.h"
 #include "core/surface/net_kernel.h"
+#include "core/surface/write_nodes.h"
 
 namespace patchmill {
 namespace {
@@ -262,7 +263,7 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   surface.leaves = std::move(all.leaves);
   surface.nodes = BuildLeafTree(all.boxes, run);
   PM_RETURN_IF_ERROR(run.Check());
-  PM_RETURN_IF_ERROR(MakeBoxNodes(surface.nodes, run, surface.box_nodes));
+  PM_RETURN_IF_ERROR(WriteNodes(surface.nodes, run, surface.box_nodes));
   surface.box = surface.nodes.front().box;
   surface.scale = std::max(surface.box.min.cwiseAbs().maxCoeff(), surface.box.max.cwiseAbs().maxCoeff());
   return surface;

@@ -134,8 +134,8 @@ TEST(Cancel, ManyPatches) {
   PatchNetwork network;
   network.model = Waves(Size(300, 80));
   constexpr int kMoments = 6;
-  std::vector<PatchNetwork> copies(kMoments + 1,
-                                   network);  // made beforehand: a copy takes a tenth of a second
+  // Made beforehand: a copy takes a tenth of a second.
+  std::vector<PatchNetwork> copies(kMoments + 1, network);
   const auto build = [&](const RunContext& run) {
     PatchNetwork own = std::move(copies.back());
     copies.pop_back();

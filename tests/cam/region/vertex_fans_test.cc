@@ -1,10 +1,10 @@
 #include "cam/region/vertex_fans.h"
 
-#include <algorithm>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "tests/support/random.h"
 
 namespace patchmill {
 namespace {
@@ -22,8 +22,8 @@ void ExpectSame(const VertexFans& fans, const Lists& lists) {
 
 TEST(VertexFans, AreThePlainListsThroughAllChanges) {
   constexpr std::size_t kVertices = 40;
-  std::mt19937 random(5);
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  testing::Random random(5);
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random.Int(static_cast<int>(n))); };
   std::vector<SplitTriangle> triangles(100);
   Lists lists(kVertices + 1);  // the last one has no triangles
   int corner = 0;

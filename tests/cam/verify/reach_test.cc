@@ -1,8 +1,13 @@
-// What the verifier demands on upright ground.
+// What the verifier demands on upright ground, and why it says that a place cannot be reached.
 #include "cam/verify/reach.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
+#include "core/surface/closest.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
@@ -71,6 +76,50 @@ TEST(VerifyReach, WallsAndEquatorsAreToBeFinished) {
     }
     EXPECT_GT(upright, 20);
   }
+}
+
+// docs/reach.md by its words, from distances known to 1e-7 mm; nothing where the verifier's own exactness
+// (0.02 of the tolerance, 0.004 R) may decide.
+std::optional<ReachClass> ByDefinition(const Surface& surface, const Vec3& c) {
+  constexpr double kExact = 1e-7, kLimit = kRadius - 0.01, kNearer = 0.02 * kRadius,
+                   kReason = 0.005 * kRadius;
+  const auto ray = ClosestToUpwardRay(surface, c, kInfinity, kExact),
+             ball = ClosestToPoint(surface, c, kInfinity, kExact);
+  if (!ray || !ball || std::abs(ray->distance - kLimit) < 0.03 * 0.01) return std::nullopt;
+  if (ray->distance > kLimit) return ReachClass::kReachable;
+  const double short_of = ball->distance - kNearer - ray->distance;
+  if (std::abs(short_of) < kReason) return std::nullopt;
+  return short_of > 0.0 ? ReachClass::kUndercut : ReachClass::kConcave;
+}
+
+TEST(VerifyReach, ReasonsAreThoseOfTheDefinitionWhateverWasInTheWayBefore) {
+  std::array<int, 3> seen{};
+  int all = 0, close = 0;
+  for (const PatchModel& model :
+       {Join({Plane(20.0), Sphere(Vec3(0, 0, 9.0), 6.0)}), Torus(Vec3::Zero(), 12.0, 4.0),
+        TwoSpheres(8.0, 13.0), RandomBspline(11, {.spans = 5, .size = 30.0, .folds = true}),
+        Single(RandomBezier(3, 5, 5, true, 30.0))}) {
+    const Surface surface = SurfaceOf(model);
+    Obstacles obstacles;  // kept from place to place, as the verifier does
+    for (std::size_t piece = 0; piece < surface.pieces.size(); ++piece) {
+      for (int k = 0; k < 15 * 15; ++k) {
+        const SurfaceJet jet = Evaluate(surface, PieceId(piece), (k / 15 + 0.5) / 15, (k % 15 + 0.5) / 15);
+        const auto facing = FacingAt(jet);
+        if (!facing || facing->both) continue;
+        ++all;
+        const auto expected = ByDefinition(surface, jet.p + kRadius * facing->e);
+        if (!expected) {
+          ++close;
+          continue;
+        }
+        ++seen[static_cast<std::size_t>(*expected)];
+        EXPECT_EQ(ReachAt(surface, jet.p, *facing, Params(), obstacles), *expected) << jet.p.transpose();
+        EXPECT_EQ(ReachAt(surface, jet.p, *facing, Params()), *expected) << jet.p.transpose();
+      }
+    }
+  }
+  for (const int count : seen) EXPECT_GT(count, 200);
+  EXPECT_LT(close, all / 20);
 }
 
 }  // namespace

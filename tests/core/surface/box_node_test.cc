@@ -9,9 +9,8 @@
 #include "core/surface/leaf_tree.h"
 #include "core/surface/node_walk.h"
 #include "core/surface/surface.h"
+#include "core/surface/write_nodes.h"
 #include "tests/support/random.h"
-#include "tests/support/shapes.h"
-#include "tests/support/surface_of.h"
 
 namespace patchmill {
 namespace {
@@ -31,7 +30,7 @@ Tree MakeTree(std::size_t leaves, Random& random) {
     box.Add(Vec3(box.min + Vec3(random.Uniform(0, 2), random.Uniform(0, 2), random.Uniform(0, 2))));
     tree.boxes.push_back(box);
   }
-  EXPECT_TRUE(MakeBoxNodes(BuildLeafTree(tree.boxes, RunContext()), RunContext(), tree.nodes).ok());
+  EXPECT_TRUE(WriteNodes(BuildLeafTree(tree.boxes, RunContext()), RunContext(), tree.nodes).ok());
   return tree;
 }
 

@@ -1,0 +1,26 @@
+// A binary tree of boxes written as nodes of four children, whatever else these hold.
+#pragma once
+
+#include <vector>
+
+#include <absl/status/status.h>
+
+#include "core/base/grow.h"
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+#include "core/surface/box_node.h"
+#include "core/surface/collapse.h"
+
+namespace patchmill {
+
+// Children and boxes of `nodes`, which are empty before; Node is a BoxNode, nodes[0] the root. Parallel, but
+// for Collapse. CANCELLED and DEADLINE_EXCEEDED from `run`.
+template <typename Node>
+absl::Status WriteNodes(const std::vector<SurfaceNode>& binary, const RunContext& run,
+                        std::vector<Node>& nodes) {
+  const std::vector<FourChildren> all = Collapse(binary);
+  PM_RETURN_IF_ERROR(Grow(nodes, all.size(), run));
+  return ParallelFor(run, nullptr, all.size(), [&](std::size_t i) { SetBoxes(binary, all[i], nodes[i]); });
+}
+
+}  // namespace patchmill
