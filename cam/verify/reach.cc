@@ -47,8 +47,10 @@ bool InTheWay(const Surface& surface, const Vec3& c, double limit, double tolera
   return found.has_value();
 }
 
+// Whatever is nearer to c than limit - proof is seen; what is known already counts no sooner, so that the
+// answer is that of a search.
 bool NothingNear(const Surface& surface, const Vec3& c, double limit, double proof, Obstacles& obstacles) {
-  if (obstacles.DistanceTo(c, limit) < limit) return false;
+  if (obstacles.DistanceTo(c, limit) < limit - proof) return false;
   const auto found = ClosestToPoint(surface, c, limit, proof);
   if (found) obstacles.Add(found->at.p);
   return !found;
