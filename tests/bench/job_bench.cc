@@ -3,8 +3,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include "cam/path/across_feed.h"
+#include "cam/path/spacing.h"
 #include "cam/plan/job_preview.h"
 #include "cam/plan/plan.h"
+#include "cam/plan/region_points.h"
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
 #include "tests/bench/bench_parts.h"
@@ -29,6 +32,33 @@ std::array<double, 5> LengthsByKind(const LinkResult& motion) {
   return lengths;
 }
 
+// mm: LeastFeed's integral over the steps across the passes that the ground gets, contours or its region's
+// lines (as if they did not bend), in place of the widest: what feed would be if passes cost nothing but what
+// the scallop asks for. The rest goes for their ends, for steps that are narrower than they need be, and
+// links.
+double FeedInItsDirections(const Surface& surface, const Job& job, const JobResult& result, double radius) {
+  const RegionMap& map = result.regions;
+  const int stride = StrideOf(map);
+  const auto reachable = [&](std::size_t id) { return map.regions[id].kind != RegionKind::kUnreachable; };
+  double sum = 0.0;
+  for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
+    VisitPiece(surface, i, map, stride, reachable,
+               [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
+                 const RegionChoice& choice = result.report.choices[id];
+                 const auto across = e.z() < std::cos(job.operation.steep_angle)
+                                         ? AcrossContours(e)
+                                         : AcrossLines(e, LineAt(choice, jet.p));
+                 const FundamentalForms forms = Forms(jet, e);
+                 const PrincipalCurvatures k = Principal(forms);
+                 if (!across || !(k.k_max * radius < 1.0)) return;
+                 const double step = CenterStep(radius, choice.scallop, NormalCurvature(forms, jet, *across));
+                 const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
+                 if (step > 0.0) sum += jet.du.cross(jet.dv).norm() * centers / step;
+               });
+  }
+  return sum * ShareOfPoint(map, stride);
+}
+
 absl::StatusOr<JobResult> RunFromModel(const PatchModel& model, const Job& job) {
   PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(model, job.setup, RunContext()));
   return RunVerified(surface, job);
@@ -39,29 +69,30 @@ absl::StatusOr<JobResult> RunFromModel(const PatchModel& model, const Job& job) 
 void MeasureJob(benchmark::State& state, Part part) {
   const PatchModel& model = ModelOf(part);
   const Job job = JobOf(part);
-  double moves = 0.0, bytes = 0.0;
-  JobReport report;
-  std::array<double, 5> lengths{};
+  JobResult result;
   ResetPeakMemory();
   for (auto _ : state) {
-    const auto result = RunFromModel(model, job);
-    if (!result.ok()) return state.SkipWithError(result.status().ToString().c_str());
-    moves = result->report.point_count;
-    bytes = static_cast<double>(result->program.size());
-    report = result->report;
-    lengths = LengthsByKind(result->motion);
+    auto made = RunFromModel(model, job);
+    if (!made.ok()) return state.SkipWithError(made.status().ToString().c_str());
+    result = *std::move(made);
   }
   state.counters["peak_MB"] = PeakMemory();
-  state.counters["moves"] = moves;
+  const JobReport& report = result.report;
+  const std::array<double, 5> lengths = LengthsByKind(result.motion);
+  state.counters["moves"] = report.point_count;
   state.counters["feed_m"] = 1e-3 * report.verify.cut_length;
   state.counters["over_least"] = report.verify.cut_length / report.least_feed;
+  if (const auto resolved = Resolve(SurfaceOf(part), job); resolved.ok()) {
+    state.counters["directions_over_least"] =
+        FeedInItsDirections(SurfaceOf(part), job, result, resolved->plan_radius) / report.least_feed;
+  }
   state.counters["lines_m"] = lengths[static_cast<std::size_t>(PassKind::kZigzag)];
   state.counters["contours_m"] = lengths[static_cast<std::size_t>(PassKind::kContour)];
   state.counters["borders_m"] = lengths[static_cast<std::size_t>(PassKind::kBorder)];
   state.counters["rest_m"] = lengths[static_cast<std::size_t>(PassKind::kCrease)] +
                              lengths[static_cast<std::size_t>(PassKind::kRest)];
   state.counters["retracts"] = static_cast<double>(report.motion.retract_count);
-  state.counters["program_MB"] = 1e-6 * bytes;
+  state.counters["program_MB"] = 1e-6 * static_cast<double>(result.program.size());
   for (const StageTime& stage : report.stages) state.counters["s_" + stage.name] = stage.seconds;
   TellInstructionSet(state, 2, [&] { benchmark::DoNotOptimize(RunFromModel(model, job)); });
 }
