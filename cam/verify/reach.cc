@@ -39,7 +39,7 @@ std::optional<Obstacles::Near> NearestToRay(const Surface& surface, const Vec3& 
   return Obstacles::Near{found->at.p, found->distance};
 }
 
-// Anything nearer to the upward ray at c than `limit`.
+// Anything nearer to the upward ray at c than `limit`; within `tolerance` of it, what is known may decide.
 bool InTheWay(const Surface& surface, const Vec3& c, double limit, double tolerance, Obstacles& obstacles) {
   if (obstacles.NearestToRay(c, limit)) return true;
   const auto found = FirstNearUpwardRay(surface, c, limit, tolerance);
@@ -47,8 +47,8 @@ bool InTheWay(const Surface& surface, const Vec3& c, double limit, double tolera
   return found.has_value();
 }
 
-// Whatever is nearer to c than limit - proof is seen; what is known already counts no sooner, so that the
-// answer is that of a search.
+// Whatever is nearer to c than limit - proof is seen; what is known already counts no sooner than a search is
+// sure to see it.
 bool NothingNear(const Surface& surface, const Vec3& c, double limit, double proof, Obstacles& obstacles) {
   if (obstacles.DistanceTo(c, limit) < limit - proof) return false;
   const auto found = ClosestToPoint(surface, c, limit, proof);
@@ -57,7 +57,7 @@ bool NothingNear(const Surface& surface, const Vec3& c, double limit, double pro
 }
 
 // What stands above the centre comes nearer to the shank than anything to the ball (docs/reach.md), which
-// touches the surface at `radius`.
+// touches the surface at `radius`. Close to where the rule changes, what is known may decide.
 bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
   const double proof = kReasonProof * radius, nearer = kNearer * radius;
   limit = std::min(limit, obstacles.DistanceTo(c, radius) - nearer + proof);

@@ -11,7 +11,7 @@ namespace patchmill {
 struct FourChildren;
 struct SurfaceNode;
 
-// Four children and their boxes, rounded outward to floats. Empty lanes have boxes that nothing meets.
+// Four children and their boxes, rounded outward to floats. Boxes of empty lanes are upside down.
 struct alignas(64) BoxNode {
   Float4 min_x, min_y, min_z, max_x, max_y, max_z;
   std::int32_t child[4];  // >= 0: node, < 0: leaf ~child

@@ -6,6 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <absl/status/statusor.h>
+
+#include "core/base/run_context.h"
+
 namespace patchmill {
 
 struct SurfaceNode;
@@ -20,7 +24,8 @@ struct FourChildren {
 };
 
 // Each node takes the binary node's children and opens the largest ones. The root comes first; a tree of one
-// leaf is a root with one child. Serial.
-std::vector<FourChildren> Collapse(const std::vector<SurfaceNode>& binary);
+// leaf is a root with one child. Serial. CANCELLED and DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<std::vector<FourChildren>> Collapse(const std::vector<SurfaceNode>& binary,
+                                                   const RunContext& run);
 
 }  // namespace patchmill

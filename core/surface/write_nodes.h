@@ -18,7 +18,7 @@ namespace patchmill {
 template <typename Node>
 absl::Status WriteNodes(const std::vector<SurfaceNode>& binary, const RunContext& run,
                         std::vector<Node>& nodes) {
-  const std::vector<FourChildren> all = Collapse(binary);
+  PM_ASSIGN_OR_RETURN(const std::vector<FourChildren> all, Collapse(binary, run));
   PM_RETURN_IF_ERROR(Grow(nodes, all.size(), run));
   return ParallelFor(run, nullptr, all.size(), [&](std::size_t i) { SetBoxes(binary, all[i], nodes[i]); });
 }

@@ -1,4 +1,4 @@
-// The benchmarks in the state of a server that has done jobs before.
+// The benchmarks, with the allocator as a server sets it: memory that was freed stays.
 #include <benchmark/benchmark.h>
 
 #include "core/base/keep_memory.h"

@@ -92,7 +92,7 @@ std::optional<ReachClass> ByDefinition(const Surface& surface, const Vec3& c) {
   return short_of > 0.0 ? ReachClass::kUndercut : ReachClass::kConcave;
 }
 
-TEST(VerifyReach, ReasonsAreThoseOfTheDefinitionWhateverWasInTheWayBefore) {
+TEST(VerifyReach, ReasonsAreThoseOfTheDefinitionFreshOrWithWhatIsKnown) {
   std::array<int, 3> seen{};
   int all = 0, close = 0;
   for (const PatchModel& model :

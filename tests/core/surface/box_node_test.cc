@@ -1,5 +1,7 @@
 #include "core/surface/box_node.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -97,8 +99,53 @@ TEST(BoxNodes, DistancesAreThoseOfTheirBoxes) {
   }
 }
 
-// Leaves in the order of their distances, near enough that a search may stop at the first: each not farther
-// than the nearest one, none left out, also when nothing is excluded.
+// When the first leaf below a node was visited, and that nearer children had theirs before.
+std::size_t FirstBelow(const Tree& tree, std::int32_t at, const Vec3& c,
+                       const std::vector<std::size_t>& when) {
+  const BoxNode& node = tree.nodes[static_cast<std::size_t>(at)];
+  const std::array<double, 4> squared = SquaredDistances<Reach::kPoint>(node, c);
+  std::array<std::size_t, 4> first{};
+  std::size_t least = when.size();
+  for (int k = 0; k < 4; ++k) {
+    if (node.IsEmpty(k)) continue;
+    const auto own = static_cast<std::size_t>(k);
+    first[own] = node.child[k] >= 0 ? FirstBelow(tree, node.child[k], c, when)
+                                    : when[static_cast<std::size_t>(~node.child[k])];
+    least = std::min(least, first[own]);
+    for (std::size_t j = 0; j < own; ++j) {
+      if (node.IsEmpty(static_cast<int>(j)) || squared[j] == squared[own]) continue;
+      EXPECT_EQ(squared[j] < squared[own], first[j] < first[own]);
+    }
+  }
+  return least;
+}
+
+TEST(BoxNodes, WalksGoToNearerChildrenFirst) {
+  Random random(6);
+  const Tree tree = MakeTree(400, random);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 c(random.Uniform(-60, 60), random.Uniform(-60, 60), random.Uniform(-8, 8));
+    std::vector<std::size_t> when(tree.boxes.size(), tree.boxes.size());
+    std::size_t visited = 0;
+    WalkNearestFirst(
+        tree.nodes, [&](const BoxNode& node) { return SquaredDistances<Reach::kPoint>(node, c); },
+        [](double) { return false; },
+        [&](std::int32_t leaf, double) { return when[static_cast<std::size_t>(leaf)] = visited++, false; });
+    EXPECT_EQ(FirstBelow(tree, 0, c, when), 0U);
+  }
+}
+
+TEST(BoxNodes, StopWhenCancelled) {
+  Random random(7);
+  const Tree tree = MakeTree(10'000, random);
+  const std::vector<SurfaceNode> binary = BuildLeafTree(tree.boxes, RunContext());
+  RunContext told;
+  told.Cancel();
+  EXPECT_EQ(Collapse(binary, told).status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(Collapse(binary, RunContext())->size(), tree.nodes.size());
+}
+
+// None left out that may be the nearest, and none at all when nothing is excluded.
 TEST(BoxNodes, WalksFindTheNearestLeafWithAndWithoutALimit) {
   Random random(5);
   for (const std::size_t leaves : {1, 3, 400}) {
