@@ -8,6 +8,11 @@
 #include "core/diffgeo/forms.h"
 
 namespace patchmill {
+namespace {
+
+constexpr double kUpright = 1e-6;  // both sides of a face as upright as this count
+
+}  // namespace
 
 double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                   double scallop) {
@@ -24,17 +29,34 @@ double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& 
 bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const SurfaceRect& rect,
                        double radius, double scallop, double fraction) {
   if (forced.passes == ForcedPasses::kNone) return false;
-  std::array<Vec3, 9> step;
-  double most = 0.0;
+  std::array<SurfaceJet, 9> jets;
+  std::array<Vec3, 9> normals, step;
   const auto uv = NineParameters(rect);
   for (std::size_t k = 0; k < 9; ++k) {
-    const SurfaceJet jet = Evaluate(surface, rect.piece, uv[k].x(), uv[k].y());
-    const auto e = UpwardNormal(jet);
-    if (!e) return false;
-    step[k] = Vec3(NeededStep(forced, jet, *e, radius, scallop), 0.0, 0.0);
-    most = std::max(most, step[k].x());
+    jets[k] = Evaluate(surface, rect.piece, uv[k].x(), uv[k].y());
+    const auto normal = UnitNormal(jets[k]);
+    if (!normal) return false;
+    normals[k] = *normal;
   }
-  return most + BendOver(step) < fraction;
+  const double turn = BendOver(normals);
+  for (const double sign : {1.0, -1.0}) {
+    double highest_normal = -1.0, most = 0.0;
+    for (std::size_t k = 0; k < 9; ++k) {
+      const Vec3 n = sign * normals[k];
+      highest_normal = std::max(highest_normal, n.z());
+      step[k] = Vec3(NeededStep(forced, jets[k], n, radius, scallop), 0.0, 0.0);
+      most = std::max(most, step[k].x());
+    }
+    if (highest_normal + turn < -kUpright) continue;  // looks down
+    if (most + BendOver(step) >= fraction) return false;
+  }
+  return true;
+}
+
+double NeededStepOfSides(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
+                         double scallop) {
+  const double step = NeededStep(forced, jet, e, radius, scallop);
+  return e.z() > kUpright ? step : std::max(step, NeededStep(forced, jet, -e, radius, scallop));
 }
 
 }  // namespace patchmill

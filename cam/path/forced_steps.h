@@ -20,8 +20,13 @@ struct ForcedSteps {
 double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                   double scallop);
 
-// True when the needed step is below `fraction` all over the rectangle, judged by nine places (second order,
-// twice).
+// The wider of what the two sides of an upright face need; elsewhere NeededStep.
+double NeededStepOfSides(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
+                         double scallop);
+
+// True when the needed step is below `fraction` all over the rectangle on every side of it that looks up
+// somewhere, judged by nine places (second order, twice). Each side is judged by itself: where a silhouette
+// crosses the rectangle, what passes need leaps from the one's curvature to the other's.
 bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const SurfaceRect& rect,
                        double radius, double scallop, double fraction);
 

@@ -111,7 +111,7 @@ bool SpotFinder::CoveredByTwo(const Vec3* hull, int count, const Vec3& e, const 
 }
 
 bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
-  return NeededStep(params_.forced, jet, e, radius_, params_.scallop) >= params_.min_step_fraction;
+  return NeededStepOfSides(params_.forced, jet, e, radius_, params_.scallop) >= params_.min_step_fraction;
 }
 
 // The normal of the side from which the point can be finished. Both sides of an upright face count.

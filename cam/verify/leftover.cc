@@ -75,7 +75,7 @@ class LeftoverSearch {
     if (left > threshold.Floor(here.value)) {
       const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
       const auto facing = FacingAt(jet);
-      if (facing && left > params_.limit && BeyondStrategy(jet, facing->e, params_)) {
+      if (facing && left > params_.limit && BeyondStrategy(jet, *facing, params_)) {
         return cell.radius > kStrategyCell * params_.reach.radius;
       }
       if (!reachable) reachable = IsReachable(cell);

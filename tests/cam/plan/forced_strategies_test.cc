@@ -43,6 +43,8 @@ const std::vector<ForcedCase>& Cases() {
       {"TwoHills", TwoHills, {}, 3.0, 0.1},
       {"Torus", [] { return LoadModel("tests/models/torus_bicubic.patches"); }, Upright(40.0), 3.0, 0.1},
       {"Teapot", [] { return LoadModel("examples/teapot.bpt"); }, Upright(50.0), 3.0, 0.05},
+      // Beside silhouettes of its spout and handle lines are just wide enough on no more than a strip.
+      {"LargerTeapot", [] { return LoadModel("examples/teapot.bpt"); }, Upright(54.8), 3.0, 0.03},
       {"Teacup", [] { return LoadModel("tests/models/teacup.bpt"); }, Upright(50.0), 3.0, 0.1},
   };
   return cases;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "cam/path/forced_steps.h"
 #include "cam/plan/job_preview.h"
 #include "cam/post/program_reader.h"
 #include "core/base/status.h"
@@ -18,6 +19,8 @@ namespace {
 
 // What rounding to four decimals may move, and what the closest-point searches may be off.
 constexpr double kRounding = 1e-4, kSearch = 1e-5;  // mm
+// Of the flat step: forced passes answer for ground that needs more (0.25 and the margin of the report).
+constexpr double kLeast = 0.275;
 
 struct Centers {
   Vec3 from, to;
@@ -106,13 +109,18 @@ class ProgramJudge {
       cuts.push_back(std::move(cut));
     }
     const DistanceToPaths distance(cuts);
-    const double limit = kept_ + job_.operation.scallop + job_.operation.tolerance + kRounding;
+    const Operation& op = job_.operation;
+    const double limit = kept_ + op.scallop + op.tolerance + kRounding;
+    if (op.strategy == Strategy::kZigzag && op.angle_auto) return;  // every region has a direction of its own
+    ForcedSteps forced{ForcedPasses::kNone, op.zigzag_angle};
+    if (op.strategy == Strategy::kContour) forced.passes = ForcedPasses::kContours;
+    if (op.strategy == Strategy::kZigzag) forced.passes = ForcedPasses::kLines;
     for (int i = 0; i < samples; ++i) {
       const auto piece = static_cast<std::size_t>(random.Int(static_cast<int>(surface_.pieces.size())));
       const double u = random.Unit(), v = random.Unit();
       const SurfaceJet jet = Evaluate(surface_.pieces[piece], u, v);
       const auto e = UpwardNormal(jet);
-      if (!e || !Reachable(jet.p, *e)) continue;
+      if (!e || !Reachable(jet.p, *e) || NeededStep(forced, jet, *e, kept_, op.scallop) < kLeast) continue;
       EXPECT_LT(distance.At(jet.p, limit + 0.5), limit)
           << "left standing at " << jet.p.transpose() << ", piece " << piece << ", u " << u << ", v " << v;
     }
@@ -188,7 +196,7 @@ void CheckProgram(const Surface& surface, const Job& job, const JobResult& resul
   judge.CheckRapidsAndFloor();
   judge.CheckFeeds();
   judge.CheckGouge(random, samples);
-  if (job.operation.strategy == Strategy::kAuto) judge.CheckLeftover(random, samples);
+  judge.CheckLeftover(random, samples);
 }
 
 }  // namespace patchmill::testing
