@@ -75,6 +75,27 @@ double KeepIn::MoveRoom(const Vec3& c) const {
 
 double KeepIn::Room(const Vec3& c) const { return std::min(MoveRoom(c), TopRoom(*containment_, Tip(c))); }
 
+std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q) const {
+  const double r = params_.ball_radius;
+  if (BoundaryRoom(*containment_, q, r) < 0.0) return std::nullopt;
+  AllowedHeights heights;
+  if (containment_->top_z) heights.highest = *containment_->top_z + r;
+  for (const Obstacle& o : containment_->obstacles) {
+    const double over = o.top_z + o.margin;  // its tip: beside the prism any height will do
+    if (over + r > heights.lowest && ObstacleRoom(o, Lift(q, over - 1.0), params_.tool_radius) < 0.0) {
+      heights.lowest = over + r;
+    }
+  }
+  if (avoided_locator_) {
+    const auto height = avoided_locator_->Height(q, nullptr, 0.1 * params_.tolerance);
+    if (height && height->z > heights.lowest) {
+      heights.lowest = height->z;
+      heights.normal = (Lift(q, height->z) - height->contact.p) / avoided_locator_->radius();
+    }
+  }
+  return heights;
+}
+
 bool KeepIn::Forbids(const Vec3& c, double radius) const {
   if (Room(c) < -radius) return true;
   if (!avoided_locator_) return false;

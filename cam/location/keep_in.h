@@ -18,6 +18,12 @@ struct KeepInParams {
   double tolerance = 0.01;   // mm: moves may be off a limit by half of it
 };
 
+// Centre heights allowed in a column, mm: from `lowest` to `highest`; none where lowest is above.
+struct AllowedHeights {
+  double lowest = -kInfinity, highest = kInfinity;
+  Vec3 normal = Vec3::UnitZ();  // of the limit at `lowest`, towards what is allowed
+};
+
 // Thread-safe. Keeps references to the surface and to the containment.
 class KeepIn {
  public:
@@ -43,6 +49,9 @@ class KeepIn {
 
   // A finishing ball may be centred at c.
   bool Allows(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
+  // Where in the column over q a finishing ball may be centred; nothing outside a boundary. To a tenth of the
+  // tolerance. Every limit but top_z holds from below: what is allowed is one interval.
+  std::optional<AllowedHeights> HeightsOver(const Vec2& q) const;
   // No finishing ball may be centred within `radius` (mm, >= 0) of c.
   bool Forbids(const Vec3& c, double radius) const;
   // The centre may feed straight from a to b: every place of the move is allowed, up to half the tolerance.

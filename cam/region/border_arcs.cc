@@ -201,33 +201,49 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
   return arcs;
 }
 
-absl::StatusOr<std::vector<double>> LensAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                              const AdjacencyList& adjacency, const BorderArcs& arcs,
+absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                              const AdjacencyList& adjacency,
                                               const std::vector<std::vector<int>>& region_of,
-                                              std::size_t count, const RunContext& run) {
+                                              const std::vector<double>& flat, const RunContext& run,
+                                              BorderArcs& arcs) {
+  constexpr double kLeast = 0.01;  // of the triangles: less is left of a region whose arcs cross
   struct Lens {
     TriangleSide side;
-    int own = 0, other = 0;  // regions
-    const std::vector<Vec2>* arc = nullptr;
+    std::size_t own = 0, other = 0;  // regions
+    std::size_t arc = 0;
     double area = 0.0;
   };
-  std::vector<Lens> lenses;
+  std::vector<Lens> lenses;  // each from both sides
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     if (arcs.places[k].empty()) continue;
     const Adjacency a = adjacency[arcs.sides[k]];
     if (a.other_piece != a.side.piece) continue;
-    const int own = RegionOf(region_of, a.side.piece, a.side.triangle),
-              other = RegionOf(region_of, a.other_piece, a.other_triangle);
-    if (own < other) lenses.push_back({a.side, own, other, &arcs.places[k]});
+    lenses.push_back({a.side, static_cast<std::size_t>(RegionOf(region_of, a.side.piece, a.side.triangle)),
+                      static_cast<std::size_t>(RegionOf(region_of, a.other_piece, a.other_triangle)), k});
   }
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions: areas", lenses.size(), [&](std::size_t k) {
-    const TriangleSide& side = lenses[k].side;
-    lenses[k].area = LensArea(surface, meshes[static_cast<std::size_t>(side.piece)], side, *lenses[k].arc);
+    Lens& lens = lenses[k];
+    if (lens.own > lens.other) return;
+    lens.area = LensArea(surface, meshes[static_cast<std::size_t>(lens.side.piece)], lens.side,
+                         arcs.places[lens.arc]);
   }));
-  std::vector<double> gained(count, 0.0);
+  std::vector<double> gained;
+  std::vector<bool> straight(flat.size(), false);
+  for (bool again = true; again;) {
+    gained.assign(flat.size(), 0.0);
+    for (const Lens& lens : lenses) {
+      if (straight[lens.own] || straight[lens.other]) continue;
+      gained[lens.own] += lens.area;
+      gained[lens.other] -= lens.area;
+    }
+    again = false;
+    for (std::size_t r = 0; r < flat.size(); ++r) {
+      if (straight[r] || flat[r] + gained[r] >= kLeast * flat[r]) continue;
+      straight[r] = again = true;
+    }
+  }
   for (const Lens& lens : lenses) {
-    gained[static_cast<std::size_t>(lens.own)] += lens.area;
-    gained[static_cast<std::size_t>(lens.other)] -= lens.area;
+    if (straight[lens.own] || straight[lens.other]) arcs.places[lens.arc].clear();
   }
   return gained;
 }

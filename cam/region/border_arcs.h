@@ -34,12 +34,15 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run);
 
-// What the areas (mm^2) of `count` regions gain when borders bend from chords to arcs; they add up to
-// nothing. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<double>> LensAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                              const AdjacencyList& adjacency, const BorderArcs& arcs,
+// What the areas of regions, `flat` (mm^2, of their triangles), gain when borders bend from chords to arcs;
+// the gains add up to nothing. Slivers along a limit or a seam may be thinner than their arcs are found to be
+// apart: the arcs of a region that these would turn inside out are taken out of `arcs`, and its borders stay
+// chords, so that no area is below 0. CANCELLED, DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                              const AdjacencyList& adjacency,
                                               const std::vector<std::vector<int>>& region_of,
-                                              std::size_t count, const RunContext& run);
+                                              const std::vector<double>& flat, const RunContext& run,
+                                              BorderArcs& arcs);
 
 // The borders on the surface, each from end to end (as many as BorderArcs has).
 using BorderPoints = std::vector<std::vector<Vec3>>;

@@ -9,9 +9,11 @@
 
 namespace patchmill {
 
-// Fills inside, z_min and z_max of all regions. `region_of[piece][triangle]`.
+// Fills inside, z_min and z_max of all regions. `region_of[piece][triangle]`. A point inside is one by which
+// the region is found among the labels of `map`, where it has any.
 void PlaceRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                  const std::vector<std::vector<int>>& region_of, std::vector<Region>& regions);
+                  const std::vector<std::vector<int>>& region_of, const RegionMap& map,
+                  std::vector<Region>& regions);
 
 struct TriangleRef {
   std::size_t piece = 0, triangle = 0;

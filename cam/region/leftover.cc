@@ -19,7 +19,7 @@ constexpr std::size_t kMostSpaces = 8;  // the latest; all triples of them are t
 
 // The centre in the column over a place of the plane that is nearest to what is asked for.
 struct Column {
-  Vec3 center = Vec3::Zero();
+  Vec3 center = Vec3::Zero();   // where none is allowed, the lowest that the surface alone would leave free
   Vec3 normal = Vec3::UnitZ();  // of the free centres' border there, towards them
   bool held = false;            // stands on that border
   double distance = kInfinity;  // infinite: not allowed
@@ -123,8 +123,12 @@ class NearestCenter {
       const double angle = 2.0 * kPi * i / kRing;
       Column& best = ring[static_cast<std::size_t>(i)];
       // A column is no nearer than its radius.
+      double inner = 0.0;  // distance of the column before
       for (auto radius = radii.rbegin(); radius != radii.rend() && *radius < best.distance; ++radius) {
-        const Column column = At(Plan(p_) + *radius * Vec2(std::cos(angle), std::sin(angle)));
+        Column column = At(Plan(p_) + *radius * Vec2(std::cos(angle), std::sin(angle)));
+        const bool drops = column.distance < inner;
+        inner = column.distance;
+        if (drops) column = AlongRay(column);
         if (column.distance < best.distance) best = column;
       }
     }
@@ -140,29 +144,62 @@ class NearestCenter {
  private:
   // Around p and down again: along the foot of an upright wall, whose columns tell of no side.
   Column Polish(Column at) const {
+    if (at.distance == kInfinity) return at;
     for (double turn = kPi / kRing; turn > 0.01; turn *= 0.5)
       for (const double angle : {turn, -turn}) {
         const Column turned = At(Plan(p_) + Eigen::Rotation2Dd(angle) * Plan(at.center - p_));
         if (turned.distance > (1.0 + kStill) * at.distance) continue;
-        const Column found = Descend(turned);
+        const Column found = Descend(AlongRay(turned));
         if (found.distance < at.distance) at = found;
       }
     return at;
   }
 
+  // The same in its direction from p, as near as the limits of the operation let it: they have no slope that
+  // a descent could follow.
+  Column AlongRay(Column at) const {
+    if (at.distance == kInfinity || params_.keep_in == nullptr || params_.keep_in->AllowsAll()) return at;
+    const Vec2 span = Plan(at.center - p_);
+    double inner = 0.75, outer = 1.0;  // of the span; columns at the inner end are no nearer
+    while (outer - inner > kStill) {
+      const double share = 0.5 * (inner + outer);
+      const Column column = At(Plan(p_) + share * span);
+      const bool nearer = column.distance < at.distance;
+      if (nearer) at = column;
+      (nearer ? outer : inner) = share;
+    }
+    return at;
+  }
+
   Column At(const Vec2& q) const {
     const double radius = locator_.radius();
-    const auto height = locator_.Height(q, nullptr, kHeightGap * radius);
     Column column;
-    double z = params_.floor_z + radius;
-    if (height && height->z > z) {
-      z = height->z;
-      column.normal = (Vec3(q.x(), q.y(), z) - height->contact.p) / radius;
+    const auto allowed =
+        params_.keep_in != nullptr ? params_.keep_in->HeightsOver(q) : std::optional(AllowedHeights());
+    if (!allowed) return column;
+    const auto height = locator_.Height(q, nullptr, kHeightGap * radius);
+    double low = params_.floor_z + radius;
+    if (allowed->lowest > low) {
+      low = allowed->lowest;
+      column.normal = allowed->normal;
     }
-    column.center = Vec3(q.x(), q.y(), std::max(z, p_.z()));
-    if (params_.keep_in == nullptr || params_.keep_in->Allows(column.center))
-      column.distance = (column.center - p_).norm();
-    column.held = z > p_.z() && column.distance < kInfinity;
+    if (height && height->z > low) {
+      low = height->z;
+      column.normal = (Lift(q, low) - height->contact.p) / radius;
+    }
+    column.center = Lift(q, std::max(low, p_.z()));
+    column.held = low > p_.z();
+    if (low > allowed->highest) {
+      column.center.z() = low;  // of a ball that stands too high: it tells of lower ones beside it
+      column.held = true;
+      return column;
+    }
+    if (p_.z() > allowed->highest) {
+      column.center.z() = allowed->highest;
+      column.normal = -Vec3::UnitZ();
+      column.held = true;
+    }
+    column.distance = (column.center - p_).norm();
     return column;
   }
 
@@ -173,8 +210,8 @@ class NearestCenter {
 
 }  // namespace
 
-double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
-                       const RunContext& run) {
+Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
+                        const RunContext& run) {
   // Every free centre found for one place is a bound for all.
   std::vector<Column> found;
   for (const Vec3& p : places) {
@@ -197,7 +234,9 @@ double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return bounds[a] > bounds[b]; });
+  const double all = locator.surface().box.Diagonal();
   double deepest = locator.radius();
+  std::size_t place = 0;
   for (const std::size_t i : order) {
     if (run.Cancelled()) break;
     const double enough = deepest + kWorthwhile * (deepest - locator.radius()) + kStill * locator.radius();
@@ -207,11 +246,14 @@ double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std
     for (const bool around : {false, true}) {
       if (column.distance <= enough) break;
       column = around ? search.FromAround(column) : search.Descend(column);
-      found.push_back(column);
+      if (column.distance < kInfinity) found.push_back(column);
     }
-    if (column.distance > enough && column.distance < kInfinity) deepest = column.distance;
+    if (column.distance <= enough) continue;
+    deepest = column.distance;
+    place = i;
+    if (deepest == kInfinity) break;
   }
-  return deepest - locator.radius();
+  return {std::min(all, deepest - locator.radius()), place};
 }
 
 }  // namespace patchmill

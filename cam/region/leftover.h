@@ -15,13 +15,18 @@ struct LeftoverParams {
   const KeepIn* keep_in = nullptr;  // null: allows all centres
 };
 
-// mm, >= 0: the largest over `places`, points of the surface, of a ball of locator.radius(). Measured to
-// centres that are free, so a place's own is never too small; too large where the search for the nearest ends
-// in another local minimum. What is at most a fiftieth deeper than another, and R / 1000, is not looked for.
-// A place is left out when nothing is allowed within 32 R of it. Cost: a height a place, ten for those that
-// may be the deepest, two hundred for the few that are. Means nothing when
-// `run` was cancelled meanwhile.
-double DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
-                       const RunContext& run);
+struct Deepest {
+  double leftover = 0.0;  // mm, >= 0
+  std::size_t place = 0;  // position of the place it stays over; 0 where nothing does
+};
+
+// The largest over `places`, points of the surface, of a ball of locator.radius(). Measured to centres that
+// are free, so a place's own is never too small; too large where the search for the nearest ends in another
+// local minimum. What is at most a fiftieth deeper than another, and R / 1000, is not looked for. The
+// diagonal of the surface's box at most, and where nothing is allowed within 32 R of a place. Cost: a height
+// a place, ten for those that may be the deepest, two hundred for the few that are; more under limits. Means
+// nothing when `run` was cancelled meanwhile.
+Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
+                        const RunContext& run);
 
 }  // namespace patchmill

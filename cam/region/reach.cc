@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "cam/region/leftover.h"
 #include "cam/region/obstacle_finder.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
@@ -109,18 +108,20 @@ double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {
   return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - kFloorSlack);
 }
 
-double ReachTest::DeepestLeftover(std::span<const Vec3> places, const RunContext& run) const {
+Deepest ReachTest::DeepestLeftover(std::span<const Vec3> places, const RunContext& run) const {
   return patchmill::DeepestLeftover(free_ball_, {params_.floor_z, params_.keep_in}, places, run);
 }
 
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,
                          double tolerance) {
-  double low = 0.0, high = limit;
+  const auto free = [&](double r) {
+    return r <= tolerance || !AnythingNearUpwardRay(surface, p + r * normal, r - tolerance, 0.1 * tolerance);
+  };
+  if (free(limit)) return limit;
+  double low = 0.0, high = limit;  // what a ball sweeps on its way up holds what a smaller one does
   for (int i = 0; i < 12; ++i) {
     const double r = 0.5 * (low + high);
-    const bool free =
-        r <= tolerance || !AnythingNearUpwardRay(surface, p + r * normal, r - tolerance, 0.1 * tolerance);
-    (free ? low : high) = r;
+    (free(r) ? low : high) = r;
   }
   return low;
 }

@@ -6,6 +6,7 @@
 
 #include "cam/location/locator.h"
 #include "cam/location/ray_slide.h"
+#include "cam/region/leftover.h"
 #include "cam/region/obstacle_cloud.h"
 #include "cam/region/region_map.h"
 #include "cam/region/shank_finder.h"
@@ -44,7 +45,7 @@ class ReachTest {
   bool Allowed(const Vec3& p, const Vec3& normal) const;
 
   // The largest of what stays over some places, mm (leftover.h).
-  double DeepestLeftover(std::span<const Vec3> places, const RunContext& run) const;
+  Deepest DeepestLeftover(std::span<const Vec3> places, const RunContext& run) const;
 
  private:
   bool BlockedAbove(const Vec3& p, const Vec3& normal, ShankFinder& shank) const;

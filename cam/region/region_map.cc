@@ -147,16 +147,16 @@ absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitM
   }
   PM_ASSIGN_OR_RETURN(numbered.arcs,
                       FindBorderArcs(surface, meshes, adjacency, numbered.region_of, fields, tolerance, run));
-  PM_ASSIGN_OR_RETURN(
-      const std::vector<double> lenses,
-      LensAreas(surface, meshes, adjacency, numbered.arcs, numbered.region_of, merged.label.size(), run));
+  std::vector<double> flat(merged.label.size(), 0.0);
+  for (std::size_t i = 0; i < raw.regions.size(); ++i)
+    flat[static_cast<std::size_t>(merged.group[i])] += raw.regions[i].area;
+  PM_ASSIGN_OR_RETURN(const std::vector<double> gained,
+                      BendAreas(surface, meshes, adjacency, numbered.region_of, flat, run, numbered.arcs));
   std::vector<Region> groups;
   for (std::size_t k = 0; k < merged.label.size(); ++k) {
     groups.push_back(FromLabel(merged.label[k]));
-    groups.back().area = lenses[k];
+    groups.back().area = flat[k] + gained[k];
   }
-  for (std::size_t i = 0; i < raw.regions.size(); ++i)
-    groups[static_cast<std::size_t>(merged.group[i])].area += raw.regions[i].area;
   std::vector<std::size_t> order(groups.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -285,7 +285,6 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   const BorderArcs& arcs = numbered.arcs;
   PM_ASSIGN_OR_RETURN(const BorderPoints points,
                       FindBorderPoints(surface, meshes, adjacency, arcs, params.border_tolerance, run));
-  PlaceRegions(surface, meshes, region_of, regions);
   const auto unreachable = UnreachableTriangles(meshes, region_of, regions);
   absl::Status told[3];
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions: figures", 3 + regions.size(), [&](std::size_t k) {
@@ -307,6 +306,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   }));
   ListPatches(surface, region_of, regions);
   for (const absl::Status& status : told) PM_RETURN_IF_ERROR(status);
+  PlaceRegions(surface, meshes, region_of, map, regions);
   map.border_lines = std::move(net.lines);
   map.nodes = std::move(net.nodes);
   map.regions = std::move(regions);

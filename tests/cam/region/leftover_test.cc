@@ -17,7 +17,11 @@ using namespace testing;  // NOLINT: the support folder's
 constexpr double kR = 3.0, kNear = 0.01 * kR;
 
 double LeftoverAt(const Surface& surface, const Vec3& p, const LeftoverParams& params = {}) {
-  return DeepestLeftover(Locator(surface, kR), params, {&p, 1}, RunContext());
+  return DeepestLeftover(Locator(surface, kR), params, {&p, 1}, RunContext()).leftover;
+}
+
+absl::StatusOr<KeepIn> Within(const Surface& surface, const Containment& containment) {
+  return KeepIn::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
 }
 
 TEST(Leftover, InAValleyOfTwoPlanes) {
@@ -65,7 +69,7 @@ TEST(Leftover, InASteepGroove) {
         const double t = touch + (12.0 - touch) * i / 4000.0, s = std::hypot(1.0, 2.0 * a * t);
         nearest = std::min(nearest, std::hypot(t - 2.0 * a * t * kR / s - x, a * t * t + kR / s - p.z()));
       }
-      EXPECT_NEAR(DeepestLeftover(locator, {}, {&p, 1}, RunContext()), nearest - kR, kNear)
+      EXPECT_NEAR(DeepestLeftover(locator, {}, {&p, 1}, RunContext()).leftover, nearest - kR, kNear)
           << a << " " << share;
     }
   }
@@ -98,13 +102,55 @@ TEST(Leftover, KeepsToWhatIsAllowed) {
   Containment containment;
   const Outline outline({{{-20, -20}, {4, -20}, {4, 20}, {-20, 20}}});
   containment.boundary = Boundary{outline, BoundaryMode::kCenter, 0.0};
-  const auto keep_in =
-      KeepIn::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
+  const auto keep_in = Within(surface, containment);
   ASSERT_TRUE(keep_in.ok()) << keep_in.status();
   const LeftoverParams params{.keep_in = &*keep_in};
   for (const double x : {5.0, 9.0, 17.0})
     EXPECT_NEAR(LeftoverAt(surface, Vec3(x, 1, 0), params), std::hypot(x - 4.0, kR) - kR, kNear) << x;
   EXPECT_EQ(LeftoverAt(surface, Vec3(3, 1, 0), params), 0.0);
+}
+
+TEST(Leftover, UnderAHighestTipIsMeasuredFromTheSide) {
+  // A ball that may not go higher than 5 is beside the hemisphere, where both spheres touch.
+  const Surface ball = SurfaceOf(Sphere(Vec3::Zero(), 10, Half::kUpper));
+  Containment low;
+  low.top_z = 5.0;
+  const auto under = Within(ball, low);
+  ASSERT_TRUE(under.ok()) << under.status();
+  const double beside = std::sqrt(13.0 * 13.0 - 8.0 * 8.0);
+  EXPECT_NEAR(LeftoverAt(ball, Vec3(0, 0, 10), {.keep_in = &*under}), std::hypot(beside, 2.0) - kR, kNear);
+  EXPECT_NEAR(LeftoverAt(ball, Vec3(6, 0, 8), {.keep_in = &*under}), beside - 6.0 - kR, kNear);
+  // Below the sheet altogether: from beyond its edge, which the ball touches.
+  const Surface sheet = SurfaceOf(Plane(6));
+  low.top_z = -2.0;
+  const auto below = Within(sheet, low);
+  ASSERT_TRUE(below.ok()) << below.status();
+  EXPECT_NEAR(LeftoverAt(sheet, Vec3::Zero(), {.keep_in = &*below}),
+              std::hypot(6.0 + std::sqrt(8.0), 1.0) - kR, kNear);
+}
+
+TEST(Leftover, BesideAClampIsMeasuredFromItsSideOrFromAboveIt) {
+  // Up to 5 over the plane, 1 around it; the axis keeps R and 1 from it, or the tip 1 above it.
+  const Surface surface = SurfaceOf(Plane(40));
+  Containment containment;
+  containment.obstacles.push_back({"clamp", Outline({{{-5, -30}, {5, -30}, {5, 30}, {-5, 30}}}), 4.0, 1.0});
+  const auto keep_in = Within(surface, containment);
+  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+  const LeftoverParams params{.keep_in = &*keep_in};
+  EXPECT_NEAR(LeftoverAt(surface, Vec3(0, 0, 0), params), 5.0, kNear);
+  EXPECT_NEAR(LeftoverAt(surface, Vec3(3, 0, 0), params), std::hypot(6.0, kR) - kR, kNear);
+  EXPECT_NEAR(LeftoverAt(surface, Vec3(9.5, 0, 0), params), 0.0, kNear);
+}
+
+TEST(Leftover, WhereNothingIsAllowedIsAllThereIs) {
+  const Surface surface = SurfaceOf(Plane(30));
+  Containment containment;
+  containment.top_z = -2.0;
+  const auto keep_in = Within(surface, containment);
+  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+  // A floor over what is allowed.
+  EXPECT_DOUBLE_EQ(LeftoverAt(surface, Vec3::Zero(), {.floor_z = -1.0, .keep_in = &*keep_in}),
+                   surface.box.Diagonal());
 }
 
 TEST(Leftover, IsAsBruteForceFindsIt) {
@@ -117,7 +163,7 @@ TEST(Leftover, IsAsBruteForceFindsIt) {
     for (int i = 0; i < 12; ++i) {
       const auto& piece = surface.pieces[seed * 7919 % surface.pieces.size()];
       const Vec3 p = Evaluate(piece, random.Uniform(0, 1), random.Uniform(0, 1)).p;
-      const double found = DeepestLeftover(locator, {}, {&p, 1}, RunContext());
+      const double found = DeepestLeftover(locator, {}, {&p, 1}, RunContext()).leftover;
       double nearest = kInfinity;
       for (int k = 0; k < 4000; ++k) {
         const double angle = random.Uniform(0, 2 * kPi), out = (found + kR) * std::sqrt(random.Uniform(0, 1));
@@ -143,8 +189,8 @@ TEST(Leftover, OfManyPlacesIsThatOfTheDeepest) {
     places.push_back({x, random.Uniform(-15, 15), std::abs(x) * std::tan(Radians(60))});
     deepest = std::max(deepest, LeftoverAt(surface, places.back()));
   }
-  EXPECT_DOUBLE_EQ(DeepestLeftover(Locator(surface, kR), {}, places, RunContext()), deepest);
-  EXPECT_EQ(DeepestLeftover(Locator(surface, kR), {}, {}, RunContext()), 0.0);
+  EXPECT_DOUBLE_EQ(DeepestLeftover(Locator(surface, kR), {}, places, RunContext()).leftover, deepest);
+  EXPECT_EQ(DeepestLeftover(Locator(surface, kR), {}, {}, RunContext()).leftover, 0.0);
 }
 
 }  // namespace

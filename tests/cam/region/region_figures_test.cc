@@ -1,0 +1,181 @@
+// What a region says of itself: the tool that would reach it and what stays, against closed forms and grids
+// of places.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/location/keep_in.h"
+#include "cam/region/reach.h"
+#include "cam/region/region_map.h"
+#include "core/diffgeo/forms.h"
+#include "core/surface/closest.h"
+#include "tests/support/files.h"
+#include "tests/support/sanitized.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+constexpr double kR = 3.0;
+
+RegionParams Params() {
+  RegionParams params;
+  params.radius = kR;
+  params.tolerance = 0.01;
+  return params;
+}
+
+RegionMap Split(const Surface& surface, const RegionParams& params) {
+  auto map = SplitRegions(surface, params, RunContext());
+  EXPECT_TRUE(map.ok()) << map.status();
+  return map.ok() ? *std::move(map) : RegionMap();
+}
+
+int Count(const RegionMap& map, UnreachableReason reason) {
+  return static_cast<int>(std::count_if(map.regions.begin(), map.regions.end(), [&](const Region& r) {
+    return r.kind == RegionKind::kUnreachable && r.reason == reason;
+  }));
+}
+
+double TotalArea(const RegionMap& map) {
+  double area = 0.0;
+  for (const Region& r : map.regions) area += r.area;
+  return area;
+}
+
+TEST(RegionFigures, NoToolReachesACrease) {
+  // Two planes of 45 degrees: at their crease only the tolerance lets a ball in.
+  const double a = Radians(45.0);
+  const RegionMap map = Split(SurfaceOf(TwoPlanes(a, 20)), Params());
+  ASSERT_EQ(Count(map, UnreachableReason::kConcave), 1);
+  for (const Region& r : map.regions) {
+    if (r.kind != RegionKind::kUnreachable) continue;
+    EXPECT_EQ(r.largest_tool_diameter, 0.0);
+    const double stays = kR / std::cos(a) - kR;
+    EXPECT_NEAR(r.deepest_leftover, stays, 0.03 * stays);
+  }
+}
+
+// The least radius over a grid on every piece. What is said is below it only as far as places between those
+// of the grid are worse.
+TEST(RegionFigures, TheToolForARegionReachesAllOfIt) {
+  Eigen::Affine3d upright = Eigen::Affine3d::Identity();
+  upright.rotate(Eigen::AngleAxisd(Radians(90.0), Vec3::UnitX())).scale(50.0);
+  const Surface surface = SurfaceOf(Transformed(LoadModel("examples/teapot.bpt"), upright));
+  const RegionParams params = Params();
+  const RegionMap map = Split(surface, params);
+  std::vector<double> least(map.regions.size(), kR);
+  constexpr int kGrid = kSanitized ? 20 : 60;
+  for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
+    for (int k = 0; k < kGrid * kGrid; ++k) {
+      const double u = (k / kGrid + 0.5) / kGrid, v = (k % kGrid + 0.5) / kGrid;
+      const SurfaceJet jet = Evaluate(surface.pieces[i], u, v);
+      const auto id = static_cast<std::size_t>(map.At({PieceId(i), u, v, jet.p}));
+      const auto e = UpwardNormal(jet);
+      if (!e || map.regions[id].kind != RegionKind::kUnreachable ||
+          map.regions[id].reason != UnreachableReason::kConcave) {
+        continue;
+      }
+      least[id] = LargestFreeRadius(surface, jet.p, *e, least[id], params.tolerance);
+    }
+  }
+  int creases = 0, grooves = 0;
+  for (std::size_t id = 0; id < map.regions.size(); ++id) {
+    const Region& r = map.regions[id];
+    if (r.kind != RegionKind::kUnreachable || r.reason != UnreachableReason::kConcave) continue;
+    SCOPED_TRACE(id);
+    if (r.largest_tool_diameter == 0.0) {
+      ++creases;
+      EXPECT_LT(least[id], 10.0 * params.tolerance);
+    } else {
+      ++grooves;
+      EXPECT_LE(r.largest_tool_diameter, 2.02 * least[id]);
+      EXPECT_GE(r.largest_tool_diameter, 1.95 * least[id]);
+    }
+  }
+  EXPECT_GE(creases, 3);  // where spout, handle and lid meet the body
+  EXPECT_GE(grooves, 1);  // below the lid's edge
+}
+
+TEST(RegionFigures, UnderAHighestTipTheTopOfABallStays) {
+  const Surface surface = SurfaceOf(Sphere(Vec3::Zero(), 10, Half::kUpper));
+  Containment containment;
+  containment.top_z = 5.0;
+  const auto keep_in =
+      KeepIn::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
+  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+  RegionParams params = Params();
+  params.keep_in = &*keep_in;
+  const RegionMap map = Split(surface, params);
+  ASSERT_EQ(Count(map, UnreachableReason::kAvoided), 1);
+  for (const Region& r : map.regions) {
+    if (r.kind != RegionKind::kUnreachable) continue;
+    // From the circle of centres at height 8, all of them 13 from the middle.
+    const double stays = std::hypot(std::sqrt(13.0 * 13.0 - 8.0 * 8.0), 2.0) - kR;
+    EXPECT_NEAR(r.deepest_leftover, stays, 0.03 * stays);
+  }
+}
+
+TEST(RegionFigures, WhereNoBallIsAllowedEverythingStays) {
+  const Surface surface = SurfaceOf(Sphere(Vec3::Zero(), 10, Half::kUpper));
+  Containment containment;
+  containment.top_z = -5.0;
+  const auto keep_in =
+      KeepIn::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
+  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+  RegionParams params = Params();
+  params.keep_in = &*keep_in;
+  params.floor_z = 0.0;
+  const RegionMap map = Split(surface, params);
+  ASSERT_GE(map.regions.size(), 1u);
+  for (const Region& r : map.regions) {
+    ASSERT_EQ(r.kind, RegionKind::kUnreachable);
+    EXPECT_DOUBLE_EQ(r.deepest_leftover, surface.box.Diagonal());
+  }
+}
+
+// The raw split, slivers and all.
+TEST(RegionFigures, UnmergedRegionsHaveAreasAndPointsOfTheirOwn) {
+  struct Part {
+    std::string file;
+    double scale;
+  };
+  for (const Part& part :
+       {Part{"examples/teapot.bpt", 50.0}, Part{"tests/models/teacup.bpt", 20.0},
+        Part{"tests/models/icosahedron.patches", 30.0}, Part{"tests/models/toroidal_tet.patches", 40.0},
+        Part{"tests/models/torus_bicubic.patches", 30.0}}) {
+    if (kSanitized && part.scale > 40.0) continue;
+    SCOPED_TRACE(part.file);
+    Eigen::Affine3d upright = Eigen::Affine3d::Identity();
+    upright.rotate(Eigen::AngleAxisd(Radians(90.0), Vec3::UnitX())).scale(part.scale);
+    const Surface surface = SurfaceOf(Transformed(LoadModel(part.file), upright));
+    RegionParams params = Params();
+    const double all = TotalArea(Split(surface, params));
+    params.detail = 1.0;
+    const RegionMap map = Split(surface, params);
+    EXPECT_NEAR(TotalArea(map), all, 1e-6 * all);
+    std::vector<bool> has_cells(map.regions.size(), false);
+    for (const std::vector<int>& labels : map.labels)
+      for (const int id : labels) has_cells[static_cast<std::size_t>(id)] = true;
+    int without = 0;
+    for (const Region& r : map.regions) {
+      SCOPED_TRACE(r.id);
+      EXPECT_GT(r.area, 0.0);
+      const auto id = static_cast<std::size_t>(r.id);
+      without += !has_cells[id];
+      const auto found = ClosestToPoint(surface, r.inside, 1.0, 1e-6);
+      ASSERT_TRUE(found);
+      constexpr double kSliver = 0.01;  // mm2, along a seam: a point of it may be its neighbour's as well
+      if (!has_cells[id] || r.area < kSliver) continue;
+      EXPECT_EQ(map.At(found->at), r.id) << r.area << " mm2";
+    }
+    EXPECT_LE(20 * without, static_cast<int>(map.regions.size()));
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
