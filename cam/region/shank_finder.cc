@@ -17,6 +17,7 @@ ShankFinder::ShankFinder(const Locator& ball, const ObstacleCloud& cloud, double
       cloud_(cloud),
       ball_radius_(ball.radius()),
       radius_(radius),
+      clear_(0.5 * (ball_radius_ + radius_)),
       proof_(kProof * radius),
       nearer_(kNearer * radius) {
   last_.fill(Vec3::Constant(kInfinity));
@@ -30,22 +31,38 @@ double ShankFinder::KnownAbove(const Vec3& center) const {
   return std::sqrt(least);
 }
 
+bool ShankFinder::Blocked(const Vec3& center) {
+  const bool known = KnownAbove(center) < ball_radius_;
+  if (!known && !MayRiseAbove(surface_, center, radius_)) return false;
+  return ShankIsNearer(center, known) || BallClears(center);
+}
+
+bool ShankFinder::BallClears(const Vec3& center) {
+  constexpr double kProven = 0.1;  // of what the ball is smaller by
+  if (NearAtMost(center) < clear_) return false;
+  const auto near = ClosestToPoint(surface_, center, clear_, kProven * (radius_ - ball_radius_));
+  if (near) near_ = near->at.p;
+  return !near;
+}
+
+// Anything known bounds how near the nearest is.
+double ShankFinder::NearAtMost(const Vec3& center) {
+  const double near = std::min(radius_, (near_ - center).norm());
+  if (const auto point = cloud_.Nearest(center, near)) near_ = *point;
+  return std::min(near, (near_ - center).norm());
+}
+
 // With T the distance from the upward ray and B that from the centre: T < B - nearer. Any point above gives
 // an upper bound of T, any point one of B.
-bool ShankFinder::Blocked(const Vec3& center) {
+bool ShankFinder::ShankIsNearer(const Vec3& center, bool known) {
   double limit = ball_radius_ + proof_;
-  if (const double above = KnownAbove(center); above < ball_radius_) {
-    const auto near = ClosestToPoint(surface_, center, above + nearer_, proof_);
+  if (known) {
+    const auto near = ClosestToPoint(surface_, center, KnownAbove(center) + nearer_, proof_);
     if (!near) return true;
     limit = std::min(limit, near->distance - nearer_ + proof_);
+    near_ = near->at.p;
   } else {
-    if (!MayRiseAbove(surface_, center, radius_)) return false;
-    double near = std::min(radius_, (near_ - center).norm());
-    if (const auto point = cloud_.Nearest(center, near)) {
-      near_ = *point;
-      near = (near_ - center).norm();
-    }
-    limit = std::min(limit, near - nearer_);
+    limit = std::min(limit, NearAtMost(center) - nearer_);
   }
   if (limit <= 0.0) return false;
   const auto shank = ClosestAbove(surface_, center, limit, proof_);

@@ -15,17 +15,21 @@ class ShankFinder {
   // `ball` is the free ball of ReachTest, `radius` that of the tool with the stock to leave.
   ShankFinder(const Locator& ball, const ObstacleCloud& cloud, double radius);
 
-  // Something over the ball at `center` comes nearer to its axis than anything does to the centre, by 0.02
-  // radii; distances are known to 0.001 of them.
+  // Of a ball that is not free: something over the one at `center` comes nearer to its axis than anything
+  // does to the centre, by 0.02 radii, with distances known to 0.001 of them; or the ball alone would be
+  // free, by half the tolerance.
   bool Blocked(const Vec3& center);
 
  private:
+  bool ShankIsNearer(const Vec3& center, bool known);
+  bool BallClears(const Vec3& center);
+  double NearAtMost(const Vec3& center);
   // Of the distance of the known points over `center` from its axis the least.
   double KnownAbove(const Vec3& center) const;
 
   const Surface& surface_;
   const ObstacleCloud& cloud_;
-  const double ball_radius_, radius_, proof_, nearer_;
+  const double ball_radius_, radius_, clear_, proof_, nearer_;
   Vec3 near_ = Vec3::Constant(kInfinity);  // what was nearest last
   std::array<Vec3, 8> last_;               // what was above
   std::size_t next_ = 0;

@@ -58,7 +58,7 @@ bool NothingNear(const Surface& surface, const Vec3& c, double limit, double pro
 
 // What stands above the centre comes nearer to the shank than anything to the ball (docs/reach.md), which
 // touches the surface at `radius`. Close to where the rule changes, what is known may decide.
-bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
+bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
   const double proof = kReasonProof * radius, nearer = kNearer * radius;
   limit = std::min(limit, obstacles.DistanceTo(c, radius) - nearer + proof);
   if (!(limit > 0.0)) return false;
@@ -68,6 +68,14 @@ bool BlockedAbove(const Surface& surface, const Vec3& c, double radius, double l
   const auto nearest = NearestToRay(surface, c, limit, proof, obstacles);
   return nearest && nearest->at.z() > c.z() &&
          NothingNear(surface, c, nearest->distance + nearer, proof, obstacles);
+}
+
+// Of a ball that is not free: UNDERCUT.
+bool BlockedAbove(const Surface& surface, const Vec3& c, const ReachParams& params, Obstacles& obstacles) {
+  const double limit = params.radius - params.tolerance;
+  return ShankIsNearer(surface, c, params.radius, limit, obstacles) ||
+         NothingNear(surface, c, params.radius - 0.5 * params.tolerance, kProof * params.tolerance,
+                     obstacles);
 }
 
 }  // namespace
@@ -127,8 +135,7 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
     if (InTheWay(surface, c, limit, kProof * params.tolerance, obstacles)) {
-      found = BlockedAbove(surface, c, params.radius, limit, obstacles) ? ReachClass::kUndercut
-                                                                        : ReachClass::kConcave;
+      found = BlockedAbove(surface, c, params, obstacles) ? ReachClass::kUndercut : ReachClass::kConcave;
     } else if (c.z() < params.floor_z - kFloorSlack) {
       found = ReachClass::kFloor;
     } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.tolerance)) {

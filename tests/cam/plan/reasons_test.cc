@@ -56,7 +56,7 @@ void ExpectAgreement(const PatchModel& model, const Job& job) {
   const auto planned = FromRegions(surface, job), judged = FromVerifier(surface, job);
   // A strip as narrow as the tolerance between two reasons is below what the map resolves: on a wall over its
   // floor, where the ball is free by the tolerance and the tip is not.
-  const double strips = 0.002 * (judged[kUndercut] + judged[kConcave] + judged[kFloor]);
+  const double strips = 0.0005 * (judged[kUndercut] + judged[kConcave] + judged[kFloor]);
   for (int reason = 0; reason < kReasons; ++reason) {
     const auto k = static_cast<std::size_t>(reason);
     EXPECT_NEAR(planned[k], judged[k], 0.01 * judged[k] + strips) << "reason " << reason;
@@ -95,6 +95,26 @@ TEST(Reasons, Teacup) {
   job.setup.placement.scale = 50.0;
   job.setup.placement.up = UpAxis::kY;
   ExpectAgreement(LoadModel("tests/models/teacup.bpt"), job);
+}
+
+// Along the limit of ground that only the shank cannot get to the ball alone fits: no strip of it is CONCAVE.
+TEST(Reasons, BesideOverhangsNothingIsConcave) {
+  Job job = BallJob(3.0, /*deep=*/false);
+  job.setup.placement.scale = 50.0;
+  const PatchModel model = LoadModel("tests/models/toroidal_tet.patches");
+  ExpectAgreement(model, job);
+  const Surface surface = PlacedSurface(model, job.setup);
+  for (const auto& area : {FromRegions(surface, job), FromVerifier(surface, job)}) {
+    EXPECT_GT(area[kUndercut], 10'000.0);
+    EXPECT_LT(area[kConcave], 0.1);
+  }
+}
+
+TEST(Reasons, Teapot) {
+  Job job = BallJob(3.0, /*deep=*/false);
+  job.setup.placement.scale = 50.0;
+  job.setup.placement.up = UpAxis::kY;
+  ExpectAgreement(LoadModel("examples/teapot.bpt"), job);
 }
 
 }  // namespace
