@@ -22,6 +22,9 @@ constexpr struct {
   const char* option;
 } kOptions[] = {
     {"ball_end.diameter_mm", "--tool-diameter"},
+    {"flute_length_mm", "--flute-length"},
+    {"shank_diameter_mm", "--shank-diameter"},
+    {"stickout_mm", "--stickout"},
     {"scallop_mm", "--scallop"},
     {"tolerance_mm", "--tolerance"},
     {"stock_to_leave_mm", "--leave"},

@@ -125,6 +125,15 @@ void AddSplitOptions(CLI::App& app, OperationOptions& options) {
             "lowest tip, mm, program frame; default: the model's lowest point");
 }
 
+void AddShankOptions(CLI::App& app, ShankOptions& options) {
+  AddNumber(app, "--flute-length", options.flute_length,
+            "cutting length from the tip, mm; default: not known, not checked");
+  AddNumber(app, "--shank-diameter", options.shank_diameter,
+            "above the flutes, mm: must not touch the part either; default: as wide as the ball");
+  AddNumber(app, "--stickout", options.stickout,
+            "tip to holder, mm: a warning where the job needs more; default: not known");
+}
+
 void AddSetupOptions(CLI::App& app, SetupOptions& options) {
   AddNumber(app, "--scale", options.scale, "factor of the model's numbers");
   app.add_option("--up", options.up, "the model's axis that points up on the machine")
@@ -183,12 +192,19 @@ v1::EdgeRule MakeEdgeRule(const std::string& name) {
   return v1::EDGE_RULE_STOP;
 }
 
+void SetShank(const ShankOptions& options, v1::Tool& tool) {
+  if (options.flute_length) tool.set_flute_length_mm(*options.flute_length);
+  if (options.shank_diameter) tool.set_shank_diameter_mm(*options.shank_diameter);
+  if (options.stickout) tool.set_stickout_mm(*options.stickout);
+}
+
 v1::Operation MakeOperation(const OperationOptions& options) {
   v1::Operation op;
   v1::Tool& tool = *op.mutable_tool();
   tool.set_number(options.tool_number);
   tool.mutable_ball_end()->set_diameter_mm(options.tool_diameter);
   tool.set_coolant(MakeCoolant(options.coolant));
+  SetShank(options.shank, tool);
   SetCuttingData(options, tool);
   op.set_scallop_mm(options.scallop);
   op.set_tolerance_mm(options.tolerance);

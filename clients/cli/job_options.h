@@ -23,6 +23,11 @@ struct SetupOptions {
   double allowance = 0.5;
 };
 
+// The tool above its ball.
+struct ShankOptions {
+  std::optional<double> flute_length, shank_diameter, stickout;
+};
+
 struct OperationOptions {
   double tool_diameter = 6.0, scallop = 0.01, tolerance = 0.01, leave = 0.0, steep_angle = 45.0;
   std::string strategy = "auto", direction = "climb", coolant = "off", edges = "stop";
@@ -31,6 +36,7 @@ struct OperationOptions {
   bool no_round_lines = false;
   std::optional<double> floor, feed, plunge_feed, spindle;
   int tool_number = 1;
+  ShankOptions shank;
 };
 
 // A number option: finite, or the command line is wrong.
@@ -41,12 +47,14 @@ CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<dou
 void AddCommonOptions(CLI::App& app, CommonOptions& options);
 // --tool-diameter to --steep-angle, --detail, --floor: what regions depend on.
 void AddSplitOptions(CLI::App& app, OperationOptions& options);
+void AddShankOptions(CLI::App& app, ShankOptions& options);
 void AddSetupOptions(CLI::App& app, SetupOptions& options);
 void AddStockOptions(CLI::App& app, SetupOptions& options);
 
 inline constexpr char kModelHelp[] = "model file: .json, .pb, .bpt, .bv, .bez, .patches";
 
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options);
+void SetShank(const ShankOptions& options, v1::Tool& tool);
 v1::Operation MakeOperation(const OperationOptions& options);
 v1::Strategy MakeStrategy(const std::string& name);
 bool ReadFinite(const std::string& text, double& value);

@@ -216,6 +216,7 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
       ->check(CLI::IsMember({"off", "flood", "mist", "air"}))
       ->capture_default_str();
   app.add_option("--tool-number", op.tool_number, "T word")->capture_default_str();
+  AddShankOptions(app, op.shank);
 }
 
 }  // namespace

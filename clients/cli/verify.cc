@@ -24,6 +24,7 @@ struct VerifyOptions {
   double tool_diameter = 0.0, tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
   double detail = 0.5;
   std::optional<double> scallop, floor;
+  ShankOptions shank;
 };
 
 absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& options) {
@@ -43,7 +44,9 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   if (Selects(options.limits)) *request.mutable_selection() = std::move(selection);
   if (options.limits.top) request.set_top_z_mm(*options.limits.top);
   request.set_program(*std::move(program));
-  request.add_tools()->mutable_ball_end()->set_diameter_mm(options.tool_diameter);
+  v1::Tool& tool = *request.add_tools();
+  tool.mutable_ball_end()->set_diameter_mm(options.tool_diameter);
+  SetShank(options.shank, tool);
   request.set_tolerance_mm(options.tolerance);
   if (options.scallop) request.set_scallop_mm(*options.scallop);
   request.set_stock_to_leave_mm(options.leave);
@@ -118,6 +121,7 @@ Command AddVerify(CLI::App& app) {
   app.add_option("MODEL", options->model, kModelHelp)->required();
   app.add_option("PROGRAM", options->program, "program text, ours or another's")->required();
   AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter, mm")->required();
+  AddShankOptions(app, options->shank);
   AddNumber(app, "--tolerance", options->tolerance, "largest gouge, mm");
   AddNumber(app, "--scallop", options->scallop,
             "largest ridge, mm; default: leftover is measured, not judged");

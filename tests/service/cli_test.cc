@@ -1,5 +1,6 @@
 // The programs as a user meets them: exit statuses, messages, and what lies on disk afterwards.
 #include <algorithm>
+#include <cstdio>
 #include <regex>
 
 #include <gmock/gmock.h>
@@ -78,6 +79,26 @@ TEST_F(Cli, MillWritesProgramReportAndPicture) {
   EXPECT_THAT(run.out, IsEmpty());
   EXPECT_THAT(run.err, AllOf(HasSubstr("COMPLETE, verified"), HasSubstr("DEFAULT_CUTTING_DATA")));
   EXPECT_THAT(run.err, Not(HasSubstr("\r"))) << "a progress bar in a pipe";
+}
+
+TEST_F(Cli, TheShankIsJudgedAndTheStickoutWarnedOf) {
+  const Finished slim = Mill(bump_, {"--flute-length", "30", "--shank-diameter", "10", "--stickout", "0.1"});
+  EXPECT_EQ(slim.status, 0) << slim.err;
+  EXPECT_THAT(slim.err, HasSubstr("STICKOUT_TOO_SHORT"));
+  // Half a millimetre above the tip it is wider than the hill is steep.
+  const std::vector<std::string> wide = {"--flute-length", "0.5", "--shank-diameter", "30"};
+  std::vector<std::string> verify = {
+      "verify", bump_, out_ / "part.ngc", "--tool-diameter", "6", "--tolerance", "0.02", "--floor", "-1"};
+  EXPECT_EQ(Patchmill(verify).status, 0);
+  verify.insert(verify.end(), wide.begin(), wide.end());
+  const Finished judged = Patchmill(verify);
+  EXPECT_EQ(judged.status, 1);
+  EXPECT_THAT(judged.out + judged.err, HasSubstr("SHANK_GOUGE"));
+  ASSERT_EQ(std::remove((out_ / "part.ngc").c_str()), 0);
+  const Finished refused = Mill(bump_, wide);
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.err, HasSubstr("SHANK_GOUGE"));
+  EXPECT_THAT(out_.Names(), IsEmpty());
 }
 
 // A file's name is not text until it is made so: cut between characters, other bytes replaced.
@@ -275,6 +296,11 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"ToolZero",
               {"--tool-diameter", "0"},
               "--tool-diameter: job.operations[0].tool.ball_end.diameter_mm = 0"},
+        Wrong{"ShankWithoutFlutes",
+              {"--shank-diameter", "20"},
+              "--flute-length: job.operations[0].tool.flute_length_mm is missing"},
+        Wrong{
+            "StickoutNegative", {"--stickout", "-1"}, "--stickout: job.operations[0].tool.stickout_mm = -1"},
         Wrong{"ToolAbsurd", {"--tool-diameter", "1e9"}, "must be in [0.02, 1000]"},
         Wrong{"ScallopAboveRadius",
               {"--tool-diameter", "1", "--scallop", "0.6"},
