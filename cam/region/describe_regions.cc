@@ -143,14 +143,14 @@ class Closing {
     return Position(surface_.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
   }
 
-  // About so many places within `reach` (mm) of one, at least one of its own triangle.
+  // That place and up to so many more within `reach` (mm) of it.
   std::vector<Spot> Around(const Spot& from, double reach, std::size_t count) {
     const Vec3 middle = At(from);
     std::vector<TriangleRef> near;
     for (const TriangleRef& t : triangles_) {
       if (Same(t, from.triangle) || Distance(t, middle) < reach) near.push_back(t);
     }
-    std::vector<Spot> spots;
+    std::vector<Spot> spots{from};
     const double stride = static_cast<double>(near.size()) / static_cast<double>(count);
     for (std::size_t k = 0; k < count; ++k) {
       const auto which = static_cast<std::size_t>(std::floor(static_cast<double>(k) * stride));
