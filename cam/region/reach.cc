@@ -114,16 +114,22 @@ Deepest ReachTest::DeepestLeftover(std::span<const Vec3> places, const RunContex
 
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,
                          double tolerance) {
-  const auto free = [&](double r) {
-    return r <= tolerance || !AnythingNearUpwardRay(surface, p + r * normal, r - tolerance, 0.1 * tolerance);
-  };
-  if (free(limit)) return limit;
-  double low = 0.0, high = limit;  // what a ball sweeps on its way up holds what a smaller one does
-  for (int i = 0; i < 12; ++i) {
-    const double r = 0.5 * (low + high);
-    (free(r) ? low : high) = r;
+  double largest = 0.0;
+  for (const double side : {1.0, -1.0}) {
+    if (side < 0.0 && !ReachTest::Upright(normal)) break;
+    const auto free = [&](double r) {
+      return r <= tolerance ||
+             !AnythingNearUpwardRay(surface, p + side * r * normal, r - tolerance, 0.1 * tolerance);
+    };
+    if (free(limit)) return limit;
+    double low = 0.0, high = limit;  // what a ball sweeps on its way up holds what a smaller one does
+    for (int i = 0; i < 12; ++i) {
+      const double r = 0.5 * (low + high);
+      (free(r) ? low : high) = r;
+    }
+    largest = std::max(largest, low);
   }
-  return low;
+  return largest;
 }
 
 }  // namespace patchmill

@@ -54,7 +54,8 @@ class ReachTest {
   ObstacleCloud cloud_;
 };
 
-// Largest ball (mm, radius) that touches p from the side of `normal` and is free upward, at most `limit`.
+// Largest ball (mm, radius) that touches p from the side of `normal`, upright ground from either side, and is
+// free upward, at most `limit`; to limit / 4096. All of at most `tolerance` count as free.
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,
                          double tolerance);
 

@@ -60,6 +60,28 @@ TEST(RegionFigures, NoToolReachesACrease) {
   }
 }
 
+TEST(RegionFigures, TheToolForASlotOfUprightWallsIsAsWide) {
+  // 5 wide, without a bottom: a ball of 2.5 and half the tolerance enters it. On its walls no side is the
+  // upper one, and behind them lies the part.
+  const double half = 2.5, far = 20.0, deep = 10.0;
+  const auto wall = [&](double x) {
+    return Single(Bilinear({x, -far, -deep}, {x, far, -deep}, {x, -far, 0}, {x, far, 0}));
+  };
+  const auto top = [&](double x, double end) {
+    return Single(Bilinear({x, -far, 0}, {x, far, 0}, {end, -far, 0}, {end, far, 0}));
+  };
+  const PatchModel slot = Join({wall(-half), top(-half, -far), wall(half), top(half, far)});
+  const RegionParams params = Params();
+  const RegionMap map = Split(SurfaceOf(slot), params);
+  int walls = 0;
+  for (const Region& r : map.regions) {
+    if (r.kind != RegionKind::kUnreachable || r.reason != UnreachableReason::kConcave) continue;
+    ++walls;
+    EXPECT_NEAR(r.largest_tool_diameter, 2.0 * half + params.tolerance, 0.01);
+  }
+  EXPECT_EQ(walls, 2);
+}
+
 // The least radius over a grid on every piece. What is said is below it only as far as places between those
 // of the grid are worse.
 TEST(RegionFigures, TheToolForARegionReachesAllOfIt) {
