@@ -81,10 +81,8 @@ std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q) const {
   AllowedHeights heights;
   if (containment_->top_z) heights.highest = *containment_->top_z + r;
   for (const Obstacle& o : containment_->obstacles) {
-    const double over = o.top_z + o.margin;  // its tip: beside the prism any height will do
-    if (over + r > heights.lowest && ObstacleRoom(o, Lift(q, over - 1.0), params_.tool_radius) < 0.0) {
-      heights.lowest = over + r;
-    }
+    const bool beside = ObstacleRoom(o, Lift(q, -kInfinity), params_.tool_radius) >= 0.0;
+    if (!beside) heights.lowest = std::max(heights.lowest, o.top_z + o.margin + r);
   }
   if (avoided_locator_) {
     const auto height = avoided_locator_->Height(q, nullptr, 0.1 * params_.tolerance);

@@ -1,0 +1,85 @@
+// Which heights a column allows, against what is allowed at single centres.
+#include "cam/location/keep_in.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+constexpr double kBall = 3.0, kShank = 4.0, kTolerance = 0.01;
+
+Outline Square(double x, double y, double half) {
+  return Outline({{{x - half, y - half}, {x + half, y - half}, {x + half, y + half}, {x - half, y + half}}});
+}
+
+// A hill beside a lid over a plane.
+Surface Part() {
+  Surface surface = SurfaceOf(Join({Plane(30), Sphere(Vec3(-12, 0, 0), 6, Half::kUpper),
+                                    Single(Bilinear({5, -5, 9}, {15, -5, 9}, {5, 5, 9}, {15, 5, 9}))}));
+  surface.network.join_tolerance = 1e-3;  // parts of it are surfaces of their own
+  return surface;
+}
+
+std::vector<Containment> Limits(const Surface& surface) {
+  std::vector<Containment> limits(5);
+  limits[0].top_z = 8.0;
+  limits[1].boundary = Boundary{Square(0, 0, 15), BoundaryMode::kInside, 0.5};
+  limits[2].obstacles.push_back({"low", Square(6, 6, 4), 5.0, 1.0});
+  limits[2].obstacles.push_back({"high", Square(9, 3, 5), 11.0, 0.5});
+  limits[3].avoided.assign(surface.network.model.patches.size(), true);
+  limits[3].avoided[0] = false;
+  limits[3].avoid_margin = 2.0;
+  limits[4] = limits[2];
+  limits[4].avoided = limits[3].avoided;
+  limits[4].avoid_margin = 0.5;
+  limits[4].top_z = 14.0;
+  limits[4].boundary = Boundary{Square(2, 0, 16), BoundaryMode::kCenter, 0.0};
+  return limits;
+}
+
+TEST(KeepIn, HeightsOverAColumnAreThoseOfItsCentres) {
+  const Surface surface = Part();
+  Random random(7);
+  int allowed = 0, forbidden = 0;
+  const std::vector<Containment> all = Limits(surface);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const Containment& limits = all[n];
+    SCOPED_TRACE(n);
+    const auto keep_in =
+        KeepIn::Make(surface, limits, {.ball_radius = kBall, .tool_radius = kShank, .tolerance = kTolerance},
+                     RunContext());
+    ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+    for (int i = 0; i < 400; ++i) {
+      const Vec2 q(random.Uniform(-20, 20), random.Uniform(-20, 20));
+      const auto heights = keep_in->HeightsOver(q);
+      for (int k = 0; k < 8; ++k) {
+        const double z = random.Uniform(-5, 25);
+        const bool is = keep_in->Allows(Lift(q, z));
+        ++(is ? allowed : forbidden);
+        if (!heights) {
+          EXPECT_FALSE(is) << q.transpose() << " " << z;
+          continue;
+        }
+        // Moves may be off a limit by half the tolerance; beside a ball's upright flank that is more in
+        // height.
+        const double flank = kTolerance / std::max(0.05, heights->normal.z());
+        if (std::abs(z - heights->lowest) < flank || std::abs(z - heights->highest) < kTolerance) continue;
+        EXPECT_EQ(is, heights->lowest <= z && z <= heights->highest) << q.transpose() << " " << z;
+      }
+    }
+  }
+  EXPECT_GT(allowed, 3000);
+  EXPECT_GT(forbidden, 3000);
+}
+
+}  // namespace
+}  // namespace patchmill
