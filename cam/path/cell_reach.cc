@@ -11,7 +11,6 @@
 namespace patchmill {
 namespace {
 
-constexpr double kUpright = 1e-6;     // both sides of a face as upright as this count
 constexpr double kMostTurn = 0.7;     // of normals from the middle one
 constexpr double kFloorSlack = 1e-6;  // mm: rounding of a floor at the surface itself
 
@@ -66,7 +65,7 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
       highest_center = std::max(highest_center, c[k].z());
     }
     // Looks down, or but for a strip of this share of the diameter.
-    const double up = highest_normal + turn + kUpright;
+    const double up = highest_normal + turn + kUprightFace;
     if (up < 0.0 || up * size < params.narrow * (highest_normal - lowest_normal)) continue;
     const double bend = BendOver(c);
     if (TooBent(c, size)) return false;

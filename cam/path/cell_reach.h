@@ -17,6 +17,9 @@ struct SurfaceRect {
 // Nine places on a rectangle (u, v): 0..3 the corners, 4..7 the middles of the sides, 8 the middle.
 std::array<Vec2, 9> NineParameters(const SurfaceRect& rect);
 
+// |e_z| up to which both sides of a face count.
+inline constexpr double kUprightFace = 1e-6;
+
 // The surface there; normals are unit and all on one side of it.
 struct RectPlaces {
   std::array<Vec3, 9> p, n;

@@ -8,11 +8,6 @@
 #include "core/diffgeo/forms.h"
 
 namespace patchmill {
-namespace {
-
-constexpr double kUpright = 1e-6;  // both sides of a face as upright as this count
-
-}  // namespace
 
 double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                   double scallop) {
@@ -47,7 +42,7 @@ bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const 
       step[k] = Vec3(NeededStep(forced, jets[k], n, radius, scallop), 0.0, 0.0);
       most = std::max(most, step[k].x());
     }
-    if (highest_normal + turn < -kUpright) continue;  // looks down
+    if (highest_normal + turn < -kUprightFace) continue;  // looks down
     if (most + BendOver(step) >= fraction) return false;
   }
   return true;
@@ -56,7 +51,7 @@ bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const 
 double NeededStepOfSides(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                          double scallop) {
   const double step = NeededStep(forced, jet, e, radius, scallop);
-  return e.z() > kUpright ? step : std::max(step, NeededStep(forced, jet, -e, radius, scallop));
+  return e.z() > kUprightFace ? step : std::max(step, NeededStep(forced, jet, -e, radius, scallop));
 }
 
 }  // namespace patchmill

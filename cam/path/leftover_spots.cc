@@ -116,9 +116,8 @@ bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
 
 // The normal of the side from which the point can be finished. Both sides of an upright face count.
 std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) const {
-  constexpr double kUpright = 1e-6;
   for (const Vec3& n : {e, Vec3(-e)}) {
-    if (n.z() < -kUpright) continue;
+    if (n.z() < -kUprightFace) continue;
     const Vec3 c = p + radius_ * n;
     if (c.z() < params_.floor_z + radius_ || !reach_.Free(c)) continue;
     if (params_.keep_in == nullptr || params_.keep_in->Allows(c)) return n;
@@ -129,7 +128,6 @@ std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) cons
 // The limits of the operation forbid every centre over the rectangle.
 bool SpotFinder::AllForbidden(const RectPlaces& places) const {
   if (params_.keep_in == nullptr || params_.keep_in->AllowsAll()) return false;
-  constexpr double kUpright = 1e-6;
   const double turn = BendOver(places.n);
   for (const double sign : {1.0, -1.0}) {
     double highest_normal = -1.0, spread = 0.0;
@@ -139,7 +137,7 @@ bool SpotFinder::AllForbidden(const RectPlaces& places) const {
       highest_normal = std::max(highest_normal, sign * places.n[k].z());
       spread = std::max(spread, (c[k] - places.p[8] - sign * radius_ * places.n[8]).norm());
     }
-    if (highest_normal + turn < -kUpright) continue;  // looks down
+    if (highest_normal + turn < -kUprightFace) continue;  // looks down
     if (!params_.keep_in->Forbids(c[8], spread + BendOver(c))) return false;
   }
   return true;

@@ -229,7 +229,8 @@ absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std:
   }));
   std::vector<double> gained;
   std::vector<bool> straight(flat.size(), false);
-  for (bool again = true; again;) {
+  for (bool again = true; again;) {  // a region of straight borders takes from its neighbours
+    PM_RETURN_IF_ERROR(run.Check());
     gained.assign(flat.size(), 0.0);
     for (const Lens& lens : lenses) {
       if (straight[lens.own] || straight[lens.other]) continue;

@@ -1,11 +1,10 @@
-// What a region is like: a point of it, its heights, and what would help where no ball gets to.
+// What a region is like: a point of it and its heights; which triangles no ball gets to.
 #pragma once
 
 #include <vector>
 
-#include "cam/region/reach.h"
+#include "cam/region/region_map.h"
 #include "cam/region/split_mesh.h"
-#include "core/base/run_context.h"
 
 namespace patchmill {
 
@@ -15,20 +14,9 @@ void PlaceRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
                   const std::vector<std::vector<int>>& region_of, const RegionMap& map,
                   std::vector<Region>& regions);
 
-struct TriangleRef {
-  std::size_t piece = 0, triangle = 0;
-};
-
 // The triangles of each unreachable region; none of others.
 std::vector<std::vector<TriangleRef>> UnreachableTriangles(const std::vector<SplitMesh>& meshes,
                                                            const std::vector<std::vector<int>>& region_of,
                                                            const std::vector<Region>& regions);
-
-// Fills deepest_leftover and largest_tool_diameter of an unreachable region of these triangles (both
-// estimated from some spread over them). Means nothing once `run` is cancelled. One region's after the
-// other's take time: regions are independent of each other.
-void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
-                 const RegionParams& params, const std::vector<TriangleRef>& triangles, const RunContext& run,
-                 Region& region);
 
 }  // namespace patchmill

@@ -43,15 +43,6 @@ std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& regi
   return labels;
 }
 
-Vec2 Middle(const SplitMesh& mesh, const SplitTriangle& triangle) {
-  Vec2 sum = Vec2::Zero();
-  for (const int k : triangle.vertex) {
-    const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(k)];
-    sum += Vec2(vertex.u, vertex.v);
-  }
-  return sum / 3.0;
-}
-
 // A cell for each region that has none.
 void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
                std::size_t regions, RegionMap& map) {
@@ -64,7 +55,7 @@ void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vect
     for (std::size_t t = 0; t < region_of[piece].size(); ++t) {
       const int id = region_of[piece][t];
       if (id < 0 || cells_of[static_cast<std::size_t>(id)] > 0) continue;
-      const Vec2 at = map.cells * Middle(meshes[piece], meshes[piece].triangles[t]);
+      const Vec2 at = map.cells * MiddleOf(meshes[piece], t);
       const auto i = std::min(static_cast<int>(at.x()), map.cells - 1);
       const auto j = std::min(static_cast<int>(at.y()), map.cells - 1);
       int& label = map.labels[piece][static_cast<std::size_t>(i * map.cells + j)];

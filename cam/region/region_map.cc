@@ -11,6 +11,7 @@
 #include "cam/region/catchments.h"
 #include "cam/region/describe_regions.h"
 #include "cam/region/merge_regions.h"
+#include "cam/region/probe_region.h"
 #include "cam/region/raw_regions.h"
 #include "cam/region/region_border.h"
 #include "cam/region/region_labels.h"

@@ -38,9 +38,9 @@ bool ShankFinder::Blocked(const Vec3& center) {
 }
 
 bool ShankFinder::BallClears(const Vec3& center) {
-  constexpr double kProven = 0.1;  // of what the ball is smaller by
-  if (NearAtMost(center) < clear_) return false;
-  const auto near = ClosestToPoint(surface_, center, clear_, kProven * (radius_ - ball_radius_));
+  const double proof = 0.1 * (radius_ - ball_radius_);
+  if (NearAtMost(center) < clear_ - proof) return false;  // a search is sure to see it
+  const auto near = ClosestToPoint(surface_, center, clear_, proof);
   if (near) near_ = near->at.p;
   return !near;
 }

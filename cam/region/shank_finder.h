@@ -21,15 +21,20 @@ class ShankFinder {
   bool Blocked(const Vec3& center);
 
  private:
+  // The first half of it. `known`: KnownAbove is nearer than the free ball's radius.
   bool ShankIsNearer(const Vec3& center, bool known);
+  // The second.
   bool BallClears(const Vec3& center);
+  // At least the distance of the nearest surface point from the centre, by the points known; at most radius_.
   double NearAtMost(const Vec3& center);
   // Of the distance of the known points over `center` from its axis the least.
   double KnownAbove(const Vec3& center) const;
 
   const Surface& surface_;
   const ObstacleCloud& cloud_;
-  const double ball_radius_, radius_, clear_, proof_, nearer_;
+  const double ball_radius_, radius_;
+  const double clear_;  // halfway between the two: the ball alone is free when nothing is nearer
+  const double proof_, nearer_;
   Vec3 near_ = Vec3::Constant(kInfinity);  // what was nearest last
   std::array<Vec3, 8> last_;               // what was above
   std::size_t next_ = 0;

@@ -35,6 +35,21 @@ struct SplitMesh {
   std::map<std::pair<int, int>, Line> lines;
 };
 
+// A triangle of the meshes of all pieces.
+struct TriangleRef {
+  std::size_t piece = 0, triangle = 0;
+  bool operator==(const TriangleRef&) const = default;
+};
+
+// Parameters of a corner (0, 1, 2) of a triangle, and of its middle.
+inline Vec2 CornerOf(const SplitMesh& mesh, std::size_t triangle, std::size_t k) {
+  const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle].vertex[k])];
+  return {vertex.u, vertex.v};
+}
+inline Vec2 MiddleOf(const SplitMesh& mesh, std::size_t triangle) {
+  return (CornerOf(mesh, triangle, 0) + CornerOf(mesh, triangle, 1) + CornerOf(mesh, triangle, 2)) / 3.0;
+}
+
 // Two places that lie on one border of the piece.
 inline bool AlongBorder(const ZeroVertex& a, const ZeroVertex& b) {
   return (a.u == b.u && (a.u == 0.0 || a.u == 1.0)) || (a.v == b.v && (a.v == 0.0 || a.v == 1.0));

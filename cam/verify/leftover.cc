@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "cam/verify/beyond_strategy.h"
 #include "core/base/status.h"
 
 namespace patchmill {

@@ -52,8 +52,4 @@ absl::StatusOr<Extremes> FindLeftover(const Surface& surface, const std::vector<
 bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId piece, double u, double v,
                 const Vec3& p);
 
-// True when a forced strategy cannot finish here, from either side of an upright face: the centre step it
-// would need (ALGORITHMS 5) is below min_step_fraction of the flat one, with a margin of 10 %.
-bool BeyondStrategy(const SurfaceJet& jet, const Facing& facing, const LeftoverParams& params);
-
 }  // namespace patchmill

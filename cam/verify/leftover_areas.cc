@@ -5,10 +5,10 @@
 #include <optional>
 #include <unordered_map>
 
+#include "cam/verify/beyond_strategy.h"
 #include "cam/verify/leftover.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
-#include "core/diffgeo/forms.h"
 
 namespace patchmill {
 
@@ -58,34 +58,6 @@ double LowestCenter(const Surface& surface, const Sums& sums, const ReachParams&
     }
   }
   return best;
-}
-
-// Distance along the path of the centre between two balls of radius r that leave s between them on a circle
-// of curvature kappa (ALGORITHMS 5): the triangle of the circle's centre, a ball's and the crest.
-double WidestStep(double r, double s, double kappa) {
-  constexpr double kFlat = 1e-4;  // of r: curvatures below cost digits and change nothing
-  const double flat = 2.0 * std::sqrt(s * (2.0 * r - s));
-  if (std::abs(kappa * r) < kFlat) return flat * std::sqrt(1.0 - kappa * (r - s));
-  const double ball = std::abs(1.0 / kappa - r), crest = std::abs(1.0 / kappa - s);
-  const double cosine = (ball * ball + crest * crest - r * r) / (2.0 * ball * crest);
-  return 2.0 * std::acos(std::clamp(cosine, -1.0, 1.0)) * ball;
-}
-
-// BeyondStrategy on one side, whose normal is e.
-bool BeyondStrategyOn(const SurfaceJet& jet, const Vec3& e, const LeftoverParams& params) {
-  constexpr double kMargin = 1.1;
-  const double r = params.reach.radius, s = *params.scallop;
-  // Along the feed, and across it in the surface.
-  const Vec2 d(std::cos(params.zigzag_angle), std::sin(params.zigzag_angle));
-  const bool contours = params.strategy == ForcedStrategy::kContour;
-  const Vec3 feed = contours ? Vec3(e.y(), -e.x(), 0.0) : Lift(d * e.z(), -d.dot(Plan(e)));
-  const double length = feed.norm();
-  if (!(length > 1e-12)) return true;  // level ground for contours: no step at all
-  const Vec3 across = e.cross(feed / length);
-  const double kappa = NormalCurvature(Forms(jet, e), jet, across);
-  if (!(kappa * r < 1.0)) return true;
-  const double seen = contours ? std::abs(across.z()) : std::abs(Cross(d, Plan(across)));
-  return seen * WidestStep(r, s, kappa) < kMargin * params.min_step_fraction * WidestStep(r, s, 0.0);
 }
 
 bool Unreachable(FinishClass kind) {
@@ -223,12 +195,6 @@ bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId pi
   if (params.where != nullptr && !params.where->Has(piece, u, v)) return false;
   const Containment* containment = params.reach.limits.containment;
   return containment == nullptr || IsWanted(*containment, surface.piece(piece).patch, p);
-}
-
-bool BeyondStrategy(const SurfaceJet& jet, const Facing& facing, const LeftoverParams& params) {
-  if (params.strategy == ForcedStrategy::kNone || !params.scallop) return false;
-  return BeyondStrategyOn(jet, facing.e, params) &&
-         (!facing.both || BeyondStrategyOn(jet, -facing.e, params));
 }
 
 absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vector<CellRect>& roots,

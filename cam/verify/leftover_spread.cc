@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "cam/verify/beyond_strategy.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 

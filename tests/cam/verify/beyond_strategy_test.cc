@@ -1,9 +1,12 @@
 // Where the verifier excuses forced passes: no less ground than the planner leaves to them, and no more than
 // by the margin that both headers tell.
+#include "cam/verify/beyond_strategy.h"
+
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "cam/path/forced_steps.h"
-#include "cam/verify/leftover.h"
 #include "core/diffgeo/forms.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
