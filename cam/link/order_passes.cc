@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "cam/link/order_parts.h"
 #include "cam/link/order_search.h"
 #include "core/base/status.h"
 #include "core/base/union_find.h"
@@ -258,6 +259,30 @@ std::vector<Cluster> Clusters(std::vector<CutterPath> group, double distance, in
   return clusters;
 }
 
+// Passes near a border may count for the region beyond it: a region that has less than this share of what the
+// one with most has is not one that the part lies in.
+constexpr double kTouchedOnly = 0.1;
+
+JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
+  std::map<int, double> lengths;
+  double most = 0.0, low = kInfinity, high = -kInfinity;
+  for (const CutterPath& pass : cluster.passes) {
+    for (std::size_t i = 0; i < pass.points.size(); ++i) {
+      const CutterPoint& p = pass.points[i];
+      low = std::min(low, p.center.z());
+      high = std::max(high, p.center.z());
+      const int region = p.contact && !regions.regions.empty() ? regions.At(*p.contact) : -1;
+      if (i == 0 || region < 0) continue;
+      most = std::max(most, lengths[region] += (p.center - pass.points[i - 1].center).norm());
+    }
+  }
+  JobPart part{.regions = {}, .height = 0.5 * (low + high)};
+  for (const auto& [region, length] : lengths) {
+    if (length >= kTouchedOnly * most) part.regions.push_back(region);
+  }
+  return part;
+}
+
 }  // namespace
 
 void RotateClosed(CutterPath& path, std::size_t start) {
@@ -274,37 +299,44 @@ void Reverse(CutterPath& path) {
 
 absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
                                                     const OrderParams& params, const RunContext& run) {
-  // Key: kind, then the region's top from high to low, then its id.
+  // Contours of one mountain may change their region on the way down; levels decide, so contours form one
+  // group. Lines form one in each region; borders, creases and rest come last.
   using Key = std::tuple<int, double, int>;
   std::map<Key, std::vector<CutterPath>> groups;
   for (CutterPath& path : paths) {
     if (path.points.empty()) continue;
     const bool known = path.region >= 0 && static_cast<std::size_t>(path.region) < regions.regions.size();
     const double top = known ? regions.regions[static_cast<std::size_t>(path.region)].z_max : -kInfinity;
-    // Contours of one mountain may change their region on the way down; levels decide, so contours form one
-    // group.
     const bool by_region = path.kind == PassKind::kZigzag && known;
     groups[{KindRank(path.kind), by_region ? -top : 0.0, by_region ? path.region : -1}].push_back(
         std::move(path));
   }
-  std::vector<CutterPath> out;
-  Vec3 at(0, 0, kInfinity);
-  bool started = false;
+  std::vector<Cluster> clusters;  // of contours and lines
+  std::vector<JobPart> parts;
+  std::vector<Cluster> last;
   for (auto& [key, group] : groups) {
     const PassKind kind = group.front().kind;
-    const bool contour = kind == PassKind::kContour;
-    const int reach = contour || kind == PassKind::kZigzag ? 2 : std::numeric_limits<int>::max();
+    const bool contour = kind == PassKind::kContour, line = kind == PassKind::kZigzag;
+    const int reach = contour || line ? 2 : std::numeric_limits<int>::max();
     for (Cluster& cluster : Clusters(std::move(group), params.neighbor_distance, reach, run)) {
-      if (!started) at = cluster.passes.front().points.front().center;
-      started = true;
-      if (contour) {
-        TakeDownwards(cluster, params, run, at, out);
-      } else {
-        TakeNearest(cluster, run, at, out);
-      }
+      if (contour || line) parts.push_back(PartOf(cluster, regions));
+      (contour || line ? clusters : last).push_back(std::move(cluster));
     }
     PM_RETURN_IF_ERROR(run.Check());
   }
+  std::vector<CutterPath> out;
+  Vec3 at(0, 0, kInfinity);
+  const auto take = [&](Cluster& cluster) {
+    if (out.empty()) at = cluster.passes.front().points.front().center;
+    if (cluster.passes.front().kind == PassKind::kContour) {
+      TakeDownwards(cluster, params, run, at, out);
+    } else {
+      TakeNearest(cluster, run, at, out);
+    }
+    return run.Check();
+  };
+  for (const std::size_t i : OrderParts(regions, parts)) PM_RETURN_IF_ERROR(take(clusters[i]));
+  for (Cluster& cluster : last) PM_RETURN_IF_ERROR(take(cluster));
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +63,10 @@ class OrderOfParts : public ::testing::Test {
     EXPECT_TRUE(map.ok()) << map.status();
     std::vector<CutterPath> all = *lines;
     all.insert(all.end(), contours->paths.begin(), contours->paths.end());
+    for (CutterPath& path : all) {
+      const auto& middle = path.points[path.points.size() / 2];
+      if (middle.contact) path.region = map->At(*middle.contact);
+    }
     count_ = all.size();
     lines_ = lines->size();
     auto ordered = OrderPasses(*map, std::move(all),
@@ -117,16 +122,49 @@ TEST_F(OrderOfParts, EachFromTheTop) {
   }
 }
 
-TEST_F(OrderOfParts, SteepGroundBeforeGentleAndNeighboursTogether) {
+TEST_F(OrderOfParts, CapThenFlankThenGroundThenWallThenFloor) {
+  // Of each feature: the place in the order of its first and last contour, and of the lines on its cap or
+  // floor.
+  struct Span {
+    std::size_t first = std::numeric_limits<std::size_t>::max(), last = 0;
+    void Add(std::size_t i) {
+      first = std::min(first, i);
+      last = std::max(last, i);
+    }
+  };
+  std::array<Span, 4> steep, end, around;
+  for (std::size_t i = 0; i < ordered_.size(); ++i) {
+    const std::size_t feature = FeatureOf(ordered_[i]);
+    if (ordered_[i].kind == PassKind::kContour) {
+      steep[feature].Add(i);
+    } else {
+      double near = kInfinity, far = 0.0;
+      for (const CutterPoint& p : ordered_[i].points) {
+        const double distance = (Plan(p.center) - kFeatures[feature].at).norm();
+        near = std::min(near, distance);
+        far = std::max(far, distance);
+      }
+      if (far < kWide) end[feature].Add(i);
+      if (far > kWide && near < 2.2 * kWide) around[feature].Add(i);  // slopes end at about 2 kWide
+    }
+  }
+  for (std::size_t f = 0; f < kFeatures.size(); ++f) {
+    const bool hill = kFeatures[f].height > 0;
+    const Span &upper = hill ? end[f] : around[f], &lower = hill ? around[f] : end[f];
+    EXPECT_LT(upper.last, steep[f].first) << f;
+    EXPECT_LT(steep[f].last, lower.first) << f;
+    // One hill with all that is on it before the next.
+    for (std::size_t g = 0; g < kFeatures.size(); ++g) {
+      if (g == f || !hill || kFeatures[g].height < 0) continue;
+      EXPECT_TRUE(steep[g].last < end[f].first || end[g].first > steep[f].last) << f << " and " << g;
+    }
+  }
+}
+
+TEST_F(OrderOfParts, LinesGoToAndFro) {
   const auto lines = Of(PassKind::kZigzag);
   ASSERT_EQ(lines.size(), lines_);
-  std::size_t last_contour = 0, first_line = ordered_.size();
-  for (std::size_t i = 0; i < ordered_.size(); ++i) {
-    if (ordered_[i].kind == PassKind::kContour) last_contour = i;
-    if (ordered_[i].kind == PassKind::kZigzag) first_line = std::min(first_line, i);
-  }
-  EXPECT_LT(last_contour, first_line);
-  // To and fro: but for few jumps around the hills the next line begins where the last one ended.
+  // But for few jumps around the hills the next line begins where the last one ended.
   std::size_t jumps = 0;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const Vec3 gap = lines[i]->points.front().center - lines[i - 1]->points.back().center;

@@ -1,0 +1,85 @@
+#include "cam/link/order_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace patchmill {
+namespace {
+
+constexpr double kLevel = 0.01;  // mm
+
+// A place for each region, the last for what lies in none; each with itself and those beside it, rising.
+std::vector<std::vector<std::size_t>> Neighbours(const RegionMap& map) {
+  const std::size_t n = map.regions.size() + 1;
+  std::vector<std::vector<std::size_t>> beside(n);
+  for (std::size_t i = 0; i < n; ++i) beside[i].push_back(i);
+  for (const BorderLine& line : map.border_lines) {
+    if (line.region < 0 || line.other < 0) continue;
+    const auto a = static_cast<std::size_t>(line.region), b = static_cast<std::size_t>(line.other);
+    beside[a].push_back(b);
+    beside[b].push_back(a);
+  }
+  for (auto& own : beside) {
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+  }
+  return beside;
+}
+
+}  // namespace
+
+std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts) {
+  const std::vector<std::vector<std::size_t>> beside = Neighbours(map);
+  const std::size_t n = parts.size(), nowhere = map.regions.size();
+  std::vector<std::vector<std::size_t>> places(n);
+  std::vector<long long> level(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    level[i] = std::llround(parts[i].height / kLevel);
+    for (const int region : parts[i].regions) places[i].push_back(static_cast<std::size_t>(region));
+    if (places[i].empty()) places[i].push_back(nowhere);
+  }
+  // Of each region its parts, the next one last: only that one need not wait for another of the same region.
+  std::vector<std::vector<std::size_t>> left(nowhere + 1);
+  for (std::size_t i = n; i-- > 0;) {
+    for (const std::size_t place : places[i]) left[place].push_back(i);
+  }
+  for (auto& own : left) {
+    std::stable_sort(own.begin(), own.end(),
+                     [&](std::size_t a, std::size_t b) { return level[a] < level[b]; });
+  }
+  std::vector<bool> done(n, false), near(nowhere + 1, false);
+  const auto waits = [&](std::size_t i) {
+    for (const std::size_t place : places[i]) {
+      for (const std::size_t other : beside[place]) {
+        if (!left[other].empty() && level[left[other].back()] > level[i]) return true;
+      }
+    }
+    return false;
+  };
+  std::vector<std::size_t> order;
+  while (order.size() < n) {
+    // The highest of all waits for none, so that there always is one.
+    using Rank = std::tuple<bool, long long, std::size_t>;
+    Rank best{true, std::numeric_limits<long long>::max(), n};
+    for (const auto& own : left) {
+      if (own.empty() || waits(own.back())) continue;
+      const std::size_t i = own.back();
+      const bool far =
+          std::none_of(places[i].begin(), places[i].end(), [&](std::size_t p) { return near[p]; });
+      best = std::min(best, Rank{far, -level[i], i});
+    }
+    const std::size_t next = std::get<2>(best);
+    order.push_back(next);
+    done[next] = true;
+    std::fill(near.begin(), near.end(), false);
+    for (const std::size_t place : places[next]) {
+      for (const std::size_t other : beside[place]) near[other] = true;
+      while (!left[place].empty() && done[left[place].back()]) left[place].pop_back();
+    }
+  }
+  return order;
+}
+
+}  // namespace patchmill

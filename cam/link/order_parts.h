@@ -1,0 +1,24 @@
+// Which part of a job comes after which: every mountain from its top, every basin from its top inwards,
+// neighbours together.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cam/region/region_map.h"
+
+namespace patchmill {
+
+// Passes that are cut in one go: the contours of a mountain or a basin, the lines of a region.
+struct JobPart {
+  std::vector<int> regions;  // that they lie in, ids, rising; empty: not known
+  double height = 0.0;       // mm, between their lowest and highest centre
+};
+
+// The parts by position. None comes before a higher one beside it: in the same region or in one that shares a
+// border with its own. Of those that need not wait a neighbour of the last part goes before others, then the
+// higher, then the first. Heights are told apart to 0.01 mm, so that level ground keeps the order it came in.
+// Deterministic; O(n k) for n parts and k pairs of neighbouring regions.
+std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts);
+
+}  // namespace patchmill

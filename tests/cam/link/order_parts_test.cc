@@ -1,0 +1,108 @@
+#include "cam/link/order_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+
+namespace patchmill {
+namespace {
+
+using Order = std::vector<std::size_t>;
+
+// Regions, and which of them share a border.
+RegionMap Map(int regions, const std::vector<std::pair<int, int>>& borders) {
+  RegionMap map;
+  map.regions.resize(static_cast<std::size_t>(regions));
+  for (const auto& [a, b] : borders) map.border_lines.push_back({.region = a, .other = b, .points = {}});
+  map.border_lines.push_back({.region = 0, .other = -1, .points = {}});
+  return map;
+}
+
+TEST(OrderParts, NothingOfNothing) { EXPECT_TRUE(OrderParts({}, {}).empty()); }
+
+TEST(OrderParts, AHillFromTheTop) {
+  // Ground, flank, cap.
+  const RegionMap map = Map(3, {{0, 1}, {1, 2}});
+  EXPECT_EQ(OrderParts(map, {{{0}, 3}, {{1}, 7}, {{2}, 12}}), (Order{2, 1, 0}));
+}
+
+TEST(OrderParts, APitFromTheRim) {
+  const RegionMap map = Map(3, {{0, 1}, {1, 2}});
+  EXPECT_EQ(OrderParts(map, {{{0}, -7}, {{1}, -3}, {{2}, 2}}), (Order{2, 1, 0}));
+}
+
+TEST(OrderParts, OneHillAfterTheOtherAndGroundAfterBoth) {
+  // 0 ground; 1, 2 flank and cap of a hill; 3, 4 those of a lower one; 5, 6 wall and floor of a pit.
+  const RegionMap map = Map(7, {{0, 1}, {1, 2}, {0, 3}, {3, 4}, {0, 5}, {5, 6}});
+  const std::vector<JobPart> parts{{{1}, 7}, {{3}, 6}, {{5}, 0}, {{0}, 2}, {{2}, 12}, {{4}, 10}, {{6}, -4}};
+  EXPECT_EQ(OrderParts(map, parts), (Order{4, 0, 5, 1, 3, 2, 6}));
+}
+
+TEST(OrderParts, ANeighbourGoesBeforeWhatIsHigherButFarAway) {
+  // Two tables, each beside a step lower than both of them.
+  const RegionMap map = Map(4, {{0, 1}, {2, 3}});
+  EXPECT_EQ(OrderParts(map, {{{0}, 10}, {{1}, 5}, {{2}, 9}, {{3}, 4}}), (Order{0, 1, 2, 3}));
+  EXPECT_EQ(OrderParts(Map(4, {}), {{{0}, 10}, {{1}, 5}, {{2}, 9}, {{3}, 4}}), (Order{0, 2, 1, 3}));
+}
+
+TEST(OrderParts, OfOneRegionTheHighestFirst) {
+  EXPECT_EQ(OrderParts(Map(1, {}), {{{0}, 1}, {{0}, 5}, {{0}, 2}, {{0}, 8}}), (Order{3, 1, 2, 0}));
+}
+
+TEST(OrderParts, LevelGroundKeepsItsOrder) {
+  EXPECT_EQ(OrderParts(Map(1, {}), {{{0}, 5.0}, {{0}, 5.001}, {{0}, 4.999}}), (Order{0, 1, 2}));
+}
+
+TEST(OrderParts, PassesOfNoKnownRegionGoByHeight) {
+  EXPECT_EQ(OrderParts({}, {{{}, 1}, {{}, 3}, {{}, 2}}), (Order{1, 2, 0}));
+}
+
+// Whatever the map: each part once, and none before a higher one beside it.
+TEST(OrderParts, NoneBeforeAHigherNeighbour) {
+  testing::Random random(11);
+  for (int round = 0; round < 200; ++round) {
+    const int n = 2 + static_cast<int>(random.Uniform(0, 12));
+    std::set<std::pair<int, int>> borders;
+    for (int a = 0; a < n; ++a) {
+      for (int b = a + 1; b < n; ++b) {
+        if (random.Uniform(0, 1) < 0.2) borders.emplace(a, b);
+      }
+    }
+    const RegionMap map = Map(n, {borders.begin(), borders.end()});
+    std::vector<JobPart> parts;
+    for (int i = 0; i < 3 * n; ++i) {
+      std::set<int> regions{static_cast<int>(random.Uniform(0, n)), static_cast<int>(random.Uniform(0, n))};
+      // Few heights, so that some are the same.
+      parts.push_back({{regions.begin(), regions.end()}, std::floor(random.Uniform(0, 9))});
+    }
+    const Order order = OrderParts(map, parts);
+    Order sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    ASSERT_EQ(sorted.size(), parts.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) EXPECT_EQ(sorted[i], i);
+    const auto beside = [&](const JobPart& one, const JobPart& other) {
+      for (const int a : one.regions) {
+        for (const int b : other.regions) {
+          if (a == b || borders.count({std::min(a, b), std::max(a, b)}) > 0) return true;
+        }
+      }
+      return false;
+    };
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      for (std::size_t j = i + 1; j < order.size(); ++j) {
+        const JobPart &first = parts[order[i]], &then = parts[order[j]];
+        if (beside(first, then)) {
+          EXPECT_GE(first.height, then.height) << round;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
