@@ -5,6 +5,7 @@
 #include <absl/strings/cord.h>
 #include <fmt/format.h>
 
+#include "core/base/error_details.h"
 #include "patchmill/v1/status.pb.h"
 #include "server/limits.h"
 
@@ -125,8 +126,11 @@ absl::Status ModelNotCachedError() {
                     "source.model_sha256 names a model this server does not hold; send it inline");
 }
 
-absl::Status ModelUnreadableError(std::string_view why) {
-  return WithReason(absl::StatusCode::kInvalidArgument, "MODEL_UNREADABLE", why);
+absl::Status ModelUnreadableError(std::string_view why, std::string_view code) {
+  v1::ErrorInfo info;
+  info.set_reason("MODEL_UNREADABLE");
+  info.set_code(std::string(code));
+  return WithInfo(absl::StatusCode::kInvalidArgument, why, info);
 }
 
 absl::Status CurveUnreadableError(std::string_view why) {
@@ -151,6 +155,12 @@ absl::Status ModelInvalidError(const Diagnostics& faults) {
                   "model: " + faults.front().message + More(faults.size()), info);
 }
 
+absl::Status InJob(const absl::Status& status) {
+  const std::string field = FieldOf(status);
+  if (field.starts_with("post.")) return status;
+  return WithFieldPrefix(field.starts_with("setup.") ? "job." : "job.operations[0].", status);
+}
+
 grpc::Status ToGrpcStatus(const absl::Status& status) {
   if (status.ok()) return grpc::Status::OK;
   v1::ErrorInfo info;
@@ -158,6 +168,12 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
     info.ParseFromString(std::string(*payload));
   } else {
     info.set_reason(DefaultReason(status.code()));
+    if (const std::string field = FieldOf(status); !field.empty()) {
+      info.set_violation_count(1);
+      v1::FieldViolation& violation = *info.add_field_violations();
+      violation.set_field(Cut(field, kMaxViolationBytes));
+      violation.set_description(Cut(FieldText(status), kMaxViolationBytes));
+    }
   }
   v1::Status wire;
   wire.set_code(static_cast<int>(status.code()));

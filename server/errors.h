@@ -37,10 +37,15 @@ absl::Status LimitError(std::string_view limit, double limit_value, double actua
 absl::Status TooManyJobsError(int limit);
 absl::Status DrainingError();
 absl::Status ModelNotCachedError();
-absl::Status ModelUnreadableError(std::string_view why);
+absl::Status ModelUnreadableError(std::string_view why, std::string_view code = {});
 absl::Status CurveUnreadableError(std::string_view why);
 absl::Status ProgramUnreadableError(std::string_view why);
 absl::Status ModelInvalidError(const Diagnostics& faults);  // at least one
+
+// An error of the domain about a field of a job's set-up, operation or post, as a request with a `job` and a
+// `post` has it: "heights.floor_z_mm" becomes "job.operations[0].heights.floor_z_mm". Any other status as it
+// is.
+absl::Status InJob(const absl::Status& status);
 
 // The status as gRPC sends it: message at most 1,000 bytes, details (v1.Status with one v1.ErrorInfo) under 4
 // KiB.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/io/model_text.h"
 #include "core/network/control_points.h"
@@ -75,7 +76,8 @@ absl::StatusOr<LoadedModel> LoadText(const v1::ModelFile& file, std::string_view
   absl::StatusOr<PatchModel> model = ReadModelText(file.format(), file.content());
   if (!model.ok()) {
     if (model.status().code() != absl::StatusCode::kInvalidArgument) return model.status();
-    return ModelUnreadableError(fmt::format("model file: {}", std::string(model.status().message())));
+    return ModelUnreadableError(fmt::format("model file: {}", std::string(model.status().message())),
+                                CodeOf(model.status()));
   }
   LoadedModel loaded;
   loaded.model = *std::move(model);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cam/plan/plan.h"
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"
 
@@ -11,10 +12,10 @@ namespace patchmill {
 absl::StatusOr<PatchNetwork> BuildPlacedNetwork(PatchModel model, const Setup& setup, const RunContext& run) {
   const Placement& p = setup.placement;
   if (!(p.scale > 0.0) || !(p.scale <= 1e9)) {
-    return absl::InvalidArgumentError(fmt::format("setup.scale = {:.6g}; must be in (0, 1e9]", p.scale));
+    return FieldError("setup.scale", fmt::format("= {:.6g}; must be in (0, 1e9]", p.scale));
   }
   if (!p.translation.allFinite() || p.translation.norm() > 1e6) {
-    return absl::InvalidArgumentError("setup.translation_mm; must be finite and within 1e6 mm");
+    return FieldError("setup.translation_mm", "must be finite and within 1e6 mm");
   }
   return BuildNetwork(Place(p, std::move(model)), run);
 }

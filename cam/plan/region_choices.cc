@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cam/region/regions_digest.h"
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/surface/closest.h"
 
@@ -23,15 +24,14 @@ absl::StatusOr<int> FindRegion(const Surface& surface, const RegionMap& map, con
   const int count = static_cast<int>(map.regions.size());
   if (!change.at) {
     if (change.region >= 0 && change.region < count) return change.region;
-    return absl::InvalidArgumentError(fmt::format(
-        "{}.region_id = {}; must be in [0, {}], a region of the map", path, change.region, count - 1));
+    return FieldError(path + ".region_id",
+                      fmt::format("= {}; must be in [0, {}], a region of the map", change.region, count - 1));
   }
   const auto nearest = ClosestToPoint(surface, *change.at + zero, kPickReach, kPickProof);
   const int id = nearest ? map.At(nearest->at) : -1;
   if (id >= 0) return id;
-  return absl::InvalidArgumentError(
-      fmt::format("{}.at = {:.4f} {:.4f} {:.4f}; must lie within {} mm of a region", path, change.at->x(),
-                  change.at->y(), change.at->z(), kPickReach));
+  return FieldError(path + ".at", fmt::format("= {:.4f} {:.4f} {:.4f}; must lie within {} mm of a region",
+                                              change.at->x(), change.at->y(), change.at->z(), kPickReach));
 }
 
 // By id: whether a cell of the map is the region's.
@@ -194,18 +194,19 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
     PM_ASSIGN_OR_RETURN(const int region, FindRegion(surface, map, change, Path(k), program_zero));
     const auto id = static_cast<std::size_t>(region);
     if (named[id]) {
-      return absl::InvalidArgumentError(fmt::format("{} names region {} a second time", Path(k), region));
+      return FieldError(Path(k), fmt::format("names region {} a second time", region));
     }
     named[id] = true;
     if (map.regions[id].kind == RegionKind::kUnreachable && !change.skip) {
-      return absl::InvalidArgumentError(
-          fmt::format("{} names region {}, which is unreachable; it can only be skipped", Path(k), region));
+      return FieldError(Path(k),
+                        fmt::format("names region {}, which is unreachable; it can only be skipped", region));
     }
     if (!with_cells[id]) {
-      return absl::InvalidArgumentError(fmt::format(
-          "{} names region {} of {:.3g} mm2, which is too small to be cut apart from what is around it "
-          "(regions are told apart on {} x {} cells of each patch)",
-          Path(k), region, map.regions[id].area, map.cells, map.cells));
+      return FieldError(
+          Path(k),
+          fmt::format("names region {} of {:.3g} mm2, which is too small to be cut apart from what is "
+                      "around it (regions are told apart on {} x {} cells of each patch)",
+                      region, map.regions[id].area, map.cells, map.cells));
     }
     RegionChoice& choice = choices[id];
     choice.skip = change.skip;

@@ -5,6 +5,7 @@
 #include <absl/strings/numbers.h>
 #include <fmt/format.h>
 
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"
 
@@ -38,9 +39,9 @@ absl::StatusOr<std::vector<bool>> FindPatches(const PatchModel& model, const std
       index = -1;
     }
     if (index < 0 || index >= static_cast<int>(found.size())) {
-      return absl::InvalidArgumentError(
-          fmt::format("operations[0].selection.{}[{}] = \"{}\"; must be a patch id of the model or #0 to #{}",
-                      field, k, name.substr(0, 50), found.size() - 1));
+      return FieldError(fmt::format("selection.{}[{}]", field, k),
+                        fmt::format("= \"{}\"; must be a patch id of the model or #0 to #{}",
+                                    name.substr(0, 50), found.size() - 1));
     }
     found[static_cast<std::size_t>(index)] = true;
   }
@@ -100,9 +101,9 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
   const double top = r.box.max.z();
   r.stock_top_z = job.setup.stock_top_z ? *job.setup.stock_top_z + zero_z : top + job.setup.allowance;
   if (r.stock_top_z < top - 1e-6) {
-    return absl::InvalidArgumentError(
-        fmt::format("setup.stock.top_z_mm = {:.6g}; must be at least the model's top, {:.6g}",
-                    r.stock_top_z - zero_z, top - zero_z));
+    return FieldError("setup.stock.top_z_mm",
+                      fmt::format("= {:.6g}; must be at least the model's top, {:.6g}",
+                                  r.stock_top_z - zero_z, top - zero_z));
   }
   r.floor_z = op.floor_z ? *op.floor_z + zero_z : r.box.min.z();
   PM_ASSIGN_OR_RETURN(r.containment, ResolveContainment(surface.network.model, job, r.program_zero));
@@ -111,10 +112,10 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
   r.clearance_z = op.clearance_z ? *op.clearance_z + zero_z
                                  : highest + op.clearance_above.value_or(kDefaultClearanceAbove);
   if (r.clearance_z < highest) {
-    return absl::InvalidArgumentError(fmt::format(
-        "operations[0].heights.clearance_z_mm = {:.6g}; must be at least {:.6g}, the highest point of model, "
-        "stock and obstacles with their margins",
-        r.clearance_z - zero_z, highest - zero_z));
+    return FieldError("heights.clearance_z_mm",
+                      fmt::format("= {:.6g}; must be at least {:.6g}, the highest point of model, stock and "
+                                  "obstacles with their margins",
+                                  r.clearance_z - zero_z, highest - zero_z));
   }
   return r;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cam/plan/plan.h"
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -16,14 +17,14 @@ constexpr double kMinTolerance = 1e-4;  // mm: four decimals of the program take
 
 absl::Status Range(const char* field, double value, bool ok, const std::string& constraint) {
   if (ok && std::isfinite(value)) return absl::OkStatus();
-  return absl::InvalidArgumentError(fmt::format("{} = {:.6g}; must be {}", field, value, constraint));
+  return FieldError(field, fmt::format("= {:.6g}; must be {}", value, constraint));
 }
 
 constexpr double kMaxAvoidMargin = 100.0, kMaxWiden = 1000.0;  // mm; kMaxWiden: other margins and offsets
 
 absl::Status ValidateOutline(const std::string& field, const std::vector<Ring>& rings) {
   const std::string fault = OutlineFault(rings);
-  return fault.empty() ? absl::OkStatus() : absl::InvalidArgumentError(field + " is no outline: " + fault);
+  return fault.empty() ? absl::OkStatus() : FieldError(field, "is no outline: " + fault);
 }
 
 // Where the tool may be and what is wanted.
@@ -74,9 +75,9 @@ absl::Status ValidateJob(const Job& job) {
     PM_RETURN_IF_ERROR(
         check("tool.shank_diameter_mm", *tool.shank_diameter, *tool.shank_diameter > 0, "above 0"));
     if (*tool.shank_diameter > 2 * r + 1e-9 && !tool.flute_length) {
-      return absl::InvalidArgumentError(
-          fmt::format("tool.flute_length_mm is missing; required when shank_diameter_mm = {:.6g} is wider "
-                      "than the cutter",
+      return FieldError(
+          "tool.flute_length_mm",
+          fmt::format("is missing; required when shank_diameter_mm = {:.6g} is wider than the cutter",
                       *tool.shank_diameter));
     }
   }
@@ -106,9 +107,9 @@ absl::Status ValidateJob(const Job& job) {
   PM_RETURN_IF_ERROR(check("setup.stock.allowance_mm", job.setup.allowance,
                            job.setup.allowance >= 0 && job.setup.allowance <= 100, "in [0, 100]"));
   if (job.setup.allowance < op.leave) {
-    return absl::InvalidArgumentError(
-        fmt::format("setup.stock.allowance_mm = {:.6g}; must be at least stock_to_leave_mm = {:.6g}",
-                    job.setup.allowance, op.leave));
+    return FieldError(
+        "setup.stock.allowance_mm",
+        fmt::format("= {:.6g}; must be at least stock_to_leave_mm = {:.6g}", job.setup.allowance, op.leave));
   }
   const auto height = [&](const char* field, const std::optional<double>& z) {
     return z ? check(field, *z, std::abs(*z) <= kMaxLength, fmt::format("in [-{0}, {0}]", kMaxLength))
@@ -129,11 +130,9 @@ absl::Status ValidateJob(const Job& job) {
     list += (list.empty() ? "" : ", ") + dialect;
   }
   if (!known)
-    return absl::InvalidArgumentError(
-        fmt::format("post.dialect = \"{}\"; must be one of: {}", job.dialect, list));
+    return FieldError("post.dialect", fmt::format("= \"{}\"; must be one of: {}", job.dialect, list));
   if (!IsWorkOffset(job.work_offset))
-    return absl::InvalidArgumentError(
-        fmt::format("post.work_offset = \"{}\"; must be G54 to G59", job.work_offset));
+    return FieldError("post.work_offset", fmt::format("= \"{}\"; must be G54 to G59", job.work_offset));
   return absl::OkStatus();
 }
 

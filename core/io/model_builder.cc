@@ -25,8 +25,9 @@ absl::StatusOr<RationalPoints> ReadRationalPoints(TextScanner& scanner, int coun
     PM_ASSIGN_OR_RETURN(const Vec3 product, scanner.Point());
     PM_ASSIGN_OR_RETURN(const double weight, scanner.Number("weight of a point"));
     if (!(weight >= kMinWeight && weight <= kMaxWeight)) {
-      return scanner.Fail(fmt::format("{}weight of a point = {:g}; must be in [{:g}, {:g}]",
-                                      weight == 0.0 ? "ZERO_WEIGHT: " : "", weight, kMinWeight, kMaxWeight));
+      const std::string reason =
+          fmt::format("weight of a point = {:g}; must be in [{:g}, {:g}]", weight, kMinWeight, kMaxWeight);
+      return weight == 0.0 ? scanner.Fail("ZERO_WEIGHT", reason) : scanner.Fail(reason);
     }
     net.points.push_back(product / weight);
     net.weights.push_back(weight);

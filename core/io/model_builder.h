@@ -14,7 +14,7 @@ namespace patchmill {
 // `count` points; `count` is at most that of degree 15 x 15, so nothing is reserved on a file's word.
 absl::StatusOr<std::vector<Vec3>> ReadPoints(TextScanner& scanner, int count);
 // The same with weights: `wx wy wz w` per point, already multiplied; returned divided. A weight of 0, a point
-// at infinity, fails with ZERO_WEIGHT in the message.
+// at infinity, fails with the code ZERO_WEIGHT.
 struct RationalPoints {
   std::vector<Vec3> points;
   std::vector<double> weights;

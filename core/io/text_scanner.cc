@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/network/patch_model.h"
 
@@ -47,6 +48,10 @@ TextScanner::TextScanner(std::string_view text, char comment) : text_(text), com
 
 absl::Status TextScanner::Fail(std::string_view reason) const {
   return absl::InvalidArgumentError(fmt::format("line {}: {}", line_, reason));
+}
+
+absl::Status TextScanner::Fail(std::string_view code, std::string_view reason) const {
+  return CodedError(code, fmt::format("line {}: {}: {}", line_, code, reason));
 }
 
 bool TextScanner::EndsWord(char c) const { return IsSpace(c) || (comment_ != 0 && c == comment_); }

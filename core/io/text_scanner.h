@@ -40,6 +40,8 @@ class TextScanner {
   int line() const { return line_; }
   // "line <line>: <reason>".
   absl::Status Fail(std::string_view reason) const;
+  // "line <line>: <code>: <reason>", a CodedError.
+  absl::Status Fail(std::string_view code, std::string_view reason) const;
 
  private:
   void SkipSpace();

@@ -142,7 +142,7 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
   const auto prepare = [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(prepared, PrepareJob(request.job(), request.post(), run));
     PM_RETURN_IF_ERROR(run.Check());
-    return request.validate_only() ? Validate(prepared, run) : absl::OkStatus();
+    return request.validate_only() ? InJob(Validate(prepared, run)) : absl::OkStatus();
   };
   PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(), {}, prepare));
   const auto gone = [] { return absl::CancelledError("the client has gone"); };
@@ -159,7 +159,8 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
   PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(),
                                   outputs.contains(v1::OUTPUT_PROGRESS) ? Beat(beat) : Beat(),
                                   [&](const RunContext& run) {
-                                    return Make(prepared, outputs.contains(v1::OUTPUT_PICTURE), run, &made);
+                                    const bool picture = outputs.contains(v1::OUTPUT_PICTURE);
+                                    return InJob(Make(prepared, picture, run, &made));
                                   }));
   return SendResult(prepared, made, outputs, sink) ? absl::OkStatus() : gone();
 }

@@ -20,7 +20,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
   PM_ASSIGN_OR_RETURN(
       const Outputs outputs,
       ReadOutputs(request.outputs(), {v1::OUTPUT_REGIONS, v1::OUTPUT_PICTURE}, {v1::OUTPUT_REGIONS}));
-  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
+  const auto make = [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run));
     PM_RETURN_IF_ERROR(run.Check());
     const Job& job = prepared.job;
@@ -41,7 +41,9 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
       picture.set_data(DrawRegions(surface, regions, resolved, job.operation.steep_angle, prepared.name));
     }
     return absl::OkStatus();
-  });
+  };
+  return RunJobThread(call, request.max_threads(), {},
+                      [&](const RunContext& run) { return InJob(make(run)); });
 }
 
 }  // namespace patchmill

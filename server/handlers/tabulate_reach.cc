@@ -45,7 +45,7 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_RETURN_IF_ERROR(CheckDiameters(request.tool_diameters_mm()));
-  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
+  const auto make = [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run));
     const Job& job = prepared.job;
     ReachTableParams params;
@@ -67,7 +67,9 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
     AddDiagnostics(job.model_remarks, resolved.program_zero, response->mutable_diagnostics());
     AddDiagnostics(surface.network.findings, resolved.program_zero, response->mutable_diagnostics());
     return absl::OkStatus();
-  });
+  };
+  return RunJobThread(call, request.max_threads(), {},
+                      [&](const RunContext& run) { return InJob(make(run)); });
 }
 
 }  // namespace patchmill

@@ -60,7 +60,7 @@ class Cli : public ::testing::Test {
   std::string bump_ = in_.Write("bump.json", Json(testing::Bump()));
   std::string waves_ = in_.Write("waves.json", Json(testing::HillAndPit()));
   // Hours of work.
-  std::string long_ = in_.Write("long.pb", testing::Bump(600.0).SerializeAsString());
+  std::string long_ = in_.Write("long.pb", testing::Bump(380.0).SerializeAsString());
   std::vector<std::string> fine_ = {"--scallop", "0.002", "--tolerance", "0.01", "--tool-diameter", "2"};
 };
 
@@ -324,7 +324,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"RegionWord", {"--region", "0,0,0:of"}, "--region \"0,0,0:of\"; must be ID or X,Y,Z and then"},
         Wrong{"RegionAlone", {"--region", "0,0,0"}, "must be ID or X,Y,Z and then"},
         Wrong{"RegionNumber", {"--region", "0,0,0:scallop=much"}, "must be ID or X,Y,Z and then"},
-        Wrong{"RegionInTheAir", {"--region", "0,0,50:off"}, "--region: region_overrides[0].at = 0.0"},
+        Wrong{"RegionInTheAir",
+              {"--region", "0,0,50:off"},
+              "--region: job.operations[0].region_overrides[0].at = 0.0"},
         Wrong{"RegionScallop",
               {"--region", "0,0,0:scallop=5"},
               "--region: job.operations[0].region_overrides[0].scallop_mm = 5"},

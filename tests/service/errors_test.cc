@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/base/error_details.h"
 #include "server/digest.h"
 #include "server/limits.h"
 #include "tests/service/status_matchers.h"
@@ -38,6 +39,30 @@ TEST(FieldErrors, ReservedPlacesAreUnimplementedUnlessSomethingIsWrongToo) {
 }
 
 TEST(FieldErrors, NoErrorIsOk) { EXPECT_TRUE(FieldErrors().ToStatus().ok()); }
+
+TEST(InJob, DomainErrorsAreTheFieldsOfTheRequest) {
+  const auto info = [](const absl::Status& status) { return testing::InfoOf(ToGrpcStatus(status)); };
+  const auto of = [&](std::string_view field) { return info(InJob(FieldError(field, "= 3; must be 5"))); };
+  ASSERT_EQ(of("heights.top_z_mm").field_violations_size(), 1);
+  EXPECT_EQ(of("heights.top_z_mm").reason(), "INVALID_FIELDS");
+  EXPECT_EQ(of("heights.top_z_mm").violation_count(), 1);
+  EXPECT_EQ(of("heights.top_z_mm").field_violations(0).field(), "job.operations[0].heights.top_z_mm");
+  EXPECT_EQ(of("heights.top_z_mm").field_violations(0).description(), "= 3; must be 5");
+  EXPECT_EQ(of("setup.scale").field_violations(0).field(), "job.setup.scale");
+  EXPECT_EQ(of("post.dialect").field_violations(0).field(), "post.dialect");
+  // Requests without a job have these fields of their own.
+  EXPECT_EQ(info(FieldError("setup.scale", "= 0")).field_violations(0).field(), "setup.scale");
+  const absl::Status limit = LimitError("a_mm", 1, 2);
+  EXPECT_EQ(InJob(limit), limit);
+}
+
+TEST(ModelUnreadable, SaysWhatIsWrongWhereThatHasACode) {
+  const v1::ErrorInfo info =
+      testing::InfoOf(ToGrpcStatus(ModelUnreadableError("line 3: ...", "ZERO_WEIGHT")));
+  EXPECT_EQ(info.reason(), "MODEL_UNREADABLE");
+  EXPECT_EQ(info.code(), "ZERO_WEIGHT");
+  EXPECT_EQ(testing::InfoOf(ToGrpcStatus(ModelUnreadableError("line 3: ..."))).code(), "");
+}
 
 // Trailers stop at 8 KiB; details beyond are lost with the status they explain.
 TEST(ToGrpcStatus, StaysUnderFourKibibytesWhateverIsWrong) {

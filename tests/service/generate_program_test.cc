@@ -229,6 +229,9 @@ TEST_F(GenerateProgram, ValidateOnlyAcceptsAndEnds) {
   request.mutable_job()->mutable_operations(0)->mutable_heights()->set_clearance_z_mm(0.1);
   const Embedded::Stream low = embedded_.Generate(request);
   EXPECT_THAT(low.status, RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("clearance_z_mm = 0.1")));
+  ASSERT_EQ(testing::InfoOf(low.status).field_violations_size(), 1);
+  EXPECT_EQ(testing::InfoOf(low.status).field_violations(0).field(),
+            "job.operations[0].heights.clearance_z_mm");
   EXPECT_TRUE(low.events.empty());
 }
 

@@ -23,6 +23,7 @@ using testing::Embedded;
 using ::testing::HasSubstr;
 using testing::InfoOf;
 using testing::RpcStatusIs;
+using ::testing::StartsWith;
 
 class Regions : public ::testing::Test {
  protected:
@@ -177,7 +178,11 @@ TEST_F(Regions, APointOfItNamesARegion) {
   EXPECT_NEAR(map_.regions(1).zigzag_angle_deg(), 30.0, 1e-9);
   EXPECT_DOUBLE_EQ(map_.regions(0).scallop_mm(), 0.05);
   change.mutable_at()->set_z_mm(40.0);
-  EXPECT_THAT(Split(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("region_overrides[0].at = ")));
+  const grpc::Status far = Split();
+  const std::string field = "job.operations[0].region_overrides[0].at";
+  EXPECT_THAT(far, RpcStatusIs(StatusCode::INVALID_ARGUMENT, StartsWith(field + " = ")));
+  ASSERT_EQ(testing::InfoOf(far).field_violations_size(), 1);
+  EXPECT_EQ(testing::InfoOf(far).field_violations(0).field(), field);
 }
 
 TEST_F(Regions, AVerdictOnTheirScallopsNeedsOneForTheRest) {

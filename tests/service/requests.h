@@ -64,9 +64,9 @@ inline v1::GenerateProgramRequest BumpRequest(double size = 12.0) {
   return request;
 }
 
-// Hours of work, for cancels and deadlines: 3 m of fine lines.
+// Minutes of work, for cancels and deadlines: a kilometre of fine lines.
 inline v1::GenerateProgramRequest LongRequest() {
-  v1::GenerateProgramRequest request = BumpRequest(600.0);
+  v1::GenerateProgramRequest request = BumpRequest(380.0);
   v1::Operation& op = *request.mutable_job()->mutable_operations(0);
   op.mutable_tool()->mutable_ball_end()->set_diameter_mm(2.0);
   op.set_scallop_mm(0.002);

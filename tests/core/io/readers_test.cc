@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/error_details.h"
 #include "core/io/bez.h"
 #include "core/io/bpt.h"
 #include "core/io/bv.h"
@@ -156,8 +157,10 @@ TEST(ReadBez, BicubicsWithUFastest) {
 TEST(ReadBez, RefusesTheTorusWithPointsAtInfinity) {
   const auto text = testing::ReadSharedFile("data/patches/torus.bez");
   if (!text) GTEST_SKIP() << "../shared/data/patches/torus.bez is not there";
-  EXPECT_EQ(std::string(ReadBez(*text).status().message()),
+  const absl::Status status = ReadBez(*text).status();
+  EXPECT_EQ(std::string(status.message()),
             "line 4: ZERO_WEIGHT: weight of a point = 0; must be in [1e-09, 1e+09]");
+  EXPECT_EQ(CodeOf(status), "ZERO_WEIGHT");
 }
 
 TEST(Readers, AgreeOnTheTeapot) {
