@@ -33,8 +33,8 @@ inline constexpr int kMaxThreads = 64;            // of one job
 inline constexpr int kMaxJobs = 64;               // at once, of one server
 inline constexpr double kMaxJobSeconds = 3600.0;  // default of the server
 // Both estimated before planning, from the box of the control points: its plan and its walls at the flat
-// step-over, and points at the longest chord that the tolerance allows anywhere. The length counts for every
-// plan that the choice of an angle makes, the points for the one that is kept.
+// step-over, and points at the longest chord that tolerance and scallop allow anywhere. The length counts for
+// every plan that the choice of an angle makes, the points for the one that is kept.
 inline constexpr double kMaxCutLengthMm = 5e6;
 inline constexpr double kMaxPathPoints = 2e7;
 inline constexpr std::size_t kMaxOutlinePoints =

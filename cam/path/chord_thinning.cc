@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cam/path/chord_bounds.h"
+#include "cam/path/chord_supports.h"
 
 namespace patchmill {
 namespace {
@@ -18,15 +19,16 @@ class Thinner {
         radius_(locator.radius()),
         tolerance_(params.chord_tolerance),
         gap_(gap),
+        excess_(ExcessTolerance(params) - gap),
         floor_center_(params.floor_z + locator.radius()),
-        middle_(stations.size()) {}
+        between_(stations.size()) {}
 
   std::vector<CutterPoint> Thin(const RunContext* run);
 
  private:
-  struct Middle {
+  struct Between {
     bool known = false;
-    std::optional<Support> support;
+    std::vector<Support> supports;  // empty: none are known
   };
 
   Support SupportOf(const std::optional<SurfacePoint>& contact) const {
@@ -34,7 +36,7 @@ class Thinner {
     if (contact) s.contact = contact->p;
     return s;
   }
-  const std::optional<Support>& MiddleOf(std::size_t k);
+  const std::vector<Support>& SupportsAfter(std::size_t k);
   bool Fits(std::size_t i, std::size_t j);
   std::size_t Farthest(std::size_t i, std::size_t barrier);
   CutterPoint Certify(const LineStation& s) const;
@@ -42,29 +44,29 @@ class Thinner {
 
   const Locator& locator_;
   const std::vector<LineStation>& stations_;
-  const double radius_, tolerance_, gap_, floor_center_;
-  std::vector<Middle> middle_;
+  const double radius_, tolerance_, gap_, excess_, floor_center_;
+  std::vector<Between> between_;
   std::vector<Vec3> free_;  // scratch
 };
 
-// A support half way between stations k and k+1. Any surface point will do: on one piece the one between the
-// contacts, else a branch following.
-const std::optional<Support>& Thinner::MiddleOf(std::size_t k) {
-  Middle& m = middle_[k];
-  if (!m.known) {
-    m.known = true;
+// Supports between stations k and k+1. Any surface point will do: on one piece those between the contacts,
+// else one by branch following.
+const std::vector<Support>& Thinner::SupportsAfter(std::size_t k) {
+  Between& between = between_[k];
+  if (!between.known) {
+    between.known = true;
     const LineStation &a = stations_[k], &b = stations_[k + 1];
     if (a.right && b.left && a.right->piece.value == b.left->piece.value) {
-      const SurfacePoint &p = *a.right, &q = *b.left;
-      const Piece& piece = locator_.surface().piece(p.piece);
-      m.support = Support{Position(piece, 0.5 * (p.u + q.u), 0.5 * (p.v + q.v)), floor_center_};
+      const double length = (Lift(b.q, b.z) - Lift(a.q, a.z)).norm();
+      between.supports = SupportsBetween(locator_.surface(), *a.right, *b.left,
+                                         SupportParts(radius_, length, excess_), floor_center_);
     } else if (a.right) {
       if (const auto c = locator_.Follow(*a.right, 0.5 * (a.q + b.q))) {
-        m.support = SupportOf(c->contact);
+        between.supports.push_back(SupportOf(c->contact));
       }
     }
   }
-  return m.support;
+  return between.supports;
 }
 
 // Closed-form test of the chord from station i to j against every support between: excess proven (T3), gouge
@@ -73,7 +75,7 @@ bool Thinner::Fits(std::size_t i, std::size_t j) {
   const LineStation &first = stations_[i], &last = stations_[j];
   const Vec3 a = Lift(first.q, first.z), b = Lift(last.q, last.z);
   const double span = last.t - first.t;
-  const double excess_limit = tolerance_ - gap_, gouge_limit = 0.9 * tolerance_;
+  const double gouge_limit = 0.9 * tolerance_;
   const auto on_chord = [&](double t) -> Vec3 { return a + (t - first.t) / span * (b - a); };
   const auto gouges = [&](const Support& s) {
     return s.contact && radius_ - SegmentDistance(*s.contact, a, b) > gouge_limit;
@@ -83,18 +85,10 @@ bool Thinner::Fits(std::size_t i, std::size_t j) {
     const Support left = SupportOf(s.right), right = SupportOf(e.left);
     if (gouges(left) || gouges(right)) return false;
     const Vec3 x = on_chord(s.t), y = on_chord(e.t);
-    if (left.Clearance(x, radius_) > excess_limit || right.Clearance(y, radius_) > excess_limit) return false;
-    const auto& middle = MiddleOf(k);
-    if (!middle) {
-      if (ChordExcess(radius_, x, y, left, right) > excess_limit) return false;
-      continue;
-    }
-    if (gouges(*middle)) return false;
-    const Vec3 m = 0.5 * (x + y);
-    if (ChordExcess(radius_, x, m, left, *middle) > excess_limit ||
-        ChordExcess(radius_, m, y, *middle, right) > excess_limit) {
-      return false;
-    }
+    if (left.Clearance(x, radius_) > excess_ || right.Clearance(y, radius_) > excess_) return false;
+    const std::vector<Support>& between = SupportsAfter(k);
+    if (std::any_of(between.begin(), between.end(), gouges)) return false;
+    if (!ExcessWithin(radius_, x, y, left, between, right, excess_)) return false;
   }
   return true;
 }
@@ -170,7 +164,7 @@ std::vector<CutterPoint> Thinner::Thin(const RunContext* run) {
 }  // namespace
 
 double CertificateGap(const PassParams& params) {
-  return std::clamp(params.certificate_gap, 1e-7, std::max(1e-7, 0.1 * params.chord_tolerance));
+  return std::clamp(params.certificate_gap, 1e-7, std::max(1e-7, 0.1 * ExcessTolerance(params)));
 }
 
 std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,

@@ -9,14 +9,14 @@
 
 namespace patchmill {
 
-// The certificate gap in force: params.certificate_gap, but no more than a tenth of the chord tolerance.
+// The certificate gap in force: params.certificate_gap, but no more than a tenth of the excess tolerance.
 double CertificateGap(const PassParams& params);
 
 // Vertices of one run: the first, the last, all `keep` stations, and what else is needed. Chord excess is
 // proven by T3 on the stations' supports and followed contacts half way between them, gouge by the swept
 // query (T2 where a chord joins neighbouring stations); heights are certified and raised by their gap.
-// Stations' neighbours must be joined by chords within params.chord_tolerance - CertificateGap(params)
-// already. `run` is polled when set: cancelled, the vertices end early.
+// Stations' neighbours must be joined by chords within params.chord_tolerance and ExcessTolerance(params),
+// each less CertificateGap(params), already. `run` is polled when set: cancelled, the vertices end early.
 std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
                                       const PassParams& params, const RunContext* run = nullptr);
 

@@ -54,6 +54,7 @@ class LevelOracle {
 
   double z() const { return z_; }
   double radius() const { return radius_; }
+  const Surface& surface() const { return locator_.surface(); }
   Vec3 Center(const Vec2& q) const { return Lift(q, z_); }
 
   // A point that forbids q (its disc holds q), none where q is free.

@@ -44,7 +44,7 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
     }
     const LoopTolerance tolerance{
         std::max(params.chord_tolerance - params.certificate_gap, 0.5 * params.chord_tolerance),
-        params.chord_tolerance};
+        ExcessTolerance(params)};
     level.cell = cells.grid.unit;
     level.ambiguous_cells = cells.ambiguous;
     const auto first = std::find_if(cells.cells.begin(), cells.cells.end(),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cam/path/chord_bounds.h"
+#include "cam/path/chord_supports.h"
 
 namespace patchmill {
 namespace {
@@ -114,8 +115,15 @@ double LineTracer::NextAdvance(const LineStation& s) const {
 
 bool LineTracer::ChordIsGood(const LineStation& a, const LineStation& b) const {
   const Vec3 ca = Center(a), cb = Center(b);
-  return ChordGouge(radius_, (cb - ca).norm()) <= params_.chord_tolerance &&
-         ChordExcess(radius_, ca, cb, SupportOf(a.right), SupportOf(b.left)) <= params_.chord_tolerance;
+  const double length = (cb - ca).norm(), limit = std::min(params_.chord_tolerance, params_.excess_tolerance);
+  if (ChordGouge(radius_, length) > params_.chord_tolerance) return false;
+  const Support left = SupportOf(a.right), right = SupportOf(b.left);
+  if (ChordExcess(radius_, ca, cb, left, right) <= limit) return true;
+  if (!a.right || !b.left || a.right->piece.value != b.left->piece.value) return false;
+  return ExcessWithin(radius_, ca, cb, left,
+                      SupportsBetween(locator_.surface(), *a.right, *b.left,
+                                      SupportParts(radius_, length, limit), params_.floor_center),
+                      right, limit);
 }
 
 void LineTracer::Emit(const LineStation& s) {

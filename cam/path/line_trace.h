@@ -24,10 +24,11 @@ struct LineStation {
 };
 
 struct LineTraceParams {
-  double chord_tolerance = 0.005;    // mm, T2 and T3 between neighbouring stations
-  double floor_center = -kInfinity;  // mm, lowest centre height
-  double certificate_gap = 0.0;      // mm: heights are certified to this; 0: not certified
-  const RunContext* run = nullptr;   // polled when set: a cancelled trace is cut short
+  double chord_tolerance = 0.005;       // mm, T2 and T3 between neighbouring stations
+  double excess_tolerance = kInfinity;  // mm, T3 between them, where that is less
+  double floor_center = -kInfinity;     // mm, lowest centre height
+  double certificate_gap = 0.0;         // mm: heights are certified to this; 0: not certified
+  const RunContext* run = nullptr;      // polled when set: a cancelled trace is cut short
 };
 
 // The segment in plan, by arc length.
@@ -41,9 +42,9 @@ struct PlanLine {
 };
 
 // Runs where h exists, in order of t. Neighbouring stations are joined by a chord with T2 gouge and T3 excess
-// within the tolerance, or are the two ends of a vertical drop (same t). Switches to 1e-10 mm in t, drops and
-// ends of runs to 1e-8 mm. One exact height per station, certified when asked for, a few branch followings
-// per switch.
+// within their tolerances, or are the two ends of a vertical drop (same t). Switches to 1e-10 mm in t, drops
+// and ends of runs to 1e-8 mm. One exact height per station, certified when asked for, a few branch
+// followings per switch.
 std::vector<std::vector<LineStation>> TraceLine(const Locator& locator, const PlanLine& line,
                                                 const LineTraceParams& params);
 

@@ -4,12 +4,24 @@
 #include <cmath>
 
 #include "cam/path/chord_bounds.h"
+#include "cam/path/chord_supports.h"
 
 namespace patchmill {
 namespace {
 
 constexpr int kMaxDepth = 30;
 constexpr double kApart = 1e-9;  // mm: points closer than this are one
+
+// Does the chord leave no more than `limit`, by the ground between the contacts of its ends? Only asked where
+// they are on one piece.
+bool ExcessBetween(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b, double limit) {
+  if (a.contact.piece.value != b.contact.piece.value) return false;
+  const double radius = oracle.radius();
+  const int parts = SupportParts(radius, (b.q - a.q).norm(), limit);
+  return ExcessWithin(radius, oracle.Center(a.q), oracle.Center(b.q), {a.contact.p, -kInfinity},
+                      SupportsBetween(oracle.surface(), a.contact, b.contact, parts, -kInfinity),
+                      {b.contact.p, -kInfinity}, limit);
+}
 
 class Refiner {
  public:
@@ -25,14 +37,15 @@ class Refiner {
     const double excess = ChordExcess(oracle_, a, b);
     // Between two points that touch no chord leaves more than half its length: a shorter one that seems to
     // has a contact known to no better than the tolerance, and would be divided without end.
-    const bool fine = excess <= tolerance_.excess || length <= 2.0 * tolerance_.excess;
+    const bool fine = excess <= tolerance_.excess || length <= 2.0 * tolerance_.excess ||
+                      (length <= longest_ && ExcessBetween(oracle_, a, b, tolerance_.excess));
     if ((length <= longest_ && fine) || depth >= kMaxDepth || length < kApart || cell.fixed) {
       out_.push_back(b);
       return;
     }
     // Beyond a corner each side has its own contact.
     const double reach = 1.5 * length;
-    if (excess > tolerance_.excess && !OneBranch(a, b)) {
+    if (!fine && !OneBranch(a, b)) {
       const std::optional<LevelPoint> corner = oracle_.Corner(a, b, reach);
       if (corner && Between(corner->q, a.q, b.q, cell)) {
         LevelPoint before = *corner, after = *corner;
@@ -99,16 +112,8 @@ class Refiner {
   std::vector<LevelPoint>& out_;
 };
 
-// Distance from a point to the straight move between two centres, all at one level.
-double DistanceToChord(const Vec3& p, double z, const Vec2& a, const Vec2& b) {
-  const Vec2 d = b - a, r = Plan(p) - a;
-  const double t = d.squaredNorm() > 0.0 ? std::clamp(r.dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
-  const Vec2 gap = r - t * d;
-  return std::hypot(gap.x(), gap.y(), std::max(0.0, z - p.z()));
-}
-
-// Leaves out points where one chord serves: it is short enough for T2, its ends' discs bound the excess, and
-// the contacts passed over stay within the tolerance too.
+// Leaves out points where one chord serves: it is short enough for T2, and the ground below the points passed
+// over and between them bounds the excess.
 std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelPoint>& points, bool closed,
                              const LoopTolerance& tolerance) {
   constexpr std::size_t kMostSkipped = 24;
@@ -128,14 +133,24 @@ std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelP
       if ((end.q - points[i].q).norm() > longest) break;
       LevelPoint start = points[i];
       if (start.other) start.contact = *start.other;
-      bool good = ChordExcess(oracle, start, end) <= tolerance.excess;
-      for (std::size_t s = i + 1; good && s < k; ++s) {
-        const double left =
-            DistanceToChord(points[s].contact.p, oracle.z(), start.q, end.q) - oracle.radius();
+      // Stretch by stretch between the places where the chord passes the points left out, by the ground
+      // there.
+      const Vec2 way = end.q - start.q;
+      bool good = way.squaredNorm() > 0.0;
+      double from = 0.0;
+      LevelPoint left = start;
+      for (std::size_t s = i + 1; good && s <= k; ++s) {
+        const LevelPoint& right = points[s % n];
+        const double to = s < k ? (right.q - start.q).dot(way) / way.squaredNorm() : 1.0;
         // Neither may the polyline move away from the points it passes over in plan.
-        const Vec2 way = end.q - start.q, to = points[s].q - start.q;
-        const double t = way.squaredNorm() > 0.0 ? to.dot(way) / way.squaredNorm() : -1.0;
-        good = left <= tolerance.excess && t > 0.0 && t < 1.0;
+        good = to > from && to <= 1.0;
+        LevelPoint x = left, y = right;
+        x.q = start.q + from * way;
+        y.q = start.q + to * way;
+        good = good && (ChordExcess(oracle, x, y) <= tolerance.excess ||
+                        ExcessBetween(oracle, x, y, tolerance.excess));
+        left = right;
+        from = to;
       }
       if (good) best = k;
     }

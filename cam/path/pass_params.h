@@ -1,6 +1,8 @@
 // What every pass generator needs.
 #pragma once
 
+#include <algorithm>
+
 #include "core/base/vec.h"
 
 namespace patchmill {
@@ -13,8 +15,10 @@ struct SlopeWindow {
 };
 
 struct PassParams {
-  double scallop = 0.01;            // mm, (0, R)
-  double chord_tolerance = 0.005;   // mm: gouge and excess of every chord, certificate gap included
+  double scallop = 0.01;           // mm, (0, R)
+  double chord_tolerance = 0.005;  // mm: gouge and excess of every chord, certificate gap included
+  double excess_tolerance =
+      kInfinity;                    // mm: excess of chords of lines, contours and spirals, where that is less
   double certificate_gap = 1e-4;    // mm: emitted heights are certified to this and raised by their gap
   double floor_z = -kInfinity;      // mm: the lowest TIP height; centres never go below floor_z + radius
   SlopeWindow window;               // passes cover contacts in here, dilated by half a step along the pass
@@ -22,5 +26,28 @@ struct PassParams {
   // The ball rolls over every open border, not only over rims that are locally highest (MACHINING A.12).
   bool roll = false;
 };
+
+// What the chords of lines, contours and spirals may take away and leave, as parts of the scallop, so that
+// the finish is the one asked for within 5 % at the worst spot between two passes; the tolerance alone would
+// allow half of itself, often half the scallop. Chords that gouge by g lower the crest between two passes by
+// g / 2 where it is highest, however their vertices lie to each other; what they leave comes on top of the
+// scallop, and so does what kWideGap lets through.
+inline constexpr double kGougeOfScallop = 0.1, kExcessOfScallop = 0.03;
+// mm: what scallops are taken for at least here: under a smaller one the chords would be finer than machines
+// place their tools, and programs many times as long.
+inline constexpr double kFinestScallop = 0.005;
+
+// The same with chords that fine, where its own are not.
+inline PassParams WithFineChords(PassParams params) {
+  const double scallop = std::max(params.scallop, kFinestScallop);
+  params.chord_tolerance = std::min(params.chord_tolerance, kGougeOfScallop * scallop);
+  params.excess_tolerance = std::min(params.excess_tolerance, kExcessOfScallop * scallop);
+  return params;
+}
+
+// What chords may leave standing on the ground below them, mm.
+inline double ExcessTolerance(const PassParams& params) {
+  return std::min(params.chord_tolerance, params.excess_tolerance);
+}
 
 }  // namespace patchmill

@@ -8,6 +8,7 @@ namespace patchmill {
 std::vector<ScanRun> ScanLine(const Locator& locator, const Vec2& a, const Vec2& b, const PassParams& params,
                               const RunContext* run) {
   const LineTraceParams trace{.chord_tolerance = params.chord_tolerance - CertificateGap(params),
+                              .excess_tolerance = ExcessTolerance(params) - CertificateGap(params),
                               .floor_center = params.floor_z + locator.radius(),
                               .certificate_gap = CertificateGap(params),
                               .run = run};

@@ -8,9 +8,11 @@
 
 #include "cam/path/certify_centers.h"
 #include "cam/path/chord_bounds.h"
+#include "cam/path/chord_supports.h"
 #include "cam/path/chord_thinning.h"
 #include "cam/path/level_oracle.h"
 #include "cam/path/level_trace.h"
+#include "cam/path/loop_refine.h"
 #include "cam/path/spacing.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
@@ -44,11 +46,19 @@ Support Touched(const Vec3& center, const SurfacePoint& contact) {
   return {Vec3(Lift(Plan(contact.p), std::min(contact.p.z(), center.z()))), -kInfinity};
 }
 
-// The chord keeps the tolerance on both sides.
-bool Proven(const CutterPoint& a, const CutterPoint& b, double radius, double tolerance) {
-  return ChordGouge(radius, (b.center - a.center).norm()) <= tolerance &&
-         ChordExcess(radius, a.center, b.center, Touched(a.center, After(a)),
-                     Touched(b.center, *b.contact)) <= tolerance;
+// The chord keeps the tolerances on both sides.
+bool Proven(const CutterPoint& a, const CutterPoint& b, const Locator& locator,
+            const LoopTolerance& tolerance) {
+  const double radius = locator.radius(), length = (b.center - a.center).norm();
+  if (ChordGouge(radius, length) > tolerance.gouge) return false;
+  const SurfacePoint &from = After(a), &to = *b.contact;
+  const Support left = Touched(a.center, from), right = Touched(b.center, to);
+  if (ChordExcess(radius, a.center, b.center, left, right) <= tolerance.excess) return true;
+  if (from.piece.value != to.piece.value) return false;
+  const int parts = SupportParts(radius, length, tolerance.excess);
+  return ExcessWithin(radius, a.center, b.center, left,
+                      SupportsBetween(locator.surface(), from, to, parts, -kInfinity), right,
+                      tolerance.excess);
 }
 
 // A closed contour by its length in plan.
@@ -120,7 +130,7 @@ bool RunsBeside(const Loop& a, const Loop& b, double most) {
 // One turn from `upper`, which begins where the last turn ended, down to `lower`.
 class Turn {
  public:
-  Turn(const LevelContext& context, const Loop& upper, const Loop& lower, double tolerance)
+  Turn(const LevelContext& context, const Loop& upper, const Loop& lower, const LoopTolerance& tolerance)
       : context_(context),
         upper_(upper),
         // Begun beside the upper one's first point: feet then run from 0 to its length.
@@ -191,7 +201,7 @@ class Turn {
 
   // Appends the points after a up to b, every chord proven.
   bool Way(double sa, const CutterPoint& a, double sb, const CutterPoint& b, int depth) {
-    if (Proven(a, b, radius_, tolerance_)) {
+    if (Proven(a, b, context_.locator, tolerance_)) {
       points_.push_back(b);
       return true;
     }
@@ -204,16 +214,17 @@ class Turn {
   const LevelContext& context_;
   const Loop& upper_;
   const Loop lower_;
-  const double tolerance_, radius_;
+  const LoopTolerance tolerance_;
+  const double radius_;
   std::vector<double> feet_;
   std::vector<CutterPoint> points_;
 };
 
 // Chords between a new first point of a contour and its neighbours.
-bool ClosesWithin(const Loop& loop, double radius, double tolerance) {
+bool ClosesWithin(const Loop& loop, const Locator& locator, double tolerance) {
   const std::vector<CutterPoint>& points = loop.points();
-  return Proven(points[0], points[1], radius, tolerance) &&
-         Proven(points.back(), points[0], radius, tolerance);
+  const LoopTolerance both{tolerance, tolerance};
+  return Proven(points[0], points[1], locator, both) && Proven(points.back(), points[0], locator, both);
 }
 
 // The closed contour of the next line that a closed contour runs beside, the only one and for it alone; -1:
@@ -298,10 +309,11 @@ absl::StatusOr<std::vector<CutterPath>> SpiralPaths(const Locator& locator, std:
     while (below[at] >= 0 && !run.Cancelled()) {
       const auto next = static_cast<std::size_t>(below[at]);
       const Loop lower = loop_of(next);
-      const std::vector<CutterPoint> turn = Turn(context, loop, lower, tolerance).Wind();
+      const std::vector<CutterPoint> turn =
+          Turn(context, loop, lower, {tolerance, ExcessTolerance(params)}).Wind();
       std::optional<Loop> begun;
       if (!turn.empty()) begun = lower.BegunAt(turn.back());
-      if (begun && ClosesWithin(*begun, radius, tolerance)) {
+      if (begun && ClosesWithin(*begun, locator, tolerance)) {
         if (points.empty()) {
           points = loop.points();
           points.push_back(loop.points().front());

@@ -74,7 +74,7 @@ class PassMaker {
     }
     if (choice.strategy != Strategy::kContour) {
       ZigzagParams params;
-      SetPass(choice, params);
+      SetFinePass(choice, params);
       params.window.max = choice.strategy == Strategy::kAuto ? op_.steep_angle : kPi / 2.0;
       params.angle = choice.zigzag_angle;
       params.max_bend = op_.zigzag_bend;
@@ -97,7 +97,7 @@ class PassMaker {
     }
     if (op_.spirals) {
       PassParams params;
-      SetPass(choice, params);
+      SetFinePass(choice, params);
       const bool backwards = op_.contour_direction == CutDirection::kConventional;
       PM_ASSIGN_OR_RETURN(paths, SpiralPaths(locator_, std::move(paths), params, backwards, run_));
     }
@@ -133,7 +133,7 @@ class PassMaker {
     }
     if (borders.empty()) return absl::OkStatus();
     PassParams params;
-    SetPass(choice, params);
+    SetFinePass(choice, params);
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> passes,
                         BorderPasses(locator_, borders, planned.paths, params, run_));
     if (keep_in != nullptr) {
@@ -169,7 +169,7 @@ class PassMaker {
       return known->second;
     }
     ContourParams params;
-    SetPass(choice, params);
+    SetFinePass(choice, params);
     params.window.min = all ? 0.0 : op_.steep_angle;
     PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
     findings.insert(findings.end(), contours.findings.begin(), contours.findings.end());
@@ -179,6 +179,12 @@ class PassMaker {
   void SetPass(const RegionChoice& choice, PassParams& params) const {
     params = base_;
     params.scallop = choice.scallop;
+  }
+
+  // Of passes that lie side by side.
+  void SetFinePass(const RegionChoice& choice, PassParams& params) const {
+    SetPass(choice, params);
+    params = WithFineChords(params);
   }
 
   const Locator& locator_;

@@ -1,10 +1,12 @@
 #include "server/handlers/prepare.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "cam/path/pass_params.h"
 #include "cam/plan/quickest_angles.h"
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
@@ -37,7 +39,8 @@ absl::Status CheckPathSize(const Job& job, const PatchModel& model) {
   if (!(planned <= limits::kMaxCutLengthMm)) {
     return LimitError("estimated_cut_length_mm", limits::kMaxCutLengthMm, planned);
   }
-  const double sagitta = SplitBudget(job.operation.tolerance).chord;
+  const double sagitta =
+      std::min(SplitBudget(job.operation.tolerance).chord, kGougeOfScallop * std::max(h, kFinestScallop));
   const double points = length / (2.0 * std::sqrt(sagitta * (2.0 * radius - sagitta)));
   if (points <= limits::kMaxPathPoints) return absl::OkStatus();
   return LimitError("estimated_point_count", limits::kMaxPathPoints, points);
