@@ -1,13 +1,17 @@
 // How many regions a machinist is shown: tests/cam/region/region_counts.txt, and no other number when the
 // shape moves by what nobody can see. Networks: tests/service/regions_test.cc.
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <gtest/gtest.h>
 
 #include "cam/region/region_map.h"
+#include "core/base/error_details.h"
 #include "core/network/control_points.h"
 #include "tests/support/model_table.h"
 #include "tests/support/random.h"
@@ -50,6 +54,41 @@ int CountOf(const PatchModel& model) {
   int count = 0;
   for (const Region& r : Split(Build(model)).regions) count += r.kind != RegionKind::kUnreachable;
   return count;
+}
+
+// A file without a row is a row's model once more, or none that can be read.
+TEST(RegionCounts, EveryModelAtHandHasARow) {
+  namespace fs = std::filesystem;
+  std::set<std::string> named;
+  for (const testing::TableRow& row : testing::ModelTable()) named.insert(row.file);
+  const auto ending = [](const fs::path& path) { return path.extension().string().substr(1); };
+  int without = 0;
+  const auto look = [&](const fs::path& directory, const std::string& as) {
+    if (!fs::exists(directory)) return;
+    for (const auto& entry : fs::directory_iterator(directory)) {
+      const std::string name = entry.path().filename().string();
+      if (!entry.is_regular_file() || entry.path().extension().empty() || named.count(as + name) > 0)
+        continue;
+      if (as == "examples/" && (name.ends_with(".md") || name.ends_with(".txt"))) continue;
+      ++without;
+      SCOPED_TRACE(as + name);
+      const auto model = ReadModelText(ending(entry.path()), *testing::ReadFile(entry.path()));
+      if (!model.ok()) {
+        EXPECT_TRUE(ending(entry.path()) == "dat" || ending(entry.path()) == "obj" ||
+                    CodeOf(model.status()) == "ZERO_WEIGHT")
+            << model.status();
+        continue;
+      }
+      const PatchModel teapot = testing::LoadModel("examples/teapot.bpt");
+      ASSERT_EQ(model->patches.size(), teapot.patches.size());
+      for (std::size_t k = 0; k < teapot.patches.size(); ++k)
+        EXPECT_TRUE(std::ranges::equal(ControlPoints(model->patches[k].shape),
+                                       ControlPoints(teapot.patches[k].shape)));
+    }
+  };
+  look(PATCHMILL_SOURCE_DIR "/examples", "examples/");
+  EXPECT_EQ(without, 0);
+  look(PATCHMILL_SOURCE_DIR "/../shared/data/patches", "shared/data/patches/");
 }
 
 TEST(RegionCounts, AreThoseOfTheTableWithAndWithoutNoise) {
