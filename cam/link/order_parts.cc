@@ -5,35 +5,69 @@
 #include <limits>
 #include <tuple>
 
+#include "core/base/union_find.h"
+
 namespace patchmill {
 namespace {
 
 constexpr double kLevel = 0.01;  // mm
 
-// A place for each region, the last for what lies in none; each with itself and those beside it, rising.
-std::vector<std::vector<std::size_t>> Neighbours(const RegionMap& map) {
-  const std::size_t n = map.regions.size() + 1;
-  std::vector<std::vector<std::size_t>> beside(n);
-  for (std::size_t i = 0; i < n; ++i) beside[i].push_back(i);
+// A place for each region, the last for what lies in none; of each those beside it, rising, itself too.
+using Places = std::vector<std::vector<std::size_t>>;
+
+void SortEach(Places& places) {
+  for (auto& own : places) {
+    std::sort(own.begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
+  }
+}
+
+// Those that share a border.
+Places Neighbours(const RegionMap& map) {
+  Places beside(map.regions.size() + 1);
+  for (std::size_t i = 0; i < beside.size(); ++i) beside[i].push_back(i);
   for (const BorderLine& line : map.border_lines) {
     if (line.region < 0 || line.other < 0) continue;
     const auto a = static_cast<std::size_t>(line.region), b = static_cast<std::size_t>(line.other);
     beside[a].push_back(b);
     beside[b].push_back(a);
   }
-  for (auto& own : beside) {
-    std::sort(own.begin(), own.end());
-    own.erase(std::unique(own.begin(), own.end()), own.end());
+  SortEach(beside);
+  return beside;
+}
+
+// And those with nothing but unreachable ground between.
+Places NeighboursAcross(const RegionMap& map, Places beside) {
+  const auto reached = [&](std::size_t i) {
+    return i >= map.regions.size() || map.regions[i].kind != RegionKind::kUnreachable;
+  };
+  UnionFind sets(beside.size());
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    for (const std::size_t k : beside[i]) {
+      if (!reached(i) && !reached(k)) sets.Join(i, k);
+    }
   }
+  Places around(beside.size());  // of each unreachable ground what is reached beside it
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    for (const std::size_t k : beside[i]) {
+      if (!reached(i) && reached(k)) around[sets.Find(i)].push_back(k);
+    }
+  }
+  SortEach(around);
+  for (const auto& all : around) {
+    for (const std::size_t i : all) beside[i].insert(beside[i].end(), all.begin(), all.end());
+  }
+  SortEach(beside);
   return beside;
 }
 
 }  // namespace
 
-std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts) {
-  const std::vector<std::vector<std::size_t>> beside = Neighbours(map);
+std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts,
+                                    const RunContext& run) {
+  const Places beside = Neighbours(map), above = NeighboursAcross(map, beside);
   const std::size_t n = parts.size(), nowhere = map.regions.size();
-  std::vector<std::vector<std::size_t>> places(n);
+  Places places(n);
   std::vector<long long> level(n);
   for (std::size_t i = 0; i < n; ++i) {
     level[i] = std::llround(parts[i].height / kLevel);
@@ -41,7 +75,7 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
     if (places[i].empty()) places[i].push_back(nowhere);
   }
   // Of each region its parts, the next one last: only that one need not wait for another of the same region.
-  std::vector<std::vector<std::size_t>> left(nowhere + 1);
+  Places left(nowhere + 1);
   for (std::size_t i = n; i-- > 0;) {
     for (const std::size_t place : places[i]) left[place].push_back(i);
   }
@@ -50,22 +84,26 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
                      [&](std::size_t a, std::size_t b) { return level[a] < level[b]; });
   }
   std::vector<bool> done(n, false), near(nowhere + 1, false);
+  std::vector<std::size_t> asked(
+      n, 0);  // in which step a part was last looked at: it is next in each of its regions
   const auto waits = [&](std::size_t i) {
     for (const std::size_t place : places[i]) {
-      for (const std::size_t other : beside[place]) {
+      for (const std::size_t other : above[place]) {
         if (!left[other].empty() && level[left[other].back()] > level[i]) return true;
       }
     }
     return false;
   };
   std::vector<std::size_t> order;
-  while (order.size() < n) {
+  while (order.size() < n && !run.Cancelled()) {
     // The highest of all waits for none, so that there always is one.
     using Rank = std::tuple<bool, long long, std::size_t>;
     Rank best{true, std::numeric_limits<long long>::max(), n};
     for (const auto& own : left) {
-      if (own.empty() || waits(own.back())) continue;
+      if (own.empty() || asked[own.back()] == order.size() + 1) continue;
       const std::size_t i = own.back();
+      asked[i] = order.size() + 1;
+      if (waits(i)) continue;
       const bool far =
           std::none_of(places[i].begin(), places[i].end(), [&](std::size_t p) { return near[p]; });
       best = std::min(best, Rank{far, -level[i], i});

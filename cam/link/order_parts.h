@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cam/region/region_map.h"
+#include "core/base/run_context.h"
 
 namespace patchmill {
 
@@ -16,9 +17,11 @@ struct JobPart {
 };
 
 // The parts by position. None comes before a higher one beside it: in the same region or in one that shares a
-// border with its own. Of those that need not wait a neighbour of the last part goes before others, then the
-// higher, then the first. Heights are told apart to 0.01 mm, so that level ground keeps the order it came in.
-// Deterministic; O(n k) for n parts and k pairs of neighbouring regions.
-std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts);
+// border with its own, or has only unreachable ground between (the foot of a boss that no ball gets into). Of
+// those that need not wait a neighbour of the last part goes before others, then the higher, then the first.
+// Heights are told apart to 0.01 mm, so that level ground keeps the order it came in. Deterministic; O(n m)
+// for n parts and m pairs of regions that are beside each other. Cancelled it ends early.
+std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts,
+                                    const RunContext& run);
 
 }  // namespace patchmill

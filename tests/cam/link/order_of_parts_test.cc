@@ -150,6 +150,7 @@ TEST_F(OrderOfParts, CapThenFlankThenGroundThenWallThenFloor) {
   }
   for (std::size_t f = 0; f < kFeatures.size(); ++f) {
     const bool hill = kFeatures[f].height > 0;
+    for (const Span* span : {&steep[f], &end[f], &around[f]}) EXPECT_LE(span->first, span->last) << f;
     const Span &upper = hill ? end[f] : around[f], &lower = hill ? around[f] : end[f];
     EXPECT_LT(upper.last, steep[f].first) << f;
     EXPECT_LT(steep[f].last, lower.first) << f;

@@ -1,6 +1,7 @@
 #include "cam/link/order_parts.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace patchmill {
 namespace {
@@ -23,43 +25,79 @@ RegionMap Map(int regions, const std::vector<std::pair<int, int>>& borders) {
   return map;
 }
 
-TEST(OrderParts, NothingOfNothing) { EXPECT_TRUE(OrderParts({}, {}).empty()); }
+Order Ordered(const RegionMap& map, const std::vector<JobPart>& parts) {
+  return OrderParts(map, parts, RunContext(1));
+}
+
+TEST(OrderParts, NothingOfNothing) { EXPECT_TRUE(Ordered({}, {}).empty()); }
 
 TEST(OrderParts, AHillFromTheTop) {
   // Ground, flank, cap.
   const RegionMap map = Map(3, {{0, 1}, {1, 2}});
-  EXPECT_EQ(OrderParts(map, {{{0}, 3}, {{1}, 7}, {{2}, 12}}), (Order{2, 1, 0}));
+  EXPECT_EQ(Ordered(map, {{{0}, 3}, {{1}, 7}, {{2}, 12}}), (Order{2, 1, 0}));
 }
 
 TEST(OrderParts, APitFromTheRim) {
   const RegionMap map = Map(3, {{0, 1}, {1, 2}});
-  EXPECT_EQ(OrderParts(map, {{{0}, -7}, {{1}, -3}, {{2}, 2}}), (Order{2, 1, 0}));
+  EXPECT_EQ(Ordered(map, {{{0}, -7}, {{1}, -3}, {{2}, 2}}), (Order{2, 1, 0}));
 }
 
 TEST(OrderParts, OneHillAfterTheOtherAndGroundAfterBoth) {
   // 0 ground; 1, 2 flank and cap of a hill; 3, 4 those of a lower one; 5, 6 wall and floor of a pit.
   const RegionMap map = Map(7, {{0, 1}, {1, 2}, {0, 3}, {3, 4}, {0, 5}, {5, 6}});
   const std::vector<JobPart> parts{{{1}, 7}, {{3}, 6}, {{5}, 0}, {{0}, 2}, {{2}, 12}, {{4}, 10}, {{6}, -4}};
-  EXPECT_EQ(OrderParts(map, parts), (Order{4, 0, 5, 1, 3, 2, 6}));
+  EXPECT_EQ(Ordered(map, parts), (Order{4, 0, 5, 1, 3, 2, 6}));
 }
 
 TEST(OrderParts, ANeighbourGoesBeforeWhatIsHigherButFarAway) {
   // Two tables, each beside a step lower than both of them.
   const RegionMap map = Map(4, {{0, 1}, {2, 3}});
-  EXPECT_EQ(OrderParts(map, {{{0}, 10}, {{1}, 5}, {{2}, 9}, {{3}, 4}}), (Order{0, 1, 2, 3}));
-  EXPECT_EQ(OrderParts(Map(4, {}), {{{0}, 10}, {{1}, 5}, {{2}, 9}, {{3}, 4}}), (Order{0, 2, 1, 3}));
+  EXPECT_EQ(Ordered(map, {{{0}, 10}, {{1}, 5}, {{2}, 9}, {{3}, 4}}), (Order{0, 1, 2, 3}));
+  EXPECT_EQ(Ordered(Map(4, {}), {{{0}, 10}, {{1}, 5}, {{2}, 9}, {{3}, 4}}), (Order{0, 2, 1, 3}));
+}
+
+TEST(OrderParts, GroundAroundAFootThatNoBallGetsIntoWaits) {
+  // 0 ground, 1 flank of a boss, 2 and 3 its foot, unreachable for two reasons; 4 a hill beside the ground.
+  RegionMap map = Map(5, {{0, 2}, {2, 3}, {3, 1}, {0, 4}});
+  const std::vector<JobPart> parts{{{0}, 2}, {{1}, 6}, {{4}, 8}};
+  EXPECT_EQ(Ordered(map, parts), (Order{2, 0, 1}));  // as long as passes may lie there
+  map.regions[2].kind = map.regions[3].kind = RegionKind::kUnreachable;
+  EXPECT_EQ(Ordered(map, parts), (Order{2, 1, 0}));
+}
+
+TEST(OrderParts, AThousandRegionsUnderOnePartAreSoonDone) {
+  // Each step may look at a part of many regions once, not once in each of them.
+  const int n = 2000;
+  std::vector<std::pair<int, int>> chain;
+  std::vector<JobPart> parts(1);
+  for (int i = 0; i < n; ++i) {
+    if (i > 0) chain.emplace_back(i - 1, i);
+    parts[0].regions.push_back(i);
+    parts.push_back({{i}, 1.0 + i});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const Order order = Ordered(Map(n, chain), parts);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(testing::kSanitized ? 20 : 2));
+  ASSERT_EQ(order.size(), parts.size());
+  EXPECT_EQ(order.back(), 0u);
+}
+
+TEST(OrderParts, EndsEarlyWhenCancelled) {
+  RunContext run(1);
+  run.Cancel();
+  EXPECT_TRUE(OrderParts(Map(1, {}), {{{0}, 1}, {{0}, 2}}, run).empty());
 }
 
 TEST(OrderParts, OfOneRegionTheHighestFirst) {
-  EXPECT_EQ(OrderParts(Map(1, {}), {{{0}, 1}, {{0}, 5}, {{0}, 2}, {{0}, 8}}), (Order{3, 1, 2, 0}));
+  EXPECT_EQ(Ordered(Map(1, {}), {{{0}, 1}, {{0}, 5}, {{0}, 2}, {{0}, 8}}), (Order{3, 1, 2, 0}));
 }
 
 TEST(OrderParts, LevelGroundKeepsItsOrder) {
-  EXPECT_EQ(OrderParts(Map(1, {}), {{{0}, 5.0}, {{0}, 5.001}, {{0}, 4.999}}), (Order{0, 1, 2}));
+  EXPECT_EQ(Ordered(Map(1, {}), {{{0}, 5.0}, {{0}, 5.001}, {{0}, 4.999}}), (Order{0, 1, 2}));
 }
 
 TEST(OrderParts, PassesOfNoKnownRegionGoByHeight) {
-  EXPECT_EQ(OrderParts({}, {{{}, 1}, {{}, 3}, {{}, 2}}), (Order{1, 2, 0}));
+  EXPECT_EQ(Ordered({}, {{{}, 1}, {{}, 3}, {{}, 2}}), (Order{1, 2, 0}));
 }
 
 // Whatever the map: each part once, and none before a higher one beside it.
@@ -80,7 +118,7 @@ TEST(OrderParts, NoneBeforeAHigherNeighbour) {
       // Few heights, so that some are the same.
       parts.push_back({{regions.begin(), regions.end()}, std::floor(random.Uniform(0, 9))});
     }
-    const Order order = OrderParts(map, parts);
+    const Order order = Ordered(map, parts);
     Order sorted = order;
     std::sort(sorted.begin(), sorted.end());
     ASSERT_EQ(sorted.size(), parts.size());
