@@ -13,7 +13,7 @@ namespace patchmill {
 double CertificateGap(const PassParams& params);
 
 // Vertices of one run: the first, the last, all `keep` stations, and what else is needed. Chord excess is
-// proven by T3 on the stations' supports and followed contacts half way between them, gouge by the swept
+// proven by T3 on the stations' supports and points of the surface between their contacts, gouge by the swept
 // query (T2 where a chord joins neighbouring stations); heights are certified and raised by their gap.
 // Stations' neighbours must be joined by chords within params.chord_tolerance and ExcessTolerance(params),
 // each less CertificateGap(params), already. `run` is polled when set: cancelled, the vertices end early.

@@ -30,9 +30,9 @@ struct PassParams {
 // What the chords of lines, contours and spirals may take away and leave, as parts of the scallop, so that
 // the finish is the one asked for within 5 % at the worst spot between two passes; the tolerance alone would
 // allow half of itself, often half the scallop. Chords that gouge by g lower the crest between two passes by
-// g / 2 where it is highest, however their vertices lie to each other; what they leave comes on top of the
-// scallop, and so does what kWideGap lets through.
-inline constexpr double kGougeOfScallop = 0.1, kExcessOfScallop = 0.03;
+// g / 2 at most where it is highest, however their vertices lie to each other; what they leave comes on top
+// of the scallop, and so do the 3.5 % that kWideGap lets through.
+inline constexpr double kGougeOfScallop = 0.1, kExcessOfScallop = 0.01;
 // mm: what scallops are taken for at least here: under a smaller one the chords would be finer than machines
 // place their tools, and programs many times as long.
 inline constexpr double kFinestScallop = 0.005;

@@ -20,9 +20,9 @@ double ScallopOfStep(double radius, double center_step, double kappa);
 // narrower than that. All in mm, gap and least > 0.
 int PartsOfGap(double gap, double need, double least);
 
-// A gap that is wider than its need by less than this factor leaves 4 % more than the scallop at most: no
+// A gap that is wider than its need by less than this factor leaves 3.5 % more than the scallop at most: no
 // pass is added for that.
-inline constexpr double kWideGap = 1.02;
+inline constexpr double kWideGap = 1.0175;
 
 // How much wider than their needs gaps may be throughout: kWideGap, or less where that would leave half the
 // chord tolerance (mm) more than the scallop and so begin to cost rest passes.

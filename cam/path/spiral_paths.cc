@@ -221,9 +221,8 @@ class Turn {
 };
 
 // Chords between a new first point of a contour and its neighbours.
-bool ClosesWithin(const Loop& loop, const Locator& locator, double tolerance) {
+bool ClosesWithin(const Loop& loop, const Locator& locator, const LoopTolerance& both) {
   const std::vector<CutterPoint>& points = loop.points();
-  const LoopTolerance both{tolerance, tolerance};
   return Proven(points[0], points[1], locator, both) && Proven(points.back(), points[0], locator, both);
 }
 
@@ -263,7 +262,8 @@ std::vector<int> Followers(const std::vector<CutterPath>& contours, double most)
 absl::StatusOr<std::vector<CutterPath>> SpiralPaths(const Locator& locator, std::vector<CutterPath> contours,
                                                     const PassParams& params, bool backwards,
                                                     const RunContext& run) {
-  const double radius = locator.radius(), tolerance = params.chord_tolerance;
+  const double radius = locator.radius();
+  const LoopTolerance tolerance{params.chord_tolerance, ExcessTolerance(params)};
   const LevelContext context(locator, run);
   PM_RETURN_IF_ERROR(run.Check());
   const std::vector<int> below = Followers(contours, kBeside * CenterStep(radius, params.scallop, 0.0));
@@ -309,8 +309,7 @@ absl::StatusOr<std::vector<CutterPath>> SpiralPaths(const Locator& locator, std:
     while (below[at] >= 0 && !run.Cancelled()) {
       const auto next = static_cast<std::size_t>(below[at]);
       const Loop lower = loop_of(next);
-      const std::vector<CutterPoint> turn =
-          Turn(context, loop, lower, {tolerance, ExcessTolerance(params)}).Wind();
+      const std::vector<CutterPoint> turn = Turn(context, loop, lower, tolerance).Wind();
       std::optional<Loop> begun;
       if (!turn.empty()) begun = lower.BegunAt(turn.back());
       if (begun && ClosesWithin(*begun, locator, tolerance)) {

@@ -59,7 +59,7 @@ class Cli : public ::testing::Test {
   TempDir in_, out_;
   std::string bump_ = in_.Write("bump.json", Json(testing::Bump()));
   std::string waves_ = in_.Write("waves.json", Json(testing::HillAndPit()));
-  // Hours of work.
+  // Minutes of work.
   std::string long_ = in_.Write("long.pb", testing::Bump(380.0).SerializeAsString());
   std::vector<std::string> fine_ = {"--scallop", "0.002", "--tolerance", "0.01", "--tool-diameter", "2"};
 };

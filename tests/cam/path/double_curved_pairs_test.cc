@@ -143,6 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
                       LineGround{"ring", Ring, 1.25, 90, {11.25, 0}, {2.4, 3.7}},
                       LineGround{"trench", Trench, 1.5, 0, {13.5, 0}, {2.9, 4.5}},
                       LineGround{"trench", Trench, 1.5, 30, {13.5, 0}, {2.9, 4.5}, Pairs::kSomeAreParted},
+                      LineGround{"trench", Trench, 1.3, 15, {11.7, 0}, {2.5, 3.9}, Pairs::kSomeAreParted},
                       LineGround{"trench", Trench, 1.25, 90, {11.25, 0}, {2.4, 3.7}, Pairs::kSomeAreParted},
                       LineGround{"saddle", Pass, 1.25, 0, kHere, {1.8, 1.8}},
                       LineGround{"saddle", Pass, 1.25, 90, kHere, {1.8, 1.8}, Pairs::kSomeAreParted},

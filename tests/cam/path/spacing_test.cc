@@ -111,9 +111,9 @@ TEST(WideGap, LeavesLittleMore) {
       const double left =
           ScallopOfStep(3.0, WideGap(scallop, chord) * CenterStep(3.0, scallop, 0.0), 0.0) - scallop;
       EXPECT_GT(left, 0.0);
-      EXPECT_LE(left, 0.042 * scallop);
+      EXPECT_LE(left, 0.036 * scallop);
       EXPECT_LE(left, 0.53 * chord);
-      EXPECT_GE(left, std::min(0.039 * scallop, 0.49 * chord));
+      EXPECT_GE(left, std::min(0.034 * scallop, 0.49 * chord));
     }
   }
 }
