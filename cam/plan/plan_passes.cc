@@ -152,9 +152,7 @@ class PassMaker {
     params.tolerance = op_.tolerance;
     // Forced passes answer for the ground where their steps are not clamped; the rest is reported as
     // STRATEGY.
-    if (choice.strategy == Strategy::kContour) params.forced.passes = ForcedPasses::kContours;
-    if (choice.strategy == Strategy::kZigzag) params.forced.passes = ForcedPasses::kLines;
-    params.forced.angle = choice.zigzag_angle;
+    params.forced = ForcedOf(choice);
     params.keep_in = keep_in;
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator_, planned.paths, params, run_));
     Append(planned.paths, std::move(rest));

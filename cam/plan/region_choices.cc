@@ -175,6 +175,14 @@ RegionChoice ChoiceOf(const Operation& op) {
   return choice;
 }
 
+ForcedSteps ForcedOf(const RegionChoice& choice) {
+  ForcedSteps forced;
+  if (choice.strategy == Strategy::kContour) forced.passes = ForcedPasses::kContours;
+  if (choice.strategy == Strategy::kZigzag) forced.passes = ForcedPasses::kLines;
+  forced.angle = choice.zigzag_angle;
+  return forced;
+}
+
 absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, const RegionMap& map,
                                                         const Operation& op, const Vec3& program_zero) {
   if (!op.regions_sha256.empty()) {

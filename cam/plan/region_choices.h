@@ -7,6 +7,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/path/forced_steps.h"
 #include "cam/plan/job.h"
 #include "cam/tool/surface_mask.h"
 
@@ -14,6 +15,9 @@ namespace patchmill {
 
 // What holds where nothing overrides it.
 RegionChoice ChoiceOf(const Operation& op);
+
+// What its passes are forced upon.
+ForcedSteps ForcedOf(const RegionChoice& choice);
 
 struct ChosenRegions {
   RegionMap map;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "cam/path/across_feed.h"
+#include "cam/path/forced_steps.h"
+#include "cam/path/pass_params.h"
 #include "cam/path/spacing.h"
 #include "cam/plan/region_points.h"
 #include "core/base/parallel.h"
@@ -66,9 +68,14 @@ absl::StatusOr<double> LeastFeed(const Surface& surface, const std::vector<Regio
                [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
                  if (choices[id].skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p))
                    return;
+                 const RegionChoice& choice = choices[id];
                  const PrincipalCurvatures k = Principal(Forms(jet, e));
-                 const double step = CenterStep(radius, choices[id].scallop, k.k_min);
+                 const double step = CenterStep(radius, choice.scallop, k.k_min);
                  if (!(k.k_max * radius < 1.0) || !(step > 0.0)) return;
+                 // Forced passes leave that as STRATEGY.
+                 if (NeededStepOfSides(ForcedOf(choice), jet, e, radius, choice.scallop) <
+                     PassParams().min_step_fraction)
+                   return;
                  const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
                  pieces[i] += jet.du.cross(jet.dv).norm() * centers / step;
                });

@@ -38,11 +38,18 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
     const auto k = static_cast<std::size_t>(field);
     return from.sign[k] == 0 && to.sign[k] == 0;
   };
-  // What differs first. Merged ground may also end where something else does.
+  // What differs first. Merged ground may also end where something else does: where the triangles differ, for
+  // on planes curvature is 0 all over.
+  const SplitLabel &here = mesh.triangles[static_cast<std::size_t>(a.side.triangle)].label,
+                   &there = meshes[static_cast<std::size_t>(a.other_piece)]
+                                .triangles[static_cast<std::size_t>(a.other_triangle)]
+                                .label;
   for (const bool differs : {true, false}) {
-    if (slope == differs && on(Field::kSlope)) return BorderKind::kSlope;
-    if (curvature == differs && on(Field::kCurvature)) return BorderKind::kCurvature;
-    if (curvature == differs && on(Field::kTurn)) return BorderKind::kSilhouette;
+    if (slope == differs && (differs || here.steep != there.steep) && on(Field::kSlope))
+      return BorderKind::kSlope;
+    if (curvature != differs || (!differs && here.curvature == there.curvature)) continue;
+    if (on(Field::kCurvature)) return BorderKind::kCurvature;
+    if (on(Field::kTurn)) return BorderKind::kSilhouette;
   }
   if (OnWatershed(meshes, a, 0.0)) return BorderKind::kWatershed;
   if (a.across_seam) return BorderKind::kSeam;

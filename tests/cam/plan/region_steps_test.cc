@@ -93,6 +93,19 @@ TEST(LeastFeed, IsTheAreaOfTheCentersOverTheWidestStep) {
   EXPECT_NEAR(LeastFeedOf(Cylinder(Vec3::Zero(), 10, 10, Half::kUpper), job), shell, 2e-3 * shell);
 }
 
+TEST(LeastFeed, LeavesOutWhatForcedPassesLeave) {
+  // Contours on a dome, whose step is the same all over and seen under the slope: its cap wants steps below a
+  // quarter of the flat one.
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.05;
+  job.operation.strategy = Strategy::kContour;
+  const double s = job.operation.scallop, flat = 2.0 * std::sqrt(6.0 * s - s * s);
+  const double step = StepOnConvex(10, 3, s), cap = std::asin(0.25 * flat / step);
+  const double zone = 2.0 * kPi * 13.0 * 13.0 * std::cos(cap) / step;
+  EXPECT_NEAR(LeastFeedOf(Sphere(Vec3::Zero(), 10, Half::kUpper), job), zone,
+              8e-3 * zone);  // two limits in cells
+}
+
 TEST(LeastFeed, DoesNotDependOnHowManyPatchesThereAre) {
   // A level plane of 20 x 20 spline patches: few points of each are looked at.
   PatchModel plane;

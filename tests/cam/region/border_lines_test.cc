@@ -123,6 +123,23 @@ double OpenEdges(const Surface& surface) {
 }
 
 // A watershed may leave a piece as near to its border as rounding allows: no crack stays beside it.
+TEST(BorderLines, ARidgeBetweenSteepAndGentleIsASeam) {
+  // A roof of 20 and 60 degrees: no line of 45 degrees lies in either plane.
+  const double half = 10.0;
+  const Eigen::Affine3d turn(Eigen::AngleAxisd(Radians(20), Vec3::UnitY()));
+  const RegionMap map = Split(SurfaceOf(Transformed(TwoPlanes(Radians(-40), half), turn)), Exact(0.5));
+  ASSERT_EQ(map.regions.size(), 2u);
+  EXPECT_NE(map.regions[0].slope, map.regions[1].slope);
+  const auto by_kind = ByKind(map);
+  ASSERT_EQ(by_kind.size(), 2u);
+  EXPECT_EQ(by_kind.count(BorderKind::kOpenEdge), 1u);
+  ASSERT_EQ(by_kind.at(BorderKind::kSeam).size(), 1u);
+  const BorderLine& ridge = *by_kind.at(BorderKind::kSeam).front();
+  EXPECT_FALSE(ridge.closed);
+  EXPECT_NEAR(Length(ridge.points, false), 2.0 * half, 1e-9);
+  for (const Vec3& p : ridge.points) EXPECT_LT(Vec2(p.x(), p.z()).norm(), 1e-9);
+}
+
 TEST(BorderLines, OpenEdgesAreThoseOfTheSheet) {
   const Surface surface = JoinedSurface(TwoHills());
   const RegionMap map = Split(surface, RegionParams());
