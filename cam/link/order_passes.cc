@@ -6,6 +6,7 @@
 
 #include "cam/link/order_parts.h"
 #include "cam/link/order_search.h"
+#include "cam/region/pass_regions.h"
 #include "core/base/status.h"
 #include "core/base/union_find.h"
 
@@ -263,34 +264,6 @@ std::vector<Cluster> Clusters(std::vector<CutterPath> group, double distance, in
 // one with most has is not one that the part lies in.
 constexpr double kTouchedOnly = 0.1;
 
-// visit(region, length) over a pass: moves along one patch by what they lead over, others half and half.
-template <class Visit>
-void VisitRegions(const CutterPath& pass, const RegionMap& regions, const Visit& visit) {
-  constexpr int kStretches = 8;
-  constexpr double kPoint = 1e-9;  // mm, what a lone point counts
-  if (regions.regions.empty()) return;
-  const auto at = [&](const std::optional<SurfacePoint>& p, double length) {
-    if (p) visit(regions.At(*p), length);
-  };
-  at(pass.points.front().contact, kPoint);
-  for (std::size_t i = 1; i < pass.points.size(); ++i) {
-    const CutterPoint &a = pass.points[i - 1], &b = pass.points[i];
-    const std::optional<SurfacePoint>& from = a.other_contact ? a.other_contact : a.contact;
-    const double length = (b.center - a.center).norm();
-    if (from && b.contact && from->piece.value == b.contact->piece.value) {
-      for (int k = 0; k < kStretches; ++k) {
-        const double s = (k + 0.5) / kStretches;
-        at(SurfacePoint{from->piece, from->u + s * (b.contact->u - from->u),
-                        from->v + s * (b.contact->v - from->v), Vec3::Zero()},
-           length / kStretches);
-      }
-    } else {
-      at(from, 0.5 * length);
-      at(b.contact, 0.5 * length);
-    }
-  }
-}
-
 JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
   std::map<int, double> lengths;
   double most = 0.0, low = kInfinity, high = -kInfinity;
@@ -299,9 +272,9 @@ JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
       low = std::min(low, p.center.z());
       high = std::max(high, p.center.z());
     }
-    VisitRegions(pass, regions, [&](int region, double length) {
+    for (const auto& [region, length] : LengthInRegions(pass, regions)) {
       if (region >= 0) most = std::max(most, lengths[region] += length);
-    });
+    }
   }
   JobPart part{.regions = {}, .height = 0.5 * (low + high)};
   for (const auto& [region, length] : lengths) {

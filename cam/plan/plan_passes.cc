@@ -14,6 +14,7 @@
 #include "cam/path/spacing.h"
 #include "cam/path/spiral_paths.h"
 #include "cam/path/zigzag_paths.h"
+#include "cam/region/pass_regions.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -25,17 +26,10 @@ constexpr double kCoverageShare = 0.75;
 
 void LabelRegions(const RegionMap& regions, std::vector<CutterPath>& paths) {
   for (CutterPath& path : paths) {
-    std::map<int, double> length;
-    for (std::size_t i = 0; i < path.points.size(); ++i) {
-      const CutterPoint& p = path.points[i];
-      if (!p.contact) continue;
-      const double step = i > 0 ? (p.center - path.points[i - 1].center).norm() : 1e-9;
-      length[regions.At(*p.contact)] += step;
-    }
     double most = 0.0;
-    for (const auto& [region, l] : length) {
-      if (region >= 0 && l > most) {
-        most = l;
+    for (const auto& [region, length] : LengthInRegions(path, regions)) {
+      if (region >= 0 && length > most) {
+        most = length;
         path.region = region;
       }
     }
