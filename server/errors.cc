@@ -163,17 +163,16 @@ absl::Status InJob(const absl::Status& status) {
 
 grpc::Status ToGrpcStatus(const absl::Status& status) {
   if (status.ok()) return grpc::Status::OK;
+  if (const std::string field = FieldOf(status); !field.empty()) {
+    FieldErrors errors;
+    errors.Add(field, FieldText(status));
+    return ToGrpcStatus(errors.ToStatus());
+  }
   v1::ErrorInfo info;
   if (const auto payload = status.GetPayload(kInfoUrl)) {
     info.ParseFromString(std::string(*payload));
   } else {
     info.set_reason(DefaultReason(status.code()));
-    if (const std::string field = FieldOf(status); !field.empty()) {
-      info.set_violation_count(1);
-      v1::FieldViolation& violation = *info.add_field_violations();
-      violation.set_field(Cut(field, kMaxViolationBytes));
-      violation.set_description(Cut(FieldText(status), kMaxViolationBytes));
-    }
   }
   v1::Status wire;
   wire.set_code(static_cast<int>(status.code()));
