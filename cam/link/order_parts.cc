@@ -84,8 +84,8 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
                      [&](std::size_t a, std::size_t b) { return level[a] < level[b]; });
   }
   std::vector<bool> done(n, false), near(nowhere + 1, false);
-  std::vector<std::size_t> asked(
-      n, 0);  // in which step a part was last looked at: it is next in each of its regions
+  // In which step a part was looked at last: it may be next in each of its regions.
+  std::vector<std::size_t> asked(n, 0);
   const auto waits = [&](std::size_t i) {
     for (const std::size_t place : places[i]) {
       for (const std::size_t other : above[place]) {

@@ -2,7 +2,6 @@
 // that of its length (ALGORITHMS 2.1): T3 alone counts L^2 / 8 R on a plane.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 

@@ -7,6 +7,7 @@
 #include <absl/status/statusor.h>
 
 #include "cam/path/contour_samples.h"
+#include "cam/path/spacing.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
@@ -21,10 +22,10 @@ inline constexpr double kMostGap = 2.3;
 inline constexpr std::size_t kMostLevels = 50000;
 
 struct HeightParams {
-  double radius = 3.0;    // mm, of the ball
-  double flat = 0.5;      // mm: the step over a plane
-  double smallest = 0.1;  // mm: needs below it count as this
-  double wide = 1.02;     // how much wider than their needs gaps may be throughout: WideGap
+  double radius = 3.0;     // mm, of the ball
+  double flat = 0.5;       // mm: the step over a plane
+  double smallest = 0.1;   // mm: needs below it count as this
+  double wide = kWideGap;  // how much wider than their needs gaps may be throughout: WideGap
 };
 
 // Centre heights, rising: where faces end on a common level (floors, flats, level rims) exactly there, and

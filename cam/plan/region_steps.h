@@ -18,9 +18,9 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
 
 // mm: the integral of the centre surface's area over the widest step at each place, which is CenterStep
 // across the most convex direction, over the reachable ground that is selected and not skipped, less what
-// forced passes leave as STRATEGY. No passes
-// that leave the scallop everywhere can be shorter: a mm of pass takes care of no more than the widest step
-// beside it. The same points as FillSteps. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// forced passes leave as STRATEGY. No passes that leave the scallop everywhere can be shorter: a mm of pass
+// takes care of no more than the widest step beside it. The same points as FillSteps. CANCELLED,
+// DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<double> LeastFeed(const Surface& surface, const std::vector<RegionChoice>& choices,
                                  const Resolved& resolved, const RunContext& run, const RegionMap& map);
 

@@ -21,7 +21,7 @@ using namespace testing;  // NOLINT: the support folder's
 
 constexpr double kR = 3.0, kScallop = 0.005;
 
-// As jobs do: what the chords of a tolerance of as much as the scallop would allow is much less fine.
+// As jobs set it, here under a tolerance as wide as the scallop.
 template <typename Params>
 void SetFinish(Params& params, double scallop) {
   params.scallop = scallop;
@@ -219,8 +219,9 @@ INSTANTIATE_TEST_SUITE_P(
                       LevelGround{"long dome", LongDome, 1.0, 0.5, kInfinity, Pairs::kSomeAreParted},
                       LevelGround{"long bowl", LongDome, -1.0, 0.5, kInfinity, Pairs::kSomeAreParted}));
 
-// The example's hills, hollow and convex along and across: finish and tolerance alike, nothing above 5 %.
-TEST(TwoHillsAtAnyTolerance, LeaveNoMoreThanTheScallop) {
+// The example's hills, hollow and convex along and across. So that there are pairs at all: half
+// the lines at the flat step, and more than a few levels on the steep band of the larger hill.
+TEST(TwoHillsUnderAWideTolerance, LeaveNoMoreThanFivePercentOnTop) {
   const Surface surface = JoinedSurface(TwoHills());
   const Locator locator(surface, kR);
   const double scallop = 0.01, flat = CenterStep(kR, scallop, 0.0), split = Radians(30);
@@ -246,7 +247,7 @@ TEST(TwoHillsAtAnyTolerance, LeaveNoMoreThanTheScallop) {
       ++pairs;
       EXPECT_LE(pair.worst.leftover, 1.05 * scallop) << level;
     }
-    EXPECT_GT(pairs, level ? 50 : 300);
+    EXPECT_GT(pairs, level ? 10.0 : 0.5 * 96.0 / flat);
   }
 }
 
