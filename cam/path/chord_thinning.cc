@@ -1,124 +1,32 @@
 #include "cam/path/chord_thinning.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "cam/path/chord_bounds.h"
-#include "cam/path/chord_supports.h"
+#include "cam/path/fewest_chords.h"
+#include "core/base/parallel.h"
+#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
 
-// Picks vertices out of the stations of one run: as few as the chord tolerance allows, every one certified.
-class Thinner {
- public:
-  Thinner(const Locator& locator, const std::vector<LineStation>& stations, const PassParams& params,
-          double gap)
-      : locator_(locator),
-        stations_(stations),
-        radius_(locator.radius()),
-        tolerance_(params.chord_tolerance),
-        gap_(gap),
-        excess_(ExcessTolerance(params) - gap),
-        floor_center_(params.floor_z + locator.radius()),
-        between_(stations.size()) {}
+// A second contact this far from the first one, in radii, makes a vertex of its own.
+constexpr double kApart = 1e-3;
 
-  std::vector<CutterPoint> Thin(const RunContext* run);
-
- private:
-  struct Between {
-    bool known = false;
-    std::vector<Support> supports;  // empty: none are known
-  };
-
-  Support SupportOf(const std::optional<SurfacePoint>& contact) const {
-    Support s{{}, floor_center_};
-    if (contact) s.contact = contact->p;
-    return s;
-  }
-  const std::vector<Support>& SupportsAfter(std::size_t k);
-  bool Fits(std::size_t i, std::size_t j);
-  std::size_t Farthest(std::size_t i, std::size_t barrier);
-  CutterPoint Certify(const LineStation& s) const;
-  bool Gouges(std::size_t i, std::size_t j, const Vec3& a, const Vec3& b);
-
-  const Locator& locator_;
-  const std::vector<LineStation>& stations_;
-  const double radius_, tolerance_, gap_, excess_, floor_center_;
-  std::vector<Between> between_;
-  std::vector<Vec3> free_;  // scratch
-};
-
-// Supports between stations k and k+1. Any surface point will do: on one piece those between the contacts,
-// else one by branch following.
-const std::vector<Support>& Thinner::SupportsAfter(std::size_t k) {
-  Between& between = between_[k];
-  if (!between.known) {
-    between.known = true;
-    const LineStation &a = stations_[k], &b = stations_[k + 1];
-    if (a.right && b.left && a.right->piece.value == b.left->piece.value) {
-      const double length = (Lift(b.q, b.z) - Lift(a.q, a.z)).norm();
-      between.supports = SupportsBetween(locator_.surface(), *a.right, *b.left,
-                                         SupportParts(radius_, length, excess_), floor_center_);
-    } else if (a.right) {
-      if (const auto c = locator_.Follow(*a.right, 0.5 * (a.q + b.q))) {
-        between.supports.push_back(SupportOf(c->contact));
-      }
-    }
-  }
-  return between.supports;
+const SurfacePoint* Known(const std::optional<SurfacePoint>& contact) {
+  return contact ? &*contact : nullptr;
 }
 
-// Closed-form test of the chord from station i to j against every support between: excess proven (T3), gouge
-// predicted (proven afterwards by the swept query).
-bool Thinner::Fits(std::size_t i, std::size_t j) {
-  const LineStation &first = stations_[i], &last = stations_[j];
-  const Vec3 a = Lift(first.q, first.z), b = Lift(last.q, last.z);
-  const double span = last.t - first.t;
-  const double gouge_limit = 0.9 * tolerance_;
-  const auto on_chord = [&](double t) -> Vec3 { return a + (t - first.t) / span * (b - a); };
-  const auto gouges = [&](const Support& s) {
-    return s.contact && radius_ - SegmentDistance(*s.contact, a, b) > gouge_limit;
-  };
-  for (std::size_t k = i; k < j; ++k) {
-    const LineStation &s = stations_[k], &e = stations_[k + 1];
-    const Support left = SupportOf(s.right), right = SupportOf(e.left);
-    if (gouges(left) || gouges(right)) return false;
-    const Vec3 x = on_chord(s.t), y = on_chord(e.t);
-    if (left.Clearance(x, radius_) > excess_ || right.Clearance(y, radius_) > excess_) return false;
-    const std::vector<Support>& between = SupportsAfter(k);
-    if (std::any_of(between.begin(), between.end(), gouges)) return false;
-    if (!ExcessWithin(radius_, x, y, left, between, right, excess_)) return false;
-  }
-  return true;
-}
-
-std::size_t Thinner::Farthest(std::size_t i, std::size_t barrier) {
-  std::size_t good = i + 1, bad = barrier + 1;
-  for (std::size_t step = 2; good < barrier; step *= 2) {
-    const std::size_t j = std::min(i + step, barrier);
-    if (!Fits(i, j)) {
-      bad = j;
-      break;
-    }
-    good = j;
-  }
-  while (bad - good > 1 && bad <= barrier) {
-    const std::size_t mid = (good + bad) / 2;
-    (Fits(i, mid) ? good : bad) = mid;
-  }
-  return good;
-}
-
-CutterPoint Thinner::Certify(const LineStation& s) const {
+CutterPoint Certify(const Locator& locator, const LineStation& s, double gap) {
   CutterPoint p{Lift(s.q, s.z), s.left, {}};
-  if (s.left && s.right && (s.left->p - s.right->p).norm() > 1e-3 * radius_) p.other_contact = s.right;
+  if (s.left && s.right && (s.left->p - s.right->p).norm() > kApart * locator.radius()) {
+    p.other_contact = s.right;
+  }
   if (!s.left) p.other_contact = s.right;
   if (s.ceiling < kInfinity) {
     p.center.z() = s.ceiling;
     return p;
   }
-  const auto c = locator_.CertifiedHeight(s.at, gap_, s.hint ? &*s.hint : nullptr);
+  const auto c = locator.CertifiedHeight(s.at, gap, s.hint ? &*s.hint : nullptr);
   if (!c) return p;  // the rim of the domain of h, within rounding
   const double z = c->z + c->gap;
   if (z >= p.center.z()) {
@@ -131,34 +39,51 @@ CutterPoint Thinner::Certify(const LineStation& s) const {
   return p;
 }
 
-// Of the chord a b from station i to j: first by the certified stations between, then by the surface.
-bool Thinner::Gouges(std::size_t i, std::size_t j, const Vec3& a, const Vec3& b) {
-  free_.clear();
-  for (std::size_t k = i; k <= j && stations_[k].ceiling < kInfinity; ++k) {
-    free_.push_back(Lift(stations_[k].q, stations_[k].ceiling));
-  }
-  if (free_.size() == j - i + 1 && ChordGouge(radius_, a, b, free_) <= tolerance_) return false;
-  return !locator_.GougeWithin(a, b, tolerance_, 0.05 * tolerance_);
+ChordLimits LimitsOf(const PassParams& params) {
+  ChordLimits limits;
+  limits.certificate_gap = CertificateGap(params);
+  limits.gouge = params.chord_tolerance;
+  limits.excess = ExcessTolerance(params) - limits.certificate_gap;
+  limits.deepest = DeepestVertex(params.chord_tolerance, ExcessTolerance(params));
+  return limits;
 }
 
-std::vector<CutterPoint> Thinner::Thin(const RunContext* run) {
-  std::vector<CutterPoint> points;
-  const std::size_t n = stations_.size();
-  points.push_back(Certify(stations_[0]));
-  std::size_t i = 0;
-  while (i + 1 < n && !(run != nullptr && run->Cancelled())) {
-    std::size_t barrier = i + 1;
-    while (barrier + 1 < n && !stations_[barrier].keep) ++barrier;
-    std::size_t j = Farthest(i, barrier);
-    CutterPoint next = Certify(stations_[j]);
-    while (j > i + 1 && Gouges(i, j, points.back().center, next.center)) {
-      j = i + (j - i) / 2;
-      next = Certify(stations_[j]);
-    }
-    points.push_back(next);
-    i = j;
+// The way out of the ground in plan, where all contacts are beside the ball rather than below it.
+std::optional<Vec3> AwayInPlan(const CutterPoint& p) {
+  if (!p.contact) return std::nullopt;
+  Vec2 away = Plan(Vec3(p.center - p.contact->p));
+  if (p.other_contact) away = away.normalized() + Plan(Vec3(p.center - p.other_contact->p)).normalized();
+  if (!(away.norm() > 0.0)) return std::nullopt;
+  return Lift(away.normalized(), 0.0);
+}
+
+void ThinContour(const Locator& locator, const PassParams& params, const RunContext& run, CutterPath& path) {
+  const std::size_t n = path.points.size(), count = n + (path.closed ? 1 : 0);
+  if (n < 3) return;
+  std::vector<ChordStation> stations(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const CutterPoint& p = path.points[k % n];
+    const std::optional<Vec3> away = AwayInPlan(p);
+    if (!away) return;
+    stations[k] = {.center = p.center,
+                   .away = *away,
+                   .left = Known(p.contact),
+                   .right = Known(p.other_contact ? p.other_contact : p.contact),
+                   .keep = p.other_contact.has_value(),
+                   .proven = true};
   }
-  return points;
+  ChordLimits limits = LimitsOf(params);
+  limits.longest = locator.radius();
+  const auto proven = [&](std::size_t k) { return path.points[k % n].center; };
+  const std::vector<ChordVertex> vertices = FewestChords(locator, stations, limits, proven, &run);
+  if (vertices.back().station + 1 < count) return;  // cancelled
+  std::vector<CutterPoint> points;
+  for (const ChordVertex& v : vertices) {
+    if (v.station == n) break;
+    points.push_back(path.points[v.station]);
+    points.back().center -= v.below * stations[v.station].away;
+  }
+  path.points = std::move(points);
 }
 
 }  // namespace
@@ -169,8 +94,32 @@ double CertificateGap(const PassParams& params) {
 
 std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
                                       const PassParams& params, const RunContext* run) {
-  if (stations.empty()) return {};
-  return Thinner(locator, stations, params, CertificateGap(params)).Thin(run);
+  std::vector<ChordStation> chord_stations;
+  chord_stations.reserve(stations.size());
+  for (const LineStation& s : stations) {
+    chord_stations.push_back({.center = Lift(s.q, s.z),
+                              .left = Known(s.left),
+                              .right = Known(s.right),
+                              .keep = s.keep,
+                              .proven = s.ceiling < kInfinity});
+  }
+  ChordLimits limits = LimitsOf(params);
+  limits.floor_center = params.floor_z + locator.radius();
+  const auto certify = [&](std::size_t k) { return Certify(locator, stations[k], limits.certificate_gap); };
+  const auto proven = [&](std::size_t k) { return certify(k).center; };
+  std::vector<CutterPoint> points;
+  for (const ChordVertex& v : FewestChords(locator, chord_stations, limits, proven, run)) {
+    points.push_back(certify(v.station));
+    points.back().center.z() -= v.below;
+  }
+  return points;
+}
+
+absl::Status ThinContours(const Locator& locator, const PassParams& params, const RunContext& run,
+                          std::vector<CutterPath>& paths) {
+  return ParallelFor(run, nullptr, paths.size(), [&](std::size_t i) {
+    if (paths[i].kind == PassKind::kContour) ThinContour(locator, params, run, paths[i]);
+  });
 }
 
 }  // namespace patchmill

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include <absl/status/status.h>
+
 #include "cam/path/line_trace.h"
 #include "cam/path/pass_params.h"
 #include "cam/toolpath/cutter_path.h"
@@ -12,12 +14,19 @@ namespace patchmill {
 // The certificate gap in force: params.certificate_gap, but no more than a tenth of the excess tolerance.
 double CertificateGap(const PassParams& params);
 
-// Vertices of one run: the first, the last, all `keep` stations, and what else is needed. Chord excess is
-// proven by T3 on the stations' supports and points of the surface between their contacts, gouge by the swept
-// query (T2 where a chord joins neighbouring stations); heights are certified and raised by their gap.
-// Stations' neighbours must be joined by chords within params.chord_tolerance and ExcessTolerance(params),
-// each less CertificateGap(params), already. `run` is polled when set: cancelled, the vertices end early.
+// Vertices of one run: the first, the last, all `keep` stations, and what else is needed (fewest_chords.h).
+// Heights are certified and raised by their gap; on hollow ground vertices are below them where chords may
+// take more than they may leave. Stations' neighbours must be joined by chords within params.chord_tolerance
+// and ExcessTolerance(params), each less CertificateGap(params), already. `run` is polled when set:
+// cancelled, the vertices end early.
 std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
                                       const PassParams& params, const RunContext* run = nullptr);
+
+// Leaves out the points of contours and spirals (others stay) that their chords can do without; chords may be
+// as long as the ball's radius, so that closed contours can be begun about anywhere. Centres are proven to
+// CertificateGap(params), chords within the same tolerances. Vertices go sideways into hollow ground. In
+// parallel. CANCELLED and DEADLINE_EXCEEDED.
+absl::Status ThinContours(const Locator& locator, const PassParams& params, const RunContext& run,
+                          std::vector<CutterPath>& paths);
 
 }  // namespace patchmill

@@ -31,7 +31,8 @@ struct PassParams {
 // the finish is the one asked for within 5 % at the worst spot between two passes; the tolerance alone would
 // allow half of itself, often half the scallop. Chords that gouge by g lower the crest between two passes by
 // g / 2 at most where it is highest, however their vertices lie to each other; what they leave comes on top
-// of the scallop, and so do the 3.5 % that kWideGap lets through.
+// of the scallop, and so do the 3.5 % that kWideGap lets through. Vertices on hollow ground go into it by
+// half of what chords may take (fewest_chords.h), which is the same to the crest.
 inline constexpr double kGougeOfScallop = 0.1, kExcessOfScallop = 0.01;
 // mm: what scallops are taken for at least here: under a smaller one the chords would be finer than machines
 // place their tools, and programs many times as long.

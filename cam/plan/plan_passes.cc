@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cam/path/border_passes.h"
+#include "cam/path/chord_thinning.h"
 #include "cam/path/contour_paths.h"
 #include "cam/path/coverage.h"
 #include "cam/path/keep_in_clip.h"
@@ -89,12 +90,13 @@ class PassMaker {
       PM_ASSIGN_OR_RETURN(lines, clip(std::move(lines)));
       Append(paths, std::move(lines));
     }
+    PassParams params;
+    SetFinePass(choice, params);
     if (op_.spirals) {
-      PassParams params;
-      SetFinePass(choice, params);
       const bool backwards = op_.contour_direction == CutDirection::kConventional;
       PM_ASSIGN_OR_RETURN(paths, SpiralPaths(locator_, std::move(paths), params, backwards, run_));
     }
+    PM_RETURN_IF_ERROR(ThinContours(locator_, params, run_, paths));
     NumberAfter(planned.paths, paths);
     Append(planned.paths, std::move(paths));
     return absl::OkStatus();

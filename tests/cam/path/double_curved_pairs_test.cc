@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cam/path/chord_thinning.h"
 #include "cam/path/contour_paths.h"
 #include "cam/path/spacing.h"
 #include "cam/path/zigzag_paths.h"
@@ -195,8 +196,9 @@ TEST_P(LevelsOn, LeaveTheScallop) {
   ContourParams params;
   SetFinish(params, kScallop);
   params.window = {Radians(45), Radians(90)};
-  const auto contours = ContourPaths(locator, params, RunContext(2));
+  auto contours = ContourPaths(locator, params, RunContext(2));
   ASSERT_TRUE(contours.ok()) << contours.status();
+  ASSERT_TRUE(ThinContours(locator, params, RunContext(2), contours->paths).ok());
   // Where levels cross the window's limit they end there, and border passes have the last word.
   const Measured all = Measure(surface, contours->paths, ground.apart, [&](const Vec3& p, const Vec3& e) {
     return e.z() < std::cos(Radians(49)) && e.z() > 1e-3 && Plan(p).cwiseAbs().maxCoeff() < ground.within;

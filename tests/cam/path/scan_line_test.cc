@@ -22,12 +22,13 @@ std::size_t CountPoints(const std::vector<ScanRun>& runs) {
 
 // Everything a run promises, measured densely against the exact heights of slightly smaller and larger balls:
 // the gouge is below the tolerance iff the ball of R - tolerance is free, the excess iff the ball of R +
-// tolerance is not.
+// tolerance is not. Vertices are free where chords may leave as much as they take.
 void ExpectCertified(const Surface& surface, double radius, const std::vector<ScanRun>& runs,
                      const PassParams& params, int probes_per_chord = 7) {
   const double slack = 1e-7;
   const Locator smaller(surface, radius - params.chord_tolerance - slack);
-  const Locator larger(surface, radius + params.chord_tolerance + slack);
+  const Locator larger(surface, radius + ExcessTolerance(params) + slack);
+  const double deepest = ExcessTolerance(params) < params.chord_tolerance ? params.chord_tolerance : 0.0;
   const Locator exact(surface, radius);
   int bad_gouge = 0, bad_excess = 0;
   for (const auto& run : runs) {
@@ -39,13 +40,13 @@ void ExpectCertified(const Surface& surface, double radius, const std::vector<Sc
         const Vec3 x = a + (static_cast<double>(k) / probes_per_chord) * (b - a);
         bad_gouge += !smaller.Free(x, 1e-9);
         if (!vertical && k > 0 && k < probes_per_chord &&
-            x.z() > params.floor_z + radius + params.chord_tolerance) {
+            x.z() > params.floor_z + radius + ExcessTolerance(params)) {
           bad_excess += larger.Free(x, -1e-9);
         }
       }
       const auto h = exact.Height(Plan(a));
       if (h && !vertical && (i == 0 || (Plan(run.points[i - 1].center) - Plan(a)).norm() > 1e-6)) {
-        EXPECT_GE(a.z() - h->z, -1e-8);
+        EXPECT_GE(a.z() - h->z, -1e-8 - deepest / std::max(0.05, a.z() - h->contact.p.z()) * radius);
       }
     }
   }
@@ -286,6 +287,97 @@ TEST(ScanLine, RandomSplinesHoldBothTolerances) {
       }
     }
   }
+}
+
+// The least that a chord keeps away from the ground (negative: all of it is below), the most of all chords.
+double DeepestChord(const Locator& locator, const std::vector<ScanRun>& runs) {
+  double deepest = 0.0;
+  for (const auto& run : runs) {
+    for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
+      const Vec3 &a = run.points[i].center, &b = run.points[i + 1].center;
+      double highest = -kInfinity;
+      constexpr int kProbes = 32;
+      for (int k = 0; k <= kProbes; ++k) {
+        const Vec3 x = a + (static_cast<double>(k) / kProbes) * (b - a);
+        const auto h = locator.Height(Plan(x));
+        if (h) highest = std::max(highest, x.z() - h->z);
+      }
+      deepest = std::max(deepest, -highest);
+    }
+  }
+  return deepest;
+}
+
+PatchModel Bowl(double radius) {
+  const Eigen::Affine3d over(Eigen::AngleAxisd(kPi, Vec3::UnitX()));
+  return Transformed(Sphere(Vec3::Zero(), radius, Half::kUpper), over);
+}
+
+PassParams Fine(double scallop) {
+  PassParams params;
+  params.scallop = params.chord_tolerance = scallop;
+  return WithFineChords(params);
+}
+
+// In a bowl of radius 12 the ball of 3 goes along a circle of radius 9. Chords between places on it would
+// leave what they may with 1 / sqrt(0.1 / 0.6) times as many points as chords whose ends are below it by half
+// of what they may take.
+TEST(ScanLine, FineChordsGoDownIntoABowl) {
+  const double bowl = 12.0, radius = 3.0;
+  const Surface surface = SurfaceOf(Bowl(bowl));
+  const Locator locator(surface, radius);
+  for (const double scallop : {0.005, 0.01, 0.04}) {
+    const PassParams params = Fine(scallop);
+    const double reach = 0.7 * (bowl - radius);
+    const auto runs = ScanLine(locator, {-reach, 0}, {reach, 0}, params);
+    ASSERT_EQ(runs.size(), 1u);
+    ExpectCertified(surface, radius, runs, params, 11);
+    const double arc = 2.0 * std::asin(0.7) * (bowl - radius);
+    const double share = 0.5 * params.chord_tolerance + ExcessTolerance(params);
+    const double fewest = arc / std::sqrt(8.0 * (bowl - radius) * share);
+    EXPECT_LT(static_cast<double>(CountPoints(runs)), 1.7 * fewest + 4.0) << scallop;
+    EXPECT_LT(DeepestChord(locator, runs), 0.05 * params.chord_tolerance) << scallop;
+    for (const CutterPoint* end : {&runs[0].points.front(), &runs[0].points.back()}) {
+      EXPECT_LE(end->center.norm(), bowl - radius + 1e-9);
+      EXPECT_GE(end->center.norm(), bowl - radius - 1.1 * params.certificate_gap);
+    }
+  }
+}
+
+TEST(ScanLine, FineChordsHoldBothTolerancesAnywhere) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Surface surface = SurfaceOf(RandomBspline(seed, {.folds = seed > 2, .rational = seed % 2 == 0}));
+    const Locator locator(surface, 2.0);
+    const PassParams params = Fine(0.01);
+    Random random(seed);
+    std::vector<ScanRun> runs;
+    for (int i = 0; i < 2; ++i) {
+      const Vec2 a(random.Uniform(0, 40), random.Uniform(0, 40)),
+          b(random.Uniform(0, 40), random.Uniform(0, 40));
+      for (auto& r : ScanLine(locator, a, b, params)) runs.push_back(std::move(r));
+    }
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    ExpectCertified(surface, 2.0, runs, params);
+    EXPECT_LT(DeepestChord(locator, runs), 0.1 * params.chord_tolerance);
+  }
+}
+
+// On the floor and beside it nothing goes below it.
+TEST(ScanLine, FineChordsStayAboveTheFloor) {
+  const Surface surface = SurfaceOf(Bowl(12.0));
+  const Locator locator(surface, 3.0);
+  PassParams params = Fine(0.01);
+  params.floor_z = -11.9995;
+  const auto runs = ScanLine(locator, {-6, 1}, {6, -1}, params);
+  ASSERT_EQ(runs.size(), 1u);
+  bool below = false;
+  for (const CutterPoint& p : runs[0].points) {
+    EXPECT_GE(p.center.z(), params.floor_z + 3.0);
+    const auto h = locator.Height(Plan(p.center));
+    below |= h && p.center.z() < h->z - 1e-5;
+  }
+  EXPECT_TRUE(below);
+  ExpectCertified(surface, 3.0, runs, params);
 }
 
 TEST(ScanLine, ACancelledLineIsCutShort) {

@@ -1,0 +1,146 @@
+// Contours with as few points as their chords allow: what they promise, by h alone, and how few there are.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/path/chord_thinning.h"
+#include "cam/path/contour_paths.h"
+#include "tests/cam/path/contour_checks.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace patchmill::testing;
+
+constexpr double kR = 3.0;
+
+struct Thinned {
+  Thinned(PatchModel model, double scallop, SlopeWindow window = {Radians(45), Radians(90)})
+      : surface(MakeSurface(std::move(model))), locator(surface, kR) {
+    params.scallop = params.chord_tolerance = scallop;
+    static_cast<PassParams&>(params) = WithFineChords(params);
+    params.window = window;
+    auto contours = ContourPaths(locator, params, RunContext(2));
+    if (!contours.ok()) {
+      ADD_FAILURE() << contours.status();
+      return;
+    }
+    before = after = std::move(contours->paths);
+    EXPECT_TRUE(ThinContours(locator, params, RunContext(2), after).ok());
+  }
+  ContourParams params;
+  Surface surface;
+  Locator locator;
+  std::vector<CutterPath> before, after;
+};
+
+std::size_t PointsOf(const std::vector<CutterPath>& paths) {
+  std::size_t n = 0;
+  for (const CutterPath& path : paths) n += path.points.size();
+  return n;
+}
+
+struct Chords {
+  int probes = 0, gouges = 0, excesses = 0;
+  double longest = 0.0;
+  double deepest = 0.0;  // mm: the most that a chord stays below the ground all along
+};
+
+// Every chord, judged densely: a ball smaller by what it may take is free, one larger by what it may leave is
+// not; and somewhere one smaller by very little is free.
+Chords Judge(const Thinned& t, const std::vector<CutterPath>& paths, int per_chord = 9) {
+  const double gouge = t.params.chord_tolerance, excess = ExcessTolerance(t.params);
+  const Locator smaller(t.surface, kR - gouge - 1e-7), larger(t.surface, kR + excess + 1e-7);
+  const Locator touching(t.surface, kR - 0.1 * gouge);
+  Chords all;
+  for (const CutterPath& path : paths) {
+    const std::size_t n = path.points.size();
+    for (std::size_t i = 0; i + (path.closed ? 0 : 1) < n; ++i) {
+      const Vec3 &a = path.points[i].center, &b = path.points[(i + 1) % n].center;
+      all.longest = std::max(all.longest, (b - a).norm());
+      bool touches = false;
+      for (int k = 0; k <= per_chord; ++k) {
+        const Vec3 x = a + (static_cast<double>(k) / per_chord) * (b - a);
+        ++all.probes;
+        all.gouges += !smaller.Free(x, 1e-9);
+        all.excesses += larger.Free(x, -1e-9);
+        touches |= touching.Free(x, 1e-9);
+      }
+      if (!touches) all.deepest = 0.1 * gouge;
+    }
+  }
+  return all;
+}
+
+void ExpectPromises(const Thinned& t) {
+  ASSERT_FALSE(t.after.empty());
+  ASSERT_EQ(t.after.size(), t.before.size());
+  const Chords chords = Judge(t, t.after);
+  EXPECT_EQ(chords.gouges, 0) << "of " << chords.probes;
+  // In cells below the resolution contours themselves leave more (T8d).
+  EXPECT_LE(chords.excesses, Judge(t, t.before).excesses) << "of " << chords.probes;
+  EXPECT_EQ(chords.deepest, 0.0);
+  EXPECT_LE(chords.longest, kR * (1.0 + 1e-9));
+  for (std::size_t i = 0; i < t.after.size(); ++i) {
+    const CutterPath &before = t.before[i], &after = t.after[i];
+    EXPECT_EQ(before.closed, after.closed);
+    EXPECT_EQ(before.line, after.line);
+    // Ends and corners stay as they are.
+    EXPECT_EQ(before.points.front().center, after.points.front().center);
+    if (!before.closed) {
+      EXPECT_EQ(before.points.back().center, after.points.back().center);
+    }
+    const auto corners = [](const CutterPath& path) {
+      std::vector<Vec3> centers;
+      for (const CutterPoint& p : path.points) {
+        if (p.other_contact) centers.push_back(p.center);
+      }
+      return centers;
+    };
+    EXPECT_EQ(corners(before), corners(after));
+    for (const CutterPoint& p : after.points) {
+      EXPECT_NEAR(p.center.z(), before.points.front().center.z(), 2e-4);
+      ASSERT_TRUE(p.contact);
+    }
+  }
+}
+
+// Walls that are planes need points at their corners, and every radius in between.
+TEST(ThinContours, PlanesNeedNoPoints) {
+  const Thinned t(TwoPlanes(Radians(60), 20), 0.01);
+  ExpectPromises(t);
+  for (const CutterPath& path : t.after) {
+    EXPECT_LE(static_cast<double>(path.points.size()), std::ceil(Length(path) / kR) * 1.34 + 3.0);
+  }
+  EXPECT_LT(8 * PointsOf(t.after), PointsOf(t.before));
+}
+
+TEST(ThinContours, CurvedGroundKeepsThePromises) {
+  ExpectPromises(Thinned(Sphere(Vec3::Zero(), 8.0, Half::kUpper), 0.01));
+  ExpectPromises(Thinned(Torus(Vec3::Zero(), 12.0, 5.0, Half::kUpper), 0.01));
+  ExpectPromises(Thinned(TwoHills(), 0.01, {Radians(20), Radians(90)}));
+}
+
+TEST(ThinContours, RandomSplinesKeepThePromises) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    ExpectPromises(Thinned(RandomBspline(seed, {.folds = seed > 2, .rational = seed % 2 == 0}), 0.02));
+  }
+}
+
+TEST(ThinContours, LeavesOtherPassesAndIsCancelled) {
+  Thinned t(TwoPlanes(Radians(60), 20), 0.01);
+  std::vector<CutterPath> lines = t.before;
+  for (CutterPath& path : lines) path.kind = PassKind::kZigzag;
+  ASSERT_TRUE(ThinContours(t.locator, t.params, RunContext(1), lines).ok());
+  EXPECT_EQ(PointsOf(lines), PointsOf(t.before));
+  RunContext run(1);
+  run.Cancel();
+  EXPECT_EQ(ThinContours(t.locator, t.params, run, t.before).code(), absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace patchmill
