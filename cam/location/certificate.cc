@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cam/location/locator_impl.h"
+#include "cam/location/upright_sheet.h"
 
 namespace patchmill {
 namespace {
@@ -50,6 +51,16 @@ struct Prover {
     return true;
   }
 
+  // Excludes a part of an upright wall that the ball is beside, however high.
+  bool Beside(NetShape shape, const Vec4* points) {
+    const auto curve = internal::PlanCurveOf(shape, points, 4.0 * impl.rounding);
+    if (!curve) return false;
+    const double limit = std::sqrt(2.0 * free_f) + curve->spread;
+    if (!internal::OutsideInPlan(*curve, ball.q, limit * limit)) return false;
+    top = std::max(top, best.z);
+    return true;
+  }
+
   // The ball on p stands higher than the best by more than the gap.
   bool Touches(const Vec3& p) const {
     const double rim2 = ball.radius * ball.radius - (Plan(p) - ball.q).squaredNorm();
@@ -62,7 +73,7 @@ struct Prover {
     std::array<Vec3, kMaxNetPoints> hull;
     const int hull_count = HullPoints(shape, points, hull.data());
     const RectBounds bounds = BoundPoints(shape, points, hull.data(), hull_count);
-    if (Excluded(bounds, best.z) || Excluded(bounds, best.z + eps)) return;
+    if (Excluded(bounds, best.z) || Excluded(bounds, best.z + eps) || Beside(shape, points)) return;
     if (--budget < 0 || level >= kMaxLevel) {
       const double rim2 = ball.radius * ball.radius - internal::PlanDistance2(bounds.box, ball.q);
       if (rim2 > 0.0) top = std::max(top, bounds.box.max.z() + std::sqrt(rim2));

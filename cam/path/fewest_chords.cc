@@ -51,9 +51,10 @@ class Funnel {
     Vec3 origin, along, up;
   };
 
-  Support SupportOf(const SurfacePoint* contact) const {
+  // What lies above the ball's centre stands beside its shank, as an upright wall does that goes on below.
+  Support SupportOf(const SurfacePoint* contact, double center_z) const {
     Support s{{}, limits_.floor_center};
-    if (contact != nullptr) s.contact = contact->p;
+    if (contact != nullptr) s.contact = Lift(Plan(contact->p), std::min(contact->p.z(), center_z));
     return s;
   }
   Vec3 Place(const ChordVertex& v) const {
@@ -170,9 +171,13 @@ const std::vector<Support>& Funnel::SupportsAfter(std::size_t k) {
       const double length = (b.center - a.center).norm();
       between.supports = SupportsBetween(locator_.surface(), *a.right, *b.left,
                                          SupportParts(radius_, length, limits_.excess), limits_.floor_center);
+      for (Support& support : between.supports) {
+        Vec3& p = *support.contact;
+        p.z() = std::min(p.z(), std::max(a.center.z(), b.center.z()));
+      }
     } else if (a.right != nullptr) {
       if (const auto c = locator_.Follow(*a.right, Plan(Vec3(0.5 * (a.center + b.center))))) {
-        between.supports.push_back(SupportOf(&c->contact));
+        between.supports.push_back(SupportOf(&c->contact, std::max(a.center.z(), b.center.z())));
       }
     }
   }
@@ -194,7 +199,8 @@ bool Funnel::Fits(const ChordVertex& from, const ChordVertex& to) {
   };
   Vec3 x = a;
   for (std::size_t k = from.station; k < to.station; ++k) {
-    const Support left = SupportOf(stations_[k].right), right = SupportOf(stations_[k + 1].left);
+    const ChordStation &s = stations_[k], &e = stations_[k + 1];
+    const Support left = SupportOf(s.right, s.center.z()), right = SupportOf(e.left, e.center.z());
     if (gouges(left) || gouges(right)) return false;
     const Vec3 y = on_chord(k + 1);
     if ((y - x).dot(way) < 0.0) return false;

@@ -9,6 +9,7 @@
 
 #include "core/diffgeo/forms.h"
 #include "tests/cam/path/contour_checks.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
@@ -226,6 +227,24 @@ TEST(ContourPaths, TorusInsideAndOutside) {
   const Coverage cover = Cover(job, paths, 20, job.params.scallop + 0.0075);
   EXPECT_GT(cover.points, 500);
   EXPECT_EQ(cover.above, 0) << cover.worst;
+}
+
+// A ball beside an upright round wall touches it along a line. Nothing but a proof in plan ends there:
+// contours took milliseconds a point, and those that could not be proven were lifted onto the wall.
+TEST(ContourPaths, UprightRoundWallsAreNoWorkAndNothingIsLifted) {
+  Eigen::Affine3d up = Eigen::Affine3d::Identity();
+  up.translate(Vec3(1.0, 2.0, 5.0)).rotate(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitX()));
+  const PatchModel tube = testing::Transformed(testing::Cylinder(Vec3::Zero(), 9.0, 5.0), up);
+  Job job(testing::Join({testing::Plane(25), tube}));
+  static_cast<PassParams&>(job.params) = WithFineChords(job.params);
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<CutterPath> paths = job.Paths();
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  std::size_t points = 0;
+  for (const CutterPath& path : paths) points += path.points.size();
+  EXPECT_GT(points, 1000u);
+  EXPECT_EQ(job.locator.defect_count(), 0u);
+  EXPECT_LT(time.count(), 1e-3 * static_cast<double>(points) * (testing::kSanitized ? 20.0 : 1.0));
 }
 
 TEST(ContourPaths, ForcedContoursKeepWholeLoops) {

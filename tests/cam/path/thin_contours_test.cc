@@ -118,6 +118,31 @@ TEST(ThinContours, PlanesNeedNoPoints) {
   EXPECT_LT(8 * PointsOf(t.after), PointsOf(t.before));
 }
 
+// Around an upright tube of radius 9 the ball's centre goes along circles, outside of radius 12 and inside
+// of 6. A chord of a circle of radius r may be off by `share` in all: length sqrt(8 r share).
+TEST(ThinContours, CirclesTakeAboutTheFewestChords) {
+  Eigen::Affine3d up = Eigen::Affine3d::Identity();
+  up.rotate(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitX()));
+  const double radius = 9.0;
+  for (const double scallop : {0.01, 0.04}) {
+    const Thinned t(Transformed(Cylinder(Vec3::Zero(), radius, 0.4), up), scallop);
+    ExpectPromises(t);
+    bool inside = false, outside = false;
+    for (const CutterPath& path : t.after) {
+      if (!path.closed) continue;
+      const double r = Length(path) / (2.0 * kPi);
+      const double gouge = t.params.chord_tolerance, excess = ExcessTolerance(t.params);
+      const bool in = r < radius;
+      (in ? inside : outside) = true;
+      const double share = in ? 0.5 * gouge + excess : 0.9 * gouge;
+      const double fewest = 2.0 * kPi * r / std::sqrt(8.0 * r * share);
+      EXPECT_LT(static_cast<double>(path.points.size()), 1.7 * fewest + 4.0) << "radius " << r;
+    }
+    EXPECT_TRUE(inside);
+    EXPECT_TRUE(outside);
+  }
+}
+
 TEST(ThinContours, CurvedGroundKeepsThePromises) {
   ExpectPromises(Thinned(Sphere(Vec3::Zero(), 8.0, Half::kUpper), 0.01));
   ExpectPromises(Thinned(Torus(Vec3::Zero(), 12.0, 5.0, Half::kUpper), 0.01));

@@ -1,0 +1,109 @@
+#include "cam/location/upright_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace patchmill::internal {
+namespace {
+
+constexpr int kMostParts = 400;
+constexpr int kMostHalvings = 40;
+constexpr int kMostCoefficients = 2 * kMaxDegree + 1;
+// Of the largest coefficient: sums of a few dozen products.
+constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+
+constexpr double kSameWeight = 4.0 * std::numeric_limits<double>::epsilon();
+
+using Coefficients = std::array<double, kMostCoefficients>;
+
+// C(n, 0) ... C(n, n)
+std::array<double, kMostCoefficients> Binomials(int n) {
+  std::array<double, kMostCoefficients> row{};
+  row[0] = 1.0;
+  for (int k = 1; k <= n; ++k) {
+    row[static_cast<std::size_t>(k)] = row[static_cast<std::size_t>(k - 1)] * (n - k + 1) / k;
+  }
+  return row;
+}
+
+// Bernstein coefficients of |X - q W|^2 - limit2 W^2.
+Coefficients SquareBeyond(const PlanCurve& curve, const Vec2& q, double limit2) {
+  const auto once = Binomials(curve.degree), twice = Binomials(2 * curve.degree);
+  Coefficients sum{};
+  std::array<Vec3, kMaxDegree + 1> local;
+  for (int i = 0; i <= curve.degree; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Vec3& p = curve.points[k];
+    local[k] = once[k] * Vec3(p.x() - q.x() * p.z(), p.y() - q.y() * p.z(), p.z());
+  }
+  for (int i = 0; i <= curve.degree; ++i) {
+    for (int j = 0; j <= curve.degree; ++j) {
+      const Vec3 &a = local[static_cast<std::size_t>(i)], &b = local[static_cast<std::size_t>(j)];
+      sum[static_cast<std::size_t>(i + j)] += a.x() * b.x() + a.y() * b.y() - limit2 * a.z() * b.z();
+    }
+  }
+  for (int k = 0; k <= 2 * curve.degree; ++k) {
+    sum[static_cast<std::size_t>(k)] /= twice[static_cast<std::size_t>(k)];
+  }
+  return sum;
+}
+
+struct Positive {
+  const std::size_t last;
+  const double rounding;
+  int parts = kMostParts;
+
+  // Is the polynomial nowhere negative on [0, 1]?
+  bool Prove(const Coefficients& c, int halvings) {
+    const auto least = *std::min_element(c.begin(), c.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    if (least >= rounding) return true;
+    // The ends are values.
+    if (c[0] < rounding || c[last] < rounding || --parts < 0 || halvings >= kMostHalvings) return false;
+    Coefficients low{}, high = c;
+    for (std::size_t k = 0; k <= last; ++k) {
+      low[k] = high[0];
+      for (std::size_t i = 0; i + k < last; ++i) high[i] = 0.5 * (high[i] + high[i + 1]);
+    }
+    return Prove(low, halvings + 1) && Prove(high, halvings + 1);
+  }
+};
+
+// Rows along z: `along` points of `across` each, `stride` and `step` apart.
+std::optional<PlanCurve> Swept(const Vec4* points, int along, int stride, int across, int step,
+                               double rounding) {
+  PlanCurve curve;
+  curve.degree = along - 1;
+  for (int i = 0; i < along; ++i) {
+    const Vec4& first = points[i * stride];
+    if (!(first.w() > 0.0)) return std::nullopt;
+    const Vec2 plan = first.head<2>() / first.w();
+    for (int j = 1; j < across; ++j) {
+      const Vec4& p = points[i * stride + j * step];
+      if (!(p.w() > 0.0) || std::abs(p.w() - first.w()) > kSameWeight * first.w()) return std::nullopt;
+      curve.spread = std::max(curve.spread, (Vec2(p.head<2>() / p.w()) - plan).cwiseAbs().maxCoeff());
+      if (curve.spread > rounding) return std::nullopt;
+    }
+    curve.points[static_cast<std::size_t>(i)] = Vec3(first.x(), first.y(), first.w());
+  }
+  curve.spread = 2.0 * (curve.spread + rounding);  // of both coordinates; weights differ by less
+  return curve;
+}
+
+}  // namespace
+
+std::optional<PlanCurve> PlanCurveOf(NetShape shape, const Vec4* points, double rounding) {
+  const int rows = shape.degree_u + 1, columns = shape.degree_v + 1;
+  if (auto curve = Swept(points, rows, columns, columns, 1, rounding)) return curve;
+  return Swept(points, columns, 1, rows, columns, rounding);
+}
+
+bool OutsideInPlan(const PlanCurve& curve, const Vec2& q, double limit2) {
+  const Coefficients c = SquareBeyond(curve, q, limit2);
+  const auto last = static_cast<std::size_t>(2 * curve.degree);
+  double largest = 0.0;
+  for (std::size_t k = 0; k <= last; ++k) largest = std::max(largest, std::abs(c[k]));
+  return Positive{last, kRounding * largest}.Prove(c, 0);
+}
+
+}  // namespace patchmill::internal

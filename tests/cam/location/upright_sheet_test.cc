@@ -1,0 +1,152 @@
+// Upright walls: told from others, and what lies beside them in plan, against exact circles and brute force.
+#include "cam/location/upright_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "cam/location/locator.h"
+#include "tests/support/random.h"
+#include "tests/support/shapes.h"
+#include "tests/support/surface_of.h"
+
+namespace patchmill {
+namespace {
+
+using namespace patchmill::testing;
+using internal::OutsideInPlan;
+using internal::PlanCurve;
+using internal::PlanCurveOf;
+
+constexpr double kRounding = 1e-13;
+
+// Swept by heights that need not be the same along the curve.
+std::vector<Vec4> Sweep(const std::vector<Vec3>& curve, int heights, Random& random) {
+  std::vector<Vec4> net;
+  for (const Vec3& p : curve) {
+    for (int j = 0; j < heights; ++j)
+      net.emplace_back(p.x(), p.y(), p.z() * (j + random.Uniform(0, 0.5)), p.z());
+  }
+  return net;
+}
+
+// A quarter of a circle around the origin.
+std::vector<Vec3> Quarter(double radius) {
+  const double w = std::sqrt(0.5);
+  return {{radius, 0, 1}, {w * radius, w * radius, w}, {0, radius, 1}};
+}
+
+Vec2 At(const PlanCurve& curve, double t) {
+  std::vector<Vec3> p(curve.points.begin(), curve.points.begin() + curve.degree + 1);
+  for (std::size_t n = p.size(); n > 1; --n) {
+    for (std::size_t k = 0; k + 1 < n; ++k) p[k] = (1.0 - t) * p[k] + t * p[k + 1];
+  }
+  return p[0].head<2>() / p[0].z();
+}
+
+TEST(PlanCurveOf, KnowsUprightSheetsEitherWay) {
+  Random random(3);
+  const std::vector<Vec4> net = Sweep(Quarter(5.0), 4, random);
+  const auto curve = PlanCurveOf({2, 3}, net.data(), kRounding);
+  ASSERT_TRUE(curve);
+  EXPECT_EQ(curve->degree, 2);
+  EXPECT_LT(curve->spread, 1e-12);
+  std::vector<Vec4> turned(net.size());
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) turned[j * 3 + i] = net[i * 4 + j];
+  }
+  const auto other = PlanCurveOf({3, 2}, turned.data(), kRounding);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->degree, 2);
+  for (const double t : {0.0, 0.3, 1.0}) EXPECT_NEAR((At(*curve, t) - At(*other, t)).norm(), 0.0, 1e-15);
+}
+
+TEST(PlanCurveOf, KnowsOthers) {
+  Random random(4);
+  const std::vector<Vec4> upright = Sweep(Quarter(5.0), 3, random);
+  for (std::size_t k = 0; k < upright.size(); ++k) {
+    std::vector<Vec4> net = upright;
+    net[k].x() += 1e-11;
+    EXPECT_FALSE(PlanCurveOf({2, 2}, net.data(), kRounding)) << k;
+    net = upright;
+    net[k].w() *= 1.0 + 1e-12;
+    EXPECT_FALSE(PlanCurveOf({2, 2}, net.data(), kRounding)) << k;
+    net = upright;
+    net[k].w() = 0.0;
+    EXPECT_FALSE(PlanCurveOf({2, 2}, net.data(), kRounding)) << k;
+  }
+}
+
+// A circle that touches the curve from outside or inside: 1e-10 mm decide.
+TEST(OutsideInPlan, TellsACircleThatTouchesFromOneThatCuts) {
+  Random random(5);
+  const std::vector<Vec4> net = Sweep(Quarter(9.0), 2, random);
+  const auto curve = PlanCurveOf({2, 1}, net.data(), kRounding);
+  ASSERT_TRUE(curve);
+  for (int i = 0; i < 200; ++i) {
+    const double angle = random.Uniform(0.05, 0.5 * kPi - 0.05), radius = random.Uniform(0.5, 6.0);
+    const Vec2 out(std::cos(angle), std::sin(angle));
+    for (const double side : {1.0, -1.0}) {
+      const Vec2 q = (9.0 + side * radius) * out;
+      EXPECT_TRUE(OutsideInPlan(*curve, q, std::pow(radius - 1e-10, 2.0)));
+      EXPECT_FALSE(OutsideInPlan(*curve, q, std::pow(radius + 1e-10, 2.0)));
+    }
+  }
+}
+
+TEST(OutsideInPlan, IsRightAboutRandomCurves) {
+  Random random(6);
+  int outside = 0, inside = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int degree = 1 + i % 15;
+    std::vector<Vec3> points;
+    for (int k = 0; k <= degree; ++k) {
+      const double w = random.Uniform(0.5, 2.0);
+      points.emplace_back(w * random.Uniform(-5, 5), w * random.Uniform(-5, 5), w);
+    }
+    const std::vector<Vec4> net = Sweep(points, 2, random);
+    const auto curve = PlanCurveOf({degree, 1}, net.data(), kRounding);
+    ASSERT_TRUE(curve);
+    const Vec2 q(random.Uniform(-6, 6), random.Uniform(-6, 6));
+    double nearest = kInfinity;
+    for (int k = 0; k <= 4000; ++k) nearest = std::min(nearest, (At(*curve, k / 4000.0) - q).norm());
+    const double radius = random.Uniform(0.2, 6.0);
+    const bool is_outside = OutsideInPlan(*curve, q, radius * radius);
+    // Between two of the 4001 places the curve may come a little nearer.
+    if (nearest < radius) {
+      EXPECT_FALSE(is_outside);
+      ++inside;
+    } else if (nearest > radius + 0.01) {
+      EXPECT_TRUE(is_outside) << nearest << " " << radius;
+      ++outside;
+    }
+  }
+  EXPECT_GT(outside, 80);
+  EXPECT_GT(inside, 80);
+}
+
+// A ball beside an upright wall, however near, is proven free, and one that cuts into it is not.
+TEST(UprightWalls, AreProvenBesideTheBall) {
+  Eigen::Affine3d up = Eigen::Affine3d::Identity();
+  up.rotate(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitX()));
+  const double wall = 9.0, radius = 3.0;
+  const Surface surface = SurfaceOf(Transformed(Cylinder(Vec3::Zero(), wall, 8.0), up));
+  const Locator locator(surface, radius);
+  Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const double angle = random.Uniform(0.0, 2.0 * kPi), z = random.Uniform(-7.0, 4.0);
+    for (const double side : {1.0, -1.0}) {
+      const double at = wall + side * (radius + 2e-10);
+      const auto lift = locator.CertifiedFree({at * std::cos(angle), at * std::sin(angle), z}, 1e-6);
+      ASSERT_TRUE(lift) << angle << " " << side;
+      EXPECT_LE(*lift, 1e-6);
+      const double in = wall + side * (radius - 1e-6);
+      EXPECT_FALSE(locator.Free({in * std::cos(angle), in * std::sin(angle), z}));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
