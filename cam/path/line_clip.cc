@@ -56,7 +56,7 @@ bool Clipper::WantedBeside(const LineProbe& s) const {
   for (int side : {-1, 1}) {
     const LineProbe beside = prober_.Probe(s.t, line_.At(s.t) + side * s.lateral, line_.SlopeAt(s.t),
                                            s.contact ? &*s.contact : nullptr);
-    if (beside.wanted && (beside.center - s.center).norm() <= 1.5 * s.half_step) return true;
+    if (beside.finishes && (beside.center - s.center).norm() <= 1.5 * s.half_step) return true;
   }
   return false;
 }
@@ -120,12 +120,16 @@ std::vector<Interval> Clipper::Keep(const std::vector<LineProbe>& stations) cons
     }
     std::size_t last = i;
     while (last + 1 < n && stations[last + 1].wanted) ++last;
-    Interval part{stations[i].t, stations[last].t};
-    if (i > 0) part.begin = Extend(stations, i - 1, Limit(stations[i], stations[i - 1], wanted), -1);
+    // All of it over an edge: nothing is finished there.
+    const std::size_t first = i;
+    i = last;
+    const auto at = [&](std::size_t k) { return stations.begin() + static_cast<std::ptrdiff_t>(k); };
+    if (std::none_of(at(first), at(last + 1), [](const LineProbe& p) { return p.finishes; })) continue;
+    Interval part{s.t, stations[last].t};
+    if (first > 0) part.begin = Extend(stations, first - 1, Limit(s, stations[first - 1], wanted), -1);
     if (last + 1 < n)
       part.end = Extend(stations, last + 1, Limit(stations[last], stations[last + 1], wanted), 1);
     keep.push_back(part);
-    i = last;
   }
   return keep;
 }

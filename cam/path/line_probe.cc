@@ -81,7 +81,9 @@ LineProbe LineProber::Judge(double t, double y, double slope, const std::optiona
   const double cosine = std::sqrt(std::max(0.0, 1.0 - ny * ny));
   const SurfaceJet jet = Evaluate(locator_.surface(), h->contact.piece, h->contact.u, h->contact.v);
   const auto surface_normal = UpwardNormal(jet);
-  if (surface_normal && surface_normal->cross(normal).norm() < 1e-4) {
+  const bool on_ground = surface_normal && surface_normal->cross(normal).norm() < 1e-4;
+  probe.finishes = probe.wanted && (on_ground || border_.On(h->contact));
+  if (on_ground) {
     const double in_plane = std::hypot(nt, normal.z());
     const Vec3 across =
         in_plane > 1e-9

@@ -22,6 +22,7 @@ struct LineProbe {
   std::optional<SurfacePoint> contact;  // absent: h does not exist here, or the floor carries the ball
   bool allowed = false;                 // exists and is not rolled off a border
   bool wanted = false;                  // allowed, touched, and its slope lies in the window, in the part
+  bool finishes = false;                // wanted, and more than a ball rolling over an edge of the ground
   double need = kInfinity;              // mm: largest distance in y to the next line that keeps the scallop
   double half_step = 0.0;               // mm on the centre surface, half the step across the line
   double lateral = 0.0;                 // the same in y

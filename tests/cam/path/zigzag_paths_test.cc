@@ -226,6 +226,20 @@ TEST(ZigzagPaths, DomeStopsDishRollsToVertical) {
   }
 }
 
+// A ball that rolls over an edge finishes nothing there.
+TEST(ZigzagPaths, NothingButAnEdgeIsNoPass) {
+  const auto lines_over = [](double degrees, double angle) {
+    const Surface surface = JoinedSurface(TwoPlanes(-Radians(degrees), 12));
+    const Locator locator(surface, 3.0);
+    return Zigzag(locator, Params(0.01, 45.0, angle));
+  };
+  for (const double angle : {0.0, 0.7, 0.5 * kPi}) {
+    EXPECT_TRUE(lines_over(60.0, angle).empty()) << angle;
+    EXPECT_TRUE(lines_over(46.0, angle).empty()) << angle;
+  }
+  EXPECT_GT(lines_over(44.0, 0.0).size(), 20u);
+}
+
 TEST(ZigzagPaths, NarrowSpotsGetPartialLines) {
   // A tilted gutter among flat ground: the step across the flat is too wide on the gutter's flanks only.
   const auto height = [](double x, double y) {
