@@ -103,6 +103,7 @@ bool OutsideInPlan(const PlanCurve& curve, const Vec2& q, double limit2) {
   const auto last = static_cast<std::size_t>(2 * curve.degree);
   double largest = 0.0;
   for (std::size_t k = 0; k <= last; ++k) largest = std::max(largest, std::abs(c[k]));
+  if (!(largest > 0.0 && largest < std::numeric_limits<double>::infinity())) return false;
   return Positive{last, kRounding * largest}.Prove(c, 0);
 }
 

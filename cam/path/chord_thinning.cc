@@ -94,6 +94,8 @@ double CertificateGap(const PassParams& params) {
 
 std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
                                       const PassParams& params, const RunContext* run) {
+  ChordLimits limits = LimitsOf(params);
+  limits.floor_center = params.floor_z + locator.radius();
   std::vector<ChordStation> chord_stations;
   chord_stations.reserve(stations.size());
   for (const LineStation& s : stations) {
@@ -101,10 +103,8 @@ std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<
                               .left = Known(s.left),
                               .right = Known(s.right),
                               .keep = s.keep,
-                              .proven = s.ceiling < kInfinity});
+                              .proven = s.ceiling - s.z <= limits.certificate_gap + 1e-12});
   }
-  ChordLimits limits = LimitsOf(params);
-  limits.floor_center = params.floor_z + locator.radius();
   const auto certify = [&](std::size_t k) { return Certify(locator, stations[k], limits.certificate_gap); };
   const auto proven = [&](std::size_t k) { return certify(k).center; };
   std::vector<CutterPoint> points;
@@ -115,10 +115,10 @@ std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<
   return points;
 }
 
-absl::Status ThinContours(const Locator& locator, const PassParams& params, const RunContext& run,
-                          std::vector<CutterPath>& paths) {
+absl::Status ThinContours(const Locator& locator, const PassParams& params, const ThinWhich& which,
+                          const RunContext& run, std::vector<CutterPath>& paths) {
   return ParallelFor(run, nullptr, paths.size(), [&](std::size_t i) {
-    if (paths[i].kind == PassKind::kContour) ThinContour(locator, params, run, paths[i]);
+    if (paths[i].kind == PassKind::kContour && which(paths[i])) ThinContour(locator, params, run, paths[i]);
   });
 }
 

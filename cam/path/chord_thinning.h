@@ -1,6 +1,7 @@
 // From dense stations to as few certified vertices as the chord tolerance allows.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <absl/status/status.h>
@@ -22,11 +23,14 @@ double CertificateGap(const PassParams& params);
 std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
                                       const PassParams& params, const RunContext* run = nullptr);
 
-// Leaves out the points of contours and spirals (others stay) that their chords can do without; chords may be
-// as long as the ball's radius, so that closed contours can be begun about anywhere. Centres are proven to
-// CertificateGap(params), chords within the same tolerances. Vertices go sideways into hollow ground. In
+using ThinWhich = std::function<bool(const CutterPath&)>;
+
+// Leaves out the points that chords can do without, of contours and spirals that `which` names; chords may be
+// as long as the ball's radius, so that closed contours can be begun about anywhere. All centres of those
+// must be proven to CertificateGap(params), as ContourPaths and SpiralPaths make them: no points that
+// clipping put on chords. Chords stay within the same tolerances. Vertices go sideways into hollow ground. In
 // parallel. CANCELLED and DEADLINE_EXCEEDED.
-absl::Status ThinContours(const Locator& locator, const PassParams& params, const RunContext& run,
-                          std::vector<CutterPath>& paths);
+absl::Status ThinContours(const Locator& locator, const PassParams& params, const ThinWhich& which,
+                          const RunContext& run, std::vector<CutterPath>& paths);
 
 }  // namespace patchmill

@@ -17,6 +17,7 @@ constexpr double kPredicted = 0.9, kProofSlack = 0.05;
 constexpr double kLeastUpright = 0.2;
 constexpr double kMostTilt = 0.5;      // cosine of the most by which the way out turns under one chord
 constexpr std::size_t kFirstLook = 8;  // stations ahead
+constexpr double kSamePlace = 1e-9;    // mm
 
 class Funnel {
  public:
@@ -76,9 +77,17 @@ class Funnel {
     return depths.Any() && Fits(from, At(k, depths));
   }
   std::size_t Farthest(const ChordVertex& from, std::size_t barrier);
-  bool Gouges(const ChordVertex& from, const ChordVertex& to, const Vec3& a, const Vec3& b);
+  // A vertex with its proven centre. Not `known`: that one is higher than the station told.
+  struct Reached {
+    ChordVertex vertex;
+    Vec3 center = Vec3::Zero();
+    bool known = true;
+  };
+  Reached Reach(const ChordVertex& v) const;
+  bool Gouges(const ChordVertex& from, const ChordVertex& to, const Vec3& a, const Vec3& b, bool proven);
   bool LeadsOn(const ChordVertex& v);
-  ChordVertex Next(const ChordVertex& from, Vec3& center);
+  std::size_t BarrierAfter(std::size_t k);
+  Reached Next(const Reached& from);
 
   const Locator& locator_;
   const std::span<const ChordStation> stations_;
@@ -87,6 +96,7 @@ class Funnel {
   const double radius_;
   std::vector<Between> between_;
   std::vector<Depths> depths_;  // of the stations from the last vertex on
+  std::size_t barrier_ = 0;     // the next station to be kept
   std::vector<Vec3> free_;      // scratch
 };
 
@@ -102,7 +112,8 @@ double Funnel::Upright(const ChordStation& s, const Vec3& up) const {
 // How far below station k a vertex may be, whatever the chords.
 double Funnel::Deepest(std::size_t k) const {
   const ChordStation& s = stations_[k];
-  if (s.keep || k == 0 || k + 1 == stations_.size() || s.left == nullptr || s.right == nullptr) return 0.0;
+  if (s.keep || !s.proven || k == 0 || k + 1 == stations_.size()) return 0.0;
+  if (s.left == nullptr || s.right == nullptr) return 0.0;
   double most = limits_.deepest / Upright(s, s.away);
   if (s.away.z() > 0.0) most = std::min(most, (s.center.z() - limits_.floor_center) / s.away.z());
   return std::max(0.0, most);
@@ -198,21 +209,22 @@ bool Funnel::Fits(const ChordVertex& from, const ChordVertex& to) {
     return s.contact && radius_ - SegmentDistance(*s.contact, a, b) > kPredicted * limits_.gouge;
   };
   Vec3 x = a;
+  double highest = -kInfinity;  // above any support
   for (std::size_t k = from.station; k < to.station; ++k) {
     const ChordStation &s = stations_[k], &e = stations_[k + 1];
     const Support left = SupportOf(s.right, s.center.z()), right = SupportOf(e.left, e.center.z());
     if (gouges(left) || gouges(right)) return false;
     const Vec3 y = on_chord(k + 1);
     if ((y - x).dot(way) < 0.0) return false;
-    if (left.Clearance(x, radius_) > limits_.excess || right.Clearance(y, radius_) > limits_.excess) {
-      return false;
-    }
+    const double over_left = left.Clearance(x, radius_), over_right = right.Clearance(y, radius_);
+    if (std::max(over_left, over_right) > limits_.excess) return false;
+    highest = std::max({highest, over_left, over_right});
     const std::vector<Support>& between = SupportsAfter(k);
     if (std::any_of(between.begin(), between.end(), gouges)) return false;
     if (!ExcessWithin(radius_, x, y, left, between, right, limits_.excess)) return false;
     x = y;
   }
-  return true;
+  return from.below == 0.0 || to.below == 0.0 || highest >= -limits_.excess;
 }
 
 // The farthest station that a chord may lead to, by closed forms.
@@ -246,11 +258,11 @@ std::size_t Funnel::Farthest(const ChordVertex& from, std::size_t barrier) {
   return good;
 }
 
-// Of the chord between two vertices, given the proven centres a, b over them: first by T2 along the stations
-// between, then by the surface. The chord runs nowhere farther below a b than its ends do.
-bool Funnel::Gouges(const ChordVertex& from, const ChordVertex& to, const Vec3& a, const Vec3& b) {
+// Of the chord between two vertices, given the centres a, b over them, `proven` or not: first by T2 along the
+// stations between, then by the surface. The chord runs nowhere farther below a b than its ends do.
+bool Funnel::Gouges(const ChordVertex& from, const ChordVertex& to, const Vec3& a, const Vec3& b,
+                    bool proven) {
   free_.assign(1, a);
-  bool proven = true;
   for (std::size_t k = from.station + 1; k < to.station; ++k) {
     free_.push_back(stations_[k].center);
     proven = proven && stations_[k].proven;
@@ -267,43 +279,57 @@ bool Funnel::Gouges(const ChordVertex& from, const ChordVertex& to, const Vec3& 
 bool Funnel::LeadsOn(const ChordVertex& v) {
   if (v.below == 0.0) return true;
   const ChordVertex next{v.station + 1, 0.0};
-  return !Gouges(v, next, stations_[v.station].center, stations_[next.station].center);
+  const ChordStation &s = stations_[v.station], &e = stations_[next.station];
+  return !Gouges(v, next, s.center, e.center, s.proven && e.proven);
 }
 
-// Sets `center` to the proven one of the vertex returned; it is that of `from` before.
-ChordVertex Funnel::Next(const ChordVertex& from, Vec3& center) {
-  std::size_t barrier = from.station + 1;
-  while (barrier + 1 < stations_.size() && !stations_[barrier].keep) ++barrier;
-  std::size_t j = Farthest(from, barrier);
-  const Vec3 start = center;
+std::size_t Funnel::BarrierAfter(std::size_t k) {
+  if (barrier_ <= k) {
+    barrier_ = k + 1;
+    while (barrier_ + 1 < stations_.size() && !stations_[barrier_].keep) ++barrier_;
+  }
+  return barrier_;
+}
+
+Funnel::Reached Funnel::Reach(const ChordVertex& v) const {
+  Reached at{v, proven_(v.station)};
+  at.known = (at.center - stations_[v.station].center).norm() <= limits_.certificate_gap + kSamePlace;
+  if (!at.known) at.vertex.below = 0.0;
+  return at;
+}
+
+// Closed forms know nothing of centres higher than their stations: chords from and to these go from station
+// to station.
+Funnel::Reached Funnel::Next(const Reached& from) {
+  const std::size_t start = from.vertex.station, first = start + 1;
+  std::size_t j = Farthest(from.vertex, from.known ? BarrierAfter(start) : first);
   while (true) {
-    const Depths& depths = depths_[j - from.station];
-    center = proven_(j);
-    // Else a branch had been missed.
-    const bool known = (center - stations_[j].center).norm() <= 2.0 * limits_.certificate_gap;
+    const Depths& depths = depths_[j - start];
     const double best = At(j, depths).below;
     for (const double below : {best, depths.least}) {
-      const ChordVertex to{j, known ? below : 0.0};
-      if (!LeadsOn(to) || Gouges(from, to, start, center)) continue;
-      if (below != best && !Fits(from, to)) continue;
-      return to;
+      const Reached to = Reach({j, below});
+      if (j > first && !to.known) break;
+      if (LeadsOn(to.vertex) && !Gouges(from.vertex, to.vertex, from.center, to.center, true) &&
+          (to.vertex.below == best || j == first || Fits(from.vertex, to.vertex))) {
+        return to;
+      }
+      if (best == depths.least) break;
     }
-    if (j == from.station + 1) return {j, 0.0};
+    if (j == first) return Reach({j, 0.0});
     do {
-      j = from.station + (j - from.station) / 2;
-    } while (j > from.station + 1 && !TryFits(from, j));
+      j = start + (j - start) / 2;
+    } while (j > first && !TryFits(from.vertex, j));
   }
 }
 
 std::vector<ChordVertex> Funnel::Run(const RunContext* run) {
   std::vector<ChordVertex> vertices;
   if (stations_.empty()) return vertices;
-  ChordVertex v;
-  vertices.push_back(v);
-  Vec3 center = proven_(0);
-  while (v.station + 1 < stations_.size() && !(run != nullptr && run->Cancelled())) {
-    v = Next(v, center);
-    vertices.push_back(v);
+  Reached at = Reach({});
+  vertices.push_back(at.vertex);
+  while (at.vertex.station + 1 < stations_.size() && !(run != nullptr && run->Cancelled())) {
+    at = Next(at);
+    vertices.push_back(at.vertex);
   }
   return vertices;
 }

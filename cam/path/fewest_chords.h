@@ -40,7 +40,7 @@ struct ChordVertex {
   double below = 0.0;
 };
 
-// The proven centre of a station: free, above or at the station. Called once or twice for each vertex.
+// The proven centre of a station: free, above or at the station. Called a few times for each vertex.
 using ProvenCenter = std::function<Vec3(std::size_t)>;
 
 // Vertices: the first station, the last, all kept ones, and what else is needed. Neighbouring stations are

@@ -6,7 +6,9 @@
 namespace patchmill {
 namespace {
 
-constexpr double kSolved = 1e-9;  // mm
+constexpr double kSolved = 1e-9;     // mm
+constexpr double kAtSide = 1e-9;     // of a piece's parameters
+constexpr double kNarrowest = 0.02;  // of the flat step: ground between edges that is looked for
 
 class Clipper {
  public:
@@ -22,6 +24,8 @@ class Clipper {
   }
   void Subdivide(const LineProbe& a, const LineProbe& b, std::vector<LineProbe>& out) const;
   bool WantedBeside(const LineProbe& s) const;
+  bool GroundBetween(const LineProbe& a, const LineProbe& b) const;
+  bool GroundBetween(const std::vector<LineProbe>& stations, std::size_t first, std::size_t last) const;
   template <class Predicate>
   LineProbe Limit(LineProbe yes, LineProbe no, Predicate holds) const;
   double Extend(const std::vector<LineProbe>& stations, std::size_t next, const LineProbe& from,
@@ -57,6 +61,29 @@ bool Clipper::WantedBeside(const LineProbe& s) const {
     const LineProbe beside = prober_.Probe(s.t, line_.At(s.t) + side * s.lateral, line_.SlopeAt(s.t),
                                            s.contact ? &*s.contact : nullptr);
     if (beside.finishes && (beside.center - s.center).norm() <= 1.5 * s.half_step) return true;
+  }
+  return false;
+}
+
+bool OnOneSide(const SurfacePoint& a, const SurfacePoint& b) {
+  const auto both = [](double s, double t) {
+    return std::max(s, t) < kAtSide || std::min(s, t) > 1.0 - kAtSide;
+  };
+  return a.piece.value == b.piece.value && (both(a.u, b.u) || both(a.v, b.v));
+}
+
+// Between places over different edges there may be ground narrower than what lies between the places.
+bool Clipper::GroundBetween(const LineProbe& a, const LineProbe& b) const {
+  if (!a.contact || !b.contact || OnOneSide(*a.contact, *b.contact)) return false;
+  if (b.t - a.t < kNarrowest * flat_ || prober_.Cancelled()) return false;
+  const LineProbe m = Probe(0.5 * (a.t + b.t), a);
+  return m.finishes || GroundBetween(a, m) || GroundBetween(m, b);
+}
+
+bool Clipper::GroundBetween(const std::vector<LineProbe>& stations, std::size_t first,
+                            std::size_t last) const {
+  for (std::size_t k = first == 0 ? 0 : first - 1; k <= last && k + 1 < stations.size(); ++k) {
+    if (GroundBetween(stations[k], stations[k + 1])) return true;
   }
   return false;
 }
@@ -124,7 +151,10 @@ std::vector<Interval> Clipper::Keep(const std::vector<LineProbe>& stations) cons
     const std::size_t first = i;
     i = last;
     const auto at = [&](std::size_t k) { return stations.begin() + static_cast<std::ptrdiff_t>(k); };
-    if (std::none_of(at(first), at(last + 1), [](const LineProbe& p) { return p.finishes; })) continue;
+    if (std::none_of(at(first), at(last + 1), [](const LineProbe& p) { return p.finishes; }) &&
+        !GroundBetween(stations, first, last)) {
+      continue;
+    }
     Interval part{s.t, stations[last].t};
     if (first > 0) part.begin = Extend(stations, first - 1, Limit(s, stations[first - 1], wanted), -1);
     if (last + 1 < n)

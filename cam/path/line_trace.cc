@@ -5,6 +5,7 @@
 
 #include "cam/path/chord_bounds.h"
 #include "cam/path/chord_supports.h"
+#include "cam/path/fewest_chords.h"
 
 namespace patchmill {
 namespace {
@@ -17,6 +18,9 @@ constexpr double kDropOffset = 1e-8;
 constexpr double kSmallestAdvance = 1e-7;
 constexpr double kSwitchAccuracy = 1e-11;
 constexpr int kMaxIterations = 80;
+// Of what a chord between vertices and one between stations may be off, so that mostly neither fails.
+constexpr double kOfChord = 0.85, kOfExcess = 0.6;
+constexpr double kShortest = 0.125;  // of the chord that T2 allows, to begin with
 
 struct BranchPoint {
   double z = 0.0;
@@ -38,6 +42,8 @@ class LineTracer {
     return contact ? Support{contact->p, params_.floor_center} : Support{{}, params_.floor_center};
   }
   double DiscExit(const SurfacePoint& contact, double sign) const;
+  std::optional<double> Bend() const;
+  double NextChord() const;
   double NextAdvance(const LineStation& s) const;
   // Two contacts that make a corner worth a vertex of its own.
   bool Apart(const std::optional<SurfacePoint>& p, const std::optional<SurfacePoint>& q) const {
@@ -102,9 +108,36 @@ double LineTracer::DiscExit(const SurfacePoint& contact, double sign) const {
   return along + sign * std::sqrt(std::max(0.0, radius_ * radius_ - across * across));
 }
 
-// The plan advance that makes the next chord just as long as T2 allows, from the slope under the ball.
+// How the curve of centres bends over the last three stations, 1/mm, > 0 where it bulges; nullopt where they
+// tell nothing.
+std::optional<double> LineTracer::Bend() const {
+  if (runs_.empty() || runs_.back().size() < 3) return std::nullopt;
+  const LineStation* s = &*(runs_.back().end() - 3);
+  if (s[1].keep || !(s[0].t < s[1].t && s[1].t < s[2].t)) return std::nullopt;
+  const Vec3 a = Center(s[0]), ab = Center(s[1]) - a, ac = Center(s[2]) - a;
+  const double sides = ab.norm() * ac.norm() * (ac - ab).norm();
+  const double over = ab.z() * (s[2].t - s[0].t) - ac.z() * (s[1].t - s[0].t);
+  return std::copysign(2.0 * ab.cross(ac).norm() / sides, over);
+}
+
+// The longest next chord whose T2 gouge and T3 excess are within their tolerances, as far as the bend tells.
+// A whole number of them makes a chord between vertices as long as that one may be (FewestChords).
+double LineTracer::NextChord() const {
+  const double gouge = params_.chord_tolerance, excess = std::min(gouge, params_.excess_tolerance);
+  const double chord = LongestChord(radius_, 0.97 * gouge);
+  const std::optional<double> bend = Bend();
+  if (!bend || *bend == 0.0) return chord;
+  const auto reach = [&](double sagitta) { return std::sqrt(8.0 * sagitta / std::abs(*bend)); };
+  const bool bulges = *bend > 0.0;
+  const double most = bulges ? chord : std::min(chord, reach(kOfExcess * excess));
+  const double whole = reach(kOfChord * (bulges ? gouge : DeepestVertex(gouge, excess) + excess));
+  // What stations too close to each other tell of the bend is mostly noise.
+  return std::max(whole / std::ceil(whole / most), kShortest * chord);
+}
+
+// The plan advance that makes the next chord that long, from the slope under the ball.
 double LineTracer::NextAdvance(const LineStation& s) const {
-  const double chord = LongestChord(radius_, 0.97 * params_.chord_tolerance);
+  const double chord = NextChord();
   if (!s.right) return chord;
   const Vec3 n = Center(s) - s.right->p;
   const double along = Plan(n).dot(line_.direction);

@@ -90,13 +90,13 @@ class PassMaker {
       PM_ASSIGN_OR_RETURN(lines, clip(std::move(lines)));
       Append(paths, std::move(lines));
     }
-    PassParams params;
-    SetFinePass(choice, params);
     if (op_.spirals) {
+      PassParams params;
+      SetFinePass(choice, params);
       const bool backwards = op_.contour_direction == CutDirection::kConventional;
       PM_ASSIGN_OR_RETURN(paths, SpiralPaths(locator_, std::move(paths), params, backwards, run_));
+      PM_RETURN_IF_ERROR(ThinContours(locator_, params, MaySpiral, run_, paths));
     }
-    PM_RETURN_IF_ERROR(ThinContours(locator_, params, run_, paths));
     NumberAfter(planned.paths, paths);
     Append(planned.paths, std::move(paths));
     return absl::OkStatus();
@@ -156,6 +156,9 @@ class PassMaker {
   }
 
  private:
+  // What no limit has cut.
+  static bool MaySpiral(const CutterPath& path) { return path.closed || path.spiral; }
+
   // Over all ground that is steep enough; parts that differ in their lines alone share them.
   absl::StatusOr<std::vector<CutterPath>> Contours(const RegionChoice& choice, Diagnostics& findings) {
     const bool all = choice.strategy == Strategy::kContour;
@@ -166,6 +169,9 @@ class PassMaker {
     SetFinePass(choice, params);
     params.window.min = all ? 0.0 : op_.steep_angle;
     PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
+    // Spirals are made of contours as they are.
+    const auto now = [&](const CutterPath& path) { return !(op_.spirals && MaySpiral(path)); };
+    PM_RETURN_IF_ERROR(ThinContours(locator_, params, now, run_, contours.paths));
     findings.insert(findings.end(), contours.findings.begin(), contours.findings.end());
     return contours_[{all, choice.scallop}] = std::move(contours.paths);
   }

@@ -19,8 +19,8 @@ std::optional<Vec2> Around(const JobResult& result) {
   return std::nullopt;
 }
 
-// Where the passes of one kind lie: heights of the levels, offsets of the lines across the feed, or distances
-// of round ones from what they run around; each once.
+// Where the passes of one kind lie: heights of the levels, offsets of the lines across the feed, or radii of
+// round ones, whose corners lie on the circle; each once.
 std::vector<double> Places(const JobResult& result, PassKind kind, double angle) {
   const Vec3 across(-std::sin(angle), std::cos(angle), 0.0);
   const std::optional<Vec2> around = Around(result);
@@ -28,7 +28,11 @@ std::vector<double> Places(const JobResult& result, PassKind kind, double angle)
   for (const CutterPath& path : result.motion.passes) {
     if (path.kind != kind) continue;
     const Vec3& c = path.points.front().center;
-    const double place = around ? (Plan(c) - *around).norm() : across.dot(c);
+    double place = across.dot(c);
+    if (around) {
+      place = 0.0;
+      for (const CutterPoint& p : path.points) place = std::max(place, (Plan(p.center) - *around).norm());
+    }
     all.push_back(kind == PassKind::kContour ? c.z() : place);
   }
   std::sort(all.begin(), all.end());

@@ -198,7 +198,9 @@ TEST_P(LevelsOn, LeaveTheScallop) {
   params.window = {Radians(45), Radians(90)};
   auto contours = ContourPaths(locator, params, RunContext(2));
   ASSERT_TRUE(contours.ok()) << contours.status();
-  ASSERT_TRUE(ThinContours(locator, params, RunContext(2), contours->paths).ok());
+  ASSERT_TRUE(ThinContours(
+                  locator, params, [](const CutterPath&) { return true; }, RunContext(2), contours->paths)
+                  .ok());
   // Where levels cross the window's limit they end there, and border passes have the last word.
   const Measured all = Measure(surface, contours->paths, ground.apart, [&](const Vec3& p, const Vec3& e) {
     return e.z() < std::cos(Radians(49)) && e.z() > 1e-3 && Plan(p).cwiseAbs().maxCoeff() < ground.within;

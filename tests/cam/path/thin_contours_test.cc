@@ -6,6 +6,7 @@
 
 #include "cam/path/chord_thinning.h"
 #include "cam/path/contour_paths.h"
+#include "cam/path/spiral_paths.h"
 #include "tests/cam/path/contour_checks.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
@@ -16,6 +17,7 @@ namespace {
 using namespace patchmill::testing;
 
 constexpr double kR = 3.0;
+const ThinWhich kAll = [](const CutterPath&) { return true; };
 
 struct Thinned {
   Thinned(PatchModel model, double scallop, SlopeWindow window = {Radians(45), Radians(90)})
@@ -29,7 +31,7 @@ struct Thinned {
       return;
     }
     before = after = std::move(contours->paths);
-    EXPECT_TRUE(ThinContours(locator, params, RunContext(2), after).ok());
+    EXPECT_TRUE(ThinContours(locator, params, kAll, RunContext(2), after).ok());
   }
   ContourParams params;
   Surface surface;
@@ -50,11 +52,11 @@ struct Chords {
 };
 
 // Every chord, judged densely: a ball smaller by what it may take is free, one larger by what it may leave is
-// not; and somewhere one smaller by very little is free.
+// not; and somewhere one smaller by twice that is free.
 Chords Judge(const Thinned& t, const std::vector<CutterPath>& paths, int per_chord = 9) {
   const double gouge = t.params.chord_tolerance, excess = ExcessTolerance(t.params);
   const Locator smaller(t.surface, kR - gouge - 1e-7), larger(t.surface, kR + excess + 1e-7);
-  const Locator touching(t.surface, kR - 0.1 * gouge);
+  const Locator touching(t.surface, kR - 2.0 * excess);
   Chords all;
   for (const CutterPath& path : paths) {
     const std::size_t n = path.points.size();
@@ -69,7 +71,7 @@ Chords Judge(const Thinned& t, const std::vector<CutterPath>& paths, int per_cho
         all.excesses += larger.Free(x, -1e-9);
         touches |= touching.Free(x, 1e-9);
       }
-      if (!touches) all.deepest = 0.1 * gouge;
+      if (!touches) all.deepest = 2.0 * excess;
     }
   }
   return all;
@@ -156,15 +158,33 @@ TEST(ThinContours, RandomSplinesKeepThePromises) {
   }
 }
 
+// Turns of a spiral fall, and their joins bend in z.
+TEST(ThinContours, SpiralsKeepThePromises) {
+  const Eigen::Affine3d over(Eigen::AngleAxisd(kPi, Vec3::UnitX()));
+  for (const double radius : {8.0, 14.0}) {
+    Thinned t(Transformed(Sphere(Vec3::Zero(), radius, Half::kUpper), over), 0.03, {0.0, Radians(90)});
+    auto spirals = SpiralPaths(t.locator, t.before, t.params, false, RunContext(2));
+    ASSERT_TRUE(spirals.ok()) << spirals.status();
+    t.before = t.after = *std::move(spirals);
+    ASSERT_TRUE(ThinContours(t.locator, t.params, kAll, RunContext(2), t.after).ok());
+    EXPECT_TRUE(std::any_of(t.after.begin(), t.after.end(), [](const CutterPath& p) { return p.spiral; }));
+    EXPECT_LT(PointsOf(t.after), PointsOf(t.before));
+    const Chords chords = Judge(t, t.after);
+    EXPECT_EQ(chords.gouges, 0) << "of " << chords.probes;
+    EXPECT_LE(chords.excesses, Judge(t, t.before).excesses);
+    EXPECT_EQ(chords.deepest, 0.0);
+  }
+}
+
 TEST(ThinContours, LeavesOtherPassesAndIsCancelled) {
   Thinned t(TwoPlanes(Radians(60), 20), 0.01);
   std::vector<CutterPath> lines = t.before;
   for (CutterPath& path : lines) path.kind = PassKind::kZigzag;
-  ASSERT_TRUE(ThinContours(t.locator, t.params, RunContext(1), lines).ok());
+  ASSERT_TRUE(ThinContours(t.locator, t.params, kAll, RunContext(1), lines).ok());
   EXPECT_EQ(PointsOf(lines), PointsOf(t.before));
   RunContext run(1);
   run.Cancel();
-  EXPECT_EQ(ThinContours(t.locator, t.params, run, t.before).code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(ThinContours(t.locator, t.params, kAll, run, t.before).code(), absl::StatusCode::kCancelled);
 }
 
 }  // namespace

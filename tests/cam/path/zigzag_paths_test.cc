@@ -240,6 +240,32 @@ TEST(ZigzagPaths, NothingButAnEdgeIsNoPass) {
   EXPECT_GT(lines_over(44.0, 0.0).size(), 20u);
 }
 
+// The top of a rib a tenth of a millimetre wide, between two edges: ground, however few probes fall on it.
+// All lines that cross it have a piece there.
+TEST(ZigzagPaths, GroundBetweenTwoEdgesKeepsItsLines) {
+  const std::vector<Vec2> profile = {{-1.05, 0}, {-0.05, 2}, {0.05, 2}, {1.05, 0}};
+  PatchModel rib;
+  for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
+    const Vec2 &a = profile[k], &b = profile[k + 1];
+    rib = Join({rib, Single(Bilinear({a.x(), -9, a.y()}, {b.x(), -9, b.y()}, {a.x(), 9, a.y()},
+                                     {b.x(), 9, b.y()}))});
+  }
+  for (const double turned : {0.0, 0.3}) {
+    const Eigen::Affine3d turn(Eigen::AngleAxisd(turned, Vec3::UnitZ()));
+    const Surface surface = JoinedSurface(Transformed(rib, turn));
+    const Locator locator(surface, 3.0);
+    std::set<int> lines;
+    for (const CutterPath& path : Zigzag(locator, Params(0.01, 45.0))) {
+      const bool over_top = std::any_of(path.points.begin(), path.points.end(), [](const CutterPoint& p) {
+        return p.contact && p.contact->p.z() > 2.0 - 1e-9;
+      });
+      if (over_top) lines.insert(path.line);
+    }
+    const double across = 18.0 * std::cos(turned) / CenterStep(3.0, 0.01, 0.0);
+    EXPECT_GE(static_cast<double>(lines.size()), 0.9 * across) << turned;
+  }
+}
+
 TEST(ZigzagPaths, NarrowSpotsGetPartialLines) {
   // A tilted gutter among flat ground: the step across the flat is too wide on the gutter's flanks only.
   const auto height = [](double x, double y) {
