@@ -15,7 +15,10 @@ constexpr double kPredicted = 0.9, kProofSlack = 0.05;
 // By how much a small step out of the ground clears the ball at least, for its part of a step: where that is
 // less, vertices go down no farther.
 constexpr double kLeastUpright = 0.2;
-constexpr double kMostTilt = 0.5;      // cosine of the most by which the way out turns under one chord
+constexpr double kMostTilt = 0.5;  // cosine of the most by which the way out turns under one chord
+// Of the excess: by how much a station is below the chord between its neighbours where ground is hollow. Less
+// is rounding, or no hindrance to chords of dozens of stations.
+constexpr double kHollow = 1e-3;
 constexpr std::size_t kFirstLook = 8;  // stations ahead
 constexpr double kSamePlace = 1e-9;    // mm
 
@@ -124,7 +127,8 @@ bool Funnel::Hollow(std::size_t k) const {
   const Vec3 a = stations_[k - 1].center, way = stations_[k + 1].center - a, off = stations_[k].center - a;
   const Vec3& up = stations_[k].away;
   const Vec3 along = way - way.dot(up) * up;
-  return off.dot(up) * along.squaredNorm() < way.dot(up) * off.dot(along);
+  const double length2 = along.squaredNorm();
+  return length2 > 0.0 && way.dot(up) * off.dot(along) / length2 - off.dot(up) > kHollow * limits_.excess;
 }
 
 std::optional<Funnel::Frame> Funnel::FrameAt(const ChordVertex& v) const {

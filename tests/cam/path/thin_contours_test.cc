@@ -116,6 +116,8 @@ TEST(ThinContours, PlanesNeedNoPoints) {
   ExpectPromises(t);
   for (const CutterPath& path : t.after) {
     EXPECT_LE(static_cast<double>(path.points.size()), std::ceil(Length(path) / kR) * 1.34 + 3.0);
+    // Nothing is hollow along them, and rounding must not make it so.
+    for (const CutterPoint& p : path.points) EXPECT_TRUE(t.locator.Free(p.center, 1e-8));
   }
   EXPECT_LT(8 * PointsOf(t.after), PointsOf(t.before));
 }
