@@ -158,7 +158,7 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   Received received;
   received.program = OutputFile(options.program);
   received.report_file = OutputFile(options.report);
-  received.preview = OutputFile(options.preview);
+  received.preview = OutputFile(options.preview, {".svg"});
   if (const absl::Status writable =
           CheckWritable({&received.program, &received.report_file, &received.preview});
       !writable.ok())

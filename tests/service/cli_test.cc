@@ -81,6 +81,14 @@ TEST_F(Cli, MillWritesProgramReportAndPicture) {
   EXPECT_THAT(run.err, Not(HasSubstr("\r"))) << "a progress bar in a pipe";
 }
 
+// Before the job costs anything, and nothing is written.
+TEST_F(Cli, APictureThatIsNoSvgIsRefused) {
+  const Finished run = Mill(bump_, {"--preview", out_ / "part.png"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr(".svg"));
+  EXPECT_THAT(out_.Names(), IsEmpty());
+}
+
 TEST_F(Cli, TheShankIsJudgedAndTheStickoutWarnedOf) {
   const Finished slim = Mill(bump_, {"--flute-length", "30", "--shank-diameter", "10", "--stickout", "0.1"});
   EXPECT_EQ(slim.status, 0) << slim.err;
