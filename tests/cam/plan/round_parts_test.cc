@@ -1,0 +1,86 @@
+// Turned shapes with upright walls, as machines cut every day: pockets, pins and bosses.
+#include <chrono>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+// Points (r, z) of a profile with weights, turned around z: exact, four quarters.
+struct Profile {
+  std::vector<Vec2> points;
+  std::vector<double> weights;
+};
+
+PatchModel Turned(const std::vector<Profile>& profiles) {
+  PatchModel model;
+  const double w = std::sqrt(0.5);
+  for (const Profile& profile : profiles) {
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const double from = 0.5 * kPi * quarter;
+      const Vec2 a(std::cos(from), std::sin(from)), b(-a.y(), a.x());
+      BezierPatch patch;
+      patch.degree_u = 2;
+      patch.degree_v = static_cast<int>(profile.points.size()) - 1;
+      for (const auto& [place, weight] : {std::pair{a, 1.0}, {Vec2(a + b), w}, {b, 1.0}}) {
+        for (std::size_t k = 0; k < profile.points.size(); ++k) {
+          patch.points.push_back(Lift(profile.points[k].x() * place, profile.points[k].y()));
+          patch.weights.push_back(weight * profile.weights[k]);
+        }
+      }
+      model.patches.push_back({"", std::move(patch)});
+    }
+  }
+  return model;
+}
+
+Profile Line(const Vec2& a, const Vec2& b) { return {{a, b}, {1.0, 1.0}}; }
+Profile Round(const Vec2& a, const Vec2& corner, const Vec2& b) {
+  return {{a, corner, b}, {1.0, std::sqrt(0.5), 1.0}};
+}
+
+JobResult MillChecked(const Surface& surface) {
+  const Job job = BallJob(3.0);
+  const auto start = std::chrono::steady_clock::now();
+  JobResult result = Mill(surface, job);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
+  // Nothing was lifted onto a wall, nor looked at without end.
+  EXPECT_EQ(result.report.certificate_defects, 0u);
+  EXPECT_LT(time.count(), kSanitized ? 200.0 : 20.0);
+  Random random(11);
+  CheckProgram(surface, job, result, random, 2000);
+  return result;
+}
+
+TEST(RoundParts, Pocket) {
+  const double radius = 12.0, fillet = 4.0, deep = 8.0;
+  const Surface surface = PlacedSurface(
+      Turned({Line({0, 0}, {radius - fillet, 0}), Round({radius - fillet, 0}, {radius, 0}, {radius, fillet}),
+              Line({radius, fillet}, {radius, deep}), Line({radius, deep}, {20, deep})}));
+  const JobResult result = MillChecked(surface);
+  // The top, the wall and the floor are left for each other once; not once for each piece of the rim.
+  EXPECT_LE(result.report.motion.retract_count, 10);
+  EXPECT_EQ(result.report.outcome, Outcome::kComplete);
+}
+
+TEST(RoundParts, PinOnAPlate) {
+  const double radius = 6.0, round = 1.0, fillet = 4.0, high = 8.0;
+  const Surface surface = PlacedSurface(Turned(
+      {Line({0, high}, {radius - round, high}),
+       Round({radius - round, high}, {radius, high}, {radius, high - round}),
+       Line({radius, high - round}, {radius, fillet}),
+       Round({radius, fillet}, {radius, 0}, {radius + fillet, 0}), Line({radius + fillet, 0}, {18, 0})}));
+  const JobResult result = MillChecked(surface);
+  EXPECT_LE(result.report.motion.retract_count, 10);
+  EXPECT_EQ(result.report.outcome, Outcome::kComplete);
+}
+
+}  // namespace
+}  // namespace patchmill
