@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cam/path/across_feed.h"
+#include "cam/path/cell_reach.h"
 #include "cam/path/forced_steps.h"
 #include "cam/path/pass_params.h"
 #include "cam/path/spacing.h"
@@ -26,6 +27,20 @@ struct Range {
     max = std::max(max, other.max);
   }
 };
+
+// mm of passes per mm2 of ground, for a ball on the side of the normal e; 0 where it does not fit.
+double PassesPerArea(const SurfaceJet& jet, const Vec3& e, double radius, double scallop) {
+  const PrincipalCurvatures k = Principal(Forms(jet, e));
+  const double step = CenterStep(radius, scallop, k.k_min);
+  if (!(k.k_max * radius < 1.0) || !(step > 0.0)) return 0.0;
+  return (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius) / step;
+}
+
+// Is the ball free beside upright ground, on the side of e? Off it by more than rounding.
+bool HasRoom(const Locator& locator, const Vec3& p, const Vec3& e) {
+  constexpr double kOff = 1e-6;  // mm
+  return locator.Free(p + (locator.radius() + kOff) * e);
+}
 
 }  // namespace
 
@@ -57,8 +72,9 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
   return absl::OkStatus();
 }
 
-absl::StatusOr<double> LeastFeed(const Surface& surface, const std::vector<RegionChoice>& choices,
+absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<RegionChoice>& choices,
                                  const Resolved& resolved, const RunContext& run, const RegionMap& map) {
+  const Surface& surface = locator.surface();
   const int stride = StrideOf(map);
   const auto reachable = [&](std::size_t id) { return map.regions[id].kind != RegionKind::kUnreachable; };
   const double radius = resolved.plan_radius;
@@ -69,15 +85,17 @@ absl::StatusOr<double> LeastFeed(const Surface& surface, const std::vector<Regio
                  if (choices[id].skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p))
                    return;
                  const RegionChoice& choice = choices[id];
-                 const PrincipalCurvatures k = Principal(Forms(jet, e));
-                 const double step = CenterStep(radius, choice.scallop, k.k_min);
-                 if (!(k.k_max * radius < 1.0) || !(step > 0.0)) return;
                  // Forced passes leave that as STRATEGY.
                  if (NeededStepOfSides(ForcedOf(choice), jet, e, radius, choice.scallop) <
                      PassParams().min_step_fraction)
                    return;
-                 const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
-                 pieces[i] += jet.du.cross(jet.dv).norm() * centers / step;
+                 double passes = PassesPerArea(jet, e, radius, choice.scallop);
+                 if (e.z() <= kUprightFace) {
+                   const double beyond = PassesPerArea(jet, -e, radius, choice.scallop);
+                   const bool here = HasRoom(locator, jet.p, e), there = HasRoom(locator, jet.p, -e);
+                   passes = here == there ? std::min(passes, beyond) : here ? passes : beyond;
+                 }
+                 pieces[i] += jet.du.cross(jet.dv).norm() * passes;
                });
   }));
   double sum = 0.0;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cam/location/locator.h"
 #include "cam/plan/job.h"
 #include "cam/plan/resolve.h"
 
@@ -19,9 +20,10 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
 // mm: the integral of the centre surface's area over the widest step at each place, which is CenterStep
 // across the most convex direction, over the reachable ground that is selected and not skipped, less what
 // forced passes leave as STRATEGY. No passes that leave the scallop everywhere can be shorter: a mm of pass
-// takes care of no more than the widest step beside it. The same points as FillSteps. CANCELLED,
-// DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<double> LeastFeed(const Surface& surface, const std::vector<RegionChoice>& choices,
+// takes care of no more than the widest step beside it. Upright ground counts from the side where the ball
+// finds room, the shorter of two. The same points as FillSteps. `locator`: of resolved.plan_radius.
+// CANCELLED, DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<RegionChoice>& choices,
                                  const Resolved& resolved, const RunContext& run, const RegionMap& map);
 
 }  // namespace patchmill

@@ -183,7 +183,6 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   result.regions = std::move(regions.map);
   report.regions = result.regions.regions;
   report.choices = std::move(regions.choices);
-  PM_ASSIGN_OR_RETURN(report.least_feed, LeastFeed(surface, report.choices, resolved, run, result.regions));
   const auto limits_of = [&](const std::vector<PlanPart>& of) {
     const bool whole = of.size() == 1 && of.front().where == nullptr;
     return whole && !IsLimited(resolved) ? nullptr : &keep_in;
@@ -191,6 +190,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   clock.Done("regions");
 
   PM_ASSIGN_OR_RETURN(const Locator locator, Locator::Make(surface, resolved.plan_radius, run));
+  PM_ASSIGN_OR_RETURN(report.least_feed, LeastFeed(locator, report.choices, resolved, run, result.regions));
   if (job.operation.angle_auto) {
     const auto time = [&](const std::vector<RegionChoice>& choices) -> absl::StatusOr<RegionTimes> {
       const std::vector<PlanPart> tried = PartsOf(result.regions, choices);

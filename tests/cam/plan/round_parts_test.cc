@@ -70,6 +70,20 @@ TEST(RoundParts, Pocket) {
   EXPECT_EQ(result.report.outcome, Outcome::kComplete);
 }
 
+// The ball's centre goes around in the hole, not around the wall from outside.
+TEST(RoundParts, LeastFeedInAHole) {
+  const double hole = 8.0, deep = 10.0, radius = 3.0;
+  const Surface surface = PlacedSurface(
+      Turned({Line({0, 0}, {hole, 0}), Line({hole, 0}, {hole, deep}), Line({hole, deep}, {20, deep})}));
+  const JobResult result = MillChecked(surface);
+  const double floor = kPi * std::pow(hole - radius, 2.0), top = kPi * (400.0 - hole * hole);
+  const double wall = 2.0 * kPi * (hole - radius) * (deep - radius);
+  const double s = BallJob(radius).operation.scallop, flat = 2.0 * std::sqrt(2.0 * radius * s - s * s);
+  const double least = (floor + top + wall) / flat;
+  EXPECT_NEAR(result.report.least_feed, least, 0.01 * least);
+  EXPECT_GT(result.report.verify.cut_length, least);
+}
+
 TEST(RoundParts, PinOnAPlate) {
   const double radius = 6.0, round = 1.0, fillet = 4.0, high = 8.0;
   const Surface surface = PlacedSurface(Turned(
