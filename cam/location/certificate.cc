@@ -55,8 +55,7 @@ struct Prover {
   bool Beside(NetShape shape, const Vec4* points) {
     const auto curve = internal::PlanCurveOf(shape, points, 4.0 * impl.rounding);
     if (!curve) return false;
-    const double limit = std::sqrt(2.0 * free_f) + curve->spread;
-    if (!internal::OutsideInPlan(*curve, ball.q, limit * limit)) return false;
+    if (!internal::OutsideInPlan(*curve, ball.q, std::sqrt(2.0 * free_f) + curve->spread)) return false;
     top = std::max(top, best.z);
     return true;
   }

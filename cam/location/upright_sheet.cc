@@ -4,50 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "core/surface/distance_form.h"
+
 namespace patchmill::internal {
 namespace {
 
 constexpr int kMostParts = 400;
 constexpr int kMostHalvings = 40;
-constexpr int kMostCoefficients = 2 * kMaxDegree + 1;
 // Of the largest coefficient: sums of a few dozen products.
 constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
-
 constexpr double kSameWeight = 4.0 * std::numeric_limits<double>::epsilon();
 
-using Coefficients = std::array<double, kMostCoefficients>;
-
-// C(n, 0) ... C(n, n)
-std::array<double, kMostCoefficients> Binomials(int n) {
-  std::array<double, kMostCoefficients> row{};
-  row[0] = 1.0;
-  for (int k = 1; k <= n; ++k) {
-    row[static_cast<std::size_t>(k)] = row[static_cast<std::size_t>(k - 1)] * (n - k + 1) / k;
-  }
-  return row;
-}
-
-// Bernstein coefficients of |X - q W|^2 - limit2 W^2.
-Coefficients SquareBeyond(const PlanCurve& curve, const Vec2& q, double limit2) {
-  const auto once = Binomials(curve.degree), twice = Binomials(2 * curve.degree);
-  Coefficients sum{};
-  std::array<Vec3, kMaxDegree + 1> local;
-  for (int i = 0; i <= curve.degree; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Vec3& p = curve.points[k];
-    local[k] = once[k] * Vec3(p.x() - q.x() * p.z(), p.y() - q.y() * p.z(), p.z());
-  }
-  for (int i = 0; i <= curve.degree; ++i) {
-    for (int j = 0; j <= curve.degree; ++j) {
-      const Vec3 &a = local[static_cast<std::size_t>(i)], &b = local[static_cast<std::size_t>(j)];
-      sum[static_cast<std::size_t>(i + j)] += a.x() * b.x() + a.y() * b.y() - limit2 * a.z() * b.z();
-    }
-  }
-  for (int k = 0; k <= 2 * curve.degree; ++k) {
-    sum[static_cast<std::size_t>(k)] /= twice[static_cast<std::size_t>(k)];
-  }
-  return sum;
-}
+// Of a polynomial of degree 2 kMaxDegree at most, the first ones.
+using Coefficients = std::array<double, kMaxFormDegree + 1>;
 
 struct Positive {
   const std::size_t last;
@@ -84,7 +53,7 @@ std::optional<PlanCurve> Swept(const Vec4* points, int along, int stride, int ac
       curve.spread = std::max(curve.spread, (Vec2(p.head<2>() / p.w()) - plan).cwiseAbs().maxCoeff());
       if (curve.spread > rounding) return std::nullopt;
     }
-    curve.points[static_cast<std::size_t>(i)] = Vec3(first.x(), first.y(), first.w());
+    curve.points[static_cast<std::size_t>(i)] = Vec4(first.x(), first.y(), 0.0, first.w());
   }
   curve.spread = 2.0 * (curve.spread + rounding);  // of both coordinates; weights differ by less
   return curve;
@@ -98,11 +67,18 @@ std::optional<PlanCurve> PlanCurveOf(NetShape shape, const Vec4* points, double 
   return Swept(points, columns, 1, rows, columns, rounding);
 }
 
-bool OutsideInPlan(const PlanCurve& curve, const Vec2& q, double limit2) {
-  const Coefficients c = SquareBeyond(curve, q, limit2);
-  const auto last = static_cast<std::size_t>(2 * curve.degree);
+bool OutsideInPlan(const PlanCurve& curve, const Vec2& q, double radius) {
+  std::array<Vec4, kMaxDegree + 1> local = curve.points;
+  for (Vec4& p : local) p.head<2>() -= p.w() * q;
+  DistanceForm form;
+  MakeDistanceForm({curve.degree, 0}, local.data(), true, true, radius, form);
+  const auto last = static_cast<std::size_t>(form.degree_u);
+  Coefficients c{};
   double largest = 0.0;
-  for (std::size_t k = 0; k <= last; ++k) largest = std::max(largest, std::abs(c[k]));
+  for (std::size_t k = 0; k <= last; ++k) {
+    c[k] = form.c[k];
+    largest = std::max(largest, std::abs(c[k]));
+  }
   if (!(largest > 0.0 && largest < std::numeric_limits<double>::infinity())) return false;
   return Positive{last, kRounding * largest}.Prove(c, 0);
 }

@@ -10,10 +10,10 @@
 
 namespace patchmill::internal {
 
-// Homogeneous: (x w, y w, w).
+// Homogeneous: (x w, y w, 0, w).
 struct PlanCurve {
   int degree = 0;
-  std::array<Vec3, kMaxDegree + 1> points;
+  std::array<Vec4, kMaxDegree + 1> points{};
   double spread = 0.0;  // mm: how far points of the sheet lie from the curve in plan at most
 };
 
@@ -21,10 +21,10 @@ struct PlanCurve {
 // or where a point has no weight.
 std::optional<PlanCurve> PlanCurveOf(NetShape shape, const Vec4* points, double rounding);
 
-// Is no point of the curve nearer to q than the root of `limit2` (mm^2)? True is proven: the polynomial
-// |X - q W|^2 - limit2 W^2 has no negative coefficient in any of the parts it is divided into (by halves,
-// quadratic convergence: about 40 parts where a circle touches), beyond what rounding explains. False: some
-// point is nearer, or nothing could be proven.
-bool OutsideInPlan(const PlanCurve& curve, const Vec2& q, double limit2);
+// Is no point of the curve nearer to q than `radius` (mm)? True is proven: its distance form (core/surface)
+// has no negative coefficient in any of the parts it is divided into (by halves, quadratic convergence: about
+// 40 parts where a circle touches), beyond what rounding explains. False: some point is nearer, or nothing
+// could be proven.
+bool OutsideInPlan(const PlanCurve& curve, const Vec2& q, double radius);
 
 }  // namespace patchmill::internal

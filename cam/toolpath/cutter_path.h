@@ -12,7 +12,7 @@ namespace patchmill {
 // kBorder: along the border of what lines cover.
 enum class PassKind { kZigzag, kContour, kBorder, kCrease, kRest };
 
-// A ball centre, gouge-free, and what it touches.
+// A ball centre and what it touches: free, or in the ground by less than its chords may be (fewest_chords.h).
 struct CutterPoint {
   Vec3 center = Vec3::Zero();
   std::optional<SurfacePoint> contact;        // absent where the floor holds the ball

@@ -39,11 +39,11 @@ std::vector<Vec3> Quarter(double radius) {
 }
 
 Vec2 At(const PlanCurve& curve, double t) {
-  std::vector<Vec3> p(curve.points.begin(), curve.points.begin() + curve.degree + 1);
+  std::vector<Vec4> p(curve.points.begin(), curve.points.begin() + curve.degree + 1);
   for (std::size_t n = p.size(); n > 1; --n) {
     for (std::size_t k = 0; k + 1 < n; ++k) p[k] = (1.0 - t) * p[k] + t * p[k + 1];
   }
-  return p[0].head<2>() / p[0].z();
+  return p[0].head<2>() / p[0].w();
 }
 
 TEST(PlanCurveOf, KnowsUprightSheetsEitherWay) {
@@ -90,8 +90,8 @@ TEST(OutsideInPlan, TellsACircleThatTouchesFromOneThatCuts) {
     const Vec2 out(std::cos(angle), std::sin(angle));
     for (const double side : {1.0, -1.0}) {
       const Vec2 q = (9.0 + side * radius) * out;
-      EXPECT_TRUE(OutsideInPlan(*curve, q, std::pow(radius - 1e-10, 2.0)));
-      EXPECT_FALSE(OutsideInPlan(*curve, q, std::pow(radius + 1e-10, 2.0)));
+      EXPECT_TRUE(OutsideInPlan(*curve, q, radius - 1e-10));
+      EXPECT_FALSE(OutsideInPlan(*curve, q, radius + 1e-10));
     }
   }
 }
@@ -113,7 +113,7 @@ TEST(OutsideInPlan, IsRightAboutRandomCurves) {
     double nearest = kInfinity;
     for (int k = 0; k <= 4000; ++k) nearest = std::min(nearest, (At(*curve, k / 4000.0) - q).norm());
     const double radius = random.Uniform(0.2, 6.0);
-    const bool is_outside = OutsideInPlan(*curve, q, radius * radius);
+    const bool is_outside = OutsideInPlan(*curve, q, radius);
     // Between two of the 4001 places the curve may come a little nearer.
     if (nearest < radius) {
       EXPECT_FALSE(is_outside);
