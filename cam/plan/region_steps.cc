@@ -1,7 +1,10 @@
 #include "cam/plan/region_steps.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <map>
 
 #include "cam/path/across_feed.h"
 #include "cam/path/cell_reach.h"
@@ -36,11 +39,37 @@ double PassesPerArea(const SurfaceJet& jet, const Vec3& e, double radius, double
   return (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius) / step;
 }
 
-// Is the ball free beside upright ground, on the side of e? Off it by more than rounding.
-bool HasRoom(const Locator& locator, const Vec3& p, const Vec3& e) {
-  constexpr double kOff = 1e-6;  // mm
-  return locator.Free(p + (locator.radius() + kOff) * e);
-}
+// Upright ground of one region on one piece: passes (mm) for a ball on each side of it, and on which there is
+// room for one anywhere; the sides are those of du x dv.
+class UprightGround {
+ public:
+  void Add(const Locator& locator, const SurfaceJet& jet, double scallop) {
+    const Vec3 normal = jet.du.cross(jet.dv);
+    const double area = normal.norm(), radius = locator.radius();
+    const Vec3 e = normal / area;
+    const double over = area * PassesPerArea(jet, e, radius, scallop),
+                 under = area * PassesPerArea(jet, -e, radius, scallop);
+    over_ += over;
+    under_ += under;
+    least_ += std::min(over, under);
+    // Few are asked, ever fewer: next to a hole that the ball just fits into an answer takes a millisecond.
+    if (over == under || !std::has_single_bit(++points_)) return;
+    room_over_ = room_over_ || HasRoom(locator, jet.p, e);
+    room_under_ = room_under_ || HasRoom(locator, jet.p, -e);
+  }
+  double Passes() const { return room_over_ == room_under_ ? least_ : room_over_ ? over_ : under_; }
+
+ private:
+  // Off the ground by more than rounding.
+  static bool HasRoom(const Locator& locator, const Vec3& p, const Vec3& e) {
+    constexpr double kOff = 1e-6;  // mm
+    return locator.Free(p + (locator.radius() + kOff) * e);
+  }
+
+  double over_ = 0.0, under_ = 0.0, least_ = 0.0;
+  bool room_over_ = false, room_under_ = false;
+  std::uint32_t points_ = 0;
+};
 
 }  // namespace
 
@@ -80,6 +109,7 @@ absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<Regio
   const double radius = resolved.plan_radius;
   std::vector<double> pieces(surface.pieces.size(), 0.0);
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
+    std::map<std::size_t, UprightGround> upright;  // by region
     VisitPiece(surface, i, map, stride, reachable,
                [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
                  if (choices[id].skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p))
@@ -89,14 +119,13 @@ absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<Regio
                  if (NeededStepOfSides(ForcedOf(choice), jet, e, radius, choice.scallop) <
                      PassParams().min_step_fraction)
                    return;
-                 double passes = PassesPerArea(jet, e, radius, choice.scallop);
                  if (e.z() <= kUprightFace) {
-                   const double beyond = PassesPerArea(jet, -e, radius, choice.scallop);
-                   const bool here = HasRoom(locator, jet.p, e), there = HasRoom(locator, jet.p, -e);
-                   passes = here == there ? std::min(passes, beyond) : here ? passes : beyond;
+                   upright[id].Add(locator, jet, choice.scallop);
+                 } else {
+                   pieces[i] += jet.du.cross(jet.dv).norm() * PassesPerArea(jet, e, radius, choice.scallop);
                  }
-                 pieces[i] += jet.du.cross(jet.dv).norm() * passes;
                });
+    for (const auto& [id, ground] : upright) pieces[i] += ground.Passes();
   }));
   double sum = 0.0;
   for (const double piece : pieces) sum += piece;

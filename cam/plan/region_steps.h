@@ -21,8 +21,8 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
 // across the most convex direction, over the reachable ground that is selected and not skipped, less what
 // forced passes leave as STRATEGY. No passes that leave the scallop everywhere can be shorter: a mm of pass
 // takes care of no more than the widest step beside it. Upright ground counts from the side where the ball
-// finds room, the shorter of two. The same points as FillSteps. `locator`: of resolved.plan_radius.
-// CANCELLED, DEADLINE_EXCEEDED from `run`.
+// finds room, by a few places of each piece in a region; the shorter of two. The same points as FillSteps.
+// `locator`: of resolved.plan_radius. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<RegionChoice>& choices,
                                  const Resolved& resolved, const RunContext& run, const RegionMap& map);
 

@@ -84,6 +84,16 @@ TEST(RoundParts, LeastFeedInAHole) {
   EXPECT_GT(result.report.verify.cut_length, least);
 }
 
+// Beside the wall of a hole a thousandth wider than the ball every question about it is hard.
+TEST(RoundParts, HoleThatTheBallJustFits) {
+  const double hole = 3.001, deep = 10.0;
+  const Surface surface = PlacedSurface(
+      Turned({Line({0, 0}, {hole, 0}), Line({hole, 0}, {hole, deep}), Line({hole, deep}, {12, deep})}));
+  const JobResult result = MillChecked(surface);
+  EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable);
+  EXPECT_GT(result.report.verify.cut_length, result.report.least_feed);
+}
+
 TEST(RoundParts, PinOnAPlate) {
   const double radius = 6.0, round = 1.0, fillet = 4.0, high = 8.0;
   const Surface surface = PlacedSurface(Turned(
