@@ -259,6 +259,19 @@ TEST(ScanLine, SphereHoldsBothTolerances) {
   }
 }
 
+// Across the square of RandomBspline.
+std::vector<ScanRun> ScanRandomLines(const Locator& locator, const PassParams& params, std::uint64_t seed,
+                                     int lines) {
+  Random random(seed);
+  std::vector<ScanRun> runs;
+  for (int i = 0; i < lines; ++i) {
+    const Vec2 a(random.Uniform(0, 40), random.Uniform(0, 40)),
+        b(random.Uniform(0, 40), random.Uniform(0, 40));
+    for (auto& r : ScanLine(locator, a, b, params)) runs.push_back(std::move(r));
+  }
+  return runs;
+}
+
 TEST(ScanLine, RandomSplinesHoldBothTolerances) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const bool folds = seed > 4;
@@ -267,13 +280,7 @@ TEST(ScanLine, RandomSplinesHoldBothTolerances) {
       const Locator locator(surface, radius);
       PassParams params;
       params.chord_tolerance = seed % 3 == 0 ? 0.002 : 0.005;
-      Random random(seed);
-      std::vector<ScanRun> runs;
-      for (int i = 0; i < 3; ++i) {
-        const Vec2 a(random.Uniform(0, 40), random.Uniform(0, 40)),
-            b(random.Uniform(0, 40), random.Uniform(0, 40));
-        for (auto& r : ScanLine(locator, a, b, params)) runs.push_back(std::move(r));
-      }
+      const std::vector<ScanRun> runs = ScanRandomLines(locator, params, seed, 3);
       SCOPED_TRACE(::testing::Message() << "seed " << seed << " radius " << radius);
       ExpectCertified(surface, radius, runs, params);
       for (const auto& run : runs) {
@@ -349,13 +356,7 @@ TEST(ScanLine, FineChordsHoldBothTolerancesAnywhere) {
     const Surface surface = SurfaceOf(RandomBspline(seed, {.folds = seed > 2, .rational = seed % 2 == 0}));
     const Locator locator(surface, 2.0);
     const PassParams params = Fine(0.01);
-    Random random(seed);
-    std::vector<ScanRun> runs;
-    for (int i = 0; i < 2; ++i) {
-      const Vec2 a(random.Uniform(0, 40), random.Uniform(0, 40)),
-          b(random.Uniform(0, 40), random.Uniform(0, 40));
-      for (auto& r : ScanLine(locator, a, b, params)) runs.push_back(std::move(r));
-    }
+    const std::vector<ScanRun> runs = ScanRandomLines(locator, params, seed, 2);
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     ExpectCertified(surface, 2.0, runs, params);
     EXPECT_LT(DeepestChord(locator, runs), 0.1 * params.chord_tolerance);

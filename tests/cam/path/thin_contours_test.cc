@@ -48,7 +48,7 @@ std::size_t PointsOf(const std::vector<CutterPath>& paths) {
 struct Chords {
   int probes = 0, gouges = 0, excesses = 0;
   double longest = 0.0;
-  double deepest = 0.0;  // mm: the most that a chord stays below the ground all along
+  int buried = 0;  // chords that are in the ground all along
 };
 
 // Every chord, judged densely: a ball smaller by what it may take is free, one larger by what it may leave is
@@ -71,20 +71,23 @@ Chords Judge(const Thinned& t, const std::vector<CutterPath>& paths, int per_cho
         all.excesses += larger.Free(x, -1e-9);
         touches |= touching.Free(x, 1e-9);
       }
-      if (!touches) all.deepest = 2.0 * excess;
+      all.buried += !touches;
     }
   }
   return all;
 }
 
-void ExpectPromises(const Thinned& t) {
+// Of splines some cells are below the resolution: there contours themselves leave more (T8d).
+enum class Cells { kResolved, kSomeTooSmall };
+
+void ExpectPromises(const Thinned& t, Cells cells = Cells::kResolved) {
   ASSERT_FALSE(t.after.empty());
   ASSERT_EQ(t.after.size(), t.before.size());
   const Chords chords = Judge(t, t.after);
   EXPECT_EQ(chords.gouges, 0) << "of " << chords.probes;
-  // In cells below the resolution contours themselves leave more (T8d).
-  EXPECT_LE(chords.excesses, Judge(t, t.before).excesses) << "of " << chords.probes;
-  EXPECT_EQ(chords.deepest, 0.0);
+  EXPECT_LE(chords.excesses, cells == Cells::kResolved ? 0 : Judge(t, t.before).excesses)
+      << "of " << chords.probes;
+  EXPECT_EQ(chords.buried, 0);
   EXPECT_LE(chords.longest, kR * (1.0 + 1e-9));
   for (std::size_t i = 0; i < t.after.size(); ++i) {
     const CutterPath &before = t.before[i], &after = t.after[i];
@@ -156,7 +159,8 @@ TEST(ThinContours, CurvedGroundKeepsThePromises) {
 TEST(ThinContours, RandomSplinesKeepThePromises) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
-    ExpectPromises(Thinned(RandomBspline(seed, {.folds = seed > 2, .rational = seed % 2 == 0}), 0.02));
+    ExpectPromises(Thinned(RandomBspline(seed, {.folds = seed > 2, .rational = seed % 2 == 0}), 0.02),
+                   Cells::kSomeTooSmall);
   }
 }
 
@@ -173,8 +177,8 @@ TEST(ThinContours, SpiralsKeepThePromises) {
     EXPECT_LT(PointsOf(t.after), PointsOf(t.before));
     const Chords chords = Judge(t, t.after);
     EXPECT_EQ(chords.gouges, 0) << "of " << chords.probes;
-    EXPECT_LE(chords.excesses, Judge(t, t.before).excesses);
-    EXPECT_EQ(chords.deepest, 0.0);
+    EXPECT_EQ(chords.excesses, 0) << "of " << chords.probes;
+    EXPECT_EQ(chords.buried, 0);
   }
 }
 
