@@ -53,7 +53,11 @@ void NumberAfter(const std::vector<CutterPath>& before, std::vector<CutterPath>&
 class PassMaker {
  public:
   PassMaker(const Locator& locator, const Job& job, const Resolved& resolved, const RunContext& run)
-      : locator_(locator), op_(job.operation), base_(MakePassParams(job, resolved)), run_(run) {}
+      : locator_(locator),
+        op_(job.operation),
+        split_angle_(resolved.split_angle),
+        base_(MakePassParams(job, resolved)),
+        run_(run) {}
 
   absl::Status AddStrategies(const PlanPart& part, const KeepIn* keep_in, PlannedPasses& planned) {
     const RegionChoice& choice = part.choice;
@@ -70,7 +74,7 @@ class PassMaker {
     if (choice.strategy != Strategy::kContour) {
       ZigzagParams params;
       SetFinePass(choice, params);
-      params.window.max = choice.strategy == Strategy::kAuto ? op_.steep_angle : kPi / 2.0;
+      params.window.max = choice.strategy == Strategy::kAuto ? split_angle_ : kPi / 2.0;
       params.angle = choice.zigzag_angle;
       params.max_bend = op_.zigzag_bend;
       if (keep_in != nullptr && keep_in->HasPart()) params.part = keep_in;
@@ -167,7 +171,7 @@ class PassMaker {
     }
     ContourParams params;
     SetFinePass(choice, params);
-    params.window.min = all ? 0.0 : op_.steep_angle;
+    params.window.min = all ? 0.0 : split_angle_;
     PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
     // Spirals are made of contours as they are.
     const auto now = [&](const CutterPath& path) { return !(op_.spirals && MaySpiral(path)); };
@@ -189,6 +193,7 @@ class PassMaker {
 
   const Locator& locator_;
   const Operation& op_;
+  const double split_angle_;
   const PassParams base_;
   const RunContext& run_;
   std::map<std::pair<bool, double>, std::vector<CutterPath>> contours_;

@@ -10,6 +10,12 @@
 #include "core/surface/extent.h"
 
 namespace patchmill {
+namespace {
+
+// Above what models are rounded by, below what anyone would tell apart.
+constexpr double kSplitSlack = Radians(0.01);
+
+}  // namespace
 
 Budget SplitBudget(double tolerance) {
   return {.chord = 0.5 * tolerance,
@@ -97,6 +103,7 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
   const Operation& op = job.operation;
   r.radius = BallRadius(op.tool);
   r.plan_radius = r.radius + op.leave;
+  r.split_angle = op.steep_angle - kSplitSlack;
   r.budget = SplitBudget(op.tolerance);
   const double top = r.box.max.z();
   r.stock_top_z = job.setup.stock_top_z ? *job.setup.stock_top_z + zero_z : top + job.setup.allowance;

@@ -26,6 +26,9 @@ struct Resolved {
   double clearance_z = 0.0;  // tip
   double radius = 0.0;       // ball
   double plan_radius = 0.0;  // ball + stock to leave: what is planned with
+  // Rad: ground this steep is cut by contours. Just below the steep angle, so that a plane or a cone of that
+  // very angle is steep all over and not by its rounding, or cut in both ways.
+  double split_angle = 0.0;
   Budget budget;
   Containment containment;
 };

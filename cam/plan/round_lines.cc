@@ -76,12 +76,12 @@ struct GentlePoint {
 
 // The gentle points of a piece that are wanted, of regions with an `open` choice.
 std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece, const RegionMap& map,
-                                      int stride, double steep_angle, const Resolved& resolved,
-                                      const std::vector<bool>& open) {
+                                      int stride, const Resolved& resolved, const std::vector<bool>& open) {
   const double radius = resolved.plan_radius;
   std::vector<int> steep(map.labels[piece].size(), 0);
   std::vector<std::pair<std::size_t, GentlePoint>> found;  // cell, point
-  const double share = ShareOfPoint(map, stride), way = std::sqrt(share), limit = std::cos(steep_angle);
+  const double share = ShareOfPoint(map, stride), way = std::sqrt(share),
+               limit = std::cos(resolved.split_angle);
   VisitPiece(
       surface, piece, map, stride, [&](std::size_t id) { return open[id]; },
       [&](std::size_t id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
@@ -181,9 +181,8 @@ Candidate CandidateOf(const RegionChoice& choice, const Vec2& center) {
 
 }  // namespace
 
-absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, double steep_angle,
-                              const Resolved& resolved, const RunContext& run,
-                              std::vector<RegionChoice>& choices) {
+absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, const Resolved& resolved,
+                              const RunContext& run, std::vector<RegionChoice>& choices) {
   const double radius = resolved.plan_radius;
   std::vector<bool> open(choices.size());
   for (std::size_t id = 0; id < choices.size(); ++id) {
@@ -197,7 +196,7 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, doub
   const int stride = std::min(2 * StrideOf(map), map.cells);
   std::vector<std::vector<GentlePoint>> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
-    pieces[i] = GentlePoints(surface, i, map, stride, steep_angle, resolved, open);
+    pieces[i] = GentlePoints(surface, i, map, stride, resolved, open);
   }));
   std::vector<std::vector<Tangent>> tangents(choices.size());
   for (const std::vector<GentlePoint>& piece : pieces) {

@@ -19,11 +19,10 @@ namespace patchmill {
 // ball radius counts less. Circles pay where their length, the way to each run included, is a tenth shorter
 // than that of straight lines at their angle (the best of six where it is open), both estimated from the
 // steps needed at the points of FillSteps (one in four of them) and from how many lines end at borders and at
-// the steep angle. Only for ground that goes around the place, three quarters of the way at least, and that
+// the split angle. Only for ground that goes around the place, three quarters of the way at least, and that
 // keeps a ball radius and a step away from it. Such regions need no angle: angle_open is cleared. CANCELLED,
 // DEADLINE_EXCEEDED from `run`.
-absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, double steep_angle,
-                              const Resolved& resolved, const RunContext& run,
-                              std::vector<RegionChoice>& choices);
+absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, const Resolved& resolved,
+                              const RunContext& run, std::vector<RegionChoice>& choices);
 
 }  // namespace patchmill

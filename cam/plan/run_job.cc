@@ -52,7 +52,7 @@ RegionParams MakeRegionParams(const Job& job, const Resolved& resolved, const Ke
   RegionParams p;
   p.radius = resolved.plan_radius;
   p.tolerance = job.operation.tolerance;
-  p.steep_angle = job.operation.steep_angle;
+  p.steep_angle = resolved.split_angle;
   p.floor_z = resolved.floor_z - job.operation.leave;
   p.detail = job.operation.detail;
   p.keep_in = keep_in;
@@ -66,8 +66,7 @@ absl::StatusOr<ChosenRegions> MakeRegions(const Surface& surface, const Job& job
   PM_ASSIGN_OR_RETURN(regions.map, SplitRegions(surface, params, run));
   PM_ASSIGN_OR_RETURN(regions.choices,
                       ChooseRegions(surface, regions.map, job.operation, resolved.program_zero));
-  PM_RETURN_IF_ERROR(
-      ChooseRoundLines(surface, regions.map, job.operation.steep_angle, resolved, run, regions.choices));
+  PM_RETURN_IF_ERROR(ChooseRoundLines(surface, regions.map, resolved, run, regions.choices));
   PM_RETURN_IF_ERROR(FillSteps(surface, regions.choices, resolved, run, regions.map));
   return regions;
 }

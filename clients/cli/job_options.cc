@@ -117,7 +117,7 @@ void AddSplitOptions(CLI::App& app, OperationOptions& options) {
   AddNumber(app, "--tolerance", options.tolerance, "whole error budget, mm");
   AddNumber(app, "--leave", options.leave, "material left along the normal, mm");
   AddNumber(app, "--steep-angle", options.steep_angle,
-            "walls steeper than this are cut by contours, degrees");
+            "ground as steep as this or steeper is cut by contours, degrees");
   AddNumber(app, "--detail", options.detail,
             "how finely the surface is divided into regions: 0 coarse, 1 finest")
       ->check(CLI::Range(0.0, 1.0));

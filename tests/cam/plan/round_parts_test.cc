@@ -5,45 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/jobs/jobs.h"
+#include "tests/support/profiles.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
 namespace {
 
 using namespace testing;  // NOLINT: the support folder's
-
-// Points (r, z) of a profile with weights, turned around z: exact, four quarters.
-struct Profile {
-  std::vector<Vec2> points;
-  std::vector<double> weights;
-};
-
-PatchModel Turned(const std::vector<Profile>& profiles) {
-  PatchModel model;
-  const double w = std::sqrt(0.5);
-  for (const Profile& profile : profiles) {
-    for (int quarter = 0; quarter < 4; ++quarter) {
-      const double from = 0.5 * kPi * quarter;
-      const Vec2 a(std::cos(from), std::sin(from)), b(-a.y(), a.x());
-      BezierPatch patch;
-      patch.degree_u = 2;
-      patch.degree_v = static_cast<int>(profile.points.size()) - 1;
-      for (const auto& [place, weight] : {std::pair{a, 1.0}, {Vec2(a + b), w}, {b, 1.0}}) {
-        for (std::size_t k = 0; k < profile.points.size(); ++k) {
-          patch.points.push_back(Lift(profile.points[k].x() * place, profile.points[k].y()));
-          patch.weights.push_back(weight * profile.weights[k]);
-        }
-      }
-      model.patches.push_back({"", std::move(patch)});
-    }
-  }
-  return model;
-}
-
-Profile Line(const Vec2& a, const Vec2& b) { return {{a, b}, {1.0, 1.0}}; }
-Profile Round(const Vec2& a, const Vec2& corner, const Vec2& b) {
-  return {{a, corner, b}, {1.0, std::sqrt(0.5), 1.0}};
-}
 
 JobResult MillChecked(const Surface& surface) {
   const Job job = BallJob(3.0);
@@ -92,6 +60,35 @@ TEST(RoundParts, HoleThatTheBallJustFits) {
   const JobResult result = MillChecked(surface);
   EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable);
   EXPECT_GT(result.report.verify.cut_length, result.report.least_feed);
+}
+
+// A hole as wide as the ball: it goes straight down. Where it is free there is one point to a level, and no
+// height beside it.
+TEST(RoundParts, HoleOfTheBallsOwnSize) {
+  const double hole = 3.0, deep = 10.0;
+  const Surface surface = PlacedSurface(
+      Turned({Line({0, 0}, {hole, 0}), Line({hole, 0}, {hole, deep}), Line({hole, deep}, {12, deep})}));
+  const JobResult result = MillChecked(surface);
+  // What the ball leaves of a flat bottom; the wall above is finished.
+  const double corner = kPi * hole * hole + 2.0 * kPi * hole * 3.0;
+  double unreachable = 0.0;
+  for (const double area : result.report.verify.unreachable_area) unreachable += area;
+  EXPECT_LT(unreachable, 1.01 * corner);
+  EXPECT_LE(result.report.motion.retract_count, 10);
+}
+
+// A bowl and a ring of the ball's own size: it touches the one all over, the other along whole circles.
+TEST(RoundParts, HollowsOfTheBallsOwnSize) {
+  for (const auto& profiles :
+       {std::vector{Round({0, 0}, {3, 0}, {3, 3}), Line({3, 3}, {10, 3})},
+        std::vector{Line({4, 4}, {6, 4}), Line({6, 4}, {6, 3}), Round({6, 3}, {6, 0}, {9, 0}),
+                    Round({9, 0}, {12, 0}, {12, 3}), Line({12, 3}, {12, 4}), Line({12, 4}, {14, 4})},
+        std::vector{Line({0, 0}, {6, 0}), Round({6, 0}, {9, 0}, {9, 3}), Line({9, 3}, {9, 5}),
+                    Line({9, 5}, {14, 5})}}) {
+    const JobResult result = MillChecked(PlacedSurface(Turned(profiles)));
+    EXPECT_EQ(result.report.outcome, Outcome::kComplete);
+    EXPECT_LE(result.report.motion.retract_count, 20);
+  }
 }
 
 TEST(RoundParts, PinOnAPlate) {

@@ -1,0 +1,65 @@
+// Profiles drawn along a line, as machines cut them every day: slots, grooves, chamfers.
+#include <chrono>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/jobs/jobs.h"
+#include "tests/support/profiles.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+JobResult MillChecked(const Surface& surface, const Job& job = BallJob(3.0)) {
+  const auto start = std::chrono::steady_clock::now();
+  JobResult result = Mill(surface, job);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
+  EXPECT_EQ(result.report.certificate_defects, 0u);
+  EXPECT_LT(time.count(), kSanitized ? 200.0 : 20.0);
+  Random random(12);
+  CheckProgram(surface, job, result, random, 1000);
+  return result;
+}
+
+double OverLeast(const JobResult& result) {
+  return result.report.verify.cut_length / result.report.least_feed;
+}
+
+// A plane at the very angle that divides steep from gentle is cut in one of the two ways, not in both, nor by
+// the rounding of its normals.
+TEST(DrawnParts, PlanesAtTheSteepAngle) {
+  for (const double degrees : {45.0, 30.0}) {
+    Job job = BallJob(3.0);
+    job.operation.steep_angle = Radians(degrees);
+    const double high = 6.0 * std::tan(Radians(degrees));
+    const JobResult roof =
+        MillChecked(PlacedSurface(Drawn({Line({0, 0}, {6, high}), Line({6, high}, {12, 0})}, 25.0)), job);
+    // Overlap at the ridge and ways in and out of 12 mm wide ground; both ways are 2.2 and more.
+    EXPECT_LT(OverLeast(roof), 1.5) << degrees;
+    for (const Region& region : roof.report.regions) {
+      if (region.kind == RegionKind::kUnreachable) continue;
+      EXPECT_EQ(region.slope, SlopeClass::kSteep);
+    }
+  }
+}
+
+// The ball fills slot and groove: its centre has a line to go along, and no room beside it.
+TEST(DrawnParts, SlotsOfTheBallsOwnWidth) {
+  const JobResult slot =
+      MillChecked(PlacedSurface(Drawn({Line({0, 6}, {6, 6}), Line({6, 6}, {6, 0}), Line({6, 0}, {12, 0}),
+                                       Line({12, 0}, {12, 6}), Line({12, 6}, {18, 6})},
+                                      15.0)));
+  EXPECT_LE(slot.report.motion.retract_count, 12);
+  const JobResult groove = MillChecked(
+      PlacedSurface(Drawn({Line({0, 5}, {6, 5}), Line({6, 5}, {6, 3}), Round({6, 3}, {6, 0}, {9, 0}),
+                           Round({9, 0}, {12, 0}, {12, 3}), Line({12, 3}, {12, 5}), Line({12, 5}, {18, 5})},
+                          15.0)));
+  EXPECT_EQ(groove.report.outcome, Outcome::kComplete);
+  EXPECT_LE(groove.report.motion.retract_count, 12);
+}
+
+}  // namespace
+}  // namespace patchmill
