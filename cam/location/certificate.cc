@@ -6,6 +6,7 @@
 
 #include "cam/location/locator_impl.h"
 #include "cam/location/upright_sheet.h"
+#include "core/surface/form_sign.h"
 
 namespace patchmill {
 namespace {
@@ -21,6 +22,10 @@ constexpr int kBudget = 20000;  // parts of one query
 // the gap, twice log2(leaf / gap) times; 100 take a leaf of 100 m below 1e-7 mm.
 constexpr int kMaxLevel = 100;
 
+// What that many parts do not decide is asked of distance forms too, that many parts each.
+constexpr int kStubborn = 200;
+constexpr int kFormParts = 100;
+
 struct Prover {
   const Locator::Impl& impl;
   const bool any;      // the first contact that is no rounding ends it: `done`
@@ -33,6 +38,7 @@ struct Prover {
   bool done = false;
   double top = -kInfinity;  // everything handled so far is proven to lie below this centre height
   std::vector<Vec4>& buffer;
+  DistanceForm& form;  // scratch
 
   // Excludes a part for a centre at height z, and notes z as proven.
   bool Excluded(const RectBounds& bounds, double z) {
@@ -57,6 +63,21 @@ struct Prover {
     if (!curve) return false;
     if (!internal::OutsideInPlan(*curve, ball.q, std::sqrt(2.0 * free_f) + curve->spread)) return false;
     top = std::max(top, best.z);
+    return true;
+  }
+
+  // The same of any part, by its distance form: for balls that touch it along a line, or all over, as in a
+  // hole or a fillet of their own size. Above the centre counts the distance in plan.
+  bool ClearsForm(NetShape shape, const Vec4* points, bool rational, double highest, double z) {
+    const Vec3 c = Lift(ball.q, z);
+    std::array<Vec4, kMaxNetPoints> local;
+    for (int k = 0; k < shape.count(); ++k) {
+      local[static_cast<std::size_t>(k)] = points[k];
+      local[static_cast<std::size_t>(k)].head<3>() -= points[k].w() * c;
+    }
+    MakeDistanceForm(shape, local.data(), rational, highest > z, std::sqrt(2.0 * free_f), form);
+    if (!NowhereNegative(form, kFormParts)) return false;
+    top = std::max(top, z);
     return true;
   }
 
@@ -101,6 +122,13 @@ struct Prover {
     const double above = best.z + eps;
     if (Excluded(model, internal::BoundBelow(model, Lift(ball.q, above)), above)) return;
 
+    const double highest = bounds.box.max.z();
+    if (kBudget - budget > kStubborn && level % 3 == 0 &&
+        (ClearsForm(shape, points, piece.net.rational, highest, best.z) ||
+         ClearsForm(shape, points, piece.net.rational, highest, above))) {
+      return;
+    }
+
     const bool along_u = model.a.squaredNorm() >= model.b.squaredNorm();
     Vec4* low_half = buffer.data() + 2 * level * kMaxNetPoints;
     Vec4* high_half = low_half + kMaxNetPoints;
@@ -119,6 +147,7 @@ double Locator::Impl::Certify(const Ball& ball, std::span<const std::int32_t> op
                               Contact& best) const {
   if (open.empty()) return slack;
   thread_local std::vector<Vec4> buffer(2 * kMaxLevel * kMaxNetPoints);
+  thread_local DistanceForm form;
   // What a proof allows itself counts as gap too, and so do roundings of heights.
   Prover prover{.impl = *this,
                 .any = aim == Aim::kAny,
@@ -128,7 +157,8 @@ double Locator::Impl::Certify(const Ball& ball, std::span<const std::int32_t> op
                 .eps = std::max(eps - 2.0 * slack, 0.5 * eps),
                 .best = best,
                 .top = best.z,
-                .buffer = buffer};
+                .buffer = buffer,
+                .form = form};
   std::array<Vec4, kMaxNetPoints> points;
   for (const std::int32_t index : open) {
     if (prover.done) break;
