@@ -11,8 +11,7 @@
 namespace patchmill {
 namespace {
 
-constexpr double kMostTurn = 0.7;     // of normals from the middle one
-constexpr double kFloorSlack = 1e-6;  // mm: rounding of a floor at the surface itself
+constexpr double kMostTurn = 0.7;  // of normals from the middle one
 
 }  // namespace
 

@@ -20,6 +20,9 @@ std::array<Vec2, 9> NineParameters(const SurfaceRect& rect);
 // |e_z| up to which both sides of a face count.
 inline constexpr double kUprightFace = 1e-6;
 
+// mm: rounding of a floor at the surface itself (docs/reach.md).
+inline constexpr double kFloorSlack = 1e-6;
+
 // The surface there; normals are unit and all on one side of it.
 struct RectPlaces {
   std::array<Vec3, 9> p, n;

@@ -10,7 +10,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kClear = 1e-7;  // mm: kept from everything, for rounding
+constexpr double kClear = 1e-7;     // mm: kept from everything, for rounding
+constexpr double kAccuracy = 1e-8;  // mm, of the distance to what is in the way
 constexpr int kMostObstacles = 24;
 
 // normal . x >= offset
@@ -40,7 +41,7 @@ Vec3 NearestIn(const std::vector<HalfSpace>& all, const Vec3& p) {
 }  // namespace
 
 std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const Vec3& n, double lowest_z,
-                                   double most) {
+                                   double most, double gouge) {
   const double radius = locator.radius();
   std::vector<HalfSpace> allowed = {{n, n.dot(p) + radius + kClear}};
   if (lowest_z > -kInfinity) allowed.push_back({Vec3::UnitZ(), lowest_z});
@@ -49,8 +50,9 @@ std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const 
     if ((c - p).norm() > radius + most) break;
     if (locator.Free(c)) return c;
     // What is in the way keeps the centre out of a ball swept downwards: the half-space beyond it is free.
-    const auto obstacle = ClosestToUpwardRay(locator.surface(), c, radius + kClear, 0.1 * kClear);
+    const auto obstacle = ClosestToUpwardRay(locator.surface(), c, radius + kClear, kAccuracy);
     if (!obstacle) break;
+    if (obstacle->distance >= radius - gouge + kAccuracy) return c;
     const Vec3 away = internal::ToRay(obstacle->at.p, c);
     if (!(away.norm() > 0.0)) break;
     const Vec3 d = away.normalized();

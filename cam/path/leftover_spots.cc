@@ -119,7 +119,7 @@ std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) cons
   for (const Vec3& n : {e, Vec3(-e)}) {
     if (n.z() < -kUprightFace) continue;
     const Vec3 c = p + radius_ * n;
-    if (c.z() < params_.floor_z + radius_ || !reach_.Free(c)) continue;
+    if (c.z() < params_.floor_z + radius_ - kFloorSlack || !reach_.Free(c)) continue;
     if (params_.keep_in == nullptr || params_.keep_in->Allows(c)) return n;
   }
   return std::nullopt;

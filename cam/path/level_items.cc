@@ -194,8 +194,13 @@ void LevelItems::Open(std::int32_t index) {
     AddCurve(PieceId(item.piece), item.side, t, item.u1);
   } else {
     const Piece& piece = surface_.pieces[static_cast<std::size_t>(item.piece)];
-    const Vec3 a = Position(piece, item.u0, item.v0), b = Position(piece, item.u1, item.v0);
-    const Vec3 c = Position(piece, item.u0, item.v1), d = Position(piece, item.u1, item.v1);
+    // What is above the centre counts by its plan: of an upright wall up there only the length is cut.
+    const auto corner = [&](double u, double v) {
+      const Vec3 p = Position(piece, u, v);
+      return Lift(Plan(p), std::min(p.z(), z_));
+    };
+    const Vec3 a = corner(item.u0, item.v0), b = corner(item.u1, item.v0);
+    const Vec3 c = corner(item.u0, item.v1), d = corner(item.u1, item.v1);
     if ((b - a).norm() + (d - c).norm() >= (c - a).norm() + (d - b).norm()) {
       const double u = 0.5 * (item.u0 + item.u1);
       AddRect(item, item.u0, u, item.v0, item.v1);

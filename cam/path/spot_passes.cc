@@ -17,6 +17,9 @@
 namespace patchmill {
 namespace {
 
+// Of what chords may take: what centres between walls that leave no room may take of them.
+constexpr double kGive = 0.1;
+constexpr double kSamePlace = 1e-6;             // mm
 const double kSteep = std::cos(Radians(60.0));  // walls: scan lines over them would climb at every turn
 
 class Mender {
@@ -31,18 +34,25 @@ class Mender {
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
         border_(locator.surface(), params.roll),
         grid_(spots, flat_),
-        open_(spots.size(), true) {}
+        open_(spots.size(), true),
+        give_(kGive * params.chord_tolerance),
+        asked_(spots.size(), false),
+        free_(spots.size()) {
+    for (const LeftoverSpot& spot : spots_) highest_ = std::max(highest_, spot.center.z());
+  }
 
   absl::StatusOr<std::vector<CutterPath>> Run();
 
  private:
   bool Gentle(std::size_t i) const { return spots_[i].normal.z() > kSteep; }
+  Vec2 Level(std::size_t i) const;
   bool Needed(const Vec3& c, double reach) const;
   bool AlongCrease(std::size_t i);
   bool AlongRidge(std::size_t i);
   bool AlongLevel(std::size_t i);
-  bool AlongWall(std::size_t i);
-  std::optional<Vec3> FreeNear(std::size_t i) const;
+  bool AlongCenters(std::size_t i);
+  const std::optional<Vec3>& FreeNear(std::size_t i);
+  bool Tight(std::size_t i);
   void FromAbove(std::size_t i);
   std::size_t NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
                           const std::vector<bool>& used) const;
@@ -58,7 +68,11 @@ class Mender {
   const double flat_;
   const SheetBorder border_;
   const SpotGrid grid_;
-  std::vector<bool> open_;  // not mended yet
+  std::vector<bool> open_;       // not mended yet
+  double highest_ = -kInfinity;  // of the spots' centres
+  const double give_;
+  std::vector<bool> asked_;                // FreeNear
+  std::vector<std::optional<Vec3>> free_;  // its answers
   std::optional<LevelContext> levels_;
   int level_count_ = 0;
   std::vector<CutterPath> paths_;
@@ -126,14 +140,20 @@ std::size_t Mender::NextOnRidge(const Vec3& from, const Vec3& heading, bool gent
   return best;
 }
 
-// Spots along the ridge through i, both ways.
+Vec2 Mender::Level(std::size_t i) const {
+  const Vec2 n = Plan(spots_[i].normal);
+  return n.norm() > 1e-3 ? Vec2(Vec2(-n.y(), n.x()).normalized()) : Vec2(Vec2::UnitX());
+}
+
+// Spots along the ridge through i, both ways; on walls level ones first.
 std::vector<std::size_t> Mender::Chain(std::size_t i, bool gentle) const {
+  const Vec2 level = Level(i);
   std::vector<bool> used(spots_.size(), false);
   used[i] = true;
   std::vector<std::size_t> chain{i};
   constexpr std::size_t kLongest = 2000;
   for (int end = 0; end < 2; ++end) {
-    Vec3 heading = Vec3::Zero();
+    Vec3 heading = gentle ? Vec3(Vec3::Zero()) : Lift(end == 0 ? level : Vec2(-level), 0.0);
     if (chain.size() > 1) {
       heading =
           (spots_[chain[chain.size() - 1]].center - spots_[chain[chain.size() - 2]].center).normalized();
@@ -161,8 +181,7 @@ bool Mender::AlongRidge(std::size_t i) {
   std::vector<Vec2> corners;
   for (std::size_t k : chain) corners.push_back(Plan(spots_[k].center));
   // Half a step more at both ends, so that what lies between the samples is covered too.
-  const Vec2 n = Plan(spots_[i].normal);
-  const Vec2 level = n.norm() > 1e-3 ? Vec2(Vec2(-n.y(), n.x()).normalized()) : Vec2(Vec2::UnitX());
+  const Vec2 level = Level(i);
   const auto beyond = [&](const Vec2& end, const Vec2& before) -> Vec2 {
     const Vec2 d = end - before;
     return end + 0.3 * flat_ * (d.norm() > 1e-6 ? Vec2(d.normalized()) : level);
@@ -232,21 +251,31 @@ bool Mender::AlongLevel(std::size_t i) {
 }
 
 // A centre that leaves less of the spot than the passes so far.
-std::optional<Vec3> Mender::FreeNear(std::size_t i) const {
-  const LeftoverSpot& spot = spots_[i];
-  return FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover);
+const std::optional<Vec3>& Mender::FreeNear(std::size_t i) {
+  if (!asked_[i]) {
+    asked_[i] = true;
+    const LeftoverSpot& spot = spots_[i];
+    free_[i] =
+        FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover, give_);
+  }
+  return free_[i];
 }
 
-// From spot to spot over a wall, every chord proven by the swept query; the pass ends where one is not.
-bool Mender::AlongWall(std::size_t i) {
+// Has the ball no room there? Then the free centres are a line or a point: no height or level finds them.
+bool Mender::Tight(std::size_t i) { return FreeNear(i) && !locator_.Free(*FreeNear(i)); }
+
+// From spot to spot, every chord proven by the swept query; the pass ends where one is not.
+bool Mender::AlongCenters(std::size_t i) {
+  if (!FreeNear(i)) return false;
   std::vector<CutterPoint> points;
-  for (std::size_t k : Chain(i, false)) {
-    const auto c = FreeNear(k);
+  for (std::size_t k : Chain(i, Gentle(i))) {
+    const std::optional<Vec3>& c = FreeNear(k);
     if (!c) continue;
     if (!points.empty()) {
       const Vec3& last = points.back().center;
+      if ((*c - last).norm() < kSamePlace) continue;
       const bool proven =
-          ChordGouge(radius_, (*c - last).norm()) <= params_.chord_tolerance ||
+          ChordGouge(radius_, (*c - last).norm()) + give_ <= params_.chord_tolerance ||
           locator_.GougeWithin(last, *c, params_.chord_tolerance, 0.1 * params_.chord_tolerance);
       if (!proven) {
         Add(PassKind::kRest, std::move(points));
@@ -259,11 +288,14 @@ bool Mender::AlongWall(std::size_t i) {
   return !open_[i];
 }
 
-// A short plunge: upward of a free place everything is free.
+// A plunge, through all that is open above: upward of a free place everything is free. In a hole as wide as
+// the ball it is the only pass there is.
 void Mender::FromAbove(std::size_t i) {
-  if (const auto c = FreeNear(i)) {
+  if (const std::optional<Vec3>& c = FreeNear(i)) {
     const SurfacePoint& at = spots_[i].at;
-    Add(PassKind::kRest, {{*c + Vec3(0, 0, 0.1 * flat_), at, {}}, {*c, at, {}}});
+    Vec3 top = *c + Vec3(0, 0, 0.1 * flat_);
+    while (top.z() < highest_ && Needed(top, 0.75 * flat_)) top.z() += 0.5 * flat_;
+    Add(PassKind::kRest, {{top, at, {}}, {*c, at, {}}});
   }
   open_[i] = false;
 }
@@ -291,8 +323,10 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
     }
     if (!open_[i]) continue;
     PM_RETURN_IF_ERROR(run_.Check());
-    if (Gentle(i)) {
-      if (AlongCrease(i) || AlongRidge(i)) continue;
+    if (Tight(i)) {
+      if (AlongCenters(i)) continue;
+    } else if (Gentle(i)) {
+      if (AlongCrease(i) || AlongRidge(i) || AlongCenters(i)) continue;
     } else {
       // A level costs as much as hundreds of chords over walls.
       constexpr int kMostLevels = 24;
@@ -300,7 +334,7 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
         ++level_count_;
         if (AlongLevel(i)) continue;
       }
-      if (!open_[i] || AlongWall(i)) continue;
+      if (!open_[i] || AlongCenters(i)) continue;
     }
     FromAbove(i);
   }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/diffgeo/forms.h"
+#include "tests/support/profiles.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
@@ -45,6 +46,24 @@ TEST(FreeCenterNear, KeepsAboveTheFloorAndGivesUpWhereItLeavesTooMuch) {
   ASSERT_TRUE(over.has_value());
   EXPECT_NEAR(over->z(), kRadius + 0.5, 1e-6);
   EXPECT_FALSE(FreeCenterNear(locator, Vec3::Zero(), Vec3::UnitZ(), kRadius + 0.5, 0.4).has_value());
+}
+
+// Between two walls as far apart as the ball is wide nothing is free but for rounding; a little gouge finds
+// the middle.
+TEST(FreeCenterNear, BetweenWallsThatLeaveNoRoom) {
+  constexpr double kGouge = 5e-4;
+  for (const double less : {0.0, 3e-4, 2e-3}) {  // of room
+    const double width = 2.0 * kRadius - less;
+    const Surface surface = SurfaceOf(Drawn({Line({0, 0}, {0, 10}), Line({width, 0}, {width, 10})}, 20.0));
+    const Locator locator(surface, kRadius);
+    const Vec3 p(0, 8, 5);
+    EXPECT_FALSE(FreeCenterNear(locator, p, Vec3::UnitX(), -kInfinity, 0.5));
+    const auto c = FreeCenterNear(locator, p, Vec3::UnitX(), -kInfinity, 0.5, kGouge);
+    EXPECT_EQ(c.has_value(), less < 2.0 * kGouge) << less;
+    if (!c) continue;
+    EXPECT_GE(std::min(c->x(), width - c->x()), kRadius - kGouge);
+    EXPECT_LE((*c - p).norm(), kRadius + 1e-5);
+  }
 }
 
 // Wherever a ball smaller by a tolerance is free, the whole one leaves no more than along the normal.
