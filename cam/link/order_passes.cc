@@ -224,9 +224,19 @@ void TakeDownwards(Cluster& cluster, const OrderParams& params, const RunContext
   }
 }
 
+// Two open contours one of which begins where the other ends: opposite walls of a slot are cut to and fro.
+bool LeadsOn(const CutterPath& a, const CutterPath& b, double reach) {
+  if (a.closed || b.closed) return false;
+  const auto far = [](const CutterPath& from, const CutterPath& to) {
+    return (to.points.front().center - from.points.back().center).norm();
+  };
+  return std::min(far(a, b), far(b, a)) <= reach;
+}
+
 // In order of their first line. Stops when cancelled.
-std::vector<Cluster> Clusters(std::vector<CutterPath> group, double distance, int line_reach,
+std::vector<Cluster> Clusters(std::vector<CutterPath> group, const OrderParams& params, int line_reach,
                               const RunContext& run) {
+  const double distance = params.neighbor_distance;
   std::stable_sort(group.begin(), group.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
   const bool levels = group.front().kind == PassKind::kContour;
   std::vector<Box3> boxes;
@@ -237,11 +247,10 @@ std::vector<Cluster> Clusters(std::vector<CutterPath> group, double distance, in
     for (std::size_t j = i + 1; j < group.size() && group[j].line - group[i].line <= line_reach; ++j) {
       const bool lower = levels && group[j].line > group[i].line;
       if (!lower && sets.Find(i) == sets.Find(j)) continue;
-      if (!Near(group[i], boxes[i], group[j], boxes[j], distance) &&
-          !Near(group[j], boxes[j], group[i], boxes[i], distance))
-        continue;
-      sets.Join(i, j);
-      if (lower) above[j].push_back(i);
+      const bool near = Near(group[i], boxes[i], group[j], boxes[j], distance) ||
+                        Near(group[j], boxes[j], group[i], boxes[i], distance);
+      if (near && lower) above[j].push_back(i);
+      if (near || (levels && LeadsOn(group[i], group[j], params.at_hand))) sets.Join(i, j);
     }
   }
   std::map<std::size_t, std::vector<std::size_t>> by_root;
@@ -318,7 +327,7 @@ absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, st
     const PassKind kind = group.front().kind;
     const bool contour = kind == PassKind::kContour, line = kind == PassKind::kZigzag;
     const int reach = contour || line ? 2 : std::numeric_limits<int>::max();
-    for (Cluster& cluster : Clusters(std::move(group), params.neighbor_distance, reach, run)) {
+    for (Cluster& cluster : Clusters(std::move(group), params, reach, run)) {
       if (contour || line) parts.push_back(PartOf(cluster, regions));
       (contour || line ? clusters : last).push_back(std::move(cluster));
     }

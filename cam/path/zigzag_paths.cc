@@ -12,12 +12,15 @@
 #include "cam/path/once_around.h"
 #include "cam/path/sheet_border.h"
 #include "cam/path/spacing.h"
+#include "cam/path/split_at_walls.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 
 namespace patchmill {
 namespace {
 
+constexpr double kHighWall = 2.0;            // flat steps: lines do not go up and down upright walls of more
+constexpr double kWallsToo = Radians(85.0);  // unless walls are theirs to finish
 constexpr double kShortest = 4.0;  // flat steps: a stretch of lines shorter than this joins its neighbour
 
 // A stretch of the gap between two lines that has to be cut into so many parts.
@@ -202,10 +205,16 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (ScanRun& r : runs[i]) {
       if (r.points.size() < 2) continue;
-      paths.push_back({.kind = PassKind::kZigzag,
-                       .closed = closed[i] != 0,
-                       .line = parts[i].index,
-                       .points = std::move(r.points)});
+      CutterPath path{.kind = PassKind::kZigzag,
+                      .closed = closed[i] != 0,
+                      .line = parts[i].index,
+                      .points = std::move(r.points)};
+      if (params.window.max >= kWallsToo) {
+        paths.push_back(std::move(path));
+        continue;
+      }
+      for (CutterPath& part : SplitAtWalls(std::move(path), kHighWall * flat))
+        paths.push_back(std::move(part));
     }
   }
   return paths;

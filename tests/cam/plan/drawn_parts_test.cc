@@ -61,5 +61,14 @@ TEST(DrawnParts, SlotsOfTheBallsOwnWidth) {
   EXPECT_LE(groove.report.motion.retract_count, 12);
 }
 
+// Both walls of a wide slot in turn: where one pass ends the other begins.
+TEST(DrawnParts, WallsOfASlotToAndFro) {
+  const JobResult result = MillChecked(
+      PlacedSurface(Drawn({Line({0, 10}, {10, 10}), Line({10, 10}, {10, 0}), Line({10, 0}, {22, 0}),
+                           Line({22, 0}, {22, 10}), Line({22, 10}, {32, 10})},
+                          30.0)));
+  EXPECT_LE(result.report.motion.retract_count, 6);  // 28 passes along walls
+}
+
 }  // namespace
 }  // namespace patchmill

@@ -91,6 +91,23 @@ TEST(RoundParts, HollowsOfTheBallsOwnSize) {
   }
 }
 
+// A cap that overhangs: lines over it and over the plate around it end at its rim, they do not go up and down
+// there.
+TEST(RoundParts, CapOverAPlate) {
+  const JobResult result = MillChecked(
+      PlacedSurface(Turned({Line({0, 12}, {12, 12}), Line({12, 12}, {12, 10}), Line({12, 10}, {4, 10}),
+                            Line({4, 10}, {4, 0}), Line({4, 0}, {20, 0})})));
+  double upright = 0.0;
+  const std::vector<Move>& moves = result.motion.toolpath.moves;
+  for (std::size_t i = 1; i < moves.size(); ++i) {
+    const Vec3 d = moves[i].to - moves[i - 1].to;
+    if (moves[i].kind == MoveKind::kCut && Plan(d).norm() < 1e-9) upright += std::abs(d.z());
+  }
+  EXPECT_LT(upright, 20.0);  // mm; 140 lines cross a rim 9 mm high
+  EXPECT_LT(result.report.verify.cut_length, 1.4 * result.report.least_feed);
+  EXPECT_LE(result.report.motion.retract_count, 10);
+}
+
 TEST(RoundParts, PinOnAPlate) {
   const double radius = 6.0, round = 1.0, fillet = 4.0, high = 8.0;
   const Surface surface = PlacedSurface(Turned(
