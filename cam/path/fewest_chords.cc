@@ -48,7 +48,7 @@ class Funnel {
   // The slopes, rise over run, that chords from one vertex may have, and from which on they touch the ground.
   struct Slopes {
     double least = -kInfinity, most = kInfinity, touching = kInfinity;
-    bool Open() const { return least <= most; }
+    bool Open() const { return least <= most && most > -kInfinity; }
   };
   // Chords from one vertex are seen in a frame of its own: along the way, and out of the ground.
   struct Frame {

@@ -68,6 +68,18 @@ TEST(FewestChords, KeptStationsAndLongestChordsAreObeyed) {
   EXPECT_LT(vertices.size(), 20u);
 }
 
+// Corners of contours: the next station lies in the very direction in which the ball leaves the ground, but
+// for rounding. Such a chord has no slope, and ends at the next station.
+TEST(FewestChords, StationsStraightOutOfTheGround) {
+  Row row(200, 0.05);
+  for (std::size_t k = 50; k < 60; ++k) row.stations[k].away = Vec3(std::cos(1e-9), std::sin(1e-9), 0);
+  ChordLimits limits = kFine;
+  limits.longest = 1.0;
+  const auto vertices = row.Fewest(limits);
+  EXPECT_EQ(vertices.back().station, 199u);
+  for (std::size_t k = 1; k < vertices.size(); ++k) EXPECT_GT(vertices[k].station, vertices[k - 1].station);
+}
+
 // Centres that are higher than the stations told: chords from and to them go from station to station.
 TEST(FewestChords, NothingIsAssumedOfRaisedCenters) {
   const Row row(100, 0.05);
