@@ -14,6 +14,7 @@ constexpr double kOnSide = 1e-6;     // parameter distance at which a contact li
 constexpr double kEndPlace = 1e-6;   // mm: how exactly the ends of a part are placed
 constexpr double kWallPlace = 1e-6;  // mm: how far a wall may be from vertical below its shank contact
 constexpr double kAtLimit = 1e-5;    // rad: a rim contact this close to the face's normal is the face's own
+constexpr double kOnGround = 1e-4;   // sine of the angle between normal and contact, as of lines
 constexpr double kRimRise = 0.05;    // least rise of a face towards an open rim that counts as highest there
 
 enum class Ground { kNone, kAllowed, kWanted };  // no pass; pass ground outside the window; in the window
@@ -46,23 +47,24 @@ class Clipper {
     Ground ground;
   };
 
+  // What the ball over q rests on, where `contact` is: below the shank the wall that goes down to the
+  // centre's height, nothing where there is none.
+  std::optional<SurfacePoint> RestsOn(const SurfacePoint& contact) const {
+    const double z = oracle_.z();
+    if (z - contact.p.z() >= -1e-9 * oracle_.radius()) return contact;
+    return WallAt(contact, Lift(Plan(contact.p), z));
+  }
+  // From the contact towards the centre over q, unit.
+  Vec3 OffContact(const Vec2& q, const SurfacePoint& contact) const {
+    return Lift(Vec2(q - Plan(contact.p)), std::max(0.0, oracle_.z() - contact.p.z())).normalized();
+  }
+
   // Judges one contact under the centre over q.
   Ground Judge(const Vec2& q, const SurfacePoint& contact) const {
-    const double radius = oracle_.radius(), z = oracle_.z();
-    SurfacePoint at = contact;
-    double cosine = (z - contact.p.z()) / radius;
-    if (cosine < 0.0) {
-      // The shank: a pass only when a vertical wall goes down to the centre's height.
-      if (cosine < -1e-9) {
-        const std::optional<SurfacePoint> wall = WallAt(contact, Lift(Plan(contact.p), z));
-        if (!wall) return Ground::kNone;
-        at = *wall;
-      }
-      cosine = 0.0;
-    }
-    const Vec2 plan = q - Plan(contact.p);
-    const Vec3 e = Lift(plan, std::max(0.0, z - contact.p.z())).normalized();
-    if (!Holds(at, e)) return Ground::kNone;
+    const std::optional<SurfacePoint> at = RestsOn(contact);
+    if (!at || !Holds(*at, OffContact(q, contact))) return Ground::kNone;
+    const double z = oracle_.z();
+    const double cosine = std::max(0.0, (z - contact.p.z()) / oracle_.radius());
     const double slope = std::acos(std::min(1.0, cosine));
     if (slope < params_.window.min || slope > params_.window.max + 1e-9) return Ground::kAllowed;
     return NearSpot(Lift(q, z)) ? Ground::kWanted : Ground::kAllowed;
@@ -147,6 +149,34 @@ class Clipper {
     return true;
   }
 
+  // The ball touches ground there, and not only an edge of it.
+  bool OnGround(const Vec2& q, const SurfacePoint& contact) const {
+    const std::optional<SurfacePoint> at = RestsOn(contact);
+    if (!at) return false;
+    const Vec3 e = OffContact(q, contact);
+    const auto along = [&](const SurfacePoint& p) {
+      const std::optional<Vec3> normal = UpwardNormal(Evaluate(surface_, p.piece, p.u, p.v));
+      // Where there is none it is the point of a cone or the like.
+      return !normal || normal->cross(e).norm() < kOnGround;
+    };
+    if (along(*at)) return true;
+    const std::array<bool, 4> on = OnSides(*at);
+    for (int side = 0; side < 4; ++side) {
+      if (!on[static_cast<std::size_t>(side)]) continue;
+      const std::optional<SurfacePoint> beyond =
+          context_.sides.Across(at->piece, side, side % 2 == 0 ? at->u : at->v);
+      if (beyond && along(*beyond)) return true;
+    }
+    return false;
+  }
+  // All of it over edges: nothing is finished there.
+  bool OverEdgesAlone(const CutterPath& part) const {
+    return std::none_of(part.points.begin(), part.points.end(), [&](const CutterPoint& p) {
+      const Vec2 q = Plan(p.center);
+      return OnGround(q, *p.contact) || (p.other_contact && OnGround(q, *p.other_contact));
+    });
+  }
+
   bool NearSpot(const Vec3& center) const {
     if (params_.spots.empty()) return true;
     auto spot = std::lower_bound(spots_.begin(), spots_.end(), center.x() - params_.near,
@@ -196,7 +226,10 @@ class Clipper {
     Dilate(keep);
     if (std::find(keep.begin(), keep.end(), 1) == keep.end()) return {};
     const auto gap = std::find(keep.begin(), keep.end(), 0);
-    if (gap == keep.end()) return {loop_};
+    if (gap == keep.end()) {
+      if (OverEdgesAlone(loop_)) return {};
+      return {loop_};
+    }
     std::vector<CutterPath> parts;
     const std::size_t start = loop_.closed ? static_cast<std::size_t>(gap - keep.begin()) : 0;
     bool open = false;
@@ -215,6 +248,7 @@ class Clipper {
       }
       parts.back().points.push_back(pieces_[i].to);
     }
+    std::erase_if(parts, [this](const CutterPath& part) { return OverEdgesAlone(part); });
     return parts;
   }
 

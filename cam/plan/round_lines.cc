@@ -20,19 +20,10 @@ namespace patchmill {
 namespace {
 
 constexpr double kWorthwhile = 0.9;  // of the straight lines' length
-constexpr int kAngles = 6;           // of straight lines whose angle is open
-
-// Calls visit(from, to), in plan, for the stretches from point to point of a gentle region's borders.
-template <class Visit>
-void VisitBorders(const RegionMap& map, std::size_t id, const Visit& visit) {
-  if (map.regions[id].slope != SlopeClass::kGentle) return;
-  for (const BorderLine& line : map.border_lines) {
-    if (line.region != map.regions[id].id && line.other != map.regions[id].id) continue;
-    const std::size_t n = line.points.size();
-    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i)
-      visit(Plan(line.points[i]), Plan(line.points[(i + 1) % n]));
-  }
-}
+// Sine of the angle between circles and borders, on average: 0.13 for a hexagon, whose corners circles still
+// pay for, 0.29 for a square, where the estimate does not see how many short pieces of arcs there are.
+constexpr double kMostSlant = 0.2;
+constexpr int kAngles = 6;  // of straight lines whose angle is open
 
 // A direction in plan that should run around the center: m . (p - c) = 0.
 struct Tangent {
@@ -113,18 +104,73 @@ std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece,
   return points;
 }
 
+// The gentle ground of a region, to tell which of the region's borders are its own: all of a gentle one's; of
+// a steep one those that lie in the plane of a point nearby.
+class GentleGround {
+ public:
+  void Add(const GentlePoint& point, double way) {
+    const double reach = 1.5 * way * std::max(point.jet.du.norm(), point.jet.dv.norm());
+    farthest_ = std::max(farthest_, reach);
+    places_.push_back({point.jet.p, point.normal, reach});
+  }
+  void Sort() {
+    std::stable_sort(places_.begin(), places_.end(),
+                     [](const Place& a, const Place& b) { return a.p.x() < b.p.x(); });
+  }
+  bool Beside(const Vec3& p) const {
+    auto place = std::lower_bound(places_.begin(), places_.end(), p.x() - farthest_,
+                                  [](const Place& a, double x) { return a.p.x() < x; });
+    for (; place != places_.end() && place->p.x() <= p.x() + farthest_; ++place) {
+      const Vec3 off = p - place->p;
+      if (off.norm() <= place->reach && std::abs(off.dot(place->normal)) <= kInPlane * place->reach)
+        return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr double kInPlane = 0.25;
+  struct Place {
+    Vec3 p, normal;
+    double reach = 0.0;  // mm
+  };
+  std::vector<Place> places_;
+  double farthest_ = 0.0;
+};
+
+// Calls visit(from, to), in plan, for the stretches from point to point of the borders of a region's gentle
+// ground.
+template <class Visit>
+void VisitBorders(const RegionMap& map, std::size_t id, const GentleGround& ground, const Visit& visit) {
+  const bool all = map.regions[id].slope == SlopeClass::kGentle;
+  for (const BorderLine& line : map.border_lines) {
+    if (line.region != map.regions[id].id && line.other != map.regions[id].id) continue;
+    const std::size_t n = line.points.size();
+    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
+      const Vec3 &from = line.points[i], &to = line.points[(i + 1) % n];
+      if (all || ground.Beside(0.5 * (from + to))) visit(Plan(from), Plan(to));
+    }
+  }
+}
+
 // Lines in one way over a region's gentle ground, and what they come to.
 struct Family {
   RegionChoice choice;
   double passes = 0.0;  // mm, for the steps needed
   double ends = 0.0;    // mm of borders, as seen along the lines
+  double border = 0.0;  // mm of them
 
+  bool AlongBorders() const { return ends <= kMostSlant * border; }
   void AddBorder(const Vec2& from, const Vec2& to) {
+    border += (to - from).norm();
     ends += std::abs(Cross(LineAt(choice, Lift(0.5 * (from + to), 0.0)), to - from));
   }
   void Add(const GentlePoint& point, double radius) {
     const Vec2 line = LineAt(choice, point.jet.p);
-    ends += std::abs(Cross(line, point.to_steep_u)) + std::abs(Cross(line, point.to_steep_v));
+    for (const Vec2& limit : {point.to_steep_u, point.to_steep_v}) {
+      border += limit.norm();
+      ends += std::abs(Cross(line, limit));
+    }
     const auto across = AcrossLines(point.normal, line);
     if (!across) return;
     const double kappa = NormalCurvature(Forms(point.jet, point.normal), point.jet, *across);
@@ -199,23 +245,28 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, cons
     pieces[i] = GentlePoints(surface, i, map, stride, resolved, open);
   }));
   std::vector<std::vector<Tangent>> tangents(choices.size());
+  std::vector<GentleGround> grounds(choices.size());
+  const double way = std::sqrt(ShareOfPoint(map, stride));
   for (const std::vector<GentlePoint>& piece : pieces) {
-    for (const GentlePoint& point : piece)
+    for (const GentlePoint& point : piece) {
       tangents[point.region].push_back(
           {Plan(point.jet.p), {-point.normal.y(), point.normal.x()}, point.centers});
+      if (map.regions[point.region].slope == SlopeClass::kSteep) grounds[point.region].Add(point, way);
+    }
   }
+  for (GentleGround& ground : grounds) ground.Sort();
   std::vector<std::optional<Candidate>> candidates(choices.size());
   for (std::size_t id = 0; id < choices.size(); ++id) {
     if (!open[id]) continue;
     const double flat = CenterStep(radius, choices[id].scallop, 0.0);
-    VisitBorders(map, id, [&](const Vec2& from, const Vec2& to) {
+    VisitBorders(map, id, grounds[id], [&](const Vec2& from, const Vec2& to) {
       const double length = (to - from).norm();
       if (length > 0.0) tangents[id].push_back({0.5 * (from + to), (to - from) / length, flat * length});
     });
     const auto center = CenterOf(tangents[id], radius);
     if (!center) continue;
     candidates[id] = CandidateOf(choices[id], *center);
-    VisitBorders(map, id, [&](const Vec2& from, const Vec2& to) {
+    VisitBorders(map, id, grounds[id], [&](const Vec2& from, const Vec2& to) {
       candidates[id]->VisitFamilies([&](Family& family) { family.AddBorder(from, to); });
     });
   }
@@ -235,6 +286,7 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, cons
     if (!(extent.nearest > radius + flat) || !extent.GoesAround()) continue;
     double least = kInfinity;
     for (const Family& family : candidates[id]->straight) least = std::min(least, family.Sum(radius, flat));
+    if (!candidates[id]->round.AlongBorders()) continue;
     if (!(candidates[id]->round.Sum(radius, flat) < kWorthwhile * least)) continue;
     choices[id] = candidates[id]->round.choice;
     // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are

@@ -15,13 +15,13 @@ namespace patchmill {
 // is wanted, all of a gentle region, and of a steep one what merging left in it. The circles' place c is
 // where normals point to and borders run around: the least sum of squares of m . (p - c), over points p, by
 // area, of their horizontal direction m square to the normal (as long as the slope's sine), and over the
-// borders of gentle regions of their direction m, by length times a flat step; what misses c by more than a
+// borders of gentle ground of their direction m, by length times a flat step; what misses c by more than a
 // ball radius counts less. Circles pay where their length, the way to each run included, is a tenth shorter
 // than that of straight lines at their angle (the best of six where it is open), both estimated from the
 // steps needed at the points of FillSteps (one in four of them) and from how many lines end at borders and at
-// the split angle. Only for ground that goes around the place, three quarters of the way at least, and that
-// keeps a ball radius and a step away from it. Such regions need no angle: angle_open is cleared. CANCELLED,
-// DEADLINE_EXCEEDED from `run`.
+// the split angle. Only for ground whose borders run along the circles, but for an angle of 0.2 on average,
+// that goes around the place, three quarters of the way at least, and that keeps a ball radius and a step
+// away from it. Such regions need no angle: angle_open is cleared. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, const Resolved& resolved,
                               const RunContext& run, std::vector<RegionChoice>& choices);
 

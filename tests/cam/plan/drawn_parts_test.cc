@@ -70,5 +70,24 @@ TEST(DrawnParts, WallsOfASlotToAndFro) {
   EXPECT_LE(result.report.motion.retract_count, 6);  // 28 passes along walls
 }
 
+// Circles do not run along the borders of a square.
+TEST(DrawnParts, NoCirclesOverASquareRing) {
+  PatchModel model;
+  const std::vector<Vec2> corners = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vec2 &a = corners[k], &b = corners[(k + 1) % 4];
+    for (const auto& [from, to] : {std::pair{Vec2(8, 6), Vec2(8, 0)}, {Vec2(8, 0), Vec2(16, 0)}}) {
+      BezierPatch patch;
+      patch.degree_u = patch.degree_v = 1;
+      for (const Vec2& c : {a, b}) {
+        for (const Vec2& end : {from, to}) patch.points.push_back(Lift(end.x() * c, end.y()));
+      }
+      model.patches.push_back({"", std::move(patch)});
+    }
+  }
+  const JobResult result = MillChecked(PlacedSurface(std::move(model)));
+  for (const RegionChoice& choice : result.report.choices) EXPECT_FALSE(choice.around.has_value());
+}
+
 }  // namespace
 }  // namespace patchmill

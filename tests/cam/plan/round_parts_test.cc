@@ -108,6 +108,46 @@ TEST(RoundParts, CapOverAPlate) {
   EXPECT_LE(result.report.motion.retract_count, 10);
 }
 
+std::vector<Profile> Terraces() {
+  return {Line({0, 20}, {5, 20}), Line({5, 20}, {5, 10}), Line({5, 10}, {10, 10}), Line({10, 10}, {10, 5}),
+          Line({10, 5}, {15, 5}), Line({15, 5}, {15, 0}), Line({15, 0}, {20, 0})};
+}
+
+// What the ball reaches of them is too narrow for regions of its own, and cut along circles all the same.
+TEST(RoundParts, TerracesAlongCircles) {
+  const JobResult result = MillChecked(PlacedSurface(Turned(Terraces())));
+  int around = 0;
+  for (const RegionChoice& choice : result.report.choices) around += choice.around.has_value();
+  EXPECT_EQ(around, 3);
+  // 1.51 along straight lines.
+  EXPECT_LT(result.report.verify.cut_length, 1.35 * result.report.least_feed);
+  EXPECT_LE(result.report.motion.retract_count, 8);
+}
+
+// Tilted, so that all ground is touched inside of its patches.
+TEST(RoundParts, NoContourOverEdgesAlone) {
+  PatchModel model = Turned(Terraces());
+  const Eigen::Matrix3d tilt = Eigen::AngleAxisd(Radians(20.0), Vec3::UnitX()).toRotationMatrix();
+  for (Patch& patch : model.patches) {
+    for (Vec3& p : std::get<BezierPatch>(patch.shape).points) p = tilt * p;
+  }
+  const JobResult result = MillChecked(PlacedSurface(std::move(model)));
+  constexpr double kInside = 1e-6;
+  const auto inside = [](const std::optional<SurfacePoint>& at) {
+    return at && std::min({at->u, at->v, 1.0 - at->u, 1.0 - at->v}) > kInside;
+  };
+  int contours = 0;
+  for (const CutterPath& pass : result.motion.passes) {
+    if (pass.kind != PassKind::kContour) continue;
+    ++contours;
+    EXPECT_TRUE(
+        std::any_of(pass.points.begin(), pass.points.end(),
+                    [&](const CutterPoint& p) { return inside(p.contact) || inside(p.other_contact); }))
+        << "at z " << pass.points.front().center.z();
+  }
+  EXPECT_GT(contours, 20);
+}
+
 TEST(RoundParts, PinOnAPlate) {
   const double radius = 6.0, round = 1.0, fillet = 4.0, high = 8.0;
   const Surface surface = PlacedSurface(Turned(
