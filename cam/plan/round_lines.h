@@ -19,9 +19,10 @@ namespace patchmill {
 // ball radius counts less. Circles pay where their length, the way to each run included, is a tenth shorter
 // than that of straight lines at their angle (the best of six where it is open), both estimated from the
 // steps needed at the points of FillSteps (one in four of them) and from how many lines end at borders and at
-// the split angle. Only for ground whose borders run along the circles, but for an angle of 0.2 on average,
-// that goes around the place, three quarters of the way at least, and that keeps a ball radius and a step
-// away from it. Such regions need no angle: angle_open is cleared. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// the split angle. Only for ground that goes around the place, three quarters of the way at least, and that
+// keeps a ball radius and a step away from it; what merging left in steep regions also has borders that run
+// along the circles, but for an angle of 0.2 on average. Such regions need no angle: angle_open is cleared.
+// CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, const Resolved& resolved,
                               const RunContext& run, std::vector<RegionChoice>& choices);
 
