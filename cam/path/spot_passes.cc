@@ -269,6 +269,7 @@ bool Mender::AlongCenters(std::size_t i) {
   if (!FreeNear(i)) return false;
   std::vector<CutterPoint> points;
   for (std::size_t k : Chain(i, Gentle(i))) {
+    if (run_.Cancelled()) return false;
     const std::optional<Vec3>& c = FreeNear(k);
     if (!c) continue;
     if (!points.empty()) {
