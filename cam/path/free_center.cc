@@ -13,6 +13,7 @@ namespace {
 constexpr double kClear = 1e-7;     // mm: kept from everything, for rounding
 constexpr double kAccuracy = 1e-8;  // mm, of the distance to what is in the way
 constexpr int kMostObstacles = 24;
+constexpr int kMostBeyond = 3;  // obstacles looked at for a free centre where one that may gouge is known
 
 // normal . x >= offset
 struct HalfSpace {
@@ -45,20 +46,24 @@ std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const 
   const double radius = locator.radius();
   std::vector<HalfSpace> allowed = {{n, n.dot(p) + radius + kClear}};
   if (lowest_z > -kInfinity) allowed.push_back({Vec3::UnitZ(), lowest_z});
-  for (int k = 0; k < kMostObstacles; ++k) {
+  std::optional<Vec3> near;
+  for (int k = 0, last = kMostObstacles; k < last; ++k) {
     const Vec3 c = NearestIn(allowed, p);
     if ((c - p).norm() > radius + most) break;
     if (locator.Free(c)) return c;
     // What is in the way keeps the centre out of a ball swept downwards: the half-space beyond it is free.
     const auto obstacle = ClosestToUpwardRay(locator.surface(), c, radius + kClear, kAccuracy);
     if (!obstacle) break;
-    if (obstacle->distance >= radius - gouge + kAccuracy) return c;
+    if (!near && obstacle->distance >= radius - gouge + kAccuracy) {
+      near = c;
+      last = std::min(last, k + kMostBeyond);
+    }
     const Vec3 away = internal::ToRay(obstacle->at.p, c);
     if (!(away.norm() > 0.0)) break;
     const Vec3 d = away.normalized();
     allowed.push_back({d, d.dot(obstacle->at.p) + radius + 2.0 * kClear});
   }
-  return std::nullopt;
+  return near;
 }
 
 }  // namespace patchmill

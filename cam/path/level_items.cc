@@ -8,6 +8,8 @@ namespace {
 
 // mm per mm of coordinate: what rounding may take from a box of centres.
 constexpr double kBoxSlack = 1e-12;
+// Of its length in the parameters: narrower parts are cut across, wherever their corners lie.
+constexpr double kSliver = 1e-3;
 
 }  // namespace
 
@@ -199,14 +201,22 @@ void LevelItems::Open(std::int32_t index) {
       const Vec3 p = Position(piece, u, v);
       return Lift(Plan(p), std::min(p.z(), z_));
     };
-    const Vec3 a = corner(item.u0, item.v0), b = corner(item.u1, item.v0);
-    const Vec3 c = corner(item.u0, item.v1), d = corner(item.u1, item.v1);
-    if ((b - a).norm() + (d - c).norm() >= (c - a).norm() + (d - b).norm()) {
-      const double u = 0.5 * (item.u0 + item.u1);
+    // By way of the middles: the ends of a bulging rim may lie over each other.
+    const double u = 0.5 * (item.u0 + item.u1), v = 0.5 * (item.v0 + item.v1);
+    const auto way = [&](double u0, double v0, double u1, double v1) {
+      const Vec3 m = corner(0.5 * (u0 + u1), 0.5 * (v0 + v1));
+      return (m - corner(u0, v0)).norm() + (corner(u1, v1) - m).norm();
+    };
+    const double along_u = way(item.u0, item.v0, item.u1, item.v0) + way(item.u0, v, item.u1, v) +
+                           way(item.u0, item.v1, item.u1, item.v1);
+    const double along_v = way(item.u0, item.v0, item.u0, item.v1) + way(u, item.v0, u, item.v1) +
+                           way(item.u1, item.v0, item.u1, item.v1);
+    const double wide_u = item.u1 - item.u0, wide_v = item.v1 - item.v0;
+    const bool sliver = std::min(wide_u, wide_v) < kSliver * std::max(wide_u, wide_v);
+    if (sliver ? wide_u >= wide_v : along_u >= along_v) {
       AddRect(item, item.u0, u, item.v0, item.v1);
       AddRect(item, u, item.u1, item.v0, item.v1);
     } else {
-      const double v = 0.5 * (item.v0 + item.v1);
       AddRect(item, item.u0, item.u1, item.v0, v);
       AddRect(item, item.u0, item.u1, v, item.v1);
     }

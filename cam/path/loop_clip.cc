@@ -149,32 +149,59 @@ class Clipper {
     return true;
   }
 
-  // The ball touches ground there, and not only an edge of it.
+  // The ball touches ground there or, rolling over an edge, has some within half a step; it rolls over a
+  // sheet's border on purpose.
   bool OnGround(const Vec2& q, const SurfacePoint& contact) const {
     const std::optional<SurfacePoint> at = RestsOn(contact);
     if (!at) return false;
     const Vec3 e = OffContact(q, contact);
+    const double turn = std::max(kOnGround, params_.overlap / oracle_.radius());
     const auto along = [&](const SurfacePoint& p) {
       const std::optional<Vec3> normal = UpwardNormal(Evaluate(surface_, p.piece, p.u, p.v));
       // Where there is none it is the point of a cone or the like.
-      return !normal || normal->cross(e).norm() < kOnGround;
+      return !normal || normal->cross(e).norm() < turn;
     };
     if (along(*at)) return true;
     const std::array<bool, 4> on = OnSides(*at);
     for (int side = 0; side < 4; ++side) {
       if (!on[static_cast<std::size_t>(side)]) continue;
+      if (context_.sides.At(at->piece, side).kind != SideKind::kCrease) return true;
       const std::optional<SurfacePoint> beyond =
           context_.sides.Across(at->piece, side, side % 2 == 0 ? at->u : at->v);
       if (beyond && along(*beyond)) return true;
     }
     return false;
   }
+  bool OnGround(const CutterPoint& p) const {
+    const Vec2 q = Plan(p.center);
+    return OnGround(q, *p.contact) || (p.other_contact && OnGround(q, *p.other_contact));
+  }
+  // The same between two points, at places as far apart as ground beside an edge counts.
+  bool OnGroundBetween(const CutterPoint& a, const CutterPoint& b) const {
+    const Vec2 qa = Plan(a.center), way = Plan(b.center) - qa;
+    const double length = way.norm();
+    if (!(length > kEndPlace)) return false;
+    const Vec2 left = Vec2(-way.y(), way.x()) / length;
+    constexpr double kMostParts = 100.0;
+    const int parts = static_cast<int>(std::min(kMostParts, 1.0 + std::ceil(length / params_.overlap)));
+    for (int k = 1; k < parts; ++k) {
+      const std::optional<LevelPoint> root = oracle_.RootOnLine(qa + (static_cast<double>(k) / parts) * way,
+                                                                left, After(a), *b.contact, {length, length});
+      if (root && OnGround(root->q, root->contact)) return true;
+    }
+    return false;
+  }
   // All of it over edges: nothing is finished there.
   bool OverEdgesAlone(const CutterPath& part) const {
-    return std::none_of(part.points.begin(), part.points.end(), [&](const CutterPoint& p) {
-      const Vec2 q = Plan(p.center);
-      return OnGround(q, *p.contact) || (p.other_contact && OnGround(q, *p.other_contact));
-    });
+    const std::size_t n = part.points.size();
+    if (std::any_of(part.points.begin(), part.points.end(),
+                    [&](const CutterPoint& p) { return OnGround(p); })) {
+      return false;
+    }
+    for (std::size_t k = 0; k + (part.closed ? 0 : 1) < n; ++k) {
+      if (OnGroundBetween(part.points[k], part.points[(k + 1) % n])) return false;
+    }
+    return true;
   }
 
   bool NearSpot(const Vec3& center) const {

@@ -19,8 +19,9 @@ struct ClipParams {
 
 // The parts of a contour (closed or not) whose contact has z <= c, is interior or lies on a crease, or on an
 // open rim that is locally highest, and whose slope lies in the window; dilated by the overlap where the
-// ground allows it. What touches nothing but edges is left out: the ground on both sides has passes of its
-// own. Ends are solved on the contour to 1e-6 mm. A loop that stays whole stays closed.
+// ground allows it. What rolls over creases alone, no ground within half a step, is left out: the ground on
+// both sides has passes of its own. Ends are solved on the contour to 1e-6 mm. A loop that stays whole stays
+// closed.
 std::vector<CutterPath> ClipLoop(const LevelContext& context, const CutterPath& loop,
                                  const ClipParams& params);
 

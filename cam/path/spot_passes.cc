@@ -276,7 +276,7 @@ bool Mender::AlongCenters(std::size_t i) {
       const Vec3& last = points.back().center;
       if ((*c - last).norm() < kSamePlace) continue;
       const bool proven =
-          ChordGouge(radius_, (*c - last).norm()) + give_ <= params_.chord_tolerance ||
+          ChordGouge(radius_ - give_, (*c - last).norm()) + give_ <= params_.chord_tolerance ||
           locator_.GougeWithin(last, *c, params_.chord_tolerance, 0.1 * params_.chord_tolerance);
       if (!proven) {
         Add(PassKind::kRest, std::move(points));

@@ -114,14 +114,18 @@ class GentleGround {
     farthest_ = std::max(farthest_, reach);
     places_.push_back({point.jet.p, point.normal, reach});
   }
+  // Along the longest side of its box.
   void Sort() {
+    Box3 box;
+    for (const Place& place : places_) box.Add(place.p);
+    if (!box.Empty()) (box.max - box.min).maxCoeff(&along_);
     std::stable_sort(places_.begin(), places_.end(),
-                     [](const Place& a, const Place& b) { return a.p.x() < b.p.x(); });
+                     [this](const Place& a, const Place& b) { return a.p[along_] < b.p[along_]; });
   }
   bool Beside(const Vec3& p) const {
-    auto place = std::lower_bound(places_.begin(), places_.end(), p.x() - farthest_,
-                                  [](const Place& a, double x) { return a.p.x() < x; });
-    for (; place != places_.end() && place->p.x() <= p.x() + farthest_; ++place) {
+    auto place = std::lower_bound(places_.begin(), places_.end(), p[along_] - farthest_,
+                                  [this](const Place& a, double x) { return a.p[along_] < x; });
+    for (; place != places_.end() && place->p[along_] <= p[along_] + farthest_; ++place) {
       const Vec3 off = p - place->p;
       if (off.norm() <= place->reach && std::abs(off.dot(place->normal)) <= kInPlane * place->reach)
         return true;
@@ -137,6 +141,7 @@ class GentleGround {
   };
   std::vector<Place> places_;
   double farthest_ = 0.0;
+  Eigen::Index along_ = 0;  // axis
 };
 
 // Calls visit(from, to), in plan, for the stretches from point to point of the borders of a region's gentle
