@@ -9,7 +9,7 @@ namespace {
 // mm per mm of coordinate: what rounding may take from a box of centres.
 constexpr double kBoxSlack = 1e-12;
 // Of its length in the parameters: narrower parts are cut across, wherever their corners lie.
-constexpr double kSliver = 1e-3;
+constexpr double kSliver = 1e-4;
 
 }  // namespace
 
