@@ -11,8 +11,11 @@ namespace patchmill {
 
 // One pass after the other, from the worst spot on: along the crease it lies at, else along the ridge of
 // spots around it over gentle ground (scan lines between their centres), else on walls along the level
-// through it; a spot that none of these reaches is touched from above. Spots a pass has mended on its way
-// need none of their own. Every pass is certified to params.chord_tolerance.
+// through it, else from free centre to free centre of the spots around it; a spot that none of these reaches
+// is plunged to from above, from where the open spots over it end. Where the ball has no room (slots, holes
+// of its own size) free centres and plunges are all there is: they may gouge by a tenth of
+// params.chord_tolerance. Spots a pass has mended on its way need none of their own. Every pass is certified
+// to params.chord_tolerance.
 absl::StatusOr<std::vector<CutterPath>> MendSpots(const Locator& locator,
                                                   const std::vector<LeftoverSpot>& spots,
                                                   const CoverageParams& params, const RunContext& run);
