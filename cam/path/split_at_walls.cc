@@ -35,13 +35,15 @@ std::vector<CutterPath> SplitAtWalls(CutterPath path, double height) {
   } else {
     walls.push_back(n - 1);
   }
+  const std::vector<CutterPoint> points = std::exchange(path.points, {});
+  path.closed = false;
   std::size_t first = 0;
   for (const std::size_t wall : walls) {
-    CutterPath part = path;
-    part.closed = false;
-    part.points.assign(path.points.begin() + static_cast<std::ptrdiff_t>(first),
-                       path.points.begin() + static_cast<std::ptrdiff_t>(wall) + 1);
-    if (part.points.size() > 1) parts.push_back(std::move(part));
+    if (wall > first) {
+      CutterPath& part = parts.emplace_back(path);
+      part.points.assign(points.begin() + static_cast<std::ptrdiff_t>(first),
+                         points.begin() + static_cast<std::ptrdiff_t>(wall) + 1);
+    }
     first = wall + 1;
   }
   return parts;

@@ -7,9 +7,9 @@
 
 namespace patchmill {
 
-// The parts of a path between its upright moves longer than `height` (mm), in order; the same path where it
-// has none. A closed one is cut into open parts. Such a move finishes nothing that contours do not, plunges
-// beside a wall, and takes as long as the wall is high at every line.
+// The parts of a path between its upright moves longer than `height` (mm), in order, of two points
+// or more; the same path where it has none. A closed one is cut into open parts. Such a move finishes nothing
+// that contours do not, plunges beside a wall, and takes as long as the wall is high at every line.
 std::vector<CutterPath> SplitAtWalls(CutterPath path, double height);
 
 }  // namespace patchmill
