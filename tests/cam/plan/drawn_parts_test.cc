@@ -1,5 +1,4 @@
 // Profiles drawn along a line, as machines cut them every day: slots, grooves, chamfers.
-#include <chrono>
 
 #include <gtest/gtest.h>
 
@@ -11,18 +10,6 @@ namespace patchmill {
 namespace {
 
 using namespace testing;  // NOLINT: the support folder's
-
-JobResult MillChecked(const Surface& surface, const Job& job = BallJob(3.0)) {
-  const auto start = std::chrono::steady_clock::now();
-  JobResult result = Mill(surface, job);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
-  EXPECT_EQ(result.report.certificate_defects, 0u);
-  EXPECT_LT(time.count(), kSanitized ? 600.0 : 60.0);
-  Random random(12);
-  CheckProgram(surface, job, result, random, 1000);
-  return result;
-}
 
 double OverLeast(const JobResult& result) {
   return result.report.verify.cut_length / result.report.least_feed;

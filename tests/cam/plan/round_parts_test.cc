@@ -1,5 +1,4 @@
 // Turned shapes with upright walls, as machines cut every day: pockets, pins and bosses.
-#include <chrono>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -12,20 +11,6 @@ namespace patchmill {
 namespace {
 
 using namespace testing;  // NOLINT: the support folder's
-
-JobResult MillChecked(const Surface& surface) {
-  const Job job = BallJob(3.0);
-  const auto start = std::chrono::steady_clock::now();
-  JobResult result = Mill(surface, job);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
-  // Nothing was lifted onto a wall, nor looked at without end.
-  EXPECT_EQ(result.report.certificate_defects, 0u);
-  EXPECT_LT(time.count(), kSanitized ? 600.0 : 60.0);
-  Random random(11);
-  CheckProgram(surface, job, result, random, 2000);
-  return result;
-}
 
 TEST(RoundParts, Pocket) {
   const double radius = 12.0, fillet = 4.0, deep = 8.0;

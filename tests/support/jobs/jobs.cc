@@ -12,7 +12,9 @@
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
 #include "core/surface/extent.h"
+#include "tests/support/clock.h"
 #include "tests/support/leftover.h"
+#include "tests/support/sanitized.h"
 
 namespace patchmill::testing {
 namespace {
@@ -197,6 +199,18 @@ void CheckProgram(const Surface& surface, const Job& job, const JobResult& resul
   judge.CheckFeeds();
   judge.CheckGouge(random, samples);
   judge.CheckLeftover(random, samples);
+}
+
+JobResult MillChecked(const Surface& surface, const Job& job) {
+  const double start = ClockSeconds(CLOCK_PROCESS_CPUTIME_ID);
+  JobResult result = Mill(surface, job);
+  const double time = ClockSeconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+  EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
+  EXPECT_EQ(result.report.certificate_defects, 0u);
+  EXPECT_LT(time, kSanitized ? 1800.0 : 60.0);
+  Random random(11);
+  CheckProgram(surface, job, result, random, 1000);
+  return result;
 }
 
 }  // namespace patchmill::testing

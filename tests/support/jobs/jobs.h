@@ -41,4 +41,8 @@ std::string Describe(const JobResult& result);
 void CheckProgram(const Surface& surface, const Job& job, const JobResult& result, Random& random,
                   int samples);
 
+// Mill and CheckProgram at a thousand places, of a job that must be verified: with no point lifted by its
+// certificate (nothing onto a wall), in a minute of processor time (nothing looked at without end).
+JobResult MillChecked(const Surface& surface, const Job& job = BallJob(3.0));
+
 }  // namespace patchmill::testing
