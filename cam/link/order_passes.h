@@ -28,9 +28,9 @@ struct OrderParams {
 // top and each basin from its top inwards, down to where they end or join others that are not cut yet, before
 // the next is begun, but for those at hand, and for those that `travel` shows to be on the way
 // (ShortenOrder); open contours that end where others begin, as on the two walls of a slot, go with these.
-// Zig-zag lines follow each other to and fro; everything else goes to the nearest end. Closed
-// passes are turned so that they start nearest to where the tool is. Deterministic. Cost O(n^2) in the passes
-// of one part. CANCELLED or DEADLINE_EXCEEDED when `run` says so.
+// Zig-zag lines follow each other to and fro; everything else goes to the nearest end. Closed passes are
+// turned so that they start nearest to where the tool is. Deterministic. Cost O(n^2) in the passes of one
+// part. CANCELLED or DEADLINE_EXCEEDED when `run` says so.
 absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
                                                     const OrderParams& params, const RunContext& run);
 

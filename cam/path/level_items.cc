@@ -8,7 +8,8 @@ namespace {
 
 // mm per mm of coordinate: what rounding may take from a box of centres.
 constexpr double kBoxSlack = 1e-12;
-// Of its length in the parameters: narrower parts are cut across, wherever their corners lie.
+// Of its length in the parameters: narrower parts are cut across, wherever corners and middles lie in plan,
+// so that no shape is sliced without end.
 constexpr double kSliver = 1e-4;
 
 }  // namespace

@@ -14,7 +14,7 @@ constexpr double kOnSide = 1e-6;     // parameter distance at which a contact li
 constexpr double kEndPlace = 1e-6;   // mm: how exactly the ends of a part are placed
 constexpr double kWallPlace = 1e-6;  // mm: how far a wall may be from vertical below its shank contact
 constexpr double kAtLimit = 1e-5;    // rad: a rim contact this close to the face's normal is the face's own
-constexpr double kOnGround = 1e-4;   // sine of the angle between normal and contact, as of lines
+constexpr double kOnGround = 1e-4;   // sine of the angle between normal and contact that is none, at least
 constexpr double kRimRise = 0.05;    // least rise of a face towards an open rim that counts as highest there
 
 enum class Ground { kNone, kAllowed, kWanted };  // no pass; pass ground outside the window; in the window

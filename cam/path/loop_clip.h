@@ -10,8 +10,10 @@ namespace patchmill {
 
 struct ClipParams {
   SlopeWindow window;
-  bool roll = false;     // over every open border, not only over rims that are locally highest
-  double overlap = 0.0;  // mm along the loop, added at both ends of what lies in the window
+  bool roll = false;  // over every open border, not only over rims that are locally highest
+  // mm along the loop, added at both ends of what lies in the window; half a step: ground this near an edge
+  // is finished from it.
+  double overlap = 0.0;
   // Not empty: only within `near` (mm, in space) of one of these centres.
   std::vector<Vec3> spots;
   double near = 0.0;
