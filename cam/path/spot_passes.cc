@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "cam/location/free_center.h"
 #include "cam/path/chord_bounds.h"
 #include "cam/path/chord_thinning.h"
 #include "cam/path/crease_trace.h"
-#include "cam/path/free_center.h"
 #include "cam/path/level_trace.h"
 #include "cam/path/scan_line.h"
 #include "cam/path/spacing.h"

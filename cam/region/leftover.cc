@@ -6,12 +6,16 @@
 #include <numeric>
 #include <vector>
 
+#include "cam/location/free_center.h"
+#include "core/base/status.h"
+
 namespace patchmill {
 namespace {
 
 constexpr double kHeightGap = 1e-3;   // of R: what heights are proven to
 constexpr double kStill = 1e-3;       // of R: a step this short ends a descent
 constexpr double kWorthwhile = 0.02;  // of the leftover: more than that much deeper is looked for
+constexpr double kUpright = 1e-6;     // z of a normal: the ball may stand on either side
 constexpr int kSteps = 30;
 constexpr int kMisses = 2;
 constexpr int kRing = 16;
@@ -110,6 +114,18 @@ class NearestCenter {
       if (misses > 0 && (!told || misses > kMisses)) share *= 0.5;
     }
     return at;
+  }
+
+  // On the side of a normal at p, pushed aside by what is in the way there: where no column beside that one
+  // is free.
+  Column Beside(const Vec3& normal, Column known) const {
+    const double radius = locator_.radius();
+    const auto center = FreeCenterNear(locator_, p_, normal, params_.floor_z + radius,
+                                       std::min(known.distance, 33.0 * radius) - radius);
+    if (!center || (params_.keep_in != nullptr && !params_.keep_in->Allows(*center))) return known;
+    const double distance = (*center - p_).norm();
+    if (distance >= known.distance) return known;
+    return {.center = *center, .normal = Vec3::UnitZ(), .held = false, .distance = distance};
   }
 
   // From all around, as far as something nearer than `known` may be.
@@ -211,7 +227,8 @@ class NearestCenter {
 }  // namespace
 
 Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
-                        const RunContext& run) {
+                        const RunContext& run, std::span<const Vec3> normals) {
+  PM_CHECK(normals.empty() || normals.size() == places.size());
   // Every free centre found for one place is a bound for all.
   std::vector<Column> found;
   for (const Vec3& p : places) {
@@ -243,11 +260,16 @@ Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, st
     if (bounds[i] <= enough) break;
     const NearestCenter search(locator, params, places[i]);
     Column column = nearest(places[i]);
-    for (const bool around : {false, true}) {
-      if (column.distance <= enough) break;
-      column = around ? search.FromAround(column) : search.Descend(column);
+    const auto look = [&](const auto& further) {
+      if (column.distance <= enough) return;
+      column = further();
       if (column.distance < kInfinity) found.push_back(column);
-    }
+    };
+    look([&] { return search.Descend(column); });
+    const Vec3 normal = normals.empty() ? Vec3(Vec3::Zero()) : normals[i];
+    if (normal != Vec3::Zero()) look([&] { return search.Beside(normal, column); });
+    if (normal != Vec3::Zero() && normal.z() < kUpright) look([&] { return search.Beside(-normal, column); });
+    look([&] { return search.FromAround(column); });
     if (column.distance <= enough) continue;
     deepest = column.distance;
     place = i;

@@ -66,9 +66,13 @@ void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, c
   RegionSpots places(surface, meshes, triangles);
   std::vector<RegionSpot> spots = places.Spread(kLooked);
   const auto deepest = [&](const std::vector<RegionSpot>& of) {
-    std::vector<Vec3> points;
-    for (const RegionSpot& spot : of) points.push_back(places.At(spot));
-    const Deepest found = reach.DeepestLeftover(points, run);
+    std::vector<Vec3> points, normals;
+    for (const RegionSpot& spot : of) {
+      const SurfaceJet jet = Evaluate(surface.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
+      points.push_back(jet.p);
+      normals.push_back(UpwardNormal(jet).value_or(Vec3::Zero()));
+    }
+    const Deepest found = reach.DeepestLeftover(points, normals, run);
     region.deepest_leftover = std::max(region.deepest_leftover, found.leftover);
     return of[found.place];
   };

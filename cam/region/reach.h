@@ -44,8 +44,9 @@ class ReachTest {
   // params.keep_in allows the ball's centre; on a vertical face on either side.
   bool Allowed(const Vec3& p, const Vec3& normal) const;
 
-  // The largest of what stays over some places, mm (leftover.h).
-  Deepest DeepestLeftover(std::span<const Vec3> places, const RunContext& run) const;
+  // The largest of what stays over some places, mm (leftover.h); `normals`: upwards, as many.
+  Deepest DeepestLeftover(std::span<const Vec3> places, std::span<const Vec3> normals,
+                          const RunContext& run) const;
 
  private:
   bool BlockedAbove(const Vec3& p, const Vec3& normal, ShankFinder& shank) const;

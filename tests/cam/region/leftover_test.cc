@@ -2,9 +2,11 @@
 #include "cam/region/leftover.h"
 
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/profiles.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
@@ -151,6 +153,29 @@ TEST(Leftover, WhereNothingIsAllowedIsAllThereIs) {
   // A floor over what is allowed.
   EXPECT_DOUBLE_EQ(LeftoverAt(surface, Vec3::Zero(), {.floor_z = -1.0, .keep_in = &*keep_in}),
                    surface.box.Diagonal());
+}
+
+// In a hole hardly wider than the ball its centre has a thread of room, which no column beside it tells of.
+TEST(Leftover, InAHoleThatTheBallJustFits) {
+  const double deep = 10.0;
+  for (const double play : {0.01, 0.001}) {
+    const double hole = kR + play;
+    const Surface surface = SurfaceOf(
+        Turned({Line({0, 0}, {hole, 0}), Line({hole, 0}, {hole, deep}), Line({hole, deep}, {20, deep})}));
+    const Locator locator(surface, kR);
+    for (const double angle : {0.1, 1.0, 2.7, 4.4}) {
+      // Of the floor beside the wall, of the wall's foot, and of the wall half way up.
+      const Vec3 out(std::cos(angle), std::sin(angle), 0.0), foot = hole * out + Vec3(0, 0, 1e-3);
+      const Vec3 floor = (hole - 1e-3) * out;
+      const double stays = (std::sqrt(2.0) - 1.0) * kR;
+      for (const auto& [p, normal] : {std::pair{floor, Vec3(0, 0, 1)}, {foot, Vec3(-out)}, {foot, out}}) {
+        EXPECT_NEAR(DeepestLeftover(locator, {}, {&p, 1}, RunContext(), {&normal, 1}).leftover, stays, kNear)
+            << play << " " << angle;
+      }
+      const Vec3 wall = foot + Vec3(0, 0, 0.5 * deep);
+      EXPECT_NEAR(DeepestLeftover(locator, {}, {&wall, 1}, RunContext(), {&out, 1}).leftover, 0.0, kNear);
+    }
+  }
 }
 
 TEST(Leftover, IsAsBruteForceFindsIt) {

@@ -1,5 +1,5 @@
 // Balls that nearly fit: the nearest free centre against closed forms, and random folded parts.
-#include "cam/path/free_center.h"
+#include "cam/location/free_center.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "cam/path/free_center.h"
+#include "cam/location/free_center.h"
 
 #include <algorithm>
 #include <cmath>
