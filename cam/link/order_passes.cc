@@ -146,6 +146,8 @@ Vec3 Leave(const CutterPath& pass, std::size_t start) {
   return start == 1 ? pass.points.front().center : pass.points.back().center;
 }
 
+double HeightOf(const CutterPath& contour) { return contour.points.front().center.z(); }
+
 // From the top down, never before what lies above: a mountain or a basin is cut to its foot, or to where it
 // joins another that is not cut yet, before the next is begun. Stops when cancelled.
 std::vector<Choice> Downwards(const Cluster& cluster, const OrderParams& params, const RunContext& run,
@@ -168,15 +170,16 @@ std::vector<Choice> Downwards(const Cluster& cluster, const OrderParams& params,
   std::vector<Choice> order;
   for (std::ptrdiff_t n = 0; !ready.empty() && !run.Cancelled(); ++n) {
     // What is at hand goes first, the higher before the lower; else what lies below the latest one.
-    using Rank = std::tuple<int, std::ptrdiff_t, int, double>;
+    using Rank = std::tuple<int, std::ptrdiff_t, double, double>;
     std::size_t best = 0;
     Rank best_rank;
     End best_end;
     for (std::size_t k = 0; k < ready.size(); ++k) {
       const CutterPath& pass = cluster.passes[ready[k].pass];
       const End end = EndOf(pass, at, params.reversible_contours);
-      const Rank rank = end.distance <= params.at_hand ? Rank{0, 0, pass.line, end.distance}
-                                                       : Rank{1, -ready[k].after, pass.line, end.distance};
+      const double depth = -HeightOf(pass);
+      const Rank rank = end.distance <= params.at_hand ? Rank{0, 0, depth, end.distance}
+                                                       : Rank{1, -ready[k].after, depth, end.distance};
       if (k > 0 && rank >= best_rank) continue;
       best = k;
       best_rank = rank;
@@ -224,13 +227,30 @@ void TakeDownwards(Cluster& cluster, const OrderParams& params, const RunContext
   }
 }
 
-// Two open contours one of which begins where the other ends: opposite walls of a slot are cut to and fro.
+// One of two open contours begins where the other ends: opposite walls of a slot are cut to and fro.
 bool LeadsOn(const CutterPath& a, const CutterPath& b, double reach) {
-  if (a.closed || b.closed) return false;
   const auto far = [](const CutterPath& from, const CutterPath& to) {
     return (to.points.front().center - from.points.back().center).norm();
   };
   return std::min(far(a, b), far(b, a)) <= reach;
+}
+
+// Those at about one height, whatever their lines are: each ground has levels of its own.
+void JoinThoseThatLeadOn(const std::vector<CutterPath>& contours, double reach, double higher,
+                         const RunContext& run, UnionFind& sets) {
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < contours.size(); ++i)
+    if (!contours[i].closed) open.push_back(i);
+  std::stable_sort(open.begin(), open.end(), [&](std::size_t a, std::size_t b) {
+    return HeightOf(contours[a]) < HeightOf(contours[b]);
+  });
+  for (std::size_t i = 0; i < open.size() && !run.Cancelled(); ++i) {
+    for (std::size_t j = i + 1; j < open.size(); ++j) {
+      const CutterPath &a = contours[open[i]], &b = contours[open[j]];
+      if (HeightOf(b) - HeightOf(a) > higher) break;
+      if (sets.Find(open[i]) != sets.Find(open[j]) && LeadsOn(a, b, reach)) sets.Join(open[i], open[j]);
+    }
+  }
 }
 
 // In order of their first line. Stops when cancelled.
@@ -250,9 +270,10 @@ std::vector<Cluster> Clusters(std::vector<CutterPath> group, const OrderParams& 
       const bool near = Near(group[i], boxes[i], group[j], boxes[j], distance) ||
                         Near(group[j], boxes[j], group[i], boxes[i], distance);
       if (near && lower) above[j].push_back(i);
-      if (near || (levels && LeadsOn(group[i], group[j], params.at_hand))) sets.Join(i, j);
+      if (near) sets.Join(i, j);
     }
   }
+  if (levels) JoinThoseThatLeadOn(group, params.at_hand, distance, run, sets);
   std::map<std::size_t, std::vector<std::size_t>> by_root;
   for (std::size_t i = 0; i < group.size(); ++i) by_root[sets.Find(i)].push_back(i);
   std::vector<Cluster> clusters;

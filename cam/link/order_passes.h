@@ -24,13 +24,14 @@ struct OrderParams {
 
 // Contours of a mountain or basin and lines of a region are parts that are cut in one go, in the order of
 // OrderParts: from the top down, neighbours together; then borders, creases and rest. A contour is never cut
-// before those of the two levels above it that it touches in plan; beyond that each mountain is cut from its
-// top and each basin from its top inwards, down to where they end or join others that are not cut yet, before
-// the next is begun, but for those at hand, and for those that `travel` shows to be on the way
-// (ShortenOrder); open contours that end where others begin, as on the two walls of a slot, go with these.
-// Zig-zag lines follow each other to and fro; everything else goes to the nearest end. Closed passes are
-// turned so that they start nearest to where the tool is. Deterministic. Cost O(n^2) in the passes of one
-// part. CANCELLED or DEADLINE_EXCEEDED when `run` says so.
+// before those of the two levels of its ground (cam/path/level_grounds.h) above it that it touches in plan;
+// beyond that each mountain is cut from its top and each basin from its top inwards, down to where they end
+// or join others that are not cut yet, before the next is begun, but for those at hand, and for those that
+// `travel` shows to be on the way (ShortenOrder); open contours that end where others of about their height
+// begin, as on the two walls of a slot, go with these, whatever ground they are on. Zig-zag lines follow each
+// other to and fro; everything else goes to the nearest end. Closed passes are turned so that they start
+// nearest to where the tool is. Deterministic. Cost O(n^2) in the passes of one part. CANCELLED or
+// DEADLINE_EXCEEDED when `run` says so.
 absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
                                                     const OrderParams& params, const RunContext& run);
 

@@ -1,5 +1,8 @@
 #include "cam/path/contour_paths.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -9,6 +12,7 @@
 #include "cam/path/chord_thinning.h"
 #include "cam/path/contour_levels.h"
 #include "cam/path/contour_samples.h"
+#include "cam/path/level_grounds.h"
 #include "cam/path/level_heights.h"
 #include "cam/path/level_trace.h"
 #include "cam/path/loop_clip.h"
@@ -18,6 +22,12 @@
 
 namespace patchmill {
 namespace {
+
+// Ball radii: how far contours run beside the samples of their ground, half way around a knife's edge.
+constexpr double kBesideGround = 1.5;
+// Lines of different families are no neighbours (order_passes.h).
+constexpr int kBetweenFamilies = 4;
+constexpr double kSameHeight = 1e-6;  // mm
 
 struct LevelPasses {
   std::vector<CutterPath> paths;
@@ -49,27 +59,106 @@ Diagnostics FindingsOf(const LevelContours& level, const ContourParams& params) 
   return findings;
 }
 
-LevelPasses PassesAt(const LevelContext& context, const PlannedLevel& planned, double spacing,
-                     const ContourParams& params, const RunContext& run) {
-  const LevelContours level = TracePasses(context, planned.z, params, run);
-  LevelPasses passes{{}, FindingsOf(level, params)};
-  ClipParams clip;
-  clip.window = params.window;
-  clip.roll = params.roll;
-  clip.overlap = 0.5 * CenterStep(context.locator.radius(), params.scallop, 0.0);
-  if (planned.partial) {
-    clip.spots = planned.spots;
-    clip.near = ReachOfSpot(spacing, planned.gap);
-  }
-  for (const CutterPath& loop : level.loops) {
-    if (run.Cancelled()) break;
-    for (CutterPath& part : ClipLoop(context, loop, clip)) {
-      CertifyCenters(context.locator, CertificateGap(params), part);
-      passes.paths.push_back(std::move(part));
-    }
-  }
-  return passes;
+// The levels of a ground, or of several that want the same ones.
+struct LevelFamily {
+  std::vector<PlannedLevel> levels;
+  std::vector<Vec3> centers;      // of their samples
+  std::optional<PlanMask> where;  // their contours may run; none: everywhere
+};
+
+bool SameLevels(const std::vector<PlannedLevel>& a, const std::vector<PlannedLevel>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const PlannedLevel& x, const PlannedLevel& y) {
+    return x.partial == y.partial && std::abs(x.z - y.z) <= kSameHeight;
+  });
 }
+
+struct LevelFamilies {
+  std::vector<LevelFamily> families;
+  std::vector<std::size_t> of_ground;
+  std::size_t levels = 0;
+};
+
+absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGrounds& grounds, const ContourParams& params,
+                                           double radius, const RunContext& run) {
+  LevelFamilies planned;
+  std::vector<LevelFamily>& families = planned.families;
+  for (std::size_t k = 0; k < grounds.size(); ++k) {
+    PM_ASSIGN_OR_RETURN(std::vector<PlannedLevel> levels, PlanLevels(grounds[k], params, radius, run));
+    const auto same = std::find_if(families.begin(), families.end(), [&](const LevelFamily& family) {
+      return SameLevels(family.levels, levels);
+    });
+    planned.of_ground.push_back(static_cast<std::size_t>(same - families.begin()));
+    if (same == families.end()) {
+      planned.levels += levels.size();
+      families.push_back({std::move(levels), {}, std::nullopt});
+    } else {
+      for (std::size_t i = 0; i < levels.size(); ++i) {
+        std::vector<Vec3>& spots = same->levels[i].spots;
+        spots.insert(spots.end(), levels[i].spots.begin(), levels[i].spots.end());
+      }
+    }
+    for (const ContourSample& sample : grounds[k].samples)
+      families[planned.of_ground.back()].centers.push_back(sample.center);
+  }
+  if (families.size() > 1) {
+    for (LevelFamily& family : families) family.where.emplace(family.centers, kBesideGround * radius);
+  }
+  return planned;
+}
+
+// One level of a family.
+struct FamilyLevel {
+  std::size_t family = 0, level = 0;
+  int line = 0;
+};
+
+class PassTracer {
+ public:
+  PassTracer(const LevelContext& context, const LevelGrounds& grounds, const LevelFamilies& planned,
+             const ContourParams& params, const RunContext& run)
+      : context_(context),
+        grounds_(grounds),
+        families_(planned.families),
+        family_of_(planned.of_ground),
+        params_(params),
+        run_(run) {}
+
+  LevelPasses At(const FamilyLevel& at) const {
+    const LevelFamily& family = families_[at.family];
+    const PlannedLevel& planned = family.levels[at.level];
+    ClipParams clip;
+    clip.window = params_.window;
+    clip.roll = params_.roll;
+    clip.overlap = 0.5 * CenterStep(context_.locator.radius(), params_.scallop, 0.0);
+    std::optional<PlanMask> near_spots;
+    if (planned.partial) {
+      clip.spots = planned.spots;
+      clip.near = ReachOfSpot(grounds_[0].spacing, planned.gap);
+      near_spots.emplace(planned.spots, clip.near + 2.0 * clip.overlap);
+    }
+    const std::optional<PlanMask>& where = near_spots ? near_spots : family.where;
+    const LevelContours level = TracePasses(context_, planned.z, where ? &*where : nullptr, params_, run_);
+    LevelPasses passes{{}, FindingsOf(level, params_)};
+    for (const CutterPath& loop : level.loops) {
+      if (run_.Cancelled()) break;
+      for (CutterPath& part : ClipLoop(context_, loop, clip)) {
+        if (families_.size() > 1 && grounds_.FamilyUnder(part, family_of_) != at.family) continue;
+        CertifyCenters(context_.locator, CertificateGap(params_), part);
+        part.line = at.line;
+        passes.paths.push_back(std::move(part));
+      }
+    }
+    return passes;
+  }
+
+ private:
+  const LevelContext& context_;
+  const LevelGrounds& grounds_;
+  const std::vector<LevelFamily>& families_;
+  const std::vector<std::size_t>& family_of_;
+  const ContourParams& params_;
+  const RunContext& run_;
+};
 
 }  // namespace
 
@@ -82,26 +171,36 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
                                            const RunContext& run) {
   const LevelContext context(locator, run);
   PM_RETURN_IF_ERROR(run.Check());
-  PM_ASSIGN_OR_RETURN(const ContourGround ground, SampleGround(context, params, run));
-  PM_ASSIGN_OR_RETURN(const std::vector<PlannedLevel> levels,
-                      PlanLevels(ground, params, locator.radius(), run));
-  if (levels.size() > kMostLevels) {
+  PM_ASSIGN_OR_RETURN(ContourGround ground, SampleGround(context, params, run));
+  const double radius = locator.radius();
+  PM_ASSIGN_OR_RETURN(LevelGrounds grounds,
+                      LevelGrounds::Make(ground, radius, CenterStep(radius, params.scallop, 0.0), run));
+  PM_ASSIGN_OR_RETURN(LevelFamilies planned, PlanFamilies(grounds, params, radius, run));
+  if (planned.levels > kMostLevels) {  // apart; together they may need fewer
+    grounds = LevelGrounds(std::move(ground));
+    PM_ASSIGN_OR_RETURN(planned, PlanFamilies(grounds, params, radius, run));
+  }
+  if (planned.levels > kMostLevels) {
     return absl::ResourceExhaustedError(
         fmt::format("contours would need {} levels, more than {}: raise the scallop or the tool's radius",
-                    levels.size(), kMostLevels));
+                    planned.levels, kMostLevels));
   }
+  const std::vector<LevelFamily>& families = planned.families;
+  std::vector<FamilyLevel> levels;
+  int line = 0;
+  for (std::size_t k = 0; k < families.size(); ++k) {
+    for (std::size_t i = 0; i < families[k].levels.size(); ++i) levels.push_back({k, i, line++});
+    line += kBetweenFamilies;
+  }
+  const PassTracer tracer(context, grounds, planned, params, run);
   std::vector<LevelPasses> passes(levels.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, "contours", levels.size(), [&](std::size_t i) {
-    passes[i] = PassesAt(context, levels[i], ground.spacing, params, run);
-  }));
+  PM_RETURN_IF_ERROR(
+      ParallelFor(run, "contours", levels.size(), [&](std::size_t i) { passes[i] = tracer.At(levels[i]); }));
   PM_RETURN_IF_ERROR(run.Check());
   ContourResult result;
-  for (std::size_t i = 0; i < passes.size(); ++i) {
-    for (CutterPath& path : passes[i].paths) {
-      path.line = static_cast<int>(i);
-      result.paths.push_back(std::move(path));
-    }
-    for (Diagnostic& finding : passes[i].findings) result.findings.push_back(std::move(finding));
+  for (LevelPasses& of : passes) {
+    for (CutterPath& path : of.paths) result.paths.push_back(std::move(path));
+    for (Diagnostic& finding : of.findings) result.findings.push_back(std::move(finding));
   }
   return result;
 }

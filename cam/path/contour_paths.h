@@ -34,18 +34,19 @@ LevelContours TraceLevel(const Locator& locator, double z, const ContourParams& 
                          const RunContext& run);
 
 struct ContourResult {
-  // Clipped to what is a pass (see below); `line` is the level's index, 0 highest.
+  // Clipped to what is a pass (see below); `line` counts the levels from the highest down, those of one
+  // ground (level_grounds.h), or of several with the same heights, after those of another.
   std::vector<CutterPath> paths;
   // By level: CONTOUR_AMBIGUOUS with how many cells were left undecided, their size and a place (info);
   // CONTOUR_COARSE with the resolution held in place of the one asked for (warning).
   Diagnostics findings;
 };
-// Levels spaced so that dz = CenterStep sin(slope) holds on all contacts in the window, partial levels where
-// only a spot needs them, one level exactly at each flat, silhouette bottom and lower end. A part of a loop
-// is a pass where its contact lies in the slope window (dilated by half a step along the loop), has z <= c,
-// and is interior or lies on an edge or vertex with (c - p)/R inside the normal cone there; all else is
-// clipped with the clip points solved (ALGORITHMS 3, "which part of the zero set is a pass"). Every centre is
-// certified (CertifyCenters).
+// Each ground has levels of its own. They are spaced so that dz = CenterStep sin(slope) holds on all contacts
+// in the window, partial levels where only a spot needs them, one level exactly at each flat, silhouette
+// bottom and lower end. A part of a loop is a pass where its contact lies in the slope window (dilated by
+// half a step along the loop), has z <= c, and is interior or lies on an edge or vertex with (c - p)/R inside
+// the normal cone there; all else is clipped with the clip points solved (ALGORITHMS 3, "which part of the
+// zero set is a pass"). Every centre is certified (CertifyCenters).
 absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const ContourParams& params,
                                            const RunContext& run);
 

@@ -15,6 +15,8 @@ namespace {
 constexpr double kMostSamples = 120000.0;  // about, of a whole surface
 constexpr int kMostNodes = 256;            // grid steps of a piece, each way
 constexpr double kSlopePerStep = 0.3;      // rad
+constexpr std::size_t kNone = ~std::size_t{0};
+constexpr double kAtLimit = 1e-6;  // rad: the window is so much wider
 // mm: a sample's ball may be in the ground by this and still count as free.
 constexpr double kFreeSlack = 1e-7;
 // mm: how exactly lower ends are found before they are compared, and after.
@@ -22,12 +24,16 @@ constexpr double kRoughEnd = 2e-3, kExactEnd = 1e-8;
 
 struct Node {
   Vec3 p = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();  // to the side of the ball
+  double turn = 1.0;            // 1 where that is the side of du x dv, else -1
   Vec3 center = Vec3::Zero();
   double slope = 0.0;
   double step = 0.0;
   bool regular = false;    // has a normal
   bool steep = false;      // slope in the window
   bool reachable = false;  // and the ball is free
+  // On the other side of upright ground, where the ball is free too: the step there; else 0.
+  double other_step = 0.0;
 };
 
 // Least number of grid steps on a piece, from how its leaves bend: small round features must not fall between
@@ -56,7 +62,7 @@ class PieceSampler {
                const Fineness& fineness)
       : context_(context), params_(params), piece_(piece), spacing_(spacing), fineness_(fineness) {}
 
-  void Run(const RunContext& run, std::vector<ContourSample>& samples, std::vector<LowerEnd>& ends) {
+  void Run(const RunContext& run, ContourGround& ground) {
     const auto count = [&](bool along_u) {
       double longest = 0.0;
       for (const double other : {0.0, 0.5, 1.0}) {
@@ -79,47 +85,80 @@ class PieceSampler {
       if (run.Cancelled()) return;
       for (int j = 0; j <= nv; ++j) nodes[index(i, j)] = MakeNode(Vec2(double(i) / nu, double(j) / nv));
     }
+    std::vector<std::size_t> sample(nodes.size(), kNone);
     for (int i = 0; i <= nu; ++i) {
       for (int j = 0; j <= nv; ++j) {
         const Node& n = nodes[index(i, j)];
-        double up = 0.0, down = 0.0;
-        double top = 0.0, bottom = 0.0;                // the same beyond the window
-        Vec3 along[2] = {Vec3::Zero(), Vec3::Zero()};  // half way to the neighbours, from side to side
+        if (!n.reachable) continue;
         const Vec2 uv(double(i) / nu, double(j) / nv);
+        // On its side of the ground, and on the other.
+        Extent here, beyond;
         for (const auto& [di, dj] : {std::pair{1, 0}, std::pair{0, 1}, std::pair{-1, 0}, std::pair{0, -1}}) {
           if (i + di < 0 || i + di > nu || j + dj < 0 || j + dj > nv) {
-            if (n.reachable) BorderEnd(n, i, j, di, dj, nu, nv, ends);
+            BorderEnd(n, i, j, di, dj, nu, nv, ground.lower_ends);
             continue;
           }
           const Node& m = nodes[index(i + di, j + dj)];
-          if (!n.reachable) continue;
           if (!m.regular) continue;
-          along[dj != 0] += 0.5 * (di + dj) * (m.center - n.center);
-          double rise = m.center.z() - n.center.z();
-          top = std::max(top, 0.5 * rise);
-          bottom = std::max(bottom, -0.5 * rise);
-          if (!m.steep) {  // up to where the slope leaves the window
-            const double limit = m.slope < n.slope ? params_.window.min : params_.window.max;
-            rise *= 2.0 * std::clamp((n.slope - limit) / (n.slope - m.slope), 0.0, 1.0);
-          }
-          up = std::max(up, 0.5 * rise);
-          down = std::max(down, -0.5 * rise);
+          const double rise = Add(n, m, 1.0, di, dj, here);
+          if (n.other_step > 0.0) Add(n, m, -1.0, di, dj, beyond);
           if (m.steep && !m.reachable && rise < 0.0)
-            ends_.push_back({uv, Vec2(double(i + di) / nu, double(j + dj) / nv), n.center.z(), m.center.z()});
+            ends_.push_back({uv, Vec2(double(i + di) / nu, double(j + dj) / nv), n.center, m.center.z()});
+          if (m.reachable && di + dj < 0) {  // m has its sample already
+            ground.neighbors.emplace_back(sample[index(i + di, j + dj)], ground.samples.size());
+            ground.widest = std::max(ground.widest, (m.p - n.p).norm());
+          }
         }
-        const double most = 2.0 * spacing_;
-        // Levels through a stretch of ground are as long together as it is large, times the sine of its
-        // slope.
-        const double size = along[0].cross(along[1]).norm() * std::sin(n.slope);
-        const double width = top + bottom > 0.0 ? size / (top + bottom) : 0.0;
-        if (n.reachable)
-          samples.push_back({n.center, std::min(up, most), std::min(down, most), n.step, width});
+        sample[index(i, j)] = ground.samples.size();
+        ground.samples.push_back(SampleOf(n, here, n.center, n.step));
+        if (n.other_step > 0.0) {
+          ground.neighbors.emplace_back(ground.samples.size() - 1, ground.samples.size());
+          const Vec3 center = n.p - context_.locator.radius() * n.normal;
+          ground.samples.push_back(SampleOf(n, beyond, center, n.other_step));
+        }
       }
     }
-    SolveEnds(run, ends);
+    SolveEnds(run, ground.lower_ends);
   }
 
  private:
+  // How far the ground goes on around a node, half way to its neighbours.
+  struct Extent {
+    double up = 0.0, down = 0.0;
+    double top = 0.0, bottom = 0.0;                // the same beyond the window
+    Vec3 along[2] = {Vec3::Zero(), Vec3::Zero()};  // of centres, from side to side
+  };
+
+  // With the ball on the node's side, or on the other (`side` -1). By how much m is higher.
+  double Add(const Node& n, const Node& m, double side, int di, int dj, Extent& extent) const {
+    const double radius = context_.locator.radius();
+    // The ball stays on its side of the ground, which may fall back under it.
+    const Vec3 normal_n = side * n.normal, normal_m = side * n.turn * m.turn * m.normal;
+    const Vec3 way = (m.p + radius * normal_m) - (n.p + radius * normal_n);
+    const double slope = normal_m.z() < 0.0 ? kPi - m.slope : m.slope;
+    extent.along[dj != 0] += 0.5 * (di + dj) * way;
+    double rise = way.z();
+    extent.top = std::max(extent.top, 0.5 * rise);
+    extent.bottom = std::max(extent.bottom, -0.5 * rise);
+    if (slope < params_.window.min || slope > params_.window.max + kAtLimit) {
+      // Up to where the slope leaves the window.
+      const double limit = slope < n.slope ? params_.window.min : params_.window.max;
+      rise *= 2.0 * std::clamp((n.slope - limit) / (n.slope - slope), 0.0, 1.0);
+    }
+    extent.up = std::max(extent.up, 0.5 * rise);
+    extent.down = std::max(extent.down, -0.5 * rise);
+    return way.z();
+  }
+
+  ContourSample SampleOf(const Node& n, const Extent& extent, const Vec3& center, double step) const {
+    const double most = 2.0 * spacing_;
+    // Levels through a stretch of ground are as long together as it is large, times the sine of its slope.
+    const double size = extent.along[0].cross(extent.along[1]).norm() * std::sin(n.slope);
+    const double high = extent.top + extent.bottom;
+    return {center, std::min(extent.up, most),      std::min(extent.down, most),
+            step,   high > 0.0 ? size / high : 0.0, n.p};
+  }
+
   Vec3 At(double t, double other, bool along_u) const {
     return along_u ? Position(context_.locator.surface().piece(piece_), t, other)
                    : Position(context_.locator.surface().piece(piece_), other, t);
@@ -134,46 +173,55 @@ class PieceSampler {
     Node node;
     const SurfaceJet jet = Evaluate(context_.locator.surface(), piece_, uv.x(), uv.y());
     node.p = jet.p;
-    std::optional<Vec3> n = UpwardNormal(jet);
+    const std::optional<Vec3> n = UpwardNormal(jet);
     if (!n) return node;
     node.slope = std::atan2(std::hypot(n->x(), n->y()), n->z());
     const double radius = context_.locator.radius();
+    node.normal = *n;
+    node.turn = n->dot(jet.du.cross(jet.dv)) < 0.0 ? -1.0 : 1.0;
     node.center = jet.p + radius * *n;
     node.regular = true;
-    if (node.slope < params_.window.min || node.slope > params_.window.max + 1e-6) return node;
+    if (node.slope < params_.window.min || node.slope > params_.window.max + kAtLimit) return node;
     node.steep = true;
     node.reachable = Free(node.center);
-    if (!node.reachable && n->z() < 1e-6) {  // a vertical wall has two sides
-      const Vec3 other = jet.p - radius * *n;
-      if (Free(other)) {
-        node.center = other;
-        node.reachable = true;
-        n = -*n;
-      }
+    // An upright wall has two sides.
+    const bool beyond = n->z() < 1e-6 && Free(jet.p - radius * *n);
+    if (!node.reachable && beyond) {
+      node.normal = -*n;
+      node.turn = -node.turn;
+      node.center = jet.p - radius * *n;
     }
-    if (!node.reachable) return node;
     // Across the feed: the steepest direction.
-    Vec3 steepest = Vec3::UnitZ() - n->z() * *n;
-    if (steepest.norm() < 1e-9) steepest = jet.du;
-    const double kappa = NormalCurvature(Forms(jet, *n), jet, steepest);
-    node.step =
-        CenterStep(radius, params_.scallop, std::isfinite(kappa) ? kappa : 0.0) * std::sin(node.slope);
+    const auto step = [&](const Vec3& e) {
+      Vec3 steepest = Vec3::UnitZ() - e.z() * e;
+      if (steepest.norm() < 1e-9) steepest = jet.du;
+      const double kappa = NormalCurvature(Forms(jet, e), jet, steepest);
+      return CenterStep(radius, params_.scallop, std::isfinite(kappa) ? kappa : 0.0) * std::sin(node.slope);
+    };
+    if (node.reachable && beyond) node.other_step = step(-node.normal);
+    node.reachable = node.reachable || beyond;
+    if (node.reachable) node.step = step(node.normal);
     return node;
   }
 
   // A grid edge from a reachable node down to one that is not.
   struct EndEdge {
     Vec2 good, bad;
-    double good_z = 0.0, bad_z = 0.0;
+    Vec3 good_center;
+    double bad_z = 0.0;
   };
 
   // Where along the edge the ball stops being free, until the height is known to `place` (mm).
   void Solve(EndEdge& edge, double place) const {
-    for (int k = 0; k < 40 && std::abs(edge.good_z - edge.bad_z) > place; ++k) {
+    for (int k = 0; k < 40 && std::abs(edge.good_center.z() - edge.bad_z) > place; ++k) {
       const Vec2 middle = 0.5 * (edge.good + edge.bad);
       const Node node = MakeNode(middle);
       (node.reachable ? edge.good : edge.bad) = middle;
-      if (node.steep) (node.reachable ? edge.good_z : edge.bad_z) = node.center.z();
+      if (node.reachable) {
+        edge.good_center = node.center;
+      } else if (node.steep) {
+        edge.bad_z = node.center.z();
+      }
     }
   }
 
@@ -184,15 +232,15 @@ class PieceSampler {
       Solve(edge, kRoughEnd);
     }
     std::vector<double> rough;
-    for (const EndEdge& edge : ends_) rough.push_back(edge.good_z);
+    for (const EndEdge& edge : ends_) rough.push_back(edge.good_center.z());
     std::sort(rough.begin(), rough.end());
     for (EndEdge& edge : ends_) {
       if (run.Cancelled()) return;
-      const auto from = std::lower_bound(rough.begin(), rough.end(), edge.good_z - kRoughEnd);
-      const auto to = std::upper_bound(rough.begin(), rough.end(), edge.good_z + kRoughEnd);
+      const auto from = std::lower_bound(rough.begin(), rough.end(), edge.good_center.z() - kRoughEnd);
+      const auto to = std::upper_bound(rough.begin(), rough.end(), edge.good_center.z() + kRoughEnd);
       if (to - from < 2) continue;
       Solve(edge, kExactEnd);
-      ends.push_back({edge.good_z, spacing_});
+      ends.push_back({edge.good_center, spacing_});
     }
   }
 
@@ -203,7 +251,7 @@ class PieceSampler {
     if (context_.sides.At(piece_, side).kind != SideKind::kOpen) return;
     const double t = side % 2 == 0 ? double(i) / nu : double(j) / nv;
     const std::optional<Vec3> out = OutwardTangent(context_.locator.surface(), piece_, side, t);
-    if (out && out->z() < -1e-3) ends.push_back({n.center.z(), spacing_});
+    if (out && out->z() < -1e-3) ends.push_back({n.center, spacing_});
   }
 
   const LevelContext& context_;
@@ -226,10 +274,12 @@ absl::StatusOr<ContourGround> SampleGround(const LevelContext& context, const Co
   std::vector<ContourGround> parts(surface.pieces.size());
   const std::vector<Fineness> fineness = BendOfPieces(context);
   PM_RETURN_IF_ERROR(ParallelFor(run, "contours: ground", parts.size(), [&](std::size_t i) {
-    PieceSampler(context, params, PieceId(i), ground.spacing, fineness[i])
-        .Run(run, parts[i].samples, parts[i].lower_ends);
+    PieceSampler(context, params, PieceId(i), ground.spacing, fineness[i]).Run(run, parts[i]);
   }));
   for (ContourGround& part : parts) {
+    const std::size_t before = ground.samples.size();
+    for (const auto& [a, b] : part.neighbors) ground.neighbors.emplace_back(before + a, before + b);
+    ground.widest = std::max(ground.widest, part.widest);
     ground.samples.insert(ground.samples.end(), part.samples.begin(), part.samples.end());
     ground.lower_ends.insert(ground.lower_ends.end(), part.lower_ends.begin(), part.lower_ends.end());
   }

@@ -24,7 +24,7 @@ std::uint64_t Mix(std::uint64_t k) {
 class Search {
  public:
   Search(LevelItems& items, const LevelOracle& oracle, const LevelCellLimits& limits, const RunContext& run,
-         const SlopeWindow* wanted, LevelCells& out)
+         const WantedLevel* wanted, LevelCells& out)
       : items_(items), oracle_(oracle), limits_(limits), run_(run), wanted_(wanted), out_(out) {}
 
   void Root() {
@@ -63,13 +63,14 @@ class Search {
     }
     const LevelCell here{.x = x, .y = y, .side = side};
     const PlanCell cell = PlanOf(out_.grid, here);
+    if (wanted_ != nullptr && wanted_->where != nullptr && !wanted_->where->Meets(cell)) return;
     const double width = side * out_.grid.unit;
     std::vector<std::int32_t>& mine = pool_[depth + 1];
     mine.clear();
     items_.Collect(pool_[depth], cell, width, mine);
     if (mine.empty()) return;
     if (wanted_ != nullptr && std::none_of(mine.begin(), mine.end(), [this](std::int32_t item) {
-          return items_.Wanted(item, *wanted_);
+          return items_.Wanted(item, wanted_->window);
         })) {
       return;
     }
@@ -113,7 +114,7 @@ class Search {
   const LevelOracle& oracle_;
   const LevelCellLimits& limits_;
   const RunContext& run_;
-  const SlopeWindow* wanted_;
+  const WantedLevel* wanted_;
   LevelCells& out_;
   std::vector<std::vector<std::int32_t>> pool_;  // candidates by depth
   std::optional<SurfacePoint> hint_;
@@ -165,7 +166,7 @@ PlanCell PlanOf(const LevelGrid& grid, const LevelCell& cell) {
 }
 
 LevelCells FindCells(LevelItems& items, const Surface& surface, const LevelOracle& oracle,
-                     const LevelCellLimits& limits, const RunContext& run, const SlopeWindow* wanted) {
+                     const LevelCellLimits& limits, const RunContext& run, const WantedLevel* wanted) {
   LevelCells out;
   const Box3& box = surface.box;
   out.grid.unit = limits.smallest;

@@ -6,6 +6,7 @@
 
 #include "cam/path/level_items.h"
 #include "cam/path/level_oracle.h"
+#include "cam/path/plan_mask.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
@@ -63,13 +64,19 @@ struct LevelCellLimits {
   int max_cells = 1'000'000;  // looked at, five for each that is kept: 150 m of contour at R = 3 mm
 };
 
+// What of a level is looked at.
+struct WantedLevel {
+  SlopeWindow window;
+  const PlanMask* where = nullptr;  // null: everywhere
+};
+
 // The quadtree over the plan box of the surface widened by R. Every loop or hole of the level that is not in
 // the cells returned is smaller than `smallest`. Polls run.Cancelled().
-// With `wanted`, cells whose every contact is outside of that slope window, or on the shank, are left out
-// too: the contour then comes in pieces that end at such cells.
+// With `wanted`, cells elsewhere and those whose every contact is outside of that slope window, or on the
+// shank, are left out too: the contour then comes in pieces that end at such cells.
 LevelCells FindCells(LevelItems& items, const Surface& surface, const LevelOracle& oracle,
                      const LevelCellLimits& limits, const RunContext& run,
-                     const SlopeWindow* wanted = nullptr);
+                     const WantedLevel* wanted = nullptr);
 
 PlanCell PlanOf(const LevelGrid& grid, const LevelCell& cell);
 

@@ -45,14 +45,16 @@ struct Bins {
 
 // Heights at which lower ends gather: at least a ball radius of border at one height.
 std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius, double nearest) {
-  std::sort(ends.begin(), ends.end(), [](const LowerEnd& a, const LowerEnd& b) { return a.z < b.z; });
+  std::sort(ends.begin(), ends.end(),
+            [](const LowerEnd& a, const LowerEnd& b) { return a.center.z() < b.center.z(); });
   std::vector<double> heights;
   for (std::size_t i = 0; i < ends.size();) {
     std::size_t k = i;
     double length = 0.0;
-    while (k < ends.size() && ends[k].z - ends[i].z <= kSameHeight) length += ends[k++].length;
+    while (k < ends.size() && ends[k].center.z() - ends[i].center.z() <= kSameHeight)
+      length += ends[k++].length;
     if (length >= radius) {
-      heights.push_back(ends[k - 1].z + kAboveFlat);
+      heights.push_back(ends[k - 1].center.z() + kAboveFlat);
       i = k;
     } else {
       ++i;

@@ -23,7 +23,7 @@ double SignedArea(const std::vector<LevelPoint>& loop) {
 }
 
 LevelContours Trace(const LevelContext& context, double z, const ContourParams& params,
-                    const SlopeWindow* wanted, const RunContext& run) {
+                    const WantedLevel* wanted, const RunContext& run) {
   LevelContours level;
   level.z = z;
   LevelCellLimits limits;
@@ -81,11 +81,11 @@ LevelContours TraceLevel(const LevelContext& context, double z, const ContourPar
   return Trace(context, z, params, nullptr, run);
 }
 
-LevelContours TracePasses(const LevelContext& context, double z, const ContourParams& params,
-                          const RunContext& run) {
-  SlopeWindow wanted = params.window;
-  wanted.min -= kWindowMargin;
-  wanted.max += kWindowMargin;
+LevelContours TracePasses(const LevelContext& context, double z, const PlanMask* where,
+                          const ContourParams& params, const RunContext& run) {
+  WantedLevel wanted{params.window, where};
+  wanted.window.min -= kWindowMargin;
+  wanted.window.max += kWindowMargin;
   return Trace(context, z, params, &wanted, run);
 }
 

@@ -3,6 +3,7 @@
 
 #include "cam/path/contour_paths.h"
 #include "cam/path/level_items.h"
+#include "cam/path/plan_mask.h"
 
 namespace patchmill {
 
@@ -26,9 +27,9 @@ struct LevelContext {
 LevelContours TraceLevel(const LevelContext& context, double z, const ContourParams& params,
                          const RunContext& run);
 
-// The same, without the stretches whose contacts are all on the shank or far outside of params.window: loops
-// that lose some come as open paths.
-LevelContours TracePasses(const LevelContext& context, double z, const ContourParams& params,
-                          const RunContext& run);
+// The same, without the stretches elsewhere (`where` null: nowhere) or whose contacts are all on the shank or
+// far outside of params.window: loops that lose some come as open paths.
+LevelContours TracePasses(const LevelContext& context, double z, const PlanMask* where,
+                          const ContourParams& params, const RunContext& run);
 
 }  // namespace patchmill

@@ -66,6 +66,26 @@ def bosses():
     return part
 
 
+# Depth or height, mm, and draft of the walls, degrees.
+DRAFTS = [(6, 5), (9.3, 20), (4.1, 30), (4.7, 0), (8, 10), (6.4, 40), (7.7, 15), (5.3, 25), (9, 3)]
+
+
+def pockets():
+    part = Part()
+    for k, (deep, draft) in enumerate(DRAFTS):
+        floor = 11 - deep * math.tan(math.radians(draft))
+        part.turned(line((0, -deep), (floor, -deep), (11, 0), (15, 0)), 32 * (k % 3), 32 * (k // 3))
+    return part
+
+
+def frusta():
+    part = Part()
+    for k, (high, draft) in enumerate(DRAFTS):
+        foot = 4 + high * math.tan(math.radians(draft))
+        part.turned(line((0, high), (4, high), (foot, 0), (17, 0)), 36 * (k % 3), 36 * (k // 3))
+    return part
+
+
 PARTS = {
     "hole": lambda: Part().turned(line((0, 0), (3, 0), (3, 10), (20, 10))),
     "bowl": lambda: Part().turned(quarter((0, 0), (3, 0), (3, 3)) + line((3, 3), (15, 3))),
@@ -82,6 +102,8 @@ PARTS = {
     "stepped_hole": lambda: Part().turned(line((0, 0), (4, 0), (4, 5), (8, 5), (8, 10), (12, 10), (12, 15), (20, 15))),
     "needle": lambda: Part().turned(line((0, 15), (0.01, 0), (15, 0))),
     "bosses": bosses,
+    "pockets": pockets,  # nine, no two of the same depth and draft
+    "frusta": frusta,    # the same upside down
 }
 
 if __name__ == "__main__":

@@ -75,8 +75,8 @@ TEST(LevelHeights, AreNotTooWideThroughout) {
 TEST(LevelHeights, LieAtCommonLowerEnds) {
   ContourGround ground;
   AddWall(0.0, 40.0, 0.0, 6.05, 0.5, 0.0, ground);
-  ground.lower_ends.push_back({0.0, 40.0});
-  ground.lower_ends.push_back({3.0, 40.0});
+  ground.lower_ends.push_back({Vec3(0, 0, 0), 40.0});
+  ground.lower_ends.push_back({Vec3(0, 0, 3), 40.0});
   const std::vector<double> heights = HeightsOf(ground);
   for (const double end : {0.0, 3.0}) {
     EXPECT_TRUE(std::any_of(heights.begin(), heights.end(), [&](double z) {

@@ -1,0 +1,217 @@
+// Ground that hangs together has contours of its own, the same that it would have alone.
+#include "cam/path/level_grounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cam/path/contour_paths.h"
+#include "tests/support/joined_surface.h"
+#include "tests/support/profiles.h"
+#include "tests/support/shapes.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+constexpr double kSpacing = 0.5, kFlat = 0.5;
+
+// A wall from a to b, `height` high; its ball stands off by `off`.
+void AddWall(const Vec2& a, const Vec2& b, double height, const Vec2& off, ContourGround& ground) {
+  const int along = static_cast<int>(std::ceil((b - a).norm() / kSpacing)),
+            up = static_cast<int>(std::ceil(height / kSpacing));
+  for (int i = 0; i <= along; ++i) {
+    for (int k = 0; k <= up; ++k) {
+      const Vec2 q = a + (b - a) * i / along;
+      const double half = 0.5 * height / (up + 1);
+      ContourSample sample;
+      sample.contact = Lift(q, (2 * k + 1) * half);
+      sample.center = Lift(Vec2(q + off), sample.contact.z());
+      sample.up = sample.down = half;
+      sample.step = kFlat;
+      sample.width = kSpacing;
+      ground.samples.push_back(sample);
+    }
+  }
+  ground.spacing = kSpacing;
+}
+
+LevelGrounds GroundsOf(const ContourGround& ground) {
+  auto grounds = LevelGrounds::Make(ground, 3.0, kFlat, RunContext(1));
+  EXPECT_TRUE(grounds.ok());
+  return *std::move(grounds);
+}
+
+CutterPath PathOf(const std::vector<Vec3>& centers) {
+  CutterPath path;
+  for (const Vec3& center : centers) path.points.push_back({center, std::nullopt, std::nullopt});
+  return path;
+}
+
+TEST(LevelGrounds, WallsAroundACornerAreOne) {
+  ContourGround outer, inner;
+  // Around an outer corner the contacts meet, though the balls stand apart.
+  AddWall({0, 0}, {20, 0}, 10, {0, -3}, outer);
+  AddWall({20, 0}, {20, 20}, 10, {3, 0}, outer);
+  EXPECT_EQ(GroundsOf(outer).size(), 1u);
+  // In a slot hardly wider than the ball the balls meet, though the walls do not.
+  AddWall({0, 0}, {20, 0}, 10, {0, 3}, inner);
+  AddWall({0, 6.5}, {20, 6.5}, 10, {0, -3}, inner);
+  EXPECT_EQ(GroundsOf(inner).size(), 1u);
+}
+
+TEST(LevelGrounds, WallsApartAreTwo) {
+  ContourGround ground;
+  AddWall({0, 0}, {20, 0}, 10, {0, 3}, ground);
+  AddWall({0, 12}, {40, 12}, 7, {0, -3}, ground);
+  ground.lower_ends.push_back({Vec3(5, 3, 0), 1.0});
+  ground.lower_ends.push_back({Vec3(9, 9, 0), 1.0});
+  ground.lower_ends.push_back({Vec3(30, 9, 0), 1.0});
+  const LevelGrounds grounds = GroundsOf(ground);
+  ASSERT_EQ(grounds.size(), 2u);
+  // The larger one first, 280 and 200 mm2; every sample and every end in one of them.
+  EXPECT_EQ(grounds[0].samples.size() + grounds[1].samples.size(), ground.samples.size());
+  EXPECT_EQ(grounds[0].lower_ends.size(), 2u);
+  EXPECT_EQ(grounds[1].lower_ends.size(), 1u);
+  for (const ContourSample& sample : grounds[0].samples) EXPECT_EQ(sample.contact.y(), 12.0);
+  for (const ContourSample& sample : grounds[1].samples) EXPECT_EQ(sample.contact.y(), 0.0);
+  const CutterPath small = PathOf({Vec3(0, 3, 5), Vec3(20, 3, 5), Vec3(20, 9, 5)});
+  EXPECT_EQ(grounds.FamilyUnder(small, std::array<std::size_t, 2>{0, 1}), 1u);
+  EXPECT_EQ(grounds.FamilyUnder(small, std::array<std::size_t, 2>{7, 5}), 5u);
+}
+
+TEST(LevelGrounds, ScrapsGoWithTheLargest) {
+  ContourGround ground;
+  AddWall({0, 0}, {20, 0}, 10, {0, 3}, ground);
+  AddWall({0, 12}, {40, 12}, 1.9 * kFlat, {0, -3}, ground);
+  EXPECT_EQ(GroundsOf(ground).size(), 1u);
+  AddWall({0, 30}, {40, 30}, 2.1 * kFlat, {0, -3}, ground);
+  EXPECT_EQ(GroundsOf(ground).size(), 2u);
+}
+
+// A plate full of dimples: the levels of most are for all of them.
+TEST(LevelGrounds, AreNotMoreThanWhatIsWorthIt) {
+  ContourGround ground;
+  for (int k = 0; k < 300; ++k) {
+    const Vec2 from(20.0 * (k % 20), 20.0 * (k / 20.0));
+    AddWall(from, from + Vec2(2.0 + 0.01 * k, 0.0), 4, {0, 3}, ground);
+  }
+  const LevelGrounds grounds = GroundsOf(ground);
+  EXPECT_EQ(grounds.size(), 256u);
+  std::size_t all = 0;
+  for (std::size_t k = 0; k < grounds.size(); ++k) all += grounds[k].samples.size();
+  EXPECT_EQ(all, ground.samples.size());
+  EXPECT_GT(grounds[0].samples.size(), 44 * grounds[255].samples.size());
+}
+
+TEST(LevelGrounds, OfNoGround) { EXPECT_EQ(GroundsOf({}).size(), 0u); }
+
+PatchModel Quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  BezierPatch patch;
+  patch.degree_u = patch.degree_v = 1;
+  patch.points = {a, d, b, c};
+  return Single(std::move(patch));
+}
+
+// Samples of a patch much longer than the ball lie farther apart than elsewhere.
+TEST(LevelGrounds, ALongPatchIsOne) {
+  const double radius = 0.5;
+  const Surface surface = JoinedSurface(Quad({0, 0, 0}, {200, 0, 0}, {200, 0.7, 14}, {0, 0.5, 10}));
+  const Locator locator(surface, radius);
+  ContourParams params;
+  params.scallop = 0.01;
+  params.window.min = Radians(45.0);
+  const auto ground = SampleGround(LevelContext(locator, RunContext(1)), params, RunContext(1));
+  ASSERT_TRUE(ground.ok());
+  const auto grounds = LevelGrounds::Make(*ground, radius, 0.2, RunContext(1));
+  ASSERT_TRUE(grounds.ok());
+  EXPECT_EQ(grounds->size(), 1u);
+}
+
+// An upright sheet has contours on both sides, whichever is called the upper one, and whatever stands beside.
+TEST(LevelGrounds, BothSidesOfASheet) {
+  const double radius = 3.0;
+  for (const bool turned : {false, true}) {
+    const PatchModel sheet = turned ? Quad({0, 0, 12}, {60, 0, 12}, {60, 0, 0}, {0, 0, 0})
+                                    : Quad({0, 0, 0}, {60, 0, 0}, {60, 0, 12}, {0, 0, 12});
+    for (const double beside : {9.0, -9.0}) {
+      const Surface surface = JoinedSurface(
+          Join({sheet, Quad({0, beside, 0}, {60, beside, 0}, {60, beside, 5}, {0, beside, 5}),
+                Quad({0, beside, 5}, {60, beside, 5}, {60, 3 * beside, 5}, {0, 3 * beside, 5})}));
+      const Locator locator(surface, radius);
+      ContourParams params;
+      params.scallop = 0.01;
+      params.window.min = Radians(45.0);
+      params.floor_z = 0.0;
+      const auto result = ContourPaths(locator, params, RunContext(1));
+      ASSERT_TRUE(result.ok());
+      double length[2] = {0.0, 0.0};
+      for (const CutterPath& path : result->paths) {
+        for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+          const Vec3 &a = path.points[i].center, &b = path.points[i + 1].center;
+          if (std::abs(std::abs(a.y()) - radius) > 1e-6 || std::abs(b.y() - a.y()) > 1e-6) continue;
+          length[a.y() > 0.0] += (b - a).norm();
+        }
+      }
+      EXPECT_GT(length[0], 18 * 55.0);
+      EXPECT_NEAR(length[1], length[0], 1e-3 * length[0]) << turned << " " << beside;
+    }
+  }
+}
+
+// Heights and length of what runs over one part of a surface.
+struct Contours {
+  std::vector<double> heights;
+  double length = 0.0;
+};
+
+Contours ContoursOf(const PatchModel& model, double from_x, double to_x) {
+  const Surface surface = JoinedSurface(model);
+  const Locator locator(surface, 3.0);
+  ContourParams params;
+  params.scallop = 0.01;
+  params.window.min = Radians(45.0);
+  params.floor_z = 0.0;
+  const auto result = ContourPaths(locator, params, RunContext(2));
+  EXPECT_TRUE(result.ok());
+  Contours contours;
+  for (const CutterPath& path : result->paths) {
+    const Vec3& at = path.points.front().center;
+    if (at.x() < from_x || at.x() > to_x) continue;
+    contours.heights.push_back(at.z());
+    contours.length += Length(path);
+  }
+  std::sort(contours.heights.begin(), contours.heights.end());
+  return contours;
+}
+
+// Three bosses whose walls want different steps and whose tops and feet lie at different heights: each is cut
+// as if it stood alone.
+TEST(LevelGrounds, BossesAreCutAsIfTheyStoodAlone) {
+  const auto boss = [](double x, double foot, double height, double draft) {
+    const double top = 4.0, bottom = top + height * std::tan(draft);
+    return Transformed(Turned({Line({0, foot + height}, {top, foot + height}),
+                               Line({top, foot + height}, {bottom, foot}), Line({bottom, foot}, {12, foot})}),
+                       Eigen::Affine3d(Eigen::Translation3d(x, 0, 0)));
+  };
+  const std::vector<PatchModel> bosses = {boss(0.0, 0.0, 9.3, Radians(3.0)),
+                                          boss(40.0, 1.37, 12.1, Radians(35.0)),
+                                          boss(80.0, 0.71, 6.4, Radians(20.0))};
+  const PatchModel all = Join({bosses[0], bosses[1], bosses[2]});
+  for (std::size_t k = 0; k < bosses.size(); ++k) {
+    const double x = 40.0 * static_cast<double>(k);
+    const Contours alone = ContoursOf(bosses[k], x - 20.0, x + 20.0),
+                   together = ContoursOf(all, x - 20.0, x + 20.0);
+    ASSERT_GT(alone.heights.size(), 10u);
+    ASSERT_EQ(together.heights.size(), alone.heights.size()) << k;
+    for (std::size_t i = 0; i < alone.heights.size(); ++i)
+      EXPECT_NEAR(together.heights[i], alone.heights[i], 1e-9) << k;
+    EXPECT_NEAR(together.length, alone.length, 1e-3 * alone.length) << k;
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
