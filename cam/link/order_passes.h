@@ -30,7 +30,8 @@ struct OrderParams {
 // `travel` shows to be on the way (ShortenOrder); open contours that end where others of about their height
 // begin, as on the two walls of a slot, go with these, whatever ground they are on. Zig-zag lines follow each
 // other to and fro; everything else goes to the nearest end. Closed passes are turned so that they start
-// nearest to where the tool is. Deterministic. Cost O(n^2) in the passes of one part. CANCELLED or
+// nearest to where the tool is. Deterministic. Cost O(n^2) in the passes of one part, and
+// in open contours within a ball radius of one height. CANCELLED or
 // DEADLINE_EXCEEDED when `run` says so.
 absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
                                                     const OrderParams& params, const RunContext& run);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/path/cell_reach.h"
 #include "cam/path/chord_thinning.h"
 #include "cam/path/spacing.h"
 #include "core/base/parallel.h"
@@ -185,7 +186,7 @@ class PieceSampler {
     node.steep = true;
     node.reachable = Free(node.center);
     // An upright wall has two sides.
-    const bool beyond = n->z() < 1e-6 && Free(jet.p - radius * *n);
+    const bool beyond = n->z() <= kUprightFace && Free(jet.p - radius * *n);
     if (!node.reachable && beyond) {
       node.normal = -*n;
       node.turn = -node.turn;

@@ -72,8 +72,8 @@ struct WantedLevel {
 
 // The quadtree over the plan box of the surface widened by R. Every loop or hole of the level that is not in
 // the cells returned is smaller than `smallest`. Polls run.Cancelled().
-// With `wanted`, cells elsewhere and those whose every contact is outside of that slope window, or on the
-// shank, are left out too: the contour then comes in pieces that end at such cells.
+// With `wanted`, cells outside of its places and those whose every contact is outside of that slope window,
+// or on the shank, are left out too: the contour then comes in pieces that end at such cells.
 LevelCells FindCells(LevelItems& items, const Surface& surface, const LevelOracle& oracle,
                      const LevelCellLimits& limits, const RunContext& run,
                      const WantedLevel* wanted = nullptr);

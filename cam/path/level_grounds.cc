@@ -34,17 +34,16 @@ absl::StatusOr<LevelGrounds> LevelGrounds::Make(const ContourGround& ground, dou
   if (count == 0) return made;
   const double reach =
       std::max(kReachOfSpacing * ground.spacing, std::min(ground.widest, kMostReach * radius));
-  made.centers_ = SampleCells(PointsOf(ground, &ContourSample::center), reach);
+  made.centers_ = PointCells(PointsOf(ground, &ContourSample::center), reach);
   PM_RETURN_IF_ERROR(run.Check());
   UnionFind sets(count);
   for (const auto& [a, b] : ground.neighbors) sets.Join(a, b);
   made.centers_.JoinNear(sets, run);
   PM_RETURN_IF_ERROR(run.Check());
-  SampleCells(PointsOf(ground, &ContourSample::contact), reach).JoinNear(sets, run);
+  PointCells(PointsOf(ground, &ContourSample::contact), reach).JoinNear(sets, run);
   PM_RETURN_IF_ERROR(run.Check());
 
   struct Set {
-    std::size_t first = 0;
     double low = kInfinity, high = -kInfinity;
     double area = 0.0;  // mm2
     std::size_t number = 0;
@@ -58,10 +57,7 @@ absl::StatusOr<LevelGrounds> LevelGrounds::Make(const ContourGround& ground, dou
     set.area += sample.width * (sample.up + sample.down);
   }
   std::vector<Set*> order;
-  for (auto& [first, set] : found) {
-    set.first = first;
-    order.push_back(&set);
-  }
+  for (auto& [first, set] : found) order.push_back(&set);
   std::stable_sort(order.begin(), order.end(), [](const Set* a, const Set* b) { return a->area > b->area; });
   for (Set* set : order) {
     const bool scrap = set != order.front() &&

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cam/path/contour_samples.h"
-#include "cam/path/sample_cells.h"
+#include "cam/path/point_cells.h"
 #include "cam/toolpath/cutter_path.h"
 
 namespace patchmill {
@@ -35,7 +35,7 @@ class LevelGrounds {
   LevelGrounds() = default;
   std::vector<ContourGround> grounds_;
   std::vector<std::size_t> of_sample_;  // as the cells know them
-  SampleCells centers_;
+  PointCells centers_;
 };
 
 }  // namespace patchmill

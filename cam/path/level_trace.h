@@ -27,8 +27,8 @@ struct LevelContext {
 LevelContours TraceLevel(const LevelContext& context, double z, const ContourParams& params,
                          const RunContext& run);
 
-// The same, without the stretches elsewhere (`where` null: nowhere) or whose contacts are all on the shank or
-// far outside of params.window: loops that lose some come as open paths.
+// The same, without the stretches outside of `where` (null: none is) or whose contacts are all on the shank
+// or far outside of params.window: loops that lose some come as open paths.
 LevelContours TracePasses(const LevelContext& context, double z, const PlanMask* where,
                           const ContourParams& params, const RunContext& run);
 

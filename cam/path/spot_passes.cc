@@ -9,9 +9,9 @@
 #include "cam/path/chord_thinning.h"
 #include "cam/path/crease_trace.h"
 #include "cam/path/level_trace.h"
+#include "cam/path/point_cells.h"
 #include "cam/path/scan_line.h"
 #include "cam/path/spacing.h"
-#include "cam/path/spot_grid.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -21,6 +21,13 @@ namespace {
 constexpr double kGive = 0.1;
 constexpr double kSamePlace = 1e-6;             // mm
 const double kSteep = std::cos(Radians(60.0));  // walls: scan lines over them would climb at every turn
+
+std::vector<Vec3> CentersOf(const std::vector<LeftoverSpot>& spots) {
+  std::vector<Vec3> centers;
+  centers.reserve(spots.size());
+  for (const LeftoverSpot& spot : spots) centers.push_back(spot.center);
+  return centers;
+}
 
 class Mender {
  public:
@@ -33,7 +40,7 @@ class Mender {
         radius_(locator.radius()),
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
         border_(locator.surface(), params.roll),
-        grid_(spots, flat_),
+        cells_(CentersOf(spots), flat_),
         open_(spots.size(), true),
         give_(kGive * params.chord_tolerance),
         asked_(spots.size(), false),
@@ -67,7 +74,7 @@ class Mender {
   const double radius_;
   const double flat_;
   const SheetBorder border_;
-  const SpotGrid grid_;
+  const PointCells cells_;       // of the spots' centres
   std::vector<bool> open_;       // not mended yet
   double highest_ = -kInfinity;  // of the spots' centres
   const double give_;
@@ -80,7 +87,7 @@ class Mender {
 
 bool Mender::Needed(const Vec3& c, double reach) const {
   bool needed = false;
-  grid_.Near(c, reach, [&](std::size_t i) { needed |= open_[i]; });
+  cells_.Near(c, reach, [&](std::size_t i) { needed |= open_[i]; });
   return needed;
 }
 
@@ -93,7 +100,7 @@ bool Mender::Add(PassKind kind, std::vector<CutterPoint> points) {
     const Vec3 &a = points[k].center, &b = points[k + 1].center;
     const double length = (b - a).norm();
     // A ball that finishes p stands near p's own centre; that is where to look.
-    grid_.Near(0.5 * (a + b), 0.5 * length + flat_, [&](std::size_t i) {
+    cells_.Near(0.5 * (a + b), 0.5 * length + flat_, [&](std::size_t i) {
       if (open_[i] && SegmentDistance(spots_[i].at.p, a, b) <= limit) {
         open_[i] = false;
         useful = true;
@@ -124,7 +131,7 @@ std::size_t Mender::NextOnRidge(const Vec3& from, const Vec3& heading, bool gent
   const double reach = (gentle ? 6.0 : 1.6) * flat_;
   std::size_t best = spots_.size();
   double best_score = -kInfinity;
-  grid_.Near(from, reach, [&](std::size_t i) {
+  cells_.Near(from, reach, [&](std::size_t i) {
     if (!open_[i] || used[i] || Gentle(i) != gentle) return;
     const Vec3 d = spots_[i].center - from;
     const double length = d.norm();
@@ -166,7 +173,7 @@ std::vector<std::size_t> Mender::Chain(std::size_t i, bool gentle) const {
       used[next] = true;
       // What lies beside the step is served by it.
       const Vec3 to = spots_[next].center;
-      grid_.Near(0.5 * (to + from), 0.5 * (to - from).norm() + 0.4 * flat_, [&](std::size_t k) {
+      cells_.Near(0.5 * (to + from), 0.5 * (to - from).norm() + 0.4 * flat_, [&](std::size_t k) {
         if (SegmentDistance(spots_[k].center, from, to) < 0.4 * flat_) used[k] = true;
       });
       chain.push_back(next);
@@ -305,7 +312,7 @@ void Mender::FromAbove(std::size_t i) {
 bool Mender::LevelIsMissing(std::size_t i) const {
   const Vec3& c = spots_[i].center;
   std::size_t count = 0;
-  grid_.Near(c, 10.0 * flat_, [&](std::size_t k) {
+  cells_.Near(c, 10.0 * flat_, [&](std::size_t k) {
     count += open_[k] && !Gentle(k) && std::abs(spots_[k].center.z() - c.z()) < 0.3 * flat_;
   });
   return count >= 15;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cam/location/free_center.h"
+#include "cam/region/reach.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -15,7 +16,6 @@ namespace {
 constexpr double kHeightGap = 1e-3;   // of R: what heights are proven to
 constexpr double kStill = 1e-3;       // of R: a step this short ends a descent
 constexpr double kWorthwhile = 0.02;  // of the leftover: more than that much deeper is looked for
-constexpr double kUpright = 1e-6;     // z of a normal: the ball may stand on either side
 constexpr int kSteps = 30;
 constexpr int kMisses = 2;
 constexpr int kRing = 16;
@@ -268,7 +268,8 @@ Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, st
     look([&] { return search.Descend(column); });
     const Vec3 normal = normals.empty() ? Vec3(Vec3::Zero()) : normals[i];
     if (normal != Vec3::Zero()) look([&] { return search.Beside(normal, column); });
-    if (normal != Vec3::Zero() && normal.z() < kUpright) look([&] { return search.Beside(-normal, column); });
+    if (normal != Vec3::Zero() && ReachTest::Upright(normal))
+      look([&] { return search.Beside(-normal, column); });
     look([&] { return search.FromAround(column); });
     if (column.distance <= enough) continue;
     deepest = column.distance;

@@ -16,9 +16,13 @@ constexpr double kNear = 0.5;                       // of the radius: around the
 constexpr double kClosest = 0.01, kCloser = 0.4;    // of the radius, and of the last: around the tightest
 constexpr double kLeast = 10.0;                     // tolerances: a smaller ball is let in by these alone
 
+SurfaceJet JetAt(const Surface& surface, const RegionSpot& spot) {
+  return Evaluate(surface.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
+}
+
 // The larger principal curvature, > 0 concave.
 double Bend(const Surface& surface, const RegionSpot& spot) {
-  const SurfaceJet jet = Evaluate(surface.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
+  const SurfaceJet jet = JetAt(surface, spot);
   const auto normal = UpwardNormal(jet);
   return normal ? Principal(Forms(jet, *normal)).k_max : 0.0;
 }
@@ -42,7 +46,7 @@ double BallForAll(const Surface& surface, const std::vector<RegionSpot>& spots, 
   const auto look = [&](const std::vector<RegionSpot>& at) {
     for (const RegionSpot& spot : at) {
       if (run.Cancelled() || radius <= least) return;
-      const SurfaceJet jet = Evaluate(surface.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
+      const SurfaceJet jet = JetAt(surface, spot);
       const auto normal = UpwardNormal(jet);
       if (!normal) continue;
       const double own = LargestFreeRadius(surface, jet.p, *normal, radius, params.tolerance);
@@ -68,7 +72,7 @@ void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, c
   const auto deepest = [&](const std::vector<RegionSpot>& of) {
     std::vector<Vec3> points, normals;
     for (const RegionSpot& spot : of) {
-      const SurfaceJet jet = Evaluate(surface.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
+      const SurfaceJet jet = JetAt(surface, spot);
       points.push_back(jet.p);
       normals.push_back(UpwardNormal(jet).value_or(Vec3::Zero()));
     }

@@ -24,8 +24,6 @@ class RegionSpots {
   RegionSpots(const Surface& surface, const std::vector<SplitMesh>& meshes,
               std::span<const TriangleRef> triangles);
 
-  Vec3 At(const RegionSpot& spot) const;
-
   // About `count` places: three quarters in proportion to area, the others to number, as small triangles lie
   // along borders. At least one.
   std::vector<RegionSpot> Spread(std::size_t count);
@@ -34,6 +32,7 @@ class RegionSpots {
   std::vector<RegionSpot> Around(const RegionSpot& from, double reach, std::size_t count);
 
  private:
+  Vec3 At(const RegionSpot& spot) const;
   Vec2 Inside(const TriangleRef& t);
   double Distance(const TriangleRef& t, const Vec3& p) const;
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cam/path/contour_paths.h"
+#include "cam/path/level_heights.h"
 #include "tests/support/joined_surface.h"
 #include "tests/support/profiles.h"
 #include "tests/support/shapes.h"
@@ -116,43 +117,47 @@ PatchModel Quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return Single(std::move(patch));
 }
 
+ContourParams SteepParams(double scallop = 0.01) {
+  ContourParams params;
+  params.scallop = scallop;
+  params.window.min = Radians(45.0);
+  params.floor_z = 0.0;
+  return params;
+}
+
+std::vector<CutterPath> ContoursOf(const PatchModel& model) {
+  const Surface surface = JoinedSurface(model);
+  auto result = ContourPaths(Locator(surface, 3.0), SteepParams(), RunContext(2));
+  EXPECT_TRUE(result.ok()) << result.status();
+  return result.ok() ? std::move(result->paths) : std::vector<CutterPath>();
+}
+
 // Samples of a patch much longer than the ball lie farther apart than elsewhere.
 TEST(LevelGrounds, ALongPatchIsOne) {
   const double radius = 0.5;
   const Surface surface = JoinedSurface(Quad({0, 0, 0}, {200, 0, 0}, {200, 0.7, 14}, {0, 0.5, 10}));
   const Locator locator(surface, radius);
-  ContourParams params;
-  params.scallop = 0.01;
-  params.window.min = Radians(45.0);
-  const auto ground = SampleGround(LevelContext(locator, RunContext(1)), params, RunContext(1));
+  const RunContext run(1);
+  const auto ground = SampleGround(LevelContext(locator, run), SteepParams(), run);
   ASSERT_TRUE(ground.ok());
-  const auto grounds = LevelGrounds::Make(*ground, radius, 0.2, RunContext(1));
+  const auto grounds = LevelGrounds::Make(*ground, radius, 0.2, run);
   ASSERT_TRUE(grounds.ok());
   EXPECT_EQ(grounds->size(), 1u);
 }
 
 // An upright sheet has contours on both sides, whichever is called the upper one, and whatever stands beside.
 TEST(LevelGrounds, BothSidesOfASheet) {
-  const double radius = 3.0;
   for (const bool turned : {false, true}) {
     const PatchModel sheet = turned ? Quad({0, 0, 12}, {60, 0, 12}, {60, 0, 0}, {0, 0, 0})
                                     : Quad({0, 0, 0}, {60, 0, 0}, {60, 0, 12}, {0, 0, 12});
     for (const double beside : {9.0, -9.0}) {
-      const Surface surface = JoinedSurface(
-          Join({sheet, Quad({0, beside, 0}, {60, beside, 0}, {60, beside, 5}, {0, beside, 5}),
-                Quad({0, beside, 5}, {60, beside, 5}, {60, 3 * beside, 5}, {0, 3 * beside, 5})}));
-      const Locator locator(surface, radius);
-      ContourParams params;
-      params.scallop = 0.01;
-      params.window.min = Radians(45.0);
-      params.floor_z = 0.0;
-      const auto result = ContourPaths(locator, params, RunContext(1));
-      ASSERT_TRUE(result.ok());
       double length[2] = {0.0, 0.0};
-      for (const CutterPath& path : result->paths) {
+      for (const CutterPath& path : ContoursOf(
+               Join({sheet, Quad({0, beside, 0}, {60, beside, 0}, {60, beside, 5}, {0, beside, 5}),
+                     Quad({0, beside, 5}, {60, beside, 5}, {60, 3 * beside, 5}, {0, 3 * beside, 5})}))) {
         for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
           const Vec3 &a = path.points[i].center, &b = path.points[i + 1].center;
-          if (std::abs(std::abs(a.y()) - radius) > 1e-6 || std::abs(b.y() - a.y()) > 1e-6) continue;
+          if (std::abs(std::abs(a.y()) - 3.0) > 1e-6 || std::abs(b.y() - a.y()) > 1e-6) continue;
           length[a.y() > 0.0] += (b - a).norm();
         }
       }
@@ -162,30 +167,45 @@ TEST(LevelGrounds, BothSidesOfASheet) {
   }
 }
 
+// Walls that would take more levels than are allowed, each its own, share them as far as that is enough.
+TEST(LevelGrounds, ShareLevelsWhereTheyAreTooMany) {
+  PatchModel walls;
+  constexpr int kWalls = 70;
+  double height = 0.0;
+  for (int k = 0; k < kWalls; ++k) {
+    height = 90.0 + 0.13 * k;
+    const double y = 10.0 * k;
+    walls = Join({walls, Quad({0, y, 0}, {1, y, 0}, {1, y + 1, height}, {0, y + 1, height})});
+  }
+  const double radius = 1.0, scallop = 0.001;
+  EXPECT_GT(kWalls * 90.0 / CenterStep(radius, scallop, 0.0), static_cast<double>(kMostLevels));
+  const Surface surface = JoinedSurface(walls);
+  const Locator locator(surface, radius);
+  RunContext run(2);
+  // They are planned; cutting all of them would take long.
+  run.set_progress([&](std::string_view stage, double) {
+    if (stage == "contours") run.Cancel();
+  });
+  const auto result = ContourPaths(locator, SteepParams(scallop), run);
+  EXPECT_EQ(result.status().code(), absl::StatusCode::kCancelled) << result.status();
+}
+
 // Heights and length of what runs over one part of a surface.
-struct Contours {
+struct Runs {
   std::vector<double> heights;
   double length = 0.0;
 };
 
-Contours ContoursOf(const PatchModel& model, double from_x, double to_x) {
-  const Surface surface = JoinedSurface(model);
-  const Locator locator(surface, 3.0);
-  ContourParams params;
-  params.scallop = 0.01;
-  params.window.min = Radians(45.0);
-  params.floor_z = 0.0;
-  const auto result = ContourPaths(locator, params, RunContext(2));
-  EXPECT_TRUE(result.ok());
-  Contours contours;
-  for (const CutterPath& path : result->paths) {
+Runs RunsOver(const PatchModel& model, double from_x, double to_x) {
+  Runs runs;
+  for (const CutterPath& path : ContoursOf(model)) {
     const Vec3& at = path.points.front().center;
     if (at.x() < from_x || at.x() > to_x) continue;
-    contours.heights.push_back(at.z());
-    contours.length += Length(path);
+    runs.heights.push_back(at.z());
+    runs.length += Length(path);
   }
-  std::sort(contours.heights.begin(), contours.heights.end());
-  return contours;
+  std::sort(runs.heights.begin(), runs.heights.end());
+  return runs;
 }
 
 // Three bosses whose walls want different steps and whose tops and feet lie at different heights: each is cut
@@ -203,8 +223,7 @@ TEST(LevelGrounds, BossesAreCutAsIfTheyStoodAlone) {
   const PatchModel all = Join({bosses[0], bosses[1], bosses[2]});
   for (std::size_t k = 0; k < bosses.size(); ++k) {
     const double x = 40.0 * static_cast<double>(k);
-    const Contours alone = ContoursOf(bosses[k], x - 20.0, x + 20.0),
-                   together = ContoursOf(all, x - 20.0, x + 20.0);
+    const Runs alone = RunsOver(bosses[k], x - 20.0, x + 20.0), together = RunsOver(all, x - 20.0, x + 20.0);
     ASSERT_GT(alone.heights.size(), 10u);
     ASSERT_EQ(together.heights.size(), alone.heights.size()) << k;
     for (std::size_t i = 0; i < alone.heights.size(); ++i)

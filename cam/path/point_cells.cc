@@ -1,4 +1,4 @@
-#include "cam/path/sample_cells.h"
+#include "cam/path/point_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr std::int64_t kMostRings = 10;
 
 }  // namespace
 
-SampleCells::SampleCells(std::vector<Vec3> points, double reach)
+PointCells::PointCells(std::vector<Vec3> points, double reach)
     : points_(std::move(points)), reach_(reach), side_(kSideOfReach * reach) {
   entries_.reserve(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -32,15 +32,15 @@ SampleCells::SampleCells(std::vector<Vec3> points, double reach)
   });
 }
 
-SampleCells::Key SampleCells::KeyOf(const Vec3& p) const {
+PointCells::Key PointCells::KeyOf(const Vec3& p) const {
   Key key;
   for (int k = 0; k < 3; ++k)
     key[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(std::floor(p[k] / side_));
   return key;
 }
 
-std::pair<std::size_t, std::size_t> SampleCells::Column(std::int64_t x, std::int64_t y, std::int64_t low,
-                                                        std::int64_t high) const {
+std::pair<std::size_t, std::size_t> PointCells::Column(std::int64_t x, std::int64_t y, std::int64_t low,
+                                                       std::int64_t high) const {
   const auto less = [](const Entry& entry, const Key& key) { return entry.key < key; };
   const auto first = std::lower_bound(entries_.begin(), entries_.end(), Key{x, y, low}, less);
   const auto last = std::lower_bound(first, entries_.end(), Key{x, y, high + 1}, less);
@@ -48,7 +48,7 @@ std::pair<std::size_t, std::size_t> SampleCells::Column(std::int64_t x, std::int
           static_cast<std::size_t>(last - entries_.begin())};
 }
 
-void SampleCells::JoinNear(UnionFind& sets, const RunContext& run) const {
+void PointCells::JoinNear(UnionFind& sets, const RunContext& run) const {
   for (std::size_t first = 0; first < entries_.size() && !run.Cancelled();) {
     const Key key = entries_[first].key;
     std::size_t last = first;
@@ -75,7 +75,7 @@ void SampleCells::JoinNear(UnionFind& sets, const RunContext& run) const {
   }
 }
 
-std::optional<std::size_t> SampleCells::Nearest(const Vec3& place) const {
+std::optional<std::size_t> PointCells::Nearest(const Vec3& place) const {
   if (entries_.empty()) return std::nullopt;
   const Key key = KeyOf(place);
   std::int64_t most = 0;
@@ -94,7 +94,7 @@ std::optional<std::size_t> SampleCells::Nearest(const Vec3& place) const {
   for (std::int64_t ring = 0; ring <= most; ++ring) {
     // Whatever lies in farther rings is this far away at least.
     const double beyond = (static_cast<double>(ring) - 1.0) * side_;
-    if (ring > 0 && beyond > 0.0 && beyond * beyond > least) break;
+    if (beyond > 0.0 && beyond * beyond > least) break;
     if (ring > kMostRings) {
       look(0, entries_.size());
       break;

@@ -1,10 +1,12 @@
 // Points in cubic cells, to find those near each other or near a place.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/run_context.h"
@@ -13,12 +15,28 @@
 
 namespace patchmill {
 
-class SampleCells {
+class PointCells {
  public:
-  SampleCells() = default;
-  // `reach`, mm, > 0: points this near to each other are joined by JoinNear. Cost O(n log n).
-  SampleCells(std::vector<Vec3> points, double reach);
+  PointCells() = default;
+  // `reach`, mm, > 0: points this near to each other are joined by JoinNear; about that of a typical
+  // question. Cost O(n log n).
+  PointCells(std::vector<Vec3> points, double reach);
 
+  // Calls visit(number) for every point within `reach` (mm) of a place, in the same order everywhere.
+  template <class Visit>
+  void Near(const Vec3& place, double reach, const Visit& visit) const {
+    if (entries_.empty()) return;
+    const Key low = KeyOf(place - Vec3::Constant(reach)), high = KeyOf(place + Vec3::Constant(reach));
+    for (std::int64_t x = std::max(low[0], low_[0]); x <= std::min(high[0], high_[0]); ++x) {
+      for (std::int64_t y = std::max(low[1], low_[1]); y <= std::min(high[1], high_[1]); ++y) {
+        const auto [begin, end] = Column(x, y, low[2], high[2]);
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::size_t point = entries_[i].point;
+          if ((points_[point] - place).norm() <= reach) visit(point);
+        }
+      }
+    }
+  }
   // Joins all that are within the reach of each other. Cost O(n log n), more where many points of two cells
   // are just out of it. Not all of them once cancelled.
   void JoinNear(UnionFind& sets, const RunContext& run) const;
