@@ -10,6 +10,7 @@
 
 #include "cam/path/certify_centers.h"
 #include "cam/path/chord_thinning.h"
+#include "cam/path/contour_findings.h"
 #include "cam/path/contour_levels.h"
 #include "cam/path/contour_samples.h"
 #include "cam/path/level_grounds.h"
@@ -31,33 +32,8 @@ constexpr double kSameHeight = 1e-6;  // mm
 
 struct LevelPasses {
   std::vector<CutterPath> paths;
-  Diagnostics findings;
+  LevelContours level;  // without its loops
 };
-
-Diagnostics FindingsOf(const LevelContours& level, const ContourParams& params) {
-  Diagnostics findings;
-  const auto add = [&](const char* code, Severity severity, std::string message) {
-    Diagnostic& finding = findings.emplace_back();
-    finding.code = code;
-    finding.severity = severity;
-    finding.message = fmt::format("contour at centre height {:.4f} mm: {}", level.z, message);
-    if (level.ambiguous_cells > 0) finding.where.point = level.ambiguous_at;
-  };
-  const double held = kCellsPerResolution * level.cell;
-  if (held > params.resolution * (1.0 + 1e-9)) {
-    add("CONTOUR_COARSE", Severity::kWarning,
-        fmt::format(
-            "a resolution of {:.4g} mm takes too many cells, {:.4g} mm is held: loops and holes below "
-            "that may be missing, and count as material",
-            params.resolution, held));
-  }
-  if (level.ambiguous_cells > 0) {
-    add("CONTOUR_AMBIGUOUS", Severity::kInfo,
-        fmt::format("{} cells of {:.4f} mm, the first here, could not be decided; they count as material",
-                    level.ambiguous_cells, level.cell));
-  }
-  return findings;
-}
 
 // The levels of a ground, or of several that want the same ones.
 struct LevelFamily {
@@ -137,9 +113,9 @@ class PassTracer {
       near_spots.emplace(planned.spots, clip.near + 2.0 * clip.overlap);
     }
     const std::optional<PlanMask>& where = near_spots ? near_spots : family.where;
-    const LevelContours level = TracePasses(context_, planned.z, where ? &*where : nullptr, params_, run_);
-    LevelPasses passes{{}, FindingsOf(level, params_)};
-    for (const CutterPath& loop : level.loops) {
+    LevelPasses passes{{}, TracePasses(context_, planned.z, where ? &*where : nullptr, params_, run_)};
+    const std::vector<CutterPath> loops = std::exchange(passes.level.loops, {});
+    for (const CutterPath& loop : loops) {
       if (run_.Cancelled()) break;
       for (CutterPath& part : ClipLoop(context_, loop, clip)) {
         if (families_.size() > 1 && grounds_.FamilyUnder(part, family_of_) != at.family) continue;
@@ -198,10 +174,12 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
       ParallelFor(run, "contours", levels.size(), [&](std::size_t i) { passes[i] = tracer.At(levels[i]); }));
   PM_RETURN_IF_ERROR(run.Check());
   ContourResult result;
+  ContourFindings findings(params.resolution);
   for (LevelPasses& of : passes) {
     for (CutterPath& path : of.paths) result.paths.push_back(std::move(path));
-    for (Diagnostic& finding : of.findings) result.findings.push_back(std::move(finding));
+    findings.Take(of.level);
   }
+  result.findings = findings.Told();
   return result;
 }
 

@@ -37,8 +37,7 @@ struct ContourResult {
   // Clipped to what is a pass (see below); `line` counts the levels from the highest down, those of one
   // ground (level_grounds.h), or of several with the same heights, after those of another.
   std::vector<CutterPath> paths;
-  // By level: CONTOUR_AMBIGUOUS with how many cells were left undecided, their size and a place (info);
-  // CONTOUR_COARSE with the resolution held in place of the one asked for (warning).
+  // CONTOUR_COARSE, CONTOUR_AMBIGUOUS: one each for all levels (contour_findings.h).
   Diagnostics findings;
 };
 // Each ground has levels of its own. They are spaced so that dz = CenterStep sin(slope) holds on all contacts

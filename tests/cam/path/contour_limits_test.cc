@@ -2,6 +2,7 @@
 // to 1e-9 mm in plan, above the resolution in number, below it at least on the safe side.
 #include <gtest/gtest.h>
 
+#include "cam/path/contour_findings.h"
 #include "tests/cam/path/contour_checks.h"
 #include "tests/support/shapes.h"
 
@@ -209,15 +210,14 @@ TEST(ContourLimits, FindingsTellWhatWasNotDecided) {
   const auto result = PassesOf(gap);
   ASSERT_TRUE(result.ok()) << result.status();
   ASSERT_FALSE(result->paths.empty());
-  ASSERT_FALSE(result->findings.empty());
-  for (const Diagnostic& finding : result->findings) {
-    EXPECT_EQ(finding.code, "CONTOUR_AMBIGUOUS");
-    EXPECT_EQ(finding.severity, Severity::kInfo);
-    EXPECT_NE(finding.message.find(" cells of 0.0125 mm"), std::string::npos) << finding.message;
-    ASSERT_TRUE(finding.where.point.has_value());
-    EXPECT_NEAR(finding.where.point->x(), 0.0, 0.0125);
-    EXPECT_LE(std::abs(finding.where.point->y()), 5.1);
-  }
+  ASSERT_EQ(result->findings.size(), 1u);  // for all levels
+  const Diagnostic& finding = result->findings[0];
+  EXPECT_EQ(finding.code, "CONTOUR_AMBIGUOUS");
+  EXPECT_EQ(finding.severity, Severity::kInfo);
+  EXPECT_NE(finding.message.find(" cells of up to 0.0125 mm"), std::string::npos) << finding.message;
+  ASSERT_TRUE(finding.where.point.has_value());
+  EXPECT_NEAR(finding.where.point->x(), 0.0, 0.0125);
+  EXPECT_LE(std::abs(finding.where.point->y()), 5.1);
   const Locator smaller(gap.surface, kR - 1.001 * gap.params.chord_tolerance);
   for (const CutterPath& path : result->paths) {
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
@@ -242,21 +242,52 @@ TEST(ContourLimits, ALostResolutionIsSaid) {
   EXPECT_TRUE(CountsAsMaterial(level, Vec2::Zero()));
   const auto result = PassesOf(gap);
   ASSERT_TRUE(result.ok()) << result.status();
-  int coarse = 0;
-  for (const Diagnostic& finding : result->findings) {
-    if (finding.code == "CONTOUR_COARSE") {
-      ++coarse;
-      EXPECT_EQ(finding.severity, Severity::kWarning);
-      EXPECT_NE(finding.message.find("0.1 mm takes too many cells, 0.2 mm is held"), std::string::npos)
-          << finding.message;
-      ASSERT_TRUE(finding.where.point.has_value());
-      EXPECT_NEAR(finding.where.point->x(), 0.0, 0.025);
-    } else {
-      EXPECT_EQ(finding.code, "CONTOUR_AMBIGUOUS");
-      EXPECT_NE(finding.message.find(" cells of 0.0250 mm"), std::string::npos) << finding.message;
-    }
+  ASSERT_EQ(result->findings.size(), 2u);
+  const Diagnostic &coarse = result->findings[0], &ambiguous = result->findings[1];
+  EXPECT_EQ(coarse.code, "CONTOUR_COARSE");
+  EXPECT_EQ(coarse.severity, Severity::kWarning);
+  EXPECT_NE(coarse.message.find("0.1 mm takes too many cells, 0.2 mm is held"), std::string::npos)
+      << coarse.message;
+  ASSERT_TRUE(coarse.where.point.has_value());
+  EXPECT_NEAR(coarse.where.point->x(), 0.0, 0.025);
+  EXPECT_EQ(ambiguous.code, "CONTOUR_AMBIGUOUS");
+  EXPECT_NE(ambiguous.message.find(" cells of up to 0.0250 mm"), std::string::npos) << ambiguous.message;
+}
+
+// The worst of all levels is told, with the place of its own, in whatever order they come.
+TEST(ContourLimits, FindingsAreOneForAllLevels) {
+  const auto level = [](double z, double cell, int ambiguous, const Vec3& at) {
+    return LevelContours{z, {}, cell, ambiguous, at};
+  };
+  const LevelContours fine = level(5.0, 0.0125, 0, Vec3::Zero());
+  const LevelContours few = level(4.0, 0.0125, 3, Vec3(1.0, 0.0, 0.0));
+  const LevelContours coarse = level(3.0, 0.05, 40, Vec3(2.0, 0.0, 0.0));
+  const LevelContours twice = level(7.0, 0.025, 500, Vec3(3.0, 0.0, 0.0));
+  ContourFindings none(0.1), one(0.1), all(0.1), back(0.1);
+  none.Take(fine);
+  EXPECT_TRUE(none.Told().empty());
+  one.Take(few);
+  ASSERT_EQ(one.Told().size(), 1u);
+  EXPECT_EQ(one.Told()[0].message.find("contour at centre height 4.0000 mm: 3 cells"), 0u)
+      << one.Told()[0].message;
+  for (const LevelContours& l : {fine, few, coarse, twice}) all.Take(l);
+  for (const LevelContours& l : {twice, coarse, few, fine}) back.Take(l);
+  const Diagnostics told = all.Told(), same = back.Told();
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_EQ(
+      told[0].message.find("2 contours at centre heights from 3.0000 to 7.0000 mm: a resolution of 0.1 mm"),
+      0u)
+      << told[0].message;
+  EXPECT_NE(told[0].message.find(" 0.4 mm is held"), std::string::npos) << told[0].message;
+  EXPECT_EQ(told[1].message.find(
+                "3 contours at centre heights from 3.0000 to 7.0000 mm: 543 cells of up to 0.0500 mm"),
+            0u)
+      << told[1].message;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    EXPECT_EQ(told[i].where.point, Vec3(2.0, 0.0, 0.0));
+    EXPECT_EQ(told[i].message, same[i].message);
+    EXPECT_EQ(told[i].where.point, same[i].where.point);
   }
-  EXPECT_GT(coarse, 0);
 }
 
 // Large flats with open borders and a small tool: what is looked at grows with the border, not with the flat.
