@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cam/path/across_feed.h"
 #include "cam/path/spacing.h"
@@ -9,16 +10,51 @@
 
 namespace patchmill {
 
+namespace {
+
+struct AcrossPasses {
+  double seen = 0.0;   // of a step on the centre surface, by the spacing of the passes
+  double kappa = 0.0;  // 1/mm, across the feed
+};
+
+std::optional<AcrossPasses> Across(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e) {
+  const bool levels = forced.passes == ForcedPasses::kContours;
+  const auto across = levels ? AcrossContours(e) : AcrossLines(e, forced.angle);
+  if (!across) return std::nullopt;
+  const Vec2 line(std::cos(forced.angle), std::sin(forced.angle));
+  const double seen = levels ? std::abs(across->z()) : std::abs(Cross(line, Plan(*across)));
+  return AcrossPasses{seen, NormalCurvature(Forms(jet, e), jet, *across)};
+}
+
+}  // namespace
+
 double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                   double scallop) {
   if (forced.passes == ForcedPasses::kNone) return 1.0;
-  const bool levels = forced.passes == ForcedPasses::kContours;
-  const auto across = levels ? AcrossContours(e) : AcrossLines(e, forced.angle);
+  const auto across = Across(forced, jet, e);
   if (!across) return 0.0;
-  const Vec2 line(std::cos(forced.angle), std::sin(forced.angle));
-  const double seen = levels ? std::abs(across->z()) : std::abs(Cross(line, Plan(*across)));
-  const double kappa = NormalCurvature(Forms(jet, e), jet, *across);
-  return seen * CenterStep(radius, scallop, kappa) / CenterStep(radius, scallop, 0.0);
+  return across->seen * CenterStep(radius, scallop, across->kappa) / CenterStep(radius, scallop, 0.0);
+}
+
+double NeededFineStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius) {
+  if (forced.passes == ForcedPasses::kNone) return 1.0;
+  const auto needed = [&](const Vec3& side) {
+    const auto across = Across(forced, jet, side);
+    return across ? across->seen * std::sqrt(std::max(0.0, 1.0 - across->kappa * radius)) : 0.0;
+  };
+  return e.z() > kUprightFace ? needed(e) : std::max(needed(e), needed(-e));
+}
+
+double LeftByStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
+                  double scallop, double fraction) {
+  if (forced.passes == ForcedPasses::kNone) return scallop;
+  const auto left = [&](const Vec3& side) {
+    const auto across = Across(forced, jet, side);
+    if (!across || !(across->seen > 0.0)) return kInfinity;
+    const double step = fraction * CenterStep(radius, scallop, 0.0) / across->seen;
+    return std::max(scallop, ScallopOfStep(radius, step, across->kappa));
+  };
+  return e.z() > kUprightFace ? left(e) : std::min(left(e), left(-e));
 }
 
 bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const SurfaceRect& rect,

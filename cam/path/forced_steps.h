@@ -23,6 +23,15 @@ double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& 
 // The wider of what the two sides of an upright face need; elsewhere NeededStep.
 double NeededStepOfSides(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                          double scallop);
+// The limit of NeededStepOfSides for small scallops, sqrt(1 - kappa R) times what is seen (ALGORITHMS 5): it
+// is off by some scallop / radius of itself.
+double NeededFineStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius);
+
+// What passes leave whose step, measured as they are spaced, is `fraction` of the flat one, on the better of
+// the sides of an upright face, mm: `scallop` where that step is needed, more where a shorter one is;
+// infinity where no step will do.
+double LeftByStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
+                  double scallop, double fraction);
 
 // True when the needed step is below `fraction` all over the rectangle on every side of it that looks up
 // somewhere, judged by nine places (second order, twice). Each side is judged by itself: where a silhouette

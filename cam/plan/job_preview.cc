@@ -12,7 +12,8 @@ namespace patchmill {
 namespace {
 
 // Mountain red, basin blue, neutral green; steep stronger than gentle; out of reach grey, violet where the
-// ball is too large, brown below the floor; neighbours of one class differ a little in lightness.
+// ball is too large, brown below the floor; what forced passes leave yellow; neighbours of one class differ a
+// little in lightness.
 std::string Color(const Region& region, int nth) {
   int rgb[3];
   const bool steep = region.slope == SlopeClass::kSteep;
@@ -37,6 +38,7 @@ std::string Color(const Region& region, int nth) {
                                                    : set(120, 120, 120);
       break;
   }
+  if (region.reason == UnreachableReason::kStrategy) set(245, 220, 90);
   const int shift = (nth % 3 - 1) * 9;
   for (int& c : rgb) c = std::clamp(c + shift, 0, 255);
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
@@ -97,7 +99,8 @@ constexpr BorderStyle kBorderStyles[] = {{BorderKind::kReach, "#303030", std::nu
                                          {BorderKind::kCurvature, "#0f766e", Paint::kCurvature},
                                          {BorderKind::kSilhouette, "#7c3aed", Paint::kCurvature},
                                          {BorderKind::kWatershed, "#1d4ed8", std::nullopt},
-                                         {BorderKind::kSeam, "#be185d", std::nullopt}};
+                                         {BorderKind::kSeam, "#be185d", std::nullopt},
+                                         {BorderKind::kStrategy, "#854d0e", std::nullopt}};
 
 double Length(const BorderLine& line) {
   double sum = line.closed ? (line.points.front() - line.points.back()).norm() : 0.0;
@@ -148,7 +151,7 @@ PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::
     const auto id = static_cast<std::size_t>(region.id);
     if (!seen[id]) continue;
     PreviewRegion r;
-    const bool unreachable = region.kind == RegionKind::kUnreachable;
+    const bool unreachable = region.reason != UnreachableReason::kNone;
     r.color = Color(region, region.id);
     r.label = fmt::format("{}", region.id);
     r.name = unreachable ? fmt::format("{} {}: {:.1f} mm2, {:.2f} mm stays", region.id, Name(region.reason),

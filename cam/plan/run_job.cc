@@ -5,6 +5,7 @@
 
 #include "cam/location/keep_in.h"
 #include "cam/path/scan_line.h"
+#include "cam/plan/forced_ground.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/plan_passes.h"
 #include "cam/plan/quickest_angles.h"
@@ -56,6 +57,7 @@ RegionParams MakeRegionParams(const Job& job, const Resolved& resolved, const Ke
   p.floor_z = resolved.floor_z - job.operation.leave;
   p.detail = job.operation.detail;
   p.keep_in = keep_in;
+  p.finished = FinishedByForced(job.operation, resolved.plan_radius);
   return p;
 }
 
@@ -141,7 +143,10 @@ absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
   PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
-  return MakeRegions(surface, job, resolved, keep_in, run);
+  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
+  PM_RETURN_IF_ERROR(
+      JudgeForced(surface, job.operation, regions.choices, resolved.plan_radius, run, regions.map));
+  return regions;
 }
 
 absl::StatusOr<std::vector<PlanPart>> JudgedParts(const Surface& surface, const Job& job,
@@ -180,7 +185,6 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
   PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
   result.regions = std::move(regions.map);
-  report.regions = result.regions.regions;
   report.choices = std::move(regions.choices);
   const auto limits_of = [&](const std::vector<PlanPart>& of) {
     const bool whole = of.size() == 1 && of.front().where == nullptr;
@@ -202,9 +206,11 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
     };
     PM_ASSIGN_OR_RETURN(report.choices, QuickestAngles(result.regions, std::move(report.choices), time));
     PM_RETURN_IF_ERROR(FillSteps(surface, report.choices, resolved, run, result.regions));
-    report.regions = result.regions.regions;
     clock.Done("angles");
   }
+  PM_RETURN_IF_ERROR(
+      JudgeForced(surface, job.operation, report.choices, resolved.plan_radius, run, result.regions));
+  report.regions = result.regions.regions;
   const std::vector<PlanPart> parts = PartsOf(result.regions, report.choices);
   const KeepIn* limits = limits_of(parts);
   PM_ASSIGN_OR_RETURN(PlannedPasses planned,

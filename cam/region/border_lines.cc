@@ -29,7 +29,10 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
   if (strand.other < 0) return BorderKind::kOpenEdge;
   const Region &own = regions[static_cast<std::size_t>(strand.region)],
                &other = regions[static_cast<std::size_t>(strand.other)];
-  if (own.reason != other.reason) return BorderKind::kReach;
+  if (own.reason != other.reason) {
+    const bool reached = own.kind != RegionKind::kUnreachable && other.kind != RegionKind::kUnreachable;
+    return reached ? BorderKind::kStrategy : BorderKind::kReach;
+  }
   const bool slope = own.slope != other.slope, curvature = own.kind != other.kind;
   if (!slope && !curvature) return BorderKind::kWatershed;
   const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];

@@ -51,16 +51,20 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   ZeroField& allowed = at(Field::kAllowed);
   allowed.smooth = false;
   allowed.resolution = params.border_tolerance;
-  allowed.value = [&reach](const SurfaceJet& jet) {
+  allowed.value = [&reach, any = params.keep_in != nullptr](const SurfaceJet& jet) {
+    if (!any) return 1.0;
     const auto normal = UpwardNormal(jet);
     return !normal ? 0.0 : reach.Allowed(jet.p, *normal) ? 1.0 : -1.0;
   };
   // Ground out of reach has no other label.
-  for (const Field field : {Field::kFloor, Field::kTurn, Field::kSlope, Field::kCurvature}) {
+  at(Field::kFinished).value = params.finished;
+  for (const Field field :
+       {Field::kFloor, Field::kTurn, Field::kSlope, Field::kCurvature, Field::kFinished}) {
     at(field).where = static_cast<int>(Field::kFree);
     at(field).where_sign = 1;
   }
-  if (params.keep_in == nullptr) fields.pop_back();
+  if (!params.finished) fields.pop_back();
+  if (!params.finished && params.keep_in == nullptr) fields.pop_back();
   return fields;
 }
 
@@ -73,6 +77,8 @@ SplitLabel LabelOf(const ZeroTriangle& triangle) {
     label.reason = UnreachableReason::kFloor;
   } else if (sign(Field::kAllowed) < 0) {
     label.reason = UnreachableReason::kAvoided;
+  } else if (sign(Field::kFinished) < 0) {
+    label.reason = UnreachableReason::kStrategy;
   }
   if (label.reason != UnreachableReason::kNone) return label;
   label.curvature = static_cast<std::int8_t>(sign(Field::kTurn) * sign(Field::kCurvature));

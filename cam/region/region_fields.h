@@ -19,15 +19,16 @@ enum class Field {
   kSlope,      // SlopeField of the steep angle: > 0 gentle
   kCurvature,  // ContourCurvatureField: times the sign of kTurn it is < 0 on mountains
   kAllowed,    // < 0 AVOIDED; only there when something is to be kept in
+  kFinished,   // < 0 STRATEGY; only there when passes of one kind are forced upon the surface
 };
-inline constexpr int kFieldCount = 7;
+inline constexpr int kFieldCount = 8;
 static_assert(kFieldCount <= kMaxZeroFields);
 
 // Fields in the order of the enum; they keep a reference to `reach`.
 std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& params);
 
-// What a triangle is; unreachable ground has no other label. Triangles of equal labels that share an edge
-// belong together.
+// What a triangle is; ground that is not finished has no other label than why. Triangles of equal labels that
+// share an edge belong together.
 struct SplitLabel {
   std::int8_t curvature = 0;  // -1 mountain, +1 basin, 0 flat along the contour (upward normal)
   bool steep = false;

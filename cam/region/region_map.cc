@@ -99,6 +99,11 @@ absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& pa
   return watersheds;
 }
 
+// 1/mm: mean contour curvature that no tool could feel.
+double FlatBend(const RegionParams& params) {
+  return 8.0 * params.tolerance / (4.0 * params.radius * params.radius);
+}
+
 MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
   MergeParams p;
   if (params.detail >= 1.0) {
@@ -108,7 +113,7 @@ MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
     const double coarse = Coarseness(params);
     p.border_turn = kBorderTurn * coarse;
     p.border_slope = p.border_turn * params.radius;
-    p.flat = 8.0 * params.tolerance / (4.0 * params.radius * params.radius);
+    p.flat = FlatBend(params);
     p.flat_cost = 0.5 * kBorderTurn / params.radius;
     p.min_area = 2.0 * kPi * params.radius * params.radius * coarse;
     p.min_width = params.radius * coarse;
@@ -121,10 +126,12 @@ MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
 Region FromLabel(const SplitLabel& label) {
   Region region;
   region.reason = label.reason;
-  region.kind = label.reason != UnreachableReason::kNone ? RegionKind::kUnreachable
-                : label.curvature < 0                    ? RegionKind::kMountain
-                : label.curvature > 0                    ? RegionKind::kBasin
-                                                         : RegionKind::kNeutral;
+  const bool reached =
+      label.reason == UnreachableReason::kNone || label.reason == UnreachableReason::kStrategy;
+  region.kind = !reached              ? RegionKind::kUnreachable
+                : label.curvature < 0 ? RegionKind::kMountain
+                : label.curvature > 0 ? RegionKind::kBasin
+                                      : RegionKind::kNeutral;
   region.slope = region.kind == RegionKind::kUnreachable ? SlopeClass::kUnspecified
                  : label.steep                           ? SlopeClass::kSteep
                                                          : SlopeClass::kGentle;
@@ -140,22 +147,32 @@ struct Numbered {
 absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                 const AdjacencyList& adjacency, const RawRegions& raw,
                                 const MergedRegions& merged, std::span<const ZeroField> fields,
-                                double tolerance, const RunContext& run) {
+                                const RegionParams& params, const RunContext& run) {
   Numbered numbered;
   numbered.region_of = raw.of;
   for (std::vector<int>& piece : numbered.region_of) {
     for (int& id : piece) id = merged.group[static_cast<std::size_t>(id)];
   }
-  PM_ASSIGN_OR_RETURN(numbered.arcs,
-                      FindBorderArcs(surface, meshes, adjacency, numbered.region_of, fields, tolerance, run));
-  std::vector<double> flat(merged.label.size(), 0.0);
-  for (std::size_t i = 0; i < raw.regions.size(); ++i)
-    flat[static_cast<std::size_t>(merged.group[i])] += raw.regions[i].area;
+  PM_ASSIGN_OR_RETURN(numbered.arcs, FindBorderArcs(surface, meshes, adjacency, numbered.region_of, fields,
+                                                    params.border_tolerance, run));
+  std::vector<double> flat(merged.label.size(), 0.0), curvature = flat, steepness = flat;
+  for (std::size_t i = 0; i < raw.regions.size(); ++i) {
+    const auto group = static_cast<std::size_t>(merged.group[i]);
+    flat[group] += raw.regions[i].area;
+    curvature[group] += raw.regions[i].curvature;
+    steepness[group] += raw.regions[i].steepness;
+  }
   PM_ASSIGN_OR_RETURN(const std::vector<double> gained,
                       BendAreas(surface, meshes, adjacency, numbered.region_of, flat, run, numbered.arcs));
   std::vector<Region> groups;
   for (std::size_t k = 0; k < merged.label.size(); ++k) {
-    groups.push_back(FromLabel(merged.label[k]));
+    SplitLabel label = merged.label[k];
+    if (label.reason == UnreachableReason::kStrategy) {
+      const bool bent = std::abs(curvature[k]) >= std::max(kMinCurvature, FlatBend(params) * flat[k]);
+      label.curvature = static_cast<std::int8_t>(!bent ? 0 : curvature[k] < 0.0 ? -1 : 1);
+      label.steep = steepness[k] > 0.0;
+    }
+    groups.push_back(FromLabel(label));
     groups.back().area = flat[k] + gained[k];
   }
   std::vector<std::size_t> order(groups.size());
@@ -254,6 +271,8 @@ const char* Name(BorderKind kind) {
       return "watershed";
     case BorderKind::kSeam:
       return "patch border";
+    case BorderKind::kStrategy:
+      return "limit of strategy";
   }
   return "";
 }
@@ -275,8 +294,8 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_ASSIGN_OR_RETURN(const Watersheds watersheds,
                       Divide(surface, params, fields, mesh_params.max_cell, run, meshes, adjacency));
   PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(meshes, adjacency, watersheds, run));
-  PM_ASSIGN_OR_RETURN(Numbered numbered, Number(surface, meshes, adjacency, raw, Merge(raw, params), fields,
-                                                params.border_tolerance, run));
+  PM_ASSIGN_OR_RETURN(Numbered numbered,
+                      Number(surface, meshes, adjacency, raw, Merge(raw, params), fields, params, run));
   // What is told of the regions, at once: none of it needs any other.
   RegionMap map;
   BorderNet net;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ enum class BorderKind {
   kSilhouette,  // the surface is upright, and its contours bend the other way beyond
   kWatershed,   // between two mountains or two basins
   kSeam,        // a border of patches across which slope or curvature jump
+  kStrategy,    // limit of what forced passes finish
 };
 
 const char* Name(RegionKind kind);
@@ -46,8 +48,13 @@ struct RegionParams {
   // (height_tops.h), and at most 40 d reachable regions remain, those without a neighbour not counted.
   double detail = 0.5;
   const KeepIn* keep_in = nullptr;  // where it allows no centre the reason is kAvoided; null: allows all
+  // > 0 where forced passes finish the ground, continuous; where they do not the reason is kStrategy. Empty:
+  // nothing is forced.
+  std::function<double(const SurfaceJet&)> finished = nullptr;
 };
 
+// Ground that forced passes do not finish (kStrategy) is a region apart, of the kind and the slope that most
+// of it has: reached all the same, and cut like any other. The other reasons make it kUnreachable.
 struct Region {
   int id = 0;
   RegionKind kind = RegionKind::kNeutral;
@@ -57,7 +64,7 @@ struct Region {
   Vec3 inside = Vec3::Zero();  // a point of the region
   double z_min = 0.0, z_max = 0.0;
   double step_min = 0.0, step_max = 0.0;  // mm between passes for the scallop; filled by cam/plan, else 0
-  double deepest_leftover = 0.0;          // mm, unreachable regions: estimate of how much stays
+  double deepest_leftover = 0.0;          // mm, regions with a reason: estimate of how much stays
   double largest_tool_diameter = 0.0;     // mm, unreachable CONCAVE ones: reaches all of it (0: none does)
   std::vector<std::vector<Vec3>> border;  // closed polylines on the surface
   std::vector<PatchId> patches;           // those it has a part of, rising

@@ -148,7 +148,8 @@ void Measure(const Piece& piece, const std::array<Vec2, 3>& q, const std::array<
              double steep_angle, SplitTriangle& triangle) {
   const Measures measures = Integral(
       [&](const Vec2& at, bool whole) {
-        const bool more = whole && triangle.label.reason == UnreachableReason::kNone;
+        const bool more = whole && (triangle.label.reason == UnreachableReason::kNone ||
+                                    triangle.label.reason == UnreachableReason::kStrategy);
         const SurfaceJet jet = more ? Evaluate(piece, at.x(), at.y()) : EvaluateSlopes(piece, at.x(), at.y());
         PointMeasures m{.element = jet.du.cross(jet.dv).norm()};
         if (!more) return m;

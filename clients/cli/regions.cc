@@ -62,7 +62,9 @@ std::string HowItIsCut(const v1::Region& region) {
       text += fmt::format(", reached by D {:.2f}", region.largest_tool_diameter_mm());
     return text;
   }
-  text = Short(region.strategy());
+  if (region.unreachable_reason() == v1::UNREACHABLE_REASON_STRATEGY)
+    text = fmt::format("not finished (STRATEGY), up to {:.3f} mm stays: ", region.deepest_leftover_mm());
+  text += Short(region.strategy());
   if (region.has_lines_around()) {
     if (region.strategy() != v1::STRATEGY_ZIGZAG) text += ", lines";
     const auto micron = [](double mm) { return std::round(1e3 * mm) / 1e3 + 0.0; };  // no -0.000

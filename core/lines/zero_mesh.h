@@ -17,7 +17,7 @@
 
 namespace patchmill {
 
-inline constexpr int kMaxZeroFields = 7;
+inline constexpr int kMaxZeroFields = 8;
 
 struct ZeroVertex {
   double u = 0.0, v = 0.0;

@@ -256,6 +256,8 @@ v1::BorderKind ToProto(BorderKind value) {
       return v1::BORDER_KIND_WATERSHED;
     case BorderKind::kSeam:
       return v1::BORDER_KIND_SEAM;
+    case BorderKind::kStrategy:
+      return v1::BORDER_KIND_STRATEGY;
   }
   return v1::BORDER_KIND_UNSPECIFIED;
 }

@@ -42,7 +42,7 @@ void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Rep
   for (const UnreachableReason reason : kReasons) {
     v1::UnreachablePart part;
     for (const Region& region : regions) {
-      if (region.kind != RegionKind::kUnreachable || region.reason != reason || skipped(region)) continue;
+      if (region.reason != reason || skipped(region)) continue;
       part.set_area_mm2(part.area_mm2() + Number(region.area));
       if (region.deepest_leftover >= part.deepest_leftover_mm()) {
         part.set_deepest_leftover_mm(Number(region.deepest_leftover));
@@ -56,7 +56,7 @@ void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Rep
     *report->add_unreachable() = std::move(part);
   }
   for (const Region& region : regions) {
-    if (region.kind != RegionKind::kUnreachable && !skipped(region)) reachable += Number(region.area);
+    if (region.reason == UnreachableReason::kNone && !skipped(region)) reachable += Number(region.area);
   }
   report->set_unreachable_area_mm2(unreachable);
   report->set_reachable_area_mm2(reachable);
@@ -148,11 +148,12 @@ v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3&
   *proto.mutable_inside_point() = ToProto(Vec3(region.inside - zero));
   proto.set_min_z_mm(Number(region.z_min - zero.z()));
   proto.set_max_z_mm(Number(region.z_max - zero.z()));
-  if (region.kind == RegionKind::kUnreachable) {
+  if (region.reason != UnreachableReason::kNone) {
     proto.set_unreachable_reason(ToProto(region.reason));
     proto.set_largest_tool_diameter_mm(Number(region.largest_tool_diameter));
     proto.set_deepest_leftover_mm(Number(region.deepest_leftover));
-  } else {
+  }
+  if (region.kind != RegionKind::kUnreachable) {
     proto.set_slope(ToProto(region.slope));
     proto.set_step_min_mm(Number(region.step_min));
     proto.set_step_max_mm(Number(region.step_max));
