@@ -34,7 +34,8 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
     return reached ? BorderKind::kStrategy : BorderKind::kReach;
   }
   const bool slope = own.slope != other.slope, curvature = own.kind != other.kind;
-  if (!slope && !curvature) return BorderKind::kWatershed;
+  const bool watershed = OnWatershed(meshes, a, 0.0);
+  if (!slope && !curvature && watershed) return BorderKind::kWatershed;
   const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
   const ZeroVertex &from = EndOf(mesh, a.side, 0), &to = EndOf(mesh, a.side, 1);
   const auto on = [&](Field field) {  // the zero curve; vertices on it have no sign
@@ -54,7 +55,9 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
     if (on(Field::kCurvature)) return BorderKind::kCurvature;
     if (on(Field::kTurn)) return BorderKind::kSilhouette;
   }
-  if (OnWatershed(meshes, a, 0.0)) return BorderKind::kWatershed;
+  // Of two mountains or basins, and of one that a part of another went with: what the lines did not reach is
+  // divided along triangles.
+  if (watershed || (!slope && !curvature) || here == there) return BorderKind::kWatershed;
   if (a.across_seam) return BorderKind::kSeam;
   return slope ? BorderKind::kSlope : BorderKind::kCurvature;
 }

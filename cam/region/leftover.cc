@@ -19,6 +19,7 @@ constexpr double kWorthwhile = 0.02;  // of the leftover: more than that much de
 constexpr int kSteps = 30;
 constexpr int kMisses = 2;
 constexpr int kRing = 16;
+constexpr int kMostBetween = 6;         // halvings between two columns of a direction
 constexpr std::size_t kMostSpaces = 8;  // the latest; all triples of them are tried
 
 // The centre in the column over a place of the plane that is nearest to what is asked for.
@@ -137,15 +138,19 @@ class NearestCenter {
     std::array<Column, kRing> ring;  // the nearest of some columns in each direction
     for (int i = 0; i < kRing; ++i) {
       const double angle = 2.0 * kPi * i / kRing;
+      const Vec2 way(std::cos(angle), std::sin(angle));
       Column& best = ring[static_cast<std::size_t>(i)];
       // A column is no nearer than its radius.
-      double inner = 0.0;  // distance of the column before
+      Column inner;
+      double at = 0.0;  // its radius; 0: none
       for (auto radius = radii.rbegin(); radius != radii.rend() && *radius < best.distance; ++radius) {
-        Column column = At(Plan(p_) + *radius * Vec2(std::cos(angle), std::sin(angle)));
-        const bool drops = column.distance < inner;
-        inner = column.distance;
+        Column column = At(Plan(p_) + *radius * way);
+        const bool drops = at > 0.0 && column.distance < inner.distance;
         if (drops) column = AlongRay(column);
         if (column.distance < best.distance) best = column;
+        if (at > 0.0) Between(way, at, inner, *radius, column, kMostBetween, best);
+        inner = column;
+        at = *radius;
       }
     }
     for (std::size_t i = 0; i < kRing; ++i) {
@@ -158,6 +163,21 @@ class NearestCenter {
   }
 
  private:
+  // What is nearer between two columns in one direction from p, where the ball drops beside what overhangs:
+  // right beside it, which no slope tells. Columns between are taken to stand no lower than the lower of the
+  // two.
+  void Between(const Vec2& way, double low, const Column& inner, double high, const Column& outer,
+               int halvings, Column& best) const {
+    if (halvings == 0 || inner.distance == kInfinity || outer.distance == kInfinity) return;
+    const double height = std::min(inner.center.z(), outer.center.z()) - p_.z();
+    if (std::hypot(low, height) >= (1.0 - kWorthwhile / 4.0) * best.distance) return;
+    const double radius = 0.5 * (low + high);
+    const Column middle = At(Plan(p_) + radius * way);
+    if (middle.distance < best.distance) best = middle;
+    Between(way, low, inner, radius, middle, halvings - 1, best);
+    Between(way, radius, middle, high, outer, halvings - 1, best);
+  }
+
   // Around p and down again: along the foot of an upright wall, whose columns tell of no side.
   Column Polish(Column at) const {
     if (at.distance == kInfinity) return at;

@@ -56,6 +56,10 @@ FormSign SignOf(const BernsteinForm& form) {
   return *low >= -nothing && *high <= nothing ? FormSign::kZero : FormSign::kOpen;
 }
 
+bool IsRounding(const BernsteinForm& form) {
+  return std::all_of(form.c.begin(), form.c.end(), [&](double c) { return std::abs(c) <= form.slack; });
+}
+
 bool IsGraph(const BernsteinForm& form) {
   if (!Monotone(form, true) && !Monotone(form, false)) return false;
   const int row = form.n + 1;

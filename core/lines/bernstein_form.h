@@ -20,6 +20,8 @@ enum class FormSign { kNegative, kZero, kPositive, kOpen };
 // kZero: rounding or negligible everywhere. kOpen: the coefficients have both signs, or one of them is within
 // the slack.
 FormSign SignOf(const BernsteinForm& form);
+// All coefficients are rounding.
+bool IsRounding(const BernsteinForm& form);
 
 // The zero set in the rectangle is one arc at most, a graph over u or v, and each side is met once at most: a
 // partial derivative has one sign, and no side's coefficients change sign twice (Descartes).

@@ -94,7 +94,7 @@ class Divider {
         sampled_.push_back(k);
       }
     }
-    if (params_.curves_only && sampled_.empty() && Settled(open)) return {};
+    if (params_.curves_only && sampled_.empty() && Settled(ZeroCell{}, open)) return {};
     levels_ = ChooseLevels(piece_, params_);
     result_.corners.assign(static_cast<std::size_t>((kZeroGrid + 1) * (kZeroGrid + 1)), false);
     std::vector<Task> level(1);
@@ -116,9 +116,21 @@ class Divider {
     bool divide = false;
   };
 
-  static bool Settled(std::vector<OpenForm>& open) {
-    std::erase_if(open, [](const OpenForm& f) { return SignOf(f.form) != FormSign::kOpen; });
+  // Takes out what has one sign, or none that anybody asks for. A node is asked for wherever it is: around
+  // one all values are small, and without it the sectors that meet there would be joined at random.
+  bool Settled(const ZeroCell& cell, std::vector<OpenForm>& open) {
+    std::erase_if(open, [&](const OpenForm& f) {
+      const FormSign sign = SignOf(f.form);
+      if (sign != FormSign::kZero || !fields_[f.field].node) return sign != FormSign::kOpen;
+      return IsRounding(f.form) || !NodeIn(f.field, cell);
+    });
     return open.empty();
+  }
+  std::optional<Vec2> NodeIn(std::size_t k, const ZeroCell& cell) const {
+    const double cells = 1 << cell.level, slack = kOnSide / cells;
+    return fields_[k].node(
+        piece_, {std::max(0.0, cell.i / cells - slack), std::min(1.0, (cell.i + 1) / cells + slack),
+                 std::max(0.0, cell.j / cells - slack), std::min(1.0, (cell.j + 1) / cells + slack)});
   }
 
   // The points at which samples of field k are looked at: 3 x 3 of smooth ones, of limits corners and middle.
@@ -160,7 +172,7 @@ class Divider {
     const bool proofs_only = sampled_.empty();
     for (Task& task : level) {
       if (Stopped()) return {};
-      if (Settled(task.open) && params_.curves_only && proofs_only) continue;
+      if (Settled(task.cell, task.open) && params_.curves_only && proofs_only) continue;
       task.divide = depth < levels_.start;
       for (const OpenForm& f : task.open) Decide(f, task);
     }
@@ -242,9 +254,7 @@ class Divider {
     if (!fields_[k].node || cell.node) return;
     const double cells = 1 << cell.level;
     const double slack = kOnSide / cells;
-    auto node = fields_[k].node(
-        piece_, {std::max(0.0, cell.i / cells - slack), std::min(1.0, (cell.i + 1) / cells + slack),
-                 std::max(0.0, cell.j / cells - slack), std::min(1.0, (cell.j + 1) / cells + slack)});
+    std::optional<Vec2> node = NodeIn(k, cell);
     if (!node) return;
     bool on_line[2];
     for (int c = 0; c < 2; ++c) {

@@ -77,6 +77,28 @@ TEST(Leftover, InASteepGroove) {
   }
 }
 
+// A mushroom: a cap on a stem. At the stem's foot, right beside the cap is nearest, wherever the columns that
+// are looked at lie.
+TEST(Leftover, BesideACap) {
+  for (const double cap : {8.0, 9.3, 11.0, 12.0}) {
+    for (const double under : {4.0, 10.0}) {
+      const std::vector<Vec2> corners = {{0, under + 2}, {cap, under + 2}, {cap, under},
+                                         {4, under},     {4, 0},           {30, 0}};
+      std::vector<Profile> profiles;
+      for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+        profiles.push_back(Line(corners[i], corners[i + 1]));
+      const Surface surface = SurfaceOf(Turned(profiles));
+      for (const double angle : {0.0, 0.3, 0.7}) {
+        const Vec3 foot(4.0 * std::cos(angle), 4.0 * std::sin(angle), 0.0);
+        const double beside = std::hypot(cap + kR - 4.0, kR) - kR;
+        const double over = under + 2.0;
+        EXPECT_NEAR(LeftoverAt(surface, foot), std::min(beside, over), 0.02 * (beside + kR))
+            << cap << " " << under << " " << angle;
+      }
+    }
+  }
+}
+
 TEST(Leftover, UnderASlabIsMeasuredFromItsSide) {
   // Ball and shank keep R from its edge x = 0.
   const double height = 20;

@@ -1,5 +1,7 @@
 // Mountains of several summits and basins of several pits, divided along their watersheds.
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +115,127 @@ TEST(Watershed, ACraterRimOfTwoSummitsIsCutAtBothPasses) {
       }
     }
     EXPECT_LT(std::min(-low, high), 0.5) << r.id;
+  }
+}
+
+// z = f(x) + g(y) on [x0, x1] x [y0, y1] as one patch; polynomials by their coefficients, constants first.
+struct Sum {
+  std::vector<double> f, g;
+  double x0, x1, y0, y1;
+};
+
+std::vector<double> Bernstein(const std::vector<double>& monomials, double a, double b) {
+  const std::size_t n = monomials.size() - 1;
+  const auto choose = [](std::size_t m, std::size_t k) {
+    double c = 1.0;
+    for (std::size_t i = 0; i < k; ++i) c *= static_cast<double>(m - i) / static_cast<double>(i + 1);
+    return c;
+  };
+  std::vector<double> scaled(n + 1, 0.0), c(n + 1, 0.0);  // in t of [0, 1]
+  for (std::size_t k = 0; k <= n; ++k) {
+    for (std::size_t i = 0; i <= k; ++i) {
+      scaled[i] += monomials[k] * choose(k, i) * std::pow(b - a, static_cast<double>(i)) *
+                   std::pow(a, static_cast<double>(k - i));
+    }
+  }
+  for (std::size_t i = 0; i <= n; ++i) {
+    for (std::size_t k = 0; k <= i; ++k) c[i] += choose(i, k) / choose(n, k) * scaled[k];
+  }
+  return c;
+}
+
+Surface SurfaceOfSum(const Sum& sum, bool reverse = false) {
+  const std::vector<double> f = Bernstein(sum.f, sum.x0, sum.x1), g = Bernstein(sum.g, sum.y0, sum.y1);
+  BezierPatch patch;
+  patch.degree_u = static_cast<int>(f.size()) - 1;
+  patch.degree_v = static_cast<int>(g.size()) - 1;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    const std::size_t i = reverse ? f.size() - 1 - k : k;
+    for (std::size_t j = 0; j < g.size(); ++j) {
+      const double u = static_cast<double>(i) / patch.degree_u, v = static_cast<double>(j) / patch.degree_v;
+      patch.points.emplace_back(sum.x0 + u * (sum.x1 - sum.x0), sum.y0 + v * (sum.y1 - sum.y0), f[i] + g[j]);
+    }
+  }
+  return SurfaceOf(Single(patch));
+}
+
+// Where contours turn on z = k / 2 (x^2 - y^2) are the two lines y = x and y = -x of the plane z = 0, however
+// gently it bends: at 1 m of radius all values of the field are tiny for centimetres around the saddle.
+TEST(Watershed, GentleSaddlesAreNodes) {
+  const double cx = 3.3, cy = -2.1, half = 30.0;
+  for (const double k : {0.1, 0.03, 0.015, 0.005, 0.001}) {
+    for (const bool reverse : {false, true}) {
+      const Surface surface = SurfaceOfSum({{0.5 * k * cx * cx, -k * cx, 0.5 * k},
+                                            {-0.5 * k * cy * cy, k * cy, -0.5 * k},
+                                            -half,
+                                            half,
+                                            -half,
+                                            half},
+                                           reverse);
+      RegionParams params;
+      params.detail = 1.0;
+      params.steep_angle = Radians(80.0);
+      const RegionMap map = Split(surface, params);
+      EXPECT_EQ(Of(map, RegionKind::kMountain).size(), 2u) << k << reverse;
+      EXPECT_EQ(Of(map, RegionKind::kBasin).size(), 2u) << k << reverse;
+      double nearest = kInfinity, length = 0.0;
+      for (const Vec3& node : map.nodes) nearest = std::min(nearest, (node - Vec3(cx, cy, 0.0)).norm());
+      EXPECT_LE(nearest, 1e-9) << k << reverse;
+      for (const BorderLine& line : map.border_lines) {
+        if (line.kind != BorderKind::kCurvature) continue;
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+          const Vec3 &a = line.points[i - 1], &b = line.points[i];
+          length += (b - a).norm();
+          const double x = std::abs(b.x() - cx), y = std::abs(b.y() - cy);
+          EXPECT_LE(std::abs(x - y), 0.02) << k << reverse << " " << b.transpose();
+        }
+      }
+      // Each ray ends at the nearer side of the square.
+      double rays = 0.0;
+      for (const double sx : {-1.0, 1.0})
+        for (const double sy : {-1.0, 1.0}) rays += std::sqrt(2.0) * std::min(half - sx * cx, half - sy * cy);
+      EXPECT_NEAR(length, rays, 0.05) << k << reverse;
+    }
+  }
+}
+
+// Two hills of a quartic, two pits of another, the saddle off the middle of the patch: divided by the plane x
+// = 0.
+TEST(Watershed, PlainHillsAndPits) {
+  for (const double sign : {1.0, -1.0}) {
+    for (const double scale : {0.1, 1.0, 10.0}) {
+      const double c = sign * 6e-5 / (scale * scale * scale), d = sign * 0.01 / scale,
+                   a2 = 100.0 * scale * scale;
+      for (const bool reverse : {false, true}) {
+        const Surface surface = SurfaceOfSum({{-c * a2 * a2, 0.0, 2.0 * c * a2, 0.0, -c},
+                                              {0.0, 0.0, -d},
+                                              -15.0 * scale,
+                                              16.3 * scale,
+                                              -10.0 * scale,
+                                              11.7 * scale},
+                                             reverse);
+        RegionParams params;
+        params.radius = 3.0 * scale;
+        params.tolerance = 0.01 * scale;
+        params.border_tolerance = 0.01 * scale;
+        const RegionMap map = Split(surface, params);
+        const auto hills = Of(map, sign > 0.0 ? RegionKind::kMountain : RegionKind::kBasin);
+        ASSERT_EQ(hills.size(), 2u) << sign << " " << scale << reverse;
+        double left = 0.0, all = 0.0;
+        constexpr int n = 400;
+        for (int i = 0; i < n; ++i) {
+          for (int j = 0; j < n; ++j) {
+            const SurfaceJet jet = Evaluate(surface.pieces[0], (i + 0.5) / n, (j + 0.5) / n);
+            const double area = jet.du.cross(jet.dv).norm() / (n * n);
+            all += area;
+            const double span = 31.3 * scale / n, share = std::clamp(0.5 - jet.p.x() / span, 0.0, 1.0);
+            left += share * area;
+          }
+        }
+        EXPECT_NEAR(hills[0].area, std::max(left, all - left), 2e-4 * all) << sign << " " << scale << reverse;
+        EXPECT_NEAR(hills[1].area, std::min(left, all - left), 2e-4 * all) << sign << " " << scale << reverse;
+      }
+    }
   }
 }
 
