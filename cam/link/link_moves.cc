@@ -4,6 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "cam/location/touched.h"
+#include "cam/path/spacing.h"
+#include "core/surface/closest.h"
+
 namespace patchmill {
 namespace {
 
@@ -15,6 +19,10 @@ constexpr double kDetour = 3.0;
 constexpr double kShortDetour = 1.5;
 // How far off a wall, in parts of its length, a link between two places at it may lead.
 constexpr std::array<double, 4> kBulges = {0.0625, 0.125, 0.25, 0.5};
+// Steps that links may lie beyond what is wanted: passes run on by up to one and a half (ClipToKeepIn).
+constexpr double kOverrun = 2.0;
+// Ball radii: in a corner this much farther off is beside the link, too.
+constexpr double kBeside = 0.04;
 // rad: how leads may turn from the normal; a way out this many times as long as the way through the stock is
 // good enough.
 constexpr std::array<double, 8> kTurns = {0.0,        kPi / 4.0,       -kPi / 4.0,       kPi / 2.0,
@@ -33,7 +41,8 @@ LinkMaker::LinkMaker(const Locator& locator, const Locator& stock_locator, const
       t2_length_(2.0 *
                  std::sqrt(std::max(0.0, 2.0 * locator.radius() * params.pass.chord_tolerance -
                                              params.pass.chord_tolerance * params.pass.chord_tolerance))),
-      max_link_(MaxLinkLength(params)) {}
+      max_link_(MaxLinkLength(params)),
+      overrun_(kOverrun * CenterStep(locator.radius(), params.pass.scallop, 0.0)) {}
 
 Move LinkMaker::Feed(MoveKind kind, const Vec3& from, const Vec3& to) const {
   const Vec3 d = to - from;
@@ -47,7 +56,26 @@ Move LinkMaker::Feed(MoveKind kind, const Vec3& from, const Vec3& to) const {
 }
 
 bool LinkMaker::Allowed(const Vec3& a, const Vec3& b) const {
-  return params_.keep_in == nullptr || params_.keep_in->AllowsMove(a, b, false);
+  if (params_.keep_in == nullptr) return true;
+  const KeepIn& keep_in = *params_.keep_in;
+  if (!keep_in.AllowsMove(a, b, false)) return false;
+  if (keep_in.WantsAll() && keep_in.AllowsMove(a, b, true)) return true;
+  const int parts = 1 + static_cast<int>((b - a).norm() / (0.5 * overrun_));
+  for (int k = 0; k <= parts; ++k) {
+    if (!LeavesUnwanted(a + (static_cast<double>(k) / parts) * (b - a))) return false;
+  }
+  return true;
+}
+
+bool LinkMaker::LeavesUnwanted(const Vec3& c) const {
+  const KeepIn& keep_in = *params_.keep_in;
+  const double clear = locator_.radius() + stock_depth();
+  if (!ClosestToPoint(locator_.surface(), c, clear, 0.01 * stock_depth())) return true;
+  if (!keep_in.AllowsMove(c, c, true)) return false;  // above the highest tip
+  const std::vector<SurfacePoint> touched =
+      Touched(locator_.surface(), c, clear, kBeside * locator_.radius());
+  return std::any_of(touched.begin(), touched.end(),
+                     [&](const SurfacePoint& place) { return keep_in.WantsNear(place, overrun_); });
 }
 
 bool LinkMaker::StraightIsFree(const Vec3& a, const Vec3& b) const {

@@ -57,7 +57,11 @@ class LinkMaker {
   // at most.
   double ClearOfStock(const Vec3& place) const;
   bool StraightIsFree(const Vec3& a, const Vec3& b) const;
-  bool Allowed(const Vec3& a, const Vec3& b) const;  // by params_.keep_in
+  // By params_.keep_in: where the operation allows the centre, and where feeding leaves alone what is not to
+  // be cut.
+  bool Allowed(const Vec3& a, const Vec3& b) const;
+  // The ball is clear of the stock, or the ground next to it is wanted and the tip not above the highest.
+  bool LeavesUnwanted(const Vec3& c) const;
 
   const RunContext& run_;
   const Locator& locator_;
@@ -65,6 +69,7 @@ class LinkMaker {
   const LinkParams& params_;
   double t2_length_;
   double max_link_;
+  double overrun_;  // mm: how far beyond what is wanted links may touch
 };
 
 }  // namespace patchmill

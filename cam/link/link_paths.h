@@ -25,9 +25,11 @@ struct LinkParams {
   double feed = 0.0, plunge_feed = 0.0;  // mm/min
   double plunge_angle = Radians(30.0);   // descents steeper than this run at plunge feed
   CutDirection contour_direction = CutDirection::kClimb;
-  PassParams pass;                  // for links along the centre surface
-  double max_link_length = 0.0;     // mm in plan; 0: 6 ball radii. Longer ones retract
-  const KeepIn* keep_in = nullptr;  // feeds stay where it allows them; null: anywhere
+  PassParams pass;               // for links along the centre surface
+  double max_link_length = 0.0;  // mm in plan; 0: 6 ball radii. Longer ones retract
+  // Feeds stay where it allows them; links keep clear of the stock over ground that is not wanted and above
+  // the highest tip, but for a step. Null: anywhere.
+  const KeepIn* keep_in = nullptr;
 };
 
 // mm in plan: the longest link made instead of a retract.

@@ -1,7 +1,10 @@
 #include "cam/path/keep_in_clip.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "cam/location/touched.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 #include "core/surface/closest.h"
@@ -9,12 +12,15 @@
 namespace patchmill {
 namespace {
 
+constexpr double kAsNear = 2e-3;  // of the radius: a ball touches what is this much farther than the nearest
+constexpr int kHalvings = 4;      // of half the reach, where what is wanted ends
 constexpr double kClipLength = 1e-3;  // mm: shorter parts across a limit are left out
 
 // A pass cut into chords, each kept or not.
 struct Chords {
   std::vector<CutterPoint> points;  // the last one closes a closed path
   std::vector<bool> keep;           // of the chord from points[i] to points[i + 1]
+  bool begun = false;               // the last of them is of the move that is cut now
 };
 
 class Clipper {
@@ -41,16 +47,42 @@ class Clipper {
   void AddChord(const CutterPoint& a, const CutterPoint& b, Chords& chords) const {
     const double length = (b.center - a.center).norm();
     const int parts = keep_in_.WantsAll() ? 1 : 1 + static_cast<int>(2.0 * length / reach_);
+    chords.begun = false;
     CutterPoint from = a;
+    bool wanted = WantsNear(a);
     for (int k = 1; k <= parts; ++k) {
       const CutterPoint to = k == parts ? b : Between(a, b, static_cast<double>(k) / parts);
-      if (WantsNear(from) || WantsNear(to)) {
+      const bool before = std::exchange(wanted, WantsNear(to));
+      if (before && wanted) {
         AddAllowed(from, to, chords);
+      } else if (before) {
+        const CutterPoint end = Switch(from, to);
+        AddAllowed(from, end, chords);
+        Push(to, false, chords);
+      } else if (wanted) {
+        const CutterPoint start = Switch(to, from);
+        Push(start, false, chords);
+        AddAllowed(start, to, chords);
       } else {
         Push(to, false, chords);
       }
       from = to;
     }
+  }
+
+  // From where something is wanted to where nothing is: just beyond where that ends. In a corner the ball
+  // would climb the next wall there.
+  CutterPoint Switch(const CutterPoint& wanted, const CutterPoint& not_wanted) const {
+    double low = 0.0, high = 1.0;
+    CutterPoint end = not_wanted;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      const CutterPoint at = Between(wanted, not_wanted, middle);
+      const bool more = WantsNear(at);
+      if (!more) end = at;
+      (more ? low : high) = middle;
+    }
+    return end;
   }
 
   void AddAllowed(const CutterPoint& a, const CutterPoint& b, Chords& chords) const {
@@ -68,14 +100,16 @@ class Clipper {
     AddAllowed(middle, b, chords);
   }
 
-  // Neighbouring chords that are left out are one.
+  // Neighbouring chords that are left out are one, and those of one move that stay.
   static void Push(const CutterPoint& to, bool keep, Chords& chords) {
-    if (!keep && !chords.keep.empty() && !chords.keep.back()) {
+    const bool same = !chords.keep.empty() && chords.keep.back() == keep;
+    if (same && (!keep || chords.begun)) {
       chords.points.back() = to;
-      return;
+    } else {
+      chords.points.push_back(to);
+      chords.keep.push_back(keep);
     }
-    chords.points.push_back(to);
-    chords.keep.push_back(keep);
+    chords.begun = true;
   }
 
   CutterPoint Between(const CutterPoint& a, const CutterPoint& b, double share) const {
@@ -88,10 +122,17 @@ class Clipper {
     return p;
   }
 
+  // The ball touches ground near what is wanted. A contact above its centre is the shank's, which finishes
+  // nothing; of several contacts a point may name one.
   bool WantsNear(const CutterPoint& p) const {
     if (keep_in_.WantsAll()) return true;
-    return (p.contact && keep_in_.WantsNear(*p.contact, reach_)) ||
-           (p.other_contact && keep_in_.WantsNear(*p.other_contact, reach_));
+    const auto wanted = [&](const SurfacePoint& place) {
+      return place.p.z() <= p.center.z() + kClipLength && keep_in_.WantsNear(place, reach_);
+    };
+    if ((p.contact && wanted(*p.contact)) || (p.other_contact && wanted(*p.other_contact))) return true;
+    const std::vector<SurfacePoint> touched =
+        Touched(locator_.surface(), p.center, locator_.radius(), kAsNear * locator_.radius());
+    return std::any_of(touched.begin(), touched.end(), wanted);
   }
 
   static std::vector<CutterPath> Gather(const CutterPath& path, const Chords& chords) {

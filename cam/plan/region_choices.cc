@@ -266,4 +266,21 @@ std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoi
   return WithRoundLines(map, choices, part_of, std::move(parts));
 }
 
+std::shared_ptr<const SurfaceMask> CutGround(const RegionMap& map, const std::vector<RegionChoice>& choices,
+                                             const std::vector<PlanPart>& parts) {
+  if (std::none_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.skip; }))
+    return nullptr;
+  std::vector<std::vector<bool>> cells(map.labels.size());
+  for (std::size_t piece = 0; piece < cells.size(); ++piece) {
+    cells[piece].resize(map.labels[piece].size());
+    for (std::size_t k = 0; k < cells[piece].size(); ++k) {
+      const int i = static_cast<int>(k) / map.cells, j = static_cast<int>(k) % map.cells;
+      cells[piece][k] = std::any_of(parts.begin(), parts.end(), [&](const PlanPart& part) {
+        return part.where == nullptr || part.where->HasCell(PieceId(piece), i, j);
+      });
+    }
+  }
+  return std::make_shared<const SurfaceMask>(map.cells, cells);
+}
+
 }  // namespace patchmill

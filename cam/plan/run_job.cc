@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -137,6 +139,21 @@ std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnos
   return lines;
 }
 
+// Linked in their order, within `limits`; null: anywhere.
+absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
+                                const std::vector<RegionChoice>& choices, const std::vector<PlanPart>& parts,
+                                const Job& job, const Resolved& resolved, const KeepIn* limits,
+                                std::vector<CutterPath> paths, const RunContext& run) {
+  std::optional<KeepIn> within;
+  if (limits != nullptr) {
+    if (auto ground = CutGround(map, choices, parts)) {
+      PM_ASSIGN_OR_RETURN(within, limits->Within(std::move(ground), run));
+    }
+  }
+  return LinkPaths(locator, map, std::move(paths), MakeLinkParams(job, resolved, within ? &*within : limits),
+                   run);
+}
+
 }  // namespace
 
 absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
@@ -200,8 +217,8 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
       const KeepIn* within = limits_of(tried);
       PM_ASSIGN_OR_RETURN(PlannedPasses passes,
                           PlanPasses(locator, result.regions, choices, tried, job, resolved, within, run));
-      PM_ASSIGN_OR_RETURN(const LinkResult motion, LinkPaths(locator, result.regions, std::move(passes.paths),
-                                                             MakeLinkParams(job, resolved, within), run));
+      PM_ASSIGN_OR_RETURN(const LinkResult motion, Link(locator, result.regions, choices, tried, job,
+                                                        resolved, within, std::move(passes.paths), run));
       return TimesOf(motion, result.regions.regions.size());
     };
     PM_ASSIGN_OR_RETURN(report.choices, QuickestAngles(result.regions, std::move(report.choices), time));
@@ -227,12 +244,14 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
                     limits != nullptr ? "that is wanted" : "of the model", 2.0 * resolved.radius,
                     resolved.box.max.x() - resolved.box.min.x(), resolved.box.max.y() - resolved.box.min.y(),
                     resolved.box.max.z() - resolved.box.min.z(),
-                    limits != nullptr ? ", then the selection, the regions, --top and the obstacles" : "")));
+                    limits != nullptr
+                        ? ", then the selection, the boundary, the regions, --top and the obstacles"
+                        : "")));
     return result;
   }
 
-  PM_ASSIGN_OR_RETURN(result.motion, LinkPaths(locator, result.regions, std::move(planned.paths),
-                                               MakeLinkParams(job, resolved, limits), run));
+  PM_ASSIGN_OR_RETURN(result.motion, Link(locator, result.regions, report.choices, parts, job, resolved,
+                                          limits, std::move(planned.paths), run));
   report.motion = result.motion.stats;
   report.point_count = static_cast<int>(result.motion.toolpath.moves.size());
   clock.Done("link");

@@ -99,6 +99,11 @@ bool Selects(const LimitOptions& options) {
 }
 
 absl::Status SetLimits(const LimitOptions& options, v1::Setup& setup, v1::Selection& selection) {
+  // Whoever gives one of these thinks that something is limited.
+  if (options.boundary.empty() && options.boundary_offset != 0.0)
+    return absl::InvalidArgumentError("--boundary-offset is given without --boundary");
+  if (options.avoid.empty() && options.avoid_margin != 0.0)
+    return absl::InvalidArgumentError("--avoid-margin is given without --avoid");
   for (const std::string& text : options.obstacles) {
     if (const absl::Status read = ReadObstacle(text, *setup.add_obstacles()); !read.ok()) return read;
   }

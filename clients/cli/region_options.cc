@@ -27,9 +27,9 @@ bool ReadWord(const std::string& word, v1::RegionOverride& change) {
   if (equals != std::string::npos) {
     double value = 0.0;
     if (!ReadFinite(word.substr(equals + 1), value)) return false;
-    if (name == "angle") {
+    if (name == "angle" && !change.has_zigzag_angle_deg()) {
       change.set_zigzag_angle_deg(value);
-    } else if (name == "scallop") {
+    } else if (name == "scallop" && !change.has_scallop_mm()) {
       change.set_scallop_mm(value);
     } else {
       return false;
@@ -38,9 +38,10 @@ bool ReadWord(const std::string& word, v1::RegionOverride& change) {
   }
   if (name == "off") {
     change.set_skip(true);
-  } else if (name == "oneway" || name == "bothways") {
+  } else if ((name == "oneway" || name == "bothways") && !change.has_one_way_lines()) {
     change.set_one_way_lines(name == "oneway");
-  } else if (name == "auto" || name == "contour" || name == "zigzag") {
+  } else if ((name == "auto" || name == "contour" || name == "zigzag") &&
+             change.strategy() == v1::STRATEGY_UNSPECIFIED) {
     change.set_strategy(MakeStrategy(name));
   } else {
     return false;
@@ -65,7 +66,7 @@ absl::Status ReadChange(const std::string& text, v1::RegionOverride& change) {
   if (good) return absl::OkStatus();
   return absl::InvalidArgumentError(fmt::format(
       "--region \"{}\"; must be ID or X,Y,Z and then :off, or :auto, :contour, :zigzag, :angle=DEG, "
-      ":oneway, :bothways, :scallop=MM",
+      ":oneway, :bothways, :scallop=MM, one of a kind",
       text.substr(0, 80)));
 }
 

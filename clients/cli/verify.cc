@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -63,13 +64,22 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   return request;
 }
 
+// Some region is judged by a scallop of its own.
+bool OwnScallops(const RegionChangeOptions& options) {
+  return std::any_of(options.changes.begin(), options.changes.end(),
+                     [](const std::string& change) { return change.find(":scallop=") != std::string::npos; });
+}
+
 void Print(const VerifyOptions& options, const v1::Report& report) {
   fmt::print("outcome   {}\n", Short(report.outcome()));
   fmt::print("gouge     {:<11} {:.4f} mm (limit {:g}) at {}\n", Short(report.gouge_check()),
              report.max_gouge_mm(), options.tolerance, Line(report.max_gouge_at()));
   fmt::print("finish    {:<11} {:.4f} mm left{} at {}\n", Short(report.finish_check()),
              report.max_leftover_mm(),
-             options.scallop ? fmt::format(" (limit {:g})", *options.scallop + options.tolerance) : "",
+             options.scallop
+                 ? fmt::format(" (limit {:g}{})", *options.scallop + options.tolerance,
+                               OwnScallops(options.regions) ? "; regions of their own scallop apart" : "")
+                 : "",
              Line(report.max_leftover_at()));
   if (const std::string spread = SpreadLine(report); !spread.empty()) fmt::print("          {}\n", spread);
   fmt::print("motion    {:<11} steepest descent {:.1f} degrees\n", Short(report.motion_check()),
