@@ -98,33 +98,34 @@ TEST(SelectedGround, LinksAreLiftedOverOtherGround) {
   }
 }
 
-// The same where a region between two others is switched off.
+// The same where a region between two others is switched off: a ridge between two levels.
 TEST(SelectedGround, LinksAreLiftedOverRegionsThatAreOff) {
-  const double side = 12.0, slope = std::tan(Radians(60.0));
-  // Level, a steep valley that a link along the surface would follow, level.
+  const double side = 12.0, run = 1.2, height = run * std::tan(Radians(60.0)), end = 2.0 * (side + run);
   const auto strip = [](double x0, double z0, double x1, double z1) {
     return Single(Bilinear({x0, 0, z0}, {x1, 0, z1}, {x0, 20, z0}, {x1, 20, z1}));
   };
   const Surface surface =
-      PlacedSurface(Join({strip(0, 0, side, 0), strip(side, 0, side + 3, -3 * slope),
-                          strip(side + 3, -3 * slope, side + 6, 0), strip(side + 6, 0, 2 * side + 6, 0)}));
+      PlacedSurface(Join({strip(0, 0, side, 0), strip(side, 0, side + run, height),
+                          strip(side + run, height, side + 2 * run, 0), strip(side + 2 * run, 0, end, 0)}));
   Job job = SelectedJob(1.0, 0.02, {});
-  RegionOverride off;
-  off.at = Vec3(side + 1.0, 10.0, -slope);
-  off.skip = true;
-  RegionOverride other = off;
-  other.at = Vec3(side + 5.0, 10.0, -slope);
-  job.operation.overrides = {off, other};
+  job.operation.clearance_above = 30.0;  // going over the ridge at feed is quicker
   const auto regions = PlanRegions(surface, job, RunContext());
-  if (!regions.ok()) job.operation.overrides = {off};  // both flanks are one region
+  ASSERT_TRUE(regions.ok());
+  for (const Region& region : regions->map.regions) {
+    if (region.slope != SlopeClass::kSteep) continue;
+    RegionOverride off;
+    off.region = region.id;
+    off.skip = true;
+    job.operation.overrides.push_back(off);
+  }
+  ASSERT_FALSE(job.operation.overrides.empty());
   const JobResult result = Mill(surface, job);
   EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
   EXPECT_GT(result.report.motion.cut_length, 500.0);
   const double step = FlatStep(1.0, 0.02);
   AlongFeeds(result, [&](const Vec3& c, bool) {
-    if (c.x() < side + 2.0 * step || c.x() > side + 6.0 - 2.0 * step) return;
     const auto near = ClosestToPoint(surface, c, 5.0, 1e-3);
-    if (!near || near->at.p.x() < side + 2.0 * step || near->at.p.x() > side + 6.0 - 2.0 * step) return;
+    if (!near || near->at.p.z() < 2.0 * step) return;
     EXPECT_GE(near->distance, 1.0 + job.setup.allowance) << c.transpose();
   });
 }
