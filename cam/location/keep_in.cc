@@ -59,6 +59,11 @@ bool KeepIn::WantsNear(const SurfacePoint& contact, double distance) const {
   return selected_ != nullptr && ClosestToPoint(*selected_, contact.p, distance, 0.01 * distance).has_value();
 }
 
+bool KeepIn::WantsNothingNear(const Vec3& c, double distance) const {
+  if (ContactRoomOutside(*containment_, c) > distance) return true;
+  return selected_ != nullptr && !ClosestToPoint(*selected_, c, 1.01 * distance, 0.01 * distance);
+}
+
 bool KeepIn::WantsNothing(PieceId piece, double u0, double u1, double v0, double v1, const Vec3& p,
                           double radius) const {
   if (part_ != nullptr && !part_->HasAny(piece, u0, u1, v0, v1)) return true;

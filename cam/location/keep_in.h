@@ -43,6 +43,9 @@ class KeepIn {
   bool Wants(const SurfacePoint& contact) const;
   // Some point to be finished may lie within `distance` (mm) of the contact.
   bool WantsNear(const SurfacePoint& contact, double distance) const;
+  // Proof that nothing to be finished lies within `distance` (mm) of the place c; false proves nothing. Quick
+  // where few patches are selected.
+  bool WantsNothingNear(const Vec3& c, double distance) const;
   // No point of a piece's parameters [u0, u1] x [v0, v1], all within `radius` (mm) of p, is to be finished.
   bool WantsNothing(PieceId piece, double u0, double u1, double v0, double v1, const Vec3& p,
                     double radius) const;

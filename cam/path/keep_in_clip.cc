@@ -130,8 +130,9 @@ class Clipper {
       return place.p.z() <= p.center.z() + kClipLength && keep_in_.WantsNear(place, reach_);
     };
     if ((p.contact && wanted(*p.contact)) || (p.other_contact && wanted(*p.other_contact))) return true;
-    const std::vector<SurfacePoint> touched =
-        Touched(locator_.surface(), p.center, locator_.radius(), kAsNear * locator_.radius());
+    const double radius = locator_.radius();
+    if (keep_in_.WantsNothingNear(p.center, 1.1 * radius + reach_)) return false;
+    const std::vector<SurfacePoint> touched = Touched(locator_.surface(), p.center, radius, kAsNear * radius);
     return std::any_of(touched.begin(), touched.end(), wanted);
   }
 

@@ -31,7 +31,8 @@ struct Nearby {
 constexpr double kCoarse = 0.25;   // larger rectangles are not looked at by their middles
 constexpr double kPair = 1.0;      // larger ones lie over more than two moves
 constexpr double kFinest = 0.002;  // smaller ones are left, and narrower strips beside silhouettes
-constexpr double kLimit = 0.05;    // the same at a limit of params.keep_in
+constexpr double kLimit = 0.05;    // the same at a limit of params.keep_in, when a move is this near:
+constexpr double kAtHand = 1.0;    // farther from all there may be room for the ball in no more than a chink
 
 // Ground that needs steps up to this much above the shortest may be left to forced passes or not.
 constexpr double kForcedMargin = 1.05;
@@ -225,7 +226,8 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   constexpr int kDeepest = 60;
   const bool limited =
       params_.keep_in != nullptr && !(Wanted(at) && params_.keep_in->Allows(p + radius_ * e));
-  if (size < (limited ? kLimit : kFinest) * flat_ || depth >= kDeepest) return;
+  const bool at_hand = near.segment >= 0 && near.distance < radius_ + kAtHand * flat_;
+  if (size < (limited && at_hand ? kLimit : kFinest) * flat_ || depth >= kDeepest) return;
   if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, radius_, params_.scallop,
                                               kForcedMargin * params_.min_step_fraction)) {
     return;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -68,6 +70,17 @@ class Legend {
   SvgWriter& svg_;
 };
 
+// Positions of the largest, as many as there are rows, in the order they came in.
+std::vector<std::size_t> RowsOf(const std::vector<PreviewRegion>& regions) {
+  std::vector<std::size_t> rows(regions.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](std::size_t a, std::size_t b) { return regions[a].area > regions[b].area; });
+  rows.resize(std::min(kMaxRows, rows.size()));
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
 void AddMoves(const PreviewInput& input, Legend& legend) {
   std::array<bool, kMoveStyles.size()> used{};
   for (std::size_t i = 1; i < input.toolpath->moves.size(); ++i)
@@ -100,7 +113,7 @@ void DrawLegend(const PreviewInput& input, const Vec2& corner, SvgWriter& svg) {
   Legend legend(corner, svg);
   if (!input.regions.empty()) {
     legend.Heading("regions");
-    for (std::size_t i = 0; i < std::min(kMaxRows, input.regions.size()); ++i)
+    for (const std::size_t i : RowsOf(input.regions))
       legend.Area(input.regions[i].color, input.regions[i].name);
     legend.More(input.regions.size());
     legend.Gap();

@@ -18,6 +18,7 @@ struct PreviewRegion {
   std::string name;   // of the legend: "3 mountain steep 412.3 mm2"
   std::string label;  // on the surface, where it has room and no passes run: "3"
   std::string color;  // CSS
+  double area = 0.0;  // mm^2: of many the legend has the largest
 };
 
 // Lines on the surface, drawn where they can be seen.

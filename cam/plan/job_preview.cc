@@ -153,6 +153,7 @@ PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::
     PreviewRegion r;
     const bool unreachable = region.reason != UnreachableReason::kNone;
     r.color = Color(region, region.id);
+    r.area = region.area;
     r.label = fmt::format("{}", region.id);
     r.name = unreachable ? fmt::format("{} {}: {:.1f} mm2, {:.2f} mm stays", region.id, Name(region.reason),
                                        region.area, region.deepest_leftover)

@@ -132,4 +132,33 @@ absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<Regio
   return sum * ShareOfPoint(map, stride);
 }
 
+absl::StatusOr<std::vector<double>> WantedShares(const Surface& surface, const Containment& containment,
+                                                 const RunContext& run, const RegionMap& map) {
+  std::vector<double> shares(map.regions.size(), 1.0);
+  if (containment.WantsAll()) return shares;
+  struct Areas {
+    double all = 0.0, wanted = 0.0;
+  };
+  std::vector<std::vector<Areas>> pieces(surface.pieces.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
+    pieces[i].resize(map.regions.size());
+    VisitPiece(
+        surface, i, map, StrideOf(map), [](std::size_t) { return true; },
+        [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3&) {
+          const double area = jet.du.cross(jet.dv).norm();
+          pieces[i][id].all += area;
+          if (IsWanted(containment, surface.pieces[i].patch, jet.p)) pieces[i][id].wanted += area;
+        });
+  }));
+  for (std::size_t id = 0; id < shares.size(); ++id) {
+    Areas sum;
+    for (const std::vector<Areas>& piece : pieces) {
+      sum.all += piece[id].all;
+      sum.wanted += piece[id].wanted;
+    }
+    if (sum.all > 0.0) shares[id] = sum.wanted / sum.all;
+  }
+  return shares;
+}
+
 }  // namespace patchmill

@@ -237,6 +237,8 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   clock.Done("passes");
   if (planned.paths.empty()) {
     report.outcome = Outcome::kNothingToCut;
+    PM_ASSIGN_OR_RETURN(report.wanted_shares,
+                        WantedShares(surface, resolved.containment, run, result.regions));
     report.diagnostics.push_back(Warning(
         "NOTHING_TO_CUT",
         fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm: check --scale "

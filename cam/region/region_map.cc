@@ -22,8 +22,9 @@
 namespace patchmill {
 namespace {
 
-// A region that bends less than this in all is neither mountain nor basin (ALGORITHMS 4, S0).
-constexpr double kMinCurvature = 0.5;  // mm
+// A region that bends less than this part of the ball's radius in all is neither mountain nor basin
+// (ALGORITHMS 4, S0).
+constexpr double kMinCurvature = 1.0 / 6.0;
 
 // A strip whose normal turns by twice this across it is not worth its borders (at middle detail).
 constexpr double kBorderTurn = 0.1;  // rad
@@ -117,7 +118,7 @@ MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
     p.flat_cost = 0.5 * kBorderTurn / params.radius;
     p.min_area = 2.0 * kPi * params.radius * params.radius * coarse;
     p.min_width = params.radius * coarse;
-    p.min_curvature = kMinCurvature;
+    p.min_curvature = kMinCurvature * params.radius;
     p.max_regions = static_cast<int>(MostRegions(params));
   }
   return MergeRegions(raw.regions, raw.contacts, p);
@@ -168,7 +169,8 @@ absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitM
   for (std::size_t k = 0; k < merged.label.size(); ++k) {
     SplitLabel label = merged.label[k];
     if (label.reason == UnreachableReason::kStrategy) {
-      const bool bent = std::abs(curvature[k]) >= std::max(kMinCurvature, FlatBend(params) * flat[k]);
+      const bool bent =
+          std::abs(curvature[k]) >= std::max(kMinCurvature * params.radius, FlatBend(params) * flat[k]);
       label.curvature = static_cast<std::int8_t>(!bent ? 0 : curvature[k] < 0.0 ? -1 : 1);
       label.steep = steepness[k] > 0.0;
     }

@@ -6,11 +6,13 @@
 #include <fmt/format.h>
 
 #include "cam/verify/motion_sets.h"
+#include "core/surface/closest.h"
 
 namespace patchmill {
 namespace {
 
 constexpr double kCertainty = 1e-3;  // mm
+constexpr double kClear = 0.5;       // mm: farther from the surface is not looked at
 constexpr std::size_t kMost = 20;    // findings per code
 
 using Room = std::function<double(const Vec3&)>;  // of a centre; slope at most 1
@@ -80,8 +82,8 @@ std::vector<Least> Broken(const std::vector<PathSegment>& moves, const Room& roo
 
 }  // namespace
 
-Diagnostics BrokenLimits(const ProgramMotion& motion, const CenterLimits& limits, const Vec3& offset,
-                         double slack) {
+Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const CenterLimits& limits,
+                         double radius, const Vec3& offset, double slack) {
   Diagnostics found;
   if (limits.containment == nullptr) return found;
   const Containment& c = *limits.containment;
@@ -100,6 +102,19 @@ Diagnostics BrokenLimits(const ProgramMotion& motion, const CenterLimits& limits
     const Room room = [&](const Vec3& center) { return BoundaryRoom(c, Plan(center), limits.ball); };
     report.Add("OUTSIDE_BOUNDARY", Broken(CollectMoves(motion, MotionSet::kCut, offset), room, slack),
                "a feed leaves the boundary");
+  }
+  if (c.top_z) {
+    // Touching: the surface lies within `slack` of the ball, beside what Broken allows.
+    const double touching = radius + 2.0 * slack;
+    const Room room = [&](const Vec3& center) {
+      const double below = TopRoom(c, center - Vec3(0.0, 0.0, limits.ball));
+      if (below >= 0.0) return below;
+      const auto nearest = ClosestToPoint(surface, center, touching + kClear, 0.1 * kCertainty);
+      return std::max(below, nearest ? nearest->distance - touching : kClear);
+    };
+    std::vector<PathSegment> feeds = CollectMoves(motion, MotionSet::kCut, offset);
+    std::erase_if(feeds, [](const PathSegment& s) { return Plan(s.b - s.a).norm() < kCertainty; });
+    report.Add("ABOVE_TOP", Broken(feeds, room, slack), "a feed touches the surface above the highest tip");
   }
   return found;
 }

@@ -6,10 +6,11 @@
 
 namespace patchmill {
 
-// OBSTACLE_HIT (all moves) and OUTSIDE_BOUNDARY (feed moves), the deepest first, one a line and at most 20 of
-// each: moves that go more than `slack` (mm) beyond a limit somewhere, known to 1e-3 mm. `offset` as in
-// CollectMoves; places are said in the program frame.
-Diagnostics BrokenLimits(const ProgramMotion& motion, const CenterLimits& limits, const Vec3& offset,
-                         double slack);
+// OBSTACLE_HIT (all moves), OUTSIDE_BOUNDARY (feed moves) and ABOVE_TOP (feed moves, but not straight up or
+// down, that touch the surface while the tip is above the highest), the deepest first, one a line and at most
+// 20 of each: moves that go more than `slack` (mm) beyond a limit somewhere, known to 1e-3 mm. `radius`, mm:
+// of ball and stock to leave. `offset` as in CollectMoves; places are said in the program frame.
+Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const CenterLimits& limits,
+                         double radius, const Vec3& offset, double slack);
 
 }  // namespace patchmill

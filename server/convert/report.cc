@@ -38,12 +38,16 @@ void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Rep
   const auto skipped = [&](const Region& region) {
     return from.choices[static_cast<std::size_t>(region.id)].skip;
   };
+  const auto area = [&](const Region& region) {
+    const auto id = static_cast<std::size_t>(region.id);
+    return Number(region.area) * (id < from.wanted_shares.size() ? from.wanted_shares[id] : 1.0);
+  };
   double unreachable = 0.0, reachable = 0.0;
   for (const UnreachableReason reason : kReasons) {
     v1::UnreachablePart part;
     for (const Region& region : regions) {
-      if (region.reason != reason || skipped(region)) continue;
-      part.set_area_mm2(part.area_mm2() + Number(region.area));
+      if (region.reason != reason || skipped(region) || !(area(region) > 0.0)) continue;
+      part.set_area_mm2(part.area_mm2() + area(region));
       if (region.deepest_leftover >= part.deepest_leftover_mm()) {
         part.set_deepest_leftover_mm(Number(region.deepest_leftover));
         *part.mutable_deepest_at()->mutable_point() = ToProto(Vec3(region.inside - zero));
@@ -56,7 +60,7 @@ void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Rep
     *report->add_unreachable() = std::move(part);
   }
   for (const Region& region : regions) {
-    if (region.reason == UnreachableReason::kNone && !skipped(region)) reachable += Number(region.area);
+    if (region.reason == UnreachableReason::kNone && !skipped(region)) reachable += area(region);
   }
   report->set_unreachable_area_mm2(unreachable);
   report->set_reachable_area_mm2(reachable);

@@ -312,6 +312,11 @@ TEST(Containment, TheJudgeSeesWhatThePlannerWasNotTold) {
   EXPECT_EQ(codes(clamped), "OBSTACLE_HIT ");
   clamped.containment.obstacles[0].outline = Outline({Box(18.1, -5, 20, 5)});
   EXPECT_EQ(codes(clamped), "");
+  VerifyParams low = params;
+  low.containment.top_z = -0.5;
+  EXPECT_EQ(codes(low), "ABOVE_TOP ");
+  low.containment.top_z = 0.0;
+  EXPECT_EQ(codes(low), "");
   VerifyParams avoiding = params;
   avoiding.containment.avoided = {true};
   avoiding.containment.avoid_margin = 0.1;
@@ -332,6 +337,37 @@ TEST(Containment, NamesThatAreNotThere) {
   const JobResult none = Mill(surface, job);
   EXPECT_EQ(none.report.outcome, Outcome::kNothingToCut);
   EXPECT_TRUE(none.program.empty());
+}
+
+// Room for the ball in a chink of some microns, far from all else: one pass there finishes what can be.
+TEST(Containment, AnIslandBarelyWiderThanTheBallIsCut) {
+  const Surface surface = PlacedSurface(Plane(20));
+  for (const double room : {0.004, 0.02, 0.1}) {
+    for (const double at : {5.113, 6.0}) {
+      const double side = 2.0 * kRadius + room;
+      Job job = LimitedJob();
+      job.operation.selection.boundary = {Box(-18, -18, 0, 18), Box(at, -14.9, at + side, -14.9 + side)};
+      job.operation.selection.boundary_mode = BoundaryMode::kInside;
+      const JobResult result = Mill(surface, job);
+      EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << room << " " << Describe(result);
+      const double middle = at + 0.5 * side;
+      EXPECT_LE(Distance(Vec3(middle, -14.9 + 0.5 * side, 0.0), result), kRadius + 0.03) << room;
+    }
+  }
+}
+
+// What there is to cut is what is selected, in the report of a job that cuts nothing too.
+TEST(Containment, NothingToCutCountsWhatIsSelected) {
+  const Surface surface = PlacedSurface(Plane(15));
+  Job job = LimitedJob();
+  job.operation.floor_z = 1.0;
+  job.operation.selection.boundary = {Box(-6, -4, 6, 4)};
+  job.operation.selection.boundary_mode = BoundaryMode::kContact;
+  const JobResult result = Mill(surface, job);
+  ASSERT_EQ(result.report.outcome, Outcome::kNothingToCut);
+  ASSERT_EQ(result.report.regions.size(), 1u);
+  ASSERT_EQ(result.report.wanted_shares.size(), 1u);
+  EXPECT_NEAR(result.report.wanted_shares[0] * result.report.regions[0].area, 12 * 8, 1.0);
 }
 
 }  // namespace

@@ -49,6 +49,24 @@ TEST_F(RegionPicture, ShowsTheNarrowestRegions) {
   EXPECT_THAT(Draw(), AllOf(HasSubstr("0 neutral, "), HasSubstr("1 neutral, "), HasSubstr("2 neutral, ")));
 }
 
+// Of more regions than the legend has rows it names the largest: unreachable ground comes last, however
+// large.
+TEST_F(RegionPicture, NamesTheLargest) {
+  model_ = Transformed(Plane(20), Eigen::Affine3d(Eigen::Translation3d(0, 0, -30)));
+  for (int i = 0; i < 30; ++i) {
+    const double side = 5.0 + 0.1 * i;
+    for (Patch& patch : Transformed(Plane(0.5 * side),
+                                    Eigen::Affine3d(Eigen::Translation3d(40 + 10 * (i % 6), 10 * (i / 6), 0)))
+                            .patches) {
+      model_.patches.push_back(patch);
+    }
+  }
+  job_.operation.floor_z = -10.0;
+  job_.operation.detail = 1.0;
+  EXPECT_THAT(Draw(), AllOf(HasSubstr("FLOOR: 1600.0 mm2"), HasSubstr("0 neutral, gentle"),
+                            HasSubstr("and 7 more"), Not(HasSubstr("29 neutral, gentle"))));
+}
+
 TEST_F(RegionPicture, LeavesOutWhatIsNotSelected) {
   job_.operation.selection.patches = {"#1"};
   EXPECT_THAT(Draw(), AllOf(Not(HasSubstr("neutral, steep")), HasSubstr("neutral, gentle")));
