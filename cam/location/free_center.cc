@@ -13,7 +13,8 @@ namespace {
 constexpr double kClear = 1e-7;     // mm: kept from everything, for rounding
 constexpr double kAccuracy = 1e-8;  // mm, of the distance to what is in the way
 constexpr int kMostObstacles = 24;
-constexpr int kMostBeyond = 3;  // obstacles looked at for a free centre where one that may gouge is known
+constexpr double kWedged = 0.95;  // of the gouge: how far what is in the way gives in
+constexpr int kMostBeyond = 3;    // obstacles looked at for a free centre where one that may gouge is known
 
 // normal . x >= offset
 struct HalfSpace {
@@ -42,8 +43,8 @@ Vec3 NearestIn(const std::vector<HalfSpace>& all, const Vec3& p) {
 }  // namespace
 
 std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const Vec3& n, double lowest_z,
-                                   double most, double gouge) {
-  const double radius = locator.radius();
+                                   double most, double gouge, bool wedged) {
+  const double radius = locator.radius(), pushed = wedged ? radius - kWedged * gouge : radius + 2.0 * kClear;
   std::vector<HalfSpace> allowed = {{n, n.dot(p) + radius + kClear}};
   if (lowest_z > -kInfinity) allowed.push_back({Vec3::UnitZ(), lowest_z});
   std::optional<Vec3> near;
@@ -55,13 +56,14 @@ std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const 
     const auto obstacle = ClosestToUpwardRay(locator.surface(), c, radius + kClear, kAccuracy);
     if (!obstacle) break;
     if (!near && obstacle->distance >= radius - gouge + kAccuracy) {
+      if (wedged) return c;
       near = c;
       last = std::min(last, k + kMostBeyond);
     }
     const Vec3 away = internal::ToRay(obstacle->at.p, c);
     if (!(away.norm() > 0.0)) break;
     const Vec3 d = away.normalized();
-    allowed.push_back({d, d.dot(obstacle->at.p) + radius + 2.0 * kClear});
+    allowed.push_back({d, d.dot(obstacle->at.p) + pushed});
   }
   return near;
 }

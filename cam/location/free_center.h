@@ -11,9 +11,10 @@ namespace patchmill {
 // of the unit normal n there; exact where planes are in the way, else near it. Where obstacles push along n
 // and sideways it gives way sideways, which leaves the square of it at p. nullopt when it would leave more
 // than `most` mm at p, or is not found. With `gouge` (mm, proven) also where the ball goes that far into what
-// is in its way: in a slot or a hole as wide as the ball no centre is free but for rounding. Cost: some ten
-// microseconds for each of the few obstacles met.
+// is in its way: in a slot or a hole as wide as the ball no centre is free but for rounding. `wedged`: all
+// that is in the way gives in by as much, so that between walls which are nearer to each other than the ball
+// is wide there is a centre at all. Cost: some ten microseconds for each of the few obstacles met.
 std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const Vec3& n, double lowest_z,
-                                   double most, double gouge = 0.0);
+                                   double most, double gouge = 0.0, bool wedged = false);
 
 }  // namespace patchmill

@@ -19,6 +19,9 @@ namespace {
 
 // Of what chords may take: what centres between walls that leave no room may take of them.
 constexpr double kGive = 0.1;
+// And where no other pass serves: in slots and holes narrower than the ball by some of the tolerance, which
+// lets it in. What certificates may take is theirs too, for these passes are proven by themselves.
+constexpr double kWedge = 1.15, kWedgedChord = 1.2;
 constexpr double kSamePlace = 1e-6;             // mm
 const double kSteep = std::cos(Radians(60.0));  // walls: scan lines over them would climb at every turn
 
@@ -44,6 +47,7 @@ class Mender {
         open_(spots.size(), true),
         give_(kGive * params.chord_tolerance),
         asked_(spots.size(), false),
+        wedge_asked_(spots.size(), false),
         free_(spots.size()) {
     for (const LeftoverSpot& spot : spots_) highest_ = std::max(highest_, spot.center.z());
   }
@@ -57,8 +61,8 @@ class Mender {
   bool AlongCrease(std::size_t i);
   bool AlongRidge(std::size_t i);
   bool AlongLevel(std::size_t i);
-  bool AlongCenters(std::size_t i);
-  const std::optional<Vec3>& FreeNear(std::size_t i);
+  bool AlongCenters(std::size_t i, bool wedged = false);
+  const std::optional<Vec3>& FreeNear(std::size_t i, bool wedged = false);
   bool Tight(std::size_t i);
   void FromAbove(std::size_t i);
   std::size_t NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
@@ -78,7 +82,7 @@ class Mender {
   std::vector<bool> open_;       // not mended yet
   double highest_ = -kInfinity;  // of the spots' centres
   const double give_;
-  std::vector<bool> asked_;                // FreeNear
+  std::vector<bool> asked_, wedge_asked_;  // FreeNear
   std::vector<std::optional<Vec3>> free_;  // its answers
   std::optional<LevelContext> levels_;
   int level_count_ = 0;
@@ -258,12 +262,19 @@ bool Mender::AlongLevel(std::size_t i) {
 }
 
 // A centre that leaves less of the spot than the passes so far.
-const std::optional<Vec3>& Mender::FreeNear(std::size_t i) {
+const std::optional<Vec3>& Mender::FreeNear(std::size_t i, bool wedged) {
+  const LeftoverSpot& spot = spots_[i];
+  const auto ask = [&](double give, bool wedge) {
+    free_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover,
+                              give, wedge);
+  };
   if (!asked_[i]) {
     asked_[i] = true;
-    const LeftoverSpot& spot = spots_[i];
-    free_[i] =
-        FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover, give_);
+    ask(give_, false);
+  }
+  if (wedged && !free_[i] && !wedge_asked_[i]) {
+    wedge_asked_[i] = true;
+    ask(kWedge * params_.chord_tolerance, true);
   }
   return free_[i];
 }
@@ -272,19 +283,20 @@ const std::optional<Vec3>& Mender::FreeNear(std::size_t i) {
 bool Mender::Tight(std::size_t i) { return FreeNear(i) && !locator_.Free(*FreeNear(i)); }
 
 // From spot to spot, every chord proven by the swept query; the pass ends where one is not.
-bool Mender::AlongCenters(std::size_t i) {
-  if (!FreeNear(i)) return false;
+bool Mender::AlongCenters(std::size_t i, bool wedged) {
+  if (!FreeNear(i, wedged)) return false;
+  const double limit = (wedged ? kWedgedChord : 1.0) * params_.chord_tolerance;
   std::vector<CutterPoint> points;
   for (std::size_t k : Chain(i, Gentle(i))) {
     if (run_.Cancelled()) return false;
-    const std::optional<Vec3>& c = FreeNear(k);
+    const std::optional<Vec3>& c = FreeNear(k, wedged);
     if (!c) continue;
     if (!points.empty()) {
       const Vec3& last = points.back().center;
       if ((*c - last).norm() < kSamePlace) continue;
       const bool proven =
-          ChordGouge(radius_ - give_, (*c - last).norm()) + give_ <= params_.chord_tolerance ||
-          locator_.GougeWithin(last, *c, params_.chord_tolerance, 0.1 * params_.chord_tolerance);
+          (!wedged && ChordGouge(radius_ - give_, (*c - last).norm()) + give_ <= limit) ||
+          locator_.GougeWithin(last, *c, limit, (wedged ? 0.02 : 0.1) * params_.chord_tolerance);
       if (!proven) {
         Add(PassKind::kRest, std::move(points));
         points.clear();
@@ -344,6 +356,7 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
       }
       if (!open_[i] || AlongCenters(i)) continue;
     }
+    if ((!FreeNear(i) || wedge_asked_[i]) && AlongCenters(i, true)) continue;
     FromAbove(i);
   }
   PM_RETURN_IF_ERROR(run_.Check());  // a cancelled line was cut short

@@ -62,6 +62,20 @@ TEST(RoundParts, HoleOfTheBallsOwnSize) {
   EXPECT_LE(result.report.motion.retract_count, 10);
 }
 
+// Narrower than the ball by less than half of the tolerance on each side: it goes in, and gives in on both.
+TEST(RoundParts, HolesAndSlotsBarelyNarrowerThanTheBall) {
+  for (const double half : {2.9995, 2.998, 2.995}) {
+    const Surface hole = PlacedSurface(
+        Turned({Line({0, 0}, {half, 0}), Line({half, 0}, {half, 6}), Line({half, 6}, {12, 6})}));
+    EXPECT_LE(MillChecked(hole).report.motion.retract_count, 20) << half;
+    const Surface slot = PlacedSurface(
+        Drawn({Line({-12, 6}, {-half, 6}), Line({-half, 6}, {-half, 0}), Line({-half, 0}, {half, 0}),
+               Line({half, 0}, {half, 6}), Line({half, 6}, {12, 6})},
+              15.0));
+    EXPECT_LE(MillChecked(slot).report.motion.retract_count, 20) << half;
+  }
+}
+
 // A bowl and a ring of the ball's own size: it touches the one all over, the other along whole circles.
 TEST(RoundParts, HollowsOfTheBallsOwnSize) {
   for (const auto& profiles :
