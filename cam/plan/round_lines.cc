@@ -20,9 +20,8 @@ namespace patchmill {
 namespace {
 
 constexpr double kWorthwhile = 0.9;  // of the straight lines' length
-// Sine of the angle between circles and borders, on average, over what merging left in steep regions: 0.13
-// for a hexagon, 0.29 for a square, whose narrow ledges come to many short arcs that the estimate does not
-// see.
+// Sine of the angle between circles and borders, on average: 0.13 for a hexagon, 0.29 for a square, whose
+// frames and ledges come to many short arcs that the estimate does not see.
 constexpr double kMostSlant = 0.2;
 constexpr int kAngles = 6;  // of straight lines whose angle is open
 
@@ -292,7 +291,7 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, cons
     if (!(extent.nearest > radius + flat) || !extent.GoesAround()) continue;
     double least = kInfinity;
     for (const Family& family : candidates[id]->straight) least = std::min(least, family.Sum(radius, flat));
-    if (map.regions[id].slope == SlopeClass::kSteep && !candidates[id]->round.AlongBorders()) continue;
+    if (!candidates[id]->round.AlongBorders()) continue;
     if (!(candidates[id]->round.Sum(radius, flat) < kWorthwhile * least)) continue;
     choices[id] = candidates[id]->round.choice;
     // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are
