@@ -241,5 +241,11 @@ TEST(RoundLines, BesideStraightOnes) {
   EXPECT_GT(straight, 20);
 }
 
+// The frame around a square boss: circles would cross its borders at up to 45 degrees.
+TEST(RoundLines, SquareFramesHaveStraightLines) {
+  const ChosenRegions regions = Regions(Block(8.0, 6.0, 24.0), BallJob(3.0));
+  for (const RegionChoice& choice : regions.choices) EXPECT_FALSE(choice.around.has_value());
+}
+
 }  // namespace
 }  // namespace patchmill
