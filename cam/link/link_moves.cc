@@ -6,7 +6,6 @@
 
 #include "cam/location/touched.h"
 #include "cam/path/spacing.h"
-#include "core/surface/closest.h"
 
 namespace patchmill {
 namespace {
@@ -19,8 +18,8 @@ constexpr double kDetour = 3.0;
 constexpr double kShortDetour = 1.5;
 // How far off a wall, in parts of its length, a link between two places at it may lead.
 constexpr std::array<double, 4> kBulges = {0.0625, 0.125, 0.25, 0.5};
-// Steps that links may lie beyond what is wanted: passes run on by up to one and a half (ClipToKeepIn).
-constexpr double kOverrun = 2.0;
+// Steps that links may lie beyond what is wanted: from pass to pass, which run on by one (ClipToKeepIn).
+constexpr double kOverrun = 1.25;
 // Ball radii: in a corner this much farther off is beside the link, too.
 constexpr double kBeside = 0.04;
 // rad: how leads may turn from the normal; a way out this many times as long as the way through the stock is
@@ -70,10 +69,10 @@ bool LinkMaker::Allowed(const Vec3& a, const Vec3& b) const {
 bool LinkMaker::LeavesUnwanted(const Vec3& c) const {
   const KeepIn& keep_in = *params_.keep_in;
   const double clear = locator_.radius() + stock_depth();
-  if (!ClosestToPoint(locator_.surface(), c, clear, 0.01 * stock_depth())) return true;
-  if (!keep_in.AllowsMove(c, c, true)) return false;  // above the highest tip
   const std::vector<SurfacePoint> touched =
       Touched(locator_.surface(), c, clear, kBeside * locator_.radius());
+  if (touched.empty() || (touched.front().p - c).norm() >= clear) return true;
+  if (!keep_in.AllowsMove(c, c, true)) return false;  // above the highest tip
   return std::any_of(touched.begin(), touched.end(),
                      [&](const SurfacePoint& place) { return keep_in.WantsNear(place, overrun_); });
 }

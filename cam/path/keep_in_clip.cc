@@ -131,7 +131,7 @@ class Clipper {
     };
     if ((p.contact && wanted(*p.contact)) || (p.other_contact && wanted(*p.other_contact))) return true;
     const double radius = locator_.radius();
-    if (keep_in_.WantsNothingNear(p.center, 1.1 * radius + reach_)) return false;
+    if (keep_in_.WantsNothingNear(p.center, kTouchedReach * radius + reach_)) return false;
     const std::vector<SurfacePoint> touched = Touched(locator_.surface(), p.center, radius, kAsNear * radius);
     return std::any_of(touched.begin(), touched.end(), wanted);
   }

@@ -48,7 +48,8 @@ class Mender {
         give_(kGive * params.chord_tolerance),
         asked_(spots.size(), false),
         wedge_asked_(spots.size(), false),
-        free_(spots.size()) {
+        free_(spots.size()),
+        wedged_(spots.size()) {
     for (const LeftoverSpot& spot : spots_) highest_ = std::max(highest_, spot.center.z());
   }
 
@@ -62,7 +63,8 @@ class Mender {
   bool AlongRidge(std::size_t i);
   bool AlongLevel(std::size_t i);
   bool AlongCenters(std::size_t i, bool wedged = false);
-  const std::optional<Vec3>& FreeNear(std::size_t i, bool wedged = false);
+  const std::optional<Vec3>& FreeNear(std::size_t i);
+  const std::optional<Vec3>& WedgedNear(std::size_t i);
   bool Tight(std::size_t i);
   void FromAbove(std::size_t i);
   std::size_t NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
@@ -82,8 +84,8 @@ class Mender {
   std::vector<bool> open_;       // not mended yet
   double highest_ = -kInfinity;  // of the spots' centres
   const double give_;
-  std::vector<bool> asked_, wedge_asked_;  // FreeNear
-  std::vector<std::optional<Vec3>> free_;  // its answers
+  std::vector<bool> asked_, wedge_asked_;           // FreeNear, WedgedNear
+  std::vector<std::optional<Vec3>> free_, wedged_;  // their answers
   std::optional<LevelContext> levels_;
   int level_count_ = 0;
   std::vector<CutterPath> paths_;
@@ -262,21 +264,26 @@ bool Mender::AlongLevel(std::size_t i) {
 }
 
 // A centre that leaves less of the spot than the passes so far.
-const std::optional<Vec3>& Mender::FreeNear(std::size_t i, bool wedged) {
-  const LeftoverSpot& spot = spots_[i];
-  const auto ask = [&](double give, bool wedge) {
-    free_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover,
-                              give, wedge);
-  };
+const std::optional<Vec3>& Mender::FreeNear(std::size_t i) {
   if (!asked_[i]) {
     asked_[i] = true;
-    ask(give_, false);
-  }
-  if (wedged && !free_[i] && !wedge_asked_[i]) {
-    wedge_asked_[i] = true;
-    ask(kWedge * params_.chord_tolerance, true);
+    const LeftoverSpot& spot = spots_[i];
+    free_[i] =
+        FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover, give_);
   }
   return free_[i];
+}
+
+// Or, where there is none, one that gives as much as it may.
+const std::optional<Vec3>& Mender::WedgedNear(std::size_t i) {
+  if (FreeNear(i)) return free_[i];
+  if (!wedge_asked_[i]) {
+    wedge_asked_[i] = true;
+    const LeftoverSpot& spot = spots_[i];
+    wedged_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover,
+                                kWedge * params_.chord_tolerance, true);
+  }
+  return wedged_[i];
 }
 
 // Has the ball no room there? Then the free centres are a line or a point: no height or level finds them.
@@ -284,12 +291,15 @@ bool Mender::Tight(std::size_t i) { return FreeNear(i) && !locator_.Free(*FreeNe
 
 // From spot to spot, every chord proven by the swept query; the pass ends where one is not.
 bool Mender::AlongCenters(std::size_t i, bool wedged) {
-  if (!FreeNear(i, wedged)) return false;
+  const auto near = [&](std::size_t k) -> const std::optional<Vec3>& {
+    return wedged ? WedgedNear(k) : FreeNear(k);
+  };
+  if (!near(i)) return false;
   const double limit = (wedged ? kWedgedChord : 1.0) * params_.chord_tolerance;
   std::vector<CutterPoint> points;
   for (std::size_t k : Chain(i, Gentle(i))) {
     if (run_.Cancelled()) return false;
-    const std::optional<Vec3>& c = FreeNear(k, wedged);
+    const std::optional<Vec3>& c = near(k);
     if (!c) continue;
     if (!points.empty()) {
       const Vec3& last = points.back().center;
@@ -311,7 +321,7 @@ bool Mender::AlongCenters(std::size_t i, bool wedged) {
 // A plunge, through all that is open above: upward of a free place everything is free. In a hole as wide as
 // the ball it is the only pass there is.
 void Mender::FromAbove(std::size_t i) {
-  if (const std::optional<Vec3>& c = FreeNear(i)) {
+  if (const std::optional<Vec3>& c = WedgedNear(i)) {
     const SurfacePoint& at = spots_[i].at;
     Vec3 top = *c + Vec3(0, 0, 0.1 * flat_);
     while (top.z() < highest_ && Needed(top, 0.75 * flat_)) top.z() += 0.5 * flat_;
@@ -356,7 +366,7 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
       }
       if (!open_[i] || AlongCenters(i)) continue;
     }
-    if ((!FreeNear(i) || wedge_asked_[i]) && AlongCenters(i, true)) continue;
+    if (!FreeNear(i) && AlongCenters(i, true)) continue;
     FromAbove(i);
   }
   PM_RETURN_IF_ERROR(run_.Check());  // a cancelled line was cut short

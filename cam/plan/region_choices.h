@@ -57,7 +57,7 @@ struct PlanPart {
 // region. At least one part, which may be empty.
 std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoice>& choices);
 
-// All cells of the parts; null: all there are, or no part is skipped.
+// The cells of all parts together: what links may touch. Null when no region is skipped: everywhere.
 std::shared_ptr<const SurfaceMask> CutGround(const RegionMap& map, const std::vector<RegionChoice>& choices,
                                              const std::vector<PlanPart>& parts);
 

@@ -8,6 +8,7 @@
 
 #include "core/diffgeo/forms.h"
 #include "tests/support/jobs/jobs.h"
+#include "tests/support/profiles.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 
@@ -241,9 +242,34 @@ TEST(RoundLines, BesideStraightOnes) {
   EXPECT_GT(straight, 20);
 }
 
-// The frame around a square boss: circles would cross its borders at up to 45 degrees.
-TEST(RoundLines, SquareFramesHaveStraightLines) {
-  const ChosenRegions regions = Regions(Block(8.0, 6.0, 24.0), BallJob(3.0));
+// Profiles (r, z) around a rectangle of half sides hx, hy: turned at its corners, drawn along its sides.
+PatchModel AroundRectangle(const std::vector<Profile>& profiles, double hx, double hy) {
+  PatchModel model = Turned(profiles);
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    const std::size_t quarter = i % 4;
+    const Vec3 corner(quarter == 1 || quarter == 2 ? -hx : hx, quarter >= 2 ? -hy : hy, 0.0);
+    for (Vec3& p : std::get<BezierPatch>(model.patches[i].shape).points) p += corner;
+  }
+  for (int side = 0; side < 4; ++side) {
+    const double out = side % 2 == 0 ? hx : hy, along = side % 2 == 0 ? hy : hx;
+    Eigen::Affine3d place(Eigen::AngleAxisd(0.5 * kPi * side, Vec3::UnitZ()));
+    place.translate(Vec3(out, -along, 0.0));
+    for (Patch& patch : Transformed(Drawn(profiles, 2.0 * along), place).patches)
+      model.patches.push_back(std::move(patch));
+  }
+  return model;
+}
+
+// The frame around an oblong boss with rounded corners and a fillet at its foot: circles would cross its
+// borders at up to 45 degrees.
+TEST(RoundLines, OblongFramesHaveStraightLines) {
+  const std::vector<Profile> profiles = {Line({0, 10}, {2, 10}), Round({2, 10}, {3, 10}, {3, 9}),
+                                         Line({3, 9}, {3, 4}), Round({3, 4}, {3, 0}, {7, 0}),
+                                         Line({7, 0}, {13, 0})};
+  const ChosenRegions regions =
+      Regions(Join({AroundRectangle(profiles, 12, 7),
+                    Single(Bilinear({-12, -7, 10}, {12, -7, 10}, {-12, 7, 10}, {12, 7, 10}))}),
+              BallJob(3.0));
   for (const RegionChoice& choice : regions.choices) EXPECT_FALSE(choice.around.has_value());
 }
 

@@ -91,7 +91,7 @@ TEST(SelectedGround, LinksAreLiftedOverOtherGround) {
       // Lines along the strips come in two lots; those across them end at other ground, beside the next.
       EXPECT_LE(result.report.motion.retract_count, 4) << Describe(result);
       AlongFeeds(result, [&](const Vec3& c, bool) {
-        if (c.x() < 10.0 + 2.0 * step || c.x() > 18.0 - 2.0 * step) return;
+        if (c.x() < 10.0 + 1.3 * step || c.x() > 18.0 - 1.3 * step) return;
         EXPECT_GE(c.z(), 3.0 + job.setup.allowance + job.operation.approach_gap - 0.02) << c.transpose();
       });
     }
@@ -125,7 +125,7 @@ TEST(SelectedGround, LinksAreLiftedOverRegionsThatAreOff) {
   const double step = FlatStep(1.0, 0.02);
   AlongFeeds(result, [&](const Vec3& c, bool) {
     const auto near = ClosestToPoint(surface, c, 5.0, 1e-3);
-    if (!near || near->at.p.z() < 2.0 * step) return;
+    if (!near || near->at.p.z() < 1.3 * step) return;
     EXPECT_GE(near->distance, 1.0 + job.setup.allowance) << c.transpose();
   });
 }
