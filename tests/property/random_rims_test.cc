@@ -17,7 +17,8 @@ class RandomRims : public ::testing::TestWithParam<int> {
   inline static int jobs_ = 0, round_ = 0;
 };
 
-// Rings of random height and width on a slope, waves along and across them.
+// Rings of random height and width on a slope, waves along and across them; on squares and, more often, on
+// round dishes: circles are for ground whose borders they run along.
 PatchModel DrawRims(Random& random) {
   const Vec2 center(random.Uniform(-2, 2), random.Uniform(-2, 2));
   const double ring = random.Uniform(6, 9), width = random.Uniform(1.0, 4.0),
@@ -30,7 +31,17 @@ PatchModel DrawRims(Random& random) {
     const double d = (p.norm() - ring) / width, angle = std::atan2(p.y(), p.x());
     return high * std::exp(-d * d) * (1.0 + waves * std::cos(around * angle + phase)) + fall.dot(p);
   };
-  return Single(InterpolatedHeights(height, -15, 15, -15, 15, 24, 24));
+  if (random.Int(3) == 0) return Single(InterpolatedHeights(height, -15, 15, -15, 15, 24, 24));
+  // A dish with a hole, cut round: the net of a rectangle of angles and radii, wrapped.
+  const double inner = random.Uniform(1.5, 4.0), outer = random.Uniform(12.0, 16.0);
+  BsplinePatch wrapped = InterpolatedHeights(
+      [&](double turn, double r) {
+        return height(center.x() + r * std::cos(turn), center.y() + r * std::sin(turn));
+      },
+      0.0, 2.0 * kPi, inner, outer, 32, 16);
+  for (Vec3& p : wrapped.points)
+    p = Lift(center + p.y() * Vec2(std::cos(p.x()), std::sin(p.x())), p.z());
+  return Single(std::move(wrapped));
 }
 
 TEST_P(RandomRims, KeepThePromises) {
