@@ -51,7 +51,7 @@ bool TooBent(const std::array<Vec3, 9>& f, double size) {
 
 bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const CellReachParams& params,
                 Blockers& blockers) {
-  const double limit = params.radius - params.tolerance;
+  const double limit = params.radius - params.give;
   const double turn = BendOver(at.n);
   for (std::size_t side = 0; side < 2; ++side) {
     const double sign = side == 0 ? 1.0 : -1.0;

@@ -39,7 +39,7 @@ bool TooBent(const std::array<Vec3, 9>& f, double size);
 
 struct CellReachParams {
   double radius = 0.0;          // mm: centres lie at p + radius n
-  double tolerance = 0.0;       // mm: how deep the surface may lie inside the ball
+  double give = 0.0;            // mm: how deep the surface may lie inside the ball
   double floor_z = -kInfinity;  // mm: lowest centre height
   // mm: beside a silhouette, where a side that looks down turns up on no more than a strip this wide, that
   // strip is not counted.
@@ -51,7 +51,7 @@ struct CellReachParams {
 using Blockers = std::array<std::optional<SurfacePoint>, 2>;
 
 // True when no ball centred over the rectangle is free: on either side of the surface it looks down, all
-// centres are below the floor, or one surface point lies deeper than `tolerance` in all the balls (distance
+// centres are below the floor, or one surface point lies deeper than `give` in all the balls (distance
 // to the upward ray, so that the shank counts). The distance of a surface point to the upward ray is convex
 // in the centre, hence largest at the corners of what the centres span; how far they leave it is taken from
 // the nine places (second order, twice). `size`: diameter of the rectangle, mm. `blockers` are tried first

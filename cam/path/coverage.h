@@ -17,7 +17,7 @@ namespace patchmill {
 
 struct CoverageParams : PassParams {
   double limit = 0.02;      // mm: leftover above this at a reachable point is a spot to mend
-  double tolerance = 0.01;  // mm: reachable means free for a ball of radius - tolerance
+  double tolerance = 0.01;  // mm: the whole budget; reachable is what cam/tool/reach_give.h says
   ForcedSteps forced;       // ground that needs shorter steps than min_step_fraction of these is left
   int max_rounds = 6;
   const KeepIn* keep_in = nullptr;  // what is wanted and allowed; null: all of it

@@ -7,6 +7,7 @@
 #include "cam/path/chord_bounds.h"
 #include "cam/path/sheet_border.h"
 #include "cam/path/spacing.h"
+#include "cam/tool/reach_give.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
@@ -34,6 +35,10 @@ constexpr double kFinest = 0.002;  // smaller ones are left, and narrower strips
 constexpr double kLimit = 0.05;    // the same at a limit of params.keep_in, when a move is this near:
 constexpr double kAtHand = 1.0;    // farther from all there may be room for the ball in no more than a chink
 
+// Of ReachGive: what is so near to its limit is not called out of reach. The verifier knows reach to 0.02 of
+// it.
+constexpr double kProofOfReach = 0.5 * kReachMargin;
+
 // Ground that needs steps up to this much above the shortest may be left to forced passes or not.
 constexpr double kForcedMargin = 1.05;
 
@@ -50,7 +55,8 @@ class SpotFinder {
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
         covered_(radius_ + params.limit + kProofMargin * params.tolerance),
         covered2_(covered_ * covered_),
-        cell_reach_{radius_, params.tolerance, params.floor_z + radius_, kFinest * flat_} {}
+        cell_reach_{radius_, (1.0 + kProofOfReach) * ReachGive(params.tolerance), params.floor_z + radius_,
+                    kFinest * flat_} {}
 
   void Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
 
@@ -69,6 +75,9 @@ class SpotFinder {
     return params_.keep_in == nullptr || params_.keep_in->Wants(at);
   }
   bool AllForbidden(const RectPlaces& places) const;
+  std::optional<LeftoverSpot> SpotAt(const SurfaceRect& rect, const SurfaceJet& jet, const SurfacePoint& at,
+                                     const Vec3& e, const NearMove& nearest) const;
+  void AddCorner(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
 
   const Surface& surface_;
   const Locator& reach_;
@@ -124,6 +133,33 @@ std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) cons
     if (params_.keep_in == nullptr || params_.keep_in->Allows(c)) return n;
   }
   return std::nullopt;
+}
+
+// Of a place, where nothing is nearer than `nearest`.
+std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const SurfaceJet& jet,
+                                               const SurfacePoint& at, const Vec3& e,
+                                               const NearMove& nearest) const {
+  const double leftover = std::min(nearest.distance - radius_, radius_);
+  if (!(leftover > params_.limit && Asked(jet, e) && Wanted(at))) return std::nullopt;
+  const auto side = ReachableSide(at.p, e);
+  if (!side) return std::nullopt;
+  return LeftoverSpot{at, *side, at.p + radius_ * *side, leftover, rect};
+}
+
+// A spot at a corner, if there is one.
+void SpotFinder::AddCorner(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const {
+  for (const double u : {rect.u0, rect.u1}) {
+    for (const double v : {rect.v0, rect.v1}) {
+      const SurfaceJet jet = Evaluate(surface_.piece(rect.piece), u, v);
+      const auto e = UpwardNormal(jet);
+      if (!e) continue;
+      auto spot =
+          SpotAt(rect, jet, {rect.piece, u, v, jet.p}, *e, NearestTo(jet.p, 2.0 * radius_, NearMove()));
+      if (!spot) continue;
+      out.push_back(*std::move(spot));
+      return;
+    }
+  }
 }
 
 // The limits of the operation forbid every centre over the rectangle.
@@ -215,19 +251,21 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   if (size < kCoarse * flat_) {
     const NearMove nearest = NearestTo(p, 2.0 * radius_, near);
     if (Covered(hull.data(), count, nearest)) return;
-    const double leftover = std::min(nearest.distance - radius_, radius_);
-    if (leftover > params_.limit && Asked(jet, e) && Wanted(at)) {
-      if (const auto side = ReachableSide(p, e)) {
-        out.push_back({at, *side, p + radius_ * *side, leftover, rect});
-        return;
-      }
+    if (auto spot = SpotAt(rect, jet, at, e, nearest)) {
+      out.push_back(*std::move(spot));
+      return;
     }
   }
   constexpr int kDeepest = 60;
   const bool limited =
       params_.keep_in != nullptr && !(Wanted(at) && params_.keep_in->Allows(p + radius_ * e));
   const bool at_hand = near.segment >= 0 && near.distance < radius_ + kAtHand * flat_;
-  if (size < (limited && at_hand ? kLimit : kFinest) * flat_ || depth >= kDeepest) return;
+  if (size < (limited && at_hand ? kLimit : kFinest) * flat_ || depth >= kDeepest) {
+    // What is reached may be narrower than this: the floor of a slot that barely lets the ball in, along its
+    // middle.
+    if (!limited && near.segment < 0) AddCorner(rect, out);
+    return;
+  }
   if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, radius_, params_.scallop,
                                               kForcedMargin * params_.min_step_fraction)) {
     return;
@@ -271,7 +309,7 @@ void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out)
 
 absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParams& params,
                                      const RunContext& run) {
-  const double radius = locator.radius() - (1.0 + kReachMargin) * params.tolerance;
+  const double radius = locator.radius() - (1.0 + kReachMargin) * ReachGive(params.tolerance);
   return Locator::Make(locator.surface(), std::max(radius, 0.5 * locator.radius()), run);
 }
 

@@ -20,8 +20,8 @@ struct LeftoverSpot {
   SurfaceRect rect;             // what it stands for, at most half a flat step wide
 };
 
-// Shares of params.tolerance by which the search goes beyond what is asked, so that it ends: what is said to
-// be covered may exceed the limit by one, spots may be out of reach by the other.
+// Shares of params.tolerance and of ReachGive by which the search goes beyond what is asked, so that it ends:
+// what is said to be covered may exceed the limit by one, spots may be out of reach by the other.
 inline constexpr double kProofMargin = 0.1;
 inline constexpr double kReachMargin = 0.05;
 
@@ -31,7 +31,7 @@ absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParam
 
 // Halves the rectangles given until each is proven covered (up to the limit and kProofMargin), proven out of
 // reach (OutOfReach), or stands for a spot: its middle exceeds the limit and is free for a ball of radius -
-// (1 + kReachMargin) tolerance at p + R e, tip not below the floor (DESIGN 2). Of the two margins one always
+// (1 + kReachMargin) ReachGive at p + R e, tip not below the floor (DESIGN 2). Of the two margins one always
 // holds at small rectangles, so no island of reach is too small to be seen; only around points where the
 // surface has no normal it ends at 0.2 % of the flat step.
 // With params.keep_in only wanted points at allowed centres are spots; along its limits the search ends at

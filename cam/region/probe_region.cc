@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cam/region/region_spots.h"
+#include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
 
 namespace patchmill {
@@ -49,7 +50,7 @@ double BallForAll(const Surface& surface, const std::vector<RegionSpot>& spots, 
       const SurfaceJet jet = JetAt(surface, spot);
       const auto normal = UpwardNormal(jet);
       if (!normal) continue;
-      const double own = LargestFreeRadius(surface, jet.p, *normal, radius, params.tolerance);
+      const double own = LargestFreeRadius(surface, jet.p, *normal, radius, ReachGive(params.tolerance));
       if (own >= radius) continue;
       radius = own;
       worst = spot;

@@ -114,13 +114,12 @@ Deepest ReachTest::DeepestLeftover(std::span<const Vec3> places, std::span<const
 }
 
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,
-                         double tolerance) {
+                         double give) {
   double largest = 0.0;
   for (const double side : {1.0, -1.0}) {
     if (side < 0.0 && !ReachTest::Upright(normal)) break;
     const auto free = [&](double r) {
-      return r <= tolerance ||
-             !AnythingNearUpwardRay(surface, p + side * r * normal, r - tolerance, 0.1 * tolerance);
+      return r <= give || !AnythingNearUpwardRay(surface, p + side * r * normal, r - give, 0.1 * give);
     };
     if (free(limit)) return limit;
     double low = 0.0, high = limit;  // what a ball sweeps on its way up holds what a smaller one does

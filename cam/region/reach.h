@@ -15,8 +15,8 @@ namespace patchmill {
 
 class ReachTest {
  public:
-  // `free_ball`: locator of radius params.radius - params.tolerance. Of a cancelled `run` its answers mean
-  // nothing.
+  // `free_ball`: locator of radius params.radius - ReachGive(params.tolerance). Of a cancelled `run` its
+  // answers mean nothing.
   ReachTest(const Locator& free_ball, const RegionParams& params, const RunContext& run);
 
   // The ball that touches p, where the upward normal is `normal`, is free; the floor does not count. On a
@@ -56,8 +56,8 @@ class ReachTest {
 };
 
 // Largest ball (mm, radius) that touches p from the side of `normal`, upright ground from either side, and is
-// free upward, at most `limit`; to limit / 4096. All of at most `tolerance` count as free.
+// free upward, at most `limit`; to limit / 4096. All of at most `give` (mm, ReachGive) count as free.
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,
-                         double tolerance);
+                         double give);
 
 }  // namespace patchmill

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cam/tool/reach_give.h"
 #include "core/base/parallel.h"
 #include "core/base/share_progress.h"
 #include "core/base/status.h"
@@ -18,7 +19,7 @@ namespace {
 
 constexpr double kVertical = 1e-6;    // docs/reach.md
 constexpr double kFloorSlack = 1e-6;  // docs/reach.md, mm
-constexpr double kProof = 0.02;       // of the tolerance: how exactly "free" is decided
+constexpr double kProof = 0.02;       // of what the ball may give: how exactly "free" is decided
 constexpr double kLargestCell = 0.5;  // of the smallest radius, mm
 constexpr double kLeastCell = 0.03;   // of it
 constexpr int kDeepest = 8;           // halvings of a piece
@@ -88,8 +89,9 @@ class PieceTable {
 
   bool Reaches(double radius, const SurfaceJet& jet, const Vec3& normal) const {
     if (jet.p.z() + radius * (normal.z() - 1.0) < params_.floor_z - kFloorSlack) return false;
+    const double give = ReachGive(params_.tolerance);
     const auto free = [&](const Vec3& center) {
-      return !AnythingNearUpwardRay(surface_, center, radius - params_.tolerance, kProof * params_.tolerance);
+      return !AnythingNearUpwardRay(surface_, center, radius - give, kProof * give);
     };
     return free(jet.p + radius * normal) || (normal.z() < kVertical && free(jet.p - radius * normal));
   }

@@ -15,7 +15,7 @@ inline constexpr std::size_t kMaxReachRadii = 64;
 struct ReachTableParams {
   // mm, > 0, strictly increasing, at most kMaxReachRadii; stock to leave counted in.
   std::vector<double> radii;
-  double tolerance = 0.01;      // mm, below half of the smallest radius
+  double tolerance = 0.01;      // mm: the whole budget; below half of the smallest radius
   double floor_z = -kInfinity;  // mm, lowest tip
 };
 

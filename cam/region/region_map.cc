@@ -16,6 +16,7 @@
 #include "cam/region/region_border.h"
 #include "cam/region/region_labels.h"
 #include "cam/region/watershed_lines.h"
+#include "cam/tool/reach_give.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 
@@ -283,7 +284,8 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
                                        const RunContext& run) {
   PM_ASSIGN_OR_RETURN(
       const Locator free_ball,
-      Locator::Make(surface, std::max(params.radius - params.tolerance, 0.5 * params.radius), run));
+      Locator::Make(surface, std::max(params.radius - ReachGive(params.tolerance), 0.5 * params.radius),
+                    run));
   const ReachTest reach(free_ball, params, run);
   PM_RETURN_IF_ERROR(run.Check());
   const std::vector<ZeroField> fields = RegionFields(reach, params);

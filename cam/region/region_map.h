@@ -38,7 +38,7 @@ const char* Name(BorderKind kind);
 
 struct RegionParams {
   double radius = 3.0;      // mm, ball + stock to leave
-  double tolerance = 0.01;  // mm: reachable means free for a ball of radius - tolerance
+  double tolerance = 0.01;  // mm: the whole budget; reachable is what cam/tool/reach_give.h says
   double steep_angle = Radians(45.0);
   double floor_z = -kInfinity;     // mm, lowest tip
   double border_tolerance = 0.01;  // mm, sagitta of border polylines on the true loci

@@ -17,7 +17,7 @@ class ShankFinder {
 
   // Of a ball that is not free: something over the one at `center` comes nearer to its axis than anything
   // does to the centre, by 0.02 radii, with distances known to 0.001 of them; or the ball alone would be
-  // free, by half the tolerance.
+  // free, by half of ReachGive.
   bool Blocked(const Vec3& center);
 
  private:

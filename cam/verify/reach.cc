@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kVertical = 1e-6;  // e_z below this: a vertical face
 constexpr double kBeside = 0.02;    // of the radius: how far beside a place it is looked at again
-constexpr double kProof = 0.02;     // of the tolerance: how exactly "free" is decided
+constexpr double kProof = 0.02;     // of the give: how exactly "free" is decided
 constexpr double kCoarse = 0.02;    // of the radius: how exactly a blocked depth is known
 constexpr double kNearer = 0.02;    // of the radius: the shank is blocked by more than this beyond the ball
 constexpr double kReasonProof = 0.004;  // of the radius: how exactly the two are known
@@ -72,10 +72,9 @@ bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double 
 
 // Of a ball that is not free: UNDERCUT.
 bool BlockedAbove(const Surface& surface, const Vec3& c, const ReachParams& params, Obstacles& obstacles) {
-  const double limit = params.radius - params.tolerance;
+  const double limit = params.radius - params.give;
   return ShankIsNearer(surface, c, params.radius, limit, obstacles) ||
-         NothingNear(surface, c, params.radius - 0.5 * params.tolerance, kProof * params.tolerance,
-                     obstacles);
+         NothingNear(surface, c, params.radius - 0.5 * params.give, kProof * params.give, obstacles);
 }
 
 }  // namespace
@@ -128,17 +127,17 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
 
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                    Obstacles& obstacles) {
-  const double limit = params.radius - params.tolerance;
+  const double limit = params.radius - params.give;
   const auto centers = Centers(p, facing, params.radius);
   ReachClass reason = ReachClass::kReachable;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
-    if (InTheWay(surface, c, limit, kProof * params.tolerance, obstacles)) {
+    if (InTheWay(surface, c, limit, kProof * params.give, obstacles)) {
       found = BlockedAbove(surface, c, params, obstacles) ? ReachClass::kUndercut : ReachClass::kConcave;
     } else if (c.z() < params.floor_z - kFloorSlack) {
       found = ReachClass::kFloor;
-    } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.tolerance)) {
+    } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.give)) {
       found = ReachClass::kAvoided;
     }
     if (found == ReachClass::kReachable) return found;
@@ -173,7 +172,7 @@ ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing&
 
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                     Obstacles& obstacles) {
-  const double limit = params.radius - params.tolerance;
+  const double limit = params.radius - params.give;
   const auto centers = Centers(p, facing, params.radius);
   double depth = kInfinity;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {

@@ -24,7 +24,7 @@ struct CenterLimits {
 
 struct ReachParams {
   double radius = 0.0;          // mm: ball and stock to leave
-  double tolerance = 0.0;       // mm: how deep the surface may lie inside the ball
+  double give = 0.0;            // mm: how deep the surface may lie inside the ball
   double floor_z = -kInfinity;  // mm: lowest centre height
   CenterLimits limits = {};
 };

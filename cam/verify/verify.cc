@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cam/tool/reach_give.h"
 #include "cam/verify/gouge.h"
 #include "cam/verify/keep_out.h"
 #include "cam/verify/leftover.h"
@@ -107,11 +108,24 @@ class Judge {
     p.certainty = params_.certainty;
     p.limit = std::max(0.0, params_.tolerance - motion_.controller_tolerance);
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
-    const std::vector<CellRect> roots = RootCells(*avoided, radius_, run_);
-    PM_ASSIGN_OR_RETURN(Extremes found, FindGouge(*avoided, roots, tree, p, run_, "verify: avoided patches"));
+    PM_RETURN_IF_ERROR(JudgeAvoidedBy(tree, p, "the tool comes too near to an avoided patch"));
+    const double shank = 0.5 * tool_.shank_diameter.value_or(0.0);
+    if (!(shank > ball_)) return absl::OkStatus();
+    // What is within the margin of a cylinder lies in one that is so much wider and begins so much lower.
+    const double margin = params_.containment.avoid_margin;
+    p.radius = shank + margin;
+    const Vec3 up(0, 0, *tool_.flute_length - ball_ - margin);
+    const SegmentTree shanks(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
+                             run_, p.radius);
+    return JudgeAvoidedBy(shanks, p, "the shank comes too near to an avoided patch");
+  }
+  absl::Status JudgeAvoidedBy(const SegmentTree& tree, const GougeParams& p, const char* text) {
+    const Surface& avoided = *limits_->centers().avoided;
+    const std::vector<CellRect> roots = RootCells(avoided, radius_, run_);
+    PM_ASSIGN_OR_RETURN(Extremes found, FindGouge(avoided, roots, tree, p, run_, "verify: avoided patches"));
     if (!found.violations.empty()) report_.motion_ok = false;
     for (Extreme& e : found.violations) e.piece = limits_->PieceOfWhole(e.piece);
-    ReportPlaces("AVOID_MARGIN", found.violations, "the tool comes too near to an avoided patch");
+    ReportPlaces("AVOID_MARGIN", found.violations, text);
     return absl::OkStatus();
   }
 
@@ -195,7 +209,7 @@ class Judge {
   absl::Status JudgePart(const SegmentTree& tree, const FinishPart& part) {
     LeftoverParams p;
     static_cast<Finish&>(p) = part;
-    p.reach = {radius_, params_.tolerance, params_.floor_z + ball_, limits_->centers()};
+    p.reach = {radius_, ReachGive(params_.tolerance), params_.floor_z + ball_, limits_->centers()};
     p.chord_error = chord_error_;
     p.certainty = params_.certainty;
     p.where = part.where.get();

@@ -62,7 +62,7 @@ double Side(const PatchShape& shape, bool along_u) {
 class Oracle {
  public:
   Oracle(const PatchModel& model, const ReachQuestion& question)
-      : model_(model), question_(question), radius_(question.radius - question.tolerance) {
+      : model_(model), question_(question), radius_(question.radius - 0.5 * question.tolerance) {
     const double spacing = kSpacing * question.radius;
     for (std::size_t k = 0; k < model.patches.size(); ++k) {
       const PatchShape& shape = model.patches[k].shape;

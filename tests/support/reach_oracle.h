@@ -11,8 +11,8 @@
 namespace patchmill::testing {
 
 struct ReachQuestion {
-  double radius = 3.0;  // mm, ball and stock to leave
-  double tolerance = 0.01;
+  double radius = 3.0;          // mm, ball and stock to leave
+  double tolerance = 0.01;      // mm: a ball is free that fits but for half of it
   double floor_z = -kInfinity;  // mm, lowest tip
 };
 

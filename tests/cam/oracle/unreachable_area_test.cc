@@ -6,6 +6,7 @@
 
 #include "cam/region/reach_table.h"
 #include "cam/region/region_map.h"
+#include "cam/tool/reach_give.h"
 #include "cam/verify/leftover.h"
 #include "tests/support/model_table.h"
 #include "tests/support/reach_oracle.h"
@@ -44,7 +45,7 @@ double OfTable(const Surface& surface, const ReachQuestion& question) {
 // As Verify measures it, of a program without moves.
 double OfReport(const Surface& surface, const ReachQuestion& question) {
   LeftoverParams params;
-  params.reach = {question.radius, question.tolerance, question.floor_z + question.radius};
+  params.reach = {question.radius, ReachGive(question.tolerance), question.floor_z + question.radius};
   params.most = surface.box.Diagonal();
   const RunContext run;
   const auto areas = MeasureAreas(surface, RootCells(surface, 0.3 * question.radius, run),

@@ -7,6 +7,7 @@
 
 #include "cam/path/contour_paths.h"
 #include "cam/path/zigzag_paths.h"
+#include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
 #include "tests/support/joined_surface.h"
 #include "tests/support/leftover.h"
@@ -60,7 +61,7 @@ struct Leftover {
 // Largest leftover over random surface points that are reachable as DESIGN 2 defines it.
 Leftover Measure(const Surface& surface, double radius, const std::vector<CutterPath>& paths, int samples,
                  double floor_z = -kInfinity, double max_slope = kPi / 2) {
-  const Locator reach(surface, radius - kTolerance);
+  const Locator reach(surface, radius - ReachGive(kTolerance));
   const DistanceToPaths distance(paths);
   Random random(11);
   Leftover out;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
 #include "tests/support/joined_surface.h"
@@ -15,7 +16,7 @@ namespace {
 
 using namespace patchmill::testing;
 
-constexpr double kTolerance = 0.01;
+constexpr double kTolerance = 0.01, kGive = ReachGive(kTolerance);
 
 CoverageParams Coverage() {
   CoverageParams params;
@@ -64,18 +65,18 @@ std::vector<LeftoverSpot> SpotsAlongBottom(double depth) {
 
 // Only the bottom's widest place can be reached: an island of a thousandth of a square millimetre.
 TEST(FindSpots, FindsSmallIslandsOfReach) {
-  const std::vector<LeftoverSpot> spots = SpotsAlongBottom(0.9999 * kTolerance);
+  const std::vector<LeftoverSpot> spots = SpotsAlongBottom(0.9999 * kGive);
   ASSERT_FALSE(spots.empty());
   for (const LeftoverSpot& s : spots) EXPECT_LT(std::abs(s.at.p.y()), 0.3);
 }
 
 TEST(FindSpots, FindsNothingInAStripWithoutReach) {
-  EXPECT_TRUE(SpotsAlongBottom((1.0 + 1.1 * kReachMargin) * kTolerance).empty());
+  EXPECT_TRUE(SpotsAlongBottom((1.0 + 1.1 * kReachMargin) * kGive).empty());
 }
 
 // What is said to be out of reach has no free ball anywhere.
 void ExpectNoFreeBall(const Surface& surface, double radius, int rects, int least) {
-  const CellReachParams params{radius, kTolerance, -kInfinity};
+  const CellReachParams params{radius, kGive, -kInfinity};
   Random random(7);
   int out_of_reach = 0;
   for (int i = 0; i < rects; ++i) {
@@ -94,7 +95,7 @@ void ExpectNoFreeBall(const Surface& surface, double radius, int rects, int leas
       const SurfaceJet jet = Evaluate(surface, piece, u + w * random.Unit(), v + w * random.Unit());
       const auto e = UpwardNormal(jet);
       if (!e) continue;
-      EXPECT_TRUE(AnythingNearUpwardRay(surface, jet.p + radius * *e, radius - kTolerance, 1e-9))
+      EXPECT_TRUE(AnythingNearUpwardRay(surface, jet.p + radius * *e, radius - kGive, 1e-9))
           << "a ball is free over " << jet.p.transpose();
     }
   }

@@ -5,6 +5,7 @@
 
 #include "cam/plan/resolve.h"
 #include "cam/post/program_reader.h"
+#include "cam/tool/reach_give.h"
 #include "tests/support/files.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
@@ -82,9 +83,9 @@ TEST(Reasons, FloorBesideATallWallIsConcave) {
   const Surface surface = PlacedSurface(Block(8, 10, 20));
   const Job job = BallJob(3.0);
   const auto area = FromRegions(surface, job);
-  const double radius = 3.0, tolerance = job.operation.tolerance;
-  // On the floor: nearer to the footprint than R - tolerance. On the walls: lower than that.
-  const double reach = radius - tolerance;
+  const double radius = 3.0, give = ReachGive(job.operation.tolerance);
+  // On the floor: nearer to the footprint than R - give. On the walls: lower than that.
+  const double reach = radius - give;
   const double strip = 4 * 16 * reach + kPi * reach * reach, walls = 4 * 16 * reach;
   EXPECT_EQ(area[kUndercut], 0.0);
   EXPECT_NEAR(area[kConcave], strip + walls, 0.01 * (strip + walls));

@@ -1,5 +1,8 @@
 // Turned shapes with upright walls, as machines cut every day: pockets, pins and bosses.
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -73,6 +76,43 @@ TEST(RoundParts, HolesAndSlotsBarelyNarrowerThanTheBall) {
                Line({half, 0}, {half, 6}), Line({half, 6}, {12, 6})},
               15.0));
     EXPECT_LE(MillChecked(slot).report.motion.retract_count, 20) << half;
+  }
+}
+
+// Narrower by more than that, and by less than all of the tolerance: what the ball cannot enter is out of
+// reach, and the rest is cut.
+TEST(RoundParts, HolesAndSlotsThatTheToleranceAloneLetsTheBallInto) {
+  for (const double half : {2.9945, 2.9905}) {
+    SCOPED_TRACE(half);
+    const std::vector<Profile> narrow = {Line({0, 0}, {half, 0}), Line({half, 0}, {half, 6}),
+                                         Line({half, 6}, {12, 6})};
+    std::vector<Profile> slot = narrow;
+    for (Profile profile : narrow) {
+      for (Vec2& p : profile.points) p.x() = -p.x();
+      std::reverse(profile.points.begin(), profile.points.end());
+      slot.push_back(profile);
+    }
+    for (const PatchModel& model : {Turned(narrow), Drawn(slot, 15.0)}) {
+      const JobResult result = MillChecked(PlacedSurface(model));
+      EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable);
+      double concave = 0.0;
+      for (const Region& r : result.report.regions)
+        if (r.kind == RegionKind::kUnreachable && r.reason == UnreachableReason::kConcave) concave += r.area;
+      EXPECT_GT(concave, half * 12.0);
+    }
+  }
+}
+
+// Caps of a sphere a little smaller than the ball: near its limit the bottom is reached or not by how much
+// the rim gives.
+TEST(RoundParts, DimplesBarelySmallerThanTheBall) {
+  for (const auto& [half_angle, radius] :
+       {std::pair(70.0, 2.9985), {70.0, 2.993}, {70.0, 2.986}, {88.0, 2.996}}) {
+    SCOPED_TRACE(::testing::Message() << half_angle << " degrees, radius " << radius);
+    const double a = Radians(half_angle);
+    const Vec2 rim(radius * std::sin(a), radius * (1.0 - std::cos(a)));
+    const Profile cap{{{0, 0}, {radius * std::tan(0.5 * a), 0}, rim}, {1.0, std::cos(0.5 * a), 1.0}};
+    MillChecked(PlacedSurface(Turned({cap, Line(rim, {8, rim.y()})})));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "cam/region/reach.h"
 #include "cam/region/region_map.h"
+#include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
 #include "tests/support/sanitized.h"
@@ -17,7 +18,8 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-constexpr double kR = 3.0, kTolerance = 0.01, kKept = kR - kTolerance;  // of the shank's axis from an edge
+constexpr double kR = 3.0, kTolerance = 0.01,
+                 kKept = kR - ReachGive(kTolerance);  // of the shank's axis from an edge
 constexpr double kHigh = 40.0;
 
 RegionParams Exact() {
@@ -114,7 +116,7 @@ class FreeBeside {
  public:
   FreeBeside(const Surface& surface, const RegionParams& params)
       : surface_(surface),
-        ball_(surface, params.radius - params.tolerance),
+        ball_(surface, params.radius - ReachGive(params.tolerance)),
         reach_(ball_, params, RunContext()) {}
   bool operator()(const Vec3& near) const {
     const auto at = ClosestToPoint(surface_, near, 1.0, 1e-5);

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cam/tool/reach_give.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
@@ -23,8 +24,8 @@ ReachTableResult Table(const Surface& surface, const ReachTableParams& params) {
 }
 
 TEST(ReachTable, ValleyOfTwoPlanes) {
-  // A ball in a V of slope a touches each plane R tan(a) from the bottom; one of R - tol that stands as if it
-  // had R may come nearer by tol / sin(2 a).
+  // A ball in a V of slope a touches each plane R tan(a) from the bottom; one of R - give that stands as if
+  // it had R may come nearer by give / sin(2 a).
   const double a = Radians(30), half = 12;
   ReachTableParams params;
   params.radii = {0.5, 1.0, 2.0, 4.0};
@@ -34,7 +35,7 @@ TEST(ReachTable, ValleyOfTwoPlanes) {
   ASSERT_EQ(table.unreachable.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) {
     const double r = params.radii[k];
-    const double nearest = r * std::tan(a) - params.tolerance / std::sin(2 * a);
+    const double nearest = r * std::tan(a) - ReachGive(params.tolerance) / std::sin(2 * a);
     const double area = 2 * nearest * 2 * half;
     EXPECT_NEAR(table.unreachable[k], area, cell * 2 * 2 * half) << r;
   }

@@ -7,6 +7,7 @@
 
 #include "cam/region/limit_follower.h"
 #include "cam/region/reach_limits.h"
+#include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
 #include "tests/support/random.h"
@@ -73,7 +74,7 @@ TEST(ReachTest, AgreesWithTheDefinition) {
     const Surface surface = Folded(seed);
     RegionParams params;
     params.radius = 1.5;
-    const double free_radius = params.radius - params.tolerance;
+    const double free_radius = params.radius - ReachGive(params.tolerance);
     const Locator free_ball(surface, free_radius);
     const ReachTest reach(free_ball, params, RunContext());
     Random random(seed);
@@ -104,11 +105,13 @@ TEST(ReachTest, AgreesWithTheDefinition) {
       ASSERT_TRUE(obstacles[i]);
       EXPECT_LT(reach.Clearance(obstacles[i]->p, jets[i]), 0.0);
       const double nearer = ball->distance - ray->distance - 0.02 * params.radius;
-      if (std::abs(nearer) < 0.003 * params.radius) continue;
-      EXPECT_EQ(reach.BlockedAbove(jets[i].p, *normal), nearer > 0.0);
-      EXPECT_EQ(shank[i], nearer > 0.0 ? -1.0 : 1.0);
-      above += nearer > 0.0;
-      not_above += nearer < 0.0;
+      const double clears = ball->distance - (params.radius - 0.5 * ReachGive(params.tolerance));
+      if (std::abs(nearer) < 0.003 * params.radius || std::abs(clears) < 5e-4) continue;
+      const bool is_above = nearer > 0.0 || clears > 0.0;
+      EXPECT_EQ(reach.BlockedAbove(jets[i].p, *normal), is_above);
+      EXPECT_EQ(shank[i], is_above ? -1.0 : 1.0);
+      above += is_above;
+      not_above += !is_above;
     }
   }
   EXPECT_GT(blocked, 200);
@@ -122,10 +125,11 @@ TEST(ReachLimits, AreThoseOfAHemisphereOnAPlane) {
   RegionParams params;
   params.radius = radius;
   params.tolerance = tolerance;
-  const Locator free_ball(surface, radius - tolerance);
+  const Locator free_ball(surface, radius - ReachGive(tolerance));
   const ReachTest reach(free_ball, params, RunContext());
   // On the plane, outwards from the rim in all directions: free from this circle on.
-  const double reached = r + radius - tolerance, limit = std::sqrt(reached * reached - radius * radius);
+  const double reached = r + radius - ReachGive(tolerance),
+               limit = std::sqrt(reached * reached - radius * radius);
   std::vector<ZeroSegment> segments;
   for (int i = 0; i < 24; ++i) {
     const double angle = 2 * kPi * i / 24, from = 8.5 + 0.05 * i, to = 11.0 + 0.1 * i;
@@ -155,7 +159,7 @@ struct Bosses {
       : half(half_size),
         limit(LimitAround(r)),
         surface(SurfaceOf(Model(half_size, r, at_x))),
-        free_ball(surface, params.radius - params.tolerance),
+        free_ball(surface, params.radius - ReachGive(params.tolerance)),
         reach(free_ball, params, RunContext()) {}
   // The place (mm) on the plane in its parameters.
   Vec2 Place(double x, double y) const { return {0.5 + x / (2 * half), 0.5 + y / (2 * half)}; }
@@ -164,7 +168,7 @@ struct Bosses {
  private:
   static double LimitAround(double r) {
     const RegionParams p;
-    const double reached = r + p.radius - p.tolerance;
+    const double reached = r + p.radius - ReachGive(p.tolerance);
     return std::sqrt(reached * reached - p.radius * p.radius);
   }
   static PatchModel Model(double half, double r, const std::vector<double>& at_x) {

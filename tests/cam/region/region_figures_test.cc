@@ -8,6 +8,7 @@
 #include "cam/location/keep_in.h"
 #include "cam/region/reach.h"
 #include "cam/region/region_map.h"
+#include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
 #include "tests/support/files.h"
@@ -77,7 +78,7 @@ TEST(RegionFigures, TheToolForASlotOfUprightWallsIsAsWide) {
   for (const Region& r : map.regions) {
     if (r.kind != RegionKind::kUnreachable || r.reason != UnreachableReason::kConcave) continue;
     ++walls;
-    EXPECT_NEAR(r.largest_tool_diameter, 2.0 * half + params.tolerance, 0.01);
+    EXPECT_NEAR(r.largest_tool_diameter, 2.0 * half + 2.0 * ReachGive(params.tolerance), 0.01);
   }
   EXPECT_EQ(walls, 2);
 }
@@ -102,7 +103,7 @@ TEST(RegionFigures, TheToolForARegionReachesAllOfIt) {
           map.regions[id].reason != UnreachableReason::kConcave) {
         continue;
       }
-      least[id] = LargestFreeRadius(surface, jet.p, *e, least[id], params.tolerance);
+      least[id] = LargestFreeRadius(surface, jet.p, *e, least[id], ReachGive(params.tolerance));
     }
   }
   int creases = 0, grooves = 0;

@@ -21,7 +21,7 @@ constexpr double kRadius = 3.0;
 ReachParams Params() {
   ReachParams params;
   params.radius = kRadius;
-  params.tolerance = 0.01;
+  params.give = 0.01;
   return params;
 }
 
@@ -79,7 +79,7 @@ TEST(VerifyReach, WallsAndEquatorsAreToBeFinished) {
 }
 
 // docs/reach.md by its words, from distances known to 1e-7 mm; nothing where the verifier's own exactness
-// (0.02 of the tolerance, 0.004 R) may decide.
+// (0.02 of what balls give, 0.004 R) may decide.
 std::optional<ReachClass> ByDefinition(const Surface& surface, const Vec3& c) {
   constexpr double kExact = 1e-7, kLimit = kRadius - 0.01, kNearer = 0.02 * kRadius,
                    kReason = 0.005 * kRadius;

@@ -1,4 +1,5 @@
 // P1 and P3 of whole programs: every kind of motion, rapids, starts, ends and descents.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -6,6 +7,7 @@
 
 #include "cam/verify/motion_figures.h"
 #include "tests/cam/verify/verify_models.h"
+#include "tests/support/joined_surface.h"
 
 namespace patchmill {
 namespace {
@@ -250,6 +252,29 @@ TEST(VerifyMotion, ShankAndStockAreKnownToTheCertainty) {
   };
   EXPECT_TRUE(over_the_stock(0.0).motion_ok);
   EXPECT_FALSE(over_the_stock(0.003).motion_ok);
+}
+
+// The margin of avoided patches is the shank's too, from where it begins.
+TEST(VerifyMotion, AvoidMarginOfAWiderShank) {
+  const Surface surface = JoinedSurface(Block(5.0, 20.0, 30.0));
+  Tool tool = Ball(3.0);
+  tool.shank_diameter = 7.0;
+  VerifyParams params = Params(21.0);
+  params.containment.avoid_margin = 1.0;
+  params.containment.avoided.assign(13, false);
+  std::fill_n(params.containment.avoided.begin() + 8, 4, true);  // the walls
+  const auto keeps_off = [&](double flute, double from_wall) {
+    ProgramText text(40.0);
+    text.Pass({{5.0 + from_wall, -4, 1}, {5.0 + from_wall, 4, 2}});
+    tool.flute_length = flute;
+    return Find(Judged(surface, tool, text.End(), params), "AVOID_MARGIN") == nullptr;
+  };
+  EXPECT_FALSE(keeps_off(8.0, 4.485));
+  EXPECT_TRUE(keeps_off(8.0, 4.495));
+  EXPECT_TRUE(keeps_off(20.1, 4.2));  // the shank begins 1.1 above the wall
+  EXPECT_FALSE(keeps_off(18.5, 4.2));
+  EXPECT_TRUE(keeps_off(8.0, 4.6));
+  EXPECT_FALSE(keeps_off(20.1, 3.9));  // the ball
 }
 
 TEST(VerifyMotion, LongMovesOverABigPartCostLittle) {

@@ -1,6 +1,7 @@
 // The verifier against dense sampling that shares nothing with it but the evaluation of the surface.
 #include <cmath>
 
+#include "cam/tool/reach_give.h"
 #include "cam/toolpath/segment_metric.h"
 #include "cam/verify/reach.h"
 #include "core/surface/closest.h"
@@ -62,7 +63,8 @@ TEST(VerifyRandom, MaximaBoundDenseSamples) {
           gouge = std::max(gouge, r - d_swept);
           const double area = jet.du.cross(jet.dv).norm() / (n * n);
           total += area;
-          if (ReachAt(surface, jet.p, *facing, {r, params.tolerance}) != ReachClass::kReachable) continue;
+          if (ReachAt(surface, jet.p, *facing, {r, ReachGive(params.tolerance)}) != ReachClass::kReachable)
+            continue;
           reachable += area;
           leftover = std::max(leftover, d_cut - r);
         }
@@ -87,7 +89,8 @@ TEST(VerifyRandom, MaximaBoundDenseSamples) {
     EXPECT_LE(at->distance, 1e-8);
     const auto facing = FacingAt(Evaluate(surface, at->at.piece, at->at.u, at->at.v));
     ASSERT_TRUE(facing.has_value());
-    EXPECT_EQ(ReachAt(surface, at->at.p, *facing, {r, params.tolerance * 1.001}), ReachClass::kReachable)
+    EXPECT_EQ(ReachAt(surface, at->at.p, *facing, {r, ReachGive(params.tolerance) * 1.001}),
+              ReachClass::kReachable)
         << seed;
   }
 }

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "cam/tool/reach_give.h"
 #include "tests/cam/verify/verify_models.h"
 
 namespace patchmill {
@@ -174,7 +175,7 @@ TEST(Verify, UndersideIsUndercut) {
   text.Pass({{0, 0, big}, {0.1, 0, big}});
   const VerifyReport report = Judged(SurfaceOf(Sphere(Vec3::Zero(), big)), Ball(r), text.End(), Params(11.0));
   const double half = 2 * kPi * big * big;
-  // The tolerance lets the ball reach a little below the equator: R - tol against the wall above it.
+  // What balls may give lets them reach a little below the equator: R - give against the wall above it.
   EXPECT_NEAR(report.unreachable_area[0], half, 0.03 * half);
   EXPECT_NEAR(report.reachable_area, half, 0.03 * half);
   EXPECT_FALSE(report.finish_ok);
@@ -189,8 +190,8 @@ TEST(Verify, ValleyOfTwoPlanesIsConcave) {
     text.Pass({{0, -half, r / std::cos(a) - r}, {0, half, r / std::cos(a) - r}});
     VerifyParams params = Params(15.0);
     const VerifyReport report = Judged(SurfaceOf(TwoPlanes(a, half)), Ball(r), text.End(), params);
-    // p at s from the crease: dist(p + R n1, plane 2) = s sin 2a + R cos 2a >= R - tol.
-    const double s = (r * (1 - std::cos(2 * a)) - params.tolerance) / std::sin(2 * a);
+    // p at s from the crease: dist(p + R n1, plane 2) = s sin 2a + R cos 2a >= R - give.
+    const double s = (r * (1 - std::cos(2 * a)) - ReachGive(params.tolerance)) / std::sin(2 * a);
     const double truth = 2 * s * 2 * half;
     EXPECT_NEAR(report.unreachable_area[1], truth, 0.01 * truth);
     EXPECT_NEAR(report.deepest_unreachable[1], r / std::cos(a) - r, 0.05);
@@ -267,9 +268,9 @@ TEST(Verify, BothSidesOfAVerticalWallCount) {
   text.Pass({{0, 0, 8}, {0.1, 0, 8}});
   const VerifyParams params = Params(9.0);
   const VerifyReport report = Judged(surface, Ball(2.0), text.End(), params);
-  // The ball touches a wall down to R - tol above the floor, and the floor from where it is R - tol off the
+  // The ball touches a wall down to R - give above the floor, and the floor from where it is R - give off the
   // wall on. The inner side of a wall is never free, but it is not the reason.
-  const double r = 2.0 - params.tolerance;
+  const double r = 2.0 - ReachGive(params.tolerance);
   const double truth = 2 * 4 * 10.0 * r + kPi * r * r;
   EXPECT_NEAR(report.unreachable_area[1], truth, 0.01 * truth);
   EXPECT_EQ(report.unreachable_area[0], 0.0);

@@ -8,6 +8,7 @@
 #include "cam/path/forced_steps.h"
 #include "cam/plan/job_preview.h"
 #include "cam/post/program_reader.h"
+#include "cam/tool/reach_give.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
@@ -146,7 +147,8 @@ class ProgramJudge {
   bool Reachable(const Vec3& p, const Vec3& e) const {
     const Vec3 c = p + kept_ * e;
     return c.z() - radius_ >= floor_ &&
-           !AnythingNearUpwardRay(surface_, c, kept_ - job_.operation.tolerance + kSearch, kSearch);
+           !AnythingNearUpwardRay(surface_, c, kept_ - ReachGive(job_.operation.tolerance) + kSearch,
+                                  kSearch);
   }
 
   const Surface& surface_;

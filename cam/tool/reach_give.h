@@ -1,0 +1,12 @@
+// How much room a ball needs to count as free: the one number that planner and verifier share
+// (docs/reach.md).
+#pragma once
+
+namespace patchmill {
+
+// How far, mm, the surface may lie inside a ball that counts as free, of a whole `tolerance`: what passes may
+// take of it themselves. The rest belongs to rounding, certificates and the control (SplitBudget): a place
+// that lets the ball in by that alone would be asked for, and no program could finish it within P1.
+constexpr double ReachGive(double tolerance) { return 0.5 * tolerance; }
+
+}  // namespace patchmill
