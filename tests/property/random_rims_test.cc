@@ -39,8 +39,7 @@ PatchModel DrawRims(Random& random) {
         return height(center.x() + r * std::cos(turn), center.y() + r * std::sin(turn));
       },
       0.0, 2.0 * kPi, inner, outer, 32, 16);
-  for (Vec3& p : wrapped.points)
-    p = Lift(center + p.y() * Vec2(std::cos(p.x()), std::sin(p.x())), p.z());
+  for (Vec3& p : wrapped.points) p = Lift(center + p.y() * Vec2(std::cos(p.x()), std::sin(p.x())), p.z());
   return Single(std::move(wrapped));
 }
 
