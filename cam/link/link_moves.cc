@@ -122,14 +122,16 @@ std::optional<std::vector<Move>> LinkMaker::StayDown(const CutterPoint& from, co
   if (plan < 1e-6) return std::nullopt;
   std::optional<Way> best = AlongSurface(a, b, std::array{Plan(a), Plan(b)});
   if (length <= 2.0 * params_.radius) {
-    // Ends at a wall that bends: straight on would climb it, a little off it the way is short.
+    // Ends at a wall that bends: straight on would climb it, a little off it the way is short. Or at a limit
+    // that bends: straight on would cross it.
+    const bool limits = params_.keep_in != nullptr && !params_.keep_in->AllowsAll();
     const Vec2 along = Plan(b) - Plan(a);
     const Vec2 across(-along.y(), along.x());
     const double off = across.dot(Plan(OffWalls(from) + OffWalls(to)));
     for (const double bulge : kBulges) {
       for (const double side : {1.0, -1.0}) {
         if (best && best->length <= kShortDetour * length) break;
-        if (side * off < -1e-3 * across.norm()) continue;  // into the wall
+        if (!limits && side * off < -1e-3 * across.norm()) continue;  // into the wall
         const Vec2 middle = 0.5 * (Plan(a) + Plan(b)) + side * bulge * across;
         std::optional<Way> round = AlongSurface(a, b, std::array{Plan(a), middle, Plan(b)});
         if (round && (!best || round->length < best->length)) best = std::move(round);
@@ -209,6 +211,30 @@ void LinkMaker::Approach(const CutterPoint& to, std::vector<Move>& moves) const 
   if (in.clear.z() < clearance_center_z() - 1e-9) moves.push_back({.kind = MoveKind::kRapid, .to = in.clear});
   if (in.clear.z() > in.beside.z() + 1e-9) moves.push_back(Feed(MoveKind::kPlunge, in.clear, in.beside));
   if (in.beside != to.center) moves.push_back(Feed(MoveKind::kLead, in.beside, to.center));
+}
+
+double TimeOf(const Vec3& from, const std::vector<Move>& moves) {
+  double sum = 0.0;
+  Vec3 at = from;
+  for (const Move& move : moves) {
+    sum += EstimatedTime(move, (move.to - at).norm());
+    at = move.to;
+  }
+  return sum;
+}
+
+std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const CutterPath& next) {
+  const CutterPoint& start = next.points.front();
+  std::optional<std::vector<Move>> down;
+  if (!next.one_way) down = maker.StayDown(end, start);
+  // Straight and no longer than out of the stock and back: nothing over the top is shorter.
+  const bool near = (start.center - end.center).norm() <= 2.0 * maker.stock_depth();
+  if (down && down->size() <= 1 && near) return *std::move(down);
+  std::vector<Move> over;
+  maker.Retract(end, over);
+  maker.Approach(start, over);
+  if (down && TimeOf(end.center, *down) <= TimeOf(end.center, over)) return *std::move(down);
+  return over;
 }
 
 }  // namespace patchmill

@@ -72,4 +72,10 @@ class LinkMaker {
   double overrun_;  // mm: how far beyond what is wanted links may touch
 };
 
+// s, as EstimatedTime has it.
+double TimeOf(const Vec3& from, const std::vector<Move>& moves);
+
+// From where one pass ends to the next: down along the surface, or over the top where that is quicker.
+std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const CutterPath& next);
+
 }  // namespace patchmill

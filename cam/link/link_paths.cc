@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cam/link/link_moves.h"
+#include "cam/link/on_the_way.h"
 #include "cam/link/order_passes.h"
 #include "core/base/status.h"
 
@@ -25,30 +26,6 @@ void AppendPass(const CutterPath& pass, int index, const LinkMaker& maker, const
     if (to.contact) move.contact = {to.contact->p, surface.piece(to.contact->piece).patch};
     moves.push_back(move);
   }
-}
-
-// From one pass to the next: down along the surface, or over the top where that is quicker.
-std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const CutterPath& next) {
-  const CutterPoint& start = next.points.front();
-  const auto time = [&](const std::vector<Move>& moves) {
-    double sum = 0.0;
-    Vec3 at = end.center;
-    for (const Move& move : moves) {
-      sum += EstimatedTime(move, (move.to - at).norm());
-      at = move.to;
-    }
-    return sum;
-  };
-  std::optional<std::vector<Move>> down;
-  if (!next.one_way) down = maker.StayDown(end, start);
-  // Straight and no longer than out of the stock and back: nothing over the top is shorter.
-  const bool near = (start.center - end.center).norm() <= 2.0 * maker.stock_depth();
-  if (down && down->size() <= 1 && near) return *std::move(down);
-  std::vector<Move> over;
-  maker.Retract(end, over);
-  maker.Approach(start, over);
-  if (down && time(*down) <= time(over)) return *std::move(down);
-  return over;
 }
 
 LinkStats Measure(const std::vector<Move>& moves) {
@@ -104,6 +81,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
                                   run));
   const Locator stock_locator(locator.surface(), params.radius + params.allowance + params.approach_gap);
   const LinkMaker maker(locator, stock_locator, params, run);
+  PM_ASSIGN_OR_RETURN(result.passes, PutOnTheWay(maker, std::move(result.passes), params, run));
   std::vector<Move>& moves = result.toolpath.moves;
 
   const CutterPoint* end = nullptr;  // where the last pass ended

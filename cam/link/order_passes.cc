@@ -13,6 +13,10 @@
 namespace patchmill {
 namespace {
 
+// Passes whose numbers differ by more are no neighbours. Between two lines may lie some that are needed
+// elsewhere.
+constexpr int kLevelReach = 2, kLineReach = 6;
+
 Box3 PlanBox(const CutterPath& path) {
   Box3 box;
   for (const CutterPoint& p : path.points) box.Add(p.center);
@@ -347,7 +351,7 @@ absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, st
   for (auto& [key, group] : groups) {
     const PassKind kind = group.front().kind;
     const bool contour = kind == PassKind::kContour, line = kind == PassKind::kZigzag;
-    const int reach = contour || line ? 2 : std::numeric_limits<int>::max();
+    const int reach = contour ? kLevelReach : line ? kLineReach : std::numeric_limits<int>::max();
     for (Cluster& cluster : Clusters(std::move(group), params, reach, run)) {
       if (contour || line) parts.push_back(PartOf(cluster, regions));
       (contour || line ? clusters : last).push_back(std::move(cluster));

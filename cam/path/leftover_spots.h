@@ -32,8 +32,8 @@ absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParam
 // Halves the rectangles given until each is proven covered (up to the limit and kProofMargin), proven out of
 // reach (OutOfReach), or stands for a spot: its middle exceeds the limit and is free for a ball of radius -
 // (1 + kReachMargin) ReachGive at p + R e, tip not below the floor (DESIGN 2). Of the two margins one always
-// holds at small rectangles, so no island of reach is too small to be seen; only around points where the
-// surface has no normal it ends at 0.2 % of the flat step.
+// holds at small rectangles. It ends at 0.2 % of the flat step; where no pass is near, the corners of such a
+// rectangle are asked too, so that islands of reach narrower than that are seen where they lie along one.
 // With params.keep_in only wanted points at allowed centres are spots; along its limits the search ends at
 // 5 % of the flat step.
 //   Covered: the distance of a hull to a segment is largest at its vertices, so a rectangle is covered when

@@ -3,23 +3,47 @@
 #include <optional>
 
 #include "cam/path/sheet_border.h"
+#include "cam/path/spacing.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
+#include "core/surface/closest.h"
 
 namespace patchmill {
+namespace {
+
+constexpr double kOverrun = 1.25;  // steps: from what is wanted to what a pass touches beyond it
+constexpr double kNear = 1.5;      // radii: farther off nothing is cut, whatever the stock
+constexpr int kLooks = 4;          // along a move
+
+}  // namespace
 
 absl::StatusOr<std::vector<CutterPath>> RunOn(const Locator& locator, std::vector<CutterPath> paths,
                                               double length, const PassParams& params, const KeepIn* keep_in,
                                               const RunContext& run) {
   const SheetBorder border(locator.surface());
   const double floor_center = params.floor_z + locator.radius();
+  // Passes end a step beyond what is wanted (ClipToKeepIn): where one also ends on the border there, it may
+  // run along it.
+  const double overrun = kOverrun * CenterStep(locator.radius(), params.scallop, 0.0);
+  const auto leaves_unwanted = [&](const Vec3& from, const Vec3& to) {
+    if (keep_in == nullptr || keep_in->WantsAll()) return true;
+    for (int k = 1; k <= kLooks; ++k) {
+      const Vec3 at = from + (static_cast<double>(k) / kLooks) * (to - from);
+      const auto nearest =
+          ClosestToPoint(locator.surface(), at, kNear * locator.radius(), 1e-3 * locator.radius());
+      if (nearest && !keep_in->WantsNear(nearest->at, overrun)) return false;
+    }
+    return true;
+  };
   const auto beyond = [&](const CutterPoint& end, const CutterPoint& before) -> std::optional<CutterPoint> {
     const Vec3 way = end.center - before.center;
     if (!end.contact || !border.On(*end.contact) || !(way.norm() > 0.0)) return std::nullopt;
     for (const double part : {1.0, 0.5, 0.25}) {
       const Vec3 to = end.center + part * length * way.normalized();
       if (to.z() < floor_center) continue;
-      if (keep_in != nullptr && !keep_in->AllowsMove(end.center, to, true)) continue;
+      if (keep_in != nullptr &&
+          !(keep_in->AllowsMove(end.center, to, true) && leaves_unwanted(end.center, to)))
+        continue;
       if (locator.GougeWithin(end.center, to, params.chord_tolerance, 0.1 * params.chord_tolerance))
         return CutterPoint{to, std::nullopt, std::nullopt};
     }

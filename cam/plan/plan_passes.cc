@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "cam/link/order_passes.h"
 #include "cam/path/border_passes.h"
 #include "cam/path/chord_thinning.h"
 #include "cam/path/contour_paths.h"
@@ -24,6 +25,8 @@ namespace {
 // Share of the tolerance that coverage may use up before a rest pass is added; the remainder is the
 // verifier's certainty.
 constexpr double kCoverageShare = 0.75;
+// Cosine of the angle to the lines from which on a pass runs across them.
+constexpr double kAcross = 0.3;
 
 void LabelRegions(const RegionMap& regions, std::vector<CutterPath>& paths) {
   for (CutterPath& path : paths) {
@@ -43,7 +46,7 @@ void Append(std::vector<CutterPath>& to, std::vector<CutterPath> from) {
 
 // The lines and levels of every part have numbers of their own, in the order of the parts.
 void NumberAfter(const std::vector<CutterPath>& before, std::vector<CutterPath>& paths) {
-  constexpr int kGap = 4;  // more than what makes neighbours of two lines
+  constexpr int kGap = 8;  // more than what makes neighbours of two lines
   if (before.empty()) return;
   int last = 0;
   for (const CutterPath& path : before) last = std::max(last, path.line);
@@ -141,6 +144,7 @@ class PassMaker {
       PM_ASSIGN_OR_RETURN(passes, ClipToKeepIn(locator_, *keep_in, std::move(passes), reach, run_));
       std::erase_if(passes, [&](const CutterPath& pass) { return Length(pass) < 4.0 * reach; });
     }
+    TurnOneWay(choice, passes);
     Append(planned.paths, std::move(passes));
     return absl::OkStatus();
   }
@@ -155,11 +159,26 @@ class PassMaker {
     params.forced = ForcedOf(choice);
     params.keep_in = keep_in;
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator_, planned.paths, params, run_));
+    TurnOneWay(choice, rest);
     Append(planned.paths, std::move(rest));
     return absl::OkStatus();
   }
 
  private:
+  // What mends lines that run one way runs that way too, but for what runs across it.
+  static void TurnOneWay(const RegionChoice& choice, std::vector<CutterPath>& paths) {
+    if (!choice.one_way) return;
+    const Vec2 way(std::cos(choice.zigzag_angle), std::sin(choice.zigzag_angle));
+    for (CutterPath& path : paths) {
+      if (path.closed || path.points.size() < 2) continue;
+      const Vec3 d = path.points.back().center - path.points.front().center;
+      const double along = way.dot(Plan(d));
+      if (std::abs(along) < kAcross * d.norm()) continue;
+      if (along < 0.0) Reverse(path);
+      path.one_way = true;
+    }
+  }
+
   // What no limit has cut.
   static bool MaySpiral(const CutterPath& path) { return path.closed || path.spiral; }
 

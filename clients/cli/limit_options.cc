@@ -80,11 +80,12 @@ void AddLimitOptions(CLI::App& app, LimitOptions& options) {
       ->delimiter(',');
   app.add_option("--avoid", options.avoid, "do not cut these patches; several with commas")->delimiter(',');
   AddNumber(app, "--avoid-margin", options.avoid_margin, "distance of the tool from avoided patches, mm");
-  app.add_option(
+  CLI::Option* boundary = app.add_option(
       "--boundary", options.boundary,
       "closed outline from above, program frame: \"X,Y X,Y X,Y\" or @FILE; more than one: holes, islands");
   app.add_option("--boundary-mode", options.boundary_mode, "what of the tool it limits")
       ->check(CLI::IsMember({"contact", "center", "inside", "outside"}))
+      ->needs(boundary)
       ->capture_default_str();
   AddNumber(app, "--boundary-offset", options.boundary_offset,
             "widens the boundary, mm; negative: narrows it");

@@ -349,6 +349,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"BoundaryMode", {"--boundary-mode", "edge"}, "--boundary-mode"},
         Wrong{"BoundaryFlat", {"--boundary", "0,0 1,1 2,2"}, "--boundary: job.operations[0].selection"},
         Wrong{"BoundaryOffset", {"--boundary-offset", "1"}, "--boundary-offset is given without --boundary"},
+        Wrong{"BoundaryModeAlone", {"--boundary-mode", "inside"}, "--boundary-mode requires --boundary"},
         Wrong{"AvoidMargin", {"--avoid-margin", "1"}, "--avoid-margin is given without --avoid"},
         Wrong{"RegionTwice", {"--region", "0:contour:zigzag"}, "one of a kind"},
         Wrong{"Obstacle", {"--obstacle", "0,0 1,0 1,1"}, "must be [NAME=]TOP[,MARGIN]: X,Y X,Y X,Y"},

@@ -107,6 +107,42 @@ TEST(LinkPaths, LinesOverAHillAreJoinedAndSafe) {
   EXPECT_LE(result->stats.retract_count, 1);  // neighbouring lines stay down; one retract at the end
 }
 
+// A short pass beside the ends of two lines is cut between them, whichever way round; a long one, and one far
+// off, come last.
+TEST(LinkPaths, ShortPassesAreCutOnTheWay) {
+  const Surface surface = Build(testing::Plane(20));
+  const Locator locator(surface, kRadius);
+  std::vector<CutterPath> paths;
+  for (int i = 0; i < 8; ++i) paths.push_back(Line(locator, i, {-15, -4.0 + i}, {15, -4.0 + i}));
+  const auto add = [&](const Vec2& a, const Vec2& b) {
+    CutterPath rest = Line(locator, 0, a, b);
+    rest.kind = PassKind::kRest;
+    paths.push_back(std::move(rest));
+  };
+  add({15.5, -0.8}, {15.5, -0.2});  // beside the ends of two lines joined there or on the other side
+  add({-15.5, 1.8}, {-15.5, 1.2});
+  add({17, -19}, {17, 19});
+  add({-19, 19}, {-18, 19});
+  const auto result = LinkPaths(locator, {}, paths, Params(), RunContext{});
+  ASSERT_TRUE(result.ok()) << result.status();
+  CheckMotion(surface, *result, Params());
+  ASSERT_EQ(result->passes.size(), 12u);
+  const auto at = [&](const Vec2& q) {
+    for (std::size_t i = 0; i < result->passes.size(); ++i) {
+      const CutterPath& pass = result->passes[i];
+      if (pass.kind != PassKind::kRest) continue;
+      for (const CutterPoint& p : pass.points)
+        if ((Plan(p.center) - q).norm() < 0.3) return i;
+    }
+    return std::size_t{99};
+  };
+  EXPECT_LT(at({15.5, -0.5}), 8u);
+  EXPECT_LT(at({-15.5, 1.5}), 8u);
+  EXPECT_GE(at({17, 0}), 10u);
+  EXPECT_GE(at({-18.5, 19}), 10u);
+  EXPECT_LE(result->stats.retract_count, 3);
+}
+
 TEST(LinkPaths, ContoursAreEnteredFromBesideTheWall) {
   const Surface surface =
       Build(testing::Join({testing::Plane(30), testing::Sphere(Vec3::Zero(), 8, Half::kUpper)}));

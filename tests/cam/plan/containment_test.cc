@@ -236,6 +236,19 @@ TEST(Containment, ObstacleIsKeptOffByTheShank) {
   EXPECT_NEAR(result.report.verify.unreachable_area[kAvoided], area, 0.01 * area);
 }
 
+// From line to line beside a round clamp the straight way would cut its corner: the link goes a little
+// around.
+TEST(Containment, LinksGoAroundARoundClamp) {
+  Ring round;
+  for (int k = 0; k < 48; ++k)
+    round.push_back({1.0 + std::cos(2.0 * kPi * k / 48), std::sin(2.0 * kPi * k / 48)});
+  Job job = LimitedJob();
+  job.setup.obstacles.push_back({"clamp", round, 20.0, 0.5});
+  const JobResult result = Mill(PlacedSurface(Plane(15)), job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  EXPECT_LE(result.report.motion.retract_count, 1);
+}
+
 TEST(Containment, TopLimitsTheTip) {
   const double r = 10;
   const Surface surface = PlacedSurface(Sphere(Vec3(0, 0, 0), r, Half::kUpper));

@@ -129,6 +129,37 @@ TEST(EdgeRules, ExtendRunsOnByABallRadius) {
   CheckProgram(surface, job, result, random, 2000);
 }
 
+// A line along the border that ends where the selection does has no edge before it.
+TEST(EdgeRules, ExtendDoesNotRunOverWhatIsNotSelected) {
+  // The edge bends outwards where the selection ends: y = x^2 / 30 - 8.
+  const auto half = [](double side) {
+    BezierPatch patch{2, 1, {}, {}};
+    for (const Vec2& p :
+         {Vec2(0, -kHalf), Vec2(0.5 * kHalf, -kHalf), Vec2(kHalf, kHalf * kHalf / 30.0 - kHalf)}) {
+      for (const double y : {p.y(), kHalf}) patch.points.emplace_back(side * p.x(), y, 0.0);
+    }
+    return Single(std::move(patch));
+  };
+  const Surface surface = PlacedSurface(Join({half(-1.0), half(1.0)}));
+  for (const bool borders : {true, false}) {
+    Job job = EdgeJob(EdgeRule::kExtend);
+    job.operation.border_passes = borders;
+    job.operation.selection.patches = {"#0"};
+    const JobResult result = Mill(surface, job);
+    ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+    const double step = 2.0 * std::sqrt(2.0 * kRadius * job.operation.scallop);
+    double left = 0.0, right = -kHalf;
+    for (const CutterPath& pass : result.motion.passes) {
+      for (const CutterPoint& p : pass.points) {
+        left = std::min(left, p.center.x());
+        right = std::max(right, p.center.x());
+      }
+    }
+    EXPECT_NEAR(left, -kHalf - kRadius, 1e-3);
+    EXPECT_LE(right, 1.3 * step);
+  }
+}
+
 TEST(EdgeRules, ExtendEndsBeforeWhatIsInTheWay) {
   // A wall 5 mm beyond the border: the centre of a ball of 3 mm may go 2 mm beyond it, no whole radius.
   const Surface surface = PlacedSurface(Join(

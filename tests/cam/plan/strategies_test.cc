@@ -3,6 +3,7 @@
 
 #include "core/surface/closest.h"
 #include "tests/support/jobs/jobs.h"
+#include "tests/support/profiles.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
@@ -51,6 +52,24 @@ TEST(Strategies, ForcedContoursLeaveTheFlatTopAndSaySo) {
   EXPECT_TRUE(result.report.verify.gouge_ok);
   EXPECT_GT(result.report.verify.unreachable_area[kStrategy], 1.0) << Describe(result);
   EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable);
+}
+
+// Passes along borders and rest passes as well, and none of them the other way.
+TEST(Strategies, OneWayIsAllOfIt) {
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.02;
+  job.operation.one_way = true;
+  job.operation.zigzag_angle = Radians(180.0);
+  const JobResult result = Mill(PlacedSurface(Turned({Line({2, 1}, {15, 0})})), job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  int beside = 0;
+  for (const CutterPath& pass : result.motion.passes) {
+    const Vec3 d = pass.points.back().center - pass.points.front().center;
+    if (pass.closed || std::abs(d.x()) < 0.3 * d.norm()) continue;
+    EXPECT_LT(d.x(), 0.0);
+    beside += pass.kind != PassKind::kZigzag ? 1 : 0;
+  }
+  EXPECT_GE(beside, 3);
 }
 
 // The stock to leave stays everywhere: no feed move comes nearer than R + L -
