@@ -20,6 +20,8 @@ constexpr double kShortDetour = 1.5;
 constexpr std::array<double, 4> kBulges = {0.0625, 0.125, 0.25, 0.5};
 // Steps that links may lie beyond what is wanted: from pass to pass, which run on by one (ClipToKeepIn).
 constexpr double kOverrun = 1.25;
+// Of the chord tolerance: what short links may take, each proven by itself, without the certificates' share.
+constexpr double kProven = 1.2;
 // Ball radii: in a corner this much farther off is beside the link, too.
 constexpr double kBeside = 0.04;
 // rad: how leads may turn from the normal; a way out this many times as long as the way through the stock is
@@ -79,9 +81,10 @@ bool LinkMaker::LeavesUnwanted(const Vec3& c) const {
 
 bool LinkMaker::StraightIsFree(const Vec3& a, const Vec3& b) const {
   if (!Allowed(a, b)) return false;
-  const double length = (b - a).norm();
-  if (length <= t2_length_) return true;
+  // Passes in slots and holes that are a little too narrow end where nothing is free (cam/path/spot_passes):
+  // for links from there T2 promises nothing.
   const double tolerance = params_.pass.chord_tolerance;
+  if ((b - a).norm() <= t2_length_) return locator_.GougeWithin(a, b, kProven * tolerance, 0.02 * tolerance);
   return locator_.GougeWithin(a, b, tolerance, 0.1 * tolerance);
 }
 

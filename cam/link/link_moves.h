@@ -18,7 +18,7 @@ class LinkMaker {
   LinkMaker(const Locator& locator, const Locator& stock_locator, const LinkParams& params,
             const RunContext& run);
 
-  // Feed moves that stay down: straight when certified gouge-free (T2 or the swept ball), else along the
+  // Feed moves that stay down: straight when certified gouge-free (the swept ball), else along the
   // centre surface, where both ends stand at a wall also a little off it; nullopt when none is short enough.
   // The centre of `to` is the last move's end.
   std::optional<std::vector<Move>> StayDown(const CutterPoint& from, const CutterPoint& to) const;

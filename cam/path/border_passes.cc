@@ -24,22 +24,6 @@ constexpr double kLeft = 0.55;     // of the flat step: passes as near as this f
 constexpr double kTouch = 0.02;    // of the flat step: how near the contact has to be to the border
 constexpr int kSteps = 12;         // towards the ball that touches a place
 
-// Places `spacing` (mm) apart, a little less on the last bit; both ends of an open curve.
-std::vector<Vec3> PlacesOn(const BorderCurve& border, double spacing) {
-  std::vector<Vec3> points = border.points;
-  if (border.closed && !points.empty()) points.push_back(points.front());
-  std::vector<Vec3> places;
-  double left = 0.0;  // from points[i - 1] to the next place
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const Vec3 way = points[i] - points[i - 1];
-    const double length = way.norm();
-    for (; left < length; left += spacing) places.push_back(points[i - 1] + left / length * way);
-    left -= length;
-  }
-  if (!points.empty()) places.push_back(points.back());
-  return places;
-}
-
 struct Stand {
   Vec3 center;
   SurfacePoint contact;
@@ -156,29 +140,6 @@ class BorderWalk {
   const double flat_, gap_;
 };
 
-// Fewest of `places` that stay within `tolerance` (mm) of all.
-void Thin(const std::vector<Vec2>& places, std::size_t first, std::size_t last, double tolerance,
-          std::vector<Vec2>& out) {
-  const Vec2 way = places[last] - places[first];
-  double farthest = tolerance;
-  std::size_t at = first;
-  for (std::size_t i = first + 1; i < last; ++i) {
-    const Vec2 from = places[i] - places[first];
-    const double t = way.squaredNorm() > 0.0 ? std::clamp(from.dot(way) / way.squaredNorm(), 0.0, 1.0) : 0.0;
-    const double distance = (from - t * way).norm();
-    if (distance > farthest) {
-      farthest = distance;
-      at = i;
-    }
-  }
-  if (at == first) {
-    out.push_back(places[last]);
-    return;
-  }
-  Thin(places, first, at, tolerance, out);
-  Thin(places, at, last, tolerance, out);
-}
-
 }  // namespace
 
 absl::StatusOr<std::vector<CutterPath>> BorderPasses(const Locator& locator,
@@ -198,9 +159,7 @@ absl::StatusOr<std::vector<CutterPath>> BorderPasses(const Locator& locator,
     for (const BorderWalk::Stretch& s : walk.Stretches(places)) {
       std::vector<Vec2> at;
       for (std::size_t i = s.first; i <= s.last; ++i) at.push_back(Plan(places[i].stand->center));
-      std::vector<Vec2> corners = {at.front()};
-      Thin(at, 0, at.size() - 1, kTouch * walk.flat(), corners);
-      for (ScanRun& r : ScanPolyline(locator, corners, params, &run)) {
+      for (ScanRun& r : ScanPolyline(locator, Thinned(at, kTouch * walk.flat()), params, &run)) {
         if (r.points.size() < 2) continue;
         found[k].push_back({.kind = PassKind::kBorder, .points = std::move(r.points)});
       }

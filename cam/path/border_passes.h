@@ -7,17 +7,12 @@
 #include <absl/status/statusor.h>
 
 #include "cam/location/locator.h"
+#include "cam/path/border_places.h"
 #include "cam/path/pass_params.h"
 #include "cam/toolpath/cutter_path.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
-
-// A border on the surface; closed: the last point joins the first, which is not repeated.
-struct BorderCurve {
-  std::vector<Vec3> points;
-  bool closed = false;
-};
 
 // Lines within this angle (rad, in plan) of a border run along it.
 inline constexpr double kAlongBorder = 0.35;

@@ -12,6 +12,7 @@
 #include "cam/path/contour_paths.h"
 #include "cam/path/coverage.h"
 #include "cam/path/keep_in_clip.h"
+#include "cam/path/rim_passes.h"
 #include "cam/path/run_on.h"
 #include "cam/path/spacing.h"
 #include "cam/path/spiral_paths.h"
@@ -149,6 +150,24 @@ class PassMaker {
     return absl::OkStatus();
   }
 
+  // Above the rims of the surface, instead of lines across them.
+  absl::Status AddRims(const RegionMap& regions, const RegionChoice& choice, const KeepIn* keep_in,
+                       std::vector<CutterPath>& paths) const {
+    std::vector<BorderCurve> borders;
+    for (const BorderLine& line : regions.border_lines)
+      if (line.other < 0) borders.push_back({line.points, line.closed});
+    PassParams params;
+    SetFinePass(choice, params);
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> passes, RimPasses(locator_, borders, params, run_, paths));
+    if (keep_in != nullptr) {
+      const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
+      PM_ASSIGN_OR_RETURN(passes, ClipToKeepIn(locator_, *keep_in, std::move(passes), reach, run_));
+    }
+    TurnOneWay(choice, passes);
+    Append(paths, std::move(passes));
+    return absl::OkStatus();
+  }
+
   absl::Status AddRest(const RegionChoice& choice, const KeepIn* keep_in, PlannedPasses& planned) const {
     CoverageParams params;
     SetPass(choice, params);
@@ -247,6 +266,8 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
       own[k].emplace(std::move(within));
     }
     PM_RETURN_IF_ERROR(maker.AddStrategies(parts[k], limits(k), planned));
+    if (job.operation.border_passes)
+      PM_RETURN_IF_ERROR(maker.AddRims(regions, parts[k].choice, limits(k), planned.paths));
   }
   if (job.operation.border_passes) {
     for (std::size_t k = 0; k < parts.size(); ++k) {

@@ -7,6 +7,7 @@
 #include "cam/plan/resolve.h"
 #include "cam/post/program_reader.h"
 #include "tests/support/jobs/jobs.h"
+#include "tests/support/profiles.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
@@ -110,6 +111,31 @@ TEST(EdgeRules, RollIsHeldByTheFloor) {
   const JobResult result = Mill(PlacedSurface(Plane(kHalf)), job);
   ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
   EXPECT_GE(result.report.verify.tip_z_min, -1e-4);
+}
+
+// The rim of a cup is gone around, not crossed in crumbs with a way in and out each: and still nothing stays
+// of the layer on it, from right above to where the wall's own contours touch it.
+TEST(EdgeRules, RimOfACupIsGoneAround) {
+  const double rim = 12.6, high = 12.0;
+  const Surface surface = PlacedSurface(
+      Turned({Line({0, 0}, {9, 0}), Round({9, 0}, {12, 0}, {12, 3}), Line({12, 3}, {rim, high})}));
+  const Job job = EdgeJob(EdgeRule::kStop);
+  const JobResult result = Mill(surface, job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  EXPECT_LE(result.report.motion.retract_count, 4);
+  const std::vector<Feed> feeds = LevelFeeds(result);
+  for (int k = 0; k < 36; ++k) {
+    const double turn = 2.0 * kPi * (k + 0.5) / 36.0;
+    const Vec2 out(std::cos(turn), std::sin(turn));
+    for (int a = 0; a <= 85; a += 5) {
+      const Vec3 e = Lift(-std::sin(Radians(a)) * out, std::cos(Radians(a)));
+      for (double t = 0.05; t <= job.setup.allowance + 1e-9; t += 0.05)
+        EXPECT_LE(Distance(Lift(rim * out, high) + t * e, feeds), kRadius + job.operation.scallop)
+            << Degrees(turn) << " " << a << " " << t;
+    }
+  }
+  Random random(5);
+  CheckProgram(surface, job, result, random, 1000);
 }
 
 TEST(EdgeRules, ExtendRunsOnByABallRadius) {

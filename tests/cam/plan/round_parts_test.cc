@@ -103,6 +103,17 @@ TEST(RoundParts, HolesAndSlotsThatTheToleranceAloneLetsTheBallInto) {
   }
 }
 
+// In a groove that bends the chords between centres that give, and the links between passes, give too.
+TEST(RoundParts, RingGroovesBarelyNarrowerThanTheBall) {
+  for (const double gap : {5.9955, 5.99495}) {
+    SCOPED_TRACE(gap);
+    const double pin = 4.0, wall = pin + gap;
+    MillChecked(
+        PlacedSurface(Turned({Line({1, 4}, {pin, 4}), Line({pin, 4}, {pin, 0}), Line({pin, 0}, {wall, 0}),
+                              Line({wall, 0}, {wall, 4}), Line({wall, 4}, {15, 4})})));
+  }
+}
+
 // Caps of a sphere a little smaller than the ball: near its limit the bottom is reached or not by how much
 // the rim gives.
 TEST(RoundParts, DimplesBarelySmallerThanTheBall) {

@@ -1,0 +1,162 @@
+#include "cam/path/rim_passes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "cam/path/scan_line.h"
+#include "cam/path/sheet_border.h"
+#include "cam/path/spacing.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kSpacing = 0.5;  // of the flat step: places on a border
+constexpr double kApart = 2.0;    // ball radii
+constexpr double kBeyond = 2.0;   // flat steps: before the first line and after the last
+constexpr double kThin = 0.02;    // of the flat step: how far the pass may be off the rim in plan
+
+// Every place of the pass touches an open border, and only rolls over it.
+bool RollsOverTheRim(const CutterPath& path, const SheetBorder& border, double radius) {
+  if (path.kind != PassKind::kZigzag || path.closed) return false;
+  return std::all_of(path.points.begin(), path.points.end(), [&](const CutterPoint& p) {
+    const auto rolls = [&](const SurfacePoint& at) {
+      return border.On(at) && !border.OnSurfaceNormal(at, (p.center - at.p) / radius);
+    };
+    return p.contact && rolls(*p.contact) && (!p.other_contact || rolls(*p.other_contact));
+  });
+}
+
+// Of one border: the places, and the lines that cross it.
+struct Rim {
+  std::vector<Vec3> places;
+  bool closed = false;
+  // Place and line: of each where it begins, where its middle is, and where it ends.
+  std::vector<std::pair<std::size_t, std::size_t>> crossings;
+};
+
+struct Nearest {
+  std::size_t rim = 0, place = 0;
+  double distance = kInfinity;
+};
+
+Nearest NearestPlace(const std::vector<Rim>& rims, const Vec3& p) {
+  Nearest nearest;
+  for (std::size_t k = 0; k < rims.size(); ++k) {
+    for (std::size_t i = 0; i < rims[k].places.size(); ++i) {
+      const double distance = (rims[k].places[i] - p).norm();
+      if (distance < nearest.distance) nearest = {k, i, distance};
+    }
+  }
+  return nearest;
+}
+
+// Lines that follow each other along a rim: from one of its crossings to another, which may lie before it
+// on a closed one.
+struct Run {
+  std::size_t first = 0, count = 0;  // of its crossings
+  bool around = false;
+};
+
+// `apart`: places between two lines of one run at most.
+std::vector<Run> RunsOf(const Rim& rim, std::size_t apart) {
+  const std::size_t n = rim.crossings.size(), all = rim.places.size() - 1;
+  // Whether the way from crossing i to the next one is short.
+  const auto joined = [&](std::size_t i) {
+    const std::size_t here = rim.crossings[i].first, next = rim.crossings[(i + 1) % n].first;
+    if (i + 1 < n) return next - here <= apart;
+    return rim.closed && next + all - here <= apart;
+  };
+  std::size_t start = 0;  // after a long way
+  while (start < n && joined((start + n - 1) % n)) ++start;
+  if (start == n) return {{0, n, true}};
+  std::vector<Run> runs;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = (start + k) % n;
+    if (k == 0 || !joined((i + n - 1) % n)) runs.push_back({i, 0, false});
+    ++runs.back().count;
+  }
+  return runs;
+}
+
+// In plan, from `beyond` places before the first crossing to as many after the last, or all around.
+std::vector<Vec2> WayAlong(const Rim& rim, const Run& run, std::size_t beyond) {
+  const std::size_t all = rim.places.size() - 1;  // the last place of a closed rim is the first
+  const std::size_t first = rim.crossings[run.first].first,
+                    last = rim.crossings[(run.first + run.count - 1) % rim.crossings.size()].first;
+  std::size_t from = 0, way = all;
+  if (!run.around && rim.closed) {
+    from = first + all - beyond % all;
+    way = std::min(all, (last + all - first) % all + 2 * beyond);
+  } else if (!run.around) {
+    from = first > beyond ? first - beyond : 0;
+    way = std::min(all, last + beyond) - from;
+  }
+  std::vector<Vec2> at;
+  for (std::size_t i = 0; i <= way; ++i)
+    at.push_back(Plan(rim.places[rim.closed ? (from + i) % all : from + i]));
+  return at;
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<CutterPath>> RimPasses(const Locator& locator,
+                                                  const std::vector<BorderCurve>& borders,
+                                                  const PassParams& params, const RunContext& run,
+                                                  std::vector<CutterPath>& paths) {
+  const double radius = locator.radius(), flat = CenterStep(radius, params.scallop, 0.0),
+               spacing = kSpacing * flat;
+  if (params.roll) return std::vector<CutterPath>();
+  const SheetBorder border(locator.surface());
+  std::vector<std::size_t> lines;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    if (RollsOverTheRim(paths[i], border, radius)) lines.push_back(i);
+  if (lines.size() < 2) return std::vector<CutterPath>();
+
+  std::vector<Rim> rims;
+  for (const BorderCurve& curve : borders) {
+    std::vector<Vec3> places = PlacesOn(curve, spacing);
+    if (places.size() > 2) rims.push_back({std::move(places), curve.closed, {}});
+  }
+  for (const std::size_t i : lines) {
+    PM_RETURN_IF_ERROR(run.Check());
+    const std::vector<CutterPoint>& points = paths[i].points;
+    for (const std::size_t k : {std::size_t{0}, points.size() / 2, points.size() - 1}) {
+      const Nearest at = NearestPlace(rims, points[k].contact->p);
+      if (at.distance <= spacing) rims[at.rim].crossings.push_back({at.place, i});
+    }
+  }
+  std::vector<CutterPath> passes;
+  std::vector<bool> out(paths.size(), false);
+  const auto apart = static_cast<std::size_t>(kApart * radius / spacing),
+             beyond = static_cast<std::size_t>(kBeyond / kSpacing);
+  for (Rim& rim : rims) {
+    if (rim.crossings.size() < 2) continue;
+    std::sort(rim.crossings.begin(), rim.crossings.end());
+    for (const Run& found : RunsOf(rim, apart)) {
+      PM_RETURN_IF_ERROR(run.Check());
+      const auto crossing = [&](std::size_t k) {
+        return rim.crossings[(found.first + k) % rim.crossings.size()];
+      };
+      std::set<std::size_t> crossed;
+      for (std::size_t k = 0; k < found.count; ++k) crossed.insert(crossing(k).second);
+      if (crossed.size() < 2) continue;
+      const std::vector<Vec2> at = WayAlong(rim, found, beyond);
+      for (ScanRun& r : ScanPolyline(locator, Thinned(at, kThin * flat), params, &run)) {
+        if (r.points.size() < 2) continue;
+        passes.push_back({.kind = PassKind::kBorder, .points = std::move(r.points)});
+      }
+      for (const std::size_t i : crossed) out[i] = true;
+    }
+  }
+  PM_RETURN_IF_ERROR(run.Check());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    if (!out[i]) std::swap(paths[kept++], paths[i]);
+  paths.resize(kept);
+  return passes;
+}
+
+}  // namespace patchmill
