@@ -11,7 +11,7 @@
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kMostPasses = 256, kGaps = 4;
+constexpr std::size_t kMostPasses = 64, kGaps = 4;
 
 const CutterPoint& StartOf(const CutterPath& pass) { return pass.points.front(); }
 const CutterPoint& EndOf(const CutterPath& pass) {
@@ -102,6 +102,7 @@ absl::StatusOr<std::vector<CutterPath>> PutOnTheWay(const LinkMaker& maker, std:
     PM_RETURN_IF_ERROR(run.Check());
     if (!IsShort(passes[i], longest) || !improver.FromOverTheTop(i)) continue;
     ++tried;
+    run.Progress("link: on the way", static_cast<double>(i) / static_cast<double>(passes.size()));
     double least = improver.Saved(i);
     std::optional<Gap> best;
     CutterPath reversed = passes[i];

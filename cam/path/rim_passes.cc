@@ -9,6 +9,7 @@
 #include "cam/path/sheet_border.h"
 #include "cam/path/spacing.h"
 #include "core/base/status.h"
+#include "core/surface/closest.h"
 
 namespace patchmill {
 namespace {
@@ -16,24 +17,47 @@ namespace {
 constexpr double kSpacing = 0.5;  // of the flat step: places on a border
 constexpr double kApart = 2.0;    // ball radii
 constexpr double kBeyond = 2.0;   // flat steps: before the first line and after the last
+constexpr double kLook = 0.5;     // ball radii: how often lines are looked at
 constexpr double kThin = 0.02;    // of the flat step: how far the pass may be off the rim in plan
 
-// Every place of the pass touches an open border, and only rolls over it.
-bool RollsOverTheRim(const CutterPath& path, const SheetBorder& border, double radius) {
-  if (path.kind != PassKind::kZigzag || path.closed) return false;
-  return std::all_of(path.points.begin(), path.points.end(), [&](const CutterPoint& p) {
-    const auto rolls = [&](const SurfacePoint& at) {
-      return border.On(at) && !border.OnSurfaceNormal(at, (p.center - at.p) / radius);
-    };
-    return p.contact && rolls(*p.contact) && (!p.other_contact || rolls(*p.other_contact));
-  });
+// What a pass touches, at every vertex and often enough between them, when all of it is an open border that
+// it rolls over; else nothing. A straight line over a sheet has its ends on the border, and nothing between
+// them.
+std::vector<Vec3> RolledOver(const CutterPath& path, const Surface& surface, const SheetBorder& border,
+                             double radius) {
+  std::vector<Vec3> touched;
+  if (path.kind != PassKind::kZigzag || path.closed) return touched;
+  const auto rolls = [&](const SurfacePoint& at, const Vec3& center) {
+    touched.push_back(at.p);
+    return border.On(at) && !border.OnSurfaceNormal(at, (center - at.p) / radius);
+  };
+  const auto vertex_rolls = [&](const CutterPoint& p) {
+    return p.contact && rolls(*p.contact, p.center) &&
+           (!p.other_contact || rolls(*p.other_contact, p.center));
+  };
+  const auto chord_rolls = [&](const Vec3& a, const Vec3& b) {
+    const int parts = 1 + static_cast<int>((b - a).norm() / (kLook * radius));
+    for (int k = 0; k < parts; ++k) {
+      const Vec3 c = a + ((k + 0.5) / parts) * (b - a);
+      const auto at = ClosestToPoint(surface, c, 1.1 * radius, 1e-6 * radius);
+      if (!at || !rolls(at->at, c)) return false;
+    }
+    return true;
+  };
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    if (!vertex_rolls(path.points[i]) ||
+        (i > 0 && !chord_rolls(path.points[i - 1].center, path.points[i].center))) {
+      return {};
+    }
+  }
+  return touched;
 }
 
 // Of one border: the places, and the lines that cross it.
 struct Rim {
   std::vector<Vec3> places;
   bool closed = false;
-  // Place and line: of each where it begins, where its middle is, and where it ends.
+  // Place and line, of everything that lines touch there.
   std::vector<std::pair<std::size_t, std::size_t>> crossings;
 };
 
@@ -110,21 +134,15 @@ absl::StatusOr<std::vector<CutterPath>> RimPasses(const Locator& locator,
                spacing = kSpacing * flat;
   if (params.roll) return std::vector<CutterPath>();
   const SheetBorder border(locator.surface());
-  std::vector<std::size_t> lines;
-  for (std::size_t i = 0; i < paths.size(); ++i)
-    if (RollsOverTheRim(paths[i], border, radius)) lines.push_back(i);
-  if (lines.size() < 2) return std::vector<CutterPath>();
-
   std::vector<Rim> rims;
   for (const BorderCurve& curve : borders) {
     std::vector<Vec3> places = PlacesOn(curve, spacing);
     if (places.size() > 2) rims.push_back({std::move(places), curve.closed, {}});
   }
-  for (const std::size_t i : lines) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
     PM_RETURN_IF_ERROR(run.Check());
-    const std::vector<CutterPoint>& points = paths[i].points;
-    for (const std::size_t k : {std::size_t{0}, points.size() / 2, points.size() - 1}) {
-      const Nearest at = NearestPlace(rims, points[k].contact->p);
+    for (const Vec3& p : RolledOver(paths[i], locator.surface(), border, radius)) {
+      const Nearest at = NearestPlace(rims, p);
       if (at.distance <= spacing) rims[at.rim].crossings.push_back({at.place, i});
     }
   }

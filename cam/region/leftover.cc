@@ -14,8 +14,12 @@ namespace patchmill {
 namespace {
 
 constexpr double kHeightGap = 1e-3;   // of R: what heights are proven to
+constexpr double kSettledGap = 1e-5;  // the same at last
 constexpr double kStill = 1e-3;       // of R: a step this short ends a descent
 constexpr double kWorthwhile = 0.02;  // of the leftover: more than that much deeper is looked for
+constexpr double kFirstStep = 0.1, kLastStep = 1e-5;  // of R, of the last search
+constexpr int kMostLooks = 600;                       // of it
+constexpr int kMostRounds = 8;                        // of places looked through
 constexpr int kSteps = 30;
 constexpr int kMisses = 2;
 constexpr int kRing = 16;
@@ -162,6 +166,28 @@ class NearestCenter {
     return Polish(known);
   }
 
+  // Eight ways around, ever closer: exact where a whole circle holds the ball, as on the rim of a hole or a
+  // dimple, where every descent by half-spaces ends beside the tip.
+  Column Settle(Column at) const {
+    if (at.distance == kInfinity) return at;
+    const double radius = locator_.radius();
+    double step = kFirstStep * radius;
+    for (int looks = 0; looks < kMostLooks && step > kLastStep * radius; looks += 8) {
+      Column best = at;
+      for (int k = 0; k < 8; ++k) {
+        const double angle = 0.25 * kPi * k;
+        const Column next = At(Plan(at.center) + step * Vec2(std::cos(angle), std::sin(angle)), kSettledGap);
+        if (next.distance < best.distance) best = next;
+      }
+      if (best.distance < at.distance) {
+        at = best;
+      } else {
+        step *= 0.5;
+      }
+    }
+    return at;
+  }
+
  private:
   // What is nearer between two columns in one direction from p, where the ball drops beside what overhangs:
   // right beside it, which no slope tells. Columns between are taken to stand no lower than the lower of the
@@ -207,13 +233,13 @@ class NearestCenter {
     return at;
   }
 
-  Column At(const Vec2& q) const {
+  Column At(const Vec2& q, double gap = kHeightGap) const {
     const double radius = locator_.radius();
     Column column;
     const auto allowed =
         params_.keep_in != nullptr ? params_.keep_in->HeightsOver(q) : std::optional(AllowedHeights());
     if (!allowed) return column;
-    const auto height = locator_.Height(q, nullptr, kHeightGap * radius);
+    const auto height = locator_.Height(q, nullptr, gap * radius);
     double low = params_.floor_z + radius;
     if (allowed->lowest > low) {
       low = allowed->lowest;
@@ -265,38 +291,50 @@ Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, st
     }
     return best;
   };
-  std::vector<double> bounds;
-  for (const Vec3& p : places) bounds.push_back(nearest(p).distance);
-  std::vector<std::size_t> order(places.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return bounds[a] > bounds[b]; });
-  const double all = locator.surface().box.Diagonal();
-  double deepest = locator.radius();
+  const double all = locator.surface().box.Diagonal(), radius = locator.radius();
+  double deepest = radius;
   std::size_t place = 0;
-  for (const std::size_t i : order) {
-    if (run.Cancelled()) break;
-    const double enough = deepest + kWorthwhile * (deepest - locator.radius()) + kStill * locator.radius();
-    if (bounds[i] <= enough) break;
-    const NearestCenter search(locator, params, places[i]);
-    Column column = nearest(places[i]);
-    const auto look = [&](const auto& further) {
-      if (column.distance <= enough) return;
-      column = further();
-      if (column.distance < kInfinity) found.push_back(column);
-    };
-    look([&] { return search.Descend(column); });
-    const Vec3 normal = normals.empty() ? Vec3(Vec3::Zero()) : normals[i];
-    if (normal != Vec3::Zero()) look([&] { return search.Beside(normal, column); });
-    if (normal != Vec3::Zero() && ReachTest::Upright(normal))
-      look([&] { return search.Beside(-normal, column); });
-    look([&] { return search.FromAround(column); });
-    if (column.distance <= enough) continue;
-    deepest = column.distance;
-    place = i;
-    if (deepest == kInfinity) break;
+  for (int round = 0; round < kMostRounds && !run.Cancelled(); ++round) {
+    std::vector<double> bounds;
+    for (const Vec3& p : places) bounds.push_back(nearest(p).distance);
+    std::vector<std::size_t> order(places.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return bounds[a] > bounds[b]; });
+    deepest = radius;
+    Column over;  // the deepest place
+    for (const std::size_t i : order) {
+      if (run.Cancelled()) break;
+      const double enough = deepest + kWorthwhile * (deepest - radius) + kStill * radius;
+      if (bounds[i] <= enough) break;
+      const NearestCenter search(locator, params, places[i]);
+      Column column = nearest(places[i]);
+      const auto look = [&](const auto& further) {
+        if (column.distance <= enough) return;
+        column = further();
+        if (column.distance < kInfinity) found.push_back(column);
+      };
+      look([&] { return search.Descend(column); });
+      const Vec3 normal = normals.empty() ? Vec3(Vec3::Zero()) : normals[i];
+      if (normal != Vec3::Zero()) look([&] { return search.Beside(normal, column); });
+      if (normal != Vec3::Zero() && ReachTest::Upright(normal))
+        look([&] { return search.Beside(-normal, column); });
+      look([&] { return search.FromAround(column); });
+      if (column.distance <= enough) continue;
+      deepest = column.distance;
+      over = column;
+      place = i;
+      if (deepest == kInfinity) break;
+    }
+    if (deepest == radius || deepest == kInfinity) break;
+    // What is nearer to this one may be so to others: then they are looked through again.
+    const Column settled = NearestCenter(locator, params, places[place]).Settle(over);
+    const double nearer = deepest - settled.distance;
+    deepest = settled.distance;
+    if (nearer <= kWorthwhile * std::max(0.0, deepest - radius) + kStill * radius) break;
+    found.push_back(settled);
   }
-  return {std::min(all, deepest - locator.radius()), place};
+  return {std::min(all, std::max(0.0, deepest - radius)), place};
 }
 
 }  // namespace patchmill
