@@ -26,7 +26,8 @@ struct Deepest {
 // diagonal of the surface's box at most, and where nothing is allowed within 32 R of a place. `normals`, as
 // many or none: the unit normals there, upwards, zero where there is none; with them a ball that has hardly
 // any room, as in a hole of its own size, is looked for on their side too. Cost: a height a place, ten for
-// those that may be the deepest, two hundred for the few that are; more under limits. Means nothing when
+// those that may be the deepest, two hundred for the few that are, up to six hundred for the deepest, whose
+// nearest centre is searched for all around; more under limits. Means nothing when
 // `run` was cancelled meanwhile.
 Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
                         const RunContext& run, std::span<const Vec3> normals = {});

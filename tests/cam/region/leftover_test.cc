@@ -44,6 +44,30 @@ TEST(Leftover, InAValleyOfTwoPlanes) {
   }
 }
 
+// Held all around by the rim of a hole or of a dimple: the free centres end in a tip, above its middle.
+TEST(Leftover, UnderARoundRim) {
+  for (const double hole : {2.5, 2.9, 2.99}) {
+    const double tip = std::sqrt(kR * kR - hole * hole);
+    const Surface through = SurfaceOf(Turned({Line({hole, -10}, {hole, 0}), Line({hole, 0}, {12, 0})}));
+    for (const double z : {-10.0, -6.3, -1.1}) {
+      for (const double turn : {0.1, 2.0, 4.4}) {
+        const Vec3 p(hole * std::cos(turn), hole * std::sin(turn), z);
+        EXPECT_NEAR(LeftoverAt(through, p), std::hypot(hole, tip - z) - kR, kNear) << hole << " " << z;
+      }
+    }
+    const double rim = Radians(70.0), r = hole;
+    const Vec2 edge(r * std::sin(rim), -r * std::cos(rim));
+    const Surface dimple =
+        SurfaceOf(Turned({{{{0, -r}, {r * std::tan(0.5 * rim), -r}, edge}, {1.0, std::cos(0.5 * rim), 1.0}},
+                          Line(edge, {12, edge.y()})}));
+    const double over = edge.y() + std::sqrt(kR * kR - edge.x() * edge.x());
+    for (const double down : {5.0, 30.0, 60.0}) {
+      const Vec3 p(r * std::sin(Radians(down)), 0.0, -r * std::cos(Radians(down)));
+      EXPECT_NEAR(LeftoverAt(dimple, p), std::hypot(p.x(), over - p.z()) - kR, kNear) << hole << " " << down;
+    }
+  }
+}
+
 TEST(Leftover, InAValleyThatRunsAslant) {
   // The same, with a bottom along no axis: what stops a search along x and y.
   const double a = Radians(70);
