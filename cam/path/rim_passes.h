@@ -19,8 +19,9 @@ namespace patchmill {
 // `paths`, and a pass above the rim itself, from a little before the first to a little after the last or all
 // around, is returned for them. Between it and a pass that rolls on to 45 degrees from the vertical nothing
 // stays of a layer on the rim that is thinner than the ball's radius. Lines that touch the surface in its own
-// normal, or a border there, stay. Certified to params.chord_tolerance. Deterministic. CANCELLED,
-// DEADLINE_EXCEEDED from `run`.
+// normal anywhere stay. With params.roll nothing is done: that rule asks for more than to stand above a rim.
+// Certified to params.chord_tolerance. Deterministic. Cost: a closest point for every half ball radius of
+// lines that begin in a roll. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<CutterPath>> RimPasses(const Locator& locator,
                                                   const std::vector<BorderCurve>& borders,
                                                   const PassParams& params, const RunContext& run,

@@ -12,7 +12,6 @@ namespace patchmill {
 namespace {
 
 constexpr double kOverrun = 1.25;  // steps: from what is wanted to what a pass touches beyond it
-constexpr double kNear = 1.5;      // radii: farther off nothing is cut, whatever the stock
 constexpr int kLooks = 4;          // along a move
 
 }  // namespace
@@ -29,8 +28,7 @@ absl::StatusOr<std::vector<CutterPath>> RunOn(const Locator& locator, std::vecto
     if (keep_in == nullptr || keep_in->WantsAll()) return true;
     for (int k = 1; k <= kLooks; ++k) {
       const Vec3 at = from + (static_cast<double>(k) / kLooks) * (to - from);
-      const auto nearest =
-          ClosestToPoint(locator.surface(), at, kNear * locator.radius(), 1e-3 * locator.radius());
+      const auto nearest = ClosestToPoint(locator.surface(), at, kInfinity, 1e-3 * locator.radius());
       if (nearest && !keep_in->WantsNear(nearest->at, overrun)) return false;
     }
     return true;

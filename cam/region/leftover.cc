@@ -327,11 +327,13 @@ Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, st
       if (deepest == kInfinity) break;
     }
     if (deepest == radius || deepest == kInfinity) break;
-    // What is nearer to this one may be so to others: then they are looked through again.
+    // What is nearer to this one may be so to others: then they are looked through again. What was found for
+    // the last time stays, for others may be as deep.
     const Column settled = NearestCenter(locator, params, places[place]).Settle(over);
-    const double nearer = deepest - settled.distance;
-    deepest = settled.distance;
-    if (nearer <= kWorthwhile * std::max(0.0, deepest - radius) + kStill * radius) break;
+    if (deepest - settled.distance <= kWorthwhile * (settled.distance - radius) + kStill * radius) {
+      deepest = settled.distance;
+      break;
+    }
     found.push_back(settled);
   }
   return {std::min(all, std::max(0.0, deepest - radius)), place};
