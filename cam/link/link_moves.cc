@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cam/location/touched.h"
+#include "cam/path/keep_in_clip.h"
 #include "cam/path/spacing.h"
 
 namespace patchmill {
@@ -18,8 +19,6 @@ constexpr double kDetour = 3.0;
 constexpr double kShortDetour = 1.5;
 // How far off a wall, in parts of its length, a link between two places at it may lead.
 constexpr std::array<double, 4> kBulges = {0.0625, 0.125, 0.25, 0.5};
-// Steps that links may lie beyond what is wanted: from pass to pass, which run on by one (ClipToKeepIn).
-constexpr double kOverrun = 1.25;
 // Of the chord tolerance: what short links may take, each proven by itself, without the certificates' share.
 constexpr double kProven = 1.2;
 // Ball radii: in a corner this much farther off is beside the link, too.

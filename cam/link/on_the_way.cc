@@ -5,13 +5,12 @@
 #include <optional>
 #include <utility>
 
-#include "cam/link/order_passes.h"
 #include "core/base/status.h"
 
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kMostPasses = 64, kGaps = 4;
+constexpr std::size_t kMostPasses = 256, kGaps = 4;
 
 const CutterPoint& StartOf(const CutterPath& pass) { return pass.points.front(); }
 const CutterPoint& EndOf(const CutterPath& pass) {
@@ -58,57 +57,37 @@ std::vector<Gap> GapsFor(const std::vector<CutterPath>& passes, std::size_t whic
   return gaps;
 }
 
-class Improver {
- public:
-  Improver(const LinkMaker& maker, std::vector<CutterPath>& passes) : maker_(maker), passes_(passes) {}
-
-  bool FromOverTheTop(std::size_t i) const {
-    const std::vector<Move> moves = Moves(i - 1, passes_[i]);
-    return std::any_of(moves.begin(), moves.end(), [](const Move& m) { return m.kind == MoveKind::kRapid; });
-  }
-  // s: saved by taking pass `which` out.
-  double Saved(std::size_t which) const {
-    double saved = Time(which - 1, passes_[which]);
-    if (which + 1 < passes_.size())
-      saved += Time(which, passes_[which + 1]) - Time(which - 1, passes_[which + 1]);
-    return saved;
-  }
-  // s: what putting `pass` there takes more.
-  double Cost(const Gap& gap, const CutterPath& pass) const {
-    const CutterPath& next = passes_[gap.after + 1];
-    return Time(gap.after, pass) + TimeOf(EndOf(pass).center, LinkTo(maker_, EndOf(pass), next)) -
-           Time(gap.after, next);
-  }
-
- private:
-  std::vector<Move> Moves(std::size_t from, const CutterPath& to) const {
-    return LinkTo(maker_, EndOf(passes_[from]), to);
-  }
-  double Time(std::size_t from, const CutterPath& to) const {
-    return TimeOf(EndOf(passes_[from]).center, Moves(from, to));
-  }
-  const LinkMaker& maker_;
-  std::vector<CutterPath>& passes_;
-};
+// s: of the link from one pass to another.
+double LinkTime(const LinkMaker& maker, const CutterPath& from, const CutterPath& to) {
+  return TimeOf(EndOf(from).center, LinkTo(maker, EndOf(from), to));
+}
 
 }  // namespace
 
 absl::StatusOr<std::vector<CutterPath>> PutOnTheWay(const LinkMaker& maker, std::vector<CutterPath> passes,
                                                     const LinkParams& params, const RunContext& run) {
   const double longest = MaxLinkLength(params);
-  const Improver improver(maker, passes);
   std::size_t tried = 0;
   for (std::size_t i = 1; i < passes.size() && tried < kMostPasses; ++i) {
     PM_RETURN_IF_ERROR(run.Check());
-    if (!IsShort(passes[i], longest) || !improver.FromOverTheTop(i)) continue;
+    if (!IsShort(passes[i], longest)) continue;
+    const CutterPath& before = passes[i - 1];
+    const std::vector<Move> in = LinkTo(maker, EndOf(before), passes[i]);
+    if (std::none_of(in.begin(), in.end(), [](const Move& m) { return m.kind == MoveKind::kRapid; }))
+      continue;
     ++tried;
     run.Progress("link: on the way", static_cast<double>(i) / static_cast<double>(passes.size()));
-    double least = improver.Saved(i);
+    // s: saved by taking it out.
+    double least = TimeOf(EndOf(before).center, in);
+    if (i + 1 < passes.size())
+      least += LinkTime(maker, passes[i], passes[i + 1]) - LinkTime(maker, before, passes[i + 1]);
     std::optional<Gap> best;
     CutterPath reversed = passes[i];
     Reverse(reversed);
     for (const Gap& gap : GapsFor(passes, i, longest)) {
-      const double cost = improver.Cost(gap, gap.reversed ? reversed : passes[i]);
+      const CutterPath &pass = gap.reversed ? reversed : passes[i], &from = passes[gap.after],
+                       &to = passes[gap.after + 1];
+      const double cost = LinkTime(maker, from, pass) + LinkTime(maker, pass, to) - LinkTime(maker, from, to);
       if (!(cost < least)) continue;
       least = cost;
       best = gap;

@@ -13,9 +13,7 @@
 namespace patchmill {
 namespace {
 
-// Passes whose numbers differ by more are no neighbours. Between two lines may lie some that are needed
-// elsewhere.
-constexpr int kLevelReach = 2, kLineReach = 6;
+constexpr int kLevelReach = 2;  // levels whose numbers differ by more are no neighbours
 
 Box3 PlanBox(const CutterPath& path) {
   Box3 box;
@@ -318,18 +316,6 @@ JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
 }
 
 }  // namespace
-
-void RotateClosed(CutterPath& path, std::size_t start) {
-  std::rotate(path.points.begin(), path.points.begin() + static_cast<std::ptrdiff_t>(start),
-              path.points.end());
-}
-
-void Reverse(CutterPath& path) {
-  std::reverse(path.points.begin(), path.points.end());
-  for (CutterPoint& p : path.points) {
-    if (p.other_contact) std::swap(p.contact, p.other_contact);
-  }
-}
 
 absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
                                                     const OrderParams& params, const RunContext& run) {

@@ -13,6 +13,10 @@
 
 namespace patchmill {
 
+// Lines whose numbers differ by more are no neighbours; between two that are may lie some that are needed
+// elsewhere.
+inline constexpr int kLineReach = 6;
+
 struct OrderParams {
   double neighbor_distance =
       3.0;               // mm in plan: passes of neighbouring lines closer than this belong together
@@ -35,9 +39,5 @@ struct OrderParams {
 // DEADLINE_EXCEEDED when `run` says so.
 absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
                                                     const OrderParams& params, const RunContext& run);
-
-// The same closed path started at its vertex `start`.
-void RotateClosed(CutterPath& path, std::size_t start);
-void Reverse(CutterPath& path);
 
 }  // namespace patchmill

@@ -11,6 +11,10 @@
 
 namespace patchmill {
 
+// Flat steps from what is wanted to what may be touched beyond it, by passes clipped at one step and what is
+// added to their ends: links, run-ons.
+inline constexpr double kOverrun = 1.25;
+
 // Keeps what is allowed all the way (KeepIn::AllowsMove; ends within 1e-3 mm of the limit) and touches the
 // surface within `reach` (mm) of a point to be finished, looked for every half `reach` along the pass and
 // ended at to a thirtieth of it. A ball that touches unwanted ground is tangent to it: running on for `reach`

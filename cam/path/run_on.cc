@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "cam/path/keep_in_clip.h"
 #include "cam/path/sheet_border.h"
 #include "cam/path/spacing.h"
 #include "core/base/parallel.h"
@@ -11,8 +12,7 @@
 namespace patchmill {
 namespace {
 
-constexpr double kOverrun = 1.25;  // steps: from what is wanted to what a pass touches beyond it
-constexpr int kLooks = 4;          // along a move
+constexpr int kLooks = 4;  // along a move
 
 }  // namespace
 

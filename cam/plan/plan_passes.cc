@@ -47,7 +47,7 @@ void Append(std::vector<CutterPath>& to, std::vector<CutterPath> from) {
 
 // The lines and levels of every part have numbers of their own, in the order of the parts.
 void NumberAfter(const std::vector<CutterPath>& before, std::vector<CutterPath>& paths) {
-  constexpr int kGap = 8;  // more than what makes neighbours of two lines
+  constexpr int kGap = kLineReach + 1;
   if (before.empty()) return;
   int last = 0;
   for (const CutterPath& path : before) last = std::max(last, path.line);

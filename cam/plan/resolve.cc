@@ -5,6 +5,7 @@
 #include <absl/strings/numbers.h>
 #include <fmt/format.h>
 
+#include "cam/tool/reach_give.h"
 #include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"
@@ -18,7 +19,7 @@ constexpr double kSplitSlack = Radians(0.01);
 }  // namespace
 
 Budget SplitBudget(double tolerance) {
-  return {.chord = 0.5 * tolerance,
+  return {.chord = ReachGive(tolerance),
           .rounding = 0.1 * tolerance,
           .certificate = 0.1 * tolerance,
           .controller = 0.3 * tolerance};

@@ -1,5 +1,8 @@
 #include "cam/toolpath/cutter_path.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace patchmill {
 
 double Length(const CutterPath& path) {
@@ -11,6 +14,18 @@ double Length(const CutterPath& path) {
     length += (path.points.front().center - path.points.back().center).norm();
   }
   return length;
+}
+
+void RotateClosed(CutterPath& path, std::size_t start) {
+  std::rotate(path.points.begin(), path.points.begin() + static_cast<std::ptrdiff_t>(start),
+              path.points.end());
+}
+
+void Reverse(CutterPath& path) {
+  std::reverse(path.points.begin(), path.points.end());
+  for (CutterPoint& p : path.points) {
+    if (p.other_contact) std::swap(p.contact, p.other_contact);
+  }
 }
 
 std::vector<PathSegment> MovesOf(const std::vector<CutterPath>& paths) {

@@ -1,6 +1,7 @@
 // A pass: the polyline of ball centres with the contacts under it.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -35,6 +36,10 @@ struct CutterPath {
 };
 
 double Length(const CutterPath& path);  // mm, closing move included
+
+// The same closed path started at its vertex `start`.
+void RotateClosed(CutterPath& path, std::size_t start);
+void Reverse(CutterPath& path);
 
 // All straight moves of passes, in their order; a pass of one point is a move of no length.
 std::vector<PathSegment> MovesOf(const std::vector<CutterPath>& paths);
