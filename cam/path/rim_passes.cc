@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "cam/path/point_cells.h"
 #include "cam/path/scan_line.h"
 #include "cam/path/sheet_border.h"
 #include "cam/path/spacing.h"
@@ -61,20 +62,44 @@ struct Rim {
   std::vector<std::pair<std::size_t, std::size_t>> crossings;
 };
 
-struct Nearest {
-  std::size_t rim = 0, place = 0;
-  double distance = kInfinity;
-};
-
-Nearest NearestPlace(const std::vector<Rim>& rims, const Vec3& p) {
-  Nearest nearest;
-  for (std::size_t k = 0; k < rims.size(); ++k) {
-    for (std::size_t i = 0; i < rims[k].places.size(); ++i) {
-      const double distance = (rims[k].places[i] - p).norm();
-      if (distance < nearest.distance) nearest = {k, i, distance};
-    }
+// The rims that lines touch, with what they touch of them.
+absl::StatusOr<std::vector<Rim>> RimsTouched(const Locator& locator, const std::vector<BorderCurve>& borders,
+                                             const std::vector<CutterPath>& paths, double spacing,
+                                             const RunContext& run) {
+  const SheetBorder border(locator.surface());
+  std::vector<std::pair<Vec3, std::size_t>> touched;  // place, line
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    PM_RETURN_IF_ERROR(run.Check());
+    for (const Vec3& p : RolledOver(paths[i], locator.surface(), border, locator.radius()))
+      touched.push_back({p, i});
   }
-  return nearest;
+  std::vector<Rim> rims;
+  if (touched.empty()) return rims;
+  std::vector<Vec3> places;
+  std::vector<std::pair<std::size_t, std::size_t>> origin;  // of each: rim, place of it
+  for (const BorderCurve& curve : borders) {
+    std::vector<Vec3> own = PlacesOn(curve, spacing);
+    if (own.size() < 3) continue;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      places.push_back(own[i]);
+      origin.push_back({rims.size(), i});
+    }
+    rims.push_back({std::move(own), curve.closed, {}});
+  }
+  const PointCells cells(places, spacing);
+  for (const auto& [p, line] : touched) {
+    double least = kInfinity;
+    std::size_t nearest = 0;
+    cells.Near(p, spacing, [&, &at = p](std::size_t k) {
+      const double distance = (places[k] - at).norm();
+      if (distance > least || (distance == least && k > nearest)) return;
+      least = distance;
+      nearest = k;
+    });
+    if (least < kInfinity) rims[origin[nearest].first].crossings.push_back({origin[nearest].second, line});
+  }
+  for (Rim& rim : rims) std::sort(rim.crossings.begin(), rim.crossings.end());
+  return rims;
 }
 
 // Lines that follow each other along a rim: from one of its crossings to another, which may lie before it
@@ -132,27 +157,14 @@ absl::StatusOr<std::vector<CutterPath>> RimPasses(const Locator& locator,
                                                   std::vector<CutterPath>& paths) {
   const double radius = locator.radius(), flat = CenterStep(radius, params.scallop, 0.0),
                spacing = kSpacing * flat;
-  if (params.roll) return std::vector<CutterPath>();
-  const SheetBorder border(locator.surface());
-  std::vector<Rim> rims;
-  for (const BorderCurve& curve : borders) {
-    std::vector<Vec3> places = PlacesOn(curve, spacing);
-    if (places.size() > 2) rims.push_back({std::move(places), curve.closed, {}});
-  }
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    PM_RETURN_IF_ERROR(run.Check());
-    for (const Vec3& p : RolledOver(paths[i], locator.surface(), border, radius)) {
-      const Nearest at = NearestPlace(rims, p);
-      if (at.distance <= spacing) rims[at.rim].crossings.push_back({at.place, i});
-    }
-  }
+  if (params.roll || borders.empty()) return std::vector<CutterPath>();
+  PM_ASSIGN_OR_RETURN(const std::vector<Rim> rims, RimsTouched(locator, borders, paths, spacing, run));
   std::vector<CutterPath> passes;
   std::vector<bool> out(paths.size(), false);
   const auto apart = static_cast<std::size_t>(kApart * radius / spacing),
              beyond = static_cast<std::size_t>(kBeyond / kSpacing);
-  for (Rim& rim : rims) {
+  for (const Rim& rim : rims) {
     if (rim.crossings.size() < 2) continue;
-    std::sort(rim.crossings.begin(), rim.crossings.end());
     for (const Run& found : RunsOf(rim, apart)) {
       PM_RETURN_IF_ERROR(run.Check());
       const auto crossing = [&](std::size_t k) {

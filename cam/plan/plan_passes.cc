@@ -63,7 +63,8 @@ class PassMaker {
         base_(MakePassParams(job, resolved)),
         run_(run) {}
 
-  absl::Status AddStrategies(const PlanPart& part, const KeepIn* keep_in, PlannedPasses& planned) {
+  absl::Status AddStrategies(const PlanPart& part, const std::vector<BorderCurve>& rims,
+                             const KeepIn* keep_in, PlannedPasses& planned) {
     const RegionChoice& choice = part.choice;
     std::vector<CutterPath> paths;
     const auto clip = [&](std::vector<CutterPath> of) -> absl::StatusOr<std::vector<CutterPath>> {
@@ -95,6 +96,9 @@ class PassMaker {
         NumberAfter(lines, circles);
         Append(lines, std::move(circles));
       }
+      PM_ASSIGN_OR_RETURN(std::vector<CutterPath> above, RimPasses(locator_, rims, params, run_, lines));
+      TurnOneWay(choice, above);
+      Append(lines, std::move(above));
       PM_ASSIGN_OR_RETURN(lines, clip(std::move(lines)));
       Append(paths, std::move(lines));
     }
@@ -147,24 +151,6 @@ class PassMaker {
     }
     TurnOneWay(choice, passes);
     Append(planned.paths, std::move(passes));
-    return absl::OkStatus();
-  }
-
-  // Above the rims of the surface, instead of lines across them.
-  absl::Status AddRims(const RegionMap& regions, const RegionChoice& choice, const KeepIn* keep_in,
-                       std::vector<CutterPath>& paths) const {
-    std::vector<BorderCurve> borders;
-    for (const BorderLine& line : regions.border_lines)
-      if (line.other < 0) borders.push_back({line.points, line.closed});
-    PassParams params;
-    SetFinePass(choice, params);
-    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> passes, RimPasses(locator_, borders, params, run_, paths));
-    if (keep_in != nullptr) {
-      const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
-      PM_ASSIGN_OR_RETURN(passes, ClipToKeepIn(locator_, *keep_in, std::move(passes), reach, run_));
-    }
-    TurnOneWay(choice, passes);
-    Append(paths, std::move(passes));
     return absl::OkStatus();
   }
 
@@ -259,15 +245,18 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
   PassMaker maker(locator, job, resolved, run);
   std::vector<std::optional<KeepIn>> own(parts.size());
   const auto limits = [&](std::size_t k) { return own[k] ? &*own[k] : keep_in; };
+  std::vector<BorderCurve> rims;  // where the surface ends
+  if (job.operation.border_passes) {
+    for (const BorderLine& line : regions.border_lines)
+      if (line.other < 0) rims.push_back({line.points, line.closed});
+  }
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k].where != nullptr) {
       PM_CHECK(keep_in != nullptr);
       PM_ASSIGN_OR_RETURN(KeepIn within, keep_in->Within(parts[k].where, run));
       own[k].emplace(std::move(within));
     }
-    PM_RETURN_IF_ERROR(maker.AddStrategies(parts[k], limits(k), planned));
-    if (job.operation.border_passes)
-      PM_RETURN_IF_ERROR(maker.AddRims(regions, parts[k].choice, limits(k), planned.paths));
+    PM_RETURN_IF_ERROR(maker.AddStrategies(parts[k], rims, limits(k), planned));
   }
   if (job.operation.border_passes) {
     for (std::size_t k = 0; k < parts.size(); ++k) {

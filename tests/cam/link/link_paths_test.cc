@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "cam/link/link_moves.h"
+#include "cam/location/keep_in.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
@@ -105,6 +107,44 @@ TEST(LinkPaths, LinesOverAHillAreJoinedAndSafe) {
   CheckMotion(surface, *result, Params());
   EXPECT_EQ(result->passes.size(), 12u);
   EXPECT_LE(result->stats.retract_count, 1);  // neighbouring lines stay down; one retract at the end
+}
+
+// Between two places beside a clamp that bends straight on would cross it: a little around, on a slope too,
+// whose normals point to the clamp from below it.
+TEST(LinkPaths, LinksGoAroundLimitsThatBend) {
+  const Surface surface = Build(testing::Plane(20, 0.0, 0.2, 0.1));
+  const Locator locator(surface, kRadius), stock(surface, kRadius + 1.5);
+  Ring round;
+  for (int k = 0; k < 96; ++k) round.push_back({std::cos(2.0 * kPi * k / 96), std::sin(2.0 * kPi * k / 96)});
+  Containment containment;
+  containment.obstacles.push_back({"clamp", Outline({round}), 30.0, 0.0});
+  const KeepInParams limits{.ball_radius = kRadius, .tool_radius = kRadius};
+  const KeepIn keep_in = *KeepIn::Make(surface, containment, limits, RunContext());
+  LinkParams params = Params();
+  params.keep_in = &keep_in;
+  const RunContext run;
+  const LinkMaker maker(locator, stock, params, run);
+  const double keep = 1.0 + kRadius;
+  const auto at = [&](double degrees) {
+    const Vec2 q = (keep + 0.01) * Vec2(std::cos(Radians(degrees)), std::sin(Radians(degrees)));
+    const auto height = locator.Height(q);
+    return CutterPoint{Lift(q, height->z), height->contact, std::nullopt};
+  };
+  for (double turn = 0.0; turn < 360.0; turn += 30.0) {
+    for (const double apart : {10.0, 25.0, 40.0}) {
+      const auto moves = maker.StayDown(at(turn), at(turn + apart));
+      ASSERT_TRUE(moves.has_value()) << turn << " " << apart;
+      EXPECT_GT(moves->size(), 1u);
+      Vec3 from = at(turn).center;
+      for (const Move& move : *moves) {
+        // The polygon of 96 sides is 5e-4 within its circle.
+        for (int k = 0; k <= 20; ++k)
+          EXPECT_GE(Plan(Vec3(from + (move.to - from) * k / 20.0)).norm(),
+                    keep - 0.5 * limits.tolerance - 1e-3);
+        from = move.to;
+      }
+    }
+  }
 }
 
 // A short pass beside the ends of two lines is cut between them, whichever way round; a long one, and one far

@@ -144,18 +144,18 @@ TEST(SplitRegions, PlaneIsNeutralAndWhole) {
 }
 
 TEST(SplitRegions, HemisphereOnAPlaneLeavesWhatTheBallCannotTouch) {
-  const double r = 8, R = 3, tol = 0.01;
+  const double r = 8, R = 3, give = 0.01;
   const PatchModel model =
       testing::Join({testing::Plane(20), testing::Sphere(Vec3::Zero(), r, Half::kUpper)});
   const Surface surface = Build(model);
   RegionParams params = Unmerged();
-  params.tolerance = 2.0 * tol;
+  params.tolerance = 2.0 * give;
   const RegionMap map = Split(surface, params);
   EXPECT_NEAR(Total(map), 1600 + 2 * kPi * r * r, 0.05);
-  // Plane: everything nearer to the axis than a ball of R - tol that stands R high and touches the sphere.
-  // Sphere: everything lower than where a ball that touches it comes down to R - tol.
-  const double ring = kPi * ((r + R - tol) * (r + R - tol) - R * R);
-  const double band = 2 * kPi * r * (R - tol) * r / (r + R);
+  // Plane: everything nearer to the axis than a ball of R - give that stands R high and touches the sphere.
+  // Sphere: everything lower than where a ball that touches it comes down to R - give.
+  const double ring = kPi * ((r + R - give) * (r + R - give) - R * R);
+  const double band = 2 * kPi * r * (R - give) * r / (r + R);
   EXPECT_NEAR(Area(map, RegionKind::kUnreachable), ring + band, 0.005 * (ring + band));
   EXPECT_GT(Area(map, UnreachableReason::kUndercut), 0.0);
   EXPECT_GT(Area(map, UnreachableReason::kConcave), band * 0.99);
