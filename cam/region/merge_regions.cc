@@ -11,6 +11,8 @@
 namespace patchmill {
 namespace {
 
+constexpr double kIslands = 0.1;  // of min_area: islands of one label that are worth a region, together
+
 bool Reached(const SplitLabel& label) { return label.reason == UnreachableReason::kNone; }
 
 std::size_t WholeOf(const std::vector<RawRegion>& regions, int i) {
@@ -151,24 +153,40 @@ class Merger {
     return i;
   }
 
-  // Small reachable islands in unreachable ground have nothing to merge with: they go with the largest region
-  // of their own label, or the largest of all.
+  // Small reachable ground without neighbours: islands in what is out of reach, small sheets. Those of one
+  // label are one region with the largest that is no such island or, where there is none and they come to
+  // something, by themselves; crumbs go with the largest of their slope, or of all.
   void LumpIslands() {
-    const auto largest = [&](const SplitLabel* label) {
+    const auto is_island = [&](const Node& n) { return n.area < params_.min_area; };
+    const auto largest = [&](const auto& fits) {
       int best = -1;
       for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const Node& n = nodes_[i];
-        if (!n.alive || !Reached(n.label) || (label != nullptr && !(n.label == *label))) continue;
+        if (!n.alive || !Reached(n.label) || !fits(n)) continue;
         if (best < 0 || n.area > nodes_[static_cast<std::size_t>(best)].area) best = static_cast<int>(i);
       }
       return best;
     };
+    std::vector<int> lumps;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const Node& node = nodes_[i];
-      if (!node.alive || !Reached(node.label) || node.area >= params_.min_area) continue;
-      int into = largest(&node.label);
-      if (into == static_cast<int>(i)) into = largest(nullptr);
-      if (into >= 0 && into != static_cast<int>(i)) Join(into, static_cast<int>(i));
+      if (!node.alive || !Reached(node.label) || !is_island(node)) continue;
+      int into = largest([&](const Node& n) { return n.label == node.label && !is_island(n); });
+      for (const int lump : lumps) {
+        if (into < 0 && nodes_[static_cast<std::size_t>(lump)].label == node.label) into = lump;
+      }
+      if (into >= 0) {
+        Join(into, static_cast<int>(i));
+      } else {
+        lumps.push_back(static_cast<int>(i));
+      }
+    }
+    for (const int lump : lumps) {
+      const Node& node = nodes_[static_cast<std::size_t>(lump)];
+      if (node.area >= kIslands * params_.min_area && reached_ <= params_.max_regions) continue;
+      int into = largest([&](const Node& n) { return n.label.steep == node.label.steep && !is_island(n); });
+      if (into < 0) into = largest([&](const Node& n) { return &n != &node; });
+      if (into >= 0) Join(into, lump);
     }
   }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -159,6 +161,37 @@ TEST(MergeRegions, PartsOfOneWholeGetOneLabel) {
   const MergedRegions merged = MergeRegions(raw, contacts, params);
   EXPECT_EQ(merged.label.size(), 3u);
   EXPECT_EQ(merged.label[static_cast<std::size_t>(merged.group[1])].curvature, -1);
+}
+
+// Domes on a plane that do not touch it in the split, in whatever order: those of one kind together, not one
+// of them with the plane and three without. Crumbs are no region.
+TEST(MergeRegions, IslandsOfOneLabelAreOneRegion) {
+  SplitLabel level, dome, pit;
+  dome.curvature = -1;
+  pit.curvature = 1;
+  std::vector<RawRegion> raw = {{level, 3600, 0, -500}};
+  for (const double noise : {0.0, 1e-9, -1e-9, 0.0}) raw.push_back({dome, 42 + noise, -20, -30});
+  raw.push_back({pit, 1.0, 5, -0.5});
+  std::vector<std::size_t> order(raw.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  do {
+    std::vector<RawRegion> turned;
+    for (const std::size_t k : order) turned.push_back(raw[k]);
+    const MergedRegions merged = MergeRegions(turned, {}, MergeParams());
+    ASSERT_EQ(merged.label.size(), 2u);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const SplitLabel& label = merged.label[static_cast<std::size_t>(merged.group[k])];
+      ASSERT_EQ(label.curvature, order[k] == 0 || order[k] == 5 ? 0 : -1);
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  // With a large one of their kind they go with that; with no large one at all, each kind is a region.
+  raw[0].label = dome;
+  raw[0].curvature = -500;
+  MergedRegions merged = MergeRegions(raw, {}, MergeParams());
+  EXPECT_EQ(merged.label.size(), 1u);
+  raw = {{dome, 30, -20, -9}, {pit, 40, 20, -9}, {dome, 20, -20, -9}};
+  merged = MergeRegions(raw, {}, MergeParams());
+  EXPECT_EQ(merged.group, (std::vector<int>{0, 1, 0}));
 }
 
 TEST(MergeRegions, NoMoreThanAskedForAndTheLargestStay) {
