@@ -26,7 +26,7 @@ absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup,
   return BuildSurface(std::move(network), SurfaceParams{}, run);
 }
 
-absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool,
+absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool, double give,
                                       const RunContext& run) {
   ModelCheck check;
   check.findings = surface.network.findings;
@@ -34,7 +34,7 @@ absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optiona
   const ConcaveSpot spot = SmallestConcaveRadius(surface, run);
   PM_RETURN_IF_ERROR(run.Check());
   check.min_concave_radius = spot.radius;
-  if (tool && spot.radius < BallRadius(*tool)) {
+  if (tool && spot.radius < BallRadius(*tool) - give) {
     Diagnostic d;
     d.code = "CONCAVE_RADIUS_BELOW_TOOL";
     d.severity = Severity::kWarning;

@@ -16,13 +16,14 @@ namespace patchmill {
 absl::StatusOr<PatchNetwork> BuildPlacedNetwork(PatchModel model, const Setup& setup, const RunContext& run);
 absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup, const RunContext& run);
 
-// Model findings of CheckModel: network, curvature against the tool, size warnings.
+// Model findings of CheckModel: network, curvature against the tool, size warnings. A concave radius counts
+// as below the ball's where that lies deeper in it than `give` (mm) all over (ReachGive).
 struct ModelCheck {
   Diagnostics findings;
   Box3 box;                               // placed
   double min_concave_radius = kInfinity;  // mm, upward side
 };
-absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool,
+absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool, double give,
                                       const RunContext& run);
 
 // Checks ranges of the job itself; INVALID_ARGUMENT with field path, value and constraint.

@@ -15,8 +15,8 @@ namespace {
 constexpr int kAngles = 6;
 constexpr std::array<double, 3> kTurns = {kPi / 12.0, kPi / 24.0, kPi / 48.0};
 constexpr int kAlongBorders = 2;
-// All of them and their mixture; of each turn both sides and their mixture.
-static_assert(kQuickestAnglePlans == kAngles + kAlongBorders + 1 + 3 * static_cast<int>(kTurns.size()));
+// All of them and their mixture; of each turn both sides and their mixture; circles and their mixture.
+static_assert(kQuickestAnglePlans == kAngles + kAlongBorders + 1 + 3 * static_cast<int>(kTurns.size()) + 2);
 
 // The loop seen from above in strides of a hundredth of its length: its vertices are as exact as a border's
 // tolerance, directions from one to the next are not.
@@ -55,26 +55,36 @@ RegionTimes TimesOf(const LinkResult& motion, std::size_t regions) {
   return times;
 }
 
-absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
-                                                         std::vector<RegionChoice> choices,
-                                                         const TimePlan& plan) {
+absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(
+    const RegionMap& map, std::vector<RegionChoice> choices,
+    const std::vector<std::optional<RoundLines>>& circles, const TimePlan& plan) {
+  // How a region's lines run.
+  struct Way {
+    double angle = 0.0;
+    bool round = false;
+  };
   struct Tried {
-    std::vector<double> angles;  // of every region
+    std::vector<Way> ways;  // of every region
     RegionTimes times;
     double sum = kInfinity;
   };
-  const auto with = [&](const std::vector<double>& angles) {
+  const auto with = [&](const std::vector<Way>& ways) {
     std::vector<RegionChoice> filled = choices;
     for (std::size_t id = 0; id < filled.size(); ++id) {
-      if (filled[id].angle_open) filled[id].zigzag_angle = angles[id];
+      if (!filled[id].angle_open) continue;
       filled[id].angle_open = false;
+      if (ways[id].round && circles[id]) {
+        filled[id].around = circles[id];
+      } else {
+        filled[id].zigzag_angle = ways[id].angle;
+      }
     }
     return filled;
   };
-  const auto attempt = [&](std::vector<double> angles) -> absl::StatusOr<Tried> {
-    PM_ASSIGN_OR_RETURN(RegionTimes times, plan(with(angles)));
+  const auto attempt = [&](std::vector<Way> ways) -> absl::StatusOr<Tried> {
+    PM_ASSIGN_OR_RETURN(RegionTimes times, plan(with(ways)));
     const double sum = Sum(times);
-    return Tried{std::move(angles), std::move(times), sum};
+    return Tried{std::move(ways), std::move(times), sum};
   };
   const auto by_contours = [&](std::size_t id) {
     return choices[id].strategy == Strategy::kContour ||
@@ -86,28 +96,29 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
     for (const Tried& tried : plans) {
       if (tried.sum < best->sum) best = &tried;
     }
-    std::vector<double> mixed = best->angles;
+    std::vector<Way> mixed = best->ways;
     for (std::size_t id = 0; id < mixed.size(); ++id) {
-      if (by_contours(id)) continue;
+      if (by_contours(id) && !circles[id]) continue;
       double least = kInfinity;
       for (const Tried& tried : plans) {
         if (tried.times[id] >= least) continue;
         least = tried.times[id];
-        mixed[id] = tried.angles[id];
+        mixed[id] = tried.ways[id];
       }
     }
     const std::vector<RegionChoice> new_mixture = with(mixed);
     for (const Tried& tried : plans) {
-      if (with(tried.angles) == new_mixture) return *best;
+      if (with(tried.ways) == new_mixture) return *best;
     }
     PM_ASSIGN_OR_RETURN(Tried mixture, attempt(std::move(mixed)));
     return mixture.sum < best->sum ? std::move(mixture) : *best;
   };
 
   std::vector<Vec2> border;
-  bool any_lines = false;
+  bool any_lines = false, any_circles = false;
   for (std::size_t id = 0; id < map.regions.size(); ++id) {
     const Region& region = map.regions[id];
+    any_circles = any_circles || (choices[id].angle_open && circles[id]);
     if (!choices[id].angle_open || by_contours(id) || region.kind == RegionKind::kUnreachable) continue;
     any_lines = true;
     for (const std::vector<Vec3>& loop : region.border) AddStrides(loop, border);
@@ -122,22 +133,30 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
   }
   std::vector<Tried> plans;
   for (const double angle : angles) {
-    PM_ASSIGN_OR_RETURN(Tried tried, attempt(std::vector<double>(choices.size(), angle)));
+    PM_ASSIGN_OR_RETURN(Tried tried, attempt(std::vector<Way>(choices.size(), {angle, false})));
     plans.push_back(std::move(tried));
   }
   PM_ASSIGN_OR_RETURN(Tried best, best_of(plans));
-  if (!any_lines) return with(best.angles);  // no lines to turn but what is left over
   for (const double turn : kTurns) {
+    if (!any_lines) break;  // none to turn but what is left over
     plans = {best};
     for (const double by : {turn, -turn}) {
-      std::vector<double> turned = best.angles;
-      for (double& angle : turned) angle = AsDirection(angle + by);
+      std::vector<Way> turned = best.ways;
+      for (Way& way : turned) way.angle = AsDirection(way.angle + by);
       PM_ASSIGN_OR_RETURN(Tried tried, attempt(std::move(turned)));
       plans.push_back(std::move(tried));
     }
     PM_ASSIGN_OR_RETURN(best, best_of(plans));
   }
-  return with(best.angles);
+  if (any_circles) {
+    plans = {best};
+    std::vector<Way> round = best.ways;
+    for (Way& way : round) way.round = true;
+    PM_ASSIGN_OR_RETURN(Tried tried, attempt(std::move(round)));
+    plans.push_back(std::move(tried));
+    PM_ASSIGN_OR_RETURN(best, best_of(plans));
+  }
+  return with(best.ways);
 }
 
 }  // namespace patchmill

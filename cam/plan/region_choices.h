@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -21,7 +22,8 @@ ForcedSteps ForcedOf(const RegionChoice& choice);
 
 struct ChosenRegions {
   RegionMap map;
-  std::vector<RegionChoice> choices;  // by id
+  std::vector<RegionChoice> choices;               // by id
+  std::vector<std::optional<RoundLines>> circles;  // by id: to be tried where the angle is open
 };
 
 // One for each region of the map, by id. FAILED_PRECONDITION when the overrides were made for another map;

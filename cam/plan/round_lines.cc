@@ -19,7 +19,9 @@
 namespace patchmill {
 namespace {
 
-constexpr double kWorthwhile = 0.9;  // of the straight lines' length
+// Of the straight lines' length: circles this short pay; where the angle is open, these need no comparison in
+// time, and these are worth one.
+constexpr double kWorthwhile = 0.9, kPlainly = 0.8, kArguably = 1.2;
 // Sine of the angle between circles and borders, on average: 0.13 for a hexagon, 0.29 for a square, whose
 // frames and ledges come to many short arcs that the estimate does not see.
 constexpr double kMostSlant = 0.2;
@@ -232,9 +234,13 @@ Candidate CandidateOf(const RegionChoice& choice, const Vec2& center) {
 
 }  // namespace
 
-absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, const Resolved& resolved,
-                              const RunContext& run, std::vector<RegionChoice>& choices) {
+absl::StatusOr<std::vector<std::optional<RoundLines>>> ChooseRoundLines(const Surface& surface,
+                                                                        const RegionMap& map,
+                                                                        const Resolved& resolved,
+                                                                        const RunContext& run,
+                                                                        std::vector<RegionChoice>& choices) {
   const double radius = resolved.plan_radius;
+  std::vector<std::optional<RoundLines>> to_try(choices.size());
   std::vector<bool> open(choices.size());
   for (std::size_t id = 0; id < choices.size(); ++id) {
     const RegionChoice& choice = choices[id];
@@ -242,7 +248,7 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, cons
                map.regions[id].kind != RegionKind::kUnreachable;
     choices[id].round_open = false;
   }
-  if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) return absl::OkStatus();
+  if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) return to_try;
 
   const int stride = std::min(2 * StrideOf(map), map.cells);
   std::vector<std::vector<GentlePoint>> pieces(surface.pieces.size());
@@ -292,15 +298,22 @@ absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, cons
     double least = kInfinity;
     for (const Family& family : candidates[id]->straight) least = std::min(least, family.Sum(radius, flat));
     if (!candidates[id]->round.AlongBorders()) continue;
-    if (!(candidates[id]->round.Sum(radius, flat) < kWorthwhile * least)) continue;
-    choices[id] = candidates[id]->round.choice;
+    const double length = candidates[id]->round.Sum(radius, flat);
+    const bool angle_open = choices[id].angle_open;
+    if (!(length < (angle_open ? kArguably : kWorthwhile) * least)) continue;
+    RegionChoice round = candidates[id]->round.choice;
     // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are
     // looked for is not to hang on which points were visited.
     const double more = (stride + kRoundBeside) * extent.cell;
-    choices[id].around->inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
-    choices[id].around->outer = radius * std::ceil((extent.farthest + more) / radius);
+    round.around->inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
+    round.around->outer = radius * std::ceil((extent.farthest + more) / radius);
+    if (angle_open && length >= kPlainly * least) {
+      to_try[id] = round.around;
+    } else {
+      choices[id] = round;
+    }
   }
-  return absl::OkStatus();
+  return to_try;
 }
 
 }  // namespace patchmill

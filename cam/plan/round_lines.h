@@ -1,9 +1,10 @@
 // Which regions have their lines in circles: rims, shoulders, whatever gentle ground lies around an axis.
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
 #include "cam/plan/job.h"
 #include "cam/plan/resolve.h"
@@ -17,13 +18,19 @@ namespace patchmill {
 // area, of their horizontal direction m square to the normal (as long as the slope's sine), and over the
 // borders of gentle ground of their direction m, by length times a flat step; what misses c by more than a
 // ball radius counts less. Circles pay where their length, the way to each run included, is a tenth shorter
-// than that of straight lines at their angle (the best of six where it is open), both estimated from the
-// steps needed at the points of FillSteps (one in four of them) and from how many lines end at borders and at
-// the split angle. Only for ground that goes around the place, three quarters of the way at least, and that
-// keeps a ball radius and a step away from it; what merging left in steep regions also has borders that run
-// along the circles, but for an angle of 0.2 on average. Such regions need no angle: angle_open is cleared.
+// than that of straight lines at their angle, both estimated from the steps needed at the points of FillSteps
+// (one in four of them) and from how many lines end at borders and at the split angle. Only for ground that
+// goes around the place, three quarters of the way at least, and that keeps a ball radius and a step away
+// from it; what merging left in steep regions also has borders that run along the circles, but for an angle
+// of 0.2 on average.
+// Where the angle is open they are compared with the best of six: circles a fifth shorter need no angle, and
+// angle_open is cleared; such as are less than a fifth longer are told, by region, to be tried
+// (QuickestAngles), for the estimate may err by that.
 // CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::Status ChooseRoundLines(const Surface& surface, const RegionMap& map, const Resolved& resolved,
-                              const RunContext& run, std::vector<RegionChoice>& choices);
+absl::StatusOr<std::vector<std::optional<RoundLines>>> ChooseRoundLines(const Surface& surface,
+                                                                        const RegionMap& map,
+                                                                        const Resolved& resolved,
+                                                                        const RunContext& run,
+                                                                        std::vector<RegionChoice>& choices);
 
 }  // namespace patchmill

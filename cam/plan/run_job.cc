@@ -16,6 +16,7 @@
 #include "cam/plan/resolve.h"
 #include "cam/plan/round_lines.h"
 #include "cam/post/program_reader.h"
+#include "cam/tool/reach_give.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"
 
@@ -70,7 +71,8 @@ absl::StatusOr<ChosenRegions> MakeRegions(const Surface& surface, const Job& job
   PM_ASSIGN_OR_RETURN(regions.map, SplitRegions(surface, params, run));
   PM_ASSIGN_OR_RETURN(regions.choices,
                       ChooseRegions(surface, regions.map, job.operation, resolved.program_zero));
-  PM_RETURN_IF_ERROR(ChooseRoundLines(surface, regions.map, resolved, run, regions.choices));
+  PM_ASSIGN_OR_RETURN(regions.circles,
+                      ChooseRoundLines(surface, regions.map, resolved, run, regions.choices));
   PM_RETURN_IF_ERROR(FillSteps(surface, regions.choices, resolved, run, regions.map));
   return regions;
 }
@@ -192,7 +194,8 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   report.diagnostics = Assumptions(job, resolved);
   const Diagnostics assumptions = report.diagnostics;
 
-  PM_ASSIGN_OR_RETURN(const ModelCheck check, CheckModel(surface, job.operation.tool, run));
+  PM_ASSIGN_OR_RETURN(const ModelCheck check,
+                      CheckModel(surface, job.operation.tool, ReachGive(job.operation.tolerance), run));
   report.min_concave_radius = check.min_concave_radius;
   for (const Diagnostics* findings : {&job.model_remarks, &check.findings}) {
     report.diagnostics.insert(report.diagnostics.end(), findings->begin(), findings->end());
@@ -221,7 +224,8 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
                                                         resolved, within, std::move(passes.paths), run));
       return TimesOf(motion, result.regions.regions.size());
     };
-    PM_ASSIGN_OR_RETURN(report.choices, QuickestAngles(result.regions, std::move(report.choices), time));
+    PM_ASSIGN_OR_RETURN(report.choices,
+                        QuickestAngles(result.regions, std::move(report.choices), regions.circles, time));
     PM_RETURN_IF_ERROR(FillSteps(surface, report.choices, resolved, run, result.regions));
     clock.Done("angles");
   }

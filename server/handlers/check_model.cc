@@ -5,6 +5,7 @@
 
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
+#include "cam/tool/reach_give.h"
 #include "core/base/status.h"
 #include "core/joining/continuity.h"
 #include "server/convert/joints.h"
@@ -81,7 +82,7 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
     }
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildSurface(std::move(network), SurfaceParams{}, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
-    PM_ASSIGN_OR_RETURN(ModelCheck check, CheckModel(surface, tool, run));
+    PM_ASSIGN_OR_RETURN(ModelCheck check, CheckModel(surface, tool, ReachGive(job.operation.tolerance), run));
     for (const Diagnostic& remark : Placed(model.remarks, job.setup.placement))
       check.findings.push_back(remark);
     if (model.unitless) check.findings.push_back(UnitFinding(check.box, tool));

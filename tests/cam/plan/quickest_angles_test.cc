@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <gmock/gmock.h>
@@ -32,6 +33,10 @@ std::vector<RegionChoice> OpenChoices(std::size_t n) {
   return std::vector<RegionChoice>(n, open);
 }
 
+std::vector<std::optional<RoundLines>> NoCircles(std::size_t n) {
+  return std::vector<std::optional<RoundLines>>(n);
+}
+
 // Degrees between two directions of lines.
 double Apart(double a, double b) {
   const double d = std::abs(Degrees(a) - b);
@@ -58,7 +63,7 @@ TEST(QuickestAngles, EachRegionTakesItsOwn) {
     };
     const auto chosen = QuickestAngles(
         MapOf({SlopeClass::kGentle, SlopeClass::kGentle, SlopeClass::kGentle, SlopeClass::kSteep}), choices,
-        plan);
+        NoCircles(4), plan);
     ASSERT_TRUE(chosen.ok()) << chosen.status();
     EXPECT_LE(plans, kQuickestAnglePlans);
     EXPECT_LE(Apart((*chosen)[0].zigzag_angle, first), 0.5 * 3.75 + 1e-9) << first;
@@ -73,7 +78,8 @@ TEST(QuickestAngles, AMixtureThatCostsMoreIsNotTaken) {
     return RegionTimes{10.0 + Apart(with[0].zigzag_angle, 60.0) / 30.0 + (mixed ? 9.0 : 0.0),
                        10.0 + Apart(with[1].zigzag_angle, 127.0) / 10.0};
   };
-  const auto chosen = QuickestAngles(MapOf({SlopeClass::kGentle, SlopeClass::kGentle}), OpenChoices(2), plan);
+  const auto chosen =
+      QuickestAngles(MapOf({SlopeClass::kGentle, SlopeClass::kGentle}), OpenChoices(2), NoCircles(2), plan);
   ASSERT_TRUE(chosen.ok()) << chosen.status();
   for (const RegionChoice& c : *chosen) EXPECT_NEAR(Degrees(c.zigzag_angle), 127.5, 1e-9);
 }
@@ -82,8 +88,34 @@ TEST(QuickestAngles, AnErrorEndsIt) {
   const auto plan = [](const std::vector<RegionChoice>&) -> absl::StatusOr<RegionTimes> {
     return absl::CancelledError("enough");
   };
-  EXPECT_EQ(QuickestAngles(MapOf({SlopeClass::kGentle}), OpenChoices(1), plan).status().code(),
+  EXPECT_EQ(QuickestAngles(MapOf({SlopeClass::kGentle}), OpenChoices(1), NoCircles(1), plan).status().code(),
             absl::StatusCode::kCancelled);
+}
+
+// Of two regions that may have circles one is quicker with them, and one with lines; the third has none to
+// try.
+TEST(QuickestAngles, CirclesWhereTheyAreQuicker) {
+  std::vector<std::optional<RoundLines>> circles = NoCircles(3);
+  circles[0] = RoundLines{Vec2(1, 2), 3.0, 12.0};
+  circles[1] = RoundLines{Vec2(40, 2), 3.0, 9.0};
+  int plans = 0;
+  const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
+    ++plans;
+    EXPECT_FALSE(with[2].around);
+    const auto time = [&](std::size_t id, double round, double best_angle) {
+      return with[id].around ? round : 10.0 + Apart(with[id].zigzag_angle, best_angle) / 10.0;
+    };
+    return RegionTimes{time(0, 9.9, 33.0), time(1, 10.5, 48.0), time(2, 0.0, 7.0)};
+  };
+  const auto chosen = QuickestAngles(MapOf({SlopeClass::kGentle, SlopeClass::kGentle, SlopeClass::kGentle}),
+                                     OpenChoices(3), circles, plan);
+  ASSERT_TRUE(chosen.ok()) << chosen.status();
+  EXPECT_LE(plans, kQuickestAnglePlans);
+  EXPECT_EQ((*chosen)[0].around, circles[0]);
+  EXPECT_FALSE((*chosen)[1].around);
+  EXPECT_LE(Apart((*chosen)[1].zigzag_angle, 48.0), 0.5 * 3.75 + 1e-9);
+  EXPECT_LE(Apart((*chosen)[2].zigzag_angle, 7.0), 0.5 * 3.75 + 1e-9);
+  for (const RegionChoice& c : *chosen) EXPECT_FALSE(c.angle_open);
 }
 
 // A ridge that lies askew: none of the angles that are tried first.
