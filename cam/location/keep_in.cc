@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cam/tool/reach_give.h"
 #include "core/base/status.h"
 #include "core/surface/closest.h"
 #include "core/surface/part.h"
@@ -78,7 +79,13 @@ double KeepIn::MoveRoom(const Vec3& c) const {
   return room;
 }
 
-double KeepIn::Room(const Vec3& c) const { return std::min(MoveRoom(c), TopRoom(*containment_, Tip(c))); }
+bool KeepIn::TooHigh(double center_z) const {
+  return TopRoom(*containment_, Tip(Vec3(0.0, 0.0, center_z))) < -kTopSlack;
+}
+
+double KeepIn::Room(const Vec3& c) const {
+  return std::min(MoveRoom(c), TopRoom(*containment_, Tip(c)) + kTopSlack);
+}
 
 std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q) const {
   const double r = params_.ball_radius;
@@ -106,13 +113,13 @@ bool KeepIn::Forbids(const Vec3& c, double radius) const {
   return radius < reach && AnythingNearUpwardRay(*avoided_, c, reach - radius, 0.25 * params_.tolerance);
 }
 
-bool KeepIn::HasRoom(const Vec3& a, const Vec3& b, bool finishing) const {
+bool KeepIn::HasRoom(const Vec3& a, const Vec3& b) const {
   const Vec3 middle = 0.5 * (a + b);
   const double half = 0.5 * (b - a).norm();
-  const double room = finishing ? Room(middle) : MoveRoom(middle);
+  const double room = MoveRoom(middle);
   if (room - half >= -0.5 * params_.tolerance) return true;
   if (room < -0.5 * params_.tolerance) return false;
-  return HasRoom(a, middle, finishing) && HasRoom(middle, b, finishing);
+  return HasRoom(a, middle) && HasRoom(middle, b);
 }
 
 bool KeepIn::ClearOfAvoided(const Vec3& a, const Vec3& b) const {
@@ -122,7 +129,9 @@ bool KeepIn::ClearOfAvoided(const Vec3& a, const Vec3& b) const {
 }
 
 bool KeepIn::AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const {
-  return HasRoom(a, b, finishing) && ClearOfAvoided(a, b);
+  const Vec3& higher = a.z() > b.z() ? a : b;
+  if (finishing && TopRoom(*containment_, Tip(higher)) < -0.5 * params_.tolerance) return false;
+  return HasRoom(a, b) && ClearOfAvoided(a, b);
 }
 
 }  // namespace patchmill

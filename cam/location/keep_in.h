@@ -50,6 +50,9 @@ class KeepIn {
   bool WantsNothing(PieceId piece, double u0, double u1, double v0, double v1, const Vec3& p,
                     double radius) const;
 
+  // A finishing ball may not be centred at this height or higher: its tip would be above top_z by more than
+  // rounding.
+  bool TooHigh(double center_z) const;
   // A finishing ball may be centred at c.
   bool Allows(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
   // Where in the column over q a finishing ball may be centred; nothing outside a boundary. To a tenth of the
@@ -64,9 +67,9 @@ class KeepIn {
  private:
   KeepIn() = default;
   Vec3 Tip(const Vec3& c) const { return c - Vec3(0.0, 0.0, params_.ball_radius); }
-  double MoveRoom(const Vec3& c) const;  // boundary and obstacles
-  double Room(const Vec3& c) const;      // top_z too
-  bool HasRoom(const Vec3& a, const Vec3& b, bool finishing) const;
+  double MoveRoom(const Vec3& c) const;              // boundary and obstacles
+  double Room(const Vec3& c) const;                  // top_z too
+  bool HasRoom(const Vec3& a, const Vec3& b) const;  // boundary and obstacles
   bool ClearOfAvoided(const Vec3& a, const Vec3& b) const;
 
   const Surface* surface_ = nullptr;

@@ -68,7 +68,7 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
     if (up < 0.0 || up * size < params.narrow * (highest_normal - lowest_normal)) continue;
     const double bend = BendOver(c);
     if (TooBent(c, size)) return false;
-    if (highest_center + bend < params.floor_z - kFloorSlack) continue;
+    if (highest_center + bend < params.floor_z - params.give) continue;
     const auto farthest = [&](const SurfacePoint& q) {
       double most = 0.0;
       for (std::size_t k = 0; k < 4; ++k) most = std::max(most, internal::ToRay(q.p, c[k]).norm());

@@ -20,9 +20,6 @@ std::array<Vec2, 9> NineParameters(const SurfaceRect& rect);
 // |e_z| up to which both sides of a face count.
 inline constexpr double kUprightFace = 1e-6;
 
-// mm: rounding of a floor at the surface itself (docs/reach.md).
-inline constexpr double kFloorSlack = 1e-6;
-
 // The surface there; normals are unit and all on one side of it.
 struct RectPlaces {
   std::array<Vec3, 9> p, n;
@@ -38,8 +35,8 @@ double BendOver(const std::array<Vec3, 9>& f);
 bool TooBent(const std::array<Vec3, 9>& f, double size);
 
 struct CellReachParams {
-  double radius = 0.0;          // mm: centres lie at p + radius n
-  double give = 0.0;            // mm: how deep the surface may lie inside the ball
+  double radius = 0.0;  // mm: centres lie at p + radius n
+  double give = 0.0;    // mm: how deep the surface may lie inside the ball, and centres below the floor
   double floor_z = -kInfinity;  // mm: lowest centre height
   // mm: beside a silhouette, where a side that looks down turns up on no more than a strip this wide, that
   // strip is not counted.

@@ -34,7 +34,8 @@ class Clipper {
     if (n == 0) return {};
     if (n == 1) {
       const CutterPoint& only = path.points.front();
-      const bool kept = WantsNear(only) && keep_in_.AllowsMove(only.center, only.center, true);
+      const bool kept = !keep_in_.TooHigh(only.center.z()) && WantsNear(only) &&
+                        keep_in_.AllowsMove(only.center, only.center, true);
       return kept ? std::vector<CutterPath>{path} : std::vector<CutterPath>{};
     }
     chords.points.push_back(path.points.front());
@@ -86,6 +87,10 @@ class Clipper {
   }
 
   void AddAllowed(const CutterPoint& a, const CutterPoint& b, Chords& chords) const {
+    if (keep_in_.TooHigh(std::min(a.center.z(), b.center.z()))) {
+      Push(b, false, chords);
+      return;
+    }
     if (keep_in_.AllowsAll() || keep_in_.AllowsMove(a.center, b.center, true)) {
       Push(b, true, chords);
       return;

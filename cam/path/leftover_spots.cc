@@ -129,7 +129,7 @@ std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) cons
   for (const Vec3& n : {e, Vec3(-e)}) {
     if (n.z() < -kUprightFace) continue;
     const Vec3 c = p + radius_ * n;
-    if (c.z() < params_.floor_z + radius_ - kFloorSlack || !reach_.Free(c)) continue;
+    if (c.z() < params_.floor_z + radius_ - ReachGive(params_.tolerance) || !reach_.Free(c)) continue;
     if (params_.keep_in == nullptr || params_.keep_in->Allows(c)) return n;
   }
   return std::nullopt;
@@ -167,15 +167,18 @@ bool SpotFinder::AllForbidden(const RectPlaces& places) const {
   if (params_.keep_in == nullptr || params_.keep_in->AllowsAll()) return false;
   const double turn = BendOver(places.n);
   for (const double sign : {1.0, -1.0}) {
-    double highest_normal = -1.0, spread = 0.0;
+    double highest_normal = -1.0, spread = 0.0, lowest_center = kInfinity;
     std::array<Vec3, 9> c;
     for (std::size_t k = 0; k < 9; ++k) {
       c[k] = places.p[k] + sign * radius_ * places.n[k];
+      lowest_center = std::min(lowest_center, c[k].z());
       highest_normal = std::max(highest_normal, sign * places.n[k].z());
       spread = std::max(spread, (c[k] - places.p[8] - sign * radius_ * places.n[8]).norm());
     }
     if (highest_normal + turn < -kUprightFace) continue;  // looks down
-    if (!params_.keep_in->Forbids(c[8], spread + BendOver(c))) return false;
+    const double bend = BendOver(c);
+    if (params_.keep_in->TooHigh(lowest_center - bend)) continue;
+    if (!params_.keep_in->Forbids(c[8], spread + bend)) return false;
   }
   return true;
 }

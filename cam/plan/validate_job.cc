@@ -118,6 +118,10 @@ absl::Status ValidateJob(const Job& job) {
   PM_RETURN_IF_ERROR(height("heights.clearance_z_mm", op.clearance_z));
   PM_RETURN_IF_ERROR(height("heights.floor_z_mm", op.floor_z));
   PM_RETURN_IF_ERROR(height("heights.top_z_mm", op.top_z));
+  if (op.floor_z && op.top_z && *op.top_z < *op.floor_z) {
+    return FieldError("heights.top_z_mm",
+                      fmt::format("= {:.6g}; must be at least floor_z_mm = {:.6g}", *op.top_z, *op.floor_z));
+  }
   PM_RETURN_IF_ERROR(ValidateLimits(job));
   PM_RETURN_IF_ERROR(height("setup.stock.top_z_mm", job.setup.stock_top_z));
   PM_RETURN_IF_ERROR(check("setup.program_zero", job.setup.zero_point.norm(),

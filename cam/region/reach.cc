@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cam/region/obstacle_finder.h"
+#include "cam/tool/reach_give.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/box_distance.h"
@@ -15,8 +16,7 @@ namespace patchmill {
 namespace {
 
 // The constants of docs/reach.md.
-constexpr double kVertical = 1e-6;    // |e_z| below this: no side is the upper one
-constexpr double kFloorSlack = 1e-6;  // mm
+constexpr double kVertical = 1e-6;  // |e_z| below this: no side is the upper one
 
 constexpr int kMostSlides = 12;  // Newton steps of an obstacle, unless one is
 constexpr double kSlid = 1e-4;   // of the radius: what is left then is the square
@@ -105,7 +105,7 @@ bool ReachTest::Allowed(const Vec3& p, const Vec3& normal) const {
 }
 
 double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {
-  return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - kFloorSlack);
+  return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - ReachGive(params_.tolerance));
 }
 
 Deepest ReachTest::DeepestLeftover(std::span<const Vec3> places, std::span<const Vec3> normals,

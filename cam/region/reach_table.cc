@@ -18,7 +18,6 @@ namespace patchmill {
 namespace {
 
 constexpr double kVertical = 1e-6;    // docs/reach.md
-constexpr double kFloorSlack = 1e-6;  // docs/reach.md, mm
 constexpr double kProof = 0.02;       // of what the ball may give: how exactly "free" is decided
 constexpr double kLargestCell = 0.5;  // of the smallest radius, mm
 constexpr double kLeastCell = 0.03;   // of it
@@ -88,8 +87,8 @@ class PieceTable {
   }
 
   bool Reaches(double radius, const SurfaceJet& jet, const Vec3& normal) const {
-    if (jet.p.z() + radius * (normal.z() - 1.0) < params_.floor_z - kFloorSlack) return false;
     const double give = ReachGive(params_.tolerance);
+    if (jet.p.z() + radius * (normal.z() - 1.0) < params_.floor_z - give) return false;
     const auto free = [&](const Vec3& center) {
       return !AnythingNearUpwardRay(surface_, center, radius - give, kProof * give);
     };

@@ -4,9 +4,13 @@
 
 namespace patchmill {
 
-// How far, mm, the surface may lie inside a ball that counts as free, of a whole `tolerance`: what passes may
-// take of it themselves. The rest belongs to rounding, certificates and the control (SplitBudget): a place
-// that lets the ball in by that alone would be asked for, and no program could finish it within P1.
+// How far, mm, the surface may lie inside a ball that counts as free, and how far the ball may have to be
+// above a place to keep to the floor, of a whole `tolerance`: what passes may take of it themselves. The rest
+// belongs to rounding, certificates and the control (SplitBudget): a place that lets the ball in by that
+// alone would be asked for, and no program could finish it within P1.
 constexpr double ReachGive(double tolerance) { return 0.5 * tolerance; }
+
+// mm: rounding of a highest tip at the surface itself.
+inline constexpr double kTopSlack = 1e-6;
 
 }  // namespace patchmill

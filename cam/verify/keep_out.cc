@@ -114,7 +114,9 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
     };
     std::vector<PathSegment> feeds = CollectMoves(motion, MotionSet::kCut, offset);
     std::erase_if(feeds, [](const PathSegment& s) { return Plan(s.b - s.a).norm() < kCertainty; });
-    report.Add("ABOVE_TOP", Broken(feeds, room, slack), "a feed touches the surface above the highest tip");
+    std::vector<Least> broken = Broken(feeds, room, slack);
+    for (Least& b : broken) b.room = TopRoom(c, b.at - Vec3(0.0, 0.0, limits.ball));
+    report.Add("ABOVE_TOP", std::move(broken), "a feed touches the surface above the highest tip");
   }
   return found;
 }

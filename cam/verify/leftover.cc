@@ -137,8 +137,9 @@ class LeftoverSearch {
                          ReachClass::kReachable;
   }
 
-  // No point of the cell is reachable, as the centre over it cannot move far enough from the one over its
-  // middle. Normals are taken near the corners and widened by a quarter.
+  // No point of the cell is reachable, as all centres over it lie below the floor or above the top, or the
+  // centre cannot move far enough from the one over its middle. Normals are taken near the corners and
+  // widened by a quarter.
   bool Closed(const SurfaceCell& cell) {
     const CellRect& r = cell.rect;
     const auto middle = FacingAt(Evaluate(surface_, r.piece, r.u(), r.v()));
@@ -153,9 +154,21 @@ class LeftoverSearch {
       if (corner->both || corner->e.dot(facing.e) < 0.0) facing.both = true;  // a silhouette runs through it
       turn = std::max(turn, std::min((corner->e - facing.e).norm(), (corner->e + facing.e).norm()));
     }
+    if (OutsideHeights(cell, facing, 1.25 * turn)) return true;
     const double spread = cell.radius + 1.25 * turn * params_.reach.radius;
     if (spread > params_.reach.radius) return false;
     return BlockedDepth(surface_, cell.middle, facing, params_.reach, obstacles_) > spread;
+  }
+
+  // All centres over the cell are too low or too high. Its normals are within `turn` of the one of `facing`.
+  bool OutsideHeights(const SurfaceCell& cell, const Facing& facing, double turn) const {
+    const double radius = params_.reach.radius, z = facing.e.z();
+    const double highest = std::min(1.0, z + turn),
+                 lowest = std::max(-1.0, facing.both ? -std::abs(z) - turn : z - turn);
+    const auto [low, high] = std::minmax_element(cell.hull, cell.hull + cell.hull_count,
+                                                 [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+    if (high->z() + radius * highest < params_.reach.floor_z - params_.reach.give) return true;
+    return TopRoomAt(params_.reach.limits, low->z() + radius * lowest) < 0.0;
   }
 
   const Surface& surface_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
 
@@ -15,7 +16,6 @@ constexpr double kProof = 0.02;     // of the give: how exactly "free" is decide
 constexpr double kCoarse = 0.02;    // of the radius: how exactly a blocked depth is known
 constexpr double kNearer = 0.02;    // of the radius: the shank is blocked by more than this beyond the ball
 constexpr double kReasonProof = 0.004;  // of the radius: how exactly the two are known
-constexpr double kFloorSlack = 1e-6;    // mm: rounding of a floor at the surface itself
 
 std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) {
   return {p + radius * facing.e, p - radius * facing.e};
@@ -109,9 +109,14 @@ double RoomAt(const CenterLimits& limits, const Vec3& center) {
   if (limits.containment == nullptr) return kInfinity;
   const Containment& c = *limits.containment;
   const Vec3 tip = center - Vec3(0.0, 0.0, limits.ball);
-  double room = std::min(BoundaryRoom(c, Plan(center), limits.ball), TopRoom(c, tip));
+  double room = std::min(BoundaryRoom(c, Plan(center), limits.ball), TopRoomAt(limits, center.z()));
   for (const Obstacle& o : c.obstacles) room = std::min(room, ObstacleRoom(o, tip, limits.tool));
   return room;
+}
+
+double TopRoomAt(const CenterLimits& limits, double center_z) {
+  if (limits.containment == nullptr) return kInfinity;
+  return TopRoom(*limits.containment, Vec3(0.0, 0.0, center_z - limits.ball)) + kTopSlack;
 }
 
 std::optional<Facing> FacingAt(const SurfaceJet& jet) {
@@ -135,7 +140,7 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
     ReachClass found = ReachClass::kReachable;
     if (InTheWay(surface, c, limit, kProof * params.give, obstacles)) {
       found = BlockedAbove(surface, c, params, obstacles) ? ReachClass::kUndercut : ReachClass::kConcave;
-    } else if (c.z() < params.floor_z - kFloorSlack) {
+    } else if (c.z() < params.floor_z - params.give) {
       found = ReachClass::kFloor;
     } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.give)) {
       found = ReachClass::kAvoided;
@@ -177,7 +182,7 @@ double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing,
   double depth = kInfinity;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
     const Vec3& c = centers[static_cast<std::size_t>(side)];
-    double here = params.floor_z - kFloorSlack - c.z();
+    double here = params.floor_z - params.give - c.z();
     const auto nearest = NearestToRay(surface, c, limit, kCoarse * params.radius, obstacles);
     if (nearest) here = std::max(here, limit - nearest->distance);
     here = std::max(here, -RoomAt(params.limits, c));

@@ -23,14 +23,17 @@ struct CenterLimits {
 };
 
 struct ReachParams {
-  double radius = 0.0;          // mm: ball and stock to leave
-  double give = 0.0;            // mm: how deep the surface may lie inside the ball
+  double radius = 0.0;  // mm: ball and stock to leave
+  double give = 0.0;    // mm: how deep the surface may lie inside the ball, and the centre below the floor
   double floor_z = -kInfinity;  // mm: lowest centre height
   CenterLimits limits = {};
 };
 
 // Room of boundary, obstacles and top (cam/tool/containment.h): >= 0 where the centre is allowed.
 double RoomAt(const CenterLimits& limits, const Vec3& center);
+
+// Of the top alone, for any centre at this height.
+double TopRoomAt(const CenterLimits& limits, double center_z);
 
 // Unit normal with e_z >= 0. On a vertical face both sides count and `both` is set. nullopt where the
 // parametrisation is degenerate.

@@ -8,9 +8,8 @@
 namespace patchmill::testing {
 namespace {
 
-constexpr double kSpacing = 0.05;     // of the radius: between samples
-constexpr double kVertical = 1e-5;    // |e_z|, as well as differences tell
-constexpr double kFloorSlack = 1e-6;  // mm
+constexpr double kSpacing = 0.05;   // of the radius: between samples
+constexpr double kVertical = 1e-5;  // |e_z|, as well as differences tell
 constexpr int kStarts = 12;
 
 struct Sample {
@@ -99,7 +98,7 @@ class Oracle {
   }
 
   bool FreeAt(const Vec3& c) const {
-    if (c.z() - question_.radius < question_.floor_z - kFloorSlack) return false;
+    if (c.z() - question_.radius < question_.floor_z - 0.5 * question_.tolerance) return false;
     struct Hit {
       double distance;
       const Sample* sample;

@@ -55,8 +55,7 @@ std::array<double, kReasons> FromVerifier(const Surface& surface, const Job& job
 void ExpectAgreement(const PatchModel& model, const Job& job) {
   const Surface surface = PlacedSurface(model, job.setup);
   const auto planned = FromRegions(surface, job), judged = FromVerifier(surface, job);
-  // A strip as narrow as the tolerance between two reasons is below what the map resolves: on a wall over its
-  // floor, where the ball is free by the tolerance and the tip is not.
+  // A strip as narrow as the tolerance between two reasons is below what the map resolves.
   const double strips = 0.0005 * (judged[kUndercut] + judged[kConcave] + judged[kFloor]);
   for (int reason = 0; reason < kReasons; ++reason) {
     const auto k = static_cast<std::size_t>(reason);

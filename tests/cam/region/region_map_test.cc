@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cam/tool/reach_give.h"
 #include "core/surface/closest.h"
 #include "core/surface/surface.h"
 #include "tests/support/model_table.h"
@@ -167,8 +168,10 @@ TEST(SplitRegions, FloorTakesWhatLiesTooDeep) {
   params.floor_z = 0.0;
   params.tolerance = 0.01;
   const RegionMap map = Split(surface, params);
-  // Tip = p_z + R e_z - R with p_z = 10 e_z: below the floor for e_z < R / (10 + R).
-  EXPECT_NEAR(Area(map, UnreachableReason::kFloor), 2 * kPi * 100 * 3.0 / 13.0, 0.05);
+  // Tip = p_z + R e_z - R with p_z = 10 e_z: below the floor by more than the give for e_z < (R - give) / (10
+  // + R).
+  const double lowest = (3.0 - ReachGive(params.tolerance)) / 13.0;
+  EXPECT_NEAR(Area(map, UnreachableReason::kFloor), 2 * kPi * 100 * lowest, 0.05);
 }
 
 // A ramp whose slope sways about the split angle, in bands larger than any area that is merged for its size.

@@ -146,9 +146,9 @@ class ProgramJudge {
   // For sure: nothing near the ball that the tolerance of the searches could hide.
   bool Reachable(const Vec3& p, const Vec3& e) const {
     const Vec3 c = p + kept_ * e;
-    return c.z() - radius_ >= floor_ &&
-           !AnythingNearUpwardRay(surface_, c, kept_ - ReachGive(job_.operation.tolerance) + kSearch,
-                                  kSearch);
+    const double tip = c.z() - radius_, give = ReachGive(job_.operation.tolerance);
+    return tip >= floor_ - give + kSearch && tip <= job_.operation.top_z.value_or(kInfinity) &&
+           !AnythingNearUpwardRay(surface_, c, kept_ - give + kSearch, kSearch);
   }
 
   const Surface& surface_;
