@@ -78,10 +78,13 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
     if (known && farthest(*known) < limit) continue;
     // The farther apart the centres, the less exactly the deepest point need be known.
     const double exact = std::clamp(0.05 * size, 1e-5, 0.02 * params.radius);
-    const auto deepest = ClosestToUpwardRay(surface, c[8], limit, exact);
-    if (!deepest) return false;
-    known = deepest->at;
-    if (!(farthest(*known) < limit)) return false;
+    const auto blocked = [&](double tolerance) {
+      const auto deepest = ClosestToUpwardRay(surface, c[8], limit, tolerance);
+      if (deepest) known = deepest->at;
+      return deepest && farthest(*known) < limit;
+    };
+    if (blocked(exact)) continue;
+    if (!(params.proof > 0.0 && params.proof < exact && blocked(params.proof))) return false;
   }
   return true;
 }

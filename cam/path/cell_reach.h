@@ -38,6 +38,9 @@ struct CellReachParams {
   double radius = 0.0;  // mm: centres lie at p + radius n
   double give = 0.0;    // mm: how deep the surface may lie inside the ball, and centres below the floor
   double floor_z = -kInfinity;  // mm: lowest centre height
+  // mm: where the deepest point is not in the way by more than it is known, it is known to this; 0: as it is.
+  // For places that are known not to be free.
+  double proof = 0.0;
   // mm: beside a silhouette, where a side that looks down turns up on no more than a strip this wide, that
   // strip is not counted.
   double narrow = 0.0;

@@ -39,6 +39,10 @@ constexpr double kAtHand = 1.0;    // farther from all there may be room for the
 // it.
 constexpr double kProofOfReach = 0.5 * kReachMargin;
 
+// Of what lies between the two margins: where a ball that all but fits stands in a hollow that is all but
+// round, what is in its way is as near everywhere.
+constexpr double kProofBetween = 0.2;
+
 // Ground that needs steps up to this much above the shortest may be left to forced passes or not.
 constexpr double kForcedMargin = 1.05;
 
@@ -55,8 +59,14 @@ class SpotFinder {
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
         covered_(radius_ + params.limit + kProofMargin * params.tolerance),
         covered2_(covered_ * covered_),
-        cell_reach_{radius_, (1.0 + kProofOfReach) * ReachGive(params.tolerance), params.floor_z + radius_,
-                    kFinest * flat_} {}
+        lowest_center_(params.floor_z + radius_ - (1.0 + kReachMargin) * ReachGive(params.tolerance)),
+        cell_reach_{.radius = radius_,
+                    .give = (1.0 + kProofOfReach) * ReachGive(params.tolerance),
+                    .floor_z = params.floor_z + radius_,
+                    .narrow = kFinest * flat_},
+        near_reach_(cell_reach_) {
+    near_reach_.proof = kProofBetween * (kReachMargin - kProofOfReach) * ReachGive(params.tolerance);
+  }
 
   void Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
 
@@ -87,7 +97,8 @@ class SpotFinder {
   const double radius_;
   const double flat_;
   const double covered_, covered2_;  // mm, from a move: and the square
-  const CellReachParams cell_reach_;
+  double lowest_center_;             // mm: that counts as reached
+  CellReachParams cell_reach_, near_reach_;
 };
 
 NearMove SpotFinder::NearestTo(const Vec3& p, double limit, const NearMove& hint) const {
@@ -129,7 +140,7 @@ std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) cons
   for (const Vec3& n : {e, Vec3(-e)}) {
     if (n.z() < -kUprightFace) continue;
     const Vec3 c = p + radius_ * n;
-    if (c.z() < params_.floor_z + radius_ - ReachGive(params_.tolerance) || !reach_.Free(c)) continue;
+    if (c.z() < lowest_center_ || !reach_.Free(c)) continue;
     if (params_.keep_in == nullptr || params_.keep_in->Allows(c)) return n;
   }
   return std::nullopt;
@@ -143,7 +154,9 @@ std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const Su
   if (!(leftover > params_.limit && Asked(jet, e) && Wanted(at))) return std::nullopt;
   const auto side = ReachableSide(at.p, e);
   if (!side) return std::nullopt;
-  return LeftoverSpot{at, *side, at.p + radius_ * *side, leftover, rect};
+  Vec3 center = at.p + radius_ * *side;
+  center.z() = std::max(center.z(), params_.floor_z + radius_);
+  return LeftoverSpot{at, *side, center, leftover, rect};
 }
 
 // A spot at a corner, if there is one.
@@ -277,8 +290,9 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   std::optional<bool> bends;
   if (size < (near.segment < 0 ? 8.0 : kCoarse) * flat_) {
     const auto places = PlacesOn(surface_, rect);
-    if (places &&
-        (AllForbidden(*places) || OutOfReach(surface_, *places, size, cell_reach_, found.blockers))) {
+    if (places && (AllForbidden(*places) ||
+                   OutOfReach(surface_, *places, size, size < kCoarse * flat_ ? near_reach_ : cell_reach_,
+                              found.blockers))) {
       return;
     }
     if (places && near.segment < 0) bends = BendsAlongU(*places, size);

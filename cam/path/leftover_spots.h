@@ -15,7 +15,7 @@ namespace patchmill {
 struct LeftoverSpot {
   SurfacePoint at;
   Vec3 normal = Vec3::UnitZ();  // towards the ball that finishes it
-  Vec3 center = Vec3::Zero();   // at.p + R normal
+  Vec3 center = Vec3::Zero();   // at.p + R normal, or straight above it on the floor
   double leftover = 0.0;        // mm, cut off at the ball radius
   SurfaceRect rect;             // what it stands for, at most half a flat step wide
 };
