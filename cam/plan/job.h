@@ -133,7 +133,6 @@ struct JobReport {
   std::uint64_t certificate_defects = 0;  // Locator::defect_count of the passes
   std::vector<Region> regions;
   std::vector<RegionChoice> choices;  // of each region
-  std::vector<double> wanted_shares;  // of each region: how much is selected; only with kNothingToCut
   Diagnostics diagnostics;
   std::vector<StageTime> stages;
 };

@@ -172,7 +172,7 @@ class PassMaker {
  private:
   // What mends lines that run one way runs that way too, but for what runs across it.
   static void TurnOneWay(const RegionChoice& choice, std::vector<CutterPath>& paths) {
-    if (!choice.one_way) return;
+    if (!choice.one_way || choice.strategy == Strategy::kContour) return;
     const Vec2 way(std::cos(choice.zigzag_angle), std::sin(choice.zigzag_angle));
     for (CutterPath& path : paths) {
       if (path.closed || path.points.size() < 2) continue;

@@ -168,7 +168,7 @@ RegionChoice ChoiceOf(const Operation& op) {
   RegionChoice choice;
   choice.strategy = op.strategy;
   choice.zigzag_angle = op.zigzag_angle;
-  choice.angle_open = op.angle_auto;
+  choice.angle_open = op.angle_auto && op.strategy != Strategy::kContour;
   choice.round_open = op.round_lines;
   choice.one_way = op.one_way;
   choice.scallop = op.scallop;
@@ -221,7 +221,7 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
     choice.skip = change.skip;
     choice.strategy = change.strategy.value_or(choice.strategy);
     choice.zigzag_angle = change.zigzag_angle.value_or(choice.zigzag_angle);
-    choice.angle_open = choice.angle_open && !change.zigzag_angle;
+    choice.angle_open = op.angle_auto && !change.zigzag_angle && choice.strategy != Strategy::kContour;
     choice.round_open = choice.round_open && !change.zigzag_angle;
     choice.one_way = change.one_way.value_or(choice.one_way);
     choice.scallop = change.scallop.value_or(choice.scallop);

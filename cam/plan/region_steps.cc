@@ -132,10 +132,9 @@ absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<Regio
   return sum * ShareOfPoint(map, stride);
 }
 
-absl::StatusOr<std::vector<double>> WantedShares(const Surface& surface, const Containment& containment,
-                                                 const RunContext& run, const RegionMap& map) {
-  std::vector<double> shares(map.regions.size(), 1.0);
-  if (containment.WantsAll()) return shares;
+absl::Status FillWantedShares(const Surface& surface, const Containment& containment, const RunContext& run,
+                              RegionMap& map) {
+  if (containment.WantsAll()) return absl::OkStatus();
   struct Areas {
     double all = 0.0, wanted = 0.0;
   };
@@ -150,15 +149,15 @@ absl::StatusOr<std::vector<double>> WantedShares(const Surface& surface, const C
           if (IsWanted(containment, surface.pieces[i].patch, jet.p)) pieces[i][id].wanted += area;
         });
   }));
-  for (std::size_t id = 0; id < shares.size(); ++id) {
+  for (std::size_t id = 0; id < map.regions.size(); ++id) {
     Areas sum;
     for (const std::vector<Areas>& piece : pieces) {
       sum.all += piece[id].all;
       sum.wanted += piece[id].wanted;
     }
-    if (sum.all > 0.0) shares[id] = sum.wanted / sum.all;
+    map.regions[id].wanted_share = sum.all > 0.0 ? sum.wanted / sum.all : 1.0;
   }
-  return shares;
+  return absl::OkStatus();
 }
 
 }  // namespace patchmill

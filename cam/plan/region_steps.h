@@ -26,9 +26,9 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
 absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<RegionChoice>& choices,
                                  const Resolved& resolved, const RunContext& run, const RegionMap& map);
 
-// How much of the area of every region is selected (IsWanted), 0 to 1, by the same points; 1 where none of
-// them is seen. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<double>> WantedShares(const Surface& surface, const Containment& containment,
-                                                 const RunContext& run, const RegionMap& map);
+// Fills wanted_share: how much of the area of every region is selected (IsWanted), 0 to 1, by the same
+// points; 1 where none of them is seen. CANCELLED, DEADLINE_EXCEEDED from `run`.
+absl::Status FillWantedShares(const Surface& surface, const Containment& containment, const RunContext& run,
+                              RegionMap& map);
 
 }  // namespace patchmill

@@ -8,6 +8,7 @@
 #include "cam/location/keep_in.h"
 #include "cam/path/scan_line.h"
 #include "cam/plan/forced_ground.h"
+#include "cam/plan/idle_settings.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/plan_passes.h"
 #include "cam/plan/quickest_angles.h"
@@ -74,6 +75,7 @@ absl::StatusOr<ChosenRegions> MakeRegions(const Surface& surface, const Job& job
   PM_ASSIGN_OR_RETURN(regions.circles,
                       ChooseRoundLines(surface, regions.map, resolved, run, regions.choices));
   PM_RETURN_IF_ERROR(FillSteps(surface, regions.choices, resolved, run, regions.map));
+  PM_RETURN_IF_ERROR(FillWantedShares(surface, resolved.containment, run, regions.map));
   return regions;
 }
 
@@ -193,11 +195,12 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   report.controller_tolerance = resolved.budget.controller;
   report.diagnostics = Assumptions(job, resolved);
   const Diagnostics assumptions = report.diagnostics;
+  const Diagnostics idle = IdleSettings(job.operation);
 
   PM_ASSIGN_OR_RETURN(const ModelCheck check,
                       CheckModel(surface, job.operation.tool, ReachGive(job.operation.tolerance), run));
   report.min_concave_radius = check.min_concave_radius;
-  for (const Diagnostics* findings : {&job.model_remarks, &check.findings}) {
+  for (const Diagnostics* findings : {&idle, &job.model_remarks, &check.findings}) {
     report.diagnostics.insert(report.diagnostics.end(), findings->begin(), findings->end());
   }
   clock.Done("check");
@@ -241,8 +244,6 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   clock.Done("passes");
   if (planned.paths.empty()) {
     report.outcome = Outcome::kNothingToCut;
-    PM_ASSIGN_OR_RETURN(report.wanted_shares,
-                        WantedShares(surface, resolved.containment, run, result.regions));
     report.diagnostics.push_back(Warning(
         "NOTHING_TO_CUT",
         fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm: check --scale "

@@ -17,6 +17,8 @@
 namespace patchmill::cli {
 namespace {
 
+constexpr double kWhole = 1e-6;  // of the area: less than this is rounding
+
 struct RegionsOptions {
   CommonOptions common;
   SetupOptions setup;
@@ -54,6 +56,7 @@ absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& option
 
 std::string HowItIsCut(const v1::Region& region) {
   if (region.skipped()) return "off";
+  if (region.area_mm2() > 0.0 && !(region.selected_area_mm2() > 0.0)) return "not selected";
   std::string text;
   if (region.kind() == v1::REGION_KIND_UNREACHABLE) {
     text = fmt::format("{}, up to {:.3f} mm stays", Short(region.unreachable_reason()),
@@ -73,8 +76,11 @@ std::string HowItIsCut(const v1::Region& region) {
   }
   if (region.has_zigzag_angle_deg())
     text += fmt::format(" {:g} deg{}", region.zigzag_angle_deg(), region.one_way_lines() ? " one way" : "");
-  return text + fmt::format(", scallop {:g}, step {:.3f} to {:.3f} mm", region.scallop_mm(),
-                            region.step_min_mm(), region.step_max_mm());
+  text += fmt::format(", scallop {:g}, step {:.3f} to {:.3f} mm", region.scallop_mm(), region.step_min_mm(),
+                      region.step_max_mm());
+  if (region.selected_area_mm2() < (1.0 - kWhole) * region.area_mm2())
+    text += fmt::format(", {:.1f} mm2 of it selected", region.selected_area_mm2());
+  return text;
 }
 
 double Length(const v1::BorderLine& line) {
@@ -121,6 +127,11 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
   if (!response.ok()) return response.status();
   if (output.wanted()) output.Set(response->has_picture() ? response->picture().data() : Json(*response));
   if (const absl::Status written = Commit({&output}); !written.ok()) return written;
+  // What is said of the model `check` tells.
+  for (const v1::Diagnostic& finding : response->diagnostics()) {
+    if (finding.severity() != v1::SEVERITY_INFO && !finding.where().field().empty())
+      fmt::print(stderr, "{}\n", Line(finding));
+  }
   if (!options.common.quiet || !output.wanted()) Print(response->regions());
   return absl::OkStatus();
 }

@@ -38,10 +38,7 @@ void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Rep
   const auto skipped = [&](const Region& region) {
     return from.choices[static_cast<std::size_t>(region.id)].skip;
   };
-  const auto area = [&](const Region& region) {
-    const auto id = static_cast<std::size_t>(region.id);
-    return Number(region.area) * (id < from.wanted_shares.size() ? from.wanted_shares[id] : 1.0);
-  };
+  const auto area = [](const Region& region) { return Number(region.area * region.wanted_share); };
   double unreachable = 0.0, reachable = 0.0;
   for (const UnreachableReason reason : kReasons) {
     v1::UnreachablePart part;
@@ -149,6 +146,7 @@ v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3&
   proto.set_id(region.id);
   proto.set_kind(ToProto(region.kind));
   proto.set_area_mm2(Number(region.area));
+  proto.set_selected_area_mm2(Number(region.area * region.wanted_share));
   *proto.mutable_inside_point() = ToProto(Vec3(region.inside - zero));
   proto.set_min_z_mm(Number(region.z_min - zero.z()));
   proto.set_max_z_mm(Number(region.z_max - zero.z()));

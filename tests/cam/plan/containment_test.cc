@@ -379,8 +379,8 @@ TEST(Containment, NothingToCutCountsWhatIsSelected) {
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kNothingToCut);
   ASSERT_EQ(result.report.regions.size(), 1u);
-  ASSERT_EQ(result.report.wanted_shares.size(), 1u);
-  EXPECT_NEAR(result.report.wanted_shares[0] * result.report.regions[0].area, 12 * 8, 1.0);
+  ASSERT_EQ(result.report.regions.size(), 1u);
+  EXPECT_NEAR(result.report.regions[0].wanted_share * result.report.regions[0].area, 12 * 8, 1.0);
 }
 
 }  // namespace

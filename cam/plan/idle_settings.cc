@@ -1,0 +1,60 @@
+#include "cam/plan/idle_settings.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace patchmill {
+namespace {
+
+Diagnostic Idle(std::string field, const char* setting, const char* why) {
+  Diagnostic d;
+  d.code = "SETTING_WITHOUT_EFFECT";
+  d.severity = Severity::kWarning;
+  d.message = fmt::format("{} has no effect: {}", setting, why);
+  d.where.field = std::move(field);
+  return d;
+}
+
+constexpr char kAllContours[] = "everything is cut by contours";
+constexpr char kAllLines[] = "everything is cut by lines";
+
+}  // namespace
+
+Diagnostics IdleSettings(const Operation& op) {
+  Diagnostics idle;
+  const auto strategy_of = [&](const RegionOverride& change) {
+    return change.strategy.value_or(op.strategy);
+  };
+  const auto all = [&](Strategy strategy) {
+    return op.strategy == strategy &&
+           std::all_of(op.overrides.begin(), op.overrides.end(), [&](const RegionOverride& change) {
+             return change.skip || strategy_of(change) == strategy;
+           });
+  };
+  if (all(Strategy::kContour)) {
+    if (op.zigzag_angle != 0.0) idle.push_back(Idle("zigzag_angle_deg", "an angle of lines", kAllContours));
+    if (op.angle_auto) idle.push_back(Idle("zigzag_angle_auto", "the quickest angle of lines", kAllContours));
+    if (op.one_way) idle.push_back(Idle("one_way_lines", "one way", kAllContours));
+  }
+  if (all(Strategy::kZigzag)) {
+    if (op.spirals) idle.push_back(Idle("contour_spirals", "spirals", kAllLines));
+    if (op.contour_direction != CutDirection::kClimb)
+      idle.push_back(Idle("contour_direction", "a direction of contours", kAllLines));
+  }
+  for (std::size_t k = 0; k < op.overrides.size(); ++k) {
+    const RegionOverride& change = op.overrides[k];
+    if (change.skip || strategy_of(change) != Strategy::kContour) continue;
+    const auto field = [&](const char* name) { return fmt::format("region_overrides[{}].{}", k, name); };
+    constexpr char kContours[] = "the region is cut by contours";
+    if (change.zigzag_angle)
+      idle.push_back(Idle(field("zigzag_angle_deg"), "a region's angle of lines", kContours));
+    if (change.one_way.value_or(false))
+      idle.push_back(Idle(field("one_way_lines"), "a region's one way", kContours));
+  }
+  return idle;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,13 @@
+// Settings of a job that change nothing, so that nobody waits for them.
+#pragma once
+
+#include "cam/plan/job.h"
+
+namespace patchmill {
+
+// A warning SETTING_WITHOUT_EFFECT for each, with its field: what is said of lines where contours cut all
+// that it is said of (an angle, one way, the quickest angle), and of contours where only lines do (spirals, a
+// direction other than climb). Only what holds whatever the part is.
+Diagnostics IdleSettings(const Operation& op);
+
+}  // namespace patchmill
