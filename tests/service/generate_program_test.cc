@@ -323,7 +323,7 @@ TEST_F(GenerateProgram, ScallopsOfRegionsAreCountedToo) {
               RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
 }
 
-// An angle to be chosen is 18 plans at most.
+// An angle to be chosen is 20 plans at most.
 TEST_F(GenerateProgram, PlansForAnAngleAreCountedToo) {
   const auto refused = [&](double size, bool chosen) {
     v1::GenerateProgramRequest request = BumpRequest(size);
@@ -336,8 +336,8 @@ TEST_F(GenerateProgram, PlansForAnAngleAreCountedToo) {
   };
   double size = 100.0;  // mm: the first that one plan is refused for, to 2 %
   while (!refused(size, false)) size *= 1.02;
-  EXPECT_FALSE(refused(0.95 * size / std::sqrt(18.0), true));
-  EXPECT_TRUE(refused(1.05 * size / std::sqrt(18.0), true));
+  EXPECT_FALSE(refused(0.95 * size / std::sqrt(20.0), true));
+  EXPECT_TRUE(refused(1.05 * size / std::sqrt(20.0), true));
 }
 
 // Neither hides behind a small plan: a wall has no plan, and small steps make many points.
