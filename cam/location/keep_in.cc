@@ -80,11 +80,11 @@ double KeepIn::MoveRoom(const Vec3& c) const {
 }
 
 bool KeepIn::TooHigh(double center_z) const {
-  return TopRoom(*containment_, Tip(Vec3(0.0, 0.0, center_z))) < -kTopSlack;
+  return TopRoom(*containment_, center_z - params_.ball_radius) < -kTopSlack;
 }
 
 double KeepIn::Room(const Vec3& c) const {
-  return std::min(MoveRoom(c), TopRoom(*containment_, Tip(c)) + kTopSlack);
+  return std::min(MoveRoom(c), TopRoom(*containment_, Tip(c).z()) + kTopSlack);
 }
 
 std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q) const {
@@ -129,8 +129,8 @@ bool KeepIn::ClearOfAvoided(const Vec3& a, const Vec3& b) const {
 }
 
 bool KeepIn::AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const {
-  const Vec3& higher = a.z() > b.z() ? a : b;
-  if (finishing && TopRoom(*containment_, Tip(higher)) < -0.5 * params_.tolerance) return false;
+  const double highest = std::max(Tip(a).z(), Tip(b).z());
+  if (finishing && TopRoom(*containment_, highest) < -0.5 * params_.tolerance) return false;
   return HasRoom(a, b) && ClearOfAvoided(a, b);
 }
 

@@ -97,7 +97,7 @@ class SpotFinder {
   const double radius_;
   const double flat_;
   const double covered_, covered2_;  // mm, from a move: and the square
-  double lowest_center_;             // mm: that counts as reached
+  const double lowest_center_;       // mm: that counts as reached
   CellReachParams cell_reach_, near_reach_;
 };
 

@@ -12,6 +12,7 @@
 #include "cam/path/point_cells.h"
 #include "cam/path/scan_line.h"
 #include "cam/path/spacing.h"
+#include "core/base/silence.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -346,9 +347,11 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return spots_[a].leftover > spots_[b].leftover; });
   const std::size_t report_every = order.size() / 64 + 1;
+  Silence silence;
   for (std::size_t n = 0; n < order.size(); ++n) {
     const std::size_t i = order[n];
-    if (n % report_every == 0) {
+    if (n % report_every == 0 || silence.TooLong()) {
+      silence.Break();
       run_.Progress("coverage: passes", static_cast<double>(n) / static_cast<double>(order.size()));
     }
     if (!open_[i]) continue;

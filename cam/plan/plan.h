@@ -17,7 +17,7 @@ absl::StatusOr<PatchNetwork> BuildPlacedNetwork(PatchModel model, const Setup& s
 absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup, const RunContext& run);
 
 // Model findings of CheckModel: network, curvature against the tool, size warnings. A concave radius counts
-// as below the ball's where that lies deeper in it than `give` (mm) all over (ReachGive).
+// as below the ball's when it is smaller by more than `give`, mm (ReachGive).
 struct ModelCheck {
   Diagnostics findings;
   Box3 box;                               // placed

@@ -47,8 +47,10 @@ struct MergedRegions {
 // 2 border_turn, or whose slope is off by less than 2 border_slope over its width, goes with its sides. Then
 // neighbours of equal labels are one region, mountains of different summits and basins of different pits
 // apart, and the smallest (by area, then index) of those below min_area or min_width joins the neighbour with
-// the longest common border; then the smallest of all while there are more than max_regions. What no ball
-// reaches keeps apart from what is reached; it fuses by reason.
+// the longest common border; then the smallest of all while there are more than max_regions. What is left
+// below min_area has no neighbour: all of one label goes with the largest region of that label, or is one by
+// itself from a tenth of min_area on, and less goes with the largest of its slope. What no ball reaches keeps
+// apart from what is reached; it fuses by reason.
 MergedRegions MergeRegions(const std::vector<RawRegion>& raw, const std::vector<RawContact>& contacts,
                            const MergeParams& params);
 

@@ -52,8 +52,8 @@ double ObstacleRoom(const Obstacle& obstacle, const Vec3& tip, double tool_radiu
   return std::max(beside, tip.z() - obstacle.top_z) - obstacle.margin;
 }
 
-double TopRoom(const Containment& containment, const Vec3& tip) {
-  return containment.top_z ? *containment.top_z - tip.z() : kInfinity;
+double TopRoom(const Containment& containment, double tip_z) {
+  return containment.top_z ? *containment.top_z - tip_z : kInfinity;
 }
 
 }  // namespace patchmill

@@ -61,6 +61,6 @@ double ContactRoomOutside(const Containment& containment, const Vec3& p);
 double BoundaryRoom(const Containment& containment, const Vec2& center, double ball_radius);
 // `tool_radius`: the wider one of ball and shank.
 double ObstacleRoom(const Obstacle& obstacle, const Vec3& tip, double tool_radius);
-double TopRoom(const Containment& containment, const Vec3& tip);
+double TopRoom(const Containment& containment, double tip_z);
 
 }  // namespace patchmill

@@ -107,7 +107,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
     // Touching: the surface lies within `slack` of the ball, beside what Broken allows.
     const double touching = radius + 2.0 * slack;
     const Room room = [&](const Vec3& center) {
-      const double below = TopRoom(c, center - Vec3(0.0, 0.0, limits.ball));
+      const double below = TopRoom(c, center.z() - limits.ball);
       if (below >= 0.0) return below;
       const auto nearest = ClosestToPoint(surface, center, touching + kClear, 0.1 * kCertainty);
       return std::max(below, nearest ? nearest->distance - touching : kClear);
@@ -115,7 +115,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
     std::vector<PathSegment> feeds = CollectMoves(motion, MotionSet::kCut, offset);
     std::erase_if(feeds, [](const PathSegment& s) { return Plan(s.b - s.a).norm() < kCertainty; });
     std::vector<Least> broken = Broken(feeds, room, slack);
-    for (Least& b : broken) b.room = TopRoom(c, b.at - Vec3(0.0, 0.0, limits.ball));
+    for (Least& b : broken) b.room = TopRoom(c, b.at.z() - limits.ball);
     report.Add("ABOVE_TOP", std::move(broken), "a feed touches the surface above the highest tip");
   }
   return found;

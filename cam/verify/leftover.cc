@@ -154,9 +154,9 @@ class LeftoverSearch {
       if (corner->both || corner->e.dot(facing.e) < 0.0) facing.both = true;  // a silhouette runs through it
       turn = std::max(turn, std::min((corner->e - facing.e).norm(), (corner->e + facing.e).norm()));
     }
-    if (OutsideHeights(cell, facing, 1.25 * turn)) return true;
     const double spread = cell.radius + 1.25 * turn * params_.reach.radius;
     if (spread > params_.reach.radius) return false;
+    if (OutsideHeights(cell, facing, 1.25 * turn)) return true;
     return BlockedDepth(surface_, cell.middle, facing, params_.reach, obstacles_) > spread;
   }
 

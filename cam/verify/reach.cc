@@ -116,7 +116,7 @@ double RoomAt(const CenterLimits& limits, const Vec3& center) {
 
 double TopRoomAt(const CenterLimits& limits, double center_z) {
   if (limits.containment == nullptr) return kInfinity;
-  return TopRoom(*limits.containment, Vec3(0.0, 0.0, center_z - limits.ball)) + kTopSlack;
+  return TopRoom(*limits.containment, center_z - limits.ball) + kTopSlack;
 }
 
 std::optional<Facing> FacingAt(const SurfaceJet& jet) {

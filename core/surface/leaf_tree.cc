@@ -167,6 +167,7 @@ struct Builder {
       return;
     }
     if (items.size() > 256 && run.Cancelled()) return;
+    if (rest != nullptr) run.Progress("bounds: tree", 0.0);  // a pass over so many items takes a while
     const std::size_t left = Part(items, spread, depth);
     node.right = static_cast<std::int32_t>(self + 2 * left);
     Build({items.first(left), self + 1, depth + 1}, enough, rest);

@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/share_progress.h"
+#include "core/base/silence.h"
 #include "core/base/status.h"
 #include "core/surface/leaf_tree.h"
 #include "core/surface/net_kernel.h"
@@ -21,6 +22,7 @@ namespace {
 constexpr double kMaxCurl = 0.1;
 
 constexpr std::size_t kBatch = 2048;  // pieces
+constexpr const char* kStage = "bounds";
 
 struct Leaves {
   std::vector<SurfaceLeaf> leaves;
@@ -198,12 +200,36 @@ absl::StatusOr<bool> MakeLeaves(const Surface& surface, Budget& budget, std::vec
     Leaves& batch = batches.emplace_back();
     batch.leaves.reserve(leaves);
     batch.boxes.reserve(leaves);
+    Silence silence;
     for (std::size_t k = 0; k < here; ++k) {
       if (k % 64 == 0) PM_RETURN_IF_ERROR(budget.run.Check());
       batch.Append(parts[k]);
+      if (!silence.TooLong()) continue;
+      silence.Break();
+      budget.run.Progress(kStage, static_cast<double>(begin + here) / static_cast<double>(count));
     }
   }
   return true;
+}
+
+// The leaves of all batches in one, each batch freed before the next is held twice.
+absl::StatusOr<Leaves> Joined(std::vector<Leaves> batches, const RunContext& run) {
+  if (batches.size() == 1) return std::move(batches.front());
+  std::size_t count = 0;
+  for (const Leaves& batch : batches) count += batch.leaves.size();
+  Leaves all;
+  all.leaves.reserve(count);
+  all.boxes.reserve(count);
+  for (Leaves& batch : batches) {
+    run.Progress(kStage, 1.0);
+    constexpr std::size_t kBetweenPolls = 1 << 14;
+    for (std::size_t from = 0; from < batch.leaves.size(); from += kBetweenPolls) {
+      PM_RETURN_IF_ERROR(run.Check());
+      all.Append(batch, from, std::min(from + kBetweenPolls, batch.leaves.size()));
+    }
+    batch = {};
+  }
+  return all;
 }
 
 // Leaves wanted at a thickness, from how the nets of the whole pieces bend; rather too many.
@@ -235,7 +261,7 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   double thickness = params.leaf_thickness;
   std::vector<Leaves> batches;
   for (int max_depth = params.max_depth;;) {
-    Budget budget{thickness, max_depth, max_leaves, run, {run, "bounds", surface.pieces.size()}};
+    Budget budget{thickness, max_depth, max_leaves, run, {run, kStage, surface.pieces.size()}};
     PM_ASSIGN_OR_RETURN(const bool fits, MakeLeaves(surface, budget, batches));
     if (fits) break;
     // Skip what is hopeless even if the estimate is 16 times too high.
@@ -246,19 +272,7 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
     } while (EstimateLeaves(surface.pieces, thickness, max_depth) > 16.0 * static_cast<double>(max_leaves));
   }
 
-  std::size_t count = 0;
-  for (const Leaves& batch : batches) count += batch.leaves.size();
-  Leaves all;
-  all.leaves.reserve(count);
-  all.boxes.reserve(count);
-  for (Leaves& batch : batches) {  // each freed before the next is held twice
-    constexpr std::size_t kBetweenPolls = 1 << 14;
-    for (std::size_t from = 0; from < batch.leaves.size(); from += kBetweenPolls) {
-      PM_RETURN_IF_ERROR(run.Check());
-      all.Append(batch, from, std::min(from + kBetweenPolls, batch.leaves.size()));
-    }
-    batch = {};
-  }
+  PM_ASSIGN_OR_RETURN(Leaves all, Joined(std::move(batches), run));
   run.Progress("bounds: tree", 0.0);
   surface.leaves = std::move(all.leaves);
   surface.nodes = BuildLeafTree(all.boxes, run);

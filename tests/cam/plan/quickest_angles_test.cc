@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/jobs/jobs.h"
+#include "tests/support/profiles.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
@@ -137,6 +138,20 @@ TEST(QuickestAngles, AlongARidgeThatLiesAskew) {
       EXPECT_GT(Mill(surface, job).report.motion.time, 1.02 * result.report.motion.time) << askew << " " << k;
     }
   }
+}
+
+// By the estimate circles are hardly shorter around so wide a ring; they are quicker, for they are closed.
+TEST(QuickestAngles, CirclesAroundAWideRing) {
+  const Surface surface = PlacedSurface(Turned({Line({4, 0}, {40, -7.2})}));
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.05;
+  EXPECT_FALSE(Mill(surface, job).report.choices.front().around);
+  job.operation.angle_auto = true;
+  const JobResult result = Mill(surface, job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  EXPECT_TRUE(result.report.choices.front().around);
+  job.operation.round_lines = false;
+  EXPECT_LT(result.report.motion.time, 0.97 * Mill(surface, job).report.motion.time);
 }
 
 // Widest steps, fewest lines: along a ridge, which bends across them, and across a hollow, which would bend

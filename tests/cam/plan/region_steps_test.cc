@@ -129,6 +129,26 @@ TEST(LeastFeed, LeavesOutSkippedRegions) {
   EXPECT_NEAR(Mill(dome, job).report.least_feed, all * share, 0.01 * all);
 }
 
+// The map is that of the whole part, whatever is selected.
+TEST(WantedShare, IsWhatIsSelectedOfARegion) {
+  const Surface surface = PlacedSurface(Plane(12));
+  const auto shares = [&](auto select) {
+    Job job = BallJob(3.0);
+    select(job.operation.selection);
+    const auto regions = PlanRegions(surface, job, RunContext());
+    EXPECT_TRUE(regions.ok()) << regions.status();
+    EXPECT_EQ(regions->map.regions.size(), 1u);
+    return regions->map.regions[0].wanted_share;
+  };
+  EXPECT_EQ(shares([](Selection&) {}), 1.0);
+  EXPECT_EQ(shares([](Selection& s) { s.avoid = {"#0"}; }), 0.0);
+  EXPECT_NEAR(shares([](Selection& s) {
+                s.boundary = {{{-12, -12}, {6, -12}, {6, 12}, {-12, 12}}};
+                s.boundary_mode = BoundaryMode::kContact;
+              }),
+              0.75, 0.01);
+}
+
 TEST(LeastFeed, LeavesOutWhatIsNotSelected) {
   const Surface surface = PlacedSurface(TwoPlanes(Radians(20), 12));
   Job job = BallJob(3.0);

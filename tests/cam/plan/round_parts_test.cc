@@ -232,5 +232,13 @@ TEST(RoundParts, PinOnAPlate) {
   EXPECT_EQ(result.report.outcome, Outcome::kComplete);
 }
 
+// A drilled hole with a round bottom, 3 um narrower than the ball all around: as near to it everywhere as the
+// ball may give. Whether it is reached must be known without looking at every micron of it.
+TEST(RoundParts, ABlindHoleALittleTooNarrow) {
+  const double radius = 2.997;
+  MillChecked(PlacedSurface(Turned({Line({9, 0}, {radius, 0}), Line({radius, 0}, {radius, -4}),
+                                    Round({radius, -4}, {radius, -4 - radius}, {0, -4 - radius})})));
+}
+
 }  // namespace
 }  // namespace patchmill
