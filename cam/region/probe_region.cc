@@ -15,7 +15,6 @@ constexpr std::size_t kLooked = 200;
 constexpr std::size_t kDeeper = 12, kTighter = 16;  // around the worst, of leftover and of balls
 constexpr double kNear = 0.5;                       // of the radius: around the deepest
 constexpr double kClosest = 0.01, kCloser = 0.4;    // of the radius, and of the last: around the tightest
-constexpr double kLeast = 10.0;                     // tolerances: a smaller ball is let in by these alone
 
 SurfaceJet JetAt(const Surface& surface, const RegionSpot& spot) {
   return Evaluate(surface.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
@@ -42,7 +41,7 @@ void SortByBend(const Surface& surface, std::vector<RegionSpot>& spots) {
 double BallForAll(const Surface& surface, const std::vector<RegionSpot>& spots, const RegionParams& params,
                   const RunContext& run, RegionSpots& more) {
   double radius = params.radius;
-  const double least = kLeast * params.tolerance;
+  const double least = LeastBall(ReachGive(params.tolerance));
   std::optional<RegionSpot> worst;
   const auto look = [&](const std::vector<RegionSpot>& at) {
     for (const RegionSpot& spot : at) {

@@ -17,6 +17,7 @@ namespace {
 
 // The constants of docs/reach.md.
 constexpr double kVertical = 1e-6;  // |e_z| below this: no side is the upper one
+constexpr double kOverLeast = 0.5;  // of the least ball's radius: what is over it comes nearer to its axis
 
 constexpr int kMostSlides = 12;  // Newton steps of an obstacle, unless one is
 constexpr double kSlid = 1e-4;   // of the radius: what is left then is the square
@@ -80,21 +81,31 @@ double ReachTest::Slide(RaySlide& obstacle, const SurfaceJet& jet) const {
   return FromSet<Reach::kUpwardRay>(obstacle.at().p - center).norm() - free_ball_.radius();
 }
 
-bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal, ShankFinder& shank) const {
-  return shank.Blocked(p + params_.radius * normal) &&
-         (!Upright(normal) || shank.Blocked(p - params_.radius * normal));
+ReachTest::Shanks ReachTest::MakeShanks() const {
+  const double least = LeastBall(ReachGive(params_.tolerance));
+  return {ShankFinder(surface(), cloud_, free_ball_.radius(), params_.radius),
+          ShankFinder(surface(), cloud_, kOverLeast * least, least)};
+}
+
+bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal, Shanks& shanks) const {
+  const double least = LeastBall(ReachGive(params_.tolerance));
+  const auto blocked = [&](const Vec3& e) {
+    return shanks.ball.Blocked(p + params_.radius * e) ||
+           (least < params_.radius && shanks.least.StandsAbove(p + least * e));
+  };
+  return blocked(normal) && (!Upright(normal) || blocked(-normal));
 }
 
 bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal) const {
-  ShankFinder shank(free_ball_, cloud_, params_.radius);
-  return BlockedAbove(p, normal, shank);
+  Shanks shanks = MakeShanks();
+  return BlockedAbove(p, normal, shanks);
 }
 
 void ReachTest::BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<double> signs) const {
-  ShankFinder shank(free_ball_, cloud_, params_.radius);
+  Shanks shanks = MakeShanks();
   for (std::size_t i = 0; i < jets.size(); ++i) {
     const auto normal = UpwardNormal(jets[i]);
-    signs[i] = !normal ? 0.0 : BlockedAbove(jets[i].p, *normal, shank) ? -1.0 : 1.0;
+    signs[i] = !normal ? 0.0 : BlockedAbove(jets[i].p, *normal, shanks) ? -1.0 : 1.0;
   }
 }
 

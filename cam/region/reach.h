@@ -49,7 +49,11 @@ class ReachTest {
                           const RunContext& run) const;
 
  private:
-  bool BlockedAbove(const Vec3& p, const Vec3& normal, ShankFinder& shank) const;
+  struct Shanks {
+    ShankFinder ball, least;
+  };
+  Shanks MakeShanks() const;
+  bool BlockedAbove(const Vec3& p, const Vec3& normal, Shanks& shanks) const;
   const Locator& free_ball_;
   const RegionParams& params_;
   ObstacleCloud cloud_;

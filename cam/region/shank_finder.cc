@@ -12,12 +12,13 @@ constexpr double kProof = 0.001;  // of the radius: how exactly distances are kn
 
 }  // namespace
 
-ShankFinder::ShankFinder(const Locator& ball, const ObstacleCloud& cloud, double radius)
-    : surface_(ball.surface()),
+ShankFinder::ShankFinder(const Surface& surface, const ObstacleCloud& cloud, double free_radius,
+                         double radius)
+    : surface_(surface),
       cloud_(cloud),
-      ball_radius_(ball.radius()),
+      free_radius_(free_radius),
       radius_(radius),
-      clear_(0.5 * (ball_radius_ + radius_)),
+      clear_(0.5 * (free_radius + radius)),
       proof_(kProof * radius),
       nearer_(kNearer * radius) {
   last_.fill(Vec3::Constant(kInfinity));
@@ -32,13 +33,18 @@ double ShankFinder::KnownAbove(const Vec3& center) const {
 }
 
 bool ShankFinder::Blocked(const Vec3& center) {
-  const bool known = KnownAbove(center) < ball_radius_;
+  const bool known = KnownAbove(center) < free_radius_;
   if (!known && !MayRiseAbove(surface_, center, radius_)) return false;
   return ShankIsNearer(center, known) || BallClears(center);
 }
 
+bool ShankFinder::StandsAbove(const Vec3& center) {
+  const bool known = KnownAbove(center) < free_radius_;
+  return (known || MayRiseAbove(surface_, center, free_radius_)) && ShankIsNearer(center, known);
+}
+
 bool ShankFinder::BallClears(const Vec3& center) {
-  const double proof = 0.1 * (radius_ - ball_radius_);
+  const double proof = 0.1 * (radius_ - free_radius_);
   if (NearAtMost(center) < clear_ - proof) return false;  // a search is sure to see it
   const auto near = ClosestToPoint(surface_, center, clear_, proof);
   if (near) near_ = near->at.p;
@@ -55,7 +61,7 @@ double ShankFinder::NearAtMost(const Vec3& center) {
 // With T the distance from the upward ray and B that from the centre: T < B - nearer. Any point above gives
 // an upper bound of T, any point one of B.
 bool ShankFinder::ShankIsNearer(const Vec3& center, bool known) {
-  double limit = ball_radius_ + proof_;
+  double limit = free_radius_ + proof_;
   if (known) {
     const auto near = ClosestToPoint(surface_, center, KnownAbove(center) + nearer_, proof_);
     if (!near) return true;

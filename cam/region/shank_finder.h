@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "cam/location/locator.h"
 #include "cam/region/obstacle_cloud.h"
+#include "core/surface/surface.h"
 
 namespace patchmill {
 
@@ -12,13 +12,15 @@ namespace patchmill {
 // For balls near each other, one after the other; what an answer rests on is proven anew for each.
 class ShankFinder {
  public:
-  // `ball` is the free ball of ReachTest, `radius` that of the tool with the stock to leave.
-  ShankFinder(const Locator& ball, const ObstacleCloud& cloud, double radius);
+  // `radius` is that of the ball that touches the ground, `free_radius` what of it must be free, both mm.
+  ShankFinder(const Surface& surface, const ObstacleCloud& cloud, double free_radius, double radius);
 
   // Of a ball that is not free: something over the one at `center` comes nearer to its axis than anything
   // does to the centre, by 0.02 radii, with distances known to 0.001 of them; or the ball alone would be
   // free, by half of ReachGive.
   bool Blocked(const Vec3& center);
+  // The first alone, of any ball: what is over it comes nearer than free_radius as well.
+  bool StandsAbove(const Vec3& center);
 
  private:
   // The first half of it. `known`: KnownAbove is nearer than the free ball's radius.
@@ -32,7 +34,7 @@ class ShankFinder {
 
   const Surface& surface_;
   const ObstacleCloud& cloud_;
-  const double ball_radius_, radius_;
+  const double free_radius_, radius_;
   const double clear_;  // halfway between the two: the ball alone is free when nothing is nearer
   const double proof_, nearer_;
   Vec3 near_ = Vec3::Constant(kInfinity);  // what was nearest last

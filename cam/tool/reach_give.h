@@ -10,6 +10,11 @@ namespace patchmill {
 // alone would be asked for, and no program could finish it within P1.
 constexpr double ReachGive(double tolerance) { return 0.5 * tolerance; }
 
+// mm, radius: smaller balls get in by the tolerance alone, or nearly so. No tool is named for ground that
+// only they reach; and where something stands above this one, ground is UNDERCUT, whatever keeps the tool's
+// ball.
+constexpr double LeastBall(double give) { return 20.0 * give; }
+
 // mm: rounding of a highest tip at the surface itself.
 inline constexpr double kTopSlack = 1e-6;
 

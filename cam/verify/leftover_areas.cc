@@ -14,11 +14,15 @@ namespace patchmill {
 
 namespace {
 
-constexpr int kDeepestReason = 2;        // quarterings between two reasons
-constexpr int kDeepestBorder = 5;        // and at most between reachable and not
-constexpr double kBorderCells = 60'000;  // about as many cells are spent on the border
-constexpr double kFarSlack = 0.02;       // how exactly the distance of far unreachable points is known
-constexpr double kNear = 2.0;            // of the radius: nearer ones are measured exactly
+// Quarterings at most, and about how many cells are spent on them.
+struct Spent {
+  int deepest;
+  double cells;
+};
+constexpr Spent kBorder = {5, 60'000};  // between reachable and not
+constexpr Spent kReasons = {4, 2'000};  // between two reasons
+constexpr double kFarSlack = 0.02;      // how exactly the distance of far unreachable points is known
+constexpr double kNear = 2.0;           // of the radius: nearer ones are measured exactly
 
 // One point of the surface as the areas need it.
 struct Sample {
@@ -60,6 +64,21 @@ double LowestCenter(const Surface& surface, const Sums& sums, const ReachParams&
   return best;
 }
 
+// What runs through a cell.
+struct Limits {
+  bool border = false;   // of the reachable set
+  bool reasons = false;  // between two reasons
+};
+
+// How often to quarter so many cells: those of a line double each time.
+int DeepestFor(std::size_t cells, const Spent& spent) {
+  int deepest = 1;
+  while (deepest < spent.deepest && static_cast<double>(cells) * std::exp2(deepest + 1) <= spent.cells) {
+    ++deepest;
+  }
+  return deepest;
+}
+
 bool Unreachable(FinishClass kind) {
   return kind == FinishClass::kUndercut || kind == FinishClass::kConcave || kind == FinishClass::kFloor ||
          kind == FinishClass::kAvoided;
@@ -67,12 +86,14 @@ bool Unreachable(FinishClass kind) {
 
 class AreaSampler {
  public:
-  // Cells are quartered `deepest` times where the border of the reachable set runs.
-  AreaSampler(const Surface& surface, const SegmentTree& tree, const LeftoverParams& params, int deepest)
-      : surface_(surface), tree_(tree), params_(params), deepest_(deepest) {}
+  // Cells are quartered `border` times where the border of the reachable set runs, `reasons` times between
+  // reasons.
+  AreaSampler(const Surface& surface, const SegmentTree& tree, const LeftoverParams& params, int border,
+              int reasons)
+      : surface_(surface), tree_(tree), params_(params), border_(border), reasons_(reasons) {}
 
-  // Returns whether the border runs through the cell.
-  bool Add(const CellRect& cell, int depth, Sums& sums) {
+  // Returns what runs through the cell.
+  Limits Add(const CellRect& cell, int depth, Sums& sums) {
     // The middle and the corners: a border that crosses the cell shows. The weights make the area exact for
     // a cubic area element.
     constexpr double kMiddleWeight = 2.0 / 3.0, kCornerWeight = 1.0 / 12.0;
@@ -81,19 +102,19 @@ class AreaSampler {
         &At(cell.piece, cell.u1, cell.v0, sums), &At(cell.piece, cell.u1, cell.v1, sums),
         &At(cell.piece, cell.u(), cell.v(), sums)};
     const std::optional<FinishClass> middle = samples[4]->kind;
-    bool border = false, reasons = false;
+    Limits limits;
     for (const Sample* sample : samples) {
       if (!middle || !sample->kind || *sample->kind == *middle) continue;
-      (Unreachable(*middle) && Unreachable(*sample->kind) ? reasons : border) = true;
+      (Unreachable(*middle) && Unreachable(*sample->kind) ? limits.reasons : limits.border) = true;
     }
-    if ((border && depth < deepest_) || (reasons && depth < std::min(deepest_, kDeepestReason))) {
+    if ((limits.border && depth < border_) || (limits.reasons && depth < reasons_)) {
       for (int k = 0; k < 4; ++k) {
         CellRect part = cell;
         (k / 2 == 0 ? part.u1 : part.u0) = cell.u();
         (k % 2 == 0 ? part.v1 : part.v0) = cell.v();
         Add(part, depth + 1, sums);
       }
-      return border;
+      return limits;
     }
     const double size = (cell.u1 - cell.u0) * (cell.v1 - cell.v0);
     for (std::size_t k = 0; k < 5; ++k) {
@@ -101,7 +122,7 @@ class AreaSampler {
       sums.report.area[static_cast<std::size_t>(*samples[k]->kind)] +=
           size * (k == 4 ? kMiddleWeight : kCornerWeight) * samples[k]->element;
     }
-    return border;
+    return limits;
   }
 
  private:
@@ -182,7 +203,7 @@ class AreaSampler {
   const Surface& surface_;
   const SegmentTree& tree_;
   const LeftoverParams& params_;
-  int deepest_;
+  int border_, reasons_;
   Obstacles obstacles_;
   int hint_ = -1;
   std::unordered_map<Key, Sample, KeyHash> samples_;
@@ -204,19 +225,24 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
   const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
   std::vector<Sums> parts(chunks);
   std::vector<std::vector<std::size_t>> borders(chunks);
-  const auto sample = [&](int deepest, const char* stage) {
+  std::vector<std::array<std::size_t, 2>> counts(chunks);
+  const auto sample = [&](int border, int reasons, const char* stage) {
+    const bool first = border == 0;
     return ParallelFor(run, stage, chunks, [&](std::size_t chunk) {
-      AreaSampler sampler(surface, tree, params, deepest);
+      AreaSampler sampler(surface, tree, params, border, reasons);
       Sums& sums = parts[chunk];
       const std::vector<std::size_t> again = std::move(borders[chunk]);
       borders[chunk].clear();
       const auto add = [&](std::size_t i) {
         const std::array<double, kFinishClasses> before = sums.report.area;
-        if (!sampler.Add(roots[i], 0, sums) || deepest > 0) return;
+        const Limits limits = sampler.Add(roots[i], 0, sums);
+        if (!first || !(limits.border || limits.reasons)) return;
+        counts[chunk][0] += limits.border;
+        counts[chunk][1] += limits.reasons;
         borders[chunk].push_back(i);  // its area comes in the next round
         sums.report.area = before;
       };
-      if (deepest > 0) {
+      if (!first) {
         for (std::size_t k = 0; k < again.size() && !run.Cancelled(); ++k) add(again[k]);
         return;
       }
@@ -225,12 +251,14 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
     });
   };
   // First all roots as they are, then the border as finely as its length allows.
-  PM_RETURN_IF_ERROR(sample(0, "verify: reach"));
-  double cells = 1.0;
-  for (const auto& border : borders) cells += static_cast<double>(border.size());
-  int deepest = 1;
-  while (deepest < kDeepestBorder && cells * std::exp2(deepest + 1) <= kBorderCells) ++deepest;
-  PM_RETURN_IF_ERROR(sample(deepest, "verify: limits of reach"));
+  PM_RETURN_IF_ERROR(sample(0, 0, "verify: reach"));
+  std::size_t border = 0, reasons = 0;
+  for (const auto& [of_border, of_reasons] : counts) {
+    border += of_border;
+    reasons += of_reasons;
+  }
+  PM_RETURN_IF_ERROR(
+      sample(DeepestFor(border, kBorder), DeepestFor(reasons, kReasons), "verify: limits of reach"));
   Sums sums;
   for (const Sums& part : parts) {
     for (std::size_t k = 0; k < kFinishClasses; ++k) {

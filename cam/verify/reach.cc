@@ -15,6 +15,7 @@ constexpr double kBeside = 0.02;    // of the radius: how far beside a place it 
 constexpr double kProof = 0.02;     // of the give: how exactly "free" is decided
 constexpr double kCoarse = 0.02;    // of the radius: how exactly a blocked depth is known
 constexpr double kNearer = 0.02;    // of the radius: the shank is blocked by more than this beyond the ball
+constexpr double kOverLeast = 0.5;  // of the least ball's radius: what is over it comes nearer to its axis
 constexpr double kReasonProof = 0.004;  // of the radius: how exactly the two are known
 
 std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) {
@@ -70,11 +71,22 @@ bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double 
          NothingNear(surface, c, nearest->distance + nearer, proof, obstacles);
 }
 
-// Of a ball that is not free: UNDERCUT.
+// Of the tool's ball, where it is not free: not because of itself.
 bool BlockedAbove(const Surface& surface, const Vec3& c, const ReachParams& params, Obstacles& obstacles) {
   const double limit = params.radius - params.give;
   return ShankIsNearer(surface, c, params.radius, limit, obstacles) ||
          NothingNear(surface, c, params.radius - 0.5 * params.give, kProof * params.give, obstacles);
+}
+
+// UNDERCUT, where the ball that touches p with this normal is not free: it is blocked above, or something
+// stands above the least ball.
+bool Undercut(const Surface& surface, const Vec3& p, const Vec3& e, const ReachParams& params,
+              Obstacles& obstacles) {
+  if (BlockedAbove(surface, p + params.radius * e, params, obstacles)) return true;
+  const double least = LeastBall(params.give);
+  const Vec3 c = p + least * e;
+  return least < params.radius && MayRiseAbove(surface, c, kOverLeast * least) &&
+         ShankIsNearer(surface, c, least, kOverLeast * least, obstacles);
 }
 
 }  // namespace
@@ -139,7 +151,8 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
     if (InTheWay(surface, c, limit, kProof * params.give, obstacles)) {
-      found = BlockedAbove(surface, c, params, obstacles) ? ReachClass::kUndercut : ReachClass::kConcave;
+      const Vec3 e = side == 0 ? facing.e : Vec3(-facing.e);
+      found = Undercut(surface, p, e, params, obstacles) ? ReachClass::kUndercut : ReachClass::kConcave;
     } else if (c.z() < params.floor_z - params.give) {
       found = ReachClass::kFloor;
     } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.give)) {

@@ -90,6 +90,39 @@ TEST(Reasons, FloorBesideATallWallIsConcave) {
   EXPECT_NEAR(area[kConcave], strip + walls, 0.01 * (strip + walls));
 }
 
+// The inner side of a shell thinner than the ball: what is in the ball's way there is the outer side, but no
+// ball, however small, gets there from above.
+TEST(Reasons, TheUndersideOfAThinShellIsUndercut) {
+  const PatchModel model =
+      Join({Sphere(Vec3::Zero(), 12.0, Half::kUpper), Sphere(Vec3::Zero(), 11.0, Half::kUpper)});
+  const Job job = BallJob(3.0);
+  ExpectAgreement(model, job);
+  const Surface surface = PlacedSurface(model);
+  const double inner = 2.0 * kPi * 11.0 * 11.0;
+  for (const auto& area : {FromRegions(surface, job), FromVerifier(surface, job)}) {
+    EXPECT_NEAR(area[kUndercut], inner, 0.001 * inner);
+    EXPECT_LT(area[kConcave], 0.001 * inner);
+  }
+}
+
+// A plate a millimetre above a floor keeps the ball off it by itself: a smaller one would come no nearer but
+// along the plate's edge.
+TEST(Reasons, UnderAPlateIsUndercutAndBesideItConcave) {
+  const double half = 10.0, give = ReachGive(0.01), under = 0.5 * LeastBall(give);
+  const PatchModel model = Join({Plane(20.0), Plane(half, 1.0)});
+  const Job job = BallJob(3.0);
+  ExpectAgreement(model, job);
+  const Surface surface = PlacedSurface(model);
+  const auto grown = [&](double by) { return 4.0 * half * half + 8.0 * half * by + kPi * by * by; };
+  // Its ball stands on the floor beside the plate, whose edge is 2 mm below the centre.
+  const double tool = std::sqrt((3.0 - give) * (3.0 - give) - 4.0);
+  for (const auto& area : {FromRegions(surface, job), FromVerifier(surface, job)}) {
+    EXPECT_NEAR(area[kUndercut], grown(under), 0.01 * grown(under));
+    const double beside = grown(tool) - grown(under);
+    EXPECT_NEAR(area[kConcave], beside, 0.01 * beside);
+  }
+}
+
 TEST(Reasons, Teacup) {
   Job job = BallJob(3.0, /*deep=*/false);
   job.setup.placement.scale = 50.0;
