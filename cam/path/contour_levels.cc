@@ -9,17 +9,25 @@
 #include "core/base/status.h"
 
 namespace patchmill {
+
+HeightParams HeightParamsOf(const ContourParams& params, double radius) {
+  const double flat = CenterStep(radius, params.scallop, 0.0);
+  return {.radius = radius,
+          .flat = flat,
+          .smallest = std::max(1e-6, params.min_step_fraction * flat),
+          .wide = WideGap(params.scallop, params.chord_tolerance)};
+}
+
 absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground, const ContourParams& params,
-                                                     double radius, const RunContext& run) {
+                                                     double radius, std::optional<double> foot,
+                                                     const RunContext& run) {
   std::vector<PlannedLevel> levels;
   if (ground.samples.empty()) return levels;
-  const double flat = CenterStep(radius, params.scallop, 0.0);
-  const double smallest = std::max(1e-6, params.min_step_fraction * flat);
-  const HeightParams height_params{.radius = radius,
-                                   .flat = flat,
-                                   .smallest = smallest,
-                                   .wide = WideGap(params.scallop, params.chord_tolerance)};
-  PM_ASSIGN_OR_RETURN(std::vector<double> heights, LevelHeights(ground, height_params, run));
+  HeightParams height_params = HeightParamsOf(params, radius);
+  height_params.foot = foot;
+  const double flat = height_params.flat, smallest = height_params.smallest;
+  PM_ASSIGN_OR_RETURN(LevelPlan plan, LevelHeights(ground, height_params, run));
+  std::vector<double>& heights = plan.heights;
   const double floor = params.floor_z + radius;
   for (double& z : heights) z = std::max(z, floor);
   std::sort(heights.begin(), heights.end(), std::greater<>());
@@ -35,6 +43,7 @@ absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground
   std::size_t next = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double z = heights[i];
+    if (foot && i + 1 == heights.size()) break;
     const double gap = i + 1 < heights.size() ? z - heights[i + 1] : i > 0 ? heights[i - 1] - z : flat;
     levels.push_back({z, std::min(gap, kMostGap * flat), false, {}});
     if (i + 1 == heights.size()) break;

@@ -1,9 +1,11 @@
 // At which heights contours run.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cam/path/contour_samples.h"
+#include "cam/path/level_heights.h"
 
 namespace patchmill {
 
@@ -17,7 +19,12 @@ struct PlannedLevel {
 // Levels from the top down: full ones (LevelHeights), and where the ground needs less than their gap, partial
 // levels that cut it into as many parts as each spot needs. What needs steps below min_step_fraction of the
 // flat one gets those; no level lies below floor_z + radius. Cost O(n log n), and LevelHeights.
+// `foot`: a level of the ground below that these stand on, which is the lowest and not among them.
 absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground, const ContourParams& params,
-                                                     double radius, const RunContext& run);
+                                                     double radius, std::optional<double> foot,
+                                                     const RunContext& run);
+
+// What heights follow from, of a ball of `radius` (mm).
+HeightParams HeightParamsOf(const ContourParams& params, double radius);
 
 }  // namespace patchmill

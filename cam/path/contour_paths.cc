@@ -54,12 +54,24 @@ struct LevelFamilies {
   std::size_t levels = 0;
 };
 
+// Of the full levels at or below a height.
+std::optional<double> HighestFull(const LevelFamily& family, double below) {
+  std::optional<double> highest;
+  for (const PlannedLevel& level : family.levels) {  // from the top down
+    if (!level.partial && level.z <= below && !highest) highest = level.z;
+  }
+  return highest;
+}
+
 absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGrounds& grounds, const ContourParams& params,
                                            double radius, const RunContext& run) {
   LevelFamilies planned;
   std::vector<LevelFamily>& families = planned.families;
   for (std::size_t k = 0; k < grounds.size(); ++k) {
-    PM_ASSIGN_OR_RETURN(std::vector<PlannedLevel> levels, PlanLevels(grounds[k], params, radius, run));
+    std::optional<double> foot;
+    if (const auto& on = grounds.foot(k))
+      foot = HighestFull(families[planned.of_ground[on->ground]], on->below);
+    PM_ASSIGN_OR_RETURN(std::vector<PlannedLevel> levels, PlanLevels(grounds[k], params, radius, foot, run));
     const auto same = std::find_if(families.begin(), families.end(), [&](const LevelFamily& family) {
       return SameLevels(family.levels, levels);
     });
@@ -149,8 +161,9 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(ContourGround ground, SampleGround(context, params, run));
   const double radius = locator.radius();
+  const auto contours = [&](double z) { return TracePasses(context, z, nullptr, params, run).loops; };
   PM_ASSIGN_OR_RETURN(LevelGrounds grounds,
-                      LevelGrounds::Make(ground, radius, CenterStep(radius, params.scallop, 0.0), run));
+                      LevelGrounds::Make(ground, HeightParamsOf(params, radius), contours, run));
   PM_ASSIGN_OR_RETURN(LevelFamilies planned, PlanFamilies(grounds, params, radius, run));
   if (planned.levels > kMostLevels) {  // apart; together they may need fewer
     grounds = LevelGrounds(std::move(ground));

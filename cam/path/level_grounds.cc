@@ -1,9 +1,12 @@
 #include "cam/path/level_grounds.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
+#include "cam/path/cheapest_step.h"
+#include "cam/path/level_branches.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -13,6 +16,13 @@ constexpr double kReachOfSpacing = 3.0;
 constexpr double kMostReach = 2.0;         // ball radii
 constexpr double kScrap = 2.0;             // flat steps high
 constexpr std::size_t kMostGrounds = 256;  // smaller ones go with the largest
+constexpr double kRise = 6.0;              // flat steps: lower ones are no branches
+constexpr std::size_t kMostBranches = 12;  // the largest; smaller ones stay part of what they stand on
+constexpr double kRuling = 0.1;            // of the ground: what the rest can bear rules
+constexpr double kSameNeeds = 0.05;        // steps that differ by less are the same
+constexpr double kAlone = 1.0;             // ball radii: so much of a contour may lie over other ground
+constexpr double kLift = 1.5;              // of a lift: the next
+constexpr double kWorth = 6.0;             // ball radii of length that levels of a branch's own must save
 
 std::vector<Vec3> PointsOf(const ContourGround& ground, Vec3 ContourSample::*point) {
   std::vector<Vec3> points;
@@ -24,16 +34,215 @@ std::vector<Vec3> PointsOf(const ContourGround& ground, Vec3 ContourSample::*poi
 }  // namespace
 
 LevelGrounds::LevelGrounds(ContourGround all) {
-  if (!all.samples.empty()) grounds_.push_back(std::move(all));
+  if (all.samples.empty()) return;
+  grounds_.push_back(std::move(all));
+  feet_.emplace_back();
 }
 
-absl::StatusOr<LevelGrounds> LevelGrounds::Make(const ContourGround& ground, double radius, double flat,
-                                                const RunContext& run) {
+// Some of the samples, and what levels of their own would be.
+class LevelGrounds::Builder {
+ public:
+  Builder(const ContourGround& ground, const PointCells& centers, const HeightParams& params,
+          const ContoursAt& contours, const RunContext& run)
+      : ground_(ground), centers_(centers), params_(params), contours_(contours), run_(run) {}
+
+  // Each sample's set, from 0 on.
+  absl::Status Divide(std::vector<std::size_t> set_of, std::size_t sets, std::vector<LevelBranch> branches) {
+    part_of_ = std::move(set_of);
+    parts_.resize(sets);
+    for (std::size_t k = 0; k < branches.size(); ++k) {
+      for (const std::size_t i : branches[k].samples) part_of_[i] = sets + k;
+    }
+    for (const LevelBranch& branch : branches)
+      parts_.push_back({.on = Foot{part_of_[branch.from], branch.foot}});
+    for (std::size_t i = 0; i < part_of_.size(); ++i) parts_[part_of_[i]].samples.push_back(i);
+    for (const LowerEnd& end : ground_.lower_ends)
+      parts_[part_of_[*centers_.Nearest(end.center)]].ends.push_back(end);
+    const std::size_t spared = branches.size() - std::min(branches.size(), kMostBranches);
+    for (std::size_t k = 0; k < branches.size(); ++k) {
+      run_.Progress("contours: branches", static_cast<double>(k) / static_cast<double>(branches.size()));
+      PM_RETURN_IF_ERROR(k < spared ? Join(sets + k) : JoinUnlessShorter(sets + k));
+    }
+    return absl::OkStatus();
+  }
+
+  // Grounds in order, those that others stand on before them.
+  void Put(LevelGrounds& made) {
+    std::vector<std::size_t> number(parts_.size(), 0);
+    for (std::size_t left = 1; left > 0;) {
+      left = 0;
+      for (std::size_t k = 0; k < parts_.size(); ++k) {
+        Part& part = parts_[k];
+        if (part.samples.empty()) continue;
+        if (part.on && !parts_[part.on->ground].samples.empty()) {  // what it stands on comes first
+          ++left;
+          continue;
+        }
+        number[k] = made.grounds_.size();
+        if (part.on) part.on->ground = number[part.on->ground];
+        made.feet_.push_back(part.on);
+        made.grounds_.push_back(GroundOf(part));
+        for (const std::size_t i : std::exchange(part.samples, {})) part_of_[i] = number[k];
+      }
+    }
+    made.of_sample_ = std::move(part_of_);
+  }
+
+ private:
+  struct Part {
+    std::optional<Foot> on = std::nullopt;
+    std::vector<std::size_t> samples = {};
+    std::vector<LowerEnd> ends = {};
+    std::optional<LevelPlan> plan = std::nullopt;  // without a foot
+  };
+
+  ContourGround GroundOf(const Part& part) const {
+    ContourGround ground;
+    ground.spacing = ground_.spacing;
+    ground.lower_ends = part.ends;
+    ground.samples.reserve(part.samples.size());
+    for (const std::size_t i : part.samples) ground.samples.push_back(ground_.samples[i]);
+    return ground;
+  }
+
+  absl::StatusOr<LevelPlan> Plan(const Part& part, std::optional<double> foot) const {
+    HeightParams params = params_;
+    params.foot = foot;
+    return LevelHeights(GroundOf(part), params, run_);
+  }
+
+  // Part k as one with what it stands on.
+  Part Both(std::size_t k) const {
+    Part both = parts_[parts_[k].on->ground];
+    const Part& branch = parts_[k];
+    both.samples.insert(both.samples.end(), branch.samples.begin(), branch.samples.end());
+    std::sort(both.samples.begin(), both.samples.end());
+    both.ends.insert(both.ends.end(), branch.ends.begin(), branch.ends.end());
+    both.plan.reset();
+    return both;
+  }
+
+  absl::Status Join(std::size_t k, std::optional<Part> both = std::nullopt) {
+    const std::size_t on = parts_[k].on->ground;
+    if (!both) both = Both(k);
+    for (const std::size_t i : parts_[k].samples) part_of_[i] = on;
+    parts_[on] = *std::move(both);
+    parts_[k] = {};
+    for (Part& part : parts_) {
+      if (part.on && part.on->ground == k) part.on->ground = on;
+    }
+    return absl::OkStatus();
+  }
+
+  // The step that all but a tenth of a part's ground between two heights can bear; 0 without any.
+  double NeedOf(const Part& part, double low, double high) const {
+    std::vector<StepNeed> needs;
+    double total = 0.0;
+    for (const std::size_t i : part.samples) {
+      const ContourSample& sample = ground_.samples[i];
+      if (sample.center.z() < low || sample.center.z() > high) continue;
+      needs.push_back({sample.step, sample.width});
+      total += sample.width;
+    }
+    std::sort(needs.begin(), needs.end(),
+              [](const StepNeed& a, const StepNeed& b) { return a.step < b.step; });
+    double passed = 0.0;
+    for (const StepNeed& need : needs) {
+      passed += need.weight;
+      if (passed >= kRuling * total) return need.step;
+    }
+    return 0.0;
+  }
+
+  double TopOf(const Part& part) const {
+    double top = -kInfinity;
+    for (const std::size_t i : part.samples) top = std::max(top, ground_.samples[i].center.z());
+    return top;
+  }
+
+  // A branch and what stands beside it can share their levels: seen at once.
+  bool SameNeeds(std::size_t k) const {
+    const double low = parts_[k].on->below, high = TopOf(parts_[k]);
+    const double own = NeedOf(parts_[k], low, high), beside = NeedOf(parts_[parts_[k].on->ground], low, high);
+    return std::abs(own - beside) < kSameNeeds * std::max(own, beside);
+  }
+
+  // No contour of a height runs over both a branch and other ground.
+  bool AroundItAlone(std::size_t k, double z) const {
+    for (const CutterPath& path : contours_(z)) {
+      double lengths[2] = {0.0, 0.0};  // over other ground, over the branch
+      const std::size_t n = path.points.size();
+      for (std::size_t i = 0; i + (path.closed ? 0 : 1) < n; ++i) {
+        const Vec3 &a = path.points[i].center, &b = path.points[(i + 1) % n].center;
+        const auto nearest = centers_.Nearest(0.5 * (a + b));
+        if (nearest) lengths[part_of_[*nearest] == k] += (b - a).norm();
+      }
+      if (std::min(lengths[0], lengths[1]) > kAlone * params_.radius) return false;
+    }
+    return true;
+  }
+
+  // Lifts the foot of branch k to where contours go around it alone: where the ground in between rises gently
+  // it has no samples, and the branch begins higher than they tell. False: nowhere, by far enough.
+  bool LiftFoot(std::size_t k) {
+    const double top = TopOf(parts_[k]);
+    const std::size_t on = parts_[k].on->ground;
+    double z = parts_[k].on->below + params_.flat;
+    for (double step = params_.flat; !AroundItAlone(k, z); step *= kLift) {
+      z += step;
+      if (z > top - kRise * params_.flat) return false;
+    }
+    parts_[k].on->below = z;
+    const auto above =
+        std::stable_partition(parts_[k].samples.begin(), parts_[k].samples.end(),
+                              [&](std::size_t i) { return ground_.samples[i].center.z() > z; });
+    for (auto i = above; i != parts_[k].samples.end(); ++i) {
+      part_of_[*i] = on;
+      parts_[on].samples.push_back(*i);
+    }
+    parts_[k].samples.erase(above, parts_[k].samples.end());
+    std::sort(parts_[on].samples.begin(), parts_[on].samples.end());
+    parts_[on].plan.reset();
+    for (Part& part : parts_) {
+      if (part.on && part.on->ground == k && part.on->below <= z) part.on->ground = on;
+    }
+    return true;
+  }
+
+  absl::Status JoinUnlessShorter(std::size_t k) {
+    if (SameNeeds(k) || !LiftFoot(k)) return Join(k);
+    Part& trunk = parts_[parts_[k].on->ground];
+    if (!trunk.plan) {
+      PM_ASSIGN_OR_RETURN(trunk.plan, Plan(trunk, std::nullopt));
+    }
+    std::optional<double> foot;
+    for (const double z : trunk.plan->heights) {
+      if (z <= parts_[k].on->below) foot = z;
+    }
+    PM_ASSIGN_OR_RETURN(const LevelPlan branch, Plan(parts_[k], foot));
+    Part both = Both(k);
+    PM_ASSIGN_OR_RETURN(both.plan, Plan(both, std::nullopt));
+    const double apart = trunk.plan->length + branch.length;
+    if (apart < both.plan->length - kWorth * params_.radius) return absl::OkStatus();
+    return Join(k, std::move(both));
+  }
+
+  const ContourGround& ground_;
+  const PointCells& centers_;
+  const HeightParams& params_;
+  const ContoursAt& contours_;
+  const RunContext& run_;
+  std::vector<std::size_t> part_of_;  // of each sample
+  std::vector<Part> parts_;
+};
+
+absl::StatusOr<LevelGrounds> LevelGrounds::Make(const ContourGround& ground, const HeightParams& params,
+                                                const ContoursAt& contours, const RunContext& run) {
   LevelGrounds made;
   const std::size_t count = ground.samples.size();
   if (count == 0) return made;
   const double reach =
-      std::max(kReachOfSpacing * ground.spacing, std::min(ground.widest, kMostReach * radius));
+      std::max(kReachOfSpacing * ground.spacing, std::min(ground.widest, kMostReach * params.radius));
   made.centers_ = PointCells(PointsOf(ground, &ContourSample::center), reach);
   PM_RETURN_IF_ERROR(run.Check());
   UnionFind sets(count);
@@ -59,25 +268,24 @@ absl::StatusOr<LevelGrounds> LevelGrounds::Make(const ContourGround& ground, dou
   std::vector<Set*> order;
   for (auto& [first, set] : found) order.push_back(&set);
   std::stable_sort(order.begin(), order.end(), [](const Set* a, const Set* b) { return a->area > b->area; });
+  std::size_t numbers = 0;
   for (Set* set : order) {
-    const bool scrap = set != order.front() &&
-                       (set->high - set->low < kScrap * flat || made.grounds_.size() == kMostGrounds);
-    set->number = scrap ? 0 : made.grounds_.size();
-    if (!scrap) made.grounds_.emplace_back().spacing = ground.spacing;
+    const bool scrap =
+        set != order.front() && (set->high - set->low < kScrap * params.flat || numbers == kMostGrounds);
+    set->number = scrap ? 0 : numbers++;
   }
-  if (made.grounds_.size() == 1) {
-    made.grounds_.front() = ground;
-    return made;
+  std::vector<std::size_t> set_of;
+  set_of.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) set_of.push_back(found[sets.Find(i)].number);
+  std::vector<LevelBranch> branches;
+  if (contours) {
+    PM_ASSIGN_OR_RETURN(branches,
+                        FindBranches(ground, set_of, {.reach = reach, .rise = kRise * params.flat}, run));
+    run.Progress("contours: branches", 0.0);
   }
-  made.of_sample_.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    made.of_sample_.push_back(found[sets.Find(i)].number);
-    made.grounds_[made.of_sample_.back()].samples.push_back(ground.samples[i]);
-  }
-  for (const LowerEnd& end : ground.lower_ends) {
-    const auto nearest = made.centers_.Nearest(end.center);
-    made.grounds_[made.of_sample_[*nearest]].lower_ends.push_back(end);
-  }
+  Builder builder(ground, made.centers_, params, contours, run);
+  PM_RETURN_IF_ERROR(builder.Divide(std::move(set_of), numbers, std::move(branches)));
+  builder.Put(made);
   return made;
 }
 

@@ -92,6 +92,7 @@ absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourGround&
     lo = std::min(lo, s.center.z() - s.down);
     hi = std::max(hi, s.center.z() + s.up);
   }
+  if (params.foot) lo = std::min(lo, *params.foot);
   bins.width = std::max(params.flat / kBinsPerStep, (hi - lo) / kMostBins);
   bins.bottom = lo;
   bins.step.assign(static_cast<std::size_t>((hi - lo) / bins.width) + 1, kInfinity);
@@ -109,6 +110,11 @@ absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourGround&
     const auto steps = Ruling(needs[b], params.smallest, kMostFlat * params.flat);
     for (std::size_t k = 0; k < kRules.size(); ++k) all[k].step[b] = steps[k];
   }));
+  if (!params.foot) return all;
+  for (Bins& of : all) {  // down to the foot the ground goes on as it ends
+    const auto lowest = std::find_if(of.step.begin(), of.step.end(), [](double s) { return s < kInfinity; });
+    std::fill(of.step.begin(), lowest, *lowest);
+  }
   return all;
 }
 
@@ -161,6 +167,10 @@ std::vector<Stop> StopsOf(const ContourGround& ground, const Bins& bins, const H
     stops.push_back({bins.bottom + bins.width * static_cast<double>(bins.step.size()), false});
   for (const double z : CommonEnds(ground.lower_ends, params.radius, 0.25 * params.smallest))
     stops.push_back({z, true});
+  if (params.foot) {
+    std::erase_if(stops, [&](const Stop& stop) { return stop.z <= *params.foot + 0.25 * params.smallest; });
+    stops.push_back({*params.foot, true});
+  }
   std::sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) { return a.z < b.z; });
   return stops;
 }
@@ -245,9 +255,9 @@ double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
 
 }  // namespace
 
-absl::StatusOr<std::vector<double>> LevelHeights(const ContourGround& ground, const HeightParams& params,
-                                                 const RunContext& run) {
-  if (ground.samples.empty()) return std::vector<double>();
+absl::StatusOr<LevelPlan> LevelHeights(const ContourGround& ground, const HeightParams& params,
+                                       const RunContext& run) {
+  if (ground.samples.empty()) return LevelPlan{};
   PM_ASSIGN_OR_RETURN(const auto ruling, RulingSteps(ground, params, run));
   std::array<StepCount, kRules.size()> counts;
   for (std::size_t k = 0; k < kRules.size(); ++k) counts[k] = StepCount(ruling[k]);
@@ -301,7 +311,8 @@ absl::StatusOr<std::vector<double>> LevelHeights(const ContourGround& ground, co
     lengths[k] =
         LengthOf(heights_of(trials[k]), low, high, {from(low.z), from(high.z)}, ground.spacing, params, run);
   }));
-  std::vector<double> heights;
+  LevelPlan plan;
+  std::vector<double>& heights = plan.heights;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     if (stops[i].level) heights.push_back(stops[i].z);
     if (first[i] == first[i + 1]) continue;  // nothing to cut
@@ -309,13 +320,14 @@ absl::StatusOr<std::vector<double>> LevelHeights(const ContourGround& ground, co
     for (std::size_t k = first[i] + 1; k < first[i + 1]; ++k) {
       if (lengths[k] < lengths[best] * (1.0 - 1e-9)) best = k;
     }
+    plan.length += lengths[best];
     const std::vector<double> chosen = heights_of(trials[best]);
     heights.insert(heights.end(), chosen.begin(), chosen.end());
   }
   if (stops.back().level) heights.push_back(stops.back().z);
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
-  return heights;
+  return plan;
 }
 
 }  // namespace patchmill

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -26,6 +27,13 @@ struct HeightParams {
   double flat = 0.5;       // mm: the step over a plane
   double smallest = 0.1;   // mm: needs below it count as this
   double wide = kWideGap;  // how much wider than their needs gaps may be throughout: WideGap
+  // A level lies here already, at the foot of the ground: it is the lowest, and others' (level_grounds.h).
+  std::optional<double> foot = std::nullopt;
+};
+
+struct LevelPlan {
+  std::vector<double> heights;  // rising, the foot among them
+  double length = 0.0;          // mm, about: of all levels, partial ones too, as trials are compared
 };
 
 // Centre heights, rising: where faces end on a common level (floors, flats, level rims) exactly there, and
@@ -37,7 +45,7 @@ struct HeightParams {
 // beyond `wide` they count for a tenth more. Cost O(n log n) in the samples times the eighths of a flat
 // step that each stands for, and their number for each of 205 trials at most, side by side; deterministic.
 // RESOURCE_EXHAUSTED beyond kMostLevels; CANCELLED or DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<double>> LevelHeights(const ContourGround& ground, const HeightParams& params,
-                                                 const RunContext& run);
+absl::StatusOr<LevelPlan> LevelHeights(const ContourGround& ground, const HeightParams& params,
+                                       const RunContext& run);
 
 }  // namespace patchmill

@@ -19,6 +19,7 @@ namespace {
 using namespace testing;  // NOLINT: the support folder's
 
 constexpr double kSpacing = 0.5, kFlat = 0.5;
+constexpr HeightParams kParams = {.radius = 3.0, .flat = kFlat, .smallest = 0.125};
 
 // A wall from a to b, `height` high; its ball stands off by `off`.
 void AddWall(const Vec2& a, const Vec2& b, double height, const Vec2& off, ContourGround& ground) {
@@ -41,7 +42,7 @@ void AddWall(const Vec2& a, const Vec2& b, double height, const Vec2& off, Conto
 }
 
 LevelGrounds GroundsOf(const ContourGround& ground) {
-  auto grounds = LevelGrounds::Make(ground, 3.0, kFlat, RunContext(1));
+  auto grounds = LevelGrounds::Make(ground, kParams, nullptr, RunContext(1));
   EXPECT_TRUE(grounds.ok());
   return *std::move(grounds);
 }
@@ -108,6 +109,85 @@ TEST(LevelGrounds, AreNotMoreThanWhatIsWorthIt) {
   EXPECT_GT(grounds[0].samples.size(), 44 * grounds[255].samples.size());
 }
 
+// A wall from z = 0 to 20, beside it one that needs `step` above z = 10, where the two part.
+ContourGround Forked(double step) {
+  ContourGround ground, branch;
+  AddWall({0, 0}, {40, 0}, 20, {0, -3}, ground);
+  AddWall({40, 0}, {80, 0}, 10, {0, -3}, ground);
+  AddWall({50, 0}, {80, 0}, 10, {0, -3}, branch);
+  for (ContourSample& sample : branch.samples) {
+    sample.center.z() += 10.0;
+    sample.contact.z() += 10.0;
+    sample.step = step;
+  }
+  ground.samples.insert(ground.samples.end(), branch.samples.begin(), branch.samples.end());
+  return ground;
+}
+
+// Above `fork` each wall has a contour of its own.
+LevelGrounds::ContoursAt ContoursForkedAt(double fork) {
+  return [fork](double z) -> std::vector<CutterPath> {
+    if (z <= fork) return {PathOf({Vec3(0, -3, z), Vec3(20, -3, z), Vec3(60, -3, z), Vec3(80, -3, z)})};
+    return {PathOf({Vec3(0, -3, z), Vec3(40, -3, z)}), PathOf({Vec3(50, -3, z), Vec3(80, -3, z)})};
+  };
+}
+
+TEST(LevelGrounds, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
+  const ContourGround ground = Forked(0.8 * kFlat);
+  for (const double fork : {10.0, 13.0}) {  // between them the ground may rise gently, without samples
+    const auto grounds = LevelGrounds::Make(ground, kParams, ContoursForkedAt(fork), RunContext(1));
+    ASSERT_TRUE(grounds.ok());
+    ASSERT_EQ(grounds->size(), 2u);
+    EXPECT_FALSE(grounds->foot(0));
+    ASSERT_TRUE(grounds->foot(1));
+    EXPECT_EQ(grounds->foot(1)->ground, 0u);
+    const double foot = grounds->foot(1)->below;
+    EXPECT_GE(foot, fork);
+    EXPECT_LE(foot, fork + 3.0 * kFlat);
+    EXPECT_EQ((*grounds)[0].samples.size() + (*grounds)[1].samples.size(), ground.samples.size());
+    for (const ContourSample& sample : (*grounds)[1].samples) {
+      EXPECT_GT(sample.center.z(), foot);
+      EXPECT_GE(sample.contact.x(), 50.0);
+    }
+    for (const ContourSample& sample : (*grounds)[0].samples)
+      EXPECT_TRUE(sample.contact.x() <= 40.0 || sample.center.z() <= foot);
+    const CutterPath high = PathOf({Vec3(50, -3, 18), Vec3(80, -3, 18)});
+    EXPECT_EQ(grounds->FamilyUnder(high, std::array<std::size_t, 2>{0, 1}), 1u);
+
+    // Its levels stand on one of the wall's, each no farther from the next than it needs.
+    const auto wall = LevelHeights((*grounds)[0], kParams, RunContext(1));
+    ASSERT_TRUE(wall.ok());
+    HeightParams on_wall = kParams;
+    for (const double z : wall->heights) {
+      if (z <= foot) on_wall.foot = z;
+    }
+    ASSERT_TRUE(on_wall.foot);
+    EXPECT_GT(*on_wall.foot, foot - 1.1 * kFlat);
+    const auto branch = LevelHeights((*grounds)[1], on_wall, RunContext(1));
+    ASSERT_TRUE(branch.ok());
+    ASSERT_GT(branch->heights.size(), 10u);
+    EXPECT_EQ(branch->heights.front(), *on_wall.foot);
+    for (std::size_t i = 0; i + 1 < branch->heights.size(); ++i) {
+      const double gap = branch->heights[i + 1] - branch->heights[i];
+      EXPECT_LE(gap, kWideGap * 0.8 * kFlat);
+      EXPECT_GT(gap, 0.7 * 0.8 * kFlat);
+    }
+  }
+}
+
+TEST(LevelGrounds, NothingBranchesOffWithoutNeed) {
+  const auto size = [](const ContourGround& ground, const LevelGrounds::ContoursAt& contours) {
+    const auto grounds = LevelGrounds::Make(ground, kParams, contours, RunContext(1));
+    EXPECT_TRUE(grounds.ok());
+    return grounds->size();
+  };
+  // The same needs on both; contours that run over both, as high as it goes or nearly; no contours at hand.
+  EXPECT_EQ(size(Forked(kFlat), ContoursForkedAt(10.0)), 1u);
+  EXPECT_EQ(size(Forked(0.8 * kFlat), ContoursForkedAt(20.0)), 1u);
+  EXPECT_EQ(size(Forked(0.8 * kFlat), ContoursForkedAt(18.0)), 1u);
+  EXPECT_EQ(size(Forked(0.8 * kFlat), nullptr), 1u);
+}
+
 TEST(LevelGrounds, OfNoGround) { EXPECT_EQ(GroundsOf({}).size(), 0u); }
 
 PatchModel Quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -140,7 +220,8 @@ TEST(LevelGrounds, ALongPatchIsOne) {
   const RunContext run(1);
   const auto ground = SampleGround(LevelContext(locator, run), SteepParams(), run);
   ASSERT_TRUE(ground.ok());
-  const auto grounds = LevelGrounds::Make(*ground, radius, 0.2, run);
+  const auto grounds =
+      LevelGrounds::Make(*ground, {.radius = radius, .flat = 0.2, .smallest = 0.05}, nullptr, run);
   ASSERT_TRUE(grounds.ok());
   EXPECT_EQ(grounds->size(), 1u);
 }

@@ -34,7 +34,7 @@ void AddWall(double x0, double x1, double z0, double z1, double step, double y, 
 std::vector<double> HeightsOf(const ContourGround& ground) {
   const auto heights = LevelHeights(ground, kParams, RunContext(2));
   EXPECT_TRUE(heights.ok()) << heights.status();
-  return *heights;
+  return heights->heights;
 }
 
 double WidestGap(const std::vector<double>& heights) {
@@ -68,7 +68,7 @@ TEST(LevelHeights, AreNotTooWideThroughout) {
     exact.wide = 1.001;
     const auto heights = LevelHeights(ground, exact, RunContext(1));
     ASSERT_TRUE(heights.ok());
-    EXPECT_LE(WidestGap(*heights), 1.001 * 0.5) << height;
+    EXPECT_LE(WidestGap(heights->heights), 1.001 * 0.5) << height;
   }
 }
 
@@ -146,7 +146,8 @@ TEST(LevelHeights, DoNotDependOnThreadsAndEndWhenCancelled) {
     const double z = random.Uniform(0.0, 12.0);
     AddWall(0.0, 10.0, z, z + random.Uniform(1.0, 6.0), random.Uniform(0.2, 1.6), 3.0 * k, ground);
   }
-  EXPECT_EQ(*LevelHeights(ground, kParams, RunContext(1)), *LevelHeights(ground, kParams, RunContext(8)));
+  EXPECT_EQ(LevelHeights(ground, kParams, RunContext(1))->heights,
+            LevelHeights(ground, kParams, RunContext(8))->heights);
   RunContext stopped(2);
   stopped.Cancel();
   EXPECT_EQ(LevelHeights(ground, kParams, stopped).status().code(), absl::StatusCode::kCancelled);
