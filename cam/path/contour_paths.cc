@@ -54,23 +54,23 @@ struct LevelFamilies {
   std::size_t levels = 0;
 };
 
-// Of the full levels at or below a height.
-std::optional<double> HighestFull(const LevelFamily& family, double below) {
-  std::optional<double> highest;
-  for (const PlannedLevel& level : family.levels) {  // from the top down
-    if (!level.partial && level.z <= below && !highest) highest = level.z;
+std::vector<double> FullLevels(const LevelFamily& family) {
+  std::vector<double> heights;
+  for (const PlannedLevel& level : family.levels) {
+    if (!level.partial) heights.push_back(level.z);
   }
-  return highest;
+  return heights;
 }
 
 absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGrounds& grounds, const ContourParams& params,
                                            double radius, const RunContext& run) {
   LevelFamilies planned;
   std::vector<LevelFamily>& families = planned.families;
+  const double flat = CenterStep(radius, params.scallop, 0.0);
   for (std::size_t k = 0; k < grounds.size(); ++k) {
     std::optional<double> foot;
     if (const auto& on = grounds.foot(k))
-      foot = HighestFull(families[planned.of_ground[on->ground]], on->below);
+      foot = LevelBelow(FullLevels(families[planned.of_ground[on->ground]]), on->below, flat);
     PM_ASSIGN_OR_RETURN(std::vector<PlannedLevel> levels, PlanLevels(grounds[k], params, radius, foot, run));
     const auto same = std::find_if(families.begin(), families.end(), [&](const LevelFamily& family) {
       return SameLevels(family.levels, levels);

@@ -21,6 +21,7 @@ constexpr std::size_t kMostBranches = 12;  // the largest; smaller ones stay par
 constexpr double kRuling = 0.1;            // of the ground: what the rest can bear rules
 constexpr double kSameNeeds = 0.05;        // steps that differ by less are the same
 constexpr double kAlone = 1.0;             // ball radii: so much of a contour may lie over other ground
+constexpr int kMostContours = 24;          // traced to see whether they part
 constexpr double kLift = 1.5;              // of a lift: the next
 constexpr double kWorth = 6.0;             // ball radii of length that levels of a branch's own must save
 
@@ -32,6 +33,14 @@ std::vector<Vec3> PointsOf(const ContourGround& ground, Vec3 ContourSample::*poi
 }
 
 }  // namespace
+
+std::optional<double> LevelBelow(std::span<const double> heights, double height, double flat) {
+  std::optional<double> highest;
+  for (const double z : heights) {
+    if (z <= height && z > height - kMostGap * flat && z > highest.value_or(-kInfinity)) highest = z;
+  }
+  return highest;
+}
 
 LevelGrounds::LevelGrounds(ContourGround all) {
   if (all.samples.empty()) return;
@@ -188,21 +197,27 @@ class LevelGrounds::Builder {
     const double top = TopOf(parts_[k]);
     const std::size_t on = parts_[k].on->ground;
     double z = parts_[k].on->below + params_.flat;
-    for (double step = params_.flat; !AroundItAlone(k, z); step *= kLift) {
+    for (double step = params_.flat;; step *= kLift) {
+      if (z > top - kRise * params_.flat || contours_left_ == 0) return false;
+      --contours_left_;
+      if (AroundItAlone(k, z)) break;
       z += step;
-      if (z > top - kRise * params_.flat) return false;
     }
-    parts_[k].on->below = z;
-    const auto above =
-        std::stable_partition(parts_[k].samples.begin(), parts_[k].samples.end(),
-                              [&](std::size_t i) { return ground_.samples[i].center.z() > z; });
-    for (auto i = above; i != parts_[k].samples.end(); ++i) {
-      part_of_[*i] = on;
-      parts_[on].samples.push_back(*i);
-    }
-    parts_[k].samples.erase(above, parts_[k].samples.end());
-    std::sort(parts_[on].samples.begin(), parts_[on].samples.end());
-    parts_[on].plan.reset();
+    Part &branch = parts_[k], &trunk = parts_[on];
+    branch.on->below = z;
+    std::erase_if(branch.samples, [&](std::size_t i) {
+      if (ground_.samples[i].center.z() > z) return false;
+      part_of_[i] = on;
+      trunk.samples.push_back(i);
+      return true;
+    });
+    std::erase_if(branch.ends, [&](const LowerEnd& end) {
+      if (end.center.z() > z) return false;
+      trunk.ends.push_back(end);
+      return true;
+    });
+    std::sort(trunk.samples.begin(), trunk.samples.end());
+    trunk.plan.reset();
     for (Part& part : parts_) {
       if (part.on && part.on->ground == k && part.on->below <= z) part.on->ground = on;
     }
@@ -215,11 +230,8 @@ class LevelGrounds::Builder {
     if (!trunk.plan) {
       PM_ASSIGN_OR_RETURN(trunk.plan, Plan(trunk, std::nullopt));
     }
-    std::optional<double> foot;
-    for (const double z : trunk.plan->heights) {
-      if (z <= parts_[k].on->below) foot = z;
-    }
-    PM_ASSIGN_OR_RETURN(const LevelPlan branch, Plan(parts_[k], foot));
+    PM_ASSIGN_OR_RETURN(const LevelPlan branch,
+                        Plan(parts_[k], LevelBelow(trunk.plan->heights, parts_[k].on->below, params_.flat)));
     Part both = Both(k);
     PM_ASSIGN_OR_RETURN(both.plan, Plan(both, std::nullopt));
     const double apart = trunk.plan->length + branch.length;
@@ -232,6 +244,7 @@ class LevelGrounds::Builder {
   const HeightParams& params_;
   const ContoursAt& contours_;
   const RunContext& run_;
+  int contours_left_ = kMostContours;
   std::vector<std::size_t> part_of_;  // of each sample
   std::vector<Part> parts_;
 };

@@ -14,6 +14,10 @@
 
 namespace patchmill {
 
+// The highest of some levels at or below a height, if any ground lies in between (kMostGap). `flat`, mm: the
+// step over a plane.
+std::optional<double> LevelBelow(std::span<const double> heights, double height, double flat);
+
 // Two samples next to each other on a piece, or whose contacts or centres lie within three spacings of each
 // other (as far as neighbours are apart on long pieces), are of one ground, and all that are joined so: a
 // wall with the ones around its corners, the two walls of a slot as wide as the ball. Each ground may have
@@ -26,8 +30,8 @@ class LevelGrounds {
  public:
   // Contours of a height; null: no ground is parted.
   using ContoursAt = std::function<std::vector<CutterPath>(double z)>;
-  // Cost O(n log n), and two LevelHeights and a contour for a branch, of the dozen largest; CANCELLED or
-  // DEADLINE_EXCEEDED from `run`.
+  // Cost O(n log n), and two LevelHeights for a branch, of the dozen largest, and two dozen contours at most;
+  // CANCELLED or DEADLINE_EXCEEDED from `run`.
   static absl::StatusOr<LevelGrounds> Make(const ContourGround& ground, const HeightParams& params,
                                            const ContoursAt& contours, const RunContext& run);
   // All of it as one.

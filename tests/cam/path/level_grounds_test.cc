@@ -133,7 +133,8 @@ LevelGrounds::ContoursAt ContoursForkedAt(double fork) {
 }
 
 TEST(LevelGrounds, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
-  const ContourGround ground = Forked(0.8 * kFlat);
+  ContourGround ground = Forked(0.8 * kFlat);
+  ground.lower_ends.push_back({Vec3(60, -3, 12), 1.0});
   for (const double fork : {10.0, 13.0}) {  // between them the ground may rise gently, without samples
     const auto grounds = LevelGrounds::Make(ground, kParams, ContoursForkedAt(fork), RunContext(1));
     ASSERT_TRUE(grounds.ok());
@@ -145,6 +146,7 @@ TEST(LevelGrounds, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
     EXPECT_GE(foot, fork);
     EXPECT_LE(foot, fork + 3.0 * kFlat);
     EXPECT_EQ((*grounds)[0].samples.size() + (*grounds)[1].samples.size(), ground.samples.size());
+    EXPECT_EQ((*grounds)[foot < 12.0 ? 1 : 0].lower_ends.size(), 1u);
     for (const ContourSample& sample : (*grounds)[1].samples) {
       EXPECT_GT(sample.center.z(), foot);
       EXPECT_GE(sample.contact.x(), 50.0);
@@ -173,6 +175,14 @@ TEST(LevelGrounds, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
       EXPECT_GT(gap, 0.7 * 0.8 * kFlat);
     }
   }
+}
+
+TEST(LevelGrounds, ABranchStandsOnTheNextLevelThatGroundLeadsTo) {
+  const std::vector<double> heights = {1.0, 2.0, 3.0};
+  EXPECT_EQ(LevelBelow(heights, 2.5, kFlat), 2.0);
+  EXPECT_EQ(LevelBelow(heights, 3.0, kFlat), 3.0);
+  EXPECT_EQ(LevelBelow(heights, 0.5, kFlat), std::nullopt);
+  EXPECT_EQ(LevelBelow(heights, 4.2, kFlat), std::nullopt);  // nothing is in so wide a gap
 }
 
 TEST(LevelGrounds, NothingBranchesOffWithoutNeed) {
