@@ -161,9 +161,18 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(ContourGround ground, SampleGround(context, params, run));
   const double radius = locator.radius();
-  const auto contours = [&](double z) { return TracePasses(context, z, nullptr, params, run).loops; };
-  PM_ASSIGN_OR_RETURN(LevelGrounds grounds,
-                      LevelGrounds::Make(ground, HeightParamsOf(params, radius), contours, run));
+  const HeightParams heights = HeightParamsOf(params, radius);
+  const auto contours = [&](double z) -> std::vector<CutterPath> {
+    std::vector<Vec3> here;  // elsewhere this height has no passes, and none that hang together
+    for (const ContourSample& s : ground.samples) {
+      if (z > s.center.z() - s.down - heights.flat && z < s.center.z() + s.up + heights.flat)
+        here.push_back(s.center);
+    }
+    if (here.empty()) return {};
+    const PlanMask where(here, kBesideGround * radius);
+    return TracePasses(context, z, &where, params, run).loops;
+  };
+  PM_ASSIGN_OR_RETURN(LevelGrounds grounds, LevelGrounds::Make(ground, heights, contours, run));
   PM_ASSIGN_OR_RETURN(LevelFamilies planned, PlanFamilies(grounds, params, radius, run));
   if (planned.levels > kMostLevels) {  // apart; together they may need fewer
     grounds = LevelGrounds(std::move(ground));

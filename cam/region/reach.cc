@@ -89,11 +89,13 @@ ReachTest::Shanks ReachTest::MakeShanks() const {
 
 bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal, Shanks& shanks) const {
   const double least = LeastBall(ReachGive(params_.tolerance));
-  const auto blocked = [&](const Vec3& e) {
-    return shanks.ball.Blocked(p + params_.radius * e) ||
-           (least < params_.radius && shanks.least.StandsAbove(p + least * e));
+  // Of upright ground on both sides, each ball by itself.
+  const auto on_all_sides = [&](const auto& blocked) {
+    return blocked(normal) && (!Upright(normal) || blocked(-normal));
   };
-  return blocked(normal) && (!Upright(normal) || blocked(-normal));
+  return on_all_sides([&](const Vec3& e) { return shanks.ball.Blocked(p + params_.radius * e); }) ||
+         (least < params_.radius &&
+          on_all_sides([&](const Vec3& e) { return shanks.least.StandsAbove(p + least * e); }));
 }
 
 bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal) const {

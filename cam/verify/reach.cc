@@ -78,15 +78,24 @@ bool BlockedAbove(const Surface& surface, const Vec3& c, const ReachParams& para
          NothingNear(surface, c, params.radius - 0.5 * params.give, kProof * params.give, obstacles);
 }
 
-// UNDERCUT, where the ball that touches p with this normal is not free: it is blocked above, or something
-// stands above the least ball.
-bool Undercut(const Surface& surface, const Vec3& p, const Vec3& e, const ReachParams& params,
-              Obstacles& obstacles) {
-  if (BlockedAbove(surface, p + params.radius * e, params, obstacles)) return true;
-  const double least = LeastBall(params.give);
-  const Vec3 c = p + least * e;
-  return least < params.radius && MayRiseAbove(surface, c, kOverLeast * least) &&
+bool StandsAboveLeast(const Surface& surface, const Vec3& c, double least, Obstacles& obstacles) {
+  return MayRiseAbove(surface, c, kOverLeast * least) &&
          ShankIsNearer(surface, c, least, kOverLeast * least, obstacles);
+}
+
+// UNDERCUT, where the ball is free on no side: it is blocked above, or something stands above the least
+// ball, each on both sides of a vertical face.
+bool Undercut(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
+              Obstacles& obstacles) {
+  const auto centers = Centers(p, facing, params.radius);
+  if (BlockedAbove(surface, centers[0], params, obstacles) &&
+      (!facing.both || BlockedAbove(surface, centers[1], params, obstacles))) {
+    return true;
+  }
+  const double least = LeastBall(params.give);
+  const auto beside = Centers(p, facing, least);
+  return least < params.radius && StandsAboveLeast(surface, beside[0], least, obstacles) &&
+         (!facing.both || StandsAboveLeast(surface, beside[1], least, obstacles));
 }
 
 }  // namespace
@@ -151,17 +160,19 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
     if (InTheWay(surface, c, limit, kProof * params.give, obstacles)) {
-      const Vec3 e = side == 0 ? facing.e : Vec3(-facing.e);
-      found = Undercut(surface, p, e, params, obstacles) ? ReachClass::kUndercut : ReachClass::kConcave;
+      found = ReachClass::kConcave;
     } else if (c.z() < params.floor_z - params.give) {
       found = ReachClass::kFloor;
     } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.give)) {
       found = ReachClass::kAvoided;
     }
     if (found == ReachClass::kReachable) return found;
-    // Of two blocked sides the one that is easier to free gives the reason: limits, floor, ball, then
-    // undercut.
-    if (side == 0 || found > reason) reason = found;
+    // Of two blocked sides the one that is easier to free gives the reason: limits, floor, ball.
+    reason = std::max(reason, found);
+  }
+  // In the way on all sides.
+  if (reason == ReachClass::kConcave && Undercut(surface, p, facing, params, obstacles)) {
+    reason = ReachClass::kUndercut;
   }
   return reason;
 }

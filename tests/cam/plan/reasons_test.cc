@@ -123,6 +123,35 @@ TEST(Reasons, UnderAPlateIsUndercutAndBesideItConcave) {
   }
 }
 
+// Two slots open to the top, narrower than the ball: what lies behind their walls, under the top, keeps no
+// smaller ball from them. A ball that goes through the rib between them is blocked above the centre all the
+// same.
+TEST(Reasons, WallsOfSlotsAreConcave) {
+  const double half = 3.0, rib = 2.0, deep = 5.0, far = 20.0;
+  PatchModel slots;
+  for (const double side : {-1.0, 1.0}) {
+    const auto quad = [&](double x0, double z0, double x1, double z1) {
+      slots = Join({slots, Single(Bilinear({side * x0, -far, z0}, {side * x0, far, z0}, {side * x1, -far, z1},
+                                           {side * x1, far, z1}))});
+    };
+    quad(0.0, deep, rib, deep);
+    quad(rib, deep, rib, 0.0);
+    quad(rib, 0.0, rib + 2.0 * half, 0.0);
+    quad(rib + 2.0 * half, 0.0, rib + 2.0 * half, deep);
+    quad(rib + 2.0 * half, deep, far, deep);
+  }
+  const Surface surface = PlacedSurface(slots);
+  for (const double radius : {3.5, 10.0}) {
+    const Job job = BallJob(radius);
+    ExpectAgreement(slots, job);
+    const double walls = 4.0 * 2.0 * far * deep, floors = 2.0 * 2.0 * far * 2.0 * half;
+    for (const auto& area : {FromRegions(surface, job), FromVerifier(surface, job)}) {
+      EXPECT_NEAR(area[kUndercut], 0.0, 1.0) << radius;
+      EXPECT_NEAR(area[kConcave], walls + floors, 0.01 * (walls + floors)) << radius;
+    }
+  }
+}
+
 TEST(Reasons, Teacup) {
   Job job = BallJob(3.0, /*deep=*/false);
   job.setup.placement.scale = 50.0;

@@ -184,8 +184,10 @@ TEST(BorderLines, OfAnyModelAreTheBordersOfItsRegions) {
     for (const Region& region : map.regions) {
       double loops = 0.0;
       for (const auto& loop : region.border) loops += Length(loop, true);
-      // At seams whose sides are cut differently each joins what lies close together in its own way.
-      EXPECT_NEAR(length[static_cast<std::size_t>(region.id)], loops, 0.01 * loops + 0.01) << region.id;
+      // At seams whose sides are cut differently each joins what lies close together in its own way; more so
+      // between two reasons, which may part along upright ground.
+      const double share = region.kind == RegionKind::kUnreachable ? 0.02 : 0.01;
+      EXPECT_NEAR(length[static_cast<std::size_t>(region.id)], loops, share * loops + 0.01) << region.id;
     }
   }
 }

@@ -117,7 +117,7 @@ TEST(RegionFigures, TheToolForARegionReachesAllOfIt) {
     } else {
       ++grooves;
       EXPECT_LE(r.largest_tool_diameter, 2.02 * least[id]);
-      EXPECT_GE(r.largest_tool_diameter, 1.95 * least[id]);
+      EXPECT_GE(r.largest_tool_diameter, (kSanitized ? 1.8 : 1.95) * least[id]);  // by a coarser grid
     }
   }
   EXPECT_GE(creases, 2);  // where spout and handle meet the body
