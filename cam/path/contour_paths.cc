@@ -66,7 +66,7 @@ absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGrounds& grounds, const Co
                                            double radius, const RunContext& run) {
   LevelFamilies planned;
   std::vector<LevelFamily>& families = planned.families;
-  const double flat = CenterStep(radius, params.scallop, 0.0);
+  const double flat = HeightParamsOf(params, radius).flat;
   for (std::size_t k = 0; k < grounds.size(); ++k) {
     std::optional<double> foot;
     if (const auto& on = grounds.foot(k))

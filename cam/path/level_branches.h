@@ -28,8 +28,8 @@ struct BranchParams {
 // those on a branch come before it. Samples hang together where they are neighbours of one piece, or where
 // their contacts or their centres lie within `reach` of each other, at most in cubes of that size next to
 // each other: forks that are narrower are not seen. Those of different `sets`, one for each sample, never
-// do. Cost O(n log n), 0.3 us a sample; CANCELLED or
-// DEADLINE_EXCEEDED from `run`.
+// do. Cost O(n log n); CANCELLED or DEADLINE_EXCEEDED from
+// `run`.
 absl::StatusOr<std::vector<LevelBranch>> FindBranches(const ContourGround& ground,
                                                       std::span<const std::size_t> sets,
                                                       const BranchParams& params, const RunContext& run);

@@ -23,7 +23,7 @@ constexpr double kSameNeeds = 0.05;        // steps that differ by less are the 
 constexpr double kAlone = 1.0;             // ball radii: so much of a contour may lie over other ground
 constexpr int kMostContours = 24;          // traced to see whether they part
 constexpr double kLift = 1.5;              // of a lift: the next
-constexpr double kWorth = 6.0;             // ball radii of length that levels of a branch's own must save
+constexpr double kWorth = 6.0;  // ball radii that levels of a branch's own must save: the estimate's error
 
 std::vector<Vec3> PointsOf(const ContourGround& ground, Vec3 ContourSample::*point) {
   std::vector<Vec3> points;
@@ -48,14 +48,15 @@ LevelGrounds::LevelGrounds(ContourGround all) {
   feet_.emplace_back();
 }
 
-// Some of the samples, and what levels of their own would be.
+// Divides the samples into parts, sets and the branches on them, and joins the branches that do not pay
+// again.
 class LevelGrounds::Builder {
  public:
   Builder(const ContourGround& ground, const PointCells& centers, const HeightParams& params,
           const ContoursAt& contours, const RunContext& run)
       : ground_(ground), centers_(centers), params_(params), contours_(contours), run_(run) {}
 
-  // Each sample's set, from 0 on.
+  // `set_of`: each sample's set, from 0 on.
   absl::Status Divide(std::vector<std::size_t> set_of, std::size_t sets, std::vector<LevelBranch> branches) {
     part_of_ = std::move(set_of);
     parts_.resize(sets);
@@ -70,7 +71,11 @@ class LevelGrounds::Builder {
     const std::size_t spared = branches.size() - std::min(branches.size(), kMostBranches);
     for (std::size_t k = 0; k < branches.size(); ++k) {
       run_.Progress("contours: branches", static_cast<double>(k) / static_cast<double>(branches.size()));
-      PM_RETURN_IF_ERROR(k < spared ? Join(sets + k) : JoinUnlessShorter(sets + k));
+      if (k < spared || SameNeeds(sets + k) || !LiftFoot(sets + k)) {
+        Join(sets + k, Both(sets + k));
+      } else {
+        PM_RETURN_IF_ERROR(JoinUnlessShorter(sets + k));
+      }
     }
     return absl::OkStatus();
   }
@@ -98,7 +103,7 @@ class LevelGrounds::Builder {
   }
 
  private:
-  struct Part {
+  struct Part {  // what will be a ground; without samples once it is joined
     std::optional<Foot> on = std::nullopt;
     std::vector<std::size_t> samples = {};
     std::vector<LowerEnd> ends = {};
@@ -131,16 +136,15 @@ class LevelGrounds::Builder {
     return both;
   }
 
-  absl::Status Join(std::size_t k, std::optional<Part> both = std::nullopt) {
+  // `both`: Both(k).
+  void Join(std::size_t k, Part both) {
     const std::size_t on = parts_[k].on->ground;
-    if (!both) both = Both(k);
     for (const std::size_t i : parts_[k].samples) part_of_[i] = on;
-    parts_[on] = *std::move(both);
+    parts_[on] = std::move(both);
     parts_[k] = {};
     for (Part& part : parts_) {
       if (part.on && part.on->ground == k) part.on->ground = on;
     }
-    return absl::OkStatus();
   }
 
   // The step that all but a tenth of a part's ground between two heights can bear; 0 without any.
@@ -225,7 +229,6 @@ class LevelGrounds::Builder {
   }
 
   absl::Status JoinUnlessShorter(std::size_t k) {
-    if (SameNeeds(k) || !LiftFoot(k)) return Join(k);
     Part& trunk = parts_[parts_[k].on->ground];
     if (!trunk.plan) {
       PM_ASSIGN_OR_RETURN(trunk.plan, Plan(trunk, std::nullopt));
@@ -235,8 +238,8 @@ class LevelGrounds::Builder {
     Part both = Both(k);
     PM_ASSIGN_OR_RETURN(both.plan, Plan(both, std::nullopt));
     const double apart = trunk.plan->length + branch.length;
-    if (apart < both.plan->length - kWorth * params_.radius) return absl::OkStatus();
-    return Join(k, std::move(both));
+    if (!(apart < both.plan->length - kWorth * params_.radius)) Join(k, std::move(both));
+    return absl::OkStatus();
   }
 
   const ContourGround& ground_;

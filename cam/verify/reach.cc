@@ -16,7 +16,7 @@ constexpr double kProof = 0.02;     // of the give: how exactly "free" is decide
 constexpr double kCoarse = 0.02;    // of the radius: how exactly a blocked depth is known
 constexpr double kNearer = 0.02;    // of the radius: the shank is blocked by more than this beyond the ball
 constexpr double kOverLeast = 0.5;  // of the least ball's radius: what is over it comes nearer to its axis
-constexpr double kReasonProof = 0.004;  // of the radius: how exactly the two are known
+constexpr double kReasonProof = 0.001;  // of the radius: how exactly the two are known
 
 std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) {
   return {p + radius * facing.e, p - radius * facing.e};

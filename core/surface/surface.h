@@ -62,7 +62,7 @@ struct SurfaceParams {
 // (ValidateModel); its Bezier patches, and B-spline patches of one knot rectangle, leave their points to
 // their pieces (ShapeOf gives them back). Deterministic, parallel over pieces. Cost about 1 us a leaf.
 // INVALID_ARGUMENT for a model without patches or bad params; CANCELLED and DEADLINE_EXCEEDED from `run`.
-// Stage names for progress: "pieces", "bounds".
+// Stage names for progress: "pieces", "bounds", "bounds: tree", "bounds: boxes".
 absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& params,
                                      const RunContext& run);
 

@@ -13,19 +13,25 @@ namespace patchmill::testing {
 
 enum class Blocked { kNot, kAbove, kByItself };
 
-// Of the ball of one radius that touches p. Distances are known to 1e-7 mm; nullopt where they are within
-// what planner and verifier may be off of a limit: 0.04 of the give, 0.005 of the radius.
+// T and B of the page, known to 1e-7 mm.
+struct BallDistances {
+  double ray = 0.0, ball = 0.0;
+};
+inline BallDistances DistancesOf(const Surface& surface, const Vec3& c) {
+  return {ClosestToUpwardRay(surface, c, kInfinity, 1e-7)->distance,
+          ClosestToPoint(surface, c, kInfinity, 1e-7)->distance};
+}
+
+// Of the ball of one radius that touches p. nullopt within what planner and verifier may be off of a limit:
+// 0.04 of the give, 0.002 of the radius.
 inline std::optional<Blocked> WhatBlocks(const Surface& surface, const Vec3& p, const Vec3& e, double radius,
                                          double give) {
-  const Vec3 c = p + radius * e;
-  const auto ray = ClosestToUpwardRay(surface, c, kInfinity, 1e-7),
-             ball = ClosestToPoint(surface, c, kInfinity, 1e-7);
-  if (!ray || !ball) return std::nullopt;
-  const double free = ray->distance - (radius - give), clears = ball->distance - (radius - 0.5 * give),
-               nearer = ball->distance - 0.02 * radius - ray->distance;
+  const auto [ray, ball] = DistancesOf(surface, p + radius * e);
+  const double free = ray - (radius - give), clears = ball - (radius - 0.5 * give),
+               nearer = ball - 0.02 * radius - ray;
   if (std::abs(free) < 0.04 * give) return std::nullopt;
   if (free > 0.0) return Blocked::kNot;
-  if (std::abs(nearer) < 0.005 * radius || std::abs(clears) < 0.06 * give) return std::nullopt;
+  if (std::abs(nearer) < 0.002 * radius || std::abs(clears) < 0.06 * give) return std::nullopt;
   return nearer > 0.0 || clears > 0.0 ? Blocked::kAbove : Blocked::kByItself;
 }
 
@@ -33,13 +39,9 @@ inline std::optional<Blocked> WhatBlocks(const Surface& surface, const Vec3& p, 
 inline std::optional<bool> StandsAboveLeast(const Surface& surface, const Vec3& p, const Vec3& e,
                                             double give) {
   const double radius = LeastBall(give);
-  const Vec3 c = p + radius * e;
-  const auto ray = ClosestToUpwardRay(surface, c, kInfinity, 1e-7),
-             ball = ClosestToPoint(surface, c, kInfinity, 1e-7);
-  if (!ray || !ball) return std::nullopt;
-  const double near = 0.5 * radius - ray->distance, nearer = ball->distance - 0.02 * radius - ray->distance;
-  const double least = std::min(near, nearer);
-  return std::abs(least) < 0.005 * radius ? std::nullopt : std::optional(least > 0.0);
+  const auto [ray, ball] = DistancesOf(surface, p + radius * e);
+  const double least = std::min(0.5 * radius - ray, ball - 0.02 * radius - ray);
+  return std::abs(least) < 0.002 * radius ? std::nullopt : std::optional(least > 0.0);
 }
 
 // UNDERCUT is kAbove, CONCAVE kByItself.

@@ -123,9 +123,16 @@ TEST(Reasons, UnderAPlateIsUndercutAndBesideItConcave) {
   }
 }
 
+// Off the ends of a pipe the two reasons part at a flat angle: what is above the centre comes nearer than
+// what is below by hardly more or less than counts, and a hundredth of a mm moves the border by a fifth of
+// one.
+TEST(Reasons, BesideAPipeOnAPlate) {
+  const Eigen::Affine3d askew(Eigen::AngleAxisd(1.22, Vec3::UnitZ()));
+  ExpectAgreement(Transformed(Join({Plane(12), Cylinder(Vec3(0, 0, 4), 4, 8)}), askew), BallJob(3.0));
+}
+
 // Two slots open to the top, narrower than the ball: what lies behind their walls, under the top, keeps no
-// smaller ball from them. A ball that goes through the rib between them is blocked above the centre all the
-// same.
+// smaller ball from them. (Balls that pass the rib between the slots, and no farther, are blocked above.)
 TEST(Reasons, WallsOfSlotsAreConcave) {
   const double half = 3.0, rib = 2.0, deep = 5.0, far = 20.0;
   PatchModel slots;
