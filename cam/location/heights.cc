@@ -160,7 +160,7 @@ struct FloatLanes {
     std::array<unsigned, kGroups> out;
     unsigned all = 0xF;
     for (std::size_t g = 0; g < kGroups; ++g)
-      all &= out[g] = internal::BelowBits(top, up_x * x[g] + up_y * y[g] + up_z * z[g]);
+      all &= out[g] = BelowBits(top, up_x * x[g] + up_y * y[g] + up_z * z[g]);
     if (all == 0xF) return false;
     const Float4 zero{}, min_x = Splat(node.min_x[k]), max_x = Splat(node.max_x[k]),
                          min_y = Splat(node.min_y[k]), max_y = Splat(node.max_y[k]),
@@ -169,7 +169,7 @@ struct FloatLanes {
     for (std::size_t g = 0; g < kGroups; ++g) {
       const Float4 dx = Max(Max(min_x - x[g], x[g] - max_x), zero),
                    dy = Max(Max(min_y - y[g], y[g] - max_y), zero), below = Max(z[g] - max_z, zero);
-      meeting |= ~out[g] & internal::BelowBits(dx * dx + dy * dy + below * below, Splat(limits.square));
+      meeting |= ~out[g] & BelowBits(dx * dx + dy * dy + below * below, Splat(limits.square));
     }
     return meeting != 0;
   }

@@ -5,26 +5,11 @@
 #include <array>
 #include <bit>
 
-#if defined(__SSE__)
-#include <xmmintrin.h>
-#endif
-
 #include "cam/location/search_tree.h"
 #include "core/base/lanes.h"
 #include "core/surface/collapse.h"
 
 namespace patchmill::internal {
-
-// Bit k: a < b in lane k.
-inline unsigned BelowBits(Float4 a, Float4 b) {
-#if defined(__SSE__)
-  return static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));
-#else
-  unsigned bits = 0;
-  for (int k = 0; k < 4; ++k) bits |= (a[k] < b[k] ? 1U : 0U) << k;
-  return bits;
-#endif
-}
 
 // Where the balls' centres are in plan.
 struct PlanBox {

@@ -1,9 +1,13 @@
 #include "cam/region/obstacle_cloud.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <numeric>
+
+#include "core/base/lanes.h"
 
 namespace patchmill {
 namespace {
@@ -11,7 +15,8 @@ namespace {
 constexpr double kMostPoints = 1e6;
 constexpr double kCell = 2.0;     // spacings
 constexpr int kMostCells = 1024;  // along x, and along y
-constexpr int kBlock = 8;         // cells looked at together
+constexpr int kLanes = 4;         // cells, and points, looked at together
+constexpr double kFloat = 1e-6;   // of the size: more than floats do to a distance
 
 double LengthAlong(const Piece& piece, bool u) {
   double longest = 0.0;
@@ -22,6 +27,26 @@ double LengthAlong(const Piece& piece, bool u) {
     longest = std::max(longest, length);
   }
   return longest;
+}
+
+Float4 Load(const std::vector<float>& from, std::size_t at) {
+  Float4 lanes;
+  std::memcpy(&lanes, &from[at], sizeof(lanes));
+  return lanes;
+}
+
+// Calls visit(i) for the points [first, last) that `near` (bits of the four from i on) tells of, until it
+// says true; then it does.
+template <class Near, class Visit>
+bool VisitNear(std::size_t first, std::size_t last, const Near& near, const Visit& visit) {
+  for (std::size_t i = first; i < last; i += kLanes) {
+    unsigned bits = near(i);
+    if (last - i < kLanes) bits &= (1U << (last - i)) - 1U;
+    for (; bits != 0; bits &= bits - 1) {
+      if (visit(i + static_cast<std::size_t>(std::countr_zero(bits)))) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -49,13 +74,14 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
       }
     }
   }
-  low_ = Plan(surface.box.min);
-  const Vec2 extent = Plan(surface.box.max) - low_;
-  cell_ = std::max(kCell * spacing, extent.maxCoeff() / kMostCells);
+  low_ = surface.box.min;
+  const Vec3 extent = surface.box.max - low_;
+  cell_ = std::max(kCell * spacing, Plan(extent).maxCoeff() / kMostCells);
+  slack_ = static_cast<float>(kFloat * extent.norm());
   columns_ = static_cast<int>(extent.x() / cell_) + 1;
   rows_ = static_cast<int>(extent.y() / cell_) + 1;
   const auto place = [&](const Vec3& p) {
-    const Vec2 q = (Plan(p) - low_) / cell_;
+    const Vec2 q = Plan(p - low_) / cell_;
     const int column = std::clamp(static_cast<int>(q.x()), 0, columns_ - 1),
               row = std::clamp(static_cast<int>(q.y()), 0, rows_ - 1);
     return static_cast<std::size_t>(row * columns_ + column);
@@ -63,22 +89,26 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
   first_.assign(static_cast<std::size_t>(rows_ * columns_) + 2, 0);
   for (const Vec3& p : points) ++first_[place(p) + 2];
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  highest_.assign(first_.size() - 2 + kBlock, -kInfinity);
+  highest_.assign(first_.size() - 2 + kLanes, -std::numeric_limits<float>::infinity());
   points_.resize(points.size());
   at_.resize(points.size());
+  for (std::vector<float>* rounded : {&x_, &y_, &z_}) rounded->assign(points.size() + kLanes, 0.0F);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3& p = points[i];
-    const std::size_t cell = place(p);
-    at_[first_[cell + 1]] = at[i];
-    points_[first_[cell + 1]++] = p;
+    const std::size_t cell = place(points[i]), at_place = first_[cell + 1]++;
+    at_[at_place] = at[i];
+    points_[at_place] = points[i];
+    const Eigen::Vector3f p = (points[i] - low_).cast<float>();
+    x_[at_place] = p.x();
+    y_[at_place] = p.y();
+    z_[at_place] = p.z();
     highest_[cell] = std::max(highest_[cell], p.z());
   }
 }
 
-// The walk is by rows, and in these by blocks of cells without branches.
+// The walk is by rows, in these by four cells, and what neighbours hold is one run of points.
 template <class Visit>
-void ObstacleCloud::Cells(const Vec3& c, const double& reach, const Visit& visit) const {
-  const Vec2 q = Plan(c) - low_;
+void ObstacleCloud::Runs(const Vec3& c, const double& reach, const Visit& visit) const {
+  const Vec3 q = c - low_;
   const Vec2 extent = Vec2(columns_, rows_) * cell_;
   if (q.x() + reach < 0.0 || q.y() + reach < 0.0 || q.x() - reach > extent.x() || q.y() - reach > extent.y())
     return;
@@ -87,36 +117,56 @@ void ObstacleCloud::Cells(const Vec3& c, const double& reach, const Visit& visit
   };
   const int last_row = clamped(q.y() + reach, rows_), first = clamped(q.x() - reach, columns_),
             last = clamped(q.x() + reach, columns_);
+  const auto width = static_cast<float>(cell_);
+  const Float4 zero{}, lefts = Splat(static_cast<float>(first * cell_ - q.x())) +
+                               Splat(width) * Float4{0.0F, 1.0F, 2.0F, 3.0F};
+  const Float4 top = Splat(static_cast<float>(q.z()));
   for (int row = clamped(q.y() - reach, rows_); row <= last_row; ++row) {
     const double y = std::max({0.0, row * cell_ - q.y(), q.y() - (row + 1) * cell_});
-    for (int column = first; column <= last; column += kBlock) {
+    const Float4 y2 = Splat(static_cast<float>(y * y));
+    std::size_t from = 0, to = 0;  // the run so far
+    Float4 left = lefts;
+    for (int column = first; column <= last; column += kLanes, left = left + Splat(kLanes * width)) {
       const auto cell = static_cast<std::size_t>(row * columns_ + column);
-      const double* highest = &highest_[cell];
-      const double from = column * cell_ - q.x();
-      std::array<double, kBlock> squared;
-      for (std::size_t k = 0; k < kBlock; ++k) {
-        const double left = from + static_cast<double>(k) * cell_;
-        const double x = std::max(0.0, std::max(left, -left - cell_)), z = std::max(0.0, c.z() - highest[k]);
-        squared[k] = x * x + y * y + z * z;
-      }
-      const auto count = static_cast<std::size_t>(std::min<int>(kBlock, last - column + 1));
-      for (std::size_t k = 0; k < count; ++k) {
-        if (squared[k] < reach * reach && visit(first_[cell + k], first_[cell + k + 1])) return;
+      const Float4 x = Max(zero, Max(left, zero - left - Splat(width))),
+                   z = Max(zero, top - Load(highest_, cell));
+      unsigned bits = BelowBits(x * x + y2 + z * z, Squared(reach));
+      bits &= (1U << std::min<int>(kLanes, last - column + 1)) - 1U;
+      for (; bits != 0; bits &= bits - 1) {
+        const std::size_t at = cell + static_cast<std::size_t>(std::countr_zero(bits));
+        if (first_[at] != to) {
+          if (from < to && visit(from, to)) return;
+          from = first_[at];
+        }
+        to = first_[at + 1];
       }
     }
+    if (from < to && visit(from, to)) return;
   }
+}
+
+// The square of a distance, and what floats may add to it.
+Float4 ObstacleCloud::Squared(double distance) const {
+  const float most = static_cast<float>(distance) + slack_;
+  return Splat(1.00001F * most * most);
 }
 
 std::optional<SurfacePoint> ObstacleCloud::InTheWay(const Vec3& c, double radius) const {
   std::optional<SurfacePoint> found;
-  Cells(c, radius, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to && !found; ++i) {
+  const Eigen::Vector3f q = (c - low_).cast<float>();
+  const Float4 x = Splat(q.x()), y = Splat(q.y()), z = Splat(q.z()), zero{}, most = Squared(radius);
+  const auto near = [&](std::size_t i) {
+    const Float4 dx = Load(x_, i) - x, dy = Load(y_, i) - y, below = Min(Load(z_, i) - z, zero);
+    return BelowBits(dx * dx + dy * dy + below * below, most);
+  };
+  Runs(c, radius, [&](std::size_t first, std::size_t last) {
+    return VisitNear(first, last, near, [&](std::size_t i) {
       const Vec3 d = points_[i] - c;
       const double below = std::min(d.z(), 0.0);
-      if (Plan(d).squaredNorm() + below * below < radius * radius)
-        found = SurfacePoint{PieceId(at_[i].piece), at_[i].u, at_[i].v, points_[i]};
-    }
-    return found.has_value();
+      if (!(Plan(d).squaredNorm() + below * below < radius * radius)) return false;
+      found = SurfacePoint{PieceId(at_[i].piece), at_[i].u, at_[i].v, points_[i]};
+      return true;
+    });
   });
   return found;
 }
@@ -124,16 +174,22 @@ std::optional<SurfacePoint> ObstacleCloud::InTheWay(const Vec3& c, double radius
 std::optional<Vec3> ObstacleCloud::Nearest(const Vec3& c, double limit) const {
   double nearest = limit;
   std::optional<Vec3> found;
-  Cells(c, nearest, [&](std::size_t from, std::size_t to) {
-    double squared = nearest * nearest;
-    for (std::size_t i = from; i < to; ++i) {
-      const double d = (points_[i] - c).squaredNorm();
-      if (d >= squared) continue;
-      squared = d;
+  const Eigen::Vector3f q = (c - low_).cast<float>();
+  const Float4 x = Splat(q.x()), y = Splat(q.y()), z = Splat(q.z());
+  Float4 most = Squared(nearest);
+  const auto near = [&](std::size_t i) {
+    const Float4 dx = Load(x_, i) - x, dy = Load(y_, i) - y, dz = Load(z_, i) - z;
+    return BelowBits(dx * dx + dy * dy + dz * dz, most);
+  };
+  Runs(c, nearest, [&](std::size_t first, std::size_t last) {
+    return VisitNear(first, last, near, [&](std::size_t i) {
+      const double d = (points_[i] - c).norm();
+      if (d >= nearest) return false;
+      nearest = d;
       found = points_[i];
-    }
-    nearest = std::min(nearest, std::sqrt(squared));
-    return false;
+      most = Squared(nearest);
+      return false;
+    });
   });
   return found;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/lanes.h"
 #include "core/base/run_context.h"
 #include "core/surface/surface.h"
 
@@ -27,18 +28,21 @@ class ObstacleCloud {
     std::int32_t piece = 0;
     float u = 0.0F, v = 0.0F;
   };
-  // visit(first, last): the points of a cell that may be nearer to the ray than `reach`, which may shrink on
-  // the way; until it says true.
+  // visit(first, last): points some of which may be nearer to the ray than `reach`, which may shrink on the
+  // way; until it says true.
   template <class Visit>
-  void Cells(const Vec3& c, const double& reach, const Visit& visit) const;
+  void Runs(const Vec3& c, const double& reach, const Visit& visit) const;
+  Float4 Squared(double distance) const;
 
-  Vec2 low_ = Vec2::Zero();
+  Vec3 low_ = Vec3::Zero();
   double cell_ = 1.0;
+  float slack_ = 0.0F;  // mm: what rounding to floats may do to a distance
   int rows_ = 0, columns_ = 0;
   std::vector<std::size_t> first_;  // [row * columns + column]: of the cell's points, and the end
-  std::vector<double> highest_;     // of a cell; some more at the end
+  std::vector<float> highest_;      // of a cell, from low; some more at the end
   std::vector<Vec3> points_;
-  std::vector<Parameters> at_;  // of each point
+  std::vector<float> x_, y_, z_;  // of the points from low, rounded; some more at the end
+  std::vector<Parameters> at_;    // of each point
 };
 
 }  // namespace patchmill

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
 
 #include "core/base/grow.h"
+#include "core/base/lanes.h"
 #include "core/base/parallel.h"
 
 namespace patchmill {
@@ -16,65 +18,96 @@ constexpr int kBins = 16;
 constexpr std::size_t kFew = 8, kMostSteps = kBins;
 // Subtrees are built in parallel, at least so many where there are enough items.
 constexpr std::size_t kShares = 32, kAlone = 512;
+constexpr float kNarrow = 1e-30F;  // of no use: its bins would be too narrow for a float
 
-double HalfArea(const Box3& box) {
-  const Vec3 d = box.max - box.min;
-  return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+// A box as it is weighed here, from an origin among all boxes: how it was rounded costs nothing but a
+// slightly dearer cut.
+struct LaneBox {
+  Float4 low = Splat(std::numeric_limits<float>::infinity());
+  Float4 high = Splat(-std::numeric_limits<float>::infinity());
+
+  void Add(const LaneBox& box) {
+    low = Min(low, box.low);
+    high = Max(high, box.high);
+  }
+  Float4 Center() const { return Splat(0.5F) * (low + high); }
+};
+
+float HalfArea(const LaneBox& box) {
+  const Float4 d = box.high - box.low;
+  return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
+LaneBox LaneBoxOf(const Box3& box, const Vec3& origin) {
+  const auto lanes = [&](const Vec3& p) {
+    const Eigen::Vector3f q = (p - origin).cast<float>();
+    return Float4{q.x(), q.y(), q.z(), 0.0F};
+  };
+  return {lanes(box.min), lanes(box.max)};
+}
+
+// The bins of what is spread like this, along each axis.
+struct Bins {
+  Float4 min, scale;
+
+  explicit Bins(const LaneBox& spread) : min(spread.low) {
+    const Float4 width = spread.high - spread.low;
+    for (int axis = 0; axis < 4; ++axis) scale[axis] = width[axis] > kNarrow ? kBins / width[axis] : 0.0F;
+  }
+  bool Parts(int axis) const { return scale[axis] > 0.0F; }
+  Int4 Of(const LaneBox& box) const {
+    return __builtin_convertvector(Min((box.Center() - min) * scale, Splat(kBins - 1)), Int4);
+  }
+};
+
 struct Builder {
-  const std::vector<Box3>& boxes;
   const RunContext& run;
-  std::vector<Vec3> centers;
+  std::vector<LaneBox> boxes;
   std::vector<std::int32_t> order;
   std::vector<SurfaceNode> nodes;
 
-  // Where to cut order[begin, end): items below `bin` of `axis` go left. cost is +inf when bins cannot part
-  // them.
+  // Where to cut items: those below `bin` of `axis` go left. cost is +inf when bins cannot part them.
   struct Cut {
-    double cost = kInfinity;
-    int axis = 0, bin = 0;
+    float cost = std::numeric_limits<float>::infinity();
+    int axis = -1, bin = 0;
   };
 
-  static int BinOf(double x, double min, double width) {
-    return std::clamp(static_cast<int>((x - min) / width * kBins), 0, kBins - 1);
-  }
-  const Vec3& Center(std::int32_t item) const { return centers[static_cast<std::size_t>(item)]; }
-  const Box3& Box(std::int32_t item) const { return boxes[static_cast<std::size_t>(item)]; }
+  const LaneBox& Box(std::int32_t item) const { return boxes[static_cast<std::size_t>(item)]; }
 
   // Of some boxes in a row, after each of which a cut at the given bin is possible.
   struct Step {
-    Box3 box;
+    LaneBox box;
     int count = 0, bin = 0;
   };
   static void Sweep(std::span<const Step> steps, int axis, Cut& best) {
-    std::array<double, kMostSteps> right_cost{};
-    Box3 right;
+    std::array<float, kMostSteps> right_cost{};
+    LaneBox right;
     int right_count = 0;
     for (std::size_t k = steps.size() - 1; k > 0; --k) {
       right.Add(steps[k].box);
       right_count += steps[k].count;
-      right_cost[k] = HalfArea(right) * right_count;
+      right_cost[k] = HalfArea(right) * static_cast<float>(right_count);
     }
-    Box3 left;
+    LaneBox left;
     int left_count = 0;
     for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
       left.Add(steps[k].box);
       left_count += steps[k].count;
-      const double cost = HalfArea(left) * left_count + right_cost[k + 1];
+      const float cost = HalfArea(left) * static_cast<float>(left_count) + right_cost[k + 1];
       if (cost < best.cost) best = {cost, axis, steps[k].bin};
     }
   }
 
   // Most nodes have few items: these are put in order of their bins, and no bins are filled.
-  Cut BestCutOfFew(std::span<const std::int32_t> items, const Box3& spread) const {
+  Cut BestCutOfFew(std::span<const std::int32_t> items, const Bins& bins) const {
+    std::array<Int4, kFew> bin;
+    for (std::size_t k = 0; k < items.size(); ++k) bin[k] = bins.Of(Box(items[k]));
     Cut best;
     for (int axis = 0; axis < 3; ++axis) {
-      const double min = spread.min[axis], width = spread.max[axis] - min;
-      if (!(width > 0.0)) continue;
+      if (!bins.Parts(axis)) continue;
       std::array<std::pair<int, std::int32_t>, kFew> in_order;
       for (std::size_t k = 0; k < items.size(); ++k) {
-        const std::pair<int, std::int32_t> at(BinOf(Center(items[k])[axis], min, width), items[k]);
+        const std::pair<int, std::int32_t> at(bin[k][axis], items[k]);
         std::size_t i = k;
         for (; i > 0 && in_order[i - 1].first > at.first; --i) in_order[i] = in_order[i - 1];
         in_order[i] = at;
@@ -93,25 +126,21 @@ struct Builder {
     return best;
   }
 
-  Cut BestCut(std::span<const std::int32_t> items, const Box3& spread) const {
-    if (items.size() <= kFew) return BestCutOfFew(items, spread);
-    std::array<std::array<Step, kBins>, 3> bins;
-    const Vec3 width = spread.max - spread.min;
+  Cut BestCut(std::span<const std::int32_t> items, const Bins& bins) const {
+    if (items.size() <= kFew) return BestCutOfFew(items, bins);
+    std::array<std::array<Step, kBins>, 3> filled;
     for (const std::int32_t item : items) {
-      const Box3& box = Box(item);
-      const Vec3& center = Center(item);
+      const LaneBox& box = Box(item);
+      const Int4 at = bins.Of(box);
       for (int axis = 0; axis < 3; ++axis) {
-        if (!(width[axis] > 0.0)) continue;
-        Step& bin = bins[static_cast<std::size_t>(axis)]
-                        [static_cast<std::size_t>(BinOf(center[axis], spread.min[axis], width[axis]))];
+        Step& bin = filled[static_cast<std::size_t>(axis)][static_cast<std::size_t>(at[axis])];
         bin.box.Add(box);
         ++bin.count;
       }
     }
     Cut best;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(width[axis] > 0.0)) continue;
-      std::array<Step, kBins>& steps = bins[static_cast<std::size_t>(axis)];
+      std::array<Step, kBins>& steps = filled[static_cast<std::size_t>(axis)];
       std::size_t count = 0;
       for (std::size_t b = 0; b < kBins; ++b) {
         if (steps[b].count == 0) continue;
@@ -124,21 +153,27 @@ struct Builder {
   }
 
   // Returns the number of items that go left, at least 1 and fewer than all.
-  std::size_t Part(std::span<std::int32_t> items, const Box3& spread, int depth) const {
-    const Cut cut = depth < 30 ? BestCut(items, spread) : Cut{};  // too deep: medians end it in log2(n)
-    if (cut.cost < kInfinity) {
-      const double min = spread.min[cut.axis], width = spread.max[cut.axis] - min;
-      const auto middle = std::stable_partition(items.begin(), items.end(), [&](std::int32_t item) {
-        return BinOf(Center(item)[cut.axis], min, width) < cut.bin;
+  std::size_t Part(std::span<std::int32_t> items, int depth) const {
+    if (items.size() == 2) return 1;
+    LaneBox spread;
+    for (const std::int32_t item : items) {
+      const Float4 center = Box(item).Center();
+      spread.Add({center, center});
+    }
+    const Bins bins(spread);
+    const Cut cut = depth < 30 ? BestCut(items, bins) : Cut{};  // too deep: medians end it in log2(n)
+    if (cut.axis >= 0) {
+      const auto middle = std::partition(items.begin(), items.end(), [&](std::int32_t item) {
+        return bins.Of(Box(item))[cut.axis] < cut.bin;
       });
       return static_cast<std::size_t>(middle - items.begin());
     }
-    int axis = 0;
-    (spread.max - spread.min).maxCoeff(&axis);
+    const Float4 width = spread.high - spread.low;
+    const int axis = width[0] >= std::max(width[1], width[2]) ? 0 : width[1] >= width[2] ? 1 : 2;
     const std::size_t half = items.size() / 2;
     std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
                      [&](std::int32_t a, std::int32_t b) {
-                       return std::pair(Center(a)[axis], a) < std::pair(Center(b)[axis], b);
+                       return std::pair(Box(a).Center()[axis], a) < std::pair(Box(b).Center()[axis], b);
                      });
     return half;
   }
@@ -156,20 +191,14 @@ struct Builder {
       rest->push_back(task);
       return;
     }
-    SurfaceNode& node = nodes[self];
-    Box3 spread;
-    for (const std::int32_t item : items) {
-      node.box.Add(Box(item));
-      spread.Add(Center(item));
-    }
     if (items.size() == 1) {
-      node.leaf = items.front();
+      nodes[self].leaf = items.front();
       return;
     }
     if (items.size() > 256 && run.Cancelled()) return;
     if (rest != nullptr) run.Progress("bounds: tree", 0.0);  // a pass over so many items takes a while
-    const std::size_t left = Part(items, spread, depth);
-    node.right = static_cast<std::int32_t>(self + 2 * left);
+    const std::size_t left = Part(items, depth);
+    nodes[self].right = static_cast<std::int32_t>(self + 2 * left);
     Build({items.first(left), self + 1, depth + 1}, enough, rest);
     Build({items.subspan(left), self + 2 * left, depth + 1}, enough, rest);
   }
@@ -178,14 +207,14 @@ struct Builder {
 }  // namespace
 
 std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const RunContext& run) {
-  Builder builder{.boxes = boxes, .run = run, .centers = {}, .order = {}, .nodes = {}};
+  Builder builder{.run = run, .boxes = {}, .order = {}, .nodes = {}};
   if (boxes.empty()) return {};
-  if (!Grow(builder.centers, boxes.size(), run).ok() || !Grow(builder.order, boxes.size(), run).ok() ||
+  if (!Grow(builder.boxes, boxes.size(), run).ok() || !Grow(builder.order, boxes.size(), run).ok() ||
       !Grow(builder.nodes, 2 * boxes.size() - 1, run).ok()) {
     return {};
   }
-  std::transform(boxes.begin(), boxes.end(), builder.centers.begin(),
-                 [](const Box3& b) { return b.Center(); });
+  std::transform(boxes.begin(), boxes.end(), builder.boxes.begin(),
+                 [&](const Box3& box) { return LaneBoxOf(box, boxes.front().min); });
   std::iota(builder.order.begin(), builder.order.end(), 0);
   run.Progress("bounds: tree", 0.0);
   std::vector<Builder::Task> rest;
@@ -194,6 +223,17 @@ std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const Run
   ParallelFor(run, "bounds: tree", rest.size(), [&](std::size_t k) {
     builder.Build(rest[k], 0, nullptr);
   }).IgnoreError();
+  if (run.Cancelled()) return {};
+  // Children come after their parents.
+  for (std::size_t i = builder.nodes.size(); i-- > 0;) {
+    SurfaceNode& node = builder.nodes[i];
+    if (node.leaf >= 0) {
+      node.box = boxes[static_cast<std::size_t>(node.leaf)];
+    } else {
+      node.box = builder.nodes[i + 1].box;
+      node.box.Add(builder.nodes[static_cast<std::size_t>(node.right)].box);
+    }
+  }
   return std::move(builder.nodes);
 }
 
