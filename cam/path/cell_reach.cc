@@ -50,10 +50,11 @@ bool TooBent(const std::array<Vec3, 9>& f, double size) {
 }
 
 bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const CellReachParams& params,
-                Blockers& blockers) {
+                Blockers& blockers, const SidesRuledOut& ruled_out) {
   const double limit = params.radius - params.give;
   const double turn = BendOver(at.n);
   for (std::size_t side = 0; side < 2; ++side) {
+    if (ruled_out[side]) continue;
     const double sign = side == 0 ? 1.0 : -1.0;
     double highest_normal = -1.0, lowest_normal = 1.0, highest_center = -kInfinity;
     std::array<Vec3, 9> c;

@@ -50,6 +50,9 @@ struct CellReachParams {
 // parts.
 using Blockers = std::array<std::optional<SurfacePoint>, 2>;
 
+// Of either side of the surface: no ball there counts, as is known.
+using SidesRuledOut = std::array<bool, 2>;
+
 // True when no ball centred over the rectangle is free: on either side of the surface it looks down, all
 // centres are below the floor, or one surface point lies deeper than `give` in all the balls (distance
 // to the upward ray, so that the shank counts). The distance of a surface point to the upward ray is convex
@@ -57,6 +60,6 @@ using Blockers = std::array<std::optional<SurfacePoint>, 2>;
 // the nine places (second order, twice). `size`: diameter of the rectangle, mm. `blockers` are tried first
 // and replaced by the deepest points.
 bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const CellReachParams& params,
-                Blockers& blockers);
+                Blockers& blockers, const SidesRuledOut& ruled_out = {});
 
 }  // namespace patchmill

@@ -28,20 +28,25 @@ absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,
   };
   grow(paths);
   std::vector<CutterPath> added;
+  Mending mending = Mending::kBest;
   for (int round = 0; round < params.max_rounds; ++round) {
     run.Progress("coverage", static_cast<double>(round) / params.max_rounds);
     PM_ASSIGN_OR_RETURN(const std::vector<LeftoverSpot> spots,
                         FindSpots(locator, reach, trees, rects, params, run));
     if (spots.empty()) break;
-    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> mended, MendSpots(locator, spots, params, run));
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> mended, MendSpots(locator, spots, params, mending, run));
     if (params.keep_in != nullptr) {
       const double step = CenterStep(locator.radius(), params.scallop, 0.0);
       PM_ASSIGN_OR_RETURN(mended, ClipToKeepIn(locator, *params.keep_in, std::move(mended), step, run));
     }
-    if (mended.empty()) break;
     // A pass never uncovers anything: only the rectangles of the spots need another look.
     rects.clear();
     for (const LeftoverSpot& s : spots) rects.push_back(s.rect);
+    if (mended.empty()) {
+      if (mending == Mending::kCenters) break;
+      mending = Mending::kCenters;
+      continue;
+    }
     grow(mended);
     for (CutterPath& p : mended) {
       p.line = static_cast<int>(added.size());

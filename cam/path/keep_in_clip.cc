@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kAsNear = 2e-3;  // of the radius: a ball touches what is this much farther than the nearest
 constexpr int kHalvings = 4;      // of half the reach, where what is wanted ends
+constexpr double kAbove = 0.02;   // of the radius, that a contact may lie above the centre
 constexpr double kClipLength = 1e-3;  // mm: shorter parts across a limit are left out
 
 // A pass cut into chords, each kept or not.
@@ -128,14 +129,14 @@ class Clipper {
   }
 
   // The ball touches ground near what is wanted. A contact above its centre is the shank's, which finishes
-  // nothing; of several contacts a point may name one.
+  // nothing; beside an upright wall the ball's own is known less exactly. Of several a point may name one.
   bool WantsNear(const CutterPoint& p) const {
     if (keep_in_.WantsAll()) return true;
+    const double radius = locator_.radius();
     const auto wanted = [&](const SurfacePoint& place) {
-      return place.p.z() <= p.center.z() + kClipLength && keep_in_.WantsNear(place, reach_);
+      return place.p.z() <= p.center.z() + kAbove * radius && keep_in_.WantsNear(place, reach_);
     };
     if ((p.contact && wanted(*p.contact)) || (p.other_contact && wanted(*p.other_contact))) return true;
-    const double radius = locator_.radius();
     if (keep_in_.WantsNothingNear(p.center, kTouchedReach * radius + reach_)) return false;
     const std::vector<SurfacePoint> touched = Touched(locator_.surface(), p.center, radius, kAsNear * radius);
     return std::any_of(touched.begin(), touched.end(), wanted);

@@ -34,6 +34,9 @@ constexpr double kPair = 1.0;      // larger ones lie over more than two moves
 constexpr double kFinest = 0.002;  // smaller ones are left, and narrower strips beside silhouettes
 constexpr double kLimit = 0.05;    // the same at a limit of params.keep_in, when a move is this near:
 constexpr double kAtHand = 1.0;    // farther from all there may be room for the ball in no more than a chink
+// The same of ReachGive, if that is less: nobody asks for what is nearer to a limit, which in the sharpest
+// corner leaves a place in the corners of such rectangles.
+constexpr double kAtLimit = 1.0;
 
 // Of ReachGive: what is so near to its limit is not called out of reach. The verifier knows reach to 0.02 of
 // it.
@@ -84,7 +87,7 @@ class SpotFinder {
   bool Wanted(const SurfacePoint& at) const {
     return params_.keep_in == nullptr || params_.keep_in->Wants(at);
   }
-  bool AllForbidden(const RectPlaces& places) const;
+  SidesRuledOut ForbiddenSides(const RectPlaces& places) const;
   std::optional<LeftoverSpot> SpotAt(const SurfaceRect& rect, const SurfaceJet& jet, const SurfacePoint& at,
                                      const Vec3& e, const NearMove& nearest) const;
   void AddCorner(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
@@ -175,11 +178,13 @@ void SpotFinder::AddCorner(const SurfaceRect& rect, std::vector<LeftoverSpot>& o
   }
 }
 
-// The limits of the operation forbid every centre over the rectangle.
-bool SpotFinder::AllForbidden(const RectPlaces& places) const {
-  if (params_.keep_in == nullptr || params_.keep_in->AllowsAll()) return false;
+// The sides that look down, or where the limits of the operation forbid every centre over the rectangle.
+SidesRuledOut SpotFinder::ForbiddenSides(const RectPlaces& places) const {
+  SidesRuledOut ruled_out{};
+  if (params_.keep_in == nullptr || params_.keep_in->AllowsAll()) return ruled_out;
   const double turn = BendOver(places.n);
-  for (const double sign : {1.0, -1.0}) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double sign = side == 0 ? 1.0 : -1.0;
     double highest_normal = -1.0, spread = 0.0, lowest_center = kInfinity;
     std::array<Vec3, 9> c;
     for (std::size_t k = 0; k < 9; ++k) {
@@ -188,12 +193,12 @@ bool SpotFinder::AllForbidden(const RectPlaces& places) const {
       highest_normal = std::max(highest_normal, sign * places.n[k].z());
       spread = std::max(spread, (c[k] - places.p[8] - sign * radius_ * places.n[8]).norm());
     }
-    if (highest_normal + turn < -kUprightFace) continue;  // looks down
     const double bend = BendOver(c);
-    if (params_.keep_in->TooHigh(lowest_center - bend)) continue;
-    if (!params_.keep_in->Forbids(c[8], spread + bend)) return false;
+    ruled_out[side] = highest_normal + turn < -kUprightFace ||
+                      params_.keep_in->TooHigh(lowest_center - bend) ||
+                      params_.keep_in->Forbids(c[8], spread + bend);
   }
-  return true;
+  return ruled_out;
 }
 
 // Where the centres bend too much for OutOfReach: whether it is along u that they bend the most. A tight
@@ -276,10 +281,12 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   const bool limited =
       params_.keep_in != nullptr && !(Wanted(at) && params_.keep_in->Allows(p + radius_ * e));
   const bool at_hand = near.segment >= 0 && near.distance < radius_ + kAtHand * flat_;
-  if (size < (limited && at_hand ? kLimit : kFinest) * flat_ || depth >= kDeepest) {
+  const double finest = limited && at_hand ? std::min(kLimit * flat_, kAtLimit * ReachGive(params_.tolerance))
+                                           : kFinest * flat_;
+  if (size < finest || depth >= kDeepest) {
     // What is reached may be narrower than this: the floor of a slot that barely lets the ball in, along its
-    // middle.
-    if (!limited && near.segment < 0) AddCorner(rect, out);
+    // middle; a sharp corner between two limits.
+    if (limited || near.segment < 0) AddCorner(rect, out);
     return;
   }
   if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, radius_, params_.scallop,
@@ -290,9 +297,8 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   std::optional<bool> bends;
   if (size < (near.segment < 0 ? 8.0 : kCoarse) * flat_) {
     const auto places = PlacesOn(surface_, rect);
-    if (places && (AllForbidden(*places) ||
-                   OutOfReach(surface_, *places, size, size < kCoarse * flat_ ? near_reach_ : cell_reach_,
-                              found.blockers))) {
+    if (places && OutOfReach(surface_, *places, size, size < kCoarse * flat_ ? near_reach_ : cell_reach_,
+                             found.blockers, ForbiddenSides(*places))) {
       return;
     }
     if (places && near.segment < 0) bends = BendsAlongU(*places, size);

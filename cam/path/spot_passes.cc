@@ -54,7 +54,7 @@ class Mender {
     for (const LeftoverSpot& spot : spots_) highest_ = std::max(highest_, spot.center.z());
   }
 
-  absl::StatusOr<std::vector<CutterPath>> Run();
+  absl::StatusOr<std::vector<CutterPath>> Run(Mending mending);
 
  private:
   bool Gentle(std::size_t i) const { return spots_[i].normal.z() > kSteep; }
@@ -341,7 +341,7 @@ bool Mender::LevelIsMissing(std::size_t i) const {
   return count >= 15;
 }
 
-absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
+absl::StatusOr<std::vector<CutterPath>> Mender::Run(Mending mending) {
   std::vector<std::size_t> order(spots_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -356,7 +356,7 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
     }
     if (!open_[i]) continue;
     PM_RETURN_IF_ERROR(run_.Check());
-    if (Tight(i)) {
+    if (mending == Mending::kCenters || Tight(i)) {
       if (AlongCenters(i)) continue;
     } else if (Gentle(i)) {
       if (AlongCrease(i) || AlongRidge(i) || AlongCenters(i)) continue;
@@ -380,8 +380,9 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run() {
 
 absl::StatusOr<std::vector<CutterPath>> MendSpots(const Locator& locator,
                                                   const std::vector<LeftoverSpot>& spots,
-                                                  const CoverageParams& params, const RunContext& run) {
-  return Mender(locator, spots, params, run).Run();
+                                                  const CoverageParams& params, Mending mending,
+                                                  const RunContext& run) {
+  return Mender(locator, spots, params, run).Run(mending);
 }
 
 }  // namespace patchmill

@@ -9,6 +9,10 @@
 
 namespace patchmill {
 
+// Which passes: kCenters where limits of the operation leave none of the others, which run beside the centres
+// of the spots themselves (along a crease that is forbidden, say).
+enum class Mending { kBest, kCenters };
+
 // One pass after the other, from the worst spot on: along the crease it lies at, else along the ridge of
 // spots around it over gentle ground (scan lines between their centres), else on walls along the level
 // through it, else from free centre to free centre of the spots around it; a spot that none of these reaches
@@ -18,6 +22,7 @@ namespace patchmill {
 // to params.chord_tolerance.
 absl::StatusOr<std::vector<CutterPath>> MendSpots(const Locator& locator,
                                                   const std::vector<LeftoverSpot>& spots,
-                                                  const CoverageParams& params, const RunContext& run);
+                                                  const CoverageParams& params, Mending mending,
+                                                  const RunContext& run);
 
 }  // namespace patchmill

@@ -187,11 +187,11 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
                                                         const Operation& op, const Vec3& program_zero) {
   if (!op.regions_sha256.empty()) {
     if (const std::string now = RegionsDigest(map); now != op.regions_sha256) {
-      return absl::FailedPreconditionError(
-          fmt::format("regions_sha256 = {}; the regions of this job have {}: they were made for another "
-                      "model, set-up, tool, tolerance, steep angle, detail, floor, selection or forced "
-                      "strategy; ask for them again",
-                      Hex(op.regions_sha256), Hex(now)));
+      return absl::FailedPreconditionError(fmt::format(
+          "regions_sha256 = {}; the regions of this job have {}: they were made for another "
+          "model, set-up, tool or shank, stock to leave, tolerance, steep angle, detail, floor, "
+          "highest tip, obstacles, selection, forced strategy or angle of lines; ask for them again",
+          Hex(op.regions_sha256), Hex(now)));
     }
   }
   std::vector<RegionChoice> choices(map.regions.size(), ChoiceOf(op));

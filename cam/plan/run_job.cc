@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -158,6 +160,28 @@ absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
                    run);
 }
 
+// Names what forbids most of what is wanted, and what to look at first.
+Diagnostic NothingToCut(std::span<const Region> regions, const Resolved& resolved, bool limited) {
+  double all = 0.0, avoided = 0.0;
+  for (const Region& region : regions) {
+    const double wanted = region.wanted_share * region.area;
+    all += wanted;
+    if (region.reason == UnreachableReason::kAvoided) avoided += wanted;
+  }
+  const Vec3 size = resolved.box.max - resolved.box.min;
+  const std::string scale = fmt::format("--scale ({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor",
+                                        size.x(), size.y(), size.z());
+  const std::string limits = "the selection, the boundary, the regions, --top and the obstacles";
+  return Warning(
+      "NOTHING_TO_CUT",
+      fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm{}: check {}",
+                  limited ? "that is wanted" : "of the model", 2.0 * resolved.radius,
+                  avoided > 0.0 ? fmt::format(" ({:.0f} % of it is AVOIDED)", 100.0 * avoided / all) : "",
+                  avoided > 0.5 * all ? limits + ", then " + scale
+                  : limited           ? scale + ", then " + limits
+                                      : scale));
+}
+
 }  // namespace
 
 absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
@@ -244,16 +268,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   clock.Done("passes");
   if (planned.paths.empty()) {
     report.outcome = Outcome::kNothingToCut;
-    report.diagnostics.push_back(Warning(
-        "NOTHING_TO_CUT",
-        fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm: check --scale "
-                    "({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor{}",
-                    limits != nullptr ? "that is wanted" : "of the model", 2.0 * resolved.radius,
-                    resolved.box.max.x() - resolved.box.min.x(), resolved.box.max.y() - resolved.box.min.y(),
-                    resolved.box.max.z() - resolved.box.min.z(),
-                    limits != nullptr
-                        ? ", then the selection, the boundary, the regions, --top and the obstacles"
-                        : "")));
+    report.diagnostics.push_back(NothingToCut(report.regions, resolved, limits != nullptr));
     return result;
   }
 

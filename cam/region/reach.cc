@@ -30,13 +30,15 @@ ReachTest::ReachTest(const Locator& free_ball, const RegionParams& params, const
 
 bool ReachTest::Upright(const Vec3& normal) { return normal.z() < kVertical; }
 
+bool ReachTest::FreeCenter(const Vec3& center) const {
+  std::optional<SurfacePoint> obstacle;
+  ObstacleFinder(free_ball_, cloud_).Find({&center, 1}, {&obstacle, 1});
+  return !obstacle;
+}
+
 bool ReachTest::Free(const Vec3& p, const Vec3& normal) const {
-  const auto free = [&](const Vec3& center) {
-    std::optional<SurfacePoint> obstacle;
-    ObstacleFinder(free_ball_, cloud_).Find({&center, 1}, {&obstacle, 1});
-    return !obstacle;
-  };
-  return free(p + params_.radius * normal) || (Upright(normal) && free(p - params_.radius * normal));
+  return FreeCenter(p + params_.radius * normal) ||
+         (Upright(normal) && FreeCenter(p - params_.radius * normal));
 }
 
 void ReachTest::FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs,
@@ -113,8 +115,14 @@ void ReachTest::BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<doubl
 
 bool ReachTest::Allowed(const Vec3& p, const Vec3& normal) const {
   if (params_.keep_in == nullptr) return true;
-  return params_.keep_in->Allows(p + params_.radius * normal) ||
-         (Upright(normal) && params_.keep_in->Allows(p - params_.radius * normal));
+  const Vec3 c = p + params_.radius * normal;
+  const bool allowed = params_.keep_in->Allows(c);
+  if (!Upright(normal)) return allowed;
+  const Vec3 other = p - params_.radius * normal;
+  const bool other_allowed = params_.keep_in->Allows(other);
+  if (allowed && other_allowed) return true;
+  // A side that is free serves nobody where the other one is allowed.
+  return (allowed && FreeCenter(c)) || (other_allowed && FreeCenter(other));
 }
 
 double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {

@@ -41,7 +41,8 @@ class ReachTest {
   void BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<double> signs) const;
   // Height of its tip over the floor, mm, the slack for rounding counted in: below 0 the place is FLOOR.
   double OverFloor(const Vec3& p, const Vec3& normal) const;
-  // params.keep_in allows the ball's centre; on a vertical face on either side.
+  // Of a place where the ball is free: params.keep_in allows its centre. On a vertical face on either side,
+  // but the one where it is free.
   bool Allowed(const Vec3& p, const Vec3& normal) const;
 
   // The largest of what stays over some places, mm (leftover.h); `normals`: upwards, as many.
@@ -49,6 +50,7 @@ class ReachTest {
                           const RunContext& run) const;
 
  private:
+  bool FreeCenter(const Vec3& center) const;
   struct Shanks {
     ShankFinder ball, least;
   };

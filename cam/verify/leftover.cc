@@ -24,7 +24,10 @@ class LeftoverSearch {
  public:
   LeftoverSearch(const Surface& surface, const SegmentTree& tree, const LeftoverParams& params,
                  const RunContext& run)
-      : surface_(surface), walker_(surface), tree_(tree), params_(params), run_(run) {}
+      : surface_(surface), walker_(surface), tree_(tree), params_(params), asked_(params.reach), run_(run) {
+    // Where two limits meet in a sharp corner, or touch, no pass gets into the last of it.
+    asked_.limits.within = asked_.give;
+  }
 
   Extreme Run(const CellRect& root, const Threshold& threshold) {
     Extreme here;
@@ -133,7 +136,7 @@ class LeftoverSearch {
     if (!IsWantedAt(surface_, params_, r.piece, r.u(), r.v(), cell.middle)) return false;
     const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
     const auto facing = FacingAt(jet);
-    return facing && ReachOn(surface_, {r.piece, r.u(), r.v(), jet.p}, *facing, params_.reach, obstacles_) ==
+    return facing && ReachOn(surface_, {r.piece, r.u(), r.v(), jet.p}, *facing, asked_, obstacles_) ==
                          ReachClass::kReachable;
   }
 
@@ -175,6 +178,7 @@ class LeftoverSearch {
   CellWalker walker_;
   const SegmentTree& tree_;
   const LeftoverParams& params_;
+  ReachParams asked_;  // of what is to be finished
   const RunContext& run_;
   Obstacles obstacles_;
   int hint_ = -1, other_hint_ = -1;

@@ -40,6 +40,9 @@ double CenterBelowFloor(const Surface& surface, PieceId piece, double u, double 
   const SurfaceJet jet = Evaluate(surface, piece, u, v);
   const auto facing = FacingAt(jet);
   if (!facing || ReachAt(surface, jet.p, *facing, reach) != ReachClass::kFloor) return kInfinity;
+  ReachParams lower = reach;
+  lower.floor_z = -kInfinity;
+  if (ReachAt(surface, jet.p, *facing, lower) != ReachClass::kReachable) return kInfinity;
   return jet.p.z() + reach.radius * facing->e.z();
 }
 

@@ -23,7 +23,8 @@ std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) 
 }
 
 bool NearAvoided(const CenterLimits& limits, const Vec3& c, double proof) {
-  return limits.avoided != nullptr && AnythingNearUpwardRay(*limits.avoided, c, limits.avoid_distance, proof);
+  return limits.avoided != nullptr &&
+         AnythingNearUpwardRay(*limits.avoided, c, limits.avoid_distance + limits.within, proof);
 }
 
 Vec3 FromRay(const Vec3& p, const Vec3& c) {
@@ -130,9 +131,9 @@ double RoomAt(const CenterLimits& limits, const Vec3& center) {
   if (limits.containment == nullptr) return kInfinity;
   const Containment& c = *limits.containment;
   const Vec3 tip = center - Vec3(0.0, 0.0, limits.ball);
-  double room = std::min(BoundaryRoom(c, Plan(center), limits.ball), TopRoomAt(limits, center.z()));
+  double room = BoundaryRoom(c, Plan(center), limits.ball);
   for (const Obstacle& o : c.obstacles) room = std::min(room, ObstacleRoom(o, tip, limits.tool));
-  return room;
+  return std::min(room - limits.within, TopRoomAt(limits, center.z()));
 }
 
 double TopRoomAt(const CenterLimits& limits, double center_z) {

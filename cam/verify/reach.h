@@ -20,6 +20,7 @@ struct CenterLimits {
   double ball = 0.0, tool = 0.0;     // mm: radius of the ball, of the wider one of ball and shank
   const Surface* avoided = nullptr;  // the avoided patches, when a margin is kept
   double avoid_distance = 0.0;       // mm: ball and margin
+  double within = 0.0;  // mm: a centre this near to a boundary, obstacle or avoided patch does not count
 };
 
 struct ReachParams {

@@ -90,9 +90,9 @@ void AddLimitOptions(CLI::App& app, LimitOptions& options) {
   AddNumber(app, "--boundary-offset", options.boundary_offset,
             "widens the boundary, mm; negative: narrows it");
   AddNumber(app, "--top", options.top, "highest tip of a cutting ball, mm, program frame");
-  app.add_option(
-      "--obstacle", options.obstacles,
-      "a clamp or vice to keep off, program frame: \"[NAME=]TOP[,MARGIN]: X,Y X,Y X,Y\" or \"...: @FILE\"");
+  app.add_option("--obstacle", options.obstacles,
+                 "a clamp or vice to keep off, to half the tolerance, program frame: "
+                 "\"[NAME=]TOP[,MARGIN]: X,Y X,Y X,Y\" or \"...: @FILE\"");
 }
 
 bool Selects(const LimitOptions& options) {

@@ -143,6 +143,7 @@ Command AddRegions(CLI::App& app) {
   app.add_option("MODEL", options->model, kModelHelp)->required();
   app.add_option("-o,--output", options->output, "the region map: .json or .svg");
   AddSplitOptions(app, options->operation);
+  AddShankOptions(app, options->operation.shank);
   app.add_option("--strategy", options->operation.strategy, "how all regions are cut")
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();

@@ -68,7 +68,8 @@ std::string UnreachableLine(const v1::Report& report) {
     text += fmt::format("{}{} {:.2f} mm2 (up to {:.3f} mm stays", text.empty() ? "" : ", ",
                         Short(part.reason()), part.area_mm2(), part.deepest_leftover_mm());
     if (part.has_finishing_floor_z_mm()) {
-      text += fmt::format("; --floor {:.3f} finishes it", part.finishing_floor_z_mm());
+      text += fmt::format("; --floor {:.3f} finishes it, as far as other limits let it",
+                          part.finishing_floor_z_mm());
     }
     text += ")";
   }

@@ -233,6 +233,21 @@ TEST_F(Cli, RegionsWritesJsonOrPicture) {
   EXPECT_THAT(other.err, HasSubstr("must end in .json or .svg"));
 }
 
+// A clamp is kept off by the shank where that is wider, on the map too.
+TEST_F(Cli, RegionsKnowTheShank) {
+  const std::vector<std::string> limits = {
+      "--floor",        "-5", "--obstacle",       "clamp=30: -10,-10 2,-10 2,2 -10,2",
+      "--flute-length", "25", "--shank-diameter", "12"};
+  std::vector<std::string> list = {"regions", waves_, "-o", out_ / "r.json"};
+  list.insert(list.end(), limits.begin(), limits.end());
+  ASSERT_EQ(Patchmill(list).status, 0);
+  std::vector<std::string> off = {"--region", "0:off", "--regions", out_ / "r.json"};
+  off.insert(off.end(), limits.begin(), limits.end());
+  const Finished mill = Mill(waves_, off);
+  EXPECT_EQ(mill.status, 0) << mill.err;
+  EXPECT_THAT(mill.err, AllOf(HasSubstr("skipped   regions 0 ("), HasSubstr("AVOIDED")));
+}
+
 // Listed with ids, switched off by id or point, and judged alike.
 TEST_F(Cli, RegionsAreListedSwitchedOffAndJudged) {
   const std::vector<std::string> split = {"--floor", "-5", "--tolerance", "0.02"};

@@ -107,6 +107,16 @@ TEST(Report, NothingToCutNamesScale) {
   EXPECT_THAT(found->message, HasSubstr("--scale"));
 }
 
+TEST(Report, NothingToCutNamesLimitsFirstWhereTheyForbidMost) {
+  Job job = QuickJob();
+  job.operation.selection.boundary = {{{20, 20}, {30, 20}, {30, 30}}};
+  const JobResult result = Mill(PlacedSurface(Plane(8)), job);
+  EXPECT_EQ(result.report.outcome, Outcome::kNothingToCut) << Describe(result);
+  const Diagnostic* found = Find(result.report.diagnostics, "NOTHING_TO_CUT");
+  ASSERT_NE(found, nullptr);
+  EXPECT_THAT(found->message, HasSubstr("(100 % of it is AVOIDED): check the selection, the boundary"));
+}
+
 TEST(Report, ProgramsDoNotDependOnWhereZeroIs) {
   Job job = QuickJob();
   const Surface surface = PlacedSurface(Saddle(0.02, 0.02, 8));
