@@ -34,9 +34,6 @@ constexpr double kPair = 1.0;      // larger ones lie over more than two moves
 constexpr double kFinest = 0.002;  // smaller ones are left, and narrower strips beside silhouettes
 constexpr double kLimit = 0.05;    // the same at a limit of params.keep_in, when a move is this near:
 constexpr double kAtHand = 1.0;    // farther from all there may be room for the ball in no more than a chink
-// The same of ReachGive, if that is less: nobody asks for what is nearer to a limit, which in the sharpest
-// corner leaves a place in the corners of such rectangles.
-constexpr double kAtLimit = 1.0;
 
 // Of ReachGive: what is so near to its limit is not called out of reach. The verifier knows reach to 0.02 of
 // it.
@@ -281,8 +278,10 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   const bool limited =
       params_.keep_in != nullptr && !(Wanted(at) && params_.keep_in->Allows(p + radius_ * e));
   const bool at_hand = near.segment >= 0 && near.distance < radius_ + kAtHand * flat_;
-  const double finest = limited && at_hand ? std::min(kLimit * flat_, kAtLimit * ReachGive(params_.tolerance))
-                                           : kFinest * flat_;
+  // Nobody asks for what is within ReachGive of a limit across the ground (docs/reach.md): of the sharpest
+  // corner the rest shows at the corners of rectangles of this size.
+  const double finest =
+      limited && at_hand ? std::min(kLimit * flat_, ReachGive(params_.tolerance)) : kFinest * flat_;
   if (size < finest || depth >= kDeepest) {
     // What is reached may be narrower than this: the floor of a slot that barely lets the ball in, along its
     // middle; a sharp corner between two limits.

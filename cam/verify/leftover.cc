@@ -24,10 +24,7 @@ class LeftoverSearch {
  public:
   LeftoverSearch(const Surface& surface, const SegmentTree& tree, const LeftoverParams& params,
                  const RunContext& run)
-      : surface_(surface), walker_(surface), tree_(tree), params_(params), asked_(params.reach), run_(run) {
-    // Where two limits meet in a sharp corner, or touch, no pass gets into the last of it.
-    asked_.limits.within = asked_.give;
-  }
+      : surface_(surface), walker_(surface), tree_(tree), params_(params), run_(run) {}
 
   Extreme Run(const CellRect& root, const Threshold& threshold) {
     Extreme here;
@@ -60,14 +57,14 @@ class LeftoverSearch {
     // Any move bounds the distance from above: often the last one will do.
     if (hint_ >= 0 && IsDone(cell, hint_, threshold.Drop(here.value))) return false;
     SegmentTree::Nearest nearest;
-    std::optional<bool> reachable;
+    std::optional<bool> asked;
     // Far from all cuts and surely unreachable: the common case of an inner wall. No need to know how far.
     if (hint_ < 0 || tree_.Distance(hint_, cell.middle) > kFar * params_.reach.radius) {
       nearest = tree_.FindNearest(cell.middle, kInfinity, hint_, kFarSlack);
       const double least = Leftover(nearest.distance * (1.0 - kFarSlack));
       if (least > threshold.Floor(here.value) + 0.1 * params_.reach.radius) {
-        reachable = IsReachable(cell);
-        if (!*reachable && Closed(cell)) return false;
+        asked = IsAsked(cell);
+        if (!*asked && Closed(cell)) return false;
       }
       hint_ = nearest.segment;
     }
@@ -82,8 +79,8 @@ class LeftoverSearch {
       if (facing && left > params_.limit && BeyondStrategy(jet, *facing, params_)) {
         return cell.radius > kStrategyCell * params_.reach.radius;
       }
-      if (!reachable) reachable = IsReachable(cell);
-      if (*reachable) {
+      if (!asked) asked = IsAsked(cell);
+      if (*asked) {
         const int move = nearest.segment < 0 ? -1 : tree_.segment(nearest.segment).move;
         here = {left, cell.middle, cell.rect.piece, move};
       } else if (cell.radius < BorderCell(upper, threshold, here) || Closed(cell)) {
@@ -131,13 +128,12 @@ class LeftoverSearch {
     return containment != nullptr && ContactRoomOutside(*containment, cell.middle) > cell.radius;
   }
 
-  bool IsReachable(const SurfaceCell& cell) {
+  bool IsAsked(const SurfaceCell& cell) {
     const CellRect& r = cell.rect;
     if (!IsWantedAt(surface_, params_, r.piece, r.u(), r.v(), cell.middle)) return false;
     const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
     const auto facing = FacingAt(jet);
-    return facing && ReachOn(surface_, {r.piece, r.u(), r.v(), jet.p}, *facing, asked_, obstacles_) ==
-                         ReachClass::kReachable;
+    return facing && IsAskedOn(surface_, {r.piece, r.u(), r.v(), jet.p}, *facing, params_.reach, obstacles_);
   }
 
   // No point of the cell is reachable, as all centres over it lie below the floor or above the top, or the
@@ -178,7 +174,6 @@ class LeftoverSearch {
   CellWalker walker_;
   const SegmentTree& tree_;
   const LeftoverParams& params_;
-  ReachParams asked_;  // of what is to be finished
   const RunContext& run_;
   Obstacles obstacles_;
   int hint_ = -1, other_hint_ = -1;

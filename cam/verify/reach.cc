@@ -1,6 +1,7 @@
 #include "cam/verify/reach.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
@@ -10,13 +11,29 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kVertical = 1e-6;  // e_z below this: a vertical face
-constexpr double kBeside = 0.02;    // of the radius: how far beside a place it is looked at again
-constexpr double kProof = 0.02;     // of the give: how exactly "free" is decided
-constexpr double kCoarse = 0.02;    // of the radius: how exactly a blocked depth is known
-constexpr double kNearer = 0.02;    // of the radius: the shank is blocked by more than this beyond the ball
-constexpr double kOverLeast = 0.5;  // of the least ball's radius: what is over it comes nearer to its axis
+constexpr double kVertical = 1e-6;    // e_z below this: a vertical face
+constexpr double kBeside = 0.02;      // of the radius: how far beside a place it is looked at again
+constexpr double kProof = 0.02;       // of the give: how exactly "free" is decided
+constexpr double kCoarse = 0.02;      // of the radius: how exactly a blocked depth is known
+constexpr double kNearer = 0.02;      // of the radius: the shank is blocked by more than this beyond the ball
+constexpr double kOverLeast = 0.5;    // of the least ball's radius: what is over it comes nearer to its axis
+constexpr double kLimitSlack = 1e-6;  // mm: limits along the ground hold but for rounding
 constexpr double kReasonProof = 0.001;  // of the radius: how exactly the two are known
+
+// Places of the piece about kBeside away, each way in both parameters; near its sides there are fewer.
+std::vector<SurfaceJet> Beside(const Surface& surface, const SurfacePoint& at, double radius) {
+  const SurfaceJet here = Evaluate(surface, at.piece, at.u, at.v);
+  const double aside = kBeside * radius;
+  const double du = aside / std::max(here.du.norm(), 4.0 * aside),
+               dv = aside / std::max(here.dv.norm(), 4.0 * aside);
+  std::vector<SurfaceJet> places;
+  for (int k = 0; k < 4; ++k) {
+    const double u = at.u + (k / 2 == 0 ? du : -du), v = at.v + (k % 2 == 0 ? dv : -dv);
+    if (u < 0.0 || u > 1.0 || v < 0.0 || v > 1.0) continue;
+    places.push_back(Evaluate(surface, at.piece, u, v));
+  }
+  return places;
+}
 
 std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) {
   return {p + radius * facing.e, p - radius * facing.e};
@@ -182,15 +199,8 @@ ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing&
                    const ReachParams& params, Obstacles& obstacles) {
   const ReachClass own = ReachAt(surface, at.p, facing, params, obstacles);
   if (own != ReachClass::kReachable || !facing.both) return own;
-  const SurfaceJet here = Evaluate(surface, at.piece, at.u, at.v);
-  const double aside = kBeside * params.radius;
-  const double du = aside / std::max(here.du.norm(), 4.0 * aside),
-               dv = aside / std::max(here.dv.norm(), 4.0 * aside);
   std::optional<ReachClass> beside;
-  for (int k = 0; k < 4; ++k) {
-    const double u = at.u + (k / 2 == 0 ? du : -du), v = at.v + (k % 2 == 0 ? dv : -dv);
-    if (u < 0.0 || u > 1.0 || v < 0.0 || v > 1.0) continue;
-    const SurfaceJet jet = Evaluate(surface, at.piece, u, v);
+  for (const SurfaceJet& jet : Beside(surface, at, params.radius)) {
     const auto there = FacingAt(jet);
     if (!there) continue;
     const ReachClass found = ReachAt(surface, jet.p, *there, params, obstacles);
@@ -198,6 +208,20 @@ ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing&
     beside = beside ? std::max(*beside, found) : found;
   }
   return beside.value_or(own);
+}
+
+bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
+               const ReachParams& params, Obstacles& obstacles) {
+  if (ReachOn(surface, at, facing, params, obstacles) != ReachClass::kReachable) return false;
+  ReachParams moved = params;
+  moved.limits.within = params.give;
+  if (ReachOn(surface, at, facing, moved, obstacles) == ReachClass::kReachable) return true;
+  moved.limits.within = -kLimitSlack;
+  const std::vector<SurfaceJet> beside = Beside(surface, at, params.radius);
+  return std::all_of(beside.begin(), beside.end(), [&](const SurfaceJet& jet) {
+    const auto there = FacingAt(jet);
+    return !there || ReachAt(surface, jet.p, *there, moved, obstacles) == ReachClass::kReachable;
+  });
 }
 
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,

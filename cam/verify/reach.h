@@ -20,7 +20,7 @@ struct CenterLimits {
   double ball = 0.0, tool = 0.0;     // mm: radius of the ball, of the wider one of ball and shank
   const Surface* avoided = nullptr;  // the avoided patches, when a margin is kept
   double avoid_distance = 0.0;       // mm: ball and margin
-  double within = 0.0;  // mm: a centre this near to a boundary, obstacle or avoided patch does not count
+  double within = 0.0;  // mm: how far inside of boundary, obstacles and avoided patches a centre must be
 };
 
 struct ReachParams {
@@ -81,6 +81,12 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
 // What a piece shares with another counts by either.
 ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
                    const ReachParams& params, Obstacles& obstacles);
+
+// The place is to be finished: it is reachable, and not within params.give of a limit of its centre that runs
+// across the ground: into a sharp corner of two no pass gets to the last. Where a limit runs along the
+// ground, a wall with the boundary a radius beside it, all of it is asked for.
+bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
+               const ReachParams& params, Obstacles& obstacles);
 
 // How far the centre may move and the point still cannot be reached: > 0 only for an unreachable point; a
 // lower bound (mm).

@@ -446,8 +446,32 @@ TEST(Containment, WhereLimitsTouchNothingIsAskedFor) {
   }
 }
 
-// Where an avoided floor stands beside an upright wall, the ball's own contact is one of many along the
-// shank.
+// The boundary a radius beside the walls, as it is drawn for them: every centre lies on it. They are cut, and
+// the judge misses one that is not.
+TEST(Containment, WallsWithTheBoundaryARadiusBesideThemAreAskedFor) {
+  const Surface surface = PlacedSurface(Block(10, 10, 30));
+  const double beside = 10 + kRadius;
+  Job job = LimitedJob();
+  job.operation.selection.boundary = {Box(-beside, -beside, beside, beside)};
+  EXPECT_EQ(Mill(surface, job).report.outcome, Outcome::kCompleteWhereReachable);
+  Job top = LimitedJob();
+  top.operation.selection.patches = {"#4"};
+  const JobResult flat = Mill(surface, top);
+  ASSERT_TRUE(flat.report.verify.ok()) << Describe(flat);
+  VerifyParams params;
+  params.scallop = job.operation.scallop;
+  params.floor_z = -1000.0;
+  params.stock_top_z = 10.5;
+  params.containment.boundary = {Outline(job.operation.selection.boundary), BoundaryMode::kCenter, 0.0};
+  const auto report = VerifyProgramText(surface, job.operation.tool, flat.program, params, RunContext());
+  ASSERT_TRUE(report.ok()) << report.status();
+  bool on_wall = false;
+  for (const Diagnostic& d : report->findings)
+    on_wall |= d.code == "LEFTOVER" && d.where.point && d.where.point->z() > 1.0 && d.where.point->z() < 9.0;
+  EXPECT_TRUE(on_wall);
+}
+
+// The ball beside the wall keeps the floor's margin by its height alone.
 TEST(Containment, WallsOverAnAvoidedFloorKeepItsMargin) {
   const Surface surface = PlacedSurface(Block(10, 10, 30));
   for (const double margin : {0.0, 1.0, 4.0}) {
