@@ -213,6 +213,9 @@ ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing&
 bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
                const ReachParams& params, Obstacles& obstacles) {
   if (ReachOn(surface, at, facing, params, obstacles) != ReachClass::kReachable) return false;
+  const CenterLimits& limits = params.limits;
+  if (limits.avoided == nullptr && (limits.containment == nullptr || limits.containment->AllowsAll()))
+    return true;
   ReachParams moved = params;
   moved.limits.within = params.give;
   if (ReachOn(surface, at, facing, moved, obstacles) == ReachClass::kReachable) return true;
