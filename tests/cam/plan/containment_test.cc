@@ -5,26 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "core/diffgeo/forms.h"
-#include "core/io/model_text.h"
-#include "tests/support/files.h"
-#include "tests/support/jobs/jobs.h"
+#include "tests/support/jobs/limited_job.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
 namespace {
 
 using namespace testing;  // NOLINT: the support folder's
-
-constexpr double kRadius = 3.0;
-constexpr double kAvoided = 3;  // index of the reason
-
-Job LimitedJob() {
-  Job job = BallJob(kRadius);
-  job.operation.scallop = 0.02;
-  return job;
-}
-
-Ring Box(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
 // Distance from the outside to the box, 0 inside.
 double FromBox(const Vec2& q, const Vec2& min, const Vec2& max) {
@@ -70,7 +57,7 @@ TEST(Containment, CenterBoundaryIsCutToTheLineAndNotBeyond) {
   });
   const double area = 16.0 * 8.0 + 0.5 * 8.0 * 8.0;
   EXPECT_NEAR(result.report.verify.reachable_area, area, 0.01 * area);
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoided], 900.0 - area, 0.01 * area);
+  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], 900.0 - area, 0.01 * area);
   double map = 0.0;
   for (const Region& r : result.report.regions) {
     if (r.reason == UnreachableReason::kAvoided) map += r.area;
@@ -82,22 +69,22 @@ TEST(Containment, InsideAndOutsideAreTheBallFromAbove) {
   const Surface surface = PlacedSurface(Plane(15));
   for (const double offset : {0.0, -0.7, 0.5}) {
     Job job = LimitedJob();
-    job.operation.selection.boundary = {Box(-7, -5, 7, 5)};
+    job.operation.selection.boundary = {RingOfBox(-7, -5, 7, 5)};
     job.operation.selection.boundary_offset = offset;
     const double w = 14 + 2 * offset, h = 10 + 2 * offset;
     job.operation.selection.boundary_mode = BoundaryMode::kInside;
     const JobResult inside = Mill(surface, job);
     // Widening is by a distance: rounded corners where something is left of it after the ball's radius.
-    const double in = (w - 2 * kRadius) * (h - 2 * kRadius);
+    const double in = (w - 2 * kLimitedRadius) * (h - 2 * kLimitedRadius);
     EXPECT_NEAR(inside.report.verify.reachable_area, in, 0.015 * in) << Describe(inside);
     AlongMoves(inside, IsFeed, [&](const Vec3& c) {
-      EXPECT_LE(FromBox(Plan(c), Vec2(-0.5 * w + kRadius, -0.5 * h + kRadius),
-                        Vec2(0.5 * w - kRadius, 0.5 * h - kRadius)),
+      EXPECT_LE(FromBox(Plan(c), Vec2(-0.5 * w + kLimitedRadius, -0.5 * h + kLimitedRadius),
+                        Vec2(0.5 * w - kLimitedRadius, 0.5 * h - kLimitedRadius)),
                 0.01);
     });
     job.operation.selection.boundary_mode = BoundaryMode::kOutside;
     const JobResult outside = Mill(surface, job);
-    const double r = kRadius + offset;
+    const double r = kLimitedRadius + offset;
     const double out = 14 * 10 + 2 * r * (14 + 10) + kPi * r * r;
     EXPECT_NEAR(outside.report.verify.reachable_area, out, 0.01 * out) << Describe(outside);
     AlongMoves(outside, IsFeed,
@@ -109,18 +96,18 @@ TEST(Containment, ContactBoundaryIsWhatMustBeFinished) {
   const double slope = 0.5;
   const Surface surface = PlacedSurface(Plane(15, 0, slope));
   Job job = LimitedJob();
-  job.operation.selection.boundary = {Box(-6, -4, 6, 4), Box(-2, -1, 2, 1)};
+  job.operation.selection.boundary = {RingOfBox(-6, -4, 6, 4), RingOfBox(-2, -1, 2, 1)};
   job.operation.selection.boundary_mode = BoundaryMode::kContact;
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kComplete) << Describe(result);
   const double area = (12 * 8 - 4 * 2) * std::sqrt(1 + slope * slope);
   EXPECT_NEAR(result.report.verify.total_area, area, 0.01 * area);
   // Beyond the line no farther than a step runs on, beside the half step along the line.
-  const double step = 2 * std::sqrt(0.02 * (2 * kRadius - 0.02));
+  const double step = 2 * std::sqrt(0.02 * (2 * kLimitedRadius - 0.02));
   AlongMoves(
       result, [](const Move& m) { return m.kind == MoveKind::kCut; },
       [&](const Vec3& c) {
-        const Vec3 p = c - kRadius * Vec3(-slope, 0, 1).normalized();
+        const Vec3 p = c - kLimitedRadius * Vec3(-slope, 0, 1).normalized();
         EXPECT_LE(FromBox(Plan(p), Vec2(-6, -4), Vec2(6, 4)), 1.5 * step + 0.01);
       });
 }
@@ -129,7 +116,7 @@ TEST(Containment, ContactBoundaryIsWidenedAndNarrowedByItsOffset) {
   const double slope = 0.5;
   const Surface surface = PlacedSurface(Plane(15, 0, slope));
   Job job = LimitedJob();
-  job.operation.selection.boundary = {Box(-6, -4, 6, 4)};
+  job.operation.selection.boundary = {RingOfBox(-6, -4, 6, 4)};
   job.operation.selection.boundary_mode = BoundaryMode::kContact;
   for (const double offset : {2.0, -1.5}) {
     job.operation.selection.boundary_offset = offset;
@@ -175,15 +162,15 @@ TEST(Containment, AvoidedPatchKeepsItsMargin) {
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
   // The ball that touches at x = -d comes within the margin of x = 0 where d^2 + R^2 < (R + margin)^2.
-  const double d = std::sqrt(margin * (2 * kRadius + margin));
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoided], 16 * d, 0.01 * 16 * 12);
+  const double d = std::sqrt(margin * (2 * kLimitedRadius + margin));
+  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], 16 * d, 0.01 * 16 * 12);
   EXPECT_NEAR(result.report.verify.reachable_area, 16 * (12 - d), 0.01 * 16 * 12);
   AlongMoves(
       result, [](const Move&) { return true; },
       [&](const Vec3& c) {
         const double x = std::max(0.0, -c.x());  // to the patch, when beside it in y
         if (std::abs(c.y()) < 8) {
-          EXPECT_GE(std::hypot(x, c.z()), kRadius + margin - 0.01);
+          EXPECT_GE(std::hypot(x, c.z()), kLimitedRadius + margin - 0.01);
         }
       });
 }
@@ -192,18 +179,18 @@ TEST(Containment, ObstacleIsGoneAroundAndOver) {
   const Surface surface = PlacedSurface(Plane(20));
   Job job = LimitedJob();
   const double margin = 1.0, top = 9.0;
-  job.setup.obstacles.push_back({"clamp", Box(-4, -25, 4, 2), top, margin});
+  job.setup.obstacles.push_back({"clamp", RingOfBox(-4, -25, 4, 2), top, margin});
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
-  const double keep = kRadius + margin;
+  const double keep = kLimitedRadius + margin;
   AlongMoves(
       result, [](const Move&) { return true; },
       [&](const Vec3& c) {
-        EXPECT_TRUE(c.z() - kRadius >= top + margin - 0.01 ||
+        EXPECT_TRUE(c.z() - kLimitedRadius >= top + margin - 0.01 ||
                     FromBox(Plan(c), Vec2(-4, -25), Vec2(4, 2)) >= keep - 0.01);
       });
   const double area = (8 + 2 * keep) * 22 + 8 * keep + 0.5 * kPi * keep * keep;
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoided], area, 0.01 * area);
+  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], area, 0.01 * area);
   // What ends below the tip is in nobody's way.
   job.setup.obstacles[0].top_z = -margin - 0.1;
   EXPECT_EQ(Mill(surface, job).report.outcome, Outcome::kComplete);
@@ -223,19 +210,19 @@ TEST(Containment, ObstacleIsKeptOffByTheShank) {
   tool.shank_diameter = 12.0;
   tool.flute_length = 10.0;
   const double margin = 1.0, top = 20.0, keep = 6.0 + margin;
-  job.setup.obstacles.push_back({"clamp", Box(-4, -30, 4, 2), top, margin});
+  job.setup.obstacles.push_back({"clamp", RingOfBox(-4, -30, 4, 2), top, margin});
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
   double least = kInfinity;
   AlongMoves(
       result, [&](const Move&) { return true; },
       [&](const Vec3& c) {
-        if (c.z() - kRadius >= top + margin - 0.01) return;
+        if (c.z() - kLimitedRadius >= top + margin - 0.01) return;
         least = std::min(least, FromBox(Plan(c), Vec2(-4, -30), Vec2(4, 2)));
       });
   EXPECT_NEAR(least, keep, 0.02);
   const double area = (8 + 2 * keep) * 27 + 8 * keep + 0.5 * kPi * keep * keep;
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoided], area, 0.01 * area);
+  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], area, 0.01 * area);
 }
 
 // From line to line beside a round clamp the straight way would cut its corner: the link goes a little
@@ -259,12 +246,12 @@ TEST(Containment, TopLimitsTheTip) {
   job.operation.top_z = top;
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
-  const double cosine = (top + kRadius) / (r + kRadius);
+  const double cosine = (top + kLimitedRadius) / (r + kLimitedRadius);
   const double cap = 2 * kPi * r * r * (1 - cosine);
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoided], cap, 0.01 * cap);
+  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], cap, 0.01 * cap);
   AlongMoves(
       result, [](const Move& m) { return m.kind == MoveKind::kCut; },
-      [&](const Vec3& c) { EXPECT_LE(c.z() - kRadius, top + 0.01); });
+      [&](const Vec3& c) { EXPECT_LE(c.z() - kLimitedRadius, top + 0.01); });
 }
 
 // Everything at once on a wavy part: wanted points at allowed centres are finished, by plain distances.
@@ -273,11 +260,11 @@ TEST(Containment, WhatIsWantedAndAllowedIsFinished) {
   Job job = LimitedJob();
   job.operation.tolerance = 0.01;
   job.operation.selection.boundary = {{{3, 5}, {37, 2}, {30, 36}, {21, 18}, {6, 33}}};
-  job.setup.obstacles.push_back({"pin", Box(18, 8, 21, 11), 8.0, 0.5});
+  job.setup.obstacles.push_back({"pin", RingOfBox(18, 8, 21, 11), 8.0, 0.5});
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
   const Outline boundary(job.operation.selection.boundary);
-  const Locator locator(surface, kRadius);
+  const Locator locator(surface, kLimitedRadius);
   Random random(11);
   int judged = 0;
   for (int i = 0; i < (kSanitized ? 200 : 3000); ++i) {
@@ -285,12 +272,12 @@ TEST(Containment, WhatIsWantedAndAllowedIsFinished) {
     const SurfaceJet jet = Evaluate(surface, piece, random.Uniform(0, 1), random.Uniform(0, 1));
     const auto e = UpwardNormal(jet);
     if (!e) continue;
-    const Vec3 c = jet.p + kRadius * *e;
+    const Vec3 c = jet.p + kLimitedRadius * *e;
     if (boundary.SignedDistance(Plan(c)) < 0.0) continue;
-    const bool beside = FromBox(Plan(c), Vec2(18, 8), Vec2(21, 11)) >= kRadius + 0.5;
-    if (!beside && c.z() - kRadius < 8.5) continue;
+    const bool beside = FromBox(Plan(c), Vec2(18, 8), Vec2(21, 11)) >= kLimitedRadius + 0.5;
+    if (!beside && c.z() - kLimitedRadius < 8.5) continue;
     if (!locator.Free(c)) continue;
-    EXPECT_LE(Distance(jet.p, result), kRadius + 0.02 + 0.01 + 1e-6);
+    EXPECT_LE(Distance(jet.p, result), kLimitedRadius + 0.02 + 0.01 + 1e-6);
     ++judged;
   }
   EXPECT_GT(judged, kSanitized ? 20 : 400);
@@ -318,14 +305,14 @@ TEST(Containment, TheJudgeSeesWhatThePlannerWasNotTold) {
   };
   EXPECT_EQ(codes(params), "");
   VerifyParams bounded = params;
-  bounded.containment.boundary = {Outline({Box(-14.9, -20, 20, 20)}), BoundaryMode::kCenter, 0.0};
+  bounded.containment.boundary = {Outline({RingOfBox(-14.9, -20, 20, 20)}), BoundaryMode::kCenter, 0.0};
   EXPECT_EQ(codes(bounded), "OUTSIDE_BOUNDARY ");
   bounded.containment.boundary->offset = 0.2;
   EXPECT_EQ(codes(bounded), "");
   VerifyParams clamped = params;
-  clamped.containment.obstacles.push_back({"vice", Outline({Box(17, -5, 20, 5)}), 4.0, 0.0});
+  clamped.containment.obstacles.push_back({"vice", Outline({RingOfBox(17, -5, 20, 5)}), 4.0, 0.0});
   EXPECT_EQ(codes(clamped), "OBSTACLE_HIT ");
-  clamped.containment.obstacles[0].outline = Outline({Box(18.1, -5, 20, 5)});
+  clamped.containment.obstacles[0].outline = Outline({RingOfBox(18.1, -5, 20, 5)});
   EXPECT_EQ(codes(clamped), "");
   VerifyParams low = params;
   low.containment.top_z = -0.5;
@@ -359,150 +346,16 @@ TEST(Containment, AnIslandBarelyWiderThanTheBallIsCut) {
   const Surface surface = PlacedSurface(Plane(20));
   for (const double room : {0.004, 0.02, 0.1}) {
     for (const double at : {5.113, 6.0}) {
-      const double side = 2.0 * kRadius + room;
+      const double side = 2.0 * kLimitedRadius + room;
       Job job = LimitedJob();
-      job.operation.selection.boundary = {Box(-18, -18, 0, 18), Box(at, -14.9, at + side, -14.9 + side)};
+      job.operation.selection.boundary = {RingOfBox(-18, -18, 0, 18),
+                                          RingOfBox(at, -14.9, at + side, -14.9 + side)};
       job.operation.selection.boundary_mode = BoundaryMode::kInside;
       const JobResult result = Mill(surface, job);
       EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << room << " " << Describe(result);
       const double middle = at + 0.5 * side;
-      EXPECT_LE(Distance(Vec3(middle, -14.9 + 0.5 * side, 0.0), result), kRadius + 0.03) << room;
+      EXPECT_LE(Distance(Vec3(middle, -14.9 + 0.5 * side, 0.0), result), kLimitedRadius + 0.03) << room;
     }
-  }
-}
-
-// On the wall y = 10 of a block a ball outside is not allowed, and one inside is not free: nobody reaches it,
-// though it is free on one side and allowed on the other.
-TEST(Containment, UprightWallsAreReachedFromASideThatIsFreeAndAllowed) {
-  const Surface surface = PlacedSurface(Block(10, 10, 30));
-  Job job = LimitedJob();
-  job.operation.selection.boundary = {Box(-20, -20, 20, 11)};
-  const JobResult result = Mill(surface, job);
-  ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
-  // The floor: all of it, less what lies beside the block (CONCAVE) or under allowed centres. Of the strip
-  // beside the block these have what the line y = 11 leaves.
-  const double beside = 4 * 20 * kRadius + kPi * kRadius * kRadius;
-  const double corner = std::sqrt(kRadius * kRadius - 1) + kRadius * kRadius * std::asin(1 / kRadius);
-  const double allowed = 40 * 31 - 20 * 20 - (3 * 20 * kRadius + 0.5 * kPi * kRadius * kRadius + 20 + corner);
-  const double wall = 20 * (10 - kRadius);
-  const double avoided = 60 * 60 - 20 * 20 - beside - allowed + wall;
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoided], avoided, 2.0);
-  double map = 0.0;
-  for (const Region& r : result.report.regions) {
-    if (r.reason == UnreachableReason::kAvoided) map += r.area;
-  }
-  EXPECT_NEAR(map, avoided, 2.0);
-}
-
-// Corners of some degrees, on slopes that pass them at any angle, and between a clamp and the sheet's edge.
-TEST(Containment, SharpCornersOfWhatIsAllowedAreFinished) {
-  const Surface slope = PlacedSurface(Plane(30, 0, 0.577));
-  const Surface dome = PlacedSurface(Paraboloid(-0.01, 30));
-  Job job = LimitedJob();
-  job.operation.scallop = 0.03;
-  Random random(5);
-  int cut = 0;
-  const auto mill = [&](const Surface& surface) {
-    const JobResult result = Mill(surface, job);
-    EXPECT_TRUE(result.report.outcome == Outcome::kCompleteWhereReachable ||
-                result.report.outcome == Outcome::kNothingToCut)
-        << Describe(result);
-    cut += result.report.outcome == Outcome::kCompleteWhereReachable;
-  };
-  for (int i = 0; i < (kSanitized ? 6 : 60); ++i) {
-    Ring ring;
-    for (int k = 0; k < 3; ++k) ring.push_back({random.Uniform(-30, 30), random.Uniform(-30, 30)});
-    job.operation.selection.boundary = {ring};
-    SCOPED_TRACE(::testing::Message() << i << ": " << ring[0].transpose() << ", " << ring[1].transpose()
-                                      << ", " << ring[2].transpose());
-    mill(i % 2 == 0 ? slope : dome);
-  }
-  job.operation.selection.boundary.clear();
-  for (int i = 0; i < (kSanitized ? 2 : 10); ++i) {
-    const double a = random.Uniform(0.02, 0.2);
-    job.setup.obstacles = {{"clamp", {{-40, -25}, {40, -25 + 80 * a}, {40, -60}, {-40, -60}}, 60.0, 0.0}};
-    SCOPED_TRACE(::testing::Message() << "clamp " << a);
-    mill(i % 2 == 0 ? slope : dome);
-  }
-  EXPECT_GT(cut, kSanitized ? 5 : 55);
-}
-
-// A boundary that touches the sheet, or itself, from outside: ground without a width is not asked for.
-TEST(Containment, WhereLimitsTouchNothingIsAskedFor) {
-  const Surface surface = PlacedSurface(Plane(20));
-  Job job = LimitedJob();
-  const std::vector<std::vector<Ring>> boundaries = {
-      {Box(20, -15, 40, 10)},
-      {Box(20, -15, 40, 10), Box(-15, -15, 0, 15)},
-      {Box(-15, -15, 5, 15), Box(-5, -15, 15, 15)},
-      {Box(-15, -15, 5, 15), Box(-15, -15, 5, 15)},
-  };
-  for (std::size_t i = 0; i < boundaries.size(); ++i) {
-    job.operation.selection.boundary = boundaries[i];
-    const JobResult result = Mill(surface, job);
-    EXPECT_TRUE(result.report.outcome == Outcome::kCompleteWhereReachable ||
-                result.report.outcome == Outcome::kNothingToCut)
-        << i << " " << Describe(result);
-  }
-}
-
-// The boundary a radius beside the walls, as it is drawn for them: every centre lies on it. They are cut, and
-// the judge misses one that is not.
-TEST(Containment, WallsWithTheBoundaryARadiusBesideThemAreAskedFor) {
-  const Surface surface = PlacedSurface(Block(10, 10, 30));
-  const double beside = 10 + kRadius;
-  Job job = LimitedJob();
-  job.operation.selection.boundary = {Box(-beside, -beside, beside, beside)};
-  EXPECT_EQ(Mill(surface, job).report.outcome, Outcome::kCompleteWhereReachable);
-  Job top = LimitedJob();
-  top.operation.selection.patches = {"#4"};
-  const JobResult flat = Mill(surface, top);
-  ASSERT_TRUE(flat.report.verify.ok()) << Describe(flat);
-  VerifyParams params;
-  params.scallop = job.operation.scallop;
-  params.floor_z = -1000.0;
-  params.stock_top_z = 10.5;
-  params.containment.boundary = {Outline(job.operation.selection.boundary), BoundaryMode::kCenter, 0.0};
-  const auto report = VerifyProgramText(surface, job.operation.tool, flat.program, params, RunContext());
-  ASSERT_TRUE(report.ok()) << report.status();
-  bool on_wall = false;
-  for (const Diagnostic& d : report->findings)
-    on_wall |= d.code == "LEFTOVER" && d.where.point && d.where.point->z() > 1.0 && d.where.point->z() < 9.0;
-  EXPECT_TRUE(on_wall);
-}
-
-// The ball beside the wall keeps the floor's margin by its height alone.
-TEST(Containment, WallsOverAnAvoidedFloorKeepItsMargin) {
-  const Surface surface = PlacedSurface(Block(10, 10, 30));
-  for (const double margin : {0.0, 1.0, 4.0}) {
-    Job job = LimitedJob();
-    job.operation.selection.avoid = {"#0", "#1", "#2", "#3", "#5", "#6", "#7", "#8"};  // #4 is the top
-    job.operation.selection.avoid_margin = margin;
-    const JobResult result = Mill(surface, job);
-    ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << margin << " " << Describe(result);
-    // The ball's lowest centre beside the wall is a radius and the margin over the floor.
-    EXPECT_NEAR(result.report.verify.reachable_area, 20 * 20 + 4 * 20 * (10 - kRadius - margin), 3.0)
-        << margin;
-  }
-}
-
-// The handle stands upright beside what is avoided: the ball's own contact there is one of many along the
-// shank, and the crease on which most of the rest is cut is not allowed.
-TEST(Containment, WallsBesideAvoidedPatchesAreFinished) {
-  const auto model = ReadModelText("bpt", ReadRepositoryFile("examples/teapot.bpt"));
-  ASSERT_TRUE(model.ok()) << model.status();
-  patchmill::Setup setup;
-  setup.placement.scale = 30.0;
-  setup.placement.up = UpAxis::kY;
-  const Surface surface = PlacedSurface(*model, setup);
-  for (const double margin : {0.0, 0.5}) {
-    Job job = BallJob(5.0, false);
-    job.operation.scallop = 0.05;
-    job.operation.leave = 0.1;
-    job.operation.selection.avoid = {"#5", "#2", "#20", "#9", "#25", "#7", "#18", "#10"};
-    job.operation.selection.avoid_margin = margin;
-    const JobResult result = Mill(surface, job);
-    EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << margin << " " << Describe(result);
   }
 }
 
@@ -511,7 +364,7 @@ TEST(Containment, NothingToCutCountsWhatIsSelected) {
   const Surface surface = PlacedSurface(Plane(15));
   Job job = LimitedJob();
   job.operation.floor_z = 1.0;
-  job.operation.selection.boundary = {Box(-6, -4, 6, 4)};
+  job.operation.selection.boundary = {RingOfBox(-6, -4, 6, 4)};
   job.operation.selection.boundary_mode = BoundaryMode::kContact;
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kNothingToCut);
