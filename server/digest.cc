@@ -117,6 +117,7 @@ void AddLimits(const Job& job, Canonical& out) {
     if (change.one_way) out.Add("one way").Add(std::int64_t{*change.one_way});
   }
   if (job.operation.one_way) out.Add("one way");
+  if (job.operation.low_rapids) out.Add("low rapids");
   if (job.operation.spirals) out.Add("spirals");
   if (!job.operation.border_passes) out.Add("no border passes");
   if (!job.operation.round_lines) out.Add("no round lines");

@@ -28,6 +28,7 @@ constexpr double kBeside = 0.04;
 constexpr std::array<double, 8> kTurns = {0.0,        kPi / 4.0,       -kPi / 4.0,       kPi / 2.0,
                                           -kPi / 2.0, 3.0 * kPi / 4.0, -3.0 * kPi / 4.0, kPi};
 constexpr double kWorthTurning = 1.5;
+constexpr double kFineRapid = 0.1;  // mm: to which the height of a low rapid is looked for
 
 }  // namespace
 
@@ -198,21 +199,48 @@ LinkMaker::WayOut LinkMaker::FindWayOut(const CutterPoint& point) const {
   return best;
 }
 
-void LinkMaker::Retract(const CutterPoint& from, std::vector<Move>& moves) const {
-  const WayOut out = FindWayOut(from);
+void LinkMaker::Leave(const CutterPoint& from, const WayOut& out, double rapid_z,
+                      std::vector<Move>& moves) const {
   if (out.beside != from.center) moves.push_back(Feed(MoveKind::kLead, from.center, out.beside));
   if (out.clear.z() > out.beside.z() + 1e-9) moves.push_back(Feed(MoveKind::kRetract, out.beside, out.clear));
-  if (clearance_center_z() > out.clear.z() + 1e-9) {
-    moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(out.clear), clearance_center_z())});
+  if (rapid_z > out.clear.z() + 1e-9) {
+    moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(out.clear), rapid_z)});
   }
 }
 
-void LinkMaker::Approach(const CutterPoint& to, std::vector<Move>& moves) const {
-  const WayOut in = FindWayOut(to);
-  moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(in.clear), clearance_center_z())});
-  if (in.clear.z() < clearance_center_z() - 1e-9) moves.push_back({.kind = MoveKind::kRapid, .to = in.clear});
+void LinkMaker::Enter(const WayOut& in, const CutterPoint& to, double rapid_z,
+                      std::vector<Move>& moves) const {
+  moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(in.clear), rapid_z)});
+  if (in.clear.z() < rapid_z - 1e-9) moves.push_back({.kind = MoveKind::kRapid, .to = in.clear});
   if (in.clear.z() > in.beside.z() + 1e-9) moves.push_back(Feed(MoveKind::kPlunge, in.clear, in.beside));
   if (in.beside != to.center) moves.push_back(Feed(MoveKind::kLead, in.beside, to.center));
+}
+
+void LinkMaker::Retract(const CutterPoint& from, std::vector<Move>& moves) const {
+  Leave(from, FindWayOut(from), clearance_center_z(), moves);
+}
+
+void LinkMaker::Approach(const CutterPoint& to, std::vector<Move>& moves) const {
+  Enter(FindWayOut(to), to, clearance_center_z(), moves);
+}
+
+std::vector<Move> LinkMaker::Over(const CutterPoint& from, const CutterPoint& to) const {
+  const WayOut out = FindWayOut(from), in = FindWayOut(to);
+  const double rapid_z = RapidHeight(out.clear, in.clear);
+  std::vector<Move> moves;
+  Leave(from, out, rapid_z, moves);
+  Enter(in, to, rapid_z, moves);
+  return moves;
+}
+
+double LinkMaker::RapidHeight(const Vec3& a, const Vec3& b) const {
+  if (!params_.low_rapids) return clearance_center_z();
+  // A shank that is wider counts as a ball that is: it need not be looked at.
+  const double wider = std::max(0.0, params_.tool_radius - params_.radius);
+  const double above_all = params_.stock_top_z + params_.approach_gap + params_.radius;
+  double clear = std::min(stock_locator_.MaxHeight(Plan(a), Plan(b), wider, kFineRapid), above_all);
+  if (params_.keep_in != nullptr) clear = std::max(clear, params_.keep_in->ClearHeight(Plan(a), Plan(b)));
+  return std::min(std::max({clear, a.z(), b.z()}), clearance_center_z());
 }
 
 double TimeOf(const Vec3& from, const std::vector<Move>& moves) {
@@ -232,9 +260,7 @@ std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const C
   // Straight and no longer than out of the stock and back: nothing over the top is shorter.
   const bool near = (start.center - end.center).norm() <= 2.0 * maker.stock_depth();
   if (down && down->size() <= 1 && near) return *std::move(down);
-  std::vector<Move> over;
-  maker.Retract(end, over);
-  maker.Approach(start, over);
+  std::vector<Move> over = maker.Over(end, start);
   if (down && TimeOf(end.center, *down) <= TimeOf(end.center, over)) return *std::move(down);
   return over;
 }

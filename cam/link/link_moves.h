@@ -29,6 +29,9 @@ class LinkMaker {
   // From above to `to`: rapid at the clearance plane, rapid down to where the stock may begin, plunge feed,
   // and in from beside the wall.
   void Approach(const CutterPoint& to, std::vector<Move>& moves) const;
+  // Both; with low rapids no higher between them than where everything over the rectangle between the two
+  // places clears the stock (ALGORITHMS 6: controls may drive the axes of a rapid one after the other).
+  std::vector<Move> Over(const CutterPoint& from, const CutterPoint& to) const;
 
   // A feed move of kind `kind` to `to`: plunge feed when it descends steeper than the limit.
   Move Feed(MoveKind kind, const Vec3& from, const Vec3& to) const;
@@ -46,6 +49,10 @@ class LinkMaker {
   // The shortest of a few: beside walls level, off the contact along its normal or turned from it; on gentle
   // ground straight up, or aslant where something stands above.
   WayOut FindWayOut(const CutterPoint& point) const;
+  void Leave(const CutterPoint& from, const WayOut& out, double rapid_z, std::vector<Move>& moves) const;
+  void Enter(const WayOut& in, const CutterPoint& to, double rapid_z, std::vector<Move>& moves) const;
+  // Centre height of a rapid between two places that are clear of the stock.
+  double RapidHeight(const Vec3& a, const Vec3& b) const;
   struct Way {
     std::vector<Move> moves;
     double length = 0.0;  // mm

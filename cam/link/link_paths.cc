@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "cam/link/ground_heights.h"
 #include "cam/link/link_moves.h"
 #include "cam/link/on_the_way.h"
 #include "cam/link/order_passes.h"
@@ -34,9 +36,8 @@ LinkStats Measure(const std::vector<Move>& moves) {
     const Vec3 d = moves[i].to - moves[i - 1].to;
     const double length = d.norm();
     stats.time += EstimatedTime(moves[i], length);
-    const bool up = moves[i].kind == MoveKind::kRetract || (moves[i].kind == MoveKind::kRapid && d.z() > 0.0);
-    const MoveKind before = moves[i - 1].kind;
-    if (up && before != MoveKind::kRetract && before != MoveKind::kRapid) ++stats.retract_count;
+    const auto leaves = [](MoveKind kind) { return kind == MoveKind::kRetract || kind == MoveKind::kRapid; };
+    if (leaves(moves[i].kind) && !leaves(moves[i - 1].kind)) ++stats.retract_count;
     if (moves[i].kind == MoveKind::kRapid) {
       stats.rapid_length += length;
       continue;
@@ -63,10 +64,15 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
       if (path.kind == PassKind::kContour && !path.spiral) Reverse(path);
     }
   }
+  std::optional<GroundHeights> ground;
+  const double clear = params.radius + params.allowance + params.approach_gap;
+  if (params.low_rapids) ground.emplace(locator.surface(), clear);
   const double leads = 2.0 * (params.allowance + params.approach_gap);
   const auto travel = [&](const Vec3& a, const Vec3& b) {
     const double length = (b - a).norm();
-    const double over = std::max(0.0, 2.0 * (params.clearance_z + params.radius) - a.z() - b.z());
+    double top = params.clearance_z + params.radius;
+    if (ground) top = std::min(top, std::max({a.z(), b.z(), ground->HighestOver(Plan(a), Plan(b)) + clear}));
+    const double over = std::max(0.0, 2.0 * top - a.z() - b.z());
     const double time = leads / params.feed + (over + Plan(b - a).norm()) / kAssumedRapid;
     return 60.0 * (length <= MaxLinkLength(params) ? std::min(time, length / params.feed) : time);
   };
@@ -79,7 +85,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
                                    .reversible_contours = params.contour_direction == CutDirection::kEither,
                                    .travel = travel},
                                   run));
-  const Locator stock_locator(locator.surface(), params.radius + params.allowance + params.approach_gap);
+  const Locator stock_locator(locator.surface(), clear);
   const LinkMaker maker(locator, stock_locator, params, run);
   PM_ASSIGN_OR_RETURN(result.passes, PutOnTheWay(maker, std::move(result.passes), params, run));
   std::vector<Move>& moves = result.toolpath.moves;

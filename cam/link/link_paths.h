@@ -17,11 +17,14 @@ namespace patchmill {
 enum class CutDirection { kClimb, kConventional, kEither };
 
 struct LinkParams {
-  double radius = 3.0;        // mm, the ball's own radius (the locator's includes the stock to leave)
-  double clearance_z = 0.0;   // mm, TIP height of rapids, above model and stock
-  double stock_top_z = 0.0;   // mm
-  double allowance = 0.5;     // mm of stock along the normal
-  double approach_gap = 1.0;  // mm: clear means allowance + gap from the surface
+  double radius = 3.0;       // mm, the ball's own radius (the locator's includes the stock to leave)
+  double clearance_z = 0.0;  // mm, TIP height of rapids, above model and stock
+  double stock_top_z = 0.0;  // mm
+  double allowance = 0.5;    // mm of stock along the normal
+  // Rapids between passes as low as they are proven clear of the stock, not at the clearance plane.
+  bool low_rapids = false;
+  double tool_radius = 0.0;              // mm, the wider one of ball and shank; only low rapids ask
+  double approach_gap = 1.0;             // mm: clear means allowance + gap from the surface
   double feed = 0.0, plunge_feed = 0.0;  // mm/min
   double plunge_angle = Radians(30.0);   // descents steeper than this run at plunge feed
   CutDirection contour_direction = CutDirection::kClimb;

@@ -1,4 +1,5 @@
-// Questions about a straight move: the highest centre over a stadium, and the gouge of the swept ball. Both
+// Questions about a move: the highest centre over the rectangle between its ends, and the gouge of the swept
+// ball. Both
 // are maxima over the surface, found by best-first branch and bound: tree nodes, leaves, then halves of
 // leaves. Where only a limit of the gouge matters, the leaves' models prove most of it first.
 #include <algorithm>
@@ -147,13 +148,17 @@ double Maximize(const Surface& surface, const LeafSet* among, double lower, doub
 
 double Locator::MaxHeight(const Vec2& a, const Vec2& b, double half_width, double slack) const {
   const double r2 = impl_->radius * impl_->radius;
+  const Vec2 min = a.cwiseMin(b), max = a.cwiseMax(b);
+  const auto off = [&](const Vec2& low, const Vec2& high) {  // of a rectangle in plan
+    return (low - max).cwiseMax(min - high).cwiseMax(0.0).norm();
+  };
   const auto height = [&](double z, double distance) {
     const double d = std::max(0.0, distance - half_width);
     return d * d <= r2 ? z + std::sqrt(r2 - d * d) : -kInfinity;
   };
-  const auto box = [&](const Box3& x) { return height(x.max.z(), internal::PlanDistance(x, a, b)); };
+  const auto box = [&](const Box3& x) { return height(x.max.z(), off(Plan(x.min), Plan(x.max))); };
   const auto oriented = [](const Vec3&, const Eigen::Matrix3d&, const Vec3&) { return kInfinity; };
-  const auto at = [&](const Vec3& p) { return height(p.z(), internal::PlanDistance(Plan(p), a, b)); };
+  const auto at = [&](const Vec3& p) { return height(p.z(), off(Plan(p), Plan(p))); };
   return Maximize(impl_->surface, nullptr, -kInfinity, std::max(slack, 1e-9), kInfinity, box, oriented, at) +
          impl_->slack;
 }

@@ -106,6 +106,28 @@ std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q) const {
   return heights;
 }
 
+double KeepIn::ClearHeight(const Vec2& a, const Vec2& b) const {
+  constexpr double kFine = 0.1;  // mm
+  double clear = -kInfinity;
+  for (const Obstacle& o : containment_->obstacles) {
+    const double beside = o.margin + params_.tool_radius;
+    const Vec2 low = a.cwiseMin(b).array() - beside, high = a.cwiseMax(b).array() + beside;
+    Box3 box;
+    for (const Ring& ring : o.outline.rings()) {
+      for (const Vec2& p : ring) box.Add(Lift(p, 0.0));
+    }
+    if (box.Empty() || (Plan(box.max).array() < low.array()).any() ||
+        (Plan(box.min).array() > high.array()).any())
+      continue;
+    clear = std::max(clear, o.top_z + o.margin + params_.ball_radius);
+  }
+  if (avoided_locator_) {
+    const double wider = params_.tool_radius - params_.ball_radius;
+    clear = std::max(clear, avoided_locator_->MaxHeight(a, b, wider, kFine));
+  }
+  return clear;
+}
+
 bool KeepIn::Forbids(const Vec3& c, double radius) const {
   if (Room(c) < -radius) return true;
   if (!avoided_locator_) return false;

@@ -60,6 +60,10 @@ class KeepIn {
   std::optional<AllowedHeights> HeightsOver(const Vec2& q) const;
   // No finishing ball may be centred within `radius` (mm, >= 0) of c.
   bool Forbids(const Vec3& c, double radius) const;
+  // Centre height from which on the tool may be anywhere over the rectangle with corners a and b and sides
+  // along x and y, as far as obstacles and avoided patches go; some mm more where obstacles have hollows.
+  // -infinity: at any.
+  double ClearHeight(const Vec2& a, const Vec2& b) const;
   // The centre may feed straight from a to b: every place of the move is allowed, up to half the tolerance.
   // `finishing`: top_z holds too.
   bool AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const;

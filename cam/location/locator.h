@@ -97,8 +97,9 @@ class Locator {
   // CertifiedHeight, or what is left); nullopt where it is not free.
   std::optional<double> CertifiedFree(const Vec3& c, double eps) const;
 
-  // Upper bound of h over the stadium of points within `half_width` (>= 0) of the segment a b in plan, within
-  // about `slack` of the true maximum; -infinity where there is nothing. For retract heights.
+  // Upper bound of h over the places within `half_width` (>= 0) of the rectangle with corners a and b and
+  // sides along x and y, within about `slack` of the true maximum; -infinity where there is nothing: how high
+  // the ball must be for a control to go from a to b one axis before the other.
   double MaxHeight(const Vec2& a, const Vec2& b, double half_width, double slack = 0.1) const;
 
   // Largest penetration of the surface into the ball of radius R moving straight from a to b, swept upward:

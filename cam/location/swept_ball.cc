@@ -14,38 +14,7 @@ Vec2 NearestOnSegment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return a + t * d;
 }
 
-// Does the segment meet the rectangle? Liang and Barsky's clipping.
-bool Meets(const Vec2& min, const Vec2& max, const Vec2& a, const Vec2& b) {
-  double t0 = 0.0, t1 = 1.0;
-  for (int k = 0; k < 2; ++k) {
-    const double d = b[k] - a[k];
-    if (d == 0.0) {
-      if (a[k] < min[k] || a[k] > max[k]) return false;
-      continue;
-    }
-    const double s0 = (min[k] - a[k]) / d, s1 = (max[k] - a[k]) / d;
-    t0 = std::max(t0, std::min(s0, s1));
-    t1 = std::min(t1, std::max(s0, s1));
-  }
-  return t0 <= t1;
-}
-
 }  // namespace
-
-double PlanDistance(const Vec2& p, const Vec2& a, const Vec2& b) {
-  return (p - NearestOnSegment(p, a, b)).norm();
-}
-
-double PlanDistance(const Box3& box, const Vec2& a, const Vec2& b) {
-  const Vec2 min = Plan(box.min), max = Plan(box.max);
-  if (Meets(min, max, a, b)) return 0.0;
-  double d = kInfinity;
-  for (const Vec2& end : {a, b}) d = std::min(d, (end - end.cwiseMax(min).cwiseMin(max)).norm());
-  for (const double x : {min.x(), max.x()}) {
-    for (const double y : {min.y(), max.y()}) d = std::min(d, PlanDistance(Vec2(x, y), a, b));
-  }
-  return d;
-}
 
 double ChordDistance2(double d0, double d1, double length) {
   const double least = std::min(d0, d1);

@@ -1,12 +1,9 @@
-// Distances to a straight move of the ball's centre with everything above it, and to its plan view.
+// Distances to a straight move of the ball's centre with everything above it.
 #pragma once
 
 #include "core/base/vec.h"
 
 namespace patchmill::internal {
-
-double PlanDistance(const Vec2& p, const Vec2& a, const Vec2& b);    // point to segment
-double PlanDistance(const Box3& box, const Vec2& a, const Vec2& b);  // plan view of a box to segment
 
 // T2 with two distances: a point at least sqrt(d0) from one end of a segment of this length and sqrt(d1) from
 // the other is at least the square root of the returned value from all of it. Sharp. Proof: with its foot w

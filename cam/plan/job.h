@@ -99,6 +99,8 @@ struct Operation {
   std::optional<double> clearance_z, floor_z, top_z;
   std::optional<double> clearance_above;  // mm; kDefaultClearanceAbove when neither is given
   double approach_gap = 1.0;
+  // Rapids between passes as low as the stock allows; needs its allowance to be known, not assumed.
+  bool low_rapids = false;
   Selection selection;
   std::string regions_sha256;  // what `overrides` were made for; empty: not checked
   std::vector<RegionOverride> overrides;

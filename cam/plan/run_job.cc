@@ -89,6 +89,8 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const KeepIn
   p.allowance = job.setup.allowance;
   // Whatever is asked for, rapids stay clear by more than rounding and the control's smoothing.
   p.approach_gap = std::max(job.operation.approach_gap, job.operation.tolerance);
+  p.low_rapids = job.operation.low_rapids;
+  p.tool_radius = std::max(resolved.radius, 0.5 * job.operation.tool.shank_diameter.value_or(0.0));
   p.feed = job.operation.tool.feed;
   p.plunge_feed = job.operation.tool.plunge_feed;
   p.contour_direction = job.operation.contour_direction;
@@ -113,6 +115,12 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
       Warning("STOCK_ASSUMED",
               fmt::format("assumed: at most {:.3g} mm of material on the surface, nothing above Z{:.4f}",
                           job.setup.allowance, r.stock_top_z - zero_z)));
+  if (job.operation.low_rapids) {
+    list.push_back(
+        Warning("LOW_RAPIDS",
+                "rapids between passes go below the clearance plane, clear of that material however "
+                "the control drives its axes"));
+  }
   list.push_back(Warning("HOLDER_NOT_CHECKED", "the holder is not checked; see required_stickout_mm"));
   if (job.default_cutting_data) {
     list.push_back(Warning(

@@ -40,6 +40,11 @@ Vec3 NearestOnSwept(const PathSegment& s, const Vec3& p) {
   return {c.x(), c.y(), p.z()};
 }
 
+Vec3 NearestOnSweptBox(const PathSegment& s, const Vec3& p) {
+  const Vec3 min = s.a.cwiseMin(s.b), max = s.a.cwiseMax(s.b);
+  return {std::clamp(p.x(), min.x(), max.x()), std::clamp(p.y(), min.y(), max.y()), std::max(p.z(), min.z())};
+}
+
 MetricValue From(const Vec3& nearest, const Vec3& p) {
   MetricValue value;
   const Vec3 d = p - nearest;
@@ -78,11 +83,15 @@ double DistanceToEither(const PathSegment& a, const PathSegment& b, const Vec3* 
 
 double PathDistance(const PathSegment& s, const Vec3& p) { return (p - NearestOnPath(s, p)).norm(); }
 double SweptDistance(const PathSegment& s, const Vec3& p) { return (p - NearestOnSwept(s, p)).norm(); }
+double SweptBoxDistance(const PathSegment& s, const Vec3& p) { return (p - NearestOnSweptBox(s, p)).norm(); }
 MetricValue PathDistanceAndGradient(const PathSegment& s, const Vec3& p) {
   return From(NearestOnPath(s, p), p);
 }
 MetricValue SweptDistanceAndGradient(const PathSegment& s, const Vec3& p) {
   return From(NearestOnSwept(s, p), p);
+}
+MetricValue SweptBoxDistanceAndGradient(const PathSegment& s, const Vec3& p) {
+  return From(NearestOnSweptBox(s, p), p);
 }
 
 double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius) {

@@ -16,12 +16,15 @@ struct PathSegment {
 enum class Metric {
   kPath,   // to the segment
   kSwept,  // to the half strip {c + s e_z : c on the segment, s >= 0}: ball and the shank above it
+  // To everything above the lower end's height over the rectangle with the ends as corners and sides along x
+  // and y: where a rapid may go, for controls need not drive its axes together.
+  kSweptBox,
   kShank,  // max(plan distance, shank radius - height above the segment), smallest over the segment:
            // shank radius minus this is how deep the point sits in a cylinder that begins at the segment
 };
 
-// Value and a subgradient: nowhere is the value below distance + gradient . (q - p). For the first two the
-// unit vector in which it grows.
+// Value and a subgradient: nowhere is the value below distance + gradient . (q - p). For all but the
+// shank the unit vector in which it grows.
 struct MetricValue {
   double distance = 0.0;
   Vec3 gradient = Vec3::Zero();  // zero where the distance is zero
@@ -55,9 +58,11 @@ double DistanceToEither(const PathSegment& a, const PathSegment& b, const Vec3* 
                         double enough);
 
 double SweptDistance(const PathSegment& s, const Vec3& p);
+double SweptBoxDistance(const PathSegment& s, const Vec3& p);
 double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius);
 MetricValue PathDistanceAndGradient(const PathSegment& s, const Vec3& p);
 MetricValue SweptDistanceAndGradient(const PathSegment& s, const Vec3& p);
+MetricValue SweptBoxDistanceAndGradient(const PathSegment& s, const Vec3& p);
 MetricValue ShankDistanceAndGradient(const PathSegment& s, const Vec3& p, double shank_radius);
 
 }  // namespace patchmill

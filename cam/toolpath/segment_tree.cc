@@ -73,7 +73,7 @@ SegmentTree::SegmentTree(std::vector<PathSegment> segments, Metric metric, doubl
                          const RunContext& run, double shank_radius)
     : metric_(metric), shank_radius_(shank_radius) {
   if (segments.empty()) return;
-  segments = CutLong(std::move(segments), longest);
+  if (metric != Metric::kSweptBox) segments = CutLong(std::move(segments), longest);
   Order order{segments, run, {}};
   order.items.reserve(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i)
@@ -170,7 +170,7 @@ SegmentTree::Floats SegmentTree::ChildDistances2(const Node& node, const Query& 
   }
   // No upper end in z: the swept sets go up for ever.
   const Floats rise = node.low[2] - q.at[2];
-  if (metric_ == Metric::kSwept) {
+  if (metric_ == Metric::kSwept || metric_ == Metric::kSweptBox) {
     const Floats dz = above_zero(rise);
     return plan + dz * dz;
   }
@@ -184,6 +184,8 @@ double SegmentTree::Distance(int i, const Vec3& p) const {
       return PathDistance(segment(i), p);
     case Metric::kSwept:
       return SweptDistance(segment(i), p);
+    case Metric::kSweptBox:
+      return SweptBoxDistance(segment(i), p);
     case Metric::kShank:
       return ShankDistance(segment(i), p, shank_radius_);
   }
@@ -196,6 +198,8 @@ MetricValue SegmentTree::DistanceAndGradient(int i, const Vec3& p) const {
       return PathDistanceAndGradient(segment(i), p);
     case Metric::kSwept:
       return SweptDistanceAndGradient(segment(i), p);
+    case Metric::kSweptBox:
+      return SweptBoxDistanceAndGradient(segment(i), p);
     case Metric::kShank:
       return ShankDistanceAndGradient(segment(i), p, shank_radius_);
   }

@@ -36,6 +36,20 @@ void Lower(const Room& room, const Vec3& a, const Vec3& b, Least& least) {
   Lower(room, middle, b, least);
 }
 
+// The same over the rectangle with corners a and b and sides along x and y, at the height z.
+void LowerOver(const Room& room, const Vec2& a, const Vec2& b, double z, Least& least) {
+  const Vec2 middle = 0.5 * (a + b);
+  const double here = room(Lift(middle, z)), half = 0.5 * (b - a).norm();
+  if (here < least.room) {
+    least.room = here;
+    least.at = Lift(middle, z);
+  }
+  if (half < kCertainty || here - half >= least.room - kCertainty) return;
+  const bool x_longer = std::abs(b.x() - a.x()) >= std::abs(b.y() - a.y());
+  LowerOver(room, a, x_longer ? Vec2(middle.x(), b.y()) : Vec2(b.x(), middle.y()), z, least);
+  LowerOver(room, x_longer ? Vec2(middle.x(), a.y()) : Vec2(a.x(), middle.y()), b, z, least);
+}
+
 class Report {
  public:
   Report(const ProgramMotion& motion, const Vec3& offset, Diagnostics& out)
@@ -89,14 +103,28 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
   const Containment& c = *limits.containment;
   Report report(motion, offset, found);
   const std::vector<PathSegment> all = CollectMoves(motion, MotionSet::kSwept, offset);
+  const std::vector<PathSegment> dog_legs = CollectMoves(motion, MotionSet::kDogLegs, offset);
   for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
     const Obstacle& o = c.obstacles[k];
     const Room room = [&](const Vec3& center) {
       return ObstacleRoom(o, center - Vec3(0.0, 0.0, limits.ball), limits.tool);
     };
+    const std::string name = o.id.empty() ? fmt::format("#{}", k) : "\"" + o.id + "\"";
     report.Add("OBSTACLE_HIT", Broken(all, room, slack),
-               fmt::format("the tool is within {:.4g} mm of obstacle {}", o.margin,
-                           o.id.empty() ? fmt::format("#{}", k) : "\"" + o.id + "\""));
+               fmt::format("the tool is within {:.4g} mm of obstacle {}", o.margin, name));
+    std::vector<Least> beside;
+    for (const PathSegment& s : dog_legs) {
+      if (std::min(s.a.z(), s.b.z()) - limits.ball >= o.top_z + o.margin) continue;  // over it
+      Least least{-slack, Vec3::Zero(), -1};
+      LowerOver(room, Plan(s.a), Plan(s.b), std::min(s.a.z(), s.b.z()), least);
+      if (least.room >= -slack) continue;
+      least.move = s.move;
+      beside.push_back(least);
+    }
+    report.Add(
+        "OBSTACLE_HIT", std::move(beside),
+        fmt::format("not driving all axes together, a control may come within {:.4g} mm of obstacle {}",
+                    o.margin, name));
   }
   if (c.boundary && c.boundary->mode != BoundaryMode::kContact) {
     const Room room = [&](const Vec3& center) { return BoundaryRoom(c, Plan(center), limits.ball); };

@@ -41,6 +41,16 @@ class HeightGrid {
     const std::vector<double> rows = height_;
     Slide(rows, height_, ny_, nx_, nx_, 1, reach);
   }
+  // Highest in the rectangle with corners a and b, sides along x and y; in all of the outermost squares when
+  // it lies within `radius` outside.
+  double HighestIn(const Vec2& a, const Vec2& b, double radius) {
+    const Vec2 lo = a.cwiseMin(b), hi = a.cwiseMax(b), high = low_ + step_ * Vec2(nx_, ny_);
+    double highest = -kInfinity;
+    if ((lo.array() > high.array() + radius).any() || (hi.array() < low_.array() - radius).any())
+      return highest;
+    ForEach(lo, hi, [&](double& h) { highest = std::max(highest, h); });
+    return highest;
+  }
   // Highest near the line from a to b: over the squares it touches and, next to corners, some beside it. Also
   // from outside of the grid, within `radius` of its border. Cost: a few squares a row or column it crosses.
   double Highest(const Vec2& a, const Vec2& b, double radius) {
@@ -168,6 +178,8 @@ absl::StatusOr<double> RequiredStickout(const Surface& surface, const Tool& tool
     const double low = std::min(a.z(), b.z());
     if (params.stock_top_z - low <= stickout && surface.box.max.z() - low <= stickout) continue;
     stickout = std::max(stickout, grid.Highest(Plan(a), Plan(b), radius) - low);
+    if (move.kind == ProgramMove::Kind::kRapid)
+      stickout = std::max(stickout, grid.HighestIn(Plan(a), Plan(b), radius) - low);
   }
   return stickout;
 }

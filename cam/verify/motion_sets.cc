@@ -6,6 +6,8 @@ namespace patchmill {
 
 namespace {
 
+int Axes(const PathSegment& s) { return static_cast<int>((s.a.array() != s.b.array()).count()); }
+
 void AddRapid(const ProgramMove& move, PathSegment s, double clear_z, std::vector<PathSegment>& out) {
   const bool straight_up =
       Plan(s.a) == Plan(s.b) && !move.from_above && (move.to_above || s.b.z() >= s.a.z());
@@ -33,6 +35,8 @@ std::vector<PathSegment> CollectMoves(const ProgramMotion& motion, MotionSet set
       segments.push_back(s);
     } else if (set == MotionSet::kRapid && rapid) {
       AddRapid(move, s, clear_z, segments);
+    } else if (set == MotionSet::kDogLegs && rapid) {
+      if (Axes(s) > 1 && std::min(s.a.z(), s.b.z()) < clear_z) segments.push_back(s);
     } else if (set == MotionSet::kCut && !rapid) {
       if (move.from_above) s.a = s.b;
       if (move.to_above) s.b = s.a;

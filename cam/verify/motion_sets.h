@@ -16,12 +16,13 @@ enum class MotionSet {
   // Rapids, cut off at the height where nothing stands any more, without those straight up: these only leave
   // through the space that the tool already fills.
   kRapid,
+  kDogLegs,  // those of kRapid that drive more than one axis, whole
 };
 
-// `offset` is added to tips: program zero plus ball radius upwards. For kRapid the part with its centre at or
-// above `clear_z` is left out. A move between machine zero and a place beside it is taken as going level at
-// the lower height, which contains whatever the control really does; of a feed move from or to machine zero
-// only the lower end is known to be cut.
+// `offset` is added to tips: program zero plus ball radius upwards. For kRapid and kDogLegs what has its
+// centre at or above `clear_z` is left out. A move between machine zero and a place beside it is taken as
+// going level at the lower height, which contains whatever the control really does; of a feed move from or to
+// machine zero only the lower end is known to be cut.
 std::vector<PathSegment> CollectMoves(const ProgramMotion& motion, MotionSet set, const Vec3& offset,
                                       double clear_z = kInfinity);
 

@@ -109,6 +109,11 @@ class Judge {
     p.limit = std::max(0.0, params_.tolerance - motion_.controller_tolerance);
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
     PM_RETURN_IF_ERROR(JudgeAvoidedBy(tree, p, "the tool comes too near to an avoided patch"));
+    const SegmentTree boxes(CollectMoves(motion_, MotionSet::kDogLegs, offset_), Metric::kSweptBox, radius_,
+                            run_);
+    PM_RETURN_IF_ERROR(JudgeAvoidedBy(boxes, p,
+                                      "not driving all axes together, a control may take a rapid too "
+                                      "near to an avoided patch"));
     const double shank = 0.5 * tool_.shank_diameter.value_or(0.0);
     if (!(shank > ball_)) return absl::OkStatus();
     // What is within the margin of a cylinder lies in one that is so much wider and begins so much lower.
@@ -301,9 +306,17 @@ class Judge {
     const double clear_z = params_.stock_top_z + ball_ - kRapidSlack;
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kRapid, offset_, clear_z), Metric::kSwept,
                            radius_, run_);
-    PM_ASSIGN_OR_RETURN(const Extremes found, FindGouge(surface_, roots_, tree, p, run_, "verify: rapids"));
-    if (!found.violations.empty()) report_.motion_ok = false;
+    PM_ASSIGN_OR_RETURN(Extremes found, FindGouge(surface_, roots_, tree, p, run_, "verify: rapids"));
     ReportPlaces("RAPID_IN_STOCK", found.violations, "a rapid enters the stock");
+    std::vector<bool> known(motion_.moves.size(), false);
+    for (const Extreme& e : found.violations) known[static_cast<std::size_t>(e.move)] = true;
+    std::vector<PathSegment> dog_legs = CollectMoves(motion_, MotionSet::kDogLegs, offset_, clear_z);
+    std::erase_if(dog_legs, [&](const PathSegment& s) { return known[static_cast<std::size_t>(s.move)]; });
+    const SegmentTree boxes(std::move(dog_legs), Metric::kSweptBox, radius_, run_);
+    PM_ASSIGN_OR_RETURN(const Extremes beside, FindGouge(surface_, roots_, boxes, p, run_, "verify: rapids"));
+    ReportPlaces("RAPID_DOG_LEG", beside.violations,
+                 "a control that does not drive all axes together may take a rapid into the stock");
+    if (!found.violations.empty() || !beside.violations.empty()) report_.motion_ok = false;
     return absl::OkStatus();
   }
 

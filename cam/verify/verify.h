@@ -91,12 +91,12 @@ struct VerifyReport {
   double tip_z_min = 0.0;
   Box3 tip_box;  // program frame, all moves that are not "above everything"
   double cut_length = 0.0, rapid_length = 0.0;
-  // GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK (each at most 20, of different lines and places, the worst
-  // first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START, FIRST_MOTION_NOT_UP,
-  // LAST_MOTION_NOT_UP, SPINDLE_STOPPED, SPINDLE_LEFT_ON, COOLANT_LEFT_ON, OUTSIDE_BOUNDARY (feeds),
-  // ABOVE_TOP (feeds), OBSTACLE_HIT, AVOID_MARGIN (at most 20 each as above): errors. What the program leaves
-  // to the control's state (ProgramMotion::assumptions): warnings. MORE_FINDINGS when a list of 20 was not
-  // long enough: info.
+  // GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK, RAPID_DOG_LEG (each at most 20, of different lines and
+  // places, the worst first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START,
+  // FIRST_MOTION_NOT_UP, LAST_MOTION_NOT_UP, SPINDLE_STOPPED, SPINDLE_LEFT_ON, COOLANT_LEFT_ON,
+  // OUTSIDE_BOUNDARY (feeds), ABOVE_TOP (feeds), OBSTACLE_HIT, AVOID_MARGIN (at most 20 each as above):
+  // errors. What the program leaves to the control's state (ProgramMotion::assumptions): warnings.
+  // MORE_FINDINGS when a list of 20 was not long enough: info.
   Diagnostics findings;
   bool ok() const { return gouge_ok && finish_ok && motion_ok; }
 };

@@ -50,6 +50,7 @@ constexpr struct {
     {"outline_xy_mm", "--obstacle"},
     {"margin_mm", "--obstacle"},
     {"clearance_above_mm", "--clearance"},
+    {"heights.low_rapids", "--low-rapids"},
     {"stock.top_z_mm", "--stock-top"},
     {"stock.allowance_mm", "--allowance"},
     {"plunge_feed_mm_per_min", "--plunge-feed"},

@@ -222,6 +222,7 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   op.set_detail(options.detail);
   op.set_contour_direction(MakeDirection(options.direction));
   op.mutable_heights()->set_clearance_above_mm(options.clearance);
+  op.mutable_heights()->set_low_rapids(options.low_rapids);
   if (options.floor) op.mutable_heights()->set_floor_z_mm(*options.floor);
   return op;
 }

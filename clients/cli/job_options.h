@@ -33,7 +33,7 @@ struct OperationOptions {
   std::string strategy = "auto", direction = "climb", coolant = "off", edges = "stop";
   double zigzag_angle = 0.0, bend = 20.0, clearance = 5.0, detail = 0.5;
   bool one_way = false, spirals = false, auto_angle = false, no_border_passes = false;
-  bool no_round_lines = false;
+  bool no_round_lines = false, low_rapids = false;
   std::optional<double> floor, feed, plunge_feed, spindle;
   int tool_number = 1;
   ShankOptions shank;

@@ -230,6 +230,11 @@ Command AddMill(CLI::App& app) {
   AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
+  app.add_flag(
+         "--low-rapids", options->operation.low_rapids,
+         "rapids between passes no higher than it takes to clear --allowance, which must be given, over all "
+         "of the rectangle between their ends")
+      ->needs(app.get_option("--allowance"));
   app.add_option("--work-offset", options->work_offset, "G54 to G59")->capture_default_str();
   app.add_option("--post", options->post, "dialect of the program")->capture_default_str();
   app.add_option("--report", options->report, "write the report here (.json)");

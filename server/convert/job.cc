@@ -36,6 +36,7 @@ void ReadHeights(const v1::Heights& proto, const std::string& at, Operation& op,
             fmt::format("in (0, {}]", limits::kMaxApproachGapMm));
   }
   if (proto.has_top_z_mm()) op.top_z = height("top_z_mm", proto.top_z_mm());
+  op.low_rapids = proto.low_rapids();
 }
 
 void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
@@ -148,6 +149,10 @@ Job FromProto(const v1::Job& proto, const v1::Post& post, std::string_view at, F
   } else {
     const std::string path = At(at, "operations[0]");
     job.operation = FromProto(proto.operations(0), path, errors);
+    if (job.operation.low_rapids && !proto.setup().stock().has_allowance_mm()) {
+      errors.Add(At(path, "heights.low_rapids"),
+                 "is set; needs setup.stock.allowance_mm, for what stands on the surface must be known");
+    }
     job.default_cutting_data = proto.operations(0).tool().cutting_data_is_default();
     if (job.setup.allowance < job.operation.leave) {
       errors.Add(At(at, "setup.stock.allowance_mm"),
@@ -189,6 +194,7 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
     heights.set_clearance_above_mm(op.clearance_above.value_or(kDefaultClearanceAbove));
   }
   heights.set_approach_gap_mm(op.approach_gap);
+  if (op.low_rapids) heights.set_low_rapids(true);
   if (op.floor_z) heights.set_floor_z_mm(*op.floor_z);
   if (op.top_z) heights.set_top_z_mm(*op.top_z);
   const Selection& s = op.selection;

@@ -219,8 +219,9 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
   report->set_finish_check(scallop_judged ? State(verify.finish_ok) : v1::CHECK_STATE_NOT_CHECKED);
   report->set_motion_check(State(verify.motion_ok));
   report->set_holder_check(v1::CHECK_STATE_NOT_CHECKED);
-  const bool in_stock = std::any_of(verify.findings.begin(), verify.findings.end(),
-                                    [](const Diagnostic& d) { return d.code == "RAPID_IN_STOCK"; });
+  const bool in_stock = std::any_of(verify.findings.begin(), verify.findings.end(), [](const Diagnostic& d) {
+    return d.code == "RAPID_IN_STOCK" || d.code == "RAPID_DOG_LEG";
+  });
   report->set_stock_check(State(!in_stock));
   report->set_max_gouge_mm(Number(verify.max_gouge));
   *report->mutable_max_gouge_at() = PlaceToProto(verify.max_gouge_at, zero);

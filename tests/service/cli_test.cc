@@ -248,6 +248,26 @@ TEST_F(Cli, RegionsKnowTheShank) {
   EXPECT_THAT(mill.err, AllOf(HasSubstr("skipped   regions 0 ("), HasSubstr("AVOIDED")));
 }
 
+TEST_F(Cli, LowRapidsNeedTheStock) {
+  const std::vector<std::string> lines = {"--floor", "-5", "--one-way"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), lines.begin(), lines.end());
+    return more;
+  };
+  const Finished assumed = Mill(waves_, with({"--low-rapids"}));
+  EXPECT_NE(assumed.status, 0);
+  EXPECT_THAT(assumed.err, HasSubstr("--allowance"));
+  const auto rapid_length = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--report", out_ / "r.json"});
+    const Finished mill = Mill(waves_, with(std::move(more)));
+    EXPECT_EQ(mill.status, 0) << mill.err;
+    v1::Report report;
+    EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out_ / "r.json"), &report).ok());
+    return report.rapid_length_mm();
+  };
+  EXPECT_LT(rapid_length({"--allowance", "0.3", "--low-rapids"}), 0.8 * rapid_length({"--allowance", "0.3"}));
+}
+
 // Listed with ids, switched off by id or point, and judged alike.
 TEST_F(Cli, RegionsAreListedSwitchedOffAndJudged) {
   const std::vector<std::string> split = {"--floor", "-5", "--tolerance", "0.02"};

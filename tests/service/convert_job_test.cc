@@ -109,6 +109,12 @@ INSTANTIATE_TEST_SUITE_P(
               "job.name has 101 bytes"},
         Wrong{"ApproachGap", [](Request& r) { HeightsOf(r).set_approach_gap_mm(0); },
               "job.operations[0].heights.approach_gap_mm = 0; must be in (0, 100]"},
+        Wrong{"LowRapidsOverUnknownStock",
+              [](Request& r) {
+                r.mutable_job()->mutable_setup()->clear_stock();
+                HeightsOf(r).set_low_rapids(true);
+              },
+              "job.operations[0].heights.low_rapids is set; needs setup.stock.allowance_mm"},
         Wrong{"ClearanceNan", [](Request& r) { HeightsOf(r).set_clearance_z_mm(kNan); },
               "job.operations[0].heights.clearance_z_mm = nan"},
         Wrong{"ClearanceAboveZero", [](Request& r) { HeightsOf(r).set_clearance_above_mm(0); },
@@ -355,6 +361,7 @@ Request Unusual() {
   op.set_edge_rule(v1::EDGE_RULE_ROLL);
   op.mutable_heights()->set_clearance_z_mm(70);
   op.mutable_heights()->set_approach_gap_mm(2);
+  op.mutable_heights()->set_low_rapids(true);
   op.mutable_heights()->set_floor_z_mm(-3);
   op.mutable_heights()->set_top_z_mm(30);
   v1::Obstacle& obstacle = *SetupOf(r).add_obstacles();
@@ -442,6 +449,10 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_detail(0.0); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_floor_z_mm(-2); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_top_z_mm(2); }));
+  EXPECT_TRUE(differs([](Request& r) {
+    SetupOf(r).mutable_stock()->set_allowance_mm(0.5);
+    HeightsOf(r).set_low_rapids(true);
+  }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_patch_ids("bump"); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_avoid_patch_ids("bump"); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_regions_sha256(std::string(32, 'x')); }));

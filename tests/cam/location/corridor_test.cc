@@ -17,17 +17,16 @@ namespace {
 using testing::Random;
 using testing::SurfaceOf;
 
-// Largest h over a stadium by samples: never above the truth.
+// Largest h near the rectangle with these corners by samples: never above the truth.
 double SampledMaximum(const Locator& locator, const Vec2& a, const Vec2& b, double half_width, int n) {
-  const Vec2 d = b - a, e = d.norm() > 0 ? Vec2(d.normalized()) : Vec2(1, 0), across(-e.y(), e.x());
+  const Vec2 low = a.cwiseMin(b), high = a.cwiseMax(b);
   double best = -kInfinity;
-  const double length = d.norm() + 2 * half_width;
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; j <= n; ++j) {
-      const double s = -half_width + length * i / n, t = half_width * (2.0 * j / n - 1.0);
-      const Vec2 q = a + s * e + t * across;
-      const double over = std::max({-s, s - d.norm(), 0.0});
-      if (over * over + t * t > half_width * half_width) continue;
+      const Vec2 share(double(i) / n, double(j) / n);
+      const Vec2 q =
+          low.array() - half_width + share.array() * (high - low).array() + share.array() * 2.0 * half_width;
+      if ((q - q.cwiseMax(low).cwiseMin(high)).norm() > half_width) continue;
       if (const auto h = locator.Height(q)) best = std::max(best, h->z);
     }
   }
@@ -43,7 +42,10 @@ TEST(MaxHeight, OfAPlaneAndNothing) {
   EXPECT_GE(got, truth - 1e-9);
   EXPECT_LE(got, truth + 0.01);
   EXPECT_EQ(locator.MaxHeight({100, 0}, {120, 0}, 5.0), -kInfinity);
-  // A stadium that just reaches the border.
+  // The corner counts, not only the way straight from end to end.
+  const double corner = 1.0 + sx * 12.0 + 3.0 * std::sqrt(1 + sx * sx);
+  EXPECT_NEAR(locator.MaxHeight({10, 3}, {-5, -40}, 2.0, 0.01), corner, 0.01);
+  // One that just reaches the border.
   EXPECT_GT(locator.MaxHeight({35.9, 0}, {50, 0}, 3.0), -kInfinity);
   EXPECT_EQ(locator.MaxHeight({36.1, 0}, {50, 0}, 3.0), -kInfinity);
 }

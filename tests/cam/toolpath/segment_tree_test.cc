@@ -32,6 +32,18 @@ double SweptBySampling(const PathSegment& s, const Vec3& p, int n) {
   return least;
 }
 
+double SweptBoxBySampling(const PathSegment& s, const Vec3& p, int n) {
+  double least = kInfinity;
+  const double z = std::min(s.a.z(), s.b.z());
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const double x = s.a.x() + (s.b.x() - s.a.x()) * i / n, y = s.a.y() + (s.b.y() - s.a.y()) * j / n;
+      least = std::min(least, Vec3(x - p.x(), y - p.y(), std::max(0.0, z - p.z())).norm());
+    }
+  }
+  return least;
+}
+
 double ShankBySampling(const PathSegment& s, const Vec3& p, double r, int n) {
   double least = kInfinity;
   for (int i = 0; i <= n; ++i) {
@@ -63,12 +75,16 @@ TEST(SegmentMetric, EqualsSampling) {
     const double step = 2.0 * (s.b - s.a).norm() / 4000.0;
     EXPECT_NEAR(PathDistance(s, p), PathBySampling(s, p, 4000), step);
     EXPECT_NEAR(SweptDistance(s, p), SweptBySampling(s, p, 4000), step);
+    EXPECT_NEAR(SweptBoxDistance(s, p), SweptBoxBySampling(s, p, 60), 4000.0 / 60.0 * step);
+    EXPECT_LE(SweptBoxDistance(s, p), SweptDistance(s, p) + 1e-12);
     EXPECT_NEAR(ShankDistance(s, p, 2.0), ShankBySampling(s, p, 2.0, 4000), step);
     EXPECT_LE(SweptDistance(s, p), PathDistance(s, p) + 1e-12);
     // The gradients support the convex functions from below.
     for (int k = 0; k < 20; ++k) {
       const Vec3 q = p + random.Point(-4, 4);
       const MetricValue f = PathDistanceAndGradient(s, p), g = SweptDistanceAndGradient(s, p);
+      const MetricValue b = SweptBoxDistanceAndGradient(s, p);
+      EXPECT_GE(SweptBoxDistance(s, q), b.distance + b.gradient.dot(q - p) - 1e-9);
       const MetricValue h = ShankDistanceAndGradient(s, p, 2.0);
       EXPECT_GE(PathDistance(s, q), f.distance + f.gradient.dot(q - p) - 1e-9);
       EXPECT_GE(SweptDistance(s, q), g.distance + g.gradient.dot(q - p) - 1e-9);
@@ -78,9 +94,10 @@ TEST(SegmentMetric, EqualsSampling) {
 }
 
 double Measure(Metric metric, const PathSegment& s, const Vec3& p) {
-  return metric == Metric::kPath    ? PathDistance(s, p)
-         : metric == Metric::kSwept ? SweptDistance(s, p)
-                                    : ShankDistance(s, p, kShankRadius);
+  return metric == Metric::kPath       ? PathDistance(s, p)
+         : metric == Metric::kSwept    ? SweptDistance(s, p)
+         : metric == Metric::kSweptBox ? SweptBoxDistance(s, p)
+                                       : ShankDistance(s, p, kShankRadius);
 }
 
 // Single precision, in which boxes are compared, is coarse far from the origin.
@@ -89,7 +106,7 @@ class SegmentTreeAt : public ::testing::TestWithParam<double> {};
 TEST_P(SegmentTreeAt, EqualsBruteForce) {
   Random random(12);
   const Vec3 far(GetParam(), -0.7 * GetParam(), 0.3 * GetParam());
-  for (const Metric metric : {Metric::kPath, Metric::kSwept, Metric::kShank}) {
+  for (const Metric metric : {Metric::kPath, Metric::kSwept, Metric::kSweptBox, Metric::kShank}) {
     for (const int n : {1, 2, 3, 4, 5, 8, 9, 16, 17, 63, 300, 2000}) {
       std::vector<PathSegment> segments = RandomSegments(random, n);
       if (n == 63) std::fill(segments.begin() + 20, segments.end(), segments[5]);  // one move many times
