@@ -23,6 +23,7 @@ class GougeSearch {
  private:
   bool Visit(const SurfaceCell& cell, const Threshold& threshold, Extreme& here) {
     if (run_.Cancelled()) return false;
+    if (threshold.Drop(here.value) >= radius_) return false;  // no distance is below zero
     const auto depth = static_cast<std::size_t>(cell.depth);
     std::vector<int>& from = candidates_[depth];
     std::vector<int>& to = candidates_[depth + 1];
