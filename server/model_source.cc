@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <google/protobuf/util/json_util.h>
 
 #include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/io/model_text.h"
 #include "core/network/control_points.h"
+#include "proto/json/json_message.h"
 #include "server/convert/fields.h"
 #include "server/convert/model.h"
 #include "server/digest.h"
@@ -25,8 +25,8 @@ constexpr std::size_t kMaxJsonCommas =
     4 * limits::kMaxControlPoints + limits::kMaxKnots + 10 * limits::kMaxPatches;
 
 bool LooksLikeJson(std::string_view content) {
-  const std::size_t first = content.find_first_not_of(" \t\r\n");
-  return first != std::string_view::npos && content[first] == '{';
+  const std::size_t first = content.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  return first != std::string_view::npos && (content[first] == '{' || content[first] == '[');
 }
 
 absl::StatusOr<v1::PatchModel> ParseJson(const std::string& content) {
@@ -36,7 +36,7 @@ absl::StatusOr<v1::PatchModel> ParseJson(const std::string& content) {
                       static_cast<double>(commas));
   }
   v1::PatchModel model;
-  const auto status = google::protobuf::util::JsonStringToMessage(content, &model);
+  const absl::Status status = ReadJsonMessage(content, model);
   if (!status.ok()) {
     return ModelUnreadableError(
         fmt::format("model file: not a PatchModel in JSON: {}", std::string(status.message())));

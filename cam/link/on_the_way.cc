@@ -20,7 +20,7 @@ const CutterPoint& EndOf(const CutterPath& pass) {
 bool IsShort(const CutterPath& pass, double longest) {
   const bool mends =
       pass.kind == PassKind::kBorder || pass.kind == PassKind::kCrease || pass.kind == PassKind::kRest;
-  return mends && !pass.closed && !pass.one_way && !pass.spiral && Length(pass) <= longest;
+  return mends && !pass.closed && !pass.one_way && !pass.directed && !pass.spiral && Length(pass) <= longest;
 }
 
 // Between the pass `after` and the next one.

@@ -110,7 +110,7 @@ void Take(CutterPath& pass, const End& end, Vec3& at, std::vector<CutterPath>& o
 }
 
 End EndOf(const CutterPath& pass, const Vec3& from, bool reversible) {
-  return NearestEnd(pass, from, reversible && !pass.one_way && !pass.spiral);
+  return NearestEnd(pass, from, reversible && !pass.one_way && !pass.directed && !pass.spiral);
 }
 
 // Nearest first. Stops when cancelled.

@@ -6,15 +6,19 @@
 #include <utility>
 
 #include "cam/path/cheapest_step.h"
+#include "cam/path/line_gaps.h"
 #include "cam/path/line_lattice.h"
 #include "cam/path/spacing.h"
+#include "core/base/parallel.h"
 #include "core/base/status.h"
 
 namespace patchmill {
 namespace {
 
 constexpr double kRowStep = 1.5;      // flat steps
-constexpr double kWorthwhile = 0.96;  // of the straight lines' length
+constexpr double kWorthwhile = 0.96;  // of the straight lines' length, as the lattice tells it,
+constexpr double kMeasured = 0.98;    // and as the lines and what fills their gaps have it
+constexpr std::size_t kLooked = 32;   // gaps of a family
 
 // Lines per mm of the straight lines at y.
 double StraightDensity(const LineBand& band, double y) {
@@ -157,6 +161,43 @@ double LengthOf(const LineLattice& lattice, double min_step, const Family& famil
   });
 }
 
+// With ways in and out.
+double LengthOf(const LineProber& prober, const ClippedLine& line) {
+  double length = 0.0;
+  for (const Interval& t : line.keep) {
+    length += kWayToRun * prober.radius();
+    const std::vector<double> corners = CornersOf(line.line, t.begin, t.end);
+    for (std::size_t i = 1; i < corners.size(); ++i)
+      length +=
+          std::hypot(corners[i] - corners[i - 1], line.line.At(corners[i]) - line.line.At(corners[i - 1]));
+  }
+  return length;
+}
+
+// mm in plan: what these lines and all that fills their gaps come to, with the ways in and out. Of more than
+// kLooked gaps so many tell, spread evenly.
+absl::StatusOr<double> LengthWithGaps(const LineProber& prober, const std::vector<BentLine>& lines,
+                                      const Interval& range, double min_step, const RunContext& run) {
+  const std::size_t gaps = lines.size() - 1, looked = std::min(gaps, kLooked);
+  const auto clipped = [&](std::size_t i) {
+    ClippedLine line = ClipLine(prober, lines[i].line, static_cast<double>(i), range);
+    line.keep = Common(line.keep, lines[i].where);
+    return line;
+  };
+  std::vector<double> length(looked, 0.0);
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, looked, [&](std::size_t k) {
+    const std::size_t i = (2 * k + 1) * gaps / (2 * looked);
+    const ClippedLine a = clipped(i), b = clipped(i + 1);
+    std::vector<ClippedLine> between;
+    FillGap(prober, a, b, range, min_step, between);
+    length[k] = 0.5 * (LengthOf(prober, a) + LengthOf(prober, b));
+    for (const ClippedLine& line : between) length[k] += LengthOf(prober, line);
+  }));
+  double sum = 0.0;
+  for (const double of_gap : length) sum += of_gap;
+  return sum * static_cast<double>(gaps) / static_cast<double>(looked);
+}
+
 std::vector<LineShape> EveryOther(const std::vector<BentLine>& lines) {
   std::vector<LineShape> rows;
   for (std::size_t i = 0; i + 1 < lines.size(); i += 2) rows.push_back(lines[i].line);
@@ -211,8 +252,12 @@ absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const 
                       SampleLattice(prober, range, EveryOther(family.lines), min_step, run));
   if (bent.rows.empty()) return straight;
   Family again = ShareWay(bent, band, high);
-  if (SteepestBend(bent, again) > std::tan(max_bend)) return std::move(family.lines);
-  return std::move(again.lines);
+  if (SteepestBend(bent, again) <= std::tan(max_bend)) family = std::move(again);
+  // Where steps are wide beside what the ground changes over, needs at the lattice's places tell too little
+  // of what lies between two lines.
+  PM_ASSIGN_OR_RETURN(const double as_bent, LengthWithGaps(prober, family.lines, range, min_step, run));
+  PM_ASSIGN_OR_RETURN(const double as_straight, LengthWithGaps(prober, straight, range, min_step, run));
+  return as_bent <= kMeasured * as_straight ? std::move(family.lines) : straight;
 }
 
 }  // namespace patchmill

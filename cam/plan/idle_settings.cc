@@ -38,6 +38,10 @@ Diagnostics IdleSettings(const Operation& op) {
     if (op.zigzag_angle != 0.0) idle.push_back(Idle("zigzag_angle_deg", "an angle of lines", kAllContours));
     if (op.angle_auto) idle.push_back(Idle("zigzag_angle_auto", "the quickest angle of lines", kAllContours));
     if (op.one_way) idle.push_back(Idle("one_way_lines", "one way", kAllContours));
+    if (op.zigzag_bend != Operation().zigzag_bend)
+      idle.push_back(Idle("zigzag_bend_deg", "a bend of lines", kAllContours));
+    if (!op.round_lines) idle.push_back(Idle("round_lines", "no round lines", kAllContours));
+    if (!op.border_passes) idle.push_back(Idle("border_passes", "no border passes", kAllContours));
   }
   if (all(Strategy::kZigzag)) {
     if (op.spirals) idle.push_back(Idle("contour_spirals", "spirals", kAllLines));
@@ -55,6 +59,13 @@ Diagnostics IdleSettings(const Operation& op) {
       idle.push_back(Idle(field("one_way_lines"), "a region's one way", kContours));
   }
   return idle;
+}
+
+Diagnostics IdleSpirals(const Operation& op, const std::vector<CutterPath>& passes) {
+  const bool wound =
+      std::any_of(passes.begin(), passes.end(), [](const CutterPath& pass) { return pass.spiral; });
+  if (!op.spirals || wound) return {};
+  return {Idle("contour_spirals", "spirals", "no closed contour runs all around beside the next one")};
 }
 
 }  // namespace patchmill

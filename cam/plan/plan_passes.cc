@@ -28,6 +28,9 @@ namespace {
 constexpr double kCoverageShare = 0.75;
 // Cosine of the angle to the lines from which on a pass runs across them.
 constexpr double kAcross = 0.3;
+// Share of a rest pass that has material on one side more than on the other for it to have a direction, and
+// ball radii from which on one that is not closed does.
+constexpr double kAlongWall = 0.5, kLong = 4.0;
 
 void LabelRegions(const RegionMap& regions, std::vector<CutterPath>& paths) {
   for (CutterPath& path : paths) {
@@ -74,7 +77,11 @@ class PassMaker {
     };
     if (choice.strategy != Strategy::kZigzag) {
       PM_ASSIGN_OR_RETURN(paths, Contours(choice, planned.findings));
-      PM_ASSIGN_OR_RETURN(paths, clip(std::move(paths)));
+      if (op_.spirals && keep_in != nullptr) {
+        PM_ASSIGN_OR_RETURN(paths, ClipUnthinned(choice, std::move(paths), clip));
+      } else {
+        PM_ASSIGN_OR_RETURN(paths, clip(std::move(paths)));
+      }
     }
     if (choice.strategy != Strategy::kContour) {
       ZigzagParams params;
@@ -164,6 +171,7 @@ class PassMaker {
     params.forced = ForcedOf(choice);
     params.keep_in = keep_in;
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator_, planned.paths, params, run_));
+    TurnAlongWalls(choice, rest);
     TurnOneWay(choice, rest);
     Append(planned.paths, std::move(rest));
     return absl::OkStatus();
@@ -184,8 +192,58 @@ class PassMaker {
     }
   }
 
+  // What runs along walls for more than a spot's length runs as contours do, material on the right for climb.
+  void TurnAlongWalls(const RegionChoice& choice, std::vector<CutterPath>& paths) const {
+    if (choice.strategy == Strategy::kZigzag || op_.contour_direction == CutDirection::kEither) return;
+    const double side = op_.contour_direction == CutDirection::kClimb ? 1.0 : -1.0;
+    const double least = choice.strategy == Strategy::kContour ? 0.0 : std::sin(split_angle_);
+    for (CutterPath& path : paths) {
+      const double length = Length(path);
+      if (!path.closed && length < kLong * locator_.radius()) continue;
+      double on_right = 0.0;  // mm
+      for (std::size_t i = 0; i + (path.closed ? 0 : 1) < path.points.size(); ++i) {
+        const CutterPoint &from = path.points[i], &to = path.points[(i + 1) % path.points.size()];
+        if (!from.contact || from.other_contact) continue;
+        const Vec2 inwards = Plan(from.contact->p - from.center) / locator_.radius();
+        if (inwards.norm() >= least && inwards.norm() > 0.0)
+          on_right += Cross(inwards.normalized(), Plan(to.center - from.center));
+      }
+      if (std::abs(on_right) < kAlongWall * length) continue;
+      if (side * on_right < 0.0) Reverse(path);
+      path.directed = true;
+    }
+  }
+
   // What no limit has cut.
   static bool MaySpiral(const CutterPath& path) { return path.closed || path.spiral; }
+
+  // Spirals are wound of contours as they were traced, all others lose the points that their chords can do
+  // without before limits cut them: ends on chords are of another kind.
+  template <class Clip>
+  absl::StatusOr<std::vector<CutterPath>> ClipUnthinned(const RegionChoice& choice,
+                                                        std::vector<CutterPath> paths,
+                                                        const Clip& clip) const {
+    std::vector<int> lines;
+    for (CutterPath& path : paths) {
+      lines.push_back(path.line);
+      path.line = static_cast<int>(lines.size()) - 1;
+    }
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> clipped, clip(paths));
+    std::erase_if(clipped, [](const CutterPath& path) { return !MaySpiral(path); });
+    std::vector<char> whole(paths.size(), 0);
+    for (const CutterPath& path : clipped) whole[static_cast<std::size_t>(path.line)] = 1;
+    std::erase_if(paths,
+                  [&](const CutterPath& path) { return whole[static_cast<std::size_t>(path.line)] != 0; });
+    PassParams params;
+    SetFinePass(choice, params);
+    PM_RETURN_IF_ERROR(ThinContours(locator_, params, MaySpiral, run_, paths));
+    PM_ASSIGN_OR_RETURN(paths, clip(std::move(paths)));
+    Append(clipped, std::move(paths));
+    std::stable_sort(clipped.begin(), clipped.end(),
+                     [](const CutterPath& a, const CutterPath& b) { return a.line < b.line; });
+    for (CutterPath& path : clipped) path.line = lines[static_cast<std::size_t>(path.line)];
+    return clipped;
+  }
 
   // Over all ground that is steep enough; parts that differ in their lines alone share them.
   absl::StatusOr<std::vector<CutterPath>> Contours(const RegionChoice& choice, Diagnostics& findings) {

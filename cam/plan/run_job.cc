@@ -272,6 +272,12 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   PM_ASSIGN_OR_RETURN(PlannedPasses planned,
                       PlanPasses(locator, result.regions, report.choices, parts, job, resolved, limits, run));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
+  const bool told = std::any_of(idle.begin(), idle.end(),
+                                [](const Diagnostic& d) { return d.where.field == "contour_spirals"; });
+  if (!told) {
+    const Diagnostics more = IdleSpirals(job.operation, planned.paths);
+    report.diagnostics.insert(report.diagnostics.end(), more.begin(), more.end());
+  }
   report.certificate_defects = locator.defect_count();
   clock.Done("passes");
   if (planned.paths.empty()) {

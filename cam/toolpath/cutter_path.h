@@ -27,6 +27,8 @@ struct CutterPath {
   bool closed = false;  // the last point joins the first (not repeated)
   // Is cut from its first point to its last, never back, and the ball comes to it from above.
   bool one_way = false;
+  // Is cut from its first point to its last, but for that linked as any.
+  bool directed = false;
   // Winds down from its first point to its last and is cut like that, whatever the direction of contours: it
   // was made for it.
   bool spiral = false;

@@ -1,7 +1,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <google/protobuf/util/json_util.h>
 
 #include "clients/cli/call.h"
 #include "clients/cli/commands.h"
@@ -10,6 +9,7 @@
 #include "clients/cli/model_file.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
+#include "proto/json/json_message.h"
 
 namespace patchmill::cli {
 namespace {
@@ -23,7 +23,7 @@ absl::StatusOr<v1::BuildModelRequest> MakeRequest(const BuildOptions& options) {
   absl::StatusOr<std::string> text = ReadWholeFile(options.outline);
   if (!text.ok()) return text.status();
   v1::BuildModelRequest request;
-  const auto status = google::protobuf::util::JsonStringToMessage(*text, &request);
+  const absl::Status status = ReadJsonMessage(*text, request);
   if (!status.ok()) {
     return absl::InvalidArgumentError(
         fmt::format("{}: not an outline in JSON: {}", options.outline, std::string(status.message())));

@@ -2,7 +2,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <google/protobuf/util/json_util.h>
 
 #include "clients/cli/call.h"
 #include "clients/cli/commands.h"
@@ -11,6 +10,7 @@
 #include "clients/cli/model_file.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
+#include "proto/json/json_message.h"
 
 namespace patchmill::cli {
 namespace {
@@ -25,7 +25,7 @@ struct EditOptions {
 absl::Status ReadEdits(const std::string& path, v1::EditModelRequest& request) {
   absl::StatusOr<std::string> text = ReadWholeFile(path);
   if (!text.ok()) return text.status();
-  const auto status = google::protobuf::util::JsonStringToMessage(*text, &request);
+  const absl::Status status = ReadJsonMessage(*text, request);
   if (!status.ok()) {
     return absl::InvalidArgumentError(
         fmt::format("{}: not edits in JSON: {}", path, std::string(status.message())));

@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -119,10 +123,38 @@ std::string OverLeast(const v1::Report& report) {
                      100.0 * (report.cut_length_mm() / least - 1.0));
 }
 
+// What is true of about every job; the program's own head has it.
+bool IsAssumption(const v1::Diagnostic& finding) {
+  constexpr std::string_view kCodes[] = {"STOCK_ASSUMED", "LOW_RAPIDS", "HOLDER_NOT_CHECKED",
+                                         "DEFAULT_CUTTING_DATA"};
+  return std::find(std::begin(kCodes), std::end(kCodes), finding.code()) != std::end(kCodes);
+}
+
+// Those of single patches by their first one.
+void PrintWarnings(const v1::Report& report, bool assumptions) {
+  std::map<std::string, int> of_patches;
+  for (const v1::Diagnostic& finding : report.diagnostics()) {
+    if (finding.severity() != v1::SEVERITY_INFO && finding.where().has_patch_index())
+      ++of_patches[finding.code()];
+  }
+  for (const v1::Diagnostic& finding : report.diagnostics()) {
+    if (finding.severity() == v1::SEVERITY_INFO || (!assumptions && IsAssumption(finding))) continue;
+    if (!finding.where().has_patch_index()) {
+      fmt::print(stderr, "  {}\n", Line(finding));
+    } else if (const auto first = of_patches.extract(finding.code())) {
+      const std::string more = first.mapped() > 1 ? fmt::format(", and {} more", first.mapped() - 1) : "";
+      fmt::print(stderr, "  {}{}\n", Line(finding), more);
+    }
+  }
+}
+
 void PrintSummary(const MillOptions& options, const v1::Report& report) {
   const std::string left = UnreachableLine(report);
   if (!left.empty()) fmt::print(stderr, "patchmill: not reached: {}\n", left);
-  if (options.common.quiet) return;
+  if (options.common.quiet) {
+    PrintWarnings(report, false);
+    return;
+  }
   const v1::SetupSheet& sheet = report.setup_sheet();
   fmt::print(stderr, "{}: {}, verified\n", options.program, Short(report.outcome()));
   fmt::print(stderr, "  gouge     {:.4f} mm at {}\n", report.max_gouge_mm(), Line(report.max_gouge_at()));
@@ -147,11 +179,7 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
                "  heights   {} put right by their certificates: a defect of the planner, please report\n",
                report.certificate_defect_count());
   }
-  for (const v1::Diagnostic& finding : report.diagnostics()) {
-    if (finding.severity() != v1::SEVERITY_INFO && !finding.where().has_patch_index()) {
-      fmt::print(stderr, "  {}\n", Line(finding));
-    }
-  }
+  PrintWarnings(report, true);
 }
 
 absl::Status Run(const MillOptions& options, InterruptWatch& watch) {

@@ -12,6 +12,16 @@ std::string Without(const std::string& name, std::string_view prefix) {
   return name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
 }
 
+// Names come from files: nothing in them may move a terminal's cursor or begin a line.
+std::string Printable(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    out += byte < 0x20 || byte == 0x7F ? fmt::format("\\x{:02x}", byte) : std::string(1, c);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string Short(v1::Outcome value) { return Without(v1::Outcome_Name(value), "OUTCOME_"); }
@@ -32,7 +42,7 @@ std::string Line(const v1::Point3& p) {
 std::string Line(const v1::Place& place) {
   std::string text = Line(place.point());
   if (!place.patch_id().empty()) {
-    text += fmt::format(", patch {}", place.patch_id());
+    text += fmt::format(", patch {}", Printable(place.patch_id()));
   } else if (place.patch_index() >= 0) {
     text += fmt::format(", patch {}", place.patch_index());
   }
@@ -44,13 +54,13 @@ std::string Line(const v1::Diagnostic& finding) {
   const v1::Where& where = finding.where();
   std::string text = Without(v1::Severity_Name(finding.severity()), "SEVERITY_") + " " + finding.code();
   if (!where.patch_id().empty()) {
-    text += " patch " + where.patch_id();
+    text += " patch " + Printable(where.patch_id());
   } else if (where.has_patch_index()) {
     text += fmt::format(" patch {}", where.patch_index());
   }
   const bool line_said = finding.message().rfind("line ", 0) == 0;
   if (where.has_line() && !line_said) text += fmt::format(" line {}", where.line());
-  text += ": " + finding.message();
+  text += ": " + Printable(finding.message());
   const bool place_said = finding.message().find(" at X") != std::string::npos;
   if (where.has_point() && !place_said) text += " (at " + Line(where.point()) + ")";
   return text;

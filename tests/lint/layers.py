@@ -27,7 +27,8 @@ for name in JUDGES:
 ALLOWED["cam/picture"].add("core/fairing")
 ALLOWED["cam/plan"] = ALL_CORE | {"cam/" + n for n in CAM + JUDGES}
 
-PROTO = {"proto/patchmill/v1", "patchmill/v1"}
+ALLOWED["proto/json"] = set()
+PROTO = {"proto/patchmill/v1", "patchmill/v1", "proto/json"}
 SERVER = ["server", "server/convert", "server/handlers"]
 BELOW_SERVER = set(ALLOWED) | PROTO
 for name in SERVER:
@@ -46,7 +47,7 @@ def folder(path):
 def main():
     root = pathlib.Path(sys.argv[1])
     faults, seen = [], 0
-    for top in ["core", "cam", "server", "clients"]:
+    for top in ["core", "cam", "proto", "server", "clients"]:
         for source in sorted((root / top).rglob("*")):
             if source.suffix not in {".h", ".cc"}:
                 continue

@@ -139,6 +139,22 @@ TEST_F(Cli, QuietSaysNothingOfASuccess) {
   EXPECT_THAT(run.err + run.out, IsEmpty());
 }
 
+// But for warnings that not every job has; those of patches by their first one, names as they can be shown.
+TEST_F(Cli, QuietSaysWarnings) {
+  v1::PatchModel twice = testing::Bump();
+  for (int i = 0; i < 3; ++i) *twice.add_patches() = twice.patches(0);
+  for (int i = 0; i < twice.patches_size(); ++i)
+    twice.mutable_patches(i)->set_id("a\x1b[31m\n" + std::to_string(i));
+  const std::string model = in_.Write("twice.json", Json(twice));
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--quiet"}, {}}) {
+    const Finished run = Mill(model, more);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, AllOf(HasSubstr("DUPLICATE_PATCH patch a\\x1b[31m\\x0a"), HasSubstr(", and "),
+                               Not(HasSubstr("\x1b"))));
+    EXPECT_EQ(run.err.find("STOCK_ASSUMED") == std::string::npos, !more.empty()) << run.err;
+  }
+}
+
 TEST_F(Cli, VerifyAcceptsWhatMillMadeAndRefusesWhatWasTamperedWith) {
   ASSERT_EQ(Mill(bump_).status, 0);
   const std::vector<std::string> verify = {
@@ -481,6 +497,11 @@ TEST_F(Cli, UnreadableModelsAreStatusTwoWithAReason) {
       {"empty.bpt", "", "empty"},
       {"empty.json", "", "empty"},
       {"truncated.json", good.substr(0, good.size() / 2), "not a PatchModel in JSON"},
+      {"null.json", "{\"patches\": [\n{\"bezier\": {\"degree_u\": 1, \"points\": [0, 0,\nnull, 1]}}]}",
+       "line 3: null in a list"},
+      {"nested.json", "{\"patches\": [{\"bezier\": {\"points\": [[0, 0, 0], [1, 0, 0]]}}]}",
+       "line 1: a list in a list"},
+      {"list.json", "[]", "not a PatchModel in JSON"},
       {"truncated.pb", testing::Bump().SerializeAsString().substr(0, 200), "PatchModel"},
       {"truncated.bpt", "1\n3 3\n0 0 0\n1 0 0\n", "line "},
       {"surplus.bpt", "1\n1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n7 7 7\n", "line "},

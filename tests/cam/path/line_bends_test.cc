@@ -89,6 +89,29 @@ TEST(LineBends, AreShorterByWhatTheyAreAskedFor) {
   }
 }
 
+// Where the ground changes over a few steps, the lattice of needs promises what the lines do not keep.
+TEST(LineBends, AreNotLongerThanStraightOnBusyGround) {
+  double bent = 0.0, straight = 0.0;
+  int straighter = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Surface surface = JoinedSurface(RandomBspline(seed, {.spans = 5, .size = 40.0, .amplitude = 3.0}));
+    const Locator locator(surface, 3.0);
+    for (const double scallop : {0.02, 0.1}) {
+      ZigzagParams params = BendParams(0.0);
+      params.scallop = scallop;
+      const double plain = TotalLength(Lines(locator, params));
+      params.max_bend = Radians(20.0);
+      const double bending = TotalLength(Lines(locator, params));
+      EXPECT_LT(bending, 1.01 * plain) << "seed " << seed << ", scallop " << scallop;
+      bent += bending;
+      straight += plain;
+      straighter += bending == plain;
+    }
+  }
+  EXPECT_LE(bent, 1.001 * straight);
+  EXPECT_GT(straighter, 0);
+}
+
 void ExpectTheSameAsStraight(const PatchModel& model) {
   const Surface surface = JoinedSurface(model);
   const Locator locator(surface, 3.0);

@@ -36,6 +36,9 @@ TEST(IdleSettings, OfLinesWhereContoursCutEverything) {
   op.zigzag_angle = 0.0;
   op.angle_auto = true;
   EXPECT_EQ(Fields(op), (List{"zigzag_angle_auto", "one_way_lines"}));
+  op.one_way = op.angle_auto = op.round_lines = op.border_passes = false;
+  op.zigzag_bend = 0.0;
+  EXPECT_EQ(Fields(op), (List{"zigzag_bend_deg", "round_lines", "border_passes"}));
   op.overrides.emplace_back().strategy = Strategy::kZigzag;  // one region has lines
   EXPECT_EQ(Fields(op), List{});
 }
@@ -92,6 +95,12 @@ TEST(IdleSettings, ChangeNothing) {
   EXPECT_EQ(milled([](Operation& op) {
               op.strategy = Strategy::kContour;
               op.angle_auto = true;
+            }),
+            contours);
+  EXPECT_EQ(milled([](Operation& op) {
+              op.strategy = Strategy::kContour;
+              op.round_lines = op.border_passes = false;
+              op.zigzag_bend = 0.0;
             }),
             contours);
   const std::string lines = milled([](Operation& op) { op.strategy = Strategy::kZigzag; });

@@ -72,6 +72,38 @@ TEST(Spirals, TakeTheMarksAway) {
   EXPECT_LT(wound.report.verify.cut_length, 1.15 * levels.report.verify.cut_length);
 }
 
+// Contours that limits cut open have as few points as without spirals, and spirals that cannot be are told.
+TEST(Spirals, CutOpenAreAsPlain) {
+  const Surface surface = PlacedSurface(Join({Block(12, 10, 30), Plane(30)}));
+  Job job = SpiralJob();
+  job.operation.selection.boundary = {{{-30, 0}, {30, 0}, {30, 30}, {-30, 30}}};
+  const auto told = [](const JobResult& result) {
+    return std::count_if(result.report.diagnostics.begin(), result.report.diagnostics.end(),
+                         [](const Diagnostic& d) { return d.where.field == "contour_spirals"; });
+  };
+  const JobResult wound = Mill(surface, job);
+  job.operation.spirals = false;
+  const JobResult plain = Mill(surface, job);
+  ASSERT_TRUE(wound.report.verify.ok()) << Describe(wound);
+  EXPECT_EQ(SpiralsOf(wound), 0u);
+  EXPECT_EQ(wound.report.point_count, plain.report.point_count);
+  EXPECT_EQ(told(wound), 1);
+  EXPECT_EQ(told(plain), 0);
+}
+
+// Half of the domes is cut open, one is whole.
+TEST(Spirals, BesideContoursThatLimitsCut) {
+  const Surface surface = PlacedSurface(
+      Join({Sphere(Vec3(-15, 0, 0), 8, Half::kUpper), Sphere(Vec3(15, 0, 0), 8, Half::kUpper), Plane(40)}));
+  Job job = SpiralJob();
+  job.operation.selection.boundary = {{{-40, -20}, {15, -20}, {15, 20}, {-40, 20}}};
+  const JobResult wound = Mill(surface, job);
+  ASSERT_TRUE(wound.report.verify.ok()) << Describe(wound);
+  EXPECT_EQ(SpiralsOf(wound), 1u);
+  job.operation.spirals = false;
+  EXPECT_LT(wound.report.point_count, 1.5 * Mill(surface, job).report.point_count);
+}
+
 // Random folded parts keep their promises with spirals wherever they come about.
 TEST(Spirals, RandomParts) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {

@@ -134,5 +134,33 @@ TEST(Strategies, ContoursTurnAsAsked) {
   }
 }
 
+// A pass that mends what the highest level below a limit leaves goes along the wall as the levels do.
+TEST(Strategies, RestPassesAlongWallsClimbToo) {
+  const Surface surface = PlacedSurface(Sphere(Vec3::Zero(), 20, Half::kUpper));
+  Job job = BallJob(4.0, false);
+  job.operation.scallop = 0.2;
+  job.operation.tolerance = 0.05;
+  job.operation.leave = 0.05;
+  job.operation.steep_angle = Radians(25.0);
+  job.operation.strategy = Strategy::kContour;
+  job.operation.top_z = 17.46;
+  double rest = 0.0;
+  for (const CutDirection direction : {CutDirection::kClimb, CutDirection::kConventional}) {
+    job.operation.contour_direction = direction;
+    const JobResult result = Mill(surface, job);
+    ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+    for (const CutterPath& pass : result.motion.passes) {
+      const std::size_t moves = pass.points.size() - (pass.closed ? 0 : 1);
+      double around = 0.0;  // mm2, twice the area that the way sweeps about the dome's axis
+      for (std::size_t i = 0; i < moves; ++i)
+        around += Cross(Plan(pass.points[i].center), Plan(pass.points[(i + 1) % pass.points.size()].center));
+      if (Length(pass) < 16.0) continue;
+      EXPECT_EQ(around < 0.0, direction == CutDirection::kClimb) << pass.points[0].center.transpose();
+      if (pass.kind == PassKind::kRest) rest += Length(pass);
+    }
+  }
+  EXPECT_GT(rest, 50.0);
+}
+
 }  // namespace
 }  // namespace patchmill

@@ -1,0 +1,65 @@
+#include "proto/json/json_message.h"
+
+#include <string>
+#include <vector>
+
+#include <absl/strings/str_cat.h>
+#include <google/protobuf/util/json_util.h>
+
+namespace patchmill {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kNull = "null";
+
+// What lists may not hold, with its line; empty when there is nothing of it.
+std::string FaultOfLists(std::string_view text) {
+  std::vector<char> open;
+  int line = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool in_list = !open.empty() && open.back() == '[';
+    switch (c) {
+      case '\n':
+        ++line;
+        break;
+      case '"':
+      case '\'':
+        while (++i < text.size() && text[i] != c) {
+          if (text[i] == '\\') ++i;
+          if (i < text.size() && text[i] == '\n') ++line;
+        }
+        break;
+      case '[':
+        if (in_list)
+          return absl::StrCat("line ", line, ": a list in a list; numbers stand in one list, packed");
+        open.push_back(c);
+        break;
+      case '{':
+        open.push_back(c);
+        break;
+      case ']':
+      case '}':
+        if (!open.empty()) open.pop_back();
+        break;
+      case 'n':
+        if (in_list && text.substr(i, kNull.size()) == kNull)
+          return absl::StrCat("line ", line, ": null in a list");
+        break;
+      default:
+        break;
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message) {
+  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+  if (std::string fault = FaultOfLists(text); !fault.empty()) return absl::InvalidArgumentError(fault);
+  const auto status = google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message);
+  return status.ok() ? absl::OkStatus() : absl::InvalidArgumentError(std::string(status.message()));
+}
+
+}  // namespace patchmill

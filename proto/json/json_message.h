@@ -1,0 +1,16 @@
+// Messages from JSON that people and scripts write.
+#pragma once
+
+#include <string_view>
+
+#include <absl/status/status.h>
+#include <google/protobuf/message.h>
+
+namespace patchmill {
+
+// Canonical proto JSON into `message`, with or without a byte order mark. INVALID_ARGUMENT, with the line,
+// also for what protobuf drops without a word: a null in a list (how scripts write NaN) and a list in a list,
+// after which every number would stand one place off.
+absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message);
+
+}  // namespace patchmill
