@@ -15,10 +15,12 @@
 namespace patchmill {
 namespace {
 
-constexpr double kRowStep = 1.5;      // flat steps
-constexpr double kWorthwhile = 0.96;  // of the straight lines' length, as the lattice tells it,
-constexpr double kMeasured = 0.98;    // and as the lines and what fills their gaps have it
-constexpr std::size_t kLooked = 32;   // gaps of a family
+constexpr double kRowStep = 1.5;                // flat steps
+constexpr double kWorthwhile = 0.96;            // of the straight lines' length, as the lattice tells it,
+constexpr double kMeasured = 0.99;              // and as the lines and what fills their gaps have it
+constexpr std::size_t kFew = 64, kLooked = 24;  // gaps of a family: all of a few, so many of more
+constexpr double kRun = 0.5;   // ball radii: what one run more costs, most of them joined to the next
+constexpr double kWall = 2.0;  // flat steps from station to station: a wall, which splits lines
 
 // Lines per mm of the straight lines at y.
 double StraightDensity(const LineBand& band, double y) {
@@ -161,24 +163,28 @@ double LengthOf(const LineLattice& lattice, double min_step, const Family& famil
   });
 }
 
-// With ways in and out.
+// mm along the centres, station by station, with ways in and out; up and down upright walls there are no
+// passes.
 double LengthOf(const LineProber& prober, const ClippedLine& line) {
-  double length = 0.0;
-  for (const Interval& t : line.keep) {
-    length += kWayToRun * prober.radius();
-    const std::vector<double> corners = CornersOf(line.line, t.begin, t.end);
-    for (std::size_t i = 1; i < corners.size(); ++i)
-      length +=
-          std::hypot(corners[i] - corners[i - 1], line.line.At(corners[i]) - line.line.At(corners[i - 1]));
+  double length = kRun * prober.radius() * static_cast<double>(line.keep.size());
+  auto t = line.keep.begin();
+  for (std::size_t i = 1; i < line.probes.size(); ++i) {
+    const LineProbe &a = line.probes[i - 1], &b = line.probes[i];
+    while (t != line.keep.end() && t->end <= a.t) ++t;
+    for (auto k = t; k != line.keep.end() && k->begin < b.t; ++k) {
+      const double share = (std::min(b.t, k->end) - std::max(a.t, k->begin)) / (b.t - a.t);
+      const double step = (b.center - a.center).norm();
+      length += step > kWall * prober.flat_step() ? kRun * prober.radius() : share * step;
+    }
   }
   return length;
 }
 
-// mm in plan: what these lines and all that fills their gaps come to, with the ways in and out. Of more than
-// kLooked gaps so many tell, spread evenly.
+// mm: what these lines and all that fills their gaps come to, with the ways in and out. Of more than
+// kFew gaps kLooked tell, spread evenly.
 absl::StatusOr<double> LengthWithGaps(const LineProber& prober, const std::vector<BentLine>& lines,
                                       const Interval& range, double min_step, const RunContext& run) {
-  const std::size_t gaps = lines.size() - 1, looked = std::min(gaps, kLooked);
+  const std::size_t gaps = lines.size() - 1, looked = gaps <= kFew ? gaps : kLooked;
   const auto clipped = [&](std::size_t i) {
     ClippedLine line = ClipLine(prober, lines[i].line, static_cast<double>(i), range);
     line.keep = Common(line.keep, lines[i].where);
