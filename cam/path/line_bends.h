@@ -20,8 +20,8 @@ struct BentLine {
 // step of a row rules (or partial lines do); lines that share the way between the limits by the density that
 // each place needs leave the same scallop with less length. Lines turn by max_bend (rad) at most where
 // anything is wanted; where that takes bending back, or where it saves less than 4 %, they are straight, at
-// band.positions; so are they where the lines with all that fills their gaps (FillGap; of more than 64 gaps 24
-// tell) save less than 1 %. Knots lie a ball radius apart, needs are sampled three times as densely, first
+// band.positions; so are they where the lines with all that fills their gaps (FillGap; of more than 64 gaps
+// 24 tell) save less than 1 %. Knots lie a ball radius apart, needs are sampled three times as densely, first
 // along straight rows, then along the bent lines. Needs that neighbours still do not meet are left to partial
 // lines.
 absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const Interval& range,

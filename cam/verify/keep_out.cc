@@ -15,7 +15,8 @@ constexpr double kCertainty = 1e-3;  // mm
 constexpr double kClear = 0.5;       // mm: farther from the surface is not looked at
 constexpr std::size_t kMost = 20;    // findings per code
 
-using Room = std::function<double(const Vec3&)>;  // of a centre; slope at most 1
+using Room = std::function<double(const Vec3&)>;          // of a centre; slope at most 1
+using Floor = std::function<double(const PathSegment&)>;  // what no place of a move has less than
 
 struct Least {
   double room = kInfinity;
@@ -23,8 +24,10 @@ struct Least {
   int move = -1;
 };
 
-// Lowers `least` to the smallest room on a b when that is smaller by more than the certainty.
-void Lower(const Room& room, const Vec3& a, const Vec3& b, Least& least) {
+// Lowers `least` to the smallest room on a b when that is smaller by more than the certainty. `floor`: there
+// is no smaller one, and it may be the same over wide ground.
+void Lower(const Room& room, double floor, const Vec3& a, const Vec3& b, Least& least) {
+  if (floor >= least.room - kCertainty) return;
   const Vec3 middle = 0.5 * (a + b);
   const double here = room(middle), half = 0.5 * (b - a).norm();
   if (here < least.room) {
@@ -32,12 +35,13 @@ void Lower(const Room& room, const Vec3& a, const Vec3& b, Least& least) {
     least.at = middle;
   }
   if (half < kCertainty || here - half >= least.room - kCertainty) return;
-  Lower(room, a, middle, least);
-  Lower(room, middle, b, least);
+  Lower(room, floor, a, middle, least);
+  Lower(room, floor, middle, b, least);
 }
 
 // The same over the rectangle with corners a and b and sides along x and y, at the height z.
-void LowerOver(const Room& room, const Vec2& a, const Vec2& b, double z, Least& least) {
+void LowerOver(const Room& room, double floor, const Vec2& a, const Vec2& b, double z, Least& least) {
+  if (floor >= least.room - kCertainty) return;
   const Vec2 middle = 0.5 * (a + b);
   const double here = room(Lift(middle, z)), half = 0.5 * (b - a).norm();
   if (here < least.room) {
@@ -46,8 +50,8 @@ void LowerOver(const Room& room, const Vec2& a, const Vec2& b, double z, Least& 
   }
   if (half < kCertainty || here - half >= least.room - kCertainty) return;
   const bool x_longer = std::abs(b.x() - a.x()) >= std::abs(b.y() - a.y());
-  LowerOver(room, a, x_longer ? Vec2(middle.x(), b.y()) : Vec2(b.x(), middle.y()), z, least);
-  LowerOver(room, x_longer ? Vec2(middle.x(), a.y()) : Vec2(a.x(), middle.y()), b, z, least);
+  LowerOver(room, floor, a, x_longer ? Vec2(middle.x(), b.y()) : Vec2(b.x(), middle.y()), z, least);
+  LowerOver(room, floor, x_longer ? Vec2(middle.x(), a.y()) : Vec2(a.x(), middle.y()), b, z, least);
 }
 
 class Report {
@@ -82,11 +86,13 @@ class Report {
   Diagnostics& out_;
 };
 
-std::vector<Least> Broken(const std::vector<PathSegment>& moves, const Room& room, double slack) {
+std::vector<Least> Broken(const std::vector<PathSegment>& moves, const Room& room, const Floor& floor,
+                          double slack, const RunContext& run) {
   std::vector<Least> broken;
   for (const PathSegment& s : moves) {
     Least least{-slack, Vec3::Zero(), -1};
-    Lower(room, s.a, s.b, least);
+    if (run.Cancelled()) break;
+    Lower(room, floor(s), s.a, s.b, least);
     if (least.room >= -slack) continue;
     least.move = s.move;
     broken.push_back(least);
@@ -97,11 +103,12 @@ std::vector<Least> Broken(const std::vector<PathSegment>& moves, const Room& roo
 }  // namespace
 
 Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const CenterLimits& limits,
-                         double radius, const Vec3& offset, double slack) {
+                         double radius, const Vec3& offset, double slack, const RunContext& run) {
   Diagnostics found;
   if (limits.containment == nullptr) return found;
   const Containment& c = *limits.containment;
   Report report(motion, offset, found);
+  const Floor no_floor = [](const PathSegment&) { return -kInfinity; };
   const std::vector<PathSegment> all = CollectMoves(motion, MotionSet::kSwept, offset);
   const std::vector<PathSegment> dog_legs = CollectMoves(motion, MotionSet::kDogLegs, offset);
   for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
@@ -110,13 +117,16 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
       return ObstacleRoom(o, center - Vec3(0.0, 0.0, limits.ball), limits.tool);
     };
     const std::string name = o.id.empty() ? fmt::format("#{}", k) : "\"" + o.id + "\"";
-    report.Add("OBSTACLE_HIT", Broken(all, room, slack),
+    const Floor over_top = [&](const PathSegment& s) {
+      return std::min(s.a.z(), s.b.z()) - limits.ball - o.top_z - o.margin;
+    };
+    report.Add("OBSTACLE_HIT", Broken(all, room, over_top, slack, run),
                fmt::format("the tool is within {:.4g} mm of obstacle {}", o.margin, name));
     std::vector<Least> beside;
     for (const PathSegment& s : dog_legs) {
-      if (std::min(s.a.z(), s.b.z()) - limits.ball >= o.top_z + o.margin) continue;  // over it
+      if (run.Cancelled()) break;
       Least least{-slack, Vec3::Zero(), -1};
-      LowerOver(room, Plan(s.a), Plan(s.b), std::min(s.a.z(), s.b.z()), least);
+      LowerOver(room, over_top(s), Plan(s.a), Plan(s.b), std::min(s.a.z(), s.b.z()), least);
       if (least.room >= -slack) continue;
       least.move = s.move;
       beside.push_back(least);
@@ -128,7 +138,8 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
   }
   if (c.boundary && c.boundary->mode != BoundaryMode::kContact) {
     const Room room = [&](const Vec3& center) { return BoundaryRoom(c, Plan(center), limits.ball); };
-    report.Add("OUTSIDE_BOUNDARY", Broken(CollectMoves(motion, MotionSet::kCut, offset), room, slack),
+    report.Add("OUTSIDE_BOUNDARY",
+               Broken(CollectMoves(motion, MotionSet::kCut, offset), room, no_floor, slack, run),
                "a feed leaves the boundary");
   }
   if (c.top_z) {
@@ -142,7 +153,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
     };
     std::vector<PathSegment> feeds = CollectMoves(motion, MotionSet::kCut, offset);
     std::erase_if(feeds, [](const PathSegment& s) { return Plan(s.b - s.a).norm() < kCertainty; });
-    std::vector<Least> broken = Broken(feeds, room, slack);
+    std::vector<Least> broken = Broken(feeds, room, no_floor, slack, run);
     for (Least& b : broken) b.room = TopRoom(c, b.at.z() - limits.ball);
     report.Add("ABOVE_TOP", std::move(broken), "a feed touches the surface above the highest tip");
   }

@@ -9,8 +9,10 @@ namespace patchmill {
 // OBSTACLE_HIT (all moves), OUTSIDE_BOUNDARY (feed moves) and ABOVE_TOP (feed moves, but not straight up or
 // down, that touch the surface while the tip is above the highest), the deepest first, one a line and at most
 // 20 of each: moves that go more than `slack` (mm) beyond a limit somewhere, known to 1e-3 mm. `radius`, mm:
-// of ball and stock to leave. `offset` as in CollectMoves; places are said in the program frame.
+// of ball and stock to leave. `offset` as in CollectMoves; places are said in the program frame. Obstacles
+// are kept off by rapids wherever a control may go that drives one axis before the other. Means nothing once
+// `run` is cancelled.
 Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const CenterLimits& limits,
-                         double radius, const Vec3& offset, double slack);
+                         double radius, const Vec3& offset, double slack, const RunContext& run);
 
 }  // namespace patchmill

@@ -289,7 +289,9 @@ class Judge {
     PM_RETURN_IF_ERROR(JudgeAvoided());
     Diagnostics broken = BrokenMotionRules(motion_, tool_, params_, figures);
     const double slack = std::max(0.0, params_.tolerance - motion_.controller_tolerance);
-    const Diagnostics beyond = BrokenLimits(surface_, motion_, limits_->centers(), radius_, offset_, slack);
+    const Diagnostics beyond =
+        BrokenLimits(surface_, motion_, limits_->centers(), radius_, offset_, slack, run_);
+    PM_RETURN_IF_ERROR(run_.Check());
     broken.insert(broken.end(), beyond.begin(), beyond.end());
     if (!broken.empty()) report_.motion_ok = false;
     report_.findings.insert(report_.findings.end(), broken.begin(), broken.end());

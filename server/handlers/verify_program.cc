@@ -91,6 +91,16 @@ v1::Outcome Judge(const v1::Report& report) {
   return report.unreachable_area_mm2() > 0.0 ? v1::OUTCOME_COMPLETE_WHERE_REACHABLE : v1::OUTCOME_COMPLETE;
 }
 
+// How often a rapid follows a feed.
+int RetractCount(const ProgramMotion& motion) {
+  int count = 0;
+  for (std::size_t i = 1; i < motion.moves.size(); ++i) {
+    count += motion.moves[i].kind == ProgramMove::Kind::kRapid &&
+             motion.moves[i - 1].kind == ProgramMove::Kind::kFeed;
+  }
+  return count;
+}
+
 absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const RunContext& run,
                   v1::Report* report) {
   run.Progress("model", 0.0);
@@ -118,6 +128,7 @@ absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const
   report->mutable_setup_sheet()->set_tool_number(motion->tool_number);
   report->mutable_setup_sheet()->clear_clearance_z_mm();
   report->set_point_count(static_cast<int>(motion->moves.size()));
+  report->set_retract_count(RetractCount(*motion));
   if (std::isfinite(motion->controller_tolerance))
     report->set_controller_tolerance_mm(motion->controller_tolerance);
   report->set_time_basis("not estimated");

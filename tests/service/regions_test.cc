@@ -74,7 +74,12 @@ class Regions : public ::testing::Test {
     while (reader->Read(&response)) {
       if (response.has_report()) judged_ = response.report();
     }
-    return reader->Finish();
+    const grpc::Status status = reader->Finish();
+    if (status.ok()) {
+      EXPECT_EQ(judged_.retract_count(), report_.retract_count());
+      EXPECT_GT(judged_.retract_count(), 0);
+    }
+    return status;
   }
   // Skips region `id` of the map there is.
   void Skip(int id) {

@@ -106,6 +106,13 @@ TEST(VerifyMotion, ObstaclesAreClearWhereverTheAxesGo) {
   EXPECT_FALSE(judged("G0 X-10 Y20", 2.0));  // 5 + 1 + 3 from the axis
   EXPECT_FALSE(judged("G0 X-9.001 Y20", 2.0));
   EXPECT_TRUE(judged("G0 X-8.9 Y20", 2.0));
+  // Wide obstacles, over all of which the room is the same: too low by more than the tolerance or by less.
+  params.containment.obstacles = {
+      {"plate", Outline({{{-10, -60}, {60, -60}, {60, 60}, {-10, 60}}}), 8.0, 1.0}};
+  EXPECT_TRUE(judged("G0 X40 Y40", 8.9));
+  EXPECT_TRUE(judged("G0 X40 Y40", 1.0));
+  EXPECT_FALSE(judged("G0 X40 Y40", 8.999));
+  EXPECT_FALSE(judged("G0 X40 Y40", 9.0));
 }
 
 TEST(VerifyMotion, EndStateAndFirstMotion) {
