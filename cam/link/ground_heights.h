@@ -9,7 +9,8 @@
 namespace patchmill {
 
 // Largest heights over rectangles of the plan, from the boxes of the surface's leaves on a grid of at most 64
-// x 64 squares: too high by what stands beside within a square, never too low. Immutable, thread-safe.
+// x 64 squares: too high by what stands beside within a square, never too low. Nothing is proven by it:
+// heights of rapids are Locator::MaxHeight's, and the judge has a grid of its own. Immutable, thread-safe.
 class GroundHeights {
  public:
   // `beside` mm: what stands that near counts, too. Some ns a leaf, 1.6 MB.

@@ -30,7 +30,7 @@ class LinkMaker {
   // and in from beside the wall.
   void Approach(const CutterPoint& to, std::vector<Move>& moves) const;
   // Both; with low rapids no higher between them than where everything over the rectangle between the two
-  // places clears the stock (ALGORITHMS 6: controls may drive the axes of a rapid one after the other).
+  // places clears the stock (P3): controls may drive the axes of a rapid one after the other.
   std::vector<Move> Over(const CutterPoint& from, const CutterPoint& to) const;
 
   // A feed move of kind `kind` to `to`: plunge feed when it descends steeper than the limit.

@@ -1,7 +1,6 @@
 // Questions about a move: the highest centre over the rectangle between its ends, and the gouge of the swept
-// ball. Both
-// are maxima over the surface, found by best-first branch and bound: tree nodes, leaves, then halves of
-// leaves. Where only a limit of the gouge matters, the leaves' models prove most of it first.
+// ball. Both are maxima over the surface, found by best-first branch and bound: tree nodes, leaves, then
+// halves of leaves. Where only a limit of the gouge matters, the leaves' models prove most of it first.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -54,26 +54,32 @@ TEST(VerifyMotion, RapidInStock) {
   EXPECT_NEAR(Judged(surface, Ball(3.0), deep.End(), params).max_gouge, 0.3, kCertainty);
 }
 
+// Low over the plan from (-20, 0), down to Z `z` and on by the rapid `to`: the finding with this code, which
+// must be of that rapid.
+bool FoundOnRapid(const Surface& surface, const VerifyParams& params, const char* to, double z,
+                  const char* code) {
+  ProgramText text(20.0);
+  text.Line("G0 X-20 Y0");
+  text.Line(fmt::format("G0 Z{}", z));
+  const int line = text.Line(to);
+  text.Line("G0 Z20");
+  const VerifyReport report = Judged(surface, Ball(3.0), text.End(), params);
+  EXPECT_EQ(Find(report, "RAPID_IN_STOCK"), nullptr);
+  const Diagnostic* finding = Find(report, code);
+  EXPECT_EQ(report.motion_ok, finding == nullptr);
+  if (finding == nullptr) return false;
+  EXPECT_EQ(finding->where.line, line);
+  return true;
+}
+
 // Straight from (-20, 0) to (0, 20) a rapid passes 14.1 mm beside the dome's axis, clear of its 13.5; one
 // axis before the other it would go over its top, or around it.
 TEST(VerifyMotion, RapidsAreClearWhereverTheAxesGo) {
-  const Surface surface = SurfaceOf(Sphere(Vec3(0, 0, 0), 10.0, Half::kUpper));
+  const Surface surface = JoinedSurface(Sphere(Vec3(0, 0, 0), 10.0, Half::kUpper));
   VerifyParams params = Params(0.5);
   params.stock_top_z = 10.5;
   const auto judged = [&](const char* to, double z) {
-    ProgramText text(20.0);
-    text.Line("G0 X-20 Y0");
-    text.Line(fmt::format("G0 Z{}", z));
-    const int line = text.Line(to);
-    text.Line("G0 Z20");
-    const VerifyReport report = Judged(surface, Ball(3.0), text.End(), params);
-    EXPECT_EQ(Find(report, "RAPID_IN_STOCK"), nullptr);
-    const Diagnostic* finding = Find(report, "RAPID_DOG_LEG");
-    if (finding != nullptr) {
-      EXPECT_EQ(finding->where.line, line);
-    }
-    EXPECT_EQ(report.motion_ok, finding == nullptr);
-    return finding != nullptr;
+    return FoundOnRapid(surface, params, to, z, "RAPID_DOG_LEG");
   };
   EXPECT_TRUE(judged("G0 X0 Y20", -3.0));
   EXPECT_TRUE(judged("G0 X0 Y20", 10.4));  // over the top, less than the stock above it
@@ -81,6 +87,12 @@ TEST(VerifyMotion, RapidsAreClearWhereverTheAxesGo) {
   EXPECT_FALSE(judged("G0 X-20 Y20", -3.0));
   EXPECT_FALSE(judged("G0 X-14 Y20", -3.0));  // the rectangle keeps 14 mm off the axis
   EXPECT_TRUE(judged("G0 X-13 Y20", -3.0));
+  // An avoided dome with 4 mm of margin: 17 mm off its axis.
+  params.containment.avoided.assign(surface.network.model.patches.size(), true);
+  params.containment.avoid_margin = 4.0;
+  EXPECT_TRUE(FoundOnRapid(surface, params, "G0 X-14 Y20", -3.0, "AVOID_MARGIN"));
+  EXPECT_TRUE(FoundOnRapid(surface, params, "G0 X-16.9 Y20", -3.0, "AVOID_MARGIN"));
+  EXPECT_FALSE(FoundOnRapid(surface, params, "G0 X-17.1 Y20", -3.0, "AVOID_MARGIN"));
 }
 
 TEST(VerifyMotion, ObstaclesAreClearWhereverTheAxesGo) {
@@ -88,17 +100,7 @@ TEST(VerifyMotion, ObstaclesAreClearWhereverTheAxesGo) {
   VerifyParams params = Params(0.5);
   params.containment.obstacles = {{"vice", Outline({{{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}}), 8.0, 1.0}};
   const auto judged = [&](const char* to, double z) {
-    ProgramText text(20.0);
-    text.Line("G0 X-20 Y0");
-    text.Line(fmt::format("G0 Z{}", z));
-    const int line = text.Line(to);
-    text.Line("G0 Z20");
-    const VerifyReport report = Judged(surface, Ball(3.0), text.End(), params);
-    const Diagnostic* finding = Find(report, "OBSTACLE_HIT");
-    if (finding != nullptr) {
-      EXPECT_EQ(finding->where.line, line);
-    }
-    return finding != nullptr;
+    return FoundOnRapid(surface, params, to, z, "OBSTACLE_HIT");
   };
   EXPECT_TRUE(judged("G0 X0 Y20", 2.0));
   EXPECT_TRUE(judged("G0 X0 Y20", 8.9));
