@@ -10,6 +10,8 @@
 namespace patchmill {
 namespace {
 
+constexpr double kShankProof = 0.1;  // of the tolerance
+
 bool Any(const std::vector<bool>& list) { return std::find(list.begin(), list.end(), true) != list.end(); }
 
 }  // namespace
@@ -32,6 +34,13 @@ absl::StatusOr<KeepIn> KeepIn::Make(const Surface& surface, const Containment& c
     PM_ASSIGN_OR_RETURN(Locator locator,
                         Locator::Make(*keep.avoided_, params.ball_radius + containment.avoid_margin, run));
     keep.avoided_locator_ = std::make_shared<const Locator>(std::move(locator));
+  }
+  // The ball's centre is nowhere below the lowest point that it touches.
+  if (params.shank && surface.box.max.z() > surface.box.min.z() + params.shank->rise - params.leave) {
+    const double proof = kShankProof * params.tolerance;
+    keep.shanks_.emplace_back(surface, *params.shank, params.leave, proof);
+    if (keep.avoided_)
+      keep.shanks_.emplace_back(*keep.avoided_, *params.shank, containment.avoid_margin, proof);
   }
   return keep;
 }
@@ -103,6 +112,12 @@ std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q) const {
       heights.normal = (Lift(q, height->z) - height->contact.p) / avoided_locator_->radius();
     }
   }
+  for (const ShankLimit& shank : shanks_) {
+    const double lowest = shank.LowestOver(q, Give());
+    if (lowest <= heights.lowest) continue;
+    heights.lowest = lowest;
+    heights.normal = Vec3::UnitZ();
+  }
   return heights;
 }
 
@@ -130,6 +145,8 @@ double KeepIn::ClearHeight(const Vec2& a, const Vec2& b) const {
 
 bool KeepIn::Forbids(const Vec3& c, double radius) const {
   if (Room(c) < -radius) return true;
+  if (std::any_of(shanks_.begin(), shanks_.end(), [&](const auto& s) { return s.Forbids(c, radius); }))
+    return true;
   if (!avoided_locator_) return false;
   const double reach = avoided_locator_->radius();
   return radius < reach && AnythingNearUpwardRay(*avoided_, c, reach - radius, 0.25 * params_.tolerance);
@@ -139,21 +156,24 @@ bool KeepIn::HasRoom(const Vec3& a, const Vec3& b) const {
   const Vec3 middle = 0.5 * (a + b);
   const double half = 0.5 * (b - a).norm();
   const double room = MoveRoom(middle);
-  if (room - half >= -0.5 * params_.tolerance) return true;
-  if (room < -0.5 * params_.tolerance) return false;
+  if (room - half >= -Give()) return true;
+  if (room < -Give()) return false;
   return HasRoom(a, middle) && HasRoom(middle, b);
 }
 
 bool KeepIn::ClearOfAvoided(const Vec3& a, const Vec3& b) const {
   if (!avoided_locator_) return true;
-  const double limit = 0.5 * params_.tolerance;
-  return avoided_locator_->GougeWithin(a, b, limit, 0.1 * limit);
+  return avoided_locator_->GougeWithin(a, b, Give(), 0.1 * Give());
+}
+
+bool KeepIn::ShankClears(const Vec3& a, const Vec3& b) const {
+  return std::all_of(shanks_.begin(), shanks_.end(), [&](const auto& s) { return s.Clears(a, b, Give()); });
 }
 
 bool KeepIn::AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const {
   const double highest = std::max(Tip(a).z(), Tip(b).z());
-  if (finishing && TopRoom(*containment_, highest) < -0.5 * params_.tolerance) return false;
-  return HasRoom(a, b) && ClearOfAvoided(a, b);
+  if (finishing && TopRoom(*containment_, highest) < -Give()) return false;
+  return HasRoom(a, b) && ClearOfAvoided(a, b) && ShankClears(a, b);
 }
 
 }  // namespace patchmill

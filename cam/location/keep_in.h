@@ -3,11 +3,14 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "cam/location/locator.h"
 #include "cam/location/near_part.h"
+#include "cam/location/shank_limit.h"
 #include "cam/tool/containment.h"
 #include "cam/tool/surface_mask.h"
+#include "cam/tool/wide_shank.h"
 
 namespace patchmill {
 
@@ -15,7 +18,9 @@ struct KeepInParams {
   double ball_radius = 3.0;  // mm, the ball's own
   double tool_radius = 3.0;  // mm, the wider one of ball and shank: what obstacles are kept off
   double leave = 0.0;        // mm, stock to leave: kept off avoided patches too
-  double tolerance = 0.01;   // mm: moves may be off a limit by half of it
+  std::optional<WideShank> shank = std::nullopt;  // kept out of the surface, `leave` off it; the margin off
+                                                  // avoided patches
+  double tolerance = 0.01;                        // mm: moves may be off a limit by half of it
 };
 
 // Centre heights allowed in a column, mm: from `lowest` to `highest`; none where lowest is above.
@@ -37,7 +42,9 @@ class KeepIn {
 
   bool HasPart() const { return part_ != nullptr; }
   bool WantsAll() const { return part_ == nullptr && containment_->WantsAll(); }
-  bool AllowsAll() const { return containment_->AllowsAll(); }
+  bool AllowsAll() const { return containment_->AllowsAll() && shanks_.empty(); }
+  // A shank wider than the ball may touch the surface from somewhere.
+  bool HasShank() const { return !shanks_.empty(); }
 
   // The contact is to be finished.
   bool Wants(const SurfacePoint& contact) const;
@@ -54,7 +61,9 @@ class KeepIn {
   // rounding.
   bool TooHigh(double center_z) const;
   // A finishing ball may be centred at c.
-  bool Allows(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
+  bool Allows(const Vec3& c) const { return AllowsBall(c) && ShankClears(c, c); }
+  // The same as if the shank were no wider than the ball.
+  bool AllowsBall(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
   // Where in the column over q a finishing ball may be centred; nothing outside a boundary. To a tenth of the
   // tolerance. Every limit but top_z holds from below: what is allowed is one interval.
   std::optional<AllowedHeights> HeightsOver(const Vec2& q) const;
@@ -75,6 +84,8 @@ class KeepIn {
   double Room(const Vec3& c) const;                  // top_z too
   bool HasRoom(const Vec3& a, const Vec3& b) const;  // boundary and obstacles
   bool ClearOfAvoided(const Vec3& a, const Vec3& b) const;
+  bool ShankClears(const Vec3& a, const Vec3& b) const;
+  double Give() const { return 0.5 * params_.tolerance; }
 
   const Surface* surface_ = nullptr;
   const Containment* containment_ = nullptr;
@@ -82,6 +93,7 @@ class KeepIn {
   std::shared_ptr<const Surface> selected_;         // when only some are
   std::shared_ptr<const Surface> avoided_;          // when a margin is kept from them
   std::shared_ptr<const Locator> avoided_locator_;  // ball and margin over avoided_
+  std::vector<ShankLimit> shanks_;                  // of the surface, of what is avoided
   std::shared_ptr<const SurfaceMask> part_;         // null: all
   std::shared_ptr<const NearPart> near_part_;
 };

@@ -20,6 +20,7 @@
 #include "cam/plan/round_lines.h"
 #include "cam/post/program_reader.h"
 #include "cam/tool/reach_give.h"
+#include "cam/tool/wide_shank.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"
 
@@ -40,17 +41,16 @@ class StageClock {
   std::chrono::steady_clock::time_point start_;
 };
 
-bool IsLimited(const Resolved& resolved) {
-  return !resolved.containment.WantsAll() || !resolved.containment.AllowsAll();
-}
+bool IsLimited(const KeepIn& keep_in) { return !keep_in.WantsAll() || !keep_in.AllowsAll(); }
 
 // Keeps references to `surface` and `resolved`.
 absl::StatusOr<KeepIn> MakeKeepIn(const Surface& surface, const Job& job, const Resolved& resolved,
                                   const RunContext& run) {
   KeepInParams p;
   p.ball_radius = resolved.radius;
-  p.tool_radius = std::max(resolved.radius, 0.5 * job.operation.tool.shank_diameter.value_or(0.0));
+  p.tool_radius = WidestRadius(job.operation.tool);
   p.leave = job.operation.leave;
+  p.shank = WideShankOf(job.operation.tool);
   p.tolerance = job.operation.tolerance;
   return KeepIn::Make(surface, resolved.containment, p, run);
 }
@@ -70,7 +70,7 @@ RegionParams MakeRegionParams(const Job& job, const Resolved& resolved, const Ke
 absl::StatusOr<ChosenRegions> MakeRegions(const Surface& surface, const Job& job, const Resolved& resolved,
                                           const KeepIn& keep_in, const RunContext& run) {
   ChosenRegions regions;
-  const RegionParams params = MakeRegionParams(job, resolved, IsLimited(resolved) ? &keep_in : nullptr);
+  const RegionParams params = MakeRegionParams(job, resolved, IsLimited(keep_in) ? &keep_in : nullptr);
   PM_ASSIGN_OR_RETURN(regions.map, SplitRegions(surface, params, run));
   PM_ASSIGN_OR_RETURN(regions.choices,
                       ChooseRegions(surface, regions.map, job.operation, resolved.program_zero));
@@ -90,7 +90,7 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const KeepIn
   // Whatever is asked for, rapids stay clear by more than rounding and the control's smoothing.
   p.approach_gap = std::max(job.operation.approach_gap, job.operation.tolerance);
   p.low_rapids = job.operation.low_rapids;
-  p.tool_radius = std::max(resolved.radius, 0.5 * job.operation.tool.shank_diameter.value_or(0.0));
+  p.tool_radius = WidestRadius(job.operation.tool);
   p.feed = job.operation.tool.feed;
   p.plunge_feed = job.operation.tool.plunge_feed;
   p.contour_direction = job.operation.contour_direction;
@@ -170,11 +170,12 @@ absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
 
 // Names what forbids most of what is wanted, and what to look at first.
 Diagnostic NothingToCut(std::span<const Region> regions, const Resolved& resolved, bool limited) {
-  double all = 0.0, avoided = 0.0;
+  double all = 0.0, avoided = 0.0, shank = 0.0;
   for (const Region& region : regions) {
     const double wanted = region.wanted_share * region.area;
     all += wanted;
     if (region.reason == UnreachableReason::kAvoided) avoided += wanted;
+    if (region.reason == UnreachableReason::kShank) shank += wanted;
   }
   const Vec3 size = resolved.box.max - resolved.box.min;
   const std::string scale = fmt::format("--scale ({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor",
@@ -184,10 +185,13 @@ Diagnostic NothingToCut(std::span<const Region> regions, const Resolved& resolve
       "NOTHING_TO_CUT",
       fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm{}: check {}",
                   limited ? "that is wanted" : "of the model", 2.0 * resolved.radius,
-                  avoided > 0.0 ? fmt::format(" ({:.0f} % of it is AVOIDED)", 100.0 * avoided / all) : "",
-                  avoided > 0.5 * all ? limits + ", then " + scale
-                  : limited           ? scale + ", then " + limits
-                                      : scale));
+                  avoided > 0.0 ? fmt::format(" ({:.0f} % of it is AVOIDED)", 100.0 * avoided / all)
+                  : shank > 0.0 ? fmt::format(" (the shank touches for {:.0f} % of it)", 100.0 * shank / all)
+                                : "",
+                  shank > 0.5 * all     ? "the length of flutes and the shank, then " + scale
+                  : avoided > 0.5 * all ? limits + ", then " + scale
+                  : limited             ? scale + ", then " + limits
+                                        : scale));
 }
 
 }  // namespace
@@ -243,7 +247,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   report.choices = std::move(regions.choices);
   const auto limits_of = [&](const std::vector<PlanPart>& of) {
     const bool whole = of.size() == 1 && of.front().where == nullptr;
-    return whole && !IsLimited(resolved) ? nullptr : &keep_in;
+    return whole && !IsLimited(keep_in) ? nullptr : &keep_in;
   };
   clock.Done("regions");
 

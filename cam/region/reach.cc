@@ -113,16 +113,26 @@ void ReachTest::BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<doubl
   }
 }
 
-bool ReachTest::Allowed(const Vec3& p, const Vec3& normal) const {
-  if (params_.keep_in == nullptr) return true;
+template <class Allows>
+bool ReachTest::AllowedOnASide(const Vec3& p, const Vec3& normal, const Allows& allows) const {
   const Vec3 c = p + params_.radius * normal;
-  const bool allowed = params_.keep_in->Allows(c);
+  const bool allowed = allows(c);
   if (!Upright(normal)) return allowed;
   const Vec3 other = p - params_.radius * normal;
-  const bool other_allowed = params_.keep_in->Allows(other);
+  const bool other_allowed = allows(other);
   if (allowed && other_allowed) return true;
   // A side that is free serves nobody where the other one is allowed.
   return (allowed && FreeCenter(c)) || (other_allowed && FreeCenter(other));
+}
+
+bool ReachTest::Allowed(const Vec3& p, const Vec3& normal) const {
+  return params_.keep_in == nullptr ||
+         AllowedOnASide(p, normal, [&](const Vec3& c) { return params_.keep_in->Allows(c); });
+}
+
+bool ReachTest::BlockedByShank(const Vec3& p, const Vec3& normal) const {
+  return params_.keep_in != nullptr && params_.keep_in->HasShank() &&
+         AllowedOnASide(p, normal, [&](const Vec3& c) { return params_.keep_in->AllowsBall(c); });
 }
 
 double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {

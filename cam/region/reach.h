@@ -44,6 +44,8 @@ class ReachTest {
   // Of a place where the ball is free: params.keep_in allows its centre. On a vertical face on either side,
   // but the one where it is free.
   bool Allowed(const Vec3& p, const Vec3& normal) const;
+  // Where it is not: it would be, on one of the sides, if the shank were no wider than the ball.
+  bool BlockedByShank(const Vec3& p, const Vec3& normal) const;
 
   // The largest of what stays over some places, mm (leftover.h); `normals`: upwards, as many.
   Deepest DeepestLeftover(std::span<const Vec3> places, std::span<const Vec3> normals,
@@ -51,6 +53,8 @@ class ReachTest {
 
  private:
   bool FreeCenter(const Vec3& center) const;
+  template <class Allows>
+  bool AllowedOnASide(const Vec3& p, const Vec3& normal, const Allows& allows) const;
   struct Shanks {
     ShankFinder ball, least;
   };

@@ -56,6 +56,14 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
     const auto normal = UpwardNormal(jet);
     return !normal ? 0.0 : reach.Allowed(jet.p, *normal) ? 1.0 : -1.0;
   };
+  ZeroField& shank = at(Field::kShank);
+  shank.smooth = false;
+  shank.resolution = params.border_tolerance;
+  shank.where = static_cast<int>(Field::kAllowed);
+  shank.value = [&reach](const SurfaceJet& jet) {
+    const auto normal = UpwardNormal(jet);
+    return !normal ? 0.0 : reach.BlockedByShank(jet.p, *normal) ? -1.0 : 1.0;
+  };
   // Ground out of reach has no other label.
   at(Field::kFinished).value = params.finished;
   for (const Field field :
@@ -63,8 +71,11 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
     at(field).where = static_cast<int>(Field::kFree);
     at(field).where_sign = 1;
   }
-  if (!params.finished) fields.pop_back();
-  if (!params.finished && params.keep_in == nullptr) fields.pop_back();
+  if (params.finished) return fields;
+  fields.pop_back();
+  if (params.keep_in != nullptr && params.keep_in->HasShank()) return fields;
+  fields.pop_back();
+  if (params.keep_in == nullptr) fields.pop_back();
   return fields;
 }
 
@@ -76,7 +87,7 @@ SplitLabel LabelOf(const ZeroTriangle& triangle) {
   } else if (sign(Field::kFloor) < 0) {
     label.reason = UnreachableReason::kFloor;
   } else if (sign(Field::kAllowed) < 0) {
-    label.reason = UnreachableReason::kAvoided;
+    label.reason = sign(Field::kShank) < 0 ? UnreachableReason::kShank : UnreachableReason::kAvoided;
   } else if (sign(Field::kFinished) < 0) {
     label.reason = UnreachableReason::kStrategy;
   }

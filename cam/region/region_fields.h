@@ -18,10 +18,11 @@ enum class Field {
   kTurn,       // SilhouetteField: > 0 where the normal looks up
   kSlope,      // SlopeField of the steep angle: > 0 gentle
   kCurvature,  // ContourCurvatureField: times the sign of kTurn it is < 0 on mountains
-  kAllowed,    // < 0 AVOIDED; only there when something is to be kept in
+  kAllowed,    // < 0 AVOIDED or SHANK; only there when something is to be kept in
+  kShank,      // where it is not allowed: < 0 SHANK, > 0 AVOIDED; only there when a wide shank may touch
   kFinished,   // < 0 STRATEGY; only there when passes of one kind are forced upon the surface
 };
-inline constexpr int kFieldCount = 8;
+inline constexpr int kFieldCount = 9;
 static_assert(kFieldCount <= kMaxZeroFields);
 
 // Fields in the order of the enum; they keep a reference to `reach`.

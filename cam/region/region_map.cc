@@ -254,6 +254,8 @@ const char* Name(UnreachableReason reason) {
       return "STRATEGY";
     case UnreachableReason::kHolder:
       return "HOLDER";
+    case UnreachableReason::kShank:
+      return "SHANK";
   }
   return "";
 }

@@ -17,7 +17,7 @@ namespace patchmill {
 
 enum class RegionKind { kMountain, kBasin, kNeutral, kUnreachable };
 enum class SlopeClass { kUnspecified, kSteep, kGentle };
-enum class UnreachableReason { kNone, kUndercut, kConcave, kFloor, kAvoided, kStrategy, kHolder };
+enum class UnreachableReason { kNone, kUndercut, kConcave, kFloor, kAvoided, kStrategy, kHolder, kShank };
 
 // What makes a line a border of regions.
 enum class BorderKind {
@@ -47,7 +47,9 @@ struct RegionParams {
   // the same proportion (merge_regions.h), summits and pits that persist divide mountains and basins
   // (height_tops.h), and at most 40 d reachable regions remain, those without a neighbour not counted.
   double detail = 0.5;
-  const KeepIn* keep_in = nullptr;  // where it allows no centre the reason is kAvoided; null: allows all
+  // Where it allows no centre the reason is kShank if only the shank is in the way, else kAvoided; null:
+  // allows all.
+  const KeepIn* keep_in = nullptr;
   // > 0 where forced passes finish the ground, continuous; where they do not the reason is kStrategy. Empty:
   // nothing is forced.
   std::function<double(const SurfaceJet&)> finished = nullptr;

@@ -21,8 +21,18 @@ struct LeftoverParams : Finish {
 
 // What a point is to the finish. kUnwanted: outside a contact boundary or the part; patches that are not
 // wanted have no root cells.
-enum class FinishClass { kDone, kAboveLimit, kUndercut, kConcave, kFloor, kAvoided, kStrategy, kUnwanted };
-inline constexpr std::size_t kFinishClasses = 8;
+enum class FinishClass {
+  kDone,
+  kAboveLimit,
+  kUndercut,
+  kConcave,
+  kFloor,
+  kAvoided,
+  kStrategy,
+  kShank,
+  kUnwanted
+};
+inline constexpr std::size_t kFinishClasses = 9;
 
 struct AreaReport {
   std::array<double, kFinishClasses> area{};    // mm^2

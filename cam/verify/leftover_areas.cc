@@ -84,7 +84,7 @@ int DeepestFor(std::size_t cells, const Spent& spent) {
 
 bool Unreachable(FinishClass kind) {
   return kind == FinishClass::kUndercut || kind == FinishClass::kConcave || kind == FinishClass::kFloor ||
-         kind == FinishClass::kAvoided;
+         kind == FinishClass::kAvoided || kind == FinishClass::kShank;
 }
 
 class AreaSampler {
@@ -178,6 +178,9 @@ class AreaSampler {
         break;
       case ReachClass::kAvoided:
         kind = FinishClass::kAvoided;
+        break;
+      case ReachClass::kShank:
+        kind = FinishClass::kShank;
         break;
     }
     Extreme& known = sums.report.deepest[static_cast<std::size_t>(kind)];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cam/tool/wide_shank.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -163,8 +164,7 @@ absl::StatusOr<double> RequiredStickout(const Surface& surface, const Tool& tool
                                         const VerifyParams& params, const RunContext& run) {
   constexpr std::size_t kMovesBetweenPolls = 1024;
   if (surface.nodes.empty()) return 0.0;
-  const double radius =
-      std::max(BallRadius(tool), 0.5 * tool.shank_diameter.value_or(0.0)) + params.allowance;
+  const double radius = WidestRadius(tool) + params.allowance;
   HeightGrid grid(surface, params.allowance, std::max(params.stock_top_z, surface.box.max.z()), run);
   grid.Dilate(radius);
   double stickout = 0.0;

@@ -13,7 +13,9 @@ absl::StatusOr<OperationLimits> OperationLimits::Make(const Surface& surface, co
   limits.surface_ = &surface;
   limits.containment_ = &params.containment;
   limits.ball_ = BallRadius(tool);
-  limits.tool_ = std::max(limits.ball_, 0.5 * tool.shank_diameter.value_or(0.0));
+  limits.tool_ = WidestRadius(tool);
+  limits.leave_ = params.leave;
+  limits.shank_ = WideShankOf(tool);
   const Containment& c = params.containment;
   const bool any = std::find(c.avoided.begin(), c.avoided.end(), true) != c.avoided.end();
   if (any && c.avoid_margin > params.leave) {
@@ -28,6 +30,8 @@ CenterLimits OperationLimits::centers() const {
   limits.containment = containment_;
   limits.ball = ball_;
   limits.tool = tool_;
+  limits.shank = shank_;
+  limits.shank_keep = leave_;
   if (!avoided_) return limits;
   limits.avoided = &*avoided_;
   limits.avoid_distance = ball_ + containment_->avoid_margin;

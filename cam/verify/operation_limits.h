@@ -27,7 +27,8 @@ class OperationLimits {
   OperationLimits() = default;
   const Surface* surface_ = nullptr;
   const Containment* containment_ = nullptr;
-  double ball_ = 0.0, tool_ = 0.0;
+  double ball_ = 0.0, tool_ = 0.0, leave_ = 0.0;
+  std::optional<WideShank> shank_;
   std::optional<Surface> avoided_;
 };
 

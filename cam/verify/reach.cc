@@ -6,6 +6,7 @@
 #include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
+#include "core/surface/highest.h"
 
 namespace patchmill {
 
@@ -42,6 +43,29 @@ std::array<Vec3, 2> Centers(const Vec3& p, const Facing& facing, double radius) 
 bool NearAvoided(const CenterLimits& limits, const Vec3& c, double proof) {
   return limits.avoided != nullptr &&
          AnythingNearUpwardRay(*limits.avoided, c, limits.avoid_distance + limits.within, proof);
+}
+
+// What of the surface stands in the shank over c, within `proof`; `keep` off it.
+std::optional<SurfacePoint> InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c,
+                                    double keep, double proof) {
+  const Vec2 q = Plan(c);
+  return AnyInColumn(surface, {q, q, limits.shank->radius + keep}, c.z() + limits.shank->rise - keep, proof);
+}
+
+bool ShankHits(const Surface& surface, const CenterLimits& limits, const Vec3& c, double proof) {
+  if (!limits.shank) return false;
+  if (InShank(surface, limits, c, limits.shank_keep + limits.within, proof)) return true;
+  return limits.avoided != nullptr &&
+         InShank(*limits.avoided, limits, c, limits.avoid_distance - limits.ball + limits.within, proof);
+}
+
+// A lower bound of how deep the shank is in the surface, mm; 0 where it is not.
+double ShankDepth(const Surface& surface, const CenterLimits& limits, const Vec3& c, double keep,
+                  double proof) {
+  const auto found = InShank(surface, limits, c, keep, proof);
+  if (!found) return 0.0;
+  return std::min(limits.shank->radius + keep - (Plan(found->p) - Plan(c)).norm(),
+                  found->p.z() - c.z() - limits.shank->rise + keep);
 }
 
 Vec3 FromRay(const Vec3& p, const Vec3& c) {
@@ -183,9 +207,11 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
       found = ReachClass::kFloor;
     } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.give)) {
       found = ReachClass::kAvoided;
+    } else if (ShankHits(surface, params.limits, c, kProof * params.give)) {
+      found = ReachClass::kShank;
     }
     if (found == ReachClass::kReachable) return found;
-    // Of two blocked sides the one that is easier to free gives the reason: limits, floor, ball.
+    // Of two blocked sides the one that is easier to free gives the reason: shank, limits, floor, ball.
     reason = std::max(reason, found);
   }
   // In the way on all sides.
@@ -214,8 +240,10 @@ bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& fac
                const ReachParams& params, Obstacles& obstacles) {
   if (ReachOn(surface, at, facing, params, obstacles) != ReachClass::kReachable) return false;
   const CenterLimits& limits = params.limits;
-  if (limits.avoided == nullptr && (limits.containment == nullptr || limits.containment->AllowsAll()))
+  if (limits.avoided == nullptr && !limits.shank &&
+      (limits.containment == nullptr || limits.containment->AllowsAll())) {
     return true;
+  }
   ReachParams moved = params;
   moved.limits.within = params.give;
   if (ReachOn(surface, at, facing, moved, obstacles) == ReachClass::kReachable) return true;
@@ -242,6 +270,14 @@ double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing,
       const double keep = params.limits.avoid_distance;
       const auto avoided = ClosestToUpwardRay(*params.limits.avoided, c, keep, kCoarse * params.radius);
       if (avoided) here = std::max(here, keep - avoided->distance);
+    }
+    if (params.limits.shank) {
+      const double proof = kCoarse * params.radius;
+      here = std::max(here, ShankDepth(surface, params.limits, c, params.limits.shank_keep, proof));
+      if (params.limits.avoided != nullptr) {
+        const double margin = params.limits.avoid_distance - params.limits.ball;
+        here = std::max(here, ShankDepth(*params.limits.avoided, params.limits, c, margin, proof));
+      }
     }
     depth = std::min(depth, here);
   }

@@ -6,21 +6,24 @@
 #include <optional>
 
 #include "cam/tool/containment.h"
+#include "cam/tool/wide_shank.h"
 #include "cam/verify/verify.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
 
 // In the order in which they are easier to cure.
-enum class ReachClass { kReachable, kUndercut, kConcave, kFloor, kAvoided };
+enum class ReachClass { kReachable, kUndercut, kConcave, kFloor, kAvoided, kShank };
 
-// Where the operation allows a ball's centre. Both pointers may be null.
+// Where operation and shank allow a ball's centre. Both pointers may be null.
 struct CenterLimits {
   const Containment* containment = nullptr;
   double ball = 0.0, tool = 0.0;     // mm: radius of the ball, of the wider one of ball and shank
   const Surface* avoided = nullptr;  // the avoided patches, when a margin is kept
   double avoid_distance = 0.0;       // mm: ball and margin
-  double within = 0.0;  // mm: how far inside of boundary, obstacles and avoided patches a centre must be
+  std::optional<WideShank> shank = std::nullopt;
+  double shank_keep = 0.0;  // mm off the surface: the stock to leave; off the avoided patches: the margin
+  double within = 0.0;      // mm: how far inside of all these, the shank's limit too, a centre must be
 };
 
 struct ReachParams {
@@ -69,8 +72,8 @@ class Obstacles {
   std::size_t count_ = 0;  // of all that were added; the last kKept are kept
 };
 
-// The ball centred at p + R e is free of the surface, the shank above it too, not below the floor, and
-// allowed. `obstacles`: of this surface, with each thread its own.
+// The ball centred at p + R e is free of the surface, the shank above it too, not below the floor, allowed,
+// and a wider shank is clear. `obstacles`: of this surface, with each thread its own.
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                    Obstacles& obstacles);
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);

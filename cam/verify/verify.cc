@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cam/tool/reach_give.h"
+#include "cam/tool/wide_shank.h"
 #include "cam/verify/gouge.h"
 #include "cam/verify/keep_out.h"
 #include "cam/verify/leftover.h"
@@ -114,12 +115,12 @@ class Judge {
     PM_RETURN_IF_ERROR(JudgeAvoidedBy(boxes, p,
                                       "not driving all axes together, a control may take a rapid too "
                                       "near to an avoided patch"));
-    const double shank = 0.5 * tool_.shank_diameter.value_or(0.0);
-    if (!(shank > ball_)) return absl::OkStatus();
+    const auto shank = WideShankOf(tool_);
+    if (!shank) return absl::OkStatus();
     // What is within the margin of a cylinder lies in one that is so much wider and begins so much lower.
     const double margin = params_.containment.avoid_margin;
-    p.radius = shank + margin;
-    const Vec3 up(0, 0, *tool_.flute_length - ball_ - margin);
+    p.radius = shank->radius + margin;
+    const Vec3 up(0, 0, shank->rise - margin);
     const SegmentTree shanks(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
                              run_, p.radius);
     return JudgeAvoidedBy(shanks, p, "the shank comes too near to an avoided patch");
@@ -184,12 +185,12 @@ class Judge {
   }
 
   absl::Status JudgeShank(GougeParams p) {
-    const double shank = 0.5 * tool_.shank_diameter.value_or(0.0);
-    if (!(shank > ball_)) return absl::OkStatus();
-    const Vec3 up(0, 0, *tool_.flute_length - ball_);
-    p.radius = shank + params_.leave;
+    const auto shank = WideShankOf(tool_);
+    if (!shank) return absl::OkStatus();
+    const Vec3 up(0, 0, shank->rise);
+    p.radius = shank->radius + params_.leave;
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
-                           run_, shank);
+                           run_, shank->radius);
     PM_ASSIGN_OR_RETURN(const Extremes found, FindGouge(surface_, roots_, tree, p, run_, "verify: shank"));
     if (found.worst.value > report_.max_gouge) {
       report_.max_gouge = found.worst.value;
@@ -267,6 +268,7 @@ class Judge {
     take(FinishClass::kFloor, 2);
     take(FinishClass::kAvoided, 3);
     take(FinishClass::kStrategy, 4);
+    take(FinishClass::kShank, 5);
     if (std::isfinite(areas.lowest_center)) {
       const double floor_z = std::floor((areas.lowest_center - ball_) * 1e3) / 1e3;
       report_.finishing_floor_z = std::min(report_.finishing_floor_z.value_or(kInfinity), floor_z);

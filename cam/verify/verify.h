@@ -67,7 +67,7 @@ struct VerifyPlace {
 inline constexpr std::array kLeftoverEdges = {0.25, 0.5, 0.75, 1.0};
 inline constexpr std::size_t kLeftoverClasses = kLeftoverEdges.size() + 1;
 
-// Index: UnreachableReason order UNDERCUT, CONCAVE, FLOOR, AVOIDED, STRATEGY.
+// Index: UnreachableReason order UNDERCUT, CONCAVE, FLOOR, AVOIDED, STRATEGY, then SHANK.
 struct VerifyReport {
   bool gouge_ok = false, finish_ok = false, motion_ok = false;  // P1, P2, P3
   double max_gouge = 0.0;
@@ -75,9 +75,9 @@ struct VerifyReport {
   double max_leftover = 0.0;  // at reachable points
   VerifyPlace max_leftover_at;
   double reachable_area = 0.0, total_area = 0.0;  // mm^2
-  std::array<double, 5> unreachable_area{};       // mm^2 by reason
-  std::array<double, 5> deepest_unreachable{};    // mm of leftover by reason
-  std::array<VerifyPlace, 5> deepest_unreachable_at;
+  std::array<double, 6> unreachable_area{};       // mm^2 by reason
+  std::array<double, 6> deepest_unreachable{};    // mm of leftover by reason
+  std::array<VerifyPlace, 6> deepest_unreachable_at;
   // Lowest tip that a place unreachable for FLOOR needs, placed frame, to about 0.001 mm and rounded down to
   // it: with this floor (almost) nothing is left for that reason. Absent: nothing is.
   std::optional<double> finishing_floor_z;

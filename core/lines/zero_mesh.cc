@@ -175,7 +175,7 @@ class Builder {
     const Vec2 from(x.u, x.v), to(y.u, y.v);
     Vec2 q = from + t * (to - from);
     // An edge along another field's curve: the crossing is where both vanish.
-    const std::uint8_t both = x.on & y.on;
+    const ZeroFieldBits both = x.on & y.on;
     for (std::size_t other = 0; other < k; ++other) {
       if (((both >> other) & 1u) == 0) continue;
       if (const auto common = CommonPlace(k, other, q, 0.5 * (to - from).norm())) {
@@ -281,7 +281,7 @@ class Builder {
         triangles_.push_back({{a, b, m}, {}});
         triangles_.push_back({{a, m, c}, {}});
         // The curve leaves the triangle through this vertex: it lies on it as far as rounding can tell.
-        vertices_[a].on |= static_cast<std::uint8_t>(1u << k);
+        vertices_[a].on |= static_cast<ZeroFieldBits>(1u << k);
         continue;
       }
       const int m = crossing(a, b), n = crossing(a, c);

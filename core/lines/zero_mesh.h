@@ -17,14 +17,15 @@
 
 namespace patchmill {
 
-inline constexpr int kMaxZeroFields = 8;
+inline constexpr int kMaxZeroFields = 9;
+using ZeroFieldBits = std::uint16_t;  // bit k: of field k
 
 struct ZeroVertex {
   double u = 0.0, v = 0.0;
   Vec3 p = Vec3::Zero();
   std::array<std::int8_t, kMaxZeroFields> sign{};  // -1, 0, +1
-  std::uint8_t on = 0;                             // bit k: lies on the zero curve of field k
-  std::uint8_t known = 0;                          // bit k: sign[k] has been asked for
+  ZeroFieldBits on = 0;                            // bit k: lies on the zero curve of field k
+  ZeroFieldBits known = 0;                         // bit k: sign[k] has been asked for
 };
 
 struct ZeroTriangle {

@@ -21,7 +21,7 @@ int ZeroVertices::Add(const Vec2& q) {
   for (std::size_t k = 0; k < fields_.size(); ++k) {
     if (!fields_[k].smooth) continue;
     vertex.sign[k] = SignOf(k, fields_[k].value(jet));
-    vertex.known |= static_cast<std::uint8_t>(1u << k);
+    vertex.known |= static_cast<ZeroFieldBits>(1u << k);
   }
   all_.push_back(vertex);
   return static_cast<int>(all_.size()) - 1;
@@ -29,13 +29,13 @@ int ZeroVertices::Add(const Vec2& q) {
 
 void ZeroVertices::PutOn(int id, std::size_t k) {
   ZeroVertex& vertex = (*this)[id];
-  vertex.on |= static_cast<std::uint8_t>(1u << k);
-  vertex.known |= static_cast<std::uint8_t>(1u << k);
+  vertex.on |= static_cast<ZeroFieldBits>(1u << k);
+  vertex.known |= static_cast<ZeroFieldBits>(1u << k);
   vertex.sign[k] = 0;
 }
 
 void ZeroVertices::SetSign(int id, std::size_t k, std::int8_t sign) {
-  (*this)[id].known |= static_cast<std::uint8_t>(1u << k);
+  (*this)[id].known |= static_cast<ZeroFieldBits>(1u << k);
   (*this)[id].sign[k] = sign;
 }
 
@@ -44,7 +44,7 @@ int ZeroVertices::Sign(int id, std::size_t k) {
     const int where = fields_[k].where;
     const bool asked = where < 0 || Sign(id, static_cast<std::size_t>(where)) == fields_[k].where_sign;
     ZeroVertex& vertex = (*this)[id];
-    vertex.known |= static_cast<std::uint8_t>(1u << k);
+    vertex.known |= static_cast<ZeroFieldBits>(1u << k);
     vertex.sign[k] = asked ? SignOf(k, Value(fields_[k], piece_, {vertex.u, vertex.v})) : std::int8_t{0};
   }
   return (*this)[id].sign[k];
@@ -62,7 +62,7 @@ void ZeroVertices::Ask(const std::vector<int>& ids, std::size_t k) {
   for (const int id : ids) {
     ZeroVertex& vertex = (*this)[id];
     if (((vertex.known >> k) & 1u) != 0) continue;
-    vertex.known |= static_cast<std::uint8_t>(1u << k);
+    vertex.known |= static_cast<ZeroFieldBits>(1u << k);
     if (where >= 0 && Sign(id, static_cast<std::size_t>(where)) != fields_[k].where_sign) continue;  // sign 0
     asked.push_back(id);
     places.emplace_back(vertex.u, vertex.v);

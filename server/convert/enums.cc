@@ -304,6 +304,8 @@ v1::UnreachableReason ToProto(UnreachableReason value) {
       return v1::UNREACHABLE_REASON_STRATEGY;
     case UnreachableReason::kHolder:
       return v1::UNREACHABLE_REASON_HOLDER;
+    case UnreachableReason::kShank:
+      return v1::UNREACHABLE_REASON_SHANK;
   }
   return v1::UNREACHABLE_REASON_UNSPECIFIED;
 }

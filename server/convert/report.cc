@@ -29,8 +29,8 @@ v1::Place PlaceToProto(const VerifyPlace& place, const Vec3& zero) {
 }
 
 constexpr UnreachableReason kReasons[] = {UnreachableReason::kUndercut, UnreachableReason::kConcave,
-                                          UnreachableReason::kFloor, UnreachableReason::kAvoided,
-                                          UnreachableReason::kStrategy};
+                                          UnreachableReason::kFloor,    UnreachableReason::kAvoided,
+                                          UnreachableReason::kStrategy, UnreachableReason::kShank};
 
 // When nothing was cut nothing was verified; the regions know what is out of reach.
 void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Report* report) {

@@ -1,0 +1,35 @@
+// Where a shank that is wider than the ball is clear of a surface: a limit of the ball's centre.
+#pragma once
+
+#include <optional>
+
+#include "cam/tool/wide_shank.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+// The shank over a centre c is as deep in the surface as the deepest point p with distance d from the axis in
+// plan is in its cylinder: min(radius - d, p_z - c_z - rise). Moving c by some mm changes that by no more.
+class ShankLimit {
+ public:
+  // Keeps `keep` (mm) off `surface`, which must stay: a cylinder that much wider, that begins so much lower.
+  // Answers are right to `proof` (mm).
+  ShankLimit(const Surface& surface, const WideShank& shank, double keep, double proof)
+      : surface_(&surface), radius_(shank.radius + keep), rise_(shank.rise - keep), proof_(proof) {}
+
+  // Along the whole straight move of the centre the shank is nowhere deeper in than `give` (mm). Cost: some
+  // microseconds; more where it is nearly so.
+  bool Clears(const Vec3& a, const Vec3& b, double give) const;
+  // Nowhere within `radius` (mm, >= 0) of the centre c is it out of the surface.
+  bool Forbids(const Vec3& c, double radius) const;
+  // Lowest centre over q where the shank is no deeper in than `give`; -infinity where nothing limits it.
+  double LowestOver(const Vec2& q, double give) const;
+
+ private:
+  bool Hits(const Vec2& a, const Vec2& b, double center_z, double give) const;
+
+  const Surface* surface_;
+  double radius_, rise_, proof_;
+};
+
+}  // namespace patchmill
