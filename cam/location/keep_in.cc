@@ -113,7 +113,7 @@ std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q) const {
     }
   }
   for (const ShankLimit& shank : shanks_) {
-    const double lowest = shank.LowestOver(q, Give());
+    const double lowest = shank.LowestOver(q, 0.0);
     if (lowest <= heights.lowest) continue;
     heights.lowest = lowest;
     heights.normal = Vec3::UnitZ();
@@ -166,14 +166,14 @@ bool KeepIn::ClearOfAvoided(const Vec3& a, const Vec3& b) const {
   return avoided_locator_->GougeWithin(a, b, Give(), 0.1 * Give());
 }
 
-bool KeepIn::ShankClears(const Vec3& a, const Vec3& b) const {
-  return std::all_of(shanks_.begin(), shanks_.end(), [&](const auto& s) { return s.Clears(a, b, Give()); });
+bool KeepIn::ShankClears(const Vec3& a, const Vec3& b, double give) const {
+  return std::all_of(shanks_.begin(), shanks_.end(), [&](const auto& s) { return s.Clears(a, b, give); });
 }
 
 bool KeepIn::AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const {
   const double highest = std::max(Tip(a).z(), Tip(b).z());
   if (finishing && TopRoom(*containment_, highest) < -Give()) return false;
-  return HasRoom(a, b) && ClearOfAvoided(a, b) && ShankClears(a, b);
+  return HasRoom(a, b) && ClearOfAvoided(a, b) && ShankClears(a, b, Give());
 }
 
 }  // namespace patchmill

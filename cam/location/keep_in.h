@@ -61,7 +61,7 @@ class KeepIn {
   // rounding.
   bool TooHigh(double center_z) const;
   // A finishing ball may be centred at c.
-  bool Allows(const Vec3& c) const { return AllowsBall(c) && ShankClears(c, c); }
+  bool Allows(const Vec3& c) const { return AllowsBall(c) && ShankClears(c, c, 0.0); }
   // The same as if the shank were no wider than the ball.
   bool AllowsBall(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
   // Where in the column over q a finishing ball may be centred; nothing outside a boundary. To a tenth of the
@@ -84,7 +84,7 @@ class KeepIn {
   double Room(const Vec3& c) const;                  // top_z too
   bool HasRoom(const Vec3& a, const Vec3& b) const;  // boundary and obstacles
   bool ClearOfAvoided(const Vec3& a, const Vec3& b) const;
-  bool ShankClears(const Vec3& a, const Vec3& b) const;
+  bool ShankClears(const Vec3& a, const Vec3& b, double give) const;
   double Give() const { return 0.5 * params_.tolerance; }
 
   const Surface* surface_ = nullptr;

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "cam/path/keep_in_clip.h"
 #include "cam/path/leftover_spots.h"
-#include "cam/path/spacing.h"
 #include "cam/path/spot_passes.h"
 #include "core/base/status.h"
 
@@ -35,10 +33,6 @@ absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,
                         FindSpots(locator, reach, trees, rects, params, run));
     if (spots.empty()) break;
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> mended, MendSpots(locator, spots, params, mending, run));
-    if (params.keep_in != nullptr) {
-      const double step = CenterStep(locator.radius(), params.scallop, 0.0);
-      PM_ASSIGN_OR_RETURN(mended, ClipToKeepIn(locator, *params.keep_in, std::move(mended), step, run));
-    }
     // A pass never uncovers anything: only the rectangles of the spots need another look.
     rects.clear();
     for (const LeftoverSpot& s : spots) rects.push_back(s.rect);

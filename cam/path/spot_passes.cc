@@ -8,6 +8,7 @@
 #include "cam/path/chord_bounds.h"
 #include "cam/path/chord_thinning.h"
 #include "cam/path/crease_trace.h"
+#include "cam/path/keep_in_clip.h"
 #include "cam/path/level_trace.h"
 #include "cam/path/point_cells.h"
 #include "cam/path/scan_line.h"
@@ -72,6 +73,7 @@ class Mender {
                           const std::vector<bool>& used) const;
   std::vector<std::size_t> Chain(std::size_t i, bool gentle) const;
   bool LevelIsMissing(std::size_t i) const;
+  std::vector<CutterPath> Allowed(CutterPath pass) const;
   bool Add(PassKind kind, std::vector<CutterPoint> points);
 
   const Locator& locator_;
@@ -98,25 +100,36 @@ bool Mender::Needed(const Vec3& c, double reach) const {
   return needed;
 }
 
-// Keeps the pass when it mends something, and closes what it mends.
+std::vector<CutterPath> Mender::Allowed(CutterPath pass) const {
+  if (params_.keep_in == nullptr) return {std::move(pass)};
+  auto parts = ClipToKeepIn(locator_, *params_.keep_in, {std::move(pass)}, flat_, run_);
+  return parts.ok() ? *std::move(parts) : std::vector<CutterPath>();  // only cancelled ones are not
+}
+
+// Keeps what of the pass is allowed and mends something, and closes what it mends.
 bool Mender::Add(PassKind kind, std::vector<CutterPoint> points) {
   if (points.size() < 2) return false;
-  bool useful = false;
+  bool any = false;
   const double limit = radius_ + params_.limit;
-  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-    const Vec3 &a = points[k].center, &b = points[k + 1].center;
-    const double length = (b - a).norm();
-    // A ball that finishes p stands near p's own centre; that is where to look.
-    cells_.Near(0.5 * (a + b), 0.5 * length + flat_, [&](std::size_t i) {
-      if (open_[i] && SegmentDistance(spots_[i].at.p, a, b) <= limit) {
-        open_[i] = false;
-        useful = true;
-      }
-    });
+  for (CutterPath& part : Allowed({.kind = kind, .points = std::move(points)})) {
+    bool useful = false;
+    for (std::size_t k = 0; k + 1 < part.points.size(); ++k) {
+      const Vec3 &a = part.points[k].center, &b = part.points[k + 1].center;
+      const double length = (b - a).norm();
+      // A ball that finishes p stands near p's own centre; that is where to look.
+      cells_.Near(0.5 * (a + b), 0.5 * length + flat_, [&](std::size_t i) {
+        if (open_[i] && SegmentDistance(spots_[i].at.p, a, b) <= limit) {
+          open_[i] = false;
+          useful = true;
+        }
+      });
+    }
+    if (!useful) continue;
+    any = true;
+    part.line = static_cast<int>(paths_.size());
+    paths_.push_back(std::move(part));
   }
-  if (!useful) return false;
-  paths_.push_back({.kind = kind, .line = static_cast<int>(paths_.size()), .points = std::move(points)});
-  return true;
+  return any;
 }
 
 bool Mender::AlongCrease(std::size_t i) {

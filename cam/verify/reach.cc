@@ -59,13 +59,14 @@ bool ShankHits(const Surface& surface, const CenterLimits& limits, const Vec3& c
          InShank(*limits.avoided, limits, c, limits.avoid_distance - limits.ball + limits.within, proof);
 }
 
-// A lower bound of how deep the shank is in the surface, mm; 0 where it is not.
+// A lower bound of how deep the surface is in the shank, mm; 0 where it is not, or by less than the least of
+// what is tried.
 double ShankDepth(const Surface& surface, const CenterLimits& limits, const Vec3& c, double keep,
-                  double proof) {
-  const auto found = InShank(surface, limits, c, keep, proof);
-  if (!found) return 0.0;
-  return std::min(limits.shank->radius + keep - (Plan(found->p) - Plan(c)).norm(),
-                  found->p.z() - c.z() - limits.shank->rise + keep);
+                  double radius) {
+  for (const double depth : {0.5 * radius, 0.1 * radius, kCoarse * radius}) {
+    if (InShank(surface, limits, c, keep - depth, 0.5 * kCoarse * radius)) return depth;
+  }
+  return 0.0;
 }
 
 Vec3 FromRay(const Vec3& p, const Vec3& c) {
@@ -272,11 +273,10 @@ double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing,
       if (avoided) here = std::max(here, keep - avoided->distance);
     }
     if (params.limits.shank) {
-      const double proof = kCoarse * params.radius;
-      here = std::max(here, ShankDepth(surface, params.limits, c, params.limits.shank_keep, proof));
+      here = std::max(here, ShankDepth(surface, params.limits, c, params.limits.shank_keep, params.radius));
       if (params.limits.avoided != nullptr) {
         const double margin = params.limits.avoid_distance - params.limits.ball;
-        here = std::max(here, ShankDepth(*params.limits.avoided, params.limits, c, margin, proof));
+        here = std::max(here, ShankDepth(*params.limits.avoided, params.limits, c, margin, params.radius));
       }
     }
     depth = std::min(depth, here);

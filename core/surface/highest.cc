@@ -13,6 +13,7 @@ namespace {
 
 // A cell is halved at most this often below its leaf; the sides are then below rounding.
 constexpr int kMaxHalvings = 90;
+constexpr int kMostSlopes = 6;
 
 // Two nets per halving, reused by every query of a thread.
 Vec4* CellBuffer(int halving, int count) {
@@ -74,30 +75,94 @@ class Search {
     return depths;
   }
 
+  // By the summed steps of the net, which a net that closes upon itself has too.
+  bool LongerAlongU(const Cell& cell, const Vec3* hull, int count) const {
+    if (count < shape_.count()) {
+      const NetBend bend = MeasureBend(shape_, cell.points, Vec3::UnitZ(), kInfinity);
+      return bend.length_u >= bend.length_v;
+    }
+    const int row = shape_.degree_v + 1;
+    double steps_u = 0.0, steps_v = 0.0;
+    for (int i = row; i < count; ++i) steps_u += (hull[i] - hull[i - row]).lpNorm<1>();
+    for (int i = 1; i < count; ++i) {
+      if (i % row != 0) steps_v += (hull[i] - hull[i - 1]).lpNorm<1>();
+    }
+    // The mean line of each: there are row lines along u.
+    return steps_u * (shape_.degree_u + 1) >= steps_v * row;
+  }
+
+  // A hull of least product `least` with `away`, relative to `nearest`, is beside the column: the half plane
+  // behind `nearest` holds the segment, and the distance to it is never more.
+  bool Beside(double least, double distance) const { return distance > 0.0 && least >= reach_ * distance; }
+
+  // A bound of the heights that a hull has inside the column, and about where that is in a net.
+  struct Top {
+    double z = kInfinity;
+    Vec2 at = Vec2(0.5, 0.5);  // of the cell's parameters
+  };
+
+  // x: how far each point is outside the column, by the linearised distance. Inside, z is at most the largest
+  // z - slope x for any slope >= 0; the best slope is that of the edge of the points' upper hull over x = 0,
+  // which is exact to second order where the surface leaves the column.
+  Top TopInside(const double* x, const Vec3* hull, int count) const {
+    const auto highest = [&](double slope) {
+      int best = 0;
+      for (int k = 1; k < count; ++k) {
+        if (hull[k].z() - slope * x[k] > hull[best].z() - slope * x[best]) best = k;
+      }
+      return best;
+    };
+    int out = highest(0.0), in = -1;
+    Top top{hull[out].z(), At(out, count)};
+    if (TooLow(top.z) || x[out] <= 0.0) return top;
+    for (int k = 0; k < count; ++k) {
+      if (x[k] < 0.0 && (in < 0 || hull[k].z() > hull[in].z())) in = k;
+    }
+    if (in < 0) return {-kInfinity, top.at};
+    for (int step = 0; step < kMostSlopes && !TooLow(top.z); ++step) {
+      const double slope = (hull[out].z() - hull[in].z()) / (x[out] - x[in]);
+      const int best = highest(slope);
+      const double z = hull[best].z() - slope * x[best];
+      if (z < top.z) {
+        const double inside = x[out] / (x[out] - x[in]);
+        top = {z, inside * At(in, count) + (1.0 - inside) * At(out, count)};
+      }
+      if (best == out || best == in) break;
+      (x[best] < 0.0 ? in : out) = best;
+    }
+    return top;
+  }
+
+  // Where a point of a net belongs; of nets with points left out just the middle.
+  Vec2 At(int point, int count) const {
+    const int row = shape_.degree_v + 1;
+    if (count < shape_.count() || shape_.degree_u == 0 || shape_.degree_v == 0) return Vec2(0.5, 0.5);
+    return Vec2(static_cast<double>(point / row) / shape_.degree_u,
+                static_cast<double>(point % row) / shape_.degree_v);
+  }
+
   // Nothing of the cell is in the column and higher than what is known. `top`: a bound of its height, made
   // tighter; `along_u`: the longer way.
-  bool Excluded(const Cell& cell, double& top, bool& along_u) const {
+  bool Excluded(const Cell& cell, Top& top, bool& along_u) const {
     std::array<Vec3, kMaxNetPoints> hull;
+    std::array<double, kMaxNetPoints> x;
     const int count = HullPoints(shape_, cell.points, hull.data());
     if (count == 0) return true;
     Box3 box;
     for (int i = 0; i < count; ++i) box.Add(hull[static_cast<std::size_t>(i)]);
-    top = std::min(top, box.max.z());
-    if (TooLow(top)) return true;
+    if (TooLow(box.max.z())) return true;
     const Vec2 center = Plan(Vec3(0.5 * (box.min + box.max)));
     const Vec2 nearest = NearestOnSegment(column_.a, column_.b, center);
-    const Vec2 away = center - nearest;
-    const double distance = away.norm();
+    const double distance = (center - nearest).norm();
     // The half plane behind `nearest` holds the segment: the distance to it is never more.
-    if (distance > 0.0) {
-      double least = kInfinity;
-      for (int i = 0; i < count; ++i) {
-        least = std::min(least, (Plan(hull[static_cast<std::size_t>(i)]) - nearest).dot(away));
-      }
-      if (least >= reach_ * distance) return true;
+    const Vec2 away = distance > 0.0 ? Vec2((center - nearest) / distance) : Vec2::Zero();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      x[i] = (Plan(hull[i]) - nearest).dot(away) - reach_;
     }
-    const NetBend bend = MeasureBend(shape_, cell.points, Vec3::UnitZ(), kInfinity);
-    along_u = bend.length_u >= bend.length_v;
+    const Top inside = TopInside(x.data(), hull.data(), count);
+    top = {std::min(top.z, inside.z), inside.at};
+    if (TooLow(top.z)) return true;
+    along_u = LongerAlongU(cell, hull.data(), count);
     return false;
   }
 
@@ -108,16 +173,29 @@ class Search {
       const Vec4& corner =
           cell.points[(k / 2 == 0 ? 0 : shape_.degree_u * row) + (k % 2 == 0 ? 0 : shape_.degree_v)];
       if (!(corner.w() > 0.0)) continue;
-      const Vec3 p = corner.head<3>() / corner.w();
-      if (!(p.z() > known_)) continue;
-      const Vec2 plan = Plan(p);
-      if ((plan - NearestOnSegment(column_.a, column_.b, plan)).norm() >= column_.radius) continue;
-      known_ = p.z();
-      best_ = SurfacePoint{piece_, k / 2 == 0 ? cell.u0 : cell.u1, k % 2 == 0 ? cell.v0 : cell.v1, p};
+      Take({piece_, k / 2 == 0 ? cell.u0 : cell.u1, k % 2 == 0 ? cell.v0 : cell.v1,
+            corner.head<3>() / corner.w()});
     }
   }
 
+  void Take(const SurfacePoint& at) {
+    if (!(at.p.z() > known_)) return;
+    const Vec2 plan = Plan(at.p);
+    if ((plan - NearestOnSegment(column_.a, column_.b, plan)).norm() >= column_.radius) return;
+    known_ = at.p.z();
+    best_ = at;
+  }
+
+  bool BoxIsBeside(const SurfaceLeaf& leaf) const {
+    const Vec2 center = Plan(leaf.center());
+    const Vec2 nearest = NearestOnSegment(column_.a, column_.b, center);
+    const Vec2 away = center - nearest;
+    const double wide = (leaf.axis().transpose() * Lift(away, 0.0)).cwiseAbs().dot(leaf.half());
+    return Beside(away.squaredNorm() - wide, away.norm());
+  }
+
   void VisitLeaf(const SurfaceLeaf& leaf, double max_z) {
+    if (BoxIsBeside(leaf)) return;
     piece_ = leaf.piece;
     const BernsteinNet& net = surface_.piece(leaf.piece).net;
     shape_ = {net.degree_u, net.degree_v};
@@ -125,14 +203,19 @@ class Search {
     std::copy_n(net.points.begin(), shape_.count(), points);
     RestrictNet(shape_, points, leaf.u0, leaf.u1, leaf.v0, leaf.v1);
     const Cell cell{points, leaf.u0, leaf.u1, leaf.v0, leaf.v1, 0};
+    Top top{max_z};
     bool along_u = true;
-    if (!Excluded(cell, max_z, along_u)) Visit(cell, max_z, along_u);
+    if (!Excluded(cell, top, along_u)) Visit(cell, top, along_u);
   }
 
   // The cell is not excluded.
-  void Visit(const Cell& cell, double top, bool along_u) {
+  void Visit(const Cell& cell, const Top& top, bool along_u) {
     TakeCorners(cell);
-    if (Done() || TooLow(top) || cell.halvings >= kMaxHalvings) return;
+    if (Done() || TooLow(top.z)) return;
+    const double u = cell.u0 + top.at.x() * (cell.u1 - cell.u0),
+                 v = cell.v0 + top.at.y() * (cell.v1 - cell.v0);
+    Take({piece_, u, v, Position(surface_.piece(piece_), u, v)});
+    if (Done() || TooLow(top.z) || cell.halvings >= kMaxHalvings) return;
     const int halvings = cell.halvings + 1, count = shape_.count();
     std::array<Cell, 2> part{cell, cell};
     Vec4* low = CellBuffer(halvings, count);
@@ -142,15 +225,15 @@ class Search {
     part[1].points = high;
     (along_u ? part[0].u1 : part[0].v1) = (along_u ? part[1].u0 : part[1].v0) =
         along_u ? 0.5 * (cell.u0 + cell.u1) : 0.5 * (cell.v0 + cell.v1);
-    std::array<double, 2> tops{top, top};
+    std::array<Top, 2> tops{top, top};
     std::array<bool, 2> ways{true, true}, open{};
     for (std::size_t k = 0; k < 2; ++k) {
       part[k].halvings = halvings;
       open[k] = !Excluded(part[k], tops[k], ways[k]);
     }
-    const std::size_t first = tops[1] > tops[0] ? 1 : 0;
+    const std::size_t first = tops[1].z > tops[0].z ? 1 : 0;
     for (const std::size_t k : {first, 1 - first}) {
-      if (open[k] && !Done() && !TooLow(tops[k])) Visit(part[k], tops[k], ways[k]);
+      if (open[k] && !Done() && !TooLow(tops[k].z)) Visit(part[k], tops[k], ways[k]);
     }
   }
 
