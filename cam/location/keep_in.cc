@@ -96,7 +96,7 @@ double KeepIn::Room(const Vec3& c) const {
   return std::min(MoveRoom(c), TopRoom(*containment_, Tip(c).z()) + kTopSlack);
 }
 
-std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q) const {
+std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q, double gap, double from) const {
   const double r = params_.ball_radius;
   if (BoundaryRoom(*containment_, q, r) < 0.0) return std::nullopt;
   AllowedHeights heights;
@@ -106,14 +106,14 @@ std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q) const {
     if (!beside) heights.lowest = std::max(heights.lowest, o.top_z + o.margin + r);
   }
   if (avoided_locator_) {
-    const auto height = avoided_locator_->Height(q, nullptr, 0.1 * params_.tolerance);
+    const auto height = avoided_locator_->Height(q, nullptr, gap);
     if (height && height->z > heights.lowest) {
       heights.lowest = height->z;
       heights.normal = (Lift(q, height->z) - height->contact.p) / avoided_locator_->radius();
     }
   }
   for (const ShankLimit& shank : shanks_) {
-    const double lowest = shank.LowestOver(q, 0.0);
+    const double lowest = shank.LowestOver(q, 0.0, std::max(from, heights.lowest), gap);
     if (lowest <= heights.lowest) continue;
     heights.lowest = lowest;
     heights.normal = Vec3::UnitZ();

@@ -64,9 +64,10 @@ class KeepIn {
   bool Allows(const Vec3& c) const { return AllowsBall(c) && ShankClears(c, c, 0.0); }
   // The same as if the shank were no wider than the ball.
   bool AllowsBall(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
-  // Where in the column over q a finishing ball may be centred; nothing outside a boundary. To a tenth of the
-  // tolerance. Every limit but top_z holds from below: what is allowed is one interval.
-  std::optional<AllowedHeights> HeightsOver(const Vec2& q) const;
+  // Where in the column over q a finishing ball may be centred, to `gap` (mm); nothing outside a boundary.
+  // Every limit but top_z holds from below: what is allowed is one interval. `from`: where below that (mm) it
+  // begins need not be known.
+  std::optional<AllowedHeights> HeightsOver(const Vec2& q, double gap, double from = -kInfinity) const;
   // No finishing ball may be centred within `radius` (mm, >= 0) of c.
   bool Forbids(const Vec3& c, double radius) const;
   // Centre height from which on the tool may be anywhere over the rectangle with corners a and b and sides

@@ -23,8 +23,8 @@ bool ShankLimit::Clears(const Vec3& a, const Vec3& b, double give) const {
 
 bool ShankLimit::Forbids(const Vec3& c, double radius) const { return Hits(Plan(c), Plan(c), c.z(), radius); }
 
-double ShankLimit::LowestOver(const Vec2& q, double give) const {
-  const auto highest = HighestInColumn(*surface_, {q, q, radius_ - give}, -kInfinity, proof_);
+double ShankLimit::LowestOver(const Vec2& q, double give, double from, double gap) const {
+  const auto highest = HighestInColumn(*surface_, {q, q, radius_ - give}, from + rise_ + give, gap);
   return highest ? highest->p.z() - rise_ - give : -kInfinity;
 }
 

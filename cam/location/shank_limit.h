@@ -22,8 +22,9 @@ class ShankLimit {
   bool Clears(const Vec3& a, const Vec3& b, double give) const;
   // Nowhere within `radius` (mm, >= 0) of the centre c is it out of the surface.
   bool Forbids(const Vec3& c, double radius) const;
-  // Lowest centre over q where the shank is no deeper in than `give`; -infinity where nothing limits it.
-  double LowestOver(const Vec2& q, double give) const;
+  // Lowest centre over q where the shank is no deeper in than `give`, if that is above `from` (mm);
+  // -infinity otherwise. To `gap` (mm).
+  double LowestOver(const Vec2& q, double give, double from, double gap) const;
 
  private:
   bool Hits(const Vec2& a, const Vec2& b, double center_z, double give) const;

@@ -236,11 +236,12 @@ class NearestCenter {
   Column At(const Vec2& q, double gap = kHeightGap) const {
     const double radius = locator_.radius();
     Column column;
-    const auto allowed =
-        params_.keep_in != nullptr ? params_.keep_in->HeightsOver(q) : std::optional(AllowedHeights());
+    double low = params_.floor_z + radius;
+    const auto allowed = params_.keep_in != nullptr
+                             ? params_.keep_in->HeightsOver(q, kHeightGap * radius, std::max(low, p_.z()))
+                             : std::optional(AllowedHeights());
     if (!allowed) return column;
     const auto height = locator_.Height(q, nullptr, gap * radius);
-    double low = params_.floor_z + radius;
     if (allowed->lowest > low) {
       low = allowed->lowest;
       column.normal = allowed->normal;

@@ -247,6 +247,13 @@ bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& fac
   }
   ReachParams moved = params;
   moved.limits.within = params.give;
+  // The ball is free; what its limits say is told without looking for what is in its way again.
+  const double proof = kProof * params.give;
+  const Vec3 center = at.p + params.radius * facing.e;
+  if (!facing.both && RoomAt(moved.limits, center) >= 0.0 && !NearAvoided(moved.limits, center, proof) &&
+      !ShankHits(surface, moved.limits, center, proof)) {
+    return true;
+  }
   if (ReachOn(surface, at, facing, moved, obstacles) == ReachClass::kReachable) return true;
   moved.limits.within = -kLimitSlack;
   const std::vector<SurfaceJet> beside = Beside(surface, at, params.radius);

@@ -91,10 +91,6 @@ class Search {
     return steps_u * (shape_.degree_u + 1) >= steps_v * row;
   }
 
-  // A hull of least product `least` with `away`, relative to `nearest`, is beside the column: the half plane
-  // behind `nearest` holds the segment, and the distance to it is never more.
-  bool Beside(double least, double distance) const { return distance > 0.0 && least >= reach_ * distance; }
-
   // A bound of the heights that a hull has inside the column, and about where that is in a net.
   struct Top {
     double z = kInfinity;
@@ -186,16 +182,28 @@ class Search {
     best_ = at;
   }
 
-  bool BoxIsBeside(const SurfaceLeaf& leaf) const {
-    const Vec2 center = Plan(leaf.center());
-    const Vec2 nearest = NearestOnSegment(column_.a, column_.b, center);
-    const Vec2 away = center - nearest;
-    const double wide = (leaf.axis().transpose() * Lift(away, 0.0)).cwiseAbs().dot(leaf.half());
-    return Beside(away.squaredNorm() - wide, away.norm());
+  // Of the leaf's oriented box: as TopInside, with the slopes along which a side of the box does not count.
+  double TopOfBox(const SurfaceLeaf& leaf) const {
+    const Vec3 center = leaf.center(), half = leaf.half();
+    const Eigen::Matrix3d axis = leaf.axis();
+    const Vec2 nearest = NearestOnSegment(column_.a, column_.b, Plan(center));
+    const double distance = (Plan(center) - nearest).norm();
+    if (distance == 0.0) return kInfinity;
+    const Vec2 away = (Plan(center) - nearest) / distance;
+    const Vec3 rises = axis.row(2).transpose(), leaves = axis.transpose() * Lift(away, 0.0);
+    const double x = distance - reach_;
+    if (x - leaves.cwiseAbs().dot(half) >= 0.0) return -kInfinity;
+    double top = center.z() + rises.cwiseAbs().dot(half);
+    for (int k = 0; k < 3; ++k) {
+      const double slope = rises[k] / leaves[k];
+      if (!(slope > 0.0) || !std::isfinite(slope)) continue;
+      top = std::min(top, center.z() - slope * x + (rises - slope * leaves).cwiseAbs().dot(half));
+    }
+    return top;
   }
 
   void VisitLeaf(const SurfaceLeaf& leaf, double max_z) {
-    if (BoxIsBeside(leaf)) return;
+    if (TooLow(TopOfBox(leaf))) return;
     piece_ = leaf.piece;
     const BernsteinNet& net = surface_.piece(leaf.piece).net;
     shape_ = {net.degree_u, net.degree_v};

@@ -46,25 +46,31 @@ std::vector<Containment> Limits(const Surface& surface) {
   return limits;
 }
 
-TEST(KeepIn, HeightsOverAColumnAreThoseOfItsCentres) {
-  const Surface surface = Part();
+// Heights, single centres and balls of centres in all columns.
+void ExpectOneAnswer(const Surface& surface, std::optional<WideShank> shank) {
   Random random(7);
-  int allowed = 0, forbidden = 0;
+  int allowed = 0, forbidden = 0, balls = 0;
   const std::vector<Containment> all = Limits(surface);
   for (std::size_t n = 0; n < all.size(); ++n) {
     const Containment& limits = all[n];
     SCOPED_TRACE(n);
-    const auto keep_in =
-        KeepIn::Make(surface, limits, {.ball_radius = kBall, .tool_radius = kShank, .tolerance = kTolerance},
-                     RunContext());
+    const auto keep_in = KeepIn::Make(
+        surface, limits,
+        {.ball_radius = kBall, .tool_radius = kShank, .shank = shank, .tolerance = kTolerance}, RunContext());
     ASSERT_TRUE(keep_in.ok()) << keep_in.status();
     for (int i = 0; i < 400; ++i) {
       const Vec2 q(random.Uniform(-20, 20), random.Uniform(-20, 20));
-      const auto heights = keep_in->HeightsOver(q);
+      const auto heights = keep_in->HeightsOver(q, 0.1 * kTolerance);
       for (int k = 0; k < 8; ++k) {
         const double z = random.Uniform(-5, 25);
         const bool is = keep_in->Allows(Lift(q, z));
         ++(is ? allowed : forbidden);
+        const double around = random.Uniform(0.0, 3.0);
+        if (keep_in->Forbids(Lift(q, z), around)) {
+          ++balls;
+          const Vec3 way(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
+          EXPECT_FALSE(keep_in->Allows(Lift(q, z) + 0.99 * around * way.normalized()));
+        }
         if (!heights) {
           EXPECT_FALSE(is) << q.transpose() << " " << z;
           continue;
@@ -79,6 +85,26 @@ TEST(KeepIn, HeightsOverAColumnAreThoseOfItsCentres) {
   }
   EXPECT_GT(allowed, 3000);
   EXPECT_GT(forbidden, 3000);
+  EXPECT_GT(balls, 1000);
+}
+
+TEST(KeepIn, HeightsOverAColumnAreThoseOfItsCentres) { ExpectOneAnswer(Part(), std::nullopt); }
+
+TEST(KeepIn, HeightsUnderAWideShankAreThoseOfItsCentres) { ExpectOneAnswer(Part(), WideShank{kShank, 4.0}); }
+
+// Flutes longer than the part is high: nothing more is asked.
+TEST(KeepIn, LongFlutesLimitNothing) {
+  const Surface surface = Part();
+  const Containment none;
+  const double height = surface.box.max.z() - surface.box.min.z();
+  for (const double rise : {height - 0.1, height + 0.1}) {
+    const auto keep_in = KeepIn::Make(
+        surface, none, {.ball_radius = kBall, .tool_radius = kShank, .shank = WideShank{kShank, rise}},
+        RunContext());
+    ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+    EXPECT_EQ(keep_in->HasShank(), rise < height);
+    EXPECT_EQ(keep_in->AllowsAll(), rise > height);
+  }
 }
 
 }  // namespace
