@@ -119,4 +119,14 @@ MetricValue ShankDistanceAndGradient(const PathSegment& s, const Vec3& p, double
   return {std::max(plan(low), rise(low)), Lift(share * out, share - 1.0)};
 }
 
+double ShankBoxDistance(const PathSegment& s, const Vec3& p, double shank_radius) {
+  return ShankBoxDistanceAndGradient(s, p, shank_radius).distance;
+}
+
+MetricValue ShankBoxDistanceAndGradient(const PathSegment& s, const Vec3& p, double shank_radius) {
+  const double rise = shank_radius - (p.z() - std::min(s.a.z(), s.b.z()));
+  const MetricValue plan = From(Lift(Plan(NearestOnSweptBox(s, p)), p.z()), p);
+  return plan.distance >= rise ? plan : MetricValue{rise, -Vec3::UnitZ()};
+}
+
 }  // namespace patchmill

@@ -19,8 +19,9 @@ enum class Metric {
   // To everything above the lower end's height over the rectangle with the ends as corners and sides along x
   // and y: where a rapid may go, for controls need not drive its axes together.
   kSweptBox,
-  kShank,  // max(plan distance, shank radius - height above the segment), smallest over the segment:
-           // shank radius minus this is how deep the point sits in a cylinder that begins at the segment
+  kShank,     // max(plan distance, shank radius - height above the segment), smallest over the segment:
+              // shank radius minus this is how deep the point sits in a cylinder that begins at the segment
+  kShankBox,  // the same over the rectangle of kSweptBox, at the lower end's height
 };
 
 // Value and a subgradient: nowhere is the value below distance + gradient . (q - p). For all but the
@@ -60,9 +61,11 @@ double DistanceToEither(const PathSegment& a, const PathSegment& b, const Vec3* 
 double SweptDistance(const PathSegment& s, const Vec3& p);
 double SweptBoxDistance(const PathSegment& s, const Vec3& p);
 double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius);
+double ShankBoxDistance(const PathSegment& s, const Vec3& p, double shank_radius);
 MetricValue PathDistanceAndGradient(const PathSegment& s, const Vec3& p);
 MetricValue SweptDistanceAndGradient(const PathSegment& s, const Vec3& p);
 MetricValue SweptBoxDistanceAndGradient(const PathSegment& s, const Vec3& p);
 MetricValue ShankDistanceAndGradient(const PathSegment& s, const Vec3& p, double shank_radius);
+MetricValue ShankBoxDistanceAndGradient(const PathSegment& s, const Vec3& p, double shank_radius);
 
 }  // namespace patchmill

@@ -12,6 +12,10 @@ namespace patchmill {
 
 namespace {
 
+// A move of these is not the sum of its parts.
+bool OverBox(Metric metric) { return metric == Metric::kSweptBox || metric == Metric::kShankBox; }
+bool OfShank(Metric metric) { return metric == Metric::kShank || metric == Metric::kShankBox; }
+
 constexpr double kMostPieces = 2'000'000;  // of cut segments
 constexpr float kFar = 1e30F;              // its square is infinite: never near
 
@@ -73,7 +77,7 @@ SegmentTree::SegmentTree(std::vector<PathSegment> segments, Metric metric, doubl
                          const RunContext& run, double shank_radius)
     : metric_(metric), shank_radius_(shank_radius) {
   if (segments.empty()) return;
-  if (metric != Metric::kSweptBox) segments = CutLong(std::move(segments), longest);
+  if (!OverBox(metric)) segments = CutLong(std::move(segments), longest);
   Order order{segments, run, {}};
   order.items.reserve(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i)
@@ -188,6 +192,8 @@ double SegmentTree::Distance(int i, const Vec3& p) const {
       return SweptBoxDistance(segment(i), p);
     case Metric::kShank:
       return ShankDistance(segment(i), p, shank_radius_);
+    case Metric::kShankBox:
+      return ShankBoxDistance(segment(i), p, shank_radius_);
   }
   return 0.0;
 }
@@ -202,6 +208,8 @@ MetricValue SegmentTree::DistanceAndGradient(int i, const Vec3& p) const {
       return SweptBoxDistanceAndGradient(segment(i), p);
     case Metric::kShank:
       return ShankDistanceAndGradient(segment(i), p, shank_radius_);
+    case Metric::kShankBox:
+      return ShankBoxDistanceAndGradient(segment(i), p, shank_radius_);
   }
   return {};
 }
@@ -223,7 +231,7 @@ void SegmentTree::Distances2(const Leaf& leaf, const Vec3& p, double (&distance2
 SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int hint, double slack) const {
   Nearest best{limit, -1};
   if (leaves_.empty()) return best;
-  const Query q(p, metric_ == Metric::kShank ? shank_radius_ : 0.0);
+  const Query q(p, OfShank(metric_) ? shank_radius_ : 0.0);
   const double keep = 1.0 - slack;
   float near2 = q.Near2(best.distance * keep);
   const auto consider = [&](int i) {
@@ -289,7 +297,7 @@ SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int h
 void SegmentTree::FindWithin(const Vec3& p, double limit, std::vector<int>& found) const {
   found.clear();
   if (leaves_.empty() || !(limit > 0.0)) return;
-  const Query q(p, metric_ == Metric::kShank ? shank_radius_ : 0.0);
+  const Query q(p, OfShank(metric_) ? shank_radius_ : 0.0);
   const float near2 = q.Near2(limit);
   std::array<std::int32_t, 128> stack;
   std::size_t size = 0;

@@ -38,12 +38,13 @@ struct AreaReport {
   std::array<double, kFinishClasses> area{};    // mm^2
   std::array<Extreme, kFinishClasses> deepest;  // largest leftover among the samples of each class
   double lowest_center = kInfinity;             // mm: lowest centre height that only the floor forbids
+  double highest_rise = -kInfinity;  // mm: RiseNeeded of all that only the shank keeps the ball from
 };
 
 // Areas by sampling: middle and corners of every root cell; cells whose points differ are quartered, the more
 // often the fewer there are: about 60,000 cells are spent on the border of the reachable set, at most five
-// quarterings. From the lowest sample that only the floor forbids the lowest place is sought in its piece.
-// `tree` has Metric::kPath and holds the feed moves.
+// quarterings. From the lowest sample that only the floor forbids the lowest place is sought in its piece,
+// and as well the place that needs the shank highest. `tree` has Metric::kPath and holds the feed moves.
 absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vector<CellRect>& roots,
                                         const SegmentTree& tree, const LeftoverParams& params,
                                         const RunContext& run);

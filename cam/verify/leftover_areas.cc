@@ -32,7 +32,8 @@ struct Sample {
 
 struct Sums {
   AreaReport report;
-  CellRect lowest;  // where report.lowest_center was seen: a rectangle without size
+  // Where report.lowest_center and report.highest_rise were seen: rectangles without size.
+  CellRect lowest, highest;
 };
 
 // Centre height over a point that only the floor forbids; infinity for any other point.
@@ -46,17 +47,26 @@ double CenterBelowFloor(const Surface& surface, PieceId piece, double u, double 
   return jet.p.z() + reach.radius * facing->e.z();
 }
 
-// The lowest centre of all that a pattern search finds around the lowest sample.
-double LowestCenter(const Surface& surface, const Sums& sums, const ReachParams& reach) {
-  double best = sums.report.lowest_center;
-  double u = sums.lowest.u0, v = sums.lowest.v0;
+// RiseNeeded of a place; `known` for any other.
+double RiseAt(const Surface& surface, PieceId piece, double u, double v, const ReachParams& reach,
+              double known) {
+  const SurfaceJet jet = Evaluate(surface, piece, u, v);
+  const auto facing = FacingAt(jet);
+  return facing ? RiseNeeded(surface, jet.p, *facing, reach, known) : known;
+}
+
+// The least of all values that a pattern search finds in a piece around a place where it is `best`.
+// value(piece, u, v, best): `best` or more will do for what is not less.
+template <class Value>
+double LeastAround(const CellRect& place, double best, const Value& value) {
+  double u = place.u0, v = place.v0;
   if (!std::isfinite(best)) return best;
   int left = 2000;  // of evaluations
   for (double step = 0.0625; step > 1e-6; step *= 0.5) {
     for (int k = 0; k < 9 && left > 0; ++k, --left) {
       const double x = std::clamp(u + (k / 3 - 1) * step, 0.0, 1.0);
       const double y = std::clamp(v + (k % 3 - 1) * step, 0.0, 1.0);
-      const double z = CenterBelowFloor(surface, sums.lowest.piece, x, y, reach);
+      const double z = value(place.piece, x, y, best);
       if (z >= best - 1e-9) continue;
       best = z;
       u = x;
@@ -153,6 +163,13 @@ class AreaSampler {
         if (z < sums.report.lowest_center) {
           sums.report.lowest_center = z;
           sums.lowest = {piece, u, u, v, v};
+        }
+      }
+      if (at->second.kind == FinishClass::kShank) {
+        const double rise = RiseAt(surface_, piece, u, v, params_.reach, sums.report.highest_rise);
+        if (rise > sums.report.highest_rise) {
+          sums.report.highest_rise = rise;
+          sums.highest = {piece, u, u, v, v};
         }
       }
     }
@@ -277,8 +294,19 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
       sums.report.lowest_center = part.report.lowest_center;
       sums.lowest = part.lowest;
     }
+    if (part.report.highest_rise > sums.report.highest_rise) {
+      sums.report.highest_rise = part.report.highest_rise;
+      sums.highest = part.highest;
+    }
   }
-  sums.report.lowest_center = LowestCenter(surface, sums, params.reach);
+  sums.report.lowest_center =
+      LeastAround(sums.lowest, sums.report.lowest_center, [&](PieceId piece, double u, double v, double) {
+        return CenterBelowFloor(surface, piece, u, v, params.reach);
+      });
+  sums.report.highest_rise = -LeastAround(sums.highest, -sums.report.highest_rise,
+                                          [&](PieceId piece, double u, double v, double best) {
+                                            return -RiseAt(surface, piece, u, v, params.reach, -best);
+                                          });
   return sums.report;
 }
 

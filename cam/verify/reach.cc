@@ -263,6 +263,33 @@ bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& fac
   });
 }
 
+double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
+                  double known) {
+  if (!params.limits.shank) return known;
+  const CenterLimits& limits = params.limits;
+  const double proof = kProof * params.give;
+  ReachParams slim = params;
+  slim.limits.shank.reset();
+  const auto centers = Centers(p, facing, params.radius);
+  double needed = kInfinity;
+  for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
+    const Facing of_side{side == 0 ? facing.e : Vec3(-facing.e), false};
+    if (ReachAt(surface, p, of_side, slim) != ReachClass::kReachable) continue;
+    const Vec3& c = centers[static_cast<std::size_t>(side)];
+    const Vec2 q = Plan(c);
+    double here = known;
+    const auto raise = [&](const Surface& over, double keep) {
+      const double from = c.z() + here - keep;
+      const auto highest = HighestInColumn(over, {q, q, limits.shank->radius + keep}, from, proof);
+      if (highest) here = highest->p.z() - c.z() + keep + proof;
+    };
+    raise(surface, limits.shank_keep);
+    if (limits.avoided != nullptr) raise(*limits.avoided, limits.avoid_distance - limits.ball);
+    needed = std::min(needed, here);
+  }
+  return needed < kInfinity ? needed : known;
+}
+
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                     Obstacles& obstacles) {
   const double limit = params.radius - params.give;

@@ -123,7 +123,12 @@ class Judge {
     const Vec3 up(0, 0, shank->rise - margin);
     const SegmentTree shanks(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
                              run_, p.radius);
-    return JudgeAvoidedBy(shanks, p, "the shank comes too near to an avoided patch");
+    PM_RETURN_IF_ERROR(JudgeAvoidedBy(shanks, p, "the shank comes too near to an avoided patch"));
+    const SegmentTree shank_boxes(CollectMoves(motion_, MotionSet::kDogLegs, offset_ + up), Metric::kShankBox,
+                                  radius_, run_, p.radius);
+    return JudgeAvoidedBy(shank_boxes, p,
+                          "not driving all axes together, a control may take the shank of a rapid too near "
+                          "to an avoided patch");
   }
   absl::Status JudgeAvoidedBy(const SegmentTree& tree, const GougeParams& p, const char* text) {
     const Surface& avoided = *limits_->centers().avoided;
@@ -197,6 +202,13 @@ class Judge {
       report_.max_gouge_at = Place(found.worst);
     }
     ReportPlaces("SHANK_GOUGE", found.violations, "the shank stands in the surface");
+    const SegmentTree boxes(CollectMoves(motion_, MotionSet::kDogLegs, offset_ + up), Metric::kShankBox,
+                            radius_, run_, shank->radius);
+    PM_ASSIGN_OR_RETURN(const Extremes beside, FindGouge(surface_, roots_, boxes, p, run_, "verify: shank"));
+    if (!beside.violations.empty()) shank_may_hit_ = true;
+    ReportPlaces("RAPID_DOG_LEG", beside.violations,
+                 "a control that does not drive all axes together may take the shank of a rapid into the "
+                 "surface");
     return absl::OkStatus();
   }
 
@@ -273,13 +285,17 @@ class Judge {
       const double floor_z = std::floor((areas.lowest_center - ball_) * 1e3) / 1e3;
       report_.finishing_floor_z = std::min(report_.finishing_floor_z.value_or(kInfinity), floor_z);
     }
+    if (std::isfinite(areas.highest_rise)) {
+      const double flutes = std::ceil((areas.highest_rise + ball_) * 1e3) / 1e3;
+      report_.finishing_flute_length = std::max(report_.finishing_flute_length.value_or(0.0), flutes);
+    }
     for (std::size_t k = 0; k < at(FinishClass::kUnwanted); ++k) report_.total_area += areas.area[k];
     report_.reachable_area += areas.area[at(FinishClass::kDone)] + areas.area[at(FinishClass::kAboveLimit)];
     report_.leftover_above_limit_area += areas.area[at(FinishClass::kAboveLimit)];
   }
 
   absl::Status JudgeMotion() {
-    report_.motion_ok = true;
+    report_.motion_ok = !shank_may_hit_;
     PM_RETURN_IF_ERROR(JudgeRapids());
     const MotionFigures figures = MeasureMotion(motion_, tool_);
     report_.tip_box = figures.tip_box;
@@ -330,6 +346,7 @@ class Judge {
   const VerifyParams& params_;
   const RunContext& run_;
   double ball_ = 0.0, radius_ = 0.0;
+  bool shank_may_hit_ = false;  // on a rapid, which only its control's way decides
   Vec3 offset_ = Vec3::Zero();  // from a tip of the program to the ball centre
   double chord_error_ = 0.0;
   std::vector<CellRect> roots_;

@@ -129,7 +129,7 @@ void AddShankOptions(CLI::App& app, ShankOptions& options) {
   AddNumber(app, "--flute-length", options.flute_length,
             "cutting length from the tip, mm; default: not known, not checked");
   AddNumber(app, "--shank-diameter", options.shank_diameter,
-            "above the flutes, mm: must not touch the part either; default: as wide as the ball");
+            "above the flutes, mm: what it cannot get past is left, SHANK; default: as wide as the ball");
   AddNumber(app, "--stickout", options.stickout,
             "tip to holder, mm: a warning where the job needs more; default: not known");
 }

@@ -81,6 +81,9 @@ std::string UnreachableLine(const v1::Report& report) {
       text += fmt::format("; --floor {:.3f} finishes it, as far as other limits let it",
                           part.finishing_floor_z_mm());
     }
+    if (part.has_finishing_flute_length_mm()) {
+      text += fmt::format("; --flute-length {:.3f} finishes it", part.finishing_flute_length_mm());
+    }
     text += ")";
   }
   return text;

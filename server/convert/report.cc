@@ -247,6 +247,9 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
       // Down once more: a zero between thousandths shifts them.
       part.set_finishing_floor_z_mm(std::floor((*verify.finishing_floor_z - zero.z()) * 1e3) / 1e3);
     }
+    if (kReasons[i] == UnreachableReason::kShank && verify.finishing_flute_length) {
+      part.set_finishing_flute_length_mm(*verify.finishing_flute_length);
+    }
   }
   report->set_unreachable_area_mm2(unreachable);
   if (scallop_judged) AddLeftoverClasses(verify, report);

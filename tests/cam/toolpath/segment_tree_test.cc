@@ -86,6 +86,12 @@ TEST(SegmentMetric, EqualsSampling) {
       const MetricValue b = SweptBoxDistanceAndGradient(s, p);
       EXPECT_GE(SweptBoxDistance(s, q), b.distance + b.gradient.dot(q - p) - 1e-9);
       const MetricValue h = ShankDistanceAndGradient(s, p, 2.0);
+      const MetricValue m = ShankBoxDistanceAndGradient(s, p, 2.0);
+      EXPECT_GE(ShankBoxDistance(s, q, 2.0), m.distance + m.gradient.dot(q - p) - 1e-9);
+      // Over the rectangle is nowhere farther than over the move, and the same over one along an axis.
+      EXPECT_LE(m.distance, h.distance + 1e-12);
+      const PathSegment level{s.a, Vec3(s.b.x(), s.a.y(), s.a.z()), 0};
+      EXPECT_NEAR(ShankBoxDistance(level, p, 2.0), ShankDistance(level, p, 2.0), 1e-9);
       EXPECT_GE(PathDistance(s, q), f.distance + f.gradient.dot(q - p) - 1e-9);
       EXPECT_GE(SweptDistance(s, q), g.distance + g.gradient.dot(q - p) - 1e-9);
       EXPECT_GE(ShankDistance(s, q, 2.0), h.distance + h.gradient.dot(q - p) - 1e-9);
@@ -97,6 +103,7 @@ double Measure(Metric metric, const PathSegment& s, const Vec3& p) {
   return metric == Metric::kPath       ? PathDistance(s, p)
          : metric == Metric::kSwept    ? SweptDistance(s, p)
          : metric == Metric::kSweptBox ? SweptBoxDistance(s, p)
+         : metric == Metric::kShankBox ? ShankBoxDistance(s, p, kShankRadius)
                                        : ShankDistance(s, p, kShankRadius);
 }
 
@@ -106,7 +113,8 @@ class SegmentTreeAt : public ::testing::TestWithParam<double> {};
 TEST_P(SegmentTreeAt, EqualsBruteForce) {
   Random random(12);
   const Vec3 far(GetParam(), -0.7 * GetParam(), 0.3 * GetParam());
-  for (const Metric metric : {Metric::kPath, Metric::kSwept, Metric::kSweptBox, Metric::kShank}) {
+  for (const Metric metric :
+       {Metric::kPath, Metric::kSwept, Metric::kSweptBox, Metric::kShank, Metric::kShankBox}) {
     for (const int n : {1, 2, 3, 4, 5, 8, 9, 16, 17, 63, 300, 2000}) {
       std::vector<PathSegment> segments = RandomSegments(random, n);
       if (n == 63) std::fill(segments.begin() + 20, segments.end(), segments[5]);  // one move many times

@@ -317,6 +317,38 @@ TEST(VerifyMotion, ShankAndStockAreKnownToTheCertainty) {
   EXPECT_FALSE(over_the_stock(0.003).motion_ok);
 }
 
+// A rapid past a block whose ball has room however the axes are driven, and whose shank only straight.
+TEST(VerifyMotion, ShankOfADogLeg) {
+  const Surface surface = JoinedSurface(Block(5.0, 20.0, 30.0));
+  Tool tool = Ball(3.0);
+  tool.flute_length = 8.0;
+  const auto judged = [&](double shank, const std::string& rapid, const VerifyParams& params) {
+    tool.shank_diameter = 2.0 * shank;
+    ProgramText text(40.0);
+    text.Line("G0 X12 Y0");
+    text.Line("G0 Z1");
+    text.Line(rapid);
+    text.Line("G0 Z40");
+    return Judged(surface, tool, text.End(), params);
+  };
+  const std::string diagonal = "G0 X9 Y20";  // over X9 Y0, 4 mm from the wall
+  VerifyParams params = Params(21.0);
+  const VerifyReport hits = judged(4.02, diagonal, params);
+  EXPECT_FALSE(hits.motion_ok);
+  EXPECT_NE(Find(hits, "RAPID_DOG_LEG"), nullptr);
+  EXPECT_EQ(Find(hits, "SHANK_GOUGE"), nullptr);
+  EXPECT_TRUE(judged(4.005, diagonal, params).motion_ok);
+  EXPECT_TRUE(
+      judged(4.02, "G0 Y20\nG0 X9", params).motion_ok);  // one axis after the other, the right one first
+  EXPECT_FALSE(judged(4.02, "G0 X9 Y20 Z14", params).motion_ok);  // begins as low
+  // With a margin from the walls it is too near to them.
+  params.containment.avoid_margin = 0.6;
+  params.containment.avoided.assign(13, false);
+  std::fill_n(params.containment.avoided.begin() + 8, 4, true);
+  EXPECT_NE(Find(judged(3.42, diagonal, params), "AVOID_MARGIN"), nullptr);
+  EXPECT_EQ(Find(judged(3.405, diagonal, params), "AVOID_MARGIN"), nullptr);
+}
+
 // The margin of avoided patches is the shank's too, from where it begins.
 TEST(VerifyMotion, AvoidMarginOfAWiderShank) {
   const Surface surface = JoinedSurface(Block(5.0, 20.0, 30.0));
