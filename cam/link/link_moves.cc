@@ -235,10 +235,11 @@ std::vector<Move> LinkMaker::Over(const CutterPoint& from, const CutterPoint& to
 
 double LinkMaker::RapidHeight(const Vec3& a, const Vec3& b) const {
   if (!params_.low_rapids) return clearance_center_z();
-  // A shank that is wider counts as a ball that is: it need not be looked at.
+  // A shank that is wider counts as a ball that is, as far as it begins no lower: it need not be looked at.
   const double wider = std::max(0.0, params_.tool_radius - params_.radius);
   const double above_all = params_.stock_top_z + params_.approach_gap + params_.radius;
-  double clear = std::min(stock_locator_.MaxHeight(Plan(a), Plan(b), wider, kFineRapid), above_all);
+  const double highest = stock_locator_.MaxHeight(Plan(a), Plan(b), wider, kFineRapid);
+  double clear = std::min(highest + params_.shank_lower, above_all);
   if (params_.keep_in != nullptr) clear = std::max(clear, params_.keep_in->ClearHeight(Plan(a), Plan(b)));
   return std::min(std::max({clear, a.z(), b.z()}), clearance_center_z());
 }

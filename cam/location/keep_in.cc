@@ -10,7 +10,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kShankProof = 0.1;  // of the tolerance
+// Of the tolerance: how exactly the shank is known, as the verifier does; of moves that climb or fall.
+constexpr double kShankProof = 0.01, kShankSlope = 0.1;
 
 bool Any(const std::vector<bool>& list) { return std::find(list.begin(), list.end(), true) != list.end(); }
 
@@ -35,12 +36,15 @@ absl::StatusOr<KeepIn> KeepIn::Make(const Surface& surface, const Containment& c
                         Locator::Make(*keep.avoided_, params.ball_radius + containment.avoid_margin, run));
     keep.avoided_locator_ = std::make_shared<const Locator>(std::move(locator));
   }
-  // The ball's centre is nowhere below the lowest point that it touches.
-  if (params.shank && surface.box.max.z() > surface.box.min.z() + params.shank->rise - params.leave) {
-    const double proof = kShankProof * params.tolerance;
-    keep.shanks_.emplace_back(surface, *params.shank, params.leave, proof);
-    if (keep.avoided_)
-      keep.shanks_.emplace_back(*keep.avoided_, *params.shank, containment.avoid_margin, proof);
+  if (params.shank) {
+    const auto add = [&](const Surface& off, double distance) {
+      const ShankLimit limit(off, *params.shank, distance, kShankProof * params.tolerance,
+                             kShankSlope * params.tolerance);
+      // The ball's centre is nowhere below the lowest point that it touches.
+      if (limit.MayTouch(surface.box.min.z())) keep.shanks_.push_back(limit);
+    };
+    add(surface, params.leave);
+    if (keep.avoided_) add(*keep.avoided_, containment.avoid_margin);
   }
   return keep;
 }
@@ -113,7 +117,8 @@ std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q, double gap, dou
     }
   }
   for (const ShankLimit& shank : shanks_) {
-    const double lowest = shank.LowestOver(q, 0.0, std::max(from, heights.lowest), gap);
+    const double lowest =
+        shank.LowestOver(q, 0.0, std::max(std::min(from, heights.highest), heights.lowest), gap);
     if (lowest <= heights.lowest) continue;
     heights.lowest = lowest;
     heights.normal = Vec3::UnitZ();
@@ -138,15 +143,18 @@ double KeepIn::ClearHeight(const Vec2& a, const Vec2& b) const {
   }
   if (avoided_locator_) {
     const double wider = params_.tool_radius - params_.ball_radius;
-    clear = std::max(clear, avoided_locator_->MaxHeight(a, b, wider, kFine));
+    // A wide shank with its margin counts as such a ball, as far as it begins no lower.
+    const double lower =
+        params_.shank ? std::max(0.0, containment_->avoid_margin - params_.shank->rise) : 0.0;
+    clear = std::max(clear, avoided_locator_->MaxHeight(a, b, wider, kFine) + lower);
   }
   return clear;
 }
 
-bool KeepIn::Forbids(const Vec3& c, double radius) const {
+bool KeepIn::Forbids(const Vec3& c, double radius, double above) const {
   if (Room(c) < -radius) return true;
-  if (std::any_of(shanks_.begin(), shanks_.end(), [&](const auto& s) { return s.Forbids(c, radius); }))
-    return true;
+  const auto by = [&](const ShankLimit& shank) { return shank.Forbids(c, radius, std::min(above, radius)); };
+  if (std::any_of(shanks_.begin(), shanks_.end(), by)) return true;
   if (!avoided_locator_) return false;
   const double reach = avoided_locator_->radius();
   return radius < reach && AnythingNearUpwardRay(*avoided_, c, reach - radius, 0.25 * params_.tolerance);

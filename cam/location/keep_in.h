@@ -65,11 +65,13 @@ class KeepIn {
   // The same as if the shank were no wider than the ball.
   bool AllowsBall(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
   // Where in the column over q a finishing ball may be centred, to `gap` (mm); nothing outside a boundary.
-  // Every limit but top_z holds from below: what is allowed is one interval. `from`: where below that (mm) it
-  // begins need not be known.
+  // Every limit but top_z holds from below: what is allowed is one interval. `from`: where below that (mm),
+  // and below its end, it begins need not be known.
   std::optional<AllowedHeights> HeightsOver(const Vec2& q, double gap, double from = -kInfinity) const;
-  // No finishing ball may be centred within `radius` (mm, >= 0) of c.
-  bool Forbids(const Vec3& c, double radius) const;
+  // No finishing ball may be centred within `radius` (mm, >= 0) of c where that is at most `above` higher
+  // than c. Flat ground is forbidden by a shank in large pieces, however little it is in its way.
+  bool Forbids(const Vec3& c, double radius, double above) const;
+  bool Forbids(const Vec3& c, double radius) const { return Forbids(c, radius, radius); }
   // Centre height from which on the tool may be anywhere over the rectangle with corners a and b and sides
   // along x and y, as far as obstacles and avoided patches go; some mm more where obstacles have hollows.
   // -infinity: at any.

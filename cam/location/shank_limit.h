@@ -13,24 +13,32 @@ namespace patchmill {
 class ShankLimit {
  public:
   // Keeps `keep` (mm) off `surface`, which must stay: a cylinder that much wider, that begins so much lower.
-  // Answers are right to `proof` (mm).
-  ShankLimit(const Surface& surface, const WideShank& shank, double keep, double proof)
-      : surface_(&surface), radius_(shank.radius + keep), rise_(shank.rise - keep), proof_(proof) {}
+  // Answers are right to `proof` (mm), of moves that climb or fall to `slope` (mm).
+  ShankLimit(const Surface& surface, const WideShank& shank, double keep, double proof, double slope)
+      : surface_(&surface),
+        radius_(shank.radius + keep),
+        rise_(shank.rise - keep),
+        proof_(proof),
+        slope_(slope) {}
 
+  // The highest point of `surface` may be in it while the centre is no lower than this.
+  bool MayTouch(double lowest_center) const { return surface_->box.max.z() > lowest_center + rise_; }
   // Along the whole straight move of the centre the shank is nowhere deeper in than `give` (mm). Cost: some
-  // microseconds; more where it is nearly so.
+  // microseconds; a move along the limit as often as it changes height by `slope`, and a column as wide as a
+  // bore milliseconds.
   bool Clears(const Vec3& a, const Vec3& b, double give) const;
-  // Nowhere within `radius` (mm, >= 0) of the centre c is it out of the surface.
-  bool Forbids(const Vec3& c, double radius) const;
+  // Wherever the centre is within `beside` of c in plan and at most `above` higher (mm, >= 0), the surface is
+  // in it.
+  bool Forbids(const Vec3& c, double beside, double above) const;
   // Lowest centre over q where the shank is no deeper in than `give`, if that is above `from` (mm);
   // -infinity otherwise. To `gap` (mm).
   double LowestOver(const Vec2& q, double give, double from, double gap) const;
 
  private:
-  bool Hits(const Vec2& a, const Vec2& b, double center_z, double give) const;
+  bool Hits(const Vec2& a, const Vec2& b, double radius, double bottom) const;
 
   const Surface* surface_;
-  double radius_, rise_, proof_;
+  double radius_, rise_, proof_, slope_;
 };
 
 }  // namespace patchmill

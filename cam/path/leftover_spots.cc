@@ -182,18 +182,19 @@ SidesRuledOut SpotFinder::ForbiddenSides(const RectPlaces& places) const {
   const double turn = BendOver(places.n);
   for (std::size_t side = 0; side < 2; ++side) {
     const double sign = side == 0 ? 1.0 : -1.0;
-    double highest_normal = -1.0, spread = 0.0, lowest_center = kInfinity;
+    double highest_normal = -1.0, spread = 0.0, lowest_center = kInfinity, highest_center = -kInfinity;
     std::array<Vec3, 9> c;
     for (std::size_t k = 0; k < 9; ++k) {
       c[k] = places.p[k] + sign * radius_ * places.n[k];
       lowest_center = std::min(lowest_center, c[k].z());
+      highest_center = std::max(highest_center, c[k].z());
       highest_normal = std::max(highest_normal, sign * places.n[k].z());
       spread = std::max(spread, (c[k] - places.p[8] - sign * radius_ * places.n[8]).norm());
     }
     const double bend = BendOver(c);
     ruled_out[side] = highest_normal + turn < -kUprightFace ||
                       params_.keep_in->TooHigh(lowest_center - bend) ||
-                      params_.keep_in->Forbids(c[8], spread + bend);
+                      params_.keep_in->Forbids(c[8], spread + bend, highest_center - c[8].z() + bend);
   }
   return ruled_out;
 }

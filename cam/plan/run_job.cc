@@ -91,6 +91,9 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const KeepIn
   p.approach_gap = std::max(job.operation.approach_gap, job.operation.tolerance);
   p.low_rapids = job.operation.low_rapids;
   p.tool_radius = WidestRadius(job.operation.tool);
+  if (const auto shank = WideShankOf(job.operation.tool)) {
+    p.shank_lower = std::max(0.0, job.operation.leave - shank->rise);
+  }
   p.feed = job.operation.tool.feed;
   p.plunge_feed = job.operation.tool.plunge_feed;
   p.contour_direction = job.operation.contour_direction;
@@ -181,17 +184,16 @@ Diagnostic NothingToCut(std::span<const Region> regions, const Resolved& resolve
   const std::string scale = fmt::format("--scale ({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor",
                                         size.x(), size.y(), size.z());
   const std::string limits = "the selection, the boundary, the regions, --top and the obstacles";
+  std::string shares;
+  if (avoided > 0.0) shares += fmt::format(", {:.0f} % of it is AVOIDED", 100.0 * avoided / all);
+  if (shank > 0.0) shares += fmt::format(", the shank touches for {:.0f} %", 100.0 * shank / all);
+  std::string look = limited ? scale + ", then " + limits : scale;
+  if (avoided > 0.5 * all) look = limits + ", then " + scale;
+  if (shank > 0.5 * all) look = "the length of flutes and the shank, then " + scale;
   return Warning(
       "NOTHING_TO_CUT",
       fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm{}: check {}",
-                  limited ? "that is wanted" : "of the model", 2.0 * resolved.radius,
-                  avoided > 0.0 ? fmt::format(" ({:.0f} % of it is AVOIDED)", 100.0 * avoided / all)
-                  : shank > 0.0 ? fmt::format(" (the shank touches for {:.0f} % of it)", 100.0 * shank / all)
-                                : "",
-                  shank > 0.5 * all     ? "the length of flutes and the shank, then " + scale
-                  : avoided > 0.5 * all ? limits + ", then " + scale
-                  : limited             ? scale + ", then " + limits
-                                        : scale));
+                  limited ? "that is wanted" : "of the model", 2.0 * resolved.radius, shares, look));
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ namespace patchmill {
 class SegmentTree {
  public:
   // Long segments are cut, so that their boxes are slim: no longer than `longest` mm, or more when that would
-  // make more than about two million of them; those of Metric::kSweptBox, which are boxes, are not.
-  // `shank_radius` only for Metric::kShank and kShankBox. A cancelled run leaves a tree that is right but
-  // slow. About 0.2 us and 90 bytes a segment.
+  // make more than about two million of them; those of Metric::kSweptBox and kShankBox, which are boxes, are
+  // not. `shank_radius` only for Metric::kShank and kShankBox. A cancelled run leaves a tree that is right
+  // but slow. About 0.2 us and 90 bytes a segment.
   SegmentTree(std::vector<PathSegment> segments, Metric metric, double longest, const RunContext& run,
               double shank_radius = 0.0);
 

@@ -92,8 +92,8 @@ bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& fac
                const ReachParams& params, Obstacles& obstacles);
 
 // How far above the ball's centre the shank would have to begin (WideShank::rise) for a point that only it
-// keeps from being reached, mm; `known` where that is no more, or something else is in the way too. From
-// above, to 0.02 of params.give.
+// keeps from being reached, mm; `known` where that is no more, or something else is in the way too. To
+// 0.02 of params.give.
 double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                   double known);
 

@@ -202,8 +202,8 @@ class Judge {
       report_.max_gouge_at = Place(found.worst);
     }
     ReportPlaces("SHANK_GOUGE", found.violations, "the shank stands in the surface");
-    const SegmentTree boxes(CollectMoves(motion_, MotionSet::kDogLegs, offset_ + up), Metric::kShankBox,
-                            radius_, run_, shank->radius);
+    const SegmentTree boxes(OtherDogLegs(found, offset_ + up), Metric::kShankBox, radius_, run_,
+                            shank->radius);
     PM_ASSIGN_OR_RETURN(const Extremes beside, FindGouge(surface_, roots_, boxes, p, run_, "verify: shank"));
     if (!beside.violations.empty()) shank_may_hit_ = true;
     ReportPlaces("RAPID_DOG_LEG", beside.violations,
@@ -286,7 +286,9 @@ class Judge {
       report_.finishing_floor_z = std::min(report_.finishing_floor_z.value_or(kInfinity), floor_z);
     }
     if (std::isfinite(areas.highest_rise)) {
-      const double flutes = std::ceil((areas.highest_rise + ball_) * 1e3) / 1e3;
+      // Beside a wall the ball may stand lower by what reach gives.
+      const double needed = areas.highest_rise + ReachGive(params_.tolerance) + ball_;
+      const double flutes = std::ceil(std::max(needed, *tool_.flute_length) * 1e3) / 1e3;
       report_.finishing_flute_length = std::max(report_.finishing_flute_length.value_or(0.0), flutes);
     }
     for (std::size_t k = 0; k < at(FinishClass::kUnwanted); ++k) report_.total_area += areas.area[k];
@@ -317,6 +319,16 @@ class Judge {
     return absl::OkStatus();
   }
 
+  // Of the moves that are not among those found already.
+  std::vector<PathSegment> OtherDogLegs(const Extremes& found, const Vec3& offset,
+                                        double clear_z = kInfinity) const {
+    std::vector<bool> known(motion_.moves.size(), false);
+    for (const Extreme& e : found.violations) known[static_cast<std::size_t>(e.move)] = true;
+    std::vector<PathSegment> dog_legs = CollectMoves(motion_, MotionSet::kDogLegs, offset, clear_z);
+    std::erase_if(dog_legs, [&](const PathSegment& s) { return known[static_cast<std::size_t>(s.move)]; });
+    return dog_legs;
+  }
+
   absl::Status JudgeRapids() {
     GougeParams p;
     p.radius = ball_ + params_.allowance - kRapidSlack;
@@ -328,11 +340,7 @@ class Judge {
                            radius_, run_);
     PM_ASSIGN_OR_RETURN(Extremes found, FindGouge(surface_, roots_, tree, p, run_, "verify: rapids"));
     ReportPlaces("RAPID_IN_STOCK", found.violations, "a rapid enters the stock");
-    std::vector<bool> known(motion_.moves.size(), false);
-    for (const Extreme& e : found.violations) known[static_cast<std::size_t>(e.move)] = true;
-    std::vector<PathSegment> dog_legs = CollectMoves(motion_, MotionSet::kDogLegs, offset_, clear_z);
-    std::erase_if(dog_legs, [&](const PathSegment& s) { return known[static_cast<std::size_t>(s.move)]; });
-    const SegmentTree boxes(std::move(dog_legs), Metric::kSweptBox, radius_, run_);
+    const SegmentTree boxes(OtherDogLegs(found, offset_, clear_z), Metric::kSweptBox, radius_, run_);
     PM_ASSIGN_OR_RETURN(const Extremes beside, FindGouge(surface_, roots_, boxes, p, run_, "verify: rapids"));
     ReportPlaces("RAPID_DOG_LEG", beside.violations,
                  "a control that does not drive all axes together may take a rapid into the stock");

@@ -81,8 +81,9 @@ struct VerifyReport {
   // Lowest tip that a place unreachable for FLOOR needs, placed frame, to about 0.001 mm and rounded down to
   // it: with this floor (almost) nothing is left for that reason. Absent: nothing is.
   std::optional<double> finishing_floor_z;
-  // Length of flutes with which a shank as wide keeps the ball from (almost) nothing, mm, to about 0.001 and
-  // rounded up to it. Absent: it keeps it from nothing now.
+  // Length of flutes with which a shank as wide keeps the ball from (almost) nothing, mm: half of the
+  // tolerance more than what was found to need most, to about 0.001 and rounded up to it. Absent: it keeps it
+  // from nothing now.
   std::optional<double> finishing_flute_length;
   // mm^2 of reachable ground with a scallop, by leftover: good to 1 % of their sum. Passes as wide apart as a
   // scallop allows leave the roots of the edges, 50, 71 and 87 % of the ground below each; more there is

@@ -30,7 +30,7 @@ class ShankOverABlock : public ::testing::TestWithParam<double> {
  protected:
   const Surface surface_ = SurfaceOf(Block(kHalf, kTop, 40));
   const double keep_ = GetParam();
-  const ShankLimit limit_{surface_, WideShank{kRadius, kRise}, keep_, kProof};
+  const ShankLimit limit_{surface_, WideShank{kRadius, kRise}, keep_, kProof, kProof};
 };
 
 TEST_P(ShankOverABlock, CentresMovesAndBalls) {
@@ -44,9 +44,16 @@ TEST_P(ShankOverABlock, CentresMovesAndBalls) {
     }
     const double around = random.Uniform(0.0, 4.0);
     if (std::abs(depth - around) > 2.0 * kProof) {
-      EXPECT_EQ(limit_.Forbids(c, around), depth > around) << c.transpose();
+      EXPECT_EQ(limit_.Forbids(c, around, around), depth > around) << c.transpose();
     }
     forbidden += depth > around;
+    // Higher and to the side by different lengths.
+    const double above = random.Uniform(0.0, 4.0);
+    if (limit_.Forbids(c, around, above)) {
+      const double turn = random.Uniform(0.0, 2.0 * kPi), out = random.Unit() * around;
+      const Vec3 to = c + Vec3(out * std::cos(turn), out * std::sin(turn), random.Unit() * above);
+      EXPECT_GT(Depth(to, keep_), -2.0 * kProof) << c.transpose();
+    }
     // A move, by places along it.
     const Vec3 to = c + random.Uniform(0.0, 6.0) *
                             Vec3(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));

@@ -4,8 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/surface/closest.h"
+#include "tests/support/clock.h"
 #include "tests/support/jobs/limited_job.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {
@@ -75,7 +76,7 @@ TEST(WideShank, KeepsOffABlock) {
   ASSERT_TRUE(result.report.verify.finishing_flute_length);
   const double named = *result.report.verify.finishing_flute_length;
   EXPECT_GE(named, top);
-  EXPECT_LE(named, top + 0.0021);
+  EXPECT_LE(named, top + 0.0071);
   const JobResult longer = Mill(surface, ShankJob(shank, named, ball));
   ASSERT_EQ(longer.report.outcome, Outcome::kCompleteWhereReachable) << Describe(longer);
   EXPECT_EQ(longer.report.verify.unreachable_area[kShankArea], 0.0);
@@ -120,7 +121,8 @@ TEST(WideShank, KeepsOffTheFootOfADome) {
   // The tip of the ball that touches the foot is a ball below it; the shank ends on the dome.
   const double over = r + ball - shank;
   ASSERT_TRUE(result.report.verify.finishing_flute_length);
-  EXPECT_NEAR(*result.report.verify.finishing_flute_length, ball + std::sqrt(r * r - over * over), 0.002);
+  EXPECT_NEAR(*result.report.verify.finishing_flute_length, ball + std::sqrt(r * r - over * over) + 0.005,
+              0.002);
   EXPECT_LE(DeepestInShank(surface, job, result), 0.011);
 }
 
@@ -141,6 +143,44 @@ TEST(WideShank, KeepsTheMarginOfAvoidedPatches) {
   }
   EXPECT_NEAR(least, shank + margin, 0.02);
   EXPECT_NEAR(result.report.verify.unreachable_area[kShankArea], 2.0 * 40.0 * (shank - ball), 2.0);
+}
+
+// A margin wider than what the flutes rise over the wall, and than the ball: the shank's counts all the same,
+// on low rapids too.
+TEST(WideShank, KeepsAMarginAboveItsFlutes) {
+  const auto job_of = [](double flutes, double margin) {
+    Job job = ShankJob(4.0, flutes, 2.0);
+    job.operation.scallop = 0.1;
+    job.operation.selection.avoid = {"#1"};
+    job.operation.selection.avoid_margin = margin;
+    return job;
+  };
+  const Surface high =
+      PlacedSurface(Join({Plane(20), Single(Bilinear({5, -20, 0}, {5, 20, 0}, {5, -20, 17}, {5, 20, 17}))}));
+  EXPECT_TRUE(Mill(high, job_of(20.0, 5.0)).report.verify.ok());
+  const Surface low =
+      PlacedSurface(Join({Plane(25), Single(Bilinear({5, -5, 0}, {5, 5, 0}, {5, -5, 5}, {5, 5, 5}))}));
+  Job job = job_of(4.0, 6.0);
+  job.operation.low_rapids = true;
+  job.operation.clearance_above = 12.0;
+  const JobResult result = Mill(low, job);
+  EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
+}
+
+// A shank that ends a few microns below the top of a block, all along flat ground around it.
+TEST(WideShank, FlatGroundAlongItsLimitCostsLittle) {
+  const Surface surface = PlacedSurface(Block(6, 16, 14));
+  for (const double below : {0.0005, 0.0055, 0.0065}) {
+    SCOPED_TRACE(below);
+    const double before = ClockSeconds(CLOCK_PROCESS_CPUTIME_ID);
+    const JobResult result = Mill(surface, ShankJob(4.0, 16.0 - below, 2.0));
+    EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
+    const double area = result.report.verify.unreachable_area[kShankArea];
+    EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), area, 0.01 * area + 0.5);
+    if (!kSanitized) {
+      EXPECT_LT(ClockSeconds(CLOCK_PROCESS_CPUTIME_ID) - before, 15.0);
+    }
+  }
 }
 
 // Random sheets under random shanks: verified, and what was refused before has a program.
