@@ -19,6 +19,7 @@ constexpr double kSmallestCell = 0.001;  // of the radius: nor any others
 constexpr double kStrategyCell = 0.1;    // of the radius: excused cells are judged by their middle
 constexpr double kFar = 1.2;             // of the radius
 constexpr double kFarSlack = 0.02;
+constexpr double kShankProof = 0.02;  // of the give
 
 class LeftoverSearch {
  public:
@@ -156,6 +157,7 @@ class LeftoverSearch {
     const double spread = cell.radius + 1.25 * turn * params_.reach.radius;
     if (spread > params_.reach.radius) return false;
     if (OutsideHeights(cell, facing, 1.25 * turn)) return true;
+    if (UnderShank(cell, facing, 1.25 * turn)) return true;
     return BlockedDepth(surface_, cell.middle, facing, params_.reach, obstacles_) > spread;
   }
 
@@ -168,6 +170,22 @@ class LeftoverSearch {
                                                  [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
     if (high->z() + radius * highest < params_.reach.floor_z - params_.reach.give) return true;
     return TopRoomAt(params_.reach.limits, low->z() + radius * lowest) < 0.0;
+  }
+
+  // The shank is in the way of all centres over the cell, as flat ground has them at one height.
+  bool UnderShank(const SurfaceCell& cell, const Facing& facing, double turn) const {
+    const CenterLimits& limits = params_.reach.limits;
+    if (!limits.shank) return false;
+    const double radius = params_.reach.radius, beside = cell.radius + turn * radius;
+    const Vec3* high = std::max_element(cell.hull, cell.hull + cell.hull_count,
+                                        [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+    for (const Vec3& e : {facing.e, Vec3(-facing.e)}) {
+      Vec3 center = cell.middle + radius * e;
+      center.z() = high->z() + radius * std::min(1.0, e.z() + turn);
+      if (!ShankHitsAll(surface_, limits, center, beside, kShankProof * params_.reach.give)) return false;
+      if (!facing.both) return true;
+    }
+    return true;
   }
 
   const Surface& surface_;

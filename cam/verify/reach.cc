@@ -45,28 +45,17 @@ bool NearAvoided(const CenterLimits& limits, const Vec3& c, double proof) {
          AnythingNearUpwardRay(*limits.avoided, c, limits.avoid_distance + limits.within, proof);
 }
 
-// What of the surface stands in the shank over c, within `proof`; `keep` off it.
-std::optional<SurfacePoint> InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c,
-                                    double keep, double proof) {
+// Whether the surface stands, to `proof`, in a shank that keeps `keep` off it, whatever centre it is over
+// within `beside` of c in plan and no higher.
+bool InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c, double keep, double beside,
+             double proof) {
   const Vec2 q = Plan(c);
-  return AnyInColumn(surface, {q, q, limits.shank->radius + keep}, c.z() + limits.shank->rise - keep, proof);
+  const Column column{q, q, limits.shank->radius + keep - beside};
+  return AnyInColumn(surface, column, c.z() + limits.shank->rise - keep, proof).has_value();
 }
 
 bool ShankHits(const Surface& surface, const CenterLimits& limits, const Vec3& c, double proof) {
-  if (!limits.shank) return false;
-  if (InShank(surface, limits, c, limits.shank_keep + limits.within, proof)) return true;
-  return limits.avoided != nullptr &&
-         InShank(*limits.avoided, limits, c, limits.avoid_distance - limits.ball + limits.within, proof);
-}
-
-// A lower bound of how deep the surface is in the shank, mm; 0 where it is not, or by less than the least of
-// what is tried.
-double ShankDepth(const Surface& surface, const CenterLimits& limits, const Vec3& c, double keep,
-                  double radius) {
-  for (const double depth : {0.5 * radius, 0.1 * radius, kCoarse * radius}) {
-    if (InShank(surface, limits, c, keep - depth, 0.5 * kCoarse * radius)) return depth;
-  }
-  return 0.0;
+  return ShankHitsAll(surface, limits, c, 0.0, proof);
 }
 
 Vec3 FromRay(const Vec3& p, const Vec3& c) {
@@ -290,6 +279,14 @@ double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, c
   return needed < kInfinity ? needed : known;
 }
 
+bool ShankHitsAll(const Surface& surface, const CenterLimits& limits, const Vec3& center, double beside,
+                  double proof) {
+  if (!limits.shank) return false;
+  if (InShank(surface, limits, center, limits.shank_keep + limits.within, beside, proof)) return true;
+  const double margin = limits.avoid_distance - limits.ball + limits.within;
+  return limits.avoided != nullptr && InShank(*limits.avoided, limits, center, margin, beside, proof);
+}
+
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                     Obstacles& obstacles) {
   const double limit = params.radius - params.give;
@@ -305,13 +302,6 @@ double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing,
       const double keep = params.limits.avoid_distance;
       const auto avoided = ClosestToUpwardRay(*params.limits.avoided, c, keep, kCoarse * params.radius);
       if (avoided) here = std::max(here, keep - avoided->distance);
-    }
-    if (params.limits.shank) {
-      here = std::max(here, ShankDepth(surface, params.limits, c, params.limits.shank_keep, params.radius));
-      if (params.limits.avoided != nullptr) {
-        const double margin = params.limits.avoid_distance - params.limits.ball;
-        here = std::max(here, ShankDepth(*params.limits.avoided, params.limits, c, margin, params.radius));
-      }
     }
     depth = std::min(depth, here);
   }

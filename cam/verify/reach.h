@@ -97,8 +97,13 @@ bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& fac
 double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                   double known);
 
-// How far the centre may move and the point still cannot be reached: > 0 only for an unreachable point; a
-// lower bound (mm).
+// Wherever the ball is centred within `beside` (mm) of `center` in plan and no higher, the surface stands in
+// the shank. Known to `proof`.
+bool ShankHitsAll(const Surface& surface, const CenterLimits& limits, const Vec3& center, double beside,
+                  double proof);
+
+// How far the centre may move and the point still cannot be reached, the shank left out: > 0 only for an
+// unreachable point; a lower bound (mm).
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                     Obstacles& obstacles);
 
