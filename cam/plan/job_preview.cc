@@ -12,8 +12,8 @@ namespace patchmill {
 namespace {
 
 // Mountain red, basin blue, neutral green; steep stronger than gentle; out of reach grey, violet where the
-// ball is too large, brown below the floor; what forced passes leave yellow; neighbours of one class differ a
-// little in lightness.
+// ball is too large, brown below the floor, teal under a wide shank; what forced passes leave yellow;
+// neighbours of one class differ a little in lightness.
 std::string Color(const Region& region, int nth) {
   int rgb[3];
   const bool steep = region.slope == SlopeClass::kSteep;
@@ -35,6 +35,7 @@ std::string Color(const Region& region, int nth) {
     case RegionKind::kUnreachable:
       region.reason == UnreachableReason::kConcave ? set(150, 120, 165)
       : region.reason == UnreachableReason::kFloor ? set(165, 150, 105)
+      : region.reason == UnreachableReason::kShank ? set(95, 145, 140)
                                                    : set(120, 120, 120);
       break;
   }
