@@ -8,7 +8,7 @@
 namespace patchmill {
 
 bool ShankLimit::Hits(const Vec2& a, const Vec2& b, double radius, double bottom) const {
-  return AnyInColumn(*surface_, {a, b, radius}, bottom, proof_).has_value();
+  return AnyInColumn(*surface_, {a, b, radius}, bottom, proof_);
 }
 
 bool ShankLimit::Clears(const Vec3& a, const Vec3& b, double give) const {

@@ -51,7 +51,7 @@ bool InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c, 
              double proof) {
   const Vec2 q = Plan(c);
   const Column column{q, q, limits.shank->radius + keep - beside};
-  return AnyInColumn(surface, column, c.z() + limits.shank->rise - keep, proof).has_value();
+  return AnyInColumn(surface, column, c.z() + limits.shank->rise - keep, proof);
 }
 
 bool ShankHits(const Surface& surface, const CenterLimits& limits, const Vec3& c, double proof) {

@@ -39,6 +39,11 @@ class Search {
     half_ = 0.5 * (column.a - column.b).cwiseAbs();
   }
 
+  // The column so much narrower has this point higher than so much more: no search can miss such a one.
+  bool IsSure(const Vec3& p) const {
+    return !TooLow(p.z()) && (Plan(p) - NearestOnSegment(column_.a, column_.b, Plan(p))).norm() < reach_;
+  }
+
   std::optional<SurfacePoint> Run() {
     if (!(reach_ > 0.0) || !middle_.allFinite() || !half_.allFinite()) return std::nullopt;
     WalkNearestFirst(
@@ -265,9 +270,23 @@ std::optional<SurfacePoint> HighestInColumn(const Surface& surface, const Column
   return Search(surface, column, above, tolerance, false).Run();
 }
 
-std::optional<SurfacePoint> AnyInColumn(const Surface& surface, const Column& column, double above,
-                                        double tolerance) {
-  return Search(surface, column, above, tolerance, true).Run();
+bool AnyInColumn(const Surface& surface, const Column& column, double above, double tolerance) {
+  // What was found lately is mostly in the way of neighbours too. Of whatever surface it was: what counts is
+  // where that place of this one is.
+  constexpr std::size_t kKept = 8;
+  thread_local std::array<SurfacePoint, kKept> kept;
+  thread_local std::size_t found_count = 0;
+  Search search(surface, column, above, tolerance, true);
+  for (std::size_t k = 0; k < std::min(found_count, kKept); ++k) {
+    const SurfacePoint& at = kept[k];
+    if (at.piece.index() < surface.pieces.size() && search.IsSure(at.p) &&
+        search.IsSure(Position(surface.piece(at.piece), at.u, at.v))) {
+      return true;
+    }
+  }
+  const auto found = search.Run();
+  if (found) kept[found_count++ % kKept] = *found;
+  return found.has_value();
 }
 
 }  // namespace patchmill

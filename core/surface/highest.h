@@ -24,8 +24,9 @@ struct Column {
 // as high.
 std::optional<SurfacePoint> HighestInColumn(const Surface& surface, const Column& column, double above,
                                             double tolerance);
-// The first such point that is found, not the highest: whether there is any.
-std::optional<SurfacePoint> AnyInColumn(const Surface& surface, const Column& column, double above,
-                                        double tolerance);
+// Whether there is any such point: true with one found, false proves that there is none in the column so much
+// narrower that is so much higher than `above`. Points that were found lately are tried first; the answer
+// does not depend on them.
+bool AnyInColumn(const Surface& surface, const Column& column, double above, double tolerance);
 
 }  // namespace patchmill
