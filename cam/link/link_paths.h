@@ -23,9 +23,10 @@ struct LinkParams {
   double allowance = 0.5;    // mm of stock along the normal
   // Rapids between passes as low as they are proven clear of the stock, not at the clearance plane.
   bool low_rapids = false;
-  double tool_radius = 0.0;              // mm, the wider one of ball and shank; only low rapids ask
-  double shank_lower = 0.0;              // mm, that a wide shank begins below the ball's centre; as well
-  double approach_gap = 1.0;             // mm: clear means allowance + gap from the surface
+  double tool_radius = 0.0;   // mm, the wider one of ball and shank; only low rapids ask
+  double shank_lower = 0.0;   // mm, how far below the ball's centre a wide shank begins, the stock to leave
+                              // counted in; mostly 0. Only low rapids ask
+  double approach_gap = 1.0;  // mm: clear means allowance + gap from the surface
   double feed = 0.0, plunge_feed = 0.0;  // mm/min
   double plunge_angle = Radians(30.0);   // descents steeper than this run at plunge feed
   CutDirection contour_direction = CutDirection::kClimb;

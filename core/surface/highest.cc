@@ -34,14 +34,16 @@ class Search {
   Search(const Surface& surface, const Column& column, double above, double tolerance, bool any)
       : surface_(surface), column_(column), any_(any), known_(above), middle_(0.5 * (column.a + column.b)) {
     const double extent = std::max(column.a.cwiseAbs().maxCoeff(), column.b.cwiseAbs().maxCoeff());
-    tolerance_ = std::max(tolerance, 1e-12 * (surface.scale + extent));
+    rounding_ = 1e-12 * (surface.scale + extent);
+    tolerance_ = std::max(tolerance, rounding_);
     reach_ = column.radius - tolerance_;
     half_ = 0.5 * (column.a - column.b).cwiseAbs();
   }
 
   // The column so much narrower has this point higher than so much more: no search can miss such a one.
   bool IsSure(const Vec3& p) const {
-    return !TooLow(p.z()) && (Plan(p) - NearestOnSegment(column_.a, column_.b, Plan(p))).norm() < reach_;
+    return !TooLow(p.z() - rounding_) &&
+           (Plan(p) - NearestOnSegment(column_.a, column_.b, Plan(p))).norm() < reach_ - rounding_;
   }
 
   std::optional<SurfacePoint> Run() {
@@ -256,7 +258,7 @@ class Search {
   double known_;  // mm: what is not higher does not count
   const Vec2 middle_;
   Vec2 half_;
-  double tolerance_ = 0.0, reach_ = 0.0;
+  double rounding_ = 0.0, tolerance_ = 0.0, reach_ = 0.0;
   std::optional<SurfacePoint> best_;
   // Of the leaf at hand.
   PieceId piece_;
