@@ -185,8 +185,13 @@ Diagnostic NothingToCut(std::span<const Region> regions, const Resolved& resolve
                                         size.x(), size.y(), size.z());
   const std::string limits = "the selection, the boundary, the regions, --top and the obstacles";
   std::string shares;
-  if (avoided > 0.0) shares += fmt::format(", {:.0f} % of it is AVOIDED", 100.0 * avoided / all);
-  if (shank > 0.0) shares += fmt::format(", the shank touches for {:.0f} %", 100.0 * shank / all);
+  const auto tell = [&](double area, const char* reason) {
+    if (!(area > 0.0)) return;
+    shares += fmt::format("{}{:.0f} % of it is {}", shares.empty() ? " (" : ", ", 100.0 * area / all, reason);
+  };
+  tell(avoided, Name(UnreachableReason::kAvoided));
+  tell(shank, Name(UnreachableReason::kShank));
+  if (!shares.empty()) shares += ")";
   std::string look = limited ? scale + ", then " + limits : scale;
   if (avoided > 0.5 * all) look = limits + ", then " + scale;
   if (shank > 0.5 * all) look = "the length of flutes and the shank, then " + scale;

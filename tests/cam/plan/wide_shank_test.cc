@@ -211,7 +211,8 @@ TEST(WideShank, WhereNothingIsLeftItIsNamed) {
   EXPECT_EQ(result.report.outcome, Outcome::kNothingToCut);
   const auto& found = result.report.diagnostics;
   EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Diagnostic& d) {
-    return d.code == "NOTHING_TO_CUT" && d.message.find("length of flutes") != std::string::npos;
+    return d.code == "NOTHING_TO_CUT" &&
+           d.message.find("% of it is SHANK): check the length of flutes") != std::string::npos;
   }));
 }
 
