@@ -18,7 +18,8 @@ enum class Mending { kBest, kCenters };
 // through it, else from free centre to free centre of the spots around it; a spot that none of these reaches
 // is plunged to from above, from where the open spots over it end. Where the ball has no room (slots, holes
 // of its own size) free centres and plunges are all there is: they may gouge by a tenth of
-// params.chord_tolerance. Spots a pass has mended on its way need none of their own. Every pass is certified
+// params.chord_tolerance. Of a pass only what params.keep_in allows is kept (ClipToKeepIn)
+// and counts. Spots a pass has mended on its way need none of their own. Every pass is certified
 // to params.chord_tolerance.
 absl::StatusOr<std::vector<CutterPath>> MendSpots(const Locator& locator,
                                                   const std::vector<LeftoverSpot>& spots,

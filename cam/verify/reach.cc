@@ -54,10 +54,6 @@ bool InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c, 
   return AnyInColumn(surface, column, c.z() + limits.shank->rise - keep, proof);
 }
 
-bool ShankHits(const Surface& surface, const CenterLimits& limits, const Vec3& c, double proof) {
-  return ShankHitsAll(surface, limits, c, 0.0, proof);
-}
-
 Vec3 FromRay(const Vec3& p, const Vec3& c) {
   return {p.x() - c.x(), p.y() - c.y(), std::min(p.z() - c.z(), 0.0)};
 }
@@ -197,7 +193,7 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
       found = ReachClass::kFloor;
     } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.give)) {
       found = ReachClass::kAvoided;
-    } else if (ShankHits(surface, params.limits, c, kProof * params.give)) {
+    } else if (ShankHitsAll(surface, params.limits, c, 0.0, kProof * params.give)) {
       found = ReachClass::kShank;
     }
     if (found == ReachClass::kReachable) return found;
@@ -240,7 +236,7 @@ bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& fac
   const double proof = kProof * params.give;
   const Vec3 center = at.p + params.radius * facing.e;
   if (!facing.both && RoomAt(moved.limits, center) >= 0.0 && !NearAvoided(moved.limits, center, proof) &&
-      !ShankHits(surface, moved.limits, center, proof)) {
+      !ShankHitsAll(surface, moved.limits, center, 0.0, proof)) {
     return true;
   }
   if (ReachOn(surface, at, facing, moved, obstacles) == ReachClass::kReachable) return true;

@@ -7,26 +7,16 @@
 #include "core/base/status.h"
 #include "core/surface/box_distance.h"
 #include "core/surface/distance_form.h"
-#include "core/surface/net_kernel.h"
+#include "core/surface/net_cell.h"
 #include "core/surface/node_walk.h"
 
 namespace patchmill {
 namespace {
 
-// A cell is halved at most this often below its leaf; the sides are then below rounding.
-constexpr int kMaxHalvings = 90;
 // Nets with more points than this get the distance polynomial only after so many halvings: its cost grows
 // with the square of the points.
 constexpr int kLargeNet = 40;
 constexpr int kHalvingsBeforeLargeForm = 1;
-
-// Two nets per halving, reused by every query of a thread.
-Vec4* CellBuffer(int halving, int count) {
-  thread_local std::array<std::vector<Vec4>, kMaxHalvings + 1> buffers;
-  std::vector<Vec4>& buffer = buffers[static_cast<std::size_t>(halving)];
-  if (buffer.size() < 2 * static_cast<std::size_t>(count)) buffer.resize(2 * static_cast<std::size_t>(count));
-  return buffer.data();
-}
 
 // Boxes that do not rise above c are infinitely far away.
 void LeaveBelow(const BoxNode& node, const Vec3& c, std::array<double, 4>& squared) {
@@ -64,12 +54,6 @@ class Search {
   }
 
  private:
-  struct Cell {
-    const Vec4* points;  // relative to c_
-    double u0, u1, v0, v1;
-    int halvings;
-  };
-
   // What is not nearer than this need not be looked at.
   double Target() const { return std::min(limit_, best_ ? best_->distance : kInfinity) - tolerance_; }
   bool Excluded(double squared) const {
@@ -97,17 +81,11 @@ class Search {
       Improve(0.5 * (leaf.u0 + leaf.u1), 0.5 * (leaf.v0 + leaf.v1));
       if (Done()) return;
     }
-    Vec4* points = CellBuffer(0, shape_.count());
-    for (int i = 0; i < shape_.count(); ++i) {
-      points[i] = net.points[static_cast<std::size_t>(i)];
-      points[i].head<3>() -= points[i].w() * c_;
-    }
-    RestrictNet(shape_, points, leaf.u0, leaf.u1, leaf.v0, leaf.v1);
-    VisitCell({points, leaf.u0, leaf.u1, leaf.v0, leaf.v1, 0}, max_z - c_.z());
+    VisitCell(LeafCell(net, leaf, c_), max_z - c_.z());
   }
 
   // The cell's boxes have not excluded it. z_max bounds its height relative to c.
-  void VisitCell(const Cell& cell, double z_max) {
+  void VisitCell(const NetCell& cell, double z_max) {
     bool along_u = true;
     if (shape_.count() > kLargeNet && cell.halvings < kHalvingsBeforeLargeForm) {
       const NetBend bend = MeasureBend(shape_, cell.points, Vec3::UnitZ(), kInfinity);
@@ -121,7 +99,7 @@ class Search {
 
   // True when the distance polynomial proves the cell free of nearer points, if need be after finding a
   // nearer one. Otherwise says along which parameter to halve.
-  bool ExcludedByForm(const Cell& cell, double z_max, bool& along_u) {
+  bool ExcludedByForm(const NetCell& cell, double z_max, bool& along_u) {
     // Above its start the ray is a vertical line; the line is never farther than the ray. (A rim at the very
     // height of the start counts as below: the two distances differ by less than the rounding slack.)
     const bool horizontal = kReach == Reach::kUpwardRay && z_max > 0.5 * rounding_;
@@ -150,20 +128,11 @@ class Search {
     return false;
   }
 
-  void VisitHalves(const Cell& cell, bool along_u) {
-    const int halvings = cell.halvings + 1, count = shape_.count();
-    std::array<Cell, 2> part{cell, cell};
-    Vec4* low = CellBuffer(halvings, count);
-    Vec4* high = low + count;
-    HalveNet(shape_, cell.points, along_u, low, high);
-    part[0].points = low;
-    part[1].points = high;
-    (along_u ? part[0].u1 : part[0].v1) = (along_u ? part[1].u0 : part[1].v0) =
-        along_u ? 0.5 * (cell.u0 + cell.u1) : 0.5 * (cell.v0 + cell.v1);
+  void VisitHalves(const NetCell& cell, bool along_u) {
+    const std::array<NetCell, 2> part = Halves(shape_, cell, along_u);
     std::array<double, 2> squared;
     std::array<Box3, 2> box;
     for (std::size_t k = 0; k < 2; ++k) {
-      part[k].halvings = halvings;
       std::array<Vec3, kMaxNetPoints> hull;
       const int hull_count = HullPoints(shape_, part[k].points, hull.data());
       const RectBounds bounds = BoundPoints(shape_, part[k].points, hull.data(), hull_count);
@@ -229,7 +198,7 @@ class Search {
   double rounding_;
   double tolerance_;
   std::optional<ClosestPoint> best_;
-  // Of the leaf at hand.
+  // Of the leaf at hand; cells are relative to c_.
   PieceId piece_;
   NetShape shape_;
   bool rational_ = false;

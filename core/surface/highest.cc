@@ -3,25 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
-#include "core/surface/net_kernel.h"
+#include "core/surface/net_cell.h"
 #include "core/surface/node_walk.h"
 
 namespace patchmill {
 namespace {
 
-// A cell is halved at most this often below its leaf; the sides are then below rounding.
-constexpr int kMaxHalvings = 90;
-constexpr int kMostSlopes = 6;
-
-// Two nets per halving, reused by every query of a thread.
-Vec4* CellBuffer(int halving, int count) {
-  thread_local std::array<std::vector<Vec4>, kMaxHalvings + 1> buffers;
-  std::vector<Vec4>& buffer = buffers[static_cast<std::size_t>(halving)];
-  if (buffer.size() < 2 * static_cast<std::size_t>(count)) buffer.resize(2 * static_cast<std::size_t>(count));
-  return buffer.data();
-}
+constexpr int kMostSlopes = 6;  // looked at for the height of a hull inside the column
 
 Vec2 NearestOnSegment(const Vec2& a, const Vec2& b, const Vec2& p) {
   const Vec2 d = b - a;
@@ -59,12 +48,6 @@ class Search {
   }
 
  private:
-  struct Cell {
-    const Vec4* points;
-    double u0, u1, v0, v1;
-    int halvings;
-  };
-
   bool TooLow(double z) const { return !(z > known_ + tolerance_); }
   bool Done() const { return any_ && best_.has_value(); }
 
@@ -83,7 +66,7 @@ class Search {
   }
 
   // By the summed steps of the net, which a net that closes upon itself has too.
-  bool LongerAlongU(const Cell& cell, const Vec3* hull, int count) const {
+  bool LongerAlongU(const NetCell& cell, const Vec3* hull, int count) const {
     if (count < shape_.count()) {
       const NetBend bend = MeasureBend(shape_, cell.points, Vec3::UnitZ(), kInfinity);
       return bend.length_u >= bend.length_v;
@@ -146,7 +129,7 @@ class Search {
 
   // Nothing of the cell is in the column and higher than what is known. `top`: a bound of its height, made
   // tighter; `along_u`: the longer way.
-  bool Excluded(const Cell& cell, Top& top, bool& along_u) const {
+  bool Excluded(const NetCell& cell, Top& top, bool& along_u) const {
     std::array<Vec3, kMaxNetPoints> hull;
     std::array<double, kMaxNetPoints> x;
     const int count = HullPoints(shape_, cell.points, hull.data());
@@ -170,7 +153,7 @@ class Search {
   }
 
   // Corners of a net are on the surface.
-  void TakeCorners(const Cell& cell) {
+  void TakeCorners(const NetCell& cell) {
     const int row = shape_.degree_v + 1;
     for (int k = 0; k < 4; ++k) {
       const Vec4& corner =
@@ -214,36 +197,24 @@ class Search {
     piece_ = leaf.piece;
     const BernsteinNet& net = surface_.piece(leaf.piece).net;
     shape_ = {net.degree_u, net.degree_v};
-    Vec4* points = CellBuffer(0, shape_.count());
-    std::copy_n(net.points.begin(), shape_.count(), points);
-    RestrictNet(shape_, points, leaf.u0, leaf.u1, leaf.v0, leaf.v1);
-    const Cell cell{points, leaf.u0, leaf.u1, leaf.v0, leaf.v1, 0};
+    const NetCell cell = LeafCell(net, leaf);
     Top top{max_z};
     bool along_u = true;
     if (!Excluded(cell, top, along_u)) Visit(cell, top, along_u);
   }
 
   // The cell is not excluded.
-  void Visit(const Cell& cell, const Top& top, bool along_u) {
+  void Visit(const NetCell& cell, const Top& top, bool along_u) {
     TakeCorners(cell);
     if (Done() || TooLow(top.z)) return;
     const double u = cell.u0 + top.at.x() * (cell.u1 - cell.u0),
                  v = cell.v0 + top.at.y() * (cell.v1 - cell.v0);
     Take({piece_, u, v, Position(surface_.piece(piece_), u, v)});
     if (Done() || TooLow(top.z) || cell.halvings >= kMaxHalvings) return;
-    const int halvings = cell.halvings + 1, count = shape_.count();
-    std::array<Cell, 2> part{cell, cell};
-    Vec4* low = CellBuffer(halvings, count);
-    Vec4* high = low + count;
-    HalveNet(shape_, cell.points, along_u, low, high);
-    part[0].points = low;
-    part[1].points = high;
-    (along_u ? part[0].u1 : part[0].v1) = (along_u ? part[1].u0 : part[1].v0) =
-        along_u ? 0.5 * (cell.u0 + cell.u1) : 0.5 * (cell.v0 + cell.v1);
+    const std::array<NetCell, 2> part = Halves(shape_, cell, along_u);
     std::array<Top, 2> tops{top, top};
     std::array<bool, 2> ways{true, true}, open{};
     for (std::size_t k = 0; k < 2; ++k) {
-      part[k].halvings = halvings;
       open[k] = !Excluded(part[k], tops[k], ways[k]);
     }
     const std::size_t first = tops[1].z > tops[0].z ? 1 : 0;
