@@ -1,343 +1,206 @@
 #include "cam/region/leftover.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
-#include <vector>
+#include <utility>
 
-#include "cam/location/free_center.h"
 #include "cam/region/reach.h"
 #include "core/base/status.h"
 
 namespace patchmill {
 namespace {
 
-constexpr double kHeightGap = 1e-3;   // of R: what heights are proven to
-constexpr double kSettledGap = 1e-5;  // the same at last
-constexpr double kStill = 1e-3;       // of R: a step this short ends a descent
-constexpr double kWorthwhile = 0.02;  // of the leftover: more than that much deeper is looked for
-constexpr double kFirstStep = 0.1, kLastStep = 1e-5;  // of R, of the last search
-constexpr int kMostLooks = 600;                       // of it
-constexpr int kMostRounds = 8;                        // of places looked through
-constexpr int kSteps = 30;
-constexpr int kMisses = 2;
-constexpr int kRing = 16;
-constexpr int kMostBetween = 6;         // halvings between two columns of a direction
-constexpr std::size_t kMostSpaces = 8;  // the latest; all triples of them are tried
-
-// The centre in the column over a place of the plane that is nearest to what is asked for.
-struct Column {
-  Vec3 center = Vec3::Zero();   // where none is allowed, the lowest that the surface alone would leave free
-  Vec3 normal = Vec3::UnitZ();  // of the free centres' border there, towards them
-  bool held = false;            // stands on that border
-  double distance = kInfinity;  // infinite: not allowed
-};
-
-// Free centres are those with normal . c >= offset, as far as one column tells.
-struct HalfSpace {
-  Vec3 normal;
-  double offset = 0.0;
-};
-
-double Outside(const HalfSpace& space, const Vec3& x) { return space.offset - space.normal.dot(x); }
-
-// The point nearest to p of what up to three of the half-spaces leave, when they alone decide it.
-std::optional<Vec3> Foot(std::span<const HalfSpace* const> active, const Vec3& p) {
-  const auto n = static_cast<Eigen::Index>(active.size());
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> normals(3, n);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> lack(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    normals.col(i) = active[static_cast<std::size_t>(i)]->normal;
-    lack[i] = Outside(*active[static_cast<std::size_t>(i)], p);
-  }
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> gram = normals.transpose() * normals;
-  if (gram.determinant() < 1e-9) return std::nullopt;
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> push = gram.inverse() * lack;
-  if (push.minCoeff() < 0.0) return std::nullopt;
-  return p + normals * push;
-}
-
-// The point of all half-spaces that is nearest to p; nullopt when rounding hides it.
-std::optional<Vec3> NearestIn(std::span<const HalfSpace> spaces, const Vec3& p, double slack) {
-  if (spaces.empty()) return p;
-  const auto try_these = [&](std::initializer_list<const HalfSpace*> active) -> std::optional<Vec3> {
-    const auto foot = Foot({active.begin(), active.size()}, p);
-    const auto in = [&](const HalfSpace& space) { return Outside(space, *foot) <= slack; };
-    return foot && std::all_of(spaces.begin(), spaces.end(), in) ? foot : std::nullopt;
-  };
-  for (const HalfSpace& a : spaces)
-    if (const auto foot = try_these({&a})) return foot;
-  for (std::size_t i = 0; i < spaces.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (const auto foot = try_these({&spaces[i], &spaces[j]})) return foot;
-  for (std::size_t i = 0; i < spaces.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      for (std::size_t k = 0; k < j; ++k)
-        if (const auto foot = try_these({&spaces[i], &spaces[j], &spaces[k]})) return foot;
-  return std::nullopt;
-}
-
-// Search for the free centre that is nearest to one place.
-class NearestCenter {
- public:
-  NearestCenter(const Locator& locator, const LeftoverParams& params, const Vec3& p)
-      : locator_(locator), params_(params), p_(p) {}
-
-  // From right above it; no distance: nothing is allowed there.
-  Column Above() const { return At(Plan(p_)); }
-
-  // Each column looked at adds the half-space that it knows; the next one is towards the point of all of them
-  // that is nearest to p. Exact in kinks, where two contacts hold the ball and coordinate searches stop.
-  Column Descend(Column at) const {
-    if (at.distance == kInfinity) return at;
-    const double slack = kStill * kStill * locator_.radius();
-    std::vector<HalfSpace> spaces;
-    // Where the border bends away from p, what is known at one place excludes free centres at another.
-    const auto excludes = [&](const HalfSpace& space) { return Outside(space, at.center) > slack; };
-    const auto learn = [&](const Column& column) {
-      if (column.held) {
-        if (spaces.size() == kMostSpaces) spaces.erase(spaces.begin());
-        spaces.push_back({column.normal, column.normal.dot(column.center)});
-      }
-      return std::erase_if(spaces, excludes) == 0 && column.held;
-    };
-    learn(at);
-    double share = 1.0;
-    int misses = 0;
-    for (int i = 0; i < kSteps; ++i) {
-      const auto foot = NearestIn(spaces, p_, slack);
-      if (!foot) break;
-      const Vec2 step = share * Plan(*foot - at.center);
-      if (step.norm() < kStill * locator_.radius()) break;
-      const Column next = At(Plan(at.center) + step);
-      const bool nearer = next.distance < at.distance;
-      if (nearer) at = next;
-      const bool told = learn(next);
-      misses = nearer ? 0 : misses + 1;
-      if (nearer) share = std::min(1.0, 2.0 * share);
-      if (misses > 0 && (!told || misses > kMisses)) share *= 0.5;
-    }
-    return at;
-  }
-
-  // On the side of a normal at p, pushed aside by what is in the way there: where no column beside that one
-  // is free.
-  Column Beside(const Vec3& normal, Column known) const {
-    const double radius = locator_.radius();
-    const auto center = FreeCenterNear(locator_, p_, normal, params_.floor_z + radius,
-                                       std::min(known.distance, 33.0 * radius) - radius);
-    if (!center || (params_.keep_in != nullptr && !params_.keep_in->Allows(*center))) return known;
-    const double distance = (*center - p_).norm();
-    if (distance >= known.distance) return known;
-    return {.center = *center, .normal = Vec3::UnitZ(), .held = false, .distance = distance};
-  }
-
-  // From all around, as far as something nearer than `known` may be.
-  Column FromAround(Column known) const {
-    const double farthest = 0.95 * std::min(known.distance, 33.0 * locator_.radius());
-    const double nearest = 0.12 * std::min(known.distance, locator_.radius());
-    std::vector<double> radii;
-    for (double radius = farthest; radius > nearest; radius *= 0.75) radii.push_back(radius);
-    std::array<Column, kRing> ring;  // the nearest of some columns in each direction
-    for (int i = 0; i < kRing; ++i) {
-      const double angle = 2.0 * kPi * i / kRing;
-      const Vec2 way(std::cos(angle), std::sin(angle));
-      Column& best = ring[static_cast<std::size_t>(i)];
-      // A column is no nearer than its radius.
-      Column inner;
-      double at = 0.0;  // its radius; 0: none
-      for (auto radius = radii.rbegin(); radius != radii.rend() && *radius < best.distance; ++radius) {
-        Column column = At(Plan(p_) + *radius * way);
-        const bool drops = at > 0.0 && column.distance < inner.distance;
-        if (drops) column = AlongRay(column);
-        if (column.distance < best.distance) best = column;
-        if (at > 0.0) Between(way, at, inner, *radius, column, kMostBetween, best);
-        inner = column;
-        at = *radius;
-      }
-    }
-    for (std::size_t i = 0; i < kRing; ++i) {
-      const double before = ring[(i + kRing - 1) % kRing].distance, after = ring[(i + 1) % kRing].distance;
-      if (ring[i].distance == kInfinity || ring[i].distance > before || ring[i].distance >= after) continue;
-      const Column found = Descend(ring[i]);
-      if (found.distance < known.distance) known = found;
-    }
-    return Polish(known);
-  }
-
-  // Eight ways around, ever closer: exact where a whole circle holds the ball, as on the rim of a hole or a
-  // dimple, where every descent by half-spaces ends beside the tip.
-  Column Settle(Column at) const {
-    if (at.distance == kInfinity) return at;
-    const double radius = locator_.radius();
-    double step = kFirstStep * radius;
-    for (int looks = 0; looks < kMostLooks && step > kLastStep * radius; looks += 8) {
-      Column best = at;
-      for (int k = 0; k < 8; ++k) {
-        const double angle = 0.25 * kPi * k;
-        const Column next = At(Plan(at.center) + step * Vec2(std::cos(angle), std::sin(angle)), kSettledGap);
-        if (next.distance < best.distance) best = next;
-      }
-      if (best.distance < at.distance) {
-        at = best;
-      } else {
-        step *= 0.5;
-      }
-    }
-    return at;
-  }
-
- private:
-  // What is nearer between two columns in one direction from p, where the ball drops beside what overhangs:
-  // right beside it, which no slope tells. Columns between are taken to stand no lower than the lower of the
-  // two.
-  void Between(const Vec2& way, double low, const Column& inner, double high, const Column& outer,
-               int halvings, Column& best) const {
-    if (halvings == 0 || inner.distance == kInfinity || outer.distance == kInfinity) return;
-    const double height = std::min(inner.center.z(), outer.center.z()) - p_.z();
-    if (std::hypot(low, height) >= (1.0 - kWorthwhile / 4.0) * best.distance) return;
-    const double radius = 0.5 * (low + high);
-    const Column middle = At(Plan(p_) + radius * way);
-    if (middle.distance < best.distance) best = middle;
-    Between(way, low, inner, radius, middle, halvings - 1, best);
-    Between(way, radius, middle, high, outer, halvings - 1, best);
-  }
-
-  // Around p and down again: along the foot of an upright wall, whose columns tell of no side.
-  Column Polish(Column at) const {
-    if (at.distance == kInfinity) return at;
-    for (double turn = kPi / kRing; turn > 0.01; turn *= 0.5)
-      for (const double angle : {turn, -turn}) {
-        const Column turned = At(Plan(p_) + Eigen::Rotation2Dd(angle) * Plan(at.center - p_));
-        if (turned.distance > (1.0 + kStill) * at.distance) continue;
-        const Column found = Descend(AlongRay(turned));
-        if (found.distance < at.distance) at = found;
-      }
-    return at;
-  }
-
-  // The same in its direction from p, as near as the limits of the operation let it: they have no slope that
-  // a descent could follow.
-  Column AlongRay(Column at) const {
-    if (at.distance == kInfinity || params_.keep_in == nullptr || params_.keep_in->AllowsAll()) return at;
-    const Vec2 span = Plan(at.center - p_);
-    double inner = 0.75, outer = 1.0;  // of the span; columns at the inner end are no nearer
-    while (outer - inner > kStill) {
-      const double share = 0.5 * (inner + outer);
-      const Column column = At(Plan(p_) + share * span);
-      const bool nearer = column.distance < at.distance;
-      if (nearer) at = column;
-      (nearer ? outer : inner) = share;
-    }
-    return at;
-  }
-
-  Column At(const Vec2& q, double gap = kHeightGap) const {
-    const double radius = locator_.radius();
-    Column column;
-    double low = params_.floor_z + radius;
-    const auto allowed = params_.keep_in != nullptr
-                             ? params_.keep_in->HeightsOver(q, kHeightGap * radius, std::max(low, p_.z()))
-                             : std::optional(AllowedHeights());
-    if (!allowed) return column;
-    const auto height = locator_.Height(q, nullptr, gap * radius);
-    if (allowed->lowest > low) {
-      low = allowed->lowest;
-      column.normal = allowed->normal;
-    }
-    if (height && height->z > low) {
-      low = height->z;
-      column.normal = (Lift(q, low) - height->contact.p) / radius;
-    }
-    column.center = Lift(q, std::max(low, p_.z()));
-    column.held = low > p_.z();
-    if (low > allowed->highest) {
-      column.center.z() = low;  // of a ball that stands too high: it tells of lower ones beside it
-      column.held = true;
-      return column;
-    }
-    if (p_.z() > allowed->highest) {
-      column.center.z() = allowed->highest;
-      column.normal = -Vec3::UnitZ();
-      column.held = true;
-    }
-    column.distance = (column.center - p_).norm();
-    return column;
-  }
-
-  const Locator& locator_;
-  const LeftoverParams& params_;
-  const Vec3 p_;
-};
+constexpr double kStill = 1e-3;  // of R: no depth is told closer
+// Of the leftover: places more than that and kStill deeper are looked at until none more than kProven and
+// twice kStill deeper may be left.
+constexpr double kWorthwhile = 0.02, kProven = 0.05;
+constexpr double kFewLooks = 100.0, kMostLooks = 1000.0, kSquare = 0.1;  // one more for a square of that R
+constexpr std::size_t kMostQuartered = 10000;
+constexpr int kMostSettled = 8;
 
 }  // namespace
+
+bool LeftoverSearch::Below(const Entry& a, const Entry& b) {
+  return a.bound != b.bound ? a.bound < b.bound : a.cell > b.cell;
+}
+
+void LeftoverSearch::AddTriangle(std::size_t piece, const std::array<Vec2, 3>& uv) {
+  GroundCell ground = GroundTriangle(locator_.surface(), piece, uv);
+  area_ += 0.5 * (ground.hull[1] - ground.hull[0]).cross(ground.hull[2] - ground.hull[0]).norm();
+  Add(std::move(ground));
+}
+
+void LeftoverSearch::Push(std::size_t cell) {
+  heap_.push_back({cells_[cell].bound, cell});
+  std::push_heap(heap_.begin(), heap_.end(), Below);
+}
+
+std::size_t LeftoverSearch::Pop() {
+  std::pop_heap(heap_.begin(), heap_.end(), Below);
+  const std::size_t cell = heap_.back().cell;
+  heap_.pop_back();
+  return cell;
+}
+
+// What was added since. A centre right above every point is where to begin.
+void LeftoverSearch::EnterNew(const RunContext& run) {
+  const std::size_t from = std::exchange(entered_, cells_.size());
+  for (std::size_t i = from; i < cells_.size() && !run.Cancelled(); ++i) {
+    const GroundCell& ground = cells_[i].ground;
+    if (ground.point) Learn(NearestCenter(locator_, params_, ground.hull[0]).Above());
+  }
+  const double proven = Wanted().proven;
+  for (std::size_t i = from; i < cells_.size(); ++i) {
+    Bound(cells_[i], proven);
+    heap_.push_back({cells_[i].bound, i});
+  }
+  std::make_heap(heap_.begin(), heap_.end(), Below);
+}
+
+// Looks no further once it is low enough. The centre that served the last cell often serves its neighbour.
+void LeftoverSearch::Bound(Cell& cell, double enough) {
+  if (cell.seen == 0 && last_ < found_.size()) {
+    cell.bound = std::min(cell.bound, Farthest(cell.ground, found_[last_].center));
+  }
+  for (; cell.seen < found_.size() && cell.bound > enough; ++cell.seen) {
+    const double farthest = Farthest(cell.ground, found_[cell.seen].center);
+    if (farthest >= cell.bound) continue;
+    cell.bound = farthest;
+    last_ = cell.seen;
+  }
+}
+
+Column LeftoverSearch::NearestKnown(const Vec3& p) const {
+  if (found_.empty()) return Column();
+  std::size_t nearest = 0;
+  double least2 = kInfinity;
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    const double distance2 = (found_[i].center - p).squaredNorm();
+    if (distance2 >= least2) continue;
+    least2 = distance2;
+    nearest = i;
+  }
+  Column column = found_[nearest];
+  column.distance = std::sqrt(least2);
+  return column;
+}
+
+void LeftoverSearch::Learn(const Column& column) {
+  if (column.distance == kInfinity) return;
+  found_.push_back(column);
+  for (Looked& place : deepest_) {
+    const double distance = (column.center - place.p).norm();
+    if (distance >= place.nearest.distance) continue;
+    place.nearest = column;
+    place.nearest.distance = distance;
+  }
+}
+
+void LeftoverSearch::LookAt(const GroundPlace& place, double enough) {
+  const NearestCenter search(locator_, params_, place.p, enough);
+  Column column = NearestKnown(place.p);
+  const auto look = [&](const auto& further) {
+    if (column.distance <= enough) return;
+    const Column next = further();
+    if (next.distance >= column.distance) return;
+    column = next;
+    Learn(column);
+  };
+  look([&] { return search.Above(); });
+  look([&] { return search.Descend(column); });
+  if (place.normal != Vec3::Zero()) look([&] { return search.Beside(place.normal, column); });
+  if (place.normal != Vec3::Zero() && ReachTest::Upright(place.normal))
+    look([&] { return search.Beside(-place.normal, column); });
+  look([&] { return search.FromAround(column); });
+  ++looks_;
+  if (column.distance > enough) deepest_.push_back({place.p, column});
+}
+
+const LeftoverSearch::Looked* LeftoverSearch::Worst() const {
+  const auto worst = std::max_element(deepest_.begin(), deepest_.end(), [](const Looked& a, const Looked& b) {
+    return a.nearest.distance < b.nearest.distance;
+  });
+  return worst == deepest_.end() ? nullptr : &*worst;
+}
+
+double LeftoverSearch::Distance() const {
+  const Looked* const worst = Worst();
+  return std::max(locator_.radius(), worst ? worst->nearest.distance : 0.0);
+}
+
+// The deepest place's nearest centre is searched for until it is found; false: there was a nearer one, which
+// may be so to others.
+bool LeftoverSearch::Settle() {
+  const Looked* const worst = Worst();
+  const double radius = locator_.radius();
+  if (worst == nullptr || settled_ >= kMostSettled || worst->nearest.distance == kInfinity ||
+      worst->nearest.distance <= radius) {
+    return true;
+  }
+  ++settled_;
+  const double before = worst->nearest.distance;
+  const Column settled = NearestCenter(locator_, params_, worst->p).Settle(worst->nearest);
+  if (settled.distance < before) Learn(settled);
+  const double fine = std::max(params_.fine, kStill * radius);
+  return before - settled.distance <= kWorthwhile * (settled.distance - radius) + fine;
+}
+
+LeftoverSearch::Limits LeftoverSearch::Wanted() const {
+  const double radius = locator_.radius(), deepest = Distance();
+  const double fine = std::max(params_.fine, kStill * radius);
+  return {.enough = deepest + kWorthwhile * (deepest - radius) + fine,
+          .proven = deepest + kProven * (deepest - radius) + 2.0 * fine};
+}
+
+Deepest LeftoverSearch::Find(const RunContext& run) {
+  const double radius = locator_.radius();
+  const double most_looks = std::min(kMostLooks, kFewLooks + area_ / std::pow(kSquare * radius, 2));
+  settled_ = 0;
+  EnterNew(run);
+  while (!heap_.empty() && !run.Cancelled()) {
+    const Limits wanted = Wanted();
+    if (heap_.front().bound <= wanted.proven) {
+      if (Settle()) break;
+      continue;
+    }
+    const std::size_t top = Pop();
+    const double before = cells_[top].bound;
+    Bound(cells_[top], wanted.proven);
+    if (cells_[top].bound < before) {
+      Push(top);
+      continue;
+    }
+    const GroundCell& ground = cells_[top].ground;
+    const GroundPlace middle = MiddleOf(locator_.surface(), ground);
+    const bool may_be = NearestKnown(middle.p).distance > wanted.enough;
+    if (may_be ? looks_ >= most_looks : quartered_ >= kMostQuartered || ground.point) {
+      proven_ = false;
+      continue;
+    }
+    if (may_be) {
+      LookAt(middle, wanted.enough);
+      Push(top);
+      continue;
+    }
+    ++quartered_;
+    for (GroundCell& quarter : Quarters(locator_.surface(), ground)) {
+      cells_.push_back({.ground = std::move(quarter), .bound = before});
+      Push(cells_.size() - 1);
+    }
+    entered_ = cells_.size();
+  }
+  const double all = locator_.surface().box.Diagonal();
+  return {std::min(all, std::max(0.0, Distance() - radius)), proven_};
+}
 
 Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
                         const RunContext& run, std::span<const Vec3> normals) {
   PM_CHECK(normals.empty() || normals.size() == places.size());
-  // Every free centre found for one place is a bound for all.
-  std::vector<Column> found;
-  for (const Vec3& p : places) {
-    if (run.Cancelled()) break;
-    found.push_back(NearestCenter(locator, params, p).Above());
+  LeftoverSearch search(locator, params);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    search.AddPoint(places[i], normals.empty() ? Vec3(Vec3::Zero()) : normals[i]);
   }
-  const auto nearest = [&](const Vec3& p) {
-    Column best;
-    for (const Column& column : found) {
-      const double distance = (column.center - p).norm();
-      if (column.distance == kInfinity || distance >= best.distance) continue;
-      best = column;
-      best.distance = distance;
-    }
-    return best;
-  };
-  const double all = locator.surface().box.Diagonal(), radius = locator.radius();
-  double deepest = radius;
-  std::size_t place = 0;
-  for (int round = 0; round < kMostRounds && !run.Cancelled(); ++round) {
-    std::vector<double> bounds;
-    for (const Vec3& p : places) bounds.push_back(nearest(p).distance);
-    std::vector<std::size_t> order(places.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return bounds[a] > bounds[b]; });
-    deepest = radius;
-    Column over;  // the deepest place
-    for (const std::size_t i : order) {
-      if (run.Cancelled()) break;
-      const double enough = deepest + kWorthwhile * (deepest - radius) + kStill * radius;
-      if (bounds[i] <= enough) break;
-      const NearestCenter search(locator, params, places[i]);
-      Column column = nearest(places[i]);
-      const auto look = [&](const auto& further) {
-        if (column.distance <= enough) return;
-        column = further();
-        if (column.distance < kInfinity) found.push_back(column);
-      };
-      look([&] { return search.Descend(column); });
-      const Vec3 normal = normals.empty() ? Vec3(Vec3::Zero()) : normals[i];
-      if (normal != Vec3::Zero()) look([&] { return search.Beside(normal, column); });
-      if (normal != Vec3::Zero() && ReachTest::Upright(normal))
-        look([&] { return search.Beside(-normal, column); });
-      look([&] { return search.FromAround(column); });
-      if (column.distance <= enough) continue;
-      deepest = column.distance;
-      over = column;
-      place = i;
-      if (deepest == kInfinity) break;
-    }
-    if (deepest == radius || deepest == kInfinity) break;
-    // What is nearer to this one may be so to others: then they are looked through again. What was found for
-    // the last time stays, for others may be as deep.
-    const Column settled = NearestCenter(locator, params, places[place]).Settle(over);
-    if (deepest - settled.distance <= kWorthwhile * (settled.distance - radius) + kStill * radius) {
-      deepest = settled.distance;
-      break;
-    }
-    found.push_back(settled);
-  }
-  return {std::min(all, std::max(0.0, deepest - radius)), place};
+  return search.Find(run);
 }
 
 }  // namespace patchmill

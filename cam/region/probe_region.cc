@@ -12,9 +12,9 @@ namespace patchmill {
 namespace {
 
 constexpr std::size_t kLooked = 200;
-constexpr std::size_t kDeeper = 12, kTighter = 16;  // around the worst, of leftover and of balls
-constexpr double kNear = 0.5;                       // of the radius: around the deepest
-constexpr double kClosest = 0.01, kCloser = 0.4;    // of the radius, and of the last: around the tightest
+constexpr std::size_t kFirst = 4;                 // every fourth of them tells about how deep it is
+constexpr std::size_t kTighter = 16;              // around the worst
+constexpr double kClosest = 0.01, kCloser = 0.4;  // of the radius, and of the last: around the tightest
 
 SurfaceJet JetAt(const Surface& surface, const RegionSpot& spot) {
   return Evaluate(surface.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
@@ -69,20 +69,19 @@ void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, c
                  Region& region) {
   RegionSpots places(surface, meshes, triangles);
   std::vector<RegionSpot> spots = places.Spread(kLooked);
-  const auto deepest = [&](const std::vector<RegionSpot>& of) {
-    std::vector<Vec3> points, normals;
-    for (const RegionSpot& spot : of) {
-      const SurfaceJet jet = JetAt(surface, spot);
-      points.push_back(jet.p);
-      normals.push_back(UpwardNormal(jet).value_or(Vec3::Zero()));
-    }
-    const Deepest found = reach.DeepestLeftover(points, normals, run);
-    region.deepest_leftover = std::max(region.deepest_leftover, found.leftover);
-    return of[found.place];
-  };
-  const RegionSpot worst = deepest(spots);
+  LeftoverSearch search = reach.SearchLeftover();
+  for (std::size_t i = 0; i < spots.size(); i += kFirst) {
+    const SurfaceJet jet = JetAt(surface, spots[i]);
+    search.AddPoint(jet.p, UpwardNormal(jet).value_or(Vec3::Zero()));
+  }
+  search.Find(run);  // with which most of the triangles are known to be no deeper
+  for (const TriangleRef& t : triangles) {
+    const SplitMesh& mesh = meshes[t.piece];
+    search.AddTriangle(t.piece, {CornerOf(mesh, t.triangle, 0), CornerOf(mesh, t.triangle, 1),
+                                 CornerOf(mesh, t.triangle, 2)});
+  }
+  region.deepest_leftover = search.Find(run).leftover;
   if (run.Cancelled()) return;
-  deepest(places.Around(worst, kNear * params.radius, kDeeper));
   if (region.reason != UnreachableReason::kConcave) return;
   SortByBend(surface, spots);
   region.largest_tool_diameter = 2.0 * BallForAll(surface, spots, params, run, places);

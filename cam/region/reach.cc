@@ -139,11 +139,6 @@ double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {
   return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - ReachGive(params_.tolerance));
 }
 
-Deepest ReachTest::DeepestLeftover(std::span<const Vec3> places, std::span<const Vec3> normals,
-                                   const RunContext& run) const {
-  return patchmill::DeepestLeftover(free_ball_, {params_.floor_z, params_.keep_in}, places, run, normals);
-}
-
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,
                          double give) {
   double largest = 0.0;

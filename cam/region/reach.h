@@ -47,9 +47,10 @@ class ReachTest {
   // Where it is not: it would be, on one of the sides, if the shank were no wider than the ball.
   bool BlockedByShank(const Vec3& p, const Vec3& normal) const;
 
-  // The largest of what stays over some places, mm (leftover.h); `normals`: upwards, as many.
-  Deepest DeepestLeftover(std::span<const Vec3> places, std::span<const Vec3> normals,
-                          const RunContext& run) const;
+  // For the largest of what stays over some ground (leftover.h).
+  LeftoverSearch SearchLeftover() const {
+    return {free_ball_, {params_.floor_z, params_.keep_in, 0.25 * params_.tolerance}};
+  }
 
  private:
   bool FreeCenter(const Vec3& center) const;

@@ -1,0 +1,36 @@
+// A piece of ground that is bounded from its far side: by points that all of it lies between.
+#pragma once
+
+#include <array>
+
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+// A triangle of parameters with straight sides, or one point.
+struct GroundCell {
+  bool point = false;
+  std::size_t piece = 0;
+  std::array<Vec2, 3> uv{};
+  // Corners and Bezier points of the quadratic that has them and the middles of the sides: the surface
+  // is taken for it, wrong by the third power of its size. All the same where it is a point.
+  std::array<Vec3, 6> hull{};
+  Vec3 normal = Vec3::Zero();  // of a point: upwards, zero where there is none
+};
+
+// A place of a cell: its middle.
+struct GroundPlace {
+  Vec3 p = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();  // upwards, zero where there is none
+};
+
+GroundCell GroundPoint(const Vec3& p, const Vec3& normal);
+GroundCell GroundTriangle(const Surface& surface, std::size_t piece, const std::array<Vec2, 3>& uv);
+GroundPlace MiddleOf(const Surface& surface, const GroundCell& cell);
+// Of a triangle.
+std::array<GroundCell, 4> Quarters(const Surface& surface, const GroundCell& cell);
+
+// Nothing of the cell is farther from `from` (mm).
+double Farthest(const GroundCell& cell, const Vec3& from);
+
+}  // namespace patchmill
