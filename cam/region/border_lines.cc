@@ -48,10 +48,12 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
                    &there = meshes[static_cast<std::size_t>(a.other_piece)]
                                 .triangles[static_cast<std::size_t>(a.other_triangle)]
                                 .label;
+  // Vertices of watersheds have no signs: there, too, the triangles tell.
   for (const bool differs : {true, false}) {
-    if (slope == differs && (differs || here.steep != there.steep) && on(Field::kSlope))
+    const bool by_regions = differs && !watershed;
+    if (slope == differs && (by_regions || here.steep != there.steep) && on(Field::kSlope))
       return BorderKind::kSlope;
-    if (curvature != differs || (!differs && here.curvature == there.curvature)) continue;
+    if (curvature != differs || (!by_regions && here.curvature == there.curvature)) continue;
     if (on(Field::kCurvature)) return BorderKind::kCurvature;
     if (on(Field::kTurn)) return BorderKind::kSilhouette;
   }

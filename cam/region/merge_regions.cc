@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "cam/region/label_cut.h"
 
@@ -12,6 +14,7 @@ namespace patchmill {
 namespace {
 
 constexpr double kIslands = 0.1;  // of min_area: islands of one label that are worth a region, together
+constexpr double kEqual = 1.1;    // times an area: regions that are not larger are as large
 
 bool Reached(const SplitLabel& label) { return label.reason == UnreachableReason::kNone; }
 
@@ -106,6 +109,7 @@ class Merger {
 
   MergedRegions Run() {
     for (std::size_t i = 0; i < nodes_.size(); ++i) FuseEqual(static_cast<int>(i));
+    AbsorbSlivers();
     for (Node& node : nodes_) Neutralise(node);
     for (std::size_t i = 0; i < nodes_.size(); ++i) FuseEqual(static_cast<int>(i));
     // Those too small or too narrow first, each by area; a region's place is renewed whenever it grows.
@@ -113,7 +117,7 @@ class Merger {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       if (nodes_[i].alive && Reached(nodes_[i].label)) Queue(static_cast<int>(i), queue);
     }
-    while (!queue.empty() && (!std::get<0>(*queue.begin()) || reached_ > params_.max_regions)) {
+    while (!queue.empty() && !std::get<0>(*queue.begin())) {
       const int small = std::get<2>(*queue.begin());
       queue.erase(queue.begin());
       const int into = BestNeighbour(small);
@@ -124,6 +128,7 @@ class Merger {
       Queue(into, queue);
     }
     LumpIslands();
+    LimitCount();
     LumpUnreachable();
     MergedRegions merged;
     std::map<int, int> index;
@@ -190,6 +195,42 @@ class Merger {
     }
   }
 
+  // While there are too many the smallest goes with a neighbour that is as steep or, where there is none,
+  // with those of its label that are hardly larger, wherever they are, or with the largest: equal features
+  // are one region. Steep ground never goes with gentle, for that is not cut as well by the other's passes.
+  void LimitCount() {
+    std::vector<int> left;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      if (nodes_[i].alive && Reached(nodes_[i].label)) left.push_back(static_cast<int>(i));
+    }
+    while (reached_ > params_.max_regions && !left.empty()) {
+      const auto smallest = std::min_element(left.begin(), left.end(), [&](int a, int b) {
+        return std::pair(At(a).area, a) < std::pair(At(b).area, b);
+      });
+      const int small = *smallest;
+      left.erase(smallest);  // it is gone after this, or stays as it is
+      const SplitLabel label = At(small).label;
+      int into = LongestNeighbour(
+          small, [&](const Node& n) { return Reached(n.label) && n.label.steep == label.steep; });
+      if (into < 0) {
+        std::vector<int> alike;
+        std::copy_if(left.begin(), left.end(), std::back_inserter(alike),
+                     [&](int i) { return At(i).label == label; });
+        if (alike.empty()) continue;
+        into = *std::max_element(alike.begin(), alike.end(), [&](int a, int b) {
+          return std::pair(At(a).area, -a) < std::pair(At(b).area, -b);
+        });
+        const double equal = kEqual * At(small).area;
+        for (const int other : alike) {
+          if (other != into && At(other).area <= equal) Join(into, other);
+        }
+      }
+      Join(into, small);
+      FuseEqual(into);
+      std::erase_if(left, [&](int i) { return !At(i).alive; });
+    }
+  }
+
   // Small unreachable spots, wherever they are, count as one region per reason.
   void LumpUnreachable() {
     std::map<UnreachableReason, int> first;
@@ -205,19 +246,42 @@ class Merger {
     if (Reached(node.label) && std::abs(node.curvature) < params_.min_curvature) node.label.curvature = 0;
   }
 
-  int BestNeighbour(int i) const {
-    const Node& node = nodes_[static_cast<std::size_t>(i)];
-    if (!Reached(node.label)) return -1;  // reasons are never mixed
+  // Where the limits of two reasons run together, within the tolerance of their lines, slivers of one lie
+  // along the other.
+  void AbsorbSlivers() {
+    std::set<std::pair<double, int>> slivers;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const Node& node = nodes_[i];
+      if (node.alive && !Reached(node.label) && node.Width() < params_.sliver)
+        slivers.insert({node.area, static_cast<int>(i)});
+    }
+    for (const auto& [area, sliver] : slivers) {
+      if (!At(sliver).alive) continue;
+      const int into = LongestNeighbour(sliver, [](const Node& n) { return !Reached(n.label); });
+      if (into < 0) continue;
+      Join(into, sliver);
+      FuseEqual(into);
+    }
+  }
+
+  const Node& At(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+
+  // Of those that fit; -1: none does.
+  template <class Fits>
+  int LongestNeighbour(int i, const Fits& fits) const {
     int best = -1;
     double longest = 0.0;
-    for (const auto& [other, length] : node.border) {
-      if (!Reached(nodes_[static_cast<std::size_t>(other)].label)) continue;
-      if (length > longest) {
-        longest = length;
-        best = other;
-      }
+    for (const auto& [other, length] : At(i).border) {
+      if (length <= longest || !fits(At(other))) continue;
+      longest = length;
+      best = other;
     }
     return best;
+  }
+
+  int BestNeighbour(int i) const {
+    if (!Reached(At(i).label)) return -1;  // reasons are never mixed
+    return LongestNeighbour(i, [](const Node& n) { return Reached(n.label); });
   }
 
   // `gone` becomes part of `into`, whose label follows the larger part.

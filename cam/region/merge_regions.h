@@ -32,7 +32,8 @@ struct MergeParams {
   double min_area = 50.0;      // mm^2: smaller reachable regions join a neighbour
   double min_width = 3.0;      // mm: narrower ones too; of a strip, 2 areas over the length of all its border
   double min_curvature = 0.5;  // mm: regions that bend less than this in all are neutral
-  int max_regions = 20;        // reachable ones; smaller ones join a neighbour while there are more
+  double sliver = 0.01;        // mm: what is out of reach and narrower goes with a neighbour out of reach
+  int max_regions = 20;        // reachable ones; smaller ones join others as steep while there are more
 };
 
 struct MergedRegions {
@@ -47,10 +48,13 @@ struct MergedRegions {
 // 2 border_turn, or whose slope is off by less than 2 border_slope over its width, goes with its sides. Then
 // neighbours of equal labels are one region, mountains of different summits and basins of different pits
 // apart, and the smallest (by area, then index) of those below min_area or min_width joins the neighbour with
-// the longest common border; then the smallest of all while there are more than max_regions. What is left
+// the longest common border. What is left
 // below min_area has no neighbour: all of one label goes with the largest region of that label, or is one by
-// itself from a tenth of min_area on, and less goes with the largest of its slope. What no ball reaches keeps
-// apart from what is reached; it fuses by reason.
+// itself from a tenth of min_area on, and less goes with the largest of its slope. Then the smallest of all
+// while there are more than max_regions, but never steep ground with gentle: with a neighbour, or with those
+// of its label that are as large, so that many equal features are one region. There may be more than
+// max_regions in the end where labels differ. What no ball reaches keeps
+// apart from what is reached; it fuses by reason, but for slivers.
 MergedRegions MergeRegions(const std::vector<RawRegion>& raw, const std::vector<RawContact>& contacts,
                            const MergeParams& params);
 

@@ -110,6 +110,7 @@ MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
   MergeParams p;
   if (params.detail >= 1.0) {
     p.border_turn = p.border_slope = p.flat = p.min_area = p.min_width = p.min_curvature = 0.0;
+    p.sliver = 0.0;
     p.max_regions = std::numeric_limits<int>::max();
   } else {
     const double coarse = Coarseness(params);
@@ -120,6 +121,7 @@ MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
     p.min_area = 2.0 * kPi * params.radius * params.radius * coarse;
     p.min_width = params.radius * coarse;
     p.min_curvature = kMinCurvature * params.radius;
+    p.sliver = params.tolerance;
     p.max_regions = static_cast<int>(MostRegions(params));
   }
   return MergeRegions(raw.regions, raw.contacts, p);

@@ -7,8 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "cam/region/region_map.h"
+#include "core/diffgeo/forms.h"
+#include "core/surface/closest.h"
 #include "tests/support/joined_surface.h"
 #include "tests/support/model_table.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
@@ -138,6 +141,37 @@ TEST(BorderLines, ARidgeBetweenSteepAndGentleIsASeam) {
   EXPECT_FALSE(ridge.closed);
   EXPECT_NEAR(Length(ridge.points, false), 2.0 * half, 1e-9);
   for (const Vec3& p : ridge.points) EXPECT_LT(Vec2(p.x(), p.z()).norm(), 1e-9);
+}
+
+// Coarse regions end along watersheds too, where nothing is as steep as the angle.
+TEST(BorderLines, AreWhatTheirKindSays) {
+  double slopes = 0.0, watersheds = 0.0, off = 0.0;
+  for (std::uint64_t seed = 1; seed <= (kSanitized ? 2u : 8u); ++seed) {
+    const Surface surface = SurfaceOf(RandomBspline(seed, {.size = 60.0, .amplitude = 14.0}));
+    RegionParams params;
+    params.radius = 3.0;
+    params.tolerance = 0.01;
+    params.steep_angle = Radians(30.0);
+    params.detail = 0.4;
+    const RegionMap map = Split(surface, params);
+    for (const BorderLine& line : map.border_lines) {
+      const double length = Length(line.points, line.closed);
+      watersheds += line.kind == BorderKind::kWatershed ? length : 0.0;
+      if (line.kind != BorderKind::kSlope) continue;
+      slopes += length;
+      for (std::size_t i = 1; i < line.points.size(); ++i) {
+        const auto at = ClosestToPoint(surface, line.points[i], 1.0, 1e-6);
+        ASSERT_TRUE(at);
+        const auto jet = Evaluate(surface.pieces[at->at.piece.index()], at->at.u, at->at.v);
+        const double slope = std::acos(UpwardNormal(jet)->z());
+        if (std::abs(slope - params.steep_angle) > Radians(0.5))
+          off += (line.points[i] - line.points[i - 1]).norm();
+      }
+    }
+  }
+  EXPECT_GT(slopes, kSanitized ? 50.0 : 300.0);
+  EXPECT_GT(watersheds, 50.0);
+  EXPECT_LE(off, 0.005 * slopes);
 }
 
 TEST(BorderLines, OpenEdgesAreThoseOfTheSheet) {
