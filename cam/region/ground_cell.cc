@@ -43,9 +43,13 @@ std::array<GroundCell, 4> Quarters(const Surface& surface, const GroundCell& cel
           GroundTriangle(surface, cell.piece, {ab, bc, ca})};
 }
 
-double Farthest(const GroundCell& cell, const Vec3& from) {
+double Farthest(const GroundCell& cell, const Vec3& from, double known) {
+  const double known2 = known * known;
   double most2 = 0.0;
-  for (const Vec3& q : cell.hull) most2 = std::max(most2, (q - from).squaredNorm());
+  for (const Vec3& q : cell.hull) {
+    most2 = std::max(most2, (q - from).squaredNorm());
+    if (most2 >= known2) return known;
+  }
   return std::sqrt(most2);
 }
 

@@ -30,7 +30,7 @@ GroundPlace MiddleOf(const Surface& surface, const GroundCell& cell);
 // Of a triangle.
 std::array<GroundCell, 4> Quarters(const Surface& surface, const GroundCell& cell);
 
-// Nothing of the cell is farther from `from` (mm).
-double Farthest(const GroundCell& cell, const Vec3& from);
+// Nothing of the cell is farther from `from` (mm); `known` where that is no less.
+double Farthest(const GroundCell& cell, const Vec3& from, double known = kInfinity);
 
 }  // namespace patchmill

@@ -60,10 +60,10 @@ void LeftoverSearch::EnterNew(const RunContext& run) {
 // Looks no further once it is low enough. The centre that served the last cell often serves its neighbour.
 void LeftoverSearch::Bound(Cell& cell, double enough) {
   if (cell.seen == 0 && last_ < found_.size()) {
-    cell.bound = std::min(cell.bound, Farthest(cell.ground, found_[last_].center));
+    cell.bound = Farthest(cell.ground, found_[last_].center, cell.bound);
   }
   for (; cell.seen < found_.size() && cell.bound > enough; ++cell.seen) {
-    const double farthest = Farthest(cell.ground, found_[cell.seen].center);
+    const double farthest = Farthest(cell.ground, found_[cell.seen].center, cell.bound);
     if (farthest >= cell.bound) continue;
     cell.bound = farthest;
     last_ = cell.seen;

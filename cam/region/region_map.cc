@@ -314,11 +314,19 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_ASSIGN_OR_RETURN(const BorderPoints points,
                       FindBorderPoints(surface, meshes, adjacency, arcs, params.border_tolerance, run));
   const auto unreachable = UnreachableTriangles(meshes, region_of, regions);
+  // The largest regions first, not for one thread at last.
+  std::vector<std::size_t> probed;
+  for (std::size_t id = 0; id < regions.size(); ++id) {
+    if (!unreachable[id].empty()) probed.push_back(id);
+  }
+  std::stable_sort(probed.begin(), probed.end(), [&](std::size_t a, std::size_t b) {
+    return unreachable[a].size() > unreachable[b].size();
+  });
   absl::Status told[3];
-  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: figures", 3 + regions.size(), [&](std::size_t k) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: figures", 3 + probed.size(), [&](std::size_t k) {
     if (k >= 3) {
-      if (const std::size_t id = k - 3; regions[id].kind == RegionKind::kUnreachable)
-        ProbeRegion(surface, meshes, reach, params, unreachable[id], run, regions[id]);
+      const std::size_t id = probed[k - 3];
+      ProbeRegion(surface, meshes, reach, params, unreachable[id], run, regions[id]);
     } else if (k == 0) {
       auto found = FindBorderLines(surface, meshes, adjacency, arcs, points, region_of, regions, run);
       told[k] = found.status();

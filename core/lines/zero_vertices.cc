@@ -42,7 +42,7 @@ void ZeroVertices::SetSign(int id, std::size_t k, std::int8_t sign) {
 int ZeroVertices::Sign(int id, std::size_t k) {
   if ((((*this)[id].known >> k) & 1u) == 0) {
     const int where = fields_[k].where;
-    const bool asked = where < 0 || Sign(id, static_cast<std::size_t>(where)) == fields_[k].where_sign;
+    const bool asked = where < 0 || Sign(id, static_cast<std::size_t>(where)) != -fields_[k].where_sign;
     ZeroVertex& vertex = (*this)[id];
     vertex.known |= static_cast<ZeroFieldBits>(1u << k);
     vertex.sign[k] = asked ? SignOf(k, Value(fields_[k], piece_, {vertex.u, vertex.v})) : std::int8_t{0};
@@ -63,7 +63,7 @@ void ZeroVertices::Ask(const std::vector<int>& ids, std::size_t k) {
     ZeroVertex& vertex = (*this)[id];
     if (((vertex.known >> k) & 1u) != 0) continue;
     vertex.known |= static_cast<ZeroFieldBits>(1u << k);
-    if (where >= 0 && Sign(id, static_cast<std::size_t>(where)) != fields_[k].where_sign) continue;  // sign 0
+    if (where >= 0 && Sign(id, static_cast<std::size_t>(where)) == -fields_[k].where_sign) continue;  // sign 0
     asked.push_back(id);
     places.emplace_back(vertex.u, vertex.v);
   }

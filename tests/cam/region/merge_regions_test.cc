@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -211,6 +212,76 @@ TEST(MergeRegions, NoMoreThanAskedForAndTheLargestStay) {
   const MergedRegions merged = MergeRegions(raw, contacts, params);
   EXPECT_LE(merged.label.size(), 5u);
   EXPECT_GE(merged.label.size(), 2u);
+}
+
+TEST(MergeRegions, HoweverManySteepGroundNeverGoesWithGentle) {
+  // Twelve bosses apart, each a wall and a top: two labels, two regions, and each has all of its label.
+  MergeParams params;
+  params.max_regions = 20;
+  SplitLabel wall, top;
+  wall.steep = true;
+  wall.curvature = top.curvature = -1;
+  std::vector<RawRegion> raw;
+  std::vector<RawContact> contacts;
+  for (int i = 0; i < 12; ++i) {
+    raw.push_back({wall, 1500.0 + 1e-6 * i, -200, 900});
+    raw.push_back({top, 700.0 - 1e-6 * i, -90, -400});
+    raw.back().summit = raw[raw.size() - 2].summit = i;
+    contacts.push_back({2 * i, 2 * i + 1, 60.0});
+  }
+  MergedRegions merged = MergeRegions(raw, contacts, params);
+  EXPECT_LE(merged.label.size(), 20u);
+  for (std::size_t i = 0; i < raw.size(); ++i)
+    EXPECT_EQ(merged.label[static_cast<std::size_t>(merged.group[i])].steep, raw[i].label.steep) << i;
+  for (int i = 1; i < 12; ++i)  // equal ones are treated alike
+    EXPECT_EQ(merged.group[static_cast<std::size_t>(2 * i + 1)], merged.group[1]) << i;
+  // As many as there are labels stay.
+  params.max_regions = 1;
+  merged = MergeRegions(raw, contacts, params);
+  EXPECT_EQ(merged.label.size(), 2u);
+}
+
+TEST(MergeRegions, CrumbsTakeNoPlaceOfLargerRegions) {
+  // Ten crumbs in ground out of reach, and a chain of five regions: five are allowed.
+  MergeParams params;
+  params.max_regions = 5;
+  params.border_turn = params.border_slope = 0;
+  std::vector<RawRegion> raw;
+  std::vector<RawContact> contacts;
+  for (int i = 0; i < 5; ++i) {
+    SplitLabel label;
+    label.curvature = static_cast<std::int8_t>(i % 2 == 0 ? -1 : 1);
+    raw.push_back({label, 200.0 + i, label.curvature * 50.0, -100});
+    if (i > 0) contacts.push_back({i - 1, i, 20.0});
+  }
+  SplitLabel undercut;
+  undercut.reason = UnreachableReason::kUndercut;
+  raw.push_back({undercut, 900, 0, 0});
+  for (int i = 0; i < 10; ++i) {
+    SplitLabel label;
+    label.steep = i % 2 == 0;
+    raw.push_back({label, 0.01, 0, label.steep ? 0.01 : -0.01});
+    contacts.push_back({5, 6 + i, 0.4});
+  }
+  const MergedRegions merged = MergeRegions(raw, contacts, params);
+  std::set<int> chain(merged.group.begin(), merged.group.begin() + 5);
+  EXPECT_EQ(chain.size(), 5u);
+}
+
+TEST(MergeRegions, SliversOfAReasonGoWithTheReasonBesideThem) {
+  SplitLabel gentle, undercut, floor;
+  undercut.reason = UnreachableReason::kUndercut;
+  floor.reason = UnreachableReason::kFloor;
+  // 100 mm long, between the two: 0.001 mm wide, then 0.1.
+  for (const double width : {0.001, 0.1}) {
+    const std::vector<RawRegion> raw = {
+        {gentle, 900, 0, -500}, {undercut, 900, 0, 0}, {floor, 100 * width, 0, 0}};
+    const std::vector<RawContact> contacts = {{0, 2, 100}, {1, 2, 100}};
+    const MergedRegions merged = MergeRegions(raw, contacts, MergeParams());
+    EXPECT_EQ(merged.group[1] == merged.group[2], width < 0.01) << width;
+    EXPECT_NE(merged.group[0], merged.group[1]);
+    EXPECT_EQ(merged.label[static_cast<std::size_t>(merged.group[1])].reason, UnreachableReason::kUndercut);
+  }
 }
 
 TEST(MergeRegions, WhatIsNotReachedKeepsApartByReason) {

@@ -1,6 +1,7 @@
 // Limits of reach under what hangs over the ground: where they lie, the areas they bound, and the nodes where
 // other lines end on them, in closed form; and on ground without one, by balls on both sides.
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -164,6 +165,33 @@ TEST(ReachBorders, OfTwoBossesSideBySideAreTwoCircles) {
 // Where nothing has a closed form: of the limits drawn on ground that bends tighter than the ball nearly
 // everywhere, all but a few hundredths lie where balls begin to be free. Those that do not are corners where
 // one thing in the way takes over from another within a cell.
+// A cap on a plate: beside the crease the plate is CONCAVE, under the cap UNDERCUT; how large the plate's
+// patch is, and with it the cells it is looked at by, does not matter.
+TEST(ReachBorders, ReasonsBesideACreaseAreTheSameOnPlatesOfAnySize) {
+  const double cap = 30.0, low = 20.0;
+  const double outer2 = std::pow(cap + kKept, 2) - std::pow(kR + low, 2);  // where the ball begins to be free
+  const double foot2 = cap * cap - low * low;
+  std::map<UnreachableReason, double> first;
+  for (const double half : {30.0, 60.0, 150.0}) {
+    const Surface surface = SurfaceOf(Join({Plane(half), Sphere(Vec3(0, 0, -low), cap, Half::kUpper)}));
+    RegionParams params;
+    params.radius = kR;
+    params.tolerance = kTolerance;
+    const auto map = SplitRegions(surface, params, RunContext());
+    ASSERT_TRUE(map.ok()) << map.status();
+    std::map<UnreachableReason, double> plate;
+    for (const Region& r : map->regions) {
+      if (r.kind == RegionKind::kUnreachable && std::abs(r.inside.z()) < 1e-9) plate[r.reason] += r.area;
+    }
+    const double undercut = plate[UnreachableReason::kUndercut], concave = plate[UnreachableReason::kConcave];
+    EXPECT_NEAR(undercut + concave, kPi * outer2, 1.5) << half;
+    EXPECT_NEAR(undercut, kPi * foot2, 0.01 * kPi * foot2) << half;
+    if (first.empty()) first = plate;
+    EXPECT_NEAR(undercut, first[UnreachableReason::kUndercut], 1.0) << half;
+    EXPECT_NEAR(concave, first[UnreachableReason::kConcave], 1.0) << half;
+  }
+}
+
 TEST(ReachBorders, OfAnyGroundAreWhereBallsBeginToBeFree) {
   if (kSanitized) GTEST_SKIP() << "minutes otherwise";
   const Surface surface = SurfaceOf(Bumpy());
