@@ -69,8 +69,8 @@ inline constexpr double kMaxCoordinateMm = 1e5;
 inline constexpr double kMaxAvoidMarginMm = 100.0;
 inline constexpr double kMaxOutlineOffsetMm = 1000.0;
 inline constexpr double kMinSteepDeg = 5.0, kMaxSteepDeg = 85.0;
-inline constexpr double kMaxRpm = 1e6;
-inline constexpr double kMaxFeed = 1e6;  // mm/min
+inline constexpr double kMinRpm = 1.0, kMaxRpm = 1e6;
+inline constexpr double kMinFeed = 0.1, kMaxFeed = 1e6;  // mm/min
 inline constexpr int kMaxToolNumber = 99'999;
 inline constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
 inline constexpr double kMaxJoinToleranceMm = 10.0;

@@ -61,11 +61,11 @@ absl::Status ValidateJob(const Job& job) {
   PM_RETURN_IF_ERROR(check("tool.ball_end.diameter_mm", 2 * r, r >= kMinRadius && r <= kMaxRadius,
                            fmt::format("in [{}, {}]", 2 * kMinRadius, 2 * kMaxRadius)));
   PM_RETURN_IF_ERROR(check("tool.spindle_rpm", tool.spindle_rpm,
-                           tool.spindle_rpm > 0 && tool.spindle_rpm <= 1e6, "in (0, 1e6]"));
+                           tool.spindle_rpm >= 1.0 && tool.spindle_rpm <= 1e6, "in [1, 1e6]"));
   PM_RETURN_IF_ERROR(
-      check("tool.feed_mm_per_min", tool.feed, tool.feed > 0 && tool.feed <= 1e6, "in (0, 1e6]"));
+      check("tool.feed_mm_per_min", tool.feed, tool.feed >= 0.1 && tool.feed <= 1e6, "in [0.1, 1e6]"));
   PM_RETURN_IF_ERROR(check("tool.plunge_feed_mm_per_min", tool.plunge_feed,
-                           tool.plunge_feed > 0 && tool.plunge_feed <= 1e6, "in (0, 1e6]"));
+                           tool.plunge_feed >= 0.1 && tool.plunge_feed <= 1e6, "in [0.1, 1e6]"));
   PM_RETURN_IF_ERROR(
       check("tool.number", tool.number, tool.number >= 1 && tool.number <= 99999, "in [1, 99999]"));
   if (tool.flute_length) {

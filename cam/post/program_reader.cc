@@ -73,7 +73,8 @@ class Interpreter {
   int tool_length_ = 0;   // 0: none named yet
   bool shifted_ = false;  // the tool length changed where Z counts
   bool moved_ = false, moved_below_ = false;
-  bool spindle_on_ = false, coolant_on_ = false, ended_ = false;
+  double speed_ = 0.0;  // 1/min; that of RS274 before any S
+  bool spindle_on_ = false, reversed_ = false, coolant_on_ = false, ended_ = false;
 };
 
 bool HasAxis(const BlockModes& block) { return block['X'] || block['Y'] || block['Z']; }
@@ -102,8 +103,8 @@ absl::Status Interpreter::SetPathMode(const BlockModes& block) {
   path_stated_ = true;
   if (*block.path != 640) {
     smoothing_ = 0.0;
-  } else if (!block['P']) {
-    smoothing_ = kInfinity;
+  } else if (block['P'].value_or(0.0) == 0.0) {
+    smoothing_ = kInfinity;  // P0 is no tolerance at all to LinuxCNC
   } else {
     // Blending within P of moves that were merged within Q; LinuxCNC takes Q = P when it is left out.
     smoothing_ = unit_ * (*block['P'] + block['Q'].value_or(*block['P']));
@@ -116,6 +117,10 @@ absl::Status Interpreter::SetTool(const BlockModes& block) {
     if (!(*block['T'] <= 1e6) || *block['T'] != std::floor(*block['T'])) return Bad("T is not a tool number");
     tool_ = static_cast<int>(*block['T']);
   }
+  if (block.tool_change) {
+    spindle_on_ = false;  // so it is after a change on every RS274 control
+    if (!above_) shifted_ = true;
+  }
   if (block.tool_change && tool_ >= 0) {
     if (loaded_ >= 0 && loaded_ != tool_) {
       return Bad(fmt::format("M6: tool {} after tool {}; one tool per program", tool_, loaded_));
@@ -127,9 +132,12 @@ absl::Status Interpreter::SetTool(const BlockModes& block) {
 
 absl::Status Interpreter::SetOffsets(const BlockModes& block) {
   if (block.tool_length) {
-    if (!above_ && *block.tool_length != tool_length_) shifted_ = true;
+    const int of =
+        *block.tool_length == 430 && block['H'] ? static_cast<int>(std::min(*block['H'], 1e9)) : -1;
+    const auto entry = [&](int h) { return h < 0 ? loaded_ : h; };  // G43 without H is the loaded tool's
+    if (!above_ && (*block.tool_length != tool_length_ || entry(of) != entry(length_of_))) shifted_ = true;
     tool_length_ = *block.tool_length;
-    length_of_ = tool_length_ == 430 && block['H'] ? static_cast<int>(std::min(*block['H'], 1e9)) : -1;
+    length_of_ = of;
   }
   if (block.work_offset) {
     if (moved_below_ && *block.work_offset != (work_offset_ == 0 ? 540 : work_offset_)) {
@@ -148,7 +156,11 @@ absl::Status Interpreter::SetModes(const BlockModes& block) {
   distance_stated_ = distance_stated_ || block.distance;
   if (block['F']) feed_ = *block['F'] * unit_;
   PM_RETURN_IF_ERROR(SetTool(block));
-  if (block.spindle) spindle_on_ = *block.spindle != 50;
+  if (block['S']) speed_ = *block['S'];
+  if (block.spindle) {
+    spindle_on_ = *block.spindle != 50;
+    reversed_ = *block.spindle == 40;
+  }
   if (block.coolant) coolant_on_ = *block.coolant != 90;
   if (block.plane) plane_ = *block.plane;
   PM_RETURN_IF_ERROR(SetOffsets(block));
@@ -182,6 +194,9 @@ void Interpreter::NoteAssumptions(ProgramMove::Kind kind, bool below) {
         "LENGTH_OFFSET_OF_OTHER_TOOL",
         fmt::format("G43 H{} while T{} is in the spindle; taken as that tool's length", length_of_, loaded_));
   }
+  if (kind == ProgramMove::Kind::kFeed && spindle_on_ && reversed_) {
+    Note("SPINDLE_REVERSED", "M4 is in force; a right-hand cutter does not cut that way");
+  }
   if (kind == ProgramMove::Kind::kFeed && !path_stated_) {
     Note("PATH_MODE_ASSUMED", "neither G61 nor G64 so far; taken as no smoothing");
   }
@@ -204,7 +219,7 @@ absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_a
   move.to_above = to_above;
   move.from_anywhere = anywhere_;
   move.chord_error = chord_error;
-  move.spindle_on = spindle_on_;
+  move.spindle_on = spindle_on_ && speed_ > 0.0;
   if (kind == ProgramMove::Kind::kFeed) {
     motion_.controller_tolerance = std::max(motion_.controller_tolerance, smoothing_);
   } else if (!(above_ && to_above)) {
@@ -239,7 +254,7 @@ absl::Status Interpreter::Home(const BlockModes& block) {
 
 absl::StatusOr<Vec3> Interpreter::Target(const BlockModes& block) {
   if (shifted_) {
-    return Bad("motion after a change of the tool length offset below machine zero: Z is not known");
+    return Bad("motion after a change of tool or tool length offset below machine zero: Z is not known");
   }
   Vec3 to = at_;
   anywhere_ = !known_[0] || !known_[1];

@@ -49,17 +49,17 @@ struct ProgramMove {
   // place where the axis is first sent.
   bool from_anywhere = false;
   double chord_error = 0.0;  // mm, when the move is one chord of an arc
-  bool spindle_on = false;
+  bool spindle_on = false;  // at a speed above zero
 };
 
 struct ProgramMotion {
   std::vector<ProgramMove> moves;
   // What the program leaves to the state of the control, and what is taken for it: UNITS_ASSUMED (mm),
   // DISTANCE_MODE_ASSUMED (G90), LENGTH_OFFSET_ASSUMED (set before), LENGTH_OFFSET_OF_OTHER_TOOL (H is not
-  // T), PATH_MODE_ASSUMED (no smoothing). Warnings with their lines.
+  // T), PATH_MODE_ASSUMED (no smoothing), SPINDLE_REVERSED (a left-hand cutter). Warnings with their lines.
   Diagnostics assumptions;
   int tool_number = 0;
-  // mm, largest G64 P + Q in force (Q absent: P), kInfinity for a bare G64: while feeding, and over rapids
+  // mm, largest G64 P + Q in force (Q absent: P), kInfinity for G64 without P or with P0: while feeding, and over rapids
   // below machine zero.
   double controller_tolerance = 0.0;
   double rapid_tolerance = 0.0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRounding = 2e-3;   // mm: shorter moves have no direction to speak of
 constexpr double kTraceable = 0.02;  // mm: four decimals turn a move this long by a quarter of a degree
-constexpr double kSteep = Radians(30.0), kSteepSlack = Radians(0.5);
+constexpr double kSteepSlack = Radians(0.5);
 constexpr int kGrid = 256;
 
 // Largest material height over squares of the plan; -infinity where there is none.
@@ -112,6 +112,8 @@ class HeightGrid {
   std::vector<double> height_;
 };
 
+constexpr double kFeedDigits = 5e-5;  // mm/min: F words have four decimals
+
 // Descents at more than plunge feed, however small the steps they are cut into: moves are added up until they
 // have a direction to speak of. The path in plan is added up too, so that a helix is as steep as its moves.
 class DescentWatch {
@@ -121,7 +123,7 @@ class DescentWatch {
   // True when this move ends a descent steeper than allowed.
   bool Add(const ProgramMove& move) {
     const bool watched = plunge_feed_ > 0.0 && move.kind == ProgramMove::Kind::kFeed && !move.from_above &&
-                         !move.to_above && move.feed > plunge_feed_ * (1.0 + 1e-6);
+                         !move.to_above && move.feed > plunge_feed_ * (1.0 + 1e-6) + kFeedDigits;
     if (!watched) {
       drop_ = along_ = 0.0;
       return false;
@@ -130,7 +132,7 @@ class DescentWatch {
     drop_ -= d.z();
     along_ += Plan(d).norm();
     if (std::hypot(drop_, along_) < kTraceable) return false;
-    const bool steep = std::atan2(drop_, along_) > kSteep + kSteepSlack;
+    const bool steep = std::atan2(drop_, along_) > kSteepDescent + kSteepSlack;
     drop_ = along_ = 0.0;
     return steep;
   }

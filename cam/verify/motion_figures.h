@@ -8,6 +8,8 @@
 
 namespace patchmill {
 
+inline constexpr double kSteepDescent = Radians(30.0);  // P3: steeper ones run at plunge feed
+
 struct MotionFigures {
   Box3 tip_box;  // program frame, moves below machine zero; empty if there are none
   double cut_length = 0.0, rapid_length = 0.0;

@@ -48,7 +48,9 @@ class Rules {
     });
     if (still == motion_.moves.end()) return;
     Broken("SPINDLE_STOPPED",
-           fmt::format("line {}: a feed below the stock's top with the spindle stopped", still->line),
+           fmt::format(
+               "line {}: a feed below the stock's top with the spindle stopped (M5, M6, or no S above 0)",
+               still->line),
            still->line);
   }
 

@@ -316,6 +316,13 @@ class Judge {
     if (!broken.empty()) report_.motion_ok = false;
     report_.findings.insert(report_.findings.end(), broken.begin(), broken.end());
     report_.findings.insert(report_.findings.end(), motion_.assumptions.begin(), motion_.assumptions.end());
+    if (tool_.plunge_feed <= 0.0 && figures.steepest_descent > kSteepDescent) {
+      Diagnostic d;
+      d.code = "PLUNGE_FEED_NOT_CHECKED";
+      d.severity = Severity::kWarning;
+      d.message = "the plunge feed is not known: feeds of descents steeper than 30 degrees are not judged";
+      report_.findings.push_back(std::move(d));
+    }
     return absl::OkStatus();
   }
 

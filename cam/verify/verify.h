@@ -99,7 +99,8 @@ struct VerifyReport {
   // places, the worst first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START,
   // FIRST_MOTION_NOT_UP, LAST_MOTION_NOT_UP, SPINDLE_STOPPED, SPINDLE_LEFT_ON, COOLANT_LEFT_ON,
   // OUTSIDE_BOUNDARY (feeds), ABOVE_TOP (feeds), OBSTACLE_HIT, AVOID_MARGIN (at most 20 each as above):
-  // errors. What the program leaves to the control's state (ProgramMotion::assumptions): warnings.
+  // errors. What the program leaves to the control's state (ProgramMotion::assumptions), and
+  // PLUNGE_FEED_NOT_CHECKED: warnings.
   // MORE_FINDINGS when a list of 20 was not long enough: info.
   Diagnostics findings;
   bool ok() const { return gouge_ok && finish_ok && motion_ok; }

@@ -24,7 +24,7 @@ struct VerifyOptions {
   std::string model, program, report, strategy = "auto";
   double tool_diameter = 0.0, tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
   double detail = 0.5;
-  std::optional<double> scallop, floor;
+  std::optional<double> scallop, floor, plunge_feed;
   ShankOptions shank;
 };
 
@@ -48,6 +48,7 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   v1::Tool& tool = *request.add_tools();
   tool.mutable_ball_end()->set_diameter_mm(options.tool_diameter);
   SetShank(options.shank, tool);
+  if (options.plunge_feed) tool.set_plunge_feed_mm_per_min(*options.plunge_feed);
   request.set_tolerance_mm(options.tolerance);
   if (options.scallop) request.set_scallop_mm(*options.scallop);
   request.set_stock_to_leave_mm(options.leave);
@@ -132,6 +133,8 @@ Command AddVerify(CLI::App& app) {
   app.add_option("PROGRAM", options->program, "program text, ours or another's")->required();
   AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter, mm")->required();
   AddShankOptions(app, options->shank);
+  AddNumber(app, "--plunge-feed", options->plunge_feed,
+            "mm/min: most for descents steeper than 30 degrees; default: not known, not checked");
   AddNumber(app, "--tolerance", options->tolerance, "largest gouge, mm");
   AddNumber(app, "--scallop", options->scallop,
             "largest ridge, mm; default: leftover is measured, not judged");

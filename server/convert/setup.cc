@@ -45,13 +45,14 @@ void ReadObstacles(const google::protobuf::RepeatedPtrField<v1::Obstacle>& list,
 }
 
 void CheckCuttingData(const v1::Tool& proto, std::string_view at, CuttingData needed, FieldErrors& errors) {
-  const auto check = [&](const char* name, double value, double most) {
+  const auto check = [&](const char* name, double value, double least, double most) {
     if (needed == CuttingData::kOptional && value == 0.0) return;
-    Require(errors, At(at, name), value, value > 0.0 && value <= most, fmt::format("in (0, {:g}]", most));
+    Require(errors, At(at, name), value, value >= least && value <= most,
+            fmt::format("in [{:g}, {:g}]", least, most));
   };
-  check("spindle_rpm", proto.spindle_rpm(), limits::kMaxRpm);
-  check("feed_mm_per_min", proto.feed_mm_per_min(), limits::kMaxFeed);
-  check("plunge_feed_mm_per_min", proto.plunge_feed_mm_per_min(), limits::kMaxFeed);
+  check("spindle_rpm", proto.spindle_rpm(), limits::kMinRpm, limits::kMaxRpm);
+  check("feed_mm_per_min", proto.feed_mm_per_min(), limits::kMinFeed, limits::kMaxFeed);
+  check("plunge_feed_mm_per_min", proto.plunge_feed_mm_per_min(), limits::kMinFeed, limits::kMaxFeed);
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"NumberMissing", [](Request& r) { ToolOf(r).clear_number(); },
               "job.operations[0].tool.number = 0; must be in [1, 99999]"},
         Wrong{"SpindleMissing", [](Request& r) { ToolOf(r).clear_spindle_rpm(); },
-              "job.operations[0].tool.spindle_rpm = 0; must be in (0, 1e+06]"},
+              "job.operations[0].tool.spindle_rpm = 0; must be in [1, 1e+06]"},
         Wrong{"FeedNegative", [](Request& r) { ToolOf(r).set_feed_mm_per_min(-5); },
               "job.operations[0].tool.feed_mm_per_min = -5; must be"},
         Wrong{"PlungeMissing", [](Request& r) { ToolOf(r).clear_plunge_feed_mm_per_min(); },

@@ -82,6 +82,8 @@ TEST(ProgramReader, PathModes) {
   EXPECT_EQ(Read(start).controller_tolerance, 0.0);
   EXPECT_EQ(Read(start + "G61\nX1\n").controller_tolerance, 0.0);
   EXPECT_EQ(Read(start + "G64\nX1\n").controller_tolerance, kInfinity);
+  EXPECT_EQ(Read(start + "G64 P0\nX1\n").controller_tolerance, kInfinity);  // no tolerance, not none at all
+  EXPECT_EQ(Read(start + "G64 P0 Q0\nX1\n").controller_tolerance, kInfinity);
   EXPECT_DOUBLE_EQ(Read(start + "G64 P.003 Q.001\nX1\nG61\nX2\n").controller_tolerance, 0.004);
   EXPECT_DOUBLE_EQ(Read(start + "G64 P.003\nX1\n").controller_tolerance, 0.006);  // Q = P
   EXPECT_EQ(Read(start + "X1\nG64 P.003\n").controller_tolerance, 0.0) << "nothing is fed under it";
@@ -188,12 +190,18 @@ TEST(ProgramReader, RefusesWithTheLine) {
            {"G61 P1", "without G4"},
            {"G4 X1", "G4"},
            {"T2 M6\nT3 M6", "tool 3"},
+           {"T2 M6\nX1", "change of tool"},
        }) {
     const std::string message = Refusal(start + code + "\n");
     EXPECT_THAT(message, HasSubstr(word)) << code;
     const int line = code.find('\n') == std::string::npos ? 4 : 5;
     EXPECT_THAT(message, HasSubstr("line " + std::to_string(line) + ": ")) << code;
   }
+  // Another entry of the tool table shifts every Z that follows; the same one does not.
+  const std::string offset = "G21 G90\nT1 M6\nG53 G0 Z0\nG43 H1\nG0 X0 Y0 Z5\n";
+  EXPECT_THAT(Refusal(offset + "G43 H7\nX1\n"), HasSubstr("line 7: motion after a change"));
+  EXPECT_EQ(Read(offset + "G43 H1\nX1\n").moves.back().to, Vec3(1, 0, 5));
+  EXPECT_EQ(Read(offset + "G43\nX1\n").moves.back().to, Vec3(1, 0, 5));  // the loaded tool's: 1
   EXPECT_THAT(Refusal("G1 X1 Z1\n"), HasSubstr("line 1: feed move without a feed rate"));
   EXPECT_THAT(Refusal("G91\nG0 X1\n"), HasSubstr("line 2: X is incremental from an unknown place"));
   EXPECT_THAT(Refusal("X1\n"), HasSubstr("line 1: coordinates while no motion"));

@@ -137,7 +137,9 @@ TEST(VerifyMotion, NoFeedIntoStockWithTheSpindleStopped) {
   const Surface surface = SurfaceOf(Plane(5.0));
   const std::string start = "G21 G90 G61\nG53 G0 Z0\nT1 M6\nG43 H1\n",
                     cut = "G0 X0 Y0\nZ5\nG1 Z0 F100\nX4\nG0 Z5\n";
-  const VerifyReport turning = Judged(surface, Ball(3), start + "S1000 M3\n" + cut + kEnd, Params(1.0));
+  Tool tool = Ball(3);
+  tool.plunge_feed = 100;
+  const VerifyReport turning = Judged(surface, tool, start + "S1000 M3\n" + cut + kEnd, Params(1.0));
   EXPECT_TRUE(turning.motion_ok);
   for (const Diagnostic& d : turning.findings) EXPECT_EQ(d.severity, Severity::kError) << d.message;
   const VerifyReport still = Judged(surface, Ball(3), start + cut + kEnd, Params(1.0));
@@ -148,6 +150,17 @@ TEST(VerifyMotion, NoFeedIntoStockWithTheSpindleStopped) {
       Judged(surface, Ball(3), start + "S1000 M3\n" + cut + "M5\nG1 Z4\nZ0\nG0 Z5\n" + kEnd, Params(1.0));
   ASSERT_NE(Find(stopped, "SPINDLE_STOPPED"), nullptr);
   EXPECT_EQ(*Find(stopped, "SPINDLE_STOPPED")->where.line, 13);
+  // A tool change stops it, it needs a speed, and M4 turns it the wrong way.
+  const std::string begin = "G21 G90 G61\nG53 G0 Z0\n";
+  for (const char* on : {"S1000 M3\nT1 M6\nG43 H1\n", "T1 M6\nG43 H1\nM3\n", "T1 M6\nG43 H1\nS0 M3\n",
+                         "T1 M6\nG43 H1\nS1000 M3\nS0\n"}) {
+    const VerifyReport off = Judged(surface, Ball(3), begin + on + cut + kEnd, Params(1.0));
+    EXPECT_NE(Find(off, "SPINDLE_STOPPED"), nullptr) << on;
+    EXPECT_FALSE(off.motion_ok) << on;
+  }
+  const VerifyReport back = Judged(surface, Ball(3), start + "S1000 M4\n" + cut + kEnd, Params(1.0));
+  EXPECT_TRUE(back.motion_ok);
+  EXPECT_NE(Find(back, "SPINDLE_REVERSED"), nullptr);
   // High above the stock nothing is cut.
   EXPECT_TRUE(Judged(surface, Ball(3), start + "G0 X0 Y0\nZ50\nG1 X4 F100\n" + kEnd, Params(1.0)).motion_ok);
   // What is left to the control is remarked, and judged as it is taken.
@@ -161,12 +174,17 @@ TEST(VerifyMotion, SteepDescentsRunAtPlungeFeed) {
   const Surface surface = SurfaceOf(Plane(5.0));
   Tool tool = Ball(3.0);
   tool.plunge_feed = 100;
-  const std::string head = "G21 G90\nG53 G0 Z0 M3\nG0 X0 Y0\nZ5\n";
+  const std::string head = "G21 G90\nG53 G0 Z0 S9 M3\nG0 X0 Y0\nZ5\n";
   EXPECT_TRUE(Judged(surface, tool, head + "G1 Z0 F100\nG1 X4 F900\n" + kEnd, Params(1.0)).motion_ok);
   const VerifyReport report = Judged(surface, tool, head + "G1 X1 Z0 F900\nX4\n" + kEnd, Params(1.0));
   EXPECT_FALSE(report.motion_ok);
   EXPECT_EQ(*Find(report, "STEEP_DESCENT")->where.line, 5);
   EXPECT_NEAR(report.steepest_descent, std::atan2(5.0, 1.0), 1e-12);
+  EXPECT_EQ(Find(report, "PLUNGE_FEED_NOT_CHECKED"), nullptr);
+  // Nobody says what it is.
+  const VerifyReport unknown = Judged(surface, Ball(3.0), head + "G1 X1 Z0 F900\nX4\n" + kEnd, Params(1.0));
+  EXPECT_TRUE(unknown.motion_ok);
+  EXPECT_NE(Find(unknown, "PLUNGE_FEED_NOT_CHECKED"), nullptr);
 }
 
 // A gouge of 0.3 mm at X2 Y2, planted into each kind of motion that a program can have.
@@ -214,7 +232,7 @@ TEST(VerifyMotion, NoKindOfMotionMayGouge) {
 
 TEST(VerifyMotion, WhereTheMachineStandsIsNotGuessed) {
   const Surface surface = SurfaceOf(Plane(10.0));
-  const std::string head = "G21 G90\nG53 G0 Z0 M3\n";
+  const std::string head = "G21 G90\nG53 G0 Z0 S9 M3\n";
   const auto judged = [&](const std::string& lines) {
     return Judged(surface, Ball(3.0), head + lines + "G0 Z9\n" + kEnd, Params(0.5));
   };
@@ -233,7 +251,7 @@ TEST(VerifyMotion, WhereTheMachineStandsIsNotGuessed) {
 
 TEST(VerifyMotion, TheLastMotionEndsOutOfTheStock) {
   const Surface surface = SurfaceOf(Plane(5.0));
-  const std::string head = "G21 G90\nG53 G0 Z0 M3\nG0 X0 Y0\nZ5\nG1 Z0 F100\n";
+  const std::string head = "G21 G90\nG53 G0 Z0 S9 M3\nG0 X0 Y0\nZ5\nG1 Z0 F100\n";
   const auto ends = [&](const std::string& last) {
     return Find(Judged(surface, Ball(3), head + last + "M2\n", Params(1.0)), "LAST_MOTION_NOT_UP") == nullptr;
   };
@@ -250,7 +268,7 @@ TEST(VerifyMotion, DescentsCutIntoSmallStepsAreStillSteep) {
   tool.plunge_feed = 100;
   // From Z1 down by steps of `dz`, `dx` to the side each, to and fro.
   const auto judged = [&](double dx, double dz, int feed) {
-    std::string text = fmt::format("G21 G90\nG53 G0 Z0 M3\nG0 X0 Y0\nZ1\nF{}\n", feed);
+    std::string text = fmt::format("G21 G90\nG53 G0 Z0 S9 M3\nG0 X0 Y0\nZ1\nF{}\n", feed);
     for (int i = 1; i * dz <= 1.0; ++i) text += fmt::format("G1 X{:.4f} Z{:.4f}\n", i % 2 * dx, 1.0 - i * dz);
     return Judged(surface, tool, text + kEnd, Params(1.0));
   };
