@@ -163,7 +163,7 @@ std::string JobDigest(const Job& job, std::string_view model_digest, std::string
   out.Add(static_cast<std::int64_t>(op.strategy)).Add(op.zigzag_angle).Add(op.zigzag_bend);
   out.Add(static_cast<std::int64_t>(op.contour_direction)).Add(static_cast<std::int64_t>(op.edge_rule));
   AddOptional(op.clearance_z, out);
-  AddOptional(op.clearance_above, out);
+  AddOptional(op.clearance_z ? op.clearance_above : op.clearance_above.value_or(kDefaultClearanceAbove), out);
   AddOptional(op.floor_z, out);
   out.Add(op.approach_gap).Add(job.dialect).Add(job.work_offset);
   out.Add(std::int64_t{job.default_cutting_data}).Add(std::int64_t{job.unitless_file});

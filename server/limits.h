@@ -23,7 +23,6 @@ inline constexpr std::size_t kMaxKnots = 2'500'000;  // all patches together
 inline constexpr std::size_t kMaxNetworkVertices = 4 * kMaxPatches;
 inline constexpr std::size_t kMaxNetworkEdges = 4 * kMaxPatches;
 inline constexpr std::size_t kMaxNetworkReferences = 16 * kMaxPatches;  // vertices of faces, faces of normals
-inline constexpr int kMaxPushes = 100;                                  // of one face
 inline constexpr std::size_t kMaxIdBytes = 200;
 inline constexpr std::size_t kMaxNameBytes = 100;
 inline constexpr std::size_t kMaxRequestIdBytes = 128;

@@ -78,6 +78,7 @@ inline constexpr double kPickReach = 1.0;          // mm
 inline constexpr double kMaxZigzagBendDeg = 30.0;  // of Operation::zigzag_bend
 
 struct Operation {
+  std::string id;  // the client's name for it; changes nothing
   Tool tool;
   double scallop = 0.01;
   double tolerance = 0.01;  // the whole budget

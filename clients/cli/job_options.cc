@@ -149,7 +149,8 @@ void AddSetupOptions(CLI::App& app, SetupOptions& options) {
 
 void AddStockOptions(CLI::App& app, SetupOptions& options) {
   AddNumber(app, "--stock-top", options.stock_top, "highest material, mm; default: model top + allowance");
-  AddNumber(app, "--allowance", options.allowance, "material on the surface, mm");
+  AddNumber(app, "--allowance", options.allowance,
+            "material on the surface, mm; default 0.5, or --leave where that is more");
 }
 
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
@@ -176,7 +177,7 @@ absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
     *setup.mutable_program_zero() = *point;
   }
   if (options.stock_top) setup.mutable_stock()->set_top_z_mm(*options.stock_top);
-  setup.mutable_stock()->set_allowance_mm(options.allowance);
+  if (options.allowance) setup.mutable_stock()->set_allowance_mm(*options.allowance);
   return setup;
 }
 

@@ -20,7 +20,7 @@ struct SetupOptions {
   std::vector<double> translate;
   std::string zero = "origin";
   std::optional<double> stock_top;
-  double allowance = 0.5;
+  std::optional<double> allowance;
 };
 
 // The tool above its ball.

@@ -188,7 +188,7 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   received.report_file = OutputFile(options.report);
   received.preview = OutputFile(options.preview, {".svg"});
   if (const absl::Status writable =
-          CheckWritable({&received.program, &received.report_file, &received.preview});
+          CheckWritable({&received.program, &received.report_file, &received.preview}, {options.model});
       !writable.ok())
     return writable;
   absl::StatusOr<v1::GenerateProgramRequest> request = MakeRequest(options);

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -21,6 +22,15 @@ std::string Directory(const std::string& path) {
 bool IsSpecial(const std::string& path) {
   struct stat info {};
   return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode);
+}
+
+// One file, whether it is there yet or not. What is no regular file can take more than one result.
+bool IsSame(const std::string& a, const std::string& b) {
+  if (IsSpecial(a) || IsSpecial(b)) return false;
+  std::error_code no_file, no_path;
+  if (std::filesystem::equivalent(a, b, no_file)) return true;
+  const auto whole = std::filesystem::weakly_canonical(a, no_path);
+  return !no_path && whole == std::filesystem::weakly_canonical(b, no_path) && !no_path;
 }
 
 absl::Status Fault(const std::string& path) {
@@ -76,10 +86,22 @@ absl::Status OutputFile::Commit() const {
   return fault;
 }
 
-absl::Status CheckWritable(std::initializer_list<const OutputFile*> files) {
+absl::Status CheckWritable(std::initializer_list<const OutputFile*> files,
+                           std::initializer_list<std::string> inputs) {
+  std::vector<const OutputFile*> seen;
   for (const OutputFile* file : files) {
     if (!file->wanted()) continue;
     if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
+    for (const std::string& input : inputs) {
+      if (IsSame(file->path(), input))
+        return absl::InvalidArgumentError(
+            fmt::format("{} is read; the result would replace it", file->path()));
+    }
+    for (const OutputFile* other : seen) {
+      if (IsSame(file->path(), other->path()))
+        return absl::InvalidArgumentError(fmt::format("{} is named for two results", file->path()));
+    }
+    seen.push_back(file);
   }
   return absl::OkStatus();
 }

@@ -38,8 +38,9 @@ class OutputFile {
 };
 
 // Those of the files that are wanted, in order; the first fault ends it. CheckWritable is asked before the
-// job costs anything.
-absl::Status CheckWritable(std::initializer_list<const OutputFile*> files);
+// job costs anything; no two may be the same regular file, nor one of the inputs.
+absl::Status CheckWritable(std::initializer_list<const OutputFile*> files,
+                           std::initializer_list<std::string> inputs = {});
 absl::Status Commit(std::initializer_list<const OutputFile*> files);
 
 }  // namespace patchmill::cli

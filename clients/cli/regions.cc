@@ -119,7 +119,8 @@ void Print(const v1::RegionMap& map) {
 
 absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
   OutputFile output(options.output, {".json", ".svg"});
-  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
+  if (const absl::Status writable = CheckWritable({&output}, {options.model}); !writable.ok())
+    return writable;
   absl::StatusOr<v1::SplitRegionsRequest> request = MakeRequest(options, output.EndsIn(".svg"));
   if (!request.ok()) return request.status();
   absl::StatusOr<v1::SplitRegionsResponse> response =

@@ -32,6 +32,10 @@ class Editor {
 
   absl::Status Apply(const PushEdit& edit, const std::string& at) {
     PM_RETURN_IF_ERROR(CheckFace(edit.face, at));
+    if (network_.faces[At(edit.face)].pushes.size() >= kMaxFacePushes) {
+      return Error(at + ".face",
+                   fmt::format("= {}; has {} pushes already, which is the most", edit.face, kMaxFacePushes));
+    }
     network_.faces[At(edit.face)].pushes.push_back(edit.push);
     return Changed();
   }

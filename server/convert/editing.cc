@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <absl/strings/match.h>
+#include <absl/strings/numbers.h>
 #include <fmt/format.h>
 
 #include "core/base/status.h"
@@ -173,6 +175,31 @@ void WriteEdited(const CurveNetwork& before, const CurveNetwork& after, double u
     if (control.first) Put(*control.first / unit, to.mutable_control()->mutable_first_derivative());
     if (control.second) Put(*control.second / unit, to.mutable_control()->mutable_second_derivative());
   }
+}
+
+absl::Status WithFieldPath(const absl::Status& status,
+                           const google::protobuf::RepeatedPtrField<v1::ModelEdit>& edits) {
+  constexpr absl::string_view kBegin = "edits[";
+  const absl::string_view message = status.message();
+  if (!absl::IsInvalidArgument(status) || !absl::StartsWith(message, kBegin)) return status;
+  const std::size_t close = message.find(']'), space = message.find(' ');
+  int k = -1;
+  if (close == message.npos || space == message.npos || space < close ||
+      !absl::SimpleAtoi(message.substr(kBegin.size(), close - kBegin.size()), &k) || k < 0 ||
+      k >= edits.size()) {
+    return status;
+  }
+  const v1::ModelEdit& edit = edits[k];
+  const auto* kind = edit.GetReflection()->GetOneofFieldDescriptor(edit, edit.GetDescriptor()->oneof_decl(0));
+  if (kind == nullptr) return status;
+  std::string field(message.substr(close + 1, space - close - 1));
+  // Where the message has other names, or is deeper, than the edit that is made of it.
+  if (edit.has_set_control() && field == ".face") field = ".control.face";
+  if (edit.has_guide_row() && (field == ".start" || field == ".end")) field += "_direction";
+  FieldErrors errors;
+  errors.Add(fmt::format("edits[{}].{}{}", k, std::string(kind->name()), field),
+             std::string(message.substr(space + 1)));
+  return errors.ToStatus();
 }
 
 }  // namespace patchmill

@@ -18,4 +18,8 @@ absl::StatusOr<std::vector<NetworkEdit>> FromProto(
 // Writes into `proto`, the message of `before`, what differs in `after`; the rest stays to the bit.
 void WriteEdited(const CurveNetwork& before, const CurveNetwork& after, double unit, v1::CurveNetwork* proto);
 
+// What EditNetwork says of "edits[k].face" and the like, with the field's path in the request.
+absl::Status WithFieldPath(const absl::Status& status,
+                           const google::protobuf::RepeatedPtrField<v1::ModelEdit>& edits);
+
 }  // namespace patchmill

@@ -85,6 +85,7 @@ double ReadDetail(double detail, std::string_view at, FieldErrors& errors) {
 Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors& errors) {
   Operation op;
   RequireBytes(errors, At(at, "id"), proto.id(), limits::kMaxIdBytes);
+  op.id = proto.id();
   if (proto.has_tool()) {
     op.tool = FromProto(proto.tool(), At(at, "tool"), CuttingData::kRequired, errors);
   } else {
@@ -154,6 +155,9 @@ Job FromProto(const v1::Job& proto, const v1::Post& post, std::string_view at, F
                  "is set; needs setup.stock.allowance_mm, for what stands on the surface must be known");
     }
     job.default_cutting_data = proto.operations(0).tool().cutting_data_is_default();
+    // What is meant to be left is there.
+    if (!proto.setup().stock().has_allowance_mm())
+      job.setup.allowance = std::max(job.setup.allowance, job.operation.leave);
     if (job.setup.allowance < job.operation.leave) {
       errors.Add(At(at, "setup.stock.allowance_mm"),
                  fmt::format("= {:.10g}; must be at least stock_to_leave_mm = {:.10g}", job.setup.allowance,
@@ -177,6 +181,7 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   proto.set_stock_to_leave_mm(op.leave);
   proto.set_steep_angle_deg(Degrees(op.steep_angle));
   proto.set_strategy(ToProto(op.strategy));
+  proto.set_id(op.id);
   proto.set_zigzag_angle_deg(Degrees(op.zigzag_angle));
   if (op.one_way) proto.set_one_way_lines(true);
   proto.set_contour_spirals(op.spirals);

@@ -220,9 +220,9 @@ class NetworkReader {
         to.at_end = Vector(twists.end_twist(), unit_, at + ".twists.end_twist");
     }
     if (from.has_push()) face.pushes.push_back(Push(from.push()));
-    if (from.more_pushes_size() > limits::kMaxPushes) {
+    if (static_cast<std::size_t>(from.more_pushes_size()) >= kMaxFacePushes) {
       Fault("INVALID_PUSH", at + ".more_pushes",
-            fmt::format("are {}; must be at most {}", from.more_pushes_size(), limits::kMaxPushes));
+            fmt::format("are {}; must be at most {}", from.more_pushes_size(), kMaxFacePushes - 1));
       return face;
     }
     for (const v1::FacePush& push : from.more_pushes()) face.pushes.push_back(Push(push));

@@ -41,7 +41,9 @@ absl::Status Edit(const v1::EditModelRequest& request, const RunContext& run,
   }
   PM_ASSIGN_OR_RETURN(const std::vector<NetworkEdit> edits, FromProto(request.edits(), loaded.checked.unit));
   const CurveNetwork& before = loaded.checked.network;
-  PM_ASSIGN_OR_RETURN(const CurveNetwork after, EditNetwork(before, edits, run));
+  auto edited = EditNetwork(before, edits, run);
+  if (!edited.ok()) return WithFieldPath(edited.status(), request.edits());
+  const CurveNetwork after = *std::move(edited);
   WriteEdited(before, after, loaded.checked.unit, message.mutable_network());
   PM_ASSIGN_OR_RETURN(JoinedNetwork joined, JoinNetwork(after, run));
   findings(joined.findings);

@@ -51,6 +51,13 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
     ReachTableParams params;
     for (const double d : request.tool_diameters_mm()) params.radii.push_back(0.5 * d + job.operation.leave);
     params.tolerance = job.operation.tolerance;
+    if (const double least = 4.0 * (params.tolerance - 0.5 * job.operation.leave);
+        request.tool_diameters_mm(0) <= least) {
+      FieldErrors errors;
+      Require(errors, "tool_diameters_mm[0]", request.tool_diameters_mm(0), false,
+              fmt::format("above {:.10g}, four tolerances less twice the stock to leave", least));
+      return errors.ToStatus();
+    }
     PM_RETURN_IF_ERROR(run.Check());
     PM_ASSIGN_OR_RETURN(const Surface surface,
                         BuildPlacedSurface(std::move(prepared.model.model), job.setup, run));

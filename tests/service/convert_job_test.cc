@@ -76,7 +76,11 @@ INSTANTIATE_TEST_SUITE_P(
               "job.operations[0].tolerance_mm = inf; must be"},
         Wrong{"LeaveHuge", [](Request& r) { OperationOf(r).set_stock_to_leave_mm(101); },
               "job.operations[0].stock_to_leave_mm = 101; must be in [0, 100]"},
-        Wrong{"LeaveAboveAllowance", [](Request& r) { OperationOf(r).set_stock_to_leave_mm(0.6); },
+        Wrong{"LeaveAboveAllowance",
+              [](Request& r) {
+                OperationOf(r).set_stock_to_leave_mm(0.6);
+                r.mutable_job()->mutable_setup()->mutable_stock()->set_allowance_mm(0.5);
+              },
               "job.setup.stock.allowance_mm = 0.5; must be at least stock_to_leave_mm = 0.6"},
         Wrong{"LeaveNegative", [](Request& r) { OperationOf(r).set_stock_to_leave_mm(-0.1); },
               "job.operations[0].stock_to_leave_mm is not there yet", kNext},

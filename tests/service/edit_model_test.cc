@@ -154,12 +154,12 @@ TEST(EditModel, WhatCannotBeDoneIsRefusedWithItsPath) {
     EXPECT_THAT(Edit(request, &response), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr(text)));
   };
   refused("{}", "edits[0]");
-  refused(R"({"push_face": {"face": 12, "push": {}}})", "edits[0].face = 12; must be in [0, 8]");
+  refused(R"({"push_face": {"face": 12, "push": {}}})", "edits[0].push_face.face = 12; must be in [0, 8]");
   refused(R"({"push_face": {"face": 1}})", "edits[0].push_face.push");
   refused(R"({"turn_normal": {"vertex": 1, "direction": [1, 2]}})",
           "edits[0].turn_normal.direction has 2 numbers");
   refused(R"({"guide_row": {"edges": [{"start": 1, "end": 2}]}})",
-          "edits[0].edges are 1; must be at least 2");
+          "edits[0].guide_row.edges are 1; must be at least 2");
   v1::EditModelRequest request = Sheet();
   v1::EditModelResponse response;
   request.mutable_source()->mutable_model()->clear_network();
