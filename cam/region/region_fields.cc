@@ -1,11 +1,19 @@
 #include "cam/region/region_fields.h"
 
+#include <algorithm>
+
 #include "cam/region/limit_follower.h"
 #include "cam/region/reach_limits.h"
 #include "core/diffgeo/forms.h"
 #include "core/lines/line_fields.h"
 
 namespace patchmill {
+namespace {
+
+// Shapes below this part of the ball's radius are too small for it to feel.
+constexpr double kMinCell = 0.06;
+
+}  // namespace
 
 std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& params) {
   std::vector<ZeroField> fields(kFieldCount);
@@ -77,6 +85,27 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   fields.pop_back();
   if (params.keep_in == nullptr) fields.pop_back();
   return fields;
+}
+
+std::vector<ZeroField> ReachFields(const ReachTest& reach, const RegionParams& params) {
+  std::vector<ZeroField> fields = RegionFields(reach, params);
+  fields.resize(static_cast<std::size_t>(Field::kFloor) + 1);
+  ZeroField& above = fields[static_cast<std::size_t>(Field::kAbove)];
+  above.smooth = true;
+  above.value = [](const SurfaceJet&) { return 1.0; };
+  above.values = {};
+  return fields;
+}
+
+ZeroMeshParams RegionMeshParams(const Surface& surface, const RegionParams& params, double part,
+                                const RunContext& run) {
+  ZeroMeshParams p;
+  p.run = &run;
+  p.max_turn = 0.7;
+  p.skip_negligible = true;
+  p.max_cell = std::max(0.6 * params.radius, part * surface.box.Diagonal());
+  p.min_cell = kMinCell * params.radius;
+  return p;
 }
 
 SplitLabel LabelOf(const ZeroTriangle& triangle) {

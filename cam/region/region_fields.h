@@ -28,6 +28,15 @@ static_assert(kFieldCount <= kMaxZeroFields);
 // Fields in the order of the enum; they keep a reference to `reach`.
 std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& params);
 
+// The first three of them alone: what a ball reaches. Reasons are not told apart: where it is not free kAbove
+// is > 0.
+std::vector<ZeroField> ReachFields(const ReachTest& reach, const RegionParams& params);
+
+// How finely pieces are divided for them: cells of 0.6 radii, or this part of the diagonal of the surface's
+// box where that is more.
+ZeroMeshParams RegionMeshParams(const Surface& surface, const RegionParams& params, double part,
+                                const RunContext& run);
+
 // What a triangle is; ground that is not finished has no other label than why. Triangles of equal labels that
 // share an edge belong together.
 struct SplitLabel {

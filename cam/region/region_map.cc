@@ -35,19 +35,8 @@ constexpr int kMostRegions = 40;     // reachable ones, at full detail
 // their own; nor by less than this part of a cell, which triangles may miss.
 constexpr double kPersistence = 0.1;
 
-// Shapes below this part of the ball's radius are too small for it to feel.
-constexpr double kMinCell = 0.06;
-
-ZeroMeshParams MeshParams(const Surface& surface, const RegionParams& params, const RunContext& run) {
-  ZeroMeshParams p;
-  p.run = &run;
-  p.max_turn = 0.7;
-  p.skip_negligible = true;
-  p.max_cell = std::max(0.6 * params.radius, 0.02 * surface.box.Diagonal());
-  p.min_cell = kMinCell * params.radius;
-  return p;
-}
-
+constexpr double kCell =
+    0.02;  // of the diagonal of the box: cells are no smaller where nothing is seen in them
 constexpr double kCoarsest = 0.05;
 
 // How much coarser than at middle detail regions are: 0 for the raw split.
@@ -293,7 +282,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   const ReachTest reach(free_ball, params, run);
   PM_RETURN_IF_ERROR(run.Check());
   const std::vector<ZeroField> fields = RegionFields(reach, params);
-  const ZeroMeshParams mesh_params = MeshParams(surface, params, run);
+  const ZeroMeshParams mesh_params = RegionMeshParams(surface, params, kCell, run);
   std::vector<SplitMesh> meshes(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions", meshes.size(), [&](std::size_t i) {
     meshes[i] = BuildSplitMesh(surface.pieces[i], fields, params.steep_angle, mesh_params);
