@@ -109,13 +109,10 @@ double Length(const BorderLine& line) {
   return sum;
 }
 
-// The borders of what is seen and reached, by kind, and the nodes on them. Open edges of the sheet are drawn
-// anyway.
+// The borders of what is seen, by kind, also between two reasons, and the nodes on them. Open edges of the
+// sheet are drawn anyway.
 void AddBorders(const RegionMap& map, const std::vector<bool>& seen, PreviewInput& input) {
-  const auto shown = [&](int id) {
-    return id >= 0 && seen[static_cast<std::size_t>(id)] &&
-           map.regions[static_cast<std::size_t>(id)].kind != RegionKind::kUnreachable;
-  };
+  const auto shown = [&](int id) { return id >= 0 && seen[static_cast<std::size_t>(id)]; };
   std::vector<char> met(map.nodes.size(), 0);
   for (const BorderStyle& style : kBorderStyles) {
     PreviewLines drawn;
