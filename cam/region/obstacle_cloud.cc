@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/base/lanes.h"
+#include "core/base/silence.h"
 
 namespace patchmill {
 namespace {
@@ -61,12 +62,18 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
   spacing = std::max(spacing, std::sqrt(area / kMostPoints));
   std::vector<Vec3> points;
   std::vector<Parameters> at;
+  Silence silence;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const auto steps = [&](double side) {
       return std::clamp(static_cast<int>(std::ceil(side / spacing)), 1, kMostCells);
     };
     const int nu = steps(sides[k].x()), nv = steps(sides[k].y());
     for (int i = 0; i < nu && !run.Cancelled(); ++i) {
+      if (silence.TooLong()) {
+        silence.Break();
+        run.Progress("obstacles", (static_cast<double>(k) + static_cast<double>(i) / nu) /
+                                      static_cast<double>(sides.size()));
+      }
       for (int j = 0; j < nv; ++j) {
         const double u = (i + 0.5) / nu, v = (j + 0.5) / nv;
         points.push_back(Position(surface.pieces[k], u, v));

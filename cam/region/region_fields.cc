@@ -91,7 +91,6 @@ std::vector<ZeroField> ReachFields(const ReachTest& reach, const RegionParams& p
   std::vector<ZeroField> fields = RegionFields(reach, params);
   fields.resize(static_cast<std::size_t>(Field::kFloor) + 1);
   ZeroField& above = fields[static_cast<std::size_t>(Field::kAbove)];
-  above.smooth = true;
   above.value = [](const SurfaceJet&) { return 1.0; };
   above.values = {};
   return fields;

@@ -49,7 +49,7 @@ struct ProgramMove {
   // place where the axis is first sent.
   bool from_anywhere = false;
   double chord_error = 0.0;  // mm, when the move is one chord of an arc
-  bool spindle_on = false;  // at a speed above zero
+  bool spindle_on = false;   // at a speed above zero
 };
 
 struct ProgramMotion {
@@ -59,8 +59,8 @@ struct ProgramMotion {
   // T), PATH_MODE_ASSUMED (no smoothing), SPINDLE_REVERSED (a left-hand cutter). Warnings with their lines.
   Diagnostics assumptions;
   int tool_number = 0;
-  // mm, largest G64 P + Q in force (Q absent: P), kInfinity for G64 without P or with P0: while feeding, and over rapids
-  // below machine zero.
+  // mm, largest G64 P + Q in force (Q absent: P), kInfinity for G64 without P or with P0: while feeding, and
+  // over rapids below machine zero.
   double controller_tolerance = 0.0;
   double rapid_tolerance = 0.0;
   bool ends_with_spindle_off = false;

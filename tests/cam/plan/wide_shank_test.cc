@@ -181,7 +181,10 @@ TEST(WideShank, FlatGroundAlongItsLimitCostsLittle) {
     const JobResult result = Mill(surface, ShankJob(4.0, 16.0 - below, 2.0));
     EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
     const double area = result.report.verify.unreachable_area[kShankArea];
-    EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), area, 0.01 * area + 0.5);
+    // On the walls it is a strip thinner than the tolerance: the map gives it to CONCAVE beside it, and the
+    // report sees it in cells.
+    EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), area, 0.02 * area);
+    EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), 96.0 + 12.0 * kPi, 0.5);  // 2 to 4 off the walls
     if (!kSanitized) {
       EXPECT_LT(ClockSeconds(CLOCK_PROCESS_CPUTIME_ID) - before, 15.0);
     }
