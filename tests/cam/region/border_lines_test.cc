@@ -170,7 +170,7 @@ TEST(BorderLines, AreWhatTheirKindSays) {
     }
   }
   EXPECT_GT(slopes, kSanitized ? 50.0 : 300.0);
-  EXPECT_GT(watersheds, 50.0);
+  EXPECT_GT(watersheds, kSanitized ? 10.0 : 50.0);
   EXPECT_LE(off, 0.005 * slopes);
 }
 
