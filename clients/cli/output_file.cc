@@ -29,8 +29,12 @@ bool IsSame(const std::string& a, const std::string& b) {
   if (IsSpecial(a) || IsSpecial(b)) return false;
   std::error_code no_file, no_path;
   if (std::filesystem::equivalent(a, b, no_file)) return true;
-  const auto whole = std::filesystem::weakly_canonical(a, no_path);
-  return !no_path && whole == std::filesystem::weakly_canonical(b, no_path) && !no_path;
+  const auto whole = [&](const std::string& path) {
+    const auto from_root = std::filesystem::absolute(path, no_path);
+    return no_path ? std::filesystem::path() : std::filesystem::weakly_canonical(from_root, no_path);
+  };
+  const auto here = whole(a), there = whole(b);
+  return !no_path && here == there;
 }
 
 absl::Status Fault(const std::string& path) {

@@ -536,6 +536,18 @@ TEST_F(Cli, AProgramThatCannotBeWrittenIsSaidBeforeTheJob) {
   EXPECT_THAT(run.err, HasSubstr("cannot write"));
 }
 
+TEST_F(Cli, NoResultReplacesWhatIsReadOrAnotherResult) {
+  const std::string before = Slurp(bump_);
+  const Finished model = Patchmill({"mill", bump_, "-o", bump_});
+  EXPECT_EQ(model.status, 2);
+  EXPECT_THAT(model.err, HasSubstr("is read"));
+  EXPECT_EQ(Slurp(bump_), before);
+  const Finished twice = Mill(bump_, {"--report", out_ / "./part.ngc"});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("two results"));
+  EXPECT_THAT(out_.Names(), IsEmpty());
+}
+
 TEST_F(Cli, WhenNothingCanBeReachedTheReportIsWrittenAndNoProgram) {
   const Finished run = Mill(bump_, {"--floor", "50", "--report", out_ / "part.json"});
   EXPECT_EQ(run.status, 1);
