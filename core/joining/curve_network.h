@@ -112,7 +112,7 @@ enum class PatchScheme {
   kHosaka,
 };
 
-inline constexpr std::size_t kMaxFacePushes = 101;  // of one face
+inline constexpr std::size_t kMaxFacePushes = 101;  // of one face: on the wire `push` and 100 more
 
 // A bulge or dent at one place of a face (1.8b), by the twists of its edges: corners and edges stay, the
 // faces across its smooth edges follow.

@@ -47,8 +47,8 @@ struct ZeroField {
   double noise = 1e-9;       // values up to this are rounding: sign 0
   double resolution = 0.01;  // mm: how exactly the limits of a field that is not smooth are placed
   // Counts only where this earlier field of a list has this sign, -1 or +1: elsewhere its curves are not cut
-  // in, triangles have no sign of it, and one that is not smooth is asked for
-  // there and on that field's curve alone.
+  // in, triangles have no sign of it, and one that is not smooth is asked
+  // for there and on that field's curve alone: a limit may begin on it.
   int where = -1;
   std::int8_t where_sign = -1;
 };

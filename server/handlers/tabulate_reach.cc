@@ -51,7 +51,7 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
     ReachTableParams params;
     for (const double d : request.tool_diameters_mm()) params.radii.push_back(0.5 * d + job.operation.leave);
     params.tolerance = job.operation.tolerance;
-    if (const double least = 4.0 * (params.tolerance - 0.5 * job.operation.leave);
+    if (const double least = 4.0 * params.tolerance - 2.0 * job.operation.leave;
         request.tool_diameters_mm(0) <= least) {
       FieldErrors errors;
       Require(errors, "tool_diameters_mm[0]", request.tool_diameters_mm(0), false,

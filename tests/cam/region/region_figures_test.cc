@@ -37,6 +37,18 @@ RegionMap Split(const Surface& surface, const RegionParams& params) {
   return map.ok() ? *std::move(map) : RegionMap();
 }
 
+struct Part {
+  std::string file;
+  double scale;
+};
+
+// Y of the file is up.
+Surface Upright(const std::string& file, double scale) {
+  Eigen::Affine3d upright = Eigen::Affine3d::Identity();
+  upright.rotate(Eigen::AngleAxisd(Radians(90.0), Vec3::UnitX())).scale(scale);
+  return SurfaceOf(Transformed(LoadModel(file), upright));
+}
+
 int Count(const RegionMap& map, UnreachableReason reason) {
   return static_cast<int>(std::count_if(map.regions.begin(), map.regions.end(), [&](const Region& r) {
     return r.kind == RegionKind::kUnreachable && r.reason == reason;
@@ -93,9 +105,7 @@ TEST(RegionFigures, TheToolForASlotOfUprightWallsIsAsWide) {
 // The least radius over a grid on every piece. What is said is below it only as far as places between those
 // of the grid are worse.
 TEST(RegionFigures, TheToolForARegionReachesAllOfIt) {
-  Eigen::Affine3d upright = Eigen::Affine3d::Identity();
-  upright.rotate(Eigen::AngleAxisd(Radians(90.0), Vec3::UnitX())).scale(50.0);
-  const Surface surface = SurfaceOf(Transformed(LoadModel("examples/teapot.bpt"), upright));
+  const Surface surface = Upright("examples/teapot.bpt", 50.0);
   const RegionParams params = Params();
   const RegionMap map = Split(surface, params);
   std::vector<double> least(map.regions.size(), kR);
@@ -154,18 +164,12 @@ TEST(RegionFigures, WhatStaysUnderASlabIsThatOfItsMiddle) {
 
 // Grids of places on every piece, each with the reason of the region it lies in.
 TEST(RegionFigures, NoPlaceOfARegionKeepsMoreThanIsSaid) {
-  struct Part {
-    std::string file;
-    double scale;
-  };
   int deep = 0;
   for (const Part& part : {Part{"examples/teapot.bpt", 50.0}, Part{"tests/models/teacup.bpt", 20.0},
                            Part{"tests/models/torus_bicubic.patches", 30.0}}) {
     if (kSanitized && part.scale > 40.0) continue;
     SCOPED_TRACE(part.file);
-    Eigen::Affine3d upright = Eigen::Affine3d::Identity();
-    upright.rotate(Eigen::AngleAxisd(Radians(90.0), Vec3::UnitX())).scale(part.scale);
-    const Surface surface = SurfaceOf(Transformed(LoadModel(part.file), upright));
+    const Surface surface = Upright(part.file, part.scale);
     RegionParams params = Params();
     params.floor_z = surface.box.min.z();
     const RegionMap map = Split(surface, params);
@@ -238,19 +242,13 @@ TEST(RegionFigures, WhereNoBallIsAllowedEverythingStays) {
 
 // The raw split, slivers and all.
 TEST(RegionFigures, UnmergedRegionsHaveAreasAndPointsOfTheirOwn) {
-  struct Part {
-    std::string file;
-    double scale;
-  };
   for (const Part& part :
        {Part{"examples/teapot.bpt", 50.0}, Part{"tests/models/teacup.bpt", 20.0},
         Part{"tests/models/icosahedron.patches", 30.0}, Part{"tests/models/toroidal_tet.patches", 40.0},
         Part{"tests/models/torus_bicubic.patches", 30.0}}) {
     if (kSanitized && part.scale > 40.0) continue;
     SCOPED_TRACE(part.file);
-    Eigen::Affine3d upright = Eigen::Affine3d::Identity();
-    upright.rotate(Eigen::AngleAxisd(Radians(90.0), Vec3::UnitX())).scale(part.scale);
-    const Surface surface = SurfaceOf(Transformed(LoadModel(part.file), upright));
+    const Surface surface = Upright(part.file, part.scale);
     RegionParams params = Params();
     const double all = TotalArea(Split(surface, params));
     params.detail = 1.0;
