@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "cam/region/reach.h"
-#include "core/base/status.h"
 
 namespace patchmill {
 namespace {
@@ -191,16 +190,6 @@ Deepest LeftoverSearch::Find(const RunContext& run) {
   }
   const double all = locator_.surface().box.Diagonal();
   return {std::min(all, std::max(0.0, Distance() - radius)), proven_};
-}
-
-Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
-                        const RunContext& run, std::span<const Vec3> normals) {
-  PM_CHECK(normals.empty() || normals.size() == places.size());
-  LeftoverSearch search(locator, params);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    search.AddPoint(places[i], normals.empty() ? Vec3(Vec3::Zero()) : normals[i]);
-  }
-  return search.Find(run);
 }
 
 }  // namespace patchmill

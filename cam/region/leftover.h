@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -86,9 +85,5 @@ class LeftoverSearch {
   int settled_ = 0;
   bool proven_ = true;
 };
-
-// The same of some points.
-Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& params, std::span<const Vec3> places,
-                        const RunContext& run, std::span<const Vec3> normals = {});
 
 }  // namespace patchmill

@@ -195,39 +195,50 @@ class Merger {
     }
   }
 
+  using Group = std::pair<int, bool>;  // curvature, steep
+  Group GroupOf(int i) const { return {At(i).label.curvature, At(i).label.steep}; }
+  using ByArea = std::set<std::pair<double, int>>;
+  // What has changed since it was put in is left out when it is met.
+  bool Stands(const ByArea::value_type& entry, const Group& group) const {
+    return At(entry.second).alive && At(entry.second).area == entry.first && GroupOf(entry.second) == group;
+  }
+
   // While there are too many the smallest goes with a neighbour that is as steep or, where there is none,
   // with those of its label that are hardly larger, wherever they are, or with the largest: equal features
   // are one region. Steep ground never goes with gentle, for that is not cut as well by the other's passes.
+  // Cost O(log n) for each that goes.
   void LimitCount() {
-    std::vector<int> left;
+    std::map<Group, ByArea> left;
+    const auto put = [&](int i) { left[GroupOf(i)].insert({At(i).area, i}); };
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      if (nodes_[i].alive && Reached(nodes_[i].label)) left.push_back(static_cast<int>(i));
+      if (nodes_[i].alive && Reached(nodes_[i].label)) put(static_cast<int>(i));
     }
-    while (reached_ > params_.max_regions && !left.empty()) {
-      const auto smallest = std::min_element(left.begin(), left.end(), [&](int a, int b) {
-        return std::pair(At(a).area, a) < std::pair(At(b).area, b);
-      });
-      const int small = *smallest;
-      left.erase(smallest);  // it is gone after this, or stays as it is
-      const SplitLabel label = At(small).label;
+    while (reached_ > params_.max_regions) {
+      ByArea* alike = nullptr;  // those of the smallest one's label
+      for (auto& [group, regions] : left) {
+        while (!regions.empty() && !Stands(*regions.begin(), group)) regions.erase(regions.begin());
+        while (!regions.empty() && !Stands(*regions.rbegin(), group)) regions.erase(std::prev(regions.end()));
+        if (!regions.empty() && (alike == nullptr || *regions.begin() < *alike->begin())) alike = &regions;
+      }
+      if (alike == nullptr) return;
+      const int small = alike->begin()->second;
+      alike->erase(alike->begin());  // it is gone after this, or stays as it is
+      const Group group = GroupOf(small);
       int into = LongestNeighbour(
-          small, [&](const Node& n) { return Reached(n.label) && n.label.steep == label.steep; });
+          small, [&](const Node& n) { return Reached(n.label) && n.label.steep == group.second; });
       if (into < 0) {
-        std::vector<int> alike;
-        std::copy_if(left.begin(), left.end(), std::back_inserter(alike),
-                     [&](int i) { return At(i).label == label; });
-        if (alike.empty()) continue;
-        into = *std::max_element(alike.begin(), alike.end(), [&](int a, int b) {
-          return std::pair(At(a).area, -a) < std::pair(At(b).area, -b);
-        });
+        if (alike->empty()) continue;
+        into = alike->rbegin()->second;
         const double equal = kEqual * At(small).area;
-        for (const int other : alike) {
-          if (other != into && At(other).area <= equal) Join(into, other);
+        while (!alike->empty() && alike->begin()->first <= equal) {
+          const ByArea::value_type entry = *alike->begin();
+          alike->erase(alike->begin());
+          if (entry.second != into && Stands(entry, group)) Join(into, entry.second);
         }
       }
       Join(into, small);
       FuseEqual(into);
-      std::erase_if(left, [&](int i) { return !At(i).alive; });
+      put(into);
     }
   }
 

@@ -35,8 +35,9 @@ constexpr int kMostRegions = 40;     // reachable ones, at full detail
 // their own; nor by less than this part of a cell, which triangles may miss.
 constexpr double kPersistence = 0.1;
 
-constexpr double kCell =
-    0.02;  // of the diagonal of the box: cells are no smaller where nothing is seen in them
+// Of the diagonal of the box: cells are no smaller where nothing is seen in them.
+constexpr double kCell = 0.02;
+
 constexpr double kCoarsest = 0.05;
 
 // How much coarser than at middle detail regions are: 0 for the raw split.

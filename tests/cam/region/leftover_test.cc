@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/deepest_leftover.h"
 #include "tests/support/profiles.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
@@ -262,6 +263,25 @@ TEST(Leftover, OfManyPlacesIsThatOfTheDeepest) {
   }
   EXPECT_DOUBLE_EQ(DeepestLeftover(Locator(surface, kR), {}, places, RunContext()).leftover, deepest);
   EXPECT_EQ(DeepestLeftover(Locator(surface, kR), {}, {}, RunContext()).leftover, 0.0);
+}
+
+TEST(Leftover, OfTrianglesIsProvenAndThatOfTheirDeepestPlace) {
+  // A valley whose bottom keeps R / cos(a) - R, and one triangle a piece that the crease is a side of.
+  const double a = Radians(50);
+  const Surface surface = SurfaceOf(TwoPlanes(a, 20));
+  const Locator locator(surface, kR);
+  LeftoverSearch search(locator, {});
+  for (std::size_t piece = 0; piece < surface.pieces.size(); ++piece) {
+    search.AddTriangle(piece, {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1)});
+    search.AddTriangle(piece, {Vec2(0, 0), Vec2(1, 1), Vec2(0, 1)});
+  }
+  const Deepest found = search.Find(RunContext());
+  const double stays = kR / std::cos(a) - kR;
+  EXPECT_TRUE(found.proven);
+  EXPECT_LE(found.leftover, stays + kNear);
+  EXPECT_GE(found.leftover, stays / 1.05 - 0.002 * kR);
+  // Over no ground nothing stays.
+  EXPECT_EQ(LeftoverSearch(locator, {}).Find(RunContext()).leftover, 0.0);
 }
 
 }  // namespace

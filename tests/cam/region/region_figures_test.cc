@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "cam/location/keep_in.h"
-#include "cam/region/leftover.h"
 #include "cam/region/reach.h"
 #include "cam/region/region_map.h"
 #include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
+#include "tests/support/deepest_leftover.h"
 #include "tests/support/files.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
