@@ -141,14 +141,16 @@ absl::Status ProgramUnreadableError(std::string_view why) {
   return WithReason(absl::StatusCode::kInvalidArgument, "PROGRAM_UNREADABLE", why);
 }
 
-absl::Status ModelInvalidError(const Diagnostics& faults) {
+absl::Status ModelInvalidError(const Diagnostics& faults, std::string_view at) {
   v1::ErrorInfo info;
   info.set_reason("MODEL_INVALID");
   info.set_violation_count(static_cast<int>(faults.size()));
   for (const Diagnostic& fault : faults) {
     if (info.field_violations_size() == limits::kMaxViolations) break;
     v1::FieldViolation& violation = *info.add_field_violations();
-    violation.set_field(Cut(fault.where.field, kMaxViolationBytes));
+    const std::string& field = fault.where.field;
+    violation.set_field(
+        Cut(field.empty() ? std::string(at) : fmt::format("{}.{}", at, field), kMaxViolationBytes));
     violation.set_description(Cut(fault.message, kMaxViolationBytes));
   }
   return WithInfo(absl::StatusCode::kInvalidArgument,

@@ -40,7 +40,8 @@ absl::Status ModelNotCachedError();
 absl::Status ModelUnreadableError(std::string_view why, std::string_view code = {});
 absl::Status CurveUnreadableError(std::string_view why);
 absl::Status ProgramUnreadableError(std::string_view why);
-absl::Status ModelInvalidError(const Diagnostics& faults);  // at least one
+// At least one; `at`: where the request has the model.
+absl::Status ModelInvalidError(const Diagnostics& faults, std::string_view at);
 
 // An error of the domain about a field of a job's set-up, operation or post, as a request with a `job` and a
 // `post` has it: "heights.floor_z_mm" becomes "job.operations[0].heights.floor_z_mm". Any other status as it

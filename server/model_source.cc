@@ -63,9 +63,12 @@ absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::stri
       fmt::join(kTextFormats, ", ")));
 }
 
-absl::StatusOr<LoadedModel> FromChecked(absl::StatusOr<CheckedModel> checked) {
+absl::StatusOr<LoadedModel> LoadMessage(const v1::PatchModel& model, const std::string& at,
+                                        const RunContext& run) {
+  absl::StatusOr<CheckedModel> checked = FromProto(model, at, run);
   PM_RETURN_IF_ERROR(checked.status());
   LoadedModel loaded;
+  loaded.path = at;
   loaded.model = std::move(checked->model);
   loaded.faults = std::move(checked->faults);
   loaded.remarks = std::move(checked->remarks);
@@ -80,6 +83,7 @@ absl::StatusOr<LoadedModel> LoadText(const v1::ModelFile& file, std::string_view
                                 CodeOf(model.status()));
   }
   LoadedModel loaded;
+  loaded.path = At(at, "content");
   loaded.model = *std::move(model);
   if (file.length_unit() == v1::LENGTH_UNIT_UNSPECIFIED) {
     loaded.unitless = true;
@@ -130,7 +134,7 @@ absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::strin
   PM_RETURN_IF_ERROR(RequireContent(file));
   if (IsText(file.format())) return LoadText(file, at);
   PM_ASSIGN_OR_RETURN(const v1::PatchModel model, ParseMessage(file, at));
-  return FromChecked(FromProto(model, At(at, "content"), run));
+  return LoadMessage(model, At(at, "content"), run);
 }
 
 absl::Status NoSource(std::string_view at) {
@@ -142,7 +146,7 @@ absl::Status NoSource(std::string_view at) {
 absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view at, const RunContext& run) {
   switch (source.source_case()) {
     case v1::ModelSource::kModel:
-      return FromChecked(FromProto(source.model(), At(at, "model"), run));
+      return LoadMessage(source.model(), At(at, "model"), run);
     case v1::ModelSource::kFile:
       return LoadFile(source.file(), At(at, "file"), run);
     case v1::ModelSource::kModelSha256:

@@ -20,6 +20,7 @@ struct LoadedModel {
   Diagnostics remarks;    // warnings about a model that may be used; points in its own frame, mm
   bool unitless = false;  // a file that states no unit, and the request did not either
   std::string digest;     // SHA-256, 32 bytes
+  std::string path;       // where the request has it; of a file, its content
 };
 
 // INVALID_ARGUMENT for what cannot be read (with line and reason), NOT_FOUND for a digest, RESOURCE_EXHAUSTED

@@ -111,22 +111,22 @@ absl::Status ValidateJob(const Job& job) {
         "setup.stock.allowance_mm",
         fmt::format("= {:.6g}; must be at least stock_to_leave_mm = {:.6g}", job.setup.allowance, op.leave));
   }
-  const auto height = [&](const char* field, const std::optional<double>& z) {
+  const auto length = [&](const char* field, const std::optional<double>& z) {
     return z ? check(field, *z, std::abs(*z) <= kMaxLength, fmt::format("in [-{0}, {0}]", kMaxLength))
              : absl::OkStatus();
   };
-  PM_RETURN_IF_ERROR(height("heights.clearance_z_mm", op.clearance_z));
-  PM_RETURN_IF_ERROR(height("heights.floor_z_mm", op.floor_z));
-  PM_RETURN_IF_ERROR(height("heights.top_z_mm", op.top_z));
+  PM_RETURN_IF_ERROR(length("heights.clearance_z_mm", op.clearance_z));
+  PM_RETURN_IF_ERROR(length("heights.floor_z_mm", op.floor_z));
+  PM_RETURN_IF_ERROR(length("heights.top_z_mm", op.top_z));
   if (op.floor_z && op.top_z && *op.top_z < *op.floor_z) {
     return FieldError("heights.top_z_mm",
                       fmt::format("= {:.6g}; must be at least floor_z_mm = {:.6g}", *op.top_z, *op.floor_z));
   }
   PM_RETURN_IF_ERROR(ValidateLimits(job));
-  PM_RETURN_IF_ERROR(height("setup.stock.top_z_mm", job.setup.stock_top_z));
-  PM_RETURN_IF_ERROR(check("setup.program_zero", job.setup.zero_point.norm(),
-                           job.setup.zero_point.allFinite() && job.setup.zero_point.norm() <= kMaxLength,
-                           fmt::format("finite and within {} mm", kMaxLength)));
+  PM_RETURN_IF_ERROR(length("setup.stock.top_z_mm", job.setup.stock_top_z));
+  PM_RETURN_IF_ERROR(length("setup.program_zero.x_mm", job.setup.zero_point.x()));
+  PM_RETURN_IF_ERROR(length("setup.program_zero.y_mm", job.setup.zero_point.y()));
+  PM_RETURN_IF_ERROR(length("setup.program_zero.z_mm", job.setup.zero_point.z()));
   bool known = false;
   std::string list;
   for (const std::string& dialect : KnownDialects()) {

@@ -61,7 +61,9 @@ void LeftoverSearch::Bound(Cell& cell, double enough) {
   if (cell.seen == 0 && last_ < found_.size()) {
     cell.bound = Farthest(cell.ground, found_[last_].center, cell.bound);
   }
-  for (; cell.seen < found_.size() && cell.bound > enough; ++cell.seen) {
+  for (; cell.bound > enough; ++cell.seen) {
+    cell.seen = centers_.FirstNear(cell.ground.hull[0], cell.bound, cell.seen);
+    if (cell.seen == found_.size()) return;
     const double farthest = Farthest(cell.ground, found_[cell.seen].center, cell.bound);
     if (farthest >= cell.bound) continue;
     cell.bound = farthest;
@@ -72,21 +74,22 @@ void LeftoverSearch::Bound(Cell& cell, double enough) {
 Column LeftoverSearch::NearestKnown(const Vec3& p) const {
   if (found_.empty()) return Column();
   std::size_t nearest = 0;
-  double least2 = kInfinity;
-  for (std::size_t i = 0; i < found_.size(); ++i) {
-    const double distance2 = (found_[i].center - p).squaredNorm();
-    if (distance2 >= least2) continue;
-    least2 = distance2;
+  double least = kInfinity;
+  for (std::size_t i = 0; (i = centers_.FirstNear(p, least, i)) < found_.size(); ++i) {
+    const double distance = (found_[i].center - p).norm();
+    if (distance >= least) continue;
+    least = distance;
     nearest = i;
   }
   Column column = found_[nearest];
-  column.distance = std::sqrt(least2);
+  column.distance = least;
   return column;
 }
 
 void LeftoverSearch::Learn(const Column& column) {
   if (column.distance == kInfinity) return;
   found_.push_back(column);
+  centers_.Add(column.center);
   for (Looked& place : deepest_) {
     const double distance = (column.center - place.p).norm();
     if (distance >= place.nearest.distance) continue;
@@ -105,7 +108,7 @@ void LeftoverSearch::LookAt(const GroundPlace& place, double enough) {
     column = next;
     Learn(column);
   };
-  look([&] { return search.Above(); });
+  look([&] { return search.Above(column); });
   look([&] { return search.Descend(column); });
   if (place.normal != Vec3::Zero()) look([&] { return search.Beside(place.normal, column); });
   if (place.normal != Vec3::Zero() && ReachTest::Upright(place.normal))

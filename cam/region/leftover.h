@@ -9,6 +9,7 @@
 
 #include "cam/region/ground_cell.h"
 #include "cam/region/nearest_center.h"
+#include "cam/region/point_list.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
@@ -78,6 +79,7 @@ class LeftoverSearch {
   std::size_t entered_ = 0;  // of them, in the heap
   std::vector<Entry> heap_;
   std::vector<Column> found_;
+  PointList centers_;            // of those found
   std::vector<Looked> deepest_;  // each was the deepest when it was looked at
   std::size_t last_ = 0;         // the centre that bounded the last cell
   double area_ = 0.0;

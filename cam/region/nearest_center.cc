@@ -91,7 +91,7 @@ Column NearestCenter::Descend(Column at) const {
     if (!foot) break;
     const Vec2 step = share * Plan(*foot - at.center);
     if (step.norm() < kStill * locator_.radius()) break;
-    const Column next = At(Plan(at.center) + step);
+    const Column next = At(Plan(at.center) + step, at);
     const bool nearer = next.distance < at.distance;
     if (nearer) at = next;
     const bool told = learn(next);
@@ -126,7 +126,7 @@ Column NearestCenter::FromAround(Column known) const {
     Column inner;
     double at = 0.0;  // its radius; 0: none
     for (auto radius = radii.rbegin(); radius != radii.rend() && *radius < best.distance; ++radius) {
-      Column column = At(Plan(p_) + *radius * way);
+      Column column = At(Plan(p_) + *radius * way, inner);
       const bool drops = at > 0.0 && column.distance < inner.distance;
       if (drops) column = AlongRay(column);
       if (column.distance < best.distance) best = column;
@@ -154,7 +154,8 @@ Column NearestCenter::Settle(Column at) const {
     Column best = at;
     for (int k = 0; k < 8; ++k) {
       const double angle = 0.25 * kPi * k;
-      const Column next = At(Plan(at.center) + step * Vec2(std::cos(angle), std::sin(angle)), kSettledGap);
+      const Column next =
+          At(Plan(at.center) + step * Vec2(std::cos(angle), std::sin(angle)), at, kSettledGap * radius);
       if (next.distance < best.distance) best = next;
     }
     if (best.distance < at.distance) {
@@ -176,7 +177,7 @@ void NearestCenter::Between(const Vec2& way, double low, const Column& inner, do
   const double height = std::min(inner.center.z(), outer.center.z()) - p_.z();
   if (std::hypot(low, height) >= (1.0 - kWorthwhile) * best.distance) return;
   const double radius = 0.5 * (low + high);
-  const Column middle = At(Plan(p_) + radius * way);
+  const Column middle = At(Plan(p_) + radius * way, inner);
   if (middle.distance < best.distance) best = middle;
   Between(way, low, inner, radius, middle, halvings - 1, best);
   Between(way, radius, middle, high, outer, halvings - 1, best);
@@ -187,7 +188,7 @@ Column NearestCenter::Polish(Column at) const {
   if (at.distance == kInfinity) return at;
   for (double turn = kPi / kRing; turn > 0.01; turn *= 0.5)
     for (const double angle : {turn, -turn}) {
-      const Column turned = At(Plan(p_) + Eigen::Rotation2Dd(angle) * Plan(at.center - p_));
+      const Column turned = At(Plan(p_) + Eigen::Rotation2Dd(angle) * Plan(at.center - p_), at);
       if (turned.distance > (1.0 + kStill) * at.distance) continue;
       const Column found = Descend(AlongRay(turned));
       if (found.distance < at.distance) at = found;
@@ -203,7 +204,7 @@ Column NearestCenter::AlongRay(Column at) const {
   double inner = 0.75, outer = 1.0;  // of the span; columns at the inner end are no nearer
   while (outer - inner > kStill) {
     const double share = 0.5 * (inner + outer);
-    const Column column = At(Plan(p_) + share * span);
+    const Column column = At(Plan(p_) + share * span, at);
     const bool nearer = column.distance < at.distance;
     if (nearer) at = column;
     (nearer ? outer : inner) = share;
@@ -211,7 +212,7 @@ Column NearestCenter::AlongRay(Column at) const {
   return at;
 }
 
-Column NearestCenter::At(const Vec2& q, double gap) const {
+Column NearestCenter::At(const Vec2& q, const Column& near, double gap) const {
   const double radius = locator_.radius();
   Column column;
   double low = params_.floor_z + radius;
@@ -219,7 +220,8 @@ Column NearestCenter::At(const Vec2& q, double gap) const {
                            ? params_.keep_in->HeightsOver(q, kHeightGap * radius, std::max(low, p_.z()))
                            : std::optional(AllowedHeights());
   if (!allowed) return column;
-  const auto height = locator_.Height(q, nullptr, gap * radius);
+  const auto height = locator_.Height(q, near.contact ? &*near.contact : nullptr, gap);
+  if (height) column.contact = height->contact;
   if (allowed->lowest > low) {
     low = allowed->lowest;
     column.normal = allowed->normal;
@@ -244,6 +246,8 @@ Column NearestCenter::At(const Vec2& q, double gap) const {
   return column;
 }
 
-Column NearestCenter::At(const Vec2& q) const { return At(q, kHeightGap); }
+Column NearestCenter::At(const Vec2& q, const Column& near) const {
+  return At(q, near, kHeightGap * locator_.radius());
+}
 
 }  // namespace patchmill

@@ -1,6 +1,8 @@
 // The centre nearest to a place where a ball may stand: free, above the floor, allowed.
 #pragma once
 
+#include <optional>
+
 #include "cam/location/keep_in.h"
 #include "cam/location/locator.h"
 
@@ -18,6 +20,8 @@ struct Column {
   Vec3 normal = Vec3::UnitZ();  // of the free centres' border there, towards them
   bool held = false;            // stands on that border
   double distance = kInfinity;  // infinite: not allowed
+  // What the lowest free ball over this place touches.
+  std::optional<SurfacePoint> contact = std::nullopt;
 };
 
 // Search for the free centre that is nearest to one place, by steps that know more and more. One as near as
@@ -27,8 +31,8 @@ class NearestCenter {
   NearestCenter(const Locator& locator, const LeftoverParams& params, const Vec3& p, double enough = 0.0)
       : locator_(locator), params_(params), p_(p), enough_(enough) {}
 
-  // From right above it; no distance: nothing is allowed there. Cost: a height.
-  Column Above() const { return At(Plan(p_)); }
+  // From right above it; no distance: nothing is allowed there. Cost: a height, less with a column nearby.
+  Column Above(const Column& near = Column()) const { return At(Plan(p_), near); }
   // Each column looked at adds the half-space that it knows; the next one is towards the point of all of them
   // that is nearest to p. Exact in kinks, where two contacts hold the ball and coordinate searches stop.
   // Cost: some ten heights.
@@ -47,8 +51,9 @@ class NearestCenter {
                int halvings, Column& best) const;
   Column Polish(Column at) const;
   Column AlongRay(Column at) const;
-  Column At(const Vec2& q) const;
-  Column At(const Vec2& q, double gap) const;
+  // The column over q; one nearby, only for speed. To a thousandth of R, or to the gap in mm.
+  Column At(const Vec2& q, const Column& near) const;
+  Column At(const Vec2& q, const Column& near, double gap) const;
 
   const Locator& locator_;
   const LeftoverParams& params_;

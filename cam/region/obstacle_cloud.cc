@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -28,12 +27,6 @@ double LengthAlong(const Piece& piece, bool u) {
     longest = std::max(longest, length);
   }
   return longest;
-}
-
-Float4 Load(const std::vector<float>& from, std::size_t at) {
-  Float4 lanes;
-  std::memcpy(&lanes, &from[at], sizeof(lanes));
-  return lanes;
 }
 
 // Calls visit(i) for the points [first, last) that `near` (bits of the four from i on) tells of, until it

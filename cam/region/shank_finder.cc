@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kNearer = 0.02;  // of the radius: what blocks above is nearer by this (docs/reach.md)
 constexpr double kProof = 0.001;  // of the radius: how exactly distances are known here
+constexpr std::size_t kSlides = 4;
+constexpr int kSlideSteps = 4;
 
 }  // namespace
 
@@ -35,45 +37,67 @@ double ShankFinder::KnownAbove(const Vec3& center) const {
 bool ShankFinder::Blocked(const Vec3& center) {
   const bool known = KnownAbove(center) < free_radius_;
   if (!known && !MayRiseAbove(surface_, center, radius_)) return false;
-  return ShankIsNearer(center, known) || BallClears(center);
+  const double near = known ? radius_ : NearAtMost(center, radius_);
+  return ShankIsNearer(center, known, near) || BallClears(center, known ? NearAtMost(center, radius_) : near);
 }
 
 bool ShankFinder::StandsAbove(const Vec3& center) {
   const bool known = KnownAbove(center) < free_radius_;
-  return (known || MayRiseAbove(surface_, center, free_radius_)) && ShankIsNearer(center, known);
+  if (!known && !MayRiseAbove(surface_, center, free_radius_)) return false;
+  const double most = free_radius_ + proof_ + nearer_;
+  return ShankIsNearer(center, known, known ? most : NearAtMost(center, most));
 }
 
-bool ShankFinder::BallClears(const Vec3& center) {
+bool ShankFinder::BallClears(const Vec3& center, double near) {
   const double proof = 0.1 * (radius_ - free_radius_);
-  if (NearAtMost(center) < clear_ - proof) return false;  // a search is sure to see it
-  const auto near = ClosestToPoint(surface_, center, clear_, proof);
-  if (near) near_ = near->at.p;
-  return !near;
+  const double seen = clear_ - proof;  // a search is sure to see what is nearer
+  if (near < seen || SlidesNear(center, seen)) return false;
+  const auto found = FirstNearPoint(surface_, center, clear_, proof);
+  if (!found) return true;
+  near_ = found->at.p;
+  if (slides_.size() < kSlides) {
+    slides_.emplace_back(surface_, found->at);
+  } else {
+    slides_[next_slide_++ % kSlides] = RaySlide(surface_, found->at);
+  }
+  return false;
+}
+
+bool ShankFinder::SlidesNear(const Vec3& center, double limit) {
+  for (RaySlide& slide : slides_) {
+    for (int k = 0; k < kSlideSteps; ++k) {
+      if ((slide.at().p - center).norm() < limit) {
+        near_ = slide.at().p;
+        return true;
+      }
+      if (slide.Step(center) < proof_) break;
+    }
+  }
+  return false;
 }
 
 // Anything known bounds how near the nearest is.
-double ShankFinder::NearAtMost(const Vec3& center) {
-  const double near = std::min(radius_, (near_ - center).norm());
+double ShankFinder::NearAtMost(const Vec3& center, double most) {
+  const double near = std::min(most, (near_ - center).norm());
   if (const auto point = cloud_.Nearest(center, near)) near_ = *point;
   return std::min(near, (near_ - center).norm());
 }
 
 // With T the distance from the upward ray and B that from the centre: T < B - nearer. Any point above gives
 // an upper bound of T, any point one of B.
-bool ShankFinder::ShankIsNearer(const Vec3& center, bool known) {
+bool ShankFinder::ShankIsNearer(const Vec3& center, bool known, double near) {
   double limit = free_radius_ + proof_;
   if (known) {
-    const auto near = ClosestToPoint(surface_, center, KnownAbove(center) + nearer_, proof_);
-    if (!near) return true;
-    limit = std::min(limit, near->distance - nearer_ + proof_);
-    near_ = near->at.p;
-  } else {
-    limit = std::min(limit, NearAtMost(center) - nearer_);
+    const auto nearest = ClosestToPoint(surface_, center, KnownAbove(center) + nearer_, proof_);
+    if (!nearest) return true;
+    near = std::min(near, nearest->distance + proof_);
+    near_ = nearest->at.p;
   }
+  limit = std::min(limit, near - nearer_);
   if (limit <= 0.0) return false;
   const auto shank = ClosestAbove(surface_, center, limit, proof_);
   if (!shank || !(shank->at.p.z() > center.z())) return false;
-  if (ClosestToPoint(surface_, center, shank->distance + nearer_, proof_)) return false;
+  if (FirstNearPoint(surface_, center, shank->distance + nearer_, proof_)) return false;
   last_[next_++ % last_.size()] = shank->at.p;
   return true;
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
+#include "cam/location/ray_slide.h"
 #include "cam/region/obstacle_cloud.h"
 #include "core/surface/surface.h"
 
@@ -23,12 +25,15 @@ class ShankFinder {
   bool StandsAbove(const Vec3& center);
 
  private:
-  // The first half of it. `known`: KnownAbove is nearer than the free ball's radius.
-  bool ShankIsNearer(const Vec3& center, bool known);
+  // The first half of it. `known`: KnownAbove is nearer than the free ball's radius; `near`: NearAtMost, or
+  // more.
+  bool ShankIsNearer(const Vec3& center, bool known, double near);
   // The second.
-  bool BallClears(const Vec3& center);
-  // At least the distance of the nearest surface point from the centre, by the points known; at most radius_.
-  double NearAtMost(const Vec3& center);
+  bool BallClears(const Vec3& center, double near);
+  // At least the distance of the nearest surface point from the centre, by the points known; at most `most`.
+  double NearAtMost(const Vec3& center, double most);
+  // What was nearest to other centres comes nearer than `limit` when it slides to this one.
+  bool SlidesNear(const Vec3& center, double limit);
   // Of the distance of the known points over `center` from its axis the least.
   double KnownAbove(const Vec3& center) const;
 
@@ -38,8 +43,9 @@ class ShankFinder {
   const double clear_;  // halfway between the two: the ball alone is free when nothing is nearer
   const double proof_, nearer_;
   Vec3 near_ = Vec3::Constant(kInfinity);  // what was nearest last
+  std::vector<RaySlide> slides_;           // what searches have found
   std::array<Vec3, 8> last_;               // what was above
-  std::size_t next_ = 0;
+  std::size_t next_slide_ = 0, next_ = 0;
 };
 
 }  // namespace patchmill

@@ -1,6 +1,10 @@
 // Lanes: arithmetic and comparisons lane by lane (GCC and Clang vectors, same bits as scalar code).
 #pragma once
 
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
 #if defined(__SSE__)
 #include <xmmintrin.h>
 #endif
@@ -10,6 +14,11 @@ namespace patchmill {
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int __attribute__((vector_size(16)));
 
+inline Float4 Load(const std::vector<float>& from, std::size_t at) {
+  Float4 lanes;
+  std::memcpy(&lanes, &from[at], sizeof lanes);
+  return lanes;
+}
 inline Float4 Splat(float x) { return Float4{x, x, x, x}; }
 inline Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
 inline Float4 Min(Float4 a, Float4 b) { return a < b ? a : b; }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/fairing/fairing_loop.h"
 
@@ -17,8 +18,8 @@ std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 absl::Status CheckDirection(const std::optional<Vec3>& direction, const char* field) {
   if (!direction || (direction->allFinite() && std::isnormal(direction->norm()))) return absl::OkStatus();
-  return absl::InvalidArgumentError(fmt::format("{} = ({}, {}, {}); must have a length", field,
-                                                direction->x(), direction->y(), direction->z()));
+  return FieldError(field, fmt::format("= ({}, {}, {}); must have a length", direction->x(), direction->y(),
+                                       direction->z()));
 }
 
 // The given points without repetition.
@@ -119,7 +120,7 @@ absl::StatusOr<FairedCurve> FairCurve(const CurveFairing& curve, const RunContex
   PM_RETURN_IF_ERROR(CheckDirection(curve.start_direction, "start_direction"));
   PM_RETURN_IF_ERROR(CheckDirection(curve.end_direction, "end_direction"));
   Nodes nodes = MergeCoincident(curve.points);
-  if (nodes.points.size() < 2) return absl::InvalidArgumentError("points: all of them coincide");
+  if (nodes.points.size() < 2) return FieldError("points", "all coincide");
   std::vector<bool> ends(nodes.points.size(), false);
   ends.front() = ends.back() = true;
   FairingLimits limits = MakeLimits(nodes.points, curve.terms, ends);

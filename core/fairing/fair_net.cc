@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 #include <fmt/format.h>
 
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/fairing/fairing_loop.h"
 
@@ -26,8 +27,8 @@ absl::Status CheckApart(const NetFairing& net) {
       const bool u = i + 1 < net.count_u && !((point(i + 1, j) - point(i, j)).norm() > near);
       const bool v = j + 1 < net.count_v && !((point(i, j + 1) - point(i, j)).norm() > near);
       if (!u && !v) continue;
-      return absl::InvalidArgumentError(
-          fmt::format("points: nodes ({}, {}) and ({}, {}) coincide", i, j, u ? i + 1 : i, u ? j : j + 1));
+      return FieldError("points", fmt::format("coincide at the nodes ({}, {}) and ({}, {})", i, j,
+                                              u ? i + 1 : i, u ? j : j + 1));
     }
   }
   return absl::OkStatus();
@@ -183,9 +184,8 @@ FiveTermRow FiveTermRowOf(const BeamNet& net, int i, int j) {
 absl::StatusOr<FairedNet> FairNet(const NetFairing& net, const RunContext& run) {
   if (net.count_u < 2 || net.count_v < 2 ||
       static_cast<long long>(net.count_u) * net.count_v != static_cast<long long>(net.points.size())) {
-    return absl::InvalidArgumentError(
-        fmt::format("points: {} of them; must be count_u x count_v = {} x {}, each >= 2", net.points.size(),
-                    net.count_u, net.count_v));
+    return FieldError("points", fmt::format("are {}; must be count_u x count_v = {} x {}, each >= 2",
+                                            net.points.size(), net.count_u, net.count_v));
   }
   PM_RETURN_IF_ERROR(CheckFairing(net.points, 4, net.terms));
   PM_RETURN_IF_ERROR(CheckApart(net));

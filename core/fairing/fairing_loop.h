@@ -7,6 +7,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "core/base/error_details.h"
 #include "core/base/run_context.h"
 #include "core/base/status.h"
 #include "core/fairing/box_minimum.h"
@@ -53,7 +54,7 @@ absl::StatusOr<FairingRun<typename Model::State>> RunFairing(Model& model, typen
   out.state = std::move(first);
   out.energies.push_back(model.Energy(out.state));
   if (!std::isfinite(out.energies.back())) {
-    return absl::InvalidArgumentError("points: too near each other for the range of numbers; scale them up");
+    return FieldError("points", "are too near each other for the range of numbers; scale them up");
   }
   CurvatureSigns signs = SignsOf(model.Curvatures(out.state), diagonal);
   for (int iteration = 1; iteration <= terms.max_iterations && !out.settled; ++iteration) {

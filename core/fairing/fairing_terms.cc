@@ -4,39 +4,39 @@
 
 #include <fmt/format.h>
 
-#include "core/base/status.h"
+#include "core/base/error_details.h"
 
 namespace patchmill {
 namespace {
 
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
 
-template <class... Args>
-absl::Status Invalid(fmt::format_string<Args...> format, Args&&... args) {
-  return absl::InvalidArgumentError(fmt::format(format, std::forward<Args>(args)...));
-}
-
 }  // namespace
 
 absl::Status CheckFairing(const std::vector<Vec3>& points, int min_count, const FairingTerms& terms) {
   const auto count = static_cast<long long>(points.size());
   if (count < min_count || count > kMaxFairingPoints) {
-    return Invalid("points: {} of them; must be {} to {}", count, min_count, kMaxFairingPoints);
+    return FieldError("points", fmt::format("are {}; must be {} to {}", count, min_count, kMaxFairingPoints));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) return Invalid("points[{}] is not finite", i);
+    if (!points[i].allFinite()) return FieldError(fmt::format("points[{}]", i), "is not finite");
   }
   for (int a = 0; a < 3; ++a) {
-    if (!(terms.band[a] >= 0.0)) return Invalid("band.{} = {}; must be >= 0", kAxisNames[a], terms.band[a]);
+    if (!(terms.band[a] >= 0.0)) {
+      return FieldError(fmt::format("band.{}_mm", kAxisNames[a]),
+                        fmt::format("= {}; must be >= 0", terms.band[a]));
+    }
   }
   for (std::size_t k = 0; k < terms.locks.size(); ++k) {
     const int point = terms.locks[k].point;
     if (point < 0 || point >= count) {
-      return Invalid("locks[{}].point = {}; must be in [0, {}]", k, point, count - 1);
+      return FieldError(fmt::format("locks[{}].point_index", k),
+                        fmt::format("= {}; must be in [0, {}]", point, count - 1));
     }
   }
   if (terms.max_iterations < 0 || terms.max_iterations > kMaxFairingIterations) {
-    return Invalid("max_iterations = {}; must be in [0, {}]", terms.max_iterations, kMaxFairingIterations);
+    return FieldError("max_iterations",
+                      fmt::format("= {}; must be in [0, {}]", terms.max_iterations, kMaxFairingIterations));
   }
   return absl::OkStatus();
 }

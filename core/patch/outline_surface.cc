@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/curve/bezier_chain.h"
 #include "core/curve/spline.h"
@@ -14,29 +15,37 @@ namespace {
 
 constexpr int kMaxHosakaDegree = 11;
 
-absl::Status InCurve(const char* what, std::size_t number, const absl::Status& status) {
-  return absl::InvalidArgumentError(fmt::format("{}[{}]: {}", what, number, std::string(status.message())));
-}
+constexpr char kCurves[] = "curves";
 
-absl::StatusOr<BezierChain> FiniteChain(const Curve& curve, const char* what, std::size_t number) {
+std::string At(std::size_t number) { return fmt::format("{}[{}]", kCurves, number); }
+
+absl::StatusOr<BezierChain> FiniteChain(const Curve& curve, std::size_t number) {
   const auto chain = ChainOf(curve);
-  if (!chain.ok()) return InCurve(what, number, chain.status());
+  if (!chain.ok())
+    return FieldError(At(number), fmt::format("is none: {}", std::string(chain.status().message())));
   if (!std::ranges::all_of(chain->points, [](const Vec3& p) { return p.allFinite(); })) {
-    return InCurve(what, number, absl::InvalidArgumentError("has a number that is not finite"));
+    return FieldError(At(number), "has a number that is not finite");
   }
   return *chain;
 }
 
+absl::Status Alike(std::vector<BezierChain>& chains) {
+  const absl::Status status = MakeAlike(chains);
+  return status.ok()
+             ? status
+             : FieldError(kCurves, fmt::format("cannot be made alike: {}", std::string(status.message())));
+}
+
 absl::Status TooLarge(std::size_t points) {
-  return absl::InvalidArgumentError(
-      fmt::format("the surface would have {} control points; at most {}", points, kMaxOutlinePoints));
+  return FieldError(kCurves, fmt::format("make a surface of {} control points; must be at most {}", points,
+                                         kMaxOutlinePoints));
 }
 
 // The chains of an outline with common corners; those opposite each other alike.
 absl::StatusOr<std::array<BezierChain, 4>> ChainsOf(const Outline& outline) {
   std::array<BezierChain, 4> chains;
   for (std::size_t k = 0; k < 4; ++k) {
-    PM_ASSIGN_OR_RETURN(chains[k], FiniteChain(outline[k], "outline", k));
+    PM_ASSIGN_OR_RETURN(chains[k], FiniteChain(outline[k], k));
   }
   auto &bottom = chains[0].points, &right = chains[1].points, &top = chains[2].points,
        &left = chains[3].points;
@@ -53,15 +62,15 @@ absl::StatusOr<std::array<BezierChain, 4>> ChainsOf(const Outline& outline) {
   for (const Corner& corner : corners) {
     const double gap = (*corner.a - *corner.b).norm();
     if (!(gap <= kMaxCornerGap * box.Diagonal())) {
-      return absl::InvalidArgumentError(fmt::format(
-          "outline: the curves end {:g} apart at the corner {}; must be at most {:g} of the diagonal {:g}",
-          gap, corner.name, kMaxCornerGap, box.Diagonal()));
+      return FieldError(kCurves, fmt::format("end {:g} apart at the corner {}; must be at most {:g} of the "
+                                             "diagonal {:g}",
+                                             gap, corner.name, kMaxCornerGap, box.Diagonal()));
     }
     *corner.a = *corner.b = 0.5 * (*corner.a + *corner.b);
   }
   for (const std::size_t k : {0, 1}) {
     std::vector<BezierChain> pair = {chains[k], chains[k + 2]};
-    PM_RETURN_IF_ERROR(MakeAlike(pair));
+    PM_RETURN_IF_ERROR(Alike(pair));
     chains[k] = std::move(pair[0]), chains[k + 2] = std::move(pair[1]);
   }
   const std::size_t size = chains[0].points.size() * chains[1].points.size();
@@ -74,16 +83,16 @@ absl::StatusOr<std::array<BezierChain, 4>> ChainsOf(const Outline& outline) {
 absl::StatusOr<BsplinePatch> SkinSurface(const std::vector<Curve>& sections) {
   const std::size_t count = sections.size();
   if (count < 3 || count > kMaxSections) {
-    return absl::InvalidArgumentError(fmt::format("sections are {}; must be 3 to {}", count, kMaxSections));
+    return FieldError(kCurves, fmt::format("are {}; must be 3 to {}", count, kMaxSections));
   }
   std::vector<BezierChain> chains;
   for (std::size_t k = 0; k < count; ++k) {
-    PM_ASSIGN_OR_RETURN(BezierChain chain, FiniteChain(sections[k], "sections", k));
+    PM_ASSIGN_OR_RETURN(BezierChain chain, FiniteChain(sections[k], k));
     chains.push_back(std::move(chain));
   }
   if (const std::size_t size = AlikeSize(chains) * (3 * count - 2); size > kMaxOutlinePoints)
     return TooLarge(size);
-  PM_RETURN_IF_ERROR(MakeAlike(chains));
+  PM_RETURN_IF_ERROR(Alike(chains));
 
   const std::size_t columns = chains[0].points.size();
   std::vector<double> chords(count - 1, 0.0);
@@ -91,7 +100,7 @@ absl::StatusOr<BsplinePatch> SkinSurface(const std::vector<Curve>& sections) {
     for (std::size_t i = 0; i < columns; ++i)
       chords[k] += (chains[k + 1].points[i] - chains[k].points[i]).norm();
     if (!(chords[k] > 0.0)) {
-      return absl::InvalidArgumentError(fmt::format("sections[{}] and [{}] are the same curve", k, k + 1));
+      return FieldError(At(k + 1), "is the same curve as the one before");
     }
   }
   BezierChain across;  // breaks only
@@ -151,15 +160,14 @@ absl::StatusOr<HosakaPatch> HosakaSurface(const Outline& outline) {
   int degree = 1;
   for (std::size_t k = 0; k < 4; ++k) {
     if (chains[k].spans() > 1) {
-      return absl::InvalidArgumentError(
-          fmt::format("outline[{}]: has {} spans; Hosaka's surface takes one, a Coons surface any", k,
-                      chains[k].spans()));
+      return FieldError(At(k), fmt::format("has {} spans; Hosaka's surface takes one, a Coons surface any",
+                                           chains[k].spans()));
     }
     degree = std::max(degree, chains[k].degree);
   }
   if (degree > kMaxHosakaDegree) {
-    return absl::InvalidArgumentError(
-        fmt::format("outline: has a curve of degree {}; must be at most {}", degree, kMaxHosakaDegree));
+    return FieldError(kCurves,
+                      fmt::format("have one of degree {}; must be at most {}", degree, kMaxHosakaDegree));
   }
   HosakaPatch patch;
   patch.degree = degree;

@@ -20,7 +20,8 @@ inline constexpr std::size_t kMaxOutlinePoints = 1'000'000;  // of the surface m
 // const exactly (to about 1e-15 of their size), each with its own parameter as u; across them a cubic spline
 // without curvature at the first and the last, in the mean chord between neighbours. Second derivatives are
 // continuous along v; along u as those of the sections. Of the highest degree of the sections along u, 3
-// along v. INVALID_ARGUMENT with the number of the section; also for neighbours that are the same curve.
+// along v. FieldError "curves" or "curves[i]" (core/base/error_details.h), as of all surfaces here; also for
+// neighbours that are the same curve.
 absl::StatusOr<BsplinePatch> SkinSurface(const std::vector<Curve>& sections);
 
 // Boundary curves of a quad in the direction of increasing parameter: v=0, u=1, v=1, u=0. Their ends must

@@ -235,6 +235,11 @@ std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c
   return Search<Reach::kPoint>(surface, c, limit, tolerance, Wanted::kNearest).Run();
 }
 
+std::optional<ClosestPoint> FirstNearPoint(const Surface& surface, const Vec3& c, double limit,
+                                           double tolerance) {
+  return Search<Reach::kPoint>(surface, c, limit, tolerance, Wanted::kAny).Run();
+}
+
 std::optional<ClosestPoint> FirstNearUpwardRay(const Surface& surface, const Vec3& c, double limit,
                                                double tolerance) {
   return Search<Reach::kUpwardRay>(surface, c, limit, tolerance, Wanted::kAny).Run();

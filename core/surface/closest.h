@@ -30,6 +30,10 @@ std::optional<ClosestPoint> ClosestAbove(const Surface& surface, const Vec3& c, 
 // Nearest point of the surface to the point c, if nearer than `limit`; otherwise as above.
 std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c, double limit,
                                            double tolerance);
+// Some point of the surface nearer than `limit` to the point c (the first one found, not the nearest): much
+// cheaper. nullopt proves that nothing is nearer than limit - tolerance.
+std::optional<ClosestPoint> FirstNearPoint(const Surface& surface, const Vec3& c, double limit,
+                                           double tolerance);
 
 // Whether some point of the surface is nearer than `limit` to the upward ray: true with such a point found
 // (the first one, not the nearest), false proves that nothing is nearer than limit - tolerance.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/patch/outline_surface.h"
 #include "server/convert/fields.h"
@@ -64,6 +65,13 @@ absl::StatusOr<std::vector<Curve>> CurvesOf(const Curves& curves, double unit, c
   return list;
 }
 
+// `at`: where the request has the curves.
+template <class Shape>
+absl::StatusOr<PatchShape> Made(absl::StatusOr<Shape> shape, std::string_view at) {
+  if (!shape.ok()) return WithFieldPrefix(at, shape.status());
+  return *std::move(shape);
+}
+
 absl::StatusOr<PatchShape> Between(const v1::BoundaryCurves& boundary, double unit) {
   FieldErrors errors;
   if (boundary.curves_size() != 4) {
@@ -76,8 +84,8 @@ absl::StatusOr<PatchShape> Between(const v1::BoundaryCurves& boundary, double un
   PM_RETURN_IF_ERROR(errors.ToStatus());
   PM_ASSIGN_OR_RETURN(std::vector<Curve> curves, CurvesOf(boundary.curves(), unit, "boundary"));
   const Outline outline = {curves[0], curves[1], curves[2], curves[3]};
-  if (boundary.span() == v1::BOUNDARY_SPAN_HOSAKA) return HosakaSurface(outline);
-  return CoonsSurface(outline);
+  if (boundary.span() == v1::BOUNDARY_SPAN_HOSAKA) return Made(HosakaSurface(outline), "boundary.");
+  return Made(CoonsSurface(outline), "boundary.");
 }
 
 }  // namespace
@@ -87,7 +95,7 @@ absl::StatusOr<PatchShape> OutlineSurface(const v1::BuildModelRequest& request, 
     case v1::BuildModelRequest::kSections: {
       PM_ASSIGN_OR_RETURN(const std::vector<Curve> sections,
                           CurvesOf(request.sections().curves(), unit, "sections"));
-      return SkinSurface(sections);
+      return Made(SkinSurface(sections), "sections.");
     }
     case v1::BuildModelRequest::kBoundary:
       return Between(request.boundary(), unit);

@@ -57,7 +57,7 @@ absl::Status RefuseUnknownFields(const google::protobuf::Message& request) {
 }
 
 absl::Status RequireSound(const LoadedModel& model) {
-  return model.faults.empty() ? absl::OkStatus() : ModelInvalidError(model.faults);
+  return model.faults.empty() ? absl::OkStatus() : ModelInvalidError(model.faults, model.path);
 }
 
 Diagnostics Placed(Diagnostics remarks, const Placement& placement) {

@@ -31,7 +31,7 @@ inline bool KeepsModelSourceContract(const std::string& format, const std::strin
   for (const Diagnostic& fault : loaded->faults) {
     if (fault.code.empty() || fault.message.empty() || fault.severity != Severity::kError) return false;
   }
-  if (!loaded->faults.empty()) return !ToGrpcStatus(ModelInvalidError(loaded->faults)).ok();
+  if (!loaded->faults.empty()) return !ToGrpcStatus(ModelInvalidError(loaded->faults, loaded->path)).ok();
   const auto again = FromProto(ToProto(loaded->model), "again");
   if (!again.ok() || !again->faults.empty()) return false;
   std::size_t points = 0;

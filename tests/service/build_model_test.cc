@@ -17,6 +17,7 @@ using grpc::StatusCode;
 using testing::Embedded;
 using ::testing::HasSubstr;
 using testing::RpcStatusIs;
+using ::testing::StartsWith;
 
 const Embedded& Server() {
   static Embedded embedded;
@@ -93,7 +94,10 @@ TEST(BuildModel, BoundariesAsCoonsAndHosaka) {
 TEST(BuildModel, RefusesWithTheField) {
   const auto refused = [](const v1::BuildModelRequest& request, const std::string& text) {
     v1::BuildModelResponse response;
-    EXPECT_THAT(Build(request, &response), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr(text)));
+    const grpc::Status status = Build(request, &response);
+    EXPECT_THAT(status, RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr(text)));
+    ASSERT_EQ(testing::InfoOf(status).field_violations_size(), 1);
+    EXPECT_THAT(text, StartsWith(testing::InfoOf(status).field_violations(0).field()));
   };
   v1::BuildModelRequest request = FromJson(kBoundary);
   request.clear_length_unit();
@@ -103,7 +107,7 @@ TEST(BuildModel, RefusesWithTheField) {
   refused(request, "boundary.curves are 3; must be 4");
   request = FromJson(kBoundary);
   request.mutable_boundary()->mutable_curves(2)->mutable_bezier()->set_points(0, 1);
-  refused(request, "u=0, v=1");
+  refused(request, "boundary.curves end");
   request = FromJson(kBoundary);
   request.mutable_boundary()->set_span(static_cast<v1::BoundarySpan>(9));
   refused(request, "boundary.span = 9");
@@ -112,7 +116,7 @@ TEST(BuildModel, RefusesWithTheField) {
   refused(request, "sections.curves[1].bezier.points has 10 numbers");
   request = FromJson(kSections);
   request.mutable_sections()->mutable_curves(2)->mutable_bspline()->set_degree(7);
-  refused(request, "sections[2]");
+  refused(request, "sections.curves[2] is none: a curve of degree 7");
   request = FromJson(kSections);
   request.clear_outline();
   refused(request, "outline");

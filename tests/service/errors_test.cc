@@ -56,6 +56,19 @@ TEST(InJob, DomainErrorsAreTheFieldsOfTheRequest) {
   EXPECT_EQ(InJob(limit), limit);
 }
 
+TEST(ModelInvalid, HasThePathFromTheRequest) {
+  Diagnostic fault;
+  fault.message = "patches[3].bezier.points has a number that is not finite";
+  fault.where.field = "patches[3].bezier.points";
+  const auto info = [](const Diagnostics& faults) {
+    return testing::InfoOf(ToGrpcStatus(ModelInvalidError(faults, "job.source.model")));
+  };
+  ASSERT_EQ(info({fault}).field_violations_size(), 1);
+  EXPECT_EQ(info({fault}).field_violations(0).field(), "job.source.model.patches[3].bezier.points");
+  fault.where.field.clear();
+  EXPECT_EQ(info({fault}).field_violations(0).field(), "job.source.model");
+}
+
 TEST(ModelUnreadable, SaysWhatIsWrongWhereThatHasACode) {
   const v1::ErrorInfo info =
       testing::InfoOf(ToGrpcStatus(ModelUnreadableError("line 3: ...", "ZERO_WEIGHT")));

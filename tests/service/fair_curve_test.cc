@@ -152,6 +152,12 @@ TEST(FairCurve, LimitsAndMissingThings) {
   v1::FairCurveRequest one;
   for (int k = 0; k < 3; ++k) one.mutable_points()->add_points_mm(1);
   EXPECT_THAT(Fair(one, &response), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("at least 2")));
+  v1::FairCurveRequest same;
+  for (int k = 0; k < 9; ++k) same.mutable_points()->add_points_mm(1);
+  const grpc::Status coincide = Fair(same, &response);
+  EXPECT_THAT(coincide, RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("points all coincide")));
+  ASSERT_EQ(InfoOf(coincide).field_violations_size(), 1);
+  EXPECT_EQ(InfoOf(coincide).field_violations(0).field(), "points");
   v1::FairCurveRequest fine = Noisy(50);
   fine.set_polyline_tolerance_mm(1e-14);
   EXPECT_THAT(Fair(fine, &response),

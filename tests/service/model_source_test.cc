@@ -59,6 +59,7 @@ TEST(LoadModel, TextFilesHaveNoUnitUnlessTheRequestSaysOne) {
   ASSERT_TRUE(loaded.ok()) << loaded.status();
   EXPECT_EQ(loaded->model.patches.size(), 28u);
   EXPECT_TRUE(loaded->unitless);
+  EXPECT_EQ(loaded->path, "source.file.content");
   source.mutable_file()->set_length_unit(v1::LENGTH_UNIT_INCH);
   const auto inches = LoadModel(source, "source");
   ASSERT_TRUE(inches.ok());

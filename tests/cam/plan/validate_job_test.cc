@@ -122,9 +122,9 @@ std::vector<BadJob> BadJobs() {
        {"setup.stock.top_z_mm", "nan", "in [-100000, 100000]"}},
       {"ZeroFar",
        [](Job& j) {
-         j.setup.zero_point = {2e5, 0, 0};
+         j.setup.zero_point = {1e5, 0, -2e5};
        },
-       {"setup.program_zero", "= 200000", "within 100000 mm"}},
+       {"setup.program_zero.z_mm", "= -200000", "in [-100000, 100000]"}},
       {"Dialect", [](Job& j) { j.dialect = "enigma"; }, {"post.dialect", "\"enigma\"", "one of: linuxcnc"}},
       {"WorkOffset", [](Job& j) { j.work_offset = "G60"; }, {"post.work_offset", "\"G60\"", "G54"}},
   };

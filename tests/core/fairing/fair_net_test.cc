@@ -198,19 +198,19 @@ TEST(FairNet, BadRequests) {
   };
   NetFairing net = good;
   net.count_u = 4;
-  EXPECT_EQ(fault(net), "points: 20 of them; must be count_u x count_v = 4 x 4, each >= 2");
+  EXPECT_EQ(fault(net), "points are 20; must be count_u x count_v = 4 x 4, each >= 2");
   net = good;
   net.count_u = 20, net.count_v = 1;
-  EXPECT_EQ(fault(net), "points: 20 of them; must be count_u x count_v = 20 x 1, each >= 2");
+  EXPECT_EQ(fault(net), "points are 20; must be count_u x count_v = 20 x 1, each >= 2");
   net = good;
   net.points[6] = net.points[5];
-  EXPECT_EQ(fault(net), "points: nodes (1, 1) and (1, 2) coincide");
+  EXPECT_EQ(fault(net), "points coincide at the nodes (1, 1) and (1, 2)");
   net = good;
   net.points[6] = net.points[10];
-  EXPECT_EQ(fault(net), "points: nodes (1, 2) and (2, 2) coincide");
+  EXPECT_EQ(fault(net), "points coincide at the nodes (1, 2) and (2, 2)");
   net = good;
   net.terms.locks = {{20, {}}};
-  EXPECT_EQ(fault(net), "locks[0].point = 20; must be in [0, 19]");
+  EXPECT_EQ(fault(net), "locks[0].point_index = 20; must be in [0, 19]");
 }
 
 }  // namespace

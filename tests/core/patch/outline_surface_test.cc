@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/error_details.h"
 #include "tests/support/random.h"
 
 namespace patchmill {
@@ -138,24 +139,25 @@ TEST(HosakaSurface, HasItsBoundaryAndZeroCornerTwists) {
 }
 
 TEST(OutlineSurface, RefusesWithTheCurve) {
-  const auto says = [](const absl::Status& status, const std::string& text) {
+  const auto says = [](const absl::Status& status, const std::string& field, const std::string& text) {
     EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_EQ(FieldOf(status), field);
     EXPECT_NE(std::string(status.message()).find(text), std::string::npos) << status;
   };
   std::vector<Curve> sections = Sections(1);
   std::get<BezierCurve>(sections[2]).points[1].x() = std::nan("");
-  says(SkinSurface(sections).status(), "sections[2]");
+  says(SkinSurface(sections).status(), "curves[2]", "has a number that is not finite");
   sections = Sections(1);
   sections[3] = sections[2];
-  says(SkinSurface(sections).status(), "sections[2] and [3] are the same curve");
+  says(SkinSurface(sections).status(), "curves[3]", "is the same curve as the one before");
   sections.resize(2);
-  says(SkinSurface(sections).status(), "sections are 2; must be 3 to 1000");
+  says(SkinSurface(sections).status(), "curves", "are 2; must be 3 to 1000");
   std::get<BsplineCurve>(sections[0]).knots.pop_back();
   sections.push_back(sections[0]);
-  says(SkinSurface(sections).status(), "sections[0]");
+  says(SkinSurface(sections).status(), "curves[0]", "knots");
   Outline outline = RandomOutline(2);
   std::get<BezierCurve>(outline[1]).points.back() += Vec3(0.01, 0, 0);
-  says(CoonsSurface(outline).status(), "u=1, v=1");
+  says(CoonsSurface(outline).status(), "curves", "u=1, v=1");
 }
 
 }  // namespace

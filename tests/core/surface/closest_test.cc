@@ -108,11 +108,16 @@ void ExpectNearest(To to, const Surface& s, const Oracle& oracle, const Vec3& c,
   if (found->distance > 4.0 * tolerance) {
     EXPECT_FALSE(Closest(to, s, c, found->distance - tolerance - 1e-11, tolerance).has_value());
   }
-  if (to == To::kRay) {
-    EXPECT_TRUE(AnythingNearUpwardRay(s, c, found->distance + 2.0 * tolerance, tolerance));
-    if (found->distance > 4.0 * tolerance) {
-      EXPECT_FALSE(AnythingNearUpwardRay(s, c, found->distance - tolerance - 1e-11, tolerance));
-    }
+  // The first one, just as sure.
+  const auto first = to == To::kRay ? FirstNearUpwardRay : FirstNearPoint;
+  for (const double limit : {found->distance + 2.0 * tolerance, 2.0 * found->distance + 1.0}) {
+    const auto some = first(s, c, limit, tolerance);
+    ASSERT_TRUE(some.has_value());
+    ExpectHonest(to, s, c, *some);
+    EXPECT_LT(some->distance, limit);
+  }
+  if (found->distance > 4.0 * tolerance) {
+    EXPECT_FALSE(first(s, c, found->distance - tolerance - 1e-11, tolerance).has_value());
   }
 }
 
