@@ -7,10 +7,10 @@
 namespace patchmill {
 namespace {
 
-constexpr double kNearer = 0.02;  // of the radius: what blocks above is nearer by this (docs/reach.md)
-constexpr double kProof = 0.001;  // of the radius: how exactly distances are known here
-constexpr std::size_t kSlides = 4;
-constexpr int kSlideSteps = 4;
+constexpr double kNearer = 0.02;    // of the radius: what blocks above is nearer by this (docs/reach.md)
+constexpr double kProof = 0.001;    // of the radius: how exactly distances are known here
+constexpr std::size_t kSlides = 4;  // points found, which are tried before a search
+constexpr int kSlideSteps = 4;      // Newton's, of each
 
 }  // namespace
 
