@@ -7,10 +7,9 @@
 namespace patchmill {
 namespace {
 
-constexpr double kNearer = 0.02;    // of the radius: what blocks above is nearer by this (docs/reach.md)
-constexpr double kProof = 0.001;    // of the radius: how exactly distances are known here
-constexpr std::size_t kSlides = 4;  // points found, which are tried before a search
-constexpr int kSlideSteps = 4;      // Newton's, of each
+constexpr double kNearer = 0.02;  // of the radius: what blocks above is nearer by this (docs/reach.md)
+constexpr double kProof = 0.001;  // of the radius: how exactly distances are known here
+constexpr int kSlideSteps = 4;    // Newton's, of each point that is tried before a search
 
 }  // namespace
 
@@ -55,22 +54,18 @@ bool ShankFinder::BallClears(const Vec3& center, double near) {
   const auto found = FirstNearPoint(surface_, center, clear_, proof);
   if (!found) return true;
   near_ = found->at.p;
-  if (slides_.size() < kSlides) {
-    slides_.emplace_back(surface_, found->at);
-  } else {
-    slides_[next_slide_++ % kSlides] = RaySlide(surface_, found->at);
-  }
+  slides_[next_slide_++ % slides_.size()].emplace(surface_, found->at);
   return false;
 }
 
 bool ShankFinder::SlidesNear(const Vec3& center, double limit) {
-  for (RaySlide& slide : slides_) {
-    for (int k = 0; k < kSlideSteps; ++k) {
-      if ((slide.at().p - center).norm() < limit) {
-        near_ = slide.at().p;
+  for (std::optional<RaySlide>& slide : slides_) {
+    for (int k = 0; slide && k < kSlideSteps; ++k) {
+      if ((slide->at().p - center).norm() < limit) {
+        near_ = slide->at().p;
         return true;
       }
-      if (slide.Step(center) < proof_) break;
+      if (slide->Step(center) < proof_) break;
     }
   }
   return false;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <vector>
+#include <optional>
 
 #include "cam/location/ray_slide.h"
 #include "cam/region/obstacle_cloud.h"
@@ -10,7 +10,8 @@
 
 namespace patchmill {
 
-// Remembers what was over the last balls, which mostly is over the next and settles them with one question.
+// Remembers what was over the last balls and near them, which mostly is so for the next and settles them with
+// one question.
 // For balls near each other, one after the other; what an answer rests on is proven anew for each.
 class ShankFinder {
  public:
@@ -42,9 +43,9 @@ class ShankFinder {
   const double free_radius_, radius_;
   const double clear_;  // halfway between the two: the ball alone is free when nothing is nearer
   const double proof_, nearer_;
-  Vec3 near_ = Vec3::Constant(kInfinity);  // what was nearest last
-  std::vector<RaySlide> slides_;           // what searches have found
-  std::array<Vec3, 8> last_;               // what was above
+  Vec3 near_ = Vec3::Constant(kInfinity);          // what was nearest last
+  std::array<std::optional<RaySlide>, 4> slides_;  // what searches have found near
+  std::array<Vec3, 8> last_;                       // what was above
   std::size_t next_slide_ = 0, next_ = 0;
 };
 

@@ -44,6 +44,8 @@ constexpr struct {
     {"floor_z_mm", "--floor"},
     {"heights.top_z_mm", "--top"},
     {"spacing_mm", "--spacing"},
+    {"patch_ids", "--only"},
+    {"avoid_patch_ids", "--avoid"},
     {"avoid_margin_mm", "--avoid-margin"},
     {"boundary_offset_mm", "--boundary-offset"},
     {"boundary_xy_mm", "--boundary"},
@@ -70,8 +72,9 @@ constexpr struct {
 };
 
 const char* OptionOf(std::string_view text) {
-  const std::string_view path = text.substr(0, text.find(' '));
+  std::string_view path = text.substr(0, text.find(' '));
   if (path.find("region_overrides[") != std::string_view::npos) return "--region";
+  if (path.ends_with(']')) path = path.substr(0, path.rfind('['));  // an element of a list
   for (const auto& entry : kOptions) {
     const std::string_view field = entry.field;
     if (path.size() >= field.size() && path.substr(path.size() - field.size()) == field &&

@@ -14,6 +14,7 @@ namespace patchmill {
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int __attribute__((vector_size(16)));
 
+// from[at] to from[at + 3].
 inline Float4 Load(const std::vector<float>& from, std::size_t at) {
   Float4 lanes;
   std::memcpy(&lanes, &from[at], sizeof lanes);

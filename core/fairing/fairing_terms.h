@@ -51,7 +51,7 @@ struct FairingTerms {
   FairingStop stop = FairingStop::kSigns;  // never before the first iteration
 };
 
-// INVALID_ARGUMENT with path, value and constraint for points that are not finite or whose number is not in
+// FieldError with path, value and constraint for points that are not finite or whose number is not in
 // [min_count, kMaxFairingPoints], and for terms out of their ranges.
 absl::Status CheckFairing(const std::vector<Vec3>& points, int min_count, const FairingTerms& terms);
 
