@@ -23,11 +23,16 @@ constexpr std::array<double, 4> kBulges = {0.0625, 0.125, 0.25, 0.5};
 constexpr double kProven = 1.2;
 // Ball radii: in a corner this much farther off is beside the link, too.
 constexpr double kBeside = 0.04;
-// rad: how leads may turn from the normal; a way out this many times as long as the way through the stock is
-// good enough.
-constexpr std::array<double, 8> kTurns = {0.0,        kPi / 4.0,       -kPi / 4.0,       kPi / 2.0,
-                                          -kPi / 2.0, 3.0 * kPi / 4.0, -3.0 * kPi / 4.0, kPi};
+// rad: how leads may turn from the normal, either way; less than kAlong they lead off a wall. And how far, in
+// ways through the stock: at a limit that runs almost along the wall they must be long to lead off it. One
+// that needs no more than kWorthTurning of those is good enough.
+constexpr std::array<double, 7> kTurns = {0.0,       kPi / 4.0,       kPi / 3.0, kPi / 2.4,
+                                          kPi / 2.0, 3.0 * kPi / 4.0, kPi};
+constexpr double kAlong = kPi / 2.2;
+constexpr std::array<double, 4> kFarther = {1.0, 1.4142135623730951, 2.0, 4.0};
 constexpr double kWorthTurning = 1.5;
+// At least this many mm of a lead are better than one of plunge.
+constexpr double kPlunge = 3.0;
 constexpr double kFineRapid = 0.1;  // mm: to which the height of a low rapid is looked for
 
 }  // namespace
@@ -159,11 +164,14 @@ double LinkMaker::ClearOfStock(const Vec3& place) const {
   return std::min(clear, clearance_center_z());
 }
 
-LinkMaker::WayOut LinkMaker::FindWayOut(const CutterPoint& point) const {
+LinkMaker::WayOut LinkMaker::FindWayOut(const CutterPoint& point, Going going) const {
   const Vec3& c = point.center;
+  const double upright = going == Going::kIn ? std::max(kPlunge, params_.feed / params_.plunge_feed) : 1.0;
+  const auto cost = [&](const WayOut& way) {
+    return (way.beside - c).norm() + upright * (way.clear.z() - way.beside.z());
+  };
   const auto up = [&](const Vec3& beside) {
-    const double clear = ClearOfStock(beside);
-    return WayOut{beside, Lift(Plan(beside), clear), (beside - c).norm() + clear - beside.z()};
+    return WayOut{beside, Lift(Plan(beside), ClearOfStock(beside))};
   };
   Vec2 out = Vec2::UnitX();
   bool steep = false;
@@ -178,22 +186,29 @@ LinkMaker::WayOut LinkMaker::FindWayOut(const CutterPoint& point) const {
     }
   }
   const double off = stock_depth();
+  const auto enough = [&](const WayOut& way) {
+    return (way.beside - c).norm() + way.clear.z() - way.beside.z() <= kWorthTurning * off;
+  };
   WayOut best = up(c);
-  const double enough = kWorthTurning * off;
-  if (!steep && best.length <= enough) return best;
-  bool found_wall = !steep;  // a wall is left beside it wherever there is a way, not along it
+  if (!steep && enough(best)) return best;
+  bool beside_wall = !steep;  // a wall is left beside it wherever there is a way, not along it
   const Vec2 left(-out.y(), out.x());
-  for (const double farther : {1.0, std::sqrt(2.0), 2.0}) {
+  for (const double farther : kFarther) {
     for (const double turn : kTurns) {
-      const Vec2 way = std::cos(turn) * out + std::sin(turn) * left;
-      Vec3 beside = c + Lift(farther * off * way, 0.0);
-      if (!steep) beside.z() = ClearOfStock(beside);
-      const WayOut tried = up(beside);
-      if (found_wall && tried.length >= best.length) continue;
-      if (!locator_.Free(beside) || !StraightIsFree(beside, c)) continue;
-      found_wall = true;
-      best = tried;
-      if (best.length <= enough) return best;
+      for (const double side : {1.0, -1.0}) {
+        if (side < 0.0 && (turn == 0.0 || turn == kPi)) continue;
+        if (beside_wall && steep && turn > kAlong) continue;
+        const Vec2 way = std::cos(turn) * out + side * std::sin(turn) * left;
+        Vec3 beside = c + Lift(farther * off * way, 0.0);
+        if (!steep) beside.z() = ClearOfStock(beside);
+        const WayOut tried = up(beside);
+        const bool first = !beside_wall && turn < kAlong;
+        if (!first && cost(tried) >= cost(best)) continue;
+        if (!locator_.Free(beside) || !StraightIsFree(beside, c)) continue;
+        beside_wall = beside_wall || first;
+        best = tried;
+        if (enough(best)) return best;
+      }
     }
   }
   return best;
@@ -217,15 +232,15 @@ void LinkMaker::Enter(const WayOut& in, const CutterPoint& to, double rapid_z,
 }
 
 void LinkMaker::Retract(const CutterPoint& from, std::vector<Move>& moves) const {
-  Leave(from, FindWayOut(from), clearance_center_z(), moves);
+  Leave(from, FindWayOut(from, Going::kOut), clearance_center_z(), moves);
 }
 
 void LinkMaker::Approach(const CutterPoint& to, std::vector<Move>& moves) const {
-  Enter(FindWayOut(to), to, clearance_center_z(), moves);
+  Enter(FindWayOut(to, Going::kIn), to, clearance_center_z(), moves);
 }
 
 std::vector<Move> LinkMaker::Over(const CutterPoint& from, const CutterPoint& to) const {
-  const WayOut out = FindWayOut(from), in = FindWayOut(to);
+  const WayOut out = FindWayOut(from, Going::kOut), in = FindWayOut(to, Going::kIn);
   const double rapid_z = RapidHeight(out.clear, in.clear);
   std::vector<Move> moves;
   Leave(from, out, rapid_z, moves);

@@ -44,11 +44,12 @@ class LinkMaker {
   // `clear`, where the ball is clear of the stock (surface + allowance + gap). Either may be no way at all.
   struct WayOut {
     Vec3 beside, clear;
-    double length;
   };
-  // The shortest of a few: beside walls level, off the contact along its normal or turned from it; on gentle
-  // ground straight up, or aslant where something stands above.
-  WayOut FindWayOut(const CutterPoint& point) const;
+  enum class Going { kIn, kOut };
+  // The quickest of a few, plunges counted as the slowest: beside walls level, off the contact along its
+  // normal or turned from it, along the wall or straight up only where nothing leads off it; on gentle ground
+  // straight up, or aslant where something stands above.
+  WayOut FindWayOut(const CutterPoint& point, Going going) const;
   void Leave(const CutterPoint& from, const WayOut& out, double rapid_z, std::vector<Move>& moves) const;
   void Enter(const WayOut& in, const CutterPoint& to, double rapid_z, std::vector<Move>& moves) const;
   // Centre height of a rapid between two places that are clear of the stock.

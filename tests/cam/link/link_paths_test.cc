@@ -206,6 +206,44 @@ TEST(LinkPaths, ContoursAreEnteredFromBesideTheWall) {
     EXPECT_LT(result->passes[i].points[0].center.z(), result->passes[i - 1].points[0].center.z());
 }
 
+// Where a limit cuts a contour off, even one that runs almost along the wall, the pass is entered from beside
+// the wall too.
+TEST(LinkPaths, ContoursThatALimitCutsOffAreEnteredFromBesideTheWall) {
+  const Surface surface = Build(testing::Plane(40, 0.0, -2.0, 0.0));  // a wall of 63 degrees, +x is off it
+  LinkParams params = Params();
+  params.clearance_z = 100;
+  params.stock_top_z = 90;
+  const double depth = params.allowance + params.approach_gap;
+  const Locator locator(surface, kRadius), stock(surface, kRadius + depth);
+  const auto height = locator.Height(Vec2::Zero());
+  const CutterPoint end{Lift(Vec2::Zero(), height->z), height->contact, std::nullopt};
+  const RunContext run;
+  for (const double plunge_feed : {400.0, 1200.0}) {
+    params.plunge_feed = plunge_feed;
+    for (const double degrees : {20.0, 35.0, 50.0, 70.0}) {
+      // The side of the vice, off the wall by so much and 1 um beyond the end of the pass.
+      const Vec2 along(std::sin(Radians(degrees)), std::cos(Radians(degrees)));
+      const Vec2 beyond(along.y(), -along.x());
+      const Vec2 side = (kRadius + 1e-3) * beyond, back = side + 9.0 * beyond;
+      Containment containment;
+      containment.obstacles.push_back({"vice",
+                                       Outline({Ring{side - 30.0 * along, back - 30.0 * along,
+                                                     back + 30.0 * along, side + 30.0 * along}}),
+                                       200.0, 0.0});
+      const KeepInParams limits{.ball_radius = kRadius, .tool_radius = kRadius};
+      const KeepIn keep_in = *KeepIn::Make(surface, containment, limits, run);
+      params.keep_in = &keep_in;
+      std::vector<Move> moves;
+      LinkMaker(locator, stock, params, run).Approach(end, moves);
+      ASSERT_GE(moves.size(), 2u);
+      ASSERT_EQ(moves.back().kind, MoveKind::kLead) << degrees;
+      const Vec3& beside = moves[moves.size() - 2].to;
+      EXPECT_GE(beside.x(), 0.99 * depth) << degrees;
+      EXPECT_LE(beyond.dot(Plan(beside)), 1e-3 + 0.5 * limits.tolerance) << degrees;
+    }
+  }
+}
+
 TEST(LinkPaths, FarPassesRetractAndConventionalTurnsContours) {
   const Surface surface =
       Build(testing::Join({testing::Plane(60), testing::Sphere(Vec3::Zero(), 8, Half::kUpper)}));
