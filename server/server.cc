@@ -1,8 +1,11 @@
 #include "server/server.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <string_view>
 
+#include <absl/strings/numbers.h>
 #include <fmt/format.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
@@ -93,9 +96,22 @@ class GrpcServer final : public RunningServer {
   bool drained_ = false;
 };
 
+// gRPC takes a port above 65535 for what is left of it by 65536, and 443 where there is none.
+absl::Status CheckPort(std::string_view listen) {
+  if (listen.substr(0, 4) == "unix") return absl::OkStatus();
+  const std::string_view port = listen.substr(std::min(listen.rfind(':'), listen.size() - 1) + 1);
+  int number = -1;
+  const bool digits = !port.empty() && port.size() <= 5 &&
+                      std::all_of(port.begin(), port.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (digits && absl::SimpleAtoi(std::string(port), &number) && number <= 65535) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      fmt::format("cannot listen on {}: must be HOST:PORT with a port of 0 to 65535", listen));
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<RunningServer>> StartServer(const ServerOptions& options) {
+  PM_RETURN_IF_ERROR(CheckPort(options.listen));
   PM_ASSIGN_OR_RETURN(const auto credentials, Credentials(options));
   auto server = std::make_unique<GrpcServer>(options, credentials);
   if (!server->started() || server->port() == 0) {

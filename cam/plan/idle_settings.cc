@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "cam/tool/wide_shank.h"
+
 namespace patchmill {
 namespace {
 
@@ -34,6 +36,8 @@ Diagnostics IdleSettings(const Operation& op) {
              return change.skip || strategy_of(change) == strategy;
            });
   };
+  if (op.tool.flute_length && !WideShankOf(op.tool))
+    idle.push_back(Idle("tool.flute_length_mm", "a length of flutes", "the shank is no wider than the ball"));
   if (all(Strategy::kContour)) {
     if (op.zigzag_angle != 0.0) idle.push_back(Idle("zigzag_angle_deg", "an angle of lines", kAllContours));
     if (op.angle_auto) idle.push_back(Idle("zigzag_angle_auto", "the quickest angle of lines", kAllContours));

@@ -52,15 +52,25 @@ struct Selection {
 };
 
 // How one region is cut.
+// A component of a region whose lines are circles.
+struct RoundGround {
+  int component = -1;  // RegionMap::ComponentAt
+  RoundLines lines;
+  bool operator==(const RoundGround&) const = default;
+};
+
 struct RegionChoice {
   bool skip = false;  // not at all
   Strategy strategy = Strategy::kAuto;
-  double zigzag_angle = 0.0;         // rad
-  bool angle_open = false;           // zigzag_angle is yet to be chosen (QuickestAngles)
-  bool round_open = false;           // and whether its lines are circles (ChooseRoundLines)
-  bool one_way = false;              // all its lines run along zigzag_angle, none back
-  double scallop = 0.01;             // mm
-  std::optional<RoundLines> around;  // its lines are circles, whatever zigzag_angle says (ChooseRoundLines)
+  double zigzag_angle = 0.0;  // rad
+  bool angle_open = false;    // zigzag_angle is yet to be chosen (QuickestAngles)
+  bool round_open = false;    // and whether its lines are circles (ChooseRoundLines)
+  bool one_way = false;       // all its lines run along zigzag_angle, none back
+  double scallop = 0.01;      // mm
+  // Components whose lines are circles, whatever zigzag_angle says, rising; and whether that is all ground
+  // that has lines (ChooseRoundLines).
+  std::vector<RoundGround> around;
+  bool all_round = false;
   bool operator==(const RegionChoice&) const = default;
 };
 

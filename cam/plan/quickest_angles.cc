@@ -55,9 +55,10 @@ RegionTimes TimesOf(const LinkResult& motion, std::size_t regions) {
   return times;
 }
 
-absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(
-    const RegionMap& map, std::vector<RegionChoice> choices,
-    const std::vector<std::optional<RoundLines>>& circles, const TimePlan& plan) {
+absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
+                                                         std::vector<RegionChoice> choices,
+                                                         const std::vector<RoundTry>& circles,
+                                                         const TimePlan& plan) {
   // How a region's lines run.
   struct Way {
     double angle = 0.0;
@@ -73,8 +74,15 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(
     for (std::size_t id = 0; id < filled.size(); ++id) {
       if (!filled[id].angle_open) continue;
       filled[id].angle_open = false;
-      if (ways[id].round && circles[id]) {
-        filled[id].around = circles[id];
+      const bool round = ways[id].round && !circles[id].more.empty();
+      if (round) {
+        std::vector<RoundGround>& around = filled[id].around;
+        around.insert(around.end(), circles[id].more.begin(), circles[id].more.end());
+        std::sort(around.begin(), around.end(),
+                  [](const RoundGround& a, const RoundGround& b) { return a.component < b.component; });
+      }
+      if (round && circles[id].all) {
+        filled[id].all_round = true;
       } else {
         filled[id].zigzag_angle = ways[id].angle;
       }
@@ -98,7 +106,7 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(
     }
     std::vector<Way> mixed = best->ways;
     for (std::size_t id = 0; id < mixed.size(); ++id) {
-      if (by_contours(id) && !circles[id]) continue;
+      if (by_contours(id) && circles[id].more.empty()) continue;
       double least = kInfinity;
       for (const Tried& tried : plans) {
         if (tried.times[id] >= least) continue;
@@ -118,7 +126,7 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(
   bool any_lines = false, any_circles = false;
   for (std::size_t id = 0; id < map.regions.size(); ++id) {
     const Region& region = map.regions[id];
-    any_circles = any_circles || (choices[id].angle_open && circles[id]);
+    any_circles = any_circles || (choices[id].angle_open && !circles[id].more.empty());
     if (!choices[id].angle_open || by_contours(id) || region.kind == RegionKind::kUnreachable) continue;
     any_lines = true;
     for (const std::vector<Vec3>& loop : region.border) AddStrides(loop, border);

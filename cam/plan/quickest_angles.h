@@ -2,13 +2,13 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include <absl/status/statusor.h>
 
 #include "cam/link/link_paths.h"
 #include "cam/plan/job.h"
+#include "cam/plan/region_choices.h"
 
 namespace patchmill {
 
@@ -22,7 +22,7 @@ using TimePlan = std::function<absl::StatusOr<RegionTimes>(const std::vector<Reg
 inline constexpr int kQuickestAnglePlans = 20;  // at most
 
 // The choices with zigzag_angle filled in, in [0, pi), wherever angle_open is set (which is cleared), or
-// `around` from `circles`, which has what to try for each region or nothing (ChooseRoundLines). First all
+// more `around` from `circles`, which has what to try for each region (ChooseRoundLines). First all
 // regions are planned at 0, 30, ... 150 degrees and along the two directions in which most of the borders of
 // lines run (MainDirections), for there the time falls off within a few degrees. Each region takes the angle
 // at which its own motion is quickest (steep ones that contours cut that of the quickest plan), and that
@@ -30,8 +30,9 @@ inline constexpr int kQuickestAnglePlans = 20;  // at most
 // by 3.75, and each region takes the one of the three that its own motion is quickest at; at last circles
 // take the place of lines wherever they are to be tried, and where they are quicker they stay. The quickest
 // of all these plans is the answer. kQuickestAnglePlans times the cost of `plan` at most; its errors.
-absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(
-    const RegionMap& map, std::vector<RegionChoice> choices,
-    const std::vector<std::optional<RoundLines>>& circles, const TimePlan& plan);
+absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
+                                                         std::vector<RegionChoice> choices,
+                                                         const std::vector<RoundTry>& circles,
+                                                         const TimePlan& plan);
 
 }  // namespace patchmill

@@ -76,15 +76,16 @@ std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
   return leader;
 }
 
-// The cells of a piece that are the region's, or at most kRoundBeside steps from cell to cell away: its
+// The cells of a piece that are the component's, or at most kRoundBeside steps from cell to cell away: its
 // border runs through cells, and what is left of them would be cut by short ends of other lines.
-std::vector<bool> CellsOf(const RegionMap& map, const std::vector<int>& labels, int region) {
+std::vector<bool> CellsOf(const RegionMap& map, std::size_t piece, int component) {
   const int n = map.cells;
+  const std::vector<int>& labels = map.components.empty() ? map.labels[piece] : map.components[piece];
   std::vector<bool> own(labels.size());
-  if (std::find(labels.begin(), labels.end(), region) == labels.end()) return own;
+  if (std::find(labels.begin(), labels.end(), component) == labels.end()) return own;
   std::vector<int> edge;
   for (std::size_t k = 0; k < labels.size(); ++k) {
-    own[k] = labels[k] == region;
+    own[k] = labels[k] == component;
     if (own[k]) edge.push_back(static_cast<int>(k));
   }
   for (int step = 0; step < kRoundBeside; ++step) {
@@ -113,23 +114,24 @@ std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<Reg
     std::vector<RoundLines> families;
     std::vector<Cells> cells;
     for (std::size_t id = 0; id < choices.size(); ++id) {
-      if (part_of[id] != static_cast<int>(p) || !choices[id].around) continue;
-      const RoundLines& own = *choices[id].around;
-      std::size_t k = 0;
-      while (k < families.size() && (families[k].center - own.center).norm() > kSamePlace) ++k;
-      if (k == families.size()) {
-        families.push_back(own);
-        cells.emplace_back(map.labels.size());
-      }
-      families[k].inner = std::min(families[k].inner, own.inner);
-      families[k].outer = std::max(families[k].outer, own.outer);
-      for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
-        std::vector<bool> more = CellsOf(map, map.labels[piece], static_cast<int>(id));
-        std::vector<bool>& in = cells[k][piece];
-        if (in.empty()) {
-          in = std::move(more);
-        } else {
-          std::transform(in.begin(), in.end(), more.begin(), in.begin(), std::logical_or<>());
+      if (part_of[id] != static_cast<int>(p)) continue;
+      for (const auto& [component, own] : choices[id].around) {
+        std::size_t k = 0;
+        while (k < families.size() && (families[k].center - own.center).norm() > kSamePlace) ++k;
+        if (k == families.size()) {
+          families.push_back(own);
+          cells.emplace_back(map.labels.size());
+        }
+        families[k].inner = std::min(families[k].inner, own.inner);
+        families[k].outer = std::max(families[k].outer, own.outer);
+        for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
+          std::vector<bool> more = CellsOf(map, piece, component);
+          std::vector<bool>& in = cells[k][piece];
+          if (in.empty()) {
+            in = std::move(more);
+          } else {
+            std::transform(in.begin(), in.end(), more.begin(), in.begin(), std::logical_or<>());
+          }
         }
       }
     }
@@ -156,11 +158,13 @@ std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<Reg
 }  // namespace
 
 bool CutTogether(const RegionChoice& a, const RegionChoice& b) {
-  if (!a.around && !b.around) return a == b;
   RegionChoice c = b;
-  c.zigzag_angle = a.zigzag_angle;
-  c.angle_open = a.angle_open;
   c.around = a.around;
+  if (a.all_round || b.all_round) {
+    c.zigzag_angle = a.zigzag_angle;
+    c.angle_open = a.angle_open;
+    c.all_round = a.all_round;
+  }
   return a == c;
 }
 
@@ -235,14 +239,15 @@ std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoi
   for (const bool round : {false, true}) {
     for (std::size_t id = 0; id < choices.size(); ++id) {
       if (choices[id].skip || map.regions[id].kind == RegionKind::kUnreachable) continue;
-      if (choices[id].around.has_value() != round) continue;
+      if (choices[id].all_round != round) continue;
       const auto known = std::find_if(parts.begin(), parts.end(), [&](const PlanPart& part) {
         return CutTogether(choices[id], part.choice);
       });
       part_of[id] = static_cast<int>(known - parts.begin());
       if (known != parts.end()) continue;
       parts.emplace_back().choice = choices[id];
-      parts.back().choice.around.reset();
+      parts.back().choice.around.clear();
+      parts.back().choice.all_round = false;
     }
   }
   const bool any_skipped =

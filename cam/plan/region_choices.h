@@ -20,10 +20,16 @@ RegionChoice ChoiceOf(const Operation& op);
 // What its passes are forced upon.
 ForcedSteps ForcedOf(const RegionChoice& choice);
 
+// More components of a region that circles may suit; `all`: its lines are all round then.
+struct RoundTry {
+  std::vector<RoundGround> more;
+  bool all = false;
+};
+
 struct ChosenRegions {
   RegionMap map;
-  std::vector<RegionChoice> choices;               // by id
-  std::vector<std::optional<RoundLines>> circles;  // by id: to be tried where the angle is open
+  std::vector<RegionChoice> choices;  // by id
+  std::vector<RoundTry> circles;      // by id: to be tried where the angle is open
 };
 
 // One for each region of the map, by id. FAILED_PRECONDITION when the overrides were made for another map;
@@ -35,7 +41,8 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
 // Cells beside a region that are cut with it, along circles.
 inline constexpr int kRoundBeside = 4;
 
-// They are the same but for the direction of lines, if either has round ones: one set of contours cuts both.
+// They are the same but for which lines are round, and for the direction of the others if one has none: one
+// set of contours cuts both.
 bool CutTogether(const RegionChoice& a, const RegionChoice& b);
 
 // A part of the surface that is cut in one way.
@@ -52,11 +59,11 @@ struct PlanPart {
   std::shared_ptr<const SurfaceMask> straight;  // what the other lines cover; null: all of it
 };
 
-// Parts of equal choices, in cells of the map: those of regions without round lines in the order of their
-// first regions; regions with round lines go with the first part that is the same but for the direction of
-// lines, or make parts after these. Skipped regions are in none. Unreachable ground goes with the reachable
-// ground nearest to it in its piece (cell by cell), so that no pass runs around what lies within a skipped
-// region. At least one part, which may be empty.
+// Parts of equal choices, in cells of the map: those of regions with straight lines in the order of their
+// first regions; regions whose lines are all round go with the first part that is the same but for the
+// direction of lines, or make parts after these. Skipped regions are in none. Unreachable ground goes with
+// the reachable ground nearest to it in its piece (cell by cell), so that no pass runs around what lies
+// within a skipped region. At least one part, which may be empty.
 std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoice>& choices);
 
 // The cells of all parts together: what links may touch. Null when no region is skipped: everywhere.

@@ -17,11 +17,20 @@ inline bool ByContours(const RegionChoice& choice, const Region& region) {
          (choice.strategy == Strategy::kAuto && region.slope == SlopeClass::kSteep);
 }
 
-// In which direction in plan a line runs at p; a unit vector.
-inline Vec2 LineAt(const RegionChoice& choice, const Vec3& p) {
-  if (!choice.around) return {std::cos(choice.zigzag_angle), std::sin(choice.zigzag_angle)};
-  const Vec2 out = Plan(p) - choice.around->center;
+// In which direction in plan lines run; unit vectors.
+inline Vec2 StraightLine(double angle) { return {std::cos(angle), std::sin(angle)}; }
+inline Vec2 RoundLineAt(const RoundLines& around, const Vec2& p) {
+  const Vec2 out = p - around.center;
   return Vec2(-out.y(), out.x()).normalized();
+}
+
+// At p of a component of the region.
+inline Vec2 LineAt(const RegionChoice& choice, int component, const Vec3& p) {
+  const auto ground = std::lower_bound(choice.around.begin(), choice.around.end(), component,
+                                       [](const RoundGround& round, int of) { return round.component < of; });
+  if (ground == choice.around.end() || ground->component != component)
+    return StraightLine(choice.zigzag_angle);
+  return RoundLineAt(ground->lines, Plan(p));
 }
 
 // Every how many cells of the map a point is taken, each way.

@@ -81,11 +81,11 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
     pieces[i].resize(map.regions.size());
     VisitPiece(surface, i, map, stride, reachable,
-               [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
+               [&](std::size_t id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
                  const RegionChoice& choice = choices[id];
                  const auto across = ByContours(choice, map.regions[id])
                                          ? AcrossContours(e)
-                                         : AcrossLines(e, LineAt(choice, jet.p));
+                                         : AcrossLines(e, LineAt(choice, map.ComponentAt(i, cell), jet.p));
                  if (!across) return;
                  const double step = CenterStep(resolved.plan_radius, choice.scallop,
                                                 NormalCurvature(Forms(jet, e), jet, *across));

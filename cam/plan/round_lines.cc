@@ -60,7 +60,7 @@ std::optional<Vec2> CenterOf(const std::vector<Tangent>& tangents, double near) 
 
 // A point of gentle ground.
 struct GentlePoint {
-  std::size_t region = 0;
+  std::size_t component = 0;
   SurfaceJet jet;
   Vec3 normal = Vec3::UnitZ();
   double centers = 0.0;                                       // mm2 of the centre surface that it stands for
@@ -71,22 +71,30 @@ struct GentlePoint {
 std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece, const RegionMap& map,
                                       int stride, const Resolved& resolved, const std::vector<bool>& open) {
   const double radius = resolved.plan_radius;
-  std::vector<int> steep(map.labels[piece].size(), 0);
+  std::vector<int> steep(map.labels[piece].size(), -1);    // the component of cells that are
   std::vector<std::pair<std::size_t, GentlePoint>> found;  // cell, point
   const double share = ShareOfPoint(map, stride), way = std::sqrt(share),
                limit = std::cos(resolved.split_angle);
   VisitPiece(
       surface, piece, map, stride, [&](std::size_t id) { return open[id]; },
-      [&](std::size_t id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
+      [&](std::size_t, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
+        const int component = map.ComponentAt(piece, cell);
+        if (component < 0) return;
         if (e.z() < limit) {
-          steep[cell] = map.labels[piece][cell] + 1;
+          steep[cell] = component;
           return;
         }
         const PrincipalCurvatures k = Principal(Forms(jet, e));
         if (!(k.k_max * radius < 1.0) || !IsWanted(resolved.containment, surface.pieces[piece].patch, jet.p))
           return;
         const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
-        found.push_back({cell, {id, jet, e, share * centers * jet.du.cross(jet.dv).norm(), {}, {}}});
+        found.push_back({cell,
+                         {static_cast<std::size_t>(component),
+                          jet,
+                          e,
+                          share * centers * jet.du.cross(jet.dv).norm(),
+                          {},
+                          {}}});
       });
   const int n = map.cells;
   std::vector<GentlePoint> points;
@@ -95,7 +103,7 @@ std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece,
     const int i = static_cast<int>(cell) / n, j = static_cast<int>(cell) % n;
     const auto is_steep = [&](int a, int b) {
       return a >= 0 && b >= 0 && a < n && b < n &&
-             steep[static_cast<std::size_t>(a * n + b)] == static_cast<int>(point.region) + 1;
+             steep[static_cast<std::size_t>(a * n + b)] == static_cast<int>(point.component);
     };
     const int u = is_steep(i - stride, j) + is_steep(i + stride, j);
     const int v = is_steep(i, j - stride) + is_steep(i, j + stride);
@@ -106,8 +114,12 @@ std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece,
   return points;
 }
 
-// The gentle ground of a region, to tell which of the region's borders are its own: all of a gentle one's; of
-// a steep one those that lie in the plane of a point nearby.
+const Region& RegionOf(const RegionMap& map, std::size_t component) {
+  return map.regions[static_cast<std::size_t>(map.component_region[component])];
+}
+
+// The gentle ground of a component, to tell which of its borders are that ground's: all in a gentle region;
+// in a steep one those that lie in the plane of a point nearby.
 class GentleGround {
  public:
   void Add(const GentlePoint& point, double way) {
@@ -145,13 +157,15 @@ class GentleGround {
   Eigen::Index along_ = 0;  // axis
 };
 
-// Calls visit(from, to), in plan, for the stretches from point to point of the borders of a region's gentle
-// ground.
+// Calls visit(from, to), in plan, for the stretches from point to point of the borders of a component's
+// gentle ground.
 template <class Visit>
-void VisitBorders(const RegionMap& map, std::size_t id, const GentleGround& ground, const Visit& visit) {
-  const bool all = map.regions[id].slope == SlopeClass::kGentle;
+void VisitBorders(const RegionMap& map, std::size_t component, const GentleGround& ground,
+                  const Visit& visit) {
+  const int own = static_cast<int>(component);
+  const bool all = RegionOf(map, component).slope == SlopeClass::kGentle;
   for (const BorderLine& line : map.border_lines) {
-    if (line.region != map.regions[id].id && line.other != map.regions[id].id) continue;
+    if (line.component != own && line.other_component != own) continue;
     const std::size_t n = line.points.size();
     for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
       const Vec3 &from = line.points[i], &to = line.points[(i + 1) % n];
@@ -160,20 +174,22 @@ void VisitBorders(const RegionMap& map, std::size_t id, const GentleGround& grou
   }
 }
 
-// Lines in one way over a region's gentle ground, and what they come to.
+// Lines in one way over a component's gentle ground, and what they come to.
 struct Family {
-  RegionChoice choice;
-  double passes = 0.0;  // mm, for the steps needed
-  double ends = 0.0;    // mm of borders, as seen along the lines
-  double border = 0.0;  // mm of them
+  std::optional<RoundLines> around;  // else they are straight
+  double angle = 0.0;                // rad
+  double passes = 0.0;               // mm, for the steps needed
+  double ends = 0.0;                 // mm of borders, as seen along the lines
+  double border = 0.0;               // mm of them
 
+  Vec2 LineAt(const Vec2& p) const { return around ? RoundLineAt(*around, p) : StraightLine(angle); }
   bool AlongBorders() const { return ends <= kMostSlant * border; }
   void AddBorder(const Vec2& from, const Vec2& to) {
     border += (to - from).norm();
-    ends += std::abs(Cross(LineAt(choice, Lift(0.5 * (from + to), 0.0)), to - from));
+    ends += std::abs(Cross(LineAt(0.5 * (from + to)), to - from));
   }
-  void Add(const GentlePoint& point, double radius) {
-    const Vec2 line = LineAt(choice, point.jet.p);
+  void Add(const GentlePoint& point, double radius, double scallop) {
+    const Vec2 line = LineAt(Plan(point.jet.p));
     for (const Vec2& limit : {point.to_steep_u, point.to_steep_v}) {
       border += limit.norm();
       ends += std::abs(Cross(line, limit));
@@ -181,7 +197,7 @@ struct Family {
     const auto across = AcrossLines(point.normal, line);
     if (!across) return;
     const double kappa = NormalCurvature(Forms(point.jet, point.normal), point.jet, *across);
-    const double step = CenterStep(radius, choice.scallop, kappa);
+    const double step = CenterStep(radius, scallop, kappa);
     if (step > 0.0) passes += point.centers / step;
   }
   // One line ends for every step of border, at half of what a run costs.
@@ -205,7 +221,7 @@ struct Extent {
   bool GoesAround() const { return 4 * sectors.count() >= 3 * kSectors; }
 };
 
-// A region that may be cut along circles, and the straight lines they are compared with.
+// A component that may be cut along circles, and the straight lines they are compared with.
 struct Candidate {
   Family round;
   std::vector<Family> straight;  // at the angle it has, or at some where that is open
@@ -220,27 +236,20 @@ struct Candidate {
 
 Candidate CandidateOf(const RegionChoice& choice, const Vec2& center) {
   Candidate candidate;
-  candidate.round.choice = choice;
-  candidate.round.choice.around = RoundLines{center, 0.0, 0.0};
-  candidate.round.choice.angle_open = false;
+  candidate.round.around = RoundLines{center, 0.0, 0.0};
   const int angles = choice.angle_open ? kAngles : 1;
-  for (int k = 0; k < angles; ++k) {
-    Family& family = candidate.straight.emplace_back();
-    family.choice = choice;
-    family.choice.zigzag_angle += k * kPi / angles;
-  }
+  for (int k = 0; k < angles; ++k)
+    candidate.straight.emplace_back().angle = choice.zigzag_angle + k * kPi / angles;
   return candidate;
 }
 
 }  // namespace
 
-absl::StatusOr<std::vector<std::optional<RoundLines>>> ChooseRoundLines(const Surface& surface,
-                                                                        const RegionMap& map,
-                                                                        const Resolved& resolved,
-                                                                        const RunContext& run,
-                                                                        std::vector<RegionChoice>& choices) {
+absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, const RegionMap& map,
+                                                       const Resolved& resolved, const RunContext& run,
+                                                       std::vector<RegionChoice>& choices) {
   const double radius = resolved.plan_radius;
-  std::vector<std::optional<RoundLines>> to_try(choices.size());
+  std::vector<RoundTry> to_try(choices.size());
   std::vector<bool> open(choices.size());
   for (std::size_t id = 0; id < choices.size(); ++id) {
     const RegionChoice& choice = choices[id];
@@ -255,63 +264,82 @@ absl::StatusOr<std::vector<std::optional<RoundLines>>> ChooseRoundLines(const Su
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
     pieces[i] = GentlePoints(surface, i, map, stride, resolved, open);
   }));
-  std::vector<std::vector<Tangent>> tangents(choices.size());
-  std::vector<GentleGround> grounds(choices.size());
+  const std::size_t count = map.component_region.size();
+  const auto choice_of = [&](std::size_t component) -> RegionChoice& {
+    return choices[static_cast<std::size_t>(map.component_region[component])];
+  };
+  std::vector<std::vector<Tangent>> tangents(count);
+  std::vector<GentleGround> grounds(count);
   const double way = std::sqrt(ShareOfPoint(map, stride));
   for (const std::vector<GentlePoint>& piece : pieces) {
     for (const GentlePoint& point : piece) {
-      tangents[point.region].push_back(
+      tangents[point.component].push_back(
           {Plan(point.jet.p), {-point.normal.y(), point.normal.x()}, point.centers});
-      if (map.regions[point.region].slope == SlopeClass::kSteep) grounds[point.region].Add(point, way);
+      if (RegionOf(map, point.component).slope == SlopeClass::kSteep)
+        grounds[point.component].Add(point, way);
     }
   }
   for (GentleGround& ground : grounds) ground.Sort();
-  std::vector<std::optional<Candidate>> candidates(choices.size());
-  for (std::size_t id = 0; id < choices.size(); ++id) {
-    if (!open[id]) continue;
-    const double flat = CenterStep(radius, choices[id].scallop, 0.0);
-    VisitBorders(map, id, grounds[id], [&](const Vec2& from, const Vec2& to) {
+  std::vector<char> has_lines(count, 0);
+  std::vector<std::optional<Candidate>> candidates(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!open[static_cast<std::size_t>(map.component_region[k])]) continue;
+    has_lines[k] = !tangents[k].empty();
+    const double flat = CenterStep(radius, choice_of(k).scallop, 0.0);
+    VisitBorders(map, k, grounds[k], [&](const Vec2& from, const Vec2& to) {
       const double length = (to - from).norm();
-      if (length > 0.0) tangents[id].push_back({0.5 * (from + to), (to - from) / length, flat * length});
+      if (length > 0.0) tangents[k].push_back({0.5 * (from + to), (to - from) / length, flat * length});
     });
-    const auto center = CenterOf(tangents[id], radius);
+    const auto center = CenterOf(tangents[k], radius);
     if (!center) continue;
-    candidates[id] = CandidateOf(choices[id], *center);
-    VisitBorders(map, id, grounds[id], [&](const Vec2& from, const Vec2& to) {
-      candidates[id]->VisitFamilies([&](Family& family) { family.AddBorder(from, to); });
+    candidates[k] = CandidateOf(choice_of(k), *center);
+    VisitBorders(map, k, grounds[k], [&](const Vec2& from, const Vec2& to) {
+      candidates[k]->VisitFamilies([&](Family& family) { family.AddBorder(from, to); });
     });
   }
   for (const std::vector<GentlePoint>& piece : pieces) {
     for (const GentlePoint& point : piece) {
-      if (!candidates[point.region]) continue;
-      Candidate& candidate = *candidates[point.region];
-      candidate.VisitFamilies([&](Family& family) { family.Add(point, radius); });
+      if (!candidates[point.component]) continue;
+      Candidate& candidate = *candidates[point.component];
+      const double scallop = choice_of(point.component).scallop;
+      candidate.VisitFamilies([&](Family& family) { family.Add(point, radius, scallop); });
       const double cell = std::max(Plan(point.jet.du).norm(), Plan(point.jet.dv).norm()) / map.cells;
-      candidate.extent.Add(Plan(point.jet.p) - candidate.round.choice.around->center, cell);
+      candidate.extent.Add(Plan(point.jet.p) - candidate.round.around->center, cell);
     }
   }
-  for (std::size_t id = 0; id < choices.size(); ++id) {
-    if (!candidates[id]) continue;
+  std::vector<std::size_t> straight(choices.size(), 0);  // components that are not round
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto id = static_cast<std::size_t>(map.component_region[k]);
+    straight[id] += has_lines[k];
+    if (!candidates[k]) continue;
     const double flat = CenterStep(radius, choices[id].scallop, 0.0);
-    const Extent& extent = candidates[id]->extent;
+    const Extent& extent = candidates[k]->extent;
     if (!(extent.nearest > radius + flat) || !extent.GoesAround()) continue;
     double least = kInfinity;
-    for (const Family& family : candidates[id]->straight) least = std::min(least, family.Sum(radius, flat));
-    if (!candidates[id]->round.AlongBorders()) continue;
-    const double length = candidates[id]->round.Sum(radius, flat);
+    for (const Family& family : candidates[k]->straight) least = std::min(least, family.Sum(radius, flat));
+    if (!candidates[k]->round.AlongBorders()) continue;
+    const double length = candidates[k]->round.Sum(radius, flat);
     const bool angle_open = choices[id].angle_open;
     if (!(length < (angle_open ? kArguably : kWorthwhile) * least)) continue;
-    RegionChoice round = candidates[id]->round.choice;
+    RoundGround round{static_cast<int>(k), *candidates[k]->round.around};
     // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are
     // looked for is not to hang on which points were visited.
     const double more = (stride + kRoundBeside) * extent.cell;
-    round.around->inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
-    round.around->outer = radius * std::ceil((extent.farthest + more) / radius);
+    round.lines.inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
+    round.lines.outer = radius * std::ceil((extent.farthest + more) / radius);
+    --straight[id];
     if (angle_open && length >= kPlainly * least) {
-      to_try[id] = round.around;
+      to_try[id].more.push_back(round);
     } else {
-      choices[id] = round;
+      choices[id].around.push_back(round);
     }
+  }
+  for (std::size_t id = 0; id < choices.size(); ++id) {
+    const bool all = straight[id] == 0 && !(to_try[id].more.empty() && choices[id].around.empty());
+    to_try[id].all = all;
+    if (!all || !to_try[id].more.empty()) continue;
+    choices[id].all_round = true;
+    choices[id].angle_open = false;
   }
   return to_try;
 }

@@ -1,7 +1,6 @@
 // Which regions have their lines in circles: rims, shoulders, whatever gentle ground lies around an axis.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -12,7 +11,8 @@
 namespace patchmill {
 
 // Gives `around` to the choices whose round_open is set (which is cleared) where it pays: of reachable
-// regions cut in the way that suits them (strategy AUTO), both ways. What counts is their gentle ground that
+// regions cut in the way that suits them (strategy AUTO), both ways; each component of a region by itself, so
+// that every one of many bosses has circles of its own. What counts is their gentle ground that
 // is wanted, all of a gentle region, and of a steep one what merging left in it. The circles' place c is
 // where normals point to and borders run around: the least sum of squares of m . (p - c), over points p, by
 // area, of their horizontal direction m square to the normal (as long as the slope's sine), and over the
@@ -24,13 +24,11 @@ namespace patchmill {
 // from it; what merging left in steep regions also has borders that run along the circles, but for an angle
 // of 0.2 on average.
 // Where the angle is open they are compared with the best of six: circles a fifth shorter need no angle, and
-// angle_open is cleared; such as are less than a fifth longer are told, by region, to be tried
-// (QuickestAngles), for the estimate may err by that.
-// CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<std::optional<RoundLines>>> ChooseRoundLines(const Surface& surface,
-                                                                        const RegionMap& map,
-                                                                        const Resolved& resolved,
-                                                                        const RunContext& run,
-                                                                        std::vector<RegionChoice>& choices);
+// where all lines of the region are such angle_open is cleared; such as are less than a fifth longer are
+// told, by region, to be tried (QuickestAngles), for the estimate may err by that. CANCELLED,
+// DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, const RegionMap& map,
+                                                       const Resolved& resolved, const RunContext& run,
+                                                       std::vector<RegionChoice>& choices);
 
 }  // namespace patchmill

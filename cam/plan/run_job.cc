@@ -116,7 +116,8 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
   const double zero_z = r.program_zero.z();
   list.push_back(
       Warning("STOCK_ASSUMED",
-              fmt::format("assumed: at most {:.3g} mm of material on the surface, nothing above Z{:.4f}",
+              fmt::format("assumed: at most {:.3g} mm of material on the surface, none beside it, nothing "
+                          "above Z{:.4f}",
                           job.setup.allowance, r.stock_top_z - zero_z)));
   if (job.operation.low_rapids) {
     list.push_back(
@@ -129,9 +130,16 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
     list.push_back(Warning(
         "DEFAULT_CUTTING_DATA",
         fmt::format(
-            "spindle {:.0f} rpm, feed {:.0f} and plunge feed {:.0f} mm/min are defaults, not made for "
-            "this material",
+            "spindle {:.0f} rpm, feed {:.0f} and plunge feed {:.0f} mm/min: not all are given, and defaults "
+            "are not made for this material",
             job.operation.tool.spindle_rpm, job.operation.tool.feed, job.operation.tool.plunge_feed)));
+  }
+  if (job.operation.tool.plunge_feed > job.operation.tool.feed) {
+    list.push_back(Warning("PLUNGE_FEED_ABOVE_FEED",
+                           fmt::format("descents steeper than {:.0f} degrees run at {:.6g} mm/min, faster "
+                                       "than the feed, {:.6g} mm/min",
+                                       Degrees(LinkParams().plunge_angle), job.operation.tool.plunge_feed,
+                                       job.operation.tool.feed)));
   }
   const double extent = (r.box.max - r.box.min).maxCoeff();
   if (job.unitless_file && (extent < 4.0 * r.radius || extent > 2000.0)) {

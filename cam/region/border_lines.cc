@@ -16,6 +16,7 @@ namespace {
 struct Strand {
   BorderKind kind = BorderKind::kSlope;
   int region = -1, other = -1;
+  int component = -1, other_component = -1;
   std::vector<Vec3> points;
   std::size_t ends[2] = {0, 0};  // places of its first and last point
 
@@ -232,6 +233,8 @@ class Chainer {
     line.kind = strands_[i].kind;
     line.region = strands_[i].region;
     line.other = strands_[i].other;
+    line.component = strands_[i].component;
+    line.other_component = strands_[i].other_component;
     const std::size_t start = strands_[i].ends[which];
     if (!Passes(start)) {
       line.from = NodeAt(start, nodes);
@@ -282,17 +285,20 @@ double LongestSeamSide(const std::vector<SplitMesh>& meshes, const AdjacencyList
 absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency, const BorderArcs& arcs,
                                           const BorderPoints& points,
-                                          const std::vector<std::vector<int>>& region_of,
+                                          const std::vector<std::vector<int>>& component_of,
+                                          const std::vector<int>& component_region,
                                           const std::vector<Region>& regions, const RunContext& run) {
-  const auto region = [&](int piece, int triangle) {
-    return piece < 0 ? -1 : region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
+  const auto component = [&](int piece, int triangle) {
+    return piece < 0 ? -1 : component_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
+  const auto region = [&](int of) { return of < 0 ? -1 : component_region[static_cast<std::size_t>(of)]; };
   std::vector<Strand> strands;
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     const Adjacency a = adjacency[arcs.sides[k]];
-    const int own = region(a.side.piece, a.side.triangle), other = region(a.other_piece, a.other_triangle);
+    const int own = component(a.side.piece, a.side.triangle),
+              other = component(a.other_piece, a.other_triangle);
     if (other >= 0 && other < own) continue;  // seen from there
-    strands.push_back({BorderKind::kOpenEdge, own, other, points[k], {}});
+    strands.push_back({BorderKind::kOpenEdge, region(own), region(other), own, other, points[k], {}});
     strands.back().kind = KindOf(meshes, regions, a, strands.back());
   }
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);

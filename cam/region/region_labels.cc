@@ -70,7 +70,8 @@ void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vect
 }  // namespace
 
 absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
-                        std::size_t regions, const RunContext& run, RegionMap& map) {
+                        const std::vector<std::vector<int>>& component_of, std::size_t regions,
+                        const RunContext& run, RegionMap& map) {
   constexpr double kMaxLabels = 8e6;
   constexpr int kMaxCells = 256;
   const auto pieces = static_cast<double>(std::max<std::size_t>(1, meshes.size()));
@@ -78,10 +79,21 @@ absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<
   map.cells = 1;
   while (map.cells < kMaxCells && 4.0 * map.cells * map.cells * pieces <= kMaxLabels) map.cells *= 2;
   map.labels.resize(meshes.size());
+  const bool fall_apart = map.component_region.size() > regions;
+  if (fall_apart) map.components.resize(meshes.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
     map.labels[piece] = PieceLabels(meshes[piece], region_of[piece], map.cells);
+    if (fall_apart) map.components[piece] = PieceLabels(meshes[piece], component_of[piece], map.cells);
   }));
   GiveCells(meshes, region_of, regions, map);
+  for (std::size_t piece = 0; piece < map.components.size(); ++piece) {
+    for (std::size_t cell = 0; cell < map.labels[piece].size(); ++cell) {
+      int& component = map.components[piece][cell];
+      if (component >= 0 &&
+          map.component_region[static_cast<std::size_t>(component)] != map.labels[piece][cell])
+        component = -1;
+    }
+  }
   return absl::OkStatus();
 }
 

@@ -19,6 +19,7 @@
 #include "cam/tool/reach_give.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
+#include "core/base/union_find.h"
 
 namespace patchmill {
 namespace {
@@ -135,9 +136,42 @@ Region FromLabel(const SplitLabel& label) {
 // The groups of merged regions, borders bent onto the true curves, as regions in their final order.
 struct Numbered {
   std::vector<Region> regions;
-  std::vector<std::vector<int>> region_of;  // [piece][triangle]
+  std::vector<std::vector<int>> region_of, component_of;  // [piece][triangle]
+  std::vector<int> component_region;
   BorderArcs arcs;
 };
+
+// What hangs together of each region, numbered by regions, then by their first raw regions. What no ball
+// reaches counts as one component wherever it is: nothing is cut there.
+void NumberComponents(const RawRegions& raw, const std::vector<int>& id_of_raw, Numbered& numbered) {
+  UnionFind sets(raw.regions.size());
+  for (const RawContact& contact : raw.contacts) {
+    const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
+    if (id_of_raw[a] == id_of_raw[b]) sets.Join(a, b);
+  }
+  std::vector<int> first(numbered.regions.size(), -1);
+  for (std::size_t i = 0; i < id_of_raw.size(); ++i) {
+    const auto id = static_cast<std::size_t>(id_of_raw[i]);
+    if (numbered.regions[id].kind != RegionKind::kUnreachable) continue;
+    if (first[id] < 0) first[id] = static_cast<int>(i);
+    sets.Join(static_cast<std::size_t>(first[id]), i);
+  }
+  std::vector<std::size_t> order(raw.regions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return id_of_raw[a] < id_of_raw[b]; });
+  std::vector<int> component(raw.regions.size(), -1);
+  for (const std::size_t i : order) {
+    if (sets.Find(i) != i) continue;  // the first of each set comes first
+    component[i] = static_cast<int>(numbered.component_region.size());
+    numbered.component_region.push_back(id_of_raw[i]);
+  }
+  numbered.component_of = raw.of;
+  for (std::vector<int>& piece : numbered.component_of) {
+    for (int& id : piece) id = component[sets.Find(static_cast<std::size_t>(id))];
+  }
+}
+
 absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                 const AdjacencyList& adjacency, const RawRegions& raw,
                                 const MergedRegions& merged, std::span<const ZeroField> fields,
@@ -187,6 +221,9 @@ absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitM
   for (std::vector<int>& piece : numbered.region_of) {
     for (int& id : piece) id = id_of[static_cast<std::size_t>(id)];
   }
+  std::vector<int> id_of_raw;
+  for (const int group : merged.group) id_of_raw.push_back(id_of[static_cast<std::size_t>(group)]);
+  NumberComponents(raw, id_of_raw, numbered);
   return numbered;
 }
 
@@ -296,6 +333,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
                       Number(surface, meshes, adjacency, raw, Merge(raw, params), fields, params, run));
   // What is told of the regions, at once: none of it needs any other.
   RegionMap map;
+  map.component_region = numbered.component_region;
   BorderNet net;
   std::vector<std::vector<std::vector<Vec3>>> borders;
   std::vector<Region>& regions = numbered.regions;
@@ -318,7 +356,8 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
       const std::size_t id = probed[k - 3];
       ProbeRegion(surface, meshes, reach, params, unreachable[id], run, regions[id]);
     } else if (k == 0) {
-      auto found = FindBorderLines(surface, meshes, adjacency, arcs, points, region_of, regions, run);
+      auto found = FindBorderLines(surface, meshes, adjacency, arcs, points, numbered.component_of,
+                                   numbered.component_region, regions, run);
       told[k] = found.status();
       if (found.ok()) net = *std::move(found);
     } else if (k == 1) {
@@ -327,7 +366,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
       told[k] = found.status();
       if (found.ok()) borders = *std::move(found);
     } else {
-      told[k] = FillLabels(meshes, region_of, regions.size(), run, map);
+      told[k] = FillLabels(meshes, region_of, numbered.component_of, regions.size(), run, map);
     }
   }));
   ListPatches(surface, region_of, regions);

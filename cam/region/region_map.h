@@ -76,9 +76,10 @@ struct Region {
 // A line on the surface between two regions, or where one ends.
 struct BorderLine {
   BorderKind kind = BorderKind::kSlope;
-  int region = -1, other = -1;  // ids, the lower one first; other = -1: the surface ends
-  bool closed = false;          // the last point joins the first and is not repeated
-  int from = -1, to = -1;       // nodes of the map, of lines that are not closed
+  int region = -1, other = -1;               // ids, the lower one first; other = -1: the surface ends
+  int component = -1, other_component = -1;  // of those regions, on its sides
+  bool closed = false;                       // the last point joins the first and is not repeated
+  int from = -1, to = -1;                    // nodes of the map, of lines that are not closed
   std::vector<Vec3> points;
 };
 
@@ -91,6 +92,15 @@ struct RegionMap {
   // none).
   int cells = 0;
   std::vector<std::vector<int>> labels;  // [piece][i * cells + j], i along u
+  // Regions may fall into components, each of which hangs together: the regions of these, rising, and the
+  // components of cells like `labels`, which are empty where every region is one component.
+  std::vector<int> component_region;
+  std::vector<std::vector<int>> components;
+
+  // -1: none.
+  int ComponentAt(std::size_t piece, std::size_t cell) const {
+    return (components.empty() ? labels : components)[piece][cell];
+  }
 
   int At(const SurfacePoint& p) const {
     const int i = std::min(cells - 1, static_cast<int>(p.u * cells)),

@@ -73,7 +73,7 @@ class Judge {
   }
 
   // The worst ones, each of another line or at another place.
-  void ReportPlaces(const std::string& code, const std::vector<Extreme>& found, const char* what) {
+  void ReportPlaces(const std::string& code, const std::vector<Extreme>& found, const std::string& what) {
     std::vector<const Extreme*> kept;
     for (const Extreme& e : found) {
       const bool known = std::any_of(kept.begin(), kept.end(), [&](const Extreme* k) {
@@ -257,7 +257,8 @@ class Judge {
       report_.finish_ok = false;
       std::vector<Extreme> places = left.violations;
       places.insert(places.begin(), left.worst);
-      ReportPlaces("LEFTOVER", places, "reachable material is left standing");
+      ReportPlaces("LEFTOVER", places,
+                   fmt::format("reachable material (limit {:.4g} mm) is left standing", p.limit));
     }
     return absl::OkStatus();
   }

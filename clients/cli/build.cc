@@ -38,9 +38,9 @@ absl::StatusOr<v1::BuildModelRequest> MakeRequest(const BuildOptions& options) {
 
 absl::Status Run(const BuildOptions& options, InterruptWatch& watch) {
   OutputFile output = ModelFile(options.output), network = ModelFile(options.network);
-  if (const absl::Status writable = CheckWritable({&output, &network}); !writable.ok()) return writable;
   absl::StatusOr<v1::BuildModelRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
+  if (const absl::Status writable = CheckWritable({&output, &network}); !writable.ok()) return writable;
   absl::StatusOr<v1::BuildModelResponse> response =
       Call(options.common, watch, &v1::ModelService::Stub::BuildModel, *request);
   if (!response.ok()) return response.status();

@@ -97,9 +97,9 @@ void PrintSummary(const EditOptions& options, const v1::EditModelResponse& respo
 
 absl::Status Run(const EditOptions& options, InterruptWatch& watch) {
   OutputFile output = ModelFile(options.output), patches = ModelFile(options.patches);
-  if (const absl::Status writable = CheckWritable({&output, &patches}); !writable.ok()) return writable;
   absl::StatusOr<v1::EditModelRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
+  if (const absl::Status writable = CheckWritable({&output, &patches}); !writable.ok()) return writable;
   absl::StatusOr<v1::EditModelResponse> response =
       Call(options.common, watch, &v1::ModelService::Stub::EditModel, *request);
   if (!response.ok()) return response.status();

@@ -72,10 +72,9 @@ void Print(const v1::EvaluateSurfaceRequest& request, const v1::EvaluateSurfaceR
 
 absl::Status Run(const EvaluateOptions& options, InterruptWatch& watch) {
   OutputFile output(options.output, {".json"});
-  if (const absl::Status writable = CheckWritable({&output}, {options.model}); !writable.ok())
-    return writable;
   absl::StatusOr<v1::EvaluateSurfaceRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::EvaluateSurfaceResponse> response =
       Call(options.common, watch, &v1::AnalysisService::Stub::EvaluateSurface, *request);
   if (!response.ok()) return response.status();

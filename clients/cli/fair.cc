@@ -51,10 +51,10 @@ void PrintSummary(const FairOptions& options, const Response& response) {
 absl::Status Run(const FairOptions& options, InterruptWatch& watch) {
   OutputFile output(options.output, {".csv", ".dat", ".json"}), polyline(options.polyline, {".csv", ".dat"}),
       preview(options.preview, {".svg"});
-  if (const absl::Status writable = CheckWritable({&output, &polyline, &preview}); !writable.ok())
-    return writable;
   absl::StatusOr<v1::FairCurveRequest> request = MakeFairRequest(options);
   if (!request.ok()) return request.status();
+  if (const absl::Status writable = CheckWritable({&output, &polyline, &preview}); !writable.ok())
+    return writable;
   absl::StatusOr<v1::FairCurveResponse> response =
       Call(options.common, watch, &v1::ModelService::Stub::FairCurve, *request);
   if (!response.ok()) return response.status();
@@ -73,9 +73,9 @@ absl::Status Run(const FairOptions& options, InterruptWatch& watch) {
 
 absl::Status RunNet(const FairOptions& options, InterruptWatch& watch) {
   OutputFile output(options.output, {".csv", ".dat", ".json"});
-  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::FairNetRequest> request = MakeFairNetRequest(options);
   if (!request.ok()) return request.status();
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::FairNetResponse> response =
       Call(options.common, watch, &v1::ModelService::Stub::FairNet, *request);
   if (!response.ok()) return response.status();

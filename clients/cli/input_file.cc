@@ -8,8 +8,19 @@
 #include <fmt/format.h>
 
 namespace patchmill::cli {
+namespace {
+
+std::vector<std::string>& Read() {
+  static std::vector<std::string> paths;
+  return paths;
+}
+
+}  // namespace
+
+const std::vector<std::string>& FilesRead() { return Read(); }
 
 absl::StatusOr<std::string> ReadWholeFile(const std::string& path) {
+  Read().push_back(path);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     return absl::InvalidArgumentError(fmt::format("{} is a directory", path));

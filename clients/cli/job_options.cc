@@ -108,7 +108,10 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
       ->capture_default_str();
   AddNumber(app, "--timeout", options.timeout, "give up after this many seconds")
       ->check(CLI::Range(0.001, 1e6));
-  app.add_flag("--quiet", options.quiet, "errors and warnings only");
+  app.add_flag(
+      "--quiet", options.quiet,
+      "no progress bar and no summary of what is written; answers to the screen remain, and warnings but\n"
+      "for what the header of every program says");
 }
 
 void AddSplitOptions(CLI::App& app, OperationOptions& options) {

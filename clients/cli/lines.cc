@@ -84,10 +84,9 @@ void Print(const v1::TraceLinesResponse& response) {
 
 absl::Status Run(const LinesOptions& options, InterruptWatch& watch) {
   OutputFile output(options.output, {".json", ".svg"});
-  if (const absl::Status writable = CheckWritable({&output}, {options.model}); !writable.ok())
-    return writable;
   absl::StatusOr<v1::TraceLinesRequest> request = MakeRequest(options, output.EndsIn(".svg"));
   if (!request.ok()) return request.status();
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::TraceLinesResponse> response =
       Call(options.common, watch, &v1::AnalysisService::Stub::TraceLines, *request);
   if (!response.ok()) return response.status();

@@ -187,12 +187,12 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   received.program = OutputFile(options.program);
   received.report_file = OutputFile(options.report);
   received.preview = OutputFile(options.preview, {".svg"});
-  if (const absl::Status writable =
-          CheckWritable({&received.program, &received.report_file, &received.preview}, {options.model});
-      !writable.ok())
-    return writable;
   absl::StatusOr<v1::GenerateProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
+  if (const absl::Status writable =
+          CheckWritable({&received.program, &received.report_file, &received.preview});
+      !writable.ok())
+    return writable;
   absl::StatusOr<Connection> connection = Connect(options.common);
   if (!connection.ok()) return connection.status();
 

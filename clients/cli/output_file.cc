@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "clients/cli/input_file.h"
+
 namespace patchmill::cli {
 namespace {
 
@@ -35,6 +37,14 @@ bool IsSame(const std::string& a, const std::string& b) {
   };
   const auto here = whole(a), there = whole(b);
   return !no_path && here == there;
+}
+
+absl::Status CheckNotRead(const std::string& path) {
+  for (const std::string& input : FilesRead()) {
+    if (IsSame(path, input))
+      return absl::InvalidArgumentError(fmt::format("{} is read; the result would replace it", path));
+  }
+  return absl::OkStatus();
 }
 
 absl::Status Fault(const std::string& path) {
@@ -69,11 +79,13 @@ absl::Status OutputFile::CheckWritable() const {
   if (std::filesystem::is_directory(path_, ignored)) {
     return absl::InvalidArgumentError(fmt::format("{} is a directory", path_));
   }
+  if (const absl::Status unread = CheckNotRead(path_); !unread.ok()) return unread;
   const std::string target = IsSpecial(path_) ? path_ : Directory(path_);
   return access(target.c_str(), W_OK) == 0 ? absl::OkStatus() : Fault(path_);
 }
 
 absl::Status OutputFile::Commit() const {
+  if (const absl::Status unread = CheckNotRead(path_); !unread.ok()) return unread;
   if (IsSpecial(path_)) {
     const int file = open(path_.c_str(), O_WRONLY);
     if (file < 0) return Fault(path_);
@@ -90,17 +102,11 @@ absl::Status OutputFile::Commit() const {
   return fault;
 }
 
-absl::Status CheckWritable(std::initializer_list<const OutputFile*> files,
-                           std::initializer_list<std::string> inputs) {
+absl::Status CheckWritable(std::initializer_list<const OutputFile*> files) {
   std::vector<const OutputFile*> seen;
   for (const OutputFile* file : files) {
     if (!file->wanted()) continue;
     if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
-    for (const std::string& input : inputs) {
-      if (IsSame(file->path(), input))
-        return absl::InvalidArgumentError(
-            fmt::format("{} is read; the result would replace it", file->path()));
-    }
     for (const OutputFile* other : seen) {
       if (IsSame(file->path(), other->path()))
         return absl::InvalidArgumentError(fmt::format("{} is named for two results", file->path()));

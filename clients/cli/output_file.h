@@ -25,7 +25,7 @@ class OutputFile {
   void Set(std::string bytes) { bytes_ = std::move(bytes); }
 
   bool EndsIn(const std::string& ending) const { return absl::EndsWithIgnoreCase(path_, ending); }
-  // Whether the ending is one of those allowed and Commit can work.
+  // Whether the ending is one of those allowed and Commit can work; no file that was read is replaced.
   absl::Status CheckWritable() const;
   // Writes under a temporary name beside the target, then renames. What is not a regular file (/dev/stdout, a
   // pipe) is written directly. On failure nothing new is left.
@@ -37,10 +37,9 @@ class OutputFile {
   std::string bytes_;  // in memory until it is known to be good
 };
 
-// Those of the files that are wanted, in order; the first fault ends it. CheckWritable is asked before the
-// job costs anything; no two may be the same regular file, nor one of the inputs.
-absl::Status CheckWritable(std::initializer_list<const OutputFile*> files,
-                           std::initializer_list<std::string> inputs = {});
+// Those of the files that are wanted, in order; the first fault ends it. No two may be the same regular file.
+// CheckWritable is asked when all that the request needs is read, before the job costs anything.
+absl::Status CheckWritable(std::initializer_list<const OutputFile*> files);
 absl::Status Commit(std::initializer_list<const OutputFile*> files);
 
 }  // namespace patchmill::cli

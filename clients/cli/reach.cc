@@ -49,10 +49,9 @@ void Print(const v1::TabulateReachResponse& response) {
 
 absl::Status Run(const ReachOptions& options, InterruptWatch& watch) {
   OutputFile output(options.output, {".json"});
-  if (const absl::Status writable = CheckWritable({&output}, {options.model}); !writable.ok())
-    return writable;
   absl::StatusOr<v1::TabulateReachRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::TabulateReachResponse> response =
       Call(options.common, watch, &v1::AnalysisService::Stub::TabulateReach, *request);
   if (!response.ok()) return response.status();

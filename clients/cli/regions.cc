@@ -73,6 +73,9 @@ std::string HowItIsCut(const v1::Region& region) {
     const auto micron = [](double mm) { return std::round(1e3 * mm) / 1e3 + 0.0; };  // no -0.000
     text += fmt::format(" around {:.3f},{:.3f}", micron(region.lines_around().x_mm()),
                         micron(region.lines_around().y_mm()));
+    if (region.more_lines_around_size() > 0)
+      text += fmt::format(" and {} more places", region.more_lines_around_size());
+    if (region.has_zigzag_angle_deg()) text += ", others";
   }
   if (region.has_zigzag_angle_deg())
     text += fmt::format(" {:g} deg{}", region.zigzag_angle_deg(), region.one_way_lines() ? " one way" : "");
@@ -119,10 +122,9 @@ void Print(const v1::RegionMap& map) {
 
 absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
   OutputFile output(options.output, {".json", ".svg"});
-  if (const absl::Status writable = CheckWritable({&output}, {options.model}); !writable.ok())
-    return writable;
   absl::StatusOr<v1::SplitRegionsRequest> request = MakeRequest(options, output.EndsIn(".svg"));
   if (!request.ok()) return request.status();
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::SplitRegionsResponse> response =
       Call(options.common, watch, &v1::AnalysisService::Stub::SplitRegions, *request);
   if (!response.ok()) return response.status();

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "clients/cli/option_names.h"
+
 namespace patchmill::cli {
 namespace {
 
@@ -60,6 +62,8 @@ std::string Line(const v1::Diagnostic& finding) {
   }
   const bool line_said = finding.message().rfind("line ", 0) == 0;
   if (where.has_line() && !line_said) text += fmt::format(" line {}", where.line());
+  const char* option = OptionOf(where.field());
+  if (option != nullptr && finding.code() == "SETTING_WITHOUT_EFFECT") text += fmt::format(": {}", option);
   text += ": " + Printable(finding.message());
   const bool place_said = finding.message().find(" at X") != std::string::npos;
   if (where.has_point() && !place_said) text += " (at " + Line(where.point()) + ")";

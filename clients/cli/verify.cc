@@ -95,12 +95,11 @@ void Print(const VerifyOptions& options, const v1::Report& report) {
 
 absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   OutputFile report_file(options.report);
-  if (const absl::Status writable = CheckWritable({&report_file}, {options.model, options.program});
-      !writable.ok()) {
-    return writable;
-  }
   absl::StatusOr<v1::VerifyProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
+  if (const absl::Status writable = CheckWritable({&report_file}); !writable.ok()) {
+    return writable;
+  }
   absl::StatusOr<Connection> connection = Connect(options.common);
   if (!connection.ok()) return connection.status();
 

@@ -82,11 +82,13 @@ void SetChoice(const RegionChoice& choice, SlopeClass slope, const Vec3& zero, v
   }
   proto.set_strategy(ToProto(strategy));
   proto.set_scallop_mm(choice.scallop);
-  if (choice.around) {
-    proto.mutable_lines_around()->set_x_mm(choice.around->center.x() - zero.x());
-    proto.mutable_lines_around()->set_y_mm(choice.around->center.y() - zero.y());
+  for (const RoundGround& round : choice.around) {
+    v1::Point2& center =
+        proto.has_lines_around() ? *proto.add_more_lines_around() : *proto.mutable_lines_around();
+    center.set_x_mm(round.lines.center.x() - zero.x());
+    center.set_y_mm(round.lines.center.y() - zero.y());
   }
-  if (strategy != Strategy::kZigzag || choice.around) return;
+  if (strategy != Strategy::kZigzag || choice.all_round) return;
   proto.set_zigzag_angle_deg(Degrees(choice.zigzag_angle));
   proto.set_one_way_lines(choice.one_way);
 }

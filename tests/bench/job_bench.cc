@@ -43,11 +43,11 @@ double FeedInItsDirections(const Surface& surface, const Job& job, const JobResu
   double sum = 0.0;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
     VisitPiece(surface, i, map, stride, reachable,
-               [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
+               [&](std::size_t id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
                  const RegionChoice& choice = result.report.choices[id];
                  const auto across = e.z() < std::cos(job.operation.steep_angle)
                                          ? AcrossContours(e)
-                                         : AcrossLines(e, LineAt(choice, jet.p));
+                                         : AcrossLines(e, LineAt(choice, map.ComponentAt(i, cell), jet.p));
                  const FundamentalForms forms = Forms(jet, e);
                  const PrincipalCurvatures k = Principal(forms);
                  if (!across || !(k.k_max * radius < 1.0)) return;

@@ -56,7 +56,7 @@ TEST_P(RandomRims, KeepThePromises) {
   const Surface surface = PlacedSurface(drawn.model);
   const JobResult result = Mill(surface, drawn.job);
   bool round = false;
-  for (const RegionChoice& choice : result.report.choices) round = round || choice.around;
+  for (const RegionChoice& choice : result.report.choices) round = round || !choice.around.empty();
   ++jobs_;
   round_ += round ? 1 : 0;
   SCOPED_TRACE(drawn.text + (round ? ", round lines" : ""));

@@ -15,7 +15,7 @@ using namespace testing;  // NOLINT: the support folder's
 // What round lines of the job run around.
 std::optional<Vec2> Around(const JobResult& result) {
   for (const RegionChoice& choice : result.report.choices)
-    if (choice.around) return choice.around->center;
+    if (!choice.around.empty()) return choice.around.front().lines.center;
   return std::nullopt;
 }
 

@@ -171,6 +171,7 @@ TEST_F(Cli, VerifyAcceptsWhatMillMadeAndRefusesWhatWasTamperedWith) {
   EXPECT_EQ(good.status, 0) << good.out << good.err;
   EXPECT_THAT(good.out, HasSubstr("outcome   COMPLETE"));
   EXPECT_THAT(Slurp(out_ / "v.json"), HasSubstr("OUTCOME_COMPLETE"));
+  EXPECT_THAT(good.out, Not(HasSubstr("FINISH_NOT_CHECKED")));
   // One cutting move two millimetres lower.
   std::string program = Slurp(out_ / "part.ngc");
   const std::size_t middle = program.find('\n', program.size() / 2) + 1;
@@ -181,6 +182,19 @@ TEST_F(Cli, VerifyAcceptsWhatMillMadeAndRefusesWhatWasTamperedWith) {
   EXPECT_EQ(bad.status, 1);
   EXPECT_THAT(bad.out, AllOf(HasSubstr("VERIFICATION_FAILED"), HasSubstr("gouge     FAILED")));
   EXPECT_THAT(bad.err, HasSubstr("VERIFICATION_FAILED"));
+  EXPECT_THAT(bad.out, HasSubstr("FINISH_NOT_CHECKED"));
+}
+
+// What is odd or idle in the cutting data is said, by the options' names.
+TEST_F(Cli, OddSettingsAreToldByTheirOptions) {
+  const Finished run = Mill(bump_, {"--quiet", "--feed", "900", "--plunge-feed", "1000", "--flute-length",
+                                    "10", "--strategy", "contour", "--bend", "0"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("PLUNGE_FEED_ABOVE_FEED"), HasSubstr("--flute-length: "),
+                             HasSubstr("--bend: ")));
+  const Finished eye = Patchmill({"lines", bump_, "--kind", "eye", "-o", out_ / "l.json"});
+  EXPECT_EQ(eye.status, 2);
+  EXPECT_THAT(eye.err, HasSubstr("--eye: "));
 }
 
 TEST_F(Cli, EveryFormatOfTheReadmeIsReadByItsEnding) {
@@ -553,6 +567,36 @@ TEST_F(Cli, NoResultReplacesWhatIsReadOrAnotherResult) {
   EXPECT_THAT(out_.Names(), IsEmpty());
 }
 
+// Outlines, maps, edits, measured points: whatever a command reads.
+TEST_F(Cli, NoResultReplacesAnyFileThatIsRead) {
+  const std::string outline = in_.Write("outline.txt", "-9,-9 9,-9 9,9 -9,9\n"),
+                    edits = in_.Write("edits.json", "{\"edits\": []}"),
+                    points = in_.Write("points.csv", "0,0,0\n1,0.1,0\n2,0,0\n3,0.1,0\n4,0,0\n"),
+                    network = in_.Write("network.json", Slurp(PATCHMILL_SOURCE_DIR "/examples/bonnet.json")),
+                    map = out_ / "map.json";
+  ASSERT_EQ(Patchmill({"regions", waves_, "-o", map}).status, 0);
+  in_.Write("map.json", Slurp(map));
+  const std::pair<std::string, std::vector<std::string>> commands[] = {
+      {outline, {"mill", bump_, "-o", outline, "--boundary", "@" + outline}},
+      {outline, {"mill", bump_, "-o", out_ / "a.ngc", "--report", outline, "--obstacle", "12: @" + outline}},
+      {in_ / "map.json",
+       {"regions", waves_, "-o", in_ / "map.json", "--regions", in_ / "map.json", "--region", "1:off"}},
+      {edits, {"edit", network, "--edits", edits, "-o", edits}},
+      {edits, {"edit", network, "--edits", edits, "-o", out_ / "a.json", "--patches", edits}},
+      {network, {"edit", network, "-o", network}},
+      {points, {"fair", points, "-o", points}},
+      {points, {"fair", points, "-o", out_ / "a.csv", "--polyline", points, "--tolerance", "0.01"}},
+  };
+  for (const auto& [file, command] : commands) {
+    const std::string before = Slurp(file);
+    const Finished run = Patchmill(command);
+    EXPECT_EQ(run.status, 2) << command[0] << " " << file;
+    EXPECT_THAT(run.err, HasSubstr(file + " is read")) << command[0];
+    EXPECT_EQ(Slurp(file), before) << command[0];
+  }
+  EXPECT_THAT(out_.Names(), UnorderedElementsAre("map.json"));
+}
+
 TEST_F(Cli, WhenNothingCanBeReachedTheReportIsWrittenAndNoProgram) {
   const Finished run = Mill(bump_, {"--floor", "50", "--report", out_ / "part.json"});
   EXPECT_EQ(run.status, 1);
@@ -615,6 +659,11 @@ TEST_F(Cli, TheDaemonMakesTheSameBytesAnswersHealthAndDrains) {
   const Finished taken = testing::Run({kDaemon, "--listen", daemon.target()});
   EXPECT_EQ(taken.status, 2);
   EXPECT_THAT(taken.err, HasSubstr("cannot listen"));
+  for (const char* place : {"127.0.0.1:99999", "127.0.0.1:65536", "127.0.0.1", "127.0.0.1:", "here:http"}) {
+    const Finished wrong = testing::Run({kDaemon, "--listen", place});
+    EXPECT_EQ(wrong.status, 2) << place;
+    EXPECT_THAT(wrong.err, HasSubstr("a port of 0 to 65535")) << place;
+  }
   daemon.process().Signal(SIGTERM);
   EXPECT_EQ(daemon.process().Wait(), 0);
   EXPECT_EQ(testing::Run({kDaemon, "--check-health", daemon.target()}).status, 1);

@@ -1,6 +1,7 @@
 // Regions listed, switched off and cut in a way of their own, through the wire: SplitRegions, then
 // GenerateProgram with its map, then VerifyProgram of what came out.
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -8,11 +9,13 @@
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
+#include "server/convert/model.h"
 #include "tests/service/embedded.h"
 #include "tests/service/requests.h"
 #include "tests/service/status_matchers.h"
 #include "tests/support/model_table.h"
 #include "tests/support/random.h"
+#include "tests/support/shapes.h"
 
 namespace patchmill {
 namespace {
@@ -268,6 +271,31 @@ TEST_F(Regions, SayWhatTheirLinesRunAround) {
   Op().set_round_lines(false);
   ASSERT_TRUE(Split().ok());
   EXPECT_EQ(around(), 0);
+}
+
+// More equal rims than there may be regions: each part of the region has a place of its own.
+TEST_F(Regions, SayWhatTheLinesOfEachPartRunAround) {
+  constexpr int kCount = 24;
+  PatchModel rims;
+  for (int k = 0; k < kCount; ++k)
+    rims = testing::Join({rims, testing::Torus(Vec3(60.0 * k, 7, 0), 14, 5, testing::Half::kUpper)});
+  *job_.mutable_source()->mutable_model() = ToProto(rims);
+  job_.mutable_source()->mutable_model()->set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  ASSERT_TRUE(Split().ok());
+  std::vector<int> found(kCount, 0);
+  for (const v1::Region& region : map_.regions()) {
+    std::vector<v1::Point2> places(region.more_lines_around().begin(), region.more_lines_around().end());
+    if (region.has_lines_around()) places.push_back(region.lines_around());
+    EXPECT_TRUE(region.has_lines_around() || places.empty());
+    for (const v1::Point2& place : places) {
+      EXPECT_NEAR(place.y_mm(), 7.0, 1e-6);
+      const double k = std::round(place.x_mm() / 60.0);
+      ASSERT_TRUE(k >= 0.0 && k < kCount);
+      EXPECT_NEAR(place.x_mm(), 60.0 * k, 1e-6);
+      ++found[static_cast<std::size_t>(k)];
+    }
+  }
+  EXPECT_EQ(found, std::vector<int>(kCount, 1));
 }
 
 }  // namespace

@@ -43,6 +43,14 @@ TEST(IdleSettings, OfLinesWhereContoursCutEverything) {
   EXPECT_EQ(Fields(op), List{});
 }
 
+TEST(IdleSettings, OfFlutesWithoutAWiderShank) {
+  Operation op;
+  op.tool.flute_length = 10.0;
+  EXPECT_EQ(Fields(op), List{"tool.flute_length_mm"});
+  op.tool.shank_diameter = 2.0 * BallRadius(op.tool) + 2.0;
+  EXPECT_EQ(Fields(op), List{});
+}
+
 TEST(IdleSettings, OfContoursWhereLinesCutEverything) {
   Operation op;
   op.spirals = true;

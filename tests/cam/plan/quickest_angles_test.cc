@@ -34,9 +34,7 @@ std::vector<RegionChoice> OpenChoices(std::size_t n) {
   return std::vector<RegionChoice>(n, open);
 }
 
-std::vector<std::optional<RoundLines>> NoCircles(std::size_t n) {
-  return std::vector<std::optional<RoundLines>>(n);
-}
+std::vector<RoundTry> NoCircles(std::size_t n) { return std::vector<RoundTry>(n); }
 
 // Degrees between two directions of lines.
 double Apart(double a, double b) {
@@ -85,6 +83,25 @@ TEST(QuickestAngles, AMixtureThatCostsMoreIsNotTaken) {
   for (const RegionChoice& c : *chosen) EXPECT_NEAR(Degrees(c.zigzag_angle), 127.5, 1e-9);
 }
 
+// Components that have circles anyhow, one more that may have them, and one with lines whatever is tried: it
+// takes its best angle, and the others stand in their order.
+TEST(QuickestAngles, CirclesOnAPartOfARegion) {
+  const RoundGround first{1, {Vec2(1, 2), 3.0, 12.0}}, second{2, {Vec2(40, 2), 3.0, 9.0}},
+      third{5, {Vec2(80, 2), 3.0, 9.0}};
+  std::vector<RegionChoice> choices = OpenChoices(1);
+  choices[0].around = {first, third};
+  const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
+    EXPECT_FALSE(with[0].all_round);
+    return RegionTimes{(with[0].around.size() == 3 ? 9.0 : 10.0) + Apart(with[0].zigzag_angle, 90.0) / 10.0};
+  };
+  const auto chosen =
+      QuickestAngles(MapOf({SlopeClass::kGentle}), std::move(choices), {{{second}, false}}, plan);
+  ASSERT_TRUE(chosen.ok()) << chosen.status();
+  EXPECT_EQ((*chosen)[0].around, (std::vector<RoundGround>{first, second, third}));
+  EXPECT_NEAR(Degrees((*chosen)[0].zigzag_angle), 90.0, 1e-9);
+  EXPECT_FALSE((*chosen)[0].angle_open);
+}
+
 TEST(QuickestAngles, AnErrorEndsIt) {
   const auto plan = [](const std::vector<RegionChoice>&) -> absl::StatusOr<RegionTimes> {
     return absl::CancelledError("enough");
@@ -96,15 +113,16 @@ TEST(QuickestAngles, AnErrorEndsIt) {
 // Of two regions that may have circles one is quicker with them, and one with lines; the third has none to
 // try.
 TEST(QuickestAngles, CirclesWhereTheyAreQuicker) {
-  std::vector<std::optional<RoundLines>> circles = NoCircles(3);
-  circles[0] = RoundLines{Vec2(1, 2), 3.0, 12.0};
-  circles[1] = RoundLines{Vec2(40, 2), 3.0, 9.0};
+  std::vector<RoundTry> circles = NoCircles(3);
+  circles[0] = {{{0, {Vec2(1, 2), 3.0, 12.0}}}, true};
+  circles[1] = {{{1, {Vec2(40, 2), 3.0, 9.0}}}, true};
   int plans = 0;
   const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
     ++plans;
-    EXPECT_FALSE(with[2].around);
+    EXPECT_TRUE(with[2].around.empty());
+    for (const RegionChoice& c : with) EXPECT_EQ(c.all_round, !c.around.empty());
     const auto time = [&](std::size_t id, double round, double best_angle) {
-      return with[id].around ? round : 10.0 + Apart(with[id].zigzag_angle, best_angle) / 10.0;
+      return with[id].all_round ? round : 10.0 + Apart(with[id].zigzag_angle, best_angle) / 10.0;
     };
     return RegionTimes{time(0, 9.9, 33.0), time(1, 10.5, 48.0), time(2, 0.0, 7.0)};
   };
@@ -112,8 +130,8 @@ TEST(QuickestAngles, CirclesWhereTheyAreQuicker) {
                                      OpenChoices(3), circles, plan);
   ASSERT_TRUE(chosen.ok()) << chosen.status();
   EXPECT_LE(plans, kQuickestAnglePlans);
-  EXPECT_EQ((*chosen)[0].around, circles[0]);
-  EXPECT_FALSE((*chosen)[1].around);
+  EXPECT_EQ((*chosen)[0].around, circles[0].more);
+  EXPECT_TRUE((*chosen)[1].around.empty());
   EXPECT_LE(Apart((*chosen)[1].zigzag_angle, 48.0), 0.5 * 3.75 + 1e-9);
   EXPECT_LE(Apart((*chosen)[2].zigzag_angle, 7.0), 0.5 * 3.75 + 1e-9);
   for (const RegionChoice& c : *chosen) EXPECT_FALSE(c.angle_open);
@@ -145,11 +163,11 @@ TEST(QuickestAngles, CirclesAroundAWideRing) {
   const Surface surface = PlacedSurface(Turned({Line({4, 0}, {40, -7.2})}));
   Job job = BallJob(3.0);
   job.operation.scallop = 0.05;
-  EXPECT_FALSE(Mill(surface, job).report.choices.front().around);
+  EXPECT_TRUE(Mill(surface, job).report.choices.front().around.empty());
   job.operation.angle_auto = true;
   const JobResult result = Mill(surface, job);
   ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
-  EXPECT_TRUE(result.report.choices.front().around);
+  EXPECT_TRUE(result.report.choices.front().all_round);
   job.operation.round_lines = false;
   EXPECT_LT(result.report.motion.time, 0.97 * Mill(surface, job).report.motion.time);
 }

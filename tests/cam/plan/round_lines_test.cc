@@ -30,7 +30,7 @@ std::vector<RoundLines> RoundOnes(const PatchModel& model, const Job& job) {
   std::vector<RoundLines> found;
   for (const RegionChoice& choice : Regions(model, job).choices) {
     EXPECT_FALSE(choice.round_open);
-    if (choice.around) found.push_back(*choice.around);
+    for (const RoundGround& round : choice.around) found.push_back(round.lines);
   }
   return found;
 }
@@ -56,7 +56,7 @@ TEST(RoundLines, RegionsAroundOneAxisShareThem) {
   const std::vector<PlanPart> parts = PartsOf(regions.map, regions.choices);
   ASSERT_EQ(parts.size(), 1u);
   EXPECT_EQ(parts[0].where, nullptr);
-  EXPECT_FALSE(parts[0].choice.around);
+  EXPECT_TRUE(parts[0].choice.around.empty());
   ASSERT_EQ(parts[0].round.size(), 1u);
   ASSERT_NE(parts[0].straight, nullptr);
   const SurfaceMask &round = *parts[0].round[0].where, &straight = *parts[0].straight;
@@ -66,7 +66,7 @@ TEST(RoundLines, RegionsAroundOneAxisShareThem) {
         const PieceId id(static_cast<int>(piece));
         const int region = regions.map.labels[piece][static_cast<std::size_t>(i * regions.map.cells + j)];
         ASSERT_NE(round.HasCell(id, i, j), straight.HasCell(id, i, j));
-        if (region >= 0 && regions.choices[static_cast<std::size_t>(region)].around) {
+        if (region >= 0 && !regions.choices[static_cast<std::size_t>(region)].around.empty()) {
           ASSERT_TRUE(round.HasCell(id, i, j));
         }
       }
@@ -79,9 +79,9 @@ TEST(RoundLines, ANarrowRimOfASteepRegionHasThemToo) {
   const ChosenRegions regions = Regions(bead, BallJob(3.0));
   int round = 0;
   for (std::size_t id = 0; id < regions.choices.size(); ++id) {
-    if (!regions.choices[id].around) continue;
+    if (regions.choices[id].around.empty()) continue;
     ++round;
-    EXPECT_NEAR((regions.choices[id].around->center - Plan(kAxis)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((regions.choices[id].around.front().lines.center - Plan(kAxis)).norm(), 0.0, 1e-6);
   }
   EXPECT_GT(round, 0);
 }
@@ -167,6 +167,42 @@ TEST(RoundLines, OfTwoRimsEachItsOwn) {
   EXPECT_EQ(first, 2);
   EXPECT_EQ(second, 2);
   EXPECT_EQ(found.size(), 4u);
+}
+
+// More rims than there may be regions: those alike are one region, and yet each has circles of its own; a
+// plate that goes with them keeps straight lines.
+TEST(RoundLines, OfManyRimsInOneRegionEachItsOwn) {
+  PatchModel rims;
+  std::vector<Vec2> places;
+  for (int k = 0; k < 24; ++k) {
+    places.push_back({60.0 * (k % 6), 60.0 * (k / 6)});
+    rims = Join({rims, Torus(Lift(places.back(), 0.0), 14, 5, Half::kUpper)});
+  }
+  const PatchModel with_plate =
+      Join({rims, Transformed(Plane(20), Eigen::Affine3d(Eigen::Translation3d(0, -80, 5)))});
+  for (const PatchModel* model : std::initializer_list<const PatchModel*>{&rims, &with_plate}) {
+    const ChosenRegions regions = Regions(*model, BallJob(3.0));
+    std::vector<int> found(places.size(), 0);
+    bool plate = false;
+    for (std::size_t id = 0; id < regions.choices.size(); ++id) {
+      const RegionChoice& choice = regions.choices[id];
+      for (const auto& [component, around] : choice.around) {
+        EXPECT_EQ(regions.map.component_region[static_cast<std::size_t>(component)], static_cast<int>(id));
+        for (std::size_t k = 0; k < places.size(); ++k)
+          found[k] += (around.center - places[k]).norm() < 1e-6 && around.outer < 24.0;
+      }
+      if (regions.map.regions[id].slope != SlopeClass::kGentle) continue;
+      EXPECT_FALSE(choice.around.empty() && choice.all_round);
+      plate = plate || !choice.all_round;
+      for (std::size_t k = 1; k < choice.around.size(); ++k)
+        EXPECT_LT(choice.around[k - 1].component, choice.around[k].component);
+    }
+    EXPECT_EQ(found, std::vector<int>(places.size(), 1));
+    EXPECT_EQ(plate, model == &with_plate);
+    std::size_t families = 0;
+    for (const PlanPart& part : PartsOf(regions.map, regions.choices)) families += part.round.size();
+    EXPECT_EQ(families, places.size());
+  }
 }
 
 // Whatever is taken from straight lines lies where circles are looked for, up to the ball radius that these
@@ -270,7 +306,7 @@ TEST(RoundLines, OblongFramesHaveStraightLines) {
       Regions(Join({AroundRectangle(profiles, 12, 7),
                     Single(Bilinear({-12, -7, 10}, {12, -7, 10}, {-12, 7, 10}, {12, 7, 10}))}),
               BallJob(3.0));
-  for (const RegionChoice& choice : regions.choices) EXPECT_FALSE(choice.around.has_value());
+  for (const RegionChoice& choice : regions.choices) EXPECT_TRUE(choice.around.empty());
 }
 
 }  // namespace

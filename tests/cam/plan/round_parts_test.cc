@@ -183,7 +183,7 @@ std::vector<Profile> Terraces() {
 TEST(RoundParts, TerracesAlongCircles) {
   const JobResult result = MillChecked(PlacedSurface(Turned(Terraces())));
   int around = 0;
-  for (const RegionChoice& choice : result.report.choices) around += choice.around.has_value();
+  for (const RegionChoice& choice : result.report.choices) around += !choice.around.empty();
   EXPECT_EQ(around, 3);
   // 1.51 along straight lines.
   EXPECT_LT(result.report.verify.cut_length, 1.35 * result.report.least_feed);

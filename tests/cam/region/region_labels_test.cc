@@ -31,7 +31,7 @@ struct Specks {
 
 RegionMap Filled(const Specks& specks, std::size_t regions) {
   RegionMap map;
-  EXPECT_TRUE(FillLabels(specks.meshes, specks.region_of, regions, RunContext(), map).ok());
+  EXPECT_TRUE(FillLabels(specks.meshes, specks.region_of, {}, regions, RunContext(), map).ok());
   return map;
 }
 

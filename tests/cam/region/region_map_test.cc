@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -289,6 +290,52 @@ TEST(SplitRegions, TileTheModelsAtHand) {
     const Surface surface = Build(*model);
     const double area = AreaByQuadrature(surface, 32);
     EXPECT_NEAR(Total(Split(surface, RegionParams())), area, 2e-7 * area);
+  }
+}
+
+// Equal features are one region, of which each hangs together by itself; borders know of what.
+TEST(SplitRegions, RegionsFallIntoComponents) {
+  constexpr int kCount = 24;
+  PatchModel model;
+  for (int k = 0; k < kCount; ++k)
+    model = testing::Join({model, testing::Torus(Vec3(60.0 * k, 0, 0), 14, 5, testing::Half::kUpper)});
+  const Surface surface = Build(model);
+  const RegionMap map = Split(surface, RegionParams());
+  ASSERT_FALSE(map.components.empty());
+  EXPECT_TRUE(std::is_sorted(map.component_region.begin(), map.component_region.end()));
+  const std::size_t pieces = surface.pieces.size() / kCount;  // of each torus
+  std::vector<std::set<std::size_t>> tori(map.component_region.size());
+  std::vector<std::set<int>> components(map.regions.size());
+  for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
+    for (std::size_t cell = 0; cell < map.labels[piece].size(); ++cell) {
+      const int component = map.ComponentAt(piece, cell), label = map.labels[piece][cell];
+      ASSERT_GE(component, 0);
+      ASSERT_EQ(map.component_region[static_cast<std::size_t>(component)], label);
+      tori[static_cast<std::size_t>(component)].insert(piece / pieces);
+      components[static_cast<std::size_t>(label)].insert(component);
+    }
+  }
+  bool all_in_one = false;
+  for (const Region& region : map.regions) {
+    if (region.kind == RegionKind::kUnreachable) continue;
+    // Its steep ground outside and inside, or its crest.
+    const double each =
+        region.area / static_cast<double>(components[static_cast<std::size_t>(region.id)].size());
+    EXPECT_LT(each, 1000.0);
+    all_in_one = all_in_one || components[static_cast<std::size_t>(region.id)].size() >= kCount;
+    for (const int component : components[static_cast<std::size_t>(region.id)])
+      EXPECT_EQ(tori[static_cast<std::size_t>(component)].size(), 1u);
+  }
+  EXPECT_TRUE(all_in_one);
+  for (const BorderLine& line : map.border_lines) {
+    EXPECT_EQ(map.component_region[static_cast<std::size_t>(line.component)], line.region);
+    if (line.other >= 0) {
+      EXPECT_EQ(map.component_region[static_cast<std::size_t>(line.other_component)], line.other);
+      EXPECT_EQ(tori[static_cast<std::size_t>(line.component)],
+                tori[static_cast<std::size_t>(line.other_component)]);
+    } else {
+      EXPECT_EQ(line.other_component, -1);
+    }
   }
 }
 

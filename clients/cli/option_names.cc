@@ -1,0 +1,100 @@
+#include "clients/cli/option_names.h"
+
+namespace patchmill::cli {
+namespace {
+
+struct Entry {
+  const char* field;
+  const char* option;
+};
+
+// Whatever is below these.
+constexpr Entry kLists[] = {
+    {"region_overrides[", "--region"},
+    {"setup.obstacles[", "--obstacle"},
+    {"locks[", "--lock"},
+    {"edits[", "--edits or --push"},
+    {"uv[", "--at"},
+    {"tool_diameters_mm[", "--tool-diameters"},
+};
+
+// The end of a path.
+constexpr Entry kOptions[] = {
+    {"ball_end.diameter_mm", "--tool-diameter"},
+    {"flute_length_mm", "--flute-length"},
+    {"shank_diameter_mm", "--shank-diameter"},
+    {"stickout_mm", "--stickout"},
+    {"scallop_mm", "--scallop"},
+    {"tolerance_mm", "--tolerance"},
+    {"stock_to_leave_mm", "--leave"},
+    {"steep_angle_deg", "--steep-angle"},
+    {"zigzag_angle_deg", "--zigzag-angle"},
+    {"zigzag_angle_auto", "--auto-angle"},
+    {"zigzag_bend_deg", "--bend"},
+    {"operations[0].detail", "--detail"},
+    {"regions_sha256", "--regions"},
+    {"setup.scale", "--scale"},
+    {"setup.translation.x_mm", "--translate"},
+    {"setup.translation.y_mm", "--translate"},
+    {"setup.translation.z_mm", "--translate"},
+    {"setup.program_zero.x_mm", "--zero"},
+    {"setup.program_zero.y_mm", "--zero"},
+    {"setup.program_zero.z_mm", "--zero"},
+    {"floor_z_mm", "--floor"},
+    {"heights.top_z_mm", "--top"},
+    {"spacing_mm", "--spacing"},
+    {"patch_ids", "--only"},
+    {"avoid_patch_ids", "--avoid"},
+    {"avoid_margin_mm", "--avoid-margin"},
+    {"boundary_offset_mm", "--boundary-offset"},
+    {"boundary_xy_mm", "--boundary"},
+    {"clearance_above_mm", "--clearance"},
+    {"heights.low_rapids", "--low-rapids"},
+    {"stock.top_z_mm", "--stock-top"},
+    {"stock.allowance_mm", "--allowance"},
+    {"plunge_feed_mm_per_min", "--plunge-feed"},
+    {"feed_mm_per_min", "--feed"},
+    {"spindle_rpm", "--spindle"},
+    {"tool.number", "--tool-number"},
+    {"post.work_offset", "--work-offset"},
+    {"post.dialect", "--post"},
+    {"polyline_tolerance_mm", "--tolerance"},
+    {"band.x_mm", "--band"},
+    {"band.y_mm", "--band"},
+    {"band.z_mm", "--band"},
+    {"band.fraction", "--band"},
+    {"max_iterations", "--iterations"},
+    {"start_direction", "--start-direction"},
+    {"end_direction", "--end-direction"},
+    {"line_count", "--net"},
+    {"one_way_lines", "--one-way"},
+    {"round_lines", "--no-round-lines"},
+    {"border_passes", "--no-border-passes"},
+    {"contour_spirals", "--spirals"},
+    {"contour_direction", "--direction"},
+    {"eye", "--eye"},
+    {"direction", "--direction"},
+    {"across", "--across"},
+    {"levels", "--levels"},
+    {"min_loop_mm", "--min-loop"},
+};
+
+}  // namespace
+
+const char* OptionOf(std::string_view text) {
+  std::string_view path = text.substr(0, text.find(' '));
+  for (const auto& entry : kLists) {
+    if (path.find(entry.field) != std::string_view::npos) return entry.option;
+  }
+  if (path.ends_with(']')) path = path.substr(0, path.rfind('['));  // an element of a list
+  for (const auto& entry : kOptions) {
+    const std::string_view field = entry.field;
+    if (path.size() >= field.size() && path.substr(path.size() - field.size()) == field &&
+        (path.size() == field.size() || path[path.size() - field.size() - 1] == '.')) {
+      return entry.option;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace patchmill::cli
