@@ -180,17 +180,27 @@ absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
 }
 
 // Names what forbids most of what is wanted, and what to look at first.
-Diagnostic NothingToCut(std::span<const Region> regions, const Resolved& resolved, bool limited) {
-  double all = 0.0, avoided = 0.0, shank = 0.0;
+Diagnostic NothingToCut(std::span<const Region> regions, std::span<const RegionChoice> choices,
+                        const Resolved& resolved, bool limited) {
+  double all = 0.0, off = 0.0, avoided = 0.0, shank = 0.0;
   for (const Region& region : regions) {
     const double wanted = region.wanted_share * region.area;
     all += wanted;
+    if (region.kind != RegionKind::kUnreachable && choices[static_cast<std::size_t>(region.id)].skip)
+      off += wanted;
     if (region.reason == UnreachableReason::kAvoided) avoided += wanted;
     if (region.reason == UnreachableReason::kShank) shank += wanted;
   }
   const Vec3 size = resolved.box.max - resolved.box.min;
   const std::string scale = fmt::format("--scale ({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor",
                                         size.x(), size.y(), size.z());
+  if (off > 0.0) {
+    return Warning(
+        "NOTHING_TO_CUT",
+        fmt::format("all that is wanted and a ball of diameter {:.4g} mm reaches, {:.1f} mm2, is in "
+                    "regions that are switched off",
+                    2.0 * resolved.radius, off));
+  }
   const std::string limits = "the selection, the boundary, the regions, --top and the obstacles";
   std::string shares;
   const auto tell = [&](double area, const char* reason) {
@@ -201,7 +211,7 @@ Diagnostic NothingToCut(std::span<const Region> regions, const Resolved& resolve
   tell(shank, Name(UnreachableReason::kShank));
   if (!shares.empty()) shares += ")";
   std::string look = limited ? scale + ", then " + limits : scale;
-  if (avoided > 0.5 * all) look = limits + ", then " + scale;
+  if (avoided >= 0.5 * all) look = limits + ", then " + scale;
   if (shank > 0.5 * all) look = "the length of flutes and the shank, then " + scale;
   return Warning(
       "NOTHING_TO_CUT",
@@ -301,7 +311,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   clock.Done("passes");
   if (planned.paths.empty()) {
     report.outcome = Outcome::kNothingToCut;
-    report.diagnostics.push_back(NothingToCut(report.regions, resolved, limits != nullptr));
+    report.diagnostics.push_back(NothingToCut(report.regions, report.choices, resolved, limits != nullptr));
     return result;
   }
 

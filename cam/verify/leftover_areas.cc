@@ -19,10 +19,11 @@ struct Spent {
   int deepest;
   double cells;
 };
-constexpr Spent kBorder = {5, 60'000};  // between reachable and not
-constexpr Spent kReasons = {4, 2'000};  // between two reasons
-constexpr double kFarSlack = 0.02;      // how exactly the distance of far unreachable points is known
-constexpr double kNear = 2.0;           // of the radius: nearer ones are measured exactly
+constexpr Spent kBorder = {5, 60'000};   // between reachable and not
+constexpr Spent kReasons = {4, 2'000};   // between two reasons
+constexpr Spent kFinish = {4, 250'000};  // all over, where something is not finished
+constexpr double kFarSlack = 0.02;       // how exactly the distance of far unreachable points is known
+constexpr double kNear = 2.0;            // of the radius: nearer ones are measured exactly
 
 // One point of the surface as the areas need it.
 struct Sample {
@@ -81,12 +82,29 @@ double LeastAround(const CellRect& place, double best, const Value& value) {
 struct Limits {
   bool border = false;   // of the reachable set
   bool reasons = false;  // between two reasons
+  bool reached = false;  // it has reachable ground,
+  bool finish = false;   // some of which is not finished
 };
 
-// How often to quarter so many cells: those of a line double each time.
-int DeepestFor(std::size_t cells, const Spent& spent) {
+// A place on a piece. Cells share corners; halving keeps parameters exact, so equal ones are equal.
+struct Key {
+  int piece;
+  double u, v;
+  bool operator==(const Key&) const = default;
+};
+struct KeyHash {
+  std::size_t operator()(const Key& k) const {
+    auto h = static_cast<std::uint64_t>(k.piece);
+    for (const double x : {k.u, k.v}) h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
+    return static_cast<std::size_t>(h ^ (h >> 32));
+  }
+};
+
+// How often to quarter so many cells, which become `more` times as many each time: those of a line twice as
+// many.
+int DeepestFor(std::size_t cells, const Spent& spent, double more = 2.0) {
   int deepest = 1;
-  while (deepest < spent.deepest && static_cast<double>(cells) * std::exp2(deepest + 1) <= spent.cells) {
+  while (deepest < spent.deepest && static_cast<double>(cells) * std::pow(more, deepest + 1) <= spent.cells) {
     ++deepest;
   }
   return deepest;
@@ -97,16 +115,22 @@ bool Unreachable(FinishClass kind) {
          kind == FinishClass::kAvoided || kind == FinishClass::kShank;
 }
 
+// Reachable, finished or not.
+bool Reached(FinishClass kind) {
+  return kind == FinishClass::kDone || kind == FinishClass::kAboveLimit || kind == FinishClass::kStrategy;
+}
+
 class AreaSampler {
  public:
   // Cells are quartered `border` times where the border of the reachable set runs, `reasons` times between
-  // reasons.
+  // reasons. Not where what is finished ends: ridges between passes are narrower than cells, and to look
+  // closer only where one is seen would count too few of them.
   AreaSampler(const Surface& surface, const SegmentTree& tree, const LeftoverParams& params, int border,
               int reasons)
       : surface_(surface), tree_(tree), params_(params), border_(border), reasons_(reasons) {}
 
-  // Returns what runs through the cell.
-  Limits Add(const CellRect& cell, int depth, Sums& sums) {
+  // Returns what runs through the cell, which is quartered `all` times in any case.
+  Limits Add(const CellRect& cell, int depth, int all, Sums& sums) {
     // The middle and the corners: a border that crosses the cell shows. The weights make the area exact for
     // a cubic area element.
     constexpr double kMiddleWeight = 2.0 / 3.0, kCornerWeight = 1.0 / 12.0;
@@ -117,15 +141,20 @@ class AreaSampler {
     const std::optional<FinishClass> middle = samples[4]->kind;
     Limits limits;
     for (const Sample* sample : samples) {
+      if (sample->kind && Reached(*sample->kind)) {
+        limits.reached = true;
+        limits.finish = limits.finish || *sample->kind != FinishClass::kDone;
+      }
       if (!middle || !sample->kind || *sample->kind == *middle) continue;
-      (Unreachable(*middle) && Unreachable(*sample->kind) ? limits.reasons : limits.border) = true;
+      if (!Reached(*middle) || !Reached(*sample->kind))
+        (Unreachable(*middle) && Unreachable(*sample->kind) ? limits.reasons : limits.border) = true;
     }
-    if ((limits.border && depth < border_) || (limits.reasons && depth < reasons_)) {
+    if (depth < all || (limits.border && depth < border_) || (limits.reasons && depth < reasons_)) {
       for (int k = 0; k < 4; ++k) {
         CellRect part = cell;
         (k / 2 == 0 ? part.u1 : part.u0) = cell.u();
         (k % 2 == 0 ? part.v1 : part.v0) = cell.v();
-        Add(part, depth + 1, sums);
+        Add(part, depth + 1, all, sums);
       }
       return limits;
     }
@@ -139,20 +168,6 @@ class AreaSampler {
   }
 
  private:
-  struct Key {
-    int piece;
-    double u, v;
-    bool operator==(const Key&) const = default;
-  };
-  struct KeyHash {
-    std::size_t operator()(const Key& k) const {
-      auto h = static_cast<std::uint64_t>(k.piece);
-      for (const double x : {k.u, k.v}) h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
-      return static_cast<std::size_t>(h ^ (h >> 32));
-    }
-  };
-
-  // Cells share corners; halving keeps parameters exact, so equal ones are equal.
   const Sample& At(PieceId piece, double u, double v, Sums& sums) {
     const auto [at, added] = samples_.try_emplace(Key{piece.value, u, v});
     if (added) {
@@ -247,41 +262,41 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
   constexpr std::size_t kChunk = 64;
   const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
   std::vector<Sums> parts(chunks);
-  std::vector<std::vector<std::size_t>> borders(chunks);
-  std::vector<std::array<std::size_t, 2>> counts(chunks);
-  const auto sample = [&](int border, int reasons, const char* stage) {
-    const bool first = border == 0;
-    return ParallelFor(run, stage, chunks, [&](std::size_t chunk) {
-      AreaSampler sampler(surface, tree, params, border, reasons);
-      Sums& sums = parts[chunk];
-      const std::vector<std::size_t> again = std::move(borders[chunk]);
-      borders[chunk].clear();
-      const auto add = [&](std::size_t i) {
-        const std::array<double, kFinishClasses> before = sums.report.area;
-        const Limits limits = sampler.Add(roots[i], 0, sums);
-        if (!first || !(limits.border || limits.reasons)) return;
-        counts[chunk][0] += limits.border;
-        counts[chunk][1] += limits.reasons;
-        borders[chunk].push_back(i);  // its area comes in the next round
-        sums.report.area = before;
-      };
-      if (!first) {
-        for (std::size_t k = 0; k < again.size() && !run.Cancelled(); ++k) add(again[k]);
-        return;
-      }
-      const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
-      for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) add(i);
-    });
+  std::vector<Limits> limits(roots.size());
+  std::vector<char> again(roots.size(), 0);  // its areas come in the second round
+  // First all roots as they are, then limits as finely as their length allows.
+  PM_RETURN_IF_ERROR(ParallelFor(run, "verify: reach", chunks, [&](std::size_t chunk) {
+    AreaSampler sampler(surface, tree, params, 0, 0);
+    std::array<double, kFinishClasses>& area = parts[chunk].report.area;
+    const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) {
+      const std::array<double, kFinishClasses> before = area;
+      limits[i] = sampler.Add(roots[i], 0, 0, parts[chunk]);
+      again[i] = limits[i].border || limits[i].reasons;
+      if (again[i]) area = before;
+    }
+  }));
+  const auto count = [&](const auto& is) {
+    return static_cast<std::size_t>(std::count_if(limits.begin(), limits.end(), is));
   };
-  // First all roots as they are, then the border as finely as its length allows.
-  PM_RETURN_IF_ERROR(sample(0, 0, "verify: reach"));
-  std::size_t border = 0, reasons = 0;
-  for (const auto& [of_border, of_reasons] : counts) {
-    border += of_border;
-    reasons += of_reasons;
-  }
-  PM_RETURN_IF_ERROR(
-      sample(DeepestFor(border, kBorder), DeepestFor(reasons, kReasons), "verify: limits of reach"));
+  const bool unfinished = count([](const Limits& l) { return l.finish; }) > 0;
+  const int border = DeepestFor(count([](const Limits&l) { return l.border; }), kBorder),
+            reasons = DeepestFor(count([](const Limits&l) { return l.reasons; }), kReasons),
+            finish = DeepestFor(count([](const Limits&l) { return l.reached; }), kFinish, 4.0);
+  PM_RETURN_IF_ERROR(ParallelFor(run, "verify: limits of reach", chunks, [&](std::size_t chunk) {
+    AreaSampler sampler(surface, tree, params, border, reasons);
+    const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) {
+      const int all = unfinished && limits[i].reached ? finish : 0;
+      if (!again[i] && all == 0) continue;
+      if (!again[i]) {
+        Sums known;
+        sampler.Add(roots[i], 0, 0, known);
+        for (std::size_t k = 0; k < kFinishClasses; ++k) parts[chunk].report.area[k] -= known.report.area[k];
+      }
+      sampler.Add(roots[i], 0, all, parts[chunk]);
+    }
+  }));
   Sums sums;
   for (const Sums& part : parts) {
     for (std::size_t k = 0; k < kFinishClasses; ++k) {

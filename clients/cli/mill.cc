@@ -232,7 +232,8 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
       ->check(CLI::IsMember({"stop", "roll", "extend"}))
       ->capture_default_str();
   app.add_option("--direction", op.direction,
-                 "of contours; either: open ones to and fro, with fewer retracts")
+                 "of contours; either: open ones to and fro, with fewer retracts; links along the\n"
+                 "surface between them run as they must")
       ->check(CLI::IsMember({"climb", "conventional", "either"}))
       ->capture_default_str();
   AddNumber(app, "--clearance", op.clearance,

@@ -301,10 +301,27 @@ TEST_F(VerifyProgram, AGougeIsFoundWithItsLine) {
   EXPECT_EQ(report.max_gouge_at().patch_id(), "bump");
 }
 
+// Without a scallop; with one it is judged.
+TEST_F(VerifyProgram, ThatTheFinishIsNotJudgedIsSaid) {
+  const auto told = [&] {
+    const auto& all = last_.report().diagnostics();
+    return std::any_of(all.begin(), all.end(),
+                       [](const v1::Diagnostic& d) { return d.code() == "FINISH_NOT_CHECKED"; });
+  };
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_TRUE(told());
+  EXPECT_EQ(last_.report().finish_check(), v1::CHECK_STATE_NOT_CHECKED);
+  request_.set_scallop_mm(0.05);
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_FALSE(told());
+  EXPECT_NE(last_.report().finish_check(), v1::CHECK_STATE_NOT_CHECKED);
+}
+
 TEST_F(VerifyProgram, MovesBeyondTheLimitsAreFoundWithTheirLines) {
   const auto codes = [&] {
     std::string found;
     for (const v1::Diagnostic& d : last_.report().diagnostics()) {
+      if (d.code() == "FINISH_NOT_CHECKED") continue;  // of no move
       found += d.code() + fmt::format(" {} ", d.where().line());
     }
     return found;

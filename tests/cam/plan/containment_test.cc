@@ -339,6 +339,7 @@ TEST(Containment, NamesThatAreNotThere) {
   const JobResult none = Mill(surface, job);
   EXPECT_EQ(none.report.outcome, Outcome::kNothingToCut);
   EXPECT_TRUE(none.program.empty());
+  EXPECT_NE(none.report.diagnostics.back().message.find("check the selection"), std::string::npos);
 }
 
 // Room for the ball in a chink of some microns, far from all else: one pass there finishes what can be.

@@ -255,6 +255,7 @@ TEST_F(RegionChoices, AllSkippedIsNothingToCut) {
   const JobResult result = Mill(surface_, job);
   EXPECT_EQ(result.report.outcome, Outcome::kNothingToCut);
   EXPECT_TRUE(result.program.empty());
+  EXPECT_NE(result.report.diagnostics.back().message.find("switched off"), std::string::npos);
 }
 
 TEST_F(RegionChoices, SameBytesForAnyThreadCount) {

@@ -143,6 +143,23 @@ TEST(Verify, MissedStripIsLeftover) {
   EXPECT_NEAR(report.leftover_above_limit_area, 2 * half * 2 * (step - d), 0.5);
 }
 
+// Between passes that are a little too far apart it is strips, much narrower than what areas are measured by.
+TEST(Verify, NarrowRidgesCountByTheirWidth) {
+  const double r = 3.0, half = 12.0, limit = 0.03;
+  const double d = std::sqrt((r + limit) * (r + limit) - r * r);  // from a pass, where the limit is met
+  for (const double slope : {0.0, 0.5}) {
+    for (const double wide : {0.03, 0.06, 0.2}) {
+      const double step = 2.0 * d + wide;
+      const VerifyReport report = Judged(SurfaceOf(Plane(half, 0.0, slope, 0.0)), Ball(r),
+                                         OverPlane(half, slope, r, step).program, Params(30.0));
+      EXPECT_FALSE(report.finish_ok);
+      const double all = 4 * half * half * std::hypot(1.0, slope), truth = all * wide / step;
+      EXPECT_NEAR(report.leftover_above_limit_area, truth, 0.15 * truth + 1.0) << slope << " " << wide;
+      EXPECT_NEAR(report.reachable_area, all, 1e-6);
+    }
+  }
+}
+
 TEST(Verify, SphereRingsLeaveTheClosedForm) {
   // Rings of the ball centre on the offset sphere, as arcs.
   const double r = 3.0, big = 10.0, delta = 0.05;
