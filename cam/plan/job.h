@@ -51,7 +51,6 @@ struct Selection {
   double boundary_offset = 0.0;  // mm, > 0 widens
 };
 
-// How one region is cut.
 // A component of a region whose lines are circles.
 struct RoundGround {
   int component = -1;  // RegionMap::ComponentAt
@@ -59,6 +58,7 @@ struct RoundGround {
   bool operator==(const RoundGround&) const = default;
 };
 
+// How one region is cut.
 struct RegionChoice {
   bool skip = false;  // not at all
   Strategy strategy = Strategy::kAuto;
@@ -68,7 +68,7 @@ struct RegionChoice {
   bool one_way = false;       // all its lines run along zigzag_angle, none back
   double scallop = 0.01;      // mm
   // Components whose lines are circles, whatever zigzag_angle says, rising; and whether that is all ground
-  // that has lines (ChooseRoundLines).
+  // that has lines, crumbs apart (ChooseRoundLines).
   std::vector<RoundGround> around;
   bool all_round = false;
   bool operator==(const RegionChoice&) const = default;

@@ -25,7 +25,8 @@ constexpr double kWorthwhile = 0.9, kPlainly = 0.8, kArguably = 1.2;
 // Sine of the angle between circles and borders, on average: 0.13 for a hexagon, 0.29 for a square, whose
 // frames and ledges come to many short arcs that the estimate does not see.
 constexpr double kMostSlant = 0.2;
-constexpr int kAngles = 6;  // of straight lines whose angle is open
+constexpr int kAngles = 6;      // of straight lines whose angle is open
+constexpr double kCrumb = 1.0;  // ball radii^2: components of less are not worth an angle of their own
 
 // A direction in plan that should run around the center: m . (p - c) = 0.
 struct Tangent {
@@ -270,9 +271,11 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
   };
   std::vector<std::vector<Tangent>> tangents(count);
   std::vector<GentleGround> grounds(count);
+  std::vector<double> area(count, 0.0);  // mm2 of centers
   const double way = std::sqrt(ShareOfPoint(map, stride));
   for (const std::vector<GentlePoint>& piece : pieces) {
     for (const GentlePoint& point : piece) {
+      area[point.component] += point.centers;
       tangents[point.component].push_back(
           {Plan(point.jet.p), {-point.normal.y(), point.normal.x()}, point.centers});
       if (RegionOf(map, point.component).slope == SlopeClass::kSteep)
@@ -280,11 +283,9 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
     }
   }
   for (GentleGround& ground : grounds) ground.Sort();
-  std::vector<char> has_lines(count, 0);
   std::vector<std::optional<Candidate>> candidates(count);
   for (std::size_t k = 0; k < count; ++k) {
     if (!open[static_cast<std::size_t>(map.component_region[k])]) continue;
-    has_lines[k] = !tangents[k].empty();
     const double flat = CenterStep(radius, choice_of(k).scallop, 0.0);
     VisitBorders(map, k, grounds[k], [&](const Vec2& from, const Vec2& to) {
       const double length = (to - from).norm();
@@ -310,7 +311,7 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
   std::vector<std::size_t> straight(choices.size(), 0);  // components that are not round
   for (std::size_t k = 0; k < count; ++k) {
     const auto id = static_cast<std::size_t>(map.component_region[k]);
-    straight[id] += has_lines[k];
+    straight[id] += area[k] > kCrumb * radius * radius;
     if (!candidates[k]) continue;
     const double flat = CenterStep(radius, choices[id].scallop, 0.0);
     const Extent& extent = candidates[k]->extent;
@@ -327,7 +328,7 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
     const double more = (stride + kRoundBeside) * extent.cell;
     round.lines.inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
     round.lines.outer = radius * std::ceil((extent.farthest + more) / radius);
-    --straight[id];
+    straight[id] -= area[k] > kCrumb * radius * radius;
     if (angle_open && length >= kPlainly * least) {
       to_try[id].more.push_back(round);
     } else {

@@ -182,19 +182,19 @@ absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
 // Names what forbids most of what is wanted, and what to look at first.
 Diagnostic NothingToCut(std::span<const Region> regions, std::span<const RegionChoice> choices,
                         const Resolved& resolved, bool limited) {
-  double all = 0.0, off = 0.0, avoided = 0.0, shank = 0.0;
+  double all = 0.0, off = 0.0, on = 0.0, avoided = 0.0, shank = 0.0;
   for (const Region& region : regions) {
     const double wanted = region.wanted_share * region.area;
     all += wanted;
-    if (region.kind != RegionKind::kUnreachable && choices[static_cast<std::size_t>(region.id)].skip)
-      off += wanted;
+    if (region.kind != RegionKind::kUnreachable)
+      (choices[static_cast<std::size_t>(region.id)].skip ? off : on) += wanted;
     if (region.reason == UnreachableReason::kAvoided) avoided += wanted;
     if (region.reason == UnreachableReason::kShank) shank += wanted;
   }
   const Vec3 size = resolved.box.max - resolved.box.min;
   const std::string scale = fmt::format("--scale ({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor",
                                         size.x(), size.y(), size.z());
-  if (off > 0.0) {
+  if (off > 0.0 && !(on > 0.0)) {
     return Warning(
         "NOTHING_TO_CUT",
         fmt::format("all that is wanted and a ball of diameter {:.4g} mm reaches, {:.1f} mm2, is in "
