@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <string>
 #include <string_view>
 
-#include <absl/strings/numbers.h>
 #include <fmt/format.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
@@ -99,11 +99,11 @@ class GrpcServer final : public RunningServer {
 // gRPC takes a port above 65535 for what is left of it by 65536, and 443 where there is none.
 absl::Status CheckPort(std::string_view listen) {
   if (listen.substr(0, 4) == "unix") return absl::OkStatus();
-  const std::string_view port = listen.substr(std::min(listen.rfind(':'), listen.size() - 1) + 1);
-  int number = -1;
+  const std::size_t colon = listen.rfind(':');
+  const std::string port(colon == std::string_view::npos ? "" : listen.substr(colon + 1));
   const bool digits = !port.empty() && port.size() <= 5 &&
                       std::all_of(port.begin(), port.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (digits && absl::SimpleAtoi(std::string(port), &number) && number <= 65535) return absl::OkStatus();
+  if (digits && std::stoi(port) <= 65535) return absl::OkStatus();
   return absl::InvalidArgumentError(
       fmt::format("cannot listen on {}: must be HOST:PORT with a port of 0 to 65535", listen));
 }

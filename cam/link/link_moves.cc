@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "cam/location/touched.h"
 #include "cam/path/keep_in_clip.h"
@@ -29,7 +30,7 @@ constexpr double kBeside = 0.04;
 constexpr std::array<double, 7> kTurns = {0.0,       kPi / 4.0,       kPi / 3.0, kPi / 2.4,
                                           kPi / 2.0, 3.0 * kPi / 4.0, kPi};
 constexpr double kAlong = kPi / 2.2;
-constexpr std::array<double, 4> kFarther = {1.0, 1.4142135623730951, 2.0, 4.0};
+constexpr std::array<double, 4> kFarther = {1.0, std::numbers::sqrt2, 2.0, 4.0};
 constexpr double kWorthTurning = 1.5;
 // At least this many mm of a lead are better than one of plunge.
 constexpr double kPlunge = 3.0;

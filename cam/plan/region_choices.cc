@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -82,7 +83,6 @@ std::vector<bool> CellsOf(const RegionMap& map, std::size_t piece, int component
   const int n = map.cells;
   const std::vector<int>& labels = map.components.empty() ? map.labels[piece] : map.components[piece];
   std::vector<bool> own(labels.size());
-  if (std::find(labels.begin(), labels.end(), component) == labels.end()) return own;
   std::vector<int> edge;
   for (std::size_t k = 0; k < labels.size(); ++k) {
     own[k] = labels[k] == component;
@@ -103,6 +103,22 @@ std::vector<bool> CellsOf(const RegionMap& map, std::size_t piece, int component
   return own;
 }
 
+// Which pieces have cells of each component.
+std::map<int, std::vector<std::size_t>> PiecesOfComponents(const RegionMap& map) {
+  std::map<int, std::vector<std::size_t>> pieces;
+  for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
+    int last = -1;
+    for (std::size_t cell = 0; cell < map.labels[piece].size(); ++cell) {
+      const int component = map.ComponentAt(piece, cell);
+      if (component == last) continue;
+      last = component;
+      std::vector<std::size_t>& own = pieces[component];
+      if (own.empty() || own.back() != piece) own.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
 // mm: circles around places this near to each other are one family. That is right at any distance, for what
 // steps are needed is looked for along the circles as they lie; farther apart it would cost length.
 constexpr double kSamePlace = 0.05;
@@ -110,6 +126,9 @@ constexpr double kSamePlace = 0.05;
 std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<RegionChoice>& choices,
                                      const std::vector<int>& part_of, std::vector<PlanPart> parts) {
   using Cells = std::vector<std::vector<bool>>;
+  if (std::all_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.around.empty(); }))
+    return parts;
+  std::map<int, std::vector<std::size_t>> pieces_of = PiecesOfComponents(map);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     std::vector<RoundLines> families;
     std::vector<Cells> cells;
@@ -124,7 +143,7 @@ std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<Reg
         }
         families[k].inner = std::min(families[k].inner, own.inner);
         families[k].outer = std::max(families[k].outer, own.outer);
-        for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
+        for (const std::size_t piece : pieces_of[component]) {
           std::vector<bool> more = CellsOf(map, piece, component);
           std::vector<bool>& in = cells[k][piece];
           if (in.empty()) {

@@ -25,7 +25,9 @@ constexpr double kWorthwhile = 0.9, kPlainly = 0.8, kArguably = 1.2;
 // Sine of the angle between circles and borders, on average: 0.13 for a hexagon, 0.29 for a square, whose
 // frames and ledges come to many short arcs that the estimate does not see.
 constexpr double kMostSlant = 0.2;
-constexpr int kAngles = 6;      // of straight lines whose angle is open
+constexpr int kAngles = 6;  // of straight lines whose angle is open
+constexpr std::size_t kMostMasked =
+    5'000'000;                  // pieces times components: each of these has a mask of its own
 constexpr double kCrumb = 1.0;  // ball radii^2: components of less are not worth an angle of their own
 
 // A direction in plan that should run around the center: m . (p - c) = 0.
@@ -308,6 +310,7 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
       candidate.extent.Add(Plan(point.jet.p) - candidate.round.around->center, cell);
     }
   }
+  std::size_t rounds = 0;
   std::vector<std::size_t> straight(choices.size(), 0);  // components that are not round
   for (std::size_t k = 0; k < count; ++k) {
     const auto id = static_cast<std::size_t>(map.component_region[k]);
@@ -322,6 +325,7 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
     const double length = candidates[k]->round.Sum(radius, flat);
     const bool angle_open = choices[id].angle_open;
     if (!(length < (angle_open ? kArguably : kWorthwhile) * least)) continue;
+    if (rounds++ >= kMostMasked / surface.pieces.size()) continue;
     RoundGround round{static_cast<int>(k), *candidates[k]->round.around};
     // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are
     // looked for is not to hang on which points were visited.

@@ -9,10 +9,12 @@ SurfaceMask::SurfaceMask(int cells, const std::vector<std::vector<bool>>& marked
   const auto n = static_cast<std::size_t>(cells), row = n + 1;
   below_.reserve(marked.size());
   for (const std::vector<bool>& piece : marked) {
-    const bool all = std::find(piece.begin(), piece.end(), false) == piece.end();
-    const bool none = std::find(piece.begin(), piece.end(), true) == piece.end();
-    if (all || none) {
-      below_.push_back({all ? 1 : 0});
+    if (std::find(piece.begin(), piece.end(), true) == piece.end()) {
+      below_.emplace_back();
+      continue;
+    }
+    if (std::find(piece.begin(), piece.end(), false) == piece.end()) {
+      below_.push_back({1});
       continue;
     }
     std::vector<std::int32_t> sums(row * row, 0);
@@ -28,7 +30,8 @@ SurfaceMask::SurfaceMask(int cells, const std::vector<std::vector<bool>>& marked
 
 std::int32_t SurfaceMask::Count(PieceId piece, int i0, int i1, int j0, int j1) const {
   const std::vector<std::int32_t>& sums = below_[piece.index()];
-  if (sums.size() == 1) return sums.front();
+  if (sums.empty()) return 0;
+  if (sums.size() == 1) return 1;
   const auto at = [&](int i, int j) { return sums[static_cast<std::size_t>(i * (cells_ + 1) + j)]; };
   return at(i1, j1) - at(i0, j1) - at(i1, j0) + at(i0, j0);
 }

@@ -12,7 +12,8 @@ namespace patchmill {
 
 class SurfaceMask {
  public:
-  // marked[piece][i * cells + j]: the cell [i, i + 1) x [j, j + 1) / cells of (u,v) is in it; cells >= 1.
+  // marked[piece][i * cells + j]: the cell [i, i + 1) x [j, j + 1) / cells of (u,v) is in it; cells >= 1. An
+  // empty list: nothing of the piece.
   SurfaceMask(int cells, const std::vector<std::vector<bool>>& marked);
 
   int cells() const { return cells_; }
@@ -27,8 +28,8 @@ class SurfaceMask {
   std::int32_t Count(PieceId piece, int i0, int i1, int j0, int j1) const;
 
   int cells_;
-  // Of a piece with cells of both kinds: marked cells below (i, j), (cells + 1)^2 of them. Of others one
-  // number: how many each cell has.
+  // Of a piece with cells of both kinds: marked cells below (i, j), (cells + 1)^2 of them. Else a 1 where all
+  // are, nothing where none is.
   std::vector<std::vector<std::int32_t>> below_;
 };
 

@@ -276,18 +276,20 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
       if (again[i]) area = before;
     }
   }));
-  const auto count = [&](const auto& is) {
-    return static_cast<std::size_t>(std::count_if(limits.begin(), limits.end(), is));
-  };
-  const bool unfinished = count([](const Limits& l) { return l.finish; }) > 0;
-  const int border = DeepestFor(count([](const Limits&l) { return l.border; }), kBorder),
-            reasons = DeepestFor(count([](const Limits&l) { return l.reasons; }), kReasons),
-            finish = DeepestFor(count([](const Limits&l) { return l.reached; }), kFinish, 4.0);
+  std::size_t with_border = 0, with_reasons = 0, reached = 0, unfinished = 0;
+  for (const Limits& limit : limits) {
+    with_border += limit.border;
+    with_reasons += limit.reasons;
+    reached += limit.reached;
+    unfinished += limit.finish;
+  }
+  const int border = DeepestFor(with_border, kBorder), reasons = DeepestFor(with_reasons, kReasons),
+            finish = unfinished > 0 ? DeepestFor(reached, kFinish, 4.0) : 0;
   PM_RETURN_IF_ERROR(ParallelFor(run, "verify: limits of reach", chunks, [&](std::size_t chunk) {
     AreaSampler sampler(surface, tree, params, border, reasons);
     const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) {
-      const int all = unfinished && limits[i].reached ? finish : 0;
+      const int all = limits[i].reached ? finish : 0;
       if (!again[i] && all == 0) continue;
       if (!again[i]) {
         Sums known;

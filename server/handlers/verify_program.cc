@@ -133,11 +133,12 @@ absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const
     report->set_controller_tolerance_mm(motion->controller_tolerance);
   report->set_time_basis("not estimated");
   if (!request.has_scallop_mm()) {
-    v1::Diagnostic& open = *report->add_diagnostics();
-    open.set_code("FINISH_NOT_CHECKED");
-    open.set_severity(v1::SEVERITY_WARNING);
-    open.set_message("no scallop is given: whether anything is finished, or cut at all, is not judged");
-    open.mutable_where()->set_field("scallop_mm");
+    Diagnostic open;
+    open.code = "FINISH_NOT_CHECKED";
+    open.severity = Severity::kWarning;
+    open.message = "no scallop is given: whether anything is finished, or cut at all, is not judged";
+    open.where.field = "scallop_mm";
+    AddDiagnostics({open}, resolved.program_zero, report->mutable_diagnostics());
   }
   AddDiagnostics(verify.findings, resolved.program_zero, report->mutable_diagnostics());
   return absl::OkStatus();

@@ -203,6 +203,15 @@ TEST(RoundLines, OfManyRimsInOneRegionEachItsOwn) {
     for (const PlanPart& part : PartsOf(regions.map, regions.choices)) families += part.round.size();
     EXPECT_EQ(families, places.size());
   }
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.05;
+  const Surface surface = PlacedSurface(rims);
+  const JobResult round = Mill(surface, job);
+  job.operation.round_lines = false;
+  const JobResult straight = Mill(surface, job);
+  EXPECT_LE(round.report.verify.cut_length, 1.25 * round.report.least_feed);
+  EXPECT_LE(round.report.verify.cut_length, 0.9 * straight.report.verify.cut_length);
+  EXPECT_LE(2 * round.report.motion.retract_count, straight.report.motion.retract_count);
 }
 
 // Whatever is taken from straight lines lies where circles are looked for, up to the ball radius that these
