@@ -9,10 +9,9 @@
 
 namespace patchmill {
 
-absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,
+absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator, const Locator& reach,
                                                   const std::vector<CutterPath>& paths,
                                                   const CoverageParams& params, const RunContext& run) {
-  PM_ASSIGN_OR_RETURN(const Locator reach, ReachLocator(locator, params, run));
   std::vector<SurfaceRect> rects;
   rects.reserve(locator.surface().leaves.size());
   for (const SurfaceLeaf& leaf : locator.surface().leaves) {

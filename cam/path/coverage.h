@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <absl/status/statusor.h>
@@ -11,6 +12,7 @@
 #include "cam/path/forced_steps.h"
 #include "cam/path/pass_params.h"
 #include "cam/toolpath/cutter_path.h"
+#include "cam/toolpath/segment_tree.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
@@ -18,16 +20,21 @@ namespace patchmill {
 struct CoverageParams : PassParams {
   double limit = 0.02;      // mm: leftover above this at a reachable point is a spot to mend
   double tolerance = 0.01;  // mm: the whole budget; reachable is what cam/tool/reach_give.h says
-  ForcedSteps forced;       // ground that needs shorter steps than min_step_fraction of these is left
+  // mm: what is said to be covered may exceed the limit by this; absent: kProofMargin of the tolerance.
+  std::optional<double> margin;
+  ForcedSteps forced;  // ground that needs shorter steps than min_step_fraction of these is left
   int max_rounds = 6;
   const KeepIn* keep_in = nullptr;  // what is wanted and allowed; null: all of it
+  // Moves that are none of the passes any more: only ground counts of which they left less (kNoLess). Null:
+  // all does.
+  const SegmentTree* taken = nullptr;
 };
 
 // Crease passes and rest passes: finds reachable surface points whose distance to the paths exceeds radius +
 // limit (FindSpots), whatever their slope, follows the ridges of the leftover (creases: the two-contact curve
 // itself) and adds certified passes there, until nothing reachable is above the limit or max_rounds is up.
-// Returns the added passes only.
-absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator,
+// Returns the added passes only. `reach`: ReachLocator of this tolerance.
+absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator, const Locator& reach,
                                                   const std::vector<CutterPath>& paths,
                                                   const CoverageParams& params, const RunContext& run);
 

@@ -57,7 +57,7 @@ class SpotFinder {
         run_(run),
         radius_(locator.radius()),
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
-        covered_(radius_ + params.limit + kProofMargin * params.tolerance),
+        covered_(radius_ + params.limit + params.margin.value_or(kProofMargin * params.tolerance)),
         covered2_(covered_ * covered_),
         lowest_center_(params.floor_z + radius_ - (1.0 + kReachMargin) * ReachGive(params.tolerance)),
         cell_reach_{.radius = radius_,
@@ -74,6 +74,7 @@ class SpotFinder {
   void Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth, const Nearby& hint,
              std::vector<LeftoverSpot>& out) const;
   NearMove NearestTo(const Vec3& p, double limit, const NearMove& hint) const;
+  double TakenDistance(const Vec3& p, double size) const;
   std::optional<bool> BendsAlongU(const RectPlaces& places, double size) const;
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
                    const NearMove& near) const;
@@ -110,6 +111,14 @@ NearMove SpotFinder::NearestTo(const Vec3& p, double limit, const NearMove& hint
   }
   if (best.segment < 0) best.distance = kInfinity;
   return best;
+}
+
+// mm, to the nearest of the moves that were taken away, infinity where none finished anything within `size`
+// of p; 0 where all ground counts.
+double SpotFinder::TakenDistance(const Vec3& p, double size) const {
+  if (params_.taken == nullptr) return 0.0;
+  const SegmentTree::Nearest nearest = params_.taken->FindNearest(p, covered_ + size);
+  return nearest.segment < 0 ? kInfinity : nearest.distance;
 }
 
 bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) const {
@@ -152,6 +161,7 @@ std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const Su
                                                const NearMove& nearest) const {
   const double leftover = std::min(nearest.distance - radius_, radius_);
   if (!(leftover > params_.limit && Asked(jet, e) && Wanted(at))) return std::nullopt;
+  if (!(TakenDistance(at.p, 0.0) < nearest.distance - kNoLess * params_.tolerance)) return std::nullopt;
   const auto side = ReachableSide(at.p, e);
   if (!side) return std::nullopt;
   Vec3 center = at.p + radius_ * *side;
@@ -254,6 +264,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   double size = 0.0;  // everything lies this close to p
   for (int i = 0; i < count; ++i) size = std::max(size, (hull[static_cast<std::size_t>(i)] - p).norm());
 
+  if (TakenDistance(p, size) == kInfinity) return;
   if (params_.keep_in != nullptr &&
       params_.keep_in->WantsNothing(rect.piece, rect.u0, rect.u1, rect.v0, rect.v1, p, size)) {
     return;
@@ -272,6 +283,10 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
     if (Covered(hull.data(), count, nearest)) return;
     if (auto spot = SpotAt(rect, jet, at, e, nearest)) {
       out.push_back(*std::move(spot));
+      return;
+    }
+    if (params_.taken != nullptr && nearest.distance - radius_ > params_.limit) {
+      AddCorner(rect, out);
       return;
     }
   }

@@ -12,6 +12,8 @@
 #include "cam/path/contour_paths.h"
 #include "cam/path/coverage.h"
 #include "cam/path/keep_in_clip.h"
+#include "cam/path/leftover_spots.h"
+#include "cam/path/needless_passes.h"
 #include "cam/path/rim_passes.h"
 #include "cam/path/run_on.h"
 #include "cam/path/spacing.h"
@@ -161,7 +163,7 @@ class PassMaker {
     return absl::OkStatus();
   }
 
-  absl::Status AddRest(const RegionChoice& choice, const KeepIn* keep_in, PlannedPasses& planned) const {
+  CoverageParams CoverageOf(const RegionChoice& choice, const KeepIn* keep_in) const {
     CoverageParams params;
     SetPass(choice, params);
     params.limit = choice.scallop + kCoverageShare * op_.tolerance;
@@ -170,7 +172,13 @@ class PassMaker {
     // STRATEGY.
     params.forced = ForcedOf(choice);
     params.keep_in = keep_in;
-    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator_, planned.paths, params, run_));
+    return params;
+  }
+
+  absl::Status AddRest(const RegionChoice& choice, const Locator& reach, const CoverageParams& params,
+                       PlannedPasses& planned) const {
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest,
+                        RestPaths(locator_, reach, planned.paths, params, run_));
     TurnAlongWalls(choice, rest);
     TurnOneWay(choice, rest);
     Append(planned.paths, std::move(rest));
@@ -322,9 +330,16 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
     }
   }
   // After all of them: along a border the passes of one part finish some of the next.
+  CoverageParams any;
+  any.tolerance = job.operation.tolerance;
+  PM_ASSIGN_OR_RETURN(const Locator reach, ReachLocator(locator, any, run));
+  std::vector<CoverageParams> coverage;
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    PM_RETURN_IF_ERROR(maker.AddRest(parts[k].choice, limits(k), planned));
+    coverage.push_back(maker.CoverageOf(parts[k].choice, limits(k)));
+    PM_RETURN_IF_ERROR(maker.AddRest(parts[k].choice, reach, coverage.back(), planned));
   }
+  PM_ASSIGN_OR_RETURN(planned.paths,
+                      WithoutNeedless(locator, reach, std::move(planned.paths), coverage, run));
   LabelRegions(regions, planned.paths);
   if (job.operation.edge_rule == EdgeRule::kExtend) {
     PM_ASSIGN_OR_RETURN(planned.paths, RunOn(locator, std::move(planned.paths), locator.radius(),

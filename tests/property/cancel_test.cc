@@ -10,6 +10,8 @@
 #include "cam/location/locator.h"
 #include "cam/path/contour_paths.h"
 #include "cam/path/coverage.h"
+#include "cam/path/leftover_spots.h"
+#include "cam/path/needless_passes.h"
 #include "cam/path/zigzag_paths.h"
 #include "cam/region/reach_table.h"
 #include "cam/region/region_map.h"
@@ -173,7 +175,25 @@ TEST(Cancel, RestPasses) {
   CoverageParams params;
   params.scallop = 0.05;
   params.limit = 0.06;
-  ExpectStops([&](const RunContext& run) { return RestPaths(locator, {}, params, run).status(); });
+  const Locator reach = *ReachLocator(locator, params, RunContext());
+  ExpectStops([&](const RunContext& run) { return RestPaths(locator, reach, {}, params, run).status(); });
+}
+
+TEST(Cancel, NeedlessPasses) {
+  const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
+  const Locator locator(surface, 2.0);
+  CoverageParams params;
+  params.scallop = 0.05;
+  params.limit = 0.06;
+  const Locator reach = *ReachLocator(locator, params, RunContext());
+  ZigzagParams lines;
+  lines.scallop = params.scallop;
+  std::vector<CutterPath> paths = *ZigzagPaths(locator, lines, RunContext());
+  lines.angle = 1.0;
+  const std::vector<CutterPath> across = *ZigzagPaths(locator, lines, RunContext());
+  paths.insert(paths.end(), across.begin(), across.end());
+  ExpectStops(
+      [&](const RunContext& run) { return WithoutNeedless(locator, reach, paths, {params}, run).status(); });
 }
 
 TEST(Cancel, Regions) {
@@ -225,7 +245,8 @@ TEST(Cancel, OneLeaf) {
   CoverageParams params;
   params.scallop = 0.05;
   params.limit = 0.06;
-  ExpectStops([&](const RunContext& run) { return RestPaths(locator, {}, params, run).status(); });
+  const Locator reach = *ReachLocator(locator, params, RunContext());
+  ExpectStops([&](const RunContext& run) { return RestPaths(locator, reach, {}, params, run).status(); });
 }
 
 TEST(Cancel, Lines) {

@@ -11,6 +11,7 @@
 #include "cam/path/scan_line.h"
 #include "cam/path/spacing.h"
 #include "core/diffgeo/forms.h"
+#include "tests/support/files.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
 
@@ -64,6 +65,22 @@ TEST(FeedLength, TwoHillsBetweenTheLeastAndPlainLines) {
   EXPECT_LT(cut, 1.1 * least);
   // Bending lines, whose steps vary along them, save more than two thirds of what plain lines waste.
   EXPECT_LT(cut - least, 0.33 * (plain - least));
+}
+
+// 183 mm long, at the default finish, contours cut both ways (climbing each open one needs a way in and out
+// of the stock, which is no pass).
+TEST(FeedLength, TeapotNearTheLeast) {
+  if (kSanitized) GTEST_SKIP() << "too slow under sanitizers";
+  Job job = BallJob(3.0, /*deep=*/false);
+  job.setup.placement.scale = 100.0;
+  job.setup.placement.up = UpAxis::kY;
+  job.operation.contour_direction = CutDirection::kEither;
+  const JobResult result = Mill(PlacedSurface(LoadModel("examples/teapot.bpt"), job.setup), job);
+  ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
+  const double least = result.report.least_feed, cut = result.report.verify.cut_length;
+  std::printf("least %.0f mm, feed %.0f mm\n", least, cut);
+  EXPECT_GT(cut, least);
+  EXPECT_LT(cut, 1.1 * least);
 }
 
 }  // namespace

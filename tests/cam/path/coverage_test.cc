@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cam/path/contour_paths.h"
+#include "cam/path/leftover_spots.h"
 #include "cam/path/zigzag_paths.h"
 #include "cam/tool/reach_give.h"
 #include "core/diffgeo/forms.h"
@@ -42,7 +43,8 @@ std::vector<CutterPath> Zigzag(const Locator& locator, double angle, double max_
 }
 
 std::vector<CutterPath> Rest(const Locator& locator, const std::vector<CutterPath>& paths, int threads = 1) {
-  auto rest = RestPaths(locator, paths, Coverage(), RunContext(threads));
+  const Locator reach = *ReachLocator(locator, Coverage(), RunContext());
+  auto rest = RestPaths(locator, reach, paths, Coverage(), RunContext(threads));
   EXPECT_TRUE(rest.ok()) << rest.status();
   return std::move(*rest);
 }
@@ -244,7 +246,8 @@ TEST(RestPaths, FloorAndWindowLimitWhatIsMended) {
   params.floor_z = 3.0;
   params.window.max = Radians(60);
   const auto plain = Zigzag(locator, 0.0, Radians(30));
-  auto rest = RestPaths(locator, plain, params, RunContext(1));
+  const Locator reach = *ReachLocator(locator, params, RunContext());
+  auto rest = RestPaths(locator, reach, plain, params, RunContext(1));
   ASSERT_TRUE(rest.ok());
   for (const auto& path : *rest) {
     for (const auto& p : path.points) EXPECT_GE(p.center.z(), 6.0 - 1e-9);
@@ -265,9 +268,10 @@ TEST(RestPaths, SameBytesForAnyThreadCountAndCancel) {
       EXPECT_EQ(one[i].points[k].center, two[i].points[k].center);
     }
   }
+  const Locator reach = *ReachLocator(locator, Coverage(), RunContext());
   RunContext run(1);
   run.Cancel();
-  EXPECT_EQ(RestPaths(locator, plain, Coverage(), run).status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(RestPaths(locator, reach, plain, Coverage(), run).status().code(), absl::StatusCode::kCancelled);
 }
 
 }  // namespace
