@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLevel = 0.01;  // mm
 
-// A place for each region, the last for what lies in none; of each those beside it, rising, itself too.
+// A place for each component, the last for what lies in none; of each those beside it, rising, itself too.
 using Places = std::vector<std::vector<std::size_t>>;
 
 void SortEach(Places& places) {
@@ -24,11 +24,12 @@ void SortEach(Places& places) {
 
 // Those that share a border.
 Places Neighbours(const RegionMap& map) {
-  Places beside(map.regions.size() + 1);
+  Places beside(map.component_region.size() + 1);
   for (std::size_t i = 0; i < beside.size(); ++i) beside[i].push_back(i);
   for (const BorderLine& line : map.border_lines) {
-    if (line.region < 0 || line.other < 0) continue;
-    const auto a = static_cast<std::size_t>(line.region), b = static_cast<std::size_t>(line.other);
+    if (line.component < 0 || line.other_component < 0) continue;
+    const auto a = static_cast<std::size_t>(line.component),
+               b = static_cast<std::size_t>(line.other_component);
     beside[a].push_back(b);
     beside[b].push_back(a);
   }
@@ -39,7 +40,9 @@ Places Neighbours(const RegionMap& map) {
 // And those with nothing but unreachable ground between.
 Places NeighboursAcross(const RegionMap& map, Places beside) {
   const auto reached = [&](std::size_t i) {
-    return i >= map.regions.size() || map.regions[i].kind != RegionKind::kUnreachable;
+    if (i >= map.component_region.size()) return true;
+    const auto region = static_cast<std::size_t>(map.component_region[i]);
+    return map.regions[region].kind != RegionKind::kUnreachable;
   };
   UnionFind sets(beside.size());
   for (std::size_t i = 0; i < beside.size(); ++i) {
@@ -66,15 +69,15 @@ Places NeighboursAcross(const RegionMap& map, Places beside) {
 std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts,
                                     const RunContext& run) {
   const Places beside = Neighbours(map), above = NeighboursAcross(map, beside);
-  const std::size_t n = parts.size(), nowhere = map.regions.size();
+  const std::size_t n = parts.size(), nowhere = map.component_region.size();
   Places places(n);
   std::vector<long long> level(n);
   for (std::size_t i = 0; i < n; ++i) {
     level[i] = std::llround(parts[i].height / kLevel);
-    for (const int region : parts[i].regions) places[i].push_back(static_cast<std::size_t>(region));
+    for (const int component : parts[i].components) places[i].push_back(static_cast<std::size_t>(component));
     if (places[i].empty()) places[i].push_back(nowhere);
   }
-  // Of each region its parts, the next one last: only that one need not wait for another of the same region.
+  // Of each component its parts, the next one last: only that one need not wait for another of the same.
   Places left(nowhere + 1);
   for (std::size_t i = n; i-- > 0;) {
     for (const std::size_t place : places[i]) left[place].push_back(i);
@@ -84,7 +87,7 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
                      [&](std::size_t a, std::size_t b) { return level[a] < level[b]; });
   }
   std::vector<bool> done(n, false), near(nowhere + 1, false);
-  // In which step a part was looked at last: it may be next in each of its regions.
+  // In which step a part was looked at last: it may be next in each of its components.
   std::vector<std::size_t> asked(n, 0);
   const auto waits = [&](std::size_t i) {
     for (const std::size_t place : places[i]) {

@@ -292,8 +292,8 @@ std::vector<Cluster> Clusters(std::vector<CutterPath> group, const OrderParams& 
   return clusters;
 }
 
-// Passes near a border may count for the region beyond it: a region that has less than this share of what the
-// one with most has is not one that the part lies in.
+// Passes near a border may count for the ground beyond it: a component that has less than this share of what
+// the one with most has is not one that the part lies in.
 constexpr double kTouchedOnly = 0.1;
 
 JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
@@ -304,13 +304,13 @@ JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
       low = std::min(low, p.center.z());
       high = std::max(high, p.center.z());
     }
-    for (const auto& [region, length] : LengthInRegions(pass, regions)) {
-      if (region >= 0) most = std::max(most, lengths[region] += length);
+    for (const auto& [component, length] : LengthInComponents(pass, regions)) {
+      if (component >= 0) most = std::max(most, lengths[component] += length);
     }
   }
-  JobPart part{.regions = {}, .height = 0.5 * (low + high)};
-  for (const auto& [region, length] : lengths) {
-    if (length >= kTouchedOnly * most) part.regions.push_back(region);
+  JobPart part{.components = {}, .height = 0.5 * (low + high)};
+  for (const auto& [component, length] : lengths) {
+    if (length >= kTouchedOnly * most) part.components.push_back(component);
   }
   return part;
 }

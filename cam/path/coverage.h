@@ -28,6 +28,9 @@ struct CoverageParams : PassParams {
   // Moves that are none of the passes any more: only ground counts of which they left less (kNoLess). Null:
   // all does.
   const SegmentTree* taken = nullptr;
+  // Where both leave too much, only the middles and corners of rectangles of a quarter of the flat step are
+  // asked.
+  bool asked_loosely = false;
 };
 
 // Crease passes and rest passes: finds reachable surface points whose distance to the paths exceeds radius +

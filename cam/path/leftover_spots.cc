@@ -75,6 +75,9 @@ class SpotFinder {
              std::vector<LeftoverSpot>& out) const;
   NearMove NearestTo(const Vec3& p, double limit, const NearMove& hint) const;
   double TakenDistance(const Vec3& p, double size) const;
+  bool TakenLeftLess(const Vec3& p, const NearMove& nearest) const {
+    return TakenDistance(p, 0.0) < nearest.distance - kNoLess * params_.tolerance;
+  }
   std::optional<bool> BendsAlongU(const RectPlaces& places, double size) const;
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
                    const NearMove& near) const;
@@ -161,7 +164,7 @@ std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const Su
                                                const NearMove& nearest) const {
   const double leftover = std::min(nearest.distance - radius_, radius_);
   if (!(leftover > params_.limit && Asked(jet, e) && Wanted(at))) return std::nullopt;
-  if (!(TakenDistance(at.p, 0.0) < nearest.distance - kNoLess * params_.tolerance)) return std::nullopt;
+  if (!TakenLeftLess(at.p, nearest)) return std::nullopt;
   const auto side = ReachableSide(at.p, e);
   if (!side) return std::nullopt;
   Vec3 center = at.p + radius_ * *side;
@@ -285,7 +288,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
       out.push_back(*std::move(spot));
       return;
     }
-    if (params_.taken != nullptr && nearest.distance - radius_ > params_.limit) {
+    if (params_.asked_loosely && nearest.distance - radius_ > params_.limit && !TakenLeftLess(p, nearest)) {
       AddCorner(rect, out);
       return;
     }

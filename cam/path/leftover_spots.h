@@ -36,9 +36,7 @@ absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParam
 // (1 + kReachMargin) ReachGive at p + R e, tip not below the floor (DESIGN 2). Of the two margins one always
 // holds at small rectangles. It ends at 0.2 % of the flat step; where no pass is near, the corners of such a
 // rectangle are asked too, so that islands of reach narrower than that are seen where they lie along one.
-// With params.taken only places count of which those moves left less; where the limit is exceeded, but by
-// what they left too, this is looked at in the corners and the middle of rectangles of a quarter of the flat
-// step.
+// With params.taken only places count of which those moves left less.
 // With params.keep_in only wanted points at allowed centres are spots; along its limits the search ends at
 // 5 % of the flat step.
 //   Covered: the distance of a hull to a segment is largest at its vertices, so a rectangle is covered when

@@ -300,6 +300,7 @@ absl::StatusOr<std::vector<CutterPath>> WithoutNeedless(const Locator& locator, 
       if (finish) {
         params.limit = std::min(part.limit, kNeedlessLimit * part.scallop);
         params.margin = kProof * part.scallop;
+        params.asked_loosely = true;
       }
       std::vector<SurfaceRect> rects = whole;
       while (!rects.empty()) {

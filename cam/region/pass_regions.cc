@@ -9,13 +9,13 @@ namespace {
 constexpr int kStretches = 8;    // of a move along one piece: ends run on over borders, chords may be long
 constexpr double kPoint = 1e-9;  // mm
 
-}  // namespace
-
-std::map<int, double> LengthInRegions(const CutterPath& pass, const RegionMap& map) {
+// `id_at`: of the surface point.
+template <class IdAt>
+std::map<int, double> LengthIn(const CutterPath& pass, const IdAt& id_at) {
   std::map<int, double> lengths;
-  if (map.regions.empty() || pass.points.empty()) return lengths;
+  if (pass.points.empty()) return lengths;
   const auto add = [&](const std::optional<SurfacePoint>& at, double length) {
-    if (at) lengths[map.At(*at)] += length;
+    if (at) lengths[id_at(*at)] += length;
   };
   add(pass.points.front().contact, kPoint);
   for (std::size_t i = 1; i < pass.points.size(); ++i) {
@@ -35,6 +35,18 @@ std::map<int, double> LengthInRegions(const CutterPath& pass, const RegionMap& m
     }
   }
   return lengths;
+}
+
+}  // namespace
+
+std::map<int, double> LengthInRegions(const CutterPath& pass, const RegionMap& map) {
+  if (map.regions.empty()) return {};
+  return LengthIn(pass, [&](const SurfacePoint& at) { return map.At(at); });
+}
+
+std::map<int, double> LengthInComponents(const CutterPath& pass, const RegionMap& map) {
+  if (map.regions.empty()) return {};
+  return LengthIn(pass, [&](const SurfacePoint& at) { return map.ComponentAt(at); });
 }
 
 }  // namespace patchmill

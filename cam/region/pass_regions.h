@@ -12,5 +12,7 @@ namespace patchmill {
 // over, others half and half by the contacts of their ends. A point alone counts a little (1e-9), what rests
 // on the floor nothing. The map may be empty.
 std::map<int, double> LengthInRegions(const CutterPath& pass, const RegionMap& map);
+// The same by components of regions.
+std::map<int, double> LengthInComponents(const CutterPath& pass, const RegionMap& map);
 
 }  // namespace patchmill

@@ -102,10 +102,14 @@ struct RegionMap {
     return (components.empty() ? labels : components)[piece][cell];
   }
 
-  int At(const SurfacePoint& p) const {
+  int ComponentAt(const SurfacePoint& p) const { return ComponentAt(p.piece.index(), CellOf(p)); }
+  int At(const SurfacePoint& p) const { return labels[p.piece.index()][CellOf(p)]; }
+
+ private:
+  std::size_t CellOf(const SurfacePoint& p) const {
     const int i = std::min(cells - 1, static_cast<int>(p.u * cells)),
               j = std::min(cells - 1, static_cast<int>(p.v * cells));
-    return labels[p.piece.index()][static_cast<std::size_t>(i * cells + j)];
+    return static_cast<std::size_t>(i * cells + j);
   }
 };
 

@@ -162,6 +162,54 @@ TEST_F(OrderOfParts, CapThenFlankThenGroundThenWallThenFloor) {
   }
 }
 
+// Caps and flanks of many equal domes are two regions; each dome is cut from its top before the next.
+TEST(OrderOfEqualParts, OneDomeAfterTheOther) {
+  constexpr int kDomes = 24;
+  constexpr double kApart = 20.0, kDome = 6.0;
+  PatchModel model;
+  for (int i = 0; i < kDomes; ++i) {
+    const PatchModel dome =
+        testing::Sphere({i % 4 * kApart, i / 4 * kApart, 0.0}, kDome, testing::Half::kUpper);
+    model = i == 0 ? dome : testing::Join({model, dome});
+  }
+  const Surface surface = testing::JoinedSurface(model);
+  const Locator locator(surface, kRadius);
+  ContourParams steep;
+  steep.scallop = 0.05;
+  steep.window.min = Radians(45);
+  std::vector<CutterPath> all = ContourPaths(locator, steep, RunContext())->paths;
+  ZigzagParams gentle;
+  gentle.scallop = 0.05;
+  gentle.window.max = Radians(45);
+  const std::vector<CutterPath> lines = *ZigzagPaths(locator, gentle, RunContext());
+  all.insert(all.end(), lines.begin(), lines.end());
+  const RegionMap map = *SplitRegions(surface, {.radius = kRadius}, RunContext());
+  ASSERT_LT(map.regions.size(), 20u);
+  ASSERT_GE(map.component_region.size(), 2u * kDomes);
+  for (CutterPath& path : all) {
+    const auto& middle = path.points[path.points.size() / 2];
+    if (middle.contact) path.region = map.At(*middle.contact);
+  }
+  const auto ordered =
+      OrderPasses(map, all, {.neighbor_distance = kRadius, .at_hand = 2.0 * kRadius}, RunContext(1));
+  ASSERT_TRUE(ordered.ok()) << ordered.status();
+  ASSERT_EQ(ordered->size(), all.size());
+  const auto dome_of = [&](const CutterPath& path) {
+    const Vec3& p = path.points.front().center;
+    return std::lround(p.x() / kApart) + 4 * std::lround(p.y() / kApart);
+  };
+  int changes = 0;
+  bool contours = false;  // of the dome that is being cut
+  for (std::size_t i = 0; i < ordered->size(); ++i) {
+    const CutterPath& path = (*ordered)[i];
+    const bool next = i > 0 && dome_of(path) != dome_of((*ordered)[i - 1]);
+    changes += next;
+    contours = (contours && !next) || path.kind == PassKind::kContour;
+    EXPECT_FALSE(contours && path.kind == PassKind::kZigzag) << i;
+  }
+  EXPECT_EQ(changes, kDomes - 1);
+}
+
 TEST_F(OrderOfParts, LinesGoToAndFro) {
   const auto lines = Of(PassKind::kZigzag);
   ASSERT_EQ(lines.size(), lines_);

@@ -20,8 +20,11 @@ using Order = std::vector<std::size_t>;
 RegionMap Map(int regions, const std::vector<std::pair<int, int>>& borders) {
   RegionMap map;
   map.regions.resize(static_cast<std::size_t>(regions));
-  for (const auto& [a, b] : borders) map.border_lines.push_back({.region = a, .other = b, .points = {}});
-  map.border_lines.push_back({.region = 0, .other = -1, .points = {}});
+  for (int i = 0; i < regions; ++i) map.component_region.push_back(i);
+  for (const auto& [a, b] : borders) {
+    map.border_lines.push_back({.region = a, .other = b, .component = a, .other_component = b, .points = {}});
+  }
+  map.border_lines.push_back({.region = 0, .other = -1, .component = 0, .points = {}});
   return map;
 }
 
@@ -72,7 +75,7 @@ TEST(OrderParts, AThousandRegionsUnderOnePartAreSoonDone) {
   std::vector<JobPart> parts(1);
   for (int i = 0; i < n; ++i) {
     if (i > 0) chain.emplace_back(i - 1, i);
-    parts[0].regions.push_back(i);
+    parts[0].components.push_back(i);
     parts.push_back({{i}, 1.0 + i});
   }
   const auto start = std::chrono::steady_clock::now();
@@ -124,8 +127,8 @@ TEST(OrderParts, NoneBeforeAHigherNeighbour) {
     ASSERT_EQ(sorted.size(), parts.size());
     for (std::size_t i = 0; i < sorted.size(); ++i) EXPECT_EQ(sorted[i], i);
     const auto beside = [&](const JobPart& one, const JobPart& other) {
-      for (const int a : one.regions) {
-        for (const int b : other.regions) {
+      for (const int a : one.components) {
+        for (const int b : other.components) {
           if (a == b || borders.count({std::min(a, b), std::max(a, b)}) > 0) return true;
         }
       }
