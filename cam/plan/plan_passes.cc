@@ -263,6 +263,9 @@ class PassMaker {
     SetFinePass(choice, params);
     params.window.min = all ? 0.0 : split_angle_;
     PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
+    // Crumbs where a level barely touches a crest or a crease: ground that needs them gets rest passes.
+    const double crumb = CenterStep(locator_.radius(), choice.scallop, 0.0);
+    std::erase_if(contours.paths, [&](const CutterPath& path) { return Length(path) < crumb; });
     // Spirals are made of contours as they are.
     const auto now = [&](const CutterPath& path) { return !(op_.spirals && MaySpiral(path)); };
     PM_RETURN_IF_ERROR(ThinContours(locator_, params, now, run_, contours.paths));
