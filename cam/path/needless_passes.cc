@@ -10,6 +10,7 @@
 #include "cam/path/spacing.h"
 #include "cam/toolpath/segment_tree.h"
 #include "core/base/parallel.h"
+#include "core/base/silence.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 
@@ -181,14 +182,15 @@ absl::Status Taker::Take(const RunContext& run) {
   PM_RETURN_IF_ERROR(ParallelFor(run, "needless passes", paths_.size(), [&](std::size_t k) {
     if (paths_[k].spiral || paths_[k].points.size() < 2) return;
     std::vector<int> found;
-    for (std::size_t i = first_[k]; i < first_[k + 1]; ++i) {
+    for (std::size_t i = first_[k]; i < first_[k + 1] && !run.Cancelled(); ++i) {
       const std::size_t at = i - first_[k];
       const std::vector<CutterPoint>& points = paths_[k].points;
       Measure(chords_[i], points[at], points[(at + 1) % points.size()]);
       seems[k].push_back(SeemsNeedless(chords_[i], kCoarse * flat_, found));
     }
-    possible[k] = !WorthStretches(k, seems[k]).empty();
+    possible[k] = !run.Cancelled() && !WorthStretches(k, seems[k]).empty();
   }));
+  PM_RETURN_IF_ERROR(run.Check());
   std::vector<std::size_t> order;
   std::vector<double> length(paths_.size());
   for (std::size_t k = 0; k < paths_.size(); ++k) {
@@ -198,10 +200,16 @@ absl::Status Taker::Take(const RunContext& run) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t k) { return length[i] < length[k]; });
   std::vector<int> found;
-  for (const std::size_t k : order) {
-    PM_RETURN_IF_ERROR(run.Check());
-    for (std::size_t i = 0; i < seems[k].size(); ++i)
+  Silence silence;
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    const std::size_t k = order[n];
+    if (silence.TooLong()) {
+      silence.Break();
+      run.Progress("needless passes", static_cast<double>(n) / static_cast<double>(order.size()));
+    }
+    for (std::size_t i = 0; i < seems[k].size() && !run.Cancelled(); ++i)
       seems[k][i] = seems[k][i] && SeemsNeedless(chords_[first_[k] + i], kFine * flat_, found);
+    PM_RETURN_IF_ERROR(run.Check());
     for (const Stretch& s : WorthStretches(k, seems[k])) {
       for (std::size_t i = s.first; i < s.last; ++i) chords_[first_[k] + i % seems[k].size()].taken = true;
     }
@@ -220,7 +228,7 @@ std::vector<PathSegment> Taker::GiveBack(const std::vector<LeftoverSpot>& spots,
     back.push_back({chord.a, chord.b, number});
   };
   for (const LeftoverSpot& spot : spots) {
-    const int i = taken.FindNearest(spot.at.p, 2.0 * locator_.radius()).segment;
+    const int i = taken.FindNearest(spot.at.p, kInfinity).segment;
     PM_CHECK(i >= 0);
     const int number = taken.segment(i).move;
     give(chords_[static_cast<std::size_t>(number)], number);

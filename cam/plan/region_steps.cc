@@ -77,26 +77,43 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
                        const Resolved& resolved, const RunContext& run, RegionMap& map) {
   const int stride = StrideOf(map);
   const auto reachable = [&](std::size_t id) { return map.regions[id].kind != RegionKind::kUnreachable; };
-  std::vector<std::vector<Range>> pieces(surface.pieces.size());
+  struct Seen {
+    Range steps;
+    double area = 0.0, otherwise = 0.0;
+  };
+  const double split = std::cos(resolved.split_angle);
+  std::vector<std::vector<Seen>> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
     pieces[i].resize(map.regions.size());
     VisitPiece(surface, i, map, stride, reachable,
                [&](std::size_t id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
+                 Seen& seen = pieces[i][id];
                  const RegionChoice& choice = choices[id];
-                 const auto across = ByContours(choice, map.regions[id])
+                 const bool contours = ByContours(choice, map.regions[id]);
+                 const double area = jet.du.cross(jet.dv).norm();
+                 seen.area += area;
+                 if (choice.strategy == Strategy::kAuto && contours != (e.z() <= split))
+                   seen.otherwise += area;
+                 const auto across = contours
                                          ? AcrossContours(e)
                                          : AcrossLines(e, LineAt(choice, map.ComponentAt(i, cell), jet.p));
                  if (!across) return;
                  const double step = CenterStep(resolved.plan_radius, choice.scallop,
                                                 NormalCurvature(Forms(jet, e), jet, *across));
-                 if (step > 0.0) pieces[i][id].Add(step);
+                 if (step > 0.0) seen.steps.Add(step);
                });
   }));
   for (Region& region : map.regions) {
-    Range all;
-    for (const auto& piece : pieces) all.Add(piece[static_cast<std::size_t>(region.id)]);
-    region.step_min = all.max > 0.0 ? all.min : 0.0;
-    region.step_max = all.max;
+    Seen all;
+    for (const auto& piece : pieces) {
+      const Seen& seen = piece[static_cast<std::size_t>(region.id)];
+      all.steps.Add(seen.steps);
+      all.area += seen.area;
+      all.otherwise += seen.otherwise;
+    }
+    region.step_min = all.steps.max > 0.0 ? all.steps.min : 0.0;
+    region.step_max = all.steps.max;
+    region.otherwise_share = all.area > 0.0 ? all.otherwise / all.area : 0.0;
   }
   return absl::OkStatus();
 }

@@ -11,9 +11,10 @@ namespace patchmill {
 
 // Fills step_min and step_max of every reachable region: the smallest and the largest distance between
 // neighbouring ball centres, measured on the centre surface across the feed of the region's strategy, that
-// leaves exactly its scallop (CenterStep). Taken at up to about 200,000 points spread over the regions in
-// patch parameters; points where the ball does not fit (kappa R >= 1) do not count, and both stay 0 when no
-// other is seen. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// leaves exactly its scallop (CenterStep). And otherwise_share: how much of its area is steep in a gentle
+// region or gentle in a steep one, left in it by merging, where its strategy is kAuto. Taken at up to about
+// 200,000 points spread over the regions in patch parameters; points where the ball does not fit (kappa R >=
+// 1) do not count, and both stay 0 when no other is seen. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& choices,
                        const Resolved& resolved, const RunContext& run, RegionMap& map);
 

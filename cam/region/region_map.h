@@ -67,6 +67,7 @@ struct Region {
   double z_min = 0.0, z_max = 0.0;
   double step_min = 0.0, step_max = 0.0;  // mm between passes for the scallop; filled by cam/plan, else 0
   double wanted_share = 1.0;              // of its area, selected; filled by cam/plan
+  double otherwise_share = 0.0;           // of its area, of the other slope and cut like that; by cam/plan
   double deepest_leftover = 0.0;          // mm, regions with a reason: how much stays (leftover.h)
   double largest_tool_diameter = 0.0;     // mm, unreachable CONCAVE ones: reaches all of it (0: none does)
   std::vector<std::vector<Vec3>> border;  // closed polylines on the surface

@@ -18,6 +18,7 @@ namespace patchmill::cli {
 namespace {
 
 constexpr double kWhole = 1e-6;  // of the area: less than this is rounding
+constexpr double kFew = 0.005;   // of the area: cut in another way, not worth a word
 
 struct RegionsOptions {
   CommonOptions common;
@@ -68,17 +69,23 @@ std::string HowItIsCut(const v1::Region& region) {
   if (region.unreachable_reason() == v1::UNREACHABLE_REASON_STRATEGY)
     text = fmt::format("not finished (STRATEGY), up to {:.3f} mm stays: ", region.deepest_leftover_mm());
   text += Short(region.strategy());
+  const bool lines = region.strategy() == v1::STRATEGY_ZIGZAG;
+  std::string around, otherwise;
   if (region.has_lines_around()) {
-    if (region.strategy() != v1::STRATEGY_ZIGZAG) text += ", lines";
     const auto micron = [](double mm) { return std::round(1e3 * mm) / 1e3 + 0.0; };  // no -0.000
-    text += fmt::format(" around {:.3f},{:.3f}", micron(region.lines_around().x_mm()),
-                        micron(region.lines_around().y_mm()));
+    around = fmt::format(" around {:.3f},{:.3f}", micron(region.lines_around().x_mm()),
+                         micron(region.lines_around().y_mm()));
     if (region.more_lines_around_size() > 0)
-      text += fmt::format(" and {} more places", region.more_lines_around_size());
-    if (region.has_zigzag_angle_deg()) text += ", others";
+      around += fmt::format(" and {} more places", region.more_lines_around_size());
+    if (region.has_zigzag_angle_deg()) around += ", others";
   }
+  if (region.cut_otherwise_area_mm2() > kFew * region.area_mm2())
+    otherwise = fmt::format(" on {:.1f} mm2 of it", region.cut_otherwise_area_mm2());
+  if (!lines && !(around + otherwise).empty()) text += ", lines";
+  text += around;
   if (region.has_zigzag_angle_deg())
     text += fmt::format(" {:g} deg{}", region.zigzag_angle_deg(), region.one_way_lines() ? " one way" : "");
+  if (!otherwise.empty()) text += (lines ? ", contours" : "") + otherwise;
   text += fmt::format(", scallop {:g}, step {:.3f} to {:.3f} mm", region.scallop_mm(), region.step_min_mm(),
                       region.step_max_mm());
   if (region.selected_area_mm2() < (1.0 - kWhole) * region.area_mm2())

@@ -161,7 +161,10 @@ v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3&
     proto.set_slope(ToProto(region.slope));
     proto.set_step_min_mm(Number(region.step_min));
     proto.set_step_max_mm(Number(region.step_max));
-    if (!choice.skip) SetChoice(choice, region.slope, zero, proto);
+    if (!choice.skip) {
+      SetChoice(choice, region.slope, zero, proto);
+      proto.set_cut_otherwise_area_mm2(Number(region.area * region.otherwise_share));
+    }
   }
   proto.set_skipped(choice.skip);
   if (detail == Detail::kFigures) return proto;

@@ -54,6 +54,32 @@ TEST(RegionSteps, CylinderAlongAndAcross) {
   ExpectSteps(Cylinder(Vec3::Zero(), 10, 10, Half::kUpper), job, StepOnConvex(10, 3, s));
 }
 
+// The cap of a dome that merging leaves in its flank has lines, unless one strategy is forced; where it is a
+// region of its own, nothing is cut otherwise but cells along the border.
+TEST(RegionSteps, WhatMergingLeftIsCutOtherwise) {
+  const Surface dome = PlacedSurface(Sphere(Vec3::Zero(), 10, Half::kUpper));
+  const auto area_of = [&](double steep, Strategy strategy, std::size_t regions) {
+    Job job = BallJob(3.0);
+    job.operation.steep_angle = Radians(steep);
+    job.operation.strategy = strategy;
+    const auto planned = PlanRegions(dome, job, RunContext());
+    EXPECT_TRUE(planned.ok()) << planned.status();
+    double area = 0.0;
+    std::size_t reachable = 0;
+    for (const Region& region : planned->map.regions) {
+      reachable += region.kind != RegionKind::kUnreachable;
+      area += region.area * region.otherwise_share;
+    }
+    EXPECT_EQ(reachable, regions);
+    return area;
+  };
+  const double cap = 2.0 * kPi * 100.0 * (1.0 - std::cos(Radians(8.0)));
+  EXPECT_NEAR(area_of(8.0, Strategy::kAuto, 1), cap, 0.1 * cap);  // few points of it
+  EXPECT_EQ(area_of(8.0, Strategy::kContour, 2), 0.0);
+  EXPECT_EQ(area_of(8.0, Strategy::kZigzag, 2), 0.0);
+  EXPECT_LT(area_of(45.0, Strategy::kAuto, 2), 0.01 * 2.0 * kPi * 100.0);
+}
+
 TEST(RegionSteps, NoneWhereTheBallDoesNotFit) {
   // A parabolic valley of radius 2 at the bottom: steps shrink to nothing towards the spot of radius 3.
   Job job = BallJob(3.0);
