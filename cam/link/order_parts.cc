@@ -37,8 +37,8 @@ Places Neighbours(const RegionMap& map) {
   return beside;
 }
 
-// And those with nothing but unreachable ground between.
-Places NeighboursAcross(const RegionMap& map, Places beside) {
+// What is reached around each unreachable ground.
+Places AroundUnreachable(const RegionMap& map, const Places& beside) {
   const auto reached = [&](std::size_t i) {
     if (i >= map.component_region.size()) return true;
     const auto region = static_cast<std::size_t>(map.component_region[i]);
@@ -50,25 +50,22 @@ Places NeighboursAcross(const RegionMap& map, Places beside) {
       if (!reached(i) && !reached(k)) sets.Join(i, k);
     }
   }
-  Places around(beside.size());  // of each unreachable ground what is reached beside it
+  Places around(beside.size());
   for (std::size_t i = 0; i < beside.size(); ++i) {
     for (const std::size_t k : beside[i]) {
       if (!reached(i) && reached(k)) around[sets.Find(i)].push_back(k);
     }
   }
   SortEach(around);
-  for (const auto& all : around) {
-    for (const std::size_t i : all) beside[i].insert(beside[i].end(), all.begin(), all.end());
-  }
-  SortEach(beside);
-  return beside;
+  std::erase_if(around, [](const auto& places) { return places.size() < 2; });
+  return around;
 }
 
 }  // namespace
 
 std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts,
                                     const RunContext& run) {
-  const Places beside = Neighbours(map), above = NeighboursAcross(map, beside);
+  const Places beside = Neighbours(map), grounds = AroundUnreachable(map, beside);
   const std::size_t n = parts.size(), nowhere = map.component_region.size();
   Places places(n);
   std::vector<long long> level(n);
@@ -89,16 +86,30 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
   std::vector<bool> done(n, false), near(nowhere + 1, false);
   // In which step a part was looked at last: it may be next in each of its components.
   std::vector<std::size_t> asked(n, 0);
+  // Of all that is left in these places.
+  constexpr long long kNothing = std::numeric_limits<long long>::min();
+  const auto highest = [&](const std::vector<std::size_t>& of) {
+    long long high = kNothing;
+    for (const std::size_t place : of)
+      if (!left[place].empty()) high = std::max(high, level[left[place].back()]);
+    return high;
+  };
+  Places grounds_of(nowhere + 1);
+  for (std::size_t g = 0; g < grounds.size(); ++g) {
+    for (const std::size_t place : grounds[g]) grounds_of[place].push_back(g);
+  }
+  std::vector<long long> across(grounds.size());
   const auto waits = [&](std::size_t i) {
     for (const std::size_t place : places[i]) {
-      for (const std::size_t other : above[place]) {
-        if (!left[other].empty() && level[left[other].back()] > level[i]) return true;
-      }
+      if (highest(beside[place]) > level[i]) return true;
+      for (const std::size_t g : grounds_of[place])
+        if (across[g] > level[i]) return true;
     }
     return false;
   };
   std::vector<std::size_t> order;
   while (order.size() < n && !run.Cancelled()) {
+    for (std::size_t g = 0; g < grounds.size(); ++g) across[g] = highest(grounds[g]);
     // The highest of all waits for none, so that there always is one.
     using Rank = std::tuple<bool, long long, std::size_t>;
     Rank best{true, std::numeric_limits<long long>::max(), n};

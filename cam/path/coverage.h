@@ -25,9 +25,10 @@ struct CoverageParams : PassParams {
   ForcedSteps forced;  // ground that needs shorter steps than min_step_fraction of these is left
   int max_rounds = 6;
   const KeepIn* keep_in = nullptr;  // what is wanted and allowed; null: all of it
-  // Moves that are none of the passes any more: only ground counts of which they left less (kNoLess). Null:
-  // all does.
+  // For FindSpots alone (WithoutNeedless). Moves that are none of the passes any more: only places count that
+  // these finished, or left less of by more than `taken_less` (mm). Null: all count.
   const SegmentTree* taken = nullptr;
+  double taken_less = 0.0;
   // Where both leave too much, only the middles and corners of rectangles of a quarter of the flat step are
   // asked.
   bool asked_loosely = false;

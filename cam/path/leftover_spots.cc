@@ -76,7 +76,7 @@ class SpotFinder {
   NearMove NearestTo(const Vec3& p, double limit, const NearMove& hint) const;
   double TakenDistance(const Vec3& p, double size) const;
   bool TakenLeftLess(const Vec3& p, const NearMove& nearest) const {
-    return TakenDistance(p, 0.0) < nearest.distance - kNoLess * params_.tolerance;
+    return TakenDistance(p, 0.0) < nearest.distance - params_.taken_less;
   }
   std::optional<bool> BendsAlongU(const RectPlaces& places, double size) const;
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,

@@ -23,6 +23,8 @@ constexpr double kWider = 1.022;  // than the step may others lie apart; its squ
 constexpr int kPlaces = 4;        // on either side of a chord: where others are looked for
 constexpr double kWidest = 4.0;   // flat steps: passes farther away are not looked for
 constexpr double kProof = 0.01;   // of the scallop: what FindSpots may take longer to tell
+constexpr double kNoLess = 0.05;  // of the tolerance: by this what was taken has to have left less
+constexpr double kCrumb = 1.0;    // ball radii: nothing shorter is left of a pass beside what is taken
 
 // A move of a pass.
 struct Chord {
@@ -131,7 +133,7 @@ void Taker::Measure(Chord& chord, const CutterPoint& from, const CutterPoint& to
 bool Taker::SeemsNeedless(const Chord& chord, double spacing, std::vector<int>& found) const {
   const Vec3 d = chord.b - chord.a;
   const double length = d.norm();
-  if (!(length > 0.0)) return false;
+  if (!(length > 0.0)) return true;  // goes with its neighbours
   const int count = static_cast<int>(std::ceil(length / spacing));
   const double reach = 0.5 * kWider * chord.step, beside = kBeside * flat_;
   for (int k = 0; k < count; ++k) {
@@ -172,6 +174,21 @@ std::vector<Stretch> Taker::WorthStretches(std::size_t path, const std::vector<c
     const double worth = locator_.radius() * (whole ? 0.0 : at_end ? kWorthAtEnd : kWorthBetween);
     if (s.last > s.first && s.length >= worth) stretches.push_back(s);
     k = s.last + 1;
+  }
+  // Crumbs between two of them cost more than they save: the shorter one stays.
+  for (std::size_t i = 0; i < stretches.size() && !(stretches.size() == 1 && !closed);) {
+    const std::size_t next = (i + 1) % stretches.size();
+    if (next == 0 && !closed) break;
+    double between = 0.0;
+    const std::size_t end = stretches[next].first + (next == 0 ? n : 0);
+    for (std::size_t k = stretches[i].last; k < end; ++k) between += chords_[first_[path] + k % n].Length();
+    if (next == i || between >= kCrumb * locator_.radius()) {
+      ++i;
+      continue;
+    }
+    const std::size_t shorter = stretches[i].length < stretches[next].length ? i : next;
+    stretches.erase(stretches.begin() + static_cast<std::ptrdiff_t>(shorter));
+    i = 0;
   }
   return stretches;
 }
@@ -261,13 +278,14 @@ std::vector<CutterPath> Taker::Passes() const {
       continue;
     }
     if (!path.closed) start = 0;
+    CutterPath like_it = path;
+    like_it.closed = false;
+    like_it.points.clear();
     for (std::size_t i = start; i < start + n;) {
       std::size_t end = i;
       while (end < start + n && !taken(end)) ++end;
       if (end > i) {
-        CutterPath part = path;
-        part.closed = false;
-        part.points.clear();
+        CutterPath part = like_it;
         for (std::size_t p = i; p <= end; ++p) part.points.push_back(path.points[p % path.points.size()]);
         passes.push_back(std::move(part));
       }
@@ -304,11 +322,16 @@ absl::StatusOr<std::vector<CutterPath>> WithoutNeedless(const Locator& locator, 
     // The finish first; then the limit, which is proven wherever it was kept before.
     for (const bool finish : {true, false}) {
       CoverageParams params = part;
-      params.forced = {};
       if (finish) {
+        params.forced = {};
         params.limit = std::min(part.limit, kNeedlessLimit * part.scallop);
         params.margin = kProof * part.scallop;
+        params.taken_less = std::min(kProof * part.scallop, kNoLess * part.tolerance);
         params.asked_loosely = true;
+      } else {
+        // Together what RestPaths may add to the limit.
+        params.margin = (kProofMargin - kNoLess) * part.tolerance;
+        params.taken_less = kNoLess * part.tolerance;
       }
       std::vector<SurfaceRect> rects = whole;
       while (!rects.empty()) {

@@ -23,11 +23,12 @@ inline constexpr double kWorthAtEnd = 2.0, kWorthBetween = 8.0;
 // The passes without what is needless, in their order; a pass that loses a stretch becomes one or two others.
 // Needless seems what has others within half a step for the scallop there all the way across to where its
 // neighbours would do, or another right beside it; of two that make each other needless the shorter goes.
-// What left less of a place that would exceed kNeedlessLimit scallops without it stays (FindSpots of the
-// ground near it, with CoverageParams.taken), and so does what is needed for the limit of `parts`. Those are
-// as for RestPaths, one for all wanted ground or more; their forced steps have no say. `reach`: ReachLocator
-// of their tolerance. Spirals stay whole. Cost about one query per two flat steps of pass, and FindSpots near
-// what is taken.
+// What finished a place that would exceed kNeedlessLimit scallops without it stays (FindSpots of the ground
+// near it, with CoverageParams.taken), and so does what is needed for the limit of `parts`, which is kept as
+// near as RestPaths keeps it. Those are as for RestPaths, one for all wanted ground or more; needless is what
+// seems so by the finest scallop of all. `reach`: ReachLocator of their tolerance. Spirals stay whole. Cost
+// about one query per chord and per two flat steps of pass, eight times as many on what may be needless, and
+// FindSpots near what is taken.
 absl::StatusOr<std::vector<CutterPath>> WithoutNeedless(const Locator& locator, const Locator& reach,
                                                         std::vector<CutterPath> paths,
                                                         const std::vector<CoverageParams>& parts,

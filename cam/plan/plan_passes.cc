@@ -14,6 +14,7 @@
 #include "cam/path/keep_in_clip.h"
 #include "cam/path/leftover_spots.h"
 #include "cam/path/needless_passes.h"
+#include "cam/path/point_cells.h"
 #include "cam/path/rim_passes.h"
 #include "cam/path/run_on.h"
 #include "cam/path/spacing.h"
@@ -57,6 +58,27 @@ void NumberAfter(const std::vector<CutterPath>& before, std::vector<CutterPath>&
   int last = 0;
   for (const CutterPath& path : before) last = std::max(last, path.line);
   for (CutterPath& path : paths) path.line += last + kGap;
+}
+
+// Contours shorter than `step` (mm) where a level barely touches a crest or a crease: ground that needs them
+// gets rest passes. Not where other levels have such ones beside them, as in a hole that the ball just fits.
+void DropCrumbs(double step, std::vector<CutterPath>& contours) {
+  const auto is_crumb = [&](const CutterPath& path) { return !path.spiral && Length(path) < step; };
+  std::vector<Vec3> places;
+  std::vector<int> lines;
+  for (const CutterPath& path : contours) {
+    if (!is_crumb(path)) continue;
+    places.push_back(Lift(Plan(path.points.front().center), 0.0));
+    lines.push_back(path.line);
+  }
+  const PointCells cells(places, step);
+  std::erase_if(contours, [&](const CutterPath& path) {
+    if (!is_crumb(path)) return false;
+    bool alone = true;
+    cells.Near(Lift(Plan(path.points.front().center), 0.0), step,
+               [&](std::size_t k) { alone = alone && lines[k] == path.line; });
+    return alone;
+  });
 }
 
 class PassMaker {
@@ -263,9 +285,7 @@ class PassMaker {
     SetFinePass(choice, params);
     params.window.min = all ? 0.0 : split_angle_;
     PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
-    // Crumbs where a level barely touches a crest or a crease: ground that needs them gets rest passes.
-    const double crumb = CenterStep(locator_.radius(), choice.scallop, 0.0);
-    std::erase_if(contours.paths, [&](const CutterPath& path) { return Length(path) < crumb; });
+    DropCrumbs(CenterStep(locator_.radius(), choice.scallop, 0.0), contours.paths);
     // Spirals are made of contours as they are.
     const auto now = [&](const CutterPath& path) { return !(op_.spirals && MaySpiral(path)); };
     PM_RETURN_IF_ERROR(ThinContours(locator_, params, now, run_, contours.paths));

@@ -89,9 +89,11 @@ absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<
   for (std::size_t piece = 0; piece < map.components.size(); ++piece) {
     for (std::size_t cell = 0; cell < map.labels[piece].size(); ++cell) {
       int& component = map.components[piece][cell];
-      if (component >= 0 &&
-          map.component_region[static_cast<std::size_t>(component)] != map.labels[piece][cell])
-        component = -1;
+      const int label = map.labels[piece][cell];
+      if (component >= 0 && map.component_region[static_cast<std::size_t>(component)] == label) continue;
+      // A cell that was given to a region counts for the first component of it.
+      const auto first = std::lower_bound(map.component_region.begin(), map.component_region.end(), label);
+      component = label < 0 ? -1 : static_cast<int>(first - map.component_region.begin());
     }
   }
   return absl::OkStatus();

@@ -85,6 +85,25 @@ TEST(OrderParts, AThousandRegionsUnderOnePartAreSoonDone) {
   EXPECT_EQ(order.back(), 0u);
 }
 
+TEST(OrderParts, ThousandsOfIslandsInOneSlotAreSoonDone) {
+  // All are beside each other, with nothing but the slot between.
+  const int n = 3000;
+  std::vector<std::pair<int, int>> borders;
+  std::vector<JobPart> parts;
+  for (int i = 1; i <= n; ++i) {
+    borders.emplace_back(0, i);
+    parts.push_back({{i}, static_cast<double>(i % 7)});
+  }
+  RegionMap map = Map(n + 1, borders);
+  map.regions[0].kind = RegionKind::kUnreachable;
+  const auto start = std::chrono::steady_clock::now();
+  const Order order = Ordered(map, parts);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(testing::kSanitized ? 20 : 2));
+  ASSERT_EQ(order.size(), parts.size());
+  for (std::size_t i = 1; i < order.size(); ++i)
+    EXPECT_LE(parts[order[i]].height, parts[order[i - 1]].height) << i;
+}
+
 TEST(OrderParts, EndsEarlyWhenCancelled) {
   RunContext run(1);
   run.Cancel();
