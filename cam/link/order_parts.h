@@ -21,7 +21,7 @@ struct JobPart {
 // ball gets into); of many equal bosses, whose caps are one region, each is cut from its top by itself. Of
 // those that need not wait a neighbour of the last part goes before others, then the higher, then the first.
 // Heights are told apart to 0.01 mm, so that level ground keeps the order it came in. Deterministic; O(n m)
-// for n parts and m pairs of components that are beside each other. Cancelled it ends early.
+// for n parts and m pairs of components that share a border. Cancelled it ends early.
 std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts,
                                     const RunContext& run);
 

@@ -26,7 +26,7 @@ struct CoverageParams : PassParams {
   int max_rounds = 6;
   const KeepIn* keep_in = nullptr;  // what is wanted and allowed; null: all of it
   // For FindSpots alone (WithoutNeedless). Moves that are none of the passes any more: only places count that
-  // these finished, or left less of by more than `taken_less` (mm). Null: all count.
+  // these finished, and left less of by more than `taken_less` (mm). Null: all count.
   const SegmentTree* taken = nullptr;
   double taken_less = 0.0;
   // Where both leave too much, only the middles and corners of rectangles of a quarter of the flat step are

@@ -60,7 +60,8 @@ class Taker {
   // Marks what seems needless.
   absl::Status Take(const RunContext& run);
   // Gives back what left least of each spot, and what is not worth its gap then. Returns what that is.
-  std::vector<PathSegment> GiveBack(const std::vector<LeftoverSpot>& spots, const RunContext& run);
+  // `taken`: a tree of Taken().
+  std::vector<PathSegment> GiveBack(const std::vector<LeftoverSpot>& spots, const SegmentTree& taken);
   std::vector<PathSegment> Taken() const {
     return Segments([](const Chord& c) { return c.taken; });
   }
@@ -176,7 +177,7 @@ std::vector<Stretch> Taker::WorthStretches(std::size_t path, const std::vector<c
     k = s.last + 1;
   }
   // Crumbs between two of them cost more than they save: the shorter one stays.
-  for (std::size_t i = 0; i < stretches.size() && !(stretches.size() == 1 && !closed);) {
+  for (std::size_t i = 0; i < stretches.size();) {
     const std::size_t next = (i + 1) % stretches.size();
     if (next == 0 && !closed) break;
     double between = 0.0;
@@ -188,7 +189,7 @@ std::vector<Stretch> Taker::WorthStretches(std::size_t path, const std::vector<c
     }
     const std::size_t shorter = stretches[i].length < stretches[next].length ? i : next;
     stretches.erase(stretches.begin() + static_cast<std::ptrdiff_t>(shorter));
-    i = 0;
+    if (shorter < i) --i;  // the first one, beside the last
   }
   return stretches;
 }
@@ -234,8 +235,7 @@ absl::Status Taker::Take(const RunContext& run) {
   return absl::OkStatus();
 }
 
-std::vector<PathSegment> Taker::GiveBack(const std::vector<LeftoverSpot>& spots, const RunContext& run) {
-  const SegmentTree taken(Taken(), Metric::kPath, kInfinity, run);
+std::vector<PathSegment> Taker::GiveBack(const std::vector<LeftoverSpot>& spots, const SegmentTree& taken) {
   std::vector<PathSegment> back;
   std::vector<char> given(paths_.size(), 0);
   const auto give = [&](Chord& chord, int number) {
@@ -342,7 +342,7 @@ absl::StatusOr<std::vector<CutterPath>> WithoutNeedless(const Locator& locator, 
         // What is given back uncovers nothing: only the rectangles of the spots need another look.
         rects.clear();
         for (const LeftoverSpot& spot : spots) rects.push_back(spot.rect);
-        if (!spots.empty()) grow(taker.GiveBack(spots, run));
+        if (!spots.empty()) grow(taker.GiveBack(spots, taken));
       }
     }
   }

@@ -169,12 +169,17 @@ TEST(Cancel, Contours) {
   ExpectStops([&](const RunContext& run) { return ContourPaths(locator, params, run).status(); });
 }
 
-TEST(Cancel, RestPasses) {
-  const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
-  const Locator locator(surface, 2.0);
+CoverageParams CoarseCoverage() {
   CoverageParams params;
   params.scallop = 0.05;
   params.limit = 0.06;
+  return params;
+}
+
+TEST(Cancel, RestPasses) {
+  const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
+  const Locator locator(surface, 2.0);
+  const CoverageParams params = CoarseCoverage();
   const Locator reach = *ReachLocator(locator, params, RunContext());
   ExpectStops([&](const RunContext& run) { return RestPaths(locator, reach, {}, params, run).status(); });
 }
@@ -182,9 +187,7 @@ TEST(Cancel, RestPasses) {
 TEST(Cancel, NeedlessPasses) {
   const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
   const Locator locator(surface, 2.0);
-  CoverageParams params;
-  params.scallop = 0.05;
-  params.limit = 0.06;
+  const CoverageParams params = CoarseCoverage();
   const Locator reach = *ReachLocator(locator, params, RunContext());
   ZigzagParams lines;
   lines.scallop = params.scallop;
@@ -242,9 +245,7 @@ TEST(Cancel, OneLeaf) {
   job.operation.scallop = 0.01;
   ExpectStops([&](const RunContext& run) { return RunJob(surface, job, run).status(); });
   const Locator locator(surface, 2.0);
-  CoverageParams params;
-  params.scallop = 0.05;
-  params.limit = 0.06;
+  const CoverageParams params = CoarseCoverage();
   const Locator reach = *ReachLocator(locator, params, RunContext());
   ExpectStops([&](const RunContext& run) { return RestPaths(locator, reach, {}, params, run).status(); });
 }

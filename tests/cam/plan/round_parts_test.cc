@@ -50,6 +50,26 @@ TEST(RoundParts, HoleThatTheBallJustFits) {
   EXPECT_GT(result.report.verify.cut_length, result.report.least_feed);
 }
 
+// The centre goes around in rings shorter than a step: they are the wall's contours, not crumbs of a level
+// that barely touches something.
+TEST(RoundParts, RingsInACloseHoleAreItsContours) {
+  const double hole = 3.06, deep = 20.0;
+  const Surface surface = PlacedSurface(
+      Turned({Line({0, 0}, {hole, 0}), Line({hole, 0}, {hole, deep}), Line({hole, deep}, {12, deep})}));
+  Job job = BallJob(3.0);
+  const double s = job.operation.scallop, flat = 2.0 * std::sqrt(6.0 * s - s * s);
+  ASSERT_LT(2.0 * kPi * (hole - 3.0), flat);
+  const auto rings = [](const JobResult& result) {
+    return std::count_if(result.motion.passes.begin(), result.motion.passes.end(),
+                         [](const CutterPath& p) { return p.kind == PassKind::kContour && p.closed; });
+  };
+  EXPECT_GE(rings(MillChecked(surface, job)), (deep - 3.0) / flat - 1.0);
+  job.operation.spirals = true;
+  const JobResult wound = MillChecked(surface, job);
+  EXPECT_TRUE(std::any_of(wound.motion.passes.begin(), wound.motion.passes.end(),
+                          [](const CutterPath& p) { return p.spiral; }));
+}
+
 // A hole as wide as the ball: it goes straight down. Where it is free there is one point to a level, and no
 // height beside it.
 TEST(RoundParts, HoleOfTheBallsOwnSize) {
