@@ -14,6 +14,7 @@ RUN apt-get update -qq \
  && rm -rf /var/lib/apt/lists/* \
  && useradd --system --uid 10001 --no-create-home patchmill
 COPY --from=build /src/build/release/bin/patchmill /src/build/release/bin/patchmilld /usr/local/bin/
+COPY LICENSE THIRD_PARTY.md /usr/share/doc/patchmill/
 USER patchmill
 EXPOSE 50051
 HEALTHCHECK --interval=10s --timeout=3s --start-period=5s CMD ["patchmilld", "--check-health", "127.0.0.1:50051"]

@@ -6,8 +6,8 @@ namespace patchmill {
 // Distance between neighbouring CENTRES, measured on the centre surface across the feed, that leaves exactly
 // `scallop` (mm) between two passes of a ball of `radius` (mm) on ground of normal curvature `kappa` across
 // the feed (1/mm, > 0 concave towards the tool).
-//   cos(w kappa / 2) = [(rho +- R)^2 + (rho +- s)^2 - R^2] / [2 (rho +- R)(rho +- s)],  w_c = w |rho +- R| /
-//   rho
+//   cos(w kappa / 2) = [(rho +- R)^2 + (rho +- s)^2 - R^2] / [2 (rho +- R)(rho +- s)],
+//   w_c = w |rho +- R| / rho
 // kappa -> 0: 2 sqrt(2 R s - s^2). kappa >= 1/R (the ball does not fit): 0. 0 < scallop < radius.
 double CenterStep(double radius, double scallop, double kappa);
 

@@ -48,8 +48,8 @@ std::vector<HermiteCurve> Splined(const std::vector<Vec3>& points, const std::ve
   const std::size_t n = points.size(), spans = chord.size();
   const auto next = [n](std::size_t i) { return i + 1 == n ? 0 : i + 1; };
   // Unknown: the derivative m in the chord parameter. Equal second derivatives at point i:
-  //   h1 m(i-1) + 2 (h0 + h1) m(i) + h0 m(i+1) = 3 (h1 slope(i-1) + h0 slope(i)), h0, h1 the chords beside
-  //   it.
+  //   h1 m(i-1) + 2 (h0 + h1) m(i) + h0 m(i+1) = 3 (h1 slope(i-1) + h0 slope(i)),
+  // h0 and h1 the chords beside it.
   const auto slope = [&](std::size_t i) { return Vec3((points[next(i)] - points[i]) / chord[i]); };
   Rows rows{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   std::vector<Vec3> right(n);

@@ -14,8 +14,8 @@ namespace patchmill {
 //   bezier p q   (p+1)(q+1) points, u FASTEST (unlike the other formats)
 //   triangle n   row after row as .bv kind 3
 //   gregory4     20 points, five at each corner (see GregoryPatch); corner blend
-//   gregory3     18 points, five at each corner, then the middles of the edges (see GregoryTriangle); corner
-//   blend
+//   gregory3     18 points, five at each corner, then the middles of the edges (see GregoryTriangle);
+//                corner blend
 // Errors: INVALID_ARGUMENT "line 12: reason" for anything else. Cost O(text), memory a small multiple of it.
 absl::StatusOr<PatchModel> ReadPatches(std::string_view text);
 

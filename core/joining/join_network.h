@@ -45,13 +45,13 @@ struct JoinedNetwork {
   // Edges made from lines have a `given` beyond CurveNetwork::edges, in the order of WithLinesAsEdges.
   // Errors: those of BuildEdgeTable, WithLinesAsEdges, WithCutFaces, AddCurvatureRows and PlaceTVertex, and
   //   CHORD_ALONG_NORMAL    a tangent from a normal that has no direction: give the tangent
-  //   NO_FIT                no Hosaka segment, arc or ellipse has these end directions and what is asked of
-  //   it CURVE_OFF_VERTEX      a given curve does not start and end at its vertices UNSUPPORTED_CURVE several
-  //   spans with a corner between them, or on a smooth edge a jump of the second
-  //                         derivative
+  //   NO_FIT                no Hosaka segment, arc or ellipse has these end directions and the shape that is
+  //                         asked of it
+  //   CURVE_OFF_VERTEX      a given curve does not start and end at its vertices
+  //   UNSUPPORTED_CURVE     several spans with a corner between them, or on a smooth edge a jump of the
+  //                         second derivative
   //   HOSAKA_RATIO          Hosaka faces on both sides of a smooth edge, or one along a part of it, whose end
-  //   tangents
-  //                         give no common tangent plane between the ends
+  //                         tangents give no common tangent plane between the ends
   //   INVALID_TWIST         twists where another face leads: along a part of an edge, beside a Hosaka face
   //   UNSUPPORTED_SCHEME    a scheme for the other number of sides, or an edge of a degree it cannot take
   //   INCONSISTENT_NORMALS  the faces beside a smooth edge have different normals at an end, or a tangent or

@@ -3,15 +3,15 @@
 // n is the unit normal along S_u x S_v of a piece, t its contour tangent. `axis`, `light` and `view` are unit
 // vectors (n_f of METHODS 5); phi = axis . S. Where the parametrisation has no normal every field is 0.
 //
-//   line              field                             zero where              nodes (lines cross there)
-//   contour           ContourField(level)               phi = level      (2)    saddles of phi at that level
-//   equi-slope        SlopeField(angle)                 |axis . n| = cos angle (4),(6)   -
-//   iso-brightness    BrightnessField(brightness)       light . n = brightness (6)       -
-//   silhouette        SilhouetteField(view)             view . n = 0                     -
-//   the same from an eye  EyeSilhouetteField(eye)       (S - eye) . n = 0                -
-//   highlight         HighlightField(plane, across)     section tangent along plane x across  (8)  -
-//   contour-inflection  ContourCurvatureField()         kappa_c = 0      (26)   saddles of phi
-//   slope-extremum    SlopeExtremumField()              (10) = 0                summits, pits, saddles of phi
+//   line                field                         zero where                       lines cross at
+//   contour             ContourField(level)           phi = level (2)                  saddles of phi there
+//   equi-slope          SlopeField(angle)             |axis . n| = cos angle (4), (6)  -
+//   iso-brightness      BrightnessField(brightness)   light . n = brightness (6)       -
+//   silhouette          SilhouetteField(view)         view . n = 0                     -
+//   same, from an eye   EyeSilhouetteField(eye)       (S - eye) . n = 0                -
+//   highlight           HighlightField(plane, across) section along plane x across (8) -
+//   contour-inflection  ContourCurvatureField()       kappa_c = 0 (26)                 saddles of phi
+//   slope-extremum      SlopeExtremumField()          (10) = 0                         summits, pits, saddles
 //
 // Planes: where a field vanishes over an area (rounding counts as zero) no line is drawn inside it.
 // Umbilics are ordinary points of slope-extremum lines. Orthogonal families (flow lines and those of

@@ -1,8 +1,9 @@
 // PatchModel -> PatchNetwork: which patch edges meet, and everything that is wrong or remarkable about it.
 //
-// Edges of a quad patch, by index:  0: v=0 (u grows)   1: u=1 (v grows)   2: v=1 (u grows)   3: u=0 (v
-// grows). Edges of a triangle:              0: t=0 (s grows)   1: s+t=1 from (1,0) to (0,1)   2: s=0 from
-// (0,0) to (0,1).
+// Edges by index, and the parameter that grows along each:
+//
+//   quad      0: v=0 (u)   1: u=1 (v)                         2: v=1 (u)                 3: u=0 (v)
+//   triangle  0: t=0 (s)   1: s+t=1 from (1,0) to (0,1) (t)   2: s=0 from (0,0) to (0,1) (t)
 #pragma once
 
 #include <optional>
@@ -51,16 +52,17 @@ struct PatchNetwork {
   std::vector<EdgeLink> edges;       // 4 (triangle 3) per patch, in order of patch, then edge index
   std::vector<PartLink> part_links;  // by whole, then by part: the edges told by T_JUNCTION findings
   // What is remarkable, by code, then by edge; at most 1000 of a code and one line that counts the rest.
-  //   OPEN_EDGE              no neighbour: a border (info)
-  //   COLLAPSED_EDGE         a point, a pole (info)
-  //   NEARLY_COLLAPSED_EDGE  longer than the join tolerance, but negligible beside its patch; kept as given
-  //   GAP                    two open edges run side by side, farther apart than the join tolerance
-  //   T_JUNCTION             a long edge meets shorter ones (info)
-  //   TANGENT_BREAK          max_angle above kTangentBreak: a crease (info)
-  //   NON_MANIFOLD_EDGE      three or more patches share an edge;  NON_MANIFOLD_VERTEX: fans touch in a point
-  //   DUPLICATE_PATCH        the same surface as an earlier patch
+  //   OPEN_EDGE                 no neighbour: a border (info)
+  //   COLLAPSED_EDGE            a point, a pole (info)
+  //   NEARLY_COLLAPSED_EDGE     longer than the join tolerance, but negligible beside its patch; kept so
+  //   GAP                       two open edges run side by side, farther apart than the join tolerance
+  //   T_JUNCTION                a long edge meets shorter ones (info)
+  //   TANGENT_BREAK             max_angle above kTangentBreak: a crease (info)
+  //   NON_MANIFOLD_EDGE         three or more patches share an edge
+  //   NON_MANIFOLD_VERTEX       fans of patches touch in a point
+  //   DUPLICATE_PATCH           the same surface as an earlier patch
   //   INCONSISTENT_ORIENTATION  neighbours run u x v to opposite sides (info; no algorithm needs a side)
-  //   SEARCH_LIMITED         too many open edges lie together; gaps and T-junctions were not all looked for
+  //   SEARCH_LIMITED            too many open edges lie together for a search of all gaps and T-junctions
   Diagnostics findings;
   int open_edge_count = 0;      // edges with an OPEN_EDGE finding
   int t_junction_count = 0;     // long edges with a T_JUNCTION finding

@@ -1,6 +1,11 @@
 // Patches as given: a closed set of parametric shapes. Frames and units: model units until placed, then mm.
 //
 // Parameters: (u,v) in [0,1]^2; for triangles area coordinates (s,t), s,t >= 0, s+t <= 1.
+//
+// Above each kind its points are drawn by their index, in the parameter plane: u (s) to the right, v (t) up.
+// The frame is the border of the patch. A line from a point of the frame to one inside joins the two whose
+// difference is the tangent across the border there, in the line's direction (LoftTriangle: towards the
+// opposite vertex). control_net_pictures_test reads these pictures and checks them against Evaluate.
 #pragma once
 
 #include <array>
@@ -17,6 +22,15 @@ inline constexpr int kMaxDegree = 15;
 // Tensor Bezier patch, degree 1..15 each way, rational with positive weights.
 //   points[i * (degree_v + 1) + j]: i along u (slowest), j along v. Cartesian, NOT multiplied by the weight.
 //   weights: empty (polynomial) or one per point, > 0.
+//
+//   v=1    3 --- 7 -- 11      degree_u = 2, degree_v = 3
+//          |     |     |
+//          2 --- 6 -- 10
+//          |     |     |
+//          1 --- 5 --- 9
+//          |     |     |
+//   v=0    0 --- 4 --- 8
+//         u=0         u=1
 struct BezierPatch {
   int degree_u = 0;
   int degree_v = 0;
@@ -27,6 +41,13 @@ struct BezierPatch {
 // Untrimmed B-spline or NURBS patch. n_u = knots_u.size() - degree_u - 1 points along u; layout as
 // BezierPatch. Knots do not decrease; the domain [knots[p], knots[n]] is mapped to [0,1]. Multiplicity of an
 // inner knot <= degree.
+//
+//   v=1    2 --- 5 --- 8 -- 11      degree 2 each way; knots_u 0 0 0 1 2 2 2, knots_v 0 0 0 1 1 1
+//          |     |     |     |
+//          1 --- 4 --- 7 -- 10
+//          |     |     |     |
+//   v=0    0 --- 3 --- 6 --- 9
+//         u=0               u=1
 struct BsplinePatch {
   int degree_u = 0;
   int degree_v = 0;
@@ -39,19 +60,25 @@ struct BsplinePatch {
 // Bicubic Gregory quad, 20 points: five at each corner (0,0) (1,0) (1,1) (0,1): P, E+, E-, F+, F-
 // (E+ along the edge that leaves the corner counter-clockwise, E- along the one that arrives).
 //
-//   v=1   15 --- 17 --- 11 --- 10       edges:  v=0:  0  1  7  5     u=1:  5  6 12 10
-//         |   18,19  14,13     |                v=1: 15 17 11 10     u=0:  0  2 16 15
-//         16                   12
-//         |                    |       kCorner: inner point of corner (0,0) = (u F+ + v F-)/(u+v), and so on
-//         by symmetry 2                    6       kEdge:   METHODS (13): inner points blended by u(1-u),
-//         v(1-v), as two bicubics |    3,4    9,8      |
-//   v=0   0 ---- 1 ---- 7 ---- 5
-//        u=0                  u=1
-// kCorner inner points, as in the data's README: b11 = (u p3 + v p4)/(u+v), b21 = (v p8 + (1-u)
-// p9)/((1-u)+v), b22 = ((1-u) p13 + (1-v) p14)/((1-u)+(1-v)), b12 = ((1-v) p18 + u p19)/(u+(1-v)). kEdge:
-// which point of each pair belongs to the loft across v (net 1: edges v=0, v=1) and which to the loft across
-// u (net 2) is fixed so that both blends agree along the edges: near edge v=0 kCorner's inner point tends to
-// the one multiplied by u, so net 1 takes p3, p9, p13, p19 and net 2 takes p4, p8, p14, p18.
+//   v=1   15 ------ 17 ---- 11 ------ 10
+//          |         |       |         |
+//          |        19      13         |
+//         16 --- 18             14 -- 12
+//          |                           |
+//          |                           |
+//          2 ---- 4              8 --- 6
+//          |         3       9         |
+//          |         |       |         |
+//   v=0    0 ------- 1 ----- 7 ------- 5
+//         u=0                         u=1
+//
+// Each corner has a pair of inner points: F+ and F-, 3 and 4 at (0,0). They are blended.
+// kCorner: near (0,0) the inner point is (u p3 + v p4) / (u + v), near (1,0) (v p8 + (1-u) p9) / ((1-u) + v),
+// near (1,1) ((1-u) p13 + (1-v) p14) / ((1-u) + (1-v)), near (0,1) ((1-v) p18 + u p19) / (u + (1-v)).
+// kEdge: METHODS (13), two bicubics blended by p = u(1-u) and q = v(1-v). The one with weight p / (p + q)
+// lofts the edges v=0 and v=1 and takes p3, p9, p13, p19; the other one lofts u=0 and u=1 and takes p4, p8,
+// p14, p18.
+// Both blends have the same tangents across the edges.
 struct GregoryPatch {
   enum class Blend { kCorner, kEdge };
   std::array<Vec3, 20> points;
@@ -61,6 +88,15 @@ struct GregoryPatch {
 // Triangular Bezier patch of degree n (1..15), (n+1)(n+2)/2 points row after row: n+1 along the edge t=0 from
 // (s,t) = (0,0) to (1,0), then n, ... , 1 at (0,1). Point k of row r belongs to s^k t^r (1-s-t)^(n-k-r).
 // Weights as BezierPatch.
+//
+//   t=1    9                    degree 3
+//          | \.
+//          7 -- 8
+//          |    | \.
+//          4 -- 5 -- 6
+//          |    |    | \.
+//   t=0    0 -- 1 -- 2 -- 3
+//         s=0            s=1
 struct BezierTriangle {
   int degree = 0;
   std::vector<Vec3> points;
@@ -79,6 +115,17 @@ struct BezierTriangle {
 // break as the four chains are, up to one derivative. Cubic everywhere: two bicubic nets that differ in their
 // inner points, as GregoryPatch::kEdge, with weights u^2 (1-u)^2 and v^2 (1-v)^2 in place of u (1-u) and v
 // (1-v).
+//
+//   v=1    4 --- 5 --------- 6 --- 7      degree_u = 3, degree_v = 4
+//          |     |           |     |
+//          |    16          17     |
+//         10 --- 20      23 ----- 13
+//          9 --- 19      22 ----- 12
+//          8 --- 18      21 ----- 11
+//          |    14          15     |
+//          |     |           |     |
+//   v=0    0 --- 1 --------- 2 --- 3
+//         u=0                     u=1
 struct BrownPatch {
   int degree_u = 3;  // 3..kMaxBrownDegree
   int degree_v = 3;
@@ -91,11 +138,17 @@ inline constexpr int kMaxBrownBreaks = 1000;
 // Quartic Gregory triangle (METHODS (15)-(18)), 18 points: five at each corner (0,0) (1,0) (0,1) as in
 // GregoryPatch, P E+ E- F+ F-, then the middle points of the edges 0-1, 1-2, 2-0.
 //
-//   t=1           10
-//               11  12
-//             17  z  16            rows of the quartic:  0 1 15 7 5 / 2 x y 6 / 17 z 16 / 11 12 / 10
-//            2   x  y   6
-//   t=0    0   1   15  7   5       with r = 1-s-t
+//   t=1   10                               rows of the quartic, from t=0 up:
+//          | \.                             0 1 15 7 5 / 2 x y 6 / 17 z 16 / 11 12 / 10
+//         11  12                             with r = 1-s-t
+//          |     \.
+//         17-13 14-16
+//          |         \.
+//          2--4   8---6
+//          |  3   9    \.
+//          |  |   |     \.
+//   t=0    0--1--15--7---5
+//         s=0           s=1
 //
 // kCorner: x = (s p3 + t p4)/(s+t), y = (t p8 + r p9)/(t+r), z = (r p13 + s p14)/(r+s).
 // kEdge: three quartics blended by u_j u_k / (u2 u3 + u1 u3 + u1 u2). The one that serves an edge takes the
@@ -112,6 +165,16 @@ struct GregoryTriangle {
 //   b the tangent across the edge into the triangle (barycentric direction, straight to the opposite vertex).
 //   6 n - 3 in all. The ends of the rails follow from the neighbouring edges.
 // Plain weights (18) need cubic edges; squared ones serve degree 4 too.
+//
+//   t=1    6                                degree 3
+//          | \.
+//          7 --- 13  12 --- 5
+//          |                 \.
+//          8 --- 14      11 --- 4
+//          |     9    10          \.
+//          |     |     |            \.
+//   t=0    0 --- 1 --- 2 ---------- 3
+//         s=0                      s=1
 struct LoftTriangle {
   int degree = 3;        // 3, or 4 with squared weights
   bool squared = false;  // u_i u_j of (18) replaced by its square
@@ -121,6 +184,19 @@ struct LoftTriangle {
 // G2-Gregory patch (METHODS (4)) of degree n = 5..7 each way: (n+1)^2 points, [i (n+1) + j], i along u, whose
 // block entries (i and j both in {1, 2, n-2, n-1}) serve the edges v=0 and v=1; then 16 points, the block
 // entries in the same order that serve u=0 and u=1.
+//
+//   v=1    5 ----- 11 ------ 17 ------ 23 ------ 29 ----- 35      degree 5; of a pair the first serves
+//          |        |         |         |         |        |      v=0 and v=1, the second u=0 and u=1
+//          4 --- 10,39 --- 16,43 --- 22,47 --- 28,51 ---- 34
+//          |        |         |         |         |        |
+//          3 ---- 9,38 --- 15,42 --- 21,46 --- 27,50 ---- 33
+//          |        |         |         |         |        |
+//          2 ---- 8,37 --- 14,41 --- 20,45 --- 26,49 ---- 32
+//          |        |         |         |         |        |
+//          1 ---- 7,36 --- 13,40 --- 19,44 --- 25,48 ---- 31
+//          |        |         |         |         |        |
+//   v=0    0 ------ 6 ------ 12 ------ 18 ------ 24 ----- 30
+//         u=0                                             u=1
 struct G2GregoryPatch {
   int degree = 6;
   std::vector<Vec3> points;
@@ -129,6 +205,15 @@ struct G2GregoryPatch {
 // Hosaka's blended boundary patch (METHODS 3.1-3.4).
 //   points, with n = degree 1..11: edge v=0 (n+1), edge v=1 (n+1), inner points of edge u=0 (n-1) and u=1
 //   (n-1): Bezier points, 4 n in all; then corner (0,0) + s_ij, i slow, for the inner term (28).
+//
+//   v=1    4 --- 5 --- 6 --- 7      degree 3, inner_u = 1, inner_v = 2;
+//          |                 |      inside the coefficients s_ij, i to the right, j up
+//          9    14    17    11
+//          |    13    16     |
+//          8    12    15    10
+//          |                 |
+//   v=0    0 --- 1 --- 2 --- 3
+//         u=0               u=1
 struct HosakaPatch {
   enum class Blend { kSmooth, kLinear };  // (23) or (26)
   struct Break {

@@ -1,11 +1,18 @@
 // One algebra for all patches (ALGORITHMS 1): every patch is cut into pieces, each a rational Bernstein
 // rectangle.
-//   Bezier: 1 piece. B-spline: one per non-empty knot rectangle. Gregory: 1. Triangle of degree n: 3
-//   rectangles of bidegree (n,n) around its centroid (a bilinear map of the rectangle into the triangle; no
-//   collapsed edge). Brown quad: 1 per rectangle between breaks, rational of 4 degrees more. Gregory
-//   triangle: 3 as a rational triangle of degree 6 (edge blend) or 7. Loft triangle: 3 of degree 8, squared 3
-//   degree + 1. G2-Gregory of degree n: 1 of n + 8. Hosaka: polynomial, one per rectangle of the break
-//   parameters.
+//
+//   kind              pieces
+//   Bezier            1 of its own degrees
+//   B-spline          1 of its own degrees per non-empty knot rectangle
+//   Gregory quad      1, rational of degree 5 (edge blend) or 7 each way
+//   triangle          of degree n: 3 of degree n each way around its centroid (a bilinear map of the
+//                     rectangle into the triangle; no collapsed edge)
+//   Brown quad        1 per rectangle between breaks, rational of 4 degrees more
+//   Gregory triangle  3, as a rational triangle of degree 6 (edge blend) or 7
+//   loft triangle     3, as a rational triangle of degree 8, with squared weights 3 degree + 1
+//   G2-Gregory        1, rational of 8 degrees more
+//   Hosaka            1 per rectangle of the break parameters, polynomial
+//
 // Algorithms that plan, bound and measure see pieces only.
 #pragma once
 

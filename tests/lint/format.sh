@@ -9,4 +9,9 @@ if [ "${2:-}" = --fix ]; then
 else
   clang-format-14 --dry-run -Werror "${files[@]}"
 fi
+# clang-format leaves comments alone (ReflowComments), so that pictures stay. Their width is checked here.
+if awk '/(^| )\/\/ / && length > 110 { print FILENAME ":" FNR ": comment of " length " columns"; bad = 1 } END { exit !bad }' \
+     "${files[@]}"; then
+  echo "format: lines with comments are at most 110 columns wide"; exit 1
+fi
 echo "format: ${#files[@]} files"

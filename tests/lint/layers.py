@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fails on an #include that goes up or sideways (DESIGN section 3: which folder may see which).
+"""Fails on an #include that goes up or sideways (DESIGN section 3: which folder may see which), and on one of CGAL: parts of
+it are under the GPL, which tests alone may use (THIRD_PARTY.md).
 
 usage: layers.py ROOT
 """
@@ -38,6 +39,7 @@ ALLOWED["clients/cli"] = set(PROTO)
 EXTRA_FILES = {"clients/cli": {"server/server.h", "server/options.h", "server/serve_flags.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
+CGAL = re.compile(r'^\s*#\s*include\s+[<"]CGAL/', re.M)
 
 
 def folder(path):
@@ -56,7 +58,10 @@ def main():
             if own not in ALLOWED:
                 faults.append(f"{own}: folder is in no layer; add it to tests/lint/layers.py")
                 continue
-            for include in INCLUDE.findall(source.read_text()):
+            text = source.read_text()
+            if CGAL.search(text):
+                faults.append(f"{source.relative_to(root)}: includes CGAL; only tests may (THIRD_PARTY.md)")
+            for include in INCLUDE.findall(text):
                 target = folder(include)
                 if target == own or target in ALLOWED[own] or include in EXTRA_FILES.get(own, set()):
                     continue

@@ -1,0 +1,109 @@
+#!/usr/bin/env bash
+# Runs one of the long tests of docs/long_tests.md, each in less than an hour, and writes its row of that page.
+#   scripts/long_tests.sh NAME
+# NAME: soak, asan, tsan, random, certificates, fuzz, container, coverage.
+# SEED: of soak, random and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+name="${1:-}"
+seed="${SEED:-$(date +%y%m%d)}"
+minutes="${MINUTES:-30}"
+page=docs/long_tests.md
+
+as_root=()
+[ "$(id -u)" -eq 0 ] || as_root=(sudo)
+install() { "${as_root[@]}" apt-get update -qq && "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" > /dev/null; }
+build() {  # build PRESET [targets]
+  local preset=$1
+  shift
+  scripts/setup.sh
+  cmake --preset "$preset"
+  cmake --build --preset "$preset" ${1:+--target "$@"}
+}
+
+soak() {
+  build release patchmill patchmilld
+  tests/service/soak.sh build/release/bin "$minutes" "$seed"
+}
+asan() { scripts/test.sh asan; }
+tsan() { scripts/test.sh tsan; }
+random() {  # a hundred parts of each kind
+  local tests=(tests/property/random_*_test.cc) target targets=() failed=0
+  for source in "${tests[@]}"; do targets+=("property_$(basename "$source" .cc)"); done
+  build release "${targets[@]}"
+  for target in "${targets[@]}"; do
+    echo "$target"
+    PATCHMILL_FUZZ_JOBS=100 PATCHMILL_FUZZ_SEED="$seed" "build/release/tests/$target" --gtest_brief=1 || failed=1
+  done
+  return "$failed"
+}
+certificates() {  # ten million heights
+  build release cam_location_certificate_fuzz_test
+  PATCHMILL_FUZZ_QUERIES=10000000 PATCHMILL_FUZZ_SEED="$seed" build/release/tests/cam_location_certificate_fuzz_test
+}
+fuzz() {  # a minute of each target
+  command -v clang++ > /dev/null || install clang llvm
+  build fuzz
+  local target found corpus=build/fuzz/corpus failed=0
+  for target in build/fuzz/fuzz/*_fuzz; do
+    found="$corpus/$(basename "$target")"
+    mkdir -p "$found"
+    echo "$target"
+    "$target" -max_total_time=60 -print_final_stats=1 -artifact_prefix="$found/" "$found" tests/models tests/models/malformed \
+      tests/models/curves tests/models/networks tests/golden examples > "$found.log" 2>&1 || { tail -30 "$found.log"; failed=1; }
+    grep -E 'number_of_executed_units|new_units_added' "$found.log" || true
+  done
+  return "$failed"
+}
+container() {
+  build release patchmill patchmilld
+  scripts/container_test.sh
+}
+coverage() {  # lines of core, cam, server and clients that the tests reach, those of random jobs left out
+  command -v gcovr > /dev/null || install gcovr
+  build coverage
+  find build/coverage -name '*.gcda' -delete
+  local status=0
+  ctest --preset coverage -j "$(nproc)" || status=1
+  gcovr --root . --object-directory build/coverage --filter 'core/' --filter 'cam/' --filter 'server/' --filter 'clients/' \
+    --exclude-unreachable-branches --txt build/coverage/coverage.txt --html build/coverage/coverage.html
+  tail -4 build/coverage/coverage.txt
+  return "$status"
+}
+
+case "$name" in
+  soak) command="MINUTES=$minutes SEED=$seed scripts/long_tests.sh soak" ;;
+  random | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
+  asan | tsan | fuzz | container | coverage) command="scripts/long_tests.sh $name" ;;
+  *)
+    sed -n '2,5s/^# \?//p' "$0" >&2
+    exit 2
+    ;;
+esac
+
+# A second shell does the work, so that an hour can end it.
+if [ "${LONG_TESTS_INNER:-}" != "$name" ]; then
+  started=$(date +%s)
+  log=$(mktemp)
+  status=0
+  LONG_TESTS_INNER="$name" SEED="$seed" timeout 3600 "$0" "$name" 2>&1 | tee "$log" || status=${PIPESTATUS[0]}
+  took=$((($(date +%s) - started + 30) / 60))
+  case "$status" in
+    0) result="passed, $took min" ;;
+    124) result="**not done within an hour**" ;;
+    *) result="**failed**, $took min" ;;
+  esac
+  # What the test says about itself in its last line, where it has one.
+  said=$(grep -E '^(soak|lines|TOTAL)' "$log" | tail -1 | tr -s ' |' ' ' || true)
+  commit=$(git rev-parse --short HEAD)
+  [ -z "$(git status --porcelain --untracked-files=no)" ] || commit="$commit, changed"
+  row="| $name | \`$command\` | $commit | $(date +%F) | $result${said:+; $said} |"
+  awk -v name="$name" -v row="$row" '
+    /^## Last runs/ { runs = 1 }
+    runs && index($0, "| " name " |") == 1 { print row; next }
+    { print }' "$page" > "$log" && cp "$log" "$page"
+  rm -f "$log"
+  echo "$row"
+  exit "$status"
+fi
+"$name"
