@@ -1,4 +1,6 @@
-# The Patchmill service. Build: docker build -t patchmill .    Run: docker run -p 50051:50051 patchmill
+# The Patchmill service. Build: docker build -t patchmill .
+# Run without TLS, where the network is trusted:  docker run -p 127.0.0.1:50051:50051 patchmill --insecure
+# Run with TLS:  docker run -p 50051:50051 -v DIR:/tls:ro patchmill --cert /tls/server.pem --key /tls/server.key   (docs/service.md)
 FROM debian:bookworm-slim AS build
 WORKDIR /src
 COPY scripts/setup.sh scripts/setup.sh
@@ -18,5 +20,6 @@ COPY LICENSE THIRD_PARTY.md /usr/share/doc/patchmill/
 USER patchmill
 EXPOSE 50051
 HEALTHCHECK --interval=10s --timeout=3s --start-period=5s CMD ["patchmilld", "--check-health", "127.0.0.1:50051"]
-# Inside a container the service must listen on more than loopback; outside of one that takes this flag.
+# Inside a container the service must listen beyond loopback. How it is protected there is for who runs it to say: without
+# --cert and --key or --insecure it exits with status 2 and names both.
 ENTRYPOINT ["patchmilld", "--listen", "0.0.0.0:50051"]

@@ -6,7 +6,7 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 
-# P5, same bytes: no contraction of a*b+c (it differs by processor), no fast-math, no -march=native.
+# [verification P5], same bytes: no contraction of a*b+c (it differs by processor), no fast-math, no -march=native.
 add_compile_options(-ffp-contract=off -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
 # Eigen asks for such instructions by name where the processor is known to have them; ARM's compilers tell by this macro.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")

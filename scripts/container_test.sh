@@ -45,7 +45,12 @@ cleanup() {
 trap cleanup EXIT
 
 "${build[@]}" -t "$image" .
-"$engine" run -d --name "$name" -p "127.0.0.1:$port:50051" --read-only --cap-drop ALL "$image" >/dev/null
+status=0
+"$engine" run --rm --name "$name" "$image" 2>"$work/bare" || status=$?
+[ "$status" -eq 2 ] && grep -q -e "--cert and --key" "$work/bare" && grep -q -e "--insecure" "$work/bare" \
+  || { echo "container: the bare image ended with $status and did not name both ways"; cat "$work/bare"; exit 1; }
+
+"$engine" run -d --name "$name" -p "127.0.0.1:$port:50051" --read-only --cap-drop ALL "$image" --insecure >/dev/null
 [ "$("$engine" exec "$name" id -u)" != 0 ] || { echo "container: runs as root"; exit 1; }
 for _ in $(seq 50); do
   if "$engine" exec "$name" patchmilld --check-health 127.0.0.1:50051; then healthy=yes; break; fi

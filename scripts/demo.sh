@@ -3,8 +3,8 @@
 #   scripts/demo.sh [MODEL [patchmill mill options]]     mill a model of your own instead
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/setup.sh
-cmake --preset release
+scripts/setup.sh build
+cmake --preset release -DPATCHMILL_TESTS=OFF -DPATCHMILL_BENCH=OFF  # scripts/test.sh switches them on again
 cmake --build --preset release --target patchmill patchmilld
 out=out/demo
 mkdir -p "$out"

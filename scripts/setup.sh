@@ -3,7 +3,7 @@
 # Used by scripts/demo.sh, scripts/test.sh, CI and the Dockerfile. Needs root, or sudo.
 #
 #   scripts/setup.sh            all that building and testing needs
-#   scripts/setup.sh build      compiler and libraries only (what the container's build stage uses)
+#   scripts/setup.sh build      compiler and libraries only (what scripts/demo.sh and the container's build stage use)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,10 +11,10 @@ what="${1:-all}"
 build_packages=(
   g++ cmake ninja-build ccache pkg-config git ca-certificates
   libgrpc++-dev libgrpc-dev protobuf-compiler-grpc protobuf-compiler libprotobuf-dev libabsl-dev
-  libeigen3-dev libopenmesh-dev libcgal-dev libtbb-dev libcli11-dev libfmt-dev libspdlog-dev
+  libeigen3-dev libopenmesh-dev libtbb-dev libcli11-dev libfmt-dev libspdlog-dev
 )
 test_packages=(
-  libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
+  libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libcgal-dev
   python3 clang-format-14 linuxcnc-uspace librsvg2-bin python3-grpcio python3-protobuf
 )
 case "$what" in

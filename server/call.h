@@ -13,6 +13,7 @@
 
 #include "core/base/run_context.h"
 #include "server/admission.h"
+#include "server/in_flight.h"
 #include "server/options.h"
 
 namespace patchmill {
@@ -21,7 +22,11 @@ namespace patchmill {
 struct ServerEnv {
   ServerOptions options;
   Admission admission;
-  explicit ServerEnv(ServerOptions o) : options(std::move(o)), admission(options.max_jobs) {}
+  InFlight in_flight;
+  explicit ServerEnv(ServerOptions o, ReceivedBytes received = {})
+      : options(std::move(o)),
+        admission(options.max_jobs),
+        in_flight(static_cast<std::size_t>(options.max_in_flight_mib) << 20, std::move(received)) {}
 };
 
 // What a handler knows of its caller; filled from grpc::ServerContext, or by a test.

@@ -106,6 +106,7 @@ void AddLimits(const Job& job, Canonical& out) {
     out.Add(static_cast<std::int64_t>(s.boundary.size()));
     for (const Ring& ring : s.boundary) AddRing(ring, out);
   }
+  if (s.mill_outside) out.Add("outside");
   if (job.operation.detail != Operation().detail) out.Add("detail").Add(job.operation.detail);
   if (!job.operation.regions_sha256.empty()) out.Add("regions").Add(job.operation.regions_sha256);
   for (const RegionOverride& change : job.operation.overrides) {

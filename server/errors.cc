@@ -1,6 +1,7 @@
 #include "server/errors.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <absl/strings/cord.h>
 #include <fmt/format.h>
@@ -64,6 +65,15 @@ const char* DefaultReason(absl::StatusCode code) {
   }
 }
 
+absl::Status LimitError(const PassedLimit& passed, std::string_view message) {
+  v1::ErrorInfo info;
+  info.set_reason("LIMIT_EXCEEDED");
+  info.set_limit(passed.name);
+  info.set_limit_value(passed.limit);
+  info.set_actual_value(passed.value);
+  return WithInfo(absl::StatusCode::kResourceExhausted, message, info);
+}
+
 std::string More(std::size_t count) {
   return count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string();
 }
@@ -96,14 +106,11 @@ absl::Status FieldErrors::ToStatus() const {
                   first.field + " " + first.text + More(faults_.size()), info);
 }
 
-absl::Status LimitError(std::string_view limit, double limit_value, double actual_value) {
-  v1::ErrorInfo info;
-  info.set_reason("LIMIT_EXCEEDED");
-  info.set_limit(std::string(limit));
-  info.set_limit_value(limit_value);
-  info.set_actual_value(actual_value);
-  return WithInfo(absl::StatusCode::kResourceExhausted,
-                  fmt::format("{} = {:.10g}; the limit is {:.10g}", limit, actual_value, limit_value), info);
+absl::Status LimitError(std::string_view limit, double limit_value, double actual_value,
+                        std::string_view note) {
+  return LimitError({std::string(limit), limit_value, actual_value},
+                    fmt::format("{} = {:.10g}; the limit is {:.10g}{}{}", limit, actual_value, limit_value,
+                                note.empty() ? "" : "; ", note));
 }
 
 absl::Status TooManyJobsError(int limit) {
@@ -114,6 +121,23 @@ absl::Status TooManyJobsError(int limit) {
   info.set_actual_value(limit + 1);
   return WithInfo(absl::StatusCode::kResourceExhausted,
                   fmt::format("the server runs {} jobs, as many as it may; try again later", limit), info);
+}
+
+absl::Status TooManyBytesError(double limit, double actual) {
+  v1::ErrorInfo info;
+  info.set_reason("TOO_MANY_BYTES");
+  info.set_limit("request_bytes_in_flight");
+  info.set_limit_value(limit);
+  info.set_actual_value(actual);
+  return WithInfo(
+      absl::StatusCode::kResourceExhausted,
+      fmt::format("request_bytes_in_flight = {:.10g} with this one; the limit is {:.10g}; try again later",
+                  actual, limit),
+      info);
+}
+
+absl::Status RequestUnreadableError(std::string_view why) {
+  return WithReason(absl::StatusCode::kInvalidArgument, "REQUEST_UNREADABLE", why);
 }
 
 absl::Status DrainingError() {
@@ -173,6 +197,8 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
   v1::ErrorInfo info;
   if (const auto payload = status.GetPayload(kInfoUrl)) {
     info.ParseFromString(std::string(*payload));
+  } else if (const std::optional<PassedLimit> passed = LimitPassedOf(status)) {
+    return ToGrpcStatus(LimitError(*passed, std::string(status.message())));
   } else {
     info.set_reason(DefaultReason(status.code()));
   }

@@ -33,9 +33,15 @@ class FieldErrors {
 };
 
 // One factory per kind of error.
-absl::Status LimitError(std::string_view limit, double limit_value, double actual_value);
+// `note` follows the message where the value alone would puzzle.
+absl::Status LimitError(std::string_view limit, double limit_value, double actual_value,
+                        std::string_view note = {});
 absl::Status TooManyJobsError(int limit);
+// `actual`: with what was asked for.
+absl::Status TooManyBytesError(double limit, double actual);
 absl::Status DrainingError();
+// The bytes of the request are no message of its type.
+absl::Status RequestUnreadableError(std::string_view why);
 absl::Status ModelNotCachedError();
 absl::Status ModelUnreadableError(std::string_view why, std::string_view code = {});
 absl::Status CurveUnreadableError(std::string_view why);

@@ -7,8 +7,18 @@ namespace patchmill::limits {
 
 // Wire.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{64} << 20;  // either way, both ends
-inline constexpr std::size_t kChunkBytes = std::size_t{256} << 10;      // of program and artifact pieces
-inline constexpr std::size_t kPathChunkPoints = 4096;                   // of one PathChunk
+inline constexpr int kMaxInFlightMib =
+    256;  // default of the server: of requests, on their way, read, or in work
+inline constexpr std::size_t kMaxFileModelBytes = std::size_t{256}
+                                                  << 20;  // in memory, of a message in a model file
+inline constexpr int kReceiveSeconds = 300;         // from the start of a call until its request has come
+inline constexpr int kMeasureMs = 10;               // requests on their way are measured this often
+inline constexpr int kMaxCallsPerConnection = 100;  // at once; more wait at the client
+inline constexpr int kMaxConnections = 10'000;      // open at once; fewer where there are fewer descriptors
+inline constexpr int kSpareDescriptors = 64;        // never taken by connections
+inline constexpr int kHandshakeSeconds = 20;        // from a connection until it speaks HTTP/2
+inline constexpr std::size_t kChunkBytes = std::size_t{256} << 10;  // of program and artifact pieces
+inline constexpr std::size_t kPathChunkPoints = 4096;               // of one PathChunk
 inline constexpr std::size_t kMaxStatusBytes = 4096;  // of grpc-status-details-bin; trailers stop at 8 KiB
 inline constexpr std::size_t kMaxStatusMessageBytes = 1000;
 inline constexpr int kMaxViolations = 20;
@@ -17,12 +27,15 @@ inline constexpr std::size_t kMaxDiagnostics = 2000;  // of one answer; the rest
 
 // Models.
 inline constexpr std::size_t kMaxPatches = 100'000;
-inline constexpr std::size_t kMaxControlPoints =
-    2'500'000;  // all patches together; 100,000 bicubic ones have 1.6 million
+// All patches together; 100,000 bicubic ones have 1.6 million. A patch of many pieces (B-spline, Brown,
+// Hosaka) counts with the points of these.
+inline constexpr std::size_t kMaxControlPoints = 2'500'000;
 inline constexpr std::size_t kMaxKnots = 2'500'000;  // all patches together
 inline constexpr std::size_t kMaxNetworkVertices = 4 * kMaxPatches;
 inline constexpr std::size_t kMaxNetworkEdges = 4 * kMaxPatches;
 inline constexpr std::size_t kMaxNetworkReferences = 16 * kMaxPatches;  // vertices of faces, faces of normals
+// Numbers of all lists of a request together: coordinates, weights and knots.
+inline constexpr std::size_t kMaxRequestNumbers = 4 * kMaxControlPoints + kMaxKnots;
 inline constexpr std::size_t kMaxIdBytes = 200;
 inline constexpr std::size_t kMaxNameBytes = 100;
 inline constexpr std::size_t kMaxRequestIdBytes = 128;
@@ -31,11 +44,12 @@ inline constexpr std::size_t kMaxRequestIdBytes = 128;
 inline constexpr int kMaxThreads = 64;            // of one job
 inline constexpr int kMaxJobs = 64;               // at once, of one server
 inline constexpr double kMaxJobSeconds = 3600.0;  // default of the server
-// Both estimated before planning, from the box of the control points: its plan and its walls at the flat
-// step-over, and points at the longest chord that tolerance and scallop allow anywhere. The length counts for
-// every plan that the choice of an angle makes, the points for the one that is kept.
+// Of the passes of one plan, counted while they are made, and of the program with its links: a job that comes
+// to more ends there (cam/path/counted_loop.h), and one whose finish cannot take less before its passes are
+// made (LeastFeed). Every plan that the choice of an angle makes counts for itself. A point takes about 0.6
+// kB of memory, and the verifier of other people's programs reads as many.
 inline constexpr double kMaxCutLengthMm = 5e6;
-inline constexpr double kMaxPathPoints = 2e7;
+inline constexpr double kMaxPathPoints = 5e6;
 inline constexpr std::size_t kMaxOutlinePoints =
     20'000;  // of all boundary rings and obstacles of a job, each
 inline constexpr int kMaxObstacles = 1000;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
 #include "core/base/error_details.h"
 #include "core/base/status.h"
@@ -14,6 +15,8 @@
 #include "server/digest.h"
 #include "server/limits.h"
 #include "server/unknown_fields.h"
+#include "server/wire_count.h"
+#include "server/wire_limits.h"
 
 namespace patchmill {
 namespace {
@@ -23,6 +26,15 @@ constexpr std::string_view kTextFormats[] = {"bpt", "bv", "bez", "patches"};
 // Commas of a JSON text bound its values: coordinates, weights, knots, and the names of patches.
 constexpr std::size_t kMaxJsonCommas =
     4 * limits::kMaxControlPoints + limits::kMaxKnots + 10 * limits::kMaxPatches;
+
+// Objects of a JSON text cost memory before there is a message to count.
+constexpr std::size_t kMaxJsonObjects = 2 * limits::kMaxNetworkReferences;
+
+absl::Status CheckModelWire(const std::string& wire) {
+  google::protobuf::io::ArrayInputStream bytes(wire.data(), static_cast<int>(wire.size()));
+  return CountWire(bytes, wire.size(), *v1::PatchModel::descriptor(), ListLimits(limits::kMaxFileModelBytes))
+      .status();
+}
 
 bool LooksLikeJson(std::string_view content) {
   const std::size_t first = content.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
@@ -35,8 +47,14 @@ absl::StatusOr<v1::PatchModel> ParseJson(const std::string& content) {
     return LimitError("model.json_value_count", static_cast<double>(kMaxJsonCommas),
                       static_cast<double>(commas));
   }
+  const auto objects = static_cast<std::size_t>(std::count(content.begin(), content.end(), '{'));
+  if (objects > kMaxJsonObjects) {
+    return LimitError("model.json_object_count", static_cast<double>(kMaxJsonObjects),
+                      static_cast<double>(objects));
+  }
   v1::PatchModel model;
-  const absl::Status status = ReadJsonMessage(content, model);
+  const absl::Status status = ReadJsonMessage(content, model, CheckModelWire);
+  if (absl::IsResourceExhausted(status)) return status;
   if (!status.ok()) {
     return ModelUnreadableError(
         fmt::format("model file: not a PatchModel in JSON: {}", std::string(status.message())));
@@ -46,7 +64,9 @@ absl::StatusOr<v1::PatchModel> ParseJson(const std::string& content) {
 
 absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::string_view format) {
   v1::PatchModel model;
-  const bool parsed = model.ParseFromString(content);
+  const absl::Status counted = CheckModelWire(content);
+  if (absl::IsResourceExhausted(counted)) return counted;
+  const bool parsed = counted.ok() && model.ParseFromString(content);
   if (parsed && (model.patches_size() > 0 || model.has_network())) {
     if (const std::string unknown = UnknownField(model); !unknown.empty()) {
       return ModelUnreadableError(

@@ -9,9 +9,11 @@ struct ServerOptions {
   std::string listen = "127.0.0.1:50051";  // HOST:PORT; loopback unless told otherwise; port 0: any free one
   int threads = 0;                         // of one job; 0: as many as the machine has
   int max_jobs = 4;                        // at once; more are RESOURCE_EXHAUSTED
-  double max_job_seconds = 3600.0;         // then the job is DEADLINE_EXCEEDED
-  std::string ca_file, cert_file,
-      key_file;              // PEM; cert and key: TLS; ca too: clients must show a certificate
+  int max_in_flight_mib = 256;      // of requests, as they come and in memory; more are RESOURCE_EXHAUSTED
+  double max_job_seconds = 3600.0;  // then the job is DEADLINE_EXCEEDED
+  // PEM; cert and key: TLS; ca too: clients must show a certificate
+  std::string ca_file, cert_file, key_file;
+  bool insecure = false;     // listens beyond loopback without TLS
   bool log_requests = true;  // one line per call on stderr
 };
 

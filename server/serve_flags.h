@@ -8,7 +8,8 @@
 namespace patchmill {
 
 inline void AddServeFlags(CLI::App& app, ServerOptions& options) {
-  app.add_option("--listen", options.listen, "HOST:PORT; 0.0.0.0 opens it to the network")
+  app.add_option("--listen", options.listen,
+                 "HOST:PORT; 0.0.0.0 opens it to the network, with --cert and --key or with --insecure")
       ->capture_default_str();
   app.add_option("--threads", options.threads, "threads of one job; 0: all")
       ->check(CLI::Range(0, 64))
@@ -16,11 +17,17 @@ inline void AddServeFlags(CLI::App& app, ServerOptions& options) {
   app.add_option("--max-jobs", options.max_jobs, "jobs at once; more are refused")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  app.add_option("--max-in-flight-mib", options.max_in_flight_mib,
+                 "MiB of requests at once, on their way and in memory; more are refused")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
   app.add_option("--max-job-seconds", options.max_job_seconds, "longest a job may take, s")
       ->check(CLI::Range(1.0, 86400.0))
       ->capture_default_str();
   app.add_option("--cert", options.cert_file, "TLS certificate (PEM)");
   app.add_option("--key", options.key_file, "its key (PEM)");
+  app.add_flag("--insecure", options.insecure,
+               "listen beyond this machine without TLS: anybody may read and call");
   app.add_option("--ca", options.ca_file, "only clients with a certificate of this authority (PEM)");
 }
 

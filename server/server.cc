@@ -4,7 +4,8 @@
 #include <chrono>
 #include <csignal>
 #include <string>
-#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
@@ -16,6 +17,7 @@
 #include "core/base/keep_memory.h"
 #include "core/base/status.h"
 #include "server/limits.h"
+#include "server/listener.h"
 #include "server/services.h"
 #include "server/tls_files.h"
 
@@ -44,20 +46,41 @@ absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> Credentials(const Serve
 
 class GrpcServer final : public RunningServer {
  public:
-  GrpcServer(const ServerOptions& options, const std::shared_ptr<grpc::ServerCredentials>& credentials)
-      : env_(options), services_(MakeServices(&env_)) {
+  // Without a listener it serves its own process only.
+  GrpcServer(const ServerOptions& options, std::unique_ptr<Listener> listener,
+             const std::shared_ptr<grpc::ServerCredentials>& credentials)
+      : listener_(std::move(listener)),
+        env_(options, MeterOf(listener_.get())),
+        services_(MakeServices(&env_)) {
     grpc::EnableDefaultHealthCheckService(true);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
     grpc::ServerBuilder builder;
     builder.SetMaxReceiveMessageSize(static_cast<int>(limits::kMaxMessageBytes));
     builder.SetMaxSendMessageSize(static_cast<int>(limits::kMaxMessageBytes));
-    // One server a port: a second one must fail, not share the load unseen.
-    builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-    if (credentials) builder.AddListeningPort(options.listen, credentials, &port_);
+    builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits::kMaxCallsPerConnection);
+    builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 1000 * limits::kHandshakeSeconds);
+    // gRPC unpacks a message whole before it looks at its size: a thousand times what came is easily made.
+    for (const auto packed : {GRPC_COMPRESS_DEFLATE, GRPC_COMPRESS_GZIP}) {
+      builder.SetCompressionAlgorithmSupportStatus(packed, false);
+    }
+    std::shared_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
+    if (listener_) {
+      acceptor = builder.experimental().AddExternalConnectionAcceptor(
+          grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, credentials);
+    }
     for (const NamedService& service : services_) builder.RegisterService(service.service.get());
     server_ = builder.BuildAndStart();
     // Per-service names answer NOT_FOUND until they are set.
-    if (started()) SetServing(true);
+    if (!started()) return;
+    SetServing(true);
+    if (!listener_) return;
+    port_ = listener_->port();
+    listener_->Start([acceptor](int listening, int socket) {
+      grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
+      connection.listener_fd = listening;
+      connection.fd = socket;
+      acceptor->HandleNewConnection(&connection);
+    });
   }
   ~GrpcServer() override { Drain(0.0); }
 
@@ -76,6 +99,7 @@ class GrpcServer final : public RunningServer {
     drained_ = true;
     SetServing(false);
     env_.admission.Drain();
+    if (listener_) listener_->Stop();
     server_->Shutdown(std::chrono::system_clock::now() +
                       std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * seconds)));
     server_->Wait();
@@ -89,6 +113,12 @@ class GrpcServer final : public RunningServer {
     for (const NamedService& service : services_) health->SetServingStatus(service.name, serving);
   }
 
+  static ReceivedBytes MeterOf(Listener* listener) {
+    if (listener == nullptr) return {};
+    return [listener](const std::string& peer) { return listener->ReceivedBytes(peer); };
+  }
+
+  std::unique_ptr<Listener> listener_;
   ServerEnv env_;
   std::vector<NamedService> services_;
   std::unique_ptr<grpc::Server> server_;
@@ -96,34 +126,31 @@ class GrpcServer final : public RunningServer {
   bool drained_ = false;
 };
 
-// gRPC takes a port above 65535 for what is left of it by 65536, and 443 where there is none.
-absl::Status CheckPort(std::string_view listen) {
-  if (listen.substr(0, 4) == "unix") return absl::OkStatus();
-  const std::size_t colon = listen.rfind(':');
-  const std::string port(colon == std::string_view::npos ? "" : listen.substr(colon + 1));
-  const bool digits = !port.empty() && port.size() <= 5 &&
-                      std::all_of(port.begin(), port.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (digits && std::stoi(port) <= 65535) return absl::OkStatus();
-  return absl::InvalidArgumentError(
-      fmt::format("cannot listen on {}: must be HOST:PORT with a port of 0 to 65535", listen));
+// Anybody on the way reads what goes over the network without TLS, and anybody who reaches the port may call.
+absl::Status CheckEncrypted(const ServerOptions& options, const std::vector<SocketAddress>& addresses) {
+  const bool loopback = std::all_of(addresses.begin(), addresses.end(), IsLoopback);
+  if (loopback || options.insecure || !options.cert_file.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError(fmt::format(
+      "--listen {} opens the service to the network without TLS: give --cert and --key "
+      "(PEM files; --ca too, and only its clients may call), or --insecure where the network is trusted",
+      options.listen));
 }
 
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<RunningServer>> StartServer(const ServerOptions& options) {
-  PM_RETURN_IF_ERROR(CheckPort(options.listen));
+  PM_ASSIGN_OR_RETURN(const std::vector<SocketAddress> addresses, ResolveListenAddress(options.listen));
   PM_ASSIGN_OR_RETURN(const auto credentials, Credentials(options));
-  auto server = std::make_unique<GrpcServer>(options, credentials);
-  if (!server->started() || server->port() == 0) {
-    return absl::InvalidArgumentError(fmt::format(
-        "cannot listen on {}: not HOST:PORT, not an address of this machine, or taken", options.listen));
-  }
+  PM_RETURN_IF_ERROR(CheckEncrypted(options, addresses));
+  PM_ASSIGN_OR_RETURN(auto listener, Listener::Bind(addresses, options.listen, RaiseConnectionLimit()));
+  auto server = std::make_unique<GrpcServer>(options, std::move(listener), credentials);
+  if (!server->started()) return absl::InternalError("gRPC does not start");
   return server;
 }
 
 std::unique_ptr<RunningServer> StartEmbeddedServer(ServerOptions options) {
   options.log_requests = false;
-  auto server = std::make_unique<GrpcServer>(options, nullptr);
+  auto server = std::make_unique<GrpcServer>(options, nullptr, nullptr);
   PM_CHECK(server->started());
   return server;
 }

@@ -25,7 +25,8 @@ class RunningServer {
   virtual void Drain(double seconds) = 0;
 };
 
-// Listens on options.listen. INVALID_ARGUMENT for a bad address or unreadable TLS files.
+// Listens on options.listen. INVALID_ARGUMENT for a bad address, for unreadable TLS files, and for an address
+// beyond loopback with neither TLS nor options.insecure.
 absl::StatusOr<std::unique_ptr<RunningServer>> StartServer(const ServerOptions& options);
 
 // Serves this process only.

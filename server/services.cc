@@ -1,8 +1,8 @@
 #include "server/services.h"
 
 #include <chrono>
+#include <utility>
 
-#include <grpcpp/grpcpp.h>
 #include <spdlog/spdlog.h>
 
 #include "core/base/status.h"
@@ -11,15 +11,17 @@
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 #include "server/handlers/handlers.h"
 #include "server/limits.h"
+#include "server/parse_request.h"
+#include "server/raw_service.h"
 
 namespace patchmill {
 namespace {
 
-Call MakeCall(ServerEnv* env, grpc::ServerContext* context) {
+Call MakeCall(ServerEnv* env, const RawCall& raw) {
   Call call;
   call.env = env;
-  call.cancelled = [context] { return context->IsCancelled(); };
-  const auto deadline = context->deadline();
+  call.cancelled = [&raw] { return raw.Cancelled(); };
+  const auto deadline = raw.deadline();
   if (deadline != std::chrono::system_clock::time_point::max()) {
     call.deadline = RunContext::Clock::now() + (deadline - std::chrono::system_clock::now());
   }
@@ -34,114 +36,108 @@ std::string OneLine(std::string text) {
   return text;
 }
 
-// Admission, the handler, the status on the wire, one line in the log.
-template <class Body>
-grpc::Status Run(ServerEnv* env, grpc::ServerContext* context, const std::string& method, const Body& body) {
-  const auto begin = std::chrono::steady_clock::now();
-  const absl::Status status = [&]() -> absl::Status {
-    PM_ASSIGN_OR_RETURN(const Admission::Ticket ticket, env->admission.Enter());
-    return body(MakeCall(env, context));
-  }();
-  if (env->options.log_requests) {
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-    spdlog::info("{} {} {:.3f} s {} {}", method, absl::StatusCodeToString(status.code()), took.count(),
-                 context->peer(), OneLine(std::string(status.message())));
-  }
-  return ToGrpcStatus(status);
+void Log(const CallRecord& call) {
+  spdlog::info("{} {} {:.3f} s {} {}", call.label, absl::StatusCodeToString(call.status.code()), call.seconds,
+               call.peer, OneLine(std::string(call.status.message())));
 }
 
-template <class Response>
-Sink<Response> SinkOf(grpc::ServerWriter<Response>* writer) {
-  return [writer](const Response& response) { return writer->Write(response); };
+void LabelCall(const google::protobuf::Message&, RawCall&) {}
+void LabelCall(const v1::GenerateProgramRequest& request, RawCall& call) {
+  const std::string id = OneLine(request.request_id().substr(0, limits::kMaxRequestIdBytes));
+  if (!id.empty()) call.SetLabel("GenerateProgram [" + id + "]");
 }
 
-class ModelServiceImpl final : public v1::ModelService::Service {
+// Admission, counting and parsing, the handler. The request goes before the answer does.
+template <class Request, class Body>
+absl::Status Run(ServerEnv* env, RawCall& raw, const Body& body) {
+  PM_ASSIGN_OR_RETURN(const Admission::Ticket ticket, env->admission.Enter());
+  Request request;
+  PM_ASSIGN_OR_RETURN(const InFlight::Hold hold, ParseRequest(raw, env->in_flight, request));
+  LabelCall(request, raw);
+  return body(MakeCall(env, raw), request);
+}
+
+template <class Request, class Response>
+using UnaryHandler = absl::Status (*)(const Call&, const Request&, Response*);
+
+template <class Request, class Response>
+RawMethod Unary(ServerEnv* env, std::string path, UnaryHandler<Request, Response> handler) {
+  return {std::move(path), [env, handler](RawCall& raw) -> absl::Status {
+            Response response;
+            PM_RETURN_IF_ERROR(Run<Request>(env, raw, [&](const Call& call, const Request& request) {
+              return handler(call, request, &response);
+            }));
+            const std::size_t bytes = response.ByteSizeLong();
+            if (bytes > limits::kMaxMessageBytes) {
+              return LimitError("response_bytes", static_cast<double>(limits::kMaxMessageBytes),
+                                static_cast<double>(bytes));
+            }
+            return raw.Write(response) ? absl::OkStatus() : absl::CancelledError("the client is gone");
+          }};
+}
+
+template <class Request, class Response>
+using StreamHandler = absl::Status (*)(const Call&, const Request&, const Sink<Response>&);
+
+template <class Request, class Response>
+RawMethod Stream(ServerEnv* env, std::string path, StreamHandler<Request, Response> handler) {
+  return {std::move(path), [env, handler](RawCall& raw) {
+            const Sink<Response> sink = [&raw](const Response& response) { return raw.Write(response); };
+            return Run<Request>(env, raw, [&](const Call& call, const Request& request) {
+              return handler(call, request, sink);
+            });
+          }};
+}
+
+// Collects the methods of one service.
+class ServiceBuilder {
  public:
-  explicit ModelServiceImpl(ServerEnv* env) : env_(env) {}
-  grpc::Status CheckModel(grpc::ServerContext* context, const v1::CheckModelRequest* request,
-                          v1::CheckModelResponse* response) override {
-    return Run(env_, context, "CheckModel",
-               [&](const Call& call) { return HandleCheckModel(call, *request, response); });
+  ServiceBuilder(ServerEnv* env, const char* name) : env_(env), name_(name) {}
+
+  template <class Request, class Response>
+  ServiceBuilder& Add(const char* method, UnaryHandler<Request, Response> handler) {
+    methods_.push_back(Unary(env_, Path(method), handler));
+    return *this;
   }
-  grpc::Status BuildModel(grpc::ServerContext* context, const v1::BuildModelRequest* request,
-                          v1::BuildModelResponse* response) override {
-    return Run(env_, context, "BuildModel",
-               [&](const Call& call) { return HandleBuildModel(call, *request, response); });
+  template <class Request, class Response>
+  ServiceBuilder& Add(const char* method, StreamHandler<Request, Response> handler) {
+    methods_.push_back(Stream(env_, Path(method), handler));
+    return *this;
   }
-  grpc::Status EditModel(grpc::ServerContext* context, const v1::EditModelRequest* request,
-                         v1::EditModelResponse* response) override {
-    return Run(env_, context, "EditModel",
-               [&](const Call& call) { return HandleEditModel(call, *request, response); });
-  }
-  grpc::Status FairNet(grpc::ServerContext* context, const v1::FairNetRequest* request,
-                       v1::FairNetResponse* response) override {
-    return Run(env_, context, "FairNet",
-               [&](const Call& call) { return HandleFairNet(call, *request, response); });
-  }
-  grpc::Status FairCurve(grpc::ServerContext* context, const v1::FairCurveRequest* request,
-                         v1::FairCurveResponse* response) override {
-    return Run(env_, context, "FairCurve",
-               [&](const Call& call) { return HandleFairCurve(call, *request, response); });
+  NamedService Build() {
+    return {name_, MakeRawService(std::move(methods_), env_->in_flight,
+                                  env_->options.log_requests ? CallLog(Log) : CallLog())};
   }
 
  private:
+  std::string Path(const char* method) const { return std::string("/") + name_ + "/" + method; }
+
   ServerEnv* env_;
-};
-
-class AnalysisServiceImpl final : public v1::AnalysisService::Service {
- public:
-  explicit AnalysisServiceImpl(ServerEnv* env) : env_(env) {}
-  grpc::Status SplitRegions(grpc::ServerContext* context, const v1::SplitRegionsRequest* request,
-                            v1::SplitRegionsResponse* response) override {
-    return Run(env_, context, "SplitRegions",
-               [&](const Call& call) { return HandleSplitRegions(call, *request, response); });
-  }
-  grpc::Status TabulateReach(grpc::ServerContext* context, const v1::TabulateReachRequest* request,
-                             v1::TabulateReachResponse* response) override {
-    return Run(env_, context, "TabulateReach",
-               [&](const Call& call) { return HandleTabulateReach(call, *request, response); });
-  }
-  grpc::Status TraceLines(grpc::ServerContext* context, const v1::TraceLinesRequest* request,
-                          v1::TraceLinesResponse* response) override {
-    return Run(env_, context, "TraceLines",
-               [&](const Call& call) { return HandleTraceLines(call, *request, response); });
-  }
-  grpc::Status EvaluateSurface(grpc::ServerContext* context, const v1::EvaluateSurfaceRequest* request,
-                               v1::EvaluateSurfaceResponse* response) override {
-    return Run(env_, context, "EvaluateSurface",
-               [&](const Call& call) { return HandleEvaluateSurface(call, *request, response); });
-  }
-
- private:
-  ServerEnv* env_;
-};
-
-class ToolpathServiceImpl final : public v1::ToolpathService::Service {
- public:
-  explicit ToolpathServiceImpl(ServerEnv* env) : env_(env) {}
-  grpc::Status GenerateProgram(grpc::ServerContext* context, const v1::GenerateProgramRequest* request,
-                               grpc::ServerWriter<v1::GenerateProgramResponse>* writer) override {
-    const std::string id = OneLine(request->request_id().substr(0, limits::kMaxRequestIdBytes));
-    return Run(env_, context, id.empty() ? "GenerateProgram" : "GenerateProgram [" + id + "]",
-               [&](const Call& call) { return HandleGenerateProgram(call, *request, SinkOf(writer)); });
-  }
-  grpc::Status VerifyProgram(grpc::ServerContext* context, const v1::VerifyProgramRequest* request,
-                             grpc::ServerWriter<v1::VerifyProgramResponse>* writer) override {
-    return Run(env_, context, "VerifyProgram",
-               [&](const Call& call) { return HandleVerifyProgram(call, *request, SinkOf(writer)); });
-  }
-
- private:
-  ServerEnv* env_;
+  const char* name_;
+  std::vector<RawMethod> methods_;
 };
 
 }  // namespace
 
 std::vector<NamedService> MakeServices(ServerEnv* env) {
   std::vector<NamedService> services;
-  services.push_back({v1::ModelService::service_full_name(), std::make_unique<ModelServiceImpl>(env)});
-  services.push_back({v1::AnalysisService::service_full_name(), std::make_unique<AnalysisServiceImpl>(env)});
-  services.push_back({v1::ToolpathService::service_full_name(), std::make_unique<ToolpathServiceImpl>(env)});
+  services.push_back(ServiceBuilder(env, v1::ModelService::service_full_name())
+                         .Add("CheckModel", HandleCheckModel)
+                         .Add("BuildModel", HandleBuildModel)
+                         .Add("EditModel", HandleEditModel)
+                         .Add("FairNet", HandleFairNet)
+                         .Add("FairCurve", HandleFairCurve)
+                         .Build());
+  services.push_back(ServiceBuilder(env, v1::AnalysisService::service_full_name())
+                         .Add("SplitRegions", HandleSplitRegions)
+                         .Add("TabulateReach", HandleTabulateReach)
+                         .Add("TraceLines", HandleTraceLines)
+                         .Add("EvaluateSurface", HandleEvaluateSurface)
+                         .Build());
+  services.push_back(ServiceBuilder(env, v1::ToolpathService::service_full_name())
+                         .Add("GenerateProgram", HandleGenerateProgram)
+                         .Add("VerifyProgram", HandleVerifyProgram)
+                         .Build());
   return services;
 }
 

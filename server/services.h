@@ -1,4 +1,4 @@
-// The generated service classes, each method one call of its handler.
+// The services, each method one call of its handler.
 #pragma once
 
 #include <memory>

@@ -44,7 +44,7 @@ LinkMaker::LinkMaker(const Locator& locator, const Locator& stock_locator, const
       locator_(locator),
       stock_locator_(stock_locator),
       params_(params),
-      // T2: two free centres this far apart gouge at most the chord tolerance in between.
+      // [location T2]: two free centres this far apart gouge at most the chord tolerance in between.
       t2_length_(2.0 *
                  std::sqrt(std::max(0.0, 2.0 * locator.radius() * params.pass.chord_tolerance -
                                              params.pass.chord_tolerance * params.pass.chord_tolerance))),
@@ -88,7 +88,7 @@ bool LinkMaker::LeavesUnwanted(const Vec3& c) const {
 bool LinkMaker::StraightIsFree(const Vec3& a, const Vec3& b) const {
   if (!Allowed(a, b)) return false;
   // Passes in slots and holes that are a little too narrow end where nothing is free (cam/path/spot_passes):
-  // for links from there T2 promises nothing.
+  // for links from there [location T2] promises nothing.
   const double tolerance = params_.pass.chord_tolerance;
   if ((b - a).norm() <= t2_length_) return locator_.GougeWithin(a, b, kProven * tolerance, 0.02 * tolerance);
   return locator_.GougeWithin(a, b, tolerance, 0.1 * tolerance);

@@ -1,5 +1,5 @@
-// Safe ways from one place to another: straight, along the centre surface, or over the top (MACHINING A.1,
-// A.6, A.7; P3).
+// Safe ways from one place to another: straight, along the centre surface, or over the top
+// ([machining M1, M6, M7], [verification P3]).
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ class LinkMaker {
   // and in from beside the wall.
   void Approach(const CutterPoint& to, std::vector<Move>& moves) const;
   // Both; with low rapids no higher between them than where everything over the rectangle between the two
-  // places clears the stock (P3): controls may drive the axes of a rapid one after the other.
+  // places clears the stock ([verification P3]): controls may drive the axes of a rapid one after the other.
   std::vector<Move> Over(const CutterPoint& from, const CutterPoint& to) const;
 
   // A feed move of kind `kind` to `to`: plunge feed when it descends steeper than the limit.

@@ -1,4 +1,5 @@
-// Order, leads, links, rapids, feeds: passes -> one safe motion (MACHINING A.1, A.2, A.6, A.7, A.11; P3).
+// Order, leads, links, rapids, feeds: passes -> one safe motion ([machining M1, M2, M6, M7, M11],
+// [verification P3]).
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // The proof behind every search: what local searches alone cannot exclude is subdivided until hulls,
-// oriented boxes or convexity (ALGORITHMS T6) exclude it.
+// oriented boxes or convexity ([location T6]) exclude it.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -189,7 +189,8 @@ bool Locator::GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps
   if (limit >= radius) return true;  // no distance is below zero
   thread_local std::vector<std::int32_t> open;
   open.clear();
-  // A chord of two free centres is as deep as T2 says, or less: a 64th of the limit to spare is little.
+  // A chord of two free centres is as deep as [location T2] says, or less: a 64th of the limit to spare is
+  // little.
   const double spare = std::max({limit, eps, 1e-4 * radius}) / 64.0;
   if (!internal::CollectSweptLeaves(*impl_, a, b, radius - limit + impl_->slack, spare, open)) return false;
   if (open.empty()) return true;

@@ -22,7 +22,8 @@ struct HalfSpace {
   double offset = 0.0;
 };
 
-// The point of all half-spaces nearest to p, by Hildreth's method (1957); near it after the last sweep.
+// The point of all half-spaces nearest to p, by Hildreth's method [references: hildreth1957]; near it after
+// the last sweep.
 Vec3 NearestIn(const std::vector<HalfSpace>& all, const Vec3& p) {
   constexpr int kSweeps = 200;
   std::vector<double> push(all.size(), 0.0);

@@ -89,6 +89,15 @@ double KeepIn::MoveRoom(const Vec3& c) const {
   for (const Obstacle& o : containment_->obstacles) {
     room = std::min(room, ObstacleRoom(o, Tip(c), params_.tool_radius));
   }
+  return std::min(room, BesideRoom(*containment_, Tip(c)));
+}
+
+double KeepIn::RoomOfLimits(const Vec3& c) const {
+  double room = std::min(BoundaryRoom(*containment_, Plan(c), params_.ball_radius),
+                         TopRoom(*containment_, Tip(c).z()) + kTopSlack);
+  for (const Obstacle& o : containment_->obstacles) {
+    room = std::min(room, ObstacleRoom(o, Tip(c), params_.tool_radius));
+  }
   return room;
 }
 
@@ -108,6 +117,10 @@ std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q, double gap, dou
   for (const Obstacle& o : containment_->obstacles) {
     const bool beside = ObstacleRoom(o, Lift(q, -kInfinity), params_.tool_radius) >= 0.0;
     if (!beside) heights.lowest = std::max(heights.lowest, o.top_z + o.margin + r);
+  }
+  for (const BesideStrip& strip : containment_->beside) {
+    if (StripRoom(strip, Lift(q, -kInfinity)) < 0.0)
+      heights.lowest = std::max(heights.lowest, strip.lowest_tip_z + r);
   }
   if (avoided_locator_) {
     const auto height = avoided_locator_->Height(q, nullptr, gap);
@@ -129,17 +142,22 @@ std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q, double gap, dou
 double KeepIn::ClearHeight(const Vec2& a, const Vec2& b) const {
   constexpr double kFine = 0.1;  // mm
   double clear = -kInfinity;
-  for (const Obstacle& o : containment_->obstacles) {
-    const double beside = o.margin + params_.tool_radius;
+  // Some place of the outline lies within `beside` (mm) of the rectangle, as far as boxes tell.
+  const auto meets = [&](const Outline& outline, double beside) {
     const Vec2 low = a.cwiseMin(b).array() - beside, high = a.cwiseMax(b).array() + beside;
     Box3 box;
-    for (const Ring& ring : o.outline.rings()) {
+    for (const Ring& ring : outline.rings()) {
       for (const Vec2& p : ring) box.Add(Lift(p, 0.0));
     }
-    if (box.Empty() || (Plan(box.max).array() < low.array()).any() ||
-        (Plan(box.min).array() > high.array()).any())
-      continue;
-    clear = std::max(clear, o.top_z + o.margin + params_.ball_radius);
+    return !box.Empty() && (Plan(box.max).array() >= low.array()).all() &&
+           (Plan(box.min).array() <= high.array()).all();
+  };
+  for (const Obstacle& o : containment_->obstacles) {
+    if (meets(o.outline, o.margin + params_.tool_radius))
+      clear = std::max(clear, o.top_z + o.margin + params_.ball_radius);
+  }
+  for (const BesideStrip& strip : containment_->beside) {
+    if (meets(strip.area, 0.0)) clear = std::max(clear, strip.lowest_tip_z + params_.ball_radius);
   }
   if (avoided_locator_) {
     const double wider = params_.tool_radius - params_.ball_radius;

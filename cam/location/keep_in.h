@@ -43,6 +43,8 @@ class KeepIn {
   bool HasPart() const { return part_ != nullptr; }
   bool WantsAll() const { return part_ == nullptr && containment_->WantsAll(); }
   bool AllowsAll() const { return containment_->AllowsAll() && shanks_.empty(); }
+  // Something is forbidden beside the part.
+  bool HasBeside() const { return !containment_->beside.empty(); }
   // A shank wider than the ball may touch the surface from somewhere.
   bool HasShank() const { return !shanks_.empty(); }
 
@@ -62,6 +64,10 @@ class KeepIn {
   bool TooHigh(double center_z) const;
   // A finishing ball may be centred at c.
   bool Allows(const Vec3& c) const { return AllowsBall(c) && ShankClears(c, c, 0.0); }
+  // The same as if nothing were forbidden beside the part.
+  bool AllowsBesidePart(const Vec3& c) const {
+    return RoomOfLimits(c) >= 0.0 && ClearOfAvoided(c, c) && ShankClears(c, c, 0.0);
+  }
   // The same as if the shank were no wider than the ball.
   bool AllowsBall(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
   // Where in the column over q a finishing ball may be centred, to `gap` (mm); nothing outside a boundary.
@@ -73,7 +79,8 @@ class KeepIn {
   bool Forbids(const Vec3& c, double radius, double above) const;
   bool Forbids(const Vec3& c, double radius) const { return Forbids(c, radius, radius); }
   // Centre height from which on the tool may be anywhere over the rectangle with corners a and b and sides
-  // along x and y, as far as obstacles and avoided patches go; some mm more where obstacles have hollows.
+  // along x and y, as far as obstacles, avoided patches and what lies beside the part go; some mm more where
+  // obstacles have hollows.
   // -infinity: at any.
   double ClearHeight(const Vec2& a, const Vec2& b) const;
   // The centre may feed straight from a to b: every place of the move is allowed, up to half the tolerance.
@@ -83,9 +90,10 @@ class KeepIn {
  private:
   KeepIn() = default;
   Vec3 Tip(const Vec3& c) const { return c - Vec3(0.0, 0.0, params_.ball_radius); }
-  double MoveRoom(const Vec3& c) const;              // boundary and obstacles
-  double Room(const Vec3& c) const;                  // top_z too
-  bool HasRoom(const Vec3& a, const Vec3& b) const;  // boundary and obstacles
+  double MoveRoom(const Vec3& c) const;              // boundary, obstacles, beside the part
+  double RoomOfLimits(const Vec3& c) const;          // boundary, obstacles, top_z
+  double Room(const Vec3& c) const;                  // all of them
+  bool HasRoom(const Vec3& a, const Vec3& b) const;  // by MoveRoom
   bool ClearOfAvoided(const Vec3& a, const Vec3& b) const;
   bool ShankClears(const Vec3& a, const Vec3& b, double give) const;
   double Give() const { return 0.5 * params_.tolerance; }

@@ -1,5 +1,5 @@
 // A second-order model of a small parameter rectangle with proven bounds of what it leaves out: the convexity
-// test of ALGORITHMS T6 in a few dozen operations, without evaluating the surface.
+// test of [location T6] in a few dozen operations, without evaluating the surface.
 //
 // With local parameters x, y in [-1/2, 1/2]:  S = s + a x + b y + uu x^2/2 + uv x y + vv y^2/2 + rest.
 // For a centre c, f = 1/2 |S - c|^2 has the Hessian  S_i.S_j + (S - c).S_ij, which differs anywhere on the

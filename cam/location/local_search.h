@@ -1,4 +1,4 @@
-// Newton on one piece: raises the ball where the surface is in its way (ALGORITHMS 2.2, 2.3).
+// Newton on one piece: raises the ball where the surface is in its way ([location, section 7]).
 #pragma once
 
 #include "cam/location/leaf_model.h"

@@ -1,4 +1,4 @@
-// Exact cutter location for a ball (ALGORITHMS 2): the lowest centre height without gouge over a whole
+// Exact cutter location for a ball ([location]): the lowest centre height without gouge over a whole
 // Surface.
 //
 //   h(q) = max { p_z + sqrt(R^2 - |p_xy - q|^2) : p on the surface, |p_xy - q| <= R }
@@ -7,19 +7,20 @@
 // surface by its square root. Let U(z) be the ball at height z with everything above it, f(p) half the
 // squared distance of p from the upward ray of its centre; p is outside U(z) iff f >= R^2 / 2.
 //   - U(z) shrinks as z grows. A part of the surface proven outside U(z') for one z' <= z + gap is therefore
-//     outside U(z + gap); when every part is, h <= z + gap (T1). No derivative of h is used, so nothing fails
+// outside U(z + gap); when every part is, h <= z + gap ([location T1]). No derivative of h is used, so
+// nothing fails
 //     where h is steep or jumps, and the gap is one of heights, not one of f turned into heights.
 //   - Above the centre f measures in plan: f = 1/2 |p - c|^2 below its level, 1/2 |p_xy - c_xy|^2 above, once
 //     differentiable across it. On a part where both forms have positive definite Hessians f is convex, and a
-//     point that satisfies the KKT conditions is its only minimum (T6), wherever the level runs.
+//     point that satisfies the KKT conditions is its only minimum ([location T6]), wherever the level runs.
 //   - Every search, lanes included, divides the leaves that no such proof has closed until one does, or the
 //     gap is what was asked for (kProofGap): starts alone miss maxima (certificate_fuzz_test has them).
 //   - Proofs take f >= R (R/2 - d), d = 1e-12 of the scale, for outside: [z, z + gap] holds for the
 //     surface up to d, in heights up to d R / b, at most sqrt(2 R d), b the height of the centre above the
 //     contact.
 //
-// The whole surface counts: all kinds of patches, open edges, vertical walls, layers (T1). Thread-safe: const
-// methods only, scratch is thread-local.
+// The whole surface counts: all kinds of patches, open edges, vertical walls, layers ([location T1]).
+// Thread-safe: const methods only, scratch is thread-local.
 #pragma once
 
 #include <cstdint>

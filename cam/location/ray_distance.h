@@ -1,5 +1,5 @@
 // The ball with everything above it, seen from the surface: a point p lies in its way iff the distance from p
-// to the upward ray {c + s e_z, s >= 0} is less than R (ALGORITHMS T1).
+// to the upward ray {c + s e_z, s >= 0} is less than R ([location T1]).
 #pragma once
 
 #include <algorithm>

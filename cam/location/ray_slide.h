@@ -3,7 +3,7 @@
 //
 // Where a wall is steep, h says little about how far the ball is in the way: its contact, the highest one,
 // lies far up and its disc ends at once. The nearest point to the upward ray {c + s e_z, s >= 0} is the deep
-// one, and the distance to it is well conditioned for every slope (ALGORITHMS T1, section 3).
+// one, and the distance to it is well conditioned for every slope ([location T1], [location, section 10]).
 #pragma once
 
 #include "core/surface/surface.h"

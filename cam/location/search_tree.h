@@ -49,9 +49,9 @@ struct SearchTree {
   }
 };
 
-// Leaves are large where the distance to a centre resting there is proven convex (T6), and small where a ball
-// of this radius may rest without that proof. About 3 us a leaf, parallel, deterministic. CANCELLED and
-// DEADLINE_EXCEEDED from `run`.
+// Leaves are large where the distance to a centre resting there is proven convex ([location T6]), and small
+// where a ball of this radius may rest without that proof. About 3 us a leaf, parallel, deterministic.
+// CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius, const RunContext& run);
 
 }  // namespace patchmill::internal

@@ -5,7 +5,7 @@
 
 namespace patchmill::internal {
 
-// T2 with two distances: a point at least sqrt(d0) from one end of a segment of this length and sqrt(d1) from
+// [location T2a]: a point at least sqrt(d0) from one end of a segment of this length and sqrt(d1) from
 // the other is at least the square root of the returned value from all of it. Sharp. Proof: with its foot w
 // from the first end (inside the segment) the squared distance is at least max(d0 - w^2, d1 - (length -
 // w)^2), one falling, one rising in w: least where both are equal, or at an end; with the foot outside, an

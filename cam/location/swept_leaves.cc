@@ -31,7 +31,7 @@ class LeafProof {
         distance2_(distance * distance),
         spare2_(2.0 * distance * spare) {}
 
-  // The dearer bounds only where T2 does not get along with the cheaper ones of both ends.
+  // The dearer bounds only where [location T2a] does not get along with the cheaper ones of both ends.
   bool Out() {
     double d0 = BoxDistance2(a_), d1 = BoxDistance2(b_);
     if (ChordDistance2(d0, d1, length_) >= distance2_) return true;
@@ -47,7 +47,7 @@ class LeafProof {
   bool met() const { return met_; }  // a point of the leaf is nearer than `distance`
 
  private:
-  // At this distance of both ends T2 proves an interval.
+  // At this distance of both ends [location T2a] proves an interval.
   double Enough(double length) const { return distance2_ + 0.25 * length * length; }
 
   bool Out(double t0, double d0, double t1, double d1) {
@@ -113,7 +113,7 @@ class LeafProof {
 }  // namespace
 
 // A node is out of the way when its boxes are: in plan from the move's box or across the move, and below it;
-// or by T2 from both ends; or its half-space is, under both ends.
+// or by [location T2a] from both ends; or its half-space is, under both ends.
 bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b, double distance,
                         double spare, std::vector<std::int32_t>& open) {
   const double radius = impl.radius;

@@ -14,8 +14,8 @@ namespace patchmill::internal {
 //
 // Proof for a leaf: at centres on the move its distance is bounded from below by its oriented box, by its
 // second-order model (LeastOn), or from f and its slope near the minimum (LeastFrom, and where f is convex on
-// it, the tangent plane); between two centres by T2 (ChordDistance2). Intervals are halved until that
-// suffices, and no further than where T2 takes `spare` (mm) of the distance.
+// it, the tangent plane); between two centres by [location T2a] (ChordDistance2). Intervals are halved until
+// that suffices, and no further than where it takes `spare` (mm) of the distance.
 bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b, double distance,
                         double spare, std::vector<std::int32_t>& open);
 

@@ -28,6 +28,7 @@ std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& re
     const SurfaceJet jet = Evaluate(surface, rect.piece, uv[k].x(), uv[k].y());
     const auto normal = UnitNormal(jet);
     at.p[k] = jet.p;
+    at.air_side = jet.air_side;
     at.n[k] = normal ? *normal : UpwardNormalNear(surface, {rect.piece, uv[k].x(), uv[k].y(), jet.p});
     if (!normal && at.n[k].dot(at.n[8]) < 0.0) at.n[k] = -at.n[k];
     if ((at.n[k] - at.n[8]).norm() > kMostTurn) return std::nullopt;
@@ -67,6 +68,7 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
     // Looks down, or but for a strip of this share of the diameter.
     const double up = highest_normal + turn + kUprightFace;
     if (up < 0.0 || up * size < params.narrow * (highest_normal - lowest_normal)) continue;
+    if (up <= 2.0 * kUprightFace && sign * at.air_side < 0.0) continue;  // the back of a wall
     const double bend = BendOver(c);
     if (TooBent(c, size)) return false;
     if (highest_center + bend < params.floor_z - params.give) continue;

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "core/diffgeo/forms.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
@@ -17,12 +18,10 @@ struct SurfaceRect {
 // Nine places on a rectangle (u, v): 0..3 the corners, 4..7 the middles of the sides, 8 the middle.
 std::array<Vec2, 9> NineParameters(const SurfaceRect& rect);
 
-// |e_z| up to which both sides of a face count.
-inline constexpr double kUprightFace = 1e-6;
-
 // The surface there; normals are unit and all on one side of it.
 struct RectPlaces {
   std::array<Vec3, 9> p, n;
+  int air_side = 0;  // of upright places: 1 the side of n, -1 the other, 0 unknown (SurfaceJet)
 };
 // nullopt where the normals turn by more than 0.7 rad, or have no direction.
 std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& rect);

@@ -1,4 +1,4 @@
-// Certified bounds for a straight move of the ball centre (ALGORITHMS 2.1): closed forms, no surface
+// Certified bounds for a straight move of the ball centre ([location, section 3]): closed forms, no surface
 // evaluation.
 #pragma once
 
@@ -10,15 +10,15 @@
 
 namespace patchmill {
 
-// T2: two gouge-free centres `length` apart (mm) are joined by a chord that gouges at most this much.
-// `radius` when length > 2 radius: nothing is known there.
+// [location T2]: two gouge-free centres `length` apart (mm) are joined by a chord that gouges at most this
+// much. `radius` when length > 2 radius: nothing is known there.
 double ChordGouge(double radius, double length);
 
-// T2 along a move with more than its ends known: the largest gouge of the straight move a b when balls at all
-// of `free` (and everything above them) are free; in the order of the move, one at least, the first at or
-// below a, the last at or below b. Sharp for two. Proof: to a point x of the move at a free centre, or above
-// one, every surface point (and what hangs below it) has a distance of R, to any other R - |x - centre|;
-// between two such places T2 with two distances (ChordDistance2).
+// [location T2b]: a move with more than its ends known: the largest gouge of the straight move a b when balls
+// at all of `free` (and everything above them) are free; in the order of the move, one at least, the first at
+// or below a, the last at or below b. Sharp for two. Proof: to a point x of the move at a free centre, or
+// above one, every surface point (and what hangs below it) has a distance of R, to any other R - |x -
+// centre|; between two such places [location T2a] (ChordDistance2).
 double ChordGouge(double radius, const Vec3& a, const Vec3& b, std::span<const Vec3> free);
 
 // The longest chord with ChordGouge <= tolerance; tolerance clamped to [0, radius].
@@ -36,9 +36,10 @@ struct Support {
   }
 };
 
-// T3 in space: every point x of the chord a b is within the returned distance (mm) of touching one of the two
-// supports, whatever lies between. Exact for this pair up to the choice of one split point; both clearances
-// are convex along the chord, so their values at the ends and at the split bound them. May be negative.
+// [location T3] in space: every point x of the chord a b is within the returned distance (mm) of touching one
+// of the two supports, whatever lies between. Exact for this pair up to the choice of one split point; both
+// clearances are convex along the chord, so their values at the ends and at the split bound them. May be
+// negative.
 double ChordExcess(double radius, const Vec3& a, const Vec3& b, const Support& at_a, const Support& at_b);
 
 }  // namespace patchmill

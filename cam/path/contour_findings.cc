@@ -34,11 +34,8 @@ Diagnostics ContourFindings::Told() const {
                                ? fmt::format("contour at centre height {:.4f} mm", levels.highest)
                                : fmt::format("{} contours at centre heights from {:.4f} to {:.4f} mm",
                                              levels.count, levels.lowest, levels.highest);
-    Diagnostic& finding = findings.emplace_back();
-    finding.code = code;
-    finding.severity = severity;
-    finding.message = fmt::format("{}: {}", at, what);
-    finding.where.point = levels.where;
+    findings.push_back(
+        MakeDiagnostic(severity, code, fmt::format("{}: {}", at, what), {.point = levels.where}));
   };
   tell("CONTOUR_COARSE", Severity::kWarning, coarse_,
        fmt::format("a resolution of {:.4g} mm takes too many cells, {:.4g} mm is held: loops and holes below "

@@ -6,13 +6,12 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "cam/path/certify_centers.h"
 #include "cam/path/chord_thinning.h"
 #include "cam/path/contour_findings.h"
 #include "cam/path/contour_levels.h"
 #include "cam/path/contour_samples.h"
+#include "cam/path/counted_loop.h"
 #include "cam/path/level_grounds.h"
 #include "cam/path/level_heights.h"
 #include "cam/path/level_trace.h"
@@ -179,9 +178,7 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
     PM_ASSIGN_OR_RETURN(planned, PlanFamilies(grounds, params, radius, run));
   }
   if (planned.levels > kMostLevels) {
-    return absl::ResourceExhaustedError(
-        fmt::format("contours would need {} levels, more than {}: raise the scallop or the tool's radius",
-                    planned.levels, kMostLevels));
+    return TooManyLevels(static_cast<double>(planned.levels));
   }
   const std::vector<LevelFamily>& families = planned.families;
   std::vector<FamilyLevel> levels;
@@ -192,8 +189,10 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
   }
   const PassTracer tracer(context, grounds, planned, params, run);
   std::vector<LevelPasses> passes(levels.size());
-  PM_RETURN_IF_ERROR(
-      ParallelFor(run, "contours", levels.size(), [&](std::size_t i) { passes[i] = tracer.At(levels[i]); }));
+  PM_RETURN_IF_ERROR(CountedFor(run, "contours", levels.size(), params.budget, [&](std::size_t i) {
+    passes[i] = tracer.At(levels[i]);
+    return AmountOf(passes[i].paths);
+  }));
   PM_RETURN_IF_ERROR(run.Check());
   ContourResult result;
   ContourFindings findings(params.resolution);

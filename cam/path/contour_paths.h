@@ -1,4 +1,4 @@
-// Offset contours: level lines of the centre height h (ALGORITHMS 3, 11), spaced for the scallop.
+// Offset contours: level lines of the centre height h ([contours]), spaced for the scallop.
 #pragma once
 
 #include <vector>
@@ -19,8 +19,8 @@ struct ContourParams : PassParams {
 
 // One level c of h: the border between {h > c} (forbidden) and {h <= c}, as closed loops, material (forbidden
 // side) on the RIGHT of the motion (climb with M3). Vertices lie on the border to 1e-9 mm, corners between
-// two contacts are exact, chords are certified (T2 / two discs) to the chord tolerance on both sides. Nothing
-// is clipped yet.
+// two contacts are exact, chords are certified ([location T2] / two discs) to the chord tolerance on both
+// sides. Nothing is clipped yet.
 struct LevelContours {
   double z = 0.0;  // centre height actually used (a level at a flat moves up, by 3e-3 mm at most)
   std::vector<CutterPath> loops;
@@ -44,8 +44,8 @@ struct ContourResult {
 // in the window, partial levels where only a spot needs them, one level exactly at each flat, silhouette
 // bottom and lower end. A part of a loop is a pass where its contact lies in the slope window (dilated by
 // half a step along the loop), has z <= c, and is interior or lies on an edge or vertex with (c - p)/R inside
-// the normal cone there; all else is clipped with the clip points solved (ALGORITHMS 3, "which part of the
-// zero set is a pass"). Every centre is certified (CertifyCenters).
+// the normal cone there; all else is clipped with the clip points solved ([contours, section 6]).
+// Every centre is certified (CertifyCenters).
 absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const ContourParams& params,
                                            const RunContext& run);
 

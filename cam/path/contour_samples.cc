@@ -185,8 +185,7 @@ class PieceSampler {
     if (node.slope < params_.window.min || node.slope > params_.window.max + kAtLimit) return node;
     node.steep = true;
     node.reachable = Free(node.center);
-    // An upright wall has two sides.
-    const bool beyond = n->z() <= kUprightFace && Free(jet.p - radius * *n);
+    const bool beyond = HasTwoSides(jet, *n) && Free(jet.p - radius * *n);
     if (!node.reachable && beyond) {
       node.normal = -*n;
       node.turn = -node.turn;

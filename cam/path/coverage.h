@@ -1,5 +1,5 @@
-// Closing the loop on P2 while planning: where would passes leave more than the scallop, and what passes mend
-// it.
+// Closing the loop on [verification P2] while planning: where would passes leave more than the scallop, and
+// what passes mend it.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The curve of two contacts along a re-entrant crease (ALGORITHMS 2.4, pencil lines).
+// The curve of two contacts along a re-entrant crease ([spacing, section 7]).
 #pragma once
 
 #include <functional>
@@ -25,9 +25,9 @@ std::optional<CreasePoint> FindCrease(const Locator& locator, const Vec2& q, dou
 // Follows the crease from `seed` both ways (predictor along the curve of equal heights, Newton back onto it)
 // as long as `wanted` says so of the centres, through at most `patience` mm where it does not. Ends where a
 // third contact takes over, the two contacts merge, the curve turns upright or the sheet ends. Stations are
-// on the crease to 1e-9 mm in plan and joined by chords within the tolerance (T2, T3); unwanted tails are cut
-// off. May hold one station only. A crease that runs back to the seed is followed once: the last station is
-// the first.
+// on the crease to 1e-9 mm in plan and joined by chords within the tolerance ([location T2, T3]); unwanted
+// tails are cut off. May hold one station only. A crease that runs back to the seed is followed once: the
+// last station is the first.
 std::vector<LineStation> TraceCrease(const Locator& locator, const SheetBorder& border,
                                      const CreasePoint& seed, const PassParams& params, double patience,
                                      const std::function<bool(const Vec3&)>& wanted);

@@ -199,8 +199,8 @@ const std::vector<Support>& Funnel::SupportsAfter(std::size_t k) {
   return between.supports;
 }
 
-// Closed-form test of a chord against every support between its ends: excess proven (T3), gouge predicted
-// (proven afterwards).
+// Closed-form test of a chord against every support between its ends: excess proven ([location T3]), gouge
+// predicted (proven afterwards).
 bool Funnel::Fits(const ChordVertex& from, const ChordVertex& to) {
   const Vec3 a = Place(from), b = Place(to), way = b - a;
   const auto on_chord = [&](std::size_t k) -> Vec3 {
@@ -262,8 +262,9 @@ std::size_t Funnel::Farthest(const ChordVertex& from, std::size_t barrier) {
   return good;
 }
 
-// Of the chord between two vertices, given the centres a, b over them, `proven` or not: first by T2 along the
-// stations between, then by the surface. The chord runs nowhere farther below a b than its ends do.
+// Of the chord between two vertices, given the centres a, b over them, `proven` or not: first by
+// [location T2b] along the stations between, then by the surface. The chord runs nowhere farther below a b
+// than its ends do.
 bool Funnel::Gouges(const ChordVertex& from, const ChordVertex& to, const Vec3& a, const Vec3& b,
                     bool proven) {
   free_.assign(1, a);

@@ -44,12 +44,12 @@ struct ChordVertex {
 using ProvenCenter = std::function<Vec3(std::size_t)>;
 
 // Vertices: the first station, the last, all kept ones, and what else is needed. Neighbouring stations are
-// joined by chords within the limits already. Chord excess is proven by T3 on the stations' supports and
-// points of the surface between their contacts, gouge by T2 from the proven centres between or the swept
-// query; every chord touches the ground somewhere or comes within the excess of neighbouring stations to it,
-// so that it is nowhere lowered all along. Kept stations, ends and places on the floor stay where they are.
-// O(n) closed forms, a swept query per vertex or two. `run` is polled when set: cancelled, the vertices end
-// early.
+// joined by chords within the limits already. Chord excess is proven by [location T3] on the stations'
+// supports and points of the surface between their contacts, gouge by [location T2b] from the proven centres
+// between or the swept query; every chord touches the ground somewhere or comes within the excess of
+// neighbouring stations to it, so that it is nowhere lowered all along. Kept stations, ends and places on the
+// floor stay where they are. O(n) closed forms, a swept query per vertex or two. `run` is polled when set:
+// cancelled, the vertices end early.
 std::vector<ChordVertex> FewestChords(const Locator& locator, std::span<const ChordStation> stations,
                                       const ChordLimits& limits, const ProvenCenter& proven,
                                       const RunContext* run = nullptr);

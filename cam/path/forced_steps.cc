@@ -42,7 +42,7 @@ double NeededFineStep(const ForcedSteps& forced, const SurfaceJet& jet, const Ve
     const auto across = Across(forced, jet, side);
     return across ? across->seen * std::sqrt(std::max(0.0, 1.0 - across->kappa * radius)) : 0.0;
   };
-  return e.z() > kUprightFace ? needed(e) : std::max(needed(e), needed(-e));
+  return HasTwoSides(jet, e) ? std::max(needed(e), needed(-e)) : needed(e);
 }
 
 double LeftByStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
@@ -54,7 +54,7 @@ double LeftByStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& 
     const double step = fraction * CenterStep(radius, scallop, 0.0) / across->seen;
     return std::max(scallop, ScallopOfStep(radius, step, across->kappa));
   };
-  return e.z() > kUprightFace ? left(e) : std::min(left(e), left(-e));
+  return HasTwoSides(jet, e) ? std::min(left(e), left(-e)) : left(e);
 }
 
 bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const SurfaceRect& rect,
@@ -79,6 +79,8 @@ bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const 
       most = std::max(most, step[k].x());
     }
     if (highest_normal + turn < -kUprightFace) continue;  // looks down
+    // The back of a wall.
+    if (highest_normal + turn <= kUprightFace && sign * jets.back().air_side < 0.0) continue;
     if (most + BendOver(step) >= fraction) return false;
   }
   return true;
@@ -87,7 +89,7 @@ bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const 
 double NeededStepOfSides(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                          double scallop) {
   const double step = NeededStep(forced, jet, e, radius, scallop);
-  return e.z() > kUprightFace ? step : std::max(step, NeededStep(forced, jet, -e, radius, scallop));
+  return HasTwoSides(jet, e) ? std::max(step, NeededStep(forced, jet, -e, radius, scallop)) : step;
 }
 
 }  // namespace patchmill

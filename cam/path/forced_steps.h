@@ -15,15 +15,15 @@ struct ForcedSteps {
 
 // The step these passes need at a surface point, measured as they are spaced (level heights, or offsets of
 // lines in plan), as a fraction of the flat step: CenterStep across the feed times what the spacing sees of
-// it (ALGORITHMS 5: sin(slope) for levels, cos(phi) for lines). `e`: unit normal, e_z >= 0. 1 when nothing is
-// forced; 0 where no step will do (level ground under contours, ground as hollow as the ball).
+// it ([spacing (7), (8)]: sin(slope) for levels, cos(phi) for lines). `e`: unit normal, e_z >= 0. 1 when
+// nothing is forced; 0 where no step will do (level ground under contours, ground as hollow as the ball).
 double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                   double scallop);
 
 // The wider of what the two sides of an upright face need; elsewhere NeededStep.
 double NeededStepOfSides(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
                          double scallop);
-// The limit of NeededStepOfSides for small scallops, sqrt(1 - kappa R) times what is seen (ALGORITHMS 5): it
+// The limit of NeededStepOfSides for small scallops, sqrt(1 - kappa R) times what is seen ([regions (8)]): it
 // is off by some scallop / radius of itself.
 double NeededFineStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius);
 

@@ -84,7 +84,7 @@ class SpotFinder {
   bool Covered(const Vec3* hull, int count, const NearMove& move) const;
   bool CoveredByTwo(const Vec3* hull, int count, const Vec3& e, const NearMove& move) const;
   bool Asked(const SurfaceJet& jet, const Vec3& e) const;
-  std::optional<Vec3> ReachableSide(const Vec3& p, const Vec3& e) const;
+  std::optional<Vec3> ReachableSide(const SurfaceJet& jet, const Vec3& e) const;
   bool Wanted(const SurfacePoint& at) const {
     return params_.keep_in == nullptr || params_.keep_in->Wants(at);
   }
@@ -147,11 +147,12 @@ bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
   return NeededStepOfSides(params_.forced, jet, e, radius_, params_.scallop) >= params_.min_step_fraction;
 }
 
-// The normal of the side from which the point can be finished. Both sides of an upright face count.
-std::optional<Vec3> SpotFinder::ReachableSide(const Vec3& p, const Vec3& e) const {
-  for (const Vec3& n : {e, Vec3(-e)}) {
-    if (n.z() < -kUprightFace) continue;
-    const Vec3 c = p + radius_ * n;
+// The normal of the side from which the point can be finished.
+std::optional<Vec3> SpotFinder::ReachableSide(const SurfaceJet& jet, const Vec3& e) const {
+  const int sides = HasTwoSides(jet, e) ? 2 : 1;
+  for (int side = 0; side < sides; ++side) {
+    const Vec3 n = side == 0 ? e : Vec3(-e);
+    const Vec3 c = jet.p + radius_ * n;
     if (c.z() < lowest_center_ || !reach_.Free(c)) continue;
     if (params_.keep_in == nullptr || params_.keep_in->Allows(c)) return n;
   }
@@ -165,7 +166,7 @@ std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const Su
   const double leftover = std::min(nearest.distance - radius_, radius_);
   if (!(leftover > params_.limit && Asked(jet, e) && Wanted(at))) return std::nullopt;
   if (!TakenLeftLess(at.p, nearest)) return std::nullopt;
-  const auto side = ReachableSide(at.p, e);
+  const auto side = ReachableSide(jet, e);
   if (!side) return std::nullopt;
   Vec3 center = at.p + radius_ * *side;
   center.z() = std::max(center.z(), params_.floor_z + radius_);
@@ -206,6 +207,7 @@ SidesRuledOut SpotFinder::ForbiddenSides(const RectPlaces& places) const {
     }
     const double bend = BendOver(c);
     ruled_out[side] = highest_normal + turn < -kUprightFace ||
+                      (highest_normal + turn <= kUprightFace && sign * places.air_side < 0.0) ||
                       params_.keep_in->TooHigh(lowest_center - bend) ||
                       params_.keep_in->Forbids(c[8], spread + bend, highest_center - c[8].z() + bend);
   }
@@ -297,8 +299,8 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   const bool limited =
       params_.keep_in != nullptr && !(Wanted(at) && params_.keep_in->Allows(p + radius_ * e));
   const bool at_hand = near.segment >= 0 && near.distance < radius_ + kAtHand * flat_;
-  // Nobody asks for what is within ReachGive of a limit across the ground (docs/reach.md): of the sharpest
-  // corner the rest shows at the corners of rectangles of this size.
+  // Nobody asks for what is within ReachGive of a limit across the ground ([regions, section 6]): of the
+  // sharpest corner the rest shows at the corners of rectangles of this size.
   const double finest =
       limited && at_hand ? std::min(kLimit * flat_, ReachGive(params_.tolerance)) : kFinest * flat_;
   if (size < finest || depth >= kDeepest) {

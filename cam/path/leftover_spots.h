@@ -31,14 +31,14 @@ absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParam
 
 // Halves the rectangles given until each is proven covered (up to the limit and params.margin), proven out of
 // reach (OutOfReach), or stands for a spot: its middle exceeds the limit and is free for a ball of radius -
-// (1 + kReachMargin) ReachGive at p + R e, tip not below the floor (DESIGN 2). Of the two margins one always
-// holds at small rectangles. It ends at 0.2 % of the flat step; where no pass is near, the corners of such a
-// rectangle are asked too, so that islands of reach narrower than that are seen where they lie along one.
-// With params.taken only places count that those moves finished up to the limit and left less of.
-// With params.keep_in only wanted points at allowed centres are spots; along its limits the search ends at
+// (1 + kReachMargin) ReachGive at p + R e, tip not below the floor ([regions (6)]). Of the two margins one
+// always holds at small rectangles. It ends at 0.2 % of the flat step; where no pass is near, the corners of
+// such a rectangle are asked too, so that islands of reach narrower than that are seen where they lie along
+// one. With params.taken only places count that those moves finished up to the limit and left less of. With
+// params.keep_in only wanted points at allowed centres are spots; along its limits the search ends at
 // 5 % of the flat step.
 //   Covered: the distance of a hull to a segment is largest at its vertices, so a rectangle is covered when
-//   all its control points lie within R + limit of one move (for zero-weight points see ALGORITHMS 1).
+//   all its control points lie within R + limit of one move (for zero-weight points see [location T10]).
 // Deterministic, parallel. `trees`: all passes, in any number of trees.
 absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,
                                                     const std::vector<const SegmentTree*>& trees,

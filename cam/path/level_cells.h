@@ -1,4 +1,5 @@
-// Cells of one level that the contour may cross, each with the directions it can have there (T8a-T8c).
+// Cells of one level that the contour may cross, each with the directions it can have there
+// ([contours T8a, T8b, T8c]).
 #pragma once
 
 #include <cstdint>

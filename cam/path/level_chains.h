@@ -23,9 +23,9 @@ struct Chain {
   bool closed = true;
 };
 
-// Inside a cell with a cone the crossings are joined in their order along the contour (T8a); in an ambiguous
-// cell each free stretch of the rim is cut off on its own (the safe side). Loops always close, unless the
-// cells are those of passes only (`open`). Cost O(crossings).
+// Inside a cell with a cone the crossings are joined in their order along the contour ([contours T8a]); in an
+// ambiguous cell each free stretch of the rim is cut off on its own (the safe side). Loops always close,
+// unless the cells are those of passes only (`open`). Cost O(crossings).
 std::vector<Chain> BuildChains(const LevelCells& cells, const LevelEdges& edges, bool open = false);
 
 }  // namespace patchmill

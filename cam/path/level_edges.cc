@@ -7,7 +7,7 @@
 namespace patchmill {
 namespace {
 
-// mm: edges are not searched for pairs of crossings closer than this (ALGORITHMS 11).
+// mm: edges are not searched for pairs of crossings closer than this ([contours, section 7]).
 constexpr double kFinestEdge = 2e-4;
 // Items of the surface looked at for one edge. Where folds lie within microns of each other they are tens of
 // thousands for every stretch; such an edge is searched as coarsely as undecided cells are.

@@ -8,10 +8,9 @@
 #include <span>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "cam/path/cheapest_step.h"
 #include "cam/path/spacing.h"
+#include "core/base/error_details.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 
@@ -255,6 +254,11 @@ double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
 
 }  // namespace
 
+absl::Status TooManyLevels(double count) {
+  return LimitPassedError({"contour_level_count", static_cast<double>(kMostLevels), count},
+                          "contours need more levels; raise the scallop or the tool's radius");
+}
+
 absl::StatusOr<LevelPlan> LevelHeights(const ContourGround& ground, const HeightParams& params,
                                        const RunContext& run) {
   if (ground.samples.empty()) return LevelPlan{};
@@ -297,11 +301,7 @@ absl::StatusOr<LevelPlan> LevelHeights(const ContourGround& ground, const Height
     if (fewest < kInfinity) fewest_levels += fewest;
   }
   first.push_back(trials.size());
-  if (fewest_levels > static_cast<double>(kMostLevels)) {
-    return absl::ResourceExhaustedError(
-        fmt::format("contours would need {:.0f} levels, more than {}: raise the scallop or the tool's radius",
-                    fewest_levels, kMostLevels));
-  }
+  if (fewest_levels > static_cast<double>(kMostLevels)) return TooManyLevels(fewest_levels);
   const auto heights_of = [&](const Trial& trial) {
     return Divided(counts[trial.rule], stops[trial.stop], stops[trial.stop + 1], trial.gaps);
   };

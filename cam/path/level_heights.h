@@ -19,8 +19,9 @@ inline double ReachOfSpot(double spacing, double gap) { return 1.5 * spacing + 2
 // Flat steps: a longer gap between two levels has no ground in it.
 inline constexpr double kMostGap = 2.3;
 
-// More levels than this are refused.
+// More levels than this are refused: LimitPassedError of "contour_level_count".
 inline constexpr std::size_t kMostLevels = 50000;
+absl::Status TooManyLevels(double count);
 
 struct HeightParams {
   double radius = 3.0;     // mm, of the ball

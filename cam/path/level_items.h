@@ -1,10 +1,10 @@
 // The parts of the surface that can carry a contact of one level of h, as a tree that is opened on demand.
 //
 // At centre height c a surface point p forbids the disc |q - p_xy| < rho(p), rho = sqrt(R^2 - max(0, c -
-// p_z)^2). A point q of the contour touches some p with |q - p_xy| = rho(p) (T8b). On smooth ground the
-// contact rule of level_bounds.h holds there and (q, c) lies in the box of the part's centres; on an open
-// edge or a crease p lies on that curve, and only the distance counts, as it does where a ball may touch with
-// its equator.
+// p_z)^2). A point q of the contour touches some p with |q - p_xy| = rho(p) ([contours T8b]). On smooth
+// ground the contact rule of level_bounds.h holds there and (q, c) lies in the box of the part's centres; on
+// an open edge or a crease p lies on that curve, and only the distance counts, as it does where a ball may
+// touch with its equator.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ class LevelItems {
   static constexpr std::int32_t kRoot = -1;
 
   // Appends the parts of `candidates` that may be touched from the cell, opened until they are small enough
-  // for a cell of `width` (the rule of ALGORITHMS 11: about sqrt(width R)).
+  // for a cell of `width` ([contours (3)]).
   void Collect(const std::vector<std::int32_t>& candidates, const PlanCell& cell, double width,
                std::vector<std::int32_t>& out);
   // Is the cell covered by the disc of the candidate's middle point?

@@ -73,8 +73,8 @@ class LevelOracle {
 
   // From a point in the disc of a contact (or on its rim), straight along the unit vector `direction`: the
   // first point of the border. Every step is the exit from a disc that truly is forbidden, so no free stretch
-  // is skipped (ALGORITHMS 11); the disc is that of the deepest point of its branch, so that steep walls cost
-  // no more than gentle ground. Stops at `reach` (mm), which the caller knows to be free, at the latest.
+  // is skipped ([contours (4)]); the disc is that of the deepest point of its branch, so that steep walls
+  // cost no more than gentle ground. Stops at `reach` (mm), which the caller knows to be free, at the latest.
   LevelPoint Exit(const Vec2& start, const SurfacePoint& contact, const Vec2& direction, double reach) const;
 
   // How far a line is searched on both sides of its middle (mm). `crossed`: it is known to lead from

@@ -21,8 +21,8 @@ struct NormalCone {
 
 // Holds every normal of the net's surface; nothing tighter than everything where nothing is proven
 // (degenerate parametrisation, strongly bent nets). Directions of S_u and S_v lie in the cones of their
-// control vectors (for rational nets those of N_u w - N w_u), the cross product's cone follows (Sederberg and
-// Meyers 1988). Cost O(points) for polynomial nets, O(points^2) for rational ones.
+// control vectors (for rational nets those of N_u w - N w_u), the cross product's cone follows [references:
+// sederberg1988]. Cost O(points) for polynomial nets, O(points^2) for rational ones.
 NormalCone BoundNormals(const BernsteinNet& net);
 
 // The slopes of a cone's normals.

@@ -7,7 +7,7 @@
 
 namespace patchmill {
 
-// Sides of the finest cells to the resolution; 0.0125 mm for 0.1 mm, as ALGORITHMS 11 has it.
+// Sides of the finest cells to the resolution; 0.0125 mm for 0.1 mm, [contours, section 2].
 inline constexpr double kCellsPerResolution = 8.0;
 
 // What does not depend on the level. References are kept by those who use it; const after construction.

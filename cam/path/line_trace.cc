@@ -20,7 +20,7 @@ constexpr double kSwitchAccuracy = 1e-11;
 constexpr int kMaxIterations = 80;
 // Of what a chord between vertices and one between stations may be off, so that mostly neither fails.
 constexpr double kOfChord = 0.85, kOfExcess = 0.6;
-constexpr double kShortest = 0.125;  // of the chord that T2 allows, to begin with
+constexpr double kShortest = 0.125;  // of the chord that [location T2] allows, to begin with
 
 struct BranchPoint {
   double z = 0.0;
@@ -120,8 +120,9 @@ std::optional<double> LineTracer::Bend() const {
   return std::copysign(2.0 * ab.cross(ac).norm() / sides, over);
 }
 
-// The longest next chord whose T2 gouge and T3 excess are within their tolerances, as far as the bend tells.
-// A whole number of them makes a chord between vertices as long as that one may be (FewestChords).
+// The longest next chord whose [location T2] gouge and T3 excess are within their tolerances, as far as the
+// bend tells. A whole number of them makes a chord between vertices as long as that one may be
+// (FewestChords).
 double LineTracer::NextChord() const {
   const double gouge = params_.chord_tolerance, excess = std::min(gouge, params_.excess_tolerance);
   const double chord = LongestChord(radius_, 0.97 * gouge);

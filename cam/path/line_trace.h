@@ -1,6 +1,6 @@
 // The curve of h above a straight segment in plan, as stations dense enough that no feature hides between two
-// (ALGORITHMS 2.4): contact switches that no chord may pass over and vertical drops are solved, the rest is
-// sampled.
+// ([location, section 11]): contact switches that no chord may pass over and vertical drops are solved, the
+// rest is sampled.
 #pragma once
 
 #include <optional>
@@ -24,8 +24,8 @@ struct LineStation {
 };
 
 struct LineTraceParams {
-  double chord_tolerance = 0.005;       // mm, T2 and T3 between neighbouring stations
-  double excess_tolerance = kInfinity;  // mm, T3 between them, where that is less
+  double chord_tolerance = 0.005;       // mm, [location T2] and T3 between neighbouring stations
+  double excess_tolerance = kInfinity;  // mm, [location T3] between them, where that is less
   double floor_center = -kInfinity;     // mm, lowest centre height
   double certificate_gap = 0.0;         // mm: heights are certified to this; 0: not certified
   const RunContext* run = nullptr;      // polled when set: a cancelled trace is cut short
@@ -41,10 +41,10 @@ struct PlanLine {
   Vec2 At(double t) const { return start + t * direction; }
 };
 
-// Runs where h exists, in order of t. Neighbouring stations are joined by a chord with T2 gouge and T3 excess
-// within their tolerances, or are the two ends of a vertical drop (same t). Switches to 1e-10 mm in t, drops
-// and ends of runs to 1e-8 mm. One exact height per station, certified when asked for, a few branch
-// followings per switch.
+// Runs where h exists, in order of t. Neighbouring stations are joined by a chord with [location T2] gouge
+// and T3 excess within their tolerances, or are the two ends of a vertical drop (same t). Switches to 1e-10
+// mm in t, drops and ends of runs to 1e-8 mm. One exact height per station, certified when asked for, a few
+// branch followings per switch.
 std::vector<std::vector<LineStation>> TraceLine(const Locator& locator, const PlanLine& line,
                                                 const LineTraceParams& params);
 

@@ -62,7 +62,8 @@ class Clipper {
   // Judges one contact under the centre over q.
   Ground Judge(const Vec2& q, const SurfacePoint& contact) const {
     const std::optional<SurfacePoint> at = RestsOn(contact);
-    if (!at || !Holds(*at, OffContact(q, contact))) return Ground::kNone;
+    const Vec3 off = OffContact(q, contact);
+    if (!at || BehindWall(*at, off) || !Holds(*at, off)) return Ground::kNone;
     const double z = oracle_.z();
     const double cosine = std::max(0.0, (z - contact.p.z()) / oracle_.radius());
     const double slope = std::acos(std::min(1.0, cosine));
@@ -130,6 +131,12 @@ class Clipper {
     return std::nullopt;
   }
 
+  // The ball, in direction e, stands on the side of a wall that is not the air side.
+  bool BehindWall(const SurfacePoint& at, const Vec3& e) const {
+    const std::optional<Facing> facing = FacingAt(Evaluate(surface_, at.piece, at.u, at.v));
+    return facing && !facing->both && facing->e.z() <= kUprightFace && facing->e.dot(e) < 0.0;
+  }
+
   // May the ball rest on this surface point from direction e?
   bool Holds(const SurfacePoint& at, const Vec3& e) const {
     if (params_.roll) return true;
@@ -139,9 +146,9 @@ class Clipper {
       if (context_.sides.At(at.piece, side).kind != SideKind::kOpen) continue;
       const std::optional<Vec3> out = OutwardTangent(surface_, at.piece, side, side % 2 == 0 ? at.u : at.v);
       if (!out) continue;  // a collapsed side: the point of a cone or the pole of a dome
-      const std::optional<Vec3> up = UpwardNormal(Evaluate(surface_, at.piece, at.u, at.v));
-      if (!up) continue;
-      const Vec3 normal = up->dot(e) < 0.0 && up->z() < 1e-6 ? Vec3(-*up) : *up;
+      const std::optional<Facing> facing = FacingAt(Evaluate(surface_, at.piece, at.u, at.v));
+      if (!facing) continue;
+      const Vec3 normal = facing->both && facing->e.dot(e) < 0.0 ? Vec3(-facing->e) : facing->e;
       if (std::atan2(normal.cross(e).norm(), normal.dot(e)) <= kAtLimit) continue;
       const bool highest = out->z() > kRimRise && Plan(normal).dot(Plan(e)) >= 0.0;
       if (!highest) return false;

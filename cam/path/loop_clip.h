@@ -1,4 +1,4 @@
-// Which part of a contour is a pass (ALGORITHMS 3, MACHINING A.12).
+// Which part of a contour is a pass ([contours, section 6], [machining M12]).
 #pragma once
 
 #include <vector>

@@ -63,7 +63,7 @@ class Refiner {
     const Vec2 m = a.q + (std::floor(0.5 * parts) / parts) * (b.q - a.q);
     const Vec2 across(Vec2(a.q.y() - b.q.y(), b.q.x() - a.q.x()) / length);
     // Along a free direction a line crosses the graph in the cell, or in one of its bumps beyond an edge:
-    // these reach no farther than half the edge (T8c).
+    // these reach no farther than half the edge ([contours T8c]).
     for (int attempt = cell.Ambiguous() ? 2 : 0; attempt < 3; ++attempt) {
       const Vec2& direction = attempt < 2 ? cell.free : across;
       const double margin = attempt == 1 ? cell.bounds.half.x() : 0.0;
@@ -85,7 +85,7 @@ class Refiner {
     return (oracle_.Deepest(a.contact, b.q).p - b.contact.p).norm() < 1e-4 * oracle_.radius();
   }
 
-  // In the cell and not at an end; where it has a cone on the one graph that joins the ends (T8a).
+  // In the cell and not at an end; where it has a cone on the one graph that joins the ends ([contours T8a]).
   static bool Between(const Vec2& q, const Vec2& a, const Vec2& b, const ChainCell& cell) {
     const Vec2 off = (q - cell.bounds.mid).cwiseAbs() - cell.bounds.half;
     if (!((q - a).norm() > kApart && (q - b).norm() > kApart && off.maxCoeff() <= kApart)) return false;
@@ -112,8 +112,8 @@ class Refiner {
   std::vector<LevelPoint>& out_;
 };
 
-// Leaves out points where one chord serves: it is short enough for T2, and the ground below the points passed
-// over and between them bounds the excess.
+// Leaves out points where one chord serves: it is short enough for [location T2], and the ground below the
+// points passed over and between them bounds the excess.
 std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelPoint>& points, bool closed,
                              const LoopTolerance& tolerance) {
   constexpr std::size_t kMostSkipped = 24;

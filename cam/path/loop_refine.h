@@ -9,12 +9,12 @@
 namespace patchmill {
 
 struct LoopTolerance {
-  double gouge = 0.005;   // mm, of every chord (T2)
-  double excess = 0.005;  // mm, normal to the surface (two discs, as T3)
+  double gouge = 0.005;   // mm, of every chord ([location T2])
+  double excess = 0.005;  // mm, normal to the surface (two discs, as [location T3])
 };
 
 // What a straight move a b leaves at most above the contacts of its ends: min over the split of the larger
-// end cap (T3), closed form.
+// end cap ([location T3]), closed form.
 double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b);
 
 // Polyline of border points (closed when the chain is), forbidden side on the right, every chord within

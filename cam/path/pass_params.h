@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cam/toolpath/path_amount.h"
 #include "core/base/vec.h"
 
 namespace patchmill {
@@ -23,8 +24,10 @@ struct PassParams {
   double floor_z = -kInfinity;      // mm: the lowest TIP height; centres never go below floor_z + radius
   SlopeWindow window;               // passes cover contacts in here, dilated by half a step along the pass
   double min_step_fraction = 0.25;  // needs below this part of the flat step-over count as this part
-  // The ball rolls over every open border, not only over rims that are locally highest (MACHINING A.12).
+  // The ball rolls over every open border, not only over rims that are locally highest ([machining M12]).
   bool roll = false;
+  // Generators end with CheckAmount's error once what they make passes it.
+  PathBudget budget;
 };
 
 // What the chords of lines, contours and spirals may take away and leave, as parts of the scallop, so that

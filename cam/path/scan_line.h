@@ -1,5 +1,5 @@
-// One certified scan line of h (ALGORITHMS 2.4): the gouge-free curve of centres above a straight segment in
-// plan.
+// One certified scan line of h ([location, section 11]): the gouge-free curve of centres above a straight
+// segment in plan.
 #pragma once
 
 #include <span>
@@ -18,11 +18,11 @@ struct ScanRun {
   std::vector<CutterPoint> points;  // from a to b
 };
 
-// Certified chords: gouge <= chord_tolerance (T2), excess normal to the path <= chord_tolerance (T3); contact
-// switches that a chord may not pass over solved to 1e-9 mm and kept as vertices with both contacts; drops at
-// vertical walls and open borders placed to 1e-7 mm; flat runs merged by swept-ball queries. Heights are h
-// (or the floor, whichever is higher), certified and raised by their gap. `run` is polled when set: a
-// cancelled line is cut short, and of no use.
+// Certified chords: gouge <= chord_tolerance ([location T2]), excess normal to the path <= chord_tolerance
+// ([location T3]); contact switches that a chord may not pass over solved to 1e-9 mm and kept as vertices
+// with both contacts; drops at vertical walls and open borders placed to 1e-7 mm; flat runs merged by
+// swept-ball queries. Heights are h (or the floor, whichever is higher), certified and raised by their gap.
+// `run` is polled when set: a cancelled line is cut short, and of no use.
 std::vector<ScanRun> ScanLine(const Locator& locator, const Vec2& a, const Vec2& b, const PassParams& params,
                               const RunContext* run = nullptr);
 

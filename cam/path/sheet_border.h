@@ -1,4 +1,4 @@
-// Where a ball may go at the open edges of a sheet (MACHINING A.12).
+// Where a ball may go at the open edges of a sheet ([machining M12]).
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Step-over and z-step from the scallop height (ALGORITHMS 5): exact two-circle form, centre spacing.
+// Step-over and z-step from the scallop height ([spacing (1)-(4)]): exact two-circle form, centre spacing.
 #pragma once
 
 namespace patchmill {

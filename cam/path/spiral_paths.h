@@ -16,11 +16,11 @@ namespace patchmill {
 // open path with `spiral` set: the highest as it is, from there down turn by turn, the lowest as it is. Turn
 // k falls from level k to level k + 1 evenly with its length, so that two turns are nowhere farther apart
 // than the levels above and below them. Every vertex lies on the contour of its own height, solved as
-// contours are (LevelOracle::Exit), and every chord keeps params.chord_tolerance on both sides (T2; T3 on the
-// contacts of its ends). Where contours part, join or end, or a chord cannot be proven, they stay as they
-// are. The other paths come back unchanged, in their order; a spiral takes the place of its highest contour,
-// with its line. `backwards`: wound against the direction of the contours. Deterministic; cost of one exit a
-// vertex, parallel over the turns. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// contours are (LevelOracle::Exit), and every chord keeps params.chord_tolerance on both sides
+// ([location T2]; T3 on the contacts of its ends). Where contours part, join or end, or a chord cannot be
+// proven, they stay as they are. The other paths come back unchanged, in their order; a spiral takes the
+// place of its highest contour, with its line. `backwards`: wound against the direction of the contours.
+// Deterministic; cost of one exit a vertex, parallel over the turns. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<CutterPath>> SpiralPaths(const Locator& locator, std::vector<CutterPath> contours,
                                                     const PassParams& params, bool backwards,
                                                     const RunContext& run);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cam/path/chord_thinning.h"
+#include "cam/path/counted_loop.h"
 #include "cam/path/line_bends.h"
 #include "cam/path/line_clip.h"
 #include "cam/path/line_gaps.h"
@@ -92,13 +93,16 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
 
   std::vector<std::vector<ScanRun>> runs(parts.size());
   std::vector<char> closed(parts.size(), 0);
-  PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag", parts.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(CountedFor(run, "zigzag", parts.size(), params.budget, [&](std::size_t i) {
     const Part& part = parts[i];
     const LineShape& line = part.line->line;
     const std::vector<Vec2> places = frame.round() ? ArcPlaces(frame, line.At(part.t.begin), part.t, sagitta)
                                                    : PlacesOf(frame, line, part.t);
     runs[i] = ScanPolyline(locator, places, params, &run);
     if (places.front() == places.back()) closed[i] = CloseAround(CertificateGap(params), runs[i]);
+    PathAmount made;
+    for (const ScanRun& r : runs[i]) made += AmountOf(r.points);
+    return made;
   }));
   std::vector<CutterPath> paths;
   for (std::size_t i = 0; i < parts.size(); ++i) {

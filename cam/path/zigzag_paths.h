@@ -26,7 +26,7 @@ struct ZigzagParams : PassParams {
 
 // Lines cover every contact of the part whose slope lies in the window, each clipped to the window dilated by
 // half a step along the centre curve; lines end at a sheet's outer border and roll over rims and creases that
-// are locally highest (MACHINING A.12), and end above and below upright walls of more than two flat steps
+// are locally highest ([machining M12]), and end above and below upright walls of more than two flat steps
 // unless the window reaches them. Local narrow spots get partial lines; what needs steps below
 // min_step_fraction of the flat one gets those. Ordered by line, then along the line; every path runs in
 // +angle direction, up to its bend (linking turns them). Round lines: from the innermost outwards,

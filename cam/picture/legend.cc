@@ -1,7 +1,6 @@
 #include "cam/picture/legend.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -82,11 +81,12 @@ std::vector<std::size_t> RowsOf(const std::vector<PreviewRegion>& regions) {
 }
 
 void AddMoves(const PreviewInput& input, Legend& legend) {
-  std::array<bool, kMoveStyles.size()> used{};
+  EnumArray<MoveLine, bool> used{};
   for (std::size_t i = 1; i < input.toolpath->moves.size(); ++i)
-    used[StyleOf(input, input.toolpath->moves[i])] = true;
-  for (std::size_t k = 0; k < kMoveStyles.size(); ++k) {
-    if (used[k]) legend.Line(kMoveStyles[k].color, kMoveStyles[k].dash, kMoveStyles[k].name);
+    used[LineOf(input, input.toolpath->moves[i])] = true;
+  for (const MoveLine line : Enumerators<MoveLine>()) {
+    const MoveStyle& style = kMoveStyles[line];
+    if (used[line]) legend.Line(style.color, style.dash, style.name);
   }
 }
 

@@ -6,19 +6,40 @@
 
 namespace patchmill {
 
-std::size_t StyleOf(const PreviewInput& input, const Move& move) {
-  if (move.kind == MoveKind::kRapid) return kRapidStyle;
-  if (move.kind != MoveKind::kCut) return kLinkStyle;
-  const auto pass = static_cast<std::size_t>(std::max(0, move.pass));
-  return pass < input.pass_kinds.size() ? static_cast<std::size_t>(input.pass_kinds[pass]) : 0;
+namespace {
+
+MoveLine LineOf(PassKind kind) {
+  switch (kind) {
+    case PassKind::kZigzag:
+      return MoveLine::kZigzag;
+    case PassKind::kContour:
+      return MoveLine::kContour;
+    case PassKind::kBorder:
+      return MoveLine::kBorder;
+    case PassKind::kCrease:
+      return MoveLine::kCrease;
+    case PassKind::kRest:
+      return MoveLine::kRest;
+  }
+  return MoveLine::kZigzag;
 }
 
-void DrawMoves(const PreviewInput& input, const View& view, std::size_t style, double apart, SvgWriter& svg) {
+}  // namespace
+
+MoveLine LineOf(const PreviewInput& input, const Move& move) {
+  if (move.kind == MoveKind::kRapid) return MoveLine::kRapid;
+  if (move.kind != MoveKind::kCut) return MoveLine::kLink;
+  const auto pass = static_cast<std::size_t>(std::max(0, move.pass));
+  return pass < input.pass_kinds.size() ? LineOf(input.pass_kinds[pass]) : MoveLine::kZigzag;
+}
+
+void DrawMoves(const PreviewInput& input, const View& view, MoveLine line, double apart, SvgWriter& svg) {
   const Toolpath& path = *input.toolpath;
   const Vec3 tip(0, 0, -path.ball_radius);
-  const MoveStyle& s = kMoveStyles[style];
+  const MoveStyle& s = kMoveStyles[line];
+  const bool is_rapid = line == MoveLine::kRapid, is_cut = !is_rapid && line != MoveLine::kLink;
   svg.OpenGroup(fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-opacity=\"{}\"{}",
-                            s.color, style >= kLinkStyle ? 0.5 : 0.45, style == kRapidStyle ? 0.5 : 0.9,
+                            s.color, is_cut ? 0.45 : 0.5, is_rapid ? 0.5 : 0.9,
                             *s.dash ? fmt::format(" stroke-dasharray=\"{}\"", s.dash) : std::string()));
   std::vector<Vec2> points;
   const auto flush = [&] {
@@ -26,13 +47,13 @@ void DrawMoves(const PreviewInput& input, const View& view, std::size_t style, d
     points.clear();
   };
   for (std::size_t i = 1; i < path.moves.size(); ++i) {
-    if (StyleOf(input, path.moves[i]) != style) {
+    if (LineOf(input, path.moves[i]) != line) {
       flush();
       continue;
     }
     if (points.empty()) points.push_back(view(path.moves[i - 1].to + tip));
     const Vec2 q = view(path.moves[i].to + tip);
-    const bool last = i + 1 == path.moves.size() || StyleOf(input, path.moves[i + 1]) != style;
+    const bool last = i + 1 == path.moves.size() || LineOf(input, path.moves[i + 1]) != line;
     if (last || (q - points.back()).norm() >= apart) points.push_back(q);
   }
   flush();

@@ -1,35 +1,35 @@
 // The moves of a program in a view, by what they are for.
 #pragma once
 
-#include <array>
-
 #include "cam/picture/preview.h"
 #include "cam/picture/svg_writer.h"
 #include "cam/picture/view.h"
+#include "core/base/enum_array.h"
 
 namespace patchmill {
+
+// What a move is drawn as: a cut by the kind of its pass.
+enum class MoveLine { kZigzag, kContour, kBorder, kCrease, kRest, kLink, kRapid };
+constexpr MoveLine LastOf(MoveLine) { return MoveLine::kRapid; }
 
 struct MoveStyle {
   const char* name;
   const char* color;
   const char* dash;
+  bool operator==(const MoveStyle&) const = default;
 };
 
-// Those of cuts are pass kinds, in their order.
-inline constexpr std::array<MoveStyle, 7> kMoveStyles{{{"zig-zag passes", "#1f4e9c", ""},
-                                                       {"contour passes", "#9c2f1f", ""},
-                                                       {"border passes", "#5d7a00", ""},
-                                                       {"crease passes", "#7a1fa2", ""},
-                                                       {"rest passes", "#00796b", ""},
-                                                       {"links and leads", "#e09000", "2,1.5"},
-                                                       {"rapids", "#d0208f", "4,3"}}};
-inline constexpr std::size_t kRapidStyle = kMoveStyles.size() - 1, kLinkStyle = kRapidStyle - 1;
-static_assert(static_cast<std::size_t>(PassKind::kRest) + 1 == kLinkStyle);
+inline constexpr EnumArray<MoveLine, MoveStyle> kMoveStyles{{{{"zig-zag passes", "#1f4e9c", ""},
+                                                              {"contour passes", "#9c2f1f", ""},
+                                                              {"border passes", "#5d7a00", ""},
+                                                              {"crease passes", "#7a1fa2", ""},
+                                                              {"rest passes", "#00796b", ""},
+                                                              {"links and leads", "#e09000", "2,1.5"},
+                                                              {"rapids", "#d0208f", "4,3"}}}};
 
-// Which of them a move is drawn in.
-std::size_t StyleOf(const PreviewInput& input, const Move& move);
+MoveLine LineOf(const PreviewInput& input, const Move& move);
 
-// Moves of one style as polylines of tip positions, vertices closer than `apart` px dropped.
-void DrawMoves(const PreviewInput& input, const View& view, std::size_t style, double apart, SvgWriter& svg);
+// The moves that are drawn as `line`, as polylines of tip positions, vertices closer than `apart` px dropped.
+void DrawMoves(const PreviewInput& input, const View& view, MoveLine line, double apart, SvgWriter& svg);
 
 }  // namespace patchmill

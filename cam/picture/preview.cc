@@ -172,11 +172,10 @@ std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes) {
     const double apart =
         std::clamp(0.5 * 14.0 * vertices / std::max(1.0, static_cast<double>(left)), 0.6, 12.0);
     for (std::size_t k = 0; k < 2; ++k) {
-      // Rapids first, then links; cuts lie over them.
-      DrawMoves(input, panels[k].view, kRapidStyle, apart, svg);
-      DrawMoves(input, panels[k].view, kLinkStyle, apart, svg);
-      for (std::size_t style = 0; style < kLinkStyle; ++style)
-        DrawMoves(input, panels[k].view, style, apart, svg);
+      using enum MoveLine;  // rapids first, then links; cuts lie over them
+      for (const MoveLine line : {kRapid, kLink, kZigzag, kContour, kBorder, kCrease, kRest}) {
+        DrawMoves(input, panels[k].view, line, apart, svg);
+      }
     }
   }
   for (std::size_t k = 0; k < 2; ++k) {

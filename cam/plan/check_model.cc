@@ -31,22 +31,31 @@ absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optiona
   ModelCheck check;
   check.findings = surface.network.findings;
   check.box = TightBox(surface);
+  for (const PatchId id : surface.two_sided_walls) {
+    Diagnostic d;
+    d.code = "WALL_WITHOUT_SIDE";
+    d.severity = Severity::kWarning;
+    d.message =
+        "the patch stands upright, and nothing that it is joined to says which of its sides is air: both are "
+        "milled";
+    d.where.patch_index = id.value;
+    d.where.patch_id = surface.network.model.patches[id.index()].id;
+    check.findings.push_back(std::move(d));
+  }
   const ConcaveSpot spot = SmallestConcaveRadius(surface, run);
   PM_RETURN_IF_ERROR(run.Check());
   check.min_concave_radius = spot.radius;
   if (tool && spot.radius < BallRadius(*tool) - give) {
-    Diagnostic d;
-    d.code = "CONCAVE_RADIUS_BELOW_TOOL";
-    d.severity = Severity::kWarning;
-    d.message = fmt::format(
-        "smallest concave radius {:.4g} mm is below the ball radius {:.4g} mm: what lies there is left",
-        spot.radius, BallRadius(*tool));
     const Piece& piece = surface.piece(spot.at.piece);
-    d.where.patch_index = piece.patch.value;
-    d.where.patch_id = surface.network.model.patches[piece.patch.index()].id;
-    d.where.uv = NativeParameters(piece, spot.at.u, spot.at.v);
-    d.where.point = spot.at.p;
-    check.findings.push_back(std::move(d));
+    check.findings.push_back(MakeWarning(
+        "CONCAVE_RADIUS_BELOW_TOOL",
+        fmt::format(
+            "smallest concave radius {:.4g} mm is below the ball radius {:.4g} mm: what lies there is left",
+            spot.radius, BallRadius(*tool)),
+        {.patch_id = surface.network.model.patches[piece.patch.index()].id,
+         .patch_index = piece.patch.value,
+         .uv = NativeParameters(piece, spot.at.u, spot.at.v),
+         .point = spot.at.p}));
   }
   return check;
 }

@@ -12,12 +12,8 @@ namespace patchmill {
 namespace {
 
 Diagnostic Idle(std::string field, const char* setting, const char* why) {
-  Diagnostic d;
-  d.code = "SETTING_WITHOUT_EFFECT";
-  d.severity = Severity::kWarning;
-  d.message = fmt::format("{} has no effect: {}", setting, why);
-  d.where.field = std::move(field);
-  return d;
+  return MakeWarning("SETTING_WITHOUT_EFFECT", fmt::format("{} has no effect: {}", setting, why),
+                     {.field = std::move(field)});
 }
 
 constexpr char kAllContours[] = "everything is cut by contours";

@@ -12,6 +12,7 @@
 #include "cam/region/region_map.h"
 #include "cam/tool/containment.h"
 #include "cam/tool/tool.h"
+#include "cam/toolpath/path_amount.h"
 #include "cam/verify/verify.h"
 #include "core/network/patch_model.h"
 
@@ -31,7 +32,7 @@ struct ObstacleOutline {
 
 struct Setup {
   Placement placement;
-  // Exactly what MACHINING A.3 offers: a point of the placed model, or one of its box's named points.
+  // Exactly what [machining M3] offers: a point of the placed model, or one of its box's named points.
   enum class Zero { kPoint, kTopCenter, kBottomCorner };
   Zero zero = Zero::kPoint;
   Vec3 zero_point = Vec3::Zero();     // for kPoint, placed frame; default the model's own origin
@@ -49,6 +50,7 @@ struct Selection {
   std::vector<Ring> boundary;  // PROGRAM frame; empty: none
   BoundaryMode boundary_mode = BoundaryMode::kCenter;
   double boundary_offset = 0.0;  // mm, > 0 widens
+  bool mill_outside = false;     // upright walls on the outer border from outside (cam/plan/beside_part.h)
 };
 
 // A component of a region whose lines are circles.
@@ -123,8 +125,9 @@ struct Job {
   std::string dialect = "linuxcnc";
   std::string work_offset = "G54";
   std::vector<std::string> header;    // extra comment lines (request hash, version, model name)
-  bool default_cutting_data = false;  // the client used defaults: warn (MACHINING A.5)
-  bool unitless_file = false;         // warn when the extent looks wrong (A.14)
+  bool default_cutting_data = false;  // the client used defaults: warn ([machining M5])
+  bool unitless_file = false;         // warn when the extent looks wrong ([machining M14])
+  PathLimits path_limits;             // what passes may come to; the service has its own (server/limits.h)
   Diagnostics model_remarks;          // warnings from its reading, points as placed: they go into the report
 };
 

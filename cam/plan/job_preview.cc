@@ -33,10 +33,11 @@ std::string Color(const Region& region, int nth) {
       steep ? set(120, 185, 110) : set(205, 232, 195);
       break;
     case RegionKind::kUnreachable:
-      region.reason == UnreachableReason::kConcave ? set(150, 120, 165)
-      : region.reason == UnreachableReason::kFloor ? set(165, 150, 105)
-      : region.reason == UnreachableReason::kShank ? set(95, 145, 140)
-                                                   : set(120, 120, 120);
+      region.reason == UnreachableReason::kConcave   ? set(150, 120, 165)
+      : region.reason == UnreachableReason::kFloor   ? set(165, 150, 105)
+      : region.reason == UnreachableReason::kShank   ? set(95, 145, 140)
+      : region.reason == UnreachableReason::kOutside ? set(175, 175, 180)
+                                                     : set(120, 120, 120);
       break;
   }
   if (region.reason == UnreachableReason::kStrategy) set(245, 220, 90);

@@ -90,6 +90,7 @@ class PassMaker {
         base_(MakePassParams(job, resolved)),
         run_(run) {}
 
+  // What has been added so far counts against the limits of what is made next.
   absl::Status AddStrategies(const PlanPart& part, const std::vector<BorderCurve>& rims,
                              const KeepIn* keep_in, PlannedPasses& planned) {
     const RegionChoice& choice = part.choice;
@@ -99,8 +100,9 @@ class PassMaker {
       const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
       return ClipToKeepIn(locator_, *keep_in, std::move(of), reach, run_);
     };
+    base_.budget.made = AmountOf(planned.paths);
     if (choice.strategy != Strategy::kZigzag) {
-      PM_ASSIGN_OR_RETURN(paths, Contours(choice, planned.findings));
+      PM_ASSIGN_OR_RETURN(paths, Contours(choice, keep_in != nullptr, planned.findings));
       if (op_.spirals && keep_in != nullptr) {
         PM_ASSIGN_OR_RETURN(paths, ClipUnthinned(choice, std::move(paths), clip));
       } else {
@@ -110,6 +112,7 @@ class PassMaker {
     if (choice.strategy != Strategy::kContour) {
       ZigzagParams params;
       SetFinePass(choice, params);
+      params.budget.made += AmountOf(paths);
       params.window.max = choice.strategy == Strategy::kAuto ? split_angle_ : kPi / 2.0;
       params.angle = choice.zigzag_angle;
       params.max_bend = op_.zigzag_bend;
@@ -124,6 +127,7 @@ class PassMaker {
         params.where = round.where.get();
         params.around = round.around;
         PM_ASSIGN_OR_RETURN(std::vector<CutterPath> circles, ZigzagPaths(locator_, params, run_));
+        params.budget.made += AmountOf(circles);
         NumberAfter(lines, circles);
         Append(lines, std::move(circles));
       }
@@ -142,7 +146,7 @@ class PassMaker {
     }
     NumberAfter(planned.paths, paths);
     Append(planned.paths, std::move(paths));
-    return absl::OkStatus();
+    return CheckAmount(base_.budget.limits, AmountOf(planned.paths), "with lines and contours");
   }
 
   // Along the borders that end the lines of this choice: the edge of the surface, the floor, and ground that
@@ -199,8 +203,10 @@ class PassMaker {
 
   absl::Status AddRest(const RegionChoice& choice, const Locator& reach, const CoverageParams& params,
                        PlannedPasses& planned) const {
+    CoverageParams counted = params;
+    counted.budget.made = AmountOf(planned.paths);
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest,
-                        RestPaths(locator_, reach, planned.paths, params, run_));
+                        RestPaths(locator_, reach, planned.paths, counted, run_));
     TurnAlongWalls(choice, rest);
     TurnOneWay(choice, rest);
     Append(planned.paths, std::move(rest));
@@ -275,8 +281,10 @@ class PassMaker {
     return clipped;
   }
 
-  // Over all ground that is steep enough; parts that differ in their lines alone share them.
-  absl::StatusOr<std::vector<CutterPath>> Contours(const RegionChoice& choice, Diagnostics& findings) {
+  // Over all ground that is steep enough; parts that differ in their lines alone share them. When limits cut
+  // them off afterwards their length does not count yet; their points do, for they are held.
+  absl::StatusOr<std::vector<CutterPath>> Contours(const RegionChoice& choice, bool cut_off,
+                                                   Diagnostics& findings) {
     const bool all = choice.strategy == Strategy::kContour;
     if (const auto known = contours_.find({all, choice.scallop}); known != contours_.end()) {
       return known->second;
@@ -284,6 +292,7 @@ class PassMaker {
     ContourParams params;
     SetFinePass(choice, params);
     params.window.min = all ? 0.0 : split_angle_;
+    if (cut_off) params.budget.limits.length = kInfinity;
     PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
     DropCrumbs(CenterStep(locator_.radius(), choice.scallop, 0.0), contours.paths);
     // Spirals are made of contours as they are.
@@ -307,7 +316,7 @@ class PassMaker {
   const Locator& locator_;
   const Operation& op_;
   const double split_angle_;
-  const PassParams base_;
+  PassParams base_;
   const RunContext& run_;
   std::map<std::pair<bool, double>, std::vector<CutterPath>> contours_;
 };
@@ -322,6 +331,7 @@ PassParams MakePassParams(const Job& job, const Resolved& resolved) {
   // Generators hold the centre at floor + their own radius, which includes the stock to leave.
   p.floor_z = resolved.floor_z - job.operation.leave;
   p.roll = job.operation.edge_rule == EdgeRule::kRoll;
+  p.budget.limits = job.path_limits;
   return p;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cam/plan/main_directions.h"
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -90,7 +91,9 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
     return filled;
   };
   const auto attempt = [&](std::vector<Way> ways) -> absl::StatusOr<Tried> {
-    PM_ASSIGN_OR_RETURN(RegionTimes times, plan(with(ways)));
+    absl::StatusOr<RegionTimes> planned = plan(with(ways));
+    if (!planned.ok() && LimitPassedOf(planned.status())) planned = RegionTimes(choices.size(), kInfinity);
+    PM_ASSIGN_OR_RETURN(RegionTimes times, std::move(planned));
     const double sum = Sum(times);
     return Tried{std::move(ways), std::move(times), sum};
   };

@@ -16,7 +16,8 @@ namespace patchmill {
 using RegionTimes = std::vector<double>;
 RegionTimes TimesOf(const LinkResult& motion, std::size_t regions);
 
-// Plans a whole job with these choices, links and rest passes and all.
+// Plans a whole job with these choices, links and rest passes and all. One that passes the limits of passes
+// (LimitPassedError) is no choice, others may be.
 using TimePlan = std::function<absl::StatusOr<RegionTimes>(const std::vector<RegionChoice>& choices)>;
 
 inline constexpr int kQuickestAnglePlans = 20;  // at most

@@ -136,7 +136,7 @@ absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<Regio
                  if (NeededStepOfSides(ForcedOf(choice), jet, e, radius, choice.scallop) <
                      PassParams().min_step_fraction)
                    return;
-                 if (e.z() <= kUprightFace) {
+                 if (HasTwoSides(jet, e)) {
                    upright[id].Add(locator, jet, choice.scallop);
                  } else {
                    pieces[i] += jet.du.cross(jet.dv).norm() * PassesPerArea(jet, e, radius, choice.scallop);

@@ -5,6 +5,7 @@
 #include <absl/strings/numbers.h>
 #include <fmt/format.h>
 
+#include "cam/plan/beside_part.h"
 #include "cam/tool/reach_give.h"
 #include "core/base/error_details.h"
 #include "core/base/status.h"
@@ -63,7 +64,9 @@ Outline Shifted(const std::vector<Ring>& rings, const Vec3& by) {
   return Outline(moved);
 }
 
-absl::StatusOr<Containment> ResolveContainment(const PatchModel& model, const Job& job, const Vec3& zero) {
+absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job& job, const Vec3& zero,
+                                               const RunContext& run) {
+  const PatchModel& model = surface.network.model;
   const Selection& selection = job.operation.selection;
   Containment c;
   PM_ASSIGN_OR_RETURN(c.selected, FindPatches(model, selection.patches, "patch_ids"));
@@ -76,12 +79,18 @@ absl::StatusOr<Containment> ResolveContainment(const PatchModel& model, const Jo
   for (const ObstacleOutline& o : job.setup.obstacles) {
     c.obstacles.push_back({o.id, Shifted({o.outline}, zero), o.top_z + zero.z(), o.margin});
   }
+  PM_ASSIGN_OR_RETURN(c.beside, FindBesideStrips(surface,
+                                                 {.radius = BallRadius(job.operation.tool),
+                                                  .tolerance = job.operation.tolerance,
+                                                  .mill_outside = selection.mill_outside,
+                                                  .selected = c.selected},
+                                                 run));
   return c;
 }
 
 }  // namespace
 
-absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
+absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const RunContext& run) {
   Resolved r;
   r.box = TightBox(surface);
   switch (job.setup.zero) {
@@ -114,7 +123,7 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job) {
                                   r.stock_top_z - zero_z, top - zero_z));
   }
   r.floor_z = op.floor_z ? *op.floor_z + zero_z : r.box.min.z();
-  PM_ASSIGN_OR_RETURN(r.containment, ResolveContainment(surface.network.model, job, r.program_zero));
+  PM_ASSIGN_OR_RETURN(r.containment, ResolveContainment(surface, job, r.program_zero, run));
   double highest = std::max(top, r.stock_top_z);
   for (const Obstacle& o : r.containment.obstacles) highest = std::max(highest, o.top_z + o.margin);
   r.clearance_z = op.clearance_z ? *op.clearance_z + zero_z

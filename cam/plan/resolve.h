@@ -8,7 +8,7 @@
 
 namespace patchmill {
 
-// The tolerance is the whole budget (MACHINING A.8).
+// The tolerance is the whole budget ([machining M8]).
 struct Budget {
   double chord = 0.0;        // straight moves against the exact path
   double rounding = 0.0;     // four decimals need 5e-5 mm
@@ -34,8 +34,8 @@ struct Resolved {
 };
 
 // INVALID_ARGUMENT when heights contradict each other (clearance below model, stock or obstacles, stock top
-// below the model), and for patches that the model does not have.
-absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job);
+// below the model), and for patches that the model does not have. CANCELLED and DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const RunContext& run);
 
 // By what a program of this job is judged; `parts` as PartsOf gives them (cam/plan/region_choices.h), empty:
 // one.

@@ -9,6 +9,7 @@
 
 #include "cam/location/keep_in.h"
 #include "cam/path/scan_line.h"
+#include "cam/plan/beside_depth.h"
 #include "cam/plan/forced_ground.h"
 #include "cam/plan/idle_settings.h"
 #include "cam/plan/plan.h"
@@ -21,6 +22,7 @@
 #include "cam/post/program_reader.h"
 #include "cam/tool/reach_give.h"
 #include "cam/tool/wide_shank.h"
+#include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"
 
@@ -110,7 +112,7 @@ Diagnostic Warning(std::string code, std::string message) {
   return d;
 }
 
-// What the machinist must know before pressing start (MACHINING A.1, A.5, A.9, A.14).
+// What the machinist must know before pressing start ([machining M1, M5, M9, M14]).
 Diagnostics Assumptions(const Job& job, const Resolved& r) {
   Diagnostics list;
   const double zero_z = r.program_zero.z();
@@ -152,6 +154,24 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
   return list;
 }
 
+// Where the tool goes down beside the part, if it does anywhere.
+absl::StatusOr<Diagnostics> BesidePart(const Surface& surface, const Toolpath& toolpath, const Resolved& r,
+                                       const RunContext& run) {
+  Diagnostics found;
+  PM_ASSIGN_OR_RETURN(const std::optional<BesideDepth> deepest,
+                      DeepestBeside(surface, toolpath, r.box.max.z(), run));
+  if (!deepest) return found;
+  const Vec3 tip = deepest->tip - r.program_zero;
+  found.push_back(Warning(
+      "TOOL_BESIDE_PART",
+      fmt::format(
+          "the tool goes down beside the part to Z{:.4f} at X{:.4f} Y{:.4f}, {:.3f} mm below the part's "
+          "top: nothing may stand there",
+          tip.z(), tip.x(), tip.y(), deepest->below_top)));
+  found.back().where.point = deepest->tip;
+  return found;
+}
+
 std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnostics& assumptions) {
   std::vector<std::string> lines = job.header;
   lines.push_back(
@@ -179,9 +199,29 @@ absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
                    run);
 }
 
+// Ends a job that certainly passes the limit before its passes are made. Those may leave a little more than
+// the scallop (pass_params.h), and LeastFeed is a sum over samples: by so much it must be above the limit.
+absl::Status CheckLeastFeed(const PathLimits& limits, double least_feed) {
+  constexpr double kSure = 1.1;
+  if (!(least_feed > kSure * limits.length)) return absl::OkStatus();
+  return LimitPassedError(
+      {"cut_length_mm", limits.length, least_feed},
+      "no passes of this finish are shorter; raise the scallop or the tool's diameter, or "
+      "cut the part in pieces (selection)");
+}
+
+// A program has the points and the feed of its links too.
+absl::Status CheckMotion(const PathLimits& limits, const LinkResult& linked) {
+  return CheckAmount(
+      limits,
+      {linked.stats.cut_length + linked.stats.link_length, static_cast<double>(linked.toolpath.moves.size())},
+      "with their links");
+}
+
 // Names what forbids most of what is wanted, and what to look at first.
+// `reached`: mm2, too little to be cut (VerifyReport::NothingToFinish); 0: there are no passes at all.
 Diagnostic NothingToCut(std::span<const Region> regions, std::span<const RegionChoice> choices,
-                        const Resolved& resolved, bool limited) {
+                        const Resolved& resolved, bool limited, double reached) {
   double all = 0.0, off = 0.0, on = 0.0, avoided = 0.0, shank = 0.0;
   for (const Region& region : regions) {
     const double wanted = region.wanted_share * region.area;
@@ -213,17 +253,23 @@ Diagnostic NothingToCut(std::span<const Region> regions, std::span<const RegionC
   std::string look = limited ? scale + ", then " + limits : scale;
   if (avoided >= 0.5 * all) look = limits + ", then " + scale;
   if (shank > 0.5 * all) look = "the length of flutes and the shank, then " + scale;
-  return Warning(
-      "NOTHING_TO_CUT",
-      fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm{}: check {}",
-                  limited ? "that is wanted" : "of the model", 2.0 * resolved.radius, shares, look));
+  const char* of = limited ? "that is wanted" : "of the model";
+  const std::string what =
+      reached > 0.0
+          ? fmt::format(
+                "a ball of diameter {:.4g} mm reaches {:.3g} of {:.3g} mm2 {}, less than a square of "
+                "its step-over",
+                2.0 * resolved.radius, reached, all, of)
+          : fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm", of,
+                        2.0 * resolved.radius);
+  return Warning("NOTHING_TO_CUT", fmt::format("{}{}: check {}", what, shares, look));
 }
 
 }  // namespace
 
 absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
-  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
   PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
   PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
   PM_RETURN_IF_ERROR(
@@ -248,7 +294,7 @@ absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Too
 
 absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
-  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
   JobResult result;
   JobReport& report = result.report;
   StageClock clock(report.stages);
@@ -278,6 +324,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
 
   PM_ASSIGN_OR_RETURN(const Locator locator, Locator::Make(surface, resolved.plan_radius, run));
   PM_ASSIGN_OR_RETURN(report.least_feed, LeastFeed(locator, report.choices, resolved, run, result.regions));
+  PM_RETURN_IF_ERROR(CheckLeastFeed(job.path_limits, report.least_feed));
   if (job.operation.angle_auto) {
     const auto time = [&](const std::vector<RegionChoice>& choices) -> absl::StatusOr<RegionTimes> {
       const std::vector<PlanPart> tried = PartsOf(result.regions, choices);
@@ -309,16 +356,24 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   }
   report.certificate_defects = locator.defect_count();
   clock.Done("passes");
-  if (planned.paths.empty()) {
+  const auto nothing = [&](double reached) -> JobResult&& {
     report.outcome = Outcome::kNothingToCut;
-    report.diagnostics.push_back(NothingToCut(report.regions, report.choices, resolved, limits != nullptr));
-    return result;
-  }
+    report.diagnostics.push_back(
+        NothingToCut(report.regions, report.choices, resolved, limits != nullptr, reached));
+    report.motion = {};
+    report.point_count = 0;
+    result.motion = {};
+    return std::move(result);
+  };
+  if (planned.paths.empty()) return nothing(0.0);
 
   PM_ASSIGN_OR_RETURN(result.motion, Link(locator, result.regions, report.choices, parts, job, resolved,
                                           limits, std::move(planned.paths), run));
+  PM_RETURN_IF_ERROR(CheckMotion(job.path_limits, result.motion));
   report.motion = result.motion.stats;
   report.point_count = static_cast<int>(result.motion.toolpath.moves.size());
+  PM_ASSIGN_OR_RETURN(const Diagnostics beside, BesidePart(surface, result.motion.toolpath, resolved, run));
+  report.diagnostics.insert(report.diagnostics.end(), beside.begin(), beside.end());
   clock.Done("link");
 
   PostParams post;
@@ -328,13 +383,19 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   post.zero_name = resolved.zero_name;
   post.controller_tolerance = resolved.budget.controller;
   post.clearance_z = resolved.clearance_z;
-  post.header = Header(job, resolved, assumptions);
+  Diagnostics head = assumptions;
+  head.insert(head.end(), beside.begin(), beside.end());
+  post.header = Header(job, resolved, head);
   PM_ASSIGN_OR_RETURN(std::string program, WriteProgram(result.motion.toolpath, job.operation.tool, post));
   clock.Done("post");
 
-  PM_ASSIGN_OR_RETURN(report.verify, VerifyProgramText(surface, job.operation.tool, program,
-                                                       MakeVerifyParams(job, resolved, parts), run));
+  // As many moves as were written: CheckMotion has bounded them.
+  const std::size_t most_moves = std::max(ReaderParams().max_moves, 2 * result.motion.toolpath.moves.size());
+  PM_ASSIGN_OR_RETURN(const ProgramMotion read, ReadProgram(program, {.max_moves = most_moves, .run = &run}));
+  PM_ASSIGN_OR_RETURN(report.verify,
+                      Verify(surface, job.operation.tool, read, MakeVerifyParams(job, resolved, parts), run));
   clock.Done("verify");
+  if (report.verify.NothingToFinish()) return nothing(report.verify.reachable_area);
   const std::optional<double>& stickout = job.operation.tool.stickout;
   if (stickout && *stickout < report.verify.required_stickout) {
     report.diagnostics.push_back(Warning(

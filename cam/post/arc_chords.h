@@ -23,7 +23,7 @@ struct ArcChords {
 
 // A helix or spiral with linear rise and radius; equal ends in the plane are a full circle. `chord_error` >
 // 0, mm. INVALID_ARGUMENT when the radii at both ends differ by more than 0.005 mm and by more than 0.1 %
-// (the strictest usual control, PEERS d.1), by more than 0.5 mm, or when the radius vanishes;
+// (the strictest usual control, [machining M19]), by more than 0.5 mm, or when the radius vanishes;
 // RESOURCE_EXHAUSTED for more than `max_chords`.
 absl::StatusOr<ArcChords> ChordArc(const PlaneArc& arc, double chord_error, std::size_t max_chords);
 

@@ -1,4 +1,4 @@
-// What differs between controls, as data (PEERS d.1).
+// What differs between controls, as data ([machining, section 5]).
 #pragma once
 
 #include <string>

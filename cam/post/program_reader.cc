@@ -44,7 +44,9 @@ class Interpreter {
   absl::Status Arc(const BlockModes& block);
   // Remarks what the program leaves open, once each, when it first counts.
   void NoteAssumptions(ProgramMove::Kind kind, bool below);
-  void Note(const char* code, const std::string& message);
+  void Note(const char* code, const std::string& message) { NoteAt(line_, code, message); }
+  void NoteAt(int line, const char* code, const std::string& message);
+  void SetFeed(const BlockModes& block);
   // Where the axis words lead to. Axes whose place is not known yet start where they are first sent.
   absl::StatusOr<Vec3> Target(const BlockModes& block);
   absl::Status TooMany() const {
@@ -65,8 +67,10 @@ class Interpreter {
   bool anywhere_ = false;  // X or Y of at_ was not known before this line
   bool above_ = true;      // at machine zero, or at a Z that nothing has told yet
   double feed_ = 0.0;
+  int feed_line_ = 0;             // of the F in force
+  bool feed_unit_stated_ = true;  // its unit was in force by G20 or G21
   double smoothing_ = 0.0;
-  bool unit_stated_ = false, distance_stated_ = false, path_stated_ = false;
+  bool unit_stated_ = false, distance_stated_ = false, path_stated_ = false, arc_stated_ = false;
   int length_of_ = -1;  // H of the last G43; -1: none
   int tool_ = -1, loaded_ = -1;
   int work_offset_ = 0;   // 0: none named yet
@@ -76,6 +80,8 @@ class Interpreter {
   double speed_ = 0.0;  // 1/min; that of RS274 before any S
   bool spindle_on_ = false, reversed_ = false, coolant_on_ = false, ended_ = false;
 };
+
+double UnitOf(int units_code) { return units_code == 200 ? kInch : 1.0; }  // mm
 
 bool HasAxis(const BlockModes& block) { return block['X'] || block['Y'] || block['Z']; }
 bool HasCenter(const BlockModes& block) { return block['I'] || block['J'] || block['K'] || block['R']; }
@@ -150,11 +156,25 @@ absl::Status Interpreter::SetOffsets(const BlockModes& block) {
   return absl::OkStatus();
 }
 
+// A control takes F before G20 and G21 of the same line: it counts in the unit in force before them
+// (RS274/NGC, order of execution; so does LinuxCNC's interpreter).
+void Interpreter::SetFeed(const BlockModes& block) {
+  if (!block['F']) return;
+  feed_ = *block['F'] * unit_;
+  feed_line_ = line_;
+  feed_unit_stated_ = unit_stated_;
+  if (!unit_stated_ || !block.units || UnitOf(*block.units) == unit_) return;
+  Note("FEED_IN_UNIT_BEFORE",
+       fmt::format("F{:g} is on the line of G{} and counts in the unit in force before it: {:.6g} mm/min",
+                   *block['F'], *block.units / 10, feed_));
+}
+
 absl::Status Interpreter::SetModes(const BlockModes& block) {
-  if (block.units) unit_ = *block.units == 200 ? kInch : 1.0;
+  SetFeed(block);
+  if (block.units) unit_ = UnitOf(*block.units);
   unit_stated_ = unit_stated_ || block.units;
   distance_stated_ = distance_stated_ || block.distance;
-  if (block['F']) feed_ = *block['F'] * unit_;
+  arc_stated_ = arc_stated_ || block.arc_distance;
   PM_RETURN_IF_ERROR(SetTool(block));
   if (block['S']) speed_ = *block['S'];
   if (block.spindle) {
@@ -171,20 +191,20 @@ absl::Status Interpreter::SetModes(const BlockModes& block) {
   return absl::OkStatus();
 }
 
-void Interpreter::Note(const char* code, const std::string& message) {
+void Interpreter::NoteAt(int line, const char* code, const std::string& message) {
   for (const Diagnostic& known : motion_.assumptions) {
     if (known.code == code) return;
   }
-  Diagnostic d;
-  d.code = code;
-  d.severity = Severity::kWarning;
-  d.message = fmt::format("line {}: {}", line_, message);
-  d.where.line = line_;
-  motion_.assumptions.push_back(std::move(d));
+  motion_.assumptions.push_back(
+      MakeWarning(code, fmt::format("line {}: {}", line, message), {.line = line}));
 }
 
 void Interpreter::NoteAssumptions(ProgramMove::Kind kind, bool below) {
-  if (!unit_stated_) Note("UNITS_ASSUMED", "neither G20 nor G21 so far; taken as millimetres");
+  if (!unit_stated_) Note("UNITS_ASSUMED", "neither G20 nor G21 so far; taken as mm, as LinuxCNC starts");
+  if (kind == ProgramMove::Kind::kFeed && !feed_unit_stated_) {
+    NoteAt(feed_line_, "UNITS_ASSUMED",
+           "F is read while neither G20 nor G21 is in force; taken as mm/min, as LinuxCNC starts");
+  }
   if (!distance_stated_) Note("DISTANCE_MODE_ASSUMED", "neither G90 nor G91 so far; taken as G90");
   if (!below) return;
   if (tool_length_ != 430) {
@@ -306,6 +326,10 @@ absl::Status Interpreter::Arc(const BlockModes& block) {
   } else {
     if (!i && !j) return Bad("arc without a centre or R");
     if (arc_absolute_ && !(i && j)) return Bad("G90.1 needs both centre words");
+    if (!arc_stated_) {
+      Note("ARC_MODE_ASSUMED",
+           "neither G90.1 nor G91.1 so far; I, J and K are taken from the arc's start (G91.1)");
+    }
     arc.center = unit_ * Vec2(i.value_or(0.0), j.value_or(0.0));
     if (!arc_absolute_) arc.center += Plan(arc.from);
   }

@@ -1,4 +1,4 @@
-// Toolpath -> program text of one dialect (PEERS d.1, d.2; MACHINING A.3, A.8, A.14). Dialects are data.
+// Toolpath -> program text of one dialect ([machining M3, M8, M14, M17, M18]). Dialects are data.
 #pragma once
 
 #include <string>

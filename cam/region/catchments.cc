@@ -36,7 +36,7 @@ struct Link {
 
 // Triangles joined over sides until all that is connected with a top belongs to one: the forest that joining
 // over all sides in their order gives, where no two tops are joined. It holds of every set without a top the
-// first side that leads out of it (Boruvka 1926), so sets grow side by side and nothing is sorted.
+// first side that leads out of it [references: boruvka1926], so sets grow side by side and nothing is sorted.
 class Forest {
  public:
   // top_of: of each triangle, -1 none.

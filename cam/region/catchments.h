@@ -11,8 +11,8 @@
 namespace patchmill {
 
 // [piece][triangle]: index into `tops`, -1 where none is connected. Ground is flooded from the tops down (for
-// `sign` -1 from the pits up), over the highest sides of triangles first (a spanning forest; Cousty,
-// Bertrand, Najman and Couprie 2009), and over the lines of the meshes (SplitMesh::lines) that divide them
+// `sign` -1 from the pits up), over the highest sides of triangles first (a spanning forest,
+// [references: cousty2009]), and over the lines of the meshes (SplitMesh::lines) that divide them
 // only where nothing else leads: where lines divide the surface they are the borders, elsewhere sides of
 // triangles. Deterministic; cost n log n in the worst case. CANCELLED, DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<SplitMesh>& meshes,

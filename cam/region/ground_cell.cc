@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/diffgeo/forms.h"
-
 namespace patchmill {
 
-GroundCell GroundPoint(const Vec3& p, const Vec3& normal) {
+GroundCell GroundPoint(const Vec3& p, const std::optional<Facing>& facing) {
   GroundCell cell;
   cell.point = true;
   cell.hull.fill(p);
-  cell.normal = normal;
+  cell.facing = facing;
   return cell;
 }
 
@@ -29,10 +27,10 @@ GroundCell GroundTriangle(const Surface& surface, std::size_t piece, const std::
 }
 
 GroundPlace MiddleOf(const Surface& surface, const GroundCell& cell) {
-  if (cell.point) return {cell.hull[0], cell.normal};
+  if (cell.point) return {cell.hull[0], cell.facing};
   const Vec2 middle = (cell.uv[0] + cell.uv[1] + cell.uv[2]) / 3.0;
   const SurfaceJet jet = Evaluate(surface.pieces[cell.piece], middle.x(), middle.y());
-  return {jet.p, UpwardNormal(jet).value_or(Vec3::Zero())};
+  return {jet.p, FacingAt(jet)};
 }
 
 std::array<GroundCell, 4> Quarters(const Surface& surface, const GroundCell& cell) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
+#include "core/diffgeo/forms.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
@@ -15,16 +17,16 @@ struct GroundCell {
   // Corners and Bezier points of the quadratic that has them and the middles of the sides: the surface
   // is taken for it, wrong by the third power of its size. All the same where it is a point.
   std::array<Vec3, 6> hull{};
-  Vec3 normal = Vec3::Zero();  // of a point: upwards, zero where there is none
+  std::optional<Facing> facing;  // of a point; none where the surface has no normal
 };
 
 // A place of a cell: its middle.
 struct GroundPlace {
   Vec3 p = Vec3::Zero();
-  Vec3 normal = Vec3::Zero();  // upwards, zero where there is none
+  std::optional<Facing> facing;  // none where the surface has no normal
 };
 
-GroundCell GroundPoint(const Vec3& p, const Vec3& normal);
+GroundCell GroundPoint(const Vec3& p, const std::optional<Facing>& facing);
 GroundCell GroundTriangle(const Surface& surface, std::size_t piece, const std::array<Vec2, 3>& uv);
 GroundPlace MiddleOf(const Surface& surface, const GroundCell& cell);
 // Of a triangle.

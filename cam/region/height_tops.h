@@ -1,4 +1,4 @@
-// Summits that stand out, and the passes between what drains to them (ALGORITHMS 4: multiple peaks).
+// Summits that stand out, and the passes between what drains to them ([regions (3)]).
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ class HeightGraph {
                                           const AdjacencyList& adjacency, const RunContext& run);
 
   // Summits for `sign` +1, pits for -1. One persists when the way from it to a higher one (lower, for pits)
-  // leads down (up) by at least `persistence` mm (Edelsbrunner, Letscher and Zomorodian 2002): every vertex
+  // leads down (up) by at least `persistence` mm [references: edelsbrunner2002]: every vertex
   // climbs the steepest way; where several summits are climbed to from one vertex, highest such vertices
   // first, they are joined, and all but the highest of those joined so far are the younger ones.
   // Deterministic; cost n, and m log m of the m vertices where summits meet.

@@ -110,9 +110,8 @@ void LeftoverSearch::LookAt(const GroundPlace& place, double enough) {
   };
   look([&] { return search.Above(column); });
   look([&] { return search.Descend(column); });
-  if (place.normal != Vec3::Zero()) look([&] { return search.Beside(place.normal, column); });
-  if (place.normal != Vec3::Zero() && ReachTest::Upright(place.normal))
-    look([&] { return search.Beside(-place.normal, column); });
+  if (place.facing) look([&] { return search.Beside(place.facing->e, column); });
+  if (place.facing && place.facing->both) look([&] { return search.Beside(-place.facing->e, column); });
   look([&] { return search.FromAround(column); });
   ++looks_;
   if (column.distance > enough) deepest_.push_back({place.p, column});

@@ -1,5 +1,5 @@
 // What stays over ground that no free ball touches: the distance to the nearest centre where one may stand,
-// less R (the leftover of DESIGN 2, with all of those centres as the path).
+// less R ([verification, section 1], with all of those centres as the path).
 #pragma once
 
 #include <array>
@@ -31,9 +31,9 @@ class LeftoverSearch {
  public:
   LeftoverSearch(const Locator& locator, const LeftoverParams& params) : locator_(locator), params_(params) {}
 
-  // A point of the surface. The normal there, upwards, zero where there is none: a ball that has hardly any
-  // room, as in a hole of its own size, is looked for on its side too.
-  void AddPoint(const Vec3& p, const Vec3& normal) { Add(GroundPoint(p, normal)); }
+  // A point of the surface. `facing`, none where the surface has no normal: a ball that has hardly any room,
+  // as in a hole of its own size, is looked for on that side too.
+  void AddPoint(const Vec3& p, const std::optional<Facing>& facing) { Add(GroundPoint(p, facing)); }
   // A triangle of parameters of a piece of locator.surface().
   void AddTriangle(std::size_t piece, const std::array<Vec2, 3>& uv);
 

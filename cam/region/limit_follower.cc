@@ -87,10 +87,10 @@ std::optional<double> LimitFollower::Find(const ZeroSegment& chord, const Vec2& 
                                           double most) {
   const Vec2 at = 0.5 * (chord.from + chord.to);
   const SurfaceJet jet = At(at);
-  const auto normal = UpwardNormal(jet);
+  const auto facing = FacingAt(jet);
   const double length = (across.x() * jet.du + across.y() * jet.dv).norm();
-  // Beside upright ground one ball's obstacle says nothing of the other.
-  if (!normal || ReachTest::Upright(*normal) || !(length > 0.0)) return std::nullopt;
+  // What is in the way of the ball on one side says nothing of the ball on the other.
+  if (!facing || facing->both || !(length > 0.0)) return std::nullopt;
   // Farther away lie other limits.
   least = std::max(least, -kFarthest);
   most = std::min(most, kFarthest);

@@ -1,4 +1,4 @@
-// Raw regions of the split -> regions a machinist would draw (ALGORITHMS 4, 12: merging). Grouping and order
+// Raw regions of the split -> regions a machinist would draw ([regions, section 5]). Grouping and order
 // only, never coverage.
 #pragma once
 

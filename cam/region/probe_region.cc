@@ -47,9 +47,9 @@ double BallForAll(const Surface& surface, const std::vector<RegionSpot>& spots, 
     for (const RegionSpot& spot : at) {
       if (run.Cancelled() || radius <= least) return;
       const SurfaceJet jet = JetAt(surface, spot);
-      const auto normal = UpwardNormal(jet);
-      if (!normal) continue;
-      const double own = LargestFreeRadius(surface, jet.p, *normal, radius, ReachGive(params.tolerance));
+      const auto facing = FacingAt(jet);
+      if (!facing) continue;
+      const double own = LargestFreeRadius(surface, jet.p, *facing, radius, ReachGive(params.tolerance));
       if (own >= radius) continue;
       radius = own;
       worst = spot;
@@ -72,7 +72,7 @@ void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, c
   LeftoverSearch search = reach.SearchLeftover();
   for (std::size_t i = 0; i < spots.size(); i += kFirst) {
     const SurfaceJet jet = JetAt(surface, spots[i]);
-    search.AddPoint(jet.p, UpwardNormal(jet).value_or(Vec3::Zero()));
+    search.AddPoint(jet.p, FacingAt(jet));
   }
   search.Find(run);  // with which most of the triangles are known to be no deeper
   for (const TriangleRef& t : triangles) {

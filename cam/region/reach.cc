@@ -15,8 +15,7 @@ namespace patchmill {
 
 namespace {
 
-// The constants of docs/reach.md.
-constexpr double kVertical = 1e-6;  // |e_z| below this: no side is the upper one
+// The constants of [regions, section 6].
 constexpr double kOverLeast = 0.5;  // of the least ball's radius: what is over it comes nearer to its axis
 
 constexpr int kMostSlides = 12;  // Newton steps of an obstacle, unless one is
@@ -28,17 +27,15 @@ constexpr double kCloud = 0.15;  // of the radius: spacing of the points tried f
 ReachTest::ReachTest(const Locator& free_ball, const RegionParams& params, const RunContext& run)
     : free_ball_(free_ball), params_(params), cloud_(free_ball.surface(), kCloud * params.radius, run) {}
 
-bool ReachTest::Upright(const Vec3& normal) { return normal.z() < kVertical; }
-
 bool ReachTest::FreeCenter(const Vec3& center) const {
   std::optional<SurfacePoint> obstacle;
   ObstacleFinder(free_ball_, cloud_).Find({&center, 1}, {&obstacle, 1});
   return !obstacle;
 }
 
-bool ReachTest::Free(const Vec3& p, const Vec3& normal) const {
-  return FreeCenter(p + params_.radius * normal) ||
-         (Upright(normal) && FreeCenter(p - params_.radius * normal));
+bool ReachTest::Free(const Vec3& p, const Facing& facing) const {
+  return FreeCenter(p + params_.radius * facing.e) ||
+         (facing.both && FreeCenter(p - params_.radius * facing.e));
 }
 
 void ReachTest::FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs,
@@ -52,10 +49,10 @@ void ReachTest::FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs
     asked.clear();
     centers.clear();
     for (std::size_t i = 0; i < jets.size(); ++i) {
-      const auto normal = UpwardNormal(jets[i]);
-      if (!normal || (side < 0.0 && !(signs[i] < 0.0 && Upright(*normal)))) continue;
+      const auto facing = FacingAt(jets[i]);
+      if (!facing || (side < 0.0 && !(signs[i] < 0.0 && facing->both))) continue;
       asked.push_back(i);
-      centers.push_back(jets[i].p + side * params_.radius * *normal);
+      centers.push_back(jets[i].p + side * params_.radius * facing->e);
     }
     found.resize(centers.size());
     ObstacleFinder(free_ball_, cloud_).Find(centers, found);
@@ -89,63 +86,69 @@ ReachTest::Shanks ReachTest::MakeShanks() const {
           ShankFinder(surface(), cloud_, kOverLeast * least, least)};
 }
 
-bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal, Shanks& shanks) const {
+bool ReachTest::BlockedAbove(const Vec3& p, const Facing& facing, Shanks& shanks) const {
   const double least = LeastBall(ReachGive(params_.tolerance));
-  // Of upright ground on both sides, each ball by itself.
+  // Of upright surface on both sides, each ball by itself: beyond the other wall of a slot, a ball that is too
+  // large for the slot is under its top.
   const auto on_all_sides = [&](const auto& blocked) {
-    return blocked(normal) && (!Upright(normal) || blocked(-normal));
+    return blocked(facing.e) && (facing.e.z() > kUprightFace || blocked(-facing.e));
   };
   return on_all_sides([&](const Vec3& e) { return shanks.ball.Blocked(p + params_.radius * e); }) ||
          (least < params_.radius &&
           on_all_sides([&](const Vec3& e) { return shanks.least.StandsAbove(p + least * e); }));
 }
 
-bool ReachTest::BlockedAbove(const Vec3& p, const Vec3& normal) const {
+bool ReachTest::BlockedAbove(const Vec3& p, const Facing& facing) const {
   Shanks shanks = MakeShanks();
-  return BlockedAbove(p, normal, shanks);
+  return BlockedAbove(p, facing, shanks);
 }
 
 void ReachTest::BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<double> signs) const {
   Shanks shanks = MakeShanks();
   for (std::size_t i = 0; i < jets.size(); ++i) {
-    const auto normal = UpwardNormal(jets[i]);
-    signs[i] = !normal ? 0.0 : BlockedAbove(jets[i].p, *normal, shanks) ? -1.0 : 1.0;
+    const auto facing = FacingAt(jets[i]);
+    signs[i] = !facing ? 0.0 : BlockedAbove(jets[i].p, *facing, shanks) ? -1.0 : 1.0;
   }
 }
 
 template <class Allows>
-bool ReachTest::AllowedOnASide(const Vec3& p, const Vec3& normal, const Allows& allows) const {
-  const Vec3 c = p + params_.radius * normal;
+bool ReachTest::AllowedOnASide(const Vec3& p, const Facing& facing, const Allows& allows) const {
+  const Vec3 c = p + params_.radius * facing.e;
   const bool allowed = allows(c);
-  if (!Upright(normal)) return allowed;
-  const Vec3 other = p - params_.radius * normal;
+  if (!facing.both) return allowed;
+  const Vec3 other = p - params_.radius * facing.e;
   const bool other_allowed = allows(other);
   if (allowed && other_allowed) return true;
   // A side that is free serves nobody where the other one is allowed.
   return (allowed && FreeCenter(c)) || (other_allowed && FreeCenter(other));
 }
 
-bool ReachTest::Allowed(const Vec3& p, const Vec3& normal) const {
+bool ReachTest::Allowed(const Vec3& p, const Facing& facing) const {
   return params_.keep_in == nullptr ||
-         AllowedOnASide(p, normal, [&](const Vec3& c) { return params_.keep_in->Allows(c); });
+         AllowedOnASide(p, facing, [&](const Vec3& c) { return params_.keep_in->Allows(c); });
 }
 
-bool ReachTest::BlockedByShank(const Vec3& p, const Vec3& normal) const {
+bool ReachTest::ForbiddenBesidePart(const Vec3& p, const Facing& facing) const {
+  return params_.keep_in != nullptr && params_.keep_in->HasBeside() &&
+         AllowedOnASide(p, facing, [&](const Vec3& c) { return params_.keep_in->AllowsBesidePart(c); });
+}
+
+bool ReachTest::BlockedByShank(const Vec3& p, const Facing& facing) const {
   return params_.keep_in != nullptr && params_.keep_in->HasShank() &&
-         AllowedOnASide(p, normal, [&](const Vec3& c) { return params_.keep_in->AllowsBall(c); });
+         AllowedOnASide(p, facing, [&](const Vec3& c) { return params_.keep_in->AllowsBall(c); });
 }
 
 double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {
   return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - ReachGive(params_.tolerance));
 }
 
-double LargestFreeRadius(const Surface& surface, const Vec3& p, const Vec3& normal, double limit,
+double LargestFreeRadius(const Surface& surface, const Vec3& p, const Facing& facing, double limit,
                          double give) {
   double largest = 0.0;
   for (const double side : {1.0, -1.0}) {
-    if (side < 0.0 && !ReachTest::Upright(normal)) break;
+    if (side < 0.0 && !facing.both) break;
     const auto free = [&](double r) {
-      return r <= give || !AnythingNearUpwardRay(surface, p + side * r * normal, r - give, 0.1 * give);
+      return r <= give || !AnythingNearUpwardRay(surface, p + side * r * facing.e, r - give, 0.1 * give);
     };
     if (free(limit)) return limit;
     double low = 0.0, high = limit;  // what a ball sweeps on its way up holds what a smaller one does

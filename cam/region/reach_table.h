@@ -19,7 +19,7 @@ struct ReachTableParams {
   double floor_z = -kInfinity;  // mm, lowest tip
 };
 
-// Areas of the surface, mm^2, by the rule of docs/reach.md, all reasons; one for each radius.
+// Areas of the surface, mm^2, by the rule of [regions, section 6], all reasons; one for each radius.
 struct ReachTableResult {
   double area = 0.0;                // of all of it
   std::vector<double> unreachable;  // with this ball; not decreasing

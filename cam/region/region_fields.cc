@@ -25,8 +25,8 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   free.smooth = false;
   free.resolution = params.border_tolerance;
   free.value = [&reach](const SurfaceJet& jet) {
-    const auto normal = UpwardNormal(jet);
-    return !normal ? 0.0 : reach.Free(jet.p, *normal) ? 1.0 : -1.0;
+    const auto facing = FacingAt(jet);
+    return !facing ? 0.0 : reach.Free(jet.p, *facing) ? 1.0 : -1.0;
   };
   free.values = [&reach](std::span<const SurfaceJet> jets, std::span<double> values) {
     reach.FreeAt(jets, values);
@@ -46,8 +46,8 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   above.resolution = params.border_tolerance;
   above.where = static_cast<int>(Field::kFree);
   above.value = [&reach](const SurfaceJet& jet) {
-    const auto normal = UpwardNormal(jet);
-    return !normal ? 0.0 : reach.BlockedAbove(jet.p, *normal) ? -1.0 : 1.0;
+    const auto facing = FacingAt(jet);
+    return !facing ? 0.0 : reach.BlockedAbove(jet.p, *facing) ? -1.0 : 1.0;
   };
   above.values = [&reach](std::span<const SurfaceJet> jets, std::span<double> values) {
     reach.BlockedAboveAt(jets, values);
@@ -61,16 +61,26 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   allowed.resolution = params.border_tolerance;
   allowed.value = [&reach, any = params.keep_in != nullptr](const SurfaceJet& jet) {
     if (!any) return 1.0;
-    const auto normal = UpwardNormal(jet);
-    return !normal ? 0.0 : reach.Allowed(jet.p, *normal) ? 1.0 : -1.0;
+    const auto facing = FacingAt(jet);
+    return !facing ? 0.0 : reach.Allowed(jet.p, *facing) ? 1.0 : -1.0;
+  };
+  ZeroField& outside = at(Field::kOutside);
+  outside.smooth = false;
+  outside.resolution = params.border_tolerance;
+  outside.where = static_cast<int>(Field::kAllowed);
+  outside.value = [&reach,
+                   any = params.keep_in != nullptr && params.keep_in->HasBeside()](const SurfaceJet& jet) {
+    if (!any) return 1.0;
+    const auto facing = FacingAt(jet);
+    return !facing ? 0.0 : reach.ForbiddenBesidePart(jet.p, *facing) ? -1.0 : 1.0;
   };
   ZeroField& shank = at(Field::kShank);
   shank.smooth = false;
   shank.resolution = params.border_tolerance;
   shank.where = static_cast<int>(Field::kAllowed);
   shank.value = [&reach](const SurfaceJet& jet) {
-    const auto normal = UpwardNormal(jet);
-    return !normal ? 0.0 : reach.BlockedByShank(jet.p, *normal) ? -1.0 : 1.0;
+    const auto facing = FacingAt(jet);
+    return !facing ? 0.0 : reach.BlockedByShank(jet.p, *facing) ? -1.0 : 1.0;
   };
   // Ground out of reach has no other label.
   at(Field::kFinished).value = params.finished;
@@ -83,7 +93,10 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   fields.pop_back();
   if (params.keep_in != nullptr && params.keep_in->HasShank()) return fields;
   fields.pop_back();
-  if (params.keep_in == nullptr) fields.pop_back();
+  if (params.keep_in == nullptr) {
+    fields.pop_back();
+    fields.pop_back();
+  }
   return fields;
 }
 
@@ -112,6 +125,8 @@ SplitLabel LabelOf(const ZeroTriangle& triangle) {
   SplitLabel label;
   if (sign(Field::kFree) < 0) {
     label.reason = sign(Field::kAbove) < 0 ? UnreachableReason::kUndercut : UnreachableReason::kConcave;
+  } else if (sign(Field::kAllowed) < 0 && sign(Field::kOutside) < 0) {
+    label.reason = UnreachableReason::kOutside;
   } else if (sign(Field::kFloor) < 0) {
     label.reason = UnreachableReason::kFloor;
   } else if (sign(Field::kAllowed) < 0) {

@@ -10,7 +10,7 @@ namespace patchmill {
 
 // Order matters: limits of reach cost most and are split first, so that the points where other borders are
 // cut in need no test; a silhouette (kTurn) is split before the contour curvature, which changes its meaning
-// across it (ALGORITHMS 12, iii).
+// across it [regions, section 2].
 enum class Field {
   kFree,       // the ball is free, whatever the floor
   kAbove,      // where it is not: < 0 UNDERCUT, > 0 CONCAVE
@@ -18,11 +18,12 @@ enum class Field {
   kTurn,       // SilhouetteField: > 0 where the normal looks up
   kSlope,      // SlopeField of the steep angle: > 0 gentle
   kCurvature,  // ContourCurvatureField: times the sign of kTurn it is < 0 on mountains
-  kAllowed,    // < 0 AVOIDED or SHANK; only there when something is to be kept in
+  kAllowed,    // < 0 AVOIDED, OUTSIDE or SHANK; only there when something is to be kept in
+  kOutside,    // where it is not allowed: < 0 OUTSIDE; only there with kAllowed
   kShank,      // where it is not allowed: < 0 SHANK, > 0 AVOIDED; only there when a wide shank may touch
   kFinished,   // < 0 STRATEGY; only there when passes of one kind are forced upon the surface
 };
-inline constexpr int kFieldCount = 9;
+inline constexpr int kFieldCount = 10;
 static_assert(kFieldCount <= kMaxZeroFields);
 
 // Fields in the order of the enum; they keep a reference to `reach`.

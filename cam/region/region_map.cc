@@ -25,7 +25,7 @@ namespace patchmill {
 namespace {
 
 // A region that bends less than this part of the ball's radius in all is neither mountain nor basin
-// (ALGORITHMS 4, S0).
+// ([regions, section 5]).
 constexpr double kMinCurvature = 1.0 / 6.0;
 
 // A strip whose normal turns by twice this across it is not worth its borders (at middle detail).
@@ -285,6 +285,8 @@ const char* Name(UnreachableReason reason) {
       return "HOLDER";
     case UnreachableReason::kShank:
       return "SHANK";
+    case UnreachableReason::kOutside:
+      return "OUTSIDE";
   }
   return "";
 }

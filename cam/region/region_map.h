@@ -1,5 +1,5 @@
 // The surface split by what it is: mountain, basin, neutral x steep, gentle; and what no ball of this size
-// reaches. ALGORITHMS 4 and 12; METHODS 1.9, 1.10.
+// reaches [regions].
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,17 @@ namespace patchmill {
 
 enum class RegionKind { kMountain, kBasin, kNeutral, kUnreachable };
 enum class SlopeClass { kUnspecified, kSteep, kGentle };
-enum class UnreachableReason { kNone, kUndercut, kConcave, kFloor, kAvoided, kStrategy, kHolder, kShank };
+enum class UnreachableReason {
+  kNone,
+  kUndercut,
+  kConcave,
+  kFloor,
+  kAvoided,
+  kStrategy,
+  kHolder,
+  kShank,
+  kOutside
+};
 
 // What makes a line a border of regions.
 enum class BorderKind {
@@ -47,8 +57,8 @@ struct RegionParams {
   // the same proportion (merge_regions.h), summits and pits that persist divide mountains and basins
   // (height_tops.h), and at most 40 d reachable regions remain, those without a neighbour not counted.
   double detail = 0.5;
-  // Where it allows no centre the reason is kShank if only the shank is in the way, else kAvoided; null:
-  // allows all.
+  // Where it allows no centre the reason is kOutside if the centre is only forbidden beside the part, kShank
+  // if only the shank is in the way, else kAvoided; null: allows all.
   const KeepIn* keep_in = nullptr;
   // > 0 where forced passes finish the ground, continuous; where they do not the reason is kStrategy. Empty:
   // nothing is forced.

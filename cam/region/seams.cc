@@ -73,7 +73,8 @@ std::vector<BorderSide> FindInner(const Piece& piece, int index, const SplitMesh
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 // The side that border[k] faces across a seam, or kNone.
-std::size_t Facing(const std::vector<BorderSide>& border, const BoxGrid& grid, std::size_t k, double join) {
+std::size_t SideFacing(const std::vector<BorderSide>& border, const BoxGrid& grid, std::size_t k,
+                       double join) {
   const BorderSide& side = border[k];
   std::size_t found = kNone;
   double best = kInfinity;
@@ -124,7 +125,7 @@ absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::v
   PM_RETURN_IF_ERROR(
       ParallelFor(run, "regions: neighbours", (border.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t part) {
         for (std::size_t k = part * kAtOnce; k < std::min(border.size(), (part + 1) * kAtOnce); ++k)
-          facing[k] = Facing(border, grid, k, join);
+          facing[k] = SideFacing(border, grid, k, join);
       }));
   for (std::size_t k = 0; k < border.size(); ++k) {
     if (facing[k] == kNone) continue;

@@ -7,7 +7,7 @@
 namespace patchmill {
 namespace {
 
-constexpr double kNearer = 0.02;  // of the radius: what blocks above is nearer by this (docs/reach.md)
+constexpr double kNearer = 0.02;  // of the radius: what blocks above is nearer by this ([regions, section 6])
 constexpr double kProof = 0.001;  // of the radius: how exactly distances are known here
 constexpr int kSlideSteps = 4;    // Newton's, of each point that is tried before a search
 

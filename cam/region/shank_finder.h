@@ -1,4 +1,4 @@
-// Whether the shank is what keeps a ball from a place: UNDERCUT of docs/reach.md.
+// Whether the shank is what keeps a ball from a place: UNDERCUT of [regions, section 6].
 #pragma once
 
 #include <array>

@@ -18,7 +18,7 @@ bool Containment::WantsAll() const {
 
 bool Containment::AllowsAll() const {
   const bool margin = avoid_margin > 0.0 && std::find(avoided.begin(), avoided.end(), true) != avoided.end();
-  return !margin && (!boundary || LimitsContacts(*this)) && !top_z && obstacles.empty();
+  return !margin && (!boundary || LimitsContacts(*this)) && !top_z && obstacles.empty() && beside.empty();
 }
 
 bool IsWantedPatch(const Containment& containment, PatchId patch) {
@@ -50,6 +50,16 @@ double BoundaryRoom(const Containment& containment, const Vec2& center, double b
 double ObstacleRoom(const Obstacle& obstacle, const Vec3& tip, double tool_radius) {
   const double beside = -obstacle.outline.SignedDistance(Plan(tip)) - tool_radius;
   return std::max(beside, tip.z() - obstacle.top_z) - obstacle.margin;
+}
+
+double StripRoom(const BesideStrip& strip, const Vec3& tip) {
+  return std::max(-strip.area.SignedDistance(Plan(tip)), tip.z() - strip.lowest_tip_z);
+}
+
+double BesideRoom(const Containment& containment, const Vec3& tip) {
+  double room = kInfinity;
+  for (const BesideStrip& strip : containment.beside) room = std::min(room, StripRoom(strip, tip));
+  return room;
 }
 
 double TopRoom(const Containment& containment, double tip_z) {

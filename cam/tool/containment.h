@@ -1,5 +1,5 @@
-// Where an operation is wanted and where it is allowed (API Selection, Obstacle, Heights): definitions that
-// the planner and the judge share. Everything in the placed frame, mm.
+// Where an operation is wanted and where it is allowed (Selection, Obstacle, Heights on the wire):
+// definitions that the planner and the judge share. Everything in the placed frame, mm.
 #pragma once
 
 #include <optional>
@@ -34,6 +34,18 @@ struct Obstacle {
   double margin = 0.0;  // mm, beside it and above it
 };
 
+// An area beside the part over which the tool's axis keeps the tip at or above a height
+// (cam/plan/beside_part.h).
+enum class StripKind {
+  kOutside,   // outside the part: nobody asked for it
+  kMaterial,  // on the back of a wall
+};
+struct BesideStrip {
+  StripKind kind = StripKind::kOutside;
+  Outline area;
+  double lowest_tip_z = 0.0;  // mm: of the wall's upper edge
+};
+
 struct Containment {
   std::vector<bool> selected;  // per patch of the model; empty: all
   std::vector<bool> avoided;   // per patch of the model; empty: none. An avoided one is not wanted either
@@ -41,6 +53,7 @@ struct Containment {
   std::optional<Boundary> boundary;
   std::optional<double> top_z;  // highest tip of a finishing ball
   std::vector<Obstacle> obstacles;
+  std::vector<BesideStrip> beside;
 
   bool WantsAll() const;   // every surface point is to be finished
   bool AllowsAll() const;  // no place is forbidden to the centre
@@ -56,11 +69,14 @@ bool IsWanted(const Containment& containment, PatchId patch, const Vec3& p, doub
 // How far the surface around p stays outside the contact boundary, in plan; <= 0 where it may be inside.
 double ContactRoomOutside(const Containment& containment, const Vec3& p);
 
-// The three ways a centre may be forbidden in closed form. Each is >= 0 where it is allowed, +infinity
+// The ways a centre may be forbidden in closed form. Each is >= 0 where it is allowed, +infinity
 // without such a limit, and has slope at most 1: within this distance the answer stays.
 double BoundaryRoom(const Containment& containment, const Vec2& center, double ball_radius);
 // `tool_radius`: the wider one of ball and shank.
 double ObstacleRoom(const Obstacle& obstacle, const Vec3& tip, double tool_radius);
 double TopRoom(const Containment& containment, double tip_z);
+double StripRoom(const BesideStrip& strip, const Vec3& tip);
+// The least StripRoom of all.
+double BesideRoom(const Containment& containment, const Vec3& tip);
 
 }  // namespace patchmill

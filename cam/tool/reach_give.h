@@ -1,5 +1,5 @@
 // How much room a ball needs to count as free: the one number that planner and verifier share
-// (docs/reach.md).
+// [regions, section 6].
 #pragma once
 
 namespace patchmill {
@@ -7,7 +7,7 @@ namespace patchmill {
 // How far, mm, the surface may lie inside a ball that counts as free, and how far the ball may have to be
 // above a place to keep to the floor, of a whole `tolerance`: what passes may take of it themselves. The rest
 // belongs to rounding, certificates and the control (SplitBudget): a place that lets the ball in by that
-// alone would be asked for, and no program could finish it within P1.
+// alone would be asked for, and no program could finish it within [verification P1].
 constexpr double ReachGive(double tolerance) { return 0.5 * tolerance; }
 
 // mm, radius: smaller balls get in by the tolerance alone, or nearly so. No tool is named for ground that

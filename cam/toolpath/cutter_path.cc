@@ -5,11 +5,16 @@
 
 namespace patchmill {
 
-double Length(const CutterPath& path) {
+double Length(std::span<const CutterPoint> open_path) {
   double length = 0.0;
-  for (std::size_t i = 1; i < path.points.size(); ++i) {
-    length += (path.points[i].center - path.points[i - 1].center).norm();
+  for (std::size_t i = 1; i < open_path.size(); ++i) {
+    length += (open_path[i].center - open_path[i - 1].center).norm();
   }
+  return length;
+}
+
+double Length(const CutterPath& path) {
+  double length = Length(std::span<const CutterPoint>(path.points));
   if (path.closed && path.points.size() > 1) {
     length += (path.points.front().center - path.points.back().center).norm();
   }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cam/toolpath/segment_metric.h"
@@ -12,6 +13,7 @@ namespace patchmill {
 
 // kBorder: along the border of what lines cover.
 enum class PassKind { kZigzag, kContour, kBorder, kCrease, kRest };
+constexpr PassKind LastOf(PassKind) { return PassKind::kRest; }
 
 // A ball centre and what it touches: free, or in the ground by less than its chords may be (fewest_chords.h).
 struct CutterPoint {
@@ -38,6 +40,7 @@ struct CutterPath {
 };
 
 double Length(const CutterPath& path);  // mm, closing move included
+double Length(std::span<const CutterPoint> open_path);
 
 // The same closed path started at its vertex `start`.
 void RotateClosed(CutterPath& path, std::size_t start);

@@ -54,9 +54,11 @@ struct ProgramMove {
 
 struct ProgramMotion {
   std::vector<ProgramMove> moves;
-  // What the program leaves to the state of the control, and what is taken for it: UNITS_ASSUMED (mm),
-  // DISTANCE_MODE_ASSUMED (G90), LENGTH_OFFSET_ASSUMED (set before), LENGTH_OFFSET_OF_OTHER_TOOL (H is not
-  // T), PATH_MODE_ASSUMED (no smoothing), SPINDLE_REVERSED (a left-hand cutter). Warnings with their lines.
+  // What the program leaves to the state of the control, and what is taken for it: UNITS_ASSUMED (mm, of
+  // coordinates or of an F), DISTANCE_MODE_ASSUMED (G90), ARC_MODE_ASSUMED (G91.1), LENGTH_OFFSET_ASSUMED
+  // (set before), LENGTH_OFFSET_OF_OTHER_TOOL (H is not T), PATH_MODE_ASSUMED (no smoothing),
+  // SPINDLE_REVERSED (a left-hand cutter); and FEED_IN_UNIT_BEFORE, an F on a line that changes the unit.
+  // Warnings with their lines.
   Diagnostics assumptions;
   int tool_number = 0;
   // mm, largest G64 P + Q in force (Q absent: P), kInfinity for G64 without P or with P0: while feeding, and

@@ -9,7 +9,7 @@ namespace patchmill {
 namespace {
 
 // Distance along the path of the centre between two balls of radius r that leave s between them on a circle
-// of curvature kappa (ALGORITHMS 5): the triangle of the circle's centre, a ball's and the crest.
+// of curvature kappa ([spacing (2)]): the triangle of the circle's centre, a ball's and the crest.
 double WidestStep(double r, double s, double kappa) {
   constexpr double kFlat = 1e-4;  // of r: curvatures below cost digits and change nothing
   const double flat = 2.0 * std::sqrt(s * (2.0 * r - s));

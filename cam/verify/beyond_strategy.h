@@ -6,7 +6,7 @@
 namespace patchmill {
 
 // True when a forced strategy cannot finish here, from either side of an upright face: the centre step it
-// would need (ALGORITHMS 5) is below min_step_fraction of the flat one, with a margin of 10 %.
+// would need ([spacing (3)]) is below min_step_fraction of the flat one, with a margin of 10 %.
 bool BeyondStrategy(const SurfaceJet& jet, const Facing& facing, const LeftoverParams& params);
 
 }  // namespace patchmill

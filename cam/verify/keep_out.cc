@@ -69,14 +69,10 @@ class Report {
       if (lines.size() == kMost) return;
       lines.push_back(line);
       const Vec3 tip = b.at - offset_;
-      Diagnostic d;
-      d.code = code;
-      d.severity = Severity::kError;
-      d.message = fmt::format("line {}: {} by {:.4f} mm, the tip at X{:.4f} Y{:.4f} Z{:.4f}", line, what,
-                              -b.room, tip.x(), tip.y(), tip.z());
-      d.where.line = line;
-      d.where.point = b.at;
-      out_.push_back(std::move(d));
+      out_.push_back(MakeError(code,
+                               fmt::format("line {}: {} by {:.4f} mm, the tip at X{:.4f} Y{:.4f} Z{:.4f}",
+                                           line, what, -b.room, tip.x(), tip.y(), tip.z()),
+                               {.point = b.at, .line = line}));
     }
   }
 
@@ -100,7 +96,41 @@ std::vector<Least> Broken(const std::vector<PathSegment>& moves, const Room& roo
   return broken;
 }
 
+constexpr double kLeastPart = 0.01;  // mm
+
+// Adds what of the segment lies in no material.
+void AddFree(const Containment& c, double ball, const PathSegment& s, std::vector<PathSegment>& out) {
+  const Vec3 tip = 0.5 * (s.a + s.b) - Vec3(0.0, 0.0, ball);
+  double room = kInfinity;
+  for (const BesideStrip& strip : c.beside) {
+    if (strip.kind == StripKind::kMaterial) room = std::min(room, StripRoom(strip, tip));
+  }
+  const double half = 0.5 * (s.b - s.a).norm();
+  if (room >= half) {
+    out.push_back(s);
+    return;
+  }
+  if (room <= -half && room < 0.0) return;
+  if (half < 0.5 * kLeastPart) {
+    if (room >= 0.0) out.push_back(s);
+    return;
+  }
+  const Vec3 middle = 0.5 * (s.a + s.b);
+  AddFree(c, ball, {s.a, middle, s.move}, out);
+  AddFree(c, ball, {middle, s.b, s.move}, out);
+}
+
 }  // namespace
+
+std::vector<PathSegment> OutsideOfMaterial(const CenterLimits& limits, std::vector<PathSegment> moves) {
+  const bool any = limits.containment != nullptr &&
+                   std::any_of(limits.containment->beside.begin(), limits.containment->beside.end(),
+                               [](const BesideStrip& strip) { return strip.kind == StripKind::kMaterial; });
+  if (!any) return moves;
+  std::vector<PathSegment> out;
+  for (const PathSegment& s : moves) AddFree(*limits.containment, limits.ball, s, out);
+  return out;
+}
 
 Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const CenterLimits& limits,
                          double radius, const Vec3& offset, double slack, const RunContext& run) {
@@ -135,6 +165,16 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
         "OBSTACLE_HIT", std::move(beside),
         fmt::format("not driving all axes together, a control may come within {:.4g} mm of obstacle {}",
                     o.margin, name));
+  }
+  if (!c.beside.empty()) {
+    const Room room = [&](const Vec3& center) { return BesideRoom(c, center - Vec3(0.0, 0.0, limits.ball)); };
+    const Floor over_all = [&](const PathSegment& s) {
+      double highest = -kInfinity;
+      for (const BesideStrip& strip : c.beside) highest = std::max(highest, strip.lowest_tip_z);
+      return std::min(s.a.z(), s.b.z()) - limits.ball - highest;
+    };
+    report.Add("BESIDE_PART", Broken(all, room, over_all, slack, run),
+               "the tool goes down beside the part, below a wall's upper edge");
   }
   if (c.boundary && c.boundary->mode != BoundaryMode::kContact) {
     const Room room = [&](const Vec3& center) { return BoundaryRoom(c, Plan(center), limits.ball); };

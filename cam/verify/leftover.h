@@ -1,4 +1,5 @@
-// P2: what the feed moves leave standing at reachable points, and how much area is reachable at all.
+// [verification P2]: what the feed moves leave standing at reachable points, and how much area is reachable
+// at all.
 #pragma once
 
 #include <array>
@@ -30,9 +31,10 @@ enum class FinishClass {
   kAvoided,
   kStrategy,
   kShank,
+  kOutside,
   kUnwanted
 };
-inline constexpr std::size_t kFinishClasses = 9;
+inline constexpr std::size_t kFinishClasses = 10;
 
 struct AreaReport {
   std::array<double, kFinishClasses> area{};    // mm^2

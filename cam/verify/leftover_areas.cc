@@ -112,7 +112,7 @@ int DeepestFor(std::size_t cells, const Spent& spent, double more = 2.0) {
 
 bool Unreachable(FinishClass kind) {
   return kind == FinishClass::kUndercut || kind == FinishClass::kConcave || kind == FinishClass::kFloor ||
-         kind == FinishClass::kAvoided || kind == FinishClass::kShank;
+         kind == FinishClass::kAvoided || kind == FinishClass::kShank || kind == FinishClass::kOutside;
 }
 
 // Reachable, finished or not.
@@ -213,6 +213,9 @@ class AreaSampler {
         break;
       case ReachClass::kShank:
         kind = FinishClass::kShank;
+        break;
+      case ReachClass::kOutside:
+        kind = FinishClass::kOutside;
         break;
     }
     Extreme& known = sums.report.deepest[static_cast<std::size_t>(kind)];

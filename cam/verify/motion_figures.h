@@ -8,7 +8,7 @@
 
 namespace patchmill {
 
-inline constexpr double kSteepDescent = Radians(30.0);  // P3: steeper ones run at plunge feed
+inline constexpr double kSteepDescent = Radians(30.0);  // [verification P3]: steeper ones run at plunge feed
 
 struct MotionFigures {
   Box3 tip_box;  // program frame, moves below machine zero; empty if there are none

@@ -82,12 +82,8 @@ class Rules {
     return tip.z() + params_.program_zero.z() < params_.stock_top_z - kHeightSlack;
   }
   void Broken(const char* code, std::string message, int line) {
-    Diagnostic d;
-    d.code = code;
-    d.severity = Severity::kError;
-    d.message = std::move(message);
-    if (line > 0) d.where.line = line;
-    broken_.push_back(std::move(d));
+    broken_.push_back(
+        MakeError(code, std::move(message), {.line = line > 0 ? std::optional<int>(line) : std::nullopt}));
   }
 
   const ProgramMotion& motion_;

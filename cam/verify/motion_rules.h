@@ -1,4 +1,5 @@
-// P3 as far as the motion alone can break it: how it starts and ends, how it descends, how low it goes.
+// [verification P3] as far as the motion alone can break it: how it starts and ends, how it descends, how low
+// it goes.
 #pragma once
 
 #include "cam/verify/motion_figures.h"

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "cam/tool/reach_give.h"
-#include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"
 #include "core/surface/highest.h"
 
@@ -12,7 +11,6 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kVertical = 1e-6;    // e_z below this: a vertical face
 constexpr double kBeside = 0.02;      // of the radius: how far beside a place it is looked at again
 constexpr double kProof = 0.02;       // of the give: how exactly "free" is decided
 constexpr double kCoarse = 0.02;      // of the radius: how exactly a blocked depth is known
@@ -54,6 +52,13 @@ bool InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c, 
   return AnyInColumn(surface, column, c.z() + limits.shank->rise - keep, proof);
 }
 
+// All limits but those beside the part allow the centre.
+bool AllowsBesidePart(const Surface& surface, const Vec3& c, const ReachParams& params) {
+  const double proof = kProof * params.give;
+  return RoomAt(params.limits, c) >= 0.0 && !NearAvoided(params.limits, c, proof) &&
+         !ShankHitsAll(surface, params.limits, c, 0.0, proof);
+}
+
 Vec3 FromRay(const Vec3& p, const Vec3& c) {
   return {p.x() - c.x(), p.y() - c.y(), std::min(p.z() - c.z(), 0.0)};
 }
@@ -85,8 +90,8 @@ bool NothingNear(const Surface& surface, const Vec3& c, double limit, double pro
   return !found;
 }
 
-// What stands above the centre comes nearer to the shank than anything to the ball (docs/reach.md), which
-// touches the surface at `radius`. Close to where the rule changes, what is known may decide.
+// What stands above the centre comes nearer to the shank than anything to the ball ([regions, section 6]),
+// which touches the surface at `radius`. Close to where the rule changes, what is known may decide.
 bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
   const double proof = kReasonProof * radius, nearer = kNearer * radius;
   limit = std::min(limit, obstacles.DistanceTo(c, radius) - nearer + proof);
@@ -117,13 +122,13 @@ bool Undercut(const Surface& surface, const Vec3& p, const Facing& facing, const
               Obstacles& obstacles) {
   const auto centers = Centers(p, facing, params.radius);
   if (BlockedAbove(surface, centers[0], params, obstacles) &&
-      (!facing.both || BlockedAbove(surface, centers[1], params, obstacles))) {
+      (facing.e.z() > kUprightFace || BlockedAbove(surface, centers[1], params, obstacles))) {
     return true;
   }
   const double least = LeastBall(params.give);
   const auto beside = Centers(p, facing, least);
   return least < params.radius && StandsAboveLeast(surface, beside[0], least, obstacles) &&
-         (!facing.both || StandsAboveLeast(surface, beside[1], least, obstacles));
+         (facing.e.z() > kUprightFace || StandsAboveLeast(surface, beside[1], least, obstacles));
 }
 
 }  // namespace
@@ -163,15 +168,14 @@ double RoomAt(const CenterLimits& limits, const Vec3& center) {
   return std::min(room - limits.within, TopRoomAt(limits, center.z()));
 }
 
+double BesideRoomAt(const CenterLimits& limits, const Vec3& center) {
+  if (limits.containment == nullptr) return kInfinity;
+  return BesideRoom(*limits.containment, center - Vec3(0.0, 0.0, limits.ball)) - limits.within;
+}
+
 double TopRoomAt(const CenterLimits& limits, double center_z) {
   if (limits.containment == nullptr) return kInfinity;
   return TopRoom(*limits.containment, center_z - limits.ball) + kTopSlack;
-}
-
-std::optional<Facing> FacingAt(const SurfaceJet& jet) {
-  const std::optional<Vec3> normal = UpwardNormal(jet);
-  if (!normal) return std::nullopt;
-  return Facing{*normal, normal->z() < kVertical};
 }
 
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params) {
@@ -189,9 +193,12 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
     ReachClass found = ReachClass::kReachable;
     if (InTheWay(surface, c, limit, kProof * params.give, obstacles)) {
       found = ReachClass::kConcave;
+    } else if (BesideRoomAt(params.limits, c) < 0.0 && AllowsBesidePart(surface, c, params)) {
+      found = ReachClass::kOutside;
     } else if (c.z() < params.floor_z - params.give) {
       found = ReachClass::kFloor;
-    } else if (RoomAt(params.limits, c) < 0.0 || NearAvoided(params.limits, c, kProof * params.give)) {
+    } else if (std::min(RoomAt(params.limits, c), BesideRoomAt(params.limits, c)) < 0.0 ||
+               NearAvoided(params.limits, c, kProof * params.give)) {
       found = ReachClass::kAvoided;
     } else if (ShankHitsAll(surface, params.limits, c, 0.0, kProof * params.give)) {
       found = ReachClass::kShank;
@@ -235,8 +242,8 @@ bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& fac
   // The ball is free; what its limits say is told without looking for what is in its way again.
   const double proof = kProof * params.give;
   const Vec3 center = at.p + params.radius * facing.e;
-  if (!facing.both && RoomAt(moved.limits, center) >= 0.0 && !NearAvoided(moved.limits, center, proof) &&
-      !ShankHitsAll(surface, moved.limits, center, 0.0, proof)) {
+  if (!facing.both && RoomAt(moved.limits, center) >= 0.0 && BesideRoomAt(moved.limits, center) >= 0.0 &&
+      !NearAvoided(moved.limits, center, proof) && !ShankHitsAll(surface, moved.limits, center, 0.0, proof)) {
     return true;
   }
   if (ReachOn(surface, at, facing, moved, obstacles) == ReachClass::kReachable) return true;
@@ -293,7 +300,7 @@ double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing,
     double here = params.floor_z - params.give - c.z();
     const auto nearest = NearestToRay(surface, c, limit, kCoarse * params.radius, obstacles);
     if (nearest) here = std::max(here, limit - nearest->distance);
-    here = std::max(here, -RoomAt(params.limits, c));
+    here = std::max(here, -std::min(RoomAt(params.limits, c), BesideRoomAt(params.limits, c)));
     if (params.limits.avoided != nullptr) {
       const double keep = params.limits.avoid_distance;
       const auto avoided = ClosestToUpwardRay(*params.limits.avoided, c, keep, kCoarse * params.radius);

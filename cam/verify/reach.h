@@ -1,4 +1,4 @@
-// Whether the tool can stand at a surface point, and if not, why: docs/reach.md.
+// Whether the tool can stand at a surface point, and if not, why: [regions, section 6].
 #pragma once
 
 #include <array>
@@ -8,12 +8,13 @@
 #include "cam/tool/containment.h"
 #include "cam/tool/wide_shank.h"
 #include "cam/verify/verify.h"
+#include "core/diffgeo/forms.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
 
 // In the order in which they are easier to cure.
-enum class ReachClass { kReachable, kUndercut, kConcave, kFloor, kAvoided, kShank };
+enum class ReachClass { kReachable, kUndercut, kConcave, kFloor, kAvoided, kShank, kOutside };
 
 // Where operation and shank allow a ball's centre. Both pointers may be null.
 struct CenterLimits {
@@ -35,17 +36,11 @@ struct ReachParams {
 
 // Room of boundary, obstacles and top (cam/tool/containment.h): >= 0 where the centre is allowed.
 double RoomAt(const CenterLimits& limits, const Vec3& center);
+// Room of what is forbidden beside the part.
+double BesideRoomAt(const CenterLimits& limits, const Vec3& center);
 
 // Of the top alone, for any centre at this height.
 double TopRoomAt(const CenterLimits& limits, double center_z);
-
-// Unit normal with e_z >= 0. On a vertical face both sides count and `both` is set. nullopt where the
-// parametrisation is degenerate.
-struct Facing {
-  Vec3 e = Vec3::UnitZ();
-  bool both = false;
-};
-std::optional<Facing> FacingAt(const SurfaceJet& jet);
 
 // Points of a surface that were in the way of ball or shank lately: mostly they are in the way of neighbours
 // too, which then need no search, or a short one. Answers depend on it no more than their tolerances allow.

@@ -145,7 +145,7 @@ class Judge {
     p.radius = radius_;
     p.chord_error = chord_error_;
     p.certainty = params_.certainty;
-    // The control's own smoothing may deepen every gouge (P1).
+    // The control's own smoothing may deepen every gouge ([verification P1]).
     const double smoothing = motion_.controller_tolerance;
     p.limit = std::max(0.0, params_.tolerance - smoothing);
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
@@ -213,7 +213,9 @@ class Judge {
   }
 
   absl::Status JudgeFinish() {
-    const SegmentTree tree(CollectMoves(motion_, MotionSet::kCut, offset_), Metric::kPath, radius_, run_);
+    const SegmentTree tree(
+        OutsideOfMaterial(limits_->centers(), CollectMoves(motion_, MotionSet::kCut, offset_)), Metric::kPath,
+        radius_, run_);
     report_.finish_ok = true;
     if (params_.parts.empty()) {
       FinishPart all;
@@ -242,6 +244,8 @@ class Judge {
     PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, cells, tree, p, run_));
     TakeAreas(areas);
     if (part.scallop) {
+      const double square = 4.0 * *part.scallop * (2.0 * radius_ - *part.scallop);
+      report_.reachable_squares = report_.reachable_squares.value_or(0.0) + ReachableOf(areas) / square;
       PM_ASSIGN_OR_RETURN(const LeftoverSpread spread, MeasureSpread(surface_, cells, tree, p, run_));
       for (std::size_t k = 0; k < kLeftoverClasses; ++k) report_.leftover_area[k] += spread[k];
     }
@@ -267,6 +271,11 @@ class Judge {
     return areas.deepest[static_cast<std::size_t>(kind)];
   }
 
+  static double ReachableOf(const AreaReport& areas) {
+    return areas.area[static_cast<std::size_t>(FinishClass::kDone)] +
+           areas.area[static_cast<std::size_t>(FinishClass::kAboveLimit)];
+  }
+
   void TakeAreas(const AreaReport& areas) {
     const auto at = [](FinishClass kind) { return static_cast<std::size_t>(kind); };
     const auto take = [&](FinishClass kind, std::size_t reason) {
@@ -282,6 +291,7 @@ class Judge {
     take(FinishClass::kAvoided, 3);
     take(FinishClass::kStrategy, 4);
     take(FinishClass::kShank, 5);
+    take(FinishClass::kOutside, 6);
     if (std::isfinite(areas.lowest_center)) {
       const double floor_z = std::floor((areas.lowest_center - ball_) * 1e3) / 1e3;
       report_.finishing_floor_z = std::min(report_.finishing_floor_z.value_or(kInfinity), floor_z);
@@ -293,7 +303,7 @@ class Judge {
       report_.finishing_flute_length = std::max(report_.finishing_flute_length.value_or(0.0), flutes);
     }
     for (std::size_t k = 0; k < at(FinishClass::kUnwanted); ++k) report_.total_area += areas.area[k];
-    report_.reachable_area += areas.area[at(FinishClass::kDone)] + areas.area[at(FinishClass::kAboveLimit)];
+    report_.reachable_area += ReachableOf(areas);
     report_.leftover_above_limit_area += areas.area[at(FinishClass::kAboveLimit)];
   }
 

@@ -1,11 +1,11 @@
-// The independent judge (ALGORITHMS 7 A, DESIGN 2): program motion against the exact surface. Sees tool,
+// The independent judge ([verification]): program motion against the exact surface. Sees tool,
 // toolpath and core only.
 //
 // Gouge at p: R - dist(p, all moves swept upward); leftover at a reachable p: dist(p, feed moves) - R; R is
 // the ball's radius plus the stock to leave. Both maxima are values at true surface points, and no point has
-// more than `certainty` above them. Chords of arcs count with their error. P1 and the rapids' distance from
-// the stock add the control's own smoothing (G64 P + Q). A point is reachable or not by its own ball; along
-// the border of the reachable set this is asked at points 0.5 to 2.5 % of R apart.
+// more than `certainty` above them. Chords of arcs count with their error. [verification P1] and the rapids'
+// distance from the stock add the control's own smoothing (G64 P + Q). A point is reachable or not by its own
+// ball; along the border of the reachable set this is asked at points 0.5 to 2.5 % of R apart.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct FinishPart : Finish {
 };
 
 struct VerifyParams : Finish {
-  double tolerance = 0.01;           // mm, P1 and P2
+  double tolerance = 0.01;           // mm, [verification P1, P2]
   double leave = 0.0;                // mm: judged against the offset surface
   double certainty = 1e-3;           // mm: how exactly maxima are known
   double floor_z = -kInfinity;       // mm, tip, placed frame
@@ -67,17 +67,19 @@ struct VerifyPlace {
 inline constexpr std::array kLeftoverEdges = {0.25, 0.5, 0.75, 1.0};
 inline constexpr std::size_t kLeftoverClasses = kLeftoverEdges.size() + 1;
 
-// Index: UnreachableReason order UNDERCUT, CONCAVE, FLOOR, AVOIDED, STRATEGY, then SHANK.
+// Index: UnreachableReason order UNDERCUT, CONCAVE, FLOOR, AVOIDED, STRATEGY, then SHANK, OUTSIDE.
 struct VerifyReport {
-  bool gouge_ok = false, finish_ok = false, motion_ok = false;  // P1, P2, P3
+  bool gouge_ok = false, finish_ok = false, motion_ok = false;  // [verification P1, P2, P3]
   double max_gouge = 0.0;
   VerifyPlace max_gouge_at;
   double max_leftover = 0.0;  // at reachable points
   VerifyPlace max_leftover_at;
   double reachable_area = 0.0, total_area = 0.0;  // mm^2
-  std::array<double, 6> unreachable_area{};       // mm^2 by reason
-  std::array<double, 6> deepest_unreachable{};    // mm of leftover by reason
-  std::array<VerifyPlace, 6> deepest_unreachable_at;
+  // The reachable area in squares of the step over a plane that its scallop allows; absent without a scallop.
+  std::optional<double> reachable_squares;
+  std::array<double, 7> unreachable_area{};     // mm^2 by reason
+  std::array<double, 7> deepest_unreachable{};  // mm of leftover by reason
+  std::array<VerifyPlace, 7> deepest_unreachable_at;
   // Lowest tip that a place unreachable for FLOOR needs, placed frame, to about 0.001 mm and rounded down to
   // it: with this floor (almost) nothing is left for that reason. Absent: nothing is.
   std::optional<double> finishing_floor_z;
@@ -98,12 +100,15 @@ struct VerifyReport {
   // GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK, RAPID_DOG_LEG (each at most 20, of different lines and
   // places, the worst first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START,
   // FIRST_MOTION_NOT_UP, LAST_MOTION_NOT_UP, SPINDLE_STOPPED, SPINDLE_LEFT_ON, COOLANT_LEFT_ON,
-  // OUTSIDE_BOUNDARY (feeds), ABOVE_TOP (feeds), OBSTACLE_HIT, AVOID_MARGIN (at most 20 each as above):
-  // errors. What the program leaves to the control's state (ProgramMotion::assumptions), and
+  // OUTSIDE_BOUNDARY (feeds), ABOVE_TOP (feeds), OBSTACLE_HIT, BESIDE_PART, AVOID_MARGIN (at most 20 each as
+  // above): errors. What the program leaves to the control's state (ProgramMotion::assumptions), and
   // PLUNGE_FEED_NOT_CHECKED: warnings.
   // MORE_FINDINGS when a list of 20 was not long enough: info.
   Diagnostics findings;
   bool ok() const { return gouge_ok && finish_ok && motion_ok; }
+  // What the ball reaches is no ground for passes side by side: less than one step by one step, or none. Says
+  // nothing of the program. False without a scallop.
+  bool NothingToFinish() const { return reachable_squares && *reachable_squares < 1.0; }
 };
 
 // `surface` is placed. Parallel, the same answer for any number of threads. INVALID_ARGUMENT for a tool, a

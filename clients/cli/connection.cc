@@ -53,6 +53,7 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options) {
     ServerOptions server;
     server.threads = options.threads;
     server.max_job_seconds = 7 * 86400.0;  // one's own machine: --timeout decides
+    server.max_in_flight_mib = 4096;
     connection.embedded = StartEmbeddedServer(server);
     connection.channel = connection.embedded->InProcessChannel();
     return connection;

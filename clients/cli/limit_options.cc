@@ -89,6 +89,8 @@ void AddLimitOptions(CLI::App& app, LimitOptions& options) {
       ->capture_default_str();
   AddNumber(app, "--boundary-offset", options.boundary_offset,
             "widens the boundary, mm; negative: narrows it");
+  app.add_flag("--outside", options.outside,
+               "mill upright walls on the part's outer border too: the tool goes down beside the part there");
   AddNumber(app, "--top", options.top, "highest tip of a cutting ball, mm, program frame");
   app.add_option("--obstacle", options.obstacles,
                  "a clamp or vice to keep off, to half the tolerance, program frame: "
@@ -96,7 +98,7 @@ void AddLimitOptions(CLI::App& app, LimitOptions& options) {
 }
 
 bool Selects(const LimitOptions& options) {
-  return !options.only.empty() || !options.avoid.empty() || !options.boundary.empty();
+  return !options.only.empty() || !options.avoid.empty() || !options.boundary.empty() || options.outside;
 }
 
 absl::Status SetLimits(const LimitOptions& options, v1::Setup& setup, v1::Selection& selection) {
@@ -111,6 +113,7 @@ absl::Status SetLimits(const LimitOptions& options, v1::Setup& setup, v1::Select
   for (const std::string& id : options.only) selection.add_patch_ids(WireText(id, 200));
   for (const std::string& id : options.avoid) selection.add_avoid_patch_ids(WireText(id, 200));
   if (!options.avoid.empty()) selection.set_avoid_margin_mm(options.avoid_margin);
+  if (options.outside) selection.set_mill_outside(true);
   for (std::size_t i = 0; i < options.boundary.size(); ++i) {
     auto* xy =
         i == 0 ? selection.mutable_boundary_xy_mm() : selection.add_more_boundary_rings()->mutable_xy_mm();

@@ -18,6 +18,7 @@ struct LimitOptions {
   std::string boundary_mode = "center";
   double avoid_margin = 0.0, boundary_offset = 0.0;
   std::optional<double> top;
+  bool outside = false;
 };
 
 void AddLimitOptions(CLI::App& app, LimitOptions& options);

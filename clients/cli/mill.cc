@@ -107,6 +107,8 @@ absl::Status WriteFiles(const MillOptions& options, Received& received) {
     }
     if (reasons > kMaxReasons)
       message += fmt::format("\n  and {} more; --report has them", reasons - kMaxReasons);
+    if (!received.report.unreachable().empty())
+      message += fmt::format("\n  not reached: {}", UncutShare(received.report));
     return absl::FailedPreconditionError(message + "\n  no program was written");
   }
   if (received.program.size() != static_cast<std::size_t>(received.report.program_size_bytes())) {
@@ -150,7 +152,9 @@ void PrintWarnings(const v1::Report& report, bool assumptions) {
 
 void PrintSummary(const MillOptions& options, const v1::Report& report) {
   const std::string left = UnreachableLine(report);
-  if (!left.empty()) fmt::print(stderr, "patchmill: not reached: {}\n", left);
+  if (!left.empty()) {
+    fmt::print(stderr, "patchmill: not reached: {}: {}\n", UncutShare(report), left);
+  }
   if (options.common.quiet) {
     PrintWarnings(report, false);
     return;

@@ -76,6 +76,22 @@ int CountErrors(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findin
   }));
 }
 
+std::string UncutShare(const v1::Report& report) {
+  const double total = report.total_area_mm2();
+  if (report.unreachable().empty() || !(total > 0.0)) return "nothing";
+  const auto share = [&](double area_mm2) {
+    constexpr double kLeast = 0.1;  // %
+    const double percent = 100.0 * area_mm2 / total;
+    return percent < kLeast ? fmt::format("less than {} %", kLeast) : fmt::format("{:.1f} %", percent);
+  };
+  std::string reasons;
+  for (const v1::UnreachablePart& part : report.unreachable()) {
+    reasons +=
+        fmt::format("{}{} {}", reasons.empty() ? "" : ", ", Short(part.reason()), share(part.area_mm2()));
+  }
+  return fmt::format("{} of the area ({})", share(report.unreachable_area_mm2()), reasons);
+}
+
 std::string UnreachableLine(const v1::Report& report) {
   std::string text;
   for (const v1::UnreachablePart& part : report.unreachable()) {

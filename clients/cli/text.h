@@ -28,6 +28,9 @@ int CountErrors(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findin
 // "X 1.000 Y 2.000 Z 3.000".
 std::string Line(const v1::Point3& point);
 std::string Line(const v1::Place& place);
+// "12.3 % of the area (UNDERCUT 10.1 %, CONCAVE 2.2 %)": how much is not reached; "nothing" when all of it
+// is.
+std::string UncutShare(const v1::Report& report);
 // "UNDERCUT 12.3 mm2, CONCAVE 4.5 mm2"; empty when nothing is left out.
 std::string UnreachableLine(const v1::Report& report);
 

@@ -25,6 +25,7 @@ struct VerifyOptions {
   double tool_diameter = 0.0, tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
   double detail = 0.5;
   std::optional<double> scallop, floor, plunge_feed;
+  bool no_finish = false;
   ShankOptions shank;
 };
 
@@ -89,8 +90,31 @@ void Print(const VerifyOptions& options, const v1::Report& report) {
   fmt::print("tip       lowest Z {:.4f}; box {} to {}\n", report.tip_z_min_mm(), Line(report.tip_box().min()),
              Line(report.tip_box().max()));
   const std::string left = UnreachableLine(report);
-  fmt::print("uncut     {}\n", left.empty() ? "nothing" : left);
+  fmt::print("uncut     {}{}{}\n", UncutShare(report), left.empty() ? "" : ": ", left);
   for (const v1::Diagnostic& finding : report.diagnostics()) fmt::print("  {}\n", Line(finding));
+}
+
+// Exit 0 needs a finish that was judged, or one that was left out on purpose.
+absl::Status Verdict(const VerifyOptions& options, v1::Outcome outcome) {
+  std::string more;
+  switch (outcome) {
+    case v1::OUTCOME_COMPLETE:
+    case v1::OUTCOME_COMPLETE_WHERE_REACHABLE:
+      return absl::OkStatus();
+    case v1::OUTCOME_NO_GOUGE_FOUND:
+      if (options.no_finish) return absl::OkStatus();
+      more =
+          "; whether it finishes anything was not judged: give --scallop to judge it, or --no-finish to "
+          "leave "
+          "it out";
+      break;
+    case v1::OUTCOME_NOTHING_TO_CUT:
+      more = "; no program could finish anything here with this ball";
+      break;
+    default:
+      break;
+  }
+  return absl::FailedPreconditionError(fmt::format("{}: {}{}", options.program, Short(outcome), more));
 }
 
 absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
@@ -123,8 +147,7 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   if (report_file.wanted()) report_file.Set(Json(report));
   if (const absl::Status written = Commit({&report_file}); !written.ok()) return written;
   Print(options, report);
-  if (report.outcome() != v1::OUTCOME_VERIFICATION_FAILED) return absl::OkStatus();
-  return absl::FailedPreconditionError(fmt::format("{}: VERIFICATION_FAILED", options.program));
+  return Verdict(options, report.outcome());
 }
 
 }  // namespace
@@ -138,8 +161,12 @@ Command AddVerify(CLI::App& app) {
   AddNumber(app, "--plunge-feed", options->plunge_feed,
             "mm/min: most for descents steeper than 30 degrees; default: not known, not checked");
   AddNumber(app, "--tolerance", options->tolerance, "largest gouge, mm");
-  AddNumber(app, "--scallop", options->scallop,
-            "largest ridge, mm; default: leftover is measured, not judged");
+  auto* scallop = AddNumber(app, "--scallop", options->scallop,
+                            "largest ridge, mm: without it leftover is measured, not judged, and the exit "
+                            "status is 1 unless --no-finish is given");
+  app.add_flag("--no-finish", options->no_finish,
+               "do not judge the finish: exit 0 when no gouge and no unsafe motion is found")
+      ->excludes(scallop);
   AddNumber(app, "--leave", options->leave, "material meant to be left, mm");
   AddNumber(app, "--floor", options->floor,
             "lowest tip, mm, program frame; default: the model's lowest point");

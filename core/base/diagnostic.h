@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/vec.h"
@@ -13,13 +15,13 @@ enum class Severity { kInfo, kWarning, kError };
 
 // Where a finding is. Everything optional; what is set is printed.
 struct Where {
-  std::string patch_id;            // the client's own id
-  std::optional<int> patch_index;  // 0-based, order of the model
-  std::optional<Vec2> uv;          // native parameters of that patch
-  std::optional<Vec3> point;       // mm, frame of the stage that found it
-  std::optional<int> region_id;
-  std::optional<int> line;  // 1-based, of a file or program
-  std::string field;        // path of a request field
+  std::string patch_id = {};            // the client's own id
+  std::optional<int> patch_index = {};  // 0-based, order of the model
+  std::optional<Vec2> uv = {};          // native parameters of that patch
+  std::optional<Vec3> point = {};       // mm, frame of the stage that found it
+  std::optional<int> region_id = {};
+  std::optional<int> line = {};  // 1-based, of a file or program
+  std::string field = {};        // path of a request field
 };
 
 struct Diagnostic {
@@ -30,5 +32,20 @@ struct Diagnostic {
 };
 
 using Diagnostics = std::vector<Diagnostic>;
+
+// MakeWarning("UNIT_ASSUMED", "the file states no unit", {.field = "source.unit"})
+inline Diagnostic MakeDiagnostic(Severity severity, std::string_view code, std::string message,
+                                 Where where = {}) {
+  return {std::string(code), severity, std::move(message), std::move(where)};
+}
+inline Diagnostic MakeError(std::string_view code, std::string message, Where where = {}) {
+  return MakeDiagnostic(Severity::kError, code, std::move(message), std::move(where));
+}
+inline Diagnostic MakeWarning(std::string_view code, std::string message, Where where = {}) {
+  return MakeDiagnostic(Severity::kWarning, code, std::move(message), std::move(where));
+}
+inline Diagnostic MakeInfo(std::string_view code, std::string message, Where where = {}) {
+  return MakeDiagnostic(Severity::kInfo, code, std::move(message), std::move(where));
+}
 
 }  // namespace patchmill

@@ -1,7 +1,8 @@
 // What goes with an error besides its text, so that a program that asked can act on it: which field is wrong,
-// or a code of what is.
+// a code of what is, or which limit was passed by how much.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -26,5 +27,16 @@ absl::Status CodedError(std::string_view code, std::string_view message);
 
 // Empty where the status has none.
 std::string CodeOf(const absl::Status& status);
+
+struct PassedLimit {
+  std::string name;  // with its unit
+  double limit = 0.0, value = 0.0;
+};
+
+// RESOURCE_EXHAUSTED "<name> = <value>; the limit is <limit>: <text>"; the text says what to do.
+absl::Status LimitPassedError(const PassedLimit& passed, std::string_view text);
+
+// Absent where the status is no LimitPassedError.
+std::optional<PassedLimit> LimitPassedOf(const absl::Status& status);
 
 }  // namespace patchmill

@@ -1,5 +1,5 @@
-// The vector instructions that code with a choice of them runs on. Every choice gives the same bits (P5): it
-// is a matter of speed alone.
+// The vector instructions that code with a choice of them runs on. Every choice gives the same bits
+// ([verification P5]): it is a matter of speed alone.
 #pragma once
 
 #include <atomic>

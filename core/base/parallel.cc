@@ -43,7 +43,13 @@ void InParallel(int threads, std::size_t count, const std::function<void(std::si
 
 absl::Status ParallelFor(const RunContext& run, const char* stage, std::size_t count,
                          const std::function<void(std::size_t)>& body) {
-  std::atomic<std::size_t> done{0};
+  return ParallelFor(run, stage, {0, count, count}, body);
+}
+
+absl::Status ParallelFor(const RunContext& run, const char* stage, const LoopPart& part,
+                         const std::function<void(std::size_t)>& body) {
+  const std::size_t count = part.count;
+  std::atomic<std::size_t> done{part.first};
   const std::size_t report_every = std::max<std::size_t>(1, count / 64);
   Silence silence;
   const auto one = [&](std::size_t i) {
@@ -56,9 +62,9 @@ absl::Status ParallelFor(const RunContext& run, const char* stage, std::size_t c
     }
   };
   if (run.threads() == 1) {
-    for (std::size_t i = 0; i < count && !run.Cancelled(); ++i) one(i);
+    for (std::size_t i = part.first; i < part.last && !run.Cancelled(); ++i) one(i);
   } else {
-    InParallel(run.threads(), count, one);
+    InParallel(run.threads(), part.last - part.first, [&](std::size_t k) { one(part.first + k); });
   }
   return run.Check();
 }

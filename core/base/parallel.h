@@ -17,4 +17,11 @@ namespace patchmill {
 absl::Status ParallelFor(const RunContext& run, const char* stage, std::size_t count,
                          const std::function<void(std::size_t)>& body);
 
+// The calls [first,last) of such a loop; progress is that of the whole loop.
+struct LoopPart {
+  std::size_t first = 0, last = 0, count = 0;
+};
+absl::Status ParallelFor(const RunContext& run, const char* stage, const LoopPart& part,
+                         const std::function<void(std::size_t)>& body);
+
 }  // namespace patchmill

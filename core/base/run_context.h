@@ -20,7 +20,7 @@ class RunContext {
   RunContext() = default;
   explicit RunContext(int threads) : threads_(threads) {}
 
-  // 0: as many as the machine has. Results never depend on it (P5).
+  // 0: as many as the machine has. Results never depend on it ([verification P5]).
   int threads() const { return threads_; }
   void set_threads(int threads) { threads_ = threads; }
   void set_progress(ProgressSink sink) { sink_ = std::move(sink); }

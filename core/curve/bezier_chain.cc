@@ -5,13 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/base/status.h"
 #include "core/math/bspline_basis.h"
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 absl::StatusOr<BezierChain> Chain(const BsplineCurve& curve) {
   const int p = curve.degree;

@@ -11,7 +11,7 @@
 
 namespace patchmill {
 
-// Cubic by its ends and TRUE end derivatives (METHODS 1.2): C'(0) = d0, C'(1) = d1. An outgoing tangent T2 at
+// Cubic by its ends and TRUE end derivatives [curves (2)]: C'(0) = d0, C'(1) = d1. An outgoing tangent T2 at
 // the far end is -d1.
 struct HermiteCurve {
   Vec3 p0 = Vec3::Zero(), d0 = Vec3::Zero(), p1 = Vec3::Zero(), d1 = Vec3::Zero();
@@ -30,9 +30,9 @@ struct BsplineCurve {
   std::vector<Vec3> points;
 };
 
-// Hosaka's segment (METHODS 3.5): R(t) = origin + A f + B g + C h + D(t), a cubic Hermite curve with chord A,
-// true end derivatives B and C, and the extra term D(t) = t^2 (t-1)^2 sum_i extra[i] t^i (47), which moves
-// neither ends nor end derivatives. extra.size() <= 11.
+// Hosaka's segment [curves (9)]: R(t) = origin + A f + B g + C h + D(t), a cubic Hermite curve with chord A,
+// true end derivatives B and C, and the extra term D(t) = t^2 (t-1)^2 sum_i extra[i] t^i [curves (10)], which
+// moves neither ends nor end derivatives. extra.size() <= 11.
 struct HosakaSegment {
   Vec3 origin = Vec3::Zero();
   Vec3 a = Vec3::Zero(), b = Vec3::Zero(), c = Vec3::Zero();
@@ -57,7 +57,7 @@ CurveJet Evaluate(const Curve& curve, double t);
 HermiteCurve Reversed(const HermiteCurve& curve);
 BezierCurve Reversed(BezierCurve curve);
 
-// The part [t1,t2] as a curve of its own (48)(49): chord, and (t2-t1) times the derivatives. Exact.
+// The part [t1,t2] as a curve of its own [curves (11)]: chord, and (t2-t1) times the derivatives. Exact.
 HermiteCurve Part(const HermiteCurve& curve, double t1, double t2);
 // The same of a Bezier curve, 0 <= t1 < t2 <= 1; ends at 0 and 1 stay to the bit.
 BezierCurve Part(BezierCurve curve, double t1, double t2);

@@ -1,4 +1,4 @@
-// Where the end tangents of an edge curve come from: normals (FMILL), arcs, ellipses (METHODS 1.1).
+// Where the end tangents of an edge curve come from: normals (FMILL), arcs, ellipses [curves, section 5].
 //
 // All tangents are OUTGOING: t1 at p1 towards p2, t2 at p2 towards p1. The curve is the cubic with C'(0) =
 // t1, C'(1) = -t2.
@@ -17,7 +17,7 @@ struct EdgeTangents {
 // Shorter than this, of the chord, its projection into the tangent plane has no direction.
 inline constexpr double kMinProjection = 1e-9;
 
-// FMILL (Yamagata 1990 (1)): the chord projected into the tangent plane at each end, made gamma times as long
+// FMILL [curves (26), (27)]: the chord projected into the tangent plane at each end, made gamma times as long
 // as the chord. n1, n2: unit normals. gamma in (0, 10]. INVALID_ARGUMENT when p1 = p2, when the chord is
 // parallel to a normal (the direction is undefined: give the tangent), and for a gamma outside its range.
 absl::StatusOr<EdgeTangents> FmillTangents(const Vec3& p1, const Vec3& n1, const Vec3& p2, const Vec3& n2,

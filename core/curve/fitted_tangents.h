@@ -1,5 +1,5 @@
-// End tangents of a cubic edge whose directions are known and whose lengths are not: arcs (METHODS 1.1) and
-// the fits of Hosaka's segment (3.6, 3.7).
+// End tangents of a cubic edge whose directions are known and whose lengths are not: arcs [curves (24)] and
+// the fits of Hosaka's segment [curves, section 4].
 #pragma once
 
 #include <optional>
@@ -24,23 +24,24 @@ inline constexpr double kMaxOutOfPlane = 1e-6;
 // arc itself to 2.8e-4 of its radius at 90 degrees. INVALID_ARGUMENT where that is 2 pi or the ends coincide.
 absl::StatusOr<EdgeTangents> ArcTangents(const EdgeDirections& ends);
 
-// The segment passes through a point of space (41). INVALID_ARGUMENT as FitThroughPoint.
+// The segment passes through a point of space [curves (18), (19)]. INVALID_ARGUMENT as FitThroughPoint.
 absl::StatusOr<EdgeTangents> TangentsThroughPoint(const EdgeDirections& ends, const Vec3& point);
 
-// The segment is farthest from the plane of its chord and first direction as far away as `peak` is (42);
-// there it lies as far from the chord, within that plane, as `peak`. The place of `peak` along the chord is
-// free.
+// The segment is farthest from the plane of its chord and first direction as far away as `peak` is
+// [curves (20)]; there it lies as far from the chord, within that plane, as `peak`. The place of `peak` along
+// the chord is free.
 absl::StatusOr<EdgeTangents> TangentsWithPeak(const EdgeDirections& ends, const Vec3& peak);
 
-// Plane curves: through `point` with the tangent along `direction` (44), of either sense; without one along
-// the chord, so that the curve is farthest from it there (46). Of several solutions the one whose longer
-// tangent is shortest. INVALID_ARGUMENT where directions, point and chord lie in no plane to kMaxOutOfPlane,
-// for parallel directions, and where there is no solution in (0, 1) with positive lengths.
+// Plane curves: through `point` with the tangent along `direction` [curves (21)-(23)], of either sense;
+// without one along the chord, so that the curve is farthest from it there [curves (21)]. Of several
+// solutions the one whose longer tangent is shortest. INVALID_ARGUMENT where directions, point and chord lie
+// in no plane to kMaxOutOfPlane, for parallel directions, and where there is no solution in (0, 1) with
+// positive lengths.
 absl::StatusOr<EdgeTangents> TangentsWithSlope(const EdgeDirections& ends, const Vec3& point,
                                                const std::optional<Vec3>& direction);
 
-// The same curve with the extra term (47) that leads it through `point` at t in (0,1), with the derivative
-// given, if one is. Ends and end derivatives stay. Degree 4, with a derivative 5.
+// The same curve with the extra term [curves (16), (17)] that leads it through `point` at t in (0,1), with
+// the derivative given, if one is. Ends and end derivatives stay. Degree 4, with a derivative 5.
 HosakaSegment LedThrough(const HermiteCurve& curve, double t, const Vec3& point,
                          const std::optional<Vec3>& derivative);
 

@@ -33,7 +33,7 @@ absl::StatusOr<std::vector<std::array<std::int64_t, 3>>> ForwardDifferences(cons
   if (n < 0 || n > 16) return absl::InvalidArgumentError(fmt::format("n = {}; must be in [0, 16]", n));
   std::vector<std::array<std::int64_t, 3>> points((std::size_t{1} << n) + 1);
   const Vec3 chord = (curve.p1 - curve.p0) / unit, b = curve.d0 / unit, c = curve.d1 / unit;
-  const Vec3 second = 3.0 * chord - 2.0 * b - c, third = -2.0 * chord + b + c;  // (50)
+  const Vec3 second = 3.0 * chord - 2.0 * b - c, third = -2.0 * chord + b + c;  // [curves (30)]
   for (int axis = 0; axis < 3; ++axis) {
     for (const double x : {b[axis], second[axis], third[axis]}) {
       if (!(std::abs(x) < 1e15)) {

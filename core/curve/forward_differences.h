@@ -1,4 +1,4 @@
-// Incremental evaluation of a cubic by three additions a step, in exact integers (Hosaka 1967, METHODS 3.8).
+// Incremental evaluation of a cubic by three additions a step, in exact integers [curves, section 7].
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace patchmill {
 
-// x(t) = a t + b t^2 + c t^3 in integer units, stepped by 2^-n (51)-(54). Registers are scaled by 2^(3n), so
-// every step is exact: value() / 2^(3n) = x(i 2^-n), no rounding ever.
+// x(t) = a t + b t^2 + c t^3 in integer units, stepped by 2^-n [curves (31)-(32)]. Registers are scaled by
+// 2^(3n), so every step is exact: value() / 2^(3n) = x(i 2^-n), no rounding ever.
 class CubicStepper {
  public:
   // INVALID_ARGUMENT unless n is in 0..16 and 3n bits plus those of |a|+|b|+|c|, |2b|+|6c| leave room for the

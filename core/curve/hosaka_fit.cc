@@ -73,7 +73,7 @@ absl::StatusOr<HosakaFit> FitThroughPoint(double chord, const Vec3& b, const Vec
         "needs a point off the start plane, an end direction out of it and a "
         "start direction off the chord");
   }
-  // (41): A f(t) = x - z cos(gx)/cos(gz) - (y - z cos(gy)/cos(gz)) cos(bx)/cos(by)
+  // [curves (18)]: A f(t) = x - z cos(gx)/cos(gz) - (y - z cos(gy)/cos(gz)) cos(bx)/cos(by)
   const double f = (q.x() - q.z() * c.x() / c.z() - (q.y() - q.z() * c.y() / c.z()) * b.x() / b.y()) / chord;
   if (!(f > 0.0 && f < 1.0)) {
     return absl::InvalidArgumentError(fmt::format(

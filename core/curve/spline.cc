@@ -27,7 +27,7 @@ std::vector<Value> Solve(const Rows& rows, std::vector<Value> right) {
   return right;
 }
 
-// The same with the corners below[0] and above[n-1] of a closed chain (Sherman and Morrison, 1950).
+// The same with the corners below[0] and above[n-1] of a closed chain [references: shermanmorrison1950].
 std::vector<Vec3> SolveClosed(Rows rows, const std::vector<Vec3>& right) {
   const std::size_t n = rows.on.size();
   const double top = rows.below[0], bottom = rows.above[n - 1], gamma = -rows.on[0];

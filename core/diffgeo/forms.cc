@@ -20,8 +20,17 @@ std::optional<Vec3> UnitNormal(const SurfaceJet& jet) {
 
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet) {
   std::optional<Vec3> normal = UnitNormal(jet);
-  if (normal && normal->z() < 0.0) *normal = -*normal;
+  if (!normal) return normal;
+  const bool turn =
+      jet.air_side != 0 && std::abs(normal->z()) <= kUprightFace ? jet.air_side < 0 : normal->z() < 0.0;
+  if (turn) *normal = -*normal;
   return normal;
+}
+
+std::optional<Facing> FacingAt(const SurfaceJet& jet) {
+  const std::optional<Vec3> normal = UpwardNormal(jet);
+  if (!normal) return std::nullopt;
+  return Facing{*normal, HasTwoSides(jet, *normal)};
 }
 
 FundamentalForms Forms(const SurfaceJet& jet, const Vec3& normal) {
@@ -35,7 +44,8 @@ double NormalCurvature(const FundamentalForms& f, double du, double dv) {
 }
 
 double NormalCurvature(const FundamentalForms& f, const SurfaceJet& jet, const Vec3& t) {
-  // t = S_u du + S_v dv in the tangent plane, up to the common factor EG - F^2 that (25) does not see.
+  // t = S_u du + S_v dv in the tangent plane, up to the common factor EG - F^2 that [shapes (31)] does not
+  // see.
   const double tu = t.dot(jet.du), tv = t.dot(jet.dv);
   return NormalCurvature(f, f.G * tu - f.F * tv, f.E * tv - f.F * tu);
 }

@@ -1,4 +1,4 @@
-// First and second fundamental forms and what follows from them (METHODS 1.9, ALGORITHMS 4).
+// First and second fundamental forms and what follows from them [shapes, section 9].
 #pragma once
 
 #include <optional>
@@ -10,17 +10,33 @@ namespace patchmill {
 // Unit normal S_u x S_v / |S_u x S_v|; nullopt where |S_u x S_v| <= 1e-12 max(|S_u|,|S_v|)^2: a degenerate
 // parametrisation, be it parallel tangents or, at a pole, a tangent that is rounding noise.
 std::optional<Vec3> UnitNormal(const SurfaceJet& jet);
-// The same, turned so that its z component is >= 0 (what 3-axis work sees; +-normal when z == 0).
+// |e_z| up to which a face is upright: neither of its sides is the upper one.
+inline constexpr double kUprightFace = 1e-6;
+
+// The same, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On an upright face it
+// points to the air side where that is known; else either way.
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet);
+
+// From where a tool stands at a place of the surface.
+struct Facing {
+  Vec3 e = Vec3::UnitZ();  // UpwardNormal
+  bool both = false;       // an upright face whose air side is unknown: the tool may stand at -e as well
+};
+std::optional<Facing> FacingAt(const SurfaceJet& jet);
+
+// Whether the tool may stand on either side of the surface, where `e` is its UpwardNormal.
+inline bool HasTwoSides(const SurfaceJet& jet, const Vec3& e) {
+  return jet.air_side == 0 && e.z() <= kUprightFace;
+}
 
 struct FundamentalForms {
   double E = 0, F = 0, G = 0;  // first, mm^2
   double L = 0, M = 0, N = 0;  // second, with respect to `normal`
 };
-// (24). Signs of L, M, N follow `normal`.
+// [shapes (29), (30)]. Signs of L, M, N follow `normal`.
 FundamentalForms Forms(const SurfaceJet& jet, const Vec3& normal);
 
-// Normal curvature (25) in the direction (du,dv), 1/mm, > 0 concave towards `normal`.
+// Normal curvature [shapes (31)] in the direction (du,dv), 1/mm, > 0 concave towards `normal`.
 double NormalCurvature(const FundamentalForms& f, double du, double dv);
 // Normal curvature in the direction of the tangent vector t (3-D, need not be unit; its part in the tangent
 // plane counts).
@@ -31,9 +47,10 @@ struct PrincipalCurvatures {
 };
 PrincipalCurvatures Principal(const FundamentalForms& f);
 
-// D = L z_v^2 - 2 M z_u z_v + N z_u^2 (27) with the upward normal; < 0 mountain, > 0 basin.
+// D = L z_v^2 - 2 M z_u z_v + N z_u^2 [shapes (34)] with the upward normal; < 0 mountain, > 0 basin.
 double ContourDeterminant(const SurfaceJet& jet, const FundamentalForms& f);
-// kappa_c: normal curvature along the contour (26); 0 where the tangent plane is horizontal (|grad z| = 0).
+// kappa_c: normal curvature along the contour [shapes (33)]; 0 where the tangent plane is horizontal (|grad
+// z| = 0).
 double ContourCurvature(const SurfaceJet& jet, const FundamentalForms& f);
 
 }  // namespace patchmill

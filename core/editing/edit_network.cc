@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/base/status.h"
 #include "core/curve/spline.h"
 #include "core/editing/control_store.h"
@@ -14,8 +15,6 @@
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 bool SameEdge(int a, int b, int c, int d) { return std::minmax(a, b) == std::minmax(c, d); }
 

@@ -1,4 +1,4 @@
-// Edits of a curve network, one after the other (METHODS 1.8b, 2.7). What no edit touches stays as it is, to
+// Edits of a curve network, one after the other [editing]. What no edit touches stays as it is, to
 // the bit, and so do the patches made from it.
 #pragma once
 
@@ -28,8 +28,8 @@ struct NormalEdit {
   Vec3 direction = Vec3::Zero();  // any length but zero
 };
 
-// First- and second-order control vectors (2.4); what is not given stays. The same vectors of the face across
-// are dropped: it follows.
+// First- and second-order control vectors [editing, section 3]; what is not given stays. The same vectors of
+// the face across are dropped: it follows.
 struct ControlEdit {
   CrossControl control;
 };
@@ -40,7 +40,7 @@ struct EdgeOfFace {
 };
 
 // Moves the user's control point Q1 (the tangent plane at Q0 turns, Q2 follows from the edge's ends) or Q2
-// (Q0 and Q1 stay) of an edge (2.7, 5.1).
+// (Q0 and Q1 stay) of an edge [editing, section 3].
 struct ControlPointEdit {
   EdgeOfFace at;
   int point = 1;  // 1 or 2
@@ -48,15 +48,15 @@ struct ControlPointEdit {
 };
 
 // Curvature of the section across the middle of the edge, 1/mm, > 0 the way it bends now when that is towards
-// the face's S_u x S_v (2.7, 5.2). Q0, Q1 and the direction of the second derivative stay.
+// the face's S_u x S_v [editing, section 4]. Q0, Q1 and the direction of the second derivative stay.
 struct CurvatureEdit {
   EdgeOfFace at;
   double curvature = 0.0;
 };
 
-// Corrects a row of faces at once (2.7, 5.3): a cubic spline through the middles of the edges between them,
-// in the chord parameter, gives all their control vectors across the row. Each edge and the next are opposite
-// sides of one G2-Gregory face; closed: the last and the first, too.
+// Corrects a row of faces at once [editing, section 5]: a cubic spline through the middles of the edges
+// between them, in the chord parameter, gives all their control vectors across the row. Each edge and the
+// next are opposite sides of one G2-Gregory face; closed: the last and the first, too.
 struct GuideEdit {
   std::vector<std::array<int, 2>> edges;  // two or more (closed: three), by their vertices
   bool closed = false;

@@ -1,5 +1,5 @@
-// The user's control points of a G2-Gregory patch (METHODS 2.7): Q0 on an edge, Q1 and Q2 beyond it, the
-// Bezier points at one end of a quintic that follows the section across the middle of the patch to second
+// The user's control points of a G2-Gregory patch [editing, section 3]: Q0 on an edge, Q1 and Q2 beyond it,
+// the Bezier points at one end of a quintic that follows the section across the middle of the patch to second
 // order.
 #pragma once
 
@@ -21,10 +21,10 @@ struct SectionPoints {
   Vec3 q0 = Vec3::Zero(), q1 = Vec3::Zero(), q2 = Vec3::Zero();
 };
 SectionPoints SectionPointsOf(const MiddleCross& cross);
-// The other way: T and C of (31). The normal is left out.
+// The other way: T and C of [editing (4)]. The normal is left out.
 MiddleCross CrossOf(const SectionPoints& points);
 
-// Curvature vector of the section (31), 1/mm.
+// Curvature vector of the section [editing (5)], 1/mm.
 Vec3 SectionCurvature(const Vec3& first, const Vec3& second);
 
 // The second derivative that gives the section the curvature `wanted` (1/mm) in the direction it bends now,

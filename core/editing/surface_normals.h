@@ -1,4 +1,4 @@
-// Normals of a network from a surface that lies near it, such as its first global shape (METHODS 1, 6).
+// Normals of a network from a surface that lies near it, such as its first global shape [editing, section 6].
 #pragma once
 
 #include <absl/status/statusor.h>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -10,8 +11,6 @@ namespace {
 
 constexpr double kCollinear = 1e-12;        // sine of the angle below which three points are in line
 constexpr double kVanishingTangent = 1e-9;  // of a projection; the tangents themselves are about 1 long
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // The tangent at p1 of the circle p1, p2, p3, by inversion at p1.
 Vec3 CircleDirection(const Vec3& p1, const Vec3& p2, const Vec3& p3) {

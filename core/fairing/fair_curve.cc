@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error_details.h"
+#include "core/base/index.h"
 #include "core/base/status.h"
 #include "core/fairing/fairing_loop.h"
 
@@ -13,8 +14,6 @@ namespace patchmill {
 namespace {
 
 using Hold = BoxQuadratic::Hold;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 absl::Status CheckDirection(const std::optional<Vec3>& direction, const char* field) {
   if (!direction || (direction->allFinite() && std::isnormal(direction->norm()))) return absl::OkStatus();
@@ -38,8 +37,8 @@ Nodes MergeCoincident(const std::vector<Vec3>& points) {
   return nodes;
 }
 
-// The rows of (17), and what they leave of one component: solved for the step, not for the place, so that
-// what lies fair already does not creep with the rounding of large coordinates.
+// The rows of [fairing (8)], and what they leave of one component: solved for the step, not for the place, so
+// that what lies fair already does not creep with the rounding of large coordinates.
 class ChainSystem {
  public:
   explicit ChainSystem(const Beam& beam) : rows_(At(beam.count())), force_(At(beam.count())) {

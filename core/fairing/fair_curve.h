@@ -1,9 +1,10 @@
-// Fairing of a measured curve as an elastic beam (Okada, 1969; METHODS 4).
+// Fairing of a measured curve as an elastic beam [fairing].
 //
-// In turn: tangents of least energy for fixed points (16), points of least energy for fixed tangents (17)
-// axis by axis within the bands, chords and end tangents anew. More iterations approach the uniform batten
-// through what is locked. New chords may raise the energy that frozen ones saw fall; an iteration that would
-// raise it goes a part of the way, and when no part helps the curve is as fair as it gets.
+// In turn: tangents of least energy for fixed points [fairing (7)], points of least energy for fixed tangents
+// [fairing (8)] axis by axis within the bands, chords and end tangents anew. More iterations approach the
+// uniform batten through what is locked. New chords may raise the energy that frozen ones saw fall; an
+// iteration that would raise it goes a part of the way, and when no part helps the curve is as fair as it
+// gets.
 #pragma once
 
 #include <optional>

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error_details.h"
+#include "core/base/index.h"
 #include "core/base/status.h"
 #include "core/fairing/fairing_loop.h"
 
@@ -16,8 +17,6 @@ namespace {
 
 using Hold = BoxQuadratic::Hold;
 using Sparse = Eigen::SparseMatrix<double>;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 absl::Status CheckApart(const NetFairing& net) {
   const double near = kCoincidentShare * Diagonal(net.points);

@@ -1,4 +1,4 @@
-// Fairing of a net of measured points as two families of beams (Okada, 1969, proposed there; METHODS 4.5).
+// Fairing of a net of measured points as two families of beams [fairing, section 7].
 //
 //      v ^    (i,j+1)            node (i,j) is points[i * count_v + j]; beams u run along i with j fixed,
 //        |  W  (i,j)  E          beams v along j with i fixed. Four segments meet at an inner node.
@@ -32,8 +32,8 @@ BeamNet FitNet(int count_u, std::vector<Vec3> points);
 
 double Energy(const BeamNet& net);  // of all beams
 
-// The five-term equation of an inner node: the sum of the two equations of its beams (17), whose lhs - rhs is
-// dV/dP_ij / 12. Over the free nodes symmetric positive definite.
+// The five-term equation of an inner node [fairing (13)]: the sum of the two equations of its beams
+// [fairing (8)], whose lhs - rhs is dV/dP_ij / 12. Over the free nodes symmetric positive definite.
 struct FiveTermRow {
   PositionRow u, v;
 };
@@ -46,10 +46,10 @@ struct FairedNet {
   std::vector<Vec3> moved;       // after - given
 };
 
-// One iteration: the tangents of both families (16), then the five-term system axis by axis, by sparse
-// Cholesky factors, one solve where no band holds; else as FairCurve. About O(n^1.5) for n nodes. Errors:
-// INVALID_ARGUMENT with field path, also for neighbours that coincide; those of `run`, asked before each
-// axis.
+// One iteration: the tangents of both families [fairing (7)], then the five-term system axis by axis, by
+// sparse Cholesky factors, one solve where no band holds; else as FairCurve. About O(n^1.5) for n nodes.
+// Errors: INVALID_ARGUMENT with field path, also for neighbours that coincide; those of `run`, asked before
+// each axis.
 absl::StatusOr<FairedNet> FairNet(const NetFairing& net, const RunContext& run = {});
 
 }  // namespace patchmill

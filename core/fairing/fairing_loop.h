@@ -1,4 +1,4 @@
-// The iteration of fairing, the same for curves and nets (METHODS 4.4). For use within this folder.
+// The iteration of fairing, the same for curves and nets [fairing, section 4]. For use within this folder.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What may move in fairing, how far, and when it ends: the same for curves and nets (METHODS 4.4).
+// What may move in fairing, how far, and when it ends: the same for curves and nets [fairing, section 4].
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ enum class FairingStop {
 
 // How a band is kept.
 enum class BandRule {
-  kLeastEnergy,  // the least energy that the bands allow: (17) within a box
+  kLeastEnergy,  // the least energy that the bands allow: [fairing (8)] within a box
   kCut,  // the paper's: the least energy without bands, then each component cut back to its band. Kinks
          // where bands are narrow, and then often ends early, see FairedCurve::settled
 };

@@ -64,7 +64,7 @@ std::optional<ConnectionFactors> FactorsFor(const BasisStrip& strip, const Contr
   const ConnectionFactors factors{{k[0], MiddleCoefficient(k[0], k[1], k[2]), k[2]},
                                   {l[0], MiddleCoefficient(l[0], l[1], l[2]), l[2]}};
   // A quadratic with ends of one sign has no zero in between iff its middle coefficient, signed likewise,
-  // exceeds -sqrt(k0 k2) (METHODS 6).
+  // exceeds -sqrt(k0 k2) [joining (22)].
   const double sign = k[0] > 0.0 ? 1.0 : -1.0;
   const bool sound = sign * k[0] > 0.0 && sign * k[2] > 0.0 && sign * factors.k[1] > -std::sqrt(k[0] * k[2]);
   return sound ? std::optional(factors) : std::nullopt;

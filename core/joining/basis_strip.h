@@ -1,9 +1,9 @@
-// Curvature continuity along one edge by a virtual strip beside it (Konno, Takamura, Chiyokura 1992: basis
-// patch method (20)-(30), connection formulas (16)-(19); METHODS 2.4-2.6).
+// Curvature continuity along one edge by a virtual strip beside it ([references: konno1992]: basis
+// patch method [joining (17)-(22)], connection formulas [joining (16), (23), (24)]).
 //
 // An edge runs over v in [0,1]. The strip crosses it with the derivatives a(v), A(v) of degree 2. A patch is
 // joined to it when its first and second differences across the edge are, in degree n,
-//   b(v) = k(v) a(v),   B(v) = k(v)^2 A(v) + l(v) a(v),          k, l of degree 2.            (6)(7)
+//   b(v) = k(v) a(v),   B(v) = k(v)^2 A(v) + l(v) a(v),          k, l of degree 2.            [joining (16)]
 // Two patches joined to one strip have equal tangent planes and equal normal curvatures in every direction.
 // All differences point INTO their own patch here, so k < 0 on the side that the strip comes from.
 #pragma once
@@ -16,8 +16,9 @@
 
 namespace patchmill {
 
-inline constexpr int kG2Degree = 6;           // n: cubic edges
-inline constexpr double kControlPlace = 0.5;  // v0 of METHODS 2.4: where the user's control vectors stand
+inline constexpr int kG2Degree = 6;  // n: cubic edges
+inline constexpr double kControlPlace =
+    0.5;  // v0 of [joining, section 8]: where the user's control vectors stand
 
 // What the strip does at one place of the edge.
 struct StripPlace {
@@ -26,10 +27,10 @@ struct StripPlace {
 };
 
 struct BasisStrip {
-  std::array<Vec3, 3> a, A;  // Bernstein coefficients (20), (24)
+  std::array<Vec3, 3> a, A;  // Bernstein coefficients [joining (17)]
 };
 
-// Through the given places at v = 0, kControlPlace, 1: (21)-(23), (25)-(28).
+// Through the given places at v = 0, kControlPlace, 1: [joining (18)-(20)].
 BasisStrip MakeBasisStrip(const StripPlace& start, const StripPlace& middle, const StripPlace& end);
 
 // First and second control vector of a patch at one place of the edge: S_n/n and S_nn/(n(n-1)).
@@ -41,7 +42,7 @@ struct ControlVectors {
 Vec3 BendOf(const ControlVectors& vectors);
 
 struct ConnectionFactors {
-  std::array<double, 3> k{}, l{};  // Bernstein coefficients (14), (15); l scaled as in METHODS 2.4
+  std::array<double, 3> k{}, l{};  // Bernstein coefficients of the k and l of [joining (16)]
 };
 
 // Factors that give the patch these vectors at the three places, as far as they fit the strip. Nothing where
@@ -56,7 +57,7 @@ struct CrossRows {
 };
 CrossRows Connect(const BasisStrip& strip, const ConnectionFactors& factors);
 
-// (17), (19) for any n >= 5: a_lower of degree n-2, A_lower of degree n-4; b and B of degree n.
+// [joining (23), (24)] for any n >= 5: a_lower of degree n-2, A_lower of degree n-4; b and B of degree n.
 struct ConnectedRows {
   std::vector<Vec3> b, B;
 };

@@ -7,10 +7,10 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "core/base/index.h"
+
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // Directions along which a listed edge leaves its ends, where the network gives them.
 std::optional<Vec3> GivenDirection(const EdgeShape& shape, bool at_start) {

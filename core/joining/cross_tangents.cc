@@ -5,14 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/joining/face_push.h"
 #include "core/joining/network_findings.h"
 #include "core/joining/tangent_plane.h"
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 bool IsHosaka(const JoinFrame& frame, const FaceSide& s) {
   return frame.network.faces[At(s.face)].scheme == PatchScheme::kHosaka;
@@ -63,8 +62,8 @@ BezierChain Along(const BezierChain& edge, const BezierChain& tangent) {
   return CutAt(raised, CommonBreaks({edge, raised}));
 }
 
-// Largest |l| of (5) times how far a jump of the edge's second derivative bends its faces across that break,
-// rad.
+// Largest |l| of [joining (4)] times how far a jump of the edge's second derivative bends its faces across
+// that break, rad.
 double BendAtBreaks(const BezierChain& edge, const JoinFactors& factors) {
   const double l = std::max(std::abs(factors.l[0]), std::abs(factors.l[1]));
   double worst = 0.0;
@@ -187,7 +186,8 @@ void Follow(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, Joined
   edge.tangents = {FollowingTangent(edge.curve, leading, *factors, t.b0, t.b1)};
 }
 
-// (9), (20): a smooth step from one end to the other; between vertices on the edge one each, f(v_j) = v_j.
+// [joining (12)]: a smooth step from one end to the other; between vertices on the edge one each, f(v_j) =
+// v_j.
 BezierChain HosakaTangent(const JoinedEdge& edge, const std::vector<JoinedEdge>& edges, const Vec3& a0,
                           const Vec3& a1) {
   BezierChain tangent{3, {0.0}, {a0}};

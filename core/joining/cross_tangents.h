@@ -1,4 +1,5 @@
-// Cross-boundary tangents of all edges (METHODS 1.3-1.5), with faces along parts of an edge (3.3).
+// Cross-boundary tangents of all edges [joining, section 4], with faces along parts of an edge
+// [joining, section 6].
 #pragma once
 
 #include "core/joining/join_frame.h"
@@ -9,7 +10,8 @@ namespace patchmill {
 bool CubicAcross(const NetworkFace& face);
 
 // Of a face that has its edge for itself, or leads there: along the edge, into the face. Linear; cubic where
-// the face is pushed or given twists, and of a Hosaka face (3.2), there with breaks at vertices on the edge.
+// the face is pushed or given twists, and of a Hosaka face [joining (12)], there with breaks at vertices on
+// the edge.
 BezierChain LoneTangent(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const FaceSide& side);
 
 // Where the blending function of a Hosaka face along the whole of a smooth edge has breaks, f(v) = v: at the

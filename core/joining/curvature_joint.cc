@@ -66,7 +66,7 @@ std::variant<std::array<CrossRows, 2>, CurvatureFault> JoinCurvature(const Cross
     if (const double angle = Angle(-first_a, first_b); !(angle <= kMaxCurveMisfit)) {
       return CurvatureFault{Kind::kControlsDiffer, angle};
     }
-  } else if (a.first) {  // the other side keeps its share (METHODS 2.7)
+  } else if (a.first) {  // the other side keeps its share [joining, section 8]
     first_a = kFirst * *a.first, first_b = -mean_b / mean_a * first_a;
   } else if (b.first) {
     first_b = kFirst * *b.first, first_a = -mean_a / mean_b * first_b;

@@ -16,7 +16,8 @@ struct CrossEnd {
 };
 
 // One side of an edge. `first`, `second`: wished derivatives of the surface across the edge into the face, at
-// the edge's middle. Default: the means of the two ends (METHODS 6), turned to what both sides can share.
+// the edge's middle. Default: the means of the two ends [joining, section 8], turned to what both sides can
+// share.
 struct CrossSide {
   CrossEnd start, end;
   std::optional<Vec3> first, second;

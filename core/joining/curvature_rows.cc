@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
+
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 class RowMaker {
  public:

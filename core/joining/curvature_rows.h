@@ -1,4 +1,4 @@
-// Cross rows of all sides of G2-Gregory faces in a network (METHODS 2.3-2.6).
+// Cross rows of all sides of G2-Gregory faces in a network [joining, section 8].
 #pragma once
 
 #include <vector>

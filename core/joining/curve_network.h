@@ -1,4 +1,4 @@
-// A curve network as given: vertices with normals, edge curves, faces of three or four edges (METHODS 1).
+// A curve network as given: vertices with normals, edge curves, faces of three or four edges [joining].
 //
 // Length unit as the patches of a PatchModel. Indices are 0-based.
 #pragma once
@@ -17,7 +17,8 @@ namespace patchmill {
 inline constexpr int kMaxNetworkFaces = 100'000;
 
 // A place on the edge between two vertices. The one face that has the whole edge as a side leads: faces along
-// parts of it take the parts of its curve, and where it is smooth follow its tangent plane (METHODS 3.3).
+// parts of it take the parts of its curve, and where it is smooth follow its tangent plane
+// [joining, section 6].
 struct PlaceOnEdge {
   int start = 0, end = 0;  // vertices
   double parameter = 0.5;  // (0, 1), of the edge's curve from `start`
@@ -38,8 +39,8 @@ struct NetworkVertex {
   std::optional<PlaceOnEdge> on_edge = {};  // a T-junction: no normal where the leading face gives it
 };
 
-// Tangents from the normals (1.1), gamma |chord| long. At a crease between two normals: along both planes; a
-// face that meets others there in creases only, and has no normal given, asks for no plane.
+// Tangents from the normals [curves (26), (27)], gamma |chord| long. At a crease between two normals: along
+// both planes; a face that meets others there in creases only, and has no normal given, asks for no plane.
 // `length` says what gamma multiplies: the chord; or, of the cubic nearest to an arc or to a quarter of an
 // ellipse that leaves both ends so, the tangents.
 enum class TangentLength { kChord, kArc, kQuarterEllipse };
@@ -47,25 +48,27 @@ struct NormalsEdge {
   double gamma = 1.0;  // (0, 10]
   TangentLength length = TangentLength::kChord;
 };
-// Outgoing tangents at both ends (2); they must lie in the tangent planes.
+// Outgoing tangents at both ends [curves (3)]; they must lie in the tangent planes.
 struct TangentsEdge {
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();
 };
-// Hosaka's segment: directions from the normals, lengths such that it passes through a point of space (41).
+// Hosaka's segment: directions from the normals, lengths such that it passes through a point of space
+// [curves (18)].
 struct ThroughPointEdge {
   Vec3 point = Vec3::Zero();
 };
-// The same as far from the plane of chord and start tangent as `peak`, and no farther (42).
+// The same as far from the plane of chord and start tangent as `peak`, and no farther [curves (20)].
 struct PeakEdge {
   Vec3 peak = Vec3::Zero();
 };
-// The same of a plane curve through `point` along `direction` (44); without one along the chord (46).
+// The same of a plane curve through `point` along `direction` [curves (21)]; without one along the chord
+// [curves (21)].
 struct SlopeEdge {
   Vec3 point = Vec3::Zero();
   std::optional<Vec3> direction;
 };
-// A NormalsEdge led through `point` at `parameter` by the extra term (47): end tangents stay. Degree 4, with
-// a derivative 5.
+// A NormalsEdge led through `point` at `parameter` by the extra term [curves (10)]: end tangents stay. Degree
+// 4, with a derivative 5.
 struct LedEdge {
   NormalsEdge ends;
   double parameter = 0.5;  // [0.05, 0.95]
@@ -102,20 +105,20 @@ struct NetworkLine {
 
 enum class PatchScheme {
   kAuto,             // Gregory quad, Brown quad where an edge is no cubic of one span; loft triangle
-  kGregory,          // quad: METHODS (13), cubic edges only
-  kBrown,            // quad: METHODS (14)
-  kLoftTriangle,     // triangle: (19)-(21), squared weights where an edge is no cubic
-  kGregoryTriangle,  // triangle: (15)-(18), cubic edges only
-  kG2Gregory,  // quad: METHODS 2, cubic edges only; equal curvature across edges with others of its kind
-  // Quad: METHODS 3.1-3.4. Its tangents across an edge are those of the crossing edges, blended by a smooth
-  // step, with breaks at vertices on the edge; faces of other kinds follow them.
+  kGregory,          // quad: [shapes (7)], cubic edges only
+  kBrown,            // quad: [shapes (8)]
+  kLoftTriangle,     // triangle: [shapes (17), (18)], squared weights where an edge is no cubic
+  kGregoryTriangle,  // triangle: [shapes (12)-(14)], cubic edges only
+  kG2Gregory,  // quad: [shapes (20), (21)], cubic edges only; equal curvature across edges with others of its kind
+  // Quad: [shapes (23)-(27)]. Its tangents across an edge are those of the crossing edges, blended by a
+  // smooth step, with breaks at vertices on the edge; faces of other kinds follow them.
   kHosaka,
 };
 
 inline constexpr std::size_t kMaxFacePushes = 101;  // of one face: on the wire `push` and 100 more
 
-// A bulge or dent at one place of a face (1.8b), by the twists of its edges: corners and edges stay, the
-// faces across its smooth edges follow.
+// A bulge or dent at one place of a face [editing, section 1], by the twists of its edges: corners and edges
+// stay, the faces across its smooth edges follow.
 struct FacePush {
   // The place, inside the face: u along side 0 from the first vertex, v away from it; of a triangle the
   // shares of the second and third vertex.
@@ -128,7 +131,8 @@ struct FacePush {
 };
 
 // Wished twists at the ends of one side of a face, as seen from there: the change of the tangent across the
-// side by the side's parameter as it leaves that end (METHODS 1.3: Wa0, Wa1). (10) where not given.
+// side by the side's parameter as it leaves that end ([joining (3)]: Wa0, Wa1). [joining (8)] where not
+// given.
 struct SideTwists {
   int start = 0, end = 0;  // the corners of the side
   std::optional<Vec3> at_start, at_end;
@@ -140,13 +144,13 @@ struct NetworkFace {
   PatchScheme scheme = PatchScheme::kAuto;
   std::vector<FacePush> pushes = {};  // they add up
   std::vector<SideTwists> twists = {};
-  // Inserted edges between two corners, that leave pieces of three or four sides (METHODS 1). A scheme is for
-  // the pieces with its number of sides.
+  // Inserted edges between two corners, that leave pieces of three or four sides [joining, section 2]. A
+  // scheme is for the pieces with its number of sides.
   std::vector<std::array<int, 2>> cuts = {};
   std::optional<int> of = {};  // of a piece: the face it was cut from (face_cuts.h)
 };
 
-// How a G2-Gregory face leaves an edge in its middle (METHODS 2.4, 2.7): first and second derivative of the
+// How a G2-Gregory face leaves an edge in its middle [joining, section 8]: first and second derivative of the
 // face's surface across the edge, into it. The face across a smooth edge follows: its first derivative turns
 // with this one and keeps its share of the length, its normal curvatures become this face's.
 struct CrossControl {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/base/status.h"
 #include "core/curve/bezier_chain.h"
 #include "core/curve/fitted_tangents.h"
@@ -13,8 +14,6 @@
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 class Shaper {
  public:

@@ -1,4 +1,4 @@
-// The curve of an edge from what the network says about it (METHODS 1.1, 1.2, 3.6).
+// The curve of an edge from what the network says about it [joining, section 2].
 #pragma once
 
 #include <optional>

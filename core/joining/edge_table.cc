@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/base/union_find.h"
 #include "core/joining/edge_checks.h"
 #include "core/joining/face_push.h"
@@ -16,8 +17,6 @@
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 void AddListedEdges(const CurveNetwork& network, const NetworkWriter& findings, EdgeByEnds& by_ends,
                     EdgeTable& table) {

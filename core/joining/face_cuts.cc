@@ -4,12 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/joining/network_findings.h"
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 using Loop = std::vector<int>;
 

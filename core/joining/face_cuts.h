@@ -1,5 +1,5 @@
-// Faces of many sides, cut into pieces by inserted edges (Yamagata 1990: "a 5-sided region is split by
-// inserting an edge curve"; METHODS 1).
+// Faces of many sides, cut into pieces by inserted edges ([references: yamagata1990]: "a 5-sided region is
+// split by inserting an edge curve"; [joining, section 2]).
 #pragma once
 
 #include "core/base/diagnostic.h"

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
+
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 int HighestDegree(const FaceBoundary& face) {
   int degree = 3;
@@ -97,7 +97,7 @@ PatchShape LoftedTriangle(const FaceBoundary& face) {
   return patch;
 }
 
-// (16), (17). The radial derivative on a side is 4 (R - C), so R, a cubic, is C + b/4.
+// [shapes (13), (14)]. The radial derivative on a side is 4 (R - C), so R, a cubic, is C + b/4.
 PatchShape QuarticTriangle(const FaceBoundary& face) {
   GregoryTriangle patch;
   patch.blend = GregoryPatch::Blend::kEdge;
@@ -115,7 +115,8 @@ PatchShape QuarticTriangle(const FaceBoundary& face) {
   return patch;
 }
 
-// Rows 1 and 2 beside every side of a bisextic net; METHODS 2.2, 2.5. The middle point is no side's (2.6).
+// Rows 1 and 2 beside every side of a bisextic net [joining (25)]. The middle point is no side's
+// [joining (26)].
 PatchShape G2GregoryQuad(const FaceBoundary& face) {
   constexpr int n = kG2Degree;
   G2GregoryPatch patch;
@@ -151,7 +152,7 @@ PatchShape G2GregoryQuad(const FaceBoundary& face) {
   return patch;
 }
 
-// (1)-(7): the four edges alone, with breaks where vertices lie on them.
+// [shapes (23)]: the four edges alone, with breaks where vertices lie on them.
 PatchShape HosakaQuad(const FaceBoundary& face) {
   HosakaPatch patch;
   const int n = patch.degree = HighestDegree(face);

@@ -1,4 +1,4 @@
-// The patch of one face from its edge curves and cross-boundary tangents (METHODS 1.6-1.8).
+// The patch of one face from its edge curves and cross-boundary tangents [joining, section 7].
 #pragma once
 
 #include <array>

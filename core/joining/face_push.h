@@ -1,5 +1,5 @@
-// Pushing a face in or out at a picked place through the twists of its edges (Yamagata 1990 (22), (23);
-// METHODS 1.8b). Corners, edge curves and the tangent planes at the corners stay.
+// Pushing a face in or out at a picked place through the twists of its edges [editing (1), (2)].
+// Corners, edge curves and the tangent planes at the corners stay.
 #pragma once
 
 #include "core/joining/network_findings.h"
@@ -14,9 +14,9 @@ struct EdgePlace {
 // Where the push is, seen from side `side` of a face of 3 or 4 sides, along the side as the face runs.
 EdgePlace PlaceBeside(const FacePush& push, int sides, int side);
 
-// Adds (23) to the wished twists w0, w1 of a patch with cross tangents b0, b1 at the ends of an edge with the
-// true end derivatives `start`, `end`. amount > 0 pushes along b x C'; per length, as b x C' is a length
-// squared.
+// Adds [editing (2)] to the wished twists w0, w1 of a patch with cross tangents b0, b1 at the ends of an edge
+// with the true end derivatives `start`, `end`. amount > 0 pushes along b x C'; per length, as b x C' is a
+// length squared.
 void PushTwists(const Vec3& start, const Vec3& end, const Vec3& b0, const Vec3& b1, const EdgePlace& place,
                 double amount, Vec3& w0, Vec3& w1);
 

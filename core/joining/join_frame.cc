@@ -1,12 +1,8 @@
 #include "core/joining/join_frame.h"
 
+#include "core/base/index.h"
+
 namespace patchmill {
-namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 int JoinFrame::CornerAt(const FaceSide& s, bool start) const {
   const int n = SideCount(network.faces[At(s.face)]);
   return table.Forward(s, network) == start ? s.side : (s.side + 1) % n;

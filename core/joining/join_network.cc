@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/base/index.h"
 #include "core/base/status.h"
 #include "core/joining/corner_normals.h"
 #include "core/joining/cross_tangents.h"
@@ -18,8 +19,6 @@
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 EdgeKind KindOf(const TableEdge& edge) {
   if (edge.divided || edge.part) {

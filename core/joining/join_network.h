@@ -1,5 +1,5 @@
 // CurveNetwork -> patches joined with equal tangent planes, and equal curvatures between G2-Gregory faces
-// (METHODS 1, 2; DESIGN 4: JoinPatches).
+// [joining].
 #pragma once
 
 #include <vector>

@@ -5,14 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/curve/hosaka_fit.h"
 #include "core/joining/cross_tangents.h"
 #include "core/joining/face_patch.h"
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // Whether the face meets another one smoothly at that corner, so that its plane there is not its own affair.
 bool Constrained(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const FaceSide& s,

@@ -9,7 +9,8 @@ namespace patchmill {
 // there, or the faces on both sides of a smooth edge have different planes at an end.
 void CheckPlanes(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const JoinedEdge& edge);
 
-// LOOPED_EDGE, a warning: a cubic that crosses itself, seen across its chord and start tangent (METHODS 3.6).
+// LOOPED_EDGE, a warning: a cubic that crosses itself, seen across its chord and start tangent
+// [curves (14), (15)].
 void CheckLoop(const JoinFrame& frame, const JoinedEdge& edge);
 
 // PARALLEL_TANGENTS: two edges in line at a corner leave the patch without tangent plane there.

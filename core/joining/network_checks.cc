@@ -8,14 +8,13 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/joining/t_vertices.h"
 #include "core/network/corner_vertices.h"
 #include "core/network/patch_model.h"
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 bool CheckPlace(const Vec3& p, std::string_view what, const NetworkWriter& findings, Where where) {
   if (!p.allFinite()) {
@@ -30,8 +29,8 @@ bool CheckPlace(const Vec3& p, std::string_view what, const NetworkWriter& findi
   return false;
 }
 
-// The edges that could be inserted into a face of any number of sides but three and four (METHODS 1). Which
-// one suits is the drawer's choice: it is a line of the surface.
+// The edges that could be inserted into a face of any number of sides but three and four
+// [joining, section 2]. Which one suits is the drawer's choice: it is a line of the surface.
 std::string CutsOf(const std::vector<int>& loop) {
   const std::size_t n = loop.size();
   if (n < 3) return "give three or four vertices";

@@ -66,7 +66,7 @@ Where NetworkWriter::AtFace(int face) const {
 void NetworkWriter::Add(std::string_view code, Severity severity, Where where, std::string_view text) const {
   if (++count_[std::string(code)] > kMaxOfACode) return;
   std::string message = fmt::format("{} {}", where.field, text);
-  to_.push_back({std::string(code), severity, std::move(message), std::move(where)});
+  to_.push_back(MakeDiagnostic(severity, code, std::move(message), std::move(where)));
 }
 
 bool NetworkWriter::ErrorWritten() const { return HasError(to_); }

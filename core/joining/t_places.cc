@@ -4,16 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/joining/cross_tangents.h"
 #include "core/joining/t_vertices.h"
 
 namespace patchmill {
-namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 void EstimateTPlaces(const EdgeTable& table, CurveNetwork& network) {
   for (const TVertex& t : table.t_vertices) {
     const TableEdge& edge = table.edges[At(t.edge)];

@@ -1,4 +1,4 @@
-// Where vertices on edges lie, and the tangent planes there (METHODS 3.3).
+// Where vertices on edges lie, and the tangent planes there [joining, section 6].
 #pragma once
 
 #include "core/joining/join_frame.h"

@@ -1,4 +1,4 @@
-// Vertices on edges (METHODS 3.3): what they divide, and in which order they can be found.
+// Vertices on edges [joining, section 6]: what they divide, and in which order they can be found.
 #pragma once
 
 #include <map>

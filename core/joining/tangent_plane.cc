@@ -9,7 +9,7 @@
 namespace patchmill {
 namespace {
 
-// (6) at one end, c the true derivative of the edge.
+// [joining (5)] at one end, c the true derivative of the edge.
 std::variant<std::array<double, 3>, JoinFault> FactorsAt(const Vec3& c, const Vec3& a, const Vec3& b,
                                                          const Vec3& n) {
   const auto area = [&n](const Vec3& x, const Vec3& y) { return n.dot(x.cross(y)); };

@@ -1,8 +1,8 @@
-// Tangent-plane continuity along one edge shared by two patches (Yamagata 1990, METHODS 1.3-1.5).
+// Tangent-plane continuity along one edge shared by two patches [joining, section 4].
 //
 // An edge curve C runs from P0 to P1. On either side a patch, a and b, has a cross-boundary tangent (CBT)
 // pointing into it,
-//   a(u) = phi0 a0 + phi1 Wa0 + psi0 a1 + psi1 (-Wa1)                                        (4)
+//   a(u) = phi0 a0 + phi1 Wa0 + psi0 a1 + psi1 (-Wa1)                                        [joining (3)]
 // with a0, a1 the outgoing tangents at P0, P1 of that patch's other edge there and Wa0, Wa1 the twists as
 // seen from their own vertex: a'(0) = Wa0, a'(1) = -Wa1. For quads and triangles alike.
 #pragma once
@@ -22,8 +22,9 @@ struct CrossTangents {
   Vec3 b0 = Vec3::Zero(), b1 = Vec3::Zero();
 };
 
-// l(u) C'(u) = h(u) a(u) + k(u) b(u) with all three linear in u (5)-(7); index 0, 1: the value at that end.
-// Scaled so that h + k = 2 at both ends, hence everywhere: then (8) always has a solution.
+// l(u) C'(u) = h(u) a(u) + k(u) b(u) with all three linear in u [joining (4), (5)]; index 0, 1: the value at
+// that end. Scaled so that h + k = 2 at both ends, hence everywhere: then [joining (7)] always has a
+// solution.
 struct JoinFactors {
   std::array<double, 2> l{}, h{}, k{};
 };
@@ -37,8 +38,8 @@ enum class JoinFault {
 inline constexpr double kMinJoinFactor = 1e-6;
 inline constexpr double kMinTangentSine = 1e-6;
 
-// (6) at both ends. `start`, `end`: C'(0) and C'(1), true derivatives. n0, n1: unit normals of the common
-// tangent planes, in which all vectors lie; their sense does not matter.
+// [joining (5)] at both ends. `start`, `end`: C'(0) and C'(1), true derivatives. n0, n1: unit normals of the
+// common tangent planes, in which all vectors lie; their sense does not matter.
 std::variant<JoinFactors, JoinFault> FactorsAlong(const Vec3& start, const Vec3& end,
                                                   const CrossTangents& tangents, const Vec3& n0,
                                                   const Vec3& n1);
@@ -48,10 +49,10 @@ struct EdgeTwists {
   Vec3 b0 = Vec3::Zero(), b1 = Vec3::Zero();
 };
 
-// (10): twists that make the CBTs as linear as possible.
+// [joining (8)]: twists that make the CBTs as linear as possible.
 EdgeTwists WishedTwists(const CrossTangents& tangents);
 
-// The three vector equations (8): matrix (3 x 4, unknowns Wa0 Wa1 Wb0 Wb1) and right sides (rows).
+// The three vector equations [joining (7)]: matrix (3 x 4, unknowns Wa0 Wa1 Wb0 Wb1) and right sides (rows).
 struct TwistConditions {
   Eigen::Matrix<double, 3, 4> matrix;
   Eigen::Matrix3d right;
@@ -59,25 +60,26 @@ struct TwistConditions {
 TwistConditions ConditionsFor(const HermiteCurve& edge, const CrossTangents& tangents,
                               const JoinFactors& factors);
 
-// The twists nearest to `wished` (least sum of squares, (9)) that satisfy (8), by the Moore-Penrose inverse
-// with relative cut-off kPseudoInverseCutoff; rank 2 (a = -b at both ends and the like) included. Residual of
-// (8) about 1e-15 of the tangents.
+// The twists nearest to `wished` (least sum of squares, [joining (9)]) that satisfy [joining (7)], by the
+// Moore-Penrose inverse with relative cut-off kPseudoInverseCutoff; rank 2 (a = -b at both ends and the like)
+// included. Residual of [joining (7)] about 1e-15 of the tangents.
 inline constexpr double kPseudoInverseCutoff = 1e-9;
 EdgeTwists NearestTwists(const HermiteCurve& edge, const CrossTangents& tangents, const JoinFactors& factors,
                          const EdgeTwists& wished);
 
-// The CBT (4) as a vector-valued cubic.
+// The CBT [joining (3)] as a vector-valued cubic.
 BezierCurve CrossBoundaryTangent(const Vec3& at0, const Vec3& twist0, const Vec3& at1, const Vec3& twist1);
 
-// b where a is given all along: (5) solved for b with k = 1, so that b = l C' - h a with linear l, h that
-// give it its ends b0, b1 (METHODS 3.3, (17)-(19), with l for curves that do not cross the edge in one line).
+// b where a is given all along: [joining (4)] solved for b with k = 1, so that b = l C' - h a with linear l,
+// h that give it its ends b0, b1 ([joining (11)], with l for curves that do not cross the edge in one line).
 // Exact; of the degree of `edge`, which must be above that of `leading`, and cut at the breaks of both.
 BezierChain FollowingTangent(const BezierChain& edge, const BezierChain& leading, const JoinFactors& factors,
                              const Vec3& b0, const Vec3& b1);
 
 // What a and b both need in addition where the edge is not its own cubic Hermite part H: with h + k = 2,
-// l (C' - H')/2 on each side restores (5) exactly. Vector-valued, degree and breaks those of the edge, of
-// degree 3 at least; zero for a cubic. Where the edge's second derivative jumps, so does its derivative.
+// l (C' - H')/2 on each side restores [joining (4)] exactly. Vector-valued, degree and breaks those of the
+// edge, of degree 3 at least; zero for a cubic. Where the edge's second derivative jumps, so does its
+// derivative.
 BezierChain CorrectionFor(const BezierChain& edge, const JoinFactors& factors);
 
 }  // namespace patchmill

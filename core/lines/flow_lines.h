@@ -1,5 +1,5 @@
-// Flow lines: the orthogonals of contours (METHODS 5 (3)) and of lines of equal slope (7). They follow the
-// gradient of a function on the surface, evenly spread (Jobard and Lefer 1997).
+// Flow lines: the orthogonals of contours [lines (3)] and of lines of equal slope [lines (7)]. They follow
+// the gradient of a function on the surface, evenly spread [references: jobard1997].
 #pragma once
 
 #include <vector>

@@ -73,7 +73,7 @@ Vec3 FlowGradient(const SurfaceJet& jet, const FlowParams& params) {
   const double w = f.E * f.G - f.F * f.F;
   double fu = params.axis.dot(jet.du), fv = params.axis.dot(jet.dv);
   if (params.kind == FlowKind::kAlongSlope) {
-    // METHODS (5): psi_u = alpha phi_u + beta phi_v, and alike for v; of the side that faces along the axis.
+    // [lines (5)]: psi_u = alpha phi_u + beta phi_v, and alike for v; of the side that faces along the axis.
     const double side = params.axis.dot(*normal) < 0.0 ? -1.0 : 1.0;
     const double pu = fu, pv = fv;
     fu = side * ((f.M * f.F - f.L * f.G) * pu + (f.L * f.F - f.M * f.E) * pv) / w;

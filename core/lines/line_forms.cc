@@ -241,7 +241,7 @@ std::optional<BernsteinForm> SlopeExtremumForm(const BernsteinNet& net) {
   const Parts parts = MakeParts(net);
   const Form zu = Rise(parts, &Coordinate::u), zv = Rise(parts, &Coordinate::v);
   // With N along the normal: |N|^3 times the derivative of N_z / |N| along the contour,
-  // (N . N) dN_z - N_z (N . dN), d = z_v d/du - z_u d/dv; equal to (10) up to a positive factor.
+  // (N . N) dN_z - N_z (N . dN), d = z_v d/du - z_u d/dv; equal to [lines (10)] up to a positive factor.
   Form along[3] = {Form(0, 0, 0.0), Form(0, 0, 0.0), Form(0, 0, 0.0)};
   for (std::size_t k = 0; k < 3; ++k)
     along[k] = zv * Derived(parts.normal[k], true) - zu * Derived(parts.normal[k], false);

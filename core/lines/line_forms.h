@@ -1,5 +1,5 @@
-// The fields of line_fields.h as polynomials over a piece (ALGORITHMS 12): products of its Bernstein net and
-// its derivatives, for the axis z; other axes by turning the net first.
+// The fields of line_fields.h as polynomials over a piece [lines, section 3]: products of its Bernstein net
+// and its derivatives, for the axis z; other axes by turning the net first.
 #pragma once
 
 #include <optional>

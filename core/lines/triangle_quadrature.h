@@ -5,8 +5,8 @@
 
 namespace patchmill {
 
-// Calls visit(q, weight) at the 7 points of the symmetric rule of degree 5 (Radon 1948) on the triangle a b
-// c; the weights sum to its signed area, positive when counter-clockwise.
+// Calls visit(q, weight) at the 7 points of the symmetric rule of degree 5 [references: radon1948] on the
+// triangle a b c; the weights sum to its signed area, positive when counter-clockwise.
 template <class Visit>
 void ForQuadraturePoints(const Vec2& a, const Vec2& b, const Vec2& c, Visit&& visit) {
   constexpr double kCenter = 0.225;

@@ -8,7 +8,8 @@
 // Found are all loops and branches inside a piece down to ZeroMeshParams::min_cell where the field has a form
 // (line_forms.h: all usual degrees), by proof; elsewhere those wider than max_cell / 2. Two curves nearer to
 // each other than min_cell may come out joined the other way round, never far from where they are. Source:
-// ALGORITHMS 12 (certified quadtree, signs decide); Plantinga and Vegter 2004 for the isotopy argument.
+// [lines, section 4] (certified quadtree, signs decide); [references: plantinga2004] for the isotopy
+// argument.
 #pragma once
 
 #include <span>

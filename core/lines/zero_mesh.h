@@ -1,5 +1,5 @@
-// One piece of a surface cut into triangles along the zero curves of several fields (ALGORITHMS 12): what is
-// connected is decided by signs at vertices, and vertices on a curve lie on the true one.
+// One piece of a surface cut into triangles along the zero curves of several fields [lines, section 4]: what
+// is connected is decided by signs at vertices, and vertices on a curve lie on the true one.
 //
 // A quadtree over the piece is divided until, for every field with a form, each cell is proven to hold no
 // zero or a single arc that meets each side once at most; so no curve is lost inside the piece down to the
@@ -17,7 +17,7 @@
 
 namespace patchmill {
 
-inline constexpr int kMaxZeroFields = 9;
+inline constexpr int kMaxZeroFields = 10;
 using ZeroFieldBits = std::uint16_t;  // bit k: of field k
 
 struct ZeroVertex {

@@ -1,5 +1,6 @@
 // Second-order jets of two variables: a value with first and second partial derivatives, carried exactly
-// through + - * / (METHODS 0). For blends of patches; T is double here, vectors multiply from the right.
+// through + - * / [shapes, section 7]. For blends of patches; T is double here, vectors multiply from the
+// right.
 #pragma once
 
 namespace patchmill {

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
 #include "core/base/parallel.h"
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 std::optional<Vec3> RawNormal(const PatchShape& shape, const Vec2& uv) {
   const SurfaceJet jet = Evaluate(shape, uv.x(), uv.y());

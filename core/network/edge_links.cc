@@ -4,13 +4,13 @@
 #include <map>
 #include <numeric>
 
+#include "core/base/index.h"
+
 namespace patchmill {
 namespace {
 
 constexpr std::size_t kMaxCurvesPerPair = 64;
 constexpr std::size_t kMaxPatchesPerRim = 16;  // different patches in one closed rim that are told apart
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // Two closed edges from one vertex: does b run against a?
 bool LoopsBackwards(const EdgeCurves& curves, int a, int b) {

@@ -57,7 +57,7 @@ bool NetworkFindings::HasRoom(std::string_view code) {
 void NetworkFindings::Add(std::string_view code, Severity severity, Where where, std::string message) {
   auto it = by_code_.find(code);
   if (it == by_code_.end()) it = by_code_.emplace(code, List{}).first;
-  it->second.kept.push_back({std::string(code), severity, std::move(message), std::move(where)});
+  it->second.kept.push_back(MakeDiagnostic(severity, code, std::move(message), std::move(where)));
 }
 
 Diagnostics NetworkFindings::Take() {
@@ -66,7 +66,7 @@ Diagnostics NetworkFindings::Take() {
     const Severity severity = list.kept.front().severity;
     for (Diagnostic& d : list.kept) all.push_back(std::move(d));
     if (list.dropped > 0) {
-      all.push_back({code, severity, fmt::format("and {} more of this kind", list.dropped), {}});
+      all.push_back(MakeDiagnostic(severity, code, fmt::format("and {} more of this kind", list.dropped)));
     }
   }
   by_code_.clear();

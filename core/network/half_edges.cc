@@ -8,6 +8,7 @@
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 
+#include "core/base/index.h"
 #include "core/base/union_find.h"
 
 namespace patchmill {
@@ -20,8 +21,6 @@ struct MeshTraits : OpenMesh::DefaultTraits {
   HalfedgeAttributes(OpenMesh::Attributes::PrevHalfedge);
 };
 using Mesh = OpenMesh::PolyMesh_ArrayKernelT<MeshTraits>;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // Edges of a patch in counter-clockwise order: which one, and whether its parameter runs that way.
 struct Side {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/base/index.h"
 #include "core/network/box_tree.h"
 
 namespace patchmill {
@@ -12,8 +13,6 @@ namespace {
 // seconds, real ones never come near.
 constexpr std::int64_t kSearchBudget = 20'000'000;
 constexpr std::int64_t kFootCost = 20;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // The search: open edges in a tree, and what is left of the budget. Slots number `open_`.
 class Search {

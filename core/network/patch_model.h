@@ -26,7 +26,7 @@ struct PatchModel {
   std::optional<double> join_tolerance;  // length unit of the points; default kDefaultJoinTolerance
 };
 
-// How the model lies on the machine: scale first, then `up`, then translation (DESIGN 5).
+// How the model lies on the machine: scale first, then `up`, then translation ([machining M3]).
 enum class UpAxis { kZ, kY, kX, kNegZ, kNegY, kNegX };
 struct Placement {
   double scale = 1.0;  // > 0

@@ -6,6 +6,7 @@
 #include <absl/strings/str_cat.h>
 #include <fmt/format.h>
 
+#include "core/base/index.h"
 #include "core/base/status.h"
 #include "core/network/corner_vertices.h"
 #include "core/network/edge_angles.h"
@@ -24,8 +25,6 @@ constexpr double kNearlyCollapsedOfPatch = 1e-2;
 constexpr double kNearlyCollapsedOfModel = 1e-3;
 constexpr double kGapOfModel =
     1e-3;  // edges farther apart than this share of the diagonal are not meant to meet
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 absl::Status FaultsAsStatus(const Diagnostics& faults) {
   const std::string more =

@@ -9,6 +9,7 @@
 
 #include "core/network/control_points.h"
 #include "core/network/patch_model.h"
+#include "core/patch/split_pieces.h"
 
 namespace patchmill {
 namespace {
@@ -43,7 +44,7 @@ class Faults {
   void AddAt(std::string_view code, Where where, std::string_view text) {
     if (full()) return;
     std::string message = fmt::format("{} {}", where.field, text);
-    found_.push_back({std::string(code), Severity::kError, std::move(message), std::move(where)});
+    found_.push_back(MakeError(code, std::move(message), std::move(where)));
   }
 
   Diagnostics found_;
@@ -278,9 +279,13 @@ void CheckShape(const HosakaPatch& h, Faults& faults) {
   CheckPoints(h.points, faults);
 }
 
-// Few breaks cut a patch into many pieces, so it counts with the points of these.
+// Few breaks or knots cut a patch into many pieces, so it counts with the points of these.
 std::size_t PointLoad(const PatchShape& shape) {
+  const std::size_t given = ControlPoints(shape).size();
   std::size_t pieces = 1, each = 0;
+  if (const auto* b = std::get_if<BsplinePatch>(&shape)) {
+    return std::max(given, CountSplinePiecePoints({b->degree_u, b->knots_u}, {b->degree_v, b->knots_v}));
+  }
   if (const auto* brown = std::get_if<BrownPatch>(&shape)) {
     pieces = (brown->breaks_u.size() + 1) * (brown->breaks_v.size() + 1);
     each = 64;  // the least, of bidegree 7
@@ -289,7 +294,7 @@ std::size_t PointLoad(const PatchShape& shape) {
     pieces = (b[0].size() + b[2].size() + 1) * (b[1].size() + b[3].size() + 1);
     each = 49;
   }
-  return std::max(ControlPoints(shape).size(), pieces > 1 ? pieces * each : 0);
+  return std::max(given, pieces > 1 ? pieces * each : 0);
 }
 
 void CheckIds(const PatchModel& model, Faults& faults) {

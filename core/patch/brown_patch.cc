@@ -272,11 +272,12 @@ BernsteinNet NetOn(const Lofts& lofts) {
 
 }  // namespace
 
-std::vector<Piece> ShapePieces(const BrownPatch& patch) {
+std::vector<Piece> ShapePieces(const BrownPatch& patch, const RunContext& run) {
   std::vector<Piece> pieces;
   for (std::size_t i = 0; i <= patch.breaks_u.size(); ++i) {
     const Span u = SpanNumber(patch.breaks_u, i);
     for (std::size_t j = 0; j <= patch.breaks_v.size(); ++j) {
+      if (j % 64 == 0 && run.Cancelled()) return pieces;
       const Span v = SpanNumber(patch.breaks_v, j);
       Piece& piece = pieces.emplace_back();
       piece.net = NetOn(LoftsOf(patch, u, v));

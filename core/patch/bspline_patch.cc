@@ -32,6 +32,17 @@ struct Direction {
   }
 };
 
+// Asks a run whether it is cancelled, once in many points: a point takes half a microsecond at most.
+class Poll {
+ public:
+  explicit Poll(const RunContext& run) : run_(run) {}
+  bool Cancelled() { return ++points_ % 1024 == 0 && run_.Cancelled(); }
+
+ private:
+  const RunContext& run_;
+  std::size_t points_ = 0;
+};
+
 }  // namespace
 
 SurfaceJet EvaluateShape(const BsplinePatch& patch, double u, double v) {
@@ -56,7 +67,7 @@ Vec3 ShapePosition(const BsplinePatch& patch, double u, double v) {
 
 // First along u into a grid whose columns are still B-splines in v, then along v. Neighbouring spans share
 // their border points, so the pieces of one patch fit bit for bit.
-std::vector<Piece> ShapePieces(const BsplinePatch& patch) {
+std::vector<Piece> ShapePieces(const BsplinePatch& patch, const RunContext& run) {
   const Direction du{patch.knots_u, patch.degree_u}, dv{patch.knots_v, patch.degree_v};
   const std::vector<int> spans_u = NonEmptySpans(patch.knots_u, patch.degree_u);
   const std::vector<int> spans_v = NonEmptySpans(patch.knots_v, patch.degree_v);
@@ -70,11 +81,13 @@ std::vector<Piece> ShapePieces(const BsplinePatch& patch) {
   for (int k = 0; k < static_cast<int>(patch.points.size()); ++k) {
     given.push_back(Homogeneous(patch.points, patch.weights, k));
   }
+  Poll poll(run);
   std::vector<Vec4> half(static_cast<std::size_t>(fine_u * columns));
   for (int a = 0; a < static_cast<int>(spans_u.size()); ++a) {
     const int k = spans_u[static_cast<std::size_t>(a)];
     for (int i = a == 0 ? 0 : 1; i <= p; ++i) {
       for (int c = 0; c < columns; ++c) {
+        if (poll.Cancelled()) return {};
         half[static_cast<std::size_t>((a * p + i) * columns + c)] = BezierPointOfSpan(
             patch.knots_u, p, k, i, &given[static_cast<std::size_t>((k - p) * columns + c)], columns);
       }
@@ -85,6 +98,7 @@ std::vector<Piece> ShapePieces(const BsplinePatch& patch) {
     for (int b = 0; b < static_cast<int>(spans_v.size()); ++b) {
       const int k = spans_v[static_cast<std::size_t>(b)];
       for (int j = b == 0 ? 0 : 1; j <= q; ++j) {
+        if (poll.Cancelled()) return {};
         fine[static_cast<std::size_t>(i * fine_v + b * q + j)] = BezierPointOfSpan(
             patch.knots_v, q, k, j, &half[static_cast<std::size_t>(i * columns + k - q)], 1);
       }
@@ -102,6 +116,7 @@ std::vector<Piece> ShapePieces(const BsplinePatch& patch) {
       piece.net.points.reserve(static_cast<std::size_t>((p + 1) * (q + 1)));
       for (int i = 0; i <= p; ++i) {
         for (int j = 0; j <= q; ++j) {
+          if (poll.Cancelled()) return pieces;
           Vec4 point = fine[static_cast<std::size_t>((a * p + i) * fine_v + b * q + j)];
           if (!piece.net.rational) point.w() = 1.0;
           piece.net.points.push_back(point);

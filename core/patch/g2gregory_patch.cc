@@ -1,6 +1,6 @@
 // G2-Gregory patches: the net with the block entries P_ij0 of v=0, v=1, plus at each of them
 //   lambda(u,v) B_i(u) B_j(v) (P_ij1 - P_ij0),  lambda = b^2/(a^2 + b^2),
-// a and b the distances along u and v from the block's corner (METHODS 2.2).
+// a and b the distances along u and v from the block's corner [shapes (21)].
 #include "core/math/tensor_bernstein.h"
 #include "core/patch/kinds.h"
 #include "core/patch/tensor_kernel.h"

@@ -3,7 +3,7 @@
 // Both are the bicubic net that uses the second point of each inner pair, plus, at each corner c,
 //   lambda_c(u,v) B_i(u) B_j(v) D_c,   D_c = first point - second point of the pair, (i,j) in {1,2}^2,
 // with lambda_c = a/(a+b), a and b the distances from the corner along u and v (kCorner), or
-// lambda = p/(p+q), p = u(1-u), q = v(1-v), at all four corners (kEdge, METHODS (13)). The sum of scalar jets
+// lambda = p/(p+q), p = u(1-u), q = v(1-v), at all four corners (kEdge, [shapes (7)]). The sum of scalar jets
 // keeps the evaluation short and free of cancellation.
 #include "core/math/jet2.h"
 #include "core/math/tensor_bernstein.h"
@@ -14,7 +14,7 @@
 namespace patchmill::internal {
 namespace {
 
-// The blend of METHODS (13); 1/2 and flat at a corner, where its factor vanishes to second order.
+// The blend of [shapes (7)]; 1/2 and flat at a corner, where its factor vanishes to second order.
 Jet2 EdgeRatio(double u, double v) {
   const Jet2 p{u * (1.0 - u), 1.0 - 2.0 * u, 0.0, -2.0, 0.0, 0.0};
   const Jet2 q{v * (1.0 - v), 0.0, 1.0 - 2.0 * v, 0.0, 0.0, -2.0};

@@ -3,7 +3,7 @@
 // With R1(u), R3(u), R2(v), R4(v) the edge curves v=0, v=1, u=0, u=1 relative to their own starts, origin at
 // corner (0,0) and Q = R1(1) - R3(1):
 //   S = R1 + (R3 - R1) F + R2 + (R4 - R2) G + Q F G + S0,
-//   F = f2(v) + (f4(v) - f2(v)) f6(u),  G = f1(u) + (f3(u) - f1(u)) f5(v)      (METHODS (1), (22), (28)).
+//   F = f2(v) + (f4(v) - f2(v)) f6(u),  G = f1(u) + (f3(u) - f1(u)) f5(v)      [shapes (23), (24), (28)].
 #include <algorithm>
 
 #include "core/math/tensor_bernstein.h"

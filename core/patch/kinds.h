@@ -1,11 +1,12 @@
 // What each kind of patch implements; patch.h and piece.h dispatch to it. Private to core/patch.
 //
-// Every kind has its native evaluation and its cutting into Bernstein nets (ALGORITHMS 1).
+// Every kind has its native evaluation and its cutting into Bernstein nets [shapes, section 8].
 #pragma once
 
 #include <type_traits>
 #include <vector>
 
+#include "core/base/run_context.h"
 #include "core/math/jet2.h"
 #include "core/patch/patch.h"
 #include "core/patch/piece.h"
@@ -40,12 +41,13 @@ constexpr bool HasSingularNet(const Shape&) {
          std::is_same_v<Shape, G2GregoryPatch>;
 }
 
-// Without the patch id and what points to the patch.
+// Without the patch id and what points to the patch. Kinds of many pieces poll `run`, and once it is
+// cancelled return what they have.
 std::vector<Piece> ShapePieces(const BezierPatch& patch);
-std::vector<Piece> ShapePieces(const BsplinePatch& patch);
+std::vector<Piece> ShapePieces(const BsplinePatch& patch, const RunContext& run);
 std::vector<Piece> ShapePieces(const GregoryPatch& patch);
 std::vector<Piece> ShapePieces(const BezierTriangle& patch);
-std::vector<Piece> ShapePieces(const BrownPatch& patch);
+std::vector<Piece> ShapePieces(const BrownPatch& patch, const RunContext& run);
 std::vector<Piece> ShapePieces(const GregoryTriangle& patch);
 std::vector<Piece> ShapePieces(const LoftTriangle& patch);
 std::vector<Piece> ShapePieces(const G2GregoryPatch& patch);
@@ -56,7 +58,7 @@ inline std::array<Vec2, 4> NativeRectangle(double u0, double u1, double v0, doub
   return {Vec2{u0, v0}, Vec2{u1, v0}, Vec2{u0, v1}, Vec2{u1, v1}};
 }
 
-// Within this distance of a singular corner second derivatives are METHODS 1.6's values.
+// Within this distance of a singular corner second derivatives are those of [shapes, section 7].
 inline constexpr double kCornerRadius = 1e-6;
 // Below this distance the blended terms, of second order, are nothing and their ratios would overflow.
 inline constexpr double kNothing = 1e-90;

@@ -1,4 +1,4 @@
-// Loft triangles: three quads with one edge shrunk to a vertex, blended (METHODS (18)-(21)).
+// Loft triangles: three quads with one edge shrunk to a vertex, blended [shapes (17)-(19)].
 //
 // Each sub-patch S_o (o: its own vertex; its edge runs from e = o+1 to f = o+2; r = u_e + u_f) is
 //   S_o = B_0(u_o) C(t) + B_1(u_o) Rail(t) + B_2(u_o) (P_o + d_o(t)/3) + B_3(u_o) P_o,  t = u_f / r.

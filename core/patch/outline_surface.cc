@@ -42,7 +42,7 @@ absl::Status TooLarge(std::size_t points) {
 }
 
 // The chains of an outline with common corners; those opposite each other alike.
-absl::StatusOr<std::array<BezierChain, 4>> ChainsOf(const Outline& outline) {
+absl::StatusOr<std::array<BezierChain, 4>> ChainsOf(const BoundaryCurves& outline) {
   std::array<BezierChain, 4> chains;
   for (std::size_t k = 0; k < 4; ++k) {
     PM_ASSIGN_OR_RETURN(chains[k], FiniteChain(outline[k], k));
@@ -129,7 +129,7 @@ absl::StatusOr<BsplinePatch> SkinSurface(const std::vector<Curve>& sections) {
   return patch;
 }
 
-absl::StatusOr<BsplinePatch> CoonsSurface(const Outline& outline) {
+absl::StatusOr<BsplinePatch> CoonsSurface(const BoundaryCurves& outline) {
   PM_ASSIGN_OR_RETURN(const auto chains, ChainsOf(outline));
   const auto &bottom = chains[0].points, &right = chains[1].points, &top = chains[2].points,
              &left = chains[3].points;
@@ -155,7 +155,7 @@ absl::StatusOr<BsplinePatch> CoonsSurface(const Outline& outline) {
   return patch;
 }
 
-absl::StatusOr<HosakaPatch> HosakaSurface(const Outline& outline) {
+absl::StatusOr<HosakaPatch> HosakaSurface(const BoundaryCurves& outline) {
   PM_ASSIGN_OR_RETURN(const auto chains, ChainsOf(outline));
   int degree = 1;
   for (std::size_t k = 0; k < 4; ++k) {

@@ -1,4 +1,4 @@
-// First global shapes from outline curves (METHODS 1 and 6: the initial surface): skins through sections, and
+// First global shapes from outline curves [shapes, section 10]: skins through sections, and
 // surfaces between four boundary curves. Normals and edges of a network are taken from them.
 #pragma once
 
@@ -26,14 +26,14 @@ absl::StatusOr<BsplinePatch> SkinSurface(const std::vector<Curve>& sections);
 
 // Boundary curves of a quad in the direction of increasing parameter: v=0, u=1, v=1, u=0. Their ends must
 // meet within kMaxCornerGap of the diagonal of their ends; corners are the means.
-using Outline = std::array<Curve, 4>;
+using BoundaryCurves = std::array<Curve, 4>;
 inline constexpr double kMaxCornerGap = 1e-6;
 
 // Bilinearly blended Coons surface, as an exact B-spline surface.
-absl::StatusOr<BsplinePatch> CoonsSurface(const Outline& outline);
+absl::StatusOr<BsplinePatch> CoonsSurface(const BoundaryCurves& outline);
 
-// Hosaka's blended surface (METHODS 3, (23)): across an edge it leaves as the ends of the two neighbouring
+// Hosaka's blended surface [shapes (23), (25)]: across an edge it leaves as the ends of the two neighbouring
 // edges do, blended along it; corner twists are zero. Curves of one span, degree up to 11.
-absl::StatusOr<HosakaPatch> HosakaSurface(const Outline& outline);
+absl::StatusOr<HosakaPatch> HosakaSurface(const BoundaryCurves& outline);
 
 }  // namespace patchmill

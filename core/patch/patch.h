@@ -75,7 +75,7 @@ struct BsplinePatch {
 // Each corner has a pair of inner points: F+ and F-, 3 and 4 at (0,0). They are blended.
 // kCorner: near (0,0) the inner point is (u p3 + v p4) / (u + v), near (1,0) (v p8 + (1-u) p9) / ((1-u) + v),
 // near (1,1) ((1-u) p13 + (1-v) p14) / ((1-u) + (1-v)), near (0,1) ((1-v) p18 + u p19) / (u + (1-v)).
-// kEdge: METHODS (13), two bicubics blended by p = u(1-u) and q = v(1-v). The one with weight p / (p + q)
+// kEdge: [shapes (7)], two bicubics blended by p = u(1-u) and q = v(1-v). The one with weight p / (p + q)
 // lofts the edges v=0 and v=1 and takes p3, p9, p13, p19; the other one lofts u=0 and u=1 and takes p4, p8,
 // p14, p18.
 // Both blends have the same tangents across the edges.
@@ -103,7 +103,7 @@ struct BezierTriangle {
   std::vector<double> weights;
 };
 
-// Quad on four general boundary curves with given cross-boundary tangents (METHODS (11), (12), (14): "Brown
+// Quad on four general boundary curves with given cross-boundary tangents ([shapes (4), (5), (8)]: "Brown
 // quad"). Each edge has its Bezier curve C and beside it a rail C + b/3, b the tangent across the edge into
 // the patch; rails have the degree of their edge. The ends of a rail follow from the two curves that cross
 // there and are not given, so the data always meet at the corners.
@@ -135,8 +135,8 @@ struct BrownPatch {
 inline constexpr int kMaxBrownDegree = 11;  // its net has degree 4 more
 inline constexpr int kMaxBrownBreaks = 1000;
 
-// Quartic Gregory triangle (METHODS (15)-(18)), 18 points: five at each corner (0,0) (1,0) (0,1) as in
-// GregoryPatch, P E+ E- F+ F-, then the middle points of the edges 0-1, 1-2, 2-0.
+// Quartic Gregory triangle [shapes (12)-(15)], 18 points: five at each corner (0,0) (1,0) (0,1) as
+// in GregoryPatch, P E+ E- F+ F-, then the middle points of the edges 0-1, 1-2, 2-0.
 //
 //   t=1   10                               rows of the quartic, from t=0 up:
 //          | \.                             0 1 15 7 5 / 2 x y 6 / 17 z 16 / 11 12 / 10
@@ -159,12 +159,12 @@ struct GregoryTriangle {
   GregoryPatch::Blend blend = GregoryPatch::Blend::kEdge;
 };
 
-// Triangle blended from three quads with one edge shrunk to the opposite vertex (METHODS (19)-(21)).
+// Triangle blended from three quads with one edge shrunk to the opposite vertex [shapes (17), (18)].
 //   points, with n = degree: the boundary anti-clockwise from (0,0), 3 n points (edge 0 from (0,0) to (1,0),
 //   edge 1 to (0,1), edge 2 back); then the n - 1 inner points of the rail of each edge, rail = curve + b/3,
 //   b the tangent across the edge into the triangle (barycentric direction, straight to the opposite vertex).
 //   6 n - 3 in all. The ends of the rails follow from the neighbouring edges.
-// Plain weights (18) need cubic edges; squared ones serve degree 4 too.
+// Plain weights [shapes (12)] need cubic edges; squared ones serve degree 4 too.
 //
 //   t=1    6                                degree 3
 //          | \.
@@ -181,7 +181,7 @@ struct LoftTriangle {
   std::vector<Vec3> points;
 };
 
-// G2-Gregory patch (METHODS (4)) of degree n = 5..7 each way: (n+1)^2 points, [i (n+1) + j], i along u, whose
+// G2-Gregory patch [shapes (20)] of degree n = 5..7 each way: (n+1)^2 points, [i (n+1) + j], i along u, whose
 // block entries (i and j both in {1, 2, n-2, n-1}) serve the edges v=0 and v=1; then 16 points, the block
 // entries in the same order that serve u=0 and u=1.
 //
@@ -202,9 +202,10 @@ struct G2GregoryPatch {
   std::vector<Vec3> points;
 };
 
-// Hosaka's blended boundary patch (METHODS 3.1-3.4).
+// Hosaka's blended boundary patch [shapes, section 6].
 //   points, with n = degree 1..11: edge v=0 (n+1), edge v=1 (n+1), inner points of edge u=0 (n-1) and u=1
-//   (n-1): Bezier points, 4 n in all; then corner (0,0) + s_ij, i slow, for the inner term (28).
+// (n-1): Bezier points, 4 n in all; then corner (0,0) + s_ij, i slow, for the inner term
+// [shapes [shapes (28)]].
 //
 //   v=1    4 --- 5 --- 6 --- 7      degree 3, inner_u = 1, inner_v = 2;
 //          |                 |      inside the coefficients s_ij, i to the right, j up
@@ -215,14 +216,14 @@ struct G2GregoryPatch {
 //   v=0    0 --- 1 --- 2 --- 3
 //         u=0               u=1
 struct HosakaPatch {
-  enum class Blend { kSmooth, kLinear };  // (23) or (26)
+  enum class Blend { kSmooth, kLinear };  // [shapes (25)], or f(t) = t
   struct Break {
     double at = 0.0, value = 0.0;  // f(at) = value; at in (0, 1), increasing; value in [0, 1], not decreasing
   };
   int degree = 3;
   Blend blend = Blend::kSmooth;
-  // Where other patches end on a part of an edge (20): of the blending function of edge v=0, u=0, v=1, u=1
-  // (f1..f4). Only with kSmooth, at most kMaxHosakaBreaks each.
+  // Where other patches end on a part of an edge [shapes (27)]: of the blending function of edge v=0, u=0,
+  // v=1, u=1 (f1..f4). Only with kSmooth, at most kMaxHosakaBreaks each.
   std::array<std::vector<Break>, 4> breaks;
   // The inner term has (inner_u + 1)(inner_v + 1) coefficients, both 0..4; -1: none. inner_order 1 is (28), 2
   // multiplies it by another u v (1-u)(1-v), so that edge normals stay.
@@ -244,12 +245,15 @@ struct SurfaceJet {
   Vec3 p = Vec3::Zero();
   Vec3 du = Vec3::Zero(), dv = Vec3::Zero();
   Vec3 duu = Vec3::Zero(), duv = Vec3::Zero(), dvv = Vec3::Zero();
+  // The air side of upright surface: 1 the side of du x dv, -1 the other, 0 unknown
+  // (core/surface/air_sides.h).
+  int air_side = 0;
 };
 
 // Analytic evaluation in the native form of each kind. Error about 1e-15 of the patch's size.
 // Corners of blended kinds (Gregory, Brown, LoftTriangle, G2Gregory): value and first derivatives are exact;
-// second derivatives have no limit there, METHODS 1.6's values (boundary curves, mean twist) are returned
-// within 1e-6 of a corner.
+// second derivatives have no limit there, the values of [shapes, section 7] (boundary curves, mean twist) are
+// returned within 1e-6 of a corner.
 SurfaceJet Evaluate(const PatchShape& shape, double u, double v);
 Vec3 Position(const PatchShape& shape, double u, double v);
 

@@ -2,6 +2,7 @@
 
 #include "core/patch/bicubic_sums.h"
 #include "core/patch/kinds.h"
+#include "core/patch/split_pieces.h"
 #include "core/patch/tensor_kernel.h"
 
 namespace patchmill {
@@ -76,6 +77,14 @@ SurfaceJet ShapeJet(const Piece& piece, double u, double v) {
   return s;
 }
 
+SurfaceJet JetOf(const Piece& piece, double u, double v) {
+  if (piece.gregory) return internal::EvaluateShape(*piece.gregory, u, v);
+  if (piece.shape) return ShapeJet(piece, u, v);
+  if (piece.net.degree_u == 3 && piece.net.degree_v == 3) return BicubicJet(piece.net, u, v);
+  const HomogeneousJet h = NetJet(piece.net, u, v);
+  return piece.net.rational ? internal::RationalJet(h) : internal::PolynomialJet(h);
+}
+
 }  // namespace
 
 BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, double v1) {
@@ -101,22 +110,13 @@ BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, do
 }
 
 std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape) {
-  std::vector<Piece> pieces = std::visit([](const auto& s) { return internal::ShapePieces(s); }, shape);
-  const bool singular = std::visit([](const auto& s) { return internal::HasSingularNet(s); }, shape);
-  for (Piece& piece : pieces) {
-    piece.patch = id;
-    piece.gregory = std::get_if<GregoryPatch>(&shape);
-    if (singular && piece.gregory == nullptr) piece.shape = &shape;
-  }
-  return pieces;
+  return SplitIntoPieces(id, shape, RunContext());
 }
 
 SurfaceJet Evaluate(const Piece& piece, double u, double v) {
-  if (piece.gregory) return internal::EvaluateShape(*piece.gregory, u, v);
-  if (piece.shape) return ShapeJet(piece, u, v);
-  if (piece.net.degree_u == 3 && piece.net.degree_v == 3) return BicubicJet(piece.net, u, v);
-  const HomogeneousJet h = NetJet(piece.net, u, v);
-  return piece.net.rational ? internal::RationalJet(h) : internal::PolynomialJet(h);
+  SurfaceJet jet = JetOf(piece, u, v);
+  jet.air_side = piece.air_side;
+  return jet;
 }
 
 SurfaceJet EvaluateSlopes(const Piece& piece, double u, double v) {
@@ -133,6 +133,7 @@ SurfaceJet EvaluateSlopes(const Piece& piece, double u, double v) {
   jet.p = three(0);
   jet.du = three(4);
   jet.dv = three(8);
+  jet.air_side = piece.air_side;
   return jet;
 }
 

@@ -1,4 +1,4 @@
-// One algebra for all patches (ALGORITHMS 1): every patch is cut into pieces, each a rational Bernstein
+// One algebra for all patches [shapes, section 8]: every patch is cut into pieces, each a rational Bernstein
 // rectangle.
 //
 //   kind              pieces
@@ -26,7 +26,7 @@ namespace patchmill {
 
 // Homogeneous control points (w x, w y, w z, w) of a tensor Bernstein form; points[i * (degree_v + 1) + j], i
 // along u. A polynomial net has all w = 1. A point with w = 0 is zero altogether (singular Gregory corner,
-// ALGORITHMS 1) and does not belong to the hull: the surface lies in the convex hull of {xyz / w : w > 0}.
+// [location T10]) and does not belong to the hull: the surface lies in the convex hull of {xyz / w : w > 0}.
 struct BernsteinNet {
   int degree_u = 0;
   int degree_v = 0;
@@ -47,6 +47,7 @@ struct Piece {
   const PatchShape* shape = nullptr;
   // Native parameters of the piece's corners (0,0) (1,0) (0,1) (1,1); bilinear in between, exactly.
   std::array<Vec2, 4> native;
+  int air_side = 0;  // as SurfaceJet::air_side, in the piece's own parameters
 };
 
 // Never empty for a valid patch. Pieces of a B-spline in order of u span, then v span. They may point to

@@ -1,5 +1,5 @@
 // The exact minimum of a quadratic of two variables over a box: the step of a bounded Newton method. (A step
-// clamped variable by variable is not a descent step and crawls along the border; ALGORITHMS 2.3.)
+// clamped variable by variable is not a descent step and crawls along the border; [location, section 7].)
 #pragma once
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 // For a net N = (X, Y, Z, w), coordinates relative to the ball's centre,
 //   q(u,v) = X^2 + Y^2 + Z^2 - r^2 w^2 = w^2 (|S|^2 - r^2)
 // is a polynomial of twice the net's degrees (X^2 + Y^2 alone for the vertical line through the centre). Its
-// Bernstein coefficients bound it, and where its Hessian is positive definite all over the rectangle (T6 of
-// ALGORITHMS 2.1 in this form), one point with a supporting plane bounds it exactly. Both tests are as good
+// Bernstein coefficients bound it, and where its Hessian is positive definite all over the rectangle
+// ([location T6] in this form), one point with a supporting plane bounds it exactly. Both tests are as good
 // for rational nets and for spheres around the centre (q constant) as for planes.
 #pragma once
 

@@ -23,7 +23,7 @@ void HalveNet(NetShape shape, const Vec4* points, bool along_u, Vec4* low, Vec4*
 // Replaces a net by its part [u0,u1] x [v0,v1].
 void RestrictNet(NetShape shape, Vec4* points, double u0, double u1, double v0, double v1);
 
-// Cartesian points of the hull; points without weight (ALGORITHMS 1) are left out. Returns how many.
+// Cartesian points of the hull; points without weight ([location T10]) are left out. Returns how many.
 int HullPoints(NetShape shape, const Vec4* points, Vec3* hull);
 
 // Of at least one point, in a given frame.

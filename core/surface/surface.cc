@@ -10,6 +10,8 @@
 #include "core/base/share_progress.h"
 #include "core/base/silence.h"
 #include "core/base/status.h"
+#include "core/patch/split_pieces.h"
+#include "core/surface/air_sides.h"
 #include "core/surface/leaf_tree.h"
 #include "core/surface/net_kernel.h"
 #include "core/surface/write_nodes.h"
@@ -167,7 +169,7 @@ absl::Status MakePieces(Surface& surface, const RunContext& run) {
   std::vector<Patch>& patches = surface.network.model.patches;
   std::vector<std::vector<Piece>> parts(patches.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "pieces", patches.size(), [&](std::size_t i) {
-    parts[i] = SplitIntoPieces(PatchId(i), patches[i].shape);
+    parts[i] = SplitIntoPieces(PatchId(i), patches[i].shape, run);
     LeavePointsTo(parts[i], patches[i].shape);
   }));
   std::size_t count = 0;
@@ -280,6 +282,9 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   PM_RETURN_IF_ERROR(WriteNodes(surface.nodes, run, surface.box_nodes));
   surface.box = surface.nodes.front().box;
   surface.scale = std::max(surface.box.min.cwiseAbs().maxCoeff(), surface.box.max.cwiseAbs().maxCoeff());
+  PM_ASSIGN_OR_RETURN(AirSides sides, FindAirSides(surface, run));
+  SetAirSides(sides, surface.pieces);
+  surface.two_sided_walls = std::move(sides.undecided);
   return surface;
 }
 

@@ -42,10 +42,11 @@ struct Surface {
   std::vector<Piece> pieces;
   std::vector<PieceId> first_piece;  // of each patch
   std::vector<SurfaceLeaf> leaves;
-  std::vector<SurfaceNode> nodes;  // nodes[0] is the root
-  std::vector<BoxNode> box_nodes;  // the same tree, four children a node: what closest.h walks
-  Box3 box;                        // tight to leaf bounds
-  double scale = 1.0;              // largest absolute coordinate; rounding slack is 1e-12 of it
+  std::vector<SurfaceNode> nodes;        // nodes[0] is the root
+  std::vector<BoxNode> box_nodes;        // the same tree, four children a node: what closest.h walks
+  Box3 box;                              // tight to leaf bounds
+  double scale = 1.0;                    // largest absolute coordinate; rounding slack is 1e-12 of it
+  std::vector<PatchId> two_sided_walls;  // AirSides::undecided
 
   const Piece& piece(PieceId id) const { return pieces[id.index()]; }
 };
@@ -76,7 +77,7 @@ SurfaceJet Evaluate(const Surface& s, PatchId id, double u, double v);
 // patch it is; points of a rational one to 2.3e-16 of their size.
 PatchShape ShapeOf(const Surface& s, PatchId id);
 
-// Outer bounds of any sub-rectangle, computed afresh from its net (ALGORITHMS 1, 2.2): what certificates
+// Outer bounds of any sub-rectangle, computed afresh from its net ([location, section 6]): what certificates
 // subdivide with. Cost O(points).
 RectBounds BoundNet(const BernsteinNet& net);
 

@@ -5,12 +5,14 @@
 
 #include <absl/strings/str_cat.h>
 #include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/type_resolver_util.h>
 
 namespace patchmill {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kNull = "null";
+constexpr char kTypePrefix[] = "type.googleapis.com";
 
 // What lists may not hold, with its line; empty when there is nothing of it.
 std::string FaultOfLists(std::string_view text) {
@@ -53,13 +55,29 @@ std::string FaultOfLists(std::string_view text) {
   return "";
 }
 
+google::protobuf::util::TypeResolver* GeneratedTypes() {
+  static google::protobuf::util::TypeResolver* const types =
+      google::protobuf::util::NewTypeResolverForDescriptorPool(
+          kTypePrefix, google::protobuf::DescriptorPool::generated_pool());
+  return types;
+}
+
 }  // namespace
 
-absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message) {
+absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message,
+                             const WireCheck& check) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   if (std::string fault = FaultOfLists(text); !fault.empty()) return absl::InvalidArgumentError(fault);
-  const auto status = google::protobuf::util::JsonStringToMessage({text.data(), text.size()}, &message);
-  return status.ok() ? absl::OkStatus() : absl::InvalidArgumentError(std::string(status.message()));
+  std::string wire;
+  const auto status = google::protobuf::util::JsonToBinaryString(
+      GeneratedTypes(), absl::StrCat(kTypePrefix, "/", message.GetDescriptor()->full_name()),
+      {text.data(), text.size()}, &wire);
+  if (!status.ok()) return absl::InvalidArgumentError(std::string(status.message()));
+  if (check) {
+    if (absl::Status checked = check(wire); !checked.ok()) return checked;
+  }
+  if (message.ParseFromString(wire)) return absl::OkStatus();
+  return absl::InvalidArgumentError("not valid UTF-8, or nested too deep");
 }
 
 }  // namespace patchmill

@@ -1,6 +1,8 @@
 // Messages from JSON that people and scripts write.
 #pragma once
 
+#include <functional>
+#include <string>
 #include <string_view>
 
 #include <absl/status/status.h>
@@ -11,6 +13,10 @@ namespace patchmill {
 // Canonical proto JSON into `message`, with or without a byte order mark. INVALID_ARGUMENT, with the line,
 // also for what protobuf drops without a word: a null in a list (how scripts write NaN) and a list in a list,
 // after which every number would stand one place off.
-absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message);
+// `check` (may be empty) sees the message in its binary form before it is parsed; an error of it is returned
+// as it is.
+using WireCheck = std::function<absl::Status(const std::string& wire)>;
+absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message,
+                             const WireCheck& check = {});
 
 }  // namespace patchmill

@@ -306,6 +306,8 @@ v1::UnreachableReason ToProto(UnreachableReason value) {
       return v1::UNREACHABLE_REASON_HOLDER;
     case UnreachableReason::kShank:
       return v1::UNREACHABLE_REASON_SHANK;
+    case UnreachableReason::kOutside:
+      return v1::UNREACHABLE_REASON_OUTSIDE;
   }
   return v1::UNREACHABLE_REASON_UNSPECIFIED;
 }

@@ -83,7 +83,7 @@ absl::StatusOr<PatchShape> Between(const v1::BoundaryCurves& boundary, double un
   }
   PM_RETURN_IF_ERROR(errors.ToStatus());
   PM_ASSIGN_OR_RETURN(std::vector<Curve> curves, CurvesOf(boundary.curves(), unit, "boundary"));
-  const Outline outline = {curves[0], curves[1], curves[2], curves[3]};
+  const BoundaryCurves outline = {curves[0], curves[1], curves[2], curves[3]};
   if (boundary.span() == v1::BOUNDARY_SPAN_HOSAKA) return Made(HosakaSurface(outline), "boundary.");
   return Made(CoonsSurface(outline), "boundary.");
 }

@@ -1,9 +1,14 @@
 #include "server/convert/model_limits.h"
 
 #include <algorithm>
+#include <span>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "core/base/status.h"
 #include "core/patch/patch.h"
+#include "core/patch/split_pieces.h"
 #include "server/convert/fields.h"
 #include "server/convert/network.h"
 #include "server/limits.h"
@@ -14,6 +19,8 @@ namespace {
 using Numbers = google::protobuf::RepeatedField<double>;
 
 std::size_t Count(const Numbers& numbers) { return static_cast<std::size_t>(numbers.size()); }
+
+std::span<const double> View(const Numbers& numbers) { return {numbers.data(), Count(numbers)}; }
 
 struct Sizes {
   std::size_t points = 0, knots = 0;
@@ -27,7 +34,14 @@ std::size_t HosakaPoints(const v1::HosakaPatch& patch) {
   return std::max(Count(patch.points()) / 3, columns * rows * across * across);
 }
 
-// So do those of a Brown quad.
+// So do the knots of a B-spline.
+std::size_t BsplinePoints(const v1::BsplinePatch& patch) {
+  return std::max(Count(patch.points()) / 3,
+                  CountSplinePiecePoints({patch.degree_u(), View(patch.knots_u())},
+                                         {patch.degree_v(), View(patch.knots_v())}));
+}
+
+// So do the breaks of a Brown quad.
 std::size_t BrownPoints(const v1::BrownPatch& patch) {
   const std::size_t pieces = (Count(patch.breaks_u()) + 1) * (Count(patch.breaks_v()) + 1);
   if (pieces == 1) return Count(patch.points()) / 3;
@@ -42,7 +56,7 @@ Sizes SizesOf(const v1::Patch& patch) {
     case v1::Patch::kBezier:
       return {Count(patch.bezier().points()) / 3, 0};
     case v1::Patch::kBspline:
-      return {Count(patch.bspline().points()) / 3,
+      return {BsplinePoints(patch.bspline()),
               Count(patch.bspline().knots_u()) + Count(patch.bspline().knots_v())};
     case v1::Patch::kGregory:
       return {Count(patch.gregory().points()) / 3, 0};
@@ -64,6 +78,14 @@ Sizes SizesOf(const v1::Patch& patch) {
   return {};
 }
 
+// Why a patch counts more than it is given.
+std::string NoteOn(const v1::Patch& patch, int index, std::size_t points) {
+  if (patch.shape_case() != v1::Patch::kBspline || points <= Count(patch.bspline().points()) / 3) return "";
+  return fmt::format(
+      "patches[{}].bspline counts {}: the control points of its Bezier pieces, one between knots", index,
+      points);
+}
+
 }  // namespace
 
 absl::Status CheckLimits(const v1::PatchModel& proto) {
@@ -73,14 +95,19 @@ absl::Status CheckLimits(const v1::PatchModel& proto) {
   }
   PM_RETURN_IF_ERROR(CheckNetworkLimits(proto.network()));
   Sizes all;
-  for (const v1::Patch& patch : proto.patches()) {
-    const Sizes sizes = SizesOf(patch);
+  std::size_t most = 0;
+  int largest = 0;
+  for (int i = 0; i < proto.patches_size(); ++i) {
+    const Sizes sizes = SizesOf(proto.patches(i));
     all.points += sizes.points;
     all.knots += sizes.knots;
+    if (sizes.points <= most) continue;
+    most = sizes.points;
+    largest = i;
   }
   if (all.points > limits::kMaxControlPoints) {
-    return LimitError("model.control_point_count", limits::kMaxControlPoints,
-                      static_cast<double>(all.points));
+    return LimitError("model.control_point_count", limits::kMaxControlPoints, static_cast<double>(all.points),
+                      NoteOn(proto.patches(largest), largest, most));
   }
   if (all.knots > limits::kMaxKnots) {
     return LimitError("model.knot_count", limits::kMaxKnots, static_cast<double>(all.knots));

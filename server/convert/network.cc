@@ -41,12 +41,8 @@ class NetworkReader {
 
  private:
   void Fault(std::string_view code, std::string field, std::string_view text) {
-    Diagnostic fault;
-    fault.code = code;
-    fault.severity = Severity::kError;
-    fault.message = fmt::format("{} {}", field, text);
-    fault.where.field = std::move(field);
-    faults_.push_back(std::move(fault));
+    std::string message = fmt::format("{} {}", field, text);
+    faults_.push_back(MakeError(code, std::move(message), {.field = std::move(field)}));
   }
 
   std::string Id(const std::string& id, const std::string& at) {

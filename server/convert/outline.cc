@@ -81,6 +81,7 @@ Selection FromProto(const v1::Selection& proto, std::string_view at, FieldErrors
     const std::string field = fmt::format("{}[{}].xy_mm", At(at, "more_boundary_rings"), i);
     s.boundary.push_back(ReadRing(proto.more_boundary_rings(i).xy_mm(), field, points, errors));
   }
+  s.mill_outside = proto.mill_outside();
   s.boundary_mode = FromProto(proto.boundary_mode(), At(at, "boundary_mode"), errors);
   s.boundary_offset = proto.boundary_offset_mm();
   constexpr double kMost = limits::kMaxOutlineOffsetMm;
@@ -94,6 +95,7 @@ v1::Selection ToProto(const Selection& selection) {
   for (const std::string& name : selection.patches) proto.add_patch_ids(Utf8(name));
   for (const std::string& name : selection.avoid) proto.add_avoid_patch_ids(Utf8(name));
   proto.set_avoid_margin_mm(selection.avoid_margin);
+  proto.set_mill_outside(selection.mill_outside);
   if (selection.boundary.empty()) return proto;
   WriteRing(selection.boundary.front(), proto.mutable_boundary_xy_mm());
   for (std::size_t i = 1; i < selection.boundary.size(); ++i) {

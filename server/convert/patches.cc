@@ -90,14 +90,10 @@ class PatchReader {
 
  private:
   void Fault(std::string_view code, std::string_view field, std::string_view text) {
-    Diagnostic fault;
-    fault.code = code;
-    fault.severity = Severity::kError;
-    fault.where.patch_id = id_;
-    fault.where.patch_index = index_;
-    fault.where.field = fmt::format("patches[{}].{}", index_, field);
-    fault.message = fmt::format("{} {}", fault.where.field, text);
-    faults_.push_back(std::move(fault));
+    std::string path = fmt::format("patches[{}].{}", index_, field);
+    std::string message = fmt::format("{} {}", path, text);
+    faults_.push_back(MakeError(code, std::move(message),
+                                {.patch_id = id_, .patch_index = index_, .field = std::move(path)}));
   }
 
   std::vector<Vec3> Points(std::string_view field, const Numbers& numbers) {

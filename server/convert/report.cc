@@ -30,7 +30,8 @@ v1::Place PlaceToProto(const VerifyPlace& place, const Vec3& zero) {
 
 constexpr UnreachableReason kReasons[] = {UnreachableReason::kUndercut, UnreachableReason::kConcave,
                                           UnreachableReason::kFloor,    UnreachableReason::kAvoided,
-                                          UnreachableReason::kStrategy, UnreachableReason::kShank};
+                                          UnreachableReason::kStrategy, UnreachableReason::kShank,
+                                          UnreachableReason::kOutside};
 
 // When nothing was cut nothing was verified; the regions know what is out of reach.
 void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Report* report) {
@@ -120,10 +121,8 @@ void AddDiagnostics(const Diagnostics& from, const Vec3& zero,
   const std::size_t count = std::min(from.size(), limits::kMaxDiagnostics);
   for (std::size_t i = 0; i < count; ++i) *to->Add() = ToProto(from[i], zero);
   if (count < from.size()) {
-    Diagnostic more;
-    more.code = "MORE_FINDINGS";
-    more.message = fmt::format("{} more findings are not listed", from.size() - count);
-    *to->Add() = ToProto(more, zero);
+    *to->Add() = ToProto(
+        MakeInfo("MORE_FINDINGS", fmt::format("{} more findings are not listed", from.size() - count)), zero);
   }
 }
 

@@ -18,17 +18,15 @@
 namespace patchmill {
 namespace {
 
-// A file without a unit is taken as millimetres; say so, and louder when the size looks wrong (MACHINING
-// A.14).
+// A file without a unit is taken as millimetres; say so, and louder when the size looks wrong
+// ([machining M14]).
 Diagnostic UnitFinding(const Box3& box, const std::optional<Tool>& tool) {
   const double extent = (box.max - box.min).maxCoeff();
   const bool wrong = extent > 2000.0 || (tool && extent < 4.0 * BallRadius(*tool));
-  Diagnostic d;
-  d.code = wrong ? "SUSPICIOUS_SIZE" : "UNIT_ASSUMED";
-  d.severity = wrong ? Severity::kWarning : Severity::kInfo;
-  d.message = fmt::format("the file states no unit, millimetres are assumed: the model is {:.4g} mm large{}",
-                          extent, wrong ? "; is the scale right?" : "");
-  return d;
+  std::string message =
+      fmt::format("the file states no unit, millimetres are assumed: the model is {:.4g} mm large", extent);
+  if (!wrong) return MakeInfo("UNIT_ASSUMED", std::move(message));
+  return MakeWarning("SUSPICIOUS_SIZE", message + "; is the scale right?");
 }
 
 void FillNetwork(const PatchNetwork& network, v1::CheckModelResponse* response) {
@@ -81,7 +79,7 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
       PM_ASSIGN_OR_RETURN(continuity, MeasureContinuity(network, steps, run));
     }
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildSurface(std::move(network), SurfaceParams{}, run));
-    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
     PM_ASSIGN_OR_RETURN(ModelCheck check, CheckModel(surface, tool, ReachGive(job.operation.tolerance), run));
     for (const Diagnostic& remark : Placed(model.remarks, job.setup.placement))
       check.findings.push_back(remark);

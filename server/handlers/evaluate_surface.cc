@@ -83,7 +83,7 @@ absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRe
     PM_RETURN_IF_ERROR(RequireSound(model));
     PM_RETURN_IF_ERROR(CheckPoints(request, model.model));
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
-    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
     for (int k = 0; k < count; ++k) {
       const PatchId patch(request.patch_index(k));
       AddPoint(Evaluate(surface, patch, request.uv(2 * k), request.uv(2 * k + 1)), resolved.program_zero,

@@ -56,7 +56,7 @@ struct Made {
 absl::Status Make(PreparedJob& prepared, bool with_picture, const RunContext& run, Made* made) {
   PM_ASSIGN_OR_RETURN(const Surface surface,
                       BuildPlacedSurface(std::move(prepared.model.model), prepared.job.setup, run));
-  PM_ASSIGN_OR_RETURN(made->resolved, Resolve(surface, prepared.job));
+  PM_ASSIGN_OR_RETURN(made->resolved, Resolve(surface, prepared.job, run));
   PM_ASSIGN_OR_RETURN(made->result, RunJob(surface, prepared.job, run));
   if (made->result.program.size() > limits::kMaxProgramBytes) {
     return LimitError("program_size_bytes", static_cast<double>(limits::kMaxProgramBytes),
@@ -71,7 +71,7 @@ absl::Status Validate(const PreparedJob& prepared, const RunContext& run) {
   PM_ASSIGN_OR_RETURN(const Surface surface,
                       BuildPlacedSurface(prepared.model.model, prepared.job.setup, run));
   PM_RETURN_IF_ERROR(ValidateJob(prepared.job));
-  return Resolve(surface, prepared.job).status();
+  return Resolve(surface, prepared.job, run).status();
 }
 
 // Calls send(offset, piece) for pieces of at most limits::kChunkBytes.

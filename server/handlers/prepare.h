@@ -1,4 +1,4 @@
-// What the handlers share: a request's job checked, its model loaded, its size estimated.
+// What the handlers share: a request's job checked, its model loaded, its limits set.
 #pragma once
 
 #include <string>
@@ -18,8 +18,9 @@ struct PreparedJob {
   std::string name;    // what the part is called
 };
 
-// All field errors of job and post together with those of the model. RESOURCE_EXHAUSTED when the estimated
-// path is longer than limits::kMaxCutLengthMm or has more than limits::kMaxPathPoints.
+// All field errors of job and post together with those of the model. Nothing is refused for what it might
+// come to: the job has limits::kMaxCutLengthMm and kMaxPathPoints with it, and ends when its passes come to
+// more.
 absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run);
 
 // INVALID_ARGUMENT for a field this version does not know: refused, never silently ignored.

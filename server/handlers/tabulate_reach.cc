@@ -61,7 +61,7 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
     PM_RETURN_IF_ERROR(run.Check());
     PM_ASSIGN_OR_RETURN(const Surface surface,
                         BuildPlacedSurface(std::move(prepared.model.model), job.setup, run));
-    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
     params.floor_z = resolved.floor_z - job.operation.leave;
     PM_ASSIGN_OR_RETURN(const ReachTableResult table, ReachTable(surface, params, run));
     response->set_area_mm2(table.area);

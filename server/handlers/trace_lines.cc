@@ -172,7 +172,7 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
     PM_RETURN_IF_ERROR(RequireSound(model));
     PM_ASSIGN_OR_RETURN(const Surface surface,
                         BuildPlacedSurface(std::move(model.model), order.job.setup, run));
-    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, order.job));
+    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, order.job, run));
     const Vec3& zero = resolved.program_zero;
     std::vector<LineOrder> lines;
     for (const LineOrder& line : order.lines) lines.push_back(Placed(line, zero));

@@ -83,11 +83,14 @@ Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
   return job;
 }
 
-v1::Outcome Judge(const v1::Report& report) {
+// COMPLETE means that the finish was judged too, and that there was something to finish.
+v1::Outcome Judge(const v1::Report& report, bool nothing_to_finish) {
   const bool ok = report.gouge_check() == v1::CHECK_STATE_PASSED &&
                   report.motion_check() == v1::CHECK_STATE_PASSED &&
                   report.finish_check() != v1::CHECK_STATE_FAILED;
   if (!ok) return v1::OUTCOME_VERIFICATION_FAILED;
+  if (report.finish_check() != v1::CHECK_STATE_PASSED) return v1::OUTCOME_NO_GOUGE_FOUND;
+  if (nothing_to_finish) return v1::OUTCOME_NOTHING_TO_CUT;
   return report.unreachable_area_mm2() > 0.0 ? v1::OUTCOME_COMPLETE_WHERE_REACHABLE : v1::OUTCOME_COMPLETE;
 }
 
@@ -114,7 +117,7 @@ absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const
   }
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
-  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job));
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
   PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, JudgedParts(surface, job, resolved, run));
   VerifyParams params = MakeVerifyParams(job, resolved, parts);
   if (!request.has_scallop_mm()) {
@@ -123,7 +126,7 @@ absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const
   }
   PM_ASSIGN_OR_RETURN(const VerifyReport verify, Verify(surface, job.operation.tool, *motion, params, run));
   FillFromVerifier(verify, resolved.program_zero, request.has_scallop_mm(), report);
-  report->set_outcome(Judge(*report));
+  report->set_outcome(Judge(*report, verify.NothingToFinish()));
   *report->mutable_setup_sheet() = ToProto(resolved, job);
   report->mutable_setup_sheet()->set_tool_number(motion->tool_number);
   report->mutable_setup_sheet()->clear_clearance_z_mm();
@@ -133,12 +136,11 @@ absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const
     report->set_controller_tolerance_mm(motion->controller_tolerance);
   report->set_time_basis("not estimated");
   if (!request.has_scallop_mm()) {
-    Diagnostic open;
-    open.code = "FINISH_NOT_CHECKED";
-    open.severity = Severity::kWarning;
-    open.message = "no scallop is given: whether anything is finished, or cut at all, is not judged";
-    open.where.field = "scallop_mm";
-    AddDiagnostics({open}, resolved.program_zero, report->mutable_diagnostics());
+    AddDiagnostics(
+        {MakeWarning("FINISH_NOT_CHECKED",
+                     "no scallop is given: whether anything is finished, or cut at all, is not judged",
+                     {.field = "scallop_mm"})},
+        resolved.program_zero, report->mutable_diagnostics());
   }
   AddDiagnostics(verify.findings, resolved.program_zero, report->mutable_diagnostics());
   return absl::OkStatus();

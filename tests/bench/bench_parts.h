@@ -1,4 +1,4 @@
-// The reference parts and jobs of DESIGN 8, made once each and kept.
+// The reference parts and jobs of tests/bench/README.md, made once each and kept.
 #pragma once
 
 #include "cam/plan/plan.h"

@@ -1,6 +1,4 @@
 // Whole jobs, from the model to the verified program, and the verifier alone; on all cores, wall clock.
-#include <array>
-
 #include <benchmark/benchmark.h>
 
 #include "cam/path/across_feed.h"
@@ -9,6 +7,7 @@
 #include "cam/plan/plan.h"
 #include "cam/plan/region_points.h"
 #include "cam/plan/resolve.h"
+#include "core/base/enum_array.h"
 #include "core/base/status.h"
 #include "tests/bench/bench_parts.h"
 #include "tests/bench/over_plain.h"
@@ -25,10 +24,9 @@ absl::StatusOr<JobResult> RunVerified(const Surface& surface, const Job& job) {
 }
 
 // m of passes of each kind.
-std::array<double, 5> LengthsByKind(const LinkResult& motion) {
-  std::array<double, 5> lengths{};
-  for (const CutterPath& pass : motion.passes)
-    lengths[static_cast<std::size_t>(pass.kind)] += 1e-3 * Length(pass);
+EnumArray<PassKind, double> LengthsByKind(const LinkResult& motion) {
+  EnumArray<PassKind, double> lengths{};
+  for (const CutterPath& pass : motion.passes) lengths[pass.kind] += 1e-3 * Length(pass);
   return lengths;
 }
 
@@ -78,19 +76,18 @@ void MeasureJob(benchmark::State& state, Part part) {
   }
   state.counters["peak_MB"] = PeakMemory();
   const JobReport& report = result.report;
-  const std::array<double, 5> lengths = LengthsByKind(result.motion);
+  const EnumArray<PassKind, double> lengths = LengthsByKind(result.motion);
   state.counters["moves"] = report.point_count;
   state.counters["feed_m"] = 1e-3 * report.verify.cut_length;
   state.counters["over_least"] = report.verify.cut_length / report.least_feed;
-  if (const auto resolved = Resolve(SurfaceOf(part), job); resolved.ok()) {
+  if (const auto resolved = Resolve(SurfaceOf(part), job, RunContext()); resolved.ok()) {
     state.counters["directions_over_least"] =
         FeedInItsDirections(SurfaceOf(part), job, result, resolved->plan_radius) / report.least_feed;
   }
-  state.counters["lines_m"] = lengths[static_cast<std::size_t>(PassKind::kZigzag)];
-  state.counters["contours_m"] = lengths[static_cast<std::size_t>(PassKind::kContour)];
-  state.counters["borders_m"] = lengths[static_cast<std::size_t>(PassKind::kBorder)];
-  state.counters["rest_m"] = lengths[static_cast<std::size_t>(PassKind::kCrease)] +
-                             lengths[static_cast<std::size_t>(PassKind::kRest)];
+  state.counters["lines_m"] = lengths[PassKind::kZigzag];
+  state.counters["contours_m"] = lengths[PassKind::kContour];
+  state.counters["borders_m"] = lengths[PassKind::kBorder];
+  state.counters["rest_m"] = lengths[PassKind::kCrease] + lengths[PassKind::kRest];
   state.counters["retracts"] = static_cast<double>(report.motion.retract_count);
   state.counters["program_MB"] = 1e-6 * static_cast<double>(result.program.size());
   for (const StageTime& stage : report.stages) state.counters["s_" + stage.name] = stage.seconds;
@@ -109,7 +106,7 @@ BENCHMARK_CAPTURE(MeasureJob, teapot, Part::kTeapot)
 void MeasureVerify(benchmark::State& state, Part part) {
   const Surface& surface = SurfaceOf(part);
   const Job job = JobOf(part);
-  const auto resolved = Resolve(surface, job);
+  const auto resolved = Resolve(surface, job, RunContext());
   if (!resolved.ok()) return state.SkipWithError(resolved.status().ToString().c_str());
   const auto result = RunVerified(surface, job);
   if (!result.ok()) return state.SkipWithError(result.status().ToString().c_str());

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails on an #include that goes up or sideways (DESIGN section 3: which folder may see which), and on one of CGAL: parts of
+"""Fails on an #include that goes up or sideways (README.md, Layout: which folder may see which), and on one of CGAL: parts of
 it are under the GPL, which tests alone may use (THIRD_PARTY.md).
 
 usage: layers.py ROOT

@@ -1,4 +1,4 @@
-// The same request gives the same bytes, whatever the processor can do (P5).
+// The same request gives the same bytes, whatever the processor can do ([verification P5]).
 #include "tests/support/instruction_sets.h"
 
 #include "tests/property/same_bytes.h"

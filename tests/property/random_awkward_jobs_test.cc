@@ -1,5 +1,5 @@
 // Jobs over awkward parts - every kind of patch, doubled ones, slivers, walls, tiny and huge ones - keep the
-// promises of DESIGN 2, or have nothing to cut.
+// promises [verification, section 1], or have nothing to cut.
 #include <algorithm>
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Jobs over random folded parts keep the promises of DESIGN 2.
+// Jobs over random folded parts keep the promises [verification, section 1].
 #include "tests/property/random_job.h"
 
 namespace patchmill {

@@ -1,4 +1,5 @@
-// Jobs with a forced strategy over random parts keep the promises of DESIGN 2 on the ground it is for.
+// Jobs with a forced strategy over random parts keep the promises [verification, section 1] on the ground it
+// is for.
 #include "tests/property/random_job.h"
 
 namespace patchmill {

@@ -1,4 +1,4 @@
-// Jobs over random rational and folded parts keep the promises of DESIGN 2.
+// Jobs over random rational and folded parts keep the promises [verification, section 1].
 #include "tests/property/random_job.h"
 
 namespace patchmill {

@@ -1,5 +1,5 @@
 // Jobs over parts with ground around an axis, which circles cut: wavy, oval and tilted rings of any size keep
-// the promises of DESIGN 2.
+// the promises [verification, section 1].
 #include "tests/property/random_job.h"
 
 namespace patchmill {

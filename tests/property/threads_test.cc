@@ -1,4 +1,4 @@
-// The same request gives the same bytes, whatever the number of threads (P5).
+// The same request gives the same bytes, whatever the number of threads ([verification P5]).
 #include "tests/property/same_bytes.h"
 
 namespace patchmill {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "patchmill/v1/analysis_service.pb.h"
+#include "tests/service/daemon.h"
 #include "tests/service/process.h"
 #include "tests/service/requests.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::AllOf;
+using testing::Daemon;
 using ::testing::ElementsAre;
 using testing::Finished;
 using ::testing::HasSubstr;
@@ -96,7 +98,8 @@ TEST_F(Cli, TheShankIsJudgedAndTheStickoutWarnedOf) {
   // Half a millimetre above the tip it is wider than the hill is steep.
   const std::vector<std::string> wide = {"--flute-length", "0.5", "--shank-diameter", "30"};
   std::vector<std::string> verify = {
-      "verify", bump_, out_ / "part.ngc", "--tool-diameter", "6", "--tolerance", "0.02", "--floor", "-1"};
+      "verify",  bump_, out_ / "part.ngc", "--tool-diameter", "6", "--tolerance", "0.02",
+      "--floor", "-1",  "--no-finish"};
   EXPECT_EQ(Patchmill(verify).status, 0);
   verify.insert(verify.end(), wide.begin(), wide.end());
   const Finished judged = Patchmill(verify);
@@ -183,6 +186,85 @@ TEST_F(Cli, VerifyAcceptsWhatMillMadeAndRefusesWhatWasTamperedWith) {
   EXPECT_THAT(bad.out, AllOf(HasSubstr("VERIFICATION_FAILED"), HasSubstr("gouge     FAILED")));
   EXPECT_THAT(bad.err, HasSubstr("VERIFICATION_FAILED"));
   EXPECT_THAT(bad.out, HasSubstr("FINISH_NOT_CHECKED"));
+}
+
+// COMPLETE means judged: a program that cuts air passes every other check.
+TEST_F(Cli, VerifySaysCompleteOnlyOfAFinishItHasJudged) {
+  const std::string air = in_.Write("air.ngc",
+                                    "G21 G17 G40 G49 G54 G80 G90 G91.1 G94\nG61\nG53 G0 Z0\nT1 M6\nS9000 M3\n"
+                                    "G43 H1\nG0 X0 Y6\nZ9\nG1 Z7 F300\nX12 F900\nG0 Z9\nM5\nG53 G0 Z0\nM2\n");
+  const auto verify = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"verify", bump_, air, "--tool-diameter", "6", "--floor", "-1"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Patchmill(words);
+  };
+  const Finished open = verify({});
+  EXPECT_EQ(open.status, 1);
+  EXPECT_THAT(open.out, AllOf(HasSubstr("outcome   NO_GOUGE_FOUND"), HasSubstr("finish    NOT_CHECKED"),
+                              HasSubstr("FINISH_NOT_CHECKED"), Not(HasSubstr("COMPLETE"))));
+  EXPECT_THAT(open.err, AllOf(HasSubstr("NO_GOUGE_FOUND"), HasSubstr("--scallop"), HasSubstr("--no-finish")));
+  const Finished wanted = verify({"--no-finish"});
+  EXPECT_EQ(wanted.status, 0) << wanted.err;
+  EXPECT_THAT(wanted.out, HasSubstr("outcome   NO_GOUGE_FOUND"));
+  const Finished judged = verify({"--scallop", "0.05"});
+  EXPECT_EQ(judged.status, 1);
+  EXPECT_THAT(judged.out, AllOf(HasSubstr("outcome   VERIFICATION_FAILED"), HasSubstr("ERROR LEFTOVER"),
+                                HasSubstr("gouge     PASSED")));
+  EXPECT_EQ(verify({"--scallop", "0.05", "--no-finish"}).status, 2);
+}
+
+// An F beside G20 or G21 is in the unit before; what no word has stated is named.
+TEST_F(Cli, UnitsAndArcsAreReadAsAControlReadsThem) {
+  const std::string folder = std::string(PATCHMILL_SOURCE_DIR) + "/tests/models/gcode/";
+  const auto verify = [&](const std::string& name) {
+    return Patchmill({"verify", folder + "plate.json", folder + name + ".ngc", "--tool-diameter", "6",
+                      "--plunge-feed", "400", "--no-finish"});
+  };
+  const Finished same = verify("a_same_line");
+  EXPECT_EQ(same.status, 1);
+  EXPECT_THAT(same.out, AllOf(HasSubstr("VERIFICATION_FAILED"), HasSubstr("STEEP_DESCENT"),
+                              HasSubstr("7620 mm/min"), HasSubstr("FEED_IN_UNIT_BEFORE")));
+  const Finished own = verify("b_own_line");
+  EXPECT_EQ(own.status, 0) << own.out << own.err;
+  EXPECT_THAT(own.out, Not(HasSubstr("FEED_IN_UNIT_BEFORE")));
+  EXPECT_THAT(own.out, Not(HasSubstr("ASSUMED")));
+  const Finished first = verify("c_first_line");
+  EXPECT_EQ(first.status, 0) << first.out << first.err;
+  EXPECT_THAT(first.out, AllOf(HasSubstr("WARNING UNITS_ASSUMED: line 1: "), HasSubstr("mm/min")));
+  const Finished arc = verify("no_arc_mode");
+  EXPECT_EQ(arc.status, 0) << arc.out << arc.err;
+  EXPECT_THAT(arc.out, AllOf(HasSubstr("WARNING ARC_MODE_ASSUMED: line 10: "), HasSubstr("G91.1")));
+}
+
+// The share that is not reached is that of the report.
+TEST_F(Cli, MillSaysHowMuchIsNotReached) {
+  const Finished whole = Mill(bump_, {"--quiet"});
+  ASSERT_EQ(whole.status, 0) << whole.err;
+  EXPECT_THAT(whole.err, Not(HasSubstr("not reached")));
+  const Finished run = Mill(bump_, {"--quiet", "--floor", "0", "--report", out_ / "part.json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  v1::Report report;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out_ / "part.json"), &report).ok());
+  ASSERT_EQ(report.unreachable_size(), 1);
+  const double share = 100.0 * report.unreachable_area_mm2() / report.total_area_mm2();
+  ASSERT_GT(share, 0.1);
+  char text[100];
+  std::snprintf(text, sizeof(text), "not reached: %.1f %% of the area (FLOOR %.1f %%): FLOOR %.2f mm2", share,
+                share, report.unreachable_area_mm2());
+  EXPECT_THAT(run.err, HasSubstr(text));
+  EXPECT_NEAR(report.unreachable_area_mm2() + report.reachable_area_mm2(), report.total_area_mm2(), 1e-6);
+  const Finished none = Mill(bump_, {"--floor", "50"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.err, HasSubstr("not reached: 100.0 % of the area (FLOOR 100.0 %)"));
+}
+
+// A model in the wrong unit.
+TEST_F(Cli, APartSmallerThanAStepIsNothingToCut) {
+  const Finished run = Mill(bump_, {"--scale", "0.001"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.err,
+              AllOf(HasSubstr("NOTHING_TO_CUT"), HasSubstr("--scale"), HasSubstr("no program was written")));
+  EXPECT_THAT(out_.Names(), IsEmpty());
 }
 
 // What is odd or idle in the cutting data is said, by the options' names.
@@ -628,30 +710,10 @@ TEST_F(Cli, AnInterruptLeavesNothingBehind) {
   }
 }
 
-// A daemon on a free port, and the port it says.
-class Daemon {
- public:
-  Daemon() : process_({kDaemon, "--listen", "127.0.0.1:0"}) {
-    for (int i = 0; i < 200 && port_.empty(); ++i) {
-      std::this_thread::sleep_for(25ms);
-      std::smatch match;
-      const std::string log = process_.Err();
-      if (std::regex_search(log, match, std::regex("port ([0-9]+)\n"))) port_ = match[1];
-    }
-    EXPECT_FALSE(port_.empty()) << process_.Err();
-  }
-  std::string target() const { return "127.0.0.1:" + port_; }
-  Process& process() { return process_; }
-
- private:
-  Process process_;
-  std::string port_;
-};
-
 TEST_F(Cli, TheDaemonMakesTheSameBytesAnswersHealthAndDrains) {
   ASSERT_EQ(Mill(bump_).status, 0);
   const std::string embedded = Slurp(out_ / "part.ngc");
-  Daemon daemon;
+  Daemon daemon(kDaemon);
   const Finished run = Mill(bump_, {"--server", daemon.target(), "--threads", "1"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(Slurp(out_ / "part.ngc"), embedded);
@@ -673,7 +735,7 @@ TEST_F(Cli, TheDaemonMakesTheSameBytesAnswersHealthAndDrains) {
 }
 
 TEST_F(Cli, AKilledServerLeavesNoNewProgram) {
-  Daemon daemon;
+  Daemon daemon(kDaemon);
   std::vector<std::string> command = {kPatchmill,        "mill",     long_,          "-o",
                                       out_ / "part.ngc", "--server", daemon.target()};
   command.insert(command.end(), fine_.begin(), fine_.end());

@@ -187,6 +187,36 @@ TEST(ModelErrors, HosakaPatchesCountWithThePiecesOfTheirBreaks) {
   EXPECT_TRUE(FromProto(model, "m").ok());
 }
 
+// Each rectangle between distinct knots makes a Bezier piece; the points given are far fewer.
+TEST(ModelErrors, BsplinesCountWithThePiecesTheyAreCutInto) {
+  const auto sheet = [](int degree, int spans) {
+    v1::PatchModel model = Bump();
+    v1::BsplinePatch& bspline = *model.add_patches()->mutable_bspline();
+    bspline.set_degree_u(degree);
+    bspline.set_degree_v(degree);
+    for (int k = -degree; k <= spans + degree; ++k) bspline.add_knots_u(std::clamp(k, 0, spans));
+    *bspline.mutable_knots_v() = bspline.knots_u();
+    const int points = spans + degree;
+    for (int i = 0; i < points * points; ++i) {
+      for (const int x : {i / points, i % points, 0}) bspline.add_points(x);
+    }
+    return model;
+  };
+  const absl::Status status = FromProto(sheet(15, 99), "m").status();
+  EXPECT_THAT(
+      status,
+      StatusIs(absl::StatusCode::kResourceExhausted,
+               HasSubstr("model.control_point_count = 2509072; the limit is 2500000; patches[1].bspline "
+                         "counts 2509056")));
+  EXPECT_TRUE(FromProto(sheet(15, 98), "m").ok());
+  EXPECT_TRUE(FromProto(sheet(3, 390), "m").ok());
+  EXPECT_FALSE(FromProto(sheet(3, 396), "m").ok());
+  // Knots that make no B-spline count with its points, and are a finding.
+  v1::PatchModel wrong = sheet(15, 99);
+  wrong.mutable_patches(1)->mutable_bspline()->set_degree_u(16);
+  EXPECT_FALSE(FromProto(wrong, "m")->faults.empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, PatchFaults,
     ::testing::Values(

@@ -1,6 +1,7 @@
 // GenerateProgram through the wire: the order of the stream, what each outcome carries, cancels and
 // deadlines.
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -295,64 +296,38 @@ TEST_F(GenerateProgram, WrongRequestsEndBeforeAnythingIsSent) {
               RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("patches[0].shape is missing")));
 }
 
-TEST_F(GenerateProgram, AJobTooLargeIsRefusedBeforeItIsPlanned) {
+// No passes of this finish are shorter than the limit: that is known before they are made.
+TEST_F(GenerateProgram, AJobThatCannotKeepALimitEndsBeforeItsPassesAreMade) {
   v1::GenerateProgramRequest request = BumpRequest(50'000.0);
   request.mutable_job()->mutable_operations(0)->set_scallop_mm(0.001);
   const auto begin = Clock::now();
   const Embedded::Stream stream = embedded_.Generate(request);
-  EXPECT_THAT(stream.status,
-              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
-  EXPECT_LT(Clock::now() - begin, testing::kSanitized ? 10s : 2s);
+  EXPECT_THAT(stream.status, RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("cut_length_mm")));
+  EXPECT_THAT(stream.status.error_message(), HasSubstr("scallop"));
+  EXPECT_LT(Clock::now() - begin, testing::kSanitized ? 100s : 20s);
+  EXPECT_EQ(stream.Report(), nullptr);
   const v1::ErrorInfo info = testing::InfoOf(stream.status);
   EXPECT_EQ(info.reason(), "LIMIT_EXCEEDED");
+  EXPECT_EQ(info.limit(), "cut_length_mm");
+  EXPECT_EQ(info.limit_value(), limits::kMaxCutLengthMm);
   EXPECT_GT(info.actual_value(), info.limit_value());
 }
 
-// Every scallop in use has contours over the whole part.
-TEST_F(GenerateProgram, ScallopsOfRegionsAreCountedToo) {
-  v1::GenerateProgramRequest request = BumpRequest(600.0);
-  request.set_validate_only(true);
-  v1::Operation& op = *request.mutable_job()->mutable_operations(0);
-  EXPECT_TRUE(embedded_.Generate(request).status.ok());
-  for (int i = 0; i < 100; ++i) {
-    v1::RegionOverride& change = *op.add_region_overrides();
-    change.mutable_at()->set_x_mm(i);
-    change.set_scallop_mm(0.05 + 0.001 * i);
+// Two bumps at the corners of a box that would take 6 km of passes.
+TEST_F(GenerateProgram, WhatAJobMightComeToRefusesNothing) {
+  v1::GenerateProgramRequest request = BumpRequest();
+  v1::PatchModel& model = *request.mutable_job()->mutable_source()->mutable_model();
+  v1::BezierPatch& far = *model.add_patches()->mutable_bezier();
+  far = model.patches(0).bezier();
+  constexpr double kApart = 2600.0;  // mm
+  for (int i = 0; i < far.points_size(); ++i) {
+    if (i % 3 != 2) far.set_points(i, far.points(i) + kApart);
   }
-  EXPECT_THAT(embedded_.Generate(request).status,
-              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
-}
-
-// An angle to be chosen is 20 plans at most.
-TEST_F(GenerateProgram, PlansForAnAngleAreCountedToo) {
-  const auto refused = [&](double size, bool chosen) {
-    v1::GenerateProgramRequest request = BumpRequest(size);
-    request.set_validate_only(true);
-    request.mutable_job()->mutable_operations(0)->set_zigzag_angle_auto(chosen);
-    const grpc::Status status = embedded_.Generate(request).status;
-    if (status.ok()) return false;
-    EXPECT_THAT(status, RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
-    return true;
-  };
-  double size = 100.0;  // mm: the first that one plan is refused for, to 2 %
-  while (!refused(size, false)) size *= 1.02;
-  EXPECT_FALSE(refused(0.95 * size / std::sqrt(20.0), true));
-  EXPECT_TRUE(refused(1.05 * size / std::sqrt(20.0), true));
-}
-
-// Neither hides behind a small plan: a wall has no plan, and small steps make many points.
-TEST_F(GenerateProgram, WallsAndPointsAreCountedToo) {
-  v1::GenerateProgramRequest wall = BumpRequest(90'000.0);
-  wall.mutable_job()->mutable_setup()->set_up(v1::UP_AXIS_X);
-  EXPECT_THAT(embedded_.Generate(wall).status,
-              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_cut_length_mm")));
-  v1::GenerateProgramRequest fine = BumpRequest(120.0);
-  v1::Operation& op = *fine.mutable_job()->mutable_operations(0);
-  op.mutable_tool()->mutable_ball_end()->set_diameter_mm(0.2);
-  op.set_scallop_mm(0.001);
-  op.set_tolerance_mm(0.0001);
-  EXPECT_THAT(embedded_.Generate(fine).status,
-              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("estimated_point_count")));
+  const double step = 2.0 * std::sqrt(0.05 * (6.0 - 0.05));
+  ASSERT_GT(kApart * kApart / step, limits::kMaxCutLengthMm);
+  const Embedded::Stream stream = embedded_.Generate(request);
+  ASSERT_TRUE(stream.status.ok()) << stream.status.error_message();
+  EXPECT_EQ(stream.Report()->outcome(), v1::OUTCOME_COMPLETE);
 }
 
 // The server has let go of a cancelled job when its one place is free again.

@@ -69,6 +69,7 @@ class Process {
     }
   }
 
+  pid_t pid() const { return pid_; }
   void Signal(int number) const { kill(pid_, number); }
   // Exit status; -1 when a signal ended it.
   int Wait() {

@@ -285,7 +285,20 @@ TEST_F(VerifyProgram, WithoutAScallopLeftoverIsMeasuredNotJudged) {
   ASSERT_TRUE(Verify().ok());
   EXPECT_EQ(last_.report().finish_check(), v1::CHECK_STATE_NOT_CHECKED);
   EXPECT_GT(last_.report().max_leftover_mm(), 1.0);
-  EXPECT_NE(last_.report().outcome(), v1::OUTCOME_VERIFICATION_FAILED);
+  EXPECT_EQ(last_.report().outcome(), v1::OUTCOME_NO_GOUGE_FOUND);
+}
+
+// Nothing is wrong with such a program, and nothing is finished by it.
+TEST_F(VerifyProgram, WhereNothingCanBeReachedThereIsNothingToCut) {
+  request_.set_floor_z_mm(6.5);
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_EQ(last_.report().outcome(), v1::OUTCOME_NO_GOUGE_FOUND);
+  request_.set_scallop_mm(0.05);
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_EQ(last_.report().outcome(), v1::OUTCOME_NOTHING_TO_CUT);
+  EXPECT_EQ(last_.report().finish_check(), v1::CHECK_STATE_PASSED);
+  EXPECT_EQ(last_.report().reachable_area_mm2(), 0.0);
+  EXPECT_EQ(last_.report().unreachable_area_mm2(), last_.report().total_area_mm2());
 }
 
 TEST_F(VerifyProgram, AGougeIsFoundWithItsLine) {

@@ -1,17 +1,11 @@
 if(PATCHMILL_SERVICE)
   patchmill_test(service DEPS cam/plan EXTERNAL pm_server)
-  add_dependencies(service_contract_test patchmill_descriptors)
-  target_compile_definitions(service_contract_test PRIVATE PATCHMILL_DESCRIPTORS="${CMAKE_BINARY_DIR}/patchmill_v1.binpb")
-  add_dependencies(service_cli_test patchmill patchmilld)
-  target_compile_definitions(service_cli_test PRIVATE PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
-  add_dependencies(service_cli_build_test patchmill)
-  target_compile_definitions(service_cli_build_test PRIVATE PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
-  add_dependencies(service_cli_edit_test patchmill)
-  target_compile_definitions(service_cli_edit_test PRIVATE PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
-  add_dependencies(service_cli_fair_test patchmill)
-  target_compile_definitions(service_cli_fair_test PRIVATE PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
+  add_dependencies(service_tests patchmill_descriptors patchmill patchmilld)
+  target_compile_definitions(service_tests PRIVATE PATCHMILL_DESCRIPTORS="${CMAKE_BINARY_DIR}/patchmill_v1.binpb"
+                                                   PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
   # These measure times or start processes; a neighbour would spoil them.
-  set_tests_properties(service_call_test service_generate_program_test service_cli_test PROPERTIES RUN_SERIAL TRUE)
+  set_tests_properties(service_call_test service_generate_program_test service_cli_test service_daemon_limits_test
+                       PROPERTIES RUN_SERIAL TRUE)
 
   add_test(NAME lint_buf COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/lint/buf.sh ${CMAKE_SOURCE_DIR})
   set_tests_properties(lint_buf PROPERTIES SKIP_RETURN_CODE 77)

@@ -15,7 +15,9 @@ inline Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& par
   PM_CHECK(normals.empty() || normals.size() == places.size());
   LeftoverSearch search(locator, params);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    search.AddPoint(places[i], normals.empty() ? Vec3(Vec3::Zero()) : normals[i]);
+    const bool none = normals.empty() || normals[i].isZero();
+    search.AddPoint(places[i],
+                    none ? std::nullopt : std::optional(Facing{normals[i], normals[i].z() <= kUprightFace}));
   }
   return search.Find(run);
 }

@@ -10,14 +10,13 @@
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
+#include "core/base/index.h"
 #include "core/base/vec.h"
 #include "core/math/bernstein.h"
 #include "tests/support/json.h"
 
 namespace patchmill::testing {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<BezierCurve> Pieces(const Json& from, double scale) {
   std::vector<BezierCurve> pieces;

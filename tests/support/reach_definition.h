@@ -1,4 +1,4 @@
-// docs/reach.md by its words, without the floor and the limits of the operation: from plain distances.
+// [regions (6)] by its words, without the floor and the limits of the operation: from plain distances.
 #pragma once
 
 #include <algorithm>

@@ -21,7 +21,7 @@ struct ReachCount {
   double area = 0.0, unreachable = 0.0, deviation = 0.0;
 };
 
-// Some `places` places, spread evenly over the area, two to a cell. docs/reach.md has the rule.
+// Some `places` places, spread evenly over the area, two to a cell. [regions (6)] is the rule.
 ReachCount CountUnreachable(const PatchModel& model, const ReachQuestion& question, int places,
                             Random& random);
 

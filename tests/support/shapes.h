@@ -48,8 +48,8 @@ using HeightFunction = std::function<double(double x, double y)>;
 // clamped, not-a-knot ends. u along x, v along y, both linear.
 BsplinePatch InterpolatedHeights(const HeightFunction& f, double x0, double x1, double y0, double y1,
                                  int spans_x, int spans_y);
-double TwoHillsHeight(double x, double y);  // ALGORITHMS 8b
-double BumpyHeight(double x, double y);     // DESIGN 8
+double TwoHillsHeight(double x, double y);  // tests/bench/README.md
+double BumpyHeight(double x, double y);     // tests/bench/README.md
 PatchModel TwoHills();                      // 32 x 32 spans on [0,100]^2
 PatchModel Bumpy();                         // 50 x 50 spans on [0,100]^2
 

@@ -67,8 +67,8 @@ LinkParams Params() {
   return p;
 }
 
-// P1 and P3 on the motion itself: nothing gouged on any move, rapids clear of the stock or at the clearance
-// plane, descents slow.
+// [verification P1, P3] on the motion itself: nothing gouged on any move, rapids clear of the stock or at the
+// clearance plane, descents slow.
 void CheckMotion(const Surface& surface, const LinkResult& result, const LinkParams& params) {
   const double tolerance = 0.01;
   const Locator ball(surface, kRadius - tolerance), stock(surface, kRadius + params.allowance);

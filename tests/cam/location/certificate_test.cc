@@ -158,7 +158,7 @@ TEST(Certificate, AFilletOfTheBallsRadius) {
 }
 
 TEST(Certificate, HeightIsTheMaximumOverNeighboursContacts) {
-  // T3: the branch of any contact is a lower bound of h everywhere.
+  // [location (1)]: the branch of any contact is a lower bound of h everywhere.
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Surface surface = SurfaceOf(testing::RandomBspline(seed));
     const double r = 3.0;

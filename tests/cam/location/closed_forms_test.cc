@@ -1,4 +1,4 @@
-// h against closed forms (ALGORITHMS 9): 1e-9 mm.
+// h against closed forms ([location, section 12]): 1e-9 mm.
 #include <cmath>
 
 #include <gtest/gtest.h>

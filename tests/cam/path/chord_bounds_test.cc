@@ -13,8 +13,8 @@ namespace {
 
 using testing::Random;
 
-// T2 on random points: two centres with every point (and everything above the centres, for the shank) out of
-// the ball.
+// [location T2] on random points: two centres with every point (and everything above the centres, for the
+// shank) out of the ball.
 TEST(ChordBounds, NoPointIsDeeperThanT2AndTheBoundIsSharp) {
   const double radius = 2.0;
   Random random(1);
@@ -77,7 +77,7 @@ TEST(ChordBounds, NoPointIsDeeperThanT2AlongFreeCentresSays) {
   EXPECT_GT(tested, 10000);
   EXPECT_GT(bounded, 4000);
   EXPECT_GT(closest, 0.8);
-  // Two centres: T2 itself. One more on the move between them: T2 of the halves.
+  // Two centres: [location T2] itself. One more on the move between them: T2 of the halves.
   const Vec3 a(0, 0, 0), b(1, 0, 0);
   EXPECT_NEAR(ChordGouge(radius, a, b, std::vector<Vec3>{a, b}), ChordGouge(radius, 1.0), 1e-14);
   EXPECT_NEAR(ChordGouge(radius, a, b, std::vector<Vec3>{a, {0.5, 0, 0}, b}), ChordGouge(radius, 0.5), 1e-14);
@@ -87,7 +87,7 @@ TEST(ChordBounds, NoPointIsDeeperThanT2AlongFreeCentresSays) {
   EXPECT_GE(ChordGouge(radius, a, b, std::vector<Vec3>{a, {0.5, 0, 0.03}, b}), 0.03);
 }
 
-// T3: no point of a chord is farther from touching one of its two contacts than the bound.
+// [location T3]: no point of a chord is farther from touching one of its two contacts than the bound.
 TEST(ChordBounds, NoPointOfTheChordIsFartherThanT3AndTheBoundIsReached) {
   const double radius = 2.0;
   Random random(2);

@@ -118,7 +118,8 @@ inline int WrongNodes(const Surface& surface, double radius, const LevelContours
 struct Level {
   explicit Level(PatchModel model, double radius = 3.0)
       : surface(MakeSurface(std::move(model))), locator(surface, radius) {}
-  // `excess`: what probes may find left over; in cells below the resolution it is half their diagonal (T8d).
+  // `excess`: what probes may find left over; in cells below the resolution it is half their diagonal
+  // ([contours T8d]).
   LevelContours At(double z, double excess = ContourParams{}.chord_tolerance) const {
     const RunContext run;
     LevelContours level = TraceLevel(locator, z, params, run);

@@ -60,7 +60,7 @@ struct Leftover {
   int reachable = 0;
 };
 
-// Largest leftover over random surface points that are reachable as DESIGN 2 defines it.
+// Largest leftover over random surface points that are reachable as [regions (6)] defines it.
 Leftover Measure(const Surface& surface, double radius, const std::vector<CutterPath>& paths, int samples,
                  double floor_z = -kInfinity, double max_slope = kPi / 2) {
   const Locator reach(surface, radius - ReachGive(kTolerance));

@@ -51,7 +51,8 @@ TEST(Spacing, SmoothAcrossFlat) {
   }
 }
 
-// PEERS 0.2, r = 3, cusp 5 um: allowed step / flat step on the surface, and the cusp the flat step leaves.
+// [spacing (3)], r = 3, cusp 5 um: allowed step / flat step on the surface, and the cusp the flat step
+// leaves.
 TEST(Spacing, TableOfPeers) {
   const double radius = 3.0, s = 0.005, flat = CenterStep(radius, s, 0.0);
   EXPECT_NEAR(flat, 0.3463, 5e-5);

@@ -45,7 +45,7 @@ struct Wound {
   std::vector<CutterPath> levels, paths;
 };
 
-// Falls all the way between whole levels, every vertex free, every chord short enough for T2.
+// Falls all the way between whole levels, every vertex free, every chord short enough for [location T2].
 void CheckShape(const Wound& wound, const CutterPath& spiral) {
   EXPECT_EQ(spiral.kind, PassKind::kContour);
   EXPECT_FALSE(spiral.closed);

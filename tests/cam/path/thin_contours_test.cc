@@ -77,7 +77,7 @@ Chords Judge(const Thinned& t, const std::vector<CutterPath>& paths, int per_cho
   return all;
 }
 
-// Of splines some cells are below the resolution: there contours themselves leave more (T8d).
+// Of splines some cells are below the resolution: there contours themselves leave more ([contours T8d]).
 enum class Cells { kResolved, kSomeTooSmall };
 
 void ExpectPromises(const Thinned& t, Cells cells = Cells::kResolved) {

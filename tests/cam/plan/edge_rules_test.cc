@@ -224,7 +224,7 @@ TEST_P(CurvedSheet, RollGoesOverTheBorderAndKeepsThePromises) {
   ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
   const JobResult stopped = Mill(surface, EdgeJob(EdgeRule::kStop));
   ASSERT_TRUE(stopped.report.verify.ok()) << Describe(stopped);
-  const auto resolved = Resolve(surface, job);
+  const auto resolved = Resolve(surface, job, RunContext());
   ASSERT_TRUE(resolved.ok()) << resolved.status();
   for (int axis = 0; axis < 2; ++axis) {
     // To where it touches the border at the split angle at least, and farther than when it stops there. The

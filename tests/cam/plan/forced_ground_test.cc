@@ -22,7 +22,8 @@ constexpr std::size_t kStrategyArea = 4;  // VerifyReport::unreachable_area
 
 double FlatStep() { return 2.0 * std::sqrt(kScallop * (2.0 * kRadius - kScallop)); }
 
-// Centre step on a convex circle of radius rho, as a part of the flat one, for small scallops (ALGORITHMS 5).
+// Centre step on a convex circle of radius rho, as a part of the flat one, for small scallops
+// ([spacing, section 1]).
 double ConvexStep(double rho) { return std::sqrt(1.0 + kRadius / rho); }
 
 Job ForcedJob(Strategy strategy, double angle = 0.0) {

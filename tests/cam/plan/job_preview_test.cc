@@ -29,7 +29,7 @@ class RegionPicture : public ::testing::Test {
   std::string Draw() {
     const Surface surface = PlacedSurface(model_);
     const auto regions = PlanRegions(surface, job_, RunContext());
-    const auto resolved = Resolve(surface, job_);
+    const auto resolved = Resolve(surface, job_, RunContext());
     EXPECT_TRUE(regions.ok() && resolved.ok()) << regions.status() << resolved.status();
     return DrawRegions(surface, *regions, *resolved, job_.operation.steep_angle, "roof");
   }
@@ -86,7 +86,7 @@ TEST_F(RegionPicture, ShowsEveryKindOfMove) {
   job_.operation.scallop = 0.05;
   const Surface surface = PlacedSurface(model_);
   const JobResult result = Mill(surface, job_);
-  const auto resolved = Resolve(surface, job_);
+  const auto resolved = Resolve(surface, job_, RunContext());
   ASSERT_TRUE(resolved.ok()) << resolved.status();
   const std::string picture = DrawJob(surface, result, *resolved, "roof");
   int kinds = 0;

@@ -1,5 +1,5 @@
-// Rapids below the clearance plane (P3): clear of the stock over the whole rectangle between their ends,
-// judged here by heights of the ball with the stock around it.
+// Rapids below the clearance plane ([verification P3]): clear of the stock over the whole rectangle between
+// their ends, judged here by heights of the ball with the stock around it.
 #include <algorithm>
 #include <cmath>
 

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/error_details.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/profiles.h"
 #include "tests/support/shapes.h"
@@ -40,6 +41,28 @@ std::vector<RoundTry> NoCircles(std::size_t n) { return std::vector<RoundTry>(n)
 double Apart(double a, double b) {
   const double d = std::abs(Degrees(a) - b);
   return std::min(d, 180.0 - d);
+}
+
+// Plans that come to more than they may are no choice; where all do the caller's own plan says so.
+TEST(QuickestAngles, PlansBeyondALimitAreNoChoice) {
+  const auto angles = [](double from, double to) {
+    return QuickestAngles(MapOf({SlopeClass::kGentle}), OpenChoices(1), NoCircles(1),
+                          [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
+                            const double angle = Degrees(with[0].zigzag_angle);
+                            if (angle < from - 1e-9 || angle > to + 1e-9)
+                              return LimitPassedError({"cut_length_mm", 1.0, 2.0}, "too long");
+                            return RegionTimes{10.0 + Apart(with[0].zigzag_angle, 0.0)};
+                          });
+  };
+  const auto some = angles(80.0, 100.0);
+  ASSERT_TRUE(some.ok()) << some.status();
+  EXPECT_GE(Degrees((*some)[0].zigzag_angle), 80.0);
+  EXPECT_LE(Degrees((*some)[0].zigzag_angle), 100.0);
+  EXPECT_TRUE(angles(200.0, 210.0).ok());
+  const auto broken = QuickestAngles(
+      MapOf({SlopeClass::kGentle}), OpenChoices(1), NoCircles(1),
+      [](const std::vector<RegionChoice>&) -> absl::StatusOr<RegionTimes> { return absl::CancelledError(); });
+  EXPECT_EQ(broken.status().code(), absl::StatusCode::kCancelled);
 }
 
 TEST(QuickestAngles, EachRegionTakesItsOwn) {

@@ -1,4 +1,5 @@
-// Why a place is unreachable (docs/reach.md): the region map and the verifier, which share no code, agree.
+// Why a place is unreachable ([regions, section 6]): the region map and the verifier decide it by two
+// programs, and agree.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -41,7 +42,7 @@ std::array<double, kReasons> FromRegions(const Surface& surface, const Job& job)
 
 // Areas do not depend on the program: one that cuts nothing will do.
 std::array<double, kReasons> FromVerifier(const Surface& surface, const Job& job) {
-  const auto resolved = Resolve(surface, job);
+  const auto resolved = Resolve(surface, job, RunContext());
   EXPECT_TRUE(resolved.ok()) << resolved.status();
   const auto report = VerifyProgramText(surface, job.operation.tool,
                                         "G17 G21 G90 G94\nG53 G0 Z0\nT1 M6\nS1000 M3\nG43 H1\n"

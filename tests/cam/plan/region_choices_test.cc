@@ -108,9 +108,9 @@ TEST_F(RegionChoices, ASkippedRegionIsNeitherCutNorDemanded) {
   for (int k = 0; k < 40; ++k) {
     EXPECT_LE(Leftover(OnDome((kCap - kCell) * k / 40.0, 1.7 * k), result), 0.02 + job.operation.tolerance);
   }
-  // P1 holds everywhere, and the choice is what lets P2 pass.
+  // [verification P1] holds everywhere, and the choice is what lets P2 pass.
   EXPECT_TRUE(result.report.verify.gouge_ok);
-  const auto resolved = Resolve(surface_, job);
+  const auto resolved = Resolve(surface_, job, RunContext());
   ASSERT_TRUE(resolved.ok());
   const auto judged = VerifyProgramText(surface_, job.operation.tool, result.program,
                                         MakeVerifyParams(job, *resolved), RunContext());
@@ -122,7 +122,7 @@ TEST_F(RegionChoices, ASkippedRegionIsNeitherCutNorDemanded) {
 TEST_F(RegionChoices, AGougeInASkippedRegionIsFound) {
   Job job = DomeJob();
   job.operation.overrides = {Skip(gentle_)};
-  const auto resolved = Resolve(surface_, job);
+  const auto resolved = Resolve(surface_, job, RunContext());
   const auto choices = ChooseRegions(surface_, map_, job.operation, Vec3::Zero());
   ASSERT_TRUE(resolved.ok() && choices.ok());
   const auto parts = PartsOf(map_, *choices);

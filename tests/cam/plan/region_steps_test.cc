@@ -12,7 +12,7 @@ namespace {
 using namespace testing;  // NOLINT: the support folder's
 
 // Two balls of radius R on a circle of radius rho, scallop s: cos of the angle between the centres' rays and
-// the crest's, by the cosine rule; the centres lie on the circle of radius rho + R (ALGORITHMS 5).
+// the crest's, by the cosine rule; the centres lie on the circle of radius rho + R ([spacing (2)]).
 double StepOnConvex(double rho, double radius, double scallop) {
   const double c = rho + radius, crest = rho + scallop;
   const double half = std::acos((c * c + crest * crest - radius * radius) / (2.0 * c * crest));

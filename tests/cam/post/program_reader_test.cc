@@ -70,11 +70,42 @@ TEST(ProgramReader, AssumptionsAreSaid) {
   EXPECT_EQ(said("G53 G0 Z0\nM5\n"), "");  // nothing of it counts
   EXPECT_EQ(said("G53 G0 Z0\nG0 X1 Y1\nX2\nZ5\nG1 Z0 F100\n"),
             "UNITS_ASSUMED 2 DISTANCE_MODE_ASSUMED 2 LENGTH_OFFSET_ASSUMED 4 PATH_MODE_ASSUMED 5 ");
+  // An F without a unit counts where something is fed at it; its own line is named.
+  const std::string head = "F300 G21 G90 G61\nT3 M6\nG53 G0 Z0\nG43\nG0 X1 Y1\nZ5\n";
+  EXPECT_EQ(said(head), "");
+  EXPECT_EQ(said(head + "G1 Z0\n"), "UNITS_ASSUMED 1 ");
+  EXPECT_EQ(said(head + "F200\nG1 Z0\n"), "");
   const std::string modes = "G21 G90 G61\nT3 M6\nG53 G0 Z0\n";
   EXPECT_EQ(said(modes + "G43 H4\nG0 X1 Y1\nZ5\n"), "LENGTH_OFFSET_OF_OTHER_TOOL 6 ");
   EXPECT_EQ(said(modes + "G43\nG0 X1 Y1\nZ5\n"), "");  // the loaded tool's own
   EXPECT_EQ(said(modes + "G43 H3\nG49\nG0 X1 Y1\nZ5\n"), "LENGTH_OFFSET_ASSUMED 7 ");
-  EXPECT_EQ(said("G20 G91\nG43\nG90 G0 X0 Y0\nZ1\nG2 I1 F9\n"), "PATH_MODE_ASSUMED 5 ");
+  const std::string arc = "G90 G0 X0 Y0\nZ1\nG2 ";
+  EXPECT_EQ(said("G20 G91 G43\n" + arc + "I1 F9\n"), "ARC_MODE_ASSUMED 4 PATH_MODE_ASSUMED 4 ");
+  EXPECT_EQ(said("G20 G61 G91.1 G43\n" + arc + "I1 F9\n"), "");
+  EXPECT_EQ(said("G20 G61 G90.1 G43\n" + arc + "I1 J0 F9\n"), "");
+  EXPECT_EQ(said("G20 G61 G43\n" + arc + "X1 R1 F9\n"), "");  // no centre is given
+}
+
+// So does a control: F first, then G20 and G21, then coordinates.
+TEST(ProgramReader, AFeedBesideAChangeOfUnitIsInTheUnitBefore) {
+  const auto last = [](const std::string& text) { return Read("G20 G61 G91.1\nG0 X0 Y0\nZ1\n" + text); };
+  for (const char* line : {"G21 G1 Z0 F300\n", "F300 Z0 G1 G21\n"}) {
+    const ProgramMotion m = last(line);
+    EXPECT_DOUBLE_EQ(m.moves.back().feed, 7620.0) << line;
+    EXPECT_EQ(m.moves.back().to.z(), 0.0);
+    ASSERT_FALSE(m.assumptions.empty());
+    const bool said = std::any_of(m.assumptions.begin(), m.assumptions.end(), [](const Diagnostic& d) {
+      return d.code == "FEED_IN_UNIT_BEFORE" && d.where.line == 4 &&
+             d.message.find("7620 mm/min") != std::string::npos;
+    });
+    EXPECT_TRUE(said) << line;
+  }
+  EXPECT_DOUBLE_EQ(last("G21\nG1 Z5 F300\n").moves.back().feed, 300.0);
+  EXPECT_EQ(last("G21 G1 X30 F10\n").moves.back().to.x(), 30.0) << "coordinates are in the new unit";
+  EXPECT_DOUBLE_EQ(last("G20 G1 Z0 F30\n").moves.back().feed, 762.0) << "the unit in force is stated again";
+  // Nothing is in force before the first line: taken as mm/min, as LinuxCNC starts.
+  EXPECT_DOUBLE_EQ(Read("G21 F300\nG1 X1\n").moves.back().feed, 300.0);
+  EXPECT_DOUBLE_EQ(Read("G20 F300\nG1 X1\n").moves.back().feed, 300.0);
 }
 
 TEST(ProgramReader, PathModes) {

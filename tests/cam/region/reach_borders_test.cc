@@ -123,8 +123,8 @@ class FreeBeside {
     const auto at = ClosestToPoint(surface_, near, 1.0, 1e-5);
     if (!at) return false;
     const SurfaceJet jet = Evaluate(surface_, at->at.piece, at->at.u, at->at.v);
-    const auto normal = UpwardNormal(jet);
-    return normal && reach_.Free(jet.p, *normal);
+    const auto facing = FacingAt(jet);
+    return facing && reach_.Free(jet.p, *facing);
   }
 
  private:

@@ -67,7 +67,7 @@ TEST(ObstacleCloud, ItsPointsAreOfTheSurfaceAndInTheWay) {
   EXPECT_GT(found, 100);
 }
 
-// The definition in docs/reach.md, by distances alone. Nothing where it is too near to call. Places in
+// The definition [regions (6)], by distances alone. Nothing where it is too near to call. Places in
 // groups: what is known from the last ones helps with the next.
 TEST(ReachTest, AgreesWithTheDefinition) {
   int blocked = 0, above = 0, not_above = 0;
@@ -91,24 +91,24 @@ TEST(ReachTest, AgreesWithTheDefinition) {
     std::vector<std::optional<SurfacePoint>> obstacles(jets.size());
     reach.FreeAt(jets, signs, obstacles);
     for (std::size_t i = 0; i < jets.size(); ++i) {
-      const auto normal = UpwardNormal(jets[i]);
-      if (!normal || normal->z() < 1e-3) continue;
-      const Vec3 center = jets[i].p + params.radius * *normal;
+      const auto facing = FacingAt(jets[i]);
+      if (!facing || facing->e.z() < 1e-3) continue;
+      const Vec3 center = jets[i].p + params.radius * facing->e;
       const auto ray = ClosestToUpwardRay(surface, center, kInfinity, 1e-6);
       ASSERT_TRUE(ray);
       if (std::abs(ray->distance - free_radius) > 1e-4) {
         EXPECT_EQ(signs[i], ray->distance > free_radius ? 1.0 : -1.0);
-        EXPECT_EQ(reach.Free(jets[i].p, *normal), ray->distance > free_radius);
+        EXPECT_EQ(reach.Free(jets[i].p, *facing), ray->distance > free_radius);
       }
       if (signs[i] > 0.0) continue;
       ++blocked;
       ASSERT_TRUE(obstacles[i]);
       EXPECT_LT(reach.Clearance(obstacles[i]->p, jets[i]), 0.0);
       const auto by =
-          ReachByDefinition(surface, jets[i].p, *normal, params.radius, ReachGive(params.tolerance));
+          ReachByDefinition(surface, jets[i].p, facing->e, params.radius, ReachGive(params.tolerance));
       if (!by || by == Blocked::kNot) continue;
       const bool is_above = by == Blocked::kAbove;
-      EXPECT_EQ(reach.BlockedAbove(jets[i].p, *normal), is_above);
+      EXPECT_EQ(reach.BlockedAbove(jets[i].p, *facing), is_above);
       EXPECT_EQ(shank[i], is_above ? -1.0 : 1.0);
       above += is_above;
       not_above += !is_above;

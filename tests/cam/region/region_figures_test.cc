@@ -115,7 +115,7 @@ TEST(RegionFigures, TheToolForARegionReachesAllOfIt) {
       const double u = (k / kGrid + 0.5) / kGrid, v = (k % kGrid + 0.5) / kGrid;
       const SurfaceJet jet = Evaluate(surface.pieces[i], u, v);
       const auto id = static_cast<std::size_t>(map.At({PieceId(i), u, v, jet.p}));
-      const auto e = UpwardNormal(jet);
+      const auto e = FacingAt(jet);
       if (!e || map.regions[id].kind != RegionKind::kUnreachable ||
           map.regions[id].reason != UnreachableReason::kConcave) {
         continue;

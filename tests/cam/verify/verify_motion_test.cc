@@ -1,4 +1,4 @@
-// P1 and P3 of whole programs: every kind of motion, rapids, starts, ends and descents.
+// [verification P1, P3] of whole programs: every kind of motion, rapids, starts, ends and descents.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

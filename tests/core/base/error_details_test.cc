@@ -36,5 +36,18 @@ TEST(CodedError, CarriesItsCode) {
   EXPECT_EQ(CodeOf(absl::InvalidArgumentError("x")), "");
 }
 
+TEST(LimitPassedError, CarriesLimitAndValue) {
+  const absl::Status status = LimitPassedError({"cut_length_mm", 5e6, 1234567890.1234567}, "take less");
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(status.message(), "cut_length_mm = 1234567890; the limit is 5000000: take less");
+  const std::optional<PassedLimit> passed = LimitPassedOf(status);
+  ASSERT_TRUE(passed.has_value());
+  EXPECT_EQ(passed->name, "cut_length_mm");
+  EXPECT_EQ(passed->limit, 5e6);
+  EXPECT_EQ(passed->value, 1234567890.1234567);
+  EXPECT_FALSE(LimitPassedOf(absl::ResourceExhaustedError("x = 3; the limit is 2")).has_value());
+  EXPECT_FALSE(LimitPassedOf(FieldError("x", "= 3 4 5")).has_value());
+}
+
 }  // namespace
 }  // namespace patchmill

@@ -32,6 +32,30 @@ TEST(ParallelFor, CallsEveryIndexOnceForAnyNumberOfThreads) {
   EXPECT_TRUE(ParallelFor(RunContext(), nullptr, 0, [](std::size_t) { ADD_FAILURE(); }).ok());
 }
 
+TEST(ParallelFor, APartOfALoopTellsTheProgressOfTheWhole) {
+  for (const int threads : {1, 3}) {
+    std::vector<int> calls(100, 0);
+    RunContext run(threads);
+    std::mutex mutex;
+    double furthest = 0.0;
+    run.set_progress([&](std::string_view, double fraction) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      furthest = std::max(furthest, fraction);
+    });
+    const auto part = [&](std::size_t first, std::size_t last) {
+      EXPECT_TRUE(
+          ParallelFor(run, "loop", LoopPart{first, last, 100}, [&](std::size_t i) { ++calls[i]; }).ok());
+    };
+    part(0, 50);
+    EXPECT_EQ(furthest, 0.5);
+    EXPECT_EQ(std::accumulate(calls.begin(), calls.begin() + 50, 0), 50);
+    part(50, 50);
+    part(50, 100);
+    EXPECT_EQ(furthest, 1.0);
+    EXPECT_EQ(calls, std::vector<int>(100, 1));
+  }
+}
+
 TEST(ParallelFor, LoopsNest) {
   std::vector<std::vector<int>> table(20, std::vector<int>(30, 0));
   const RunContext run(3);

@@ -1,4 +1,4 @@
-// Curves: vectors of METHODS 1.2 and 3.5, Bezier forms, parts, derivatives against differencing.
+// Curves: vectors of [curves (2), (9)], Bezier forms, parts, derivatives against differencing.
 #include "core/curve/curve.h"
 
 #include <cmath>
@@ -6,21 +6,19 @@
 #include <gtest/gtest.h>
 
 #include "core/curve/edge_tangents.h"
+#include "tests/support/eigen_matchers.h"
 #include "tests/support/json.h"
 #include "tests/support/random.h"
 
 namespace patchmill {
 namespace {
 
+using testing::IsNear;
 using testing::Json;
 using testing::LoadJson;
 using testing::Random;
 
 #define VECTORS PATCHMILL_SOURCE_DIR "/tests/vectors/"
-
-void ExpectNear(const Vec3& a, const Vec3& b, double tolerance) {
-  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " / " << b.transpose();
-}
 
 // f'(t) of order eight.
 template <class F>
@@ -43,16 +41,16 @@ TEST(HermiteCurve, FmillVector) {
   const auto tangents =
       FmillTangents(p1, data["n1"].Vector(), p2, data["n2"].Vector(), data["gamma"].Number());
   ASSERT_TRUE(tangents.ok());
-  ExpectNear(tangents->t1, data["T1"].Vector(), 1e-12);
-  ExpectNear(tangents->t2, data["T2"].Vector(), 1e-12);
+  EXPECT_THAT(tangents->t1, IsNear(data["T1"].Vector(), 1e-12));
+  EXPECT_THAT(tangents->t2, IsNear(data["T2"].Vector(), 1e-12));
   const Curve curve = EdgeCurve(p1, p2, *tangents);
   const int count = static_cast<int>(data["u"].Items().size());
   ASSERT_GE(count, 5);
   for (int k = 0; k < count; ++k) {
     const CurveJet jet = Evaluate(curve, data["u"][k].Number());
-    ExpectNear(jet.p, data["C"][k].Vector(), 3e-12);
-    ExpectNear(jet.d, data["dC"][k].Vector(), 3e-12);
-    ExpectNear(jet.dd, data["ddC"][k].Vector(), 3e-12);
+    EXPECT_THAT(jet.p, IsNear(data["C"][k].Vector(), 3e-12));
+    EXPECT_THAT(jet.d, IsNear(data["dC"][k].Vector(), 3e-12));
+    EXPECT_THAT(jet.dd, IsNear(data["ddC"][k].Vector(), 3e-12));
   }
 }
 
@@ -62,11 +60,11 @@ TEST(HosakaSegment, PartVector) {
   const HermiteCurve whole{Vec3::Zero(), data["B"].Vector(), a, data["C"].Vector()};
   const double t1 = data["t1"].Number(), t2 = data["t2"].Number();
   const HermiteCurve part = Part(whole, t1, t2);
-  ExpectNear(part.p1 - part.p0, data["AM"].Vector(), 1e-12);
-  ExpectNear(part.d0, data["BM"].Vector(), 1e-12);
-  ExpectNear(part.d1, data["CM"].Vector(), 1e-12);
+  EXPECT_THAT(part.p1 - part.p0, IsNear(data["AM"].Vector(), 1e-12));
+  EXPECT_THAT(part.d0, IsNear(data["BM"].Vector(), 1e-12));
+  EXPECT_THAT(part.d1, IsNear(data["CM"].Vector(), 1e-12));
   for (double s = 0; s <= 1; s += 0.125) {
-    ExpectNear(Evaluate(part, s).p, Evaluate(whole, t1 + s * (t2 - t1)).p, 1e-15);
+    EXPECT_THAT(Evaluate(part, s).p, IsNear(Evaluate(whole, t1 + s * (t2 - t1)).p, 1e-15));
   }
 }
 
@@ -80,8 +78,8 @@ TEST(BezierCurve, PartIsTheSameCurve) {
       const BezierCurve part = Part(whole, t1, t2);
       for (double s = 0; s <= 1; s += 0.125) {
         const CurveJet a = Evaluate(part, s), b = Evaluate(whole, t1 + s * (t2 - t1));
-        ExpectNear(a.p, b.p, 1e-14);
-        ExpectNear(a.d, (t2 - t1) * b.d, 1e-13);
+        EXPECT_THAT(a.p, IsNear(b.p, 1e-14));
+        EXPECT_THAT(a.d, IsNear((t2 - t1) * b.d, 1e-13));
       }
       if (t1 == 0.0) {
         EXPECT_EQ(part.points.front(), whole.points.front());
@@ -99,8 +97,8 @@ TEST(HosakaSegment, ExtraTermKeepsEndsAndEndDerivatives) {
     const HosakaSegment s = RandomSegment(random, k);
     for (const double t : {0.0, 1.0}) {
       const CurveJet jet = Evaluate(s, t);
-      ExpectNear(jet.p, s.origin + t * s.a, 1e-15);
-      ExpectNear(jet.d, t == 0 ? s.b : s.c, 1e-14);
+      EXPECT_THAT(jet.p, IsNear(s.origin + t * s.a, 1e-15));
+      EXPECT_THAT(jet.d, IsNear(t == 0 ? s.b : s.c, 1e-14));
     }
   }
 }
@@ -114,9 +112,9 @@ TEST(Curve, BezierFormIsTheSameCurve) {
     for (int k = 0; k < 20; ++k) {
       const double t = random.Unit();
       const CurveJet a = Evaluate(s, t), b = Evaluate(*bezier, t);
-      ExpectNear(a.p, b.p, 1e-13);
-      ExpectNear(a.d, b.d, 1e-12);
-      ExpectNear(a.dd, b.dd, 1e-11);
+      EXPECT_THAT(a.p, IsNear(b.p, 1e-13));
+      EXPECT_THAT(a.d, IsNear(b.d, 1e-12));
+      EXPECT_THAT(a.dd, IsNear(b.dd, 1e-11));
     }
   }
   HosakaSegment too_long = RandomSegment(random, 13);
@@ -132,9 +130,9 @@ TEST(Curve, BsplineOfOneSpanIsBezier) {
   for (int k = 0; k < 20; ++k) {
     const double t = random.Unit();
     const CurveJet a = Evaluate(Curve(spline), t), b = Evaluate(*bezier, t);
-    ExpectNear(a.p, b.p, 1e-14);
-    ExpectNear(a.d, b.d, 1e-13);
-    ExpectNear(a.dd, b.dd, 1e-12);
+    EXPECT_THAT(a.p, IsNear(b.p, 1e-14));
+    EXPECT_THAT(a.d, IsNear(b.d, 1e-13));
+    EXPECT_THAT(a.dd, IsNear(b.dd, 1e-12));
   }
   spline.knots = {0, 0, 0, 0, 1, 2, 2, 2, 2};
   spline.points.push_back(random.Point(-1, 1));
@@ -159,8 +157,8 @@ TEST(Curve, DerivativesAgreeWithDifferencing) {
     for (int k = 0; k < 20; ++k) {
       const double t = random.Uniform(0.1, 0.9);
       const CurveJet jet = Evaluate(c, t);
-      ExpectNear(Difference([&](double x) { return Evaluate(c, x).p; }, t), jet.d, 1e-10);
-      ExpectNear(Difference([&](double x) { return Evaluate(c, x).d; }, t), jet.dd, 1e-9);
+      EXPECT_THAT(Difference([&](double x) { return Evaluate(c, x).p; }, t), IsNear(jet.d, 1e-10));
+      EXPECT_THAT(Difference([&](double x) { return Evaluate(c, x).d; }, t), IsNear(jet.dd, 1e-9));
     }
   }
 }
@@ -209,20 +207,20 @@ TEST(Curve, RewrittenIsTheSameCurve) {
       const CurveJet jet = Evaluate(curve, t), there = Evaluate(moved, t);
       const Vec3 curvature = CurvatureVector(jet);
       const double close = 1e-12 * (1 + curvature.norm()) * (1 + 1 / jet.d.squaredNorm());
-      ExpectNear(there.p, motion * jet.p, 1e-14 * 10);
-      ExpectNear(CurvatureVector(there), motion.linear() * curvature, close);
+      EXPECT_THAT(there.p, IsNear(motion * jet.p, 1e-14 * 10));
+      EXPECT_THAT(CurvatureVector(there), IsNear(motion.linear() * curvature, close));
       if (!bezier.ok()) continue;
       const CurveJet back = Evaluate(Reversed(*bezier), 1 - t), high = Evaluate(Elevated(*bezier, 12), t);
-      ExpectNear(back.p, jet.p, 1e-13);
-      ExpectNear(high.p, jet.p, 1e-13);
-      ExpectNear(CurvatureVector(back), curvature, 10 * close);
-      ExpectNear(CurvatureVector(high), curvature, 10 * close);
+      EXPECT_THAT(back.p, IsNear(jet.p, 1e-13));
+      EXPECT_THAT(high.p, IsNear(jet.p, 1e-13));
+      EXPECT_THAT(CurvatureVector(back), IsNear(curvature, 10 * close));
+      EXPECT_THAT(CurvatureVector(high), IsNear(curvature, 10 * close));
     }
   }
   for (int k = 0; k < 20; ++k) {
     const double t = random.Unit();
-    ExpectNear(Evaluate(spline, t).p, Evaluate(stretched, t).p, 1e-14);
-    ExpectNear(Evaluate(spline, t).dd, Evaluate(stretched, t).dd, 1e-11);
+    EXPECT_THAT(Evaluate(spline, t).p, IsNear(Evaluate(stretched, t).p, 1e-14));
+    EXPECT_THAT(Evaluate(spline, t).dd, IsNear(Evaluate(stretched, t).dd, 1e-11));
   }
 }
 
@@ -233,14 +231,14 @@ TEST(Curve, ReversedAndElevatedAreTheSameCurve) {
   EXPECT_EQ(high.degree(), 11);
   for (int k = 0; k < 20; ++k) {
     const double t = random.Unit();
-    ExpectNear(Evaluate(h, t).p, Evaluate(Reversed(h), 1 - t).p, 1e-15);
-    ExpectNear(Evaluate(b, t).d, -Evaluate(Reversed(b), 1 - t).d, 1e-14);
-    ExpectNear(Evaluate(b, t).p, Evaluate(high, t).p, 1e-15);
-    ExpectNear(Evaluate(b, t).dd, Evaluate(high, t).dd, 1e-12);
+    EXPECT_THAT(Evaluate(h, t).p, IsNear(Evaluate(Reversed(h), 1 - t).p, 1e-15));
+    EXPECT_THAT(Evaluate(b, t).d, IsNear(-Evaluate(Reversed(b), 1 - t).d, 1e-14));
+    EXPECT_THAT(Evaluate(b, t).p, IsNear(Evaluate(high, t).p, 1e-15));
+    EXPECT_THAT(Evaluate(b, t).dd, IsNear(Evaluate(high, t).dd, 1e-12));
   }
   const HermiteCurve back = HermiteOf(high);
-  ExpectNear(back.d0, h.d0, 1e-14);
-  ExpectNear(back.d1, h.d1, 1e-14);
+  EXPECT_THAT(back.d0, IsNear(h.d0, 1e-14));
+  EXPECT_THAT(back.d1, IsNear(h.d1, 1e-14));
 }
 
 }  // namespace

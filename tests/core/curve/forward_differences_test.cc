@@ -1,4 +1,4 @@
-// Forward differences: the vector of METHODS 3.8, exactness, the stated error.
+// Forward differences: the vector of [curves, section 7], exactness, the stated error.
 #include "core/curve/forward_differences.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Hosaka's segment: vectors of METHODS 3.6 and 3.7, and each fit put back into the curve.
+// Hosaka's segment: vectors of [curves, section 4], and each fit put back into the curve.
 #include "core/curve/hosaka_fit.h"
 
 #include <cmath>
@@ -47,7 +47,7 @@ TEST(HosakaFit, Loop) {
   ASSERT_TRUE(loop.has_value());
   EXPECT_NEAR(loop->first, d["t1"].Number(), 1e-12);
   EXPECT_NEAR(loop->second, d["t2"].Number(), 1e-12);
-  // (38): sum and product of the two parameters.
+  // [curves (15)]: sum and product of the two parameters.
   const double difference = d["p"].Number() - d["q"].Number();
   EXPECT_NEAR(loop->first + loop->second, difference + 1, 1e-12);
   EXPECT_NEAR(loop->first * loop->second, difference * difference + d["p"].Number(), 1e-12);
@@ -144,7 +144,8 @@ TEST(HosakaFit, Extremum) {
                       std::abs(fit.b - d["B"].Number()) < 1e-11 && std::abs(fit.c - d["C"].Number()) < 1e-11);
   }
   EXPECT_TRUE(found);
-  // The coefficients of (45) are those of (43) with theta = 0 up to a common factor.
+  // The coefficients for an extremum in the paper's form are those of [curves (22)] with theta = 0 up to a
+  // common factor.
   const auto a = SlopeCubic(chord, beta, gamma, q, 0);
   for (int k = 1; k < 4; ++k) {
     EXPECT_NEAR(a[static_cast<std::size_t>(k)] * d["coefficients"][0].Number(),

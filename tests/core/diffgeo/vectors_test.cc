@@ -1,15 +1,18 @@
-// METHODS 1.9 and 1.10 vectors: curvatures and ball centres on a patch of bidegree (4,2).
+// Vectors of [shapes, section 9] and of ball centres: curvatures and ball centres on a patch of bidegree
+// (4,2).
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/diffgeo/forms.h"
 #include "core/math/bernstein.h"
+#include "tests/support/eigen_matchers.h"
 #include "tests/support/json.h"
 
 namespace patchmill {
 namespace {
 
+using testing::IsNear;
 using testing::Json;
 
 constexpr double kTolerance = 1e-12;
@@ -31,24 +34,20 @@ PatchShape InflectionSurface() {
   return patch;
 }
 
-void ExpectNear(const Vec3& a, const Vec3& b, const char* what) {
-  EXPECT_LE((a - b).norm(), kTolerance) << what << ": " << a.transpose() << " / " << b.transpose();
-}
-
 TEST(ContourInflection, PointsOfTheFile) {
   const Json data = testing::LoadJson(PATCHMILL_SOURCE_DIR "/tests/vectors/contour_inflection.json");
   const PatchShape surface = InflectionSurface();
   ASSERT_GE(data["points"].Items().size(), 4u);
   for (const Json& at : data["points"].Items()) {
     const SurfaceJet s = Evaluate(surface, at["u"].Number(), at["v"].Number());
-    ExpectNear(s.p, at["S"].Vector(), "S");
-    ExpectNear(s.du, at["Su"].Vector(), "Su");
-    ExpectNear(s.dv, at["Sv"].Vector(), "Sv");
-    ExpectNear(s.duu, at["Suu"].Vector(), "Suu");
-    ExpectNear(s.duv, at["Suv"].Vector(), "Suv");
-    ExpectNear(s.dvv, at["Svv"].Vector(), "Svv");
+    EXPECT_THAT(s.p, IsNear(at["S"].Vector(), kTolerance)) << "S";
+    EXPECT_THAT(s.du, IsNear(at["Su"].Vector(), kTolerance)) << "Su";
+    EXPECT_THAT(s.dv, IsNear(at["Sv"].Vector(), kTolerance)) << "Sv";
+    EXPECT_THAT(s.duu, IsNear(at["Suu"].Vector(), kTolerance)) << "Suu";
+    EXPECT_THAT(s.duv, IsNear(at["Suv"].Vector(), kTolerance)) << "Suv";
+    EXPECT_THAT(s.dvv, IsNear(at["Svv"].Vector(), kTolerance)) << "Svv";
     const Vec3 normal = UpwardNormal(s).value();
-    ExpectNear(normal, at["e"].Vector(), "e");
+    EXPECT_THAT(normal, IsNear(at["e"].Vector(), kTolerance)) << "e";
     const FundamentalForms f = Forms(s, normal);
     EXPECT_NEAR(f.E, at["E"].Number(), kTolerance);
     EXPECT_NEAR(f.F, at["F"].Number(), kTolerance);
@@ -107,16 +106,17 @@ TEST(ToolpathOffset, ContactNormalAndBallCentre) {
   for (const Json& at : data["points"].Items()) {
     const SurfaceJet s = Evaluate(surface, at["u"].Number(), at["v"].Number());
     const Vec3 e = UpwardNormal(s).value();
-    ExpectNear(s.p, at["contact"].Vector(), "contact");
-    ExpectNear(s.p + radius * e, at["center"].Vector(), "center");
-    ExpectNear(s.p + radius * (e - Vec3::UnitZ()), at["tip"].Vector(), "tip");
+    EXPECT_THAT(s.p, IsNear(at["contact"].Vector(), kTolerance)) << "contact";
+    EXPECT_THAT(s.p + radius * e, IsNear(at["center"].Vector(), kTolerance)) << "center";
+    EXPECT_THAT(s.p + radius * (e - Vec3::UnitZ()), IsNear(at["tip"].Vector(), kTolerance)) << "tip";
     EXPECT_NEAR(Degrees(std::acos(e.z())), at["slope_deg"].Number(), 1e-10);
     const FundamentalForms f = Forms(s, e);
     EXPECT_EQ(Principal(f).k_max <= 1 / radius, at["gouge_free"].Bool());
     // Weingarten: e_u = alpha S_u + beta S_v with (E F; F G)(alpha, beta) = -(L, M).
     const double w2 = f.E * f.G - f.F * f.F;
     const double alpha = (f.F * f.M - f.G * f.L) / w2, beta = (f.F * f.L - f.E * f.M) / w2;
-    ExpectNear(s.du + radius * (alpha * s.du + beta * s.dv), at["center_u"].Vector(), "center_u");
+    EXPECT_THAT(s.du + radius * (alpha * s.du + beta * s.dv), IsNear(at["center_u"].Vector(), kTolerance))
+        << "center_u";
   }
 }
 

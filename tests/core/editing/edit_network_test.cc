@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/index.h"
 #include "core/editing/section_points.h"
 #include "core/joining/continuity.h"
 #include "core/joining/join_network.h"
@@ -15,8 +16,6 @@
 
 namespace patchmill {
 namespace {
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 JoinedNetwork Join(const CurveNetwork& network) {
   JoinedNetwork joined = JoinNetwork(network);

@@ -1,4 +1,4 @@
-// The user's control points of a G2-Gregory patch: METHODS 2.7 vector and what it promises.
+// The user's control points of a G2-Gregory patch: the vector of [editing, section 3] and what it promises.
 #include "core/editing/section_points.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,11 @@
-// The beam: Okada's energy and equations against the vectors and by identities (METHODS 4.1-4.3).
+// The beam: Okada's energy and equations against the vectors and by identities [fairing, section 2].
 #include "core/fairing/beam.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "core/base/index.h"
 #include "tests/support/json.h"
 #include "tests/support/random.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using testing::Json;
 using testing::Random;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 std::vector<Vec3> Points(const Json& list) {
   std::vector<Vec3> points;

@@ -1,4 +1,4 @@
-// Fairing of curves: the vectors of METHODS 4.4, what must not move, and what fairing is for.
+// Fairing of curves: the vectors of [fairing, section 4], what must not move, and what fairing is for.
 #include "core/fairing/fair_curve.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/index.h"
 #include "core/fairing/box_minimum.h"
 #include "tests/support/files.h"
 #include "tests/support/json.h"
@@ -19,8 +20,6 @@ namespace {
 using ::testing::HasSubstr;
 using testing::Json;
 using testing::Random;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 const Json& Data() {
   static const Json data = testing::LoadJson(PATCHMILL_SOURCE_DIR "/tests/vectors/okada_fairing.json");
@@ -73,7 +72,7 @@ CurveFairing LockedRun() {
   return curve;
 }
 
-constexpr double kIterated = 1e-9;  // METHODS 8: iterated results
+constexpr double kIterated = 1e-9;  // tests/vectors/README.md: iterated results
 
 TEST(FairCurve, LockedRunOfTheVectors) {
   const Json& run = Data()["locked"];

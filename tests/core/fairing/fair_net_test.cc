@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/index.h"
 #include "tests/support/json.h"
 #include "tests/support/random.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using testing::Json;
 using testing::Random;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 FairedNet Fair(const NetFairing& net) {
   absl::StatusOr<FairedNet> faired = FairNet(net);

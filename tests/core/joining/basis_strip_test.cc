@@ -1,4 +1,4 @@
-// Connection formulas and basis patch method: METHODS 2.4-2.6 vectors.
+// Connection formulas and basis patch method: vectors of [joining, section 8].
 #include "core/joining/basis_strip.h"
 
 #include <cmath>

@@ -1,10 +1,11 @@
-// Networks of G2-Gregory faces: the METHODS 2 vector, equal normal curvature by differencing normals, fall
-// back to tangent planes.
+// Networks of G2-Gregory faces: the vector of [joining, section 8], equal normal curvature by differencing
+// normals, fall back to tangent planes.
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "core/base/index.h"
 #include "core/diffgeo/forms.h"
 #include "core/joining/continuity.h"
 #include "core/joining/join_network.h"
@@ -17,8 +18,6 @@ namespace {
 using testing::Json;
 using testing::LoadJson;
 using testing::Text;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 int Count(const JoinedNetwork& joined, const std::string& code) {
   return static_cast<int>(std::ranges::count(joined.findings, code, &Diagnostic::code));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/index.h"
 #include "tests/core/joining/expect_smooth.h"
 #include "tests/core/joining/networks.h"
 
@@ -13,8 +14,6 @@ namespace {
 using testing::ExpectSmooth;
 using testing::Random;
 using testing::Text;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 // n x n quads over a ball's cap, normals radial, so that the edges through its middle are plane curves.
 CurveNetwork Cap(int n) {
@@ -316,7 +315,7 @@ TEST(SplineEdges, TJunctionsLieOnThemToo) {
 
 TEST(SplineEdges, WhatTheyCannotBeIsSaidWithThePlace) {
   CurveNetwork cap = Cap(2);
-  cap.vertices[4].position += Vec3(3, 2, 1);  // crossing edges out of line: l of (5) is not zero
+  cap.vertices[4].position += Vec3(3, 2, 1);  // crossing edges out of line: l of [joining (4)] is not zero
   const JoinedNetwork plain = JoinNetwork(cap);
   const HermiteCurve inner = CubicFrom(plain, 4, 5), border = CubicFrom(plain, 0, 1);
   const auto expect = [](const JoinedNetwork& joined, const std::string& code, const std::string& text) {

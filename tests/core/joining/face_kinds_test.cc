@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/index.h"
 #include "tests/core/joining/expect_smooth.h"
 #include "tests/core/joining/networks.h"
 
@@ -14,9 +15,7 @@ namespace {
 using testing::ExpectSmooth;
 using testing::Text;
 
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
-
-// (1) by hand, S0 = 0: at (u, v), from the four edges of the patch itself.
+// [shapes (23)] by hand, S0 = 0: at (u, v), from the four edges of the patch itself.
 TEST(HosakaFaces, AreTheFormulaOfTheirEdges) {
   CurveNetwork network = testing::Cuboctahedron(4);
   for (NetworkFace& face : network.faces) {
@@ -86,8 +85,8 @@ TEST(HosakaFaces, ShareTheirPlaneInOneRatio) {
   EXPECT_TRUE(JoinNetwork(crease.network).findings.empty());
 }
 
-// (17)-(20): the long face's blending function has a break f(v) = v at the junction; faces along the parts
-// share its plane, of the same kind in its ratio or of another in any.
+// [joining (14)]: the long face's blending function has a break f(v) = v at the junction; faces along the
+// parts share its plane, of the same kind in its ratio or of another in any.
 TEST(HosakaFaces, MeetAlongPartsOfAnEdge) {
   for (const auto scheme : {PatchScheme::kHosaka, PatchScheme::kBrown}) {
     Pair pair = TwoBeside(0.8, 0.8);

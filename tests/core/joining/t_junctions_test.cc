@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/index.h"
 #include "core/joining/continuity.h"
 #include "core/joining/join_network.h"
 #include "core/joining/network_findings.h"
@@ -14,8 +15,6 @@ namespace patchmill {
 namespace {
 
 using testing::Text;
-
-std::size_t At(int i) { return static_cast<std::size_t>(i); }
 
 NetworkVertex OnEdge(int start, int end, double parameter) {
   NetworkVertex v;
@@ -173,7 +172,8 @@ TEST(TJunctions, ACreaseNeedsNoCommonPlane) {
   EXPECT_TRUE(HasError(JoinNetwork(n).findings));
 }
 
-// One place only of the faces beyond: a side on a part of the edge, the rest of it is a border (METHODS 3.3).
+// One place only of the faces beyond: a side on a part of the edge, the rest of it is a border
+// [joining, section 6].
 TEST(TJunctions, AFaceMayLieAlongAnInnerPartOnly) {
   CurveNetwork n = Sheet(3, false, 4);
   n.faces.erase(n.faces.begin() + 3);

@@ -1,4 +1,4 @@
-// Tangent-plane joins along one edge: METHODS 1.4 and 1.5 vectors, general edges, rank-deficient cases.
+// Tangent-plane joins along one edge: vectors of [joining, section 4], general edges, rank-deficient cases.
 #include "core/joining/tangent_plane.h"
 
 #include <cmath>
@@ -7,21 +7,19 @@
 #include <gtest/gtest.h>
 
 #include "core/joining/face_push.h"
+#include "tests/support/eigen_matchers.h"
 #include "tests/support/json.h"
 #include "tests/support/random.h"
 
 namespace patchmill {
 namespace {
 
+using testing::IsNear;
 using testing::Json;
 using testing::LoadJson;
 using testing::Random;
 
 #define VECTORS PATCHMILL_SOURCE_DIR "/tests/vectors/"
-
-void ExpectNear(const Vec3& a, const Vec3& b, double tolerance) {
-  EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " / " << b.transpose();
-}
 
 struct VectorData {
   const Json data = LoadJson(VECTORS "twist_tangent_plane.json");
@@ -34,10 +32,10 @@ EdgeTwists TwistsOf(const Json& rows) {
   return {rows[0].Vector(), rows[1].Vector(), rows[2].Vector(), rows[3].Vector()};
 }
 void ExpectTwists(const EdgeTwists& a, const EdgeTwists& b) {
-  ExpectNear(a.a0, b.a0, 1e-12);
-  ExpectNear(a.a1, b.a1, 1e-12);
-  ExpectNear(a.b0, b.b0, 1e-12);
-  ExpectNear(a.b1, b.b1, 1e-12);
+  EXPECT_THAT(a.a0, IsNear(b.a0, 1e-12));
+  EXPECT_THAT(a.a1, IsNear(b.a1, 1e-12));
+  EXPECT_THAT(a.b0, IsNear(b.b0, 1e-12));
+  EXPECT_THAT(a.b1, IsNear(b.b1, 1e-12));
 }
 
 // Largest sine of the angle at which C' leaves the plane of both CBTs, over the edge.
@@ -88,7 +86,7 @@ TEST(TangentPlane, Vector) {
   const TwistConditions conditions = ConditionsFor(in.edge, in.tangents, factors);
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 4; ++c) EXPECT_NEAR(conditions.matrix(r, c), in.data["A"][r][c].Number(), 1e-12);
-    ExpectNear(conditions.right.row(r).transpose(), in.data["R"][r].Vector(), 1e-12);
+    EXPECT_THAT(conditions.right.row(r).transpose(), IsNear(in.data["R"][r].Vector(), 1e-12));
   }
   const EdgeTwists wished = WishedTwists(in.tangents);
   ExpectTwists(wished, TwistsOf(in.data["Wstar"]));
@@ -123,8 +121,8 @@ TEST(TangentPlane, FollowingTangentHoldsAlongRandomEdges) {
                                            e.tangents.b0, e.tangents.b1);
     EXPECT_EQ(b.degree, curve.degree());
     EXPECT_EQ(b.spans(), 1);
-    ExpectNear(Evaluate(b, 0).p, e.tangents.b0, 1e-15);
-    ExpectNear(Evaluate(b, 1).p, e.tangents.b1, 1e-15);
+    EXPECT_THAT(Evaluate(b, 0).p, IsNear(e.tangents.b0, 1e-15));
+    EXPECT_THAT(Evaluate(b, 1).p, IsNear(e.tangents.b1, 1e-15));
     // Coplanar along the edge, whatever the size of b there.
     for (double u = 0; u <= 1; u += 0.0625) {
       const Vec3 c = Evaluate(curve, u).d, a = Evaluate(leading, u).p, at = Evaluate(b, u).p;
@@ -133,7 +131,8 @@ TEST(TangentPlane, FollowingTangentHoldsAlongRandomEdges) {
   }
 }
 
-// Crossing edges that run on in line with the leading side: Hosaka's rule (19), one factor all along.
+// Crossing edges that run on in line with the leading side: Hosaka's rule [joining (13)], one factor all
+// along.
 TEST(TangentPlane, FollowingTangentIsHosakasWhereEdgesRunOn) {
   Random random(7);
   const RandomEdge e(random);
@@ -142,7 +141,8 @@ TEST(TangentPlane, FollowingTangentIsHosakasWhereEdgesRunOn) {
   const JoinFactors factors = std::get<JoinFactors>(FactorsAlong(e.edge.d0, e.edge.d1, t, e.n0, e.n1));
   const BezierCurve leading{{t.a0, t.a1}};
   const BezierChain b = FollowingTangent(AsChain(ToBezier(e.edge)), AsChain(leading), factors, t.b0, t.b1);
-  for (double u = 0; u <= 1; u += 0.125) ExpectNear(Evaluate(b, u).p, -k * Evaluate(leading, u).p, 1e-14);
+  for (double u = 0; u <= 1; u += 0.125)
+    EXPECT_THAT(Evaluate(b, u).p, IsNear(-k * Evaluate(leading, u).p, 1e-14));
 }
 
 TEST(TangentPlane, HoldsAlongRandomEdges) {
@@ -170,11 +170,11 @@ TEST(TangentPlane, HoldsAlongRandomEdges) {
     const HermiteCurve reversed = Reversed(e.edge);
     const auto other = std::get<JoinFactors>(FactorsAlong(reversed.d0, reversed.d1, back, e.n1, e.n0));
     const EdgeTwists again = NearestTwists(reversed, back, other, WishedTwists(back));
-    // Rounding is amplified by the condition of (8), which is large near rank 2.
+    // Rounding is amplified by the condition of [joining (7)], which is large near rank 2.
     const Eigen::Vector3d sigma = Eigen::MatrixXd(conditions.matrix).jacobiSvd().singularValues();
     const double tolerance = 1e-14 * sigma[0] / sigma[2];
-    ExpectNear(again.a0, got.b1, tolerance);
-    ExpectNear(again.b1, got.a0, tolerance);
+    EXPECT_THAT(again.a0, IsNear(got.b1, tolerance));
+    EXPECT_THAT(again.b1, IsNear(got.a0, tolerance));
   }
 }
 
@@ -188,7 +188,7 @@ TEST(TangentPlane, RankTwoIsSolvedToo) {
     EXPECT_NEAR(f.l[0], 0, 1e-15);
     const EdgeTwists got = NearestTwists(e.edge, e.tangents, f, WishedTwists(e.tangents));
     EXPECT_LE(WorstDefect(e.edge, e.tangents, got), 1e-12);
-    ExpectNear(got.a0, -got.b0, 1e-12);
+    EXPECT_THAT(got.a0, IsNear(-got.b0, 1e-12));
   }
 }
 
@@ -211,8 +211,8 @@ TEST(TangentPlane, GeneralEdgesNeedTheirCorrection) {
     for (std::size_t i = 0; i < more.points.size(); ++i)
       a.points[i] += more.points[i], b.points[i] += more.points[i];
     EXPECT_LE(WorstDefect(curve, a, b), 1e-12);
-    ExpectNear(Evaluate(a, 0).p, e.tangents.a0, 1e-15);
-    ExpectNear(Evaluate(b, 1).p, e.tangents.b1, 1e-15);
+    EXPECT_THAT(Evaluate(a, 0).p, IsNear(e.tangents.a0, 1e-15));
+    EXPECT_THAT(Evaluate(b, 1).p, IsNear(e.tangents.b1, 1e-15));
   }
 }
 

@@ -125,7 +125,7 @@ TEST(FlowLines, AreSpreadEvenly) {
 }
 
 // Gradient lines: what they follow grows all along them, so none closes, on any surface: as many loops as a
-// sign grid could find, none. Each runs along METHODS (3), (7), and ends where there is no gradient, at a
+// sign grid could find, none. Each runs along [lines (3), (7)], and ends where there is no gradient, at a
 // border, or beside another line.
 TEST(FlowLines, OfATorusAndTheTeapotHaveNoLoops) {
   Eigen::Affine3d up(Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()));
@@ -150,7 +150,7 @@ TEST(FlowLines, OfATorusAndTheTeapotHaveNoLoops) {
           const double grown =
               kind == FlowKind::kAlongHeight ? f.dot(b.p - a.p) : std::abs(f.dot(*m)) - std::abs(f.dot(*n));
           EXPECT_GE(grown, -1e-6) << i << " of " << line.points.size();
-          // The direction of (3), (7) in space, from the forms, and the chord to the next point.
+          // The direction of [lines (3), (7)] in space, from the forms, and the chord to the next point.
           const FundamentalForms forms = Forms(from, *n);
           const double E = forms.E, F = forms.F, G = forms.G, L = forms.L, M = forms.M, N = forms.N;
           double gu = f.dot(from.du), gv = f.dot(from.dv);

@@ -127,7 +127,7 @@ TEST(LineFields, PlanesAndCylindersHaveNoLinesInside) {
   EXPECT_TRUE(Trace(Cylinder(Vec3::Zero(), 5, 8, Half::kUpper), ContourCurvatureField()).empty());
 }
 
-// S = (2u + 0.1uv, 1.5v - 0.2u^2, 0.8u^2 v - 0.6v^2 + 0.5u - 0.3u^3), the example of METHODS 5.
+// S = (2u + 0.1uv, 1.5v - 0.2u^2, 0.8u^2 v - 0.6v^2 + 0.5u - 0.3u^3), the example of [lines].
 Piece Example() {
   // Monomials to Bernstein form, degree 3 x 2: u^i v^j has the coefficient C(k,i)/C(3,i) C(l,j)/C(2,j).
   const auto mono = [](int n, int power, int k) {
@@ -173,7 +173,7 @@ TEST_F(SlopeLinesVector, FormsAndFields) {
     const double made[] = {f.E, f.F, f.G, f.L, f.M, f.N};
     const char* const names[] = {"E", "F", "G", "L", "M", "N"};
     for (int k = 0; k < 6; ++k) EXPECT_NEAR(made[k], at[names[k]].Number(), 1e-12) << names[k];
-    // (5), and its use in the gradient of sin sigma.
+    // [lines (5)], and its use in the gradient of sin sigma.
     const double w2 = f.E * f.G - f.F * f.F;
     const double alpha = (f.M * f.F - f.G * f.L) / w2, beta = (f.L * f.F - f.M * f.E) / w2;
     const double alpha2 = (f.N * f.F - f.M * f.G) / w2, beta2 = (f.M * f.F - f.N * f.E) / w2;
@@ -189,10 +189,10 @@ TEST_F(SlopeLinesVector, FormsAndFields) {
 
     EXPECT_NEAR(BrightnessField(0.0, axis_).value(jet), at["sin_sigma"].Number(), 1e-12);
     EXPECT_NEAR(SlopeField(Radians(60), axis_).value(jet), std::abs(at["sin_sigma"].Number()) - 0.5, 1e-12);
-    // (8) is chi_u phi_v - chi_v phi_u = (n_s x n_f) . N.
+    // [lines (8)] is chi_u phi_v - chi_v phi_u = (n_s x n_f) . N.
     const double w = std::sqrt(w2);
     EXPECT_NEAR(-w * HighlightField(axis_, data_["ns"].Vector()).value(jet), at["highlight"].Number(), 1e-12);
-    // (10) is the torsion times W^(1/2) (E phi_v^2 - 2 F phi_u phi_v + G phi_u^2).
+    // [lines (10)] is the torsion times W^(1/2) (E phi_v^2 - 2 F phi_u phi_v + G phi_u^2).
     const double rise = f.E * fv * fv - 2 * f.F * fu * fv + f.G * fu * fu;
     EXPECT_NEAR(w * rise * SlopeExtremumField(axis_).value(jet), at["slope_ext"].Number(), 1e-11);
 

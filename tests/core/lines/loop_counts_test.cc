@@ -1,5 +1,5 @@
 // How many lines of each kind the torus and the teapot have: the tracer against a dense grid of signs, which
-// knows the fields from METHODS 5 alone, and uses nothing of core/lines.
+// knows the fields from [lines, section 1] alone, and uses nothing of core/lines.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-// --- The fields, as METHODS 5 and 1.9 write them; only their signs count ---
+// --- The fields, as [lines, section 1] writes them; only their signs count ---
 
 Vec3 Normal(const SurfaceJet& s) { return s.du.cross(s.dv); }
 
@@ -38,11 +38,11 @@ Sign Silhouette(const Vec3& f) {
 Sign Eye(const Vec3& eye) {
   return [=](const SurfaceJet& s) { return (s.p - eye).dot(Normal(s)); };
 }
-// (8): chi = n_s . S.
+// [lines (8)]: chi = n_s . S.
 Sign Highlight(const Vec3& f, const Vec3& n_s) {
   return [=](const SurfaceJet& s) { return n_s.dot(s.du) * f.dot(s.dv) - n_s.dot(s.dv) * f.dot(s.du); };
 }
-// L du^2 + 2 M du dv + N dv^2 along (2).
+// L du^2 + 2 M du dv + N dv^2 along [lines (2)].
 Sign Inflection(const Vec3& f) {
   return [=](const SurfaceJet& s) {
     const Vec3 n = Normal(s);
@@ -50,7 +50,7 @@ Sign Inflection(const Vec3& f) {
     return n.dot(s.duu) * a * a + 2 * n.dot(s.duv) * a * b + n.dot(s.dvv) * b * b;
   };
 }
-// (10).
+// [lines (10)].
 Sign SlopeExtremum(const Vec3& f) {
   return [=](const SurfaceJet& s) {
     const Vec3 n = Normal(s);

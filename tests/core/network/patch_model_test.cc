@@ -105,6 +105,18 @@ TEST(ValidateModel, LimitsControlPointsOfAllPatchesTogether) {
   EXPECT_THAT(OnlyFault(model), HasSubstr("POINT_COUNT patches have 10000004 control points together"));
 }
 
+// Knots are cheap: 500 x 500 points of degree 15 make 485 x 485 pieces of 256 points.
+TEST(ValidateModel, CountsBsplinesWithThePiecesTheyAreCutInto) {
+  BsplinePatch sheet{15, 15, {}, {}, std::vector<Vec3>(500 * 500), {}};
+  for (int k = -15; k <= 485 + 15; ++k) sheet.knots_u.push_back(std::clamp(k, 0, 485));
+  sheet.knots_v = sheet.knots_u;
+  for (std::size_t i = 0; i < sheet.points.size(); ++i) {
+    sheet.points[i] = Vec3(static_cast<double>(i / 500), static_cast<double>(i % 500), 0.0);
+  }
+  EXPECT_THAT(OnlyFault(One(sheet)),
+              HasSubstr("POINT_COUNT patches have 60217600 control points together; at most 10000000"));
+}
+
 TEST(ValidateModel, RefusesDegreesOutsideOneToFifteen) {
   EXPECT_THAT(OnlyFault(One(BezierPatch{0, 1, {{0, 0, 0}, {1, 0, 0}}, {}})),
               HasSubstr("INVALID_DEGREE patches[0].bezier.degree_u = 0; must be in [1, 15]"));

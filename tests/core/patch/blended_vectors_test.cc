@@ -1,22 +1,21 @@
-// Vectors of METHODS 1.6, 1.8, 2.2 and 3.1: Brown quad, both triangles, G2-Gregory patch, Hosaka patch.
+// Vectors of [shapes, section 3] to [shapes, section 6]: Brown quad, both triangles, G2-Gregory patch, Hosaka
+// patch.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/patch/piece.h"
+#include "tests/support/eigen_matchers.h"
 #include "tests/support/json.h"
 
 namespace patchmill {
 namespace {
 
+using testing::IsNear;
 using testing::Json;
 using testing::LoadJson;
 
 #define VECTORS PATCHMILL_SOURCE_DIR "/tests/vectors/"
-
-void ExpectNear(const Vec3& a, const Vec3& b, double tolerance, const char* what) {
-  EXPECT_LE((a - b).norm(), tolerance) << what << ": " << a.transpose() << " / " << b.transpose();
-}
 
 // Natively and from the rational net; second derivatives are of order 10.
 void ExpectJets(const PatchShape& shape, const Json& points, const char* u, const char* v,
@@ -28,9 +27,9 @@ void ExpectJets(const PatchShape& shape, const Json& points, const char* u, cons
     const Vec3 own[6] = {s.p, s.du, s.dv, s.duu, s.duv, s.dvv};
     for (int k = 0; k < 6; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      ExpectNear(own[k], at[keys[i]].Vector(), k < 3 ? 2e-12 : 1e-11, keys[i]);
+      EXPECT_THAT(own[k], IsNear(at[keys[i]].Vector(), k < 3 ? 2e-12 : 1e-11)) << keys[i];
     }
-    ExpectNear(Position(shape, x, y), at[keys[0]].Vector(), 1e-12, "position");
+    EXPECT_THAT(Position(shape, x, y), IsNear(at[keys[0]].Vector(), 1e-12)) << "position";
   }
 }
 constexpr std::array<const char*, 6> kUv = {"S", "Su", "Sv", "Suu", "Suv", "Svv"};
@@ -78,21 +77,21 @@ TEST(BrownPatch, Vector) {
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) {
       const SurfaceJet s = Evaluate(PatchShape(patch), i, j);
-      ExpectNear(s.p, at("P", i, j), 1e-15, "P");
-      ExpectNear(s.du, at("Pu", i, j), 1e-14, "Pu");
-      ExpectNear(s.dv, at("Pv", i, j), 1e-14, "Pv");
-      ExpectNear(s.duv, 0.5 * (at("W1", i, j) + at("W2", i, j)), 1e-12, "Suv");
+      EXPECT_THAT(s.p, IsNear(at("P", i, j), 1e-15)) << "P";
+      EXPECT_THAT(s.du, IsNear(at("Pu", i, j), 1e-14)) << "Pu";
+      EXPECT_THAT(s.dv, IsNear(at("Pv", i, j), 1e-14)) << "Pv";
+      EXPECT_THAT(s.duv, IsNear(0.5 * (at("W1", i, j) + at("W2", i, j)), 1e-12)) << "Suv";
     }
   }
 }
 
 struct TriangleData {
   const Json data = LoadJson(VECTORS "gregory_triangle.json");
-  // METHODS' vertices 0, 1, 2 as ours: (s,t) = (u2,u3), so vertex k is ours too; edge e there runs from
+  // The vector's vertices 0, 1, 2 as ours: (s,t) = (u2,u3), so vertex k is ours too; edge e there runs from
   // vertex e+1 to e+2.
   Vec3 P(int i) const { return data["P"][i % 3].Vector(); }
   Vec3 T(int from, int to) const { return data["T"][from % 3][to % 3].Vector(); }
-  // Twists, in the convention of (4), of the edge from vertex e to e+1.
+  // Twists, in the convention of [joining (3)], of the edge from vertex e to e+1.
   Vec3 StartTwist(int e) const { return data["Ws"][(e + 2) % 3].Vector(); }
   Vec3 EndTwist(int e) const { return data["We"][(e + 2) % 3].Vector(); }
 };
@@ -143,7 +142,7 @@ TEST(GregoryTriangle, Vector) {
     patch.points[k] = in.P(e);
     patch.points[k + 1] = in.P(e) + in.T(e, next) / 4;
     patch.points[k + 2] = in.P(e) + in.T(e, last) / 4;
-    // (17): from the edge that leaves, and from the one that arrives.
+    // [shapes (14)]: from the edge that leaves, and from the one that arrives.
     patch.points[k + 3] = in.P(e) + in.T(e, next) / 3 + in.T(e, last) / 4 + in.StartTwist(e) / 12;
     patch.points[k + 4] = in.P(e) + in.T(e, last) / 3 + in.T(e, next) / 4 + in.EndTwist(e + 2) / 12;
     patch.points[static_cast<std::size_t>(15 + e)] =
@@ -158,7 +157,7 @@ TEST(GregoryTriangle, Vector) {
       key[static_cast<std::size_t>(e)] = static_cast<char>('0' + at_e);
       key[static_cast<std::size_t>(a)] = static_cast<char>('0' + at_a);
       key[static_cast<std::size_t>(b)] = static_cast<char>('0' + at_b);
-      ExpectNear(point, in.data["nets"][e][key].Vector(), 1e-12, key.c_str());
+      EXPECT_THAT(point, IsNear(in.data["nets"][e][key].Vector(), 1e-12)) << key.c_str();
     };
     const auto own = [&](int k) { return patch.points[static_cast<std::size_t>(k)]; };
     expect(4, 0, 0, own(5 * e));
@@ -171,7 +170,7 @@ TEST(GregoryTriangle, Vector) {
     expect(1, 1, 2, own(5 * b + 4));
     expect(2, 1, 1, 0.5 * (own(5 * e + 3) + own(5 * e + 4)));
     const SurfaceJet s = Evaluate(PatchShape(patch), e == 1 ? 1.0 : 0.0, e == 2 ? 1.0 : 0.0);
-    ExpectNear(s.du.cross(s.dv).normalized(), in.data["N"][e].Vector(), 1e-12, "N");
+    EXPECT_THAT(s.du.cross(s.dv).normalized(), IsNear(in.data["N"][e].Vector(), 1e-12)) << "N";
   }
   // Tangents across the edges, straight to the opposite vertex.
   for (const Json& check : in.data["edge_checks"].Items()) {
@@ -183,8 +182,8 @@ TEST(GregoryTriangle, Vector) {
     const SurfaceJet s = Evaluate(PatchShape(patch), area[1], area[2]);
     double direction[3] = {};
     for (int k = 0; k < 3; ++k) direction[k] = (k == o) - area[k];
-    ExpectNear(s.p, check["point"].Vector(), 1e-12, "point");
-    ExpectNear(direction[1] * s.du + direction[2] * s.dv, check["cbt"].Vector(), 1e-12, "cbt");
+    EXPECT_THAT(s.p, IsNear(check["point"].Vector(), 1e-12)) << "point";
+    EXPECT_THAT(direction[1] * s.du + direction[2] * s.dv, IsNear(check["cbt"].Vector(), 1e-12)) << "cbt";
   }
 }
 
@@ -200,12 +199,14 @@ TEST(G2GregoryPatch, Vector) {
   }
   ExpectJets(patch, data["points"], "u", "v", kUv);
   const SurfaceJet corner = Evaluate(PatchShape(patch), 0, 0);
-  ExpectNear(corner.duu, data["corner00"]["Suu"].Vector(), 1e-12, "Suu");
-  ExpectNear(corner.dvv, data["corner00"]["Svv"].Vector(), 1e-12, "Svv");
-  ExpectNear(corner.duv, data["corner00"]["Suv_mean"].Vector(), 1e-12, "Suv");
+  EXPECT_THAT(corner.duu, IsNear(data["corner00"]["Suu"].Vector(), 1e-12)) << "Suu";
+  EXPECT_THAT(corner.dvv, IsNear(data["corner00"]["Svv"].Vector(), 1e-12)) << "Svv";
+  EXPECT_THAT(corner.duv, IsNear(data["corner00"]["Suv_mean"].Vector(), 1e-12)) << "Suv";
   const double r = 1e-5;  // outside the radius of fixed values; the limit is reached linearly
-  ExpectNear(Evaluate(PatchShape(patch), r, 0).duv, data["corner00"]["Suv_along_v0"].Vector(), 1e-3, "v0");
-  ExpectNear(Evaluate(PatchShape(patch), 0, r).duv, data["corner00"]["Suv_along_u0"].Vector(), 1e-3, "u0");
+  EXPECT_THAT(Evaluate(PatchShape(patch), r, 0).duv, IsNear(data["corner00"]["Suv_along_v0"].Vector(), 1e-3))
+      << "v0";
+  EXPECT_THAT(Evaluate(PatchShape(patch), 0, r).duv, IsNear(data["corner00"]["Suv_along_u0"].Vector(), 1e-3))
+      << "u0";
 }
 
 // Curves A, B, C relative to their own starts -> our points.
@@ -253,14 +254,16 @@ TEST(HosakaPatch, JoinsAlongAWholeEdgeAndAlongAPartOfOne) {
   for (int k = 0; k <= 100; ++k) {
     const double v = k / 100.0, at = v1 + v * (v2 - v1);
     const SurfaceJet a = Evaluate(PatchShape(whole), 1, v), b = Evaluate(PatchShape(beside), 0, v);
-    ExpectNear(a.p, b.p, 1e-14, "edge");
-    ExpectNear(data["connect"]["k"].Number() * a.du, b.du, 1e-13, "tangent");
+    EXPECT_THAT(a.p, IsNear(b.p, 1e-14)) << "edge";
+    EXPECT_THAT(data["connect"]["k"].Number() * a.du, IsNear(b.du, 1e-13)) << "tangent";
     const SurfaceJet c = Evaluate(PatchShape(side), 1, at), d = Evaluate(PatchShape(part), 0, v);
-    ExpectNear(c.p, d.p, 1e-14, "part");
-    ExpectNear(data["t_junction"]["k"].Number() * c.du, d.du, 1e-13, "tangent at the part");
+    EXPECT_THAT(c.p, IsNear(d.p, 1e-14)) << "part";
+    EXPECT_THAT(data["t_junction"]["k"].Number() * c.du, IsNear(d.du, 1e-13)) << "tangent at the part";
   }
-  ExpectNear(Evaluate(PatchShape(side), 1, v1).du, data["t_junction"]["Su_v1"].Vector(), 1e-12, "Su at v1");
-  ExpectNear(Evaluate(PatchShape(side), 1, v2).du, data["t_junction"]["Su_v2"].Vector(), 1e-12, "Su at v2");
+  EXPECT_THAT(Evaluate(PatchShape(side), 1, v1).du, IsNear(data["t_junction"]["Su_v1"].Vector(), 1e-12))
+      << "Su at v1";
+  EXPECT_THAT(Evaluate(PatchShape(side), 1, v2).du, IsNear(data["t_junction"]["Su_v2"].Vector(), 1e-12))
+      << "Su at v2";
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-// Gregory quads: METHODS 1.6 and 1.7 vectors, boundaries, corners, and the hull of nets with zero weights.
+// Gregory quads: vectors of [shapes (7), (9)], boundaries, corners, and the hull of nets with zero weights.
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/patch/piece.h"
+#include "tests/support/eigen_matchers.h"
 #include "tests/support/json.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
@@ -12,17 +13,14 @@
 namespace patchmill {
 namespace {
 
+using testing::IsNear;
 using testing::Json;
 using testing::Random;
 using Blend = GregoryPatch::Blend;
 
 constexpr Blend kBlends[] = {Blend::kCorner, Blend::kEdge};
 
-void ExpectNear(const Vec3& a, const Vec3& b, double tolerance, const char* what) {
-  EXPECT_LE((a - b).norm(), tolerance) << what << ": " << a.transpose() << " / " << b.transpose();
-}
-
-// Corner data of the paper -> twenty points, METHODS 1.7: net 1 has the twists W1 of the edges v=0, v=1.
+// Corner data of the paper -> twenty points, [shapes (9)]: net 1 has the twists W1 of the edges v=0, v=1.
 GregoryPatch FromCorners(const Json& data) {
   constexpr int kFirst[2][2] = {{0, 15}, {5, 10}};   // [i][j]: P of corner u=i, v=j
   constexpr int kAlongU[2][2] = {{1, 17}, {7, 11}};  // the edge point next to it along u
@@ -57,12 +55,12 @@ TEST_F(GregoryVectors, JetsOfTheEdgeBlend) {
   ASSERT_GE(data_["points"].Items().size(), 3u);
   for (const Json& point : data_["points"].Items()) {
     const SurfaceJet s = Evaluate(PatchShape(patch_), point["u"].Number(), point["v"].Number());
-    ExpectNear(s.p, point["S"].Vector(), 1e-12, "S");
-    ExpectNear(s.du, point["Su"].Vector(), 1e-12, "Su");
-    ExpectNear(s.dv, point["Sv"].Vector(), 1e-12, "Sv");
-    ExpectNear(s.duu, point["Suu"].Vector(), 1e-12, "Suu");
-    ExpectNear(s.duv, point["Suv"].Vector(), 1e-12, "Suv");
-    ExpectNear(s.dvv, point["Svv"].Vector(), 1e-12, "Svv");
+    EXPECT_THAT(s.p, IsNear(point["S"].Vector(), 1e-12)) << "S";
+    EXPECT_THAT(s.du, IsNear(point["Su"].Vector(), 1e-12)) << "Su";
+    EXPECT_THAT(s.dv, IsNear(point["Sv"].Vector(), 1e-12)) << "Sv";
+    EXPECT_THAT(s.duu, IsNear(point["Suu"].Vector(), 1e-12)) << "Suu";
+    EXPECT_THAT(s.duv, IsNear(point["Suv"].Vector(), 1e-12)) << "Suv";
+    EXPECT_THAT(s.dvv, IsNear(point["Svv"].Vector(), 1e-12)) << "Svv";
   }
 }
 
@@ -75,8 +73,9 @@ TEST_F(GregoryVectors, BicubicNetsAndTheirLofts) {
     }
     for (std::size_t k = 0; k < data_["points"].Items().size(); ++k) {
       const Json& at = data_["points"][static_cast<int>(k)];
-      ExpectNear(Position(PatchShape(bezier), at["u"].Number(), at["v"].Number()),
-                 data_[loft][static_cast<int>(k)].Vector(), 1e-12, loft);
+      EXPECT_THAT(Position(PatchShape(bezier), at["u"].Number(), at["v"].Number()),
+                  IsNear(data_[loft][static_cast<int>(k)].Vector(), 1e-12))
+          << loft;
     }
   }
 }
@@ -86,18 +85,19 @@ TEST_F(GregoryVectors, CornerValues) {
     for (int j = 0; j < 2; ++j) {
       const SurfaceJet s = Evaluate(PatchShape(patch_), i, j);
       EXPECT_EQ(s.p, data_["P"][i][j].Vector());
-      ExpectNear(s.du, data_["Pu"][i][j].Vector(), 1e-14, "Pu");
-      ExpectNear(s.dv, data_["Pv"][i][j].Vector(), 1e-14, "Pv");
-      ExpectNear(s.du.cross(s.dv).normalized(), data_["normals"][i][j].Vector(), 1e-12, "normal");
-      ExpectNear(s.duv, 0.5 * (data_["W1"][i][j].Vector() + data_["W2"][i][j].Vector()), 1e-12, "Suv");
+      EXPECT_THAT(s.du, IsNear(data_["Pu"][i][j].Vector(), 1e-14)) << "Pu";
+      EXPECT_THAT(s.dv, IsNear(data_["Pv"][i][j].Vector(), 1e-14)) << "Pv";
+      EXPECT_THAT(s.du.cross(s.dv).normalized(), IsNear(data_["normals"][i][j].Vector(), 1e-12)) << "normal";
+      EXPECT_THAT(s.duv, IsNear(0.5 * (data_["W1"][i][j].Vector() + data_["W2"][i][j].Vector()), 1e-12))
+          << "Suv";
       // The boundary curves through the corner: cubic Hermite second derivatives.
       const auto second = [&](const char* slope, int i2, int j2) -> Vec3 {
         const Vec3 chord = data_["P"][i2][j2].Vector() - data_["P"][i][j].Vector();
         const double sign = i2 + j2 > i + j ? 1 : -1;
         return 6 * chord - sign * (4 * data_[slope][i][j].Vector() + 2 * data_[slope][i2][j2].Vector());
       };
-      ExpectNear(s.duu, second("Pu", 1 - i, j), 1e-12, "Suu");
-      ExpectNear(s.dvv, second("Pv", i, 1 - j), 1e-12, "Svv");
+      EXPECT_THAT(s.duu, IsNear(second("Pu", 1 - i, j), 1e-12)) << "Suu";
+      EXPECT_THAT(s.dvv, IsNear(second("Pv", i, 1 - j), 1e-12)) << "Svv";
     }
   }
 }
@@ -107,9 +107,9 @@ TEST_F(GregoryVectors, LimitsAlongRaysIntoTheCorner) {
   for (const Json& ray : data_["corner_rays"].Items()) {
     const double m = ray["m"].Number();
     const SurfaceJet s = Evaluate(PatchShape(patch_), r, m * r);
-    ExpectNear(s.duu, ray["Suu"].Vector(), 1e-3, "Suu");
-    ExpectNear(s.duv, ray["Suv"].Vector(), 1e-3, "Suv");
-    ExpectNear(s.dvv, ray["Svv"].Vector(), 1e-3, "Svv");
+    EXPECT_THAT(s.duu, IsNear(ray["Suu"].Vector(), 1e-3)) << "Suu";
+    EXPECT_THAT(s.duv, IsNear(ray["Suv"].Vector(), 1e-3)) << "Suv";
+    EXPECT_THAT(s.dvv, IsNear(ray["Svv"].Vector(), 1e-3)) << "Svv";
   }
 }
 
@@ -131,8 +131,8 @@ TEST(Gregory, CornerBlendIsItsReadmeFormula) {
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j < 4; ++j) expected += bu[i] * bv[j] * rows[i][j];
     }
-    ExpectNear(Evaluate(PatchShape(g), u, v).p, expected, 1e-13, "value");
-    ExpectNear(Position(PatchShape(g), u, v), expected, 1e-13, "position");
+    EXPECT_THAT(Evaluate(PatchShape(g), u, v).p, IsNear(expected, 1e-13)) << "value";
+    EXPECT_THAT(Position(PatchShape(g), u, v), IsNear(expected, 1e-13)) << "position";
   }
 }
 
@@ -146,11 +146,11 @@ TEST(Gregory, BlendsAgreeOnTheBoundaryWithFirstDerivatives) {
     for (const Vec2& q : {Vec2(t, 0), Vec2(t, 1), Vec2(0, t), Vec2(1, t)}) {
       const SurfaceJet a = Evaluate(PatchShape(corner), q.x(), q.y()),
                        b = Evaluate(PatchShape(edge), q.x(), q.y());
-      ExpectNear(a.p, b.p, 1e-13, "p");
+      EXPECT_THAT(a.p, IsNear(b.p, 1e-13)) << "p";
       // Along the edge both have the curve's derivative; across, the corner blend's inner points tend to the
       // same points as the edge blend's.
-      ExpectNear(a.du, b.du, 1e-12, "du");
-      ExpectNear(a.dv, b.dv, 1e-12, "dv");
+      EXPECT_THAT(a.du, IsNear(b.du, 1e-12)) << "du";
+      EXPECT_THAT(a.dv, IsNear(b.dv, 1e-12)) << "dv";
     }
     const double v = random.Unit();
     difference =
@@ -172,9 +172,9 @@ TEST(Gregory, EqualPairsGiveTheBicubic) {
     for (int k = 0; k < 100; ++k) {
       const double u = random.Unit(), v = random.Unit();
       const SurfaceJet a = Evaluate(PatchShape(g), u, v), b = Evaluate(PatchShape(bezier), u, v);
-      ExpectNear(a.p, b.p, 1e-13, "p");
-      ExpectNear(a.duv, b.duv, 1e-11, "duv");
-      ExpectNear(a.dvv, b.dvv, 1e-11, "dvv");
+      EXPECT_THAT(a.p, IsNear(b.p, 1e-13)) << "p";
+      EXPECT_THAT(a.duv, IsNear(b.duv, 1e-11)) << "duv";
+      EXPECT_THAT(a.dvv, IsNear(b.dvv, 1e-11)) << "dvv";
     }
   }
 }

@@ -94,7 +94,7 @@ TEST(SkinSurface, ReproducesAnExtrusion) {
   }
 }
 
-Outline RandomOutline(std::uint64_t seed) {
+BoundaryCurves RandomOutline(std::uint64_t seed) {
   Random random(seed);
   const Vec3 corner[4] = {{0, 0, 1}, {10, 1, 0}, {11, 9, 2}, {-1, 8, 0}};
   BsplineCurve top{
@@ -105,7 +105,7 @@ Outline RandomOutline(std::uint64_t seed) {
 
 TEST(CoonsSurface, IsTheBilinearBlendOfItsBoundary) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const Outline outline = RandomOutline(seed);
+    const BoundaryCurves outline = RandomOutline(seed);
     const auto coons = CoonsSurface(outline);
     ASSERT_TRUE(coons.ok()) << coons.status();
     const auto at = [&](std::size_t k, double t) { return Evaluate(outline[k], t).p; };
@@ -121,7 +121,7 @@ TEST(CoonsSurface, IsTheBilinearBlendOfItsBoundary) {
 }
 
 TEST(HosakaSurface, HasItsBoundaryAndZeroCornerTwists) {
-  Outline outline = RandomOutline(7);
+  BoundaryCurves outline = RandomOutline(7);
   EXPECT_FALSE(HosakaSurface(outline).ok());  // two spans
   Random random(7);
   outline[2] = RandomBezier(random, 2, Vec3(-1, 8, 0), Vec3(11, 9, 2));
@@ -155,7 +155,7 @@ TEST(OutlineSurface, RefusesWithTheCurve) {
   std::get<BsplineCurve>(sections[0]).knots.pop_back();
   sections.push_back(sections[0]);
   says(SkinSurface(sections).status(), "curves[0]", "knots");
-  Outline outline = RandomOutline(2);
+  BoundaryCurves outline = RandomOutline(2);
   std::get<BezierCurve>(outline[1]).points.back() += Vec3(0.01, 0, 0);
   says(CoonsSurface(outline).status(), "curves", "u=1, v=1");
 }

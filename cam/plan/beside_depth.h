@@ -1,0 +1,26 @@
+// How deep the tool goes down beside a part: what a machinist must know before the vice is closed.
+#pragma once
+
+#include <optional>
+
+#include <absl/status/statusor.h>
+
+#include "cam/toolpath/toolpath.h"
+#include "core/base/run_context.h"
+#include "core/surface/surface.h"
+
+namespace patchmill {
+
+struct BesideDepth {
+  Vec3 tip = Vec3::Zero();  // mm, placed frame: the lowest tip beside the part at the end of a move
+  double below_top = 0.0;   // mm: how far that is below the highest point of the part
+};
+
+// Beside the part is where the axis passes a tenth of the ball's radius or more outside of the surface as
+// seen from above, in holes too. None where no such tip is lower than the part's top by more than the ball's
+// radius. `top_z`: mm, of the part. Cost: some microseconds for each end of a move that is lower than the
+// answer.
+absl::StatusOr<std::optional<BesideDepth>> DeepestBeside(const Surface& surface, const Toolpath& toolpath,
+                                                         double top_z, const RunContext& run);
+
+}  // namespace patchmill

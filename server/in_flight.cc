@@ -1,0 +1,132 @@
+#include "server/in_flight.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "server/errors.h"
+#include "server/limits.h"
+
+namespace patchmill {
+
+InFlight::InFlight(std::size_t limit_bytes, ReceivedBytes received)
+    : limit_(limit_bytes), received_(std::move(received)) {
+  if (received_) watch_ = std::thread([this] { Watch(); });
+}
+
+InFlight::~InFlight() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  if (watch_.joinable()) watch_.join();
+}
+
+absl::StatusOr<InFlight::Hold> InFlight::Take(std::size_t bytes) {
+  const auto limit = static_cast<double>(limit_);
+  if (bytes > limit_) return LimitError("request_bytes_in_flight", limit, static_cast<double>(bytes));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (held_ + bytes > limit_) return TooManyBytesError(limit, static_cast<double>(held_ + bytes));
+  held_ += bytes;
+  return Hold(this, bytes);
+}
+
+void InFlight::Release(std::size_t bytes) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  held_ -= bytes;
+}
+
+InFlight::Id InFlight::Expect(const std::string& name, Refuse refuse) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const auto [at, fresh] = peers_.try_emplace(name);
+  if (fresh && received_) at->second.counted = received_(name).value_or(0);
+  const Id id = ++last_id_;
+  at->second.calls.push_back({id, Clock::now(), std::move(refuse)});
+  peer_of_.emplace(id, name);
+  lock.unlock();
+  changed_.notify_all();
+  return id;
+}
+
+void InFlight::Arrived(Id id, std::size_t bytes) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto name = peer_of_.find(id);
+  const auto at = peers_.find(name->second);
+  peer_of_.erase(name);
+  Peer& peer = at->second;
+  peer.calls.remove_if([id](const Expected& call) { return call.id == id; });
+  if (peer.calls.empty()) {
+    peers_.erase(at);
+    return;
+  }
+  peer.counted += bytes;
+  peer.on_the_way -= std::min<std::uint64_t>(peer.on_the_way, bytes);
+}
+
+void InFlight::Measure(Peer& peer, const std::string& name) const {
+  const std::uint64_t received = received_(name).value_or(0);
+  peer.on_the_way = std::min<std::uint64_t>(received - std::min(received, peer.counted),
+                                            peer.calls.size() * limits::kMaxMessageBytes);
+}
+
+std::list<std::pair<InFlight::Refuse, absl::Status>> InFlight::Overdue() {
+  const Clock::time_point latest = Clock::now() - std::chrono::seconds(limits::kReceiveSeconds);
+  std::list<std::pair<Refuse, absl::Status>> refused;
+  for (auto& [name, peer] : peers_) {
+    for (Expected& call : peer.calls) {
+      if (call.since > latest || !call.refuse) continue;
+      refused.emplace_back(std::exchange(call.refuse, nullptr),
+                           absl::DeadlineExceededError(
+                               fmt::format("the request has not come within {} s", limits::kReceiveSeconds)));
+    }
+  }
+  return refused;
+}
+
+std::list<std::pair<InFlight::Refuse, absl::Status>> InFlight::Excess() {
+  std::list<std::pair<Refuse, absl::Status>> refused;
+  std::uint64_t total = held_;
+  for (const auto& [name, peer] : peers_) total += peer.on_the_way;
+  while (total > limit_) {
+    Peer* most = nullptr;
+    for (auto& [name, peer] : peers_) {
+      if (peer.on_the_way > (most == nullptr ? 0 : most->on_the_way)) most = &peer;
+    }
+    if (most == nullptr) break;
+    // Whose bytes they are is known of connections only: each of its calls stands for its share.
+    const auto open = std::find_if(most->calls.rbegin(), most->calls.rend(),
+                                   [](const Expected& call) { return call.refuse != nullptr; });
+    const std::uint64_t share =
+        open == most->calls.rend() ? most->on_the_way : most->on_the_way / most->calls.size() + 1;
+    if (open != most->calls.rend()) {
+      refused.emplace_back(std::exchange(open->refuse, nullptr),
+                           TooManyBytesError(static_cast<double>(limit_), static_cast<double>(total)));
+    }
+    total -= std::min(share, most->on_the_way);
+    most->counted += std::min(share, most->on_the_way);
+    most->on_the_way -= std::min(share, most->on_the_way);
+  }
+  return refused;
+}
+
+void InFlight::Watch() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stop_) {
+    if (peers_.empty()) {
+      changed_.wait(lock, [this] { return stop_ || !peers_.empty(); });
+      continue;
+    }
+    for (auto& [name, peer] : peers_) Measure(peer, name);
+    auto refused = Overdue();
+    refused.splice(refused.end(), Excess());
+    lock.unlock();
+    for (const auto& [refuse, status] : refused) refuse(status);
+    refused.clear();
+    lock.lock();
+    changed_.wait_for(lock, std::chrono::milliseconds(limits::kMeasureMs), [this] { return stop_; });
+  }
+}
+
+}  // namespace patchmill

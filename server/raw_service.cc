@@ -1,0 +1,198 @@
+#include "server/raw_service.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/impl/codegen/proto_utils.h>
+#include <grpcpp/impl/codegen/server_callback_handlers.h>
+#include <grpcpp/impl/rpc_service_method.h>
+#include <grpcpp/support/server_callback.h>
+
+#include "core/base/status.h"
+#include "server/errors.h"
+
+namespace patchmill {
+namespace {
+
+struct Shared {
+  InFlight& in_flight;
+  CallLog log;
+};
+
+absl::Status Guarded(const RawMethod& method, RawCall& call) {
+  try {
+    return method.run(call);
+  } catch (const std::bad_alloc&) {
+    return absl::ResourceExhaustedError("the request needs more memory than there is");
+  } catch (const std::exception& e) {
+    return absl::InternalError(fmt::format("unexpected: {}", e.what()));
+  }
+}
+
+// A call from its start to its end. gRPC calls the On... functions, from threads of its own.
+class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>, public RawCall {
+ public:
+  // Lives until gRPC is done with it, and nobody who may refuse it is at it.
+  static Reactor* Start(const RawMethod& method, Shared& shared, grpc::CallbackServerContext* context) {
+    const auto reactor = std::make_shared<Reactor>(method, shared, context);
+    const std::lock_guard<std::mutex> lock(reactor->mutex_);
+    reactor->self_ = reactor;
+    reactor->StartRead(&reactor->request_);  // begins once gRPC has the reactor
+    const std::weak_ptr<Reactor> weak = reactor;
+    reactor->expected_ = shared.in_flight.Expect(reactor->peer_, [weak](const absl::Status& status) {
+      if (const auto call = weak.lock()) call->End(Phase::kReceiving, status);
+    });
+    return reactor.get();
+  }
+
+  Reactor(const RawMethod& method, Shared& shared, grpc::CallbackServerContext* context)
+      : method_(method),
+        shared_(shared),
+        begin_(std::chrono::steady_clock::now()),
+        deadline_(context->deadline()),
+        peer_(context->peer()),
+        label_(method.path.substr(method.path.rfind('/') + 1)) {}
+
+  grpc::ByteBuffer& request() override { return request_; }
+  void DropRequest() override {
+    request_.Clear();
+    held_ = {};
+  }
+  std::chrono::system_clock::time_point deadline() const override { return deadline_; }
+  bool Cancelled() const override { return cancelled_.load(); }
+  void SetLabel(std::string label) override { label_ = std::move(label); }
+
+  bool Write(const google::protobuf::Message& response) override {
+    if (Cancelled()) return false;
+    response_.Clear();
+    bool own = false;
+    if (!grpc::SerializationTraits<google::protobuf::Message>::Serialize(response, &response_, &own).ok())
+      return false;
+    std::unique_lock<std::mutex> lock(mutex_);
+    writing_ = true;
+    lock.unlock();
+    StartWrite(&response_);
+    lock.lock();
+    written_.wait(lock, [this] { return !writing_; });
+    return write_ok_;
+  }
+
+  void OnReadDone(bool ok) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::size_t bytes = ok ? request_.Length() : 0;
+    shared_.in_flight.Arrived(expected_, bytes);
+    if (!ok) {
+      End(Phase::kReceiving, RequestUnreadableError("the call ended before its request had come"));
+      return;
+    }
+    absl::StatusOr<InFlight::Hold> held = shared_.in_flight.Take(bytes);
+    if (!held.ok()) {
+      End(Phase::kReceiving, held.status());
+      return;
+    }
+    Phase receiving = Phase::kReceiving;
+    if (!phase_.compare_exchange_strong(receiving, Phase::kRunning)) return;  // refused just now
+    held_ = *std::move(held);
+    try {
+      thread_ = std::thread([this] { Run(); });
+    } catch (const std::system_error&) {
+      DropRequest();
+      End(Phase::kRunning,
+          absl::ResourceExhaustedError("the server has no thread for the call; try again later"));
+    }
+  }
+
+  void OnWriteDone(bool ok) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    writing_ = false;
+    write_ok_ = ok;
+    written_.notify_all();
+  }
+
+  void OnCancel() override { cancelled_.store(true); }
+
+  void OnDone() override {
+    std::shared_ptr<Reactor> self;
+    std::thread thread;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      self = std::move(self_);
+      thread = std::move(thread_);
+    }
+    if (thread.joinable()) thread.join();  // it has nothing left to do
+  }
+
+ private:
+  enum class Phase { kReceiving, kRunning, kEnded };
+
+  void Run() {
+    const absl::Status status = Guarded(method_, *this);
+    DropRequest();
+    End(Phase::kRunning, status);
+  }
+
+  // Ends the call with that status if it is in that phase. Nothing of it may be touched afterwards.
+  void End(Phase in, const absl::Status& status) {
+    if (!phase_.compare_exchange_strong(in, Phase::kEnded)) return;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin_;
+    if (shared_.log) shared_.log({label_, peer_, took.count(), status});
+    Finish(ToGrpcStatus(status));
+  }
+
+  const RawMethod& method_;
+  Shared& shared_;
+  const std::chrono::steady_clock::time_point begin_;
+  const std::chrono::system_clock::time_point deadline_;
+  const std::string peer_;
+  std::string label_;
+  std::shared_ptr<Reactor> self_;
+  InFlight::Id expected_ = 0;
+  grpc::ByteBuffer request_, response_;
+  InFlight::Hold held_;
+  std::atomic<Phase> phase_{Phase::kReceiving};
+  std::atomic<bool> cancelled_{false};
+  std::thread thread_;
+  std::mutex mutex_;  // hands on between gRPC's threads and the call's own what the first ones wrote
+  std::condition_variable written_;
+  bool writing_ = false, write_ok_ = false;
+};
+
+// To gRPC every method is one of two streams: so the call starts before its request is read. A client of a
+// unary or server-streaming method sees no difference.
+class RawService final : public grpc::Service {
+ public:
+  RawService(std::vector<RawMethod> methods, InFlight& in_flight, CallLog log)
+      : methods_(std::move(methods)), shared_{in_flight, std::move(log)} {
+    for (std::size_t k = 0; k < methods_.size(); ++k) {
+      const RawMethod& method = methods_[k];
+      AddMethod(new grpc::internal::RpcServiceMethod(method.path.c_str(),
+                                                     grpc::internal::RpcMethod::BIDI_STREAMING, nullptr));
+      MarkMethodRawCallback(static_cast<int>(k),
+                            new grpc::internal::CallbackBidiHandler<grpc::ByteBuffer, grpc::ByteBuffer>(
+                                [&method, this](grpc::CallbackServerContext* c) {
+                                  return Reactor::Start(method, shared_, c);
+                                }));
+    }
+  }
+
+ private:
+  const std::vector<RawMethod> methods_;
+  Shared shared_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> MakeRawService(std::vector<RawMethod> methods, InFlight& in_flight,
+                                              CallLog log) {
+  return std::make_unique<RawService>(std::move(methods), in_flight, std::move(log));
+}
+
+}  // namespace patchmill

@@ -1,0 +1,280 @@
+// Walls have one side, and nothing is milled outside the part unless it is asked for.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "cam/plan/beside_part.h"
+#include "cam/plan/plan.h"
+#include "cam/post/program_reader.h"
+#include "cam/region/reach_table.h"
+#include "core/base/status.h"
+#include "tests/support/jobs/limited_job.h"
+#include "tests/support/walls.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+constexpr double kBall = kLimitedRadius;
+constexpr std::size_t kOutsideArea = 6;  // of VerifyReport::unreachable_area
+constexpr double kX = 20.0, kY = 15.0, kZ = 12.0;
+// Of the open box: all of it, and what lies a ball radius or more from its lower and its upright edges.
+constexpr double kAll = 4.0 * kX * kY + 4.0 * (kX + kY) * kZ;
+constexpr double kReached = 4.0 * (kX - kBall) * (kY - kBall) + 4.0 * (kX + kY - 2.0 * kBall) * (kZ - kBall);
+const double kCorner = (std::sqrt(3.0) - 1.0) * kBall;  // what stays where three planes meet
+
+// The floor of a job is the model's lowest point.
+Job BoxJob() {
+  Job job = BallJob(kBall, false);
+  job.operation.scallop = 0.05;
+  job.operation.tolerance = 0.02;
+  return job;
+}
+
+// The lowest tip of the program (ends of moves and places half a millimetre apart) where the axis is beyond
+// the rectangle [-x,x] x [-y,y] by more than `beyond`; infinity if it never is.
+double LowestTipBeyond(const std::string& program, double x, double y, double beyond) {
+  const auto motion = ReadProgram(program, {});
+  EXPECT_TRUE(motion.ok());
+  double lowest = kInfinity;
+  for (const ProgramMove& move : motion->moves) {
+    const Vec3 way = move.to - move.from;
+    const int parts = move.from_above || move.to_above ? 1 : 1 + static_cast<int>(way.norm() / 0.5);
+    for (int k = 0; k <= parts; ++k) {
+      if ((k == 0 && move.from_above) || (k == parts && move.to_above)) continue;
+      const Vec3 tip = move.from + (double(k) / parts) * way;
+      if (std::abs(tip.x()) > x + beyond || std::abs(tip.y()) > y + beyond)
+        lowest = std::min(lowest, tip.z());
+    }
+  }
+  return lowest;
+}
+
+double AreaFor(const JobResult& result, UnreachableReason reason) {
+  double area = 0.0;
+  for (const Region& r : result.report.regions) area += r.reason == reason ? r.area : 0.0;
+  return area;
+}
+
+bool Warns(const JobResult& result, const std::string& code) {
+  return std::any_of(result.report.diagnostics.begin(), result.report.diagnostics.end(),
+                     [&](const Diagnostic& d) { return d.code == code; });
+}
+
+// --- The open box: its walls look in ---
+
+TEST(Sides, ABoxIsMilledInsideAlone) {
+  for (const bool outside : {false, true}) {
+    const Surface surface = PlacedSurface(OpenBox(kX, kY, kZ));
+    Job job = BoxJob();
+    job.operation.selection.mill_outside = outside;
+    const JobResult result = Mill(surface, job);
+    ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+    // The back of a wall is material, whatever is asked for.
+    EXPECT_GE(LowestTipBeyond(result.program, kX, kY, 0.0), kZ - 0.02);
+    EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0);
+    EXPECT_FALSE(Warns(result, "TOOL_BESIDE_PART"));
+    EXPECT_NEAR(result.report.verify.reachable_area, kReached, 0.01 * kReached);
+    EXPECT_NEAR(result.report.verify.unreachable_area[1], kAll - kReached, 0.01 * kAll);
+  }
+}
+
+TEST(Sides, TheRegionsOfABoxTellItsCorners) {
+  const Surface surface = PlacedSurface(OpenBox(kX, kY, kZ));
+  const auto regions = PlanRegions(surface, BoxJob(), RunContext());
+  ASSERT_TRUE(regions.ok());
+  double deepest = 0.0;
+  for (const Region& r : regions->map.regions) deepest = std::max(deepest, r.deepest_leftover);
+  EXPECT_NEAR(deepest, kCorner, 0.06 * kCorner);
+}
+
+TEST(Sides, WhatABallReachesOfABoxIsInside) {
+  const Surface surface = PlacedSurface(OpenBox(kX, kY, kZ));
+  const auto table = ReachTable(surface, {.radii = {kBall}, .tolerance = 0.02, .floor_z = 0.0}, RunContext());
+  ASSERT_TRUE(table.ok());
+  EXPECT_NEAR(table->unreachable[0], kAll - kReached, 0.01 * kAll);
+}
+
+// A program that mills the floor, and the walls from behind.
+TEST(Sides, TheBackOfAWallFinishesNothing) {
+  const PatchModel box = OpenBox(kX, kY, kZ);
+  // The same walls around nothing but air are milled on both sides.
+  const Surface tube = PlacedSurface(Walls(kX, kY, 0, kZ));
+  Job job = BoxJob();
+  job.operation.selection.mill_outside = true;
+  const JobResult both = Mill(tube, job);
+  ASSERT_FALSE(both.program.empty()) << Describe(both);
+  // Without its feed moves inside the box.
+  const auto all = ReadProgram(both.program, {});
+  ASSERT_TRUE(all.ok());
+  ProgramMotion motion = *all;
+  std::erase_if(motion.moves, [](const ProgramMove& m) {
+    const auto inside = [](const Vec3& p) { return std::abs(p.x()) < kX && std::abs(p.y()) < kY; };
+    return m.kind == ProgramMove::Kind::kFeed && inside(m.from) && inside(m.to);
+  });
+  const Surface surface = PlacedSurface(box);
+  const auto resolved = Resolve(surface, job, RunContext());
+  ASSERT_TRUE(resolved.ok());
+  const auto report =
+      Verify(surface, job.operation.tool, motion, MakeVerifyParams(job, *resolved), RunContext());
+  ASSERT_TRUE(report.ok());
+  EXPECT_FALSE(report->finish_ok);
+  EXPECT_GT(report->max_leftover, 1.0);
+  EXPECT_GE(report->deepest_unreachable[1], 0.97 * kCorner);
+  EXPECT_TRUE(std::any_of(report->findings.begin(), report->findings.end(),
+                          [](const Diagnostic& d) { return d.code == "BESIDE_PART"; }));
+}
+
+// --- Outside ---
+
+TEST(Outside, AClosedBlockIsMilledOnItsTop) {
+  const Surface surface = PlacedSurface(ClosedBlock(kX, kY, kZ));
+  const JobResult result = Mill(surface, BoxJob());
+  ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+  EXPECT_GE(LowestTipBeyond(result.program, kX, kY, 0.0), kZ - 0.02);
+  const double walls = 4.0 * (kX + kY) * kZ;
+  EXPECT_NEAR(AreaFor(result, UnreachableReason::kOutside), walls, 0.01 * walls);
+  EXPECT_NEAR(result.report.verify.unreachable_area[kOutsideArea], walls, 0.01 * walls);
+  EXPECT_NEAR(result.report.verify.reachable_area, 4.0 * kX * kY, 0.01 * 4.0 * kX * kY);
+}
+
+TEST(Outside, AClosedBlockIsMilledAroundWhereAsked) {
+  const Surface surface = PlacedSurface(ClosedBlock(kX, kY, kZ));
+  Job job = BoxJob();
+  job.operation.selection.mill_outside = true;
+  const JobResult result = Mill(surface, job);
+  ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+  EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0);
+  const double top_and_walls = 4.0 * kX * kY + 4.0 * (kX + kY) * kZ;
+  // The floor keeps the ball from the walls' feet.
+  EXPECT_NEAR(result.report.verify.reachable_area, top_and_walls - 4.0 * (kX + kY) * kBall,
+              0.02 * top_and_walls);
+  EXPECT_TRUE(Warns(result, "TOOL_BESIDE_PART"));
+  EXPECT_NE(result.program.find("TOOL_BESIDE_PART"), std::string::npos);
+}
+
+TEST(Outside, WallsThatAreNamedAreMilled) {
+  const Surface surface = PlacedSurface(ClosedBlock(kX, kY, kZ));
+  Job job = BoxJob();
+  job.operation.selection.patches = {"#2"};  // y = -15
+  const JobResult result = Mill(surface, job);
+  ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+  EXPECT_LT(LowestTipBeyond(result.program, kX + 2.0 * kBall, kY, 0.5 * kBall), 1.0);
+  EXPECT_NEAR(result.report.verify.reachable_area, 2.0 * kX * (kZ - kBall), 0.03 * 2.0 * kX * kZ);
+}
+
+// A low block beside a high one: its top is finished up to where the high one's wall keeps the ball off.
+TEST(Outside, AStepBesideAWallIsFinished) {
+  const Surface surface = PlacedSurface(Join(
+      {Level(-20, -10, 0, 10, 12), Wall({0, -10}, {0, 10}, 5, 12), Level(0, -10, 20, 10, 5),
+       Wall({-20, -10}, {0, -10}, 0, 12), Wall({0, -10}, {20, -10}, 0, 5), Wall({20, -10}, {20, 10}, 0, 5),
+       Wall({20, 10}, {0, 10}, 0, 5), Wall({0, 10}, {-20, 10}, 0, 12), Wall({-20, 10}, {-20, -10}, 0, 12)}));
+  const JobResult result = Mill(surface, BoxJob());
+  ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+  const double walls = 2.0 * 20 * 12 + 2.0 * 20 * 5 + 20.0 * 12 + 20.0 * 5;
+  EXPECT_NEAR(AreaFor(result, UnreachableReason::kOutside), walls, 0.03 * walls);
+  // Tops, and the wall between them, but for the edge that the ball does not get into.
+  EXPECT_NEAR(result.report.verify.reachable_area, 800.0 + 20.0 * 7.0 - 2.0 * 20.0 * kBall, 0.03 * 800.0);
+}
+
+TEST(Outside, ABossOnAPlateKeepsItsFinish) {
+  const Surface surface = PlacedSurface(Block(8, 10, 25));
+  const JobResult plain = Mill(surface, BoxJob());
+  Job job = BoxJob();
+  job.operation.selection.mill_outside = true;
+  EXPECT_EQ(AreaFor(plain, UnreachableReason::kOutside), 0.0);
+  EXPECT_EQ(plain.program, Mill(surface, job).program);
+}
+
+// A drafted core leans: the tool goes down beside it, and the machinist is told.
+TEST(Outside, ADraftedCoreKeepsItsFinishAndSaysHowDeep) {
+  const double draft = Radians(5.0), wide = 10.0, high = 10.0, foot = wide + high * std::tan(draft);
+  const auto side = [&](int k) {
+    const auto corner = [&](int i, double r, double z) {
+      const double x[] = {-r, r, r, -r}, y[] = {-r, -r, r, r};
+      return Vec3(x[i % 4], y[i % 4], z);
+    };
+    return Single(Bilinear(corner(k, foot, 0), corner(k + 1, foot, 0), corner(k, wide, high),
+                           corner(k + 1, wide, high)));
+  };
+  const Surface surface =
+      PlacedSurface(Join({Level(-wide, -wide, wide, wide, high), side(0), side(1), side(2), side(3)}));
+  const JobResult result = Mill(surface, BoxJob());
+  ASSERT_FALSE(result.program.empty()) << Describe(result);
+  EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0);
+  EXPECT_TRUE(Warns(result, "TOOL_BESIDE_PART"));
+  EXPECT_LT(LowestTipBeyond(result.program, foot, foot, 0.1), 0.1);
+}
+
+TEST(Outside, ADomeKeepsItsFinish) {
+  const Surface surface = PlacedSurface(Sphere({0, 0, 0}, 12, Half::kUpper));
+  const JobResult result = Mill(surface, BoxJob());
+  ASSERT_FALSE(result.program.empty()) << Describe(result);
+  EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0);
+  EXPECT_TRUE(Warns(result, "TOOL_BESIDE_PART"));
+}
+
+// --- The areas themselves ---
+
+std::vector<BesideStrip> StripsOf(const PatchModel& model, bool outside = false) {
+  const Surface surface = PlacedSurface(model);
+  auto strips =
+      FindBesideStrips(surface, {.radius = kBall, .tolerance = 0.01, .mill_outside = outside}, RunContext());
+  PM_CHECK(strips.ok());
+  return *std::move(strips);
+}
+
+bool Covers(const std::vector<BesideStrip>& strips, const Vec2& q) {
+  return std::any_of(strips.begin(), strips.end(),
+                     [&](const BesideStrip& s) { return s.area.SignedDistance(q) > 0.0; });
+}
+
+TEST(BesideStrips, SurroundABlock) {
+  const auto strips = StripsOf(ClosedBlock(kX, kY, kZ));
+  for (const BesideStrip& strip : strips) {
+    EXPECT_EQ(strip.kind, StripKind::kOutside);
+    EXPECT_NEAR(strip.lowest_tip_z, kZ, 0.01);
+  }
+  for (int k = 0; k < 720; ++k) {  // a ball radius around it, corners rounded
+    const double angle = Radians(0.5 * k);
+    const Vec2 way(std::cos(angle), std::sin(angle));
+    const double side = std::min(kX / std::abs(way.x()), kY / std::abs(way.y()));
+    EXPECT_TRUE(Covers(strips, side * way + kBall * way)) << k;
+    EXPECT_FALSE(Covers(strips, (side - 0.01) * way)) << k;
+  }
+  EXPECT_TRUE(StripsOf(ClosedBlock(kX, kY, kZ), true).empty());
+}
+
+TEST(BesideStrips, AreMaterialBehindTheWallsOfABox) {
+  for (const bool outside : {false, true}) {
+    const auto strips = StripsOf(OpenBox(kX, kY, kZ), outside);
+    EXPECT_FALSE(strips.empty());
+    for (const BesideStrip& strip : strips) EXPECT_EQ(strip.kind, StripKind::kMaterial);
+    EXPECT_TRUE(Covers(strips, {kX + kBall, 0}));
+    EXPECT_FALSE(Covers(strips, {kX - kBall, 0}));
+  }
+}
+
+TEST(BesideStrips, AreNoneWhereNothingOutsideIsUpright) {
+  EXPECT_TRUE(StripsOf(Block(8, 10, 25)).empty());
+  EXPECT_TRUE(StripsOf(Sphere({0, 0, 0}, 12, Half::kUpper)).empty());
+  EXPECT_TRUE(StripsOf(TwoHills()).empty());
+  EXPECT_TRUE(StripsOf(Wall({0, 0}, {20, 0}, 0, 10)).empty());  // alone: both sides are milled
+}
+
+// A plate with a square hole through it: the hole's walls are none of the outside.
+TEST(BesideStrips, LeaveHolesAlone) {
+  const PatchModel plate =
+      Join({Level(-20, -20, 20, -5, 8), Level(-20, 5, 20, 20, 8), Level(-20, -5, -5, 5, 8),
+            Level(5, -5, 20, 5, 8), Walls(5, 5, 0, 8), Walls(20, 20, 0, 8)});
+  const auto strips = StripsOf(plate);
+  EXPECT_TRUE(Covers(strips, {23, 0}));
+  EXPECT_FALSE(Covers(strips, {0, 0}));
+  EXPECT_FALSE(Covers(strips, {4, 0}));
+}
+
+}  // namespace
+}  // namespace patchmill

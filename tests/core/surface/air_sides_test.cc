@@ -1,0 +1,117 @@
+// Which side of upright walls is air.
+#include "core/surface/air_sides.h"
+
+#include <gtest/gtest.h>
+
+#include "core/diffgeo/forms.h"
+#include "tests/support/joined_surface.h"
+#include "tests/support/walls.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+// Where the tool stands at the middle of a patch: its direction from there, or nothing where it has two
+// sides.
+std::optional<Vec3> AirOf(const Surface& surface, std::size_t patch) {
+  const Piece& piece = surface.piece(surface.first_piece[patch]);
+  const auto facing = FacingAt(Evaluate(piece, 0.5, 0.5));
+  if (!facing || facing->both) return std::nullopt;
+  return facing->e;
+}
+
+// The walls of [-30,30] x [-20,20] all look in (sign -1) or out (+1).
+void ExpectWallsLook(const Surface& surface, std::size_t first, double sign) {
+  const Vec3 out[] = {{0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto air = AirOf(surface, first + k);
+    ASSERT_TRUE(air) << k;
+    EXPECT_LT((*air - sign * out[k]).norm(), 1e-9) << k << ": " << air->transpose();
+  }
+}
+
+TEST(AirSides, WallsAroundAFloorLookIn) {
+  ExpectWallsLook(JoinedSurface(Join({Level(-30, -20, 30, 20, 0), Walls(30, 20, 0, 25)})), 1, -1.0);
+}
+
+TEST(AirSides, WallsUnderATopLookOut) {
+  ExpectWallsLook(JoinedSurface(Join({Level(-30, -20, 30, 20, 25), Walls(30, 20, 0, 25)})), 1, 1.0);
+}
+
+TEST(AirSides, WallsOfAClosedBlockLookOut) {
+  ExpectWallsLook(
+      JoinedSurface(Join({Level(-30, -20, 30, 20, 25), Level(-30, -20, 30, 20, 0), Walls(30, 20, 0, 25)})), 2,
+      1.0);
+}
+
+// Two steps: each wall between a lower and a higher level looks to the lower one.
+TEST(AirSides, AWallBetweenTwoLevelsLooksToTheLowerOne) {
+  const Surface surface =
+      JoinedSurface(Join({Level(-20, -10, 0, 10, 0), Wall({0, -10}, {0, 10}, 0, 8), Level(0, -10, 20, 10, 8),
+                          Wall({20, 10}, {20, -10}, 8, 15), Level(20, -10, 40, 10, 15)}));
+  for (const std::size_t wall : {1, 3}) {
+    const auto air = AirOf(surface, wall);
+    ASSERT_TRUE(air);
+    EXPECT_LT((*air - Vec3(-1, 0, 0)).norm(), 1e-9);
+  }
+  EXPECT_TRUE(surface.two_sided_walls.empty());
+}
+
+// T-junctions join as edges do.
+TEST(AirSides, AWallOnTwoFloorsHasTheirSide) {
+  const Surface surface =
+      JoinedSurface(Join({Level(-20, 0, 5, 10, 0), Level(5, 0, 20, 10, 0), Wall({-20, 10}, {20, 10}, 0, 8)}));
+  const auto air = AirOf(surface, 2);
+  ASSERT_TRUE(air);
+  EXPECT_LT((*air - Vec3(0, -1, 0)).norm(), 1e-9);
+}
+
+TEST(AirSides, AWallAloneHasTwo) {
+  const Surface surface = JoinedSurface(Wall({0, 0}, {20, 0}, 0, 10));
+  EXPECT_FALSE(AirOf(surface, 0));
+  EXPECT_EQ(surface.two_sided_walls, std::vector<PatchId>{PatchId(0)});
+}
+
+// Three patches share the fin's lower edge; the fin is joined to neither floor.
+TEST(AirSides, AFinBetweenTwoFloorsHasTwo) {
+  const Surface surface = JoinedSurface(
+      Join({Level(-20, -10, 0, 10, 0), Level(0, -10, 20, 10, 0), Wall({0, -10}, {0, 10}, 0, 8)}));
+  EXPECT_FALSE(AirOf(surface, 2));
+  EXPECT_EQ(surface.two_sided_walls, std::vector<PatchId>{PatchId(2)});
+}
+
+// The upper plate is open to the sky from above, the longer lower one from its other side.
+TEST(AirSides, AWallBetweenPlatesOfBothSidesHasTwo) {
+  const Surface surface =
+      JoinedSurface(Join({Level(0, 0, 10, 10, 8), Wall({10, 0}, {10, 10}, 0, 8), Level(-10, 0, 10, 10, 0)}));
+  EXPECT_FALSE(AirOf(surface, 1));
+}
+
+TEST(AirSides, ABossOnAPlateLooksOut) {
+  const Surface surface = JoinedSurface(Block(8.0, 16.0, 25.0));
+  int walls = 0;
+  for (std::size_t patch = 0; patch < surface.first_piece.size(); ++patch) {
+    const SurfaceJet jet = Evaluate(surface.piece(surface.first_piece[patch]), 0.5, 0.5);
+    const auto facing = FacingAt(jet);
+    ASSERT_TRUE(facing);
+    if (facing->e.z() > kUprightFace) continue;
+    ++walls;
+    EXPECT_FALSE(facing->both);
+    EXPECT_GT(facing->e.dot(jet.p - Vec3(0, 0, jet.p.z())), 0.0);
+  }
+  EXPECT_EQ(walls, 4);
+}
+
+// Nothing is upright but lines: nothing is decided, and nothing has to be.
+TEST(AirSides, SilhouettesAreNoWalls) {
+  for (const PatchModel& model :
+       {Sphere({0, 0, 0}, 10), Torus({0, 0, 0}, 20, 5), Cylinder({0, 0, 0}, 5, 20)}) {
+    const Surface surface = JoinedSurface(model);
+    EXPECT_TRUE(surface.two_sided_walls.empty());
+    for (const Piece& piece : surface.pieces) EXPECT_EQ(piece.air_side, 0);
+  }
+}
+
+}  // namespace
+}  // namespace patchmill

@@ -1,0 +1,62 @@
+// Calls with bytes of the test's own making in place of a request.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
+
+namespace patchmill::testing {
+
+constexpr char kCheckModel[] = "/patchmill.v1.ModelService/CheckModel";
+constexpr char kGenerateProgram[] = "/patchmill.v1.ToolpathService/GenerateProgram";
+
+struct RawCallOptions {
+  grpc_compression_algorithm compression = GRPC_COMPRESS_NONE;
+  std::chrono::milliseconds timeout{60'000};
+};
+
+// The status of a call of that method; what it answers is dropped.
+inline grpc::Status CallWithBytes(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
+                                  const std::string& bytes, const RawCallOptions& options = {}) {
+  grpc::TemplatedGenericStub<grpc::ByteBuffer, grpc::ByteBuffer> stub(channel);
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + options.timeout);
+  context.set_compression_algorithm(options.compression);
+  grpc::Slice slice(bytes);
+  const grpc::ByteBuffer request(&slice, 1);
+  grpc::CompletionQueue queue;
+  const auto reader = stub.PrepareUnaryCall(&context, method, request, &queue);
+  reader->StartCall();
+  grpc::ByteBuffer response;
+  grpc::Status status;
+  reader->Finish(&response, &status, nullptr);
+  void* tag = nullptr;
+  bool ok = false;
+  queue.Next(&tag, &ok);
+  return status;
+}
+
+inline std::string LengthDelimited(int field, const std::string& bytes) {
+  std::string out(1, static_cast<char>(field << 3 | 2));
+  std::size_t size = bytes.size();
+  for (; size > 127; size >>= 7) out += static_cast<char>((size & 127) | 128);
+  return out + static_cast<char>(size) + bytes;
+}
+
+inline std::string Repeated(const std::string& bytes, std::size_t times) {
+  std::string all;
+  all.reserve(bytes.size() * times);
+  for (std::size_t k = 0; k < times; ++k) all += bytes;
+  return all;
+}
+
+// A job of that many empty operations, as GenerateProgram takes it.
+inline std::string BombOfOperations(std::size_t operations) {
+  return LengthDelimited(1, Repeated(std::string("\x1A\x00", 2), operations));
+}
+
+}  // namespace patchmill::testing
