@@ -1,4 +1,4 @@
-// The main program of every test program: GoogleTest's own, and --file=NAME runs the tests of one source file alone,
+// The main program of every test program: GoogleTest's own. --file=NAME runs the tests of one source file,
 // which is what ctest asks for (contour_paths_test.cc, or more of its path where two have the same name).
 #include <cstdio>
 #include <string>

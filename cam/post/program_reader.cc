@@ -195,8 +195,7 @@ void Interpreter::NoteAt(int line, const char* code, const std::string& message)
   for (const Diagnostic& known : motion_.assumptions) {
     if (known.code == code) return;
   }
-  motion_.assumptions.push_back(
-      MakeWarning(code, fmt::format("line {}: {}", line, message), {.line = line}));
+  motion_.assumptions.push_back(MakeWarning(code, fmt::format("line {}: {}", line, message), {.line = line}));
 }
 
 void Interpreter::NoteAssumptions(ProgramMove::Kind kind, bool below) {

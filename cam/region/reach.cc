@@ -88,8 +88,8 @@ ReachTest::Shanks ReachTest::MakeShanks() const {
 
 bool ReachTest::BlockedAbove(const Vec3& p, const Facing& facing, Shanks& shanks) const {
   const double least = LeastBall(ReachGive(params_.tolerance));
-  // Of upright surface on both sides, each ball by itself: beyond the other wall of a slot, a ball that is too
-  // large for the slot is under its top.
+  // Of upright surface on both sides, each ball by itself: a ball that is too large for a slot is under the
+  // slot's top beyond the other wall.
   const auto on_all_sides = [&](const auto& blocked) {
     return blocked(facing.e) && (facing.e.z() > kUprightFace || blocked(-facing.e));
   };

@@ -109,7 +109,7 @@ enum class PatchScheme {
   kBrown,            // quad: [shapes (8)]
   kLoftTriangle,     // triangle: [shapes (17), (18)], squared weights where an edge is no cubic
   kGregoryTriangle,  // triangle: [shapes (12)-(14)], cubic edges only
-  kG2Gregory,  // quad: [shapes (20), (21)], cubic edges only; equal curvature across edges with others of its kind
+  kG2Gregory,  // quad: [shapes (20), (21)], cubic edges only; equal curvature across edges with its like
   // Quad: [shapes (23)-(27)]. Its tangents across an edge are those of the crossing edges, blended by a
   // smooth step, with breaks at vertices on the edge; faces of other kinds follow them.
   kHosaka,

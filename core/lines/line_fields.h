@@ -3,16 +3,16 @@
 // n is the unit normal along S_u x S_v of a piece, t its contour tangent. `axis`, `light` and `view` are unit
 // vectors (n_f of [lines]); phi = axis . S. Where the parametrisation has no normal every field is 0.
 //
-//   line                   field                         zero where                     nodes (lines cross there)
-//   contour                ContourField(level)           phi = level                    saddles of phi, level
-//   equi-slope             SlopeField(angle)             |axis . n| = cos angle         -
-//   iso-brightness         BrightnessField(brightness)   light . n = brightness         -
-//   silhouette             SilhouetteField(view)         view . n = 0                   -
-//   the same from an eye   EyeSilhouetteField(eye)       (S - eye) . n = 0              -
-//   highlight              HighlightField(plane, across) section tangent along          -
+//   line                   field                         zero where                   lines cross at
+//   contour                ContourField(level)           phi = level                  saddles of phi, level
+//   equi-slope             SlopeField(angle)             |axis . n| = cos angle       -
+//   iso-brightness         BrightnessField(brightness)   light . n = brightness       -
+//   silhouette             SilhouetteField(view)         view . n = 0                 -
+//   the same from an eye   EyeSilhouetteField(eye)       (S - eye) . n = 0            -
+//   highlight              HighlightField(plane, across) section tangent along        -
 //                                                        plane x across
-//   contour-inflection     ContourCurvatureField()       kappa_c = 0                    saddles of phi
-//   slope-extremum         SlopeExtremumField()          the slope has an extremum      summits, pits, saddles
+//   contour-inflection     ContourCurvatureField()       kappa_c = 0                  saddles of phi
+//   slope-extremum         SlopeExtremumField()          the slope has an extremum    summits, pits, saddles
 //
 // Formulas, in this order: [lines (2)], [lines (4), (6)], [lines (6)], [lines, section 2], [lines (8)],
 // [shapes (33)], [lines (10)].

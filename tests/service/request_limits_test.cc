@@ -53,9 +53,9 @@ TEST(RequestLimits, ListsAreCountedBeforeTheyAreParsed) {
 
 TEST(RequestLimits, PackedNumbersAndUnknownFieldsAreCountedToo) {
   Embedded embedded;
-  const std::string numbers = LengthDelimited(2, std::string(20'000'000, 1));  // patch indices
-  const grpc::Status many = CallWithBytes(embedded.channel, "/patchmill.v1.AnalysisService/EvaluateSurface",
-                                          LengthDelimited(3, "") + numbers);
+  const std::string numbers = LengthDelimited(3, std::string(20'000'000, 1));  // patch indices
+  const grpc::Status many =
+      CallWithBytes(embedded.channel, "/patchmill.v1.AnalysisService/EvaluateSurface", numbers);
   EXPECT_EQ(many.error_code(), StatusCode::RESOURCE_EXHAUSTED) << many.error_message();
   const grpc::Status unknown =
       CallWithBytes(embedded.channel, kCheckModel, Repeated(std::string("\xF8\x07\x00", 3), 15'000'000));

@@ -125,7 +125,7 @@ TEST_F(WireCounts, EveryKindOfElement) {
   const auto count = CountText(R"(
     child { child { packed: [1, 300, -1] } names: "a" }
     packed: [7, 8] loose: [1, 2, 3, 4] flags: [true, false]
-    part { x: 1 } part {}
+    Part { x: 1 } Part {}
     map { key: "k" value { loose: 5 } }
     only { only {} })");
   ASSERT_TRUE(count.ok()) << count.status();
@@ -212,7 +212,7 @@ TEST_F(WireCounts, DepthIsThatOfTheParser) {
 
 TEST_F(WireCounts, BytesThatAreNoMessageAreRefused) {
   const std::string sound =
-      schema_.Bytes(R"(child { packed: [1, 300] names: "abc" } part { x: 1 } loose: 3)");
+      schema_.Bytes(R"(child { packed: [1, 300] names: "abc" } Part { x: 1 } loose: 3)");
   for (std::size_t n = 1; n < sound.size(); ++n) {
     const auto count = Count(sound.substr(0, n));
     EXPECT_TRUE(count.ok() || InfoOf(ToGrpcStatus(count.status())).reason() == "REQUEST_UNREADABLE") << n;
