@@ -28,18 +28,18 @@ soak() {
 asan() { scripts/test.sh asan; }
 tsan() { scripts/test.sh tsan; }
 random() {  # a hundred parts of each kind
-  local tests=(tests/property/random_*_test.cc) target targets=() failed=0
-  for source in "${tests[@]}"; do targets+=("property_$(basename "$source" .cc)"); done
-  build release "${targets[@]}"
-  for target in "${targets[@]}"; do
-    echo "$target"
-    PATCHMILL_FUZZ_JOBS=100 PATCHMILL_FUZZ_SEED="$seed" "build/release/tests/$target" --gtest_brief=1 || failed=1
+  local file failed=0
+  build release property_tests
+  for file in tests/property/random_*_test.cc; do
+    echo "$file"
+    PATCHMILL_FUZZ_JOBS=100 PATCHMILL_FUZZ_SEED="$seed" build/release/tests/property_tests --file="$file" --gtest_brief=1 || failed=1
   done
   return "$failed"
 }
 certificates() {  # ten million heights
-  build release cam_location_certificate_fuzz_test
-  PATCHMILL_FUZZ_QUERIES=10000000 PATCHMILL_FUZZ_SEED="$seed" build/release/tests/cam_location_certificate_fuzz_test
+  build release cam_location_tests
+  PATCHMILL_FUZZ_QUERIES=10000000 PATCHMILL_FUZZ_SEED="$seed" \
+    build/release/tests/cam_location_tests --file=tests/cam/location/certificate_fuzz_test.cc
 }
 fuzz() {  # a minute of each target
   command -v clang++ > /dev/null || install clang llvm

@@ -84,21 +84,16 @@ bool KeepIn::WantsNothing(PieceId piece, double u0, double u1, double v0, double
   return !IsWanted(*containment_, surface_->piece(piece).patch, p, -radius);
 }
 
-double KeepIn::MoveRoom(const Vec3& c) const {
+double KeepIn::OutlineRoom(const Vec3& c) const {
   double room = BoundaryRoom(*containment_, Plan(c), params_.ball_radius);
   for (const Obstacle& o : containment_->obstacles) {
     room = std::min(room, ObstacleRoom(o, Tip(c), params_.tool_radius));
   }
-  return std::min(room, BesideRoom(*containment_, Tip(c)));
+  return room;
 }
 
-double KeepIn::RoomOfLimits(const Vec3& c) const {
-  double room = std::min(BoundaryRoom(*containment_, Plan(c), params_.ball_radius),
-                         TopRoom(*containment_, Tip(c).z()) + kTopSlack);
-  for (const Obstacle& o : containment_->obstacles) {
-    room = std::min(room, ObstacleRoom(o, Tip(c), params_.tool_radius));
-  }
-  return room;
+double KeepIn::MoveRoom(const Vec3& c) const {
+  return std::min(OutlineRoom(c), BesideRoom(*containment_, Tip(c)));
 }
 
 bool KeepIn::TooHigh(double center_z) const {

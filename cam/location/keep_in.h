@@ -64,9 +64,9 @@ class KeepIn {
   bool TooHigh(double center_z) const;
   // A finishing ball may be centred at c.
   bool Allows(const Vec3& c) const { return AllowsBall(c) && ShankClears(c, c, 0.0); }
-  // The same as if nothing were forbidden beside the part.
+  // A finishing ball might be centred at c if nothing were forbidden beside the part.
   bool AllowsBesidePart(const Vec3& c) const {
-    return RoomOfLimits(c) >= 0.0 && ClearOfAvoided(c, c) && ShankClears(c, c, 0.0);
+    return OutlineRoom(c) >= 0.0 && !TooHigh(c.z()) && ClearOfAvoided(c, c) && ShankClears(c, c, 0.0);
   }
   // The same as if the shank were no wider than the ball.
   bool AllowsBall(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
@@ -90,9 +90,9 @@ class KeepIn {
  private:
   KeepIn() = default;
   Vec3 Tip(const Vec3& c) const { return c - Vec3(0.0, 0.0, params_.ball_radius); }
-  double MoveRoom(const Vec3& c) const;              // boundary, obstacles, beside the part
-  double RoomOfLimits(const Vec3& c) const;          // boundary, obstacles, top_z
-  double Room(const Vec3& c) const;                  // all of them
+  double OutlineRoom(const Vec3& c) const;           // boundary and obstacles
+  double MoveRoom(const Vec3& c) const;              // beside the part too
+  double Room(const Vec3& c) const;                  // top_z too
   bool HasRoom(const Vec3& a, const Vec3& b) const;  // by MoveRoom
   bool ClearOfAvoided(const Vec3& a, const Vec3& b) const;
   bool ShankClears(const Vec3& a, const Vec3& b, double give) const;

@@ -1,4 +1,4 @@
-// How deep the tool goes down beside a part: what a machinist must know before the vice is closed.
+// The deepest place of the tool beside a part. A machinist must know it before the vice is closed.
 #pragma once
 
 #include <optional>

@@ -28,11 +28,12 @@ constexpr double kSameEnd = 2.0;      // tolerances: stretches whose ends are th
 constexpr double kOverlap = 4.0;      // tolerances: how far the area over a joint reaches into both
 constexpr double kNoTurn = 1e-3;      // rad
 
-// How far off the wall an area begins, mm: a ball that rolls over a sharp upper edge is lower than that edge
-// by half the tolerance there.
+// An area begins this far off its wall, mm. A ball that rolls over a sharp upper edge is half the tolerance
+// lower than that edge there.
 double GapOf(const BesidePartParams& params) { return std::sqrt(params.radius * params.tolerance); }
 
-// Which cells seen from above the surface covers, and which of the others are outside.
+// The area that the surface covers, as seen from above, in square cells; the other cells are outside or in
+// holes.
 class Footprint {
  public:
   explicit Footprint(const Surface& surface) {

@@ -32,15 +32,11 @@ absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optiona
   check.findings = surface.network.findings;
   check.box = TightBox(surface);
   for (const PatchId id : surface.two_sided_walls) {
-    Diagnostic d;
-    d.code = "WALL_WITHOUT_SIDE";
-    d.severity = Severity::kWarning;
-    d.message =
+    check.findings.push_back(MakeWarning(
+        "WALL_WITHOUT_SIDE",
         "the patch stands upright, and nothing that it is joined to says which of its sides is air: both are "
-        "milled";
-    d.where.patch_index = id.value;
-    d.where.patch_id = surface.network.model.patches[id.index()].id;
-    check.findings.push_back(std::move(d));
+        "milled",
+        {.patch_id = surface.network.model.patches[id.index()].id, .patch_index = id.value}));
   }
   const ConcaveSpot spot = SmallestConcaveRadius(surface, run);
   PM_RETURN_IF_ERROR(run.Check());
