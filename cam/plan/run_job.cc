@@ -199,14 +199,14 @@ absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
                    run);
 }
 
-// Ends a job that certainly passes the limit before its passes are made. Those may leave a little more than
-// the scallop (pass_params.h), and LeastFeed is a sum over samples: by so much it must be above the limit.
+// Ends a job that is far above the limit before its passes are made: what they are made from would fill the
+// memory. LeastFeed counts surface that lies on itself each time, and that is milled once; hence far.
 absl::Status CheckLeastFeed(const PathLimits& limits, double least_feed) {
-  constexpr double kSure = 1.1;
-  if (!(least_feed > kSure * limits.length)) return absl::OkStatus();
+  constexpr double kFarAbove = 10.0;
+  if (!(least_feed > kFarAbove * limits.length)) return absl::OkStatus();
   return LimitPassedError(
       {"cut_length_mm", limits.length, least_feed},
-      "no passes of this finish are shorter; raise the scallop or the tool's diameter, or "
+      "that is what the passes of this finish come to; raise the scallop or the tool's diameter, or "
       "cut the part in pieces (selection)");
 }
 

@@ -47,7 +47,9 @@ absl::StatusOr<Areas> MeasureReach(const Surface& surface, const RegionParams& p
                                    ShareProgress& progress) {
   PM_ASSIGN_OR_RETURN(const Locator free_ball,
                       Locator::Make(surface, params.radius - ReachGive(params.tolerance), run));
+  progress.Add(0);
   const ReachTest reach(free_ball, params, run);
+  progress.Add(0);
   PM_RETURN_IF_ERROR(run.Check());
   const std::vector<ZeroField> fields = ReachFields(reach, params);
   const ZeroMeshParams mesh_params = RegionMeshParams(surface, params, kCell, run);
@@ -79,7 +81,7 @@ absl::StatusOr<ReachTableResult> ReachTable(const Surface& surface, const ReachT
                                             const RunContext& run) {
   PM_RETURN_IF_ERROR(Check(params));
   ReachTableResult table;
-  ShareProgress progress(run, "reach", params.radii.size() * surface.pieces.size());
+  ShareProgress progress(run, "reach", params.radii.size() * (surface.pieces.size() + 2));
   for (std::size_t k = 0; k < params.radii.size(); ++k) {
     RegionParams region;
     region.radius = params.radii[k];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/silence.h"
 #include "core/diffgeo/forms.h"
 #include "core/lines/triangle_quadrature.h"
 
@@ -197,8 +198,11 @@ SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, 
   mesh.vertices = std::move(zero.vertices);
   mesh.triangles.reserve(zero.triangles.size());
   Corners corners(piece, mesh.vertices);
+  Silence silence;
   for (const ZeroTriangle& t : zero.triangles) {
     if (params.run != nullptr && params.run->Cancelled()) break;
+    if (params.run != nullptr)
+      silence.BreakIfTooLong(*params.run, "areas", mesh.triangles.size(), zero.triangles.size());
     SplitTriangle triangle{t.vertex, LabelOf(t), t.sign[static_cast<std::size_t>(Field::kTurn)]};
     std::array<Vec2, 3> q;
     std::array<const Corner*, 3> corner{};

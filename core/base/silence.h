@@ -14,6 +14,12 @@ class Silence {
   // A tenth of a second without a word: told at twice the rate that a client may count on (0.2 s).
   bool TooLong() const { return Now() - told_.load(std::memory_order_relaxed) > kLongest; }
   void Break() { told_.store(Now(), std::memory_order_relaxed); }
+  // Tells run.Progress(stage, done/all) when it has been too long.
+  void BreakIfTooLong(const RunContext& run, const char* stage, std::size_t done, std::size_t all) {
+    if (!TooLong()) return;
+    Break();
+    run.Progress(stage, static_cast<double>(done) / static_cast<double>(all));
+  }
 
  private:
   using Duration = RunContext::Clock::duration;

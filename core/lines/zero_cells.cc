@@ -4,6 +4,7 @@
 #include <bitset>
 #include <cmath>
 
+#include "core/base/silence.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 
@@ -116,6 +117,11 @@ class Divider {
     bool divide = false;
   };
 
+  void Tell(const Task& task, const std::vector<Task>& level) {
+    if (params_.run == nullptr) return;
+    silence_.BreakIfTooLong(*params_.run, "cells", static_cast<std::size_t>(&task - level.data()), level.size());
+  }
+
   // Takes out what has one sign, or none that anybody asks for. A node is asked for wherever it is: around
   // one all values are small, and without it the sectors that meet there would be joined at random.
   bool Settled(const ZeroCell& cell, std::vector<OpenForm>& open) {
@@ -172,6 +178,7 @@ class Divider {
     const bool proofs_only = sampled_.empty();
     for (Task& task : level) {
       if (Stopped()) return {};
+      Tell(task, level);
       if (Settled(task.cell, task.open) && params_.curves_only && proofs_only) continue;
       task.divide = depth < levels_.start;
       for (const OpenForm& f : task.open) Decide(f, task);
@@ -201,6 +208,7 @@ class Divider {
     std::vector<Task> next;
     for (Task& task : level) {
       if (Stopped()) return {};
+      Tell(task, level);
       if (task.divide) {
         Divide(task, next);
       } else {
@@ -319,6 +327,7 @@ class Divider {
   Levels levels_;
   std::vector<std::size_t> sampled_;  // fields without form
   ZeroCells result_;
+  Silence silence_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/base/silence.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -71,6 +72,7 @@ class PieceCurves {
       if (sides.contains({b, a})) continue;
       next_[a].push_back({b, false});
       ++arriving_[b];
+      ++arcs_;
     }
   }
 
@@ -89,6 +91,7 @@ class PieceCurves {
     int at = from;
     for (std::size_t i = arc;; i = 0) {
       if (run_.Cancelled()) return;
+      silence_.BreakIfTooLong(run_, "curves: points", followed_++, arcs_);
       Arc& step = next_[at][i];
       step.used = true;
       for (const Vec2& q : RefineZeroArc(piece_, field_, Parameters(at), Parameters(step.to), tolerance_))
@@ -112,6 +115,8 @@ class PieceCurves {
   ZeroMesh mesh_;
   std::map<int, std::vector<Arc>> next_;
   std::map<int, int> arriving_;
+  std::size_t arcs_ = 0, followed_ = 0;
+  Silence silence_;
 };
 
 bool OnPieceBorder(const SurfacePoint& p) { return p.u == 0.0 || p.u == 1.0 || p.v == 0.0 || p.v == 1.0; }

@@ -6,6 +6,7 @@
 
 #include <absl/container/flat_hash_map.h>
 
+#include "core/base/silence.h"
 #include "core/lines/zero_mesh.h"
 
 namespace patchmill {
@@ -15,7 +16,8 @@ inline constexpr int kZeroGrid = 1 << kZeroMaxLevel;  // vertices sit on this gr
 
 class ZeroVertices {
  public:
-  // `run`: polled when not null; values asked for after a cancel are zeros.
+  // `run`: polled when not null, and told "cells" after a silence that is too long; values asked for after a
+  // cancel are zeros.
   ZeroVertices(const Piece& piece, std::span<const ZeroField> fields, const RunContext* run = nullptr)
       : piece_(piece), fields_(fields), run_(run) {}
 
@@ -42,6 +44,7 @@ class ZeroVertices {
   const Piece& piece_;
   std::span<const ZeroField> fields_;
   const RunContext* run_;
+  mutable Silence silence_;
   std::vector<ZeroVertex> all_;
   absl::flat_hash_map<int, int> grid_;  // looked up, never walked
 };

@@ -55,7 +55,7 @@ TEST_P(RandomAwkwardJobs, KeepThePromises) {
   Random random(seed + 1000);
   CheckProgram(drawn.surface, drawn.job, result, random, kSanitized ? 50 : 500);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomAwkwardJobs, JobSeeds(7000, kSanitized ? 4 : 24));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomAwkwardJobs, JobSeeds(7000, kSanitized ? 4 : 12));
 
 }  // namespace
 }  // namespace patchmill

@@ -12,7 +12,7 @@ TEST_P(RandomFoldedJobs, KeepThePromises) {
   const auto seed = static_cast<std::uint64_t>(GetParam());
   ExpectPromisesKept(DrawJob(seed, /*folds=*/true, /*rational=*/false), seed);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomFoldedJobs, JobSeeds(2000, kSanitized ? 2 : 24));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomFoldedJobs, JobSeeds(2000, kSanitized ? 2 : 10));
 // A wall whose spots are blocked by the wall beside it: away from both more stays than giving way sideways.
 INSTANTIATE_TEST_SUITE_P(BesideWalls, RandomFoldedJobs, ::testing::Values(2116));
 

@@ -19,7 +19,7 @@ TEST_P(RandomForcedJobs, KeepThePromises) {
     ExpectPromisesKept(drawn, seed);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomForcedJobs, JobSeeds(5000, kSanitized ? 2 : 10));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomForcedJobs, JobSeeds(5000, kSanitized ? 2 : 5));
 
 }  // namespace
 }  // namespace patchmill

@@ -62,7 +62,7 @@ TEST_P(RandomRims, KeepThePromises) {
   SCOPED_TRACE(drawn.text + (round ? ", round lines" : ""));
   CheckProgram(surface, drawn.job, result, random, kSanitized ? 50 : 500);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomRims, JobSeeds(7000, kSanitized ? 3 : 24));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomRims, JobSeeds(7000, kSanitized ? 3 : 12));
 
 }  // namespace
 }  // namespace patchmill

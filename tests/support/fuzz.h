@@ -1,8 +1,7 @@
-// Random tests draw more, and others, when the environment says so. 200 random B-spline parts, none of them
+// Random tests draw more, and others, when the environment says so. 50 random B-spline parts, none of them
 // among those of every day:
-//   for kind in smooth folded rational rational_folded; do
-//     PATCHMILL_FUZZ_JOBS=50 PATCHMILL_FUZZ_SEED=100 build/release/tests/property_random_${kind}_jobs_test
-//   done
+//   export PATCHMILL_FUZZ_JOBS=50 PATCHMILL_FUZZ_SEED=100
+//   build/release/tests/property_tests --file=tests/property/random_smooth_jobs_test.cc
 #pragma once
 
 #include <algorithm>

@@ -59,18 +59,32 @@ TEST(PathLimits, AreThoseOfTheProgram) {
   }
 }
 
-// What no passes can do with less ends before they are made.
-TEST(PathLimits, TheLeastFeedIsEnough) {
+// The least feed counts surface that lies on the same surface again. Its passes are made once, and only they
+// count.
+TEST(PathLimits, AnEstimateRefusesNothing) {
+  const Surface once = PlacedSurface(Hill());
+  const Surface thrice = PlacedSurface(Join({Hill(), Hill(), Hill()}));
+  Job job = BallJob(3.0);
+  job.operation.scallop = 0.05;
+  const JobResult free = Mill(once, job);
+  job.path_limits.length = 1.6 * (free.report.motion.cut_length + free.report.motion.link_length);
+  const JobResult result = Mill(thrice, job);
+  EXPECT_GT(result.report.least_feed, job.path_limits.length);
+  EXPECT_FALSE(result.program.empty()) << Describe(result);
+}
+
+// What is far above the limit ends before its passes are made.
+TEST(PathLimits, FarAboveThemNoPassIsMade) {
   const Surface surface = PlacedSurface(Hill());
   Job job = BallJob(3.0);
   const JobResult free = Mill(surface, job);
-  job.path_limits.length = free.report.least_feed / 1.11;
+  job.path_limits.length = free.report.least_feed / 10.1;
   std::string last;
   RunContext run(1);
   run.set_progress([&](std::string_view stage, double) { last = std::string(stage); });
   const absl::StatusOr<JobResult> result = RunJob(surface, job, run);
   ExpectPassed(result, "cut_length_mm", job.path_limits.length);
-  EXPECT_THAT(std::string(result.status().message()), HasSubstr("no passes of this finish are shorter"));
+  EXPECT_THAT(std::string(result.status().message()), HasSubstr("that is what the passes of this finish come to"));
   EXPECT_EQ(last.find("zigzag"), std::string::npos) << last;
   EXPECT_EQ(last.find("contours"), std::string::npos) << last;
 }
