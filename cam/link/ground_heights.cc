@@ -6,11 +6,11 @@
 
 namespace patchmill {
 
-GroundHeights::GroundHeights(const Surface& surface, double beside)
+SurfaceHeights::SurfaceHeights(const Surface& surface, double beside)
     : highest_(static_cast<std::size_t>(kLevels) * kLevels * kSquares * kSquares, -kInfinity) {
   if (surface.box.Empty()) return;
-  low_ = Plan(surface.box.min).array() - beside;
-  const Vec2 high = Plan(surface.box.max).array() + beside;
+  low_ = Xy(surface.box.min).array() - beside;
+  const Vec2 high = Xy(surface.box.max).array() + beside;
   step_ = std::max((high - low_).maxCoeff() / kSquares, 1e-9);
   for (const SurfaceNode& node : surface.nodes) {
     if (node.leaf < 0) continue;
@@ -37,11 +37,11 @@ GroundHeights::GroundHeights(const Surface& surface, double beside)
   }
 }
 
-int GroundHeights::Square(double x, int axis) const {
+int SurfaceHeights::Square(double x, int axis) const {
   return static_cast<int>(std::clamp(std::floor((x - low_[axis]) / step_), 0.0, kSquares - 1.0));
 }
 
-double GroundHeights::HighestOver(const Vec2& a, const Vec2& b) const {
+double SurfaceHeights::HighestOver(const Vec2& a, const Vec2& b) const {
   const int i0 = Square(std::min(a.x(), b.x()), 0), i1 = Square(std::max(a.x(), b.x()), 0),
             j0 = Square(std::min(a.y(), b.y()), 1), j1 = Square(std::max(a.y(), b.y()), 1);
   const int lx = std::bit_width(static_cast<unsigned>(i1 - i0 + 1)) - 1,

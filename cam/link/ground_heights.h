@@ -11,10 +11,10 @@ namespace patchmill {
 // Largest heights over rectangles of the plan, from the boxes of the surface's leaves on a grid of at most 64
 // x 64 squares: too high by what stands beside within a square, never too low. Nothing is proven by it:
 // heights of rapids are Locator::MaxHeight's, and the judge has a grid of its own. Immutable, thread-safe.
-class GroundHeights {
+class SurfaceHeights {
  public:
   // `beside` mm: what stands that near counts, too. Some ns a leaf, 1.6 MB.
-  GroundHeights(const Surface& surface, double beside);
+  SurfaceHeights(const Surface& surface, double beside);
 
   // Of the rectangle with corners a and b and sides along x and y; -infinity where nothing stands. About 10
   // ns.

@@ -23,15 +23,15 @@ constexpr std::array<double, 4> kBulges = {0.0625, 0.125, 0.25, 0.5};
 // Of the chord tolerance: what short links may take, each proven by itself, without the certificates' share.
 constexpr double kProven = 1.2;
 // Ball radii: in a corner this much farther off is beside the link, too.
-constexpr double kBeside = 0.04;
+constexpr double kCornerOffset = 0.04;
 // rad: how leads may turn from the normal, either way; less than kAlong they lead off a wall. And how far, in
 // ways through the stock: at a limit that runs almost along the wall they must be long to lead off it. One
-// that needs no more than kWorthTurning of those is good enough.
+// that needs no more than kTurnAwayRatio of those is good enough.
 constexpr std::array<double, 7> kTurns = {0.0,       kPi / 4.0,       kPi / 3.0, kPi / 2.4,
                                           kPi / 2.0, 3.0 * kPi / 4.0, kPi};
 constexpr double kAlong = kPi / 2.2;
 constexpr std::array<double, 4> kFarther = {1.0, std::numbers::sqrt2, 2.0, 4.0};
-constexpr double kWorthTurning = 1.5;
+constexpr double kTurnAwayRatio = 1.5;
 // At least this many mm of a lead are better than one of plunge.
 constexpr double kPlunge = 3.0;
 constexpr double kFineRapid = 0.1;  // mm: to which the height of a low rapid is looked for
@@ -53,7 +53,7 @@ LinkMaker::LinkMaker(const Locator& locator, const Locator& stock_locator, const
 
 Move LinkMaker::Feed(MoveKind kind, const Vec3& from, const Vec3& to) const {
   const Vec3 d = to - from;
-  const double across = Plan(d).norm();
+  const double across = Xy(d).norm();
   const bool steep_descent = d.z() < 0.0 && std::atan2(-d.z(), across) > params_.plunge_angle;
   Move move;
   move.kind = kind;
@@ -63,10 +63,10 @@ Move LinkMaker::Feed(MoveKind kind, const Vec3& from, const Vec3& to) const {
 }
 
 bool LinkMaker::Allowed(const Vec3& a, const Vec3& b) const {
-  if (params_.keep_in == nullptr) return true;
-  const KeepIn& keep_in = *params_.keep_in;
-  if (!keep_in.AllowsMove(a, b, false)) return false;
-  if (keep_in.WantsAll() && keep_in.AllowsMove(a, b, true)) return true;
+  if (params_.operation_limits == nullptr) return true;
+  const OperationLimits& operation_limits = *params_.operation_limits;
+  if (!operation_limits.AllowsMove(a, b, false)) return false;
+  if (operation_limits.WantsAll() && operation_limits.AllowsMove(a, b, true)) return true;
   const int parts = 1 + static_cast<int>((b - a).norm() / (0.5 * overrun_));
   for (int k = 0; k <= parts; ++k) {
     if (!LeavesUnwanted(a + (static_cast<double>(k) / parts) * (b - a))) return false;
@@ -75,14 +75,14 @@ bool LinkMaker::Allowed(const Vec3& a, const Vec3& b) const {
 }
 
 bool LinkMaker::LeavesUnwanted(const Vec3& c) const {
-  const KeepIn& keep_in = *params_.keep_in;
+  const OperationLimits& operation_limits = *params_.operation_limits;
   const double clear = locator_.radius() + stock_depth();
   const std::vector<SurfacePoint> touched =
-      Touched(locator_.surface(), c, clear, kBeside * locator_.radius());
+      ContactPoints(locator_.surface(), c, clear, kCornerOffset * locator_.radius());
   if (touched.empty() || (touched.front().p - c).norm() >= clear) return true;
-  if (!keep_in.AllowsMove(c, c, true)) return false;  // above the highest tip
+  if (!operation_limits.AllowsMove(c, c, true)) return false;  // above the highest tip
   return std::any_of(touched.begin(), touched.end(),
-                     [&](const SurfacePoint& place) { return keep_in.WantsNear(place, overrun_); });
+                     [&](const SurfacePoint& place) { return operation_limits.WantsNear(place, overrun_); });
 }
 
 bool LinkMaker::StraightIsFree(const Vec3& a, const Vec3& b) const {
@@ -101,8 +101,7 @@ std::optional<LinkMaker::Way> LinkMaker::AlongSurface(const Vec3& a, const Vec3&
   const auto& points = runs.front().points;
   // The run must start and end over or under a and b: straight up or down from a free centre to one on the
   // centre surface nothing is in the way.
-  if ((Plan(points.front().center) - Plan(a)).norm() > 1e-6 ||
-      (Plan(points.back().center) - Plan(b)).norm() > 1e-6) {
+  if ((Xy(points.front().center) - Xy(a)).norm() > 1e-6 || (Xy(points.back().center) - Xy(b)).norm() > 1e-6) {
     return std::nullopt;
   }
   Way way;
@@ -127,22 +126,22 @@ std::optional<std::vector<Move>> LinkMaker::StayDown(const CutterPoint& from, co
   const double length = (b - a).norm();
   if (length > max_link_) return std::nullopt;
   if (StraightIsFree(a, b)) return std::vector<Move>{Feed(MoveKind::kLink, a, b)};
-  const double plan = (Plan(b) - Plan(a)).norm();
+  const double plan = (Xy(b) - Xy(a)).norm();
   if (plan < 1e-6) return std::nullopt;
-  std::optional<Way> best = AlongSurface(a, b, std::array{Plan(a), Plan(b)});
+  std::optional<Way> best = AlongSurface(a, b, std::array{Xy(a), Xy(b)});
   if (length <= 2.0 * params_.radius) {
     // Ends at a wall that bends: straight on would climb it, a little off it the way is short. Or at a limit
     // that bends: straight on would cross it.
-    const bool limits = params_.keep_in != nullptr && !params_.keep_in->AllowsAll();
-    const Vec2 along = Plan(b) - Plan(a);
+    const bool limits = params_.operation_limits != nullptr && !params_.operation_limits->AllowsAll();
+    const Vec2 along = Xy(b) - Xy(a);
     const Vec2 across(-along.y(), along.x());
-    const double off = across.dot(Plan(OffWalls(from) + OffWalls(to)));
+    const double off = across.dot(Xy(OffWalls(from) + OffWalls(to)));
     for (const double bulge : kBulges) {
       for (const double side : {1.0, -1.0}) {
         if (best && best->length <= kShortDetour * length) break;
         if (!limits && side * off < -1e-3 * across.norm()) continue;  // into the wall
-        const Vec2 middle = 0.5 * (Plan(a) + Plan(b)) + side * bulge * across;
-        std::optional<Way> round = AlongSurface(a, b, std::array{Plan(a), middle, Plan(b)});
+        const Vec2 middle = 0.5 * (Xy(a) + Xy(b)) + side * bulge * across;
+        std::optional<Way> round = AlongSurface(a, b, std::array{Xy(a), middle, Xy(b)});
         if (round && (!best || round->length < best->length)) best = std::move(round);
       }
     }
@@ -160,7 +159,7 @@ Vec3 LinkMaker::OffWalls(const CutterPoint& point) {
 }
 
 double LinkMaker::ClearOfStock(const Vec3& place) const {
-  const auto top = stock_locator_.Height(Plan(place));
+  const auto top = stock_locator_.Height(Xy(place));
   const double clear = top ? std::max(top->z, place.z()) : place.z();
   return std::min(clear, clearance_center_z());
 }
@@ -171,24 +170,22 @@ LinkMaker::WayOut LinkMaker::FindWayOut(const CutterPoint& point, Going going) c
   const auto cost = [&](const WayOut& way) {
     return (way.beside - c).norm() + upright * (way.clear.z() - way.beside.z());
   };
-  const auto up = [&](const Vec3& beside) {
-    return WayOut{beside, Lift(Plan(beside), ClearOfStock(beside))};
-  };
+  const auto up = [&](const Vec3& beside) { return WayOut{beside, Lift(Xy(beside), ClearOfStock(beside))}; };
   Vec2 out = Vec2::UnitX();
   bool steep = false;
   if (point.contact) {
     const Vec3 normal = (c - point.contact->p).normalized();
     steep = std::acos(std::clamp(normal.z(), -1.0, 1.0)) >= kBesideWallSlope;
-    if (Plan(normal).norm() > 1e-6) out = Plan(normal).normalized();
+    if (Xy(normal).norm() > 1e-6) out = Xy(normal).normalized();
     if (steep && point.other_contact) {  // a corner: out along the bisector of the two walls
-      const Vec2 other = Plan(Vec3(c - point.other_contact->p));
+      const Vec2 other = Xy(Vec3(c - point.other_contact->p));
       const Vec2 both = out + (other.norm() > 1e-9 ? Vec2(other.normalized()) : Vec2(Vec2::Zero()));
       if (both.norm() > 1e-3) out = both.normalized();
     }
   }
   const double off = stock_depth();
   const auto enough = [&](const WayOut& way) {
-    return (way.beside - c).norm() + way.clear.z() - way.beside.z() <= kWorthTurning * off;
+    return (way.beside - c).norm() + way.clear.z() - way.beside.z() <= kTurnAwayRatio * off;
   };
   WayOut best = up(c);
   if (!steep && enough(best)) return best;
@@ -220,13 +217,13 @@ void LinkMaker::Leave(const CutterPoint& from, const WayOut& out, double rapid_z
   if (out.beside != from.center) moves.push_back(Feed(MoveKind::kLead, from.center, out.beside));
   if (out.clear.z() > out.beside.z() + 1e-9) moves.push_back(Feed(MoveKind::kRetract, out.beside, out.clear));
   if (rapid_z > out.clear.z() + 1e-9) {
-    moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(out.clear), rapid_z)});
+    moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Xy(out.clear), rapid_z)});
   }
 }
 
 void LinkMaker::Enter(const WayOut& in, const CutterPoint& to, double rapid_z,
                       std::vector<Move>& moves) const {
-  moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Plan(in.clear), rapid_z)});
+  moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Xy(in.clear), rapid_z)});
   if (in.clear.z() < rapid_z - 1e-9) moves.push_back({.kind = MoveKind::kRapid, .to = in.clear});
   if (in.clear.z() > in.beside.z() + 1e-9) moves.push_back(Feed(MoveKind::kPlunge, in.clear, in.beside));
   if (in.beside != to.center) moves.push_back(Feed(MoveKind::kLead, in.beside, to.center));
@@ -254,9 +251,10 @@ double LinkMaker::RapidHeight(const Vec3& a, const Vec3& b) const {
   // A shank that is wider counts as a ball that is, as far as it begins no lower: it need not be looked at.
   const double wider = std::max(0.0, params_.tool_radius - params_.radius);
   const double above_all = params_.stock_top_z + params_.approach_gap + params_.radius;
-  const double highest = stock_locator_.MaxHeight(Plan(a), Plan(b), wider, kFineRapid);
+  const double highest = stock_locator_.MaxHeight(Xy(a), Xy(b), wider, kFineRapid);
   double clear = std::min(highest + params_.shank_lower, above_all);
-  if (params_.keep_in != nullptr) clear = std::max(clear, params_.keep_in->ClearHeight(Plan(a), Plan(b)));
+  if (params_.operation_limits != nullptr)
+    clear = std::max(clear, params_.operation_limits->ClearHeight(Xy(a), Xy(b)));
   return std::min(std::max({clear, a.z(), b.z()}), clearance_center_z());
 }
 

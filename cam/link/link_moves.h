@@ -65,7 +65,8 @@ class LinkMaker {
   // at most.
   double ClearOfStock(const Vec3& place) const;
   bool StraightIsFree(const Vec3& a, const Vec3& b) const;
-  // By params_.keep_in: where the operation allows the centre, and where feeding leaves alone what is not to
+  // By params_.operation_limits: where the operation allows the centre, and where feeding leaves alone what
+  // is not to
   // be cut.
   bool Allowed(const Vec3& a, const Vec3& b) const;
   // The ball is clear of the stock, or the ground next to it is wanted and the tip not above the highest.

@@ -44,7 +44,7 @@ LinkStats Measure(const std::vector<Move>& moves) {
     }
     (moves[i].kind == MoveKind::kCut ? stats.cut_length : stats.link_length) += length;
     if (d.z() < 0.0)
-      stats.steepest_descent = std::max(stats.steepest_descent, std::atan2(-d.z(), Plan(d).norm()));
+      stats.steepest_descent = std::max(stats.steepest_descent, std::atan2(-d.z(), Xy(d).norm()));
   }
   return stats;
 }
@@ -64,16 +64,16 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
       if (path.kind == PassKind::kContour && !path.spiral) Reverse(path);
     }
   }
-  std::optional<GroundHeights> ground;
+  std::optional<SurfaceHeights> heights;
   const double clear = params.radius + params.allowance + params.approach_gap;
-  if (params.low_rapids) ground.emplace(locator.surface(), clear);
+  if (params.low_rapids) heights.emplace(locator.surface(), clear);
   const double leads = 2.0 * (params.allowance + params.approach_gap);
   const auto travel = [&](const Vec3& a, const Vec3& b) {
     const double length = (b - a).norm();
     double top = params.clearance_z + params.radius;
-    if (ground) top = std::min(top, std::max({a.z(), b.z(), ground->HighestOver(Plan(a), Plan(b)) + clear}));
+    if (heights) top = std::min(top, std::max({a.z(), b.z(), heights->HighestOver(Xy(a), Xy(b)) + clear}));
     const double over = std::max(0.0, 2.0 * top - a.z() - b.z());
-    const double time = leads / params.feed + (over + Plan(b - a).norm()) / kAssumedRapid;
+    const double time = leads / params.feed + (over + Xy(b - a).norm()) / kAssumedRapid;
     return 60.0 * (length <= MaxLinkLength(params) ? std::min(time, length / params.feed) : time);
   };
   LinkResult result;
@@ -87,7 +87,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
                                   run));
   const Locator stock_locator(locator.surface(), clear);
   const LinkMaker maker(locator, stock_locator, params, run);
-  PM_ASSIGN_OR_RETURN(result.passes, PutOnTheWay(maker, std::move(result.passes), params, run));
+  PM_ASSIGN_OR_RETURN(result.passes, InsertPasses(maker, std::move(result.passes), params, run));
   std::vector<Move>& moves = result.toolpath.moves;
 
   const CutterPoint* end = nullptr;  // where the last pass ended

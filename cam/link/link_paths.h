@@ -35,7 +35,7 @@ struct LinkParams {
   double max_link_length = 0.0;  // mm in plan; 0: 6 ball radii. Longer ones retract
   // Feeds stay where it allows them; links keep clear of the stock over ground that is not wanted and above
   // the highest tip, but for a step. Null: anywhere.
-  const KeepIn* keep_in = nullptr;
+  const OperationLimits* operation_limits = nullptr;
 };
 
 // mm in plan: the longest link made instead of a retract.

@@ -19,7 +19,7 @@ const CutterPoint& EndOf(const CutterPath& pass) {
 
 bool IsShort(const CutterPath& pass, double longest) {
   const bool mends =
-      pass.kind == PassKind::kBorder || pass.kind == PassKind::kCrease || pass.kind == PassKind::kRest;
+      pass.kind == PassKind::kBorder || pass.kind == PassKind::kPencil || pass.kind == PassKind::kRest;
   return mends && !pass.closed && !pass.one_way && !pass.directed && !pass.spiral && Length(pass) <= longest;
 }
 
@@ -64,8 +64,8 @@ double LinkTime(const LinkMaker& maker, const CutterPath& from, const CutterPath
 
 }  // namespace
 
-absl::StatusOr<std::vector<CutterPath>> PutOnTheWay(const LinkMaker& maker, std::vector<CutterPath> passes,
-                                                    const LinkParams& params, const RunContext& run) {
+absl::StatusOr<std::vector<CutterPath>> InsertPasses(const LinkMaker& maker, std::vector<CutterPath> passes,
+                                                     const LinkParams& params, const RunContext& run) {
   const double longest = MaxLinkLength(params);
   std::size_t tried = 0;
   for (std::size_t i = 1; i < passes.size() && tried < kMostPasses; ++i) {

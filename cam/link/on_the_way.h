@@ -17,7 +17,7 @@ namespace patchmill {
 // are no contours, either way round, where the links to and from it (LinkTo, not estimates) take the least
 // time together and less than where they are. Of places for each the nearest few are tried; of passes the
 // first 256. Nothing else changes its place. Deterministic. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<CutterPath>> PutOnTheWay(const LinkMaker& maker, std::vector<CutterPath> passes,
-                                                    const LinkParams& params, const RunContext& run);
+absl::StatusOr<std::vector<CutterPath>> InsertPasses(const LinkMaker& maker, std::vector<CutterPath> passes,
+                                                     const LinkParams& params, const RunContext& run);
 
 }  // namespace patchmill

@@ -65,7 +65,7 @@ Places AroundUnreachable(const RegionMap& map, const Places& beside) {
 
 std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts,
                                     const RunContext& run) {
-  const Places beside = Neighbours(map), grounds = AroundUnreachable(map, beside);
+  const Places beside = Neighbours(map), around_unreachable = AroundUnreachable(map, beside);
   const std::size_t n = parts.size(), nowhere = map.component_region.size();
   Places places(n);
   std::vector<long long> level(n);
@@ -94,22 +94,22 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
       if (!left[place].empty()) high = std::max(high, level[left[place].back()]);
     return high;
   };
-  Places grounds_of(nowhere + 1);
-  for (std::size_t g = 0; g < grounds.size(); ++g) {
-    for (const std::size_t place : grounds[g]) grounds_of[place].push_back(g);
+  Places components_beside(nowhere + 1);
+  for (std::size_t g = 0; g < around_unreachable.size(); ++g) {
+    for (const std::size_t place : around_unreachable[g]) components_beside[place].push_back(g);
   }
-  std::vector<long long> across(grounds.size());
+  std::vector<long long> across(around_unreachable.size());
   const auto waits = [&](std::size_t i) {
     for (const std::size_t place : places[i]) {
       if (highest(beside[place]) > level[i]) return true;
-      for (const std::size_t g : grounds_of[place])
+      for (const std::size_t g : components_beside[place])
         if (across[g] > level[i]) return true;
     }
     return false;
   };
   std::vector<std::size_t> order;
   while (order.size() < n && !run.Cancelled()) {
-    for (std::size_t g = 0; g < grounds.size(); ++g) across[g] = highest(grounds[g]);
+    for (std::size_t g = 0; g < around_unreachable.size(); ++g) across[g] = highest(around_unreachable[g]);
     // The highest of all waits for none, so that there always is one.
     using Rank = std::tuple<bool, long long, std::size_t>;
     Rank best{true, std::numeric_limits<long long>::max(), n};

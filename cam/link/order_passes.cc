@@ -15,13 +15,13 @@ namespace {
 
 constexpr int kLevelReach = 2;  // levels whose numbers differ by more are no neighbours
 
-Box3 PlanBox(const CutterPath& path) {
+Box3 XyBox(const CutterPath& path) {
   Box3 box;
   for (const CutterPoint& p : path.points) box.Add(p.center);
   return box;
 }
 
-double PlanGap(const Box3& a, const Box3& b) {
+double XyGap(const Box3& a, const Box3& b) {
   double squared = 0.0;
   for (const int k : {0, 1}) {
     const double gap = std::max({0.0, a.min[k] - b.max[k], b.min[k] - a.max[k]});
@@ -33,14 +33,14 @@ double PlanGap(const Box3& a, const Box3& b) {
 // Smallest distance in plan between vertices of a and the vertices of b, at most `limit` looked for; coarse
 // but enough to tell which passes belong together.
 bool Near(const CutterPath& a, const Box3& box_a, const CutterPath& b, const Box3& box_b, double limit) {
-  if (PlanGap(box_a, box_b) > limit) return false;
+  if (XyGap(box_a, box_b) > limit) return false;
   const std::size_t step_a = std::max<std::size_t>(1, a.points.size() / 48);
   const double limit2 = limit * limit;
   for (std::size_t i = 0; i < a.points.size(); i += step_a) {
-    const Vec2 p = Plan(a.points[i].center);
+    const Vec2 p = Xy(a.points[i].center);
     for (std::size_t j = 0; j < b.points.size(); ++j) {
-      const Vec2 q = Plan(b.points[j].center);
-      const Vec2 r = Plan(b.points[(j + 1) % b.points.size()].center);
+      const Vec2 q = Xy(b.points[j].center);
+      const Vec2 r = Xy(b.points[(j + 1) % b.points.size()].center);
       const bool last = j + 1 == b.points.size() && !b.closed;
       const Vec2 d = last ? Vec2(0, 0) : Vec2(r - q);
       const double t = d.squaredNorm() > 0 ? std::clamp((p - q).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
@@ -58,7 +58,7 @@ int KindRank(PassKind kind) {
       return 1;
     case PassKind::kBorder:
       return 2;
-    case PassKind::kCrease:
+    case PassKind::kPencil:
       return 3;
     case PassKind::kRest:
       return 4;
@@ -259,15 +259,17 @@ void JoinThoseThatLeadOn(const std::vector<CutterPath>& contours, double reach, 
 std::vector<Cluster> Clusters(std::vector<CutterPath> group, const OrderParams& params, int line_reach,
                               const RunContext& run) {
   const double distance = params.neighbor_distance;
-  std::stable_sort(group.begin(), group.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
+  std::stable_sort(group.begin(), group.end(),
+                   [](const auto& a, const auto& b) { return a.order_key < b.order_key; });
   const bool levels = group.front().kind == PassKind::kContour;
   std::vector<Box3> boxes;
-  for (const CutterPath& path : group) boxes.push_back(PlanBox(path));
+  for (const CutterPath& path : group) boxes.push_back(XyBox(path));
   UnionFind sets(group.size());
   std::vector<std::vector<std::size_t>> above(group.size());
   for (std::size_t i = 0; i < group.size() && !run.Cancelled(); ++i) {
-    for (std::size_t j = i + 1; j < group.size() && group[j].line - group[i].line <= line_reach; ++j) {
-      const bool lower = levels && group[j].line > group[i].line;
+    for (std::size_t j = i + 1; j < group.size() && group[j].order_key - group[i].order_key <= line_reach;
+         ++j) {
+      const bool lower = levels && group[j].order_key > group[i].order_key;
       if (!lower && sets.Find(i) == sets.Find(j)) continue;
       const bool near = Near(group[i], boxes[i], group[j], boxes[j], distance) ||
                         Near(group[j], boxes[j], group[i], boxes[i], distance);

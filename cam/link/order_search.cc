@@ -10,7 +10,7 @@ namespace {
 constexpr std::ptrdiff_t kLongestRun = 3;
 constexpr std::ptrdiff_t kFarthest = 200;  // places, each way
 constexpr int kMostSweeps = 20;
-constexpr double kWorthwhile = 1e-6;  // s
+constexpr double kMinSavingSeconds = 1e-6;  // s
 
 class OrderSearch {
  public:
@@ -59,7 +59,7 @@ class OrderSearch {
       }
     }
     const double saved = Leg(first - 1, first) + Leg(end - 1, end) - Leg(first - 1, end);
-    double best_gain = kWorthwhile;
+    double best_gain = kMinSavingSeconds;
     std::ptrdiff_t best = first;
     for (std::ptrdiff_t k = lowest; k <= highest; ++k) {  // between the stops at k - 1 and k
       if (k >= first && k <= end) continue;

@@ -23,7 +23,7 @@ constexpr int kBudget = 20000;  // parts of one query
 constexpr int kMaxLevel = 100;
 
 // What that many parts do not decide is asked of distance forms too, that many parts each.
-constexpr int kStubborn = 200;
+constexpr int kPartsBeforeForms = 200;
 constexpr int kFormParts = 100;
 
 struct Prover {
@@ -59,9 +59,9 @@ struct Prover {
 
   // Excludes a part of an upright wall that the ball is beside, however high.
   bool Beside(NetShape shape, const Vec4* points) {
-    const auto curve = internal::PlanCurveOf(shape, points, 4.0 * impl.rounding);
+    const auto curve = internal::XyCurveOf(shape, points, 4.0 * impl.rounding);
     if (!curve) return false;
-    if (!internal::OutsideInPlan(*curve, ball.q, std::sqrt(2.0 * free_f) + curve->spread)) return false;
+    if (!internal::OutsideInXy(*curve, ball.q, std::sqrt(2.0 * free_f) + curve->spread)) return false;
     top = std::max(top, best.z);
     return true;
   }
@@ -83,7 +83,7 @@ struct Prover {
 
   // The ball on p stands higher than the best by more than the gap.
   bool Touches(const Vec3& p) const {
-    const double rim2 = ball.radius * ball.radius - (Plan(p) - ball.q).squaredNorm();
+    const double rim2 = ball.radius * ball.radius - (Xy(p) - ball.q).squaredNorm();
     return rim2 > 0.0 && p.z() + std::sqrt(rim2) > best.z + eps;
   }
 
@@ -95,7 +95,7 @@ struct Prover {
     const RectBounds bounds = BoundPoints(shape, points, hull.data(), hull_count);
     if (Excluded(bounds, best.z) || Excluded(bounds, best.z + eps) || Beside(shape, points)) return;
     if (--budget < 0 || level >= kMaxLevel) {
-      const double rim2 = ball.radius * ball.radius - internal::PlanDistance2(bounds.box, ball.q);
+      const double rim2 = ball.radius * ball.radius - internal::XyDistance2(bounds.box, ball.q);
       if (rim2 > 0.0) top = std::max(top, bounds.box.max.z() + std::sqrt(rim2));
       return;
     }
@@ -123,7 +123,7 @@ struct Prover {
     if (Excluded(model, internal::BoundBelow(model, Lift(ball.q, above)), above)) return;
 
     const double highest = bounds.box.max.z();
-    if (kBudget - budget > kStubborn && level % 3 == 0 &&
+    if (kBudget - budget > kPartsBeforeForms && level % 3 == 0 &&
         (ClearsForm(shape, points, piece.net.rational, highest, best.z) ||
          ClearsForm(shape, points, piece.net.rational, highest, above))) {
       return;

@@ -155,9 +155,9 @@ double Locator::MaxHeight(const Vec2& a, const Vec2& b, double half_width, doubl
     const double d = std::max(0.0, distance - half_width);
     return d * d <= r2 ? z + std::sqrt(r2 - d * d) : -kInfinity;
   };
-  const auto box = [&](const Box3& x) { return height(x.max.z(), off(Plan(x.min), Plan(x.max))); };
+  const auto box = [&](const Box3& x) { return height(x.max.z(), off(Xy(x.min), Xy(x.max))); };
   const auto oriented = [](const Vec3&, const Eigen::Matrix3d&, const Vec3&) { return kInfinity; };
-  const auto at = [&](const Vec3& p) { return height(p.z(), off(Plan(p), Plan(p))); };
+  const auto at = [&](const Vec3& p) { return height(p.z(), off(Xy(p), Xy(p))); };
   return Maximize(impl_->surface, nullptr, -kInfinity, std::max(slack, 1e-9), kInfinity, box, oriented, at) +
          impl_->slack;
 }

@@ -119,8 +119,8 @@ void PacketSearch::Walk(const Meets& meets, const OnLeaf& on_leaf) {
   const internal::WalkLimits limits = impl_.Limits();
   const auto [x0, x1] = std::minmax_element(packet_.qx, packet_.qx + kLanes);
   const auto [y0, y1] = std::minmax_element(packet_.qy, packet_.qy + kLanes);
-  const internal::PlanBox at{static_cast<float>(*x0), static_cast<float>(*x1), static_cast<float>(*y0),
-                             static_cast<float>(*y1)};
+  const internal::XyBox at{static_cast<float>(*x0), static_cast<float>(*x1), static_cast<float>(*y0),
+                           static_cast<float>(*y1)};
   internal::WalkTree(
       impl_.tree, at, limits,
       [&] { return static_cast<float>(*std::min_element(packet_.z, packet_.z + kLanes)); },
@@ -260,7 +260,7 @@ void Forecast::Start(const Locator::Impl& impl, std::span<const Vec2> q, LanePac
     start.u[k] = start.v[k] = 0.0;
     if (known_ > 0 && last_.piece[k] >= 0) {
       const Contact last = ContactOf(last_, k);
-      const double rim = impl.radius * impl.radius - (Plan(last.p) - at).squaredNorm();
+      const double rim = impl.radius * impl.radius - (Xy(last.p) - at).squaredNorm();
       if (rim >= graze * graze) {
         contact = last;
         contact.z = last.p.z() + std::sqrt(rim);
@@ -308,7 +308,7 @@ constexpr std::size_t kWorthLanes = 2;
 
 std::optional<SurfacePoint> FindObstacle(const Locator::Impl& impl, const Vec3& center) {
   thread_local Locator::Impl::OpenLeaves open;
-  const auto found = impl.TryFree(impl.BallAt(Plan(center)), center.z(), kProofGap, open);
+  const auto found = impl.TryFree(impl.BallAt(Xy(center)), center.z(), kProofGap, open);
   if (!found.contact) return std::nullopt;
   return impl.PointOf(*found.contact);
 }
@@ -344,7 +344,7 @@ void FindObstacles(const Locator& locator, std::span<const Vec3> centers,
         continue;
       }
       const Vec3& at = centers[i + k];
-      const auto found = impl.ProveFree(impl.BallAt(Plan(at)), at.z(), kProofGap, search.open(k));
+      const auto found = impl.ProveFree(impl.BallAt(Xy(at)), at.z(), kProofGap, search.open(k));
       if (found.contact) obstacles[i + k] = impl.PointOf(*found.contact);
     }
   }

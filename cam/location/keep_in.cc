@@ -17,9 +17,10 @@ bool Any(const std::vector<bool>& list) { return std::find(list.begin(), list.en
 
 }  // namespace
 
-absl::StatusOr<KeepIn> KeepIn::Make(const Surface& surface, const Containment& containment,
-                                    const KeepInParams& params, const RunContext& run) {
-  KeepIn keep;
+absl::StatusOr<OperationLimits> OperationLimits::Make(const Surface& surface, const Containment& containment,
+                                                      const OperationLimitsParams& params,
+                                                      const RunContext& run) {
+  OperationLimits keep;
   keep.surface_ = &surface;
   keep.containment_ = &containment;
   keep.params_ = params;
@@ -49,22 +50,23 @@ absl::StatusOr<KeepIn> KeepIn::Make(const Surface& surface, const Containment& c
   return keep;
 }
 
-absl::StatusOr<KeepIn> KeepIn::Within(std::shared_ptr<const SurfaceMask> part, const RunContext& run) const {
-  KeepIn keep = *this;
-  PM_ASSIGN_OR_RETURN(NearPart near, NearPart::Make(*surface_, *part, run));
-  keep.near_part_ = std::make_shared<const NearPart>(std::move(near));
+absl::StatusOr<OperationLimits> OperationLimits::Within(std::shared_ptr<const SurfaceMask> part,
+                                                        const RunContext& run) const {
+  OperationLimits keep = *this;
+  PM_ASSIGN_OR_RETURN(MaskProximity near, MaskProximity::Make(*surface_, *part, run));
+  keep.mask_proximity_ = std::make_shared<const MaskProximity>(std::move(near));
   keep.part_ = std::move(part);
   return keep;
 }
 
-bool KeepIn::Wants(const SurfacePoint& contact) const {
+bool OperationLimits::Wants(const SurfacePoint& contact) const {
   if (part_ != nullptr && !part_->Has(contact.piece, contact.u, contact.v)) return false;
   return IsWanted(*containment_, surface_->piece(contact.piece).patch, contact.p);
 }
 
-bool KeepIn::WantsNear(const SurfacePoint& contact, double distance) const {
+bool OperationLimits::WantsNear(const SurfacePoint& contact, double distance) const {
   if (part_ != nullptr && !part_->Has(contact.piece, contact.u, contact.v) &&
-      !near_part_->Within(contact.p, distance)) {
+      !mask_proximity_->Within(contact.p, distance)) {
     return false;
   }
   const PatchId patch = surface_->piece(contact.piece).patch;
@@ -73,38 +75,38 @@ bool KeepIn::WantsNear(const SurfacePoint& contact, double distance) const {
   return selected_ != nullptr && ClosestToPoint(*selected_, contact.p, distance, 0.01 * distance).has_value();
 }
 
-bool KeepIn::WantsNothingNear(const Vec3& c, double distance) const {
+bool OperationLimits::WantsNothingNear(const Vec3& c, double distance) const {
   if (ContactRoomOutside(*containment_, c) > distance) return true;
   return selected_ != nullptr && !ClosestToPoint(*selected_, c, 1.01 * distance, 0.01 * distance);
 }
 
-bool KeepIn::WantsNothing(PieceId piece, double u0, double u1, double v0, double v1, const Vec3& p,
-                          double radius) const {
+bool OperationLimits::WantsNothing(PieceId piece, double u0, double u1, double v0, double v1, const Vec3& p,
+                                   double radius) const {
   if (part_ != nullptr && !part_->HasAny(piece, u0, u1, v0, v1)) return true;
   return !IsWanted(*containment_, surface_->piece(piece).patch, p, -radius);
 }
 
-double KeepIn::OutlineRoom(const Vec3& c) const {
-  double room = BoundaryRoom(*containment_, Plan(c), params_.ball_radius);
+double OperationLimits::OutlineRoom(const Vec3& c) const {
+  double room = BoundaryRoom(*containment_, Xy(c), params_.ball_radius);
   for (const Obstacle& o : containment_->obstacles) {
     room = std::min(room, ObstacleRoom(o, Tip(c), params_.tool_radius));
   }
   return room;
 }
 
-double KeepIn::MoveRoom(const Vec3& c) const {
+double OperationLimits::MoveRoom(const Vec3& c) const {
   return std::min(OutlineRoom(c), BesideRoom(*containment_, Tip(c)));
 }
 
-bool KeepIn::TooHigh(double center_z) const {
+bool OperationLimits::TooHigh(double center_z) const {
   return TopRoom(*containment_, center_z - params_.ball_radius) < -kTopSlack;
 }
 
-double KeepIn::Room(const Vec3& c) const {
+double OperationLimits::Room(const Vec3& c) const {
   return std::min(MoveRoom(c), TopRoom(*containment_, Tip(c).z()) + kTopSlack);
 }
 
-std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q, double gap, double from) const {
+std::optional<AllowedHeights> OperationLimits::HeightsOver(const Vec2& q, double gap, double from) const {
   const double r = params_.ball_radius;
   if (BoundaryRoom(*containment_, q, r) < 0.0) return std::nullopt;
   AllowedHeights heights;
@@ -134,7 +136,7 @@ std::optional<AllowedHeights> KeepIn::HeightsOver(const Vec2& q, double gap, dou
   return heights;
 }
 
-double KeepIn::ClearHeight(const Vec2& a, const Vec2& b) const {
+double OperationLimits::ClearHeight(const Vec2& a, const Vec2& b) const {
   constexpr double kFine = 0.1;  // mm
   double clear = -kInfinity;
   // Some place of the outline lies within `beside` (mm) of the rectangle, as far as boxes tell.
@@ -144,8 +146,8 @@ double KeepIn::ClearHeight(const Vec2& a, const Vec2& b) const {
     for (const Ring& ring : outline.rings()) {
       for (const Vec2& p : ring) box.Add(Lift(p, 0.0));
     }
-    return !box.Empty() && (Plan(box.max).array() >= low.array()).all() &&
-           (Plan(box.min).array() <= high.array()).all();
+    return !box.Empty() && (Xy(box.max).array() >= low.array()).all() &&
+           (Xy(box.min).array() <= high.array()).all();
   };
   for (const Obstacle& o : containment_->obstacles) {
     if (meets(o.outline, o.margin + params_.tool_radius))
@@ -164,7 +166,7 @@ double KeepIn::ClearHeight(const Vec2& a, const Vec2& b) const {
   return clear;
 }
 
-bool KeepIn::Forbids(const Vec3& c, double radius, double above) const {
+bool OperationLimits::Forbids(const Vec3& c, double radius, double above) const {
   if (Room(c) < -radius) return true;
   const auto by = [&](const ShankLimit& shank) { return shank.Forbids(c, radius, std::min(above, radius)); };
   if (std::any_of(shanks_.begin(), shanks_.end(), by)) return true;
@@ -173,28 +175,29 @@ bool KeepIn::Forbids(const Vec3& c, double radius, double above) const {
   return radius < reach && AnythingNearUpwardRay(*avoided_, c, reach - radius, 0.25 * params_.tolerance);
 }
 
-bool KeepIn::HasRoom(const Vec3& a, const Vec3& b) const {
+bool OperationLimits::HasRoom(const Vec3& a, const Vec3& b) const {
   const Vec3 middle = 0.5 * (a + b);
   const double half = 0.5 * (b - a).norm();
   const double room = MoveRoom(middle);
-  if (room - half >= -Give()) return true;
-  if (room < -Give()) return false;
+  if (room - half >= -LimitTolerance()) return true;
+  if (room < -LimitTolerance()) return false;
   return HasRoom(a, middle) && HasRoom(middle, b);
 }
 
-bool KeepIn::ClearOfAvoided(const Vec3& a, const Vec3& b) const {
+bool OperationLimits::ClearOfAvoided(const Vec3& a, const Vec3& b) const {
   if (!avoided_locator_) return true;
-  return avoided_locator_->GougeWithin(a, b, Give(), 0.1 * Give());
+  return avoided_locator_->GougeWithin(a, b, LimitTolerance(), 0.1 * LimitTolerance());
 }
 
-bool KeepIn::ShankClears(const Vec3& a, const Vec3& b, double give) const {
-  return std::all_of(shanks_.begin(), shanks_.end(), [&](const auto& s) { return s.Clears(a, b, give); });
+bool OperationLimits::ShankClears(const Vec3& a, const Vec3& b, double allowed_penetration) const {
+  return std::all_of(shanks_.begin(), shanks_.end(),
+                     [&](const auto& s) { return s.Clears(a, b, allowed_penetration); });
 }
 
-bool KeepIn::AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const {
+bool OperationLimits::AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const {
   const double highest = std::max(Tip(a).z(), Tip(b).z());
-  if (finishing && TopRoom(*containment_, highest) < -Give()) return false;
-  return HasRoom(a, b) && ClearOfAvoided(a, b) && ShankClears(a, b, Give());
+  if (finishing && TopRoom(*containment_, highest) < -LimitTolerance()) return false;
+  return HasRoom(a, b) && ClearOfAvoided(a, b) && ShankClears(a, b, LimitTolerance());
 }
 
 }  // namespace patchmill

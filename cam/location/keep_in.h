@@ -14,7 +14,7 @@
 
 namespace patchmill {
 
-struct KeepInParams {
+struct OperationLimitsParams {
   double ball_radius = 3.0;  // mm, the ball's own
   double tool_radius = 3.0;  // mm, the wider one of ball and shank: what obstacles are kept off
   double leave = 0.0;        // mm, stock to leave: kept off avoided patches too
@@ -30,15 +30,16 @@ struct AllowedHeights {
 };
 
 // Thread-safe. Keeps references to the surface and to the containment.
-class KeepIn {
+class OperationLimits {
  public:
   // Builds the avoided and the selected patches as surfaces of their own. CANCELLED and DEADLINE_EXCEEDED
   // from `run`.
-  static absl::StatusOr<KeepIn> Make(const Surface& surface, const Containment& containment,
-                                     const KeepInParams& params, const RunContext& run);
+  static absl::StatusOr<OperationLimits> Make(const Surface& surface, const Containment& containment,
+                                              const OperationLimitsParams& params, const RunContext& run);
 
   // The same limits; of what is wanted only that part of the surface.
-  absl::StatusOr<KeepIn> Within(std::shared_ptr<const SurfaceMask> part, const RunContext& run) const;
+  absl::StatusOr<OperationLimits> Within(std::shared_ptr<const SurfaceMask> part,
+                                         const RunContext& run) const;
 
   bool HasPart() const { return part_ != nullptr; }
   bool WantsAll() const { return part_ == nullptr && containment_->WantsAll(); }
@@ -88,25 +89,25 @@ class KeepIn {
   bool AllowsMove(const Vec3& a, const Vec3& b, bool finishing) const;
 
  private:
-  KeepIn() = default;
+  OperationLimits() = default;
   Vec3 Tip(const Vec3& c) const { return c - Vec3(0.0, 0.0, params_.ball_radius); }
   double OutlineRoom(const Vec3& c) const;           // boundary and obstacles
   double MoveRoom(const Vec3& c) const;              // beside the part too
   double Room(const Vec3& c) const;                  // top_z too
   bool HasRoom(const Vec3& a, const Vec3& b) const;  // by MoveRoom
   bool ClearOfAvoided(const Vec3& a, const Vec3& b) const;
-  bool ShankClears(const Vec3& a, const Vec3& b, double give) const;
-  double Give() const { return 0.5 * params_.tolerance; }
+  bool ShankClears(const Vec3& a, const Vec3& b, double allowed_penetration) const;
+  double LimitTolerance() const { return 0.5 * params_.tolerance; }
 
   const Surface* surface_ = nullptr;
   const Containment* containment_ = nullptr;
-  KeepInParams params_;
+  OperationLimitsParams params_;
   std::shared_ptr<const Surface> selected_;         // when only some are
   std::shared_ptr<const Surface> avoided_;          // when a margin is kept from them
   std::shared_ptr<const Locator> avoided_locator_;  // ball and margin over avoided_
   std::vector<ShankLimit> shanks_;                  // of the surface, of what is avoided
   std::shared_ptr<const SurfaceMask> part_;         // null: all
-  std::shared_ptr<const NearPart> near_part_;
+  std::shared_ptr<const MaskProximity> mask_proximity_;
 };
 
 }  // namespace patchmill

@@ -66,7 +66,7 @@ struct V3 {
 };
 PM_LANE_INLINE D Dot(const V3& a, const V3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 PM_LANE_INLINE D Dot(const V3& a, const double* b) { return a.x * b[0] + a.y * b[1] + a.z * b[2]; }
-PM_LANE_INLINE D DotPlan(const V3& a, const V3& b) { return a.x * b.x + a.y * b.y; }
+PM_LANE_INLINE D DotXy(const V3& a, const V3& b) { return a.x * b.x + a.y * b.y; }
 PM_LANE_INLINE void AddTimes(V3& sum, D t, const V3& a) {
   sum.x += t * a.x;
   sum.y += t * a.y;

@@ -116,9 +116,9 @@ PM_LANE_INLINE Ended RaiseLanes(const LaneLeaf& leaf, const LaneLimits& limits, 
     D e = Dot(j.du, j.du), ef = Dot(j.du, j.dv), eg = Dot(j.dv, j.dv);
     const M above = ~(dz > 0.0);
     if (Any(run & above)) {
-      e = above ? DotPlan(j.du, j.du) : e;
-      ef = above ? DotPlan(j.du, j.dv) : ef;
-      eg = above ? DotPlan(j.dv, j.dv) : eg;
+      e = above ? DotXy(j.du, j.du) : e;
+      ef = above ? DotXy(j.du, j.dv) : ef;
+      eg = above ? DotXy(j.dv, j.dv) : eg;
     }
     const Quadratic m{e - Dot(d, j.duu), ef - Dot(d, j.duv), eg - Dot(d, j.dvv), -Dot(d, j.du),
                       -Dot(d, j.dv)};

@@ -11,7 +11,7 @@ constexpr int kMaxIterations = 200;
 constexpr int kMaxHalvings = 30;
 // Iterations after which every other step models g instead of f, steps on hollow or flat ground go as far as
 // the model falls, and a search ends whose model stays out of the ball.
-constexpr int kPatience = 6;
+constexpr int kSlowIterations = 6;
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 // Stop when the model promises less (mm of height); the last step is then taken on the Taylor polynomial,
 // whose error is of third order in a step of about 1e-4 mm.
@@ -206,8 +206,8 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
     const Box2 box{rect.u0 - s.u, rect.u1 - s.u, rect.v0 - s.v, rect.v1 - s.v};
     const bool touching = result.improved && best.u == s.u && best.v == s.v;
     const bool rise =
-        touching && iteration >= kPatience && iteration % 2 == 0 && s.d.z() > 1e-9 * ball.radius;
-    const Step step = rise ? RiseStep(s, box) : NewtonStep(s, box, iteration < kPatience);
+        touching && iteration >= kSlowIterations && iteration % 2 == 0 && s.d.z() > 1e-9 * ball.radius;
+    const Step step = rise ? RiseStep(s, box) : NewtonStep(s, box, iteration < kSlowIterations);
     const double promise = -step.to.value;  // decrease of f
 
     const double gain = std::sqrt(s.d.z() * s.d.z() + 2.0 * std::max(0.0, promise)) - s.d.z();
@@ -240,7 +240,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
         if (result.out) return end();
       }
       if (!(promise > 1e-15 * (s.f + ball.radius * ball.radius))) break;
-      if (iteration >= kPatience && !result.improved && s.f - promise >= ball.FreeF()) break;
+      if (iteration >= kSlowIterations && !result.improved && s.f - promise >= ball.FreeF()) break;
     }
 
     double t = 1.0;

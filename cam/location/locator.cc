@@ -40,7 +40,7 @@ Locator::Impl::Impl(const Surface& s, double r, internal::SearchTree t)
 void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Contact& best) const {
   const std::size_t piece = hint.piece.index();
   if (hint.piece.value < 0 || piece >= surface.pieces.size()) return;
-  const Vec2 d = Plan(hint.p) - ball.q;
+  const Vec2 d = Xy(hint.p) - ball.q;
   if (!(d.squaredNorm() < 4.0 * radius * radius)) return;  // too far to help
   internal::RaiseOnPiece(surface.pieces[piece], hint.piece.value, Rect{}, hint.u, hint.v, ball, {}, best);
 }
@@ -175,12 +175,12 @@ std::optional<CenterPoint> Locator::Height(const Vec2& q, const SurfacePoint* hi
 
 bool Locator::Free(const Vec3& c, double slack, double gap) const {
   thread_local Impl::OpenLeaves open;
-  return !impl_->TryFree(impl_->BallAt(Plan(c)), c.z() + slack, gap, open).contact;
+  return !impl_->TryFree(impl_->BallAt(Xy(c)), c.z() + slack, gap, open).contact;
 }
 
 std::optional<double> Locator::CertifiedFree(const Vec3& c, double eps) const {
   thread_local Impl::OpenLeaves open;
-  const auto found = impl_->TryFree(impl_->BallAt(Plan(c)), c.z(), std::max(eps, 1e-7), open);
+  const auto found = impl_->TryFree(impl_->BallAt(Xy(c)), c.z(), std::max(eps, 1e-7), open);
   if (found.contact) return std::nullopt;
   return found.lift;
 }
@@ -202,7 +202,7 @@ std::optional<CertifiedCenter> Locator::Correction(const Vec3& c, double gap,
   constexpr double kKnown = 1e-9;  // mm
   const auto lift = CertifiedFree(c + Vec3(0, 0, kKnown), gap);
   if (lift && *lift <= gap) return std::nullopt;
-  const auto h = CertifiedHeight(Plan(c), gap, hint);
+  const auto h = CertifiedHeight(Xy(c), gap, hint);
   if (!h || h->z + h->gap <= c.z()) return std::nullopt;
   impl_->defects.fetch_add(1, std::memory_order_relaxed);
   return h;

@@ -18,8 +18,8 @@ double Squared(const Box3& box, const Vec3& p) {
 
 }  // namespace
 
-absl::StatusOr<NearPart> NearPart::Make(const Surface& surface, const SurfaceMask& mask,
-                                        const RunContext& run) {
+absl::StatusOr<MaskProximity> MaskProximity::Make(const Surface& surface, const SurfaceMask& mask,
+                                                  const RunContext& run) {
   const int n = mask.cells();
   std::vector<std::vector<Ball>> found(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, found.size(), [&](std::size_t k) {
@@ -42,13 +42,13 @@ absl::StatusOr<NearPart> NearPart::Make(const Surface& surface, const SurfaceMas
       }
     }
   }));
-  NearPart near;
+  MaskProximity near;
   for (const auto& of_piece : found) near.balls_.insert(near.balls_.end(), of_piece.begin(), of_piece.end());
   if (!near.balls_.empty()) near.Build(0, near.balls_.size());
   return near;
 }
 
-void NearPart::Build(std::size_t begin, std::size_t end) {
+void MaskProximity::Build(std::size_t begin, std::size_t end) {
   const std::size_t here = nodes_.size();
   nodes_.emplace_back();
   Box3 box;
@@ -73,7 +73,7 @@ void NearPart::Build(std::size_t begin, std::size_t end) {
   Build(middle, end);
 }
 
-bool NearPart::Within(const Vec3& p, double distance) const {
+bool MaskProximity::Within(const Vec3& p, double distance) const {
   if (nodes_.empty()) return false;
   std::array<std::int32_t, 64> stack;
   std::size_t depth = 0;

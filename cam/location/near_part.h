@@ -14,11 +14,11 @@ namespace patchmill {
 
 // Balls around the cells along the border of a mask (a piece's sides count as border), in a tree.
 // Thread-safe.
-class NearPart {
+class MaskProximity {
  public:
   // Cost: nine surface points a cell of the border. CANCELLED and DEADLINE_EXCEEDED from `run`.
-  static absl::StatusOr<NearPart> Make(const Surface& surface, const SurfaceMask& mask,
-                                       const RunContext& run);
+  static absl::StatusOr<MaskProximity> Make(const Surface& surface, const SurfaceMask& mask,
+                                            const RunContext& run);
 
   // Some point of these cells may lie within `distance` (mm) of p. True up to a cell's size; false takes it
   // that no cell reaches beyond nine of its points by more than a tenth of what they span.

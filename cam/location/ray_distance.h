@@ -14,7 +14,7 @@ inline Vec3 ToRay(const Vec3& p, const Vec3& c) {
   return {c.x() - p.x(), c.y() - p.y(), std::max(0.0, c.z() - p.z())};
 }
 
-inline double PlanDistance2(const Box3& box, const Vec2& q) {
+inline double XyDistance2(const Box3& box, const Vec2& q) {
   const double dx = std::max({box.min.x() - q.x(), q.x() - box.max.x(), 0.0});
   const double dy = std::max({box.min.y() - q.y(), q.y() - box.max.y(), 0.0});
   return dx * dx + dy * dy;
@@ -23,7 +23,7 @@ inline double PlanDistance2(const Box3& box, const Vec2& q) {
 // True when the box is at least sqrt(limit2) away from the ray.
 inline bool BoxOutside(const Box3& box, const Vec3& c, double limit2) {
   const double dz = std::max(0.0, c.z() - box.max.z());
-  return PlanDistance2(box, Plan(c)) + dz * dz >= limit2;
+  return XyDistance2(box, Xy(c)) + dz * dz >= limit2;
 }
 
 // The same for an oriented box |(x - center) . axis.col(k)| <= half[k]. Proof: the plane through the box

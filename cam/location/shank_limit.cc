@@ -11,24 +11,25 @@ bool ShankLimit::Hits(const Vec2& a, const Vec2& b, double radius, double bottom
   return AnyInColumn(*surface_, {a, b, radius}, bottom, proof_);
 }
 
-bool ShankLimit::Clears(const Vec3& a, const Vec3& b, double give) const {
-  const double radius = radius_ - give, rise = rise_ + give;
+bool ShankLimit::Clears(const Vec3& a, const Vec3& b, double allowed_penetration) const {
+  const double radius = radius_ - allowed_penetration, rise = rise_ + allowed_penetration;
   // As low as its lower end is all along, it is no less deep in.
-  if (!Hits(Plan(a), Plan(b), radius, std::min(a.z(), b.z()) + rise)) return true;
+  if (!Hits(Xy(a), Xy(b), radius, std::min(a.z(), b.z()) + rise)) return true;
   if (std::abs(a.z() - b.z()) <= slope_) return false;
   const Vec3& low = a.z() < b.z() ? a : b;
-  if (Hits(Plan(low), Plan(low), radius, low.z() + rise)) return false;
+  if (Hits(Xy(low), Xy(low), radius, low.z() + rise)) return false;
   const Vec3 middle = 0.5 * (a + b);
-  return Clears(a, middle, give) && Clears(middle, b, give);
+  return Clears(a, middle, allowed_penetration) && Clears(middle, b, allowed_penetration);
 }
 
 bool ShankLimit::Forbids(const Vec3& c, double beside, double above) const {
-  return Hits(Plan(c), Plan(c), radius_ - beside, c.z() + above + rise_);
+  return Hits(Xy(c), Xy(c), radius_ - beside, c.z() + above + rise_);
 }
 
-double ShankLimit::LowestOver(const Vec2& q, double give, double from, double gap) const {
-  const auto highest = HighestInColumn(*surface_, {q, q, radius_ - give}, from + rise_ + give, gap);
-  return highest ? highest->p.z() - rise_ - give : -kInfinity;
+double ShankLimit::LowestOver(const Vec2& q, double allowed_penetration, double from, double gap) const {
+  const auto highest = HighestInColumn(*surface_, {q, q, radius_ - allowed_penetration},
+                                       from + rise_ + allowed_penetration, gap);
+  return highest ? highest->p.z() - rise_ - allowed_penetration : -kInfinity;
 }
 
 }  // namespace patchmill

@@ -26,13 +26,13 @@ class ShankLimit {
   // Along the whole straight move of the centre the shank is nowhere deeper in than `give` (mm). Cost: some
   // microseconds; a move along the limit as often as it changes height by `slope`, and a column as wide as a
   // bore milliseconds.
-  bool Clears(const Vec3& a, const Vec3& b, double give) const;
+  bool Clears(const Vec3& a, const Vec3& b, double allowed_penetration) const;
   // Wherever the centre is within `beside` of c in plan and at most `above` higher (mm, >= 0), the surface is
   // in it.
   bool Forbids(const Vec3& c, double beside, double above) const;
   // Lowest centre over q where the shank is no deeper in than `give`, if that is above `from` (mm);
   // -infinity otherwise. To `gap` (mm).
-  double LowestOver(const Vec2& q, double give, double from, double gap) const;
+  double LowestOver(const Vec2& q, double allowed_penetration, double from, double gap) const;
 
  private:
   bool Hits(const Vec2& a, const Vec2& b, double radius, double bottom) const;

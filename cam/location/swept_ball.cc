@@ -23,11 +23,11 @@ double ChordDistance2(double d0, double d1, double length) {
 }
 
 Vec3 SweptBall::Nearest(const Vec3& p) const {
-  const Vec2 e = Plan(b_) - Plan(a_);
+  const Vec2 e = Xy(b_) - Xy(a_);
   const double length = e.norm();
   if (!(length > 0.0)) return {a_.x(), a_.y(), std::max(p.z(), std::min(a_.z(), b_.z()))};
   // In the vertical plane through the move: x along it, z up. K is everything above the segment.
-  const double x = (Plan(p) - Plan(a_)).dot(e) / length;
+  const double x = (Xy(p) - Xy(a_)).dot(e) / length;
   const Vec2 in_plane(x, p.z());
   const Vec2 a(0.0, a_.z()), b(length, b_.z());
   Vec2 best;
@@ -41,7 +41,7 @@ Vec3 SweptBall::Nearest(const Vec3& p) const {
       return (s - in_plane).squaredNorm() < (t - in_plane).squaredNorm();
     });
   }
-  return Lift(Plan(a_) + (best.x() / length) * e, best.y());
+  return Lift(Xy(a_) + (best.x() / length) * e, best.y());
 }
 
 double SweptBall::DistanceBelow(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half) const {

@@ -119,7 +119,7 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
   const double radius = impl.radius;
   const auto limit =
       static_cast<float>(distance * distance + 1e-6 * radius * radius + 4e-6 * radius * impl.reach);
-  const Vec2 move = Plan(b) - Plan(a);
+  const Vec2 move = Xy(b) - Xy(a);
   const double plan_length = move.norm();
   const Vec2 across =
       plan_length > 0.0 ? Vec2(-move.y() / plan_length, move.x() / plan_length) : Vec2(Vec2::Zero());
@@ -129,7 +129,7 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
   const Float4 qy1 = Splat(static_cast<float>(std::max(a.y(), b.y())));
   const Float4 lowest = Splat(static_cast<float>(std::min(a.z(), b.z())));
   const Float4 nx = Splat(static_cast<float>(across.x())), ny = Splat(static_cast<float>(across.y()));
-  const Float4 offset = Splat(static_cast<float>(across.dot(Plan(a))));
+  const Float4 offset = Splat(static_cast<float>(across.dot(Xy(a))));
   const Float4 zero = Splat(0.0F), half = Splat(0.5F);
   const bool is_long = plan_length > radius;
   // With what rounding hides of squares as large as the chord's.

@@ -11,14 +11,14 @@ namespace {
 constexpr double kCertainty = 1e-4;
 constexpr double kOff =
     0.05;  // how far off those known the next is looked for; that may be kOff^2 / 2 farther
-constexpr double kApart = 0.1;
+constexpr double kMinSeparation = 0.1;
 constexpr std::size_t kMost = 4;
 
 }  // namespace
 
-std::vector<SurfacePoint> Touched(const Surface& surface, const Vec3& c, double radius, double slack) {
+std::vector<SurfacePoint> ContactPoints(const Surface& surface, const Vec3& c, double radius, double slack) {
   std::vector<SurfacePoint> places;
-  const auto nearest = ClosestToPoint(surface, c, kTouchedReach * radius, kCertainty * radius);
+  const auto nearest = ClosestToPoint(surface, c, kContactReach * radius, kCertainty * radius);
   if (!nearest) return places;
   places.push_back(nearest->at);
   const double least = (nearest->at.p - c).norm();
@@ -30,10 +30,10 @@ std::vector<SurfacePoint> Touched(const Surface& surface, const Vec3& c, double 
     }
     if (!(off.norm() > 0.0)) break;
     const auto next = ClosestToPoint(surface, c + kOff * radius * off.normalized(),
-                                     (kTouchedReach + kOff) * radius, kCertainty * radius);
+                                     (kContactReach + kOff) * radius, kCertainty * radius);
     if (!next || (next->at.p - c).norm() > least + slack) break;
     const bool known = std::any_of(places.begin(), places.end(), [&](const SurfacePoint& place) {
-      return (place.p - next->at.p).norm() <= kApart * radius;
+      return (place.p - next->at.p).norm() <= kMinSeparation * radius;
     });
     if (known) break;
     places.push_back(next->at);

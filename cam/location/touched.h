@@ -7,12 +7,12 @@
 
 namespace patchmill {
 
-inline constexpr double kTouchedReach = 1.1;  // of the radius: nothing farther counts
+inline constexpr double kContactReach = 1.1;  // of the radius: nothing farther counts
 
 // The nearest point of the surface to c, and up to three more that are as near to within `slack` (mm, from
 // 0.002 to 0.04 `radius`) and lie more than a tenth of a radius apart: the floor, and the walls around it.
-// None farther than kTouchedReach. A place is found from a little off those known before: what lies between
+// None farther than kContactReach. A place is found from a little off those known before: what lies between
 // two others may be missed. Cost: a closest point for each, and one more.
-std::vector<SurfacePoint> Touched(const Surface& surface, const Vec3& c, double radius, double slack);
+std::vector<SurfacePoint> ContactPoints(const Surface& surface, const Vec3& c, double radius, double slack);
 
 }  // namespace patchmill

@@ -12,7 +12,7 @@
 namespace patchmill::internal {
 
 // Where the balls' centres are in plan.
-struct PlanBox {
+struct XyBox {
   float x0, x1, y0, y1;
 };
 
@@ -27,7 +27,7 @@ struct WalkLimits {
 // limits.square, and whose half-space does, and so on for the nodes above it.
 // `lowest` may rise from call to call. meets(node, k): child k of the node, which does so, is wanted.
 template <class Lowest, class Meets, class Visit>
-void WalkTree(const SearchTree& tree, const PlanBox& at, const WalkLimits& limits, const Lowest& lowest,
+void WalkTree(const SearchTree& tree, const XyBox& at, const WalkLimits& limits, const Lowest& lowest,
               const Meets& meets, const Visit& visit) {
   const float limit = limits.square;
   // A node or leaf still to visit: its squared distance in plan, and how high it reaches.
@@ -76,7 +76,7 @@ void WalkTree(const SearchTree& tree, const PlanBox& at, const WalkLimits& limit
 }
 
 template <class Lowest, class Visit>
-void WalkTree(const SearchTree& tree, const PlanBox& at, const WalkLimits& limits, const Lowest& lowest,
+void WalkTree(const SearchTree& tree, const XyBox& at, const WalkLimits& limits, const Lowest& lowest,
               const Visit& visit) {
   WalkTree(
       tree, at, limits, lowest, [](const SearchNode&, int) { return true; }, visit);

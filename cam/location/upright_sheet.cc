@@ -13,9 +13,9 @@ constexpr int kMostParts = 400;
 constexpr double kSameWeight = 4.0 * std::numeric_limits<double>::epsilon();
 
 // Rows along z: `along` points of `across` each, `stride` and `step` apart.
-std::optional<PlanCurve> Swept(const Vec4* points, int along, int stride, int across, int step,
-                               double rounding) {
-  PlanCurve curve;
+std::optional<XyCurve> Swept(const Vec4* points, int along, int stride, int across, int step,
+                             double rounding) {
+  XyCurve curve;
   curve.degree = along - 1;
   for (int i = 0; i < along; ++i) {
     const Vec4& first = points[i * stride];
@@ -35,13 +35,13 @@ std::optional<PlanCurve> Swept(const Vec4* points, int along, int stride, int ac
 
 }  // namespace
 
-std::optional<PlanCurve> PlanCurveOf(NetShape shape, const Vec4* points, double rounding) {
+std::optional<XyCurve> XyCurveOf(NetShape shape, const Vec4* points, double rounding) {
   const int rows = shape.degree_u + 1, columns = shape.degree_v + 1;
   if (auto curve = Swept(points, rows, columns, columns, 1, rounding)) return curve;
   return Swept(points, columns, 1, rows, columns, rounding);
 }
 
-bool OutsideInPlan(const PlanCurve& curve, const Vec2& q, double radius) {
+bool OutsideInXy(const XyCurve& curve, const Vec2& q, double radius) {
   std::array<Vec4, kMaxDegree + 1> local = curve.points;
   for (Vec4& p : local) p.head<2>() -= p.w() * q;
   DistanceForm form;

@@ -11,7 +11,7 @@
 namespace patchmill::internal {
 
 // Homogeneous: (x w, y w, 0, w).
-struct PlanCurve {
+struct XyCurve {
   int degree = 0;
   std::array<Vec4, kMaxDegree + 1> points{};
   double spread = 0.0;  // mm: how far points of the sheet lie from the curve in plan at most
@@ -19,12 +19,12 @@ struct PlanCurve {
 
 // The curve in plan of a net whose rows or columns are upright, to `rounding` (mm); nullopt for any other net
 // or where a point has no weight.
-std::optional<PlanCurve> PlanCurveOf(NetShape shape, const Vec4* points, double rounding);
+std::optional<XyCurve> XyCurveOf(NetShape shape, const Vec4* points, double rounding);
 
 // Is no point of the curve nearer to q than `radius` (mm)? True is proven: its distance form (core/surface)
 // has no negative coefficient in any of the parts it is divided into (by halves, quadratic convergence: about
 // 40 parts where a circle touches), beyond what rounding explains. False: some point is nearer, or nothing
 // could be proven.
-bool OutsideInPlan(const PlanCurve& curve, const Vec2& q, double radius);
+bool OutsideInXy(const XyCurve& curve, const Vec2& q, double radius);
 
 }  // namespace patchmill::internal

@@ -19,7 +19,7 @@ inline std::optional<Vec3> AcrossFeed(const Vec3& e, const Vec3& feed) {
 inline std::optional<Vec3> AcrossContours(const Vec3& e) { return AcrossFeed(e, Vec3(e.y(), -e.x(), 0.0)); }
 // Lines whose plan runs along `line`, a unit vector, or along `angle` (rad from the x axis).
 inline std::optional<Vec3> AcrossLines(const Vec3& e, const Vec2& line) {
-  return AcrossFeed(e, Lift(line * e.z(), -line.dot(Plan(e))));
+  return AcrossFeed(e, Lift(line * e.z(), -line.dot(Xy(e))));
 }
 inline std::optional<Vec3> AcrossLines(const Vec3& e, double angle) {
   return AcrossLines(e, Vec2(std::cos(angle), std::sin(angle)));

@@ -35,8 +35,8 @@ struct Stand {
 // come within `near` of that. `last`: at a place nearby.
 std::optional<Stand> BallTouching(const Locator& locator, double gap, const Vec3& p, double near,
                                   const std::optional<Stand>& last) {
-  Vec2 q = Plan(p), before_q = q, before_off = Vec2::Zero();
-  if (last) q += Plan(last->center - last->contact.p);
+  Vec2 q = Xy(p), before_q = q, before_off = Vec2::Zero();
+  if (last) q += Xy(last->center - last->contact.p);
   const SurfacePoint* hint = last ? &last->contact : nullptr;
   std::optional<CenterPoint> at;
   for (int k = 0; k < kSteps; ++k) {
@@ -45,7 +45,7 @@ std::optional<Stand> BallTouching(const Locator& locator, double gap, const Vec3
     const SurfacePoint& contact = at->contact;
     const auto n = UpwardNormal(Evaluate(locator.surface(), contact.piece, contact.u, contact.v));
     if (!n) return std::nullopt;
-    const Vec2 off = Plan(p + locator.radius() * *n) - q;
+    const Vec2 off = Xy(p + locator.radius() * *n) - q;
     if (off.norm() <= near && (p - contact.p).norm() <= near) return Stand{Lift(q, at->z), contact};
     double lag = 1.0;
     if (k > 0) {
@@ -90,8 +90,8 @@ class BorderWalk {
       const int line = lines_.FindNearest(c, kReach * flat_).segment;
       if (line < 0) continue;
       const PathSegment segment = lines_.segment(line);
-      const Vec2 runs = Plan(segment.b - segment.a);
-      const Vec2 way = Plan(points[std::min(i + 1, points.size() - 1)] - points[i > 0 ? i - 1 : 0]);
+      const Vec2 runs = Xy(segment.b - segment.a);
+      const Vec2 way = Xy(points[std::min(i + 1, points.size() - 1)] - points[i > 0 ? i - 1 : 0]);
       // Drops have no direction.
       const double size = runs.norm() * way.norm();
       place.along = runs.norm() > 1e-6 * (segment.b - segment.a).norm() && size > 0.0 &&
@@ -158,7 +158,7 @@ absl::StatusOr<std::vector<CutterPath>> BorderPasses(const Locator& locator,
     const std::vector<BorderPlace> places = walk.Look(borders[k], run);
     for (const BorderWalk::Stretch& s : walk.Stretches(places)) {
       std::vector<Vec2> at;
-      for (std::size_t i = s.first; i <= s.last; ++i) at.push_back(Plan(places[i].stand->center));
+      for (std::size_t i = s.first; i <= s.last; ++i) at.push_back(Xy(places[i].stand->center));
       for (ScanRun& r : ScanPolyline(locator, Thinned(at, kTouch * walk.flat()), params, &run)) {
         if (r.points.size() < 2) continue;
         found[k].push_back({.kind = PassKind::kBorder, .points = std::move(r.points)});

@@ -52,7 +52,7 @@ bool TooBent(const std::array<Vec3, 9>& f, double size) {
 
 bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const CellReachParams& params,
                 Blockers& blockers, const SidesRuledOut& ruled_out) {
-  const double limit = params.radius - params.give;
+  const double limit = params.radius - params.reach_tolerance;
   const double turn = BendOver(at.n);
   for (std::size_t side = 0; side < 2; ++side) {
     if (ruled_out[side]) continue;
@@ -71,7 +71,7 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
     if (up <= 2.0 * kUprightFace && sign * at.air_side < 0.0) continue;  // the back of a wall
     const double bend = BendOver(c);
     if (TooBent(c, size)) return false;
-    if (highest_center + bend < params.floor_z - params.give) continue;
+    if (highest_center + bend < params.floor_z - params.reach_tolerance) continue;
     const auto farthest = [&](const SurfacePoint& q) {
       double most = 0.0;
       for (std::size_t k = 0; k < 4; ++k) most = std::max(most, internal::ToRay(q.p, c[k]).norm());

@@ -35,7 +35,8 @@ bool TooBent(const std::array<Vec3, 9>& f, double size);
 
 struct CellReachParams {
   double radius = 0.0;  // mm: centres lie at p + radius n
-  double give = 0.0;    // mm: how deep the surface may lie inside the ball, and centres below the floor
+  double reach_tolerance =
+      0.0;  // mm: how deep the surface may lie inside the ball, and centres below the floor
   double floor_z = -kInfinity;  // mm: lowest centre height
   // mm: where the deepest point is not in the way by more than it is known, it is known to this; 0: as it is.
   // For places that are known not to be free.

@@ -11,7 +11,7 @@ struct StepNeed {
   double weight = 1.0;  // its length along the passes, in any unit, the same for all
 };
 
-inline constexpr double kWayToRun = 2.0;  // ball radii: what the way to one run more costs
+inline constexpr double kRunCost = 2.0;  // ball radii: what the way to one run more costs
 
 // mm, in [least, most]: the step at which the full passes and those added where the step is cut into parts
 // (PartsOfGap) have the least length, among the needs' own steps at 17 shares of their weight. Sorts the

@@ -49,9 +49,9 @@ double ChordGouge(double radius, const Vec3& a, const Vec3& b, std::span<const V
       // Straight above the centre where the move passes there, else at its foot.
       const Vec3& c = free[k];
       t = (c - a).dot(move) / (length * length);
-      const double plan2 = Plan(move).squaredNorm();
+      const double plan2 = Xy(move).squaredNorm();
       if (plan2 > 0.0) {
-        const double over = Plan(Vec3(c - a)).dot(Plan(move)) / plan2;
+        const double over = Xy(Vec3(c - a)).dot(Xy(move)) / plan2;
         if (a.z() + over * move.z() >= c.z()) t = over;
       }
       t = std::clamp(t, t0, 1.0);

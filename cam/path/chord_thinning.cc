@@ -10,15 +10,15 @@ namespace patchmill {
 namespace {
 
 // A second contact this far from the first one, in radii, makes a vertex of its own.
-constexpr double kApart = 1e-3;
+constexpr double kSecondContact = 1e-3;
 
 const SurfacePoint* Known(const std::optional<SurfacePoint>& contact) {
   return contact ? &*contact : nullptr;
 }
 
-CutterPoint Certify(const Locator& locator, const LineStation& s, double gap) {
+CutterPoint Certify(const Locator& locator, const TraceStation& s, double gap) {
   CutterPoint p{Lift(s.q, s.z), s.left, {}};
-  if (s.left && s.right && (s.left->p - s.right->p).norm() > kApart * locator.radius()) {
+  if (s.left && s.right && (s.left->p - s.right->p).norm() > kSecondContact * locator.radius()) {
     p.other_contact = s.right;
   }
   if (!s.left) p.other_contact = s.right;
@@ -49,10 +49,10 @@ ChordLimits LimitsOf(const PassParams& params) {
 }
 
 // The way out of the ground in plan, where all contacts are beside the ball rather than below it.
-std::optional<Vec3> AwayInPlan(const CutterPoint& p) {
+std::optional<Vec3> AwayInXy(const CutterPoint& p) {
   if (!p.contact) return std::nullopt;
-  Vec2 away = Plan(Vec3(p.center - p.contact->p));
-  if (p.other_contact) away = away.normalized() + Plan(Vec3(p.center - p.other_contact->p)).normalized();
+  Vec2 away = Xy(Vec3(p.center - p.contact->p));
+  if (p.other_contact) away = away.normalized() + Xy(Vec3(p.center - p.other_contact->p)).normalized();
   if (!(away.norm() > 0.0)) return std::nullopt;
   return Lift(away.normalized(), 0.0);
 }
@@ -63,7 +63,7 @@ void ThinContour(const Locator& locator, const PassParams& params, const RunCont
   std::vector<ChordStation> stations(count);
   for (std::size_t k = 0; k < count; ++k) {
     const CutterPoint& p = path.points[k % n];
-    const std::optional<Vec3> away = AwayInPlan(p);
+    const std::optional<Vec3> away = AwayInXy(p);
     if (!away) return;
     stations[k] = {.center = p.center,
                    .away = *away,
@@ -92,13 +92,13 @@ double CertificateGap(const PassParams& params) {
   return std::clamp(params.certificate_gap, 1e-7, std::max(1e-7, 0.1 * ExcessTolerance(params)));
 }
 
-std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
+std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<TraceStation>& stations,
                                       const PassParams& params, const RunContext* run) {
   ChordLimits limits = LimitsOf(params);
   limits.floor_center = params.floor_z + locator.radius();
   std::vector<ChordStation> chord_stations;
   chord_stations.reserve(stations.size());
-  for (const LineStation& s : stations) {
+  for (const TraceStation& s : stations) {
     chord_stations.push_back({.center = Lift(s.q, s.z),
                               .left = Known(s.left),
                               .right = Known(s.right),

@@ -20,7 +20,7 @@ double CertificateGap(const PassParams& params);
 // take more than they may leave. Stations' neighbours must be joined by chords within params.chord_tolerance
 // and ExcessTolerance(params), each less CertificateGap(params), already. `run` is polled when set:
 // cancelled, the vertices end early.
-std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<LineStation>& stations,
+std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<TraceStation>& stations,
                                       const PassParams& params, const RunContext* run = nullptr);
 
 using ThinWhich = std::function<bool(const CutterPath&)>;

@@ -26,7 +26,7 @@ void ContourFindings::Take(const LevelContours& level, Levels* of) {
   of->where = level.ambiguous_cells > 0 ? std::optional<Vec3>(level.ambiguous_at) : std::nullopt;
 }
 
-Diagnostics ContourFindings::Told() const {
+Diagnostics ContourFindings::Findings() const {
   Diagnostics findings;
   const auto tell = [&](const char* code, Severity severity, const Levels& levels, const std::string& what) {
     if (levels.count == 0) return;

@@ -18,7 +18,7 @@ class ContourFindings {
   // At most one of each, told at a place of the worst level: CONTOUR_COARSE (warning) with the resolution
   // held in place of the one asked for, CONTOUR_AMBIGUOUS (info) with how many cells were left undecided, and
   // their size.
-  Diagnostics Told() const;
+  Diagnostics Findings() const;
 
  private:
   struct Levels {

@@ -18,15 +18,16 @@ HeightParams HeightParamsOf(const ContourParams& params, double radius) {
           .wide = WideGap(params.scallop, params.chord_tolerance)};
 }
 
-absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground, const ContourParams& params,
-                                                     double radius, std::optional<double> foot,
+absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourArea& contour_area,
+                                                     const ContourParams& params, double radius,
+                                                     std::optional<double> base_level,
                                                      const RunContext& run) {
   std::vector<PlannedLevel> levels;
-  if (ground.samples.empty()) return levels;
+  if (contour_area.samples.empty()) return levels;
   HeightParams height_params = HeightParamsOf(params, radius);
-  height_params.foot = foot;
+  height_params.base_level = base_level;
   const double flat = height_params.flat, smallest = height_params.smallest;
-  PM_ASSIGN_OR_RETURN(LevelPlan plan, LevelHeights(ground, height_params, run));
+  PM_ASSIGN_OR_RETURN(LevelPlan plan, LevelHeights(contour_area, height_params, run));
   std::vector<double>& heights = plan.heights;
   const double floor = params.floor_z + radius;
   for (double& z : heights) z = std::max(z, floor);
@@ -36,14 +37,14 @@ absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground
                 heights.end());
 
   // Samples that need more than they got.
-  std::vector<ContourSample> sorted = ground.samples;
+  std::vector<ContourSample> sorted = contour_area.samples;
   std::stable_sort(sorted.begin(), sorted.end(), [](const ContourSample& a, const ContourSample& b) {
     return a.center.z() > b.center.z();
   });
   std::size_t next = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double z = heights[i];
-    if (foot && i + 1 == heights.size()) break;
+    if (base_level && i + 1 == heights.size()) break;
     const double gap = i + 1 < heights.size() ? z - heights[i + 1] : i > 0 ? heights[i - 1] - z : flat;
     levels.push_back({z, std::min(gap, kMostGap * flat), false, {}});
     if (i + 1 == heights.size()) break;

@@ -20,9 +20,9 @@ struct PlannedLevel {
 // levels that cut it into as many parts as each spot needs. What needs steps below min_step_fraction of the
 // flat one gets those; no level lies below floor_z + radius. Cost O(n log n), and LevelHeights.
 // `foot`: a level of the ground below that these stand on, which is the lowest and not among them.
-absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourGround& ground, const ContourParams& params,
-                                                     double radius, std::optional<double> foot,
-                                                     const RunContext& run);
+absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourArea& contour_area,
+                                                     const ContourParams& params, double radius,
+                                                     std::optional<double> base_level, const RunContext& run);
 
 // What heights follow from, of a ball of `radius` (mm).
 HeightParams HeightParamsOf(const ContourParams& params, double radius);

@@ -24,7 +24,7 @@ namespace patchmill {
 namespace {
 
 // Ball radii: how far contours run beside the samples of their ground, half way around a knife's edge.
-constexpr double kBesideGround = 1.5;
+constexpr double kBesideSamples = 1.5;
 // Lines of different families are no neighbours (order_passes.h).
 constexpr int kBetweenFamilies = 4;
 constexpr double kSameHeight = 1e-6;  // mm
@@ -37,8 +37,8 @@ struct LevelPasses {
 // The levels of a ground, or of several that want the same ones.
 struct LevelFamily {
   std::vector<PlannedLevel> levels;
-  std::vector<Vec3> centers;      // of their samples
-  std::optional<PlanMask> where;  // their contours may run; none: everywhere
+  std::vector<Vec3> centers;           // of their samples
+  std::optional<NearSpotsMask> where;  // their contours may run; none: everywhere
 };
 
 bool SameLevels(const std::vector<PlannedLevel>& a, const std::vector<PlannedLevel>& b) {
@@ -49,7 +49,7 @@ bool SameLevels(const std::vector<PlannedLevel>& a, const std::vector<PlannedLev
 
 struct LevelFamilies {
   std::vector<LevelFamily> families;
-  std::vector<std::size_t> of_ground;
+  std::vector<std::size_t> of_group;
   std::size_t levels = 0;
 };
 
@@ -61,20 +61,21 @@ std::vector<double> FullLevels(const LevelFamily& family) {
   return heights;
 }
 
-absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGrounds& grounds, const ContourParams& params,
+absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGroups& groups, const ContourParams& params,
                                            double radius, const RunContext& run) {
   LevelFamilies planned;
   std::vector<LevelFamily>& families = planned.families;
   const double flat = HeightParamsOf(params, radius).flat;
-  for (std::size_t k = 0; k < grounds.size(); ++k) {
-    std::optional<double> foot;
-    if (const auto& on = grounds.foot(k))
-      foot = LevelBelow(FullLevels(families[planned.of_ground[on->ground]]), on->below, flat);
-    PM_ASSIGN_OR_RETURN(std::vector<PlannedLevel> levels, PlanLevels(grounds[k], params, radius, foot, run));
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    std::optional<double> base_level;
+    if (const auto& on = groups.base_level(k))
+      base_level = LevelBelow(FullLevels(families[planned.of_group[on->group]]), on->below, flat);
+    PM_ASSIGN_OR_RETURN(std::vector<PlannedLevel> levels,
+                        PlanLevels(groups[k], params, radius, base_level, run));
     const auto same = std::find_if(families.begin(), families.end(), [&](const LevelFamily& family) {
       return SameLevels(family.levels, levels);
     });
-    planned.of_ground.push_back(static_cast<std::size_t>(same - families.begin()));
+    planned.of_group.push_back(static_cast<std::size_t>(same - families.begin()));
     if (same == families.end()) {
       planned.levels += levels.size();
       families.push_back({std::move(levels), {}, std::nullopt});
@@ -84,11 +85,11 @@ absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGrounds& grounds, const Co
         spots.insert(spots.end(), levels[i].spots.begin(), levels[i].spots.end());
       }
     }
-    for (const ContourSample& sample : grounds[k].samples)
-      families[planned.of_ground.back()].centers.push_back(sample.center);
+    for (const ContourSample& sample : groups[k].samples)
+      families[planned.of_group.back()].centers.push_back(sample.center);
   }
   if (families.size() > 1) {
-    for (LevelFamily& family : families) family.where.emplace(family.centers, kBesideGround * radius);
+    for (LevelFamily& family : families) family.where.emplace(family.centers, kBesideSamples * radius);
   }
   return planned;
 }
@@ -101,12 +102,12 @@ struct FamilyLevel {
 
 class PassTracer {
  public:
-  PassTracer(const LevelContext& context, const LevelGrounds& grounds, const LevelFamilies& planned,
+  PassTracer(const LevelContext& context, const LevelGroups& groups, const LevelFamilies& planned,
              const ContourParams& params, const RunContext& run)
       : context_(context),
-        grounds_(grounds),
+        groups_(groups),
         families_(planned.families),
-        family_of_(planned.of_ground),
+        family_of_(planned.of_group),
         params_(params),
         run_(run) {}
 
@@ -117,21 +118,21 @@ class PassTracer {
     clip.window = params_.window;
     clip.roll = params_.roll;
     clip.overlap = 0.5 * CenterStep(context_.locator.radius(), params_.scallop, 0.0);
-    std::optional<PlanMask> near_spots;
+    std::optional<NearSpotsMask> near_spots;
     if (planned.partial) {
       clip.spots = planned.spots;
-      clip.near = ReachOfSpot(grounds_[0].spacing, planned.gap);
+      clip.near = ReachOfSpot(groups_[0].spacing, planned.gap);
       near_spots.emplace(planned.spots, clip.near + 2.0 * clip.overlap);
     }
-    const std::optional<PlanMask>& where = near_spots ? near_spots : family.where;
+    const std::optional<NearSpotsMask>& where = near_spots ? near_spots : family.where;
     LevelPasses passes{{}, TracePasses(context_, planned.z, where ? &*where : nullptr, params_, run_)};
     const std::vector<CutterPath> loops = std::exchange(passes.level.loops, {});
     for (const CutterPath& loop : loops) {
       if (run_.Cancelled()) break;
       for (CutterPath& part : ClipLoop(context_, loop, clip)) {
-        if (families_.size() > 1 && grounds_.FamilyUnder(part, family_of_) != at.family) continue;
+        if (families_.size() > 1 && groups_.FamilyUnder(part, family_of_) != at.family) continue;
         CertifyCenters(context_.locator, CertificateGap(params_), part);
-        part.line = at.line;
+        part.order_key = at.line;
         passes.paths.push_back(std::move(part));
       }
     }
@@ -140,7 +141,7 @@ class PassTracer {
 
  private:
   const LevelContext& context_;
-  const LevelGrounds& grounds_;
+  const LevelGroups& groups_;
   const std::vector<LevelFamily>& families_;
   const std::vector<std::size_t>& family_of_;
   const ContourParams& params_;
@@ -158,24 +159,24 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
                                            const RunContext& run) {
   const LevelContext context(locator, run);
   PM_RETURN_IF_ERROR(run.Check());
-  PM_ASSIGN_OR_RETURN(ContourGround ground, SampleGround(context, params, run));
+  PM_ASSIGN_OR_RETURN(ContourArea contour_area, SampleContourArea(context, params, run));
   const double radius = locator.radius();
   const HeightParams heights = HeightParamsOf(params, radius);
   const auto contours = [&](double z) -> std::vector<CutterPath> {
     std::vector<Vec3> here;  // elsewhere this height has no passes, and none that hang together
-    for (const ContourSample& s : ground.samples) {
+    for (const ContourSample& s : contour_area.samples) {
       if (z > s.center.z() - s.down - heights.flat && z < s.center.z() + s.up + heights.flat)
         here.push_back(s.center);
     }
     if (here.empty()) return {};
-    const PlanMask where(here, kBesideGround * radius);
+    const NearSpotsMask where(here, kBesideSamples * radius);
     return TracePasses(context, z, &where, params, run).loops;
   };
-  PM_ASSIGN_OR_RETURN(LevelGrounds grounds, LevelGrounds::Make(ground, heights, contours, run));
-  PM_ASSIGN_OR_RETURN(LevelFamilies planned, PlanFamilies(grounds, params, radius, run));
+  PM_ASSIGN_OR_RETURN(LevelGroups groups, LevelGroups::Make(contour_area, heights, contours, run));
+  PM_ASSIGN_OR_RETURN(LevelFamilies planned, PlanFamilies(groups, params, radius, run));
   if (planned.levels > kMostLevels) {  // apart; together they may need fewer
-    grounds = LevelGrounds(std::move(ground));
-    PM_ASSIGN_OR_RETURN(planned, PlanFamilies(grounds, params, radius, run));
+    groups = LevelGroups(std::move(contour_area));
+    PM_ASSIGN_OR_RETURN(planned, PlanFamilies(groups, params, radius, run));
   }
   if (planned.levels > kMostLevels) {
     return TooManyLevels(static_cast<double>(planned.levels));
@@ -187,7 +188,7 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
     for (std::size_t i = 0; i < families[k].levels.size(); ++i) levels.push_back({k, i, line++});
     line += kBetweenFamilies;
   }
-  const PassTracer tracer(context, grounds, planned, params, run);
+  const PassTracer tracer(context, groups, planned, params, run);
   std::vector<LevelPasses> passes(levels.size());
   PM_RETURN_IF_ERROR(CountedFor(run, "contours", levels.size(), params.budget, [&](std::size_t i) {
     passes[i] = tracer.At(levels[i]);
@@ -200,7 +201,7 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
     for (CutterPath& path : of.paths) result.paths.push_back(std::move(path));
     findings.Take(of.level);
   }
-  result.findings = findings.Told();
+  result.findings = findings.Findings();
   return result;
 }
 

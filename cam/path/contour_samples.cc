@@ -63,7 +63,7 @@ class PieceSampler {
                const Fineness& fineness)
       : context_(context), params_(params), piece_(piece), spacing_(spacing), fineness_(fineness) {}
 
-  void Run(const RunContext& run, ContourGround& ground) {
+  void Run(const RunContext& run, ContourArea& contour_area) {
     const auto count = [&](bool along_u) {
       double longest = 0.0;
       for (const double other : {0.0, 0.5, 1.0}) {
@@ -96,7 +96,7 @@ class PieceSampler {
         Extent here, beyond;
         for (const auto& [di, dj] : {std::pair{1, 0}, std::pair{0, 1}, std::pair{-1, 0}, std::pair{0, -1}}) {
           if (i + di < 0 || i + di > nu || j + dj < 0 || j + dj > nv) {
-            BorderEnd(n, i, j, di, dj, nu, nv, ground.lower_ends);
+            BorderEnd(n, i, j, di, dj, nu, nv, contour_area.lower_ends);
             continue;
           }
           const Node& m = nodes[index(i + di, j + dj)];
@@ -106,20 +106,20 @@ class PieceSampler {
           if (m.steep && !m.reachable && rise < 0.0)
             ends_.push_back({uv, Vec2(double(i + di) / nu, double(j + dj) / nv), n.center, m.center.z()});
           if (m.reachable && di + dj < 0) {  // m has its sample already
-            ground.neighbors.emplace_back(sample[index(i + di, j + dj)], ground.samples.size());
-            ground.widest = std::max(ground.widest, (m.p - n.p).norm());
+            contour_area.neighbors.emplace_back(sample[index(i + di, j + dj)], contour_area.samples.size());
+            contour_area.widest = std::max(contour_area.widest, (m.p - n.p).norm());
           }
         }
-        sample[index(i, j)] = ground.samples.size();
-        ground.samples.push_back(SampleOf(n, here, n.center, n.step));
+        sample[index(i, j)] = contour_area.samples.size();
+        contour_area.samples.push_back(SampleOf(n, here, n.center, n.step));
         if (n.other_step > 0.0) {
-          ground.neighbors.emplace_back(ground.samples.size() - 1, ground.samples.size());
+          contour_area.neighbors.emplace_back(contour_area.samples.size() - 1, contour_area.samples.size());
           const Vec3 center = n.p - context_.locator.radius() * n.normal;
-          ground.samples.push_back(SampleOf(n, beyond, center, n.other_step));
+          contour_area.samples.push_back(SampleOf(n, beyond, center, n.other_step));
         }
       }
     }
-    SolveEnds(run, ground.lower_ends);
+    SolveEnds(run, contour_area.lower_ends);
   }
 
  private:
@@ -264,26 +264,27 @@ class PieceSampler {
 
 }  // namespace
 
-absl::StatusOr<ContourGround> SampleGround(const LevelContext& context, const ContourParams& params,
-                                           const RunContext& run) {
+absl::StatusOr<ContourArea> SampleContourArea(const LevelContext& context, const ContourParams& params,
+                                              const RunContext& run) {
   const Surface& surface = context.locator.surface();
   double area = 0.0;
   for (const SurfaceLeaf& leaf : surface.leaves) area += 4.0 * leaf.half().x() * leaf.half().y();
-  ContourGround ground;
-  ground.spacing = std::max(context.locator.radius() / 6.0, std::sqrt(area / kMostSamples));
-  std::vector<ContourGround> parts(surface.pieces.size());
+  ContourArea contour_area;
+  contour_area.spacing = std::max(context.locator.radius() / 6.0, std::sqrt(area / kMostSamples));
+  std::vector<ContourArea> parts(surface.pieces.size());
   const std::vector<Fineness> fineness = BendOfPieces(context);
   PM_RETURN_IF_ERROR(ParallelFor(run, "contours: ground", parts.size(), [&](std::size_t i) {
-    PieceSampler(context, params, PieceId(i), ground.spacing, fineness[i]).Run(run, parts[i]);
+    PieceSampler(context, params, PieceId(i), contour_area.spacing, fineness[i]).Run(run, parts[i]);
   }));
-  for (ContourGround& part : parts) {
-    const std::size_t before = ground.samples.size();
-    for (const auto& [a, b] : part.neighbors) ground.neighbors.emplace_back(before + a, before + b);
-    ground.widest = std::max(ground.widest, part.widest);
-    ground.samples.insert(ground.samples.end(), part.samples.begin(), part.samples.end());
-    ground.lower_ends.insert(ground.lower_ends.end(), part.lower_ends.begin(), part.lower_ends.end());
+  for (ContourArea& part : parts) {
+    const std::size_t before = contour_area.samples.size();
+    for (const auto& [a, b] : part.neighbors) contour_area.neighbors.emplace_back(before + a, before + b);
+    contour_area.widest = std::max(contour_area.widest, part.widest);
+    contour_area.samples.insert(contour_area.samples.end(), part.samples.begin(), part.samples.end());
+    contour_area.lower_ends.insert(contour_area.lower_ends.end(), part.lower_ends.begin(),
+                                   part.lower_ends.end());
   }
-  return ground;
+  return contour_area;
 }
 
 }  // namespace patchmill

@@ -25,7 +25,7 @@ struct LowerEnd {
   double length = 0.0;  // mm of border it stands for
 };
 
-struct ContourGround {
+struct ContourArea {
   std::vector<ContourSample> samples;
   std::vector<LowerEnd> lower_ends;
   double spacing = 0.0;  // mm between samples, where pieces are not too long or uneven for it
@@ -37,7 +37,7 @@ struct ContourGround {
 // A grid on every piece; only points whose slope lies in the window and whose ball is free (not below the
 // floor) count, of upright ground either side, or both. Lower ends are solved on the grid's edges, to 1e-7 mm
 // where enough of them gather at one height to matter. Deterministic, parallel over pieces.
-absl::StatusOr<ContourGround> SampleGround(const LevelContext& context, const ContourParams& params,
-                                           const RunContext& run);
+absl::StatusOr<ContourArea> SampleContourArea(const LevelContext& context, const ContourParams& params,
+                                              const RunContext& run);
 
 }  // namespace patchmill

@@ -11,7 +11,7 @@ namespace patchmill {
 
 absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator, const Locator& reach,
                                                   const std::vector<CutterPath>& paths,
-                                                  const CoverageParams& params, const RunContext& run) {
+                                                  const RestPassParams& params, const RunContext& run) {
   std::vector<SurfaceRect> rects;
   rects.reserve(locator.surface().leaves.size());
   for (const SurfaceLeaf& leaf : locator.surface().leaves) {
@@ -25,19 +25,19 @@ absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator, const 
   };
   grow(paths);
   std::vector<CutterPath> added;
-  Mending mending = Mending::kBest;
+  RestMethod method = RestMethod::kPencilRidgeLevel;
   for (int round = 0; round < params.max_rounds; ++round) {
     run.Progress("coverage", static_cast<double>(round) / params.max_rounds);
     PM_ASSIGN_OR_RETURN(const std::vector<LeftoverSpot> spots,
                         FindSpots(locator, reach, trees, rects, params, run));
     if (spots.empty()) break;
-    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> mended, MendSpots(locator, spots, params, mending, run));
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> mended, RestPassesAt(locator, spots, params, method, run));
     // A pass never uncovers anything: only the rectangles of the spots need another look.
     rects.clear();
     for (const LeftoverSpot& s : spots) rects.push_back(s.rect);
     if (mended.empty()) {
-      if (mending == Mending::kCenters) break;
-      mending = Mending::kCenters;
+      if (method == RestMethod::kCentersOnly) break;
+      method = RestMethod::kCentersOnly;
       continue;
     }
     grow(mended);
@@ -46,7 +46,7 @@ absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator, const 
     made += AmountOf(mended);
     PM_RETURN_IF_ERROR(CheckAmount(params.budget.limits, made, "with rest passes"));
     for (CutterPath& p : mended) {
-      p.line = static_cast<int>(added.size());
+      p.order_key = static_cast<int>(added.size());
       added.push_back(std::move(p));
     }
   }

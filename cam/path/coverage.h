@@ -17,21 +17,22 @@
 
 namespace patchmill {
 
-struct CoverageParams : PassParams {
+struct RestPassParams : PassParams {
   double limit = 0.02;      // mm: leftover above this at a reachable point is a spot to mend
   double tolerance = 0.01;  // mm: the whole budget; reachable is what cam/tool/reach_give.h says
   // mm: what is said to be covered may exceed the limit by this; absent: kProofMargin of the tolerance.
   std::optional<double> margin;
   ForcedSteps forced;  // ground that needs shorter steps than min_step_fraction of these is left
   int max_rounds = 6;
-  const KeepIn* keep_in = nullptr;  // what is wanted and allowed; null: all of it
-  // For FindSpots alone (WithoutNeedless). Moves that are none of the passes any more: only places count that
-  // these finished, and left less of by more than `taken_less` (mm). Null: all count.
-  const SegmentTree* taken = nullptr;
-  double taken_less = 0.0;
+  const OperationLimits* operation_limits = nullptr;  // what is wanted and allowed; null: all of it
+  // For FindSpots alone (RemoveRedundantPasses). Moves that are none of the passes any more: only places
+  // count that
+  // these finished, and left less of by more than `removed_margin` (mm). Null: all count.
+  const SegmentTree* removed = nullptr;
+  double removed_margin = 0.0;
   // Where both leave too much, only the middles and corners of rectangles of a quarter of the flat step are
   // asked.
-  bool asked_loosely = false;
+  bool coarse_where_both_exceed = false;
 };
 
 // Crease passes and rest passes: finds reachable surface points whose distance to the paths exceeds radius +
@@ -40,6 +41,6 @@ struct CoverageParams : PassParams {
 // Returns the added passes only. `reach`: ReachLocator of this tolerance.
 absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator, const Locator& reach,
                                                   const std::vector<CutterPath>& paths,
-                                                  const CoverageParams& params, const RunContext& run);
+                                                  const RestPassParams& params, const RunContext& run);
 
 }  // namespace patchmill

@@ -14,9 +14,9 @@ constexpr double kSteepest = 0.05;  // n_z of a contact direction below which a 
 constexpr double kThirdBranch = 1e-6;  // mm by which another branch must rise above
 constexpr std::size_t kMostStations = 20000;
 
-class CreaseTracer {
+class PencilTracer {
  public:
-  CreaseTracer(const Locator& locator, const SheetBorder& border, const PassParams& params)
+  PencilTracer(const Locator& locator, const SheetBorder& border, const PassParams& params)
       : locator_(locator),
         border_(border),
         radius_(locator.radius()),
@@ -24,27 +24,27 @@ class CreaseTracer {
         floor_center_(params.floor_z + locator.radius()) {}
 
   // The crease point on the line q + s m nearest to s = 0, from contacts near it.
-  std::optional<CreasePoint> Correct(const Vec2& q, const Vec2& m, const CreasePoint& near,
+  std::optional<PencilPoint> Correct(const Vec2& q, const Vec2& m, const PencilPoint& near,
                                      double reach) const;
-  bool Valid(const CreasePoint& p) const;
-  std::optional<Vec2> Direction(const CreasePoint& p) const;
-  std::optional<CreasePoint> Advance(const CreasePoint& from, const Vec2& heading, double step) const;
-  bool ChordIsGood(const CreasePoint& a, const CreasePoint& b) const;
+  bool Valid(const PencilPoint& p) const;
+  std::optional<Vec2> Direction(const PencilPoint& p) const;
+  std::optional<PencilPoint> Advance(const PencilPoint& from, const Vec2& heading, double step) const;
+  bool ChordIsGood(const PencilPoint& a, const PencilPoint& b) const;
   struct Run {
-    std::vector<CreasePoint> points;
+    std::vector<PencilPoint> points;
     bool ring = false;  // came back to the seed
   };
-  Run Follow(const CreasePoint& seed, double sign, double patience,
+  Run Follow(const PencilPoint& seed, double sign, double patience,
              const std::function<bool(const Vec3&)>& wanted) const;
 
  private:
-  Vec3 DirectionTo(const CreasePoint& p, const SurfacePoint& contact) const {
+  Vec3 DirectionTo(const PencilPoint& p, const SurfacePoint& contact) const {
     return (p.center - contact.p) / radius_;
   }
   // Gradient in plan of the branch's centre height.
   Vec2 Gradient(const Vec3& center, const SurfacePoint& contact) const {
     const Vec3 n = center - contact.p;
-    return -Plan(n) / n.z();
+    return -Xy(n) / n.z();
   }
 
   const Locator& locator_;
@@ -54,7 +54,7 @@ class CreaseTracer {
   const double floor_center_;
 };
 
-std::optional<CreasePoint> CreaseTracer::Correct(const Vec2& q, const Vec2& m, const CreasePoint& near,
+std::optional<PencilPoint> PencilTracer::Correct(const Vec2& q, const Vec2& m, const PencilPoint& near,
                                                  double reach) const {
   SurfacePoint a = near.first, b = near.second;
   double s = 0.0;
@@ -64,7 +64,7 @@ std::optional<CreasePoint> CreaseTracer::Correct(const Vec2& q, const Vec2& m, c
     if (!ca || !cb) return std::nullopt;
     a = ca->contact;
     b = cb->contact;
-    const CreasePoint p{Lift(at, std::max(ca->z, cb->z)), a, b};
+    const PencilPoint p{Lift(at, std::max(ca->z, cb->z)), a, b};
     const double f = ca->z - cb->z;
     const double slope = (Gradient(Lift(at, ca->z), a) - Gradient(Lift(at, cb->z), b)).dot(m);
     if (std::abs(f) <= 1e-12 * std::max(1.0, std::abs(p.center.z()))) return p;
@@ -76,32 +76,32 @@ std::optional<CreasePoint> CreaseTracer::Correct(const Vec2& q, const Vec2& m, c
   return std::nullopt;
 }
 
-bool CreaseTracer::Valid(const CreasePoint& p) const {
+bool PencilTracer::Valid(const PencilPoint& p) const {
   const Vec3 na = DirectionTo(p, p.first), nb = DirectionTo(p, p.second);
   if (na.cross(nb).norm() < kSmallestAngle || na.z() < kSteepest || nb.z() < kSteepest) return false;
   if (p.center.z() < floor_center_) return false;
   if (!border_.Allowed(p.first, na) || !border_.Allowed(p.second, nb)) return false;
-  const auto h = locator_.Height(Plan(p.center), &p.first);
+  const auto h = locator_.Height(Xy(p.center), &p.first);
   return h && h->z <= p.center.z() + kThirdBranch;
 }
 
-std::optional<Vec2> CreaseTracer::Direction(const CreasePoint& p) const {
+std::optional<Vec2> PencilTracer::Direction(const PencilPoint& p) const {
   const Vec2 d = Gradient(p.center, p.first) - Gradient(p.center, p.second);
   const double length = d.norm();
   if (!(length > 1e-6)) return std::nullopt;
   return Vec2(-d.y() / length, d.x() / length);
 }
 
-std::optional<CreasePoint> CreaseTracer::Advance(const CreasePoint& from, const Vec2& heading,
+std::optional<PencilPoint> PencilTracer::Advance(const PencilPoint& from, const Vec2& heading,
                                                  double step) const {
   const double rise = Gradient(from.center, from.first).dot(heading);
-  const Vec2 q = Plan(from.center) + step / std::sqrt(1.0 + rise * rise) * heading;
+  const Vec2 q = Xy(from.center) + step / std::sqrt(1.0 + rise * rise) * heading;
   auto next = Correct(q, {-heading.y(), heading.x()}, from, step);
   if (!next || !Valid(*next) || !ChordIsGood(from, *next)) return std::nullopt;
   return next;
 }
 
-bool CreaseTracer::ChordIsGood(const CreasePoint& a, const CreasePoint& b) const {
+bool PencilTracer::ChordIsGood(const PencilPoint& a, const PencilPoint& b) const {
   if (ChordGouge(radius_, (b.center - a.center).norm()) > tolerance_) return false;
   const auto excess = [&](const SurfacePoint& p, const SurfacePoint& q) {
     return ChordExcess(radius_, a.center, b.center, {p.p, floor_center_}, {q.p, floor_center_});
@@ -109,21 +109,21 @@ bool CreaseTracer::ChordIsGood(const CreasePoint& a, const CreasePoint& b) const
   return std::min(excess(a.first, b.first), excess(a.second, b.second)) <= tolerance_;
 }
 
-CreaseTracer::Run CreaseTracer::Follow(const CreasePoint& seed, double sign, double patience,
+PencilTracer::Run PencilTracer::Follow(const PencilPoint& seed, double sign, double patience,
                                        const std::function<bool(const Vec3&)>& wanted) const {
   Run run;
-  std::vector<CreasePoint>& out = run.points;
+  std::vector<PencilPoint>& out = run.points;
   const auto start = Direction(seed);
   if (!start) return run;
   const double full = LongestChord(radius_, 0.95 * tolerance_);
   Vec2 heading = sign * *start;
-  CreasePoint at = seed;
+  PencilPoint at = seed;
   std::size_t keep = 0;
   double unwanted = 0.0, step = full;
   while (out.size() < kMostStations && unwanted <= patience) {
     // The seed lies ahead within a step: the chord to it closes the ring, if need be after a shorter step.
     const Vec3 back = seed.center - at.center;
-    const bool round = out.size() > 4 && back.norm() <= step && Plan(back).dot(heading) > 0.0;
+    const bool round = out.size() > 4 && back.norm() <= step && Xy(back).dot(heading) > 0.0;
     if (round && ChordIsGood(at, seed)) {
       run.ring = true;
       return run;
@@ -152,22 +152,22 @@ CreaseTracer::Run CreaseTracer::Follow(const CreasePoint& seed, double sign, dou
 
 }  // namespace
 
-std::optional<CreasePoint> FindCrease(const Locator& locator, const Vec2& q, double reach,
-                                      const PassParams& params, const RunContext& run) {
-  std::optional<CreasePoint> best;
+std::optional<PencilPoint> FindPencilPoint(const Locator& locator, const Vec2& q, double reach,
+                                           const PassParams& params, const RunContext& run) {
+  std::optional<PencilPoint> best;
   double best_distance = reach;
   // Two directions that are unlikely to be those of a part's own edges.
   constexpr double kHeading = 0.4;
   for (double heading : {kHeading, kHeading + kPi / 2}) {
     const Vec2 d(std::cos(heading), std::sin(heading));
-    const PlanLine line = PlanLine::Through(q - 1.5 * reach * d, q + 1.5 * reach * d);
-    const LineTraceParams trace{.chord_tolerance = params.chord_tolerance,
-                                .floor_center = params.floor_z + locator.radius(),
-                                .run = &run};
-    for (const auto& stations : TraceLine(locator, line, trace)) {
-      for (const LineStation& s : stations) {
+    const XyLine line = XyLine::Through(q - 1.5 * reach * d, q + 1.5 * reach * d);
+    const SegmentTraceParams trace{.chord_tolerance = params.chord_tolerance,
+                                   .floor_center = params.floor_z + locator.radius(),
+                                   .run = &run};
+    for (const auto& stations : TraceSegment(locator, line, trace)) {
+      for (const TraceStation& s : stations) {
         if (!s.keep || !s.left || !s.right) continue;
-        const CreasePoint p{Lift(s.q, s.z), *s.left, *s.right};
+        const PencilPoint p{Lift(s.q, s.z), *s.left, *s.right};
         const Vec3 na = (p.center - p.first.p).normalized(), nb = (p.center - p.second.p).normalized();
         if (na.cross(nb).norm() < kSmallestAngle) continue;
         const double distance = (s.q - q).norm();
@@ -181,12 +181,12 @@ std::optional<CreasePoint> FindCrease(const Locator& locator, const Vec2& q, dou
   return best;
 }
 
-std::vector<LineStation> TraceCrease(const Locator& locator, const SheetBorder& border,
-                                     const CreasePoint& seed, const PassParams& params, double patience,
-                                     const std::function<bool(const Vec3&)>& wanted) {
-  const CreaseTracer tracer(locator, border, params);
-  CreaseTracer::Run onward = tracer.Follow(seed, 1.0, patience, wanted);
-  std::vector<CreasePoint> points;
+std::vector<TraceStation> TracePencil(const Locator& locator, const SheetBorder& border,
+                                      const PencilPoint& seed, const PassParams& params, double patience,
+                                      const std::function<bool(const Vec3&)>& wanted) {
+  const PencilTracer tracer(locator, border, params);
+  PencilTracer::Run onward = tracer.Follow(seed, 1.0, patience, wanted);
+  std::vector<PencilPoint> points;
   if (!onward.ring) {
     points = tracer.Follow(seed, -1.0, patience, wanted).points;
     std::reverse(points.begin(), points.end());
@@ -194,12 +194,12 @@ std::vector<LineStation> TraceCrease(const Locator& locator, const SheetBorder& 
   points.push_back(seed);
   points.insert(points.end(), onward.points.begin(), onward.points.end());
   if (onward.ring) points.push_back(seed);
-  std::vector<LineStation> stations;
+  std::vector<TraceStation> stations;
   double t = 0.0;
-  for (const CreasePoint& p : points) {
-    const Vec2 q = Plan(p.center);
+  for (const PencilPoint& p : points) {
+    const Vec2 q = Xy(p.center);
     if (!stations.empty()) t += (q - stations.back().q).norm();
-    LineStation s;
+    TraceStation s;
     s.t = t;
     s.q = s.at = q;
     s.z = p.center.z();

@@ -58,7 +58,7 @@ class Funnel {
   // What lies above the ball's centre stands beside its shank, as an upright wall does that goes on below.
   Support SupportOf(const SurfacePoint* contact, double center_z) const {
     Support s{{}, limits_.floor_center};
-    if (contact != nullptr) s.contact = Lift(Plan(contact->p), std::min(contact->p.z(), center_z));
+    if (contact != nullptr) s.contact = Lift(Xy(contact->p), std::min(contact->p.z(), center_z));
     return s;
   }
   Vec3 Place(const ChordVertex& v) const {
@@ -191,7 +191,7 @@ const std::vector<Support>& Funnel::SupportsAfter(std::size_t k) {
         p.z() = std::min(p.z(), std::max(a.center.z(), b.center.z()));
       }
     } else if (a.right != nullptr) {
-      if (const auto c = locator_.Follow(*a.right, Plan(Vec3(0.5 * (a.center + b.center))))) {
+      if (const auto c = locator_.Follow(*a.right, Xy(Vec3(0.5 * (a.center + b.center))))) {
         between.supports.push_back(SupportOf(&c->contact, std::max(a.center.z(), b.center.z())));
       }
     }

@@ -22,7 +22,7 @@ std::optional<AcrossPasses> Across(const ForcedSteps& forced, const SurfaceJet& 
   const auto across = levels ? AcrossContours(e) : AcrossLines(e, forced.angle);
   if (!across) return std::nullopt;
   const Vec2 line(std::cos(forced.angle), std::sin(forced.angle));
-  const double seen = levels ? std::abs(across->z()) : std::abs(Cross(line, Plan(*across)));
+  const double seen = levels ? std::abs(across->z()) : std::abs(Cross(line, Xy(*across)));
   return AcrossPasses{seen, NormalCurvature(Forms(jet, e), jet, *across)};
 }
 

@@ -26,8 +26,8 @@ struct Chords {
 
 class Clipper {
  public:
-  Clipper(const Locator& locator, const KeepIn& keep_in, double reach)
-      : locator_(locator), keep_in_(keep_in), reach_(reach) {}
+  Clipper(const Locator& locator, const OperationLimits& operation_limits, double reach)
+      : locator_(locator), operation_limits_(operation_limits), reach_(reach) {}
 
   std::vector<CutterPath> Clip(const CutterPath& path) const {
     Chords chords;
@@ -35,8 +35,8 @@ class Clipper {
     if (n == 0) return {};
     if (n == 1) {
       const CutterPoint& only = path.points.front();
-      const bool kept = !keep_in_.TooHigh(only.center.z()) && WantsNear(only) &&
-                        keep_in_.AllowsMove(only.center, only.center, true);
+      const bool kept = !operation_limits_.TooHigh(only.center.z()) && WantsNear(only) &&
+                        operation_limits_.AllowsMove(only.center, only.center, true);
       return kept ? std::vector<CutterPath>{path} : std::vector<CutterPath>{};
     }
     chords.points.push_back(path.points.front());
@@ -48,7 +48,7 @@ class Clipper {
  private:
   void AddChord(const CutterPoint& a, const CutterPoint& b, Chords& chords) const {
     const double length = (b.center - a.center).norm();
-    const int parts = keep_in_.WantsAll() ? 1 : 1 + static_cast<int>(2.0 * length / reach_);
+    const int parts = operation_limits_.WantsAll() ? 1 : 1 + static_cast<int>(2.0 * length / reach_);
     chords.begun = false;
     CutterPoint from = a;
     bool wanted = WantsNear(a);
@@ -88,16 +88,16 @@ class Clipper {
   }
 
   void AddAllowed(const CutterPoint& a, const CutterPoint& b, Chords& chords) const {
-    if (keep_in_.TooHigh(std::min(a.center.z(), b.center.z()))) {
+    if (operation_limits_.TooHigh(std::min(a.center.z(), b.center.z()))) {
       Push(b, false, chords);
       return;
     }
-    if (keep_in_.AllowsAll() || keep_in_.AllowsMove(a.center, b.center, true)) {
+    if (operation_limits_.AllowsAll() || operation_limits_.AllowsMove(a.center, b.center, true)) {
       Push(b, true, chords);
       return;
     }
     const double half = 0.5 * (b.center - a.center).norm();
-    if (half < 0.5 * kClipLength || keep_in_.Forbids(0.5 * (a.center + b.center), half)) {
+    if (half < 0.5 * kClipLength || operation_limits_.Forbids(0.5 * (a.center + b.center), half)) {
       Push(b, false, chords);
       return;
     }
@@ -131,14 +131,15 @@ class Clipper {
   // The ball touches ground near what is wanted. A contact above its centre is the shank's, which finishes
   // nothing; beside an upright wall the ball's own is known less exactly. Of several a point may name one.
   bool WantsNear(const CutterPoint& p) const {
-    if (keep_in_.WantsAll()) return true;
+    if (operation_limits_.WantsAll()) return true;
     const double radius = locator_.radius();
     const auto wanted = [&](const SurfacePoint& place) {
-      return place.p.z() <= p.center.z() + kAbove * radius && keep_in_.WantsNear(place, reach_);
+      return place.p.z() <= p.center.z() + kAbove * radius && operation_limits_.WantsNear(place, reach_);
     };
     if ((p.contact && wanted(*p.contact)) || (p.other_contact && wanted(*p.other_contact))) return true;
-    if (keep_in_.WantsNothingNear(p.center, kTouchedReach * radius + reach_)) return false;
-    const std::vector<SurfacePoint> touched = Touched(locator_.surface(), p.center, radius, kAsNear * radius);
+    if (operation_limits_.WantsNothingNear(p.center, kContactReach * radius + reach_)) return false;
+    const std::vector<SurfacePoint> touched =
+        ContactPoints(locator_.surface(), p.center, radius, kAsNear * radius);
     return std::any_of(touched.begin(), touched.end(), wanted);
   }
 
@@ -168,17 +169,18 @@ class Clipper {
   }
 
   const Locator& locator_;
-  const KeepIn& keep_in_;
+  const OperationLimits& operation_limits_;
   double reach_;
 };
 
 }  // namespace
 
-absl::StatusOr<std::vector<CutterPath>> ClipToKeepIn(const Locator& locator, const KeepIn& keep_in,
+absl::StatusOr<std::vector<CutterPath>> ClipToLimits(const Locator& locator,
+                                                     const OperationLimits& operation_limits,
                                                      std::vector<CutterPath> paths, double reach,
                                                      const RunContext& run) {
-  if (keep_in.WantsAll() && keep_in.AllowsAll()) return paths;
-  const Clipper clipper(locator, keep_in, reach);
+  if (operation_limits.WantsAll() && operation_limits.AllowsAll()) return paths;
+  const Clipper clipper(locator, operation_limits, reach);
   std::vector<std::vector<CutterPath>> parts(paths.size());
   PM_RETURN_IF_ERROR(
       ParallelFor(run, nullptr, paths.size(), [&](std::size_t i) { parts[i] = clipper.Clip(paths[i]); }));

@@ -15,12 +15,14 @@ namespace patchmill {
 // added to their ends: links, run-ons.
 inline constexpr double kOverrun = 1.25;
 
-// Keeps what is allowed all the way (KeepIn::AllowsMove; ends within 1e-3 mm of the limit) and touches the
+// Keeps what is allowed all the way (OperationLimits::AllowsMove; ends within 1e-3 mm of the limit) and
+// touches the
 // surface within `reach` (mm) of a point to be finished, looked for every half `reach` along the pass and
 // ended at to a thirtieth of it. A ball that touches unwanted ground is tangent to it: running on for `reach`
 // leaves no ridge at the seam and takes nothing that is not to go. Order and direction stay; a closed path
 // that stays whole stays closed. Parallel over paths, deterministic.
-absl::StatusOr<std::vector<CutterPath>> ClipToKeepIn(const Locator& locator, const KeepIn& keep_in,
+absl::StatusOr<std::vector<CutterPath>> ClipToLimits(const Locator& locator,
+                                                     const OperationLimits& operation_limits,
                                                      std::vector<CutterPath> paths, double reach,
                                                      const RunContext& run);
 

@@ -32,10 +32,12 @@ struct Nearby {
 constexpr double kCoarse = 0.25;   // larger rectangles are not looked at by their middles
 constexpr double kPair = 1.0;      // larger ones lie over more than two moves
 constexpr double kFinest = 0.002;  // smaller ones are left, and narrower strips beside silhouettes
-constexpr double kLimit = 0.05;    // the same at a limit of params.keep_in, when a move is this near:
-constexpr double kAtHand = 1.0;    // farther from all there may be room for the ball in no more than a chink
+constexpr double kLimit = 0.05;  // the same at a limit of params.operation_limits, when a move is this near:
+constexpr double kFarFromMoves =
+    1.0;  // farther from all there may be room for the ball in no more than a chink
 
-// Of ReachGive: what is so near to its limit is not called out of reach. The verifier knows reach to 0.02 of
+// Of ReachTolerance: what is so near to its limit is not called out of reach. The verifier knows reach to
+// 0.02 of
 // it.
 constexpr double kProofOfReach = 0.5 * kReachMargin;
 
@@ -49,7 +51,7 @@ constexpr double kForcedMargin = 1.05;
 class SpotFinder {
  public:
   SpotFinder(const Locator& locator, const Locator& reach, const std::vector<const SegmentTree*>& trees,
-             const CoverageParams& params, const RunContext& run)
+             const RestPassParams& params, const RunContext& run)
       : surface_(locator.surface()),
         reach_(reach),
         trees_(trees),
@@ -59,13 +61,13 @@ class SpotFinder {
         flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
         covered_(radius_ + params.limit + params.margin.value_or(kProofMargin * params.tolerance)),
         covered2_(covered_ * covered_),
-        lowest_center_(params.floor_z + radius_ - (1.0 + kReachMargin) * ReachGive(params.tolerance)),
+        lowest_center_(params.floor_z + radius_ - (1.0 + kReachMargin) * ReachTolerance(params.tolerance)),
         cell_reach_{.radius = radius_,
-                    .give = (1.0 + kProofOfReach) * ReachGive(params.tolerance),
+                    .reach_tolerance = (1.0 + kProofOfReach) * ReachTolerance(params.tolerance),
                     .floor_z = params.floor_z + radius_,
                     .narrow = kFinest * flat_},
         near_reach_(cell_reach_) {
-    near_reach_.proof = kProofBetween * (kReachMargin - kProofOfReach) * ReachGive(params.tolerance);
+    near_reach_.proof = kProofBetween * (kReachMargin - kProofOfReach) * ReachTolerance(params.tolerance);
   }
 
   void Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
@@ -74,9 +76,9 @@ class SpotFinder {
   void Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth, const Nearby& hint,
              std::vector<LeftoverSpot>& out) const;
   NearMove NearestTo(const Vec3& p, double limit, const NearMove& hint) const;
-  double TakenDistance(const Vec3& p, double size) const;
-  bool TakenLeftLess(const Vec3& p, const NearMove& nearest) const {
-    return TakenDistance(p, 0.0) < nearest.distance - params_.taken_less;
+  double RemovedDistance(const Vec3& p, double size) const;
+  bool RemovedLeftLess(const Vec3& p, const NearMove& nearest) const {
+    return RemovedDistance(p, 0.0) < nearest.distance - params_.removed_margin;
   }
   std::optional<bool> BendsAlongU(const RectPlaces& places, double size) const;
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
@@ -86,7 +88,7 @@ class SpotFinder {
   bool Asked(const SurfaceJet& jet, const Vec3& e) const;
   std::optional<Vec3> ReachableSide(const SurfaceJet& jet, const Vec3& e) const;
   bool Wanted(const SurfacePoint& at) const {
-    return params_.keep_in == nullptr || params_.keep_in->Wants(at);
+    return params_.operation_limits == nullptr || params_.operation_limits->Wants(at);
   }
   SidesRuledOut ForbiddenSides(const RectPlaces& places) const;
   std::optional<LeftoverSpot> SpotAt(const SurfaceRect& rect, const SurfaceJet& jet, const SurfacePoint& at,
@@ -96,7 +98,7 @@ class SpotFinder {
   const Surface& surface_;
   const Locator& reach_;
   const std::vector<const SegmentTree*>& trees_;
-  const CoverageParams& params_;
+  const RestPassParams& params_;
   const RunContext& run_;
   const double radius_;
   const double flat_;
@@ -118,9 +120,9 @@ NearMove SpotFinder::NearestTo(const Vec3& p, double limit, const NearMove& hint
 
 // mm, to the nearest of the moves that were taken away, infinity where none finished anything within `size`
 // of p; 0 where all ground counts.
-double SpotFinder::TakenDistance(const Vec3& p, double size) const {
-  if (params_.taken == nullptr) return 0.0;
-  const SegmentTree::Nearest nearest = params_.taken->FindNearest(p, covered_ + size);
+double SpotFinder::RemovedDistance(const Vec3& p, double size) const {
+  if (params_.removed == nullptr) return 0.0;
+  const SegmentTree::Nearest nearest = params_.removed->FindNearest(p, covered_ + size);
   return nearest.segment < 0 ? kInfinity : nearest.distance;
 }
 
@@ -154,7 +156,7 @@ std::optional<Vec3> SpotFinder::ReachableSide(const SurfaceJet& jet, const Vec3&
     const Vec3 n = side == 0 ? e : Vec3(-e);
     const Vec3 c = jet.p + radius_ * n;
     if (c.z() < lowest_center_ || !reach_.Free(c)) continue;
-    if (params_.keep_in == nullptr || params_.keep_in->Allows(c)) return n;
+    if (params_.operation_limits == nullptr || params_.operation_limits->Allows(c)) return n;
   }
   return std::nullopt;
 }
@@ -165,7 +167,7 @@ std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const Su
                                                const NearMove& nearest) const {
   const double leftover = std::min(nearest.distance - radius_, radius_);
   if (!(leftover > params_.limit && Asked(jet, e) && Wanted(at))) return std::nullopt;
-  if (!TakenLeftLess(at.p, nearest)) return std::nullopt;
+  if (!RemovedLeftLess(at.p, nearest)) return std::nullopt;
   const auto side = ReachableSide(jet, e);
   if (!side) return std::nullopt;
   Vec3 center = at.p + radius_ * *side;
@@ -192,7 +194,7 @@ void SpotFinder::AddCorner(const SurfaceRect& rect, std::vector<LeftoverSpot>& o
 // The sides that look down, or where the limits of the operation forbid every centre over the rectangle.
 SidesRuledOut SpotFinder::ForbiddenSides(const RectPlaces& places) const {
   SidesRuledOut ruled_out{};
-  if (params_.keep_in == nullptr || params_.keep_in->AllowsAll()) return ruled_out;
+  if (params_.operation_limits == nullptr || params_.operation_limits->AllowsAll()) return ruled_out;
   const double turn = BendOver(places.n);
   for (std::size_t side = 0; side < 2; ++side) {
     const double sign = side == 0 ? 1.0 : -1.0;
@@ -206,10 +208,11 @@ SidesRuledOut SpotFinder::ForbiddenSides(const RectPlaces& places) const {
       spread = std::max(spread, (c[k] - places.p[8] - sign * radius_ * places.n[8]).norm());
     }
     const double bend = BendOver(c);
-    ruled_out[side] = highest_normal + turn < -kUprightFace ||
-                      (highest_normal + turn <= kUprightFace && sign * places.air_side < 0.0) ||
-                      params_.keep_in->TooHigh(lowest_center - bend) ||
-                      params_.keep_in->Forbids(c[8], spread + bend, highest_center - c[8].z() + bend);
+    ruled_out[side] =
+        highest_normal + turn < -kUprightFace ||
+        (highest_normal + turn <= kUprightFace && sign * places.air_side < 0.0) ||
+        params_.operation_limits->TooHigh(lowest_center - bend) ||
+        params_.operation_limits->Forbids(c[8], spread + bend, highest_center - c[8].z() + bend);
   }
   return ruled_out;
 }
@@ -269,9 +272,9 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   double size = 0.0;  // everything lies this close to p
   for (int i = 0; i < count; ++i) size = std::max(size, (hull[static_cast<std::size_t>(i)] - p).norm());
 
-  if (TakenDistance(p, size) == kInfinity) return;
-  if (params_.keep_in != nullptr &&
-      params_.keep_in->WantsNothing(rect.piece, rect.u0, rect.u1, rect.v0, rect.v1, p, size)) {
+  if (RemovedDistance(p, size) == kInfinity) return;
+  if (params_.operation_limits != nullptr &&
+      params_.operation_limits->WantsNothing(rect.piece, rect.u0, rect.u1, rect.v0, rect.v1, p, size)) {
     return;
   }
   // The move that covers most of the rectangle passes near the centre that finishes p; only small rectangles
@@ -290,19 +293,20 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
       out.push_back(*std::move(spot));
       return;
     }
-    if (params_.asked_loosely && nearest.distance - radius_ > params_.limit && !TakenLeftLess(p, nearest)) {
+    if (params_.coarse_where_both_exceed && nearest.distance - radius_ > params_.limit &&
+        !RemovedLeftLess(p, nearest)) {
       AddCorner(rect, out);
       return;
     }
   }
   constexpr int kDeepest = 60;
-  const bool limited =
-      params_.keep_in != nullptr && !(Wanted(at) && params_.keep_in->Allows(p + radius_ * e));
-  const bool at_hand = near.segment >= 0 && near.distance < radius_ + kAtHand * flat_;
-  // Nobody asks for what is within ReachGive of a limit across the ground ([regions, section 6]): of the
+  const bool limited = params_.operation_limits != nullptr &&
+                       !(Wanted(at) && params_.operation_limits->Allows(p + radius_ * e));
+  const bool at_hand = near.segment >= 0 && near.distance < radius_ + kFarFromMoves * flat_;
+  // Nobody asks for what is within ReachTolerance of a limit across the ground ([regions, section 6]): of the
   // sharpest corner the rest shows at the corners of rectangles of this size.
   const double finest =
-      limited && at_hand ? std::min(kLimit * flat_, ReachGive(params_.tolerance)) : kFinest * flat_;
+      limited && at_hand ? std::min(kLimit * flat_, ReachTolerance(params_.tolerance)) : kFinest * flat_;
   if (size < finest || depth >= kDeepest) {
     // What is reached may be narrower than this: the floor of a slot that barely lets the ball in, along its
     // middle; a sharp corner between two limits.
@@ -350,16 +354,16 @@ void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out)
 
 }  // namespace
 
-absl::StatusOr<Locator> ReachLocator(const Locator& locator, const CoverageParams& params,
+absl::StatusOr<Locator> ReachLocator(const Locator& locator, const RestPassParams& params,
                                      const RunContext& run) {
-  const double radius = locator.radius() - (1.0 + kReachMargin) * ReachGive(params.tolerance);
+  const double radius = locator.radius() - (1.0 + kReachMargin) * ReachTolerance(params.tolerance);
   return Locator::Make(locator.surface(), std::max(radius, 0.5 * locator.radius()), run);
 }
 
 absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,
                                                     const std::vector<const SegmentTree*>& trees,
                                                     const std::vector<SurfaceRect>& rects,
-                                                    const CoverageParams& params, const RunContext& run) {
+                                                    const RestPassParams& params, const RunContext& run) {
   const SpotFinder finder(locator, reach, trees, params, run);
   constexpr std::size_t kChunk = 32;
   const std::size_t chunks = (rects.size() + kChunk - 1) / kChunk;

@@ -74,7 +74,7 @@ CenterBounds BoundCenters(const RectBounds& part, const NormalCone& normals, int
   if (bounds.shank) bounds.box.min.z() = -kInfinity;
   if (turn.sin + 1e-7 < level * (1.0 - 1e-7)) {
     const double sine = turn.sin / level + 1e-7, cosine = std::sqrt(1.0 - sine * sine);
-    const Vec2 middle = Plan(e) / level;
+    const Vec2 middle = Xy(e) / level;
     const Vec2 across(-middle.y(), middle.x());
     bounds.directed = true;
     bounds.right = cosine * middle - sine * across;

@@ -134,16 +134,16 @@ class Sweep {
 
 }  // namespace
 
-absl::StatusOr<std::vector<LevelBranch>> FindBranches(const ContourGround& ground,
+absl::StatusOr<std::vector<LevelBranch>> FindBranches(const ContourArea& contour_area,
                                                       std::span<const std::size_t> sets,
                                                       const BranchParams& params, const RunContext& run) {
-  const std::vector<ContourSample>& samples = ground.samples;
+  const std::vector<ContourSample>& samples = contour_area.samples;
   const Cubes centers = CubesOf(samples, sets, &ContourSample::center, params.reach);
   PM_RETURN_IF_ERROR(run.Check());
   const Cubes contacts = CubesOf(samples, sets, &ContourSample::contact, params.reach);
   PM_RETURN_IF_ERROR(run.Check());
   const Links center_links(centers.count, centers.touching), contact_links(contacts.count, contacts.touching),
-      neighbors(samples.size(), ground.neighbors);
+      neighbors(samples.size(), contour_area.neighbors);
   std::vector<std::size_t> falling(samples.size());
   std::iota(falling.begin(), falling.end(), std::size_t{0});
   std::stable_sort(falling.begin(), falling.end(), [&](std::size_t a, std::size_t b) {

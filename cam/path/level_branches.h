@@ -15,7 +15,7 @@ namespace patchmill {
 // does not hang together with that above.
 struct LevelBranch {
   std::size_t from = 0;
-  double foot = 0.0;
+  double base_level = 0.0;
   double area = 0.0;                 // mm2, with the branches on it
   std::vector<std::size_t> samples;  // without those of the branches on it
 };
@@ -30,7 +30,7 @@ struct BranchParams {
 // each other: forks that are narrower are not seen. Those of different `sets`, one for each sample, never
 // do. Cost O(n log n); CANCELLED or DEADLINE_EXCEEDED from
 // `run`.
-absl::StatusOr<std::vector<LevelBranch>> FindBranches(const ContourGround& ground,
+absl::StatusOr<std::vector<LevelBranch>> FindBranches(const ContourArea& contour_area,
                                                       std::span<const std::size_t> sets,
                                                       const BranchParams& params, const RunContext& run);
 

@@ -23,14 +23,14 @@ std::uint64_t Mix(std::uint64_t k) {
 
 class Search {
  public:
-  Search(LevelItems& items, const LevelOracle& oracle, const LevelCellLimits& limits, const RunContext& run,
-         const WantedLevel* wanted, LevelCells& out)
+  Search(ContactCandidates& items, const LevelOracle& oracle, const LevelCellLimits& limits,
+         const RunContext& run, const WantedLevel* wanted, LevelCells& out)
       : items_(items), oracle_(oracle), limits_(limits), run_(run), wanted_(wanted), out_(out) {}
 
   void Root() {
     const std::int32_t side = std::int32_t{1} << out_.grid.levels;
     pool_.resize(static_cast<std::size_t>(out_.grid.levels) + 2);
-    pool_[0] = {LevelItems::kRoot};
+    pool_[0] = {ContactCandidates::kRoot};
     Visit(0, 0, side, 0);
   }
 
@@ -38,7 +38,7 @@ class Search {
   bool Stopped() const { return out_.overflow || out_.exhausted || out_.cancelled; }
 
   // Is the whole cell inside the disc of the deepest point found below its middle?
-  bool MiddleCovers(const PlanCell& cell) {
+  bool MiddleCovers(const XyRect& cell) {
     if (cell.half.norm() >= oracle_.radius()) return false;
     constexpr double kMargin = 1e-9;  // mm
     if (recent_.Holding(cell.mid, cell.half, kMargin) != nullptr) return true;
@@ -46,8 +46,8 @@ class Search {
     if (!obstacle) return false;
     hint_ = oracle_.Deepest(*obstacle, cell.mid);
     RecentDiscs found;
-    found.Add(*hint_, oracle_.Rho(hint_->p));
-    recent_.Add(*hint_, oracle_.Rho(hint_->p));
+    found.Add(*hint_, oracle_.ForbiddenRadius(hint_->p));
+    recent_.Add(*hint_, oracle_.ForbiddenRadius(hint_->p));
     return found.Holding(cell.mid, cell.half, kMargin) != nullptr;
   }
 
@@ -62,7 +62,7 @@ class Search {
       return;
     }
     const LevelCell here{.x = x, .y = y, .side = side};
-    const PlanCell cell = PlanOf(out_.grid, here);
+    const XyRect cell = XyRectOf(out_.grid, here);
     if (wanted_ != nullptr && wanted_->where != nullptr && !wanted_->where->Meets(cell)) return;
     const double width = side * out_.grid.unit;
     std::vector<std::int32_t>& mine = pool_[depth + 1];
@@ -103,14 +103,14 @@ class Search {
   void Keep(LevelCell cell, const std::optional<Vec2>& free, const std::vector<std::int32_t>& mine) {
     cell.ambiguous = !free;
     if (free) cell.free = *free;
-    cell.first_item = static_cast<std::int32_t>(out_.items.size());
+    cell.first_candidate = static_cast<std::int32_t>(out_.items.size());
     out_.items.insert(out_.items.end(), mine.begin(), mine.end());
-    cell.last_item = static_cast<std::int32_t>(out_.items.size());
+    cell.last_candidate = static_cast<std::int32_t>(out_.items.size());
     out_.cells.push_back(cell);
     if (cell.ambiguous && ++out_.ambiguous > limits_.max_ambiguous) out_.overflow = true;
   }
 
-  LevelItems& items_;
+  ContactCandidates& items_;
   const LevelOracle& oracle_;
   const LevelCellLimits& limits_;
   const RunContext& run_;
@@ -160,12 +160,12 @@ void GridMap::Grow() {
   }
 }
 
-PlanCell PlanOf(const LevelGrid& grid, const LevelCell& cell) {
+XyRect XyRectOf(const LevelGrid& grid, const LevelCell& cell) {
   const double half = 0.5 * grid.unit * cell.side;
   return {grid.At(cell.x, cell.y) + Vec2(half, half), Vec2(half, half)};
 }
 
-LevelCells FindCells(LevelItems& items, const Surface& surface, const LevelOracle& oracle,
+LevelCells FindCells(ContactCandidates& items, const Surface& surface, const LevelOracle& oracle,
                      const LevelCellLimits& limits, const RunContext& run, const WantedLevel* wanted) {
   LevelCells out;
   const Box3& box = surface.box;
@@ -176,7 +176,7 @@ LevelCells FindCells(LevelItems& items, const Surface& surface, const LevelOracl
   while (out.grid.levels < 28 && out.grid.unit * (std::int32_t{1} << out.grid.levels) < extent)
     ++out.grid.levels;
   out.grid.unit = std::max(out.grid.unit, extent / (std::int32_t{1} << out.grid.levels));
-  out.grid.origin = Plan(box.min) - Vec2(margin + kShiftX * out.grid.unit, margin + kShiftY * out.grid.unit);
+  out.grid.origin = Xy(box.min) - Vec2(margin + kShiftX * out.grid.unit, margin + kShiftY * out.grid.unit);
   Search(items, oracle, limits, run, wanted, out).Root();
   return out;
 }

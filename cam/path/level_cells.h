@@ -45,7 +45,7 @@ struct LevelCell {
   std::int32_t side = 1;      // units
   bool ambiguous = false;     // no cone found at the smallest size
   Vec2 free = Vec2::Zero();   // unit direction in which h falls through c, where the cell is not ambiguous
-  std::int32_t first_item = 0, last_item = 0;  // into LevelCells::items
+  std::int32_t first_candidate = 0, last_candidate = 0;  // into LevelCells::items
 };
 
 struct LevelCells {
@@ -68,17 +68,17 @@ struct LevelCellLimits {
 // What of a level is looked at.
 struct WantedLevel {
   SlopeWindow window;
-  const PlanMask* where = nullptr;  // null: everywhere
+  const NearSpotsMask* where = nullptr;  // null: everywhere
 };
 
 // The quadtree over the plan box of the surface widened by R. Every loop or hole of the level that is not in
 // the cells returned is smaller than `smallest`. Polls run.Cancelled().
 // With `wanted`, cells outside of its places and those whose every contact is outside of that slope window,
 // or on the shank, are left out too: the contour then comes in pieces that end at such cells.
-LevelCells FindCells(LevelItems& items, const Surface& surface, const LevelOracle& oracle,
+LevelCells FindCells(ContactCandidates& items, const Surface& surface, const LevelOracle& oracle,
                      const LevelCellLimits& limits, const RunContext& run,
                      const WantedLevel* wanted = nullptr);
 
-PlanCell PlanOf(const LevelGrid& grid, const LevelCell& cell);
+XyRect XyRectOf(const LevelGrid& grid, const LevelCell& cell);
 
 }  // namespace patchmill

@@ -42,7 +42,7 @@ class Builder {
     Crossing& a = crossings_[static_cast<std::size_t>(from.crossing)];
     Crossing& b = crossings_[static_cast<std::size_t>(to.crossing)];
     a.next = to.crossing;
-    a.onward = {PlanOf(cells_.grid, cell), cell.ambiguous ? Vec2(Vec2::Zero()) : cell.free,
+    a.onward = {XyRectOf(cells_.grid, cell), cell.ambiguous ? Vec2(Vec2::Zero()) : cell.free,
                 cell.ambiguous && rim_.size() > 2};
     b.previous = from.crossing;
   }

@@ -9,7 +9,7 @@ namespace patchmill {
 
 // The cell through which the contour runs from one crossing to the next. It stays inside.
 struct ChainCell {
-  PlanCell bounds;
+  XyRect bounds;
   Vec2 free = Vec2::Zero();  // unit direction across which the contour is a graph in the cell; zero: no cone
   bool fixed = true;  // no cone and more than one way through: each stays straight, clear of the others
   bool Ambiguous() const { return free == Vec2::Zero(); }

@@ -36,7 +36,7 @@ struct EdgeOfRim {
 
 class Search {
  public:
-  Search(LevelCells& cells, LevelItems& items, const LevelOracle& oracle)
+  Search(LevelCells& cells, ContactCandidates& items, const LevelOracle& oracle)
       : cells_(cells), items_(items), oracle_(oracle) {}
 
   LevelEdges Run(const RunContext& run) {
@@ -105,7 +105,7 @@ class Search {
 
   void Remember(const SurfacePoint& contact) {
     hint_ = contact;
-    recent_.Add(contact, oracle_.Rho(contact.p));
+    recent_.Add(contact, oracle_.ForbiddenRadius(contact.p));
   }
 
   Vertex At(std::int32_t x, std::int32_t y) {
@@ -127,7 +127,7 @@ class Search {
       mine[k].clear();
       if (edge.cell[k] < 0) continue;
       const LevelCell& cell = cells_.cells[static_cast<std::size_t>(edge.cell[k])];
-      mine[k].assign(cells_.items.begin() + cell.first_item, cells_.items.begin() + cell.last_item);
+      mine[k].assign(cells_.items.begin() + cell.first_candidate, cells_.items.begin() + cell.last_candidate);
       if (!cell.ambiguous) floor_ = kFinestEdge;
     }
     edge_ = &edge;
@@ -179,9 +179,9 @@ class Search {
   using Candidates = std::array<std::vector<std::int32_t>, 2>;  // of the cells on both sides
 
   // What lies within half the length of a stretch on one of its sides.
-  PlanCell Beside(const Vec2& a, const Vec2& b, std::size_t side) const {
+  XyRect Beside(const Vec2& a, const Vec2& b, std::size_t side) const {
     const double quarter = 0.25 * (b - a).norm(), to = side == 0 ? -quarter : quarter;
-    PlanCell box{0.5 * (a + b), 0.5 * (b - a)};
+    XyRect box{0.5 * (a + b), 0.5 * (b - a)};
     const int across = edge_->horizontal ? 1 : 0;
     box.mid[across] += to;
     box.half[across] = quarter;
@@ -215,7 +215,7 @@ class Search {
   }
 
   LevelCells& cells_;
-  LevelItems& items_;
+  ContactCandidates& items_;
   const LevelOracle& oracle_;
   GridMap vertex_of_, horizontal_, vertical_;
   std::vector<Vertex> vertices_;
@@ -234,7 +234,7 @@ class Search {
 
 }  // namespace
 
-LevelEdges FindCrossings(LevelCells& cells, LevelItems& items, const LevelOracle& oracle,
+LevelEdges FindCrossings(LevelCells& cells, ContactCandidates& items, const LevelOracle& oracle,
                          const RunContext& run) {
   return Search(cells, items, oracle).Run(run);
 }

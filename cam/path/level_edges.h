@@ -32,7 +32,7 @@ struct LevelEdges {
 };
 
 // Incomplete when the run is cancelled meanwhile.
-LevelEdges FindCrossings(LevelCells& cells, LevelItems& items, const LevelOracle& oracle,
+LevelEdges FindCrossings(LevelCells& cells, ContactCandidates& items, const LevelOracle& oracle,
                          const RunContext& run);
 
 }  // namespace patchmill

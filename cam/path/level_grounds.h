@@ -26,35 +26,35 @@ std::optional<double> LevelBelow(std::span<const double> heights, double height,
 // own are shorter in all; it stands on a level of the one that it branches off from. Grounds lower than two
 // flat steps, scraps beside others mostly, go with the largest, and so do all but the 256 largest. Largest
 // first, branches after what they stand on; no samples, no grounds.
-class LevelGrounds {
+class LevelGroups {
  public:
   // Contours of a height; null: no ground is parted.
   using ContoursAt = std::function<std::vector<CutterPath>(double z)>;
   // Cost O(n log n), and two LevelHeights for a branch, of the dozen largest, and two dozen contours at most;
   // CANCELLED or DEADLINE_EXCEEDED from `run`.
-  static absl::StatusOr<LevelGrounds> Make(const ContourGround& ground, const HeightParams& params,
-                                           const ContoursAt& contours, const RunContext& run);
+  static absl::StatusOr<LevelGroups> Make(const ContourArea& contour_area, const HeightParams& params,
+                                          const ContoursAt& contours, const RunContext& run);
   // All of it as one.
-  explicit LevelGrounds(ContourGround all);
+  explicit LevelGroups(ContourArea all);
 
-  std::size_t size() const { return grounds_.size(); }
-  const ContourGround& operator[](std::size_t i) const { return grounds_[i]; }
+  std::size_t size() const { return groups_.size(); }
+  const ContourArea& operator[](std::size_t i) const { return groups_[i]; }
   // What a branch stands on: the level of that ground next to a height, at or below it.
-  struct Foot {
-    std::size_t ground = 0;
+  struct BaseLevel {
+    std::size_t group = 0;
     double below = 0.0;  // mm, of the centre
   };
-  const std::optional<Foot>& foot(std::size_t i) const { return feet_[i]; }
+  const std::optional<BaseLevel>& base_level(std::size_t i) const { return base_levels_[i]; }
   // Over whose ground most of this pass is, by the samples that are nearest to it: one of `family_of`, which
   // has one for each ground.
   std::size_t FamilyUnder(const CutterPath& pass, std::span<const std::size_t> family_of) const;
 
  private:
-  LevelGrounds() = default;
+  LevelGroups() = default;
   class Builder;
-  std::vector<ContourGround> grounds_;
-  std::vector<std::optional<Foot>> feet_;  // of each ground
-  std::vector<std::size_t> of_sample_;     // as the cells know them
+  std::vector<ContourArea> groups_;
+  std::vector<std::optional<BaseLevel>> base_levels_;  // of each ground
+  std::vector<std::size_t> of_sample_;                 // as the cells know them
   PointCells centers_;
 };
 

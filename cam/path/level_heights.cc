@@ -82,23 +82,23 @@ std::array<double, kRules.size()> Ruling(std::vector<StepNeed>& needs, double sm
   return steps;
 }
 
-absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourGround& ground,
+absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourArea& contour_area,
                                                             const HeightParams& params,
                                                             const RunContext& run) {
   Bins bins;
   double lo = kInfinity, hi = -kInfinity;
-  for (const ContourSample& s : ground.samples) {
+  for (const ContourSample& s : contour_area.samples) {
     lo = std::min(lo, s.center.z() - s.down);
     hi = std::max(hi, s.center.z() + s.up);
   }
-  if (params.foot) lo = std::min(lo, *params.foot);
+  if (params.base_level) lo = std::min(lo, *params.base_level);
   bins.width = std::max(params.flat / kBinsPerStep, (hi - lo) / kMostBins);
   bins.bottom = lo;
   bins.step.assign(static_cast<std::size_t>((hi - lo) / bins.width) + 1, kInfinity);
   std::vector<std::vector<StepNeed>> needs(bins.step.size());
-  for (std::size_t i = 0; i < ground.samples.size(); ++i) {
+  for (std::size_t i = 0; i < contour_area.samples.size(); ++i) {
     if (i % kBetweenPolls == 0) PM_RETURN_IF_ERROR(run.Check());
-    const ContourSample& s = ground.samples[i];
+    const ContourSample& s = contour_area.samples[i];
     for (int b = bins.Of(s.center.z() - s.down); b <= bins.Of(s.center.z() + s.up); ++b)
       needs[static_cast<std::size_t>(b)].push_back({s.step, s.width});
   }
@@ -109,7 +109,7 @@ absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourGround&
     const auto steps = Ruling(needs[b], params.smallest, kMostFlat * params.flat);
     for (std::size_t k = 0; k < kRules.size(); ++k) all[k].step[b] = steps[k];
   }));
-  if (!params.foot) return all;
+  if (!params.base_level) return all;
   for (Bins& of : all) {  // down to the foot the ground goes on as it ends
     const auto lowest = std::find_if(of.step.begin(), of.step.end(), [](double s) { return s < kInfinity; });
     std::fill(of.step.begin(), lowest, *lowest);
@@ -156,7 +156,7 @@ struct Stop {
   bool level = false;  // a level lies exactly here; else the ground merely ends
 };
 
-std::vector<Stop> StopsOf(const ContourGround& ground, const Bins& bins, const HeightParams& params) {
+std::vector<Stop> StopsOf(const ContourArea& contour_area, const Bins& bins, const HeightParams& params) {
   std::vector<Stop> stops;
   for (std::size_t b = 0; b < bins.step.size(); ++b) {
     if (bins.Has(b) != (b > 0 && bins.Has(b - 1)))
@@ -164,11 +164,12 @@ std::vector<Stop> StopsOf(const ContourGround& ground, const Bins& bins, const H
   }
   if (bins.Has(bins.step.size() - 1))
     stops.push_back({bins.bottom + bins.width * static_cast<double>(bins.step.size()), false});
-  for (const double z : CommonEnds(ground.lower_ends, params.radius, 0.25 * params.smallest))
+  for (const double z : CommonEnds(contour_area.lower_ends, params.radius, 0.25 * params.smallest))
     stops.push_back({z, true});
-  if (params.foot) {
-    std::erase_if(stops, [&](const Stop& stop) { return stop.z <= *params.foot + 0.25 * params.smallest; });
-    stops.push_back({*params.foot, true});
+  if (params.base_level) {
+    std::erase_if(stops,
+                  [&](const Stop& stop) { return stop.z <= *params.base_level + 0.25 * params.smallest; });
+    stops.push_back({*params.base_level, true});
   }
   std::sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) { return a.z < b.z; });
   return stops;
@@ -220,14 +221,14 @@ double PartialLength(std::span<const Vec2> places, double near, double radius) {
       }
     }
   }
-  return 0.25 * kPi * near * static_cast<double>(squares.size()) + runs * kWayToRun * radius;
+  return 0.25 * kPi * near * static_cast<double>(squares.size()) + runs * kRunCost * radius;
 }
 
 // How long these levels, rising, are with the partial ones between them, over ground that rises likewise from
 // one stop to the other; anything once cancelled. Beyond the last level before an end without one, the gap
 // goes on as far again as the ground does.
 double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
-                std::span<const ContourSample> ground, double spacing, const HeightParams& params,
+                std::span<const ContourSample> contour_area, double spacing, const HeightParams& params,
                 const RunContext& run) {
   if (!high.level) heights.push_back(2.0 * high.z - heights.back());
   if (!low.level) heights.insert(heights.begin(), 2.0 * low.z - heights.front());
@@ -236,15 +237,15 @@ double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
     const bool last = k + 2 == heights.size();
     const double gap = heights[k + 1] - heights[k];
     std::map<int, std::vector<Vec2>> spots;  // by the number of parts that they need
-    for (; next < ground.size() && (last || ground[next].center.z() < heights[k + 1]); ++next) {
-      const ContourSample& s = ground[next];
+    for (; next < contour_area.size() && (last || contour_area[next].center.z() < heights[k + 1]); ++next) {
+      const ContourSample& s = contour_area[next];
       if (next % kBetweenPolls == 0 && run.Cancelled()) return length;
       const double own = s.width * (s.up + s.down) / gap;
       const int parts = PartsOfGap(gap, kWideGap * s.step, params.smallest);
       // No level is added there, but what rest passes may have to do counts.
       const bool too_wide = parts == 1 && gap > params.wide * s.step && s.step >= params.smallest;
       length += too_wide ? (1.0 + kTooWide) * own : own;
-      if (parts > 1) spots[parts].push_back(Plan(s.center));
+      if (parts > 1) spots[parts].push_back(Xy(s.center));
     }
     for (const auto& [parts, places] : spots)
       length += (parts - 1) * PartialLength(places, ReachOfSpot(spacing, gap / parts), params.radius);
@@ -259,14 +260,14 @@ absl::Status TooManyLevels(double count) {
                           "contours need more levels; raise the scallop or the tool's radius");
 }
 
-absl::StatusOr<LevelPlan> LevelHeights(const ContourGround& ground, const HeightParams& params,
+absl::StatusOr<LevelPlan> LevelHeights(const ContourArea& contour_area, const HeightParams& params,
                                        const RunContext& run) {
-  if (ground.samples.empty()) return LevelPlan{};
-  PM_ASSIGN_OR_RETURN(const auto ruling, RulingSteps(ground, params, run));
+  if (contour_area.samples.empty()) return LevelPlan{};
+  PM_ASSIGN_OR_RETURN(const auto ruling, RulingSteps(contour_area, params, run));
   std::array<StepCount, kRules.size()> counts;
   for (std::size_t k = 0; k < kRules.size(); ++k) counts[k] = StepCount(ruling[k]);
-  const std::vector<Stop> stops = StopsOf(ground, ruling.front(), params);
-  std::vector<ContourSample> rising = ground.samples;
+  const std::vector<Stop> stops = StopsOf(contour_area, ruling.front(), params);
+  std::vector<ContourSample> rising = contour_area.samples;
   std::stable_sort(rising.begin(), rising.end(), [](const ContourSample& a, const ContourSample& b) {
     return a.center.z() < b.center.z();
   });
@@ -308,8 +309,8 @@ absl::StatusOr<LevelPlan> LevelHeights(const ContourGround& ground, const Height
   std::vector<double> lengths(trials.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "contours: levels", trials.size(), [&](std::size_t k) {
     const Stop &low = stops[trials[k].stop], &high = stops[trials[k].stop + 1];
-    lengths[k] =
-        LengthOf(heights_of(trials[k]), low, high, {from(low.z), from(high.z)}, ground.spacing, params, run);
+    lengths[k] = LengthOf(heights_of(trials[k]), low, high, {from(low.z), from(high.z)}, contour_area.spacing,
+                          params, run);
   }));
   LevelPlan plan;
   std::vector<double>& heights = plan.heights;

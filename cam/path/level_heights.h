@@ -29,7 +29,7 @@ struct HeightParams {
   double smallest = 0.1;   // mm: needs below it count as this
   double wide = kWideGap;  // how much wider than their needs gaps may be throughout: WideGap
   // A level lies here already, at the foot of the ground: it is the lowest, and others' (level_grounds.h).
-  std::optional<double> foot = std::nullopt;
+  std::optional<double> base_level = std::nullopt;
 };
 
 struct LevelPlan {
@@ -46,7 +46,7 @@ struct LevelPlan {
 // beyond `wide` they count for a tenth more. Cost O(n log n) in the samples times the eighths of a flat
 // step that each stands for, and their number for each of 205 trials at most, side by side; deterministic.
 // RESOURCE_EXHAUSTED beyond kMostLevels; CANCELLED or DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<LevelPlan> LevelHeights(const ContourGround& ground, const HeightParams& params,
+absl::StatusOr<LevelPlan> LevelHeights(const ContourArea& contour_area, const HeightParams& params,
                                        const RunContext& run);
 
 }  // namespace patchmill

@@ -14,7 +14,8 @@ constexpr double kSliver = 1e-4;
 
 }  // namespace
 
-LevelItems::LevelItems(const Locator& locator, const PieceSides& sides, const LevelBounds& bounds, double z)
+ContactCandidates::ContactCandidates(const Locator& locator, const PieceSides& sides,
+                                     const LevelBounds& bounds, double z)
     : locator_(locator),
       surface_(locator.surface()),
       sides_(sides),
@@ -22,17 +23,17 @@ LevelItems::LevelItems(const Locator& locator, const PieceSides& sides, const Le
       z_(z),
       radius_(locator.radius()),
       first_of_leaf_(surface_.leaves.size() + 1, -1) {
-  items_.reserve(1024);
+  candidates_.reserve(1024);
 }
 
-double LevelItems::Rho2(double z) const {
+double ContactCandidates::ForbiddenRadius2(double z) const {
   const double below = std::max(0.0, z_ - z);
   return radius_ * radius_ - below * below;
 }
 
-bool LevelItems::SetLevel(Item& item, const Box3& box) const {
+bool ContactCandidates::SetLevel(Candidate& item, const Box3& box) const {
   if (box.max.z() <= z_ - radius_) return false;
-  item.rho2 = Rho2(box.max.z());
+  item.rho2 = ForbiddenRadius2(box.max.z());
   item.rho = std::sqrt(item.rho2);
   item.px0 = box.min.x();
   item.px1 = box.max.x();
@@ -48,14 +49,14 @@ bool LevelItems::SetLevel(Item& item, const Box3& box) const {
   return true;
 }
 
-void LevelItems::SetMiddle(Item& item, const Vec3& p) const {
-  item.middle = Plan(p);
-  const double square = Rho2(p.z());
+void ContactCandidates::SetMiddle(Candidate& item, const Vec3& p) const {
+  item.middle = Xy(p);
+  const double square = ForbiddenRadius2(p.z());
   item.middle_rho = square > 0.0 ? std::sqrt(square) : -1.0;
 }
 
 // Keeps what of a smooth part can be touched at this level.
-void LevelItems::AddFace(Item item, const RectBounds& part) {
+void ContactCandidates::AddFace(Candidate item, const RectBounds& part) {
   if (!SetLevel(item, part.box)) return;
   item.below = part.box.max.z() <= z_;
   SetMiddle(item, Position(surface_.pieces[static_cast<std::size_t>(item.piece)], 0.5 * (item.u0 + item.u1),
@@ -68,7 +69,7 @@ void LevelItems::AddFace(Item item, const RectBounds& part) {
     item.own_half[i] = part.half[k];
   }
   if (!(item.normals.angle < kWidestNormals)) {
-    items_.push_back(item);
+    candidates_.push_back(item);
     return;
   }
   const int asked = item.side;
@@ -96,28 +97,28 @@ void LevelItems::AddFace(Item item, const RectBounds& part) {
       item.mid[i] = centers.center.dot(centers.axis.col(k)) - az * 0.5 * (bottom + high);
       item.half[i] = centers.half[k] + std::abs(az) * 0.5 * (high - bottom) + rounding;
     }
-    items_.push_back(item);
+    candidates_.push_back(item);
   }
 }
 
-std::pair<std::int32_t, std::int32_t> LevelItems::OfLeaf(std::int32_t node) {
+std::pair<std::int32_t, std::int32_t> ContactCandidates::OfLeaf(std::int32_t node) {
   const SurfaceNode& n = surface_.nodes[static_cast<std::size_t>(node)];
   const auto index = static_cast<std::size_t>(n.leaf);
   if (first_of_leaf_[index] >= 0) {
-    const Item& rest = items_[static_cast<std::size_t>(first_of_leaf_[index])];
+    const Candidate& rest = candidates_[static_cast<std::size_t>(first_of_leaf_[index])];
     return {rest.first, rest.last};
   }
   // An item that is never a candidate itself holds the range.
-  const auto holder = static_cast<std::int32_t>(items_.size());
+  const auto holder = static_cast<std::int32_t>(candidates_.size());
   first_of_leaf_[index] = holder;
-  items_.emplace_back();
+  candidates_.emplace_back();
   const SurfaceLeaf& leaf = surface_.leaves[index];
   for (int side = 0; side < 4; ++side) {
     if (!OnSide(leaf, side) || sides_.At(leaf.piece, side).kind == SideKind::kSmooth) continue;
     const bool along_u = side % 2 == 0;
     AddCurve(leaf.piece, side, along_u ? leaf.u0 : leaf.v0, along_u ? leaf.u1 : leaf.v1);
   }
-  Item item;
+  Candidate item;
   item.piece = leaf.piece.value;
   item.u0 = leaf.u0;
   item.u1 = leaf.u1;
@@ -125,13 +126,13 @@ std::pair<std::int32_t, std::int32_t> LevelItems::OfLeaf(std::int32_t node) {
   item.v1 = leaf.v1;
   item.normals = bounds_.Normals(index);
   AddFace(item, leaf.Bounds(n.box));
-  Item& range = items_[static_cast<std::size_t>(holder)];
+  Candidate& range = candidates_[static_cast<std::size_t>(holder)];
   range.first = holder + 1;
-  range.last = static_cast<std::int32_t>(items_.size());
+  range.last = static_cast<std::int32_t>(candidates_.size());
   return {range.first, range.last};
 }
 
-void LevelItems::AddRect(const Item& parent, double u0, double u1, double v0, double v1) {
+void ContactCandidates::AddRect(const Candidate& parent, double u0, double u1, double v0, double v1) {
   const BernsteinNet net =
       SubNet(surface_.pieces[static_cast<std::size_t>(parent.piece)].net, u0, u1, v0, v1);
   SurfaceLeaf rect;
@@ -141,7 +142,7 @@ void LevelItems::AddRect(const Item& parent, double u0, double u1, double v0, do
   rect.v0 = static_cast<float>(v0);
   rect.v1 = static_cast<float>(v1);
   const double slack = JointSlack(rect, sides_, radius_);
-  Item item;
+  Candidate item;
   item.piece = parent.piece;
   item.u0 = u0;
   item.u1 = u1;
@@ -159,7 +160,7 @@ void LevelItems::AddRect(const Item& parent, double u0, double u1, double v0, do
   AddFace(item, BoundNet(net));
 }
 
-void LevelItems::AddCurve(PieceId piece_id, int side, double t0, double t1) {
+void ContactCandidates::AddCurve(PieceId piece_id, int side, double t0, double t1) {
   const Piece& piece = surface_.piece(piece_id);
   BernsteinNet row;
   row.rational = piece.net.rational;
@@ -176,7 +177,7 @@ void LevelItems::AddCurve(PieceId piece_id, int side, double t0, double t1) {
     if (p.w() > 0.0) part.box.Add(p.head<3>() / p.w());
   }
   if (part.box.Empty()) return;
-  Item item;
+  Candidate item;
   item.kind = Kind::kCurve;
   item.piece = piece_id.value;
   item.side = side;
@@ -185,12 +186,12 @@ void LevelItems::AddCurve(PieceId piece_id, int side, double t0, double t1) {
   if (!SetLevel(item, part.box)) return;
   const Vec2 uv = SideParameters(side, 0.5 * (t0 + t1));
   SetMiddle(item, Position(piece, uv.x(), uv.y()));
-  items_.push_back(item);
+  candidates_.push_back(item);
 }
 
-void LevelItems::Open(std::int32_t index) {
-  const Item item = items_[static_cast<std::size_t>(index)];  // a copy: the vector grows
-  const auto first = static_cast<std::int32_t>(items_.size());
+void ContactCandidates::Open(std::int32_t index) {
+  const Candidate item = candidates_[static_cast<std::size_t>(index)];  // a copy: the vector grows
+  const auto first = static_cast<std::int32_t>(candidates_.size());
   if (item.kind == Kind::kCurve) {
     const double t = 0.5 * (item.u0 + item.u1);
     AddCurve(PieceId(item.piece), item.side, item.u0, t);
@@ -200,7 +201,7 @@ void LevelItems::Open(std::int32_t index) {
     // What is above the centre counts by its plan: of an upright wall up there only the length is cut.
     const auto corner = [&](double u, double v) {
       const Vec3 p = Position(piece, u, v);
-      return Lift(Plan(p), std::min(p.z(), z_));
+      return Lift(Xy(p), std::min(p.z(), z_));
     };
     // By way of the middles: the ends of a bulging rim may lie over each other.
     const double u = 0.5 * (item.u0 + item.u1), v = 0.5 * (item.v0 + item.v1);
@@ -222,10 +223,10 @@ void LevelItems::Open(std::int32_t index) {
       AddRect(item, item.u0, item.u1, v, item.v1);
     }
   }
-  Item& opened = items_[static_cast<std::size_t>(index)];
+  Candidate& opened = candidates_[static_cast<std::size_t>(index)];
   opened.opened = true;
   opened.first = first;
-  opened.last = static_cast<std::int32_t>(items_.size());
+  opened.last = static_cast<std::int32_t>(candidates_.size());
 }
 
 }  // namespace patchmill

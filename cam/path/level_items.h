@@ -21,35 +21,35 @@
 namespace patchmill {
 
 // An axis-parallel rectangle in plan: a cell, or an edge of one (one half side zero).
-struct PlanCell {
+struct XyRect {
   Vec2 mid = Vec2::Zero();
   Vec2 half = Vec2::Zero();
 };
 
-class LevelItems {
+class ContactCandidates {
  public:
   // All references are kept.
-  LevelItems(const Locator& locator, const PieceSides& sides, const LevelBounds& bounds, double z);
+  ContactCandidates(const Locator& locator, const PieceSides& sides, const LevelBounds& bounds, double z);
 
   // Candidates are items, or nodes of the surface not looked into yet (negative).
   static constexpr std::int32_t kRoot = -1;
 
   // Appends the parts of `candidates` that may be touched from the cell, opened until they are small enough
   // for a cell of `width` ([contours (3)]).
-  void Collect(const std::vector<std::int32_t>& candidates, const PlanCell& cell, double width,
+  void Collect(const std::vector<std::int32_t>& candidates, const XyRect& cell, double width,
                std::vector<std::int32_t>& out);
   // Is the cell covered by the disc of the candidate's middle point?
-  bool Covers(std::int32_t candidate, const PlanCell& cell) const;
+  bool Covers(std::int32_t candidate, const XyRect& cell) const;
   // Can a contact on the candidate be part of a pass: not above the centre, its slope in the window?
   bool Wanted(std::int32_t candidate, const SlopeWindow& window) const;
   // Directions from contacts on the candidates to points of the cell.
   // `closely`: the directions from the parts' boxes count too; dearer.
-  DirectionCone Directions(const std::vector<std::int32_t>& candidates, const PlanCell& cell,
+  DirectionCone Directions(const std::vector<std::int32_t>& candidates, const XyRect& cell,
                            bool closely) const;
 
  private:
   enum class Kind : std::int8_t { kRect, kCurve };
-  struct Item {
+  struct Candidate {
     // What the test of a cell needs. Oriented: the slice of the centres' box at this level, |ax x + ay y -
     // mid| <= half thrice, inside the plan box of centres. Else the plan box of the part widened by rho.
     double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
@@ -76,18 +76,18 @@ class LevelItems {
     double middle_rho = -1.0;
   };
 
-  double Rho2(double z) const;
-  bool NodeTouches(std::int32_t node, const PlanCell& cell) const;
-  bool Touches(const Item& item, const PlanCell& cell) const;
-  DirectionCone DirectionsFrom(const Item& item, const PlanCell& cell, bool closely) const;
-  bool NeedsOpening(const Item& item, double width) const;
+  double ForbiddenRadius2(double z) const;
+  bool NodeTouches(std::int32_t node, const XyRect& cell) const;
+  bool Touches(const Candidate& item, const XyRect& cell) const;
+  DirectionCone DirectionsFrom(const Candidate& item, const XyRect& cell, bool closely) const;
+  bool NeedsOpening(const Candidate& item, double width) const;
   void Open(std::int32_t index);
   // The items of a leaf, made when first asked for.
   std::pair<std::int32_t, std::int32_t> OfLeaf(std::int32_t node);
-  bool SetLevel(Item& item, const Box3& box) const;  // false: out of reach
-  void AddFace(Item item, const RectBounds& part);
-  void AddRect(const Item& parent, double u0, double u1, double v0, double v1);
-  void SetMiddle(Item& item, const Vec3& p) const;
+  bool SetLevel(Candidate& item, const Box3& box) const;  // false: out of reach
+  void AddFace(Candidate item, const RectBounds& part);
+  void AddRect(const Candidate& parent, double u0, double u1, double v0, double v1);
+  void SetMiddle(Candidate& item, const Vec3& p) const;
   void AddCurve(PieceId piece, int side, double t0, double t1);
 
   const Locator& locator_;
@@ -95,7 +95,7 @@ class LevelItems {
   const PieceSides& sides_;
   const LevelBounds& bounds_;
   double z_, radius_;
-  std::vector<Item> items_;
+  std::vector<Candidate> candidates_;
   std::vector<std::int32_t> first_of_leaf_;  // -1: not made yet
   std::vector<std::int32_t> stack_;
 };

@@ -16,14 +16,14 @@ constexpr double kSlopeSlack = 1e-6;
 
 }  // namespace
 
-bool LevelItems::NodeTouches(std::int32_t node, const PlanCell& cell) const {
+bool ContactCandidates::NodeTouches(std::int32_t node, const XyRect& cell) const {
   const LevelBounds::NodeBox& box = bounds_.nodes()[static_cast<std::size_t>(node)];
   return z_ >= box.min[2] && z_ <= box.max[2] && cell.mid.x() + cell.half.x() >= box.min[0] &&
          cell.mid.x() - cell.half.x() <= box.max[0] && cell.mid.y() + cell.half.y() >= box.min[1] &&
          cell.mid.y() - cell.half.y() <= box.max[1];
 }
 
-bool LevelItems::Touches(const Item& item, const PlanCell& cell) const {
+bool ContactCandidates::Touches(const Candidate& item, const XyRect& cell) const {
   const double x = cell.mid.x(), y = cell.mid.y(), hx = cell.half.x(), hy = cell.half.y();
   if (x + hx < item.x0 || x - hx > item.x1 || y + hy < item.y0 || y - hy > item.y1) return false;
   if (item.oriented) {
@@ -46,7 +46,7 @@ bool LevelItems::Touches(const Item& item, const PlanCell& cell) const {
   return squares <= radius_ * radius_ * (1.0 + 1e-9);
 }
 
-bool LevelItems::NeedsOpening(const Item& item, double width) const {
+bool ContactCandidates::NeedsOpening(const Candidate& item, double width) const {
   const double small = std::min(width, radius_ / 3.0);
   const double limit = std::max(0.5 * width, std::min(0.3 * std::sqrt(small * radius_), 0.2 * item.rho));
   if (item.size <= limit) return false;
@@ -56,8 +56,8 @@ bool LevelItems::NeedsOpening(const Item& item, double width) const {
   return part > kSmallestPart;
 }
 
-void LevelItems::Collect(const std::vector<std::int32_t>& candidates, const PlanCell& cell, double width,
-                         std::vector<std::int32_t>& out) {
+void ContactCandidates::Collect(const std::vector<std::int32_t>& candidates, const XyRect& cell, double width,
+                                std::vector<std::int32_t>& out) {
   stack_.assign(candidates.rbegin(), candidates.rend());
   while (!stack_.empty()) {
     const std::int32_t index = stack_.back();
@@ -81,23 +81,23 @@ void LevelItems::Collect(const std::vector<std::int32_t>& candidates, const Plan
       }
       inside = OfLeaf(node);
     } else {
-      const Item& item = items_[static_cast<std::size_t>(index)];
+      const Candidate& item = candidates_[static_cast<std::size_t>(index)];
       if (!Touches(item, cell)) continue;
       if (!NeedsOpening(item, width)) {
         out.push_back(index);
         continue;
       }
       if (!item.opened) Open(index);
-      const Item& opened = items_[static_cast<std::size_t>(index)];
+      const Candidate& opened = candidates_[static_cast<std::size_t>(index)];
       inside = {opened.first, opened.last};
     }
     for (std::int32_t child = inside.second; child-- > inside.first;) stack_.push_back(child);
   }
 }
 
-bool LevelItems::Wanted(std::int32_t index, const SlopeWindow& window) const {
+bool ContactCandidates::Wanted(std::int32_t index, const SlopeWindow& window) const {
   if (index < 0) return true;
-  const Item& item = items_[static_cast<std::size_t>(index)];
+  const Candidate& item = candidates_[static_cast<std::size_t>(index)];
   if (item.z_min > z_ + kShankSlack) return false;
   // The contact rule: cos(slope) = (c - p_z)/R, or 0 where p is above the centre (shank).
   double flattest = std::acos(std::clamp((z_ - item.z_min) / radius_, 0.0, 1.0)) - kSlopeSlack;
@@ -110,9 +110,9 @@ bool LevelItems::Wanted(std::int32_t index, const SlopeWindow& window) const {
   return steepest >= window.min && flattest <= window.max;
 }
 
-bool LevelItems::Covers(std::int32_t index, const PlanCell& cell) const {
+bool ContactCandidates::Covers(std::int32_t index, const XyRect& cell) const {
   if (index < 0) return false;
-  const Item& item = items_[static_cast<std::size_t>(index)];
+  const Candidate& item = candidates_[static_cast<std::size_t>(index)];
   if (item.middle_rho <= 0.0) return false;
   const double dx = std::abs(item.middle.x() - cell.mid.x()) + cell.half.x();
   const double dy = std::abs(item.middle.y() - cell.mid.y()) + cell.half.y();
@@ -120,7 +120,8 @@ bool LevelItems::Covers(std::int32_t index, const PlanCell& cell) const {
   return dx * dx + dy * dy < reach * reach;
 }
 
-DirectionCone LevelItems::DirectionsFrom(const Item& item, const PlanCell& cell, bool closely) const {
+DirectionCone ContactCandidates::DirectionsFrom(const Candidate& item, const XyRect& cell,
+                                                bool closely) const {
   DirectionCone cone;
   if (item.oriented && (item.directed || !closely)) {
     cone.valid = item.directed;  // else a flat spot inside: any direction
@@ -145,8 +146,8 @@ DirectionCone LevelItems::DirectionsFrom(const Item& item, const PlanCell& cell,
   return cone;
 }
 
-DirectionCone LevelItems::Directions(const std::vector<std::int32_t>& candidates, const PlanCell& cell,
-                                     bool closely) const {
+DirectionCone ContactCandidates::Directions(const std::vector<std::int32_t>& candidates, const XyRect& cell,
+                                            bool closely) const {
   DirectionCone cone;
   cone.valid = true;
   for (const std::int32_t index : candidates) {
@@ -155,7 +156,7 @@ DirectionCone LevelItems::Directions(const std::vector<std::int32_t>& candidates
       cone.valid = cone.empty = false;
       return cone;
     }
-    const Item& item = items_[static_cast<std::size_t>(index)];
+    const Candidate& item = candidates_[static_cast<std::size_t>(index)];
     if (!Touches(item, cell)) continue;
     cone.Add(DirectionsFrom(item, cell, closely));
     if (!cone.valid) return cone;

@@ -8,8 +8,8 @@ namespace {
 
 // mm: exits shorter than this do not count; the place is known to about the square of the contact's last
 // step.
-constexpr double kStill = 1e-10;
-constexpr double kContactStill = 1e-6;
+constexpr double kMinExitLength = 1e-10;
+constexpr double kMinContactStep = 1e-6;
 // mm: h may pass c by this much at a border point (rounding of the contact, not of the method).
 constexpr double kHeightSlack = 1e-9;
 // mm: how far a border point may be moved out of a disc's rim at a vertical wall, where h jumps, or at one so
@@ -22,7 +22,7 @@ constexpr int kMostBranches = 60;   // along one straight way
 
 }  // namespace
 
-double LevelOracle::Rho(const Vec3& p) const {
+double LevelOracle::ForbiddenRadius(const Vec3& p) const {
   const double below = std::max(0.0, z_ - p.z());
   const double square = radius_ * radius_ - below * below;
   return square > 0.0 ? std::sqrt(square) : 0.0;
@@ -33,8 +33,8 @@ double LevelOracle::Excess(const Vec2& q, const Vec3& contact) const {
 }
 
 double LevelOracle::ExitLength(const Vec2& q, const Vec3& contact, const Vec2& direction) const {
-  const Vec2 d = q - Plan(contact);
-  const double rho = Rho(contact);
+  const Vec2 d = q - Xy(contact);
+  const double rho = ForbiddenRadius(contact);
   const double b = d.dot(direction), c = d.squaredNorm() - rho * rho;
   if (c >= 0.0) return 0.0;
   const double root = std::sqrt(b * b - c);
@@ -44,7 +44,7 @@ double LevelOracle::ExitLength(const Vec2& q, const Vec3& contact, const Vec2& d
 std::optional<SurfacePoint> LevelOracle::Obstacle(const Vec2& q, const SurfacePoint* hint) const {
   if (hint != nullptr) {
     const SurfacePoint near = Deepest(*hint, q);
-    if (Excess(q, near.p) < -kStill) return near;
+    if (Excess(q, near.p) < -kMinExitLength) return near;
   }
   if (locator_.Free(Center(q))) return std::nullopt;
   const std::optional<CenterPoint> h = locator_.Height(q, hint);
@@ -69,7 +69,7 @@ SurfacePoint LevelOracle::LeaveBranch(Way& way, const SurfacePoint& from, double
     const double moved = on.Step(Center(way.At()));
     const double exit = way.direction == Vec2::Zero() ? 0.0 : ExitLength(way.At(), on.at().p, way.direction);
     way.gone += exit;
-    return moved >= kContactStill || exit >= 0.1 * kStill;
+    return moved >= kMinContactStep || exit >= 0.1 * kMinExitLength;
   };
   int crossings = 0;
   for (int k = 0; k < kMostSlides && way.gone < reach; ++k) {
@@ -87,11 +87,11 @@ LevelPoint LevelOracle::Exit(const Vec2& start, const SurfacePoint& contact, con
                              double reach) const {
   Way way{start, direction};
   SurfacePoint at = contact;
-  double nudge = kStill;
+  double nudge = kMinExitLength;
   for (int branch = 0; branch < kMostBranches; ++branch) {
     at = LeaveBranch(way, at, reach);
     if (way.gone >= reach) return {start + reach * direction, at, std::nullopt};
-    if (nudge == kStill && z_ - at.p.z() < kVertical * radius_) {
+    if (nudge == kMinExitLength && z_ - at.p.z() < kVertical * radius_) {
       // Rounding must not decide on which side the point lies.
       way.gone += nudge;
       nudge *= 2.0;
@@ -102,7 +102,7 @@ LevelPoint LevelOracle::Exit(const Vec2& start, const SurfacePoint& contact, con
     const double before = way.gone;
     const SurfacePoint last = at;
     at = LeaveBranch(way, h->contact, reach);
-    if (way.gone - before >= kStill) continue;
+    if (way.gone - before >= kMinExitLength) continue;
     // Rounding decides on which side of the rim the point lies.
     if (nudge > kLargestNudge) return {way.At(), last, std::nullopt};
     way.gone += nudge;
@@ -120,8 +120,8 @@ std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& dir
   double back = kInfinity;
   const SurfacePoint* hit = nullptr;
   for (const SurfacePoint* k : {&a, &b}) {
-    const Vec2 d = m - Plan(k->p);
-    const double along = d.dot(direction), rho = Rho(k->p), outside = d.squaredNorm() - rho * rho;
+    const Vec2 d = m - Xy(k->p);
+    const double along = d.dot(direction), rho = ForbiddenRadius(k->p), outside = d.squaredNorm() - rho * rho;
     if (outside < 0.0) {
       back = 0.0;
       hit = k;
@@ -152,7 +152,7 @@ std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& dir
   const Vec2 from = m - back * direction;
   LevelPoint root = Exit(from, start, direction, reach);
   // Stopped at the end of the stretch: nothing there says that it is free.
-  if ((root.q - from).norm() >= reach - kStill) return std::nullopt;
+  if ((root.q - from).norm() >= reach - kMinExitLength) return std::nullopt;
   return root;
 }
 
@@ -161,8 +161,8 @@ std::optional<LevelPoint> LevelOracle::Corner(const LevelPoint& a, const LevelPo
   SurfacePoint ka = a.contact, kb = b.contact;
   Vec2 q = middle;
   for (int step = 0; step < 30; ++step) {
-    const Vec2 pa = Plan(ka.p), pb = Plan(kb.p), apart = pb - pa;
-    const double ra = Rho(ka.p), rb = Rho(kb.p), d2 = apart.squaredNorm();
+    const Vec2 pa = Xy(ka.p), pb = Xy(kb.p), apart = pb - pa;
+    const double ra = ForbiddenRadius(ka.p), rb = ForbiddenRadius(kb.p), d2 = apart.squaredNorm();
     if (d2 < 1e-12 * radius_ * radius_) return std::nullopt;
     const double along = 0.5 * (1.0 + (ra * ra - rb * rb) / d2);
     const double square = ra * ra / d2 - along * along;
@@ -180,9 +180,9 @@ std::optional<LevelPoint> LevelOracle::Corner(const LevelPoint& a, const LevelPo
   if ((ka.p - kb.p).norm() < 1e-6 * radius_) return std::nullopt;
   if (!locator_.Free(Center(q), kHeightSlack)) {
     // A third contact, or the rim of a vertical wall (where h jumps): then a hair outward is free.
-    const Vec2 out = ((q - Plan(ka.p)).normalized() + (q - Plan(kb.p)).normalized());
+    const Vec2 out = ((q - Xy(ka.p)).normalized() + (q - Xy(kb.p)).normalized());
     if (out.norm() < 0.1) return std::nullopt;
-    const Vec2 free = q + (4.0 * kStill / out.norm()) * out;
+    const Vec2 free = q + (4.0 * kMinExitLength / out.norm()) * out;
     if (!locator_.Free(Center(free), kHeightSlack)) return std::nullopt;
     q = free;
   }

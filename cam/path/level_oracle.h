@@ -63,7 +63,7 @@ class LevelOracle {
   // The nearest point of the branch of `from` to the ball with everything above it, centred at (q, c).
   SurfacePoint Deepest(const SurfacePoint& from, const Vec2& q) const;
   // Radius of the disc that a surface point forbids at this level (0 when it is too low).
-  double Rho(const Vec3& p) const;
+  double ForbiddenRadius(const Vec3& p) const;
   // Distance of the centre (q, c) from a contact, beyond the radius: what stays standing on it.
   double Excess(const Vec2& q, const Vec3& contact) const;
 

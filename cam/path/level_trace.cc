@@ -29,7 +29,7 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
   LevelCellLimits limits;
   limits.smallest = params.resolution / kCellsPerResolution;
   for (int shifts = 0; !run.Cancelled();) {
-    LevelItems items(context.locator, context.sides, context.bounds, level.z);
+    ContactCandidates items(context.locator, context.sides, context.bounds, level.z);
     const LevelOracle oracle(context.locator, context.sides, level.z);
     LevelCells cells = FindCells(items, context.locator.surface(), oracle, limits, run, wanted);
     if (cells.cancelled) return level;
@@ -49,7 +49,7 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
     level.ambiguous_cells = cells.ambiguous;
     const auto first = std::find_if(cells.cells.begin(), cells.cells.end(),
                                     [](const LevelCell& cell) { return cell.ambiguous; });
-    if (first != cells.cells.end()) level.ambiguous_at = oracle.Center(PlanOf(cells.grid, *first).mid);
+    if (first != cells.cells.end()) level.ambiguous_at = oracle.Center(XyRectOf(cells.grid, *first).mid);
     const LevelEdges edges = FindCrossings(cells, items, oracle, run);
     if (run.Cancelled()) return level;
     for (const Chain& chain : BuildChains(cells, edges, wanted != nullptr)) {
@@ -81,7 +81,7 @@ LevelContours TraceLevel(const LevelContext& context, double z, const ContourPar
   return Trace(context, z, params, nullptr, run);
 }
 
-LevelContours TracePasses(const LevelContext& context, double z, const PlanMask* where,
+LevelContours TracePasses(const LevelContext& context, double z, const NearSpotsMask* where,
                           const ContourParams& params, const RunContext& run) {
   WantedLevel wanted{params.window, where};
   wanted.window.min -= kWindowMargin;

@@ -29,7 +29,7 @@ LevelContours TraceLevel(const LevelContext& context, double z, const ContourPar
 
 // The same, without the stretches outside of `where` (null: none is) or whose contacts are all on the shank
 // or far outside of params.window: loops that lose some come as open paths.
-LevelContours TracePasses(const LevelContext& context, double z, const PlanMask* where,
+LevelContours TracePasses(const LevelContext& context, double z, const NearSpotsMask* where,
                           const ContourParams& params, const RunContext& run);
 
 }  // namespace patchmill

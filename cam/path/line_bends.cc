@@ -16,7 +16,7 @@ namespace patchmill {
 namespace {
 
 constexpr double kRowStep = 1.5;                // flat steps
-constexpr double kWorthwhile = 0.96;            // of the straight lines' length, as the lattice tells it,
+constexpr double kMaxBentRatio = 0.96;          // of the straight lines' length, as the lattice tells it,
 constexpr double kMeasured = 0.99;              // and as the lines and what fills their gaps have it
 constexpr std::size_t kFew = 64, kLooked = 24;  // gaps of a family: all of a few, so many of more
 constexpr double kRun = 0.5;   // ball radii: what one run more costs, most of them joined to the next
@@ -250,8 +250,8 @@ absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const 
   std::size_t runs = 0;
   for (const BentLine& line : family.lines) runs += line.where.size();
   const double ways =
-      kWayToRun * prober.radius() * (static_cast<double>(runs) - static_cast<double>(straight.size()));
-  if (high == 1.0 || LengthOf(lattice, min_step, family) + ways > kWorthwhile * least) return straight;
+      kRunCost * prober.radius() * (static_cast<double>(runs) - static_cast<double>(straight.size()));
+  if (high == 1.0 || LengthOf(lattice, min_step, family) + ways > kMaxBentRatio * least) return straight;
 
   // Again along the lines themselves: needs change with the direction.
   PM_ASSIGN_OR_RETURN(const LineLattice bent,

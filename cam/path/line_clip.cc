@@ -24,8 +24,8 @@ class Clipper {
   }
   void Subdivide(const LineProbe& a, const LineProbe& b, std::vector<LineProbe>& out) const;
   bool WantedBeside(const LineProbe& s) const;
-  bool GroundBetween(const LineProbe& a, const LineProbe& b) const;
-  bool GroundBetween(const std::vector<LineProbe>& stations, std::size_t first, std::size_t last) const;
+  bool FaceBetween(const LineProbe& a, const LineProbe& b) const;
+  bool FaceBetween(const std::vector<LineProbe>& stations, std::size_t first, std::size_t last) const;
   template <class Predicate>
   LineProbe Limit(LineProbe yes, LineProbe no, Predicate holds) const;
   double Extend(const std::vector<LineProbe>& stations, std::size_t next, const LineProbe& from,
@@ -73,17 +73,16 @@ bool OnOneSide(const SurfacePoint& a, const SurfacePoint& b) {
 }
 
 // Between places over different edges there may be ground narrower than what lies between the places.
-bool Clipper::GroundBetween(const LineProbe& a, const LineProbe& b) const {
+bool Clipper::FaceBetween(const LineProbe& a, const LineProbe& b) const {
   if (!a.contact || !b.contact || OnOneSide(*a.contact, *b.contact)) return false;
   if (b.t - a.t < kNarrowest * flat_ || prober_.Cancelled()) return false;
   const LineProbe m = Probe(0.5 * (a.t + b.t), a);
-  return m.finishes || GroundBetween(a, m) || GroundBetween(m, b);
+  return m.finishes || FaceBetween(a, m) || FaceBetween(m, b);
 }
 
-bool Clipper::GroundBetween(const std::vector<LineProbe>& stations, std::size_t first,
-                            std::size_t last) const {
+bool Clipper::FaceBetween(const std::vector<LineProbe>& stations, std::size_t first, std::size_t last) const {
   for (std::size_t k = first == 0 ? 0 : first - 1; k <= last && k + 1 < stations.size(); ++k) {
-    if (GroundBetween(stations[k], stations[k + 1])) return true;
+    if (FaceBetween(stations[k], stations[k + 1])) return true;
   }
   return false;
 }
@@ -152,7 +151,7 @@ std::vector<Interval> Clipper::Keep(const std::vector<LineProbe>& stations) cons
     i = last;
     const auto at = [&](std::size_t k) { return stations.begin() + static_cast<std::ptrdiff_t>(k); };
     if (std::none_of(at(first), at(last + 1), [](const LineProbe& p) { return p.finishes; }) &&
-        !GroundBetween(stations, first, last)) {
+        !FaceBetween(stations, first, last)) {
       continue;
     }
     Interval part{s.t, stations[last].t};

@@ -6,15 +6,15 @@
 namespace patchmill {
 
 // Lines in circles around a place in plan, where something is wanted between two distances from it.
-struct RoundLines {
+struct CircularLines {
   Vec2 center = Vec2::Zero();
   double inner = 0.0, outer = 0.0;  // mm, 0 <= inner < outer
 
-  bool operator==(const RoundLines&) const = default;
+  bool operator==(const CircularLines&) const = default;
 };
 
 // Flat steps: how near to circles the chords are that they are cut along.
-inline constexpr double kRoundSagitta = 0.01;
+inline constexpr double kCircleSagitta = 0.01;
 
 // Straight: parallel lines, y to the left of them. Round: y is the distance from a place, and t the way
 // around it, counter-clockwise from +x, in mm at the distance `at`; both repeat after period(). In either,

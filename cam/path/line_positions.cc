@@ -74,7 +74,7 @@ Row AlongLimit(const LineProber& prober, const Interval& range, double spacing, 
     }
   }
   // Circles are cut along chords.
-  const double chords = std::min(2.0 * kRoundSagitta * prober.flat_step(), std::abs(inside.y - along.y));
+  const double chords = std::min(2.0 * kCircleSagitta * prober.flat_step(), std::abs(inside.y - along.y));
   Row clear = SampleRow(prober, range, spacing, along.y + std::copysign(chords, way));
   return clear.wanted() ? clear : along;
 }
@@ -239,7 +239,7 @@ absl::StatusOr<DividedBand> Divide(const LineProber& prober, const Interval& ran
   double total = 0.0;
   for (std::size_t k = 0; k < density.size(); ++k) total += density[k] * (edges[k + 1] - edges[k]);
   const Count count =
-      CheapestCount(prober, band, density, total, kWayToRun * prober.radius() / (0.5 * spacing), min_step);
+      CheapestCount(prober, band, density, total, kRunCost * prober.radius() / (0.5 * spacing), min_step);
   PM_RETURN_IF_ERROR(run.Check());
   std::size_t k = 0;
   double passed = 0.0;

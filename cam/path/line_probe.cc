@@ -12,7 +12,7 @@
 namespace patchmill {
 
 LineProber::LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-                       const PassParams& params, const KeepIn* part, const SurfaceMask* where,
+                       const PassParams& params, const OperationLimits* part, const SurfaceMask* where,
                        const RunContext& run)
     : locator_(locator),
       border_(border),
@@ -66,7 +66,7 @@ LineProbe LineProber::Judge(double t, double y, double slope, const std::optiona
   probe.contact = h->contact;
   const Vec3 normal = (probe.center - h->contact.p) / radius;
   probe.allowed = border_.Allowed(h->contact, normal);
-  const double steepness = std::atan2(Plan(normal).norm(), normal.z());
+  const double steepness = std::atan2(Xy(normal).norm(), normal.z());
   constexpr double kSlack = 1e-9;  // rad: a plane at the limit itself belongs to it
   probe.wanted = probe.allowed && steepness >= params_.window.min - kSlack &&
                  steepness <= params_.window.max + kSlack && (part_ == nullptr || part_->Wants(h->contact)) &&
@@ -77,13 +77,13 @@ LineProbe LineProber::Judge(double t, double y, double slope, const std::optiona
   const double rise = slope / frame_.Stretch(y), slant = std::hypot(1.0, rise);
   const Vec2 feed = (frame_.Along(t) + rise * frame_.Across(t)) / slant;
   const Vec2 beside(-feed.y(), feed.x());
-  const double nt = Plan(normal).dot(feed), ny = Plan(normal).dot(beside);
+  const double nt = Xy(normal).dot(feed), ny = Xy(normal).dot(beside);
   const double cosine = std::sqrt(std::max(0.0, 1.0 - ny * ny));
   const SurfaceJet jet = Evaluate(locator_.surface(), h->contact.piece, h->contact.u, h->contact.v);
   const auto surface_normal = UpwardNormal(jet);
-  const bool on_ground = surface_normal && surface_normal->cross(normal).norm() < 1e-4;
-  probe.finishes = probe.wanted && (on_ground || border_.On(h->contact));
-  if (on_ground) {
+  const bool on_face = surface_normal && surface_normal->cross(normal).norm() < 1e-4;
+  probe.finishes = probe.wanted && (on_face || border_.On(h->contact));
+  if (on_face) {
     const double in_plane = std::hypot(nt, normal.z());
     const Vec3 across =
         in_plane > 1e-9

@@ -35,7 +35,8 @@ struct LineProbe {
 class LineProber {
  public:
   LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-             const PassParams& params, const KeepIn* part, const SurfaceMask* where, const RunContext& run);
+             const PassParams& params, const OperationLimits* part, const SurfaceMask* where,
+             const RunContext& run);
 
   // Of a line that runs at `slope` (dy/dt) through the place. Cost: one exact height and one surface
   // evaluation. `hint`: a contact nearby.
@@ -55,7 +56,7 @@ class LineProber {
   const SheetBorder& border_;
   const LineFrame frame_;
   const PassParams params_;
-  const KeepIn* const part_;
+  const OperationLimits* const part_;
   const SurfaceMask* const where_;
   const RunContext& run_;
   const double flat_step_;

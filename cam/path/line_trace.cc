@@ -27,48 +27,48 @@ struct BranchPoint {
   std::optional<SurfacePoint> contact;  // absent: the floor
 };
 
-class LineTracer {
+class SegmentTracer {
  public:
-  LineTracer(const Locator& locator, const PlanLine& line, const LineTraceParams& params)
+  SegmentTracer(const Locator& locator, const XyLine& line, const SegmentTraceParams& params)
       : locator_(locator), line_(line), params_(params), radius_(locator.radius()) {}
 
-  std::vector<std::vector<LineStation>> Run();
+  std::vector<std::vector<TraceStation>> Run();
 
  private:
-  std::optional<LineStation> Query(double t, const std::optional<SurfacePoint>& hint) const;
+  std::optional<TraceStation> Query(double t, const std::optional<SurfacePoint>& hint) const;
   std::optional<BranchPoint> Branch(const std::optional<SurfacePoint>& contact, double t) const;
-  Vec3 Center(const LineStation& s) const { return Lift(s.q, s.z); }
+  Vec3 Center(const TraceStation& s) const { return Lift(s.q, s.z); }
   Support SupportOf(const std::optional<SurfacePoint>& contact) const {
     return contact ? Support{contact->p, params_.floor_center} : Support{{}, params_.floor_center};
   }
   double DiscExit(const SurfacePoint& contact, double sign) const;
   std::optional<double> Bend() const;
   double NextChord() const;
-  double NextAdvance(const LineStation& s) const;
+  double NextAdvance(const TraceStation& s) const;
   // Two contacts that make a corner worth a vertex of its own.
   bool Apart(const std::optional<SurfacePoint>& p, const std::optional<SurfacePoint>& q) const {
     return p.has_value() != q.has_value() || (p && (p->p - q->p).norm() > 1e-3 * radius_);
   }
-  bool ChordIsGood(const LineStation& a, const LineStation& b) const;
+  bool ChordIsGood(const TraceStation& a, const TraceStation& b) const;
 
-  void Emit(const LineStation& s);
+  void Emit(const TraceStation& s);
   void BreakRun();
-  void Refine(LineStation a, LineStation b, int depth);
-  bool RefineAtSwitch(const LineStation& a, const LineStation& b, const BranchPoint& a_at_b,
+  void Refine(TraceStation a, TraceStation b, int depth);
+  bool RefineAtSwitch(const TraceStation& a, const TraceStation& b, const BranchPoint& a_at_b,
                       const BranchPoint& b_at_a, int depth);
-  bool RefineAtDrop(const LineStation& a, const LineStation& b, bool from_a, int depth);
-  LineStation LastBeforeGap(const LineStation& from, double gap_t) const;
+  bool RefineAtDrop(const TraceStation& a, const TraceStation& b, bool from_a, int depth);
+  TraceStation LastBeforeGap(const TraceStation& from, double gap_t) const;
 
   const Locator& locator_;
-  const PlanLine& line_;
-  const LineTraceParams& params_;
+  const XyLine& line_;
+  const SegmentTraceParams& params_;
   const double radius_;
-  std::vector<std::vector<LineStation>> runs_;
+  std::vector<std::vector<TraceStation>> runs_;
 };
 
-std::optional<LineStation> LineTracer::Query(double t, const std::optional<SurfacePoint>& hint) const {
+std::optional<TraceStation> SegmentTracer::Query(double t, const std::optional<SurfacePoint>& hint) const {
   const Vec2 q = line_.At(t);
-  LineStation s;
+  TraceStation s;
   s.t = t;
   s.q = s.at = q;
   const SurfacePoint* near = hint ? &*hint : nullptr;
@@ -94,7 +94,7 @@ std::optional<LineStation> LineTracer::Query(double t, const std::optional<Surfa
   return s;
 }
 
-std::optional<BranchPoint> LineTracer::Branch(const std::optional<SurfacePoint>& contact, double t) const {
+std::optional<BranchPoint> SegmentTracer::Branch(const std::optional<SurfacePoint>& contact, double t) const {
   if (!contact) return BranchPoint{params_.floor_center, {}};
   const auto c = locator_.Follow(*contact, line_.At(t));
   if (!c) return std::nullopt;
@@ -102,17 +102,17 @@ std::optional<BranchPoint> LineTracer::Branch(const std::optional<SurfacePoint>&
 }
 
 // Where the line leaves the disc of radius R around the contact, going in direction `sign`.
-double LineTracer::DiscExit(const SurfacePoint& contact, double sign) const {
-  const Vec2 d = Plan(contact.p) - line_.start;
+double SegmentTracer::DiscExit(const SurfacePoint& contact, double sign) const {
+  const Vec2 d = Xy(contact.p) - line_.start;
   const double along = d.dot(line_.direction), across = Cross(line_.direction, d);
   return along + sign * std::sqrt(std::max(0.0, radius_ * radius_ - across * across));
 }
 
 // How the curve of centres bends over the last three stations, 1/mm, > 0 where it bulges; nullopt where they
 // tell nothing.
-std::optional<double> LineTracer::Bend() const {
+std::optional<double> SegmentTracer::Bend() const {
   if (runs_.empty() || runs_.back().size() < 3) return std::nullopt;
-  const LineStation* s = &*(runs_.back().end() - 3);
+  const TraceStation* s = &*(runs_.back().end() - 3);
   if (s[1].keep || !(s[0].t < s[1].t && s[1].t < s[2].t)) return std::nullopt;
   const Vec3 a = Center(s[0]), ab = Center(s[1]) - a, ac = Center(s[2]) - a;
   const double sides = ab.norm() * ac.norm() * (ac - ab).norm();
@@ -123,7 +123,7 @@ std::optional<double> LineTracer::Bend() const {
 // The longest next chord whose [location T2] gouge and T3 excess are within their tolerances, as far as the
 // bend tells. A whole number of them makes a chord between vertices as long as that one may be
 // (FewestChords).
-double LineTracer::NextChord() const {
+double SegmentTracer::NextChord() const {
   const double gouge = params_.chord_tolerance, excess = std::min(gouge, params_.excess_tolerance);
   const double chord = LongestChord(radius_, 0.97 * gouge);
   const std::optional<double> bend = Bend();
@@ -137,17 +137,17 @@ double LineTracer::NextChord() const {
 }
 
 // The plan advance that makes the next chord that long, from the slope under the ball.
-double LineTracer::NextAdvance(const LineStation& s) const {
+double SegmentTracer::NextAdvance(const TraceStation& s) const {
   const double chord = NextChord();
   if (!s.right) return chord;
   const Vec3 n = Center(s) - s.right->p;
-  const double along = Plan(n).dot(line_.direction);
+  const double along = Xy(n).dot(line_.direction);
   const double cosine = n.z() / std::hypot(along, n.z());
   // The slope may grow over the chord by about its length over R; what fails is halved anyway.
   return chord * std::clamp(cosine - 0.02, 0.05, 1.0);
 }
 
-bool LineTracer::ChordIsGood(const LineStation& a, const LineStation& b) const {
+bool SegmentTracer::ChordIsGood(const TraceStation& a, const TraceStation& b) const {
   const Vec3 ca = Center(a), cb = Center(b);
   const double length = (cb - ca).norm(), limit = std::min(params_.chord_tolerance, params_.excess_tolerance);
   if (ChordGouge(radius_, length) > params_.chord_tolerance) return false;
@@ -160,17 +160,17 @@ bool LineTracer::ChordIsGood(const LineStation& a, const LineStation& b) const {
                       right, limit);
 }
 
-void LineTracer::Emit(const LineStation& s) {
+void SegmentTracer::Emit(const TraceStation& s) {
   if (runs_.empty()) runs_.emplace_back();
   runs_.back().push_back(s);
 }
 
-void LineTracer::BreakRun() {
+void SegmentTracer::BreakRun() {
   if (runs_.empty() || !runs_.back().empty()) runs_.emplace_back();
 }
 
 // Emits everything after a up to and including b.
-void LineTracer::Refine(LineStation a, LineStation b, int depth) {
+void SegmentTracer::Refine(TraceStation a, TraceStation b, int depth) {
   if (b.t - a.t < kSmallestAdvance) {
     if (std::abs(a.z - b.z) > params_.chord_tolerance) b.keep = true;
     Emit(b);
@@ -214,7 +214,7 @@ void LineTracer::Refine(LineStation a, LineStation b, int depth) {
     Refine(*m, b, depth + 1);
     return;
   }
-  const LineStation end = LastBeforeGap(a, mid), begin = LastBeforeGap(b, mid);
+  const TraceStation end = LastBeforeGap(a, mid), begin = LastBeforeGap(b, mid);
   Refine(a, end, depth + 1);
   BreakRun();
   Emit(begin);
@@ -222,8 +222,8 @@ void LineTracer::Refine(LineStation a, LineStation b, int depth) {
 }
 
 // Solves branch a = branch b. True when it was the switch (or a third branch above it) and all is emitted.
-bool LineTracer::RefineAtSwitch(const LineStation& a, const LineStation& b, const BranchPoint& a_at_b,
-                                const BranchPoint& b_at_a, int depth) {
+bool SegmentTracer::RefineAtSwitch(const TraceStation& a, const TraceStation& b, const BranchPoint& a_at_b,
+                                   const BranchPoint& b_at_a, int depth) {
   double t0 = a.t, t1 = b.t;
   double f0 = a.z - b_at_a.z, f1 = a_at_b.z - b.z;  // f0 > 0 > f1
   std::optional<SurfacePoint> on_a = a.right, on_b = b.left;
@@ -271,8 +271,8 @@ bool LineTracer::RefineAtSwitch(const LineStation& a, const LineStation& b, cons
 }
 
 // The higher branch ends where its contact leaves the disc: goes there and puts both ends of the drop.
-bool LineTracer::RefineAtDrop(const LineStation& a, const LineStation& b, bool from_a, int depth) {
-  const LineStation& high = from_a ? a : b;
+bool SegmentTracer::RefineAtDrop(const TraceStation& a, const TraceStation& b, bool from_a, int depth) {
+  const TraceStation& high = from_a ? a : b;
   const double sign = from_a ? 1.0 : -1.0, far = from_a ? b.t : a.t;
   const std::optional<SurfacePoint>& start = from_a ? a.right : b.left;
   if (!start) return false;
@@ -294,7 +294,7 @@ bool LineTracer::RefineAtDrop(const LineStation& a, const LineStation& b, bool f
   const auto foot = Query(wall + sign * kDropOffset, contact);
   if (!foot) {
     // The surface itself ends here; it begins again before the other side.
-    const LineStation other = LastBeforeGap(from_a ? b : a, wall + sign * kDropOffset);
+    const TraceStation other = LastBeforeGap(from_a ? b : a, wall + sign * kDropOffset);
     top->keep = true;
     if (from_a) {
       Refine(a, *top, depth + 1);
@@ -309,7 +309,7 @@ bool LineTracer::RefineAtDrop(const LineStation& a, const LineStation& b, bool f
     }
     return true;
   }
-  LineStation foot_station = *foot;
+  TraceStation foot_station = *foot;
   if (top->z - foot->z > params_.chord_tolerance) {
     // Both over the foot's place, which is outside the wall.
     top->t = foot->t;
@@ -334,9 +334,9 @@ bool LineTracer::RefineAtDrop(const LineStation& a, const LineStation& b, bool f
 }
 
 // The end of the run that holds `from`, when h does not exist at gap_t.
-LineStation LineTracer::LastBeforeGap(const LineStation& from, double gap_t) const {
+TraceStation SegmentTracer::LastBeforeGap(const TraceStation& from, double gap_t) const {
   const double sign = gap_t > from.t ? 1.0 : -1.0;
-  LineStation inside = from;
+  TraceStation inside = from;
   double outside = gap_t;
   for (int i = 0; i < 2 * kMaxIterations && sign * (outside - inside.t) > 2.0 * kDropOffset; ++i) {
     double t = 0.5 * (inside.t + outside);
@@ -357,7 +357,7 @@ LineStation LineTracer::LastBeforeGap(const LineStation& from, double gap_t) con
   return inside;
 }
 
-std::vector<std::vector<LineStation>> LineTracer::Run() {
+std::vector<std::vector<TraceStation>> SegmentTracer::Run() {
   auto at = Query(0.0, std::nullopt);
   double t = 0.0;
   if (at) {
@@ -383,7 +383,7 @@ std::vector<std::vector<LineStation>> LineTracer::Run() {
       BreakRun();
     } else if (next) {
       BreakRun();
-      const LineStation begin = LastBeforeGap(*next, t);
+      const TraceStation begin = LastBeforeGap(*next, t);
       Emit(begin);
       Refine(begin, *next, 0);
     }
@@ -396,14 +396,14 @@ std::vector<std::vector<LineStation>> LineTracer::Run() {
 
 }  // namespace
 
-PlanLine PlanLine::Through(const Vec2& a, const Vec2& b) {
+XyLine XyLine::Through(const Vec2& a, const Vec2& b) {
   const double length = (b - a).norm();
   return {a, length > 0.0 ? Vec2((b - a) / length) : Vec2(Vec2::UnitX()), length};
 }
 
-std::vector<std::vector<LineStation>> TraceLine(const Locator& locator, const PlanLine& line,
-                                                const LineTraceParams& params) {
-  return LineTracer(locator, line, params).Run();
+std::vector<std::vector<TraceStation>> TraceSegment(const Locator& locator, const XyLine& line,
+                                                    const SegmentTraceParams& params) {
+  return SegmentTracer(locator, line, params).Run();
 }
 
 }  // namespace patchmill

@@ -12,7 +12,7 @@
 namespace patchmill {
 
 // A centre on the curve. Left and right support differ at a switch; absent: the floor carries the ball there.
-struct LineStation {
+struct TraceStation {
   double t = 0.0;              // mm along the segment, or any curve in plan, by arc length
   Vec2 q = Vec2::Zero();       // the place in plan
   double z = 0.0;              // centre height
@@ -23,7 +23,7 @@ struct LineStation {
   bool keep = false;                 // ends, switches, both ends of a drop
 };
 
-struct LineTraceParams {
+struct SegmentTraceParams {
   double chord_tolerance = 0.005;       // mm, [location T2] and T3 between neighbouring stations
   double excess_tolerance = kInfinity;  // mm, [location T3] between them, where that is less
   double floor_center = -kInfinity;     // mm, lowest centre height
@@ -32,12 +32,12 @@ struct LineTraceParams {
 };
 
 // The segment in plan, by arc length.
-struct PlanLine {
+struct XyLine {
   Vec2 start = Vec2::Zero();
   Vec2 direction = Vec2::UnitX();
   double length = 0.0;
 
-  static PlanLine Through(const Vec2& a, const Vec2& b);
+  static XyLine Through(const Vec2& a, const Vec2& b);
   Vec2 At(double t) const { return start + t * direction; }
 };
 
@@ -45,7 +45,7 @@ struct PlanLine {
 // and T3 excess within their tolerances, or are the two ends of a vertical drop (same t). Switches to 1e-10
 // mm in t, drops and ends of runs to 1e-8 mm. One exact height per station, certified when asked for, a few
 // branch followings per switch.
-std::vector<std::vector<LineStation>> TraceLine(const Locator& locator, const PlanLine& line,
-                                                const LineTraceParams& params);
+std::vector<std::vector<TraceStation>> TraceSegment(const Locator& locator, const XyLine& line,
+                                                    const SegmentTraceParams& params);
 
 }  // namespace patchmill

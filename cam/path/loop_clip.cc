@@ -14,10 +14,10 @@ constexpr double kOnSide = 1e-6;     // parameter distance at which a contact li
 constexpr double kEndPlace = 1e-6;   // mm: how exactly the ends of a part are placed
 constexpr double kWallPlace = 1e-6;  // mm: how far a wall may be from vertical below its shank contact
 constexpr double kAtLimit = 1e-5;    // rad: a rim contact this close to the face's normal is the face's own
-constexpr double kOnGround = 1e-4;   // sine of the angle between normal and contact that is none, at least
+constexpr double kOnFace = 1e-4;     // sine of the angle between normal and contact that is none, at least
 constexpr double kRimRise = 0.05;    // least rise of a face towards an open rim that counts as highest there
 
-enum class Ground { kNone, kAllowed, kWanted };  // no pass; pass ground outside the window; in the window
+enum class Verdict { kNone, kAllowed, kWanted };  // no pass; pass ground outside the window; in the window
 
 class Clipper {
  public:
@@ -44,7 +44,7 @@ class Clipper {
   // A stretch of the loop with one kind of ground throughout.
   struct Piece {
     CutterPoint from, to;
-    Ground ground;
+    Verdict verdict;
   };
 
   // What the ball over q rests on, where `contact` is: below the shank the wall that goes down to the
@@ -52,23 +52,23 @@ class Clipper {
   std::optional<SurfacePoint> RestsOn(const SurfacePoint& contact) const {
     const double z = oracle_.z();
     if (z - contact.p.z() >= -1e-9 * oracle_.radius()) return contact;
-    return WallAt(contact, Lift(Plan(contact.p), z));
+    return WallAt(contact, Lift(Xy(contact.p), z));
   }
   // From the contact towards the centre over q, unit.
   Vec3 OffContact(const Vec2& q, const SurfacePoint& contact) const {
-    return Lift(Vec2(q - Plan(contact.p)), std::max(0.0, oracle_.z() - contact.p.z())).normalized();
+    return Lift(Vec2(q - Xy(contact.p)), std::max(0.0, oracle_.z() - contact.p.z())).normalized();
   }
 
   // Judges one contact under the centre over q.
-  Ground Judge(const Vec2& q, const SurfacePoint& contact) const {
+  Verdict Judge(const Vec2& q, const SurfacePoint& contact) const {
     const std::optional<SurfacePoint> at = RestsOn(contact);
     const Vec3 off = OffContact(q, contact);
-    if (!at || BehindWall(*at, off) || !Holds(*at, off)) return Ground::kNone;
+    if (!at || BehindWall(*at, off) || !Holds(*at, off)) return Verdict::kNone;
     const double z = oracle_.z();
     const double cosine = std::max(0.0, (z - contact.p.z()) / oracle_.radius());
     const double slope = std::acos(std::min(1.0, cosine));
-    if (slope < params_.window.min || slope > params_.window.max + 1e-9) return Ground::kAllowed;
-    return NearSpot(Lift(q, z)) ? Ground::kWanted : Ground::kAllowed;
+    if (slope < params_.window.min || slope > params_.window.max + 1e-9) return Verdict::kAllowed;
+    return NearSpot(Lift(q, z)) ? Verdict::kWanted : Verdict::kAllowed;
   }
 
   // The surface point at `place`, on the piece of `contact` or on one that meets it there.
@@ -150,7 +150,7 @@ class Clipper {
       if (!facing) continue;
       const Vec3 normal = facing->both && facing->e.dot(e) < 0.0 ? Vec3(-facing->e) : facing->e;
       if (std::atan2(normal.cross(e).norm(), normal.dot(e)) <= kAtLimit) continue;
-      const bool highest = out->z() > kRimRise && Plan(normal).dot(Plan(e)) >= 0.0;
+      const bool highest = out->z() > kRimRise && Xy(normal).dot(Xy(e)) >= 0.0;
       if (!highest) return false;
     }
     return true;
@@ -158,11 +158,11 @@ class Clipper {
 
   // The ball touches ground there or, rolling over an edge, has some within half a step; it rolls over a
   // sheet's border on purpose.
-  bool OnGround(const Vec2& q, const SurfacePoint& contact) const {
+  bool OnFace(const Vec2& q, const SurfacePoint& contact) const {
     const std::optional<SurfacePoint> at = RestsOn(contact);
     if (!at) return false;
     const Vec3 e = OffContact(q, contact);
-    const double turn = std::max(kOnGround, params_.overlap / oracle_.radius());
+    const double turn = std::max(kOnFace, params_.overlap / oracle_.radius());
     const auto along = [&](const SurfacePoint& p) {
       const std::optional<Vec3> normal = UpwardNormal(Evaluate(surface_, p.piece, p.u, p.v));
       // Where there is none it is the point of a cone or the like.
@@ -179,13 +179,13 @@ class Clipper {
     }
     return false;
   }
-  bool OnGround(const CutterPoint& p) const {
-    const Vec2 q = Plan(p.center);
-    return OnGround(q, *p.contact) || (p.other_contact && OnGround(q, *p.other_contact));
+  bool OnFace(const CutterPoint& p) const {
+    const Vec2 q = Xy(p.center);
+    return OnFace(q, *p.contact) || (p.other_contact && OnFace(q, *p.other_contact));
   }
   // The same between two points, at places as far apart as ground beside an edge counts.
-  bool OnGroundBetween(const CutterPoint& a, const CutterPoint& b) const {
-    const Vec2 qa = Plan(a.center), way = Plan(b.center) - qa;
+  bool OnFaceBetween(const CutterPoint& a, const CutterPoint& b) const {
+    const Vec2 qa = Xy(a.center), way = Xy(b.center) - qa;
     const double length = way.norm();
     if (!(length > kEndPlace)) return false;
     const Vec2 left = Vec2(-way.y(), way.x()) / length;
@@ -194,7 +194,7 @@ class Clipper {
     for (int k = 1; k < parts; ++k) {
       const std::optional<LevelPoint> root = oracle_.RootOnLine(qa + (static_cast<double>(k) / parts) * way,
                                                                 left, After(a), *b.contact, {length, length});
-      if (root && OnGround(root->q, root->contact)) return true;
+      if (root && OnFace(root->q, root->contact)) return true;
     }
     return false;
   }
@@ -202,11 +202,11 @@ class Clipper {
   bool OverEdgesAlone(const CutterPath& part) const {
     const std::size_t n = part.points.size();
     if (std::any_of(part.points.begin(), part.points.end(),
-                    [&](const CutterPoint& p) { return OnGround(p); })) {
+                    [&](const CutterPoint& p) { return OnFace(p); })) {
       return false;
     }
     for (std::size_t k = 0; k + (part.closed ? 0 : 1) < n; ++k) {
-      if (OnGroundBetween(part.points[k], part.points[(k + 1) % n])) return false;
+      if (OnFaceBetween(part.points[k], part.points[(k + 1) % n])) return false;
     }
     return true;
   }
@@ -224,26 +224,26 @@ class Clipper {
   static SurfacePoint After(const CutterPoint& p) { return p.other_contact ? *p.other_contact : *p.contact; }
 
   void AddSegment(const CutterPoint& a, const CutterPoint& b) {
-    const Ground ga = Judge(Plan(a.center), After(a)), gb = Judge(Plan(b.center), *b.contact);
+    const Verdict ga = Judge(Xy(a.center), After(a)), gb = Judge(Xy(b.center), *b.contact);
     Split(a, After(a), ga, b, gb, 0);
   }
 
   // Cuts a chord where the ground changes between its ends.
-  void Split(const CutterPoint& a, const SurfacePoint& contact_a, Ground ga, const CutterPoint& b, Ground gb,
-             int depth) {
+  void Split(const CutterPoint& a, const SurfacePoint& contact_a, Verdict ga, const CutterPoint& b,
+             Verdict gb, int depth) {
     const double length = (b.center - a.center).norm();
     if (ga == gb) {
       pieces_.push_back({a, b, ga});
       return;
     }
-    const Vec2 qa = Plan(a.center), qb = Plan(b.center);
+    const Vec2 qa = Xy(a.center), qb = Xy(b.center);
     if (length > kEndPlace && depth < 40) {
       const Vec2 left = Vec2(qa.y() - qb.y(), qb.x() - qa.x()) / length;
       const std::optional<LevelPoint> root =
           oracle_.RootOnLine(0.5 * (qa + qb), left, contact_a, *b.contact, {length, length});
       if (root && (root->q - qa).norm() < 0.9 * length && (root->q - qb).norm() < 0.9 * length) {
         const CutterPoint m{oracle_.Center(root->q), root->contact, root->other};
-        const Ground gm = Judge(root->q, root->contact);
+        const Verdict gm = Judge(root->q, root->contact);
         Split(a, contact_a, ga, m, gm, depth + 1);
         Split(m, root->contact, gm, b, gb, depth + 1);
         return;
@@ -256,7 +256,7 @@ class Clipper {
   std::vector<CutterPath> Parts() {
     const std::size_t n = pieces_.size();
     std::vector<char> keep(n, 0);
-    for (std::size_t i = 0; i < n; ++i) keep[i] = pieces_[i].ground == Ground::kWanted;
+    for (std::size_t i = 0; i < n; ++i) keep[i] = pieces_[i].verdict == Verdict::kWanted;
     Dilate(keep);
     if (std::find(keep.begin(), keep.end(), 1) == keep.end()) return {};
     const auto gap = std::find(keep.begin(), keep.end(), 0);
@@ -296,7 +296,7 @@ class Clipper {
       for (std::size_t i = 0; i < n; ++i) {
         if (!wanted[i] || (!loop_.closed && i == end) || wanted[neighbor(i)]) continue;
         double left = params_.overlap;
-        for (std::size_t k = neighbor(i); left > 0.0 && !wanted[k] && pieces_[k].ground != Ground::kNone;
+        for (std::size_t k = neighbor(i); left > 0.0 && !wanted[k] && pieces_[k].verdict != Verdict::kNone;
              k = neighbor(k)) {
           keep[k] = 1;
           left -= (pieces_[k].to.center - pieces_[k].from.center).norm();

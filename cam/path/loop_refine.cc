@@ -10,7 +10,7 @@ namespace patchmill {
 namespace {
 
 constexpr int kMaxDepth = 30;
-constexpr double kApart = 1e-9;  // mm: points closer than this are one
+constexpr double kSamePoint = 1e-9;  // mm: points closer than this are one
 
 // Does the chord leave no more than `limit`, by the ground between the contacts of its ends? Only asked where
 // they are on one piece.
@@ -39,7 +39,7 @@ class Refiner {
     // has a contact known to no better than the tolerance, and would be divided without end.
     const bool fine = excess <= tolerance_.excess || length <= 2.0 * tolerance_.excess ||
                       (length <= longest_ && ExcessBetween(oracle_, a, b, tolerance_.excess));
-    if ((length <= longest_ && fine) || depth >= kMaxDepth || length < kApart || cell.fixed) {
+    if ((length <= longest_ && fine) || depth >= kMaxDepth || length < kSamePoint || cell.fixed) {
       out_.push_back(b);
       return;
     }
@@ -70,7 +70,7 @@ class Refiner {
       LevelOracle::Stretch inside = Inside(cell.bounds, margin, m, direction);
       inside.crossed = attempt < 2;
       const std::optional<LevelPoint> root = oracle_.RootOnLine(m, direction, a.contact, b.contact, inside);
-      if (!root || (root->q - a.q).norm() < kApart || (root->q - b.q).norm() < kApart) continue;
+      if (!root || (root->q - a.q).norm() < kSamePoint || (root->q - b.q).norm() < kSamePoint) continue;
       Way(a, *root, cell, depth + 1);
       Way(*root, b, cell, depth + 1);
       return;
@@ -88,12 +88,13 @@ class Refiner {
   // In the cell and not at an end; where it has a cone on the one graph that joins the ends ([contours T8a]).
   static bool Between(const Vec2& q, const Vec2& a, const Vec2& b, const ChainCell& cell) {
     const Vec2 off = (q - cell.bounds.mid).cwiseAbs() - cell.bounds.half;
-    if (!((q - a).norm() > kApart && (q - b).norm() > kApart && off.maxCoeff() <= kApart)) return false;
+    if (!((q - a).norm() > kSamePoint && (q - b).norm() > kSamePoint && off.maxCoeff() <= kSamePoint))
+      return false;
     return cell.Ambiguous() || Cross(q - a, cell.free) * Cross(b - q, cell.free) > 0.0;
   }
 
   // The part of a line through m within `margin` of a cell.
-  static LevelOracle::Stretch Inside(const PlanCell& cell, double margin, const Vec2& m,
+  static LevelOracle::Stretch Inside(const XyRect& cell, double margin, const Vec2& m,
                                      const Vec2& direction) {
     LevelOracle::Stretch part{kInfinity, kInfinity};
     for (int k = 0; k < 2; ++k) {
@@ -170,7 +171,7 @@ double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPo
   const double z = oracle.z();
   const auto square = [&](const Vec2& q, const Vec3& k) {
     const double below = std::max(0.0, z - k.z());
-    return (q - Plan(k)).squaredNorm() + below * below;
+    return (q - Xy(k)).squaredNorm() + below * below;
   };
   const double at_a = square(a.q, a.contact.p) - square(a.q, b.contact.p);
   const double at_b = square(b.q, a.contact.p) - square(b.q, b.contact.p);

@@ -18,13 +18,14 @@ namespace patchmill {
 namespace {
 
 constexpr double kCoarse = 2.0, kFine = 0.25;  // flat steps: between the places of a pass that are looked at
-constexpr double kBeside = 0.2;                // of the flat step: another pass so near may do for both
-constexpr double kWider = 1.022;  // than the step may others lie apart; its square is kNeedlessLimit
+constexpr double kBesideDistance = 0.2;        // of the flat step: another pass so near may do for both
+constexpr double kWider = 1.022;  // than the step may others lie apart; its square is kRedundantLimit
 constexpr int kPlaces = 4;        // on either side of a chord: where others are looked for
 constexpr double kWidest = 4.0;   // flat steps: passes farther away are not looked for
 constexpr double kProof = 0.01;   // of the scallop: what FindSpots may take longer to tell
-constexpr double kNoLess = 0.05;  // of the tolerance: by this what was taken has to have left less
-constexpr double kCrumb = 1.0;    // ball radii: nothing shorter is left of a pass beside what is taken
+constexpr double kRemovedMarginShare =
+    0.05;                              // of the tolerance: by this what was taken has to have left less
+constexpr double kMinRemainder = 1.0;  // ball radii: nothing shorter is left of a pass beside what is taken
 
 // A move of a pass.
 struct Chord {
@@ -32,7 +33,7 @@ struct Chord {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // ball centres
   Vec3 across = Vec3::Zero();               // along the surface, unit
   double step = 0.0;                        // mm: passes on both sides may be this far apart
-  bool taken = false;                       // it is needless
+  bool removed = false;                     // it is needless
   double Length() const { return (b - a).norm(); }
 };
 
@@ -42,10 +43,10 @@ struct Stretch {
   double length = 0.0;  // mm
 };
 
-class Taker {
+class RedundantPassRemover {
  public:
-  Taker(const Locator& locator, const std::vector<CutterPath>& paths, const PassParams& params,
-        const RunContext& run)
+  RedundantPassRemover(const Locator& locator, const std::vector<CutterPath>& paths, const PassParams& params,
+                       const RunContext& run)
       : locator_(locator),
         paths_(paths),
         scallop_(params.scallop),
@@ -60,13 +61,13 @@ class Taker {
   // Marks what seems needless.
   absl::Status Take(const RunContext& run);
   // Gives back what left least of each spot, and what is not worth its gap then. Returns what that is.
-  // `taken`: a tree of Taken().
-  std::vector<PathSegment> GiveBack(const std::vector<LeftoverSpot>& spots, const SegmentTree& taken);
-  std::vector<PathSegment> Taken() const {
-    return Segments([](const Chord& c) { return c.taken; });
+  // `taken`: a tree of Removed().
+  std::vector<PathSegment> Restore(const std::vector<LeftoverSpot>& spots, const SegmentTree& removed);
+  std::vector<PathSegment> Removed() const {
+    return Segments([](const Chord& c) { return c.removed; });
   }
   std::vector<PathSegment> Kept() const {
-    return Segments([](const Chord& c) { return !c.taken; });
+    return Segments([](const Chord& c) { return !c.removed; });
   }
   std::vector<CutterPath> Passes() const;
 
@@ -93,8 +94,8 @@ class Taker {
     return segments;
   }
   void Measure(Chord& chord, const CutterPoint& from, const CutterPoint& to) const;
-  bool SeemsNeedless(const Chord& chord, double spacing, std::vector<int>& found) const;
-  std::vector<Stretch> WorthStretches(std::size_t path, const std::vector<char>& needless) const;
+  bool SeemsRedundant(const Chord& chord, double spacing, std::vector<int>& found) const;
+  std::vector<Stretch> StretchesWorthRemoving(std::size_t path, const std::vector<char>& needless) const;
 
   const Locator& locator_;
   const std::vector<CutterPath>& paths_;
@@ -105,7 +106,7 @@ class Taker {
 };
 
 // The step where it is shortest of both ends; where nothing is touched, as on level ground.
-void Taker::Measure(Chord& chord, const CutterPoint& from, const CutterPoint& to) const {
+void RedundantPassRemover::Measure(Chord& chord, const CutterPoint& from, const CutterPoint& to) const {
   const double radius = locator_.radius();
   const Vec3 d = chord.b - chord.a;
   chord.across = Vec3(d.y(), -d.x(), 0.0);
@@ -131,12 +132,12 @@ void Taker::Measure(Chord& chord, const CutterPoint& from, const CutterPoint& to
 }
 
 // Of passes that are not taken, at places of the chord no farther apart than `spacing`.
-bool Taker::SeemsNeedless(const Chord& chord, double spacing, std::vector<int>& found) const {
+bool RedundantPassRemover::SeemsRedundant(const Chord& chord, double spacing, std::vector<int>& found) const {
   const Vec3 d = chord.b - chord.a;
   const double length = d.norm();
   if (!(length > 0.0)) return true;  // goes with its neighbours
   const int count = static_cast<int>(std::ceil(length / spacing));
-  const double reach = 0.5 * kWider * chord.step, beside = kBeside * flat_;
+  const double reach = 0.5 * kWider * chord.step, beside = kBesideDistance * flat_;
   for (int k = 0; k < count; ++k) {
     const Vec3 c = chord.a + (k + 0.5) / count * d;
     std::array<double, 2 * kPlaces + 1> off2;  // mm^2, of the nearest, at places across the chord
@@ -145,7 +146,7 @@ bool Taker::SeemsNeedless(const Chord& chord, double spacing, std::vector<int>& 
     for (const int i : found) {
       const PathSegment s = tree_.segment(i);
       const Chord& other = chords_[static_cast<std::size_t>(s.move)];
-      if (other.taken || other.path == chord.path) continue;
+      if (other.removed || other.path == chord.path) continue;
       const PathRuler ruler(s);
       for (int p = -kPlaces; p <= kPlaces; ++p) {
         double& at = off2[static_cast<std::size_t>(p + kPlaces)];
@@ -158,7 +159,8 @@ bool Taker::SeemsNeedless(const Chord& chord, double spacing, std::vector<int>& 
   return true;
 }
 
-std::vector<Stretch> Taker::WorthStretches(std::size_t path, const std::vector<char>& needless) const {
+std::vector<Stretch> RedundantPassRemover::StretchesWorthRemoving(std::size_t path,
+                                                                  const std::vector<char>& needless) const {
   const std::size_t n = needless.size();
   const bool closed = paths_[path].closed;
   std::size_t start = 0;
@@ -172,7 +174,7 @@ std::vector<Stretch> Taker::WorthStretches(std::size_t path, const std::vector<c
     for (; s.last < start + n && needless[s.last % n]; ++s.last)
       s.length += chords_[first_[path] + s.last % n].Length();
     const bool whole = s.last - s.first == n, at_end = !closed && (s.first == 0 || s.last == n);
-    const double worth = locator_.radius() * (whole ? 0.0 : at_end ? kWorthAtEnd : kWorthBetween);
+    const double worth = locator_.radius() * (whole ? 0.0 : at_end ? kMinRemovedAtEnd : kMinRemovedBetween);
     if (s.last > s.first && s.length >= worth) stretches.push_back(s);
     k = s.last + 1;
   }
@@ -183,7 +185,7 @@ std::vector<Stretch> Taker::WorthStretches(std::size_t path, const std::vector<c
     double between = 0.0;
     const std::size_t end = stretches[next].first + (next == 0 ? n : 0);
     for (std::size_t k = stretches[i].last; k < end; ++k) between += chords_[first_[path] + k % n].Length();
-    if (next == i || between >= kCrumb * locator_.radius()) {
+    if (next == i || between >= kMinRemainder * locator_.radius()) {
       ++i;
       continue;
     }
@@ -194,7 +196,7 @@ std::vector<Stretch> Taker::WorthStretches(std::size_t path, const std::vector<c
   return stretches;
 }
 
-absl::Status Taker::Take(const RunContext& run) {
+absl::Status RedundantPassRemover::Take(const RunContext& run) {
   std::vector<char> possible(paths_.size(), 0);
   std::vector<std::vector<char>> seems(paths_.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "needless passes", paths_.size(), [&](std::size_t k) {
@@ -204,9 +206,9 @@ absl::Status Taker::Take(const RunContext& run) {
       const std::size_t at = i - first_[k];
       const std::vector<CutterPoint>& points = paths_[k].points;
       Measure(chords_[i], points[at], points[(at + 1) % points.size()]);
-      seems[k].push_back(SeemsNeedless(chords_[i], kCoarse * flat_, found));
+      seems[k].push_back(SeemsRedundant(chords_[i], kCoarse * flat_, found));
     }
-    possible[k] = !run.Cancelled() && !WorthStretches(k, seems[k]).empty();
+    possible[k] = !run.Cancelled() && !StretchesWorthRemoving(k, seems[k]).empty();
   }));
   PM_RETURN_IF_ERROR(run.Check());
   std::vector<std::size_t> order;
@@ -218,44 +220,45 @@ absl::Status Taker::Take(const RunContext& run) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t k) { return length[i] < length[k]; });
   std::vector<int> found;
-  Silence silence;
+  ProgressThrottle throttle;
   for (std::size_t n = 0; n < order.size(); ++n) {
     const std::size_t k = order[n];
-    if (silence.TooLong()) {
-      silence.Break();
+    if (throttle.Due()) {
+      throttle.Report();
       run.Progress("needless passes", static_cast<double>(n) / static_cast<double>(order.size()));
     }
     for (std::size_t i = 0; i < seems[k].size() && !run.Cancelled(); ++i)
-      seems[k][i] = seems[k][i] && SeemsNeedless(chords_[first_[k] + i], kFine * flat_, found);
+      seems[k][i] = seems[k][i] && SeemsRedundant(chords_[first_[k] + i], kFine * flat_, found);
     PM_RETURN_IF_ERROR(run.Check());
-    for (const Stretch& s : WorthStretches(k, seems[k])) {
-      for (std::size_t i = s.first; i < s.last; ++i) chords_[first_[k] + i % seems[k].size()].taken = true;
+    for (const Stretch& s : StretchesWorthRemoving(k, seems[k])) {
+      for (std::size_t i = s.first; i < s.last; ++i) chords_[first_[k] + i % seems[k].size()].removed = true;
     }
   }
   return absl::OkStatus();
 }
 
-std::vector<PathSegment> Taker::GiveBack(const std::vector<LeftoverSpot>& spots, const SegmentTree& taken) {
+std::vector<PathSegment> RedundantPassRemover::Restore(const std::vector<LeftoverSpot>& spots,
+                                                       const SegmentTree& removed) {
   std::vector<PathSegment> back;
   std::vector<char> given(paths_.size(), 0);
   const auto give = [&](Chord& chord, int number) {
-    if (!chord.taken) return;
-    chord.taken = false;
+    if (!chord.removed) return;
+    chord.removed = false;
     given[chord.path] = 1;
     back.push_back({chord.a, chord.b, number});
   };
   for (const LeftoverSpot& spot : spots) {
-    const int i = taken.FindNearest(spot.at.p, kInfinity).segment;
+    const int i = removed.FindNearest(spot.at.p, kInfinity).segment;
     PM_CHECK(i >= 0);
-    const int number = taken.segment(i).move;
+    const int number = removed.segment(i).move;
     give(chords_[static_cast<std::size_t>(number)], number);
   }
   for (std::size_t k = 0; k < paths_.size(); ++k) {
     if (!given[k]) continue;
     std::vector<char> still;
-    for (std::size_t i = first_[k]; i < first_[k + 1]; ++i) still.push_back(chords_[i].taken);
+    for (std::size_t i = first_[k]; i < first_[k + 1]; ++i) still.push_back(chords_[i].removed);
     std::vector<char> worth(still.size(), 0);
-    for (const Stretch& s : WorthStretches(k, still)) {
+    for (const Stretch& s : StretchesWorthRemoving(k, still)) {
       for (std::size_t i = s.first; i < s.last; ++i) worth[i % worth.size()] = 1;
     }
     for (std::size_t i = 0; i < still.size(); ++i) {
@@ -265,14 +268,14 @@ std::vector<PathSegment> Taker::GiveBack(const std::vector<LeftoverSpot>& spots,
   return back;
 }
 
-std::vector<CutterPath> Taker::Passes() const {
+std::vector<CutterPath> RedundantPassRemover::Passes() const {
   std::vector<CutterPath> passes;
   for (std::size_t k = 0; k < paths_.size(); ++k) {
     const CutterPath& path = paths_[k];
     const std::size_t n = first_[k + 1] - first_[k];
-    const auto taken = [&](std::size_t i) { return chords_[first_[k] + i % n].taken; };
+    const auto removed = [&](std::size_t i) { return chords_[first_[k] + i % n].removed; };
     std::size_t start = 0;  // the first one taken
-    while (start < n && !taken(start)) ++start;
+    while (start < n && !removed(start)) ++start;
     if (start == n) {
       passes.push_back(path);
       continue;
@@ -283,7 +286,7 @@ std::vector<CutterPath> Taker::Passes() const {
     like_it.points.clear();
     for (std::size_t i = start; i < start + n;) {
       std::size_t end = i;
-      while (end < start + n && !taken(end)) ++end;
+      while (end < start + n && !removed(end)) ++end;
       if (end > i) {
         CutterPath part = like_it;
         for (std::size_t p = i; p <= end; ++p) part.points.push_back(path.points[p % path.points.size()]);
@@ -297,56 +300,56 @@ std::vector<CutterPath> Taker::Passes() const {
 
 }  // namespace
 
-absl::StatusOr<std::vector<CutterPath>> WithoutNeedless(const Locator& locator, const Locator& reach,
-                                                        std::vector<CutterPath> paths,
-                                                        const std::vector<CoverageParams>& parts,
-                                                        const RunContext& run) {
+absl::StatusOr<std::vector<CutterPath>> RemoveRedundantPasses(const Locator& locator, const Locator& reach,
+                                                              std::vector<CutterPath> paths,
+                                                              const std::vector<RestPassParams>& parts,
+                                                              const RunContext& run) {
   if (paths.empty() || parts.empty()) return paths;
   const PassParams& finest = *std::min_element(
       parts.begin(), parts.end(),
-      [](const CoverageParams& a, const CoverageParams& b) { return a.scallop < b.scallop; });
-  Taker taker(locator, paths, finest, run);
-  PM_RETURN_IF_ERROR(taker.Take(run));
-  if (taker.Taken().empty()) return paths;
+      [](const RestPassParams& a, const RestPassParams& b) { return a.scallop < b.scallop; });
+  RedundantPassRemover remover(locator, paths, finest, run);
+  PM_RETURN_IF_ERROR(remover.Take(run));
+  if (remover.Removed().empty()) return paths;
   std::vector<std::unique_ptr<SegmentTree>> owned;
   std::vector<const SegmentTree*> trees;
   const auto grow = [&](std::vector<PathSegment> more) {
     owned.push_back(std::make_unique<SegmentTree>(std::move(more), Metric::kPath, kInfinity, run));
     trees.push_back(owned.back().get());
   };
-  grow(taker.Kept());
+  grow(remover.Kept());
   std::vector<SurfaceRect> whole;
   for (const SurfaceLeaf& leaf : locator.surface().leaves)
     whole.push_back({leaf.piece, leaf.u0, leaf.u1, leaf.v0, leaf.v1});
-  for (const CoverageParams& part : parts) {
+  for (const RestPassParams& part : parts) {
     // The finish first; then the limit, which is proven wherever it was kept before.
     for (const bool finish : {true, false}) {
-      CoverageParams params = part;
+      RestPassParams params = part;
       if (finish) {
         params.forced = {};
-        params.limit = std::min(part.limit, kNeedlessLimit * part.scallop);
+        params.limit = std::min(part.limit, kRedundantLimit * part.scallop);
         params.margin = kProof * part.scallop;
-        params.taken_less = std::min(kProof * part.scallop, kNoLess * part.tolerance);
-        params.asked_loosely = true;
+        params.removed_margin = std::min(kProof * part.scallop, kRemovedMarginShare * part.tolerance);
+        params.coarse_where_both_exceed = true;
       } else {
         // Together what RestPaths may add to the limit.
-        params.margin = (kProofMargin - kNoLess) * part.tolerance;
-        params.taken_less = kNoLess * part.tolerance;
+        params.margin = (kProofMargin - kRemovedMarginShare) * part.tolerance;
+        params.removed_margin = kRemovedMarginShare * part.tolerance;
       }
       std::vector<SurfaceRect> rects = whole;
       while (!rects.empty()) {
-        const SegmentTree taken(taker.Taken(), Metric::kPath, kInfinity, run);
-        params.taken = &taken;
+        const SegmentTree removed(remover.Removed(), Metric::kPath, kInfinity, run);
+        params.removed = &removed;
         PM_ASSIGN_OR_RETURN(const std::vector<LeftoverSpot> spots,
                             FindSpots(locator, reach, trees, rects, params, run));
         // What is given back uncovers nothing: only the rectangles of the spots need another look.
         rects.clear();
         for (const LeftoverSpot& spot : spots) rects.push_back(spot.rect);
-        if (!spots.empty()) grow(taker.GiveBack(spots, taken));
+        if (!spots.empty()) grow(remover.Restore(spots, removed));
       }
     }
   }
-  return taker.Passes();
+  return remover.Passes();
 }
 
 }  // namespace patchmill

@@ -12,13 +12,14 @@ constexpr double kWhole = 1e-9;  // mm: a turn is whole up to this
 
 }  // namespace
 
-FrameExtent ExtentOfRound(const RoundLines& around, double margin, double flat) {
+FrameExtent ExtentOfCircles(const CircularLines& around, double margin, double flat) {
   const Interval y{std::max(around.inner - margin, 0.25 * flat), around.outer + margin};
   const double once = LineFrame::Around(around.center, y.end).period();
   return {{0.0, once + std::min(once, kOverlap * flat * y.end / y.begin)}, y};
 }
 
-std::vector<Interval> OnceAround(const std::vector<Interval>& keep, const Interval& looked, double once) {
+std::vector<Interval> RemoveOverlapTurn(const std::vector<Interval>& keep, const Interval& looked,
+                                        double once) {
   std::vector<Interval> rest;
   if (looked.end - looked.begin <= once + kWhole) {
     for (const Interval& i : keep) {

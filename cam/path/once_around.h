@@ -11,11 +11,12 @@ namespace patchmill {
 
 // Where round lines are looked for: `margin` (mm) beyond what is wanted, and a little more than once around,
 // from t = 0 on, so that no stretch is cut off where t begins again. `flat`: the flat step, mm.
-FrameExtent ExtentOfRound(const RoundLines& around, double margin, double flat);
+FrameExtent ExtentOfCircles(const CircularLines& around, double margin, double flat);
 
 // Stretches of a round line that was looked at over `looked` (`once` or more), each once, cut where `looked`
 // is no longer than `once`; all of the line is one that begins at 0 and ends at `once`.
-std::vector<Interval> OnceAround(const std::vector<Interval>& keep, const Interval& looked, double once);
+std::vector<Interval> RemoveOverlapTurn(const std::vector<Interval>& keep, const Interval& looked,
+                                        double once);
 
 // Places in plan along the circle of distance `y` from the frame's place, as many as keep chords within
 // `sagitta` (mm) of it. The last one is the first one, to the bit, after a whole turn.

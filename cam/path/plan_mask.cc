@@ -11,15 +11,15 @@ constexpr int kPerReach = 4;  // squares
 
 }  // namespace
 
-PlanMask::PlanMask(std::span<const Vec3> points, double reach) : side_(reach / kPerReach) {
+NearSpotsMask::NearSpotsMask(std::span<const Vec3> points, double reach) : side_(reach / kPerReach) {
   Box3 box;
   for (const Vec3& p : points) box.Add(p);
   if (box.Empty()) return;
-  const Vec2 size = Plan(box.max - box.min);
+  const Vec2 size = Xy(box.max - box.min);
   constexpr int kEdge = kPerReach + 1;  // squares beside the points, which may be narrower than a quarter
   const auto squares = [&](double extent) { return extent / side_ + 2.0 * kEdge + 1.0; };
   while (squares(size.x()) * squares(size.y()) > kMostSquares) side_ *= 2.0;
-  origin_ = Plan(box.min) - Vec2::Constant(kEdge * side_);
+  origin_ = Xy(box.min) - Vec2::Constant(kEdge * side_);
   nx_ = static_cast<int>(squares(size.x()));
   ny_ = static_cast<int>(squares(size.y()));
   sums_.assign(static_cast<std::size_t>((nx_ + 1) * (ny_ + 1)), 0);
@@ -36,7 +36,7 @@ PlanMask::PlanMask(std::span<const Vec3> points, double reach) : side_(reach / k
     }
   };
   for (const Vec3& p : points) {
-    const Vec2 q = (Plan(p) - origin_) / side_;
+    const Vec2 q = (Xy(p) - origin_) / side_;
     at(std::clamp(static_cast<int>(q.x()), 0, nx_ - 1), std::clamp(static_cast<int>(q.y()), 0, ny_ - 1)) = 1;
   }
   add_up();
@@ -51,7 +51,7 @@ PlanMask::PlanMask(std::span<const Vec3> points, double reach) : side_(reach / k
   add_up();
 }
 
-bool PlanMask::Holds(int x0, int x1, int y0, int y1) const {
+bool NearSpotsMask::Holds(int x0, int x1, int y0, int y1) const {
   x0 = std::clamp(x0, 0, nx_ - 1);
   x1 = std::clamp(x1, 0, nx_ - 1) + 1;
   y0 = std::clamp(y0, 0, ny_ - 1);
@@ -59,7 +59,7 @@ bool PlanMask::Holds(int x0, int x1, int y0, int y1) const {
   return Before(x1, y1) - Before(x0, y1) - Before(x1, y0) + Before(x0, y0) > 0;
 }
 
-bool PlanMask::Meets(const PlanCell& cell) const {
+bool NearSpotsMask::Meets(const XyRect& cell) const {
   if (nx_ == 0) return false;
   const Vec2 lo = (cell.mid - cell.half - origin_) / side_, hi = (cell.mid + cell.half - origin_) / side_;
   if (hi.x() < 0.0 || hi.y() < 0.0 || lo.x() >= nx_ || lo.y() >= ny_) return false;

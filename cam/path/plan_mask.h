@@ -9,15 +9,15 @@
 
 namespace patchmill {
 
-class PlanMask {
+class NearSpotsMask {
  public:
   // All places within `reach` (mm, > 0) of one of the points, each way, and some farther: up to half as far
   // again, more where a million squares of a quarter of that would not do. Cost O(points + squares), 4 bytes
   // a square.
-  PlanMask(std::span<const Vec3> points, double reach);
+  NearSpotsMask(std::span<const Vec3> points, double reach);
 
   // Is there such a place in the cell? O(1).
-  bool Meets(const PlanCell& cell) const;
+  bool Meets(const XyRect& cell) const;
 
  private:
   bool Holds(int x0, int x1, int y0, int y1) const;  // one that counts among these squares, ends included

@@ -15,11 +15,11 @@
 namespace patchmill {
 namespace {
 
-constexpr double kSpacing = 0.5;  // of the flat step: places on a border
-constexpr double kApart = 2.0;    // ball radii
-constexpr double kBeyond = 2.0;   // flat steps: before the first line and after the last
-constexpr double kLook = 0.5;     // ball radii: how often lines are looked at
-constexpr double kThin = 0.02;    // of the flat step: how far the pass may be off the rim in plan
+constexpr double kSpacing = 0.5;    // of the flat step: places on a border
+constexpr double kMaxRimGap = 2.0;  // ball radii
+constexpr double kBeyond = 2.0;     // flat steps: before the first line and after the last
+constexpr double kLook = 0.5;       // ball radii: how often lines are looked at
+constexpr double kThin = 0.02;      // of the flat step: how far the pass may be off the rim in plan
 
 // What a pass touches, at every vertex and often enough between them, when all of it is an open border that
 // it rolls over; else nothing. A straight line over a sheet has its ends on the border, and nothing between
@@ -145,7 +145,7 @@ std::vector<Vec2> WayAlong(const Rim& rim, const Run& run, std::size_t beyond) {
   }
   std::vector<Vec2> at;
   for (std::size_t i = 0; i <= way; ++i)
-    at.push_back(Plan(rim.places[rim.closed ? (from + i) % all : from + i]));
+    at.push_back(Xy(rim.places[rim.closed ? (from + i) % all : from + i]));
   return at;
 }
 
@@ -161,7 +161,7 @@ absl::StatusOr<std::vector<CutterPath>> RimPasses(const Locator& locator,
   PM_ASSIGN_OR_RETURN(const std::vector<Rim> rims, RimsTouched(locator, borders, paths, spacing, run));
   std::vector<CutterPath> passes;
   std::vector<bool> out(paths.size(), false);
-  const auto apart = static_cast<std::size_t>(kApart * radius / spacing),
+  const auto apart = static_cast<std::size_t>(kMaxRimGap * radius / spacing),
              beyond = static_cast<std::size_t>(kBeyond / kSpacing);
   for (const Rim& rim : rims) {
     if (rim.crossings.size() < 2) continue;

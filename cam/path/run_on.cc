@@ -16,20 +16,21 @@ constexpr int kLooks = 4;  // along a move
 
 }  // namespace
 
-absl::StatusOr<std::vector<CutterPath>> RunOn(const Locator& locator, std::vector<CutterPath> paths,
-                                              double length, const PassParams& params, const KeepIn* keep_in,
-                                              const RunContext& run) {
+absl::StatusOr<std::vector<CutterPath>> ExtendPasses(const Locator& locator, std::vector<CutterPath> paths,
+                                                     double length, const PassParams& params,
+                                                     const OperationLimits* operation_limits,
+                                                     const RunContext& run) {
   const SheetBorder border(locator.surface());
   const double floor_center = params.floor_z + locator.radius();
-  // Passes end a step beyond what is wanted (ClipToKeepIn): where one also ends on the border there, it may
+  // Passes end a step beyond what is wanted (ClipToLimits): where one also ends on the border there, it may
   // run along it.
   const double overrun = kOverrun * CenterStep(locator.radius(), params.scallop, 0.0);
   const auto leaves_unwanted = [&](const Vec3& from, const Vec3& to) {
-    if (keep_in == nullptr || keep_in->WantsAll()) return true;
+    if (operation_limits == nullptr || operation_limits->WantsAll()) return true;
     for (int k = 1; k <= kLooks; ++k) {
       const Vec3 at = from + (static_cast<double>(k) / kLooks) * (to - from);
       const auto nearest = ClosestToPoint(locator.surface(), at, kInfinity, 1e-3 * locator.radius());
-      if (nearest && !keep_in->WantsNear(nearest->at, overrun)) return false;
+      if (nearest && !operation_limits->WantsNear(nearest->at, overrun)) return false;
     }
     return true;
   };
@@ -39,8 +40,8 @@ absl::StatusOr<std::vector<CutterPath>> RunOn(const Locator& locator, std::vecto
     for (const double part : {1.0, 0.5, 0.25}) {
       const Vec3 to = end.center + part * length * way.normalized();
       if (to.z() < floor_center) continue;
-      if (keep_in != nullptr &&
-          !(keep_in->AllowsMove(end.center, to, true) && leaves_unwanted(end.center, to)))
+      if (operation_limits != nullptr &&
+          !(operation_limits->AllowsMove(end.center, to, true) && leaves_unwanted(end.center, to)))
         continue;
       if (locator.GougeWithin(end.center, to, params.chord_tolerance, 0.1 * params.chord_tolerance))
         return CutterPoint{to, std::nullopt, std::nullopt};

@@ -7,13 +7,13 @@ namespace patchmill {
 
 std::vector<ScanRun> ScanLine(const Locator& locator, const Vec2& a, const Vec2& b, const PassParams& params,
                               const RunContext* run) {
-  const LineTraceParams trace{.chord_tolerance = params.chord_tolerance - CertificateGap(params),
-                              .excess_tolerance = ExcessTolerance(params) - CertificateGap(params),
-                              .floor_center = params.floor_z + locator.radius(),
-                              .certificate_gap = CertificateGap(params),
-                              .run = run};
+  const SegmentTraceParams trace{.chord_tolerance = params.chord_tolerance - CertificateGap(params),
+                                 .excess_tolerance = ExcessTolerance(params) - CertificateGap(params),
+                                 .floor_center = params.floor_z + locator.radius(),
+                                 .certificate_gap = CertificateGap(params),
+                                 .run = run};
   std::vector<ScanRun> runs;
-  for (const auto& stations : TraceLine(locator, PlanLine::Through(a, b), trace)) {
+  for (const auto& stations : TraceSegment(locator, XyLine::Through(a, b), trace)) {
     runs.push_back({ThinStations(locator, stations, params, run)});
   }
   return runs;

@@ -138,11 +138,11 @@ bool SheetBorder::Allowed(const SurfacePoint& contact, const Vec3& normal) const
     if (in.dot(normal) >= -kSameDirection) continue;  // not rolled over this side
     if (in.z() > -kRimFall) return false;
     // Right above the edge: in the upright plane through it.
-    const Vec2 edge = Plan(side % 2 == 0 ? jet.du : jet.dv);
-    Vec2 out = -Plan(in);
+    const Vec2 edge = Xy(side % 2 == 0 ? jet.du : jet.dv);
+    Vec2 out = -Xy(in);
     if (edge.squaredNorm() > 0) out -= out.dot(edge) / edge.squaredNorm() * edge;
     const double level = out.norm();
-    if (level > kUpright && Plan(normal).dot(out) > kSameDirection * level) return false;
+    if (level > kUpright && Xy(normal).dot(out) > kSameDirection * level) return false;
   }
   return true;
 }

@@ -22,14 +22,14 @@ namespace {
 
 // Flat steps: contours farther apart somewhere do not belong together. Full levels lie up to two apart, and
 // twice that on the surface where they pass a saddle.
-constexpr double kBeside = 4.0;
+constexpr double kMaxTurnGap = 4.0;
 constexpr double kBackOff = 0.02;  // radii: how far behind the upper contour the way out begins
 constexpr double kNoWay = 1e-6;    // mm: contours this near leave the way out to the normal
 constexpr int kMostHalvings = 24;  // of a chord
 
 Vec2 OutwardOf(const CutterPoint& p) {
   const auto from = [&](const SurfacePoint& contact) -> Vec2 {
-    const Vec2 d = Plan(Vec3(p.center - contact.p));
+    const Vec2 d = Xy(Vec3(p.center - contact.p));
     const double length = d.norm();
     return length > 0.0 ? Vec2(d / length) : Vec2(Vec2::Zero());
   };
@@ -42,8 +42,8 @@ Vec2 OutwardOf(const CutterPoint& p) {
 const SurfacePoint& After(const CutterPoint& p) { return p.other_contact ? *p.other_contact : *p.contact; }
 
 // What the ball at a centre touches; where the shank touches, the wall beside the centre.
-Support Touched(const Vec3& center, const SurfacePoint& contact) {
-  return {Vec3(Lift(Plan(contact.p), std::min(contact.p.z(), center.z()))), -kInfinity};
+Support ContactPoints(const Vec3& center, const SurfacePoint& contact) {
+  return {Vec3(Lift(Xy(contact.p), std::min(contact.p.z(), center.z()))), -kInfinity};
 }
 
 // The chord keeps the tolerances on both sides.
@@ -52,7 +52,7 @@ bool Proven(const CutterPoint& a, const CutterPoint& b, const Locator& locator,
   const double radius = locator.radius(), length = (b.center - a.center).norm();
   if (ChordGouge(radius, length) > tolerance.gouge) return false;
   const SurfacePoint &from = After(a), &to = *b.contact;
-  const Support left = Touched(a.center, from), right = Touched(b.center, to);
+  const Support left = ContactPoints(a.center, from), right = ContactPoints(b.center, to);
   if (ChordExcess(radius, a.center, b.center, left, right) <= tolerance.excess) return true;
   if (from.piece.value != to.piece.value) return false;
   const int parts = SupportParts(radius, length, tolerance.excess);
@@ -70,7 +70,7 @@ class Loop {
   const std::vector<CutterPoint>& points() const { return points_; }
   double length() const { return at_.back(); }
   double z() const { return points_.front().center.z(); }
-  Vec2 Place(std::size_t i) const { return Plan(points_[i % points_.size()].center); }
+  Vec2 Place(std::size_t i) const { return Xy(points_[i % points_.size()].center); }
   double At(std::size_t i) const { return at_[i]; }
 
   Vec2 PlaceAt(double s) const {
@@ -105,7 +105,7 @@ class Loop {
   }
   // The same contour begun at the segment that `start` lies beside, with `start` as its first point.
   Loop BegunAt(const CutterPoint& start) const {
-    const std::size_t segment = SegmentAt(Nearest(Plan(start.center), 0, points_.size()).s);
+    const std::size_t segment = SegmentAt(Nearest(Xy(start.center), 0, points_.size()).s);
     std::vector<CutterPoint> points = {start};
     for (std::size_t k = 1; k <= points_.size(); ++k) {
       const CutterPoint& p = points_[(segment + k) % points_.size()];
@@ -235,7 +235,7 @@ std::vector<int> Followers(const std::vector<CutterPath>& contours, double most)
     const bool touches = std::all_of(c.points.begin(), c.points.end(),
                                      [](const CutterPoint& p) { return p.contact.has_value(); });
     if (c.kind == PassKind::kContour && c.closed && c.points.size() > 2 && touches)
-      lines[c.line].push_back(i);
+      lines[c.order_key].push_back(i);
   }
   std::vector<int> below(contours.size(), -1);
   std::vector<char> taken(contours.size(), 0);
@@ -266,7 +266,7 @@ absl::StatusOr<std::vector<CutterPath>> SpiralPaths(const Locator& locator, std:
   const LoopTolerance tolerance{params.chord_tolerance, ExcessTolerance(params)};
   const LevelContext context(locator, run);
   PM_RETURN_IF_ERROR(run.Check());
-  const std::vector<int> below = Followers(contours, kBeside * CenterStep(radius, params.scallop, 0.0));
+  const std::vector<int> below = Followers(contours, kMaxTurnGap * CenterStep(radius, params.scallop, 0.0));
   std::vector<char> follows(contours.size(), 0);
   for (const int k : below) {
     if (k >= 0) follows[static_cast<std::size_t>(k)] = 1;

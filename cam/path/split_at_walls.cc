@@ -15,7 +15,7 @@ std::vector<CutterPath> SplitAtWalls(CutterPath path, double height) {
   const std::size_t n = path.points.size();
   const auto wall_after = [&](std::size_t k) {
     const Vec3 way = path.points[(k + 1) % n].center - path.points[k].center;
-    return Plan(way).norm() <= kUpright && std::abs(way.z()) > height;
+    return Xy(way).norm() <= kUpright && std::abs(way.z()) > height;
   };
   std::vector<std::size_t> walls;
   for (std::size_t k = 0; k + (path.closed ? 0 : 1) < n; ++k) {

@@ -20,7 +20,7 @@ namespace patchmill {
 namespace {
 
 // Of what chords may take: what centres between walls that leave no room may take of them.
-constexpr double kGive = 0.1;
+constexpr double kWedgeGougeShare = 0.1;
 // And where no other pass serves: in slots and holes narrower than the ball by some of the tolerance, which
 // lets it in. What certificates may take is theirs too, for these passes are proven by themselves.
 constexpr double kWedge = 1.15, kWedgedChord = 1.2;
@@ -34,10 +34,10 @@ std::vector<Vec3> CentersOf(const std::vector<LeftoverSpot>& spots) {
   return centers;
 }
 
-class Mender {
+class RestPassMaker {
  public:
-  Mender(const Locator& locator, const std::vector<LeftoverSpot>& spots, const CoverageParams& params,
-         const RunContext& run)
+  RestPassMaker(const Locator& locator, const std::vector<LeftoverSpot>& spots, const RestPassParams& params,
+                const RunContext& run)
       : locator_(locator),
         spots_(spots),
         params_(params),
@@ -47,7 +47,7 @@ class Mender {
         border_(locator.surface(), params.roll),
         cells_(CentersOf(spots), flat_),
         open_(spots.size(), true),
-        give_(kGive * params.chord_tolerance),
+        wedge_gouge_(kWedgeGougeShare * params.chord_tolerance),
         asked_(spots.size(), false),
         wedge_asked_(spots.size(), false),
         free_(spots.size()),
@@ -55,13 +55,13 @@ class Mender {
     for (const LeftoverSpot& spot : spots_) highest_ = std::max(highest_, spot.center.z());
   }
 
-  absl::StatusOr<std::vector<CutterPath>> Run(Mending mending);
+  absl::StatusOr<std::vector<CutterPath>> Run(RestMethod method);
 
  private:
   bool Gentle(std::size_t i) const { return spots_[i].normal.z() > kSteep; }
   Vec2 Level(std::size_t i) const;
   bool Needed(const Vec3& c, double reach) const;
-  bool AlongCrease(std::size_t i);
+  bool AlongPencil(std::size_t i);
   bool AlongRidge(std::size_t i);
   bool AlongLevel(std::size_t i);
   bool AlongCenters(std::size_t i, bool wedged = false);
@@ -78,7 +78,7 @@ class Mender {
 
   const Locator& locator_;
   const std::vector<LeftoverSpot>& spots_;
-  const CoverageParams& params_;
+  const RestPassParams& params_;
   const RunContext& run_;
   const double radius_;
   const double flat_;
@@ -86,7 +86,7 @@ class Mender {
   const PointCells cells_;       // of the spots' centres
   std::vector<bool> open_;       // not mended yet
   double highest_ = -kInfinity;  // of the spots' centres
-  const double give_;
+  const double wedge_gouge_;
   std::vector<bool> asked_, wedge_asked_;           // FreeNear, WedgedNear
   std::vector<std::optional<Vec3>> free_, wedged_;  // their answers
   std::optional<LevelContext> levels_;
@@ -94,20 +94,20 @@ class Mender {
   std::vector<CutterPath> paths_;
 };
 
-bool Mender::Needed(const Vec3& c, double reach) const {
+bool RestPassMaker::Needed(const Vec3& c, double reach) const {
   bool needed = false;
   cells_.Near(c, reach, [&](std::size_t i) { needed |= open_[i]; });
   return needed;
 }
 
-std::vector<CutterPath> Mender::Allowed(CutterPath pass) const {
-  if (params_.keep_in == nullptr) return {std::move(pass)};
-  auto parts = ClipToKeepIn(locator_, *params_.keep_in, {std::move(pass)}, flat_, run_);
+std::vector<CutterPath> RestPassMaker::Allowed(CutterPath pass) const {
+  if (params_.operation_limits == nullptr) return {std::move(pass)};
+  auto parts = ClipToLimits(locator_, *params_.operation_limits, {std::move(pass)}, flat_, run_);
   return parts.ok() ? *std::move(parts) : std::vector<CutterPath>();  // only cancelled ones are not
 }
 
 // Keeps what of the pass is allowed and mends something, and closes what it mends.
-bool Mender::Add(PassKind kind, std::vector<CutterPoint> points) {
+bool RestPassMaker::Add(PassKind kind, std::vector<CutterPoint> points) {
   if (points.size() < 2) return false;
   bool any = false;
   const double limit = radius_ + params_.limit;
@@ -126,26 +126,26 @@ bool Mender::Add(PassKind kind, std::vector<CutterPoint> points) {
     }
     if (!useful) continue;
     any = true;
-    part.line = static_cast<int>(paths_.size());
+    part.order_key = static_cast<int>(paths_.size());
     paths_.push_back(std::move(part));
   }
   return any;
 }
 
-bool Mender::AlongCrease(std::size_t i) {
-  const auto seed = FindCrease(locator_, Plan(spots_[i].center), 0.75 * flat_, params_, run_);
+bool RestPassMaker::AlongPencil(std::size_t i) {
+  const auto seed = FindPencilPoint(locator_, Xy(spots_[i].center), 0.75 * flat_, params_, run_);
   if (!seed || (seed->center - spots_[i].center).norm() > flat_) return false;
-  const auto stations = TraceCrease(locator_, border_, *seed, params_, 3.0 * flat_, [&](const Vec3& c) {
+  const auto stations = TracePencil(locator_, border_, *seed, params_, 3.0 * flat_, [&](const Vec3& c) {
     return !run_.Cancelled() && Needed(c, 0.75 * flat_);
   });
   if (stations.size() < 2) return false;
-  Add(PassKind::kCrease, ThinStations(locator_, stations, params_, &run_));
+  Add(PassKind::kPencil, ThinStations(locator_, stations, params_, &run_));
   return !open_[i];
 }
 
 // The open spot one step on in this direction that leaves most; spots_.size() when there is none.
-std::size_t Mender::NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
-                                const std::vector<bool>& used) const {
+std::size_t RestPassMaker::NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
+                                       const std::vector<bool>& used) const {
   // Scan lines may also cross a few steps of covered ground, as between the ends of lines at a slanting
   // border: longer than needed, but one pass instead of many.
   const double reach = (gentle ? 6.0 : 1.6) * flat_;
@@ -167,13 +167,13 @@ std::size_t Mender::NextOnRidge(const Vec3& from, const Vec3& heading, bool gent
   return best;
 }
 
-Vec2 Mender::Level(std::size_t i) const {
-  const Vec2 n = Plan(spots_[i].normal);
+Vec2 RestPassMaker::Level(std::size_t i) const {
+  const Vec2 n = Xy(spots_[i].normal);
   return n.norm() > 1e-3 ? Vec2(Vec2(-n.y(), n.x()).normalized()) : Vec2(Vec2::UnitX());
 }
 
 // Spots along the ridge through i, both ways; on walls level ones first.
-std::vector<std::size_t> Mender::Chain(std::size_t i, bool gentle) const {
+std::vector<std::size_t> RestPassMaker::Chain(std::size_t i, bool gentle) const {
   const Vec2 level = Level(i);
   std::vector<bool> used(spots_.size(), false);
   used[i] = true;
@@ -203,10 +203,10 @@ std::vector<std::size_t> Mender::Chain(std::size_t i, bool gentle) const {
   return chain;
 }
 
-bool Mender::AlongRidge(std::size_t i) {
+bool RestPassMaker::AlongRidge(std::size_t i) {
   const std::vector<std::size_t> chain = Chain(i, true);
   std::vector<Vec2> corners;
-  for (std::size_t k : chain) corners.push_back(Plan(spots_[k].center));
+  for (std::size_t k : chain) corners.push_back(Xy(spots_[k].center));
   // Half a step more at both ends, so that what lies between the samples is covered too.
   const Vec2 level = Level(i);
   const auto beyond = [&](const Vec2& end, const Vec2& before) -> Vec2 {
@@ -223,7 +223,7 @@ bool Mender::AlongRidge(std::size_t i) {
 }
 
 // The parts of the level through a wall spot that run past open spots.
-bool Mender::AlongLevel(std::size_t i) {
+bool RestPassMaker::AlongLevel(std::size_t i) {
   if (!levels_) levels_.emplace(locator_, run_);
   ContourParams contour;
   static_cast<PassParams&>(contour) = params_;
@@ -278,18 +278,18 @@ bool Mender::AlongLevel(std::size_t i) {
 }
 
 // A centre that leaves less of the spot than the passes so far.
-const std::optional<Vec3>& Mender::FreeNear(std::size_t i) {
+const std::optional<Vec3>& RestPassMaker::FreeNear(std::size_t i) {
   if (!asked_[i]) {
     asked_[i] = true;
     const LeftoverSpot& spot = spots_[i];
-    free_[i] =
-        FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover, give_);
+    free_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover,
+                              wedge_gouge_);
   }
   return free_[i];
 }
 
 // Or, where there is none, one that gives as much as it may.
-const std::optional<Vec3>& Mender::WedgedNear(std::size_t i) {
+const std::optional<Vec3>& RestPassMaker::WedgedNear(std::size_t i) {
   if (FreeNear(i)) return free_[i];
   if (!wedge_asked_[i]) {
     wedge_asked_[i] = true;
@@ -301,10 +301,10 @@ const std::optional<Vec3>& Mender::WedgedNear(std::size_t i) {
 }
 
 // Has the ball no room there? Then the free centres are a line or a point: no height or level finds them.
-bool Mender::Tight(std::size_t i) { return FreeNear(i) && !locator_.Free(*FreeNear(i)); }
+bool RestPassMaker::Tight(std::size_t i) { return FreeNear(i) && !locator_.Free(*FreeNear(i)); }
 
 // From spot to spot, every chord proven by the swept query; the pass ends where one is not.
-bool Mender::AlongCenters(std::size_t i, bool wedged) {
+bool RestPassMaker::AlongCenters(std::size_t i, bool wedged) {
   const auto near = [&](std::size_t k) -> const std::optional<Vec3>& {
     return wedged ? WedgedNear(k) : FreeNear(k);
   };
@@ -319,7 +319,7 @@ bool Mender::AlongCenters(std::size_t i, bool wedged) {
       const Vec3& last = points.back().center;
       if ((*c - last).norm() < kSamePlace) continue;
       const bool proven =
-          (!wedged && ChordGouge(radius_ - give_, (*c - last).norm()) + give_ <= limit) ||
+          (!wedged && ChordGouge(radius_ - wedge_gouge_, (*c - last).norm()) + wedge_gouge_ <= limit) ||
           locator_.GougeWithin(last, *c, limit, (wedged ? 0.02 : 0.1) * params_.chord_tolerance);
       if (!proven) {
         Add(PassKind::kRest, std::move(points));
@@ -334,7 +334,7 @@ bool Mender::AlongCenters(std::size_t i, bool wedged) {
 
 // A plunge, through all that is open above: upward of a free place everything is free. In a hole as wide as
 // the ball it is the only pass there is.
-void Mender::FromAbove(std::size_t i) {
+void RestPassMaker::FromAbove(std::size_t i) {
   if (const std::optional<Vec3>& c = WedgedNear(i)) {
     const SurfacePoint& at = spots_[i].at;
     Vec3 top = *c + Vec3(0, 0, 0.1 * flat_);
@@ -345,7 +345,7 @@ void Mender::FromAbove(std::size_t i) {
 }
 
 // Many open wall spots at this height around here: a stretch of level is missing, not a spot.
-bool Mender::LevelIsMissing(std::size_t i) const {
+bool RestPassMaker::LevelIsMissing(std::size_t i) const {
   const Vec3& c = spots_[i].center;
   std::size_t count = 0;
   cells_.Near(c, 10.0 * flat_, [&](std::size_t k) {
@@ -354,25 +354,25 @@ bool Mender::LevelIsMissing(std::size_t i) const {
   return count >= 15;
 }
 
-absl::StatusOr<std::vector<CutterPath>> Mender::Run(Mending mending) {
+absl::StatusOr<std::vector<CutterPath>> RestPassMaker::Run(RestMethod method) {
   std::vector<std::size_t> order(spots_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return spots_[a].leftover > spots_[b].leftover; });
   const std::size_t report_every = order.size() / 64 + 1;
-  Silence silence;
+  ProgressThrottle throttle;
   for (std::size_t n = 0; n < order.size(); ++n) {
     const std::size_t i = order[n];
-    if (n % report_every == 0 || silence.TooLong()) {
-      silence.Break();
+    if (n % report_every == 0 || throttle.Due()) {
+      throttle.Report();
       run_.Progress("coverage: passes", static_cast<double>(n) / static_cast<double>(order.size()));
     }
     if (!open_[i]) continue;
     PM_RETURN_IF_ERROR(run_.Check());
-    if (mending == Mending::kCenters || Tight(i)) {
+    if (method == RestMethod::kCentersOnly || Tight(i)) {
       if (AlongCenters(i)) continue;
     } else if (Gentle(i)) {
-      if (AlongCrease(i) || AlongRidge(i) || AlongCenters(i)) continue;
+      if (AlongPencil(i) || AlongRidge(i) || AlongCenters(i)) continue;
     } else {
       // A level costs as much as hundreds of chords over walls.
       constexpr int kMostLevels = 24;
@@ -391,11 +391,11 @@ absl::StatusOr<std::vector<CutterPath>> Mender::Run(Mending mending) {
 
 }  // namespace
 
-absl::StatusOr<std::vector<CutterPath>> MendSpots(const Locator& locator,
-                                                  const std::vector<LeftoverSpot>& spots,
-                                                  const CoverageParams& params, Mending mending,
-                                                  const RunContext& run) {
-  return Mender(locator, spots, params, run).Run(mending);
+absl::StatusOr<std::vector<CutterPath>> RestPassesAt(const Locator& locator,
+                                                     const std::vector<LeftoverSpot>& spots,
+                                                     const RestPassParams& params, RestMethod method,
+                                                     const RunContext& run) {
+  return RestPassMaker(locator, spots, params, run).Run(method);
 }
 
 }  // namespace patchmill

@@ -37,14 +37,14 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   const Surface& surface = locator.surface();
   const SheetBorder border(surface, params.roll);
   const double flat = CenterStep(locator.radius(), params.scallop, 0.0);
-  const FrameExtent extent = params.around ? ExtentOfRound(*params.around, locator.radius(), flat)
+  const FrameExtent extent = params.around ? ExtentOfCircles(*params.around, locator.radius(), flat)
                                            : ExtentOfParallels(surface, params.angle, locator.radius());
   const LineFrame frame =
       params.around ? LineFrame::Around(params.around->center, extent.y.end) : LineFrame::At(params.angle);
   const LineProber prober(locator, border, frame, params, params.part, params.where, run);
   const double min_step = params.min_step_fraction * flat, once = frame.period();
   const Interval once_over = frame.round() ? Interval{extent.t.end - once, extent.t.end} : extent.t;
-  const double sagitta = std::min(params.chord_tolerance, kRoundSagitta * flat);
+  const double sagitta = std::min(params.chord_tolerance, kCircleSagitta * flat);
   const double max_bend = frame.round() ? 0.0 : params.max_bend;
   PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands,
                       LinePositions(prober, extent, min_step, params.beside, run));
@@ -80,7 +80,7 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
     if (line.keep.empty()) return;
     if (line.rank != last_rank) ++index;
     last_rank = line.rank;
-    const std::vector<Interval> keep = frame.round() ? OnceAround(line.keep, looked, once) : line.keep;
+    const std::vector<Interval> keep = frame.round() ? RemoveOverlapTurn(line.keep, looked, once) : line.keep;
     for (const Interval& t : keep) parts.push_back({&line, index, t});
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -110,7 +110,7 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
       if (r.points.size() < 2) continue;
       CutterPath path{.kind = PassKind::kZigzag,
                       .closed = closed[i] != 0,
-                      .line = parts[i].index,
+                      .order_key = parts[i].index,
                       .points = std::move(r.points)};
       if (params.window.max >= kWallsToo) {
         paths.push_back(std::move(path));

@@ -16,12 +16,12 @@
 namespace patchmill {
 
 struct ZigzagParams : PassParams {
-  double angle = 0.0;            // rad, direction of the lines in plan, from +x
-  double max_bend = 0.0;         // rad, how far lines may turn from it to keep their steps even; 0: straight
-  const KeepIn* part = nullptr;  // lines only where the contact is wanted; null: everywhere
-  const SurfaceMask* where = nullptr;   // and only where this has it
-  std::optional<RoundLines> around;     // circles in place of lines at an angle, none bent
-  const SegmentTree* beside = nullptr;  // passes that are there already, whose step circles keep from them
+  double angle = 0.0;     // rad, direction of the lines in plan, from +x
+  double max_bend = 0.0;  // rad, how far lines may turn from it to keep their steps even; 0: straight
+  const OperationLimits* part = nullptr;  // lines only where the contact is wanted; null: everywhere
+  const SurfaceMask* where = nullptr;     // and only where this has it
+  std::optional<CircularLines> around;    // circles in place of lines at an angle, none bent
+  const SegmentTree* beside = nullptr;    // passes that are there already, whose step circles keep from them
 };
 
 // Lines cover every contact of the part whose slope lies in the window, each clipped to the window dilated by

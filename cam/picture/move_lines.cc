@@ -16,7 +16,7 @@ MoveLine LineOf(PassKind kind) {
       return MoveLine::kContour;
     case PassKind::kBorder:
       return MoveLine::kBorder;
-    case PassKind::kCrease:
+    case PassKind::kPencil:
       return MoveLine::kCrease;
     case PassKind::kRest:
       return MoveLine::kRest;

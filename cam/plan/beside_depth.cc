@@ -26,7 +26,7 @@ absl::StatusOr<std::optional<BesideDepth>> DeepestBeside(const Surface& surface,
   for (const Vec3& tip : tips) {
     PM_RETURN_IF_ERROR(run.Check());
     // The upward ray from below the part is the whole axis.
-    const Vec3 foot = Lift(Plan(tip), below_all);
+    const Vec3 foot = Lift(Xy(tip), below_all);
     if (!AnythingNearUpwardRay(surface, foot, kBeside * radius, kProof * radius))
       return BesideDepth{tip, top_z - tip.z()};
   }

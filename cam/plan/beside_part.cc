@@ -39,13 +39,13 @@ class Footprint {
   explicit Footprint(const Surface& surface) {
     const Vec3 size = surface.box.max - surface.box.min;
     cell_ = std::max({size.x(), size.y(), 1e-6 * surface.box.Diagonal()}) / kCells;
-    low_ = Plan(surface.box.min).array() - kBorderCells * cell_;
+    low_ = Xy(surface.box.min).array() - kBorderCells * cell_;
     nx_ = 1 + static_cast<int>(size.x() / cell_) + 2 * kBorderCells;
     ny_ = 1 + static_cast<int>(size.y() / cell_) + 2 * kBorderCells;
     covered_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_), 0);
     for (const Tessellation::PieceMesh& mesh : Tessellate(surface, 0.1 * cell_, kMostMeshCells).meshes) {
       const auto at = [&](int i, int j) -> Vec2 {
-        return Plan(mesh.vertices[static_cast<std::size_t>(i * (mesh.nv + 1) + j)].p);
+        return Xy(mesh.vertices[static_cast<std::size_t>(i * (mesh.nv + 1) + j)].p);
       };
       for (int i = 0; i < mesh.nu; ++i) {
         for (int j = 0; j < mesh.nv; ++j) {
@@ -161,7 +161,7 @@ std::optional<UprightGrid> GridOn(const Piece& piece, double tolerance, int nu, 
       }
       steepest = std::max(steepest, std::abs(normal->z()));
       if (steepest * (high - low) > 0.5 * tolerance && steepest > kUprightFace) return std::nullopt;
-      grid.air_side.push_back(Plan(*normal).normalized());
+      grid.air_side.push_back(Xy(*normal).normalized());
     }
   }
   return grid;
@@ -172,7 +172,7 @@ double SagittaOf(const Piece& piece, bool along_u, int n) {
   double worst = 0.0;
   for (const double other : {0.0, 0.5, 1.0}) {
     const auto at = [&](double t) -> Vec2 {
-      return Plan(along_u ? Position(piece, t, other) : Position(piece, other, t));
+      return Xy(along_u ? Position(piece, t, other) : Position(piece, other, t));
     };
     for (int j = 0; j < n; ++j) {
       const Vec2 a = at(double(j) / n), along = at(double(j + 1) / n) - a;
@@ -217,8 +217,8 @@ class StretchFinder {
     const Vec2 normal = grid.air_side[static_cast<std::size_t>(i * grid.nv + j)];
     if (normal.isZero()) return;
     const Vec2 along(-normal.y(), normal.x());
-    const std::array<Vec2, 4> corners = {Plan(grid.At(i, j)), Plan(grid.At(i + 1, j)),
-                                         Plan(grid.At(i, j + 1)), Plan(grid.At(i + 1, j + 1))};
+    const std::array<Vec2, 4> corners = {Xy(grid.At(i, j)), Xy(grid.At(i + 1, j)), Xy(grid.At(i, j + 1)),
+                                         Xy(grid.At(i + 1, j + 1))};
     const auto [first, last] =
         std::minmax_element(corners.begin(), corners.end(),
                             [&](const Vec2& p, const Vec2& q) { return along.dot(p) < along.dot(q); });

@@ -26,8 +26,8 @@ absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup,
   return BuildSurface(std::move(network), SurfaceParams{}, run);
 }
 
-absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool, double give,
-                                      const RunContext& run) {
+absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool,
+                                      double reach_tolerance, const RunContext& run) {
   ModelCheck check;
   check.findings = surface.network.findings;
   check.box = TightBox(surface);
@@ -41,7 +41,7 @@ absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optiona
   const ConcaveSpot spot = SmallestConcaveRadius(surface, run);
   PM_RETURN_IF_ERROR(run.Check());
   check.min_concave_radius = spot.radius;
-  if (tool && spot.radius < BallRadius(*tool) - give) {
+  if (tool && spot.radius < BallRadius(*tool) - reach_tolerance) {
     const Piece& piece = surface.piece(spot.at.piece);
     check.findings.push_back(MakeWarning(
         "CONCAVE_RADIUS_BELOW_TOOL",

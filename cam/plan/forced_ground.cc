@@ -67,9 +67,9 @@ std::function<double(const SurfaceJet&)> FinishedByForced(const Operation& op, d
   };
 }
 
-absl::Status JudgeForced(const Surface& surface, const Operation& op,
-                         const std::vector<RegionChoice>& choices, double radius, const RunContext& run,
-                         RegionMap& map) {
+absl::Status MarkUnfinishedByStrategy(const Surface& surface, const Operation& op,
+                                      const std::vector<RegionChoice>& choices, double radius,
+                                      const RunContext& run, RegionMap& map) {
   bool any = false;
   for (Region& region : map.regions) {
     if (region.reason != UnreachableReason::kStrategy) continue;

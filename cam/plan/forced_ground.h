@@ -20,8 +20,8 @@ std::function<double(const SurfaceJet&)> FinishedByForced(const Operation& op, d
 // that is still open, and fills deepest_leftover of those that keep it: at up to 500 places of each, what the
 // least step leaves (LeftByStep), or the distance to a ball that touches ground which is finished, if that is
 // less. An estimate: passes may come nearer. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::Status JudgeForced(const Surface& surface, const Operation& op,
-                         const std::vector<RegionChoice>& choices, double radius, const RunContext& run,
-                         RegionMap& map);
+absl::Status MarkUnfinishedByStrategy(const Surface& surface, const Operation& op,
+                                      const std::vector<RegionChoice>& choices, double radius,
+                                      const RunContext& run, RegionMap& map);
 
 }  // namespace patchmill

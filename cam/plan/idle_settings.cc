@@ -11,7 +11,7 @@
 namespace patchmill {
 namespace {
 
-Diagnostic Idle(std::string field, const char* setting, const char* why) {
+Diagnostic Unused(std::string field, const char* setting, const char* why) {
   return MakeWarning("SETTING_WITHOUT_EFFECT", fmt::format("{} has no effect: {}", setting, why),
                      {.field = std::move(field)});
 }
@@ -21,7 +21,7 @@ constexpr char kAllLines[] = "everything is cut by lines";
 
 }  // namespace
 
-Diagnostics IdleSettings(const Operation& op) {
+Diagnostics UnusedSettings(const Operation& op) {
   Diagnostics idle;
   const auto strategy_of = [&](const RegionOverride& change) {
     return change.strategy.value_or(op.strategy);
@@ -33,20 +33,22 @@ Diagnostics IdleSettings(const Operation& op) {
            });
   };
   if (op.tool.flute_length && !WideShankOf(op.tool))
-    idle.push_back(Idle("tool.flute_length_mm", "a length of flutes", "the shank is no wider than the ball"));
+    idle.push_back(
+        Unused("tool.flute_length_mm", "a length of flutes", "the shank is no wider than the ball"));
   if (all(Strategy::kContour)) {
-    if (op.zigzag_angle != 0.0) idle.push_back(Idle("zigzag_angle_deg", "an angle of lines", kAllContours));
-    if (op.angle_auto) idle.push_back(Idle("zigzag_angle_auto", "the quickest angle of lines", kAllContours));
-    if (op.one_way) idle.push_back(Idle("one_way_lines", "one way", kAllContours));
+    if (op.zigzag_angle != 0.0) idle.push_back(Unused("zigzag_angle_deg", "an angle of lines", kAllContours));
+    if (op.angle_auto)
+      idle.push_back(Unused("zigzag_angle_auto", "the quickest angle of lines", kAllContours));
+    if (op.one_way) idle.push_back(Unused("one_way_lines", "one way", kAllContours));
     if (op.zigzag_bend != Operation().zigzag_bend)
-      idle.push_back(Idle("zigzag_bend_deg", "a bend of lines", kAllContours));
-    if (!op.round_lines) idle.push_back(Idle("round_lines", "no round lines", kAllContours));
-    if (!op.border_passes) idle.push_back(Idle("border_passes", "no border passes", kAllContours));
+      idle.push_back(Unused("zigzag_bend_deg", "a bend of lines", kAllContours));
+    if (!op.round_lines) idle.push_back(Unused("round_lines", "no round lines", kAllContours));
+    if (!op.border_passes) idle.push_back(Unused("border_passes", "no border passes", kAllContours));
   }
   if (all(Strategy::kZigzag)) {
-    if (op.spirals) idle.push_back(Idle("contour_spirals", "spirals", kAllLines));
+    if (op.spirals) idle.push_back(Unused("contour_spirals", "spirals", kAllLines));
     if (op.contour_direction != CutDirection::kClimb)
-      idle.push_back(Idle("contour_direction", "a direction of contours", kAllLines));
+      idle.push_back(Unused("contour_direction", "a direction of contours", kAllLines));
   }
   for (std::size_t k = 0; k < op.overrides.size(); ++k) {
     const RegionOverride& change = op.overrides[k];
@@ -54,18 +56,18 @@ Diagnostics IdleSettings(const Operation& op) {
     const auto field = [&](const char* name) { return fmt::format("region_overrides[{}].{}", k, name); };
     constexpr char kContours[] = "the region is cut by contours";
     if (change.zigzag_angle)
-      idle.push_back(Idle(field("zigzag_angle_deg"), "a region's angle of lines", kContours));
+      idle.push_back(Unused(field("zigzag_angle_deg"), "a region's angle of lines", kContours));
     if (change.one_way.value_or(false))
-      idle.push_back(Idle(field("one_way_lines"), "a region's one way", kContours));
+      idle.push_back(Unused(field("one_way_lines"), "a region's one way", kContours));
   }
   return idle;
 }
 
-Diagnostics IdleSpirals(const Operation& op, const std::vector<CutterPath>& passes) {
+Diagnostics UnusedSpirals(const Operation& op, const std::vector<CutterPath>& passes) {
   const bool wound =
       std::any_of(passes.begin(), passes.end(), [](const CutterPath& pass) { return pass.spiral; });
   if (!op.spirals || wound) return {};
-  return {Idle("contour_spirals", "spirals", "no closed contour runs all around beside the next one")};
+  return {Unused("contour_spirals", "spirals", "no closed contour runs all around beside the next one")};
 }
 
 }  // namespace patchmill

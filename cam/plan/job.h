@@ -54,10 +54,10 @@ struct Selection {
 };
 
 // A component of a region whose lines are circles.
-struct RoundGround {
+struct CircularComponent {
   int component = -1;  // RegionMap::ComponentAt
-  RoundLines lines;
-  bool operator==(const RoundGround&) const = default;
+  CircularLines lines;
+  bool operator==(const CircularComponent&) const = default;
 };
 
 // How one region is cut.
@@ -66,13 +66,13 @@ struct RegionChoice {
   Strategy strategy = Strategy::kAuto;
   double zigzag_angle = 0.0;  // rad
   bool angle_open = false;    // zigzag_angle is yet to be chosen (QuickestAngles)
-  bool round_open = false;    // and whether its lines are circles (ChooseRoundLines)
+  bool circles_open = false;  // and whether its lines are circles (ChooseCircularLines)
   bool one_way = false;       // all its lines run along zigzag_angle, none back
   double scallop = 0.01;      // mm
   // Components whose lines are circles, whatever zigzag_angle says, rising; and whether that is all ground
-  // that has lines, crumbs apart (ChooseRoundLines).
-  std::vector<RoundGround> around;
-  bool all_round = false;
+  // that has lines, crumbs apart (ChooseCircularLines).
+  std::vector<CircularComponent> around;
+  bool all_circular = false;
   bool operator==(const RegionChoice&) const = default;
 };
 
@@ -102,7 +102,7 @@ struct Operation {
   double zigzag_bend =
       Radians(20.0);          // rad, how far lines may turn from their angle (BendLines); 0: straight
   bool angle_auto = false;    // each region's lines in the direction that takes the least time
-  bool round_lines = true;    // lines of ring-shaped regions may be circles (ChooseRoundLines)
+  bool round_lines = true;    // lines of ring-shaped regions may be circles (ChooseCircularLines)
   bool border_passes = true;  // along the borders that lines run along (BorderPasses)
   bool spirals = false;       // contours one below the other become one pass (SpiralPaths)
   double detail = RegionParams().detail;
@@ -144,7 +144,7 @@ struct JobReport {
   LinkStats motion;
   double min_concave_radius = kInfinity;  // mm, smallest on the reachable side; infinity: none
   double controller_tolerance = 0.0;      // mm
-  double least_feed = 0.0;                // mm: no passes of this finish are shorter together (LeastFeed)
+  double least_cut_length = 0.0;  // mm: no passes of this finish are shorter together (LeastCutLength)
   int point_count = 0;
   std::uint64_t certificate_defects = 0;  // Locator::defect_count of the passes
   std::vector<Region> regions;

@@ -47,10 +47,10 @@ std::string Color(const Region& region, int nth) {
 }
 
 // Which ground is to be finished: what is selected, less the regions that are skipped.
-class WantedGround {
+class WantedCells {
  public:
-  WantedGround(const Surface& surface, const RegionMap& map, const std::vector<RegionChoice>& choices,
-               const Containment& containment)
+  WantedCells(const Surface& surface, const RegionMap& map, const std::vector<RegionChoice>& choices,
+              const Containment& containment)
       : surface_(surface), containment_(containment), parts_(PartsOf(map, choices)) {}
 
   bool Has(const SurfacePoint& p) const {
@@ -67,7 +67,7 @@ class WantedGround {
 };
 
 // Which regions have wanted ground, looked for in up to about 2,000 cells of each: even the smallest is met.
-std::vector<bool> SeenRegions(const Surface& surface, const RegionMap& map, const WantedGround& wanted) {
+std::vector<bool> SeenRegions(const Surface& surface, const RegionMap& map, const WantedCells& wanted) {
   constexpr std::size_t kMostCells = 2000;
   std::vector<std::size_t> cells(map.regions.size(), 0);
   std::vector<std::size_t> met(map.regions.size(), 0);
@@ -143,7 +143,7 @@ PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::
   PreviewInput input;
   input.surface = &surface;
   input.title = title;
-  const auto wanted = std::make_shared<const WantedGround>(surface, map, choices, resolved.containment);
+  const auto wanted = std::make_shared<const WantedCells>(surface, map, choices, resolved.containment);
   const std::vector<bool> seen = SeenRegions(surface, map, *wanted);
   std::vector<int> index(map.regions.size(), -1);
   for (const Region& region : map.regions) {

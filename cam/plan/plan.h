@@ -17,14 +17,14 @@ absl::StatusOr<PatchNetwork> BuildPlacedNetwork(PatchModel model, const Setup& s
 absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup, const RunContext& run);
 
 // Model findings of CheckModel: network, curvature against the tool, size warnings. A concave radius counts
-// as below the ball's when it is smaller by more than `give`, mm (ReachGive).
+// as below the ball's when it is smaller by more than `give`, mm (ReachTolerance).
 struct ModelCheck {
   Diagnostics findings;
   Box3 box;                               // placed
   double min_concave_radius = kInfinity;  // mm, upward side
 };
-absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool, double give,
-                                      const RunContext& run);
+absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool,
+                                      double reach_tolerance, const RunContext& run);
 
 // Checks ranges of the job itself; INVALID_ARGUMENT with field path, value and constraint.
 absl::Status ValidateJob(const Job& job);
@@ -34,8 +34,8 @@ absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job
 
 // The parts that a program of this job is judged by (MakeVerifyParams); none when no region is chosen. Errors
 // as ChooseRegions.
-absl::StatusOr<std::vector<PlanPart>> JudgedParts(const Surface& surface, const Job& job,
-                                                  const Resolved& resolved, const RunContext& run);
+absl::StatusOr<std::vector<PlanPart>> VerifiedParts(const Surface& surface, const Job& job,
+                                                    const Resolved& resolved, const RunContext& run);
 
 // surface -> regions -> passes -> links -> program text -> verification. No program unless verified.
 absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run);

@@ -56,8 +56,8 @@ void NumberAfter(const std::vector<CutterPath>& before, std::vector<CutterPath>&
   constexpr int kGap = kLineReach + 1;
   if (before.empty()) return;
   int last = 0;
-  for (const CutterPath& path : before) last = std::max(last, path.line);
-  for (CutterPath& path : paths) path.line += last + kGap;
+  for (const CutterPath& path : before) last = std::max(last, path.order_key);
+  for (CutterPath& path : paths) path.order_key += last + kGap;
 }
 
 // Contours shorter than `step` (mm) where a level barely touches a crest or a crease: ground that needs them
@@ -68,15 +68,15 @@ void DropCrumbs(double step, std::vector<CutterPath>& contours) {
   std::vector<int> lines;
   for (const CutterPath& path : contours) {
     if (!is_crumb(path)) continue;
-    places.push_back(Lift(Plan(path.points.front().center), 0.0));
-    lines.push_back(path.line);
+    places.push_back(Lift(Xy(path.points.front().center), 0.0));
+    lines.push_back(path.order_key);
   }
   const PointCells cells(places, step);
   std::erase_if(contours, [&](const CutterPath& path) {
     if (!is_crumb(path)) return false;
     bool alone = true;
-    cells.Near(Lift(Plan(path.points.front().center), 0.0), step,
-               [&](std::size_t k) { alone = alone && lines[k] == path.line; });
+    cells.Near(Lift(Xy(path.points.front().center), 0.0), step,
+               [&](std::size_t k) { alone = alone && lines[k] == path.order_key; });
     return alone;
   });
 }
@@ -92,18 +92,18 @@ class PassMaker {
 
   // What has been added so far counts against the limits of what is made next.
   absl::Status AddStrategies(const PlanPart& part, const std::vector<BorderCurve>& rims,
-                             const KeepIn* keep_in, PlannedPasses& planned) {
+                             const OperationLimits* operation_limits, PlannedPasses& planned) {
     const RegionChoice& choice = part.choice;
     std::vector<CutterPath> paths;
     const auto clip = [&](std::vector<CutterPath> of) -> absl::StatusOr<std::vector<CutterPath>> {
-      if (keep_in == nullptr) return of;
+      if (operation_limits == nullptr) return of;
       const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
-      return ClipToKeepIn(locator_, *keep_in, std::move(of), reach, run_);
+      return ClipToLimits(locator_, *operation_limits, std::move(of), reach, run_);
     };
     base_.budget.made = AmountOf(planned.paths);
     if (choice.strategy != Strategy::kZigzag) {
-      PM_ASSIGN_OR_RETURN(paths, Contours(choice, keep_in != nullptr, planned.findings));
-      if (op_.spirals && keep_in != nullptr) {
+      PM_ASSIGN_OR_RETURN(paths, Contours(choice, operation_limits != nullptr, planned.findings));
+      if (op_.spirals && operation_limits != nullptr) {
         PM_ASSIGN_OR_RETURN(paths, ClipUnthinned(choice, std::move(paths), clip));
       } else {
         PM_ASSIGN_OR_RETURN(paths, clip(std::move(paths)));
@@ -116,7 +116,7 @@ class PassMaker {
       params.window.max = choice.strategy == Strategy::kAuto ? split_angle_ : kPi / 2.0;
       params.angle = choice.zigzag_angle;
       params.max_bend = op_.zigzag_bend;
-      if (keep_in != nullptr && keep_in->HasPart()) params.part = keep_in;
+      if (operation_limits != nullptr && operation_limits->HasPart()) params.part = operation_limits;
       params.where = part.straight.get();
       PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator_, params, run_));
       for (CutterPath& line : lines) line.one_way = choice.one_way;
@@ -153,7 +153,8 @@ class PassMaker {
   // is cut in another way or not at all. Limits of the operation and of the ball's own shape are none: the
   // ball cannot stand on them.
   absl::Status AddBorders(const RegionMap& regions, const std::vector<RegionChoice>& choices,
-                          const RegionChoice& choice, const KeepIn* keep_in, PlannedPasses& planned) const {
+                          const RegionChoice& choice, const OperationLimits* operation_limits,
+                          PlannedPasses& planned) const {
     const auto region = [&](int id) -> const Region& {
       return regions.regions[static_cast<std::size_t>(id)];
     };
@@ -179,9 +180,9 @@ class PassMaker {
     SetFinePass(choice, params);
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> passes,
                         BorderPasses(locator_, borders, planned.paths, params, run_));
-    if (keep_in != nullptr) {
+    if (operation_limits != nullptr) {
       const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
-      PM_ASSIGN_OR_RETURN(passes, ClipToKeepIn(locator_, *keep_in, std::move(passes), reach, run_));
+      PM_ASSIGN_OR_RETURN(passes, ClipToLimits(locator_, *operation_limits, std::move(passes), reach, run_));
       std::erase_if(passes, [&](const CutterPath& pass) { return Length(pass) < 4.0 * reach; });
     }
     TurnOneWay(choice, passes);
@@ -189,21 +190,21 @@ class PassMaker {
     return absl::OkStatus();
   }
 
-  CoverageParams CoverageOf(const RegionChoice& choice, const KeepIn* keep_in) const {
-    CoverageParams params;
+  RestPassParams CoverageOf(const RegionChoice& choice, const OperationLimits* operation_limits) const {
+    RestPassParams params;
     SetPass(choice, params);
     params.limit = choice.scallop + kCoverageShare * op_.tolerance;
     params.tolerance = op_.tolerance;
     // Forced passes answer for the ground where their steps are not clamped; the rest is reported as
     // STRATEGY.
     params.forced = ForcedOf(choice);
-    params.keep_in = keep_in;
+    params.operation_limits = operation_limits;
     return params;
   }
 
-  absl::Status AddRest(const RegionChoice& choice, const Locator& reach, const CoverageParams& params,
+  absl::Status AddRest(const RegionChoice& choice, const Locator& reach, const RestPassParams& params,
                        PlannedPasses& planned) const {
-    CoverageParams counted = params;
+    RestPassParams counted = params;
     counted.budget.made = AmountOf(planned.paths);
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest,
                         RestPaths(locator_, reach, planned.paths, counted, run_));
@@ -221,7 +222,7 @@ class PassMaker {
     for (CutterPath& path : paths) {
       if (path.closed || path.points.size() < 2) continue;
       const Vec3 d = path.points.back().center - path.points.front().center;
-      const double along = way.dot(Plan(d));
+      const double along = way.dot(Xy(d));
       if (std::abs(along) < kAcross * d.norm()) continue;
       if (along < 0.0) Reverse(path);
       path.one_way = true;
@@ -240,9 +241,9 @@ class PassMaker {
       for (std::size_t i = 0; i + (path.closed ? 0 : 1) < path.points.size(); ++i) {
         const CutterPoint &from = path.points[i], &to = path.points[(i + 1) % path.points.size()];
         if (!from.contact || from.other_contact) continue;
-        const Vec2 inwards = Plan(from.contact->p - from.center) / locator_.radius();
+        const Vec2 inwards = Xy(from.contact->p - from.center) / locator_.radius();
         if (inwards.norm() >= least && inwards.norm() > 0.0)
-          on_right += Cross(inwards.normalized(), Plan(to.center - from.center));
+          on_right += Cross(inwards.normalized(), Xy(to.center - from.center));
       }
       if (std::abs(on_right) < kAlongWall * length) continue;
       if (side * on_right < 0.0) Reverse(path);
@@ -261,23 +262,23 @@ class PassMaker {
                                                         const Clip& clip) const {
     std::vector<int> lines;
     for (CutterPath& path : paths) {
-      lines.push_back(path.line);
-      path.line = static_cast<int>(lines.size()) - 1;
+      lines.push_back(path.order_key);
+      path.order_key = static_cast<int>(lines.size()) - 1;
     }
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> clipped, clip(paths));
     std::erase_if(clipped, [](const CutterPath& path) { return !MaySpiral(path); });
     std::vector<char> whole(paths.size(), 0);
-    for (const CutterPath& path : clipped) whole[static_cast<std::size_t>(path.line)] = 1;
-    std::erase_if(paths,
-                  [&](const CutterPath& path) { return whole[static_cast<std::size_t>(path.line)] != 0; });
+    for (const CutterPath& path : clipped) whole[static_cast<std::size_t>(path.order_key)] = 1;
+    std::erase_if(
+        paths, [&](const CutterPath& path) { return whole[static_cast<std::size_t>(path.order_key)] != 0; });
     PassParams params;
     SetFinePass(choice, params);
     PM_RETURN_IF_ERROR(ThinContours(locator_, params, MaySpiral, run_, paths));
     PM_ASSIGN_OR_RETURN(paths, clip(std::move(paths)));
     Append(clipped, std::move(paths));
     std::stable_sort(clipped.begin(), clipped.end(),
-                     [](const CutterPath& a, const CutterPath& b) { return a.line < b.line; });
-    for (CutterPath& path : clipped) path.line = lines[static_cast<std::size_t>(path.line)];
+                     [](const CutterPath& a, const CutterPath& b) { return a.order_key < b.order_key; });
+    for (CutterPath& path : clipped) path.order_key = lines[static_cast<std::size_t>(path.order_key)];
     return clipped;
   }
 
@@ -338,12 +339,12 @@ PassParams MakePassParams(const Job& job, const Resolved& resolved) {
 absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions,
                                          const std::vector<RegionChoice>& choices,
                                          const std::vector<PlanPart>& parts, const Job& job,
-                                         const Resolved& resolved, const KeepIn* keep_in,
+                                         const Resolved& resolved, const OperationLimits* operation_limits,
                                          const RunContext& run) {
   PlannedPasses planned;
   PassMaker maker(locator, job, resolved, run);
-  std::vector<std::optional<KeepIn>> own(parts.size());
-  const auto limits = [&](std::size_t k) { return own[k] ? &*own[k] : keep_in; };
+  std::vector<std::optional<OperationLimits>> own(parts.size());
+  const auto limits = [&](std::size_t k) { return own[k] ? &*own[k] : operation_limits; };
   std::vector<BorderCurve> rims;  // where the surface ends
   if (job.operation.border_passes) {
     for (const BorderLine& line : regions.border_lines)
@@ -351,8 +352,8 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
   }
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k].where != nullptr) {
-      PM_CHECK(keep_in != nullptr);
-      PM_ASSIGN_OR_RETURN(KeepIn within, keep_in->Within(parts[k].where, run));
+      PM_CHECK(operation_limits != nullptr);
+      PM_ASSIGN_OR_RETURN(OperationLimits within, operation_limits->Within(parts[k].where, run));
       own[k].emplace(std::move(within));
     }
     PM_RETURN_IF_ERROR(maker.AddStrategies(parts[k], rims, limits(k), planned));
@@ -363,20 +364,20 @@ absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap
     }
   }
   // After all of them: along a border the passes of one part finish some of the next.
-  CoverageParams any;
+  RestPassParams any;
   any.tolerance = job.operation.tolerance;
   PM_ASSIGN_OR_RETURN(const Locator reach, ReachLocator(locator, any, run));
-  std::vector<CoverageParams> coverage;
+  std::vector<RestPassParams> coverage;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     coverage.push_back(maker.CoverageOf(parts[k].choice, limits(k)));
     PM_RETURN_IF_ERROR(maker.AddRest(parts[k].choice, reach, coverage.back(), planned));
   }
   PM_ASSIGN_OR_RETURN(planned.paths,
-                      WithoutNeedless(locator, reach, std::move(planned.paths), coverage, run));
+                      RemoveRedundantPasses(locator, reach, std::move(planned.paths), coverage, run));
   LabelRegions(regions, planned.paths);
   if (job.operation.edge_rule == EdgeRule::kExtend) {
-    PM_ASSIGN_OR_RETURN(planned.paths, RunOn(locator, std::move(planned.paths), locator.radius(),
-                                             MakePassParams(job, resolved), keep_in, run));
+    PM_ASSIGN_OR_RETURN(planned.paths, ExtendPasses(locator, std::move(planned.paths), locator.radius(),
+                                                    MakePassParams(job, resolved), operation_limits, run));
   }
   return planned;
 }

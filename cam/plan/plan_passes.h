@@ -20,7 +20,8 @@ struct PlannedPasses {
 
 PassParams MakePassParams(const Job& job, const Resolved& resolved);
 
-// `parts`: of the regions and their `choices` (PartsOf). `keep_in`: what is wanted and allowed; null: all of
+// `parts`: of the regions and their `choices` (PartsOf). `operation_limits`: what is wanted and allowed;
+// null: all of
 // it, and there is one part. Part by part contours over the steep ground, zig-zag lines over the gentle one
 // (or one of them over all, when forced), then passes along borders that lines run along
 // (Operation.border_passes), then crease and rest passes wherever more than the part's scallop would stay;
@@ -28,7 +29,7 @@ PassParams MakePassParams(const Job& job, const Resolved& resolved);
 absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions,
                                          const std::vector<RegionChoice>& choices,
                                          const std::vector<PlanPart>& parts, const Job& job,
-                                         const Resolved& resolved, const KeepIn* keep_in,
+                                         const Resolved& resolved, const OperationLimits* operation_limits,
                                          const RunContext& run);
 
 }  // namespace patchmill

@@ -23,7 +23,7 @@ static_assert(kQuickestAnglePlans == kAngles + kAlongBorders + 1 + 3 * static_ca
 // tolerance, directions from one to the next are not.
 void AddStrides(const std::vector<Vec3>& loop, std::vector<Vec2>& strides) {
   double length = 0.0;
-  const auto at = [&](std::size_t i) { return Plan(loop[i % loop.size()]); };
+  const auto at = [&](std::size_t i) { return Xy(loop[i % loop.size()]); };
   for (std::size_t i = 0; i < loop.size(); ++i) length += (at(i + 1) - at(i)).norm();
   if (loop.empty()) return;
   Vec2 from = at(0);
@@ -58,7 +58,7 @@ RegionTimes TimesOf(const LinkResult& motion, std::size_t regions) {
 
 absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
                                                          std::vector<RegionChoice> choices,
-                                                         const std::vector<RoundTry>& circles,
+                                                         const std::vector<CircularTrial>& circles,
                                                          const TimePlan& plan) {
   // How a region's lines run.
   struct Way {
@@ -77,13 +77,14 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
       filled[id].angle_open = false;
       const bool round = ways[id].round && !circles[id].more.empty();
       if (round) {
-        std::vector<RoundGround>& around = filled[id].around;
+        std::vector<CircularComponent>& around = filled[id].around;
         around.insert(around.end(), circles[id].more.begin(), circles[id].more.end());
-        std::sort(around.begin(), around.end(),
-                  [](const RoundGround& a, const RoundGround& b) { return a.component < b.component; });
+        std::sort(around.begin(), around.end(), [](const CircularComponent& a, const CircularComponent& b) {
+          return a.component < b.component;
+        });
       }
       if (round && circles[id].all) {
-        filled[id].all_round = true;
+        filled[id].all_circular = true;
       } else {
         filled[id].zigzag_angle = ways[id].angle;
       }

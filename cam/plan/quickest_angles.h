@@ -23,7 +23,7 @@ using TimePlan = std::function<absl::StatusOr<RegionTimes>(const std::vector<Reg
 inline constexpr int kQuickestAnglePlans = 20;  // at most
 
 // The choices with zigzag_angle filled in, in [0, pi), wherever angle_open is set (which is cleared), or
-// more `around` from `circles`, which has what to try for each region (ChooseRoundLines). First all
+// more `around` from `circles`, which has what to try for each region (ChooseCircularLines). First all
 // regions are planned at 0, 30, ... 150 degrees and along the two directions in which most of the borders of
 // lines run (MainDirections), for there the time falls off within a few degrees. Each region takes the angle
 // at which its own motion is quickest (steep ones that contours cut that of the quickest plan), and that
@@ -33,7 +33,7 @@ inline constexpr int kQuickestAnglePlans = 20;  // at most
 // of all these plans is the answer. kQuickestAnglePlans times the cost of `plan` at most; its errors.
 absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
                                                          std::vector<RegionChoice> choices,
-                                                         const std::vector<RoundTry>& circles,
+                                                         const std::vector<CircularTrial>& circles,
                                                          const TimePlan& plan);
 
 }  // namespace patchmill

@@ -77,7 +77,8 @@ std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
   return leader;
 }
 
-// The cells of a piece that are the component's, or at most kRoundBeside steps from cell to cell away: its
+// The cells of a piece that are the component's, or at most kCellsBesideCircles steps from cell to cell
+// away: its
 // border runs through cells, and what is left of them would be cut by short ends of other lines.
 std::vector<bool> CellsOf(const RegionMap& map, std::size_t piece, int component) {
   const int n = map.cells;
@@ -88,7 +89,7 @@ std::vector<bool> CellsOf(const RegionMap& map, std::size_t piece, int component
     own[k] = labels[k] == component;
     if (own[k]) edge.push_back(static_cast<int>(k));
   }
-  for (int step = 0; step < kRoundBeside; ++step) {
+  for (int step = 0; step < kCellsBesideCircles; ++step) {
     std::vector<int> next;
     for (const int k : edge) {
       const int i = k / n, j = k % n;
@@ -123,14 +124,14 @@ std::map<int, std::vector<std::size_t>> PiecesOfComponents(const RegionMap& map)
 // steps are needed is looked for along the circles as they lie; farther apart it would cost length.
 constexpr double kSamePlace = 0.05;
 
-std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<RegionChoice>& choices,
-                                     const std::vector<int>& part_of, std::vector<PlanPart> parts) {
+std::vector<PlanPart> WithCircularLines(const RegionMap& map, const std::vector<RegionChoice>& choices,
+                                        const std::vector<int>& part_of, std::vector<PlanPart> parts) {
   using Cells = std::vector<std::vector<bool>>;
   if (std::all_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.around.empty(); }))
     return parts;
   std::map<int, std::vector<std::size_t>> pieces_of = PiecesOfComponents(map);
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    std::vector<RoundLines> families;
+    std::vector<CircularLines> families;
     std::vector<Cells> cells;
     for (std::size_t id = 0; id < choices.size(); ++id) {
       if (part_of[id] != static_cast<int>(p)) continue;
@@ -179,10 +180,10 @@ std::vector<PlanPart> WithRoundLines(const RegionMap& map, const std::vector<Reg
 bool CutTogether(const RegionChoice& a, const RegionChoice& b) {
   RegionChoice c = b;
   c.around = a.around;
-  if (a.all_round || b.all_round) {
+  if (a.all_circular || b.all_circular) {
     c.zigzag_angle = a.zigzag_angle;
     c.angle_open = a.angle_open;
-    c.all_round = a.all_round;
+    c.all_circular = a.all_circular;
   }
   return a == c;
 }
@@ -192,7 +193,7 @@ RegionChoice ChoiceOf(const Operation& op) {
   choice.strategy = op.strategy;
   choice.zigzag_angle = op.zigzag_angle;
   choice.angle_open = op.angle_auto && op.strategy != Strategy::kContour;
-  choice.round_open = op.round_lines;
+  choice.circles_open = op.round_lines;
   choice.one_way = op.one_way;
   choice.scallop = op.scallop;
   return choice;
@@ -245,7 +246,7 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
     choice.strategy = change.strategy.value_or(choice.strategy);
     choice.zigzag_angle = change.zigzag_angle.value_or(choice.zigzag_angle);
     choice.angle_open = op.angle_auto && !change.zigzag_angle && choice.strategy != Strategy::kContour;
-    choice.round_open = choice.round_open && !change.zigzag_angle;
+    choice.circles_open = choice.circles_open && !change.zigzag_angle;
     choice.one_way = change.one_way.value_or(choice.one_way);
     choice.scallop = change.scallop.value_or(choice.scallop);
   }
@@ -258,7 +259,7 @@ std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoi
   for (const bool round : {false, true}) {
     for (std::size_t id = 0; id < choices.size(); ++id) {
       if (choices[id].skip || map.regions[id].kind == RegionKind::kUnreachable) continue;
-      if (choices[id].all_round != round) continue;
+      if (choices[id].all_circular != round) continue;
       const auto known = std::find_if(parts.begin(), parts.end(), [&](const PlanPart& part) {
         return CutTogether(choices[id], part.choice);
       });
@@ -266,13 +267,13 @@ std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoi
       if (known != parts.end()) continue;
       parts.emplace_back().choice = choices[id];
       parts.back().choice.around.clear();
-      parts.back().choice.all_round = false;
+      parts.back().choice.all_circular = false;
     }
   }
   const bool any_skipped =
       std::any_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.skip; });
   if (parts.empty()) parts.emplace_back();
-  if (parts.size() == 1 && !any_skipped) return WithRoundLines(map, choices, part_of, std::move(parts));
+  if (parts.size() == 1 && !any_skipped) return WithCircularLines(map, choices, part_of, std::move(parts));
   using Cells = std::vector<std::vector<bool>>;
   std::vector<Cells> marked(parts.size(), Cells(map.labels.size()));
   for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
@@ -287,11 +288,11 @@ std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoi
   for (std::size_t p = 0; p < parts.size(); ++p) {
     parts[p].where = std::make_shared<const SurfaceMask>(map.cells, marked[p]);
   }
-  return WithRoundLines(map, choices, part_of, std::move(parts));
+  return WithCircularLines(map, choices, part_of, std::move(parts));
 }
 
-std::shared_ptr<const SurfaceMask> CutGround(const RegionMap& map, const std::vector<RegionChoice>& choices,
-                                             const std::vector<PlanPart>& parts) {
+std::shared_ptr<const SurfaceMask> CutCells(const RegionMap& map, const std::vector<RegionChoice>& choices,
+                                            const std::vector<PlanPart>& parts) {
   if (std::none_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.skip; }))
     return nullptr;
   std::vector<std::vector<bool>> cells(map.labels.size());

@@ -21,15 +21,15 @@ RegionChoice ChoiceOf(const Operation& op);
 ForcedSteps ForcedOf(const RegionChoice& choice);
 
 // More components of a region that circles may suit; `all`: its lines are all round then.
-struct RoundTry {
-  std::vector<RoundGround> more;
+struct CircularTrial {
+  std::vector<CircularComponent> more;
   bool all = false;
 };
 
 struct ChosenRegions {
   RegionMap map;
-  std::vector<RegionChoice> choices;  // by id
-  std::vector<RoundTry> circles;      // by id: to be tried where the angle is open
+  std::vector<RegionChoice> choices;   // by id
+  std::vector<CircularTrial> circles;  // by id: to be tried where the angle is open
 };
 
 // One for each region of the map, by id. FAILED_PRECONDITION when the overrides were made for another map;
@@ -39,7 +39,7 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
                                                         const Operation& op, const Vec3& program_zero);
 
 // Cells beside a region that are cut with it, along circles.
-inline constexpr int kRoundBeside = 4;
+inline constexpr int kCellsBesideCircles = 4;
 
 // They are the same but for which lines are round, and for the direction of the others if one has none: one
 // set of contours cuts both.
@@ -52,7 +52,7 @@ struct PlanPart {
 
   // Ground of it whose lines are circles.
   struct Round {
-    RoundLines around;
+    CircularLines around;
     std::shared_ptr<const SurfaceMask> where;
   };
   std::vector<Round> round;
@@ -67,7 +67,7 @@ struct PlanPart {
 std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoice>& choices);
 
 // The cells of all parts together: what links may touch. Null when no region is skipped: everywhere.
-std::shared_ptr<const SurfaceMask> CutGround(const RegionMap& map, const std::vector<RegionChoice>& choices,
-                                             const std::vector<PlanPart>& parts);
+std::shared_ptr<const SurfaceMask> CutCells(const RegionMap& map, const std::vector<RegionChoice>& choices,
+                                            const std::vector<PlanPart>& parts);
 
 }  // namespace patchmill

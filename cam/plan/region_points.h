@@ -19,18 +19,19 @@ inline bool ByContours(const RegionChoice& choice, const Region& region) {
 
 // In which direction in plan lines run; unit vectors.
 inline Vec2 StraightLine(double angle) { return {std::cos(angle), std::sin(angle)}; }
-inline Vec2 RoundLineAt(const RoundLines& around, const Vec2& p) {
+inline Vec2 CircleTangentAt(const CircularLines& around, const Vec2& p) {
   const Vec2 out = p - around.center;
   return Vec2(-out.y(), out.x()).normalized();
 }
 
 // At p of a component of the region.
 inline Vec2 LineAt(const RegionChoice& choice, int component, const Vec3& p) {
-  const auto ground = std::lower_bound(choice.around.begin(), choice.around.end(), component,
-                                       [](const RoundGround& round, int of) { return round.component < of; });
-  if (ground == choice.around.end() || ground->component != component)
+  const auto circles =
+      std::lower_bound(choice.around.begin(), choice.around.end(), component,
+                       [](const CircularComponent& round, int of) { return round.component < of; });
+  if (circles == choice.around.end() || circles->component != component)
     return StraightLine(choice.zigzag_angle);
-  return RoundLineAt(ground->lines, Plan(p));
+  return CircleTangentAt(circles->lines, Xy(p));
 }
 
 // Every how many cells of the map a point is taken, each way.

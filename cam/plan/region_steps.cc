@@ -41,7 +41,7 @@ double PassesPerArea(const SurfaceJet& jet, const Vec3& e, double radius, double
 
 // Upright ground of one region on one piece: passes (mm) for a ball on each side of it, and on which there is
 // room for one anywhere; the sides are those of du x dv.
-class UprightGround {
+class VerticalFaces {
  public:
   void Add(const Locator& locator, const SurfaceJet& jet, double scallop) {
     const Vec3 normal = jet.du.cross(jet.dv);
@@ -118,15 +118,15 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
   return absl::OkStatus();
 }
 
-absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<RegionChoice>& choices,
-                                 const Resolved& resolved, const RunContext& run, const RegionMap& map) {
+absl::StatusOr<double> LeastCutLength(const Locator& locator, const std::vector<RegionChoice>& choices,
+                                      const Resolved& resolved, const RunContext& run, const RegionMap& map) {
   const Surface& surface = locator.surface();
   const int stride = StrideOf(map);
   const auto reachable = [&](std::size_t id) { return map.regions[id].kind != RegionKind::kUnreachable; };
   const double radius = resolved.plan_radius;
   std::vector<double> pieces(surface.pieces.size(), 0.0);
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
-    std::map<std::size_t, UprightGround> upright;  // by region
+    std::map<std::size_t, VerticalFaces> upright;  // by region
     VisitPiece(surface, i, map, stride, reachable,
                [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
                  if (choices[id].skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p))

@@ -24,8 +24,8 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
 // takes care of no more than the widest step beside it. Upright ground counts from the side where the ball
 // finds room, by a few places of each piece in a region; the shorter of two. The same points as FillSteps.
 // `locator`: of resolved.plan_radius. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<double> LeastFeed(const Locator& locator, const std::vector<RegionChoice>& choices,
-                                 const Resolved& resolved, const RunContext& run, const RegionMap& map);
+absl::StatusOr<double> LeastCutLength(const Locator& locator, const std::vector<RegionChoice>& choices,
+                                      const Resolved& resolved, const RunContext& run, const RegionMap& map);
 
 // Fills wanted_share: how much of the area of every region is selected (IsWanted), 0 to 1, by the same
 // points; 1 where none of them is seen. CANCELLED, DEADLINE_EXCEEDED from `run`.

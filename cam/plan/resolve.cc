@@ -20,7 +20,7 @@ constexpr double kSplitSlack = Radians(0.01);
 }  // namespace
 
 Budget SplitBudget(double tolerance) {
-  return {.chord = ReachGive(tolerance),
+  return {.chord = ReachTolerance(tolerance),
           .rounding = 0.1 * tolerance,
           .certificate = 0.1 * tolerance,
           .controller = 0.3 * tolerance};
@@ -59,7 +59,7 @@ absl::StatusOr<std::vector<bool>> FindPatches(const PatchModel& model, const std
 Outline Shifted(const std::vector<Ring>& rings, const Vec3& by) {
   std::vector<Ring> moved = rings;
   for (Ring& ring : moved) {
-    for (Vec2& p : ring) p += Plan(by);
+    for (Vec2& p : ring) p += Xy(by);
   }
   return Outline(moved);
 }
@@ -101,7 +101,7 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
       if (r.program_zero.isZero()) r.zero_name = "model origin";
       break;
     case Setup::Zero::kTopCenter:
-      r.program_zero = Lift(Plan(r.box.Center()), r.box.max.z());
+      r.program_zero = Lift(Xy(r.box.Center()), r.box.max.z());
       r.zero_name = "top center of the model's box";
       break;
     case Setup::Zero::kBottomCorner:

@@ -21,14 +21,15 @@ namespace {
 
 // Of the straight lines' length: circles this short pay; where the angle is open, these need no comparison in
 // time, and these are worth one.
-constexpr double kWorthwhile = 0.9, kPlainly = 0.8, kArguably = 1.2;
+constexpr double kUseRatio = 0.9, kUseWithoutTimingRatio = 0.8, kTryByTimingRatio = 1.2;
 // Sine of the angle between circles and borders, on average: 0.13 for a hexagon, 0.29 for a square, whose
 // frames and ledges come to many short arcs that the estimate does not see.
 constexpr double kMostSlant = 0.2;
 constexpr int kAngles = 6;  // of straight lines whose angle is open
 constexpr std::size_t kMostMasked =
-    5'000'000;                  // pieces times components: each of these has a mask of its own
-constexpr double kCrumb = 1.0;  // ball radii^2: components of less are not worth an angle of their own
+    5'000'000;  // pieces times components: each of these has a mask of its own
+constexpr double kMinComponentRadii2 =
+    1.0;  // ball radii^2: components of less are not worth an angle of their own
 
 // A direction in plan that should run around the center: m . (p - c) = 0.
 struct Tangent {
@@ -110,8 +111,8 @@ std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece,
     };
     const int u = is_steep(i - stride, j) + is_steep(i + stride, j);
     const int v = is_steep(i, j - stride) + is_steep(i, j + stride);
-    point.to_steep_u = u * way * Plan(point.jet.dv);
-    point.to_steep_v = v * way * Plan(point.jet.du);
+    point.to_steep_u = u * way * Xy(point.jet.dv);
+    point.to_steep_v = v * way * Xy(point.jet.du);
     points.push_back(std::move(point));
   }
   return points;
@@ -123,7 +124,7 @@ const Region& RegionOf(const RegionMap& map, std::size_t component) {
 
 // The gentle ground of a component, to tell which of its borders are that ground's: all in a gentle region;
 // in a steep one those that lie in the plane of a point nearby.
-class GentleGround {
+class GentleArea {
  public:
   void Add(const GentlePoint& point, double way) {
     const double reach = 1.5 * way * std::max(point.jet.du.norm(), point.jet.dv.norm());
@@ -163,8 +164,7 @@ class GentleGround {
 // Calls visit(from, to), in plan, for the stretches from point to point of the borders of a component's
 // gentle ground.
 template <class Visit>
-void VisitBorders(const RegionMap& map, std::size_t component, const GentleGround& ground,
-                  const Visit& visit) {
+void VisitBorders(const RegionMap& map, std::size_t component, const GentleArea& ground, const Visit& visit) {
   const int own = static_cast<int>(component);
   const bool all = RegionOf(map, component).slope == SlopeClass::kGentle;
   for (const BorderLine& line : map.border_lines) {
@@ -172,27 +172,27 @@ void VisitBorders(const RegionMap& map, std::size_t component, const GentleGroun
     const std::size_t n = line.points.size();
     for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
       const Vec3 &from = line.points[i], &to = line.points[(i + 1) % n];
-      if (all || ground.Beside(0.5 * (from + to))) visit(Plan(from), Plan(to));
+      if (all || ground.Beside(0.5 * (from + to))) visit(Xy(from), Xy(to));
     }
   }
 }
 
 // Lines in one way over a component's gentle ground, and what they come to.
 struct Family {
-  std::optional<RoundLines> around;  // else they are straight
-  double angle = 0.0;                // rad
-  double passes = 0.0;               // mm, for the steps needed
-  double ends = 0.0;                 // mm of borders, as seen along the lines
-  double border = 0.0;               // mm of them
+  std::optional<CircularLines> around;  // else they are straight
+  double angle = 0.0;                   // rad
+  double passes = 0.0;                  // mm, for the steps needed
+  double ends = 0.0;                    // mm of borders, as seen along the lines
+  double border = 0.0;                  // mm of them
 
-  Vec2 LineAt(const Vec2& p) const { return around ? RoundLineAt(*around, p) : StraightLine(angle); }
+  Vec2 LineAt(const Vec2& p) const { return around ? CircleTangentAt(*around, p) : StraightLine(angle); }
   bool AlongBorders() const { return ends <= kMostSlant * border; }
   void AddBorder(const Vec2& from, const Vec2& to) {
     border += (to - from).norm();
     ends += std::abs(Cross(LineAt(0.5 * (from + to)), to - from));
   }
   void Add(const GentlePoint& point, double radius, double scallop) {
-    const Vec2 line = LineAt(Plan(point.jet.p));
+    const Vec2 line = LineAt(Xy(point.jet.p));
     for (const Vec2& limit : {point.to_steep_u, point.to_steep_v}) {
       border += limit.norm();
       ends += std::abs(Cross(line, limit));
@@ -204,7 +204,7 @@ struct Family {
     if (step > 0.0) passes += point.centers / step;
   }
   // One line ends for every step of border, at half of what a run costs.
-  double Sum(double radius, double step) const { return passes + 0.5 * kWayToRun * radius * ends / step; }
+  double Sum(double radius, double step) const { return passes + 0.5 * kRunCost * radius * ends / step; }
 };
 
 // How ground lies around a place.
@@ -239,7 +239,7 @@ struct Candidate {
 
 Candidate CandidateOf(const RegionChoice& choice, const Vec2& center) {
   Candidate candidate;
-  candidate.round.around = RoundLines{center, 0.0, 0.0};
+  candidate.round.around = CircularLines{center, 0.0, 0.0};
   const int angles = choice.angle_open ? kAngles : 1;
   for (int k = 0; k < angles; ++k)
     candidate.straight.emplace_back().angle = choice.zigzag_angle + k * kPi / angles;
@@ -248,17 +248,18 @@ Candidate CandidateOf(const RegionChoice& choice, const Vec2& center) {
 
 }  // namespace
 
-absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, const RegionMap& map,
-                                                       const Resolved& resolved, const RunContext& run,
-                                                       std::vector<RegionChoice>& choices) {
+absl::StatusOr<std::vector<CircularTrial>> ChooseCircularLines(const Surface& surface, const RegionMap& map,
+                                                               const Resolved& resolved,
+                                                               const RunContext& run,
+                                                               std::vector<RegionChoice>& choices) {
   const double radius = resolved.plan_radius;
-  std::vector<RoundTry> to_try(choices.size());
+  std::vector<CircularTrial> to_try(choices.size());
   std::vector<bool> open(choices.size());
   for (std::size_t id = 0; id < choices.size(); ++id) {
     const RegionChoice& choice = choices[id];
-    open[id] = choice.round_open && !choice.skip && !choice.one_way && choice.strategy == Strategy::kAuto &&
+    open[id] = choice.circles_open && !choice.skip && !choice.one_way && choice.strategy == Strategy::kAuto &&
                map.regions[id].kind != RegionKind::kUnreachable;
-    choices[id].round_open = false;
+    choices[id].circles_open = false;
   }
   if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) return to_try;
 
@@ -272,19 +273,19 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
     return choices[static_cast<std::size_t>(map.component_region[component])];
   };
   std::vector<std::vector<Tangent>> tangents(count);
-  std::vector<GentleGround> grounds(count);
+  std::vector<GentleArea> grounds(count);
   std::vector<double> area(count, 0.0);  // mm2 of centers
   const double way = std::sqrt(ShareOfPoint(map, stride));
   for (const std::vector<GentlePoint>& piece : pieces) {
     for (const GentlePoint& point : piece) {
       area[point.component] += point.centers;
       tangents[point.component].push_back(
-          {Plan(point.jet.p), {-point.normal.y(), point.normal.x()}, point.centers});
+          {Xy(point.jet.p), {-point.normal.y(), point.normal.x()}, point.centers});
       if (RegionOf(map, point.component).slope == SlopeClass::kSteep)
         grounds[point.component].Add(point, way);
     }
   }
-  for (GentleGround& ground : grounds) ground.Sort();
+  for (GentleArea& ground : grounds) ground.Sort();
   std::vector<std::optional<Candidate>> candidates(count);
   for (std::size_t k = 0; k < count; ++k) {
     if (!open[static_cast<std::size_t>(map.component_region[k])]) continue;
@@ -306,15 +307,15 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
       Candidate& candidate = *candidates[point.component];
       const double scallop = choice_of(point.component).scallop;
       candidate.VisitFamilies([&](Family& family) { family.Add(point, radius, scallop); });
-      const double cell = std::max(Plan(point.jet.du).norm(), Plan(point.jet.dv).norm()) / map.cells;
-      candidate.extent.Add(Plan(point.jet.p) - candidate.round.around->center, cell);
+      const double cell = std::max(Xy(point.jet.du).norm(), Xy(point.jet.dv).norm()) / map.cells;
+      candidate.extent.Add(Xy(point.jet.p) - candidate.round.around->center, cell);
     }
   }
   std::size_t rounds = 0;
   std::vector<std::size_t> straight(choices.size(), 0);  // components that are not round
   for (std::size_t k = 0; k < count; ++k) {
     const auto id = static_cast<std::size_t>(map.component_region[k]);
-    straight[id] += area[k] > kCrumb * radius * radius;
+    straight[id] += area[k] > kMinComponentRadii2 * radius * radius;
     if (!candidates[k]) continue;
     const double flat = CenterStep(radius, choices[id].scallop, 0.0);
     const Extent& extent = candidates[k]->extent;
@@ -324,16 +325,16 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
     if (!candidates[k]->round.AlongBorders()) continue;
     const double length = candidates[k]->round.Sum(radius, flat);
     const bool angle_open = choices[id].angle_open;
-    if (!(length < (angle_open ? kArguably : kWorthwhile) * least)) continue;
+    if (!(length < (angle_open ? kTryByTimingRatio : kUseRatio) * least)) continue;
     if (rounds++ >= kMostMasked / surface.pieces.size()) continue;
-    RoundGround round{static_cast<int>(k), *candidates[k]->round.around};
+    CircularComponent round{static_cast<int>(k), *candidates[k]->round.around};
     // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are
     // looked for is not to hang on which points were visited.
-    const double more = (stride + kRoundBeside) * extent.cell;
+    const double more = (stride + kCellsBesideCircles) * extent.cell;
     round.lines.inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
     round.lines.outer = radius * std::ceil((extent.farthest + more) / radius);
-    straight[id] -= area[k] > kCrumb * radius * radius;
-    if (angle_open && length >= kPlainly * least) {
+    straight[id] -= area[k] > kMinComponentRadii2 * radius * radius;
+    if (angle_open && length >= kUseWithoutTimingRatio * least) {
       to_try[id].more.push_back(round);
     } else {
       choices[id].around.push_back(round);
@@ -343,7 +344,7 @@ absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, c
     const bool all = straight[id] == 0 && !(to_try[id].more.empty() && choices[id].around.empty());
     to_try[id].all = all;
     if (!all || !to_try[id].more.empty()) continue;
-    choices[id].all_round = true;
+    choices[id].all_circular = true;
     choices[id].angle_open = false;
   }
   return to_try;

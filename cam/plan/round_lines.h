@@ -10,7 +10,7 @@
 
 namespace patchmill {
 
-// Gives `around` to the choices whose round_open is set (which is cleared) where it pays: of reachable
+// Gives `around` to the choices whose circles_open is set (which is cleared) where it pays: of reachable
 // regions cut in the way that suits them (strategy AUTO), both ways; each component of a region by itself, so
 // that every one of many rims has circles of its own (up to 5 million over the number of pieces). What counts
 // is their gentle ground that is wanted, all of a gentle region, and of a steep one what merging left in it.
@@ -26,8 +26,9 @@ namespace patchmill {
 // six: circles a fifth shorter need no angle, and where all lines of the region are such angle_open is
 // cleared; such as are less than a fifth longer are told, by region, to be tried (QuickestAngles), for the
 // estimate may err by that. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<RoundTry>> ChooseRoundLines(const Surface& surface, const RegionMap& map,
-                                                       const Resolved& resolved, const RunContext& run,
-                                                       std::vector<RegionChoice>& choices);
+absl::StatusOr<std::vector<CircularTrial>> ChooseCircularLines(const Surface& surface, const RegionMap& map,
+                                                               const Resolved& resolved,
+                                                               const RunContext& run,
+                                                               std::vector<RegionChoice>& choices);
 
 }  // namespace patchmill

@@ -43,47 +43,51 @@ class StageClock {
   std::chrono::steady_clock::time_point start_;
 };
 
-bool IsLimited(const KeepIn& keep_in) { return !keep_in.WantsAll() || !keep_in.AllowsAll(); }
+bool IsLimited(const OperationLimits& operation_limits) {
+  return !operation_limits.WantsAll() || !operation_limits.AllowsAll();
+}
 
 // Keeps references to `surface` and `resolved`.
-absl::StatusOr<KeepIn> MakeKeepIn(const Surface& surface, const Job& job, const Resolved& resolved,
-                                  const RunContext& run) {
-  KeepInParams p;
+absl::StatusOr<OperationLimits> MakeOperationLimits(const Surface& surface, const Job& job,
+                                                    const Resolved& resolved, const RunContext& run) {
+  OperationLimitsParams p;
   p.ball_radius = resolved.radius;
   p.tool_radius = WidestRadius(job.operation.tool);
   p.leave = job.operation.leave;
   p.shank = WideShankOf(job.operation.tool);
   p.tolerance = job.operation.tolerance;
-  return KeepIn::Make(surface, resolved.containment, p, run);
+  return OperationLimits::Make(surface, resolved.containment, p, run);
 }
 
-RegionParams MakeRegionParams(const Job& job, const Resolved& resolved, const KeepIn* keep_in) {
+RegionParams MakeRegionParams(const Job& job, const Resolved& resolved,
+                              const OperationLimits* operation_limits) {
   RegionParams p;
   p.radius = resolved.plan_radius;
   p.tolerance = job.operation.tolerance;
   p.steep_angle = resolved.split_angle;
   p.floor_z = resolved.floor_z - job.operation.leave;
   p.detail = job.operation.detail;
-  p.keep_in = keep_in;
+  p.operation_limits = operation_limits;
   p.finished = FinishedByForced(job.operation, resolved.plan_radius);
   return p;
 }
 
 absl::StatusOr<ChosenRegions> MakeRegions(const Surface& surface, const Job& job, const Resolved& resolved,
-                                          const KeepIn& keep_in, const RunContext& run) {
+                                          const OperationLimits& operation_limits, const RunContext& run) {
   ChosenRegions regions;
-  const RegionParams params = MakeRegionParams(job, resolved, IsLimited(keep_in) ? &keep_in : nullptr);
+  const RegionParams params =
+      MakeRegionParams(job, resolved, IsLimited(operation_limits) ? &operation_limits : nullptr);
   PM_ASSIGN_OR_RETURN(regions.map, SplitRegions(surface, params, run));
   PM_ASSIGN_OR_RETURN(regions.choices,
                       ChooseRegions(surface, regions.map, job.operation, resolved.program_zero));
   PM_ASSIGN_OR_RETURN(regions.circles,
-                      ChooseRoundLines(surface, regions.map, resolved, run, regions.choices));
+                      ChooseCircularLines(surface, regions.map, resolved, run, regions.choices));
   PM_RETURN_IF_ERROR(FillSteps(surface, regions.choices, resolved, run, regions.map));
   PM_RETURN_IF_ERROR(FillWantedShares(surface, resolved.containment, run, regions.map));
   return regions;
 }
 
-LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const KeepIn* keep_in) {
+LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const OperationLimits* operation_limits) {
   LinkParams p;
   p.radius = resolved.radius;
   p.clearance_z = resolved.clearance_z;
@@ -100,7 +104,7 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const KeepIn
   p.plunge_feed = job.operation.tool.plunge_feed;
   p.contour_direction = job.operation.contour_direction;
   p.pass = MakePassParams(job, resolved);
-  p.keep_in = keep_in;
+  p.operation_limits = operation_limits;
   return p;
 }
 
@@ -187,11 +191,11 @@ std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnos
 // Linked in their order, within `limits`; null: anywhere.
 absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
                                 const std::vector<RegionChoice>& choices, const std::vector<PlanPart>& parts,
-                                const Job& job, const Resolved& resolved, const KeepIn* limits,
+                                const Job& job, const Resolved& resolved, const OperationLimits* limits,
                                 std::vector<CutterPath> paths, const RunContext& run) {
-  std::optional<KeepIn> within;
+  std::optional<OperationLimits> within;
   if (limits != nullptr) {
-    if (auto ground = CutGround(map, choices, parts)) {
+    if (auto ground = CutCells(map, choices, parts)) {
       PM_ASSIGN_OR_RETURN(within, limits->Within(std::move(ground), run));
     }
   }
@@ -200,12 +204,12 @@ absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
 }
 
 // Ends a job that is far above the limit before its passes are made: what they are made from would fill the
-// memory. LeastFeed counts surface that lies on itself each time, and that is milled once; hence far.
-absl::Status CheckLeastFeed(const PathLimits& limits, double least_feed) {
+// memory. LeastCutLength counts surface that lies on itself each time, and that is milled once; hence far.
+absl::Status CheckLeastFeed(const PathLimits& limits, double least_cut_length) {
   constexpr double kFarAbove = 10.0;
-  if (!(least_feed > kFarAbove * limits.length)) return absl::OkStatus();
+  if (!(least_cut_length > kFarAbove * limits.length)) return absl::OkStatus();
   return LimitPassedError(
-      {"cut_length_mm", limits.length, least_feed},
+      {"cut_length_mm", limits.length, least_cut_length},
       "that is what the passes of this finish come to; raise the scallop or the tool's diameter, or "
       "cut the part in pieces (selection)");
 }
@@ -270,18 +274,21 @@ Diagnostic NothingToCut(std::span<const Region> regions, std::span<const RegionC
 absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
-  PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
-  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
-  PM_RETURN_IF_ERROR(
-      JudgeForced(surface, job.operation, regions.choices, resolved.plan_radius, run, regions.map));
+  PM_ASSIGN_OR_RETURN(const OperationLimits operation_limits,
+                      MakeOperationLimits(surface, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, operation_limits, run));
+  PM_RETURN_IF_ERROR(MarkUnfinishedByStrategy(surface, job.operation, regions.choices, resolved.plan_radius,
+                                              run, regions.map));
   return regions;
 }
 
-absl::StatusOr<std::vector<PlanPart>> JudgedParts(const Surface& surface, const Job& job,
-                                                  const Resolved& resolved, const RunContext& run) {
+absl::StatusOr<std::vector<PlanPart>> VerifiedParts(const Surface& surface, const Job& job,
+                                                    const Resolved& resolved, const RunContext& run) {
   if (job.operation.overrides.empty()) return std::vector<PlanPart>();
-  PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
-  PM_ASSIGN_OR_RETURN(const ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
+  PM_ASSIGN_OR_RETURN(const OperationLimits operation_limits,
+                      MakeOperationLimits(surface, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(const ChosenRegions regions,
+                      MakeRegions(surface, job, resolved, operation_limits, run));
   return PartsOf(regions.map, regions.choices);
 }
 
@@ -302,33 +309,35 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   report.controller_tolerance = resolved.budget.controller;
   report.diagnostics = Assumptions(job, resolved);
   const Diagnostics assumptions = report.diagnostics;
-  const Diagnostics idle = IdleSettings(job.operation);
+  const Diagnostics idle = UnusedSettings(job.operation);
 
   PM_ASSIGN_OR_RETURN(const ModelCheck check,
-                      CheckModel(surface, job.operation.tool, ReachGive(job.operation.tolerance), run));
+                      CheckModel(surface, job.operation.tool, ReachTolerance(job.operation.tolerance), run));
   report.min_concave_radius = check.min_concave_radius;
   for (const Diagnostics* findings : {&idle, &job.model_remarks, &check.findings}) {
     report.diagnostics.insert(report.diagnostics.end(), findings->begin(), findings->end());
   }
   clock.Done("check");
 
-  PM_ASSIGN_OR_RETURN(const KeepIn keep_in, MakeKeepIn(surface, job, resolved, run));
-  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, keep_in, run));
+  PM_ASSIGN_OR_RETURN(const OperationLimits operation_limits,
+                      MakeOperationLimits(surface, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, operation_limits, run));
   result.regions = std::move(regions.map);
   report.choices = std::move(regions.choices);
   const auto limits_of = [&](const std::vector<PlanPart>& of) {
     const bool whole = of.size() == 1 && of.front().where == nullptr;
-    return whole && !IsLimited(keep_in) ? nullptr : &keep_in;
+    return whole && !IsLimited(operation_limits) ? nullptr : &operation_limits;
   };
   clock.Done("regions");
 
   PM_ASSIGN_OR_RETURN(const Locator locator, Locator::Make(surface, resolved.plan_radius, run));
-  PM_ASSIGN_OR_RETURN(report.least_feed, LeastFeed(locator, report.choices, resolved, run, result.regions));
-  PM_RETURN_IF_ERROR(CheckLeastFeed(job.path_limits, report.least_feed));
+  PM_ASSIGN_OR_RETURN(report.least_cut_length,
+                      LeastCutLength(locator, report.choices, resolved, run, result.regions));
+  PM_RETURN_IF_ERROR(CheckLeastFeed(job.path_limits, report.least_cut_length));
   if (job.operation.angle_auto) {
     const auto time = [&](const std::vector<RegionChoice>& choices) -> absl::StatusOr<RegionTimes> {
       const std::vector<PlanPart> tried = PartsOf(result.regions, choices);
-      const KeepIn* within = limits_of(tried);
+      const OperationLimits* within = limits_of(tried);
       PM_ASSIGN_OR_RETURN(PlannedPasses passes,
                           PlanPasses(locator, result.regions, choices, tried, job, resolved, within, run));
       PM_ASSIGN_OR_RETURN(const LinkResult motion, Link(locator, result.regions, choices, tried, job,
@@ -340,18 +349,18 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
     PM_RETURN_IF_ERROR(FillSteps(surface, report.choices, resolved, run, result.regions));
     clock.Done("angles");
   }
-  PM_RETURN_IF_ERROR(
-      JudgeForced(surface, job.operation, report.choices, resolved.plan_radius, run, result.regions));
+  PM_RETURN_IF_ERROR(MarkUnfinishedByStrategy(surface, job.operation, report.choices, resolved.plan_radius,
+                                              run, result.regions));
   report.regions = result.regions.regions;
   const std::vector<PlanPart> parts = PartsOf(result.regions, report.choices);
-  const KeepIn* limits = limits_of(parts);
+  const OperationLimits* limits = limits_of(parts);
   PM_ASSIGN_OR_RETURN(PlannedPasses planned,
                       PlanPasses(locator, result.regions, report.choices, parts, job, resolved, limits, run));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
   const bool told = std::any_of(idle.begin(), idle.end(),
                                 [](const Diagnostic& d) { return d.where.field == "contour_spirals"; });
   if (!told) {
-    const Diagnostics more = IdleSpirals(job.operation, planned.paths);
+    const Diagnostics more = UnusedSpirals(job.operation, planned.paths);
     report.diagnostics.insert(report.diagnostics.end(), more.begin(), more.end());
   }
   report.certificate_defects = locator.defect_count();

@@ -17,7 +17,7 @@ constexpr double kFullCircle = 1e-10;          // rad: a smaller sweep means all
 }  // namespace
 
 absl::StatusOr<ArcChords> ChordArc(const PlaneArc& arc, double chord_error, std::size_t max_chords) {
-  const Vec2 start = Plan(arc.from) - arc.center, end = Plan(arc.to) - arc.center;
+  const Vec2 start = Xy(arc.from) - arc.center, end = Xy(arc.to) - arc.center;
   const double r0 = start.norm(), r1 = end.norm();
   const double difference = std::abs(r1 - r0);
   if (!(std::min(r0, r1) > 1e-9)) return absl::InvalidArgumentError("arc of no radius");

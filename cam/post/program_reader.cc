@@ -245,7 +245,7 @@ absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_a
     motion_.rapid_tolerance = std::max(motion_.rapid_tolerance, smoothing_);
   }
   if (!(above_ && to_above)) {
-    const bool straight_up = Plan(to) == Plan(at_) && !above_ && (to_above || to.z() > at_.z());
+    const bool straight_up = Xy(to) == Xy(at_) && !above_ && (to_above || to.z() > at_.z());
     if (to != at_ || above_ != to_above) motion_.last_motion_is_up = straight_up;
     moved_below_ = true;
   }
@@ -321,7 +321,7 @@ absl::Status Interpreter::Arc(const BlockModes& block) {
   if (block['R']) {
     if (i || j) return Bad("arc with both R and a centre");
     PM_ASSIGN_OR_RETURN(arc.center,
-                        CenterFromRadius(Plan(arc.from), Plan(arc.to), *block['R'] * unit_, arc.clockwise));
+                        CenterFromRadius(Xy(arc.from), Xy(arc.to), *block['R'] * unit_, arc.clockwise));
   } else {
     if (!i && !j) return Bad("arc without a centre or R");
     if (arc_absolute_ && !(i && j)) return Bad("G90.1 needs both centre words");
@@ -330,7 +330,7 @@ absl::Status Interpreter::Arc(const BlockModes& block) {
            "neither G90.1 nor G91.1 so far; I, J and K are taken from the arc's start (G91.1)");
     }
     arc.center = unit_ * Vec2(i.value_or(0.0), j.value_or(0.0));
-    if (!arc_absolute_) arc.center += Plan(arc.from);
+    if (!arc_absolute_) arc.center += Xy(arc.from);
   }
   if (!(arc.to.cwiseAbs().maxCoeff() <= kLargestCoordinate) ||
       !(arc.center.cwiseAbs().maxCoeff() <= kLargestCoordinate)) {

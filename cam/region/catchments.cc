@@ -46,7 +46,7 @@ class Forest {
   // Joins over these links as far as their order is known: a set whose first link leads outside waits. Keeps
   // in `links` those that may still join sets, not those outside. Links of different triangles may be given
   // at the same time.
-  void Grow(std::vector<Link>& links) {
+  void ResizePolling(std::vector<Link>& links) {
     for (bool grown = true; grown;) {
       std::size_t kept = 0;
       for (Link link : links) {
@@ -153,7 +153,7 @@ absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<Split
       const Link over = link(i, a);
       own.inner.push_back({over.below, over.side, over.b, kOutside});
     }
-    forest.Grow(own.inner);
+    forest.ResizePolling(own.inner);
   }));
   std::vector<Link> links, lines;
   for (Rest& of : rest) {
@@ -162,9 +162,9 @@ absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<Split
     lines.insert(lines.end(), of.lines.begin(), of.lines.end());
     of = {};
   }
-  forest.Grow(links);
+  forest.ResizePolling(links);
   PM_RETURN_IF_ERROR(run.Check());
-  forest.Grow(lines);
+  forest.ResizePolling(lines);
   for (std::size_t piece = 0; piece < found.size(); ++piece) {
     for (std::size_t t = 0; t < found[piece].size(); ++t)
       found[piece][t] = forest.TopOf(adjacency.first[piece] + t);

@@ -5,16 +5,16 @@
 
 namespace patchmill {
 
-GroundCell GroundPoint(const Vec3& p, const std::optional<Facing>& facing) {
-  GroundCell cell;
+SurfaceElement PointElement(const Vec3& p, const std::optional<Facing>& facing) {
+  SurfaceElement cell;
   cell.point = true;
   cell.hull.fill(p);
   cell.facing = facing;
   return cell;
 }
 
-GroundCell GroundTriangle(const Surface& surface, std::size_t piece, const std::array<Vec2, 3>& uv) {
-  GroundCell cell;
+SurfaceElement TriangleElement(const Surface& surface, std::size_t piece, const std::array<Vec2, 3>& uv) {
+  SurfaceElement cell;
   cell.piece = piece;
   cell.uv = uv;
   const auto at = [&](const Vec2& q) { return Position(surface.pieces[piece], q.x(), q.y()); };
@@ -26,22 +26,22 @@ GroundCell GroundTriangle(const Surface& surface, std::size_t piece, const std::
   return cell;
 }
 
-GroundPlace MiddleOf(const Surface& surface, const GroundCell& cell) {
+ElementPlace MiddleOf(const Surface& surface, const SurfaceElement& cell) {
   if (cell.point) return {cell.hull[0], cell.facing};
   const Vec2 middle = (cell.uv[0] + cell.uv[1] + cell.uv[2]) / 3.0;
   const SurfaceJet jet = Evaluate(surface.pieces[cell.piece], middle.x(), middle.y());
   return {jet.p, FacingAt(jet)};
 }
 
-std::array<GroundCell, 4> Quarters(const Surface& surface, const GroundCell& cell) {
+std::array<SurfaceElement, 4> Quarters(const Surface& surface, const SurfaceElement& cell) {
   const auto& [a, b, c] = cell.uv;
   const Vec2 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-  return {GroundTriangle(surface, cell.piece, {a, ab, ca}), GroundTriangle(surface, cell.piece, {ab, b, bc}),
-          GroundTriangle(surface, cell.piece, {ca, bc, c}),
-          GroundTriangle(surface, cell.piece, {ab, bc, ca})};
+  return {
+      TriangleElement(surface, cell.piece, {a, ab, ca}), TriangleElement(surface, cell.piece, {ab, b, bc}),
+      TriangleElement(surface, cell.piece, {ca, bc, c}), TriangleElement(surface, cell.piece, {ab, bc, ca})};
 }
 
-double Farthest(const GroundCell& cell, const Vec3& from, double known) {
+double Farthest(const SurfaceElement& cell, const Vec3& from, double known) {
   const double known2 = known * known;
   double most2 = 0.0;
   for (const Vec3& q : cell.hull) {

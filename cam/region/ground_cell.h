@@ -10,7 +10,7 @@
 namespace patchmill {
 
 // A triangle of parameters with straight sides, or one point.
-struct GroundCell {
+struct SurfaceElement {
   bool point = false;
   std::size_t piece = 0;
   std::array<Vec2, 3> uv{};
@@ -21,18 +21,18 @@ struct GroundCell {
 };
 
 // A place of a cell: its middle.
-struct GroundPlace {
+struct ElementPlace {
   Vec3 p = Vec3::Zero();
   std::optional<Facing> facing;  // none where the surface has no normal
 };
 
-GroundCell GroundPoint(const Vec3& p, const std::optional<Facing>& facing);
-GroundCell GroundTriangle(const Surface& surface, std::size_t piece, const std::array<Vec2, 3>& uv);
-GroundPlace MiddleOf(const Surface& surface, const GroundCell& cell);
+SurfaceElement PointElement(const Vec3& p, const std::optional<Facing>& facing);
+SurfaceElement TriangleElement(const Surface& surface, std::size_t piece, const std::array<Vec2, 3>& uv);
+ElementPlace MiddleOf(const Surface& surface, const SurfaceElement& cell);
 // Of a triangle.
-std::array<GroundCell, 4> Quarters(const Surface& surface, const GroundCell& cell);
+std::array<SurfaceElement, 4> Quarters(const Surface& surface, const SurfaceElement& cell);
 
 // Nothing of the cell is farther from `from` (mm); `known` where that is no less.
-double Farthest(const GroundCell& cell, const Vec3& from, double known = kInfinity);
+double Farthest(const SurfaceElement& cell, const Vec3& from, double known = kInfinity);
 
 }  // namespace patchmill

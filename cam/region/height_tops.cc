@@ -110,8 +110,8 @@ MeshVertex HeightGraph::At(Index i) const {
   return {static_cast<int>(piece), static_cast<int>(i - first_[static_cast<std::size_t>(piece)])};
 }
 
-absl::StatusOr<HeightTops> HeightGraph::Find(double sign, double persistence, std::size_t most,
-                                             const RunContext& run) const {
+absl::StatusOr<HeightExtrema> HeightGraph::Find(double sign, double persistence, std::size_t most,
+                                                const RunContext& run) const {
   const std::vector<Index>& steepest = steepest_[sign > 0.0 ? 0 : 1];
   const auto above = [&](Index a, Index b) { return Above(a, b, sign); };
   const auto height = [&](Index i) { return sign * points_[i].z(); };
@@ -177,7 +177,7 @@ absl::StatusOr<HeightTops> HeightGraph::Find(double sign, double persistence, st
     if (k >= most || younger[k].persistence < persistence) swallowed[younger[k].top] = younger[k].by;
   }
 
-  HeightTops found;
+  HeightExtrema found;
   std::vector<Index> persisting(summits.size()), tops;  // of each summit; those that persist
   std::vector<int> many(summits.size(), 0);             // of each sheet: how many summits it has
   for (Index k = 0; k < summits.size(); ++k) {

@@ -16,7 +16,7 @@ struct MeshVertex {
   int piece = 0, vertex = 0;
 };
 
-struct HeightTops {
+struct HeightExtrema {
   std::vector<MeshVertex> tops;    // of every connected sheet with several that persist
   std::vector<MeshVertex> passes;  // where what climbs to one of them first meets what climbs to another
 };
@@ -34,8 +34,8 @@ class HeightGraph {
   // first, they are joined, and all but the highest of those joined so far are the younger ones.
   // Deterministic; cost n, and m log m of the m vertices where summits meet.
   // `most`: of those beside the highest of each sheet, as many that persist longest.
-  absl::StatusOr<HeightTops> Find(double sign, double persistence, std::size_t most,
-                                  const RunContext& run) const;
+  absl::StatusOr<HeightExtrema> Find(double sign, double persistence, std::size_t most,
+                                     const RunContext& run) const;
 
  private:
   using Index = std::uint32_t;

@@ -88,7 +88,7 @@ class Network {
 
 }  // namespace
 
-std::vector<bool> LeastCut(std::span<const double> cost, std::span<const LabelPair> pairs) {
+std::vector<bool> MinCut(std::span<const double> cost, std::span<const LabelPair> pairs) {
   const std::size_t source = cost.size(), sink = source + 1;
   for (const double c : cost) PM_CHECK(std::isfinite(c));
   for (const LabelPair& p : pairs) PM_CHECK(p.weight >= 0.0 && std::isfinite(p.weight));

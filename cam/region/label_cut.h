@@ -15,6 +15,6 @@ struct LabelPair {
 //   sum of cost[i] over the set + sum of weight over the pairs it separates
 // is least, and of all such sets the smallest: one and the same for any order of the pairs, ties and rounding
 // apart. By a minimum cut [references: greig1989], [references: dinic1970]: about pairs^1.5 steps.
-std::vector<bool> LeastCut(std::span<const double> cost, std::span<const LabelPair> pairs);
+std::vector<bool> MinCut(std::span<const double> cost, std::span<const LabelPair> pairs);
 
 }  // namespace patchmill

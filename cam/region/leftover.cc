@@ -9,10 +9,11 @@
 namespace patchmill {
 namespace {
 
-constexpr double kStill = 1e-3;  // of R: no depth is told closer
-// Of the leftover: places more than that and kStill deeper are looked at until none more than kProven and
-// twice kStill deeper may be left.
-constexpr double kWorthwhile = 0.02, kProven = 0.05;
+constexpr double kDepthResolution = 1e-3;  // of R: no depth is told closer
+// Of the leftover: places more than that and kDepthResolution deeper are looked at until none more than
+// kProvenDepthGain and
+// twice kDepthResolution deeper may be left.
+constexpr double kMinDepthGain = 0.02, kProvenDepthGain = 0.05;
 constexpr double kFewLooks = 100.0, kMostLooks = 1000.0, kSquare = 0.1;  // one more for a square of that R
 constexpr std::size_t kMostQuartered = 10000;
 constexpr int kMostSettled = 8;
@@ -24,9 +25,9 @@ bool LeftoverSearch::Below(const Entry& a, const Entry& b) {
 }
 
 void LeftoverSearch::AddTriangle(std::size_t piece, const std::array<Vec2, 3>& uv) {
-  GroundCell ground = GroundTriangle(locator_.surface(), piece, uv);
-  area_ += 0.5 * (ground.hull[1] - ground.hull[0]).cross(ground.hull[2] - ground.hull[0]).norm();
-  Add(std::move(ground));
+  SurfaceElement element = TriangleElement(locator_.surface(), piece, uv);
+  area_ += 0.5 * (element.hull[1] - element.hull[0]).cross(element.hull[2] - element.hull[0]).norm();
+  Add(std::move(element));
 }
 
 void LeftoverSearch::Push(std::size_t cell) {
@@ -45,8 +46,8 @@ std::size_t LeftoverSearch::Pop() {
 void LeftoverSearch::EnterNew(const RunContext& run) {
   const std::size_t from = std::exchange(entered_, cells_.size());
   for (std::size_t i = from; i < cells_.size() && !run.Cancelled(); ++i) {
-    const GroundCell& ground = cells_[i].ground;
-    if (ground.point) Learn(NearestCenter(locator_, params_, ground.hull[0]).Above());
+    const SurfaceElement& element = cells_[i].element;
+    if (element.point) Learn(NearestCenter(locator_, params_, element.hull[0]).Above());
   }
   const double proven = Wanted().proven;
   for (std::size_t i = from; i < cells_.size(); ++i) {
@@ -59,12 +60,12 @@ void LeftoverSearch::EnterNew(const RunContext& run) {
 // Looks no further once it is low enough. The centre that served the last cell often serves its neighbour.
 void LeftoverSearch::Bound(Cell& cell, double enough) {
   if (cell.seen == 0 && last_ < found_.size()) {
-    cell.bound = Farthest(cell.ground, found_[last_].center, cell.bound);
+    cell.bound = Farthest(cell.element, found_[last_].center, cell.bound);
   }
   for (; cell.bound > enough; ++cell.seen) {
-    cell.seen = centers_.FirstNear(cell.ground.hull[0], cell.bound, cell.seen);
+    cell.seen = centers_.FirstNear(cell.element.hull[0], cell.bound, cell.seen);
     if (cell.seen == found_.size()) return;
-    const double farthest = Farthest(cell.ground, found_[cell.seen].center, cell.bound);
+    const double farthest = Farthest(cell.element, found_[cell.seen].center, cell.bound);
     if (farthest >= cell.bound) continue;
     cell.bound = farthest;
     last_ = cell.seen;
@@ -98,7 +99,7 @@ void LeftoverSearch::Learn(const Column& column) {
   }
 }
 
-void LeftoverSearch::LookAt(const GroundPlace& place, double enough) {
+void LeftoverSearch::LookAt(const ElementPlace& place, double enough) {
   const NearestCenter search(locator_, params_, place.p, enough);
   Column column = NearestKnown(place.p);
   const auto look = [&](const auto& further) {
@@ -142,15 +143,15 @@ bool LeftoverSearch::Settle() {
   const double before = worst->nearest.distance;
   const Column settled = NearestCenter(locator_, params_, worst->p).Settle(worst->nearest);
   if (settled.distance < before) Learn(settled);
-  const double fine = std::max(params_.fine, kStill * radius);
-  return before - settled.distance <= kWorthwhile * (settled.distance - radius) + fine;
+  const double fine = std::max(params_.fine, kDepthResolution * radius);
+  return before - settled.distance <= kMinDepthGain * (settled.distance - radius) + fine;
 }
 
 LeftoverSearch::Limits LeftoverSearch::Wanted() const {
   const double radius = locator_.radius(), deepest = Distance();
-  const double fine = std::max(params_.fine, kStill * radius);
-  return {.enough = deepest + kWorthwhile * (deepest - radius) + fine,
-          .proven = deepest + kProven * (deepest - radius) + 2.0 * fine};
+  const double fine = std::max(params_.fine, kDepthResolution * radius);
+  return {.enough = deepest + kMinDepthGain * (deepest - radius) + fine,
+          .proven = deepest + kProvenDepthGain * (deepest - radius) + 2.0 * fine};
 }
 
 Deepest LeftoverSearch::Find(const RunContext& run) {
@@ -171,10 +172,10 @@ Deepest LeftoverSearch::Find(const RunContext& run) {
       Push(top);
       continue;
     }
-    const GroundCell& ground = cells_[top].ground;
-    const GroundPlace middle = MiddleOf(locator_.surface(), ground);
+    const SurfaceElement& element = cells_[top].element;
+    const ElementPlace middle = MiddleOf(locator_.surface(), element);
     const bool may_be = NearestKnown(middle.p).distance > wanted.enough;
-    if (may_be ? looks_ >= most_looks : quartered_ >= kMostQuartered || ground.point) {
+    if (may_be ? looks_ >= most_looks : quartered_ >= kMostQuartered || element.point) {
       proven_ = false;
       continue;
     }
@@ -184,8 +185,8 @@ Deepest LeftoverSearch::Find(const RunContext& run) {
       continue;
     }
     ++quartered_;
-    for (GroundCell& quarter : Quarters(locator_.surface(), ground)) {
-      cells_.push_back({.ground = std::move(quarter), .bound = before});
+    for (SurfaceElement& quarter : Quarters(locator_.surface(), element)) {
+      cells_.push_back({.element = std::move(quarter), .bound = before});
       Push(cells_.size() - 1);
     }
     entered_ = cells_.size();

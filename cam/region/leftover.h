@@ -23,7 +23,8 @@ struct Deepest {
 // the ground, and a centre found for one place is a bound for all: the part whose bound is largest is looked
 // at, or quartered, until none may be deeper. Measured to centres that are free, so a place's own is never
 // too small; too large where the search for the nearest ends in another local minimum. Deterministic. Keeps
-// references to the locator and params.keep_in. Cost: two hundred heights for each of the places that may be
+// references to the locator and params.operation_limits. Cost: two hundred heights for each of the places
+// that may be
 // the deepest when they are looked at, more under limits; some ten of them on most ground, hundreds where
 // much of it is as deep, as along a groove; then not proven where they are more than 100, and one for a
 // square of R / 10.
@@ -33,7 +34,7 @@ class LeftoverSearch {
 
   // A point of the surface. `facing`, none where the surface has no normal: a ball that has hardly any room,
   // as in a hole of its own size, is looked for on that side too.
-  void AddPoint(const Vec3& p, const std::optional<Facing>& facing) { Add(GroundPoint(p, facing)); }
+  void AddPoint(const Vec3& p, const std::optional<Facing>& facing) { Add(PointElement(p, facing)); }
   // A triangle of parameters of a piece of locator.surface().
   void AddTriangle(std::size_t piece, const std::array<Vec2, 3>& uv);
 
@@ -43,7 +44,7 @@ class LeftoverSearch {
 
  private:
   struct Cell {
-    GroundCell ground;
+    SurfaceElement element;
     double bound = kInfinity;  // mm from the nearest centre known: nothing of it is farther
     std::size_t seen = 0;      // centres that the bound is of
   };
@@ -60,7 +61,7 @@ class LeftoverSearch {
     Column nearest;
   };
   static bool Below(const Entry& a, const Entry& b);  // in the heap
-  void Add(GroundCell ground) { cells_.push_back({.ground = std::move(ground)}); }
+  void Add(SurfaceElement element) { cells_.push_back({.element = std::move(element)}); }
   void Push(std::size_t cell);
   std::size_t Pop();
   void EnterNew(const RunContext& run);
@@ -68,7 +69,7 @@ class LeftoverSearch {
   Column NearestKnown(const Vec3& p) const;
   Limits Wanted() const;
   void Learn(const Column& column);
-  void LookAt(const GroundPlace& place, double enough);
+  void LookAt(const ElementPlace& place, double enough);
   bool Settle();
   const Looked* Worst() const;
   double Distance() const;  // of the deepest, mm

@@ -8,12 +8,12 @@
 namespace patchmill {
 namespace {
 
-constexpr double kBeside = 0.7;       // of `exact`: where it must be free, and where not,
-constexpr double kBesideHeld = 0.05;  // where the obstacle is held back
-constexpr double kWell = 0.05;        // of `exact`: how exactly an obstacle's limit is found
-constexpr double kSame = 0.1;         // of `exact`, of clearance
-constexpr double kGrazing = 0.001;    // mm of clearance a mm: with less the limit is where it may be
-constexpr double kFarthest = 0.5;     // chords beside its middle
+constexpr double kFreeBand = 0.7;       // of `exact`: where it must be free, and where not,
+constexpr double kFreeBandHeld = 0.05;  // where the obstacle is held back
+constexpr double kWell = 0.05;          // of `exact`: how exactly an obstacle's limit is found
+constexpr double kSame = 0.1;           // of `exact`, of clearance
+constexpr double kGrazing = 0.001;      // mm of clearance a mm: with less the limit is where it may be
+constexpr double kFarthest = 0.5;       // chords beside its middle
 constexpr int kMostSteps = 8;
 constexpr int kMostObstacles = 6;
 constexpr std::size_t kRemembered = 4;
@@ -106,7 +106,7 @@ std::optional<double> LimitFollower::Find(const ZeroSegment& chord, const Vec2& 
     known = false;
     if (!limit) break;
     // Held at the border of its piece the branch may go on beyond it.
-    const double share = obstacle_->held_by() < 0 ? kBeside : kBesideHeld;
+    const double share = obstacle_->held_by() < 0 ? kFreeBand : kFreeBandHeld;
     const double beside = std::copysign(share * exact_ / length, limit->rate);
     const Vec2 blocked_at = at + (limit->share - beside) * across,
                free_at = at + (limit->share + beside) * across;

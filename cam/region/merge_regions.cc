@@ -56,8 +56,8 @@ void Relabel(const std::vector<RawContact>& contacts, const MergeParams& params,
     return list;
   };
   const std::vector<LabelPair> turn = pairs(params.border_turn);
-  const std::vector<bool> is_basin = LeastCut(basin, turn), is_no_mountain = LeastCut(no_mountain, turn);
-  const std::vector<bool> is_steep = LeastCut(steep, pairs(params.border_slope));
+  const std::vector<bool> is_basin = MinCut(basin, turn), is_no_mountain = MinCut(no_mountain, turn);
+  const std::vector<bool> is_steep = MinCut(steep, pairs(params.border_slope));
   for (std::size_t i = 0; i < regions.size(); ++i) {
     SplitLabel& label = regions[i].label;
     if (!Reached(label)) continue;

@@ -43,7 +43,7 @@ struct MergedRegions {
 
 // First every whole gets the labels that cost least in all: what it gives up in curvature and slope
 // against the length of the borders drawn (a Potts energy; mountain - neutral - basin as three ordered labels
-// falls into two cuts, steep - gentle is a third, each least by LeastCut). There is no order of merging: the
+// falls into two cuts, steep - gentle is a third, each least by MinCut). There is no order of merging: the
 // labels follow from the areas and lengths of the split alone, and a strip whose normal turns by less than
 // 2 border_turn, or whose slope is off by less than 2 border_slope over its width, goes with its sides. Then
 // neighbours of equal labels are one region, mountains of different summits and basins of different pits

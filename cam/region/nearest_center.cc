@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kHeightGap = 1e-3;                   // of R: what heights are proven to
 constexpr double kSettledGap = 1e-5;                  // the same at last
-constexpr double kStill = 1e-3;                       // of R: a step this short ends a descent
-constexpr double kWorthwhile = 0.005;                 // of a distance: what is less nearer is not looked for
+constexpr double kMinDescentStep = 1e-3;              // of R: a step this short ends a descent
+constexpr double kMinDistanceGain = 0.005;            // of a distance: what is less nearer is not looked for
 constexpr double kFirstStep = 0.1, kLastStep = 1e-5;  // of R, of the last search
 constexpr int kMostLooks = 600;                       // of it
 constexpr int kSteps = 30;
@@ -72,7 +72,7 @@ std::optional<Vec3> NearestIn(std::span<const HalfSpace> spaces, const Vec3& p, 
 
 Column NearestCenter::Descend(Column at) const {
   if (at.distance == kInfinity) return at;
-  const double slack = kStill * kStill * locator_.radius();
+  const double slack = kMinDescentStep * kMinDescentStep * locator_.radius();
   std::vector<HalfSpace> spaces;
   // Where the border bends away from p, what is known at one place excludes free centres at another.
   const auto excludes = [&](const HalfSpace& space) { return Outside(space, at.center) > slack; };
@@ -89,9 +89,9 @@ Column NearestCenter::Descend(Column at) const {
   for (int i = 0; i < kSteps && at.distance > enough_; ++i) {
     const auto foot = NearestIn(spaces, p_, slack);
     if (!foot) break;
-    const Vec2 step = share * Plan(*foot - at.center);
-    if (step.norm() < kStill * locator_.radius()) break;
-    const Column next = At(Plan(at.center) + step, at);
+    const Vec2 step = share * Xy(*foot - at.center);
+    if (step.norm() < kMinDescentStep * locator_.radius()) break;
+    const Column next = At(Xy(at.center) + step, at);
     const bool nearer = next.distance < at.distance;
     if (nearer) at = next;
     const bool told = learn(next);
@@ -106,7 +106,8 @@ Column NearestCenter::Beside(const Vec3& normal, Column known) const {
   const double radius = locator_.radius();
   const auto center = FreeCenterNear(locator_, p_, normal, params_.floor_z + radius,
                                      std::min(known.distance, 33.0 * radius) - radius);
-  if (!center || (params_.keep_in != nullptr && !params_.keep_in->Allows(*center))) return known;
+  if (!center || (params_.operation_limits != nullptr && !params_.operation_limits->Allows(*center)))
+    return known;
   const double distance = (*center - p_).norm();
   if (distance >= known.distance) return known;
   return {.center = *center, .normal = Vec3::UnitZ(), .held = false, .distance = distance};
@@ -126,7 +127,7 @@ Column NearestCenter::FromAround(Column known) const {
     Column inner;
     double at = 0.0;  // its radius; 0: none
     for (auto radius = radii.rbegin(); radius != radii.rend() && *radius < best.distance; ++radius) {
-      Column column = At(Plan(p_) + *radius * way, inner);
+      Column column = At(Xy(p_) + *radius * way, inner);
       const bool drops = at > 0.0 && column.distance < inner.distance;
       if (drops) column = AlongRay(column);
       if (column.distance < best.distance) best = column;
@@ -155,7 +156,7 @@ Column NearestCenter::Settle(Column at) const {
     for (int k = 0; k < 8; ++k) {
       const double angle = 0.25 * kPi * k;
       const Column next =
-          At(Plan(at.center) + step * Vec2(std::cos(angle), std::sin(angle)), at, kSettledGap * radius);
+          At(Xy(at.center) + step * Vec2(std::cos(angle), std::sin(angle)), at, kSettledGap * radius);
       if (next.distance < best.distance) best = next;
     }
     if (best.distance < at.distance) {
@@ -175,9 +176,9 @@ void NearestCenter::Between(const Vec2& way, double low, const Column& inner, do
   if (halvings == 0 || inner.distance == kInfinity || outer.distance == kInfinity) return;
   if (best.distance <= enough_) return;
   const double height = std::min(inner.center.z(), outer.center.z()) - p_.z();
-  if (std::hypot(low, height) >= (1.0 - kWorthwhile) * best.distance) return;
+  if (std::hypot(low, height) >= (1.0 - kMinDistanceGain) * best.distance) return;
   const double radius = 0.5 * (low + high);
-  const Column middle = At(Plan(p_) + radius * way, inner);
+  const Column middle = At(Xy(p_) + radius * way, inner);
   if (middle.distance < best.distance) best = middle;
   Between(way, low, inner, radius, middle, halvings - 1, best);
   Between(way, radius, middle, high, outer, halvings - 1, best);
@@ -188,8 +189,8 @@ Column NearestCenter::Polish(Column at) const {
   if (at.distance == kInfinity) return at;
   for (double turn = kPi / kRing; turn > 0.01; turn *= 0.5)
     for (const double angle : {turn, -turn}) {
-      const Column turned = At(Plan(p_) + Eigen::Rotation2Dd(angle) * Plan(at.center - p_), at);
-      if (turned.distance > (1.0 + kStill) * at.distance) continue;
+      const Column turned = At(Xy(p_) + Eigen::Rotation2Dd(angle) * Xy(at.center - p_), at);
+      if (turned.distance > (1.0 + kMinDescentStep) * at.distance) continue;
       const Column found = Descend(AlongRay(turned));
       if (found.distance < at.distance) at = found;
     }
@@ -199,12 +200,14 @@ Column NearestCenter::Polish(Column at) const {
 // The same in its direction from p, as near as the limits of the operation let it: they have no slope that
 // a descent could follow.
 Column NearestCenter::AlongRay(Column at) const {
-  if (at.distance == kInfinity || params_.keep_in == nullptr || params_.keep_in->AllowsAll()) return at;
-  const Vec2 span = Plan(at.center - p_);
+  if (at.distance == kInfinity || params_.operation_limits == nullptr ||
+      params_.operation_limits->AllowsAll())
+    return at;
+  const Vec2 span = Xy(at.center - p_);
   double inner = 0.75, outer = 1.0;  // of the span; columns at the inner end are no nearer
-  while (outer - inner > kStill) {
+  while (outer - inner > kMinDescentStep) {
     const double share = 0.5 * (inner + outer);
-    const Column column = At(Plan(p_) + share * span, at);
+    const Column column = At(Xy(p_) + share * span, at);
     const bool nearer = column.distance < at.distance;
     if (nearer) at = column;
     (nearer ? outer : inner) = share;
@@ -216,9 +219,10 @@ Column NearestCenter::At(const Vec2& q, const Column& near, double gap) const {
   const double radius = locator_.radius();
   Column column;
   double low = params_.floor_z + radius;
-  const auto allowed = params_.keep_in != nullptr
-                           ? params_.keep_in->HeightsOver(q, kHeightGap * radius, std::max(low, p_.z()))
-                           : std::optional(AllowedHeights());
+  const auto allowed =
+      params_.operation_limits != nullptr
+          ? params_.operation_limits->HeightsOver(q, kHeightGap * radius, std::max(low, p_.z()))
+          : std::optional(AllowedHeights());
   if (!allowed) return column;
   const auto height = locator_.Height(q, near.contact ? &*near.contact : nullptr, gap);
   if (height) column.contact = height->contact;

@@ -9,9 +9,9 @@
 namespace patchmill {
 
 struct LeftoverParams {
-  double floor_z = -kInfinity;      // mm, lowest tip
-  const KeepIn* keep_in = nullptr;  // null: allows all centres
-  double fine = 0.0;                // mm, at least R / 1000: depths are not told closer
+  double floor_z = -kInfinity;                        // mm, lowest tip
+  const OperationLimits* operation_limits = nullptr;  // null: allows all centres
+  double fine = 0.0;                                  // mm, at least R / 1000: depths are not told closer
 };
 
 // The centre in the column over a place of the plane that is nearest to what is asked for.
@@ -32,7 +32,7 @@ class NearestCenter {
       : locator_(locator), params_(params), p_(p), enough_(enough) {}
 
   // From right above it; no distance: nothing is allowed there. Cost: a height, less with a column nearby.
-  Column Above(const Column& near = Column()) const { return At(Plan(p_), near); }
+  Column Above(const Column& near = Column()) const { return At(Xy(p_), near); }
   // Each column looked at adds the half-space that it knows; the next one is towards the point of all of them
   // that is nearest to p. Exact in kinks, where two contacts hold the ball and coordinate searches stop.
   // Cost: some ten heights.

@@ -55,15 +55,15 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
   spacing = std::max(spacing, std::sqrt(area / kMostPoints));
   std::vector<Vec3> points;
   std::vector<Parameters> at;
-  Silence silence;
+  ProgressThrottle throttle;
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const auto steps = [&](double side) {
       return std::clamp(static_cast<int>(std::ceil(side / spacing)), 1, kMostCells);
     };
     const int nu = steps(sides[k].x()), nv = steps(sides[k].y());
     for (int i = 0; i < nu && !run.Cancelled(); ++i) {
-      if (silence.TooLong()) {
-        silence.Break();
+      if (throttle.Due()) {
+        throttle.Report();
         run.Progress("obstacles", (static_cast<double>(k) + static_cast<double>(i) / nu) /
                                       static_cast<double>(sides.size()));
       }
@@ -78,12 +78,12 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
   const auto cancelled = [&](std::size_t i) { return i % 65536 == 0 && run.Cancelled(); };
   low_ = surface.box.min;
   const Vec3 extent = surface.box.max - low_;
-  cell_ = std::max(kCell * spacing, Plan(extent).maxCoeff() / kMostCells);
+  cell_ = std::max(kCell * spacing, Xy(extent).maxCoeff() / kMostCells);
   slack_ = static_cast<float>(kFloat * extent.norm());
   columns_ = static_cast<int>(extent.x() / cell_) + 1;
   rows_ = static_cast<int>(extent.y() / cell_) + 1;
   const auto place = [&](const Vec3& p) {
-    const Vec2 q = Plan(p - low_) / cell_;
+    const Vec2 q = Xy(p - low_) / cell_;
     const int column = std::clamp(static_cast<int>(q.x()), 0, columns_ - 1),
               row = std::clamp(static_cast<int>(q.y()), 0, rows_ - 1);
     return static_cast<std::size_t>(row * columns_ + column);
@@ -165,7 +165,7 @@ std::optional<SurfacePoint> ObstacleCloud::InTheWay(const Vec3& c, double radius
     return VisitNear(first, last, near, [&](std::size_t i) {
       const Vec3 d = points_[i] - c;
       const double below = std::min(d.z(), 0.0);
-      if (!(Plan(d).squaredNorm() + below * below < radius * radius)) return false;
+      if (!(Xy(d).squaredNorm() + below * below < radius * radius)) return false;
       found = SurfacePoint{PieceId(at_[i].piece), at_[i].u, at_[i].v, points_[i]};
       return true;
     });

@@ -16,21 +16,21 @@ constexpr std::size_t kFirst = 4;                 // every fourth of them tells 
 constexpr std::size_t kTighter = 16;              // around the worst
 constexpr double kClosest = 0.01, kCloser = 0.4;  // of the radius, and of the last: around the tightest
 
-SurfaceJet JetAt(const Surface& surface, const RegionSpot& spot) {
+SurfaceJet JetAt(const Surface& surface, const RegionSample& spot) {
   return Evaluate(surface.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
 }
 
 // The larger principal curvature, > 0 concave.
-double Bend(const Surface& surface, const RegionSpot& spot) {
+double Bend(const Surface& surface, const RegionSample& spot) {
   const SurfaceJet jet = JetAt(surface, spot);
   const auto normal = UpwardNormal(jet);
   return normal ? Principal(Forms(jet, *normal)).k_max : 0.0;
 }
 
 // Where it bends most first: what is found there leaves the others one look each.
-void SortByBend(const Surface& surface, std::vector<RegionSpot>& spots) {
-  std::vector<std::pair<double, RegionSpot>> bends;
-  for (const RegionSpot& spot : spots) bends.emplace_back(Bend(surface, spot), spot);
+void SortByBend(const Surface& surface, std::vector<RegionSample>& spots) {
+  std::vector<std::pair<double, RegionSample>> bends;
+  for (const RegionSample& spot : spots) bends.emplace_back(Bend(surface, spot), spot);
   std::stable_sort(bends.begin(), bends.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   for (std::size_t i = 0; i < spots.size(); ++i) spots[i] = bends[i].second;
@@ -38,18 +38,18 @@ void SortByBend(const Surface& surface, std::vector<RegionSpot>& spots) {
 
 // Radius of the largest ball that reaches all of a region, at most params.radius; 0 where it would be so
 // small that the tolerance decides. First the places given, then ever closer around the worst.
-double BallForAll(const Surface& surface, const std::vector<RegionSpot>& spots, const RegionParams& params,
-                  const RunContext& run, RegionSpots& more) {
+double BallForAll(const Surface& surface, const std::vector<RegionSample>& spots, const RegionParams& params,
+                  const RunContext& run, RegionSamples& more) {
   double radius = params.radius;
-  const double least = LeastBall(ReachGive(params.tolerance));
-  std::optional<RegionSpot> worst;
-  const auto look = [&](const std::vector<RegionSpot>& at) {
-    for (const RegionSpot& spot : at) {
+  const double least = SmallestBallRadius(ReachTolerance(params.tolerance));
+  std::optional<RegionSample> worst;
+  const auto look = [&](const std::vector<RegionSample>& at) {
+    for (const RegionSample& spot : at) {
       if (run.Cancelled() || radius <= least) return;
       const SurfaceJet jet = JetAt(surface, spot);
       const auto facing = FacingAt(jet);
       if (!facing) continue;
-      const double own = LargestFreeRadius(surface, jet.p, *facing, radius, ReachGive(params.tolerance));
+      const double own = LargestFreeRadius(surface, jet.p, *facing, radius, ReachTolerance(params.tolerance));
       if (own >= radius) continue;
       radius = own;
       worst = spot;
@@ -67,8 +67,8 @@ double BallForAll(const Surface& surface, const std::vector<RegionSpot>& spots, 
 void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
                  const RegionParams& params, std::span<const TriangleRef> triangles, const RunContext& run,
                  Region& region) {
-  RegionSpots places(surface, meshes, triangles);
-  std::vector<RegionSpot> spots = places.Spread(kLooked);
+  RegionSamples places(surface, meshes, triangles);
+  std::vector<RegionSample> spots = places.Spread(kLooked);
   LeftoverSearch search = reach.SearchLeftover();
   for (std::size_t i = 0; i < spots.size(); i += kFirst) {
     const SurfaceJet jet = JetAt(surface, spots[i]);

@@ -16,7 +16,8 @@ namespace patchmill {
 namespace {
 
 // The constants of [regions, section 6].
-constexpr double kOverLeast = 0.5;  // of the least ball's radius: what is over it comes nearer to its axis
+constexpr double kAboveSmallestBall =
+    0.5;  // of the least ball's radius: what is over it comes nearer to its axis
 
 constexpr int kMostSlides = 12;  // Newton steps of an obstacle, unless one is
 constexpr double kSlid = 1e-4;   // of the radius: what is left then is the square
@@ -81,13 +82,13 @@ double ReachTest::Slide(RaySlide& obstacle, const SurfaceJet& jet) const {
 }
 
 ReachTest::Shanks ReachTest::MakeShanks() const {
-  const double least = LeastBall(ReachGive(params_.tolerance));
+  const double least = SmallestBallRadius(ReachTolerance(params_.tolerance));
   return {ShankFinder(surface(), cloud_, free_ball_.radius(), params_.radius),
-          ShankFinder(surface(), cloud_, kOverLeast * least, least)};
+          ShankFinder(surface(), cloud_, kAboveSmallestBall * least, least)};
 }
 
 bool ReachTest::BlockedAbove(const Vec3& p, const Facing& facing, Shanks& shanks) const {
-  const double least = LeastBall(ReachGive(params_.tolerance));
+  const double least = SmallestBallRadius(ReachTolerance(params_.tolerance));
   // Of upright surface on both sides, each ball by itself: a ball that is too large for a slot is under the
   // slot's top beyond the other wall.
   const auto on_all_sides = [&](const auto& blocked) {
@@ -124,31 +125,33 @@ bool ReachTest::AllowedOnASide(const Vec3& p, const Facing& facing, const Allows
 }
 
 bool ReachTest::Allowed(const Vec3& p, const Facing& facing) const {
-  return params_.keep_in == nullptr ||
-         AllowedOnASide(p, facing, [&](const Vec3& c) { return params_.keep_in->Allows(c); });
+  return params_.operation_limits == nullptr ||
+         AllowedOnASide(p, facing, [&](const Vec3& c) { return params_.operation_limits->Allows(c); });
 }
 
 bool ReachTest::ForbiddenBesidePart(const Vec3& p, const Facing& facing) const {
-  return params_.keep_in != nullptr && params_.keep_in->HasBeside() &&
-         AllowedOnASide(p, facing, [&](const Vec3& c) { return params_.keep_in->AllowsBesidePart(c); });
+  return params_.operation_limits != nullptr && params_.operation_limits->HasBeside() &&
+         AllowedOnASide(p, facing,
+                        [&](const Vec3& c) { return params_.operation_limits->AllowsBesidePart(c); });
 }
 
 bool ReachTest::BlockedByShank(const Vec3& p, const Facing& facing) const {
-  return params_.keep_in != nullptr && params_.keep_in->HasShank() &&
-         AllowedOnASide(p, facing, [&](const Vec3& c) { return params_.keep_in->AllowsBall(c); });
+  return params_.operation_limits != nullptr && params_.operation_limits->HasShank() &&
+         AllowedOnASide(p, facing, [&](const Vec3& c) { return params_.operation_limits->AllowsBall(c); });
 }
 
 double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {
-  return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - ReachGive(params_.tolerance));
+  return p.z() + params_.radius * (normal.z() - 1.0) - (params_.floor_z - ReachTolerance(params_.tolerance));
 }
 
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Facing& facing, double limit,
-                         double give) {
+                         double reach_tolerance) {
   double largest = 0.0;
   for (const double side : {1.0, -1.0}) {
     if (side < 0.0 && !facing.both) break;
     const auto free = [&](double r) {
-      return r <= give || !AnythingNearUpwardRay(surface, p + side * r * facing.e, r - give, 0.1 * give);
+      return r <= reach_tolerance || !AnythingNearUpwardRay(surface, p + side * r * facing.e,
+                                                            r - reach_tolerance, 0.1 * reach_tolerance);
     };
     if (free(limit)) return limit;
     double low = 0.0, high = limit;  // what a ball sweeps on its way up holds what a smaller one does

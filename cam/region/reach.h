@@ -17,7 +17,7 @@ namespace patchmill {
 
 class ReachTest {
  public:
-  // `free_ball`: locator of radius params.radius - ReachGive(params.tolerance). Of a cancelled `run` its
+  // `free_ball`: locator of radius params.radius - ReachTolerance(params.tolerance). Of a cancelled `run` its
   // answers mean nothing.
   ReachTest(const Locator& free_ball, const RegionParams& params, const RunContext& run);
 
@@ -41,7 +41,8 @@ class ReachTest {
   void BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<double> signs) const;
   // Height of its tip over the floor, mm, the slack for rounding counted in: below 0 the place is FLOOR.
   double OverFloor(const Vec3& p, const Vec3& normal) const;
-  // Of a place where the ball is free: params.keep_in allows its centre. Of two sides on the one where the
+  // Of a place where the ball is free: params.operation_limits allows its centre. Of two sides on the one
+  // where the
   // ball is free.
   bool Allowed(const Vec3& p, const Facing& facing) const;
   // Where it is not: it would be, on one of the sides, if nothing were forbidden beside the part.
@@ -51,7 +52,7 @@ class ReachTest {
 
   // For the largest of what stays over some ground (leftover.h).
   LeftoverSearch SearchLeftover() const {
-    return {free_ball_, {params_.floor_z, params_.keep_in, 0.25 * params_.tolerance}};
+    return {free_ball_, {params_.floor_z, params_.operation_limits, 0.25 * params_.tolerance}};
   }
 
  private:
@@ -69,8 +70,8 @@ class ReachTest {
 };
 
 // Largest ball (mm, radius) that touches p from where `facing` says and is free upward, at most `limit`; to
-// limit / 4096. All of at most `give` (mm, ReachGive) count as free.
+// limit / 4096. All of at most `give` (mm, ReachTolerance) count as free.
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Facing& facing, double limit,
-                         double give);
+                         double reach_tolerance);
 
 }  // namespace patchmill

@@ -46,7 +46,7 @@ struct Areas {
 absl::StatusOr<Areas> MeasureReach(const Surface& surface, const RegionParams& params, const RunContext& run,
                                    ShareProgress& progress) {
   PM_ASSIGN_OR_RETURN(const Locator free_ball,
-                      Locator::Make(surface, params.radius - ReachGive(params.tolerance), run));
+                      Locator::Make(surface, params.radius - ReachTolerance(params.tolerance), run));
   progress.Add(0);
   const ReachTest reach(free_ball, params, run);
   progress.Add(0);

@@ -59,7 +59,7 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   ZeroField& allowed = at(Field::kAllowed);
   allowed.smooth = false;
   allowed.resolution = params.border_tolerance;
-  allowed.value = [&reach, any = params.keep_in != nullptr](const SurfaceJet& jet) {
+  allowed.value = [&reach, any = params.operation_limits != nullptr](const SurfaceJet& jet) {
     if (!any) return 1.0;
     const auto facing = FacingAt(jet);
     return !facing ? 0.0 : reach.Allowed(jet.p, *facing) ? 1.0 : -1.0;
@@ -68,8 +68,8 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   outside.smooth = false;
   outside.resolution = params.border_tolerance;
   outside.where = static_cast<int>(Field::kAllowed);
-  outside.value = [&reach,
-                   any = params.keep_in != nullptr && params.keep_in->HasBeside()](const SurfaceJet& jet) {
+  outside.value = [&reach, any = params.operation_limits != nullptr &&
+                                 params.operation_limits->HasBeside()](const SurfaceJet& jet) {
     if (!any) return 1.0;
     const auto facing = FacingAt(jet);
     return !facing ? 0.0 : reach.ForbiddenBesidePart(jet.p, *facing) ? -1.0 : 1.0;
@@ -91,9 +91,9 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   }
   if (params.finished) return fields;
   fields.pop_back();
-  if (params.keep_in != nullptr && params.keep_in->HasShank()) return fields;
+  if (params.operation_limits != nullptr && params.operation_limits->HasShank()) return fields;
   fields.pop_back();
-  if (params.keep_in == nullptr) {
+  if (params.operation_limits == nullptr) {
     fields.pop_back();
     fields.pop_back();
   }

@@ -67,10 +67,10 @@ absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& pa
   line.steep_angle = params.steep_angle;
   line.fields = fields;
   constexpr double kSigns[] = {1.0, -1.0};
-  HeightTops tops[2];
+  HeightExtrema tops[2];
   if (params.detail < 1.0) {
     PM_ASSIGN_OR_RETURN(const HeightGraph graph, HeightGraph::Make(meshes, adjacency, run));
-    absl::StatusOr<HeightTops> heights[2];
+    absl::StatusOr<HeightExtrema> heights[2];
     PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
       heights[k] = graph.Find(kSigns[k], persistence, MostRegions(params), run);
     }));
@@ -317,7 +317,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
                                        const RunContext& run) {
   PM_ASSIGN_OR_RETURN(
       const Locator free_ball,
-      Locator::Make(surface, std::max(params.radius - ReachGive(params.tolerance), 0.5 * params.radius),
+      Locator::Make(surface, std::max(params.radius - ReachTolerance(params.tolerance), 0.5 * params.radius),
                     run));
   const ReachTest reach(free_ball, params, run);
   PM_RETURN_IF_ERROR(run.Check());

@@ -59,7 +59,7 @@ struct RegionParams {
   double detail = 0.5;
   // Where it allows no centre the reason is kOutside if the centre is only forbidden beside the part, kShank
   // if only the shank is in the way, else kAvoided; null: allows all.
-  const KeepIn* keep_in = nullptr;
+  const OperationLimits* operation_limits = nullptr;
   // > 0 where forced passes finish the ground, continuous; where they do not the reason is kStrategy. Empty:
   // nothing is forced.
   std::function<double(const SurfaceJet&)> finished = nullptr;

@@ -7,22 +7,22 @@
 
 namespace patchmill {
 
-RegionSpots::RegionSpots(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                         std::span<const TriangleRef> triangles)
+RegionSamples::RegionSamples(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                             std::span<const TriangleRef> triangles)
     : surface_(surface), meshes_(meshes), triangles_(triangles) {
   PM_CHECK(!triangles.empty());
 }
 
-Vec3 RegionSpots::At(const RegionSpot& spot) const {
+Vec3 RegionSamples::At(const RegionSample& spot) const {
   return Position(surface_.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
 }
 
-std::vector<RegionSpot> RegionSpots::Spread(std::size_t count) {
+std::vector<RegionSample> RegionSamples::Spread(std::size_t count) {
   constexpr double kByNumber = 0.25;
   double all = 0.0;
   for (const TriangleRef& t : triangles_) all += meshes_[t.piece].triangles[t.triangle].area;
   const double by_number = all > 0.0 ? kByNumber : 1.0;
-  std::vector<RegionSpot> spots;
+  std::vector<RegionSample> spots;
   double share = 0.0;  // of what came before
   for (const TriangleRef& t : triangles_) {
     const double area = meshes_[t.piece].triangles[t.triangle].area;
@@ -35,17 +35,17 @@ std::vector<RegionSpot> RegionSpots::Spread(std::size_t count) {
   return spots;
 }
 
-std::vector<RegionSpot> RegionSpots::Around(const RegionSpot& from, double reach, std::size_t count) {
+std::vector<RegionSample> RegionSamples::Around(const RegionSample& from, double reach, std::size_t count) {
   const Vec3 middle = At(from);
   std::vector<TriangleRef> near;
   for (const TriangleRef& t : triangles_) {
     if (t == from.triangle || Distance(t, middle) < reach) near.push_back(t);
   }
-  std::vector<RegionSpot> spots{from};
+  std::vector<RegionSample> spots{from};
   for (std::size_t k = 0; k < count; ++k) {
     // Evenly over many, several times over few.
     const TriangleRef& t = near.size() > count ? near[k * near.size() / count] : near[k % near.size()];
-    RegionSpot spot{t, Inside(t)};
+    RegionSample spot{t, Inside(t)};
     const double way = (At(spot) - middle).norm();
     if (way > reach) {
       // Of its own triangle what is near; of another it is not known.
@@ -57,7 +57,7 @@ std::vector<RegionSpot> RegionSpots::Around(const RegionSpot& from, double reach
   return spots;
 }
 
-Vec2 RegionSpots::Inside(const TriangleRef& t) {
+Vec2 RegionSamples::Inside(const TriangleRef& t) {
   constexpr double kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
   a_ = std::fmod(a_ + kFirst, 1.0);
   b_ = std::fmod(b_ + kSecond, 1.0);
@@ -68,7 +68,7 @@ Vec2 RegionSpots::Inside(const TriangleRef& t) {
   return from + a * (CornerOf(mesh, t.triangle, 1) - from) + b * (CornerOf(mesh, t.triangle, 2) - from);
 }
 
-double RegionSpots::Distance(const TriangleRef& t, const Vec3& p) const {
+double RegionSamples::Distance(const TriangleRef& t, const Vec3& p) const {
   const SplitMesh& mesh = meshes_[t.piece];
   double nearest = kInfinity;
   for (const int vertex : mesh.triangles[t.triangle].vertex) {

@@ -11,28 +11,28 @@
 namespace patchmill {
 
 // A place inside a triangle.
-struct RegionSpot {
+struct RegionSample {
   TriangleRef triangle;
   Vec2 uv = Vec2::Zero();
 };
 
 // Keeps references to all it is given. Deterministic: the places follow an additive recurrence (Roberts'
 // R2), one after the other in the order they are asked for.
-class RegionSpots {
+class RegionSamples {
  public:
   // `triangles`: at least one.
-  RegionSpots(const Surface& surface, const std::vector<SplitMesh>& meshes,
-              std::span<const TriangleRef> triangles);
+  RegionSamples(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                std::span<const TriangleRef> triangles);
 
   // About `count` places: three quarters in proportion to area, the others to number, as small triangles lie
   // along borders. At least one.
-  std::vector<RegionSpot> Spread(std::size_t count);
+  std::vector<RegionSample> Spread(std::size_t count);
 
   // That place first, and up to `count` more within `reach` (mm) of it. Cost O(triangles).
-  std::vector<RegionSpot> Around(const RegionSpot& from, double reach, std::size_t count);
+  std::vector<RegionSample> Around(const RegionSample& from, double reach, std::size_t count);
 
  private:
-  Vec3 At(const RegionSpot& spot) const;
+  Vec3 At(const RegionSample& spot) const;
   Vec2 Inside(const TriangleRef& t);
   double Distance(const TriangleRef& t, const Vec3& p) const;
 

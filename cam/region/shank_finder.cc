@@ -7,7 +7,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kNearer = 0.02;  // of the radius: what blocks above is nearer by this ([regions, section 6])
+constexpr double kShankMargin =
+    0.02;                         // of the radius: what blocks above is nearer by this ([regions, section 6])
 constexpr double kProof = 0.001;  // of the radius: how exactly distances are known here
 constexpr int kSlideSteps = 4;    // Newton's, of each point that is tried before a search
 
@@ -21,14 +22,14 @@ ShankFinder::ShankFinder(const Surface& surface, const ObstacleCloud& cloud, dou
       radius_(radius),
       clear_(0.5 * (free_radius + radius)),
       proof_(kProof * radius),
-      nearer_(kNearer * radius) {
+      nearer_(kShankMargin * radius) {
   last_.fill(Vec3::Constant(kInfinity));
 }
 
 double ShankFinder::KnownAbove(const Vec3& center) const {
   double least = kInfinity;
   for (const Vec3& p : last_) {
-    if (p.z() > center.z()) least = std::min(least, (Plan(p) - Plan(center)).squaredNorm());
+    if (p.z() > center.z()) least = std::min(least, (Xy(p) - Xy(center)).squaredNorm());
   }
   return std::sqrt(least);
 }

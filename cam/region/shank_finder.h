@@ -20,7 +20,7 @@ class ShankFinder {
 
   // Of a ball that is not free: something over the one at `center` comes nearer to its axis than anything
   // does to the centre, by 0.02 radii, with distances known to 0.001 of them; or the ball alone would be
-  // free, by half of ReachGive.
+  // free, by half of ReachTolerance.
   bool Blocked(const Vec3& center);
   // The first alone, of any ball: what is over it comes nearer than free_radius as well.
   bool StandsAbove(const Vec3& center);

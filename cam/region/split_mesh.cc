@@ -156,7 +156,7 @@ void Measure(const Piece& piece, const std::array<Vec2, 3>& q, const std::array<
         if (!more) return m;
         const auto unit = UnitNormal(jet);
         if (!unit) return m;
-        m.steeper = std::atan2(Plan(*unit).norm(), std::abs(unit->z())) - steep_angle;
+        m.steeper = std::atan2(Xy(*unit).norm(), std::abs(unit->z())) - steep_angle;
         const double bend = triangle.turn * ContourCurvature(jet, Forms(jet, *unit));
         if (std::isfinite(bend)) m.bend = bend;  // none at a summit or a pit
         return m;
@@ -198,11 +198,11 @@ SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, 
   mesh.vertices = std::move(zero.vertices);
   mesh.triangles.reserve(zero.triangles.size());
   Corners corners(piece, mesh.vertices);
-  Silence silence;
+  ProgressThrottle throttle;
   for (const ZeroTriangle& t : zero.triangles) {
     if (params.run != nullptr && params.run->Cancelled()) break;
     if (params.run != nullptr)
-      silence.BreakIfTooLong(*params.run, "areas", mesh.triangles.size(), zero.triangles.size());
+      throttle.ReportIfDue(*params.run, "areas", mesh.triangles.size(), zero.triangles.size());
     SplitTriangle triangle{t.vertex, LabelOf(t), t.sign[static_cast<std::size_t>(Field::kTurn)]};
     std::array<Vec2, 3> q;
     std::array<const Corner*, 3> corner{};

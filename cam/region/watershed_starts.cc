@@ -118,7 +118,7 @@ class StartFinder {
       std::optional<Vec3> best;
       for (const int n : Around(from)) {
         const Vec3 d = PointOf({from.piece, n}) - p;
-        if (round == 1 && Plan(d).dot(Plan(found.front())) > 0.0) continue;
+        if (round == 1 && Xy(d).dot(Xy(found.front())) > 0.0) continue;
         const double slope = -sign_ * d.z() / d.norm();
         if (!(slope > steepest)) continue;
         steepest = slope;

@@ -30,12 +30,12 @@ bool IsWanted(const Containment& containment, PatchId patch, const Vec3& p, doub
   if (!IsWantedPatch(containment, patch)) return false;
   if (!LimitsContacts(containment)) return true;
   const Boundary& boundary = *containment.boundary;
-  return boundary.outline.SignedDistance(Plan(p)) + boundary.offset >= depth;
+  return boundary.outline.SignedDistance(Xy(p)) + boundary.offset >= depth;
 }
 
 double ContactRoomOutside(const Containment& containment, const Vec3& p) {
   if (!LimitsContacts(containment)) return -kInfinity;
-  return -containment.boundary->outline.SignedDistance(Plan(p)) - containment.boundary->offset;
+  return -containment.boundary->outline.SignedDistance(Xy(p)) - containment.boundary->offset;
 }
 
 double BoundaryRoom(const Containment& containment, const Vec2& center, double ball_radius) {
@@ -48,12 +48,12 @@ double BoundaryRoom(const Containment& containment, const Vec2& center, double b
 }
 
 double ObstacleRoom(const Obstacle& obstacle, const Vec3& tip, double tool_radius) {
-  const double beside = -obstacle.outline.SignedDistance(Plan(tip)) - tool_radius;
+  const double beside = -obstacle.outline.SignedDistance(Xy(tip)) - tool_radius;
   return std::max(beside, tip.z() - obstacle.top_z) - obstacle.margin;
 }
 
 double StripRoom(const BesideStrip& strip, const Vec3& tip) {
-  return std::max(-strip.area.SignedDistance(Plan(tip)), tip.z() - strip.lowest_tip_z);
+  return std::max(-strip.area.SignedDistance(Xy(tip)), tip.z() - strip.lowest_tip_z);
 }
 
 double BesideRoom(const Containment& containment, const Vec3& tip) {

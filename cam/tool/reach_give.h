@@ -8,12 +8,12 @@ namespace patchmill {
 // above a place to keep to the floor, of a whole `tolerance`: what passes may take of it themselves. The rest
 // belongs to rounding, certificates and the control (SplitBudget): a place that lets the ball in by that
 // alone would be asked for, and no program could finish it within [verification P1].
-constexpr double ReachGive(double tolerance) { return 0.5 * tolerance; }
+constexpr double ReachTolerance(double tolerance) { return 0.5 * tolerance; }
 
 // mm, radius: smaller balls get in by the tolerance alone, or nearly so. No tool is named for ground that
 // only they reach; and where something stands above this one, ground is UNDERCUT, whatever keeps the tool's
 // ball.
-constexpr double LeastBall(double give) { return 20.0 * give; }
+constexpr double SmallestBallRadius(double reach_tolerance) { return 20.0 * reach_tolerance; }
 
 // mm: rounding of a highest tip at the surface itself.
 inline constexpr double kTopSlack = 1e-6;

@@ -12,7 +12,7 @@
 namespace patchmill {
 
 // kBorder: along the border of what lines cover.
-enum class PassKind { kZigzag, kContour, kBorder, kCrease, kRest };
+enum class PassKind { kZigzag, kContour, kBorder, kPencil, kRest };
 constexpr PassKind LastOf(PassKind) { return PassKind::kRest; }
 
 // A ball centre and what it touches: free, or in the ground by less than its chords may be (fewest_chords.h).
@@ -34,8 +34,8 @@ struct CutterPath {
   // Winds down from its first point to its last and is cut like that, whatever the direction of contours: it
   // was made for it.
   bool spiral = false;
-  int region = -1;  // RegionMap id of most of its length, -1: none
-  int line = 0;     // index of the scan line or level it came from; orders passes within a region
+  int region = -1;    // RegionMap id of most of its length, -1: none
+  int order_key = 0;  // index of the scan line or level it came from; orders passes within a region
   std::vector<CutterPoint> points;
 };
 

@@ -18,7 +18,7 @@ Vec3 NearestOnPath(const PathSegment& s, const Vec3& p) {
   return s.a + std::clamp((p - s.a).dot(d) / length2, 0.0, 1.0) * d;
 }
 
-double NearestInPlan(const PathSegment& s, const Vec3& p) {
+double NearestInXy(const PathSegment& s, const Vec3& p) {
   const double dx = s.b.x() - s.a.x(), dy = s.b.y() - s.a.y();
   const double length2 = dx * dx + dy * dy;
   if (!(length2 > 0.0)) return s.b.z() < s.a.z() ? 1.0 : 0.0;
@@ -29,7 +29,7 @@ double NearestInPlan(const PathSegment& s, const Vec3& p) {
 // below p at its nearest point in plan, the plan distance is reached. Otherwise the nearest point of the
 // segment itself decides, if it is above p; if it is not, the minimum is where the segment passes p's height.
 Vec3 NearestOnSwept(const PathSegment& s, const Vec3& p) {
-  const double t = NearestInPlan(s, p);
+  const double t = NearestInXy(s, p);
   const Vec3 q = s.a + t * (s.b - s.a);
   if (q.z() <= p.z()) return {q.x(), q.y(), p.z()};
   const Vec3 nearest = NearestOnPath(s, p);
@@ -102,11 +102,11 @@ double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius) {
 // a the gradients of the two terms in p make one of their smallest maximum.
 MetricValue ShankDistanceAndGradient(const PathSegment& s, const Vec3& p, double shank_radius) {
   const Vec3 d = s.b - s.a;
-  const auto beside = [&](double t) { return Plan(Vec3(p - s.a - t * d)); };
+  const auto beside = [&](double t) { return Xy(Vec3(p - s.a - t * d)); };
   const auto plan = [&](double t) { return beside(t).norm(); };
   const auto rise = [&](double t) { return shank_radius - (p.z() - s.a.z() - t * d.z()); };
-  double near = NearestInPlan(s, p);
-  if (plan(near) >= rise(near)) return From(Lift(Plan(p) - beside(near), p.z()), p);
+  double near = NearestInXy(s, p);
+  if (plan(near) >= rise(near)) return From(Lift(Xy(p) - beside(near), p.z()), p);
   double low = d.z() < 0.0 ? 1.0 : 0.0;
   if (rise(low) >= plan(low)) return {rise(low), -Vec3::UnitZ()};
   for (int i = 0; i < 50; ++i) {  // between them the two terms cross
@@ -114,7 +114,7 @@ MetricValue ShankDistanceAndGradient(const PathSegment& s, const Vec3& p, double
     (plan(middle) >= rise(middle) ? low : near) = middle;
   }
   const Vec2 out = beside(low).normalized();
-  const double plan_rate = -out.dot(Plan(d));
+  const double plan_rate = -out.dot(Xy(d));
   const double share = d.z() == 0.0 ? 0.0 : std::clamp(d.z() / (d.z() - plan_rate), 0.0, 1.0);
   return {std::max(plan(low), rise(low)), Lift(share * out, share - 1.0)};
 }
@@ -125,7 +125,7 @@ double ShankBoxDistance(const PathSegment& s, const Vec3& p, double shank_radius
 
 MetricValue ShankBoxDistanceAndGradient(const PathSegment& s, const Vec3& p, double shank_radius) {
   const double rise = shank_radius - (p.z() - std::min(s.a.z(), s.b.z()));
-  const MetricValue plan = From(Lift(Plan(NearestOnSweptBox(s, p)), p.z()), p);
+  const MetricValue plan = From(Lift(Xy(NearestOnSweptBox(s, p)), p.z()), p);
   return plan.distance >= rise ? plan : MetricValue{rise, -Vec3::UnitZ()};
 }
 

@@ -26,13 +26,13 @@ bool BeyondStrategyOn(const SurfaceJet& jet, const Vec3& e, const LeftoverParams
   // Along the feed, and across it in the surface.
   const Vec2 d(std::cos(params.zigzag_angle), std::sin(params.zigzag_angle));
   const bool contours = params.strategy == ForcedStrategy::kContour;
-  const Vec3 feed = contours ? Vec3(e.y(), -e.x(), 0.0) : Lift(d * e.z(), -d.dot(Plan(e)));
+  const Vec3 feed = contours ? Vec3(e.y(), -e.x(), 0.0) : Lift(d * e.z(), -d.dot(Xy(e)));
   const double length = feed.norm();
   if (!(length > 1e-12)) return true;  // level ground for contours: no step at all
   const Vec3 across = e.cross(feed / length);
   const double kappa = NormalCurvature(Forms(jet, e), jet, across);
   if (!(kappa * r < 1.0)) return true;
-  const double seen = contours ? std::abs(across.z()) : std::abs(Cross(d, Plan(across)));
+  const double seen = contours ? std::abs(across.z()) : std::abs(Cross(d, Xy(across)));
   return seen * WidestStep(r, s, kappa) < kMargin * params.min_step_fraction * WidestStep(r, s, 0.0);
 }
 

@@ -156,7 +156,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
     for (const PathSegment& s : dog_legs) {
       if (run.Cancelled()) break;
       Least least{-slack, Vec3::Zero(), -1};
-      LowerOver(room, over_top(s), Plan(s.a), Plan(s.b), std::min(s.a.z(), s.b.z()), least);
+      LowerOver(room, over_top(s), Xy(s.a), Xy(s.b), std::min(s.a.z(), s.b.z()), least);
       if (least.room >= -slack) continue;
       least.move = s.move;
       beside.push_back(least);
@@ -177,7 +177,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
                "the tool goes down beside the part, below a wall's upper edge");
   }
   if (c.boundary && c.boundary->mode != BoundaryMode::kContact) {
-    const Room room = [&](const Vec3& center) { return BoundaryRoom(c, Plan(center), limits.ball); };
+    const Room room = [&](const Vec3& center) { return BoundaryRoom(c, Xy(center), limits.ball); };
     report.Add("OUTSIDE_BOUNDARY",
                Broken(CollectMoves(motion, MotionSet::kCut, offset), room, no_floor, slack, run),
                "a feed leaves the boundary");
@@ -192,7 +192,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
       return std::max(below, nearest ? nearest->distance - touching : kClear);
     };
     std::vector<PathSegment> feeds = CollectMoves(motion, MotionSet::kCut, offset);
-    std::erase_if(feeds, [](const PathSegment& s) { return Plan(s.b - s.a).norm() < kCertainty; });
+    std::erase_if(feeds, [](const PathSegment& s) { return Xy(s.b - s.a).norm() < kCertainty; });
     std::vector<Least> broken = Broken(feeds, room, no_floor, slack, run);
     for (Least& b : broken) b.room = TopRoom(c, b.at.z() - limits.ball);
     report.Add("ABOVE_TOP", std::move(broken), "a feed touches the surface above the highest tip");

@@ -168,7 +168,7 @@ class LeftoverSearch {
                  lowest = std::max(-1.0, facing.both ? -std::abs(z) - turn : z - turn);
     const auto [low, high] = std::minmax_element(cell.hull, cell.hull + cell.hull_count,
                                                  [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
-    if (high->z() + radius * highest < params_.reach.floor_z - params_.reach.give) return true;
+    if (high->z() + radius * highest < params_.reach.floor_z - params_.reach.reach_tolerance) return true;
     return TopRoomAt(params_.reach.limits, low->z() + radius * lowest) < 0.0;
   }
 
@@ -182,7 +182,8 @@ class LeftoverSearch {
     for (const Vec3& e : {facing.e, Vec3(-facing.e)}) {
       Vec3 center = cell.middle + radius * e;
       center.z() = high->z() + radius * std::min(1.0, e.z() + turn);
-      if (!ShankHitsAll(surface_, limits, center, beside, kShankProof * params_.reach.give)) return false;
+      if (!ShankHitsAll(surface_, limits, center, beside, kShankProof * params_.reach.reach_tolerance))
+        return false;
       if (!facing.both) return true;
     }
     return true;

@@ -19,8 +19,8 @@ constexpr int kGrid = 256;
 class HeightGrid {
  public:
   HeightGrid(const Surface& surface, double allowance, double top, const RunContext& run) {
-    low_ = Plan(surface.box.min);
-    const Vec2 size = Plan(surface.box.max) - low_;
+    low_ = Xy(surface.box.min);
+    const Vec2 size = Xy(surface.box.max) - low_;
     step_ = std::max(size.maxCoeff() / kGrid, 1e-9);
     nx_ = static_cast<int>(size.x() / step_) + 1;
     ny_ = static_cast<int>(size.y() / step_) + 1;
@@ -29,7 +29,7 @@ class HeightGrid {
       if (run.Cancelled()) return;
       if (node.leaf < 0) continue;
       const double z = std::min(node.box.max.z() + allowance, top);
-      ForEach(Plan(node.box.min).array() - allowance, Plan(node.box.max).array() + allowance,
+      ForEach(Xy(node.box.min).array() - allowance, Xy(node.box.max).array() + allowance,
               [&](double& h) { h = std::max(h, z); });
     }
   }
@@ -130,7 +130,7 @@ class DescentWatch {
     }
     const Vec3 d = move.to - move.from;
     drop_ -= d.z();
-    along_ += Plan(d).norm();
+    along_ += Xy(d).norm();
     if (std::hypot(drop_, along_) < kTraceable) return false;
     const bool steep = std::atan2(drop_, along_) > kSteepDescent + kSteepSlack;
     drop_ = along_ = 0.0;
@@ -157,7 +157,7 @@ MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool) {
     const bool rapid = move.kind == ProgramMove::Kind::kRapid;
     (rapid ? figures.rapid_length : figures.cut_length) += d.norm();
     if (rapid || d.norm() < kRounding) continue;
-    figures.steepest_descent = std::max(figures.steepest_descent, std::atan2(-d.z(), Plan(d).norm()));
+    figures.steepest_descent = std::max(figures.steepest_descent, std::atan2(-d.z(), Xy(d).norm()));
   }
   return figures;
 }
@@ -179,9 +179,9 @@ absl::StatusOr<double> RequiredStickout(const Surface& surface, const Tool& tool
     if (move.to_above) b.z() = a.z();
     const double low = std::min(a.z(), b.z());
     if (params.stock_top_z - low <= stickout && surface.box.max.z() - low <= stickout) continue;
-    stickout = std::max(stickout, grid.Highest(Plan(a), Plan(b), radius) - low);
+    stickout = std::max(stickout, grid.Highest(Xy(a), Xy(b), radius) - low);
     if (move.kind == ProgramMove::Kind::kRapid)
-      stickout = std::max(stickout, grid.HighestIn(Plan(a), Plan(b), radius) - low);
+      stickout = std::max(stickout, grid.HighestIn(Xy(a), Xy(b), radius) - low);
   }
   return stickout;
 }

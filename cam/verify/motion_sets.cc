@@ -9,8 +9,7 @@ namespace {
 int Axes(const PathSegment& s) { return static_cast<int>((s.a.array() != s.b.array()).count()); }
 
 void AddRapid(const ProgramMove& move, PathSegment s, double clear_z, std::vector<PathSegment>& out) {
-  const bool straight_up =
-      Plan(s.a) == Plan(s.b) && !move.from_above && (move.to_above || s.b.z() >= s.a.z());
+  const bool straight_up = Xy(s.a) == Xy(s.b) && !move.from_above && (move.to_above || s.b.z() >= s.a.z());
   if (straight_up || std::min(s.a.z(), s.b.z()) >= clear_z) return;
   if (std::max(s.a.z(), s.b.z()) > clear_z) {
     const Vec3 crossing = s.a + (clear_z - s.a.z()) / (s.b.z() - s.a.z()) * (s.b - s.a);

@@ -7,9 +7,9 @@
 
 namespace patchmill {
 
-absl::StatusOr<OperationLimits> OperationLimits::Make(const Surface& surface, const Tool& tool,
-                                                      const VerifyParams& params, const RunContext& run) {
-  OperationLimits limits;
+absl::StatusOr<VerifyLimits> VerifyLimits::Make(const Surface& surface, const Tool& tool,
+                                                const VerifyParams& params, const RunContext& run) {
+  VerifyLimits limits;
   limits.surface_ = &surface;
   limits.containment_ = &params.containment;
   limits.ball_ = BallRadius(tool);
@@ -25,7 +25,7 @@ absl::StatusOr<OperationLimits> OperationLimits::Make(const Surface& surface, co
   return limits;
 }
 
-CenterLimits OperationLimits::centers() const {
+CenterLimits VerifyLimits::centers() const {
   CenterLimits limits;
   limits.containment = containment_;
   limits.ball = ball_;
@@ -38,7 +38,7 @@ CenterLimits OperationLimits::centers() const {
   return limits;
 }
 
-std::vector<CellRect> OperationLimits::Wanted(const std::vector<CellRect>& cells) const {
+std::vector<CellRect> VerifyLimits::Wanted(const std::vector<CellRect>& cells) const {
   std::vector<CellRect> wanted;
   for (const CellRect& cell : cells) {
     const PatchId patch = surface_->piece(cell.piece).patch;
@@ -47,7 +47,7 @@ std::vector<CellRect> OperationLimits::Wanted(const std::vector<CellRect>& cells
   return wanted;
 }
 
-PieceId OperationLimits::PieceOfWhole(PieceId avoided) const {
+PieceId VerifyLimits::PieceOfWhole(PieceId avoided) const {
   // The part has the avoided patches in their order.
   std::int32_t left = avoided_->piece(avoided).patch.value;
   for (std::size_t i = 0; i < containment_->avoided.size(); ++i) {

@@ -10,12 +10,12 @@
 
 namespace patchmill {
 
-class OperationLimits {
+class VerifyLimits {
  public:
   // Keeps references to `surface` and `params`. Builds the avoided patches as a surface of their own when a
   // margin is kept from them. CANCELLED and DEADLINE_EXCEEDED from `run`.
-  static absl::StatusOr<OperationLimits> Make(const Surface& surface, const Tool& tool,
-                                              const VerifyParams& params, const RunContext& run);
+  static absl::StatusOr<VerifyLimits> Make(const Surface& surface, const Tool& tool,
+                                           const VerifyParams& params, const RunContext& run);
 
   CenterLimits centers() const;  // good as long as this object
   // Those cells whose patches are to be finished.
@@ -24,7 +24,7 @@ class OperationLimits {
   PieceId PieceOfWhole(PieceId avoided) const;
 
  private:
-  OperationLimits() = default;
+  VerifyLimits() = default;
   const Surface* surface_ = nullptr;
   const Containment* containment_ = nullptr;
   double ball_ = 0.0, tool_ = 0.0, leave_ = 0.0;

@@ -11,18 +11,20 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kBeside = 0.02;      // of the radius: how far beside a place it is looked at again
-constexpr double kProof = 0.02;       // of the give: how exactly "free" is decided
-constexpr double kCoarse = 0.02;      // of the radius: how exactly a blocked depth is known
-constexpr double kNearer = 0.02;      // of the radius: the shank is blocked by more than this beyond the ball
-constexpr double kOverLeast = 0.5;    // of the least ball's radius: what is over it comes nearer to its axis
+constexpr double kBesideRadii = 0.02;  // of the radius: how far beside a place it is looked at again
+constexpr double kProof = 0.02;        // of the give: how exactly "free" is decided
+constexpr double kCoarse = 0.02;       // of the radius: how exactly a blocked depth is known
+constexpr double kShankMargin =
+    0.02;  // of the radius: the shank is blocked by more than this beyond the ball
+constexpr double kAboveSmallestBall =
+    0.5;                              // of the least ball's radius: what is over it comes nearer to its axis
 constexpr double kLimitSlack = 1e-6;  // mm: limits along the ground hold but for rounding
 constexpr double kReasonProof = 0.001;  // of the radius: how exactly the two are known
 
-// Places of the piece about kBeside away, each way in both parameters; near its sides there are fewer.
+// Places of the piece about kBesideRadii away, each way in both parameters; near its sides there are fewer.
 std::vector<SurfaceJet> Beside(const Surface& surface, const SurfacePoint& at, double radius) {
   const SurfaceJet here = Evaluate(surface, at.piece, at.u, at.v);
-  const double aside = kBeside * radius;
+  const double aside = kBesideRadii * radius;
   const double du = aside / std::max(here.du.norm(), 4.0 * aside),
                dv = aside / std::max(here.dv.norm(), 4.0 * aside);
   std::vector<SurfaceJet> places;
@@ -47,14 +49,14 @@ bool NearAvoided(const CenterLimits& limits, const Vec3& c, double proof) {
 // within `beside` of c in plan and no higher.
 bool InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c, double keep, double beside,
              double proof) {
-  const Vec2 q = Plan(c);
+  const Vec2 q = Xy(c);
   const Column column{q, q, limits.shank->radius + keep - beside};
   return AnyInColumn(surface, column, c.z() + limits.shank->rise - keep, proof);
 }
 
 // All limits but those beside the part allow the centre.
 bool AllowsBesidePart(const Surface& surface, const Vec3& c, const ReachParams& params) {
-  const double proof = kProof * params.give;
+  const double proof = kProof * params.reach_tolerance;
   return RoomAt(params.limits, c) >= 0.0 && !NearAvoided(params.limits, c, proof) &&
          !ShankHitsAll(surface, params.limits, c, 0.0, proof);
 }
@@ -93,7 +95,7 @@ bool NothingNear(const Surface& surface, const Vec3& c, double limit, double pro
 // What stands above the centre comes nearer to the shank than anything to the ball ([regions, section 6]),
 // which touches the surface at `radius`. Close to where the rule changes, what is known may decide.
 bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
-  const double proof = kReasonProof * radius, nearer = kNearer * radius;
+  const double proof = kReasonProof * radius, nearer = kShankMargin * radius;
   limit = std::min(limit, obstacles.DistanceTo(c, radius) - nearer + proof);
   if (!(limit > 0.0)) return false;
   // Anything above that does so will do: what is nearest to the ray then does so too.
@@ -106,14 +108,15 @@ bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double 
 
 // Of the tool's ball, where it is not free: not because of itself.
 bool BlockedAbove(const Surface& surface, const Vec3& c, const ReachParams& params, Obstacles& obstacles) {
-  const double limit = params.radius - params.give;
+  const double limit = params.radius - params.reach_tolerance;
   return ShankIsNearer(surface, c, params.radius, limit, obstacles) ||
-         NothingNear(surface, c, params.radius - 0.5 * params.give, kProof * params.give, obstacles);
+         NothingNear(surface, c, params.radius - 0.5 * params.reach_tolerance,
+                     kProof * params.reach_tolerance, obstacles);
 }
 
 bool StandsAboveLeast(const Surface& surface, const Vec3& c, double least, Obstacles& obstacles) {
-  return MayRiseAbove(surface, c, kOverLeast * least) &&
-         ShankIsNearer(surface, c, least, kOverLeast * least, obstacles);
+  return MayRiseAbove(surface, c, kAboveSmallestBall * least) &&
+         ShankIsNearer(surface, c, least, kAboveSmallestBall * least, obstacles);
 }
 
 // UNDERCUT, where the ball is free on no side: it is blocked above, or something stands above the least
@@ -125,7 +128,7 @@ bool Undercut(const Surface& surface, const Vec3& p, const Facing& facing, const
       (facing.e.z() > kUprightFace || BlockedAbove(surface, centers[1], params, obstacles))) {
     return true;
   }
-  const double least = LeastBall(params.give);
+  const double least = SmallestBallRadius(params.reach_tolerance);
   const auto beside = Centers(p, facing, least);
   return least < params.radius && StandsAboveLeast(surface, beside[0], least, obstacles) &&
          (facing.e.z() > kUprightFace || StandsAboveLeast(surface, beside[1], least, obstacles));
@@ -163,7 +166,7 @@ double RoomAt(const CenterLimits& limits, const Vec3& center) {
   if (limits.containment == nullptr) return kInfinity;
   const Containment& c = *limits.containment;
   const Vec3 tip = center - Vec3(0.0, 0.0, limits.ball);
-  double room = BoundaryRoom(c, Plan(center), limits.ball);
+  double room = BoundaryRoom(c, Xy(center), limits.ball);
   for (const Obstacle& o : c.obstacles) room = std::min(room, ObstacleRoom(o, tip, limits.tool));
   return std::min(room - limits.within, TopRoomAt(limits, center.z()));
 }
@@ -185,22 +188,22 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
 
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                    Obstacles& obstacles) {
-  const double limit = params.radius - params.give;
+  const double limit = params.radius - params.reach_tolerance;
   const auto centers = Centers(p, facing, params.radius);
   ReachClass reason = ReachClass::kReachable;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
-    if (InTheWay(surface, c, limit, kProof * params.give, obstacles)) {
+    if (InTheWay(surface, c, limit, kProof * params.reach_tolerance, obstacles)) {
       found = ReachClass::kConcave;
     } else if (BesideRoomAt(params.limits, c) < 0.0 && AllowsBesidePart(surface, c, params)) {
       found = ReachClass::kOutside;
-    } else if (c.z() < params.floor_z - params.give) {
+    } else if (c.z() < params.floor_z - params.reach_tolerance) {
       found = ReachClass::kFloor;
     } else if (std::min(RoomAt(params.limits, c), BesideRoomAt(params.limits, c)) < 0.0 ||
-               NearAvoided(params.limits, c, kProof * params.give)) {
+               NearAvoided(params.limits, c, kProof * params.reach_tolerance)) {
       found = ReachClass::kAvoided;
-    } else if (ShankHitsAll(surface, params.limits, c, 0.0, kProof * params.give)) {
+    } else if (ShankHitsAll(surface, params.limits, c, 0.0, kProof * params.reach_tolerance)) {
       found = ReachClass::kShank;
     }
     if (found == ReachClass::kReachable) return found;
@@ -238,9 +241,9 @@ bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& fac
     return true;
   }
   ReachParams moved = params;
-  moved.limits.within = params.give;
+  moved.limits.within = params.reach_tolerance;
   // The ball is free; what its limits say is told without looking for what is in its way again.
-  const double proof = kProof * params.give;
+  const double proof = kProof * params.reach_tolerance;
   const Vec3 center = at.p + params.radius * facing.e;
   if (!facing.both && RoomAt(moved.limits, center) >= 0.0 && BesideRoomAt(moved.limits, center) >= 0.0 &&
       !NearAvoided(moved.limits, center, proof) && !ShankHitsAll(surface, moved.limits, center, 0.0, proof)) {
@@ -259,7 +262,7 @@ double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, c
                   double known) {
   if (!params.limits.shank) return known;
   const CenterLimits& limits = params.limits;
-  const double proof = kProof * params.give;
+  const double proof = kProof * params.reach_tolerance;
   ReachParams slim = params;
   slim.limits.shank.reset();
   const auto centers = Centers(p, facing, params.radius);
@@ -268,7 +271,7 @@ double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, c
     const Facing of_side{side == 0 ? facing.e : Vec3(-facing.e), false};
     if (ReachAt(surface, p, of_side, slim) != ReachClass::kReachable) continue;
     const Vec3& c = centers[static_cast<std::size_t>(side)];
-    const Vec2 q = Plan(c);
+    const Vec2 q = Xy(c);
     double here = known;
     const auto raise = [&](const Surface& over, double keep) {
       const double from = c.z() + here - keep;
@@ -292,12 +295,12 @@ bool ShankHitsAll(const Surface& surface, const CenterLimits& limits, const Vec3
 
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                     Obstacles& obstacles) {
-  const double limit = params.radius - params.give;
+  const double limit = params.radius - params.reach_tolerance;
   const auto centers = Centers(p, facing, params.radius);
   double depth = kInfinity;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
     const Vec3& c = centers[static_cast<std::size_t>(side)];
-    double here = params.floor_z - params.give - c.z();
+    double here = params.floor_z - params.reach_tolerance - c.z();
     const auto nearest = NearestToRay(surface, c, limit, kCoarse * params.radius, obstacles);
     if (nearest) here = std::max(here, limit - nearest->distance);
     here = std::max(here, -std::min(RoomAt(params.limits, c), BesideRoomAt(params.limits, c)));

@@ -29,7 +29,8 @@ struct CenterLimits {
 
 struct ReachParams {
   double radius = 0.0;  // mm: ball and stock to leave
-  double give = 0.0;    // mm: how deep the surface may lie inside the ball, and the centre below the floor
+  double reach_tolerance =
+      0.0;  // mm: how deep the surface may lie inside the ball, and the centre below the floor
   double floor_z = -kInfinity;  // mm: lowest centre height
   CenterLimits limits = {};
 };

@@ -6,8 +6,8 @@
 
 namespace patchmill {
 
-absl::Status ValidateQuestion(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
-                              const VerifyParams& params) {
+absl::Status ValidateVerifyInput(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
+                                 const VerifyParams& params) {
   const auto bad = [](const char* field, double value, const char* constraint) {
     return absl::InvalidArgumentError(fmt::format("{} = {:.6g} mm; must be {}", field, value, constraint));
   };

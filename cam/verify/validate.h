@@ -6,7 +6,7 @@
 namespace patchmill {
 
 // INVALID_ARGUMENT for a tool, a parameter or a motion that cannot be judged.
-absl::Status ValidateQuestion(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
-                              const VerifyParams& params);
+absl::Status ValidateVerifyInput(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
+                                 const VerifyParams& params);
 
 }  // namespace patchmill

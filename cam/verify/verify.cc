@@ -25,10 +25,10 @@ namespace {
 constexpr std::size_t kMostFindings = 20;  // per code
 constexpr double kRapidSlack = 1e-3;       // mm: rounding, and what planned heights are certain to
 
-class Judge {
+class Verifier {
  public:
-  Judge(const Surface& surface, const Tool& tool, const ProgramMotion& motion, const VerifyParams& params,
-        const RunContext& run)
+  Verifier(const Surface& surface, const Tool& tool, const ProgramMotion& motion, const VerifyParams& params,
+           const RunContext& run)
       : surface_(surface), tool_(tool), motion_(motion), params_(params), run_(run) {
     ball_ = BallRadius(tool);
     radius_ = ball_ + params.leave;
@@ -42,7 +42,7 @@ class Judge {
     const double size = std::clamp(std::sqrt(area / 9e3), 0.02 * radius_, radius_);
     roots_ = RootCells(surface_, std::max(size, std::sqrt(area / 4e5)), run_);
     PM_RETURN_IF_ERROR(run_.Check());
-    PM_ASSIGN_OR_RETURN(limits_, OperationLimits::Make(surface_, tool_, params_, run_));
+    PM_ASSIGN_OR_RETURN(limits_, VerifyLimits::Make(surface_, tool_, params_, run_));
     wanted_ = limits_->Wanted(roots_);
     PM_RETURN_IF_ERROR(JudgeGouge());
     PM_RETURN_IF_ERROR(JudgeFinish());
@@ -229,7 +229,7 @@ class Judge {
   absl::Status JudgePart(const SegmentTree& tree, const FinishPart& part) {
     LeftoverParams p;
     static_cast<Finish&>(p) = part;
-    p.reach = {radius_, ReachGive(params_.tolerance), params_.floor_z + ball_, limits_->centers()};
+    p.reach = {radius_, ReachTolerance(params_.tolerance), params_.floor_z + ball_, limits_->centers()};
     p.chord_error = chord_error_;
     p.certainty = params_.certainty;
     p.where = part.where.get();
@@ -298,7 +298,7 @@ class Judge {
     }
     if (std::isfinite(areas.highest_rise)) {
       // Beside a wall the ball may stand lower by what reach gives.
-      const double needed = areas.highest_rise + ReachGive(params_.tolerance) + ball_;
+      const double needed = areas.highest_rise + ReachTolerance(params_.tolerance) + ball_;
       const double flutes = std::ceil(std::max(needed, *tool_.flute_length) * 1e3) / 1e3;
       report_.finishing_flute_length = std::max(report_.finishing_flute_length.value_or(0.0), flutes);
     }
@@ -377,7 +377,7 @@ class Judge {
   double chord_error_ = 0.0;
   std::vector<CellRect> roots_;
   std::vector<CellRect> wanted_;  // those of patches to be finished
-  std::optional<OperationLimits> limits_;
+  std::optional<VerifyLimits> limits_;
   VerifyReport report_;
 };
 
@@ -385,8 +385,8 @@ class Judge {
 
 absl::StatusOr<VerifyReport> Verify(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
                                     const VerifyParams& params, const RunContext& run) {
-  PM_RETURN_IF_ERROR(ValidateQuestion(surface, tool, motion, params));
-  return Judge(surface, tool, motion, params, run).Run();
+  PM_RETURN_IF_ERROR(ValidateVerifyInput(surface, tool, motion, params));
+  return Verifier(surface, tool, motion, params, run).Run();
 }
 
 }  // namespace patchmill

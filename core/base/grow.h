@@ -14,7 +14,7 @@ namespace patchmill {
 
 // As v.resize(size) with size >= v.size(). CANCELLED and DEADLINE_EXCEEDED within some thousand elements.
 template <typename T>
-absl::Status Grow(std::vector<T>& v, std::size_t size, const RunContext& run) {
+absl::Status ResizePolling(std::vector<T>& v, std::size_t size, const RunContext& run) {
   constexpr std::size_t kBetweenPolls = 1 << 14;
   v.reserve(size);
   while (v.size() < size) {

@@ -51,13 +51,13 @@ absl::Status ParallelFor(const RunContext& run, const char* stage, const LoopPar
   const std::size_t count = part.count;
   std::atomic<std::size_t> done{part.first};
   const std::size_t report_every = std::max<std::size_t>(1, count / 64);
-  Silence silence;
+  ProgressThrottle throttle;
   const auto one = [&](std::size_t i) {
     if (run.Cancelled()) return;
     body(i);
     const std::size_t n = done.fetch_add(1, std::memory_order_relaxed) + 1;
-    if (stage != nullptr && (n % report_every == 0 || n == count || silence.TooLong())) {
-      silence.Break();
+    if (stage != nullptr && (n % report_every == 0 || n == count || throttle.Due())) {
+      throttle.Report();
       run.Progress(stage, static_cast<double>(n) / static_cast<double>(count));
     }
   };

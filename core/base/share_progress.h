@@ -21,8 +21,8 @@ class ShareProgress {
     const std::uint64_t part = std::uint64_t{1} << (kHalvings - halvings);
     const std::uint64_t done = done_.fetch_add(part, std::memory_order_relaxed) + part;
     const std::uint64_t step = all_ / 64 + 1;
-    if (done / step == (done - part) / step && done != all_ && !silence_.TooLong()) return;
-    silence_.Break();
+    if (done / step == (done - part) / step && done != all_ && !throttle_.Due()) return;
+    throttle_.Report();
     run_.Progress(stage_, static_cast<double>(done) / static_cast<double>(all_));
   }
 
@@ -32,7 +32,7 @@ class ShareProgress {
   const char* stage_;
   const std::uint64_t all_;
   std::atomic<std::uint64_t> done_{0};
-  Silence silence_;
+  ProgressThrottle throttle_;
 };
 
 }  // namespace patchmill

@@ -19,7 +19,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double Radians(double degrees) { return degrees * (kPi / 180.0); }
 inline constexpr double Degrees(double radians) { return radians * (180.0 / kPi); }
 
-inline Vec2 Plan(const Vec3& p) { return {p.x(), p.y()}; }  // the view from above
+inline Vec2 Xy(const Vec3& p) { return {p.x(), p.y()}; }  // the view from above
 inline Vec3 Lift(const Vec2& q, double z) { return {q.x(), q.y(), z}; }
 inline double Cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 

@@ -119,7 +119,8 @@ class Divider {
 
   void Tell(const Task& task, const std::vector<Task>& level) {
     if (params_.run == nullptr) return;
-    silence_.BreakIfTooLong(*params_.run, "cells", static_cast<std::size_t>(&task - level.data()), level.size());
+    throttle_.ReportIfDue(*params_.run, "cells", static_cast<std::size_t>(&task - level.data()),
+                          level.size());
   }
 
   // Takes out what has one sign, or none that anybody asks for. A node is asked for wherever it is: around
@@ -327,7 +328,7 @@ class Divider {
   Levels levels_;
   std::vector<std::size_t> sampled_;  // fields without form
   ZeroCells result_;
-  Silence silence_;
+  ProgressThrottle throttle_;
 };
 
 }  // namespace

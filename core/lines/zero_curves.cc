@@ -91,7 +91,7 @@ class PieceCurves {
     int at = from;
     for (std::size_t i = arc;; i = 0) {
       if (run_.Cancelled()) return;
-      silence_.BreakIfTooLong(run_, "curves: points", followed_++, arcs_);
+      throttle_.ReportIfDue(run_, "curves: points", followed_++, arcs_);
       Arc& step = next_[at][i];
       step.used = true;
       for (const Vec2& q : RefineZeroArc(piece_, field_, Parameters(at), Parameters(step.to), tolerance_))
@@ -116,7 +116,7 @@ class PieceCurves {
   std::map<int, std::vector<Arc>> next_;
   std::map<int, int> arriving_;
   std::size_t arcs_ = 0, followed_ = 0;
-  Silence silence_;
+  ProgressThrottle throttle_;
 };
 
 bool OnPieceBorder(const SurfacePoint& p) { return p.u == 0.0 || p.u == 1.0 || p.v == 0.0 || p.v == 1.0; }

@@ -78,7 +78,7 @@ std::vector<double> ZeroVertices::Values(const std::vector<Vec2>& places, std::s
   std::vector<double> values(places.size());
   for (std::size_t from = 0; from < places.size(); from += kBetweenPolls) {
     if (run_ != nullptr && run_->Cancelled()) break;
-    if (run_ != nullptr) silence_.BreakIfTooLong(*run_, "cells", from, places.size());
+    if (run_ != nullptr) throttle_.ReportIfDue(*run_, "cells", from, places.size());
     const std::size_t count = std::min(kBetweenPolls, places.size() - from);
     jets.clear();
     for (std::size_t i = from; i < from + count; ++i)

@@ -44,7 +44,7 @@ class ZeroVertices {
   const Piece& piece_;
   std::span<const ZeroField> fields_;
   const RunContext* run_;
-  mutable Silence silence_;
+  mutable ProgressThrottle throttle_;
   std::vector<ZeroVertex> all_;
   absl::flat_hash_map<int, int> grid_;  // looked up, never walked
 };

@@ -102,7 +102,7 @@ bool HasUpright(const Piece& piece) {
 
 bool IsOpenToTheSky(const Surface& surface, const Vec3& p) {
   const double size = surface.box.Diagonal();
-  const Vec2 q = Plan(p);
+  const Vec2 q = Xy(p);
   return !AnyInColumn(surface, {q, q, kColumn * size}, p.z() + kOver * size, 0.1 * kColumn * size);
 }
 

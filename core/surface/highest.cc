@@ -32,7 +32,7 @@ class Search {
   // The column so much narrower has this point higher than so much more: no search can miss such a one.
   bool IsSure(const Vec3& p) const {
     return !TooLow(p.z() - rounding_) &&
-           (Plan(p) - NearestOnSegment(column_.a, column_.b, Plan(p))).norm() < reach_ - rounding_;
+           (Xy(p) - NearestOnSegment(column_.a, column_.b, Xy(p))).norm() < reach_ - rounding_;
   }
 
   std::optional<SurfacePoint> Run() {
@@ -137,13 +137,13 @@ class Search {
     Box3 box;
     for (int i = 0; i < count; ++i) box.Add(hull[static_cast<std::size_t>(i)]);
     if (TooLow(box.max.z())) return true;
-    const Vec2 center = Plan(Vec3(0.5 * (box.min + box.max)));
+    const Vec2 center = Xy(Vec3(0.5 * (box.min + box.max)));
     const Vec2 nearest = NearestOnSegment(column_.a, column_.b, center);
     const double distance = (center - nearest).norm();
     // The half plane behind `nearest` holds the segment: the distance to it is never more.
     const Vec2 away = distance > 0.0 ? Vec2((center - nearest) / distance) : Vec2::Zero();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      x[i] = (Plan(hull[i]) - nearest).dot(away) - reach_;
+      x[i] = (Xy(hull[i]) - nearest).dot(away) - reach_;
     }
     const Top inside = TopInside(x.data(), hull.data(), count);
     top = {std::min(top.z, inside.z), inside.at};
@@ -166,7 +166,7 @@ class Search {
 
   void Take(const SurfacePoint& at) {
     if (!(at.p.z() > known_)) return;
-    const Vec2 plan = Plan(at.p);
+    const Vec2 plan = Xy(at.p);
     if ((plan - NearestOnSegment(column_.a, column_.b, plan)).norm() >= column_.radius) return;
     known_ = at.p.z();
     best_ = at;
@@ -176,10 +176,10 @@ class Search {
   double TopOfBox(const SurfaceLeaf& leaf) const {
     const Vec3 center = leaf.center(), half = leaf.half();
     const Eigen::Matrix3d axis = leaf.axis();
-    const Vec2 nearest = NearestOnSegment(column_.a, column_.b, Plan(center));
-    const double distance = (Plan(center) - nearest).norm();
+    const Vec2 nearest = NearestOnSegment(column_.a, column_.b, Xy(center));
+    const double distance = (Xy(center) - nearest).norm();
     if (distance == 0.0) return kInfinity;
-    const Vec2 away = (Plan(center) - nearest) / distance;
+    const Vec2 away = (Xy(center) - nearest) / distance;
     const Vec3 rises = axis.row(2).transpose(), leaves = axis.transpose() * Lift(away, 0.0);
     const double x = distance - reach_;
     if (x - leaves.cwiseAbs().dot(half) >= 0.0) return -kInfinity;

@@ -209,8 +209,9 @@ struct Builder {
 std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const RunContext& run) {
   Builder builder{.run = run, .boxes = {}, .order = {}, .nodes = {}};
   if (boxes.empty()) return {};
-  if (!Grow(builder.boxes, boxes.size(), run).ok() || !Grow(builder.order, boxes.size(), run).ok() ||
-      !Grow(builder.nodes, 2 * boxes.size() - 1, run).ok()) {
+  if (!ResizePolling(builder.boxes, boxes.size(), run).ok() ||
+      !ResizePolling(builder.order, boxes.size(), run).ok() ||
+      !ResizePolling(builder.nodes, 2 * boxes.size() - 1, run).ok()) {
     return {};
   }
   std::transform(boxes.begin(), boxes.end(), builder.boxes.begin(),

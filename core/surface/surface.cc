@@ -202,12 +202,12 @@ absl::StatusOr<bool> MakeLeaves(const Surface& surface, Budget& budget, std::vec
     Leaves& batch = batches.emplace_back();
     batch.leaves.reserve(leaves);
     batch.boxes.reserve(leaves);
-    Silence silence;
+    ProgressThrottle throttle;
     for (std::size_t k = 0; k < here; ++k) {
       if (k % 64 == 0) PM_RETURN_IF_ERROR(budget.run.Check());
       batch.Append(parts[k]);
-      if (!silence.TooLong()) continue;
-      silence.Break();
+      if (!throttle.Due()) continue;
+      throttle.Report();
       budget.run.Progress(kStage, static_cast<double>(begin + here) / static_cast<double>(count));
     }
   }

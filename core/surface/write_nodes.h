@@ -20,7 +20,7 @@ absl::Status WriteNodes(const std::vector<SurfaceNode>& binary, const RunContext
                         std::vector<Node>& nodes) {
   PM_ASSIGN_OR_RETURN(const std::vector<FourChildren> all, Collapse(binary, run));
   run.Progress("bounds: boxes", 0.0);
-  PM_RETURN_IF_ERROR(Grow(nodes, all.size(), run));
+  PM_RETURN_IF_ERROR(ResizePolling(nodes, all.size(), run));
   return ParallelFor(run, "bounds: boxes", all.size(),
                      [&](std::size_t i) { SetBoxes(binary, all[i], nodes[i]); });
 }

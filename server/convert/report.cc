@@ -83,13 +83,13 @@ void SetChoice(const RegionChoice& choice, SlopeClass slope, const Vec3& zero, v
   }
   proto.set_strategy(ToProto(strategy));
   proto.set_scallop_mm(choice.scallop);
-  for (const RoundGround& round : choice.around) {
+  for (const CircularComponent& round : choice.around) {
     v1::Point2& center =
         proto.has_lines_around() ? *proto.add_more_lines_around() : *proto.mutable_lines_around();
     center.set_x_mm(round.lines.center.x() - zero.x());
     center.set_y_mm(round.lines.center.y() - zero.y());
   }
-  if (strategy != Strategy::kZigzag || choice.all_round) return;
+  if (strategy != Strategy::kZigzag || choice.all_circular) return;
   proto.set_zigzag_angle_deg(Degrees(choice.zigzag_angle));
   proto.set_one_way_lines(choice.one_way);
 }
@@ -281,7 +281,7 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   if (std::isfinite(from.min_concave_radius)) report.set_min_concave_radius_mm(from.min_concave_radius);
   report.set_estimated_time_s(Number(from.motion.time));
   report.set_time_basis("feeds only");
-  report.set_least_cut_length_mm(Number(from.least_feed));
+  report.set_least_cut_length_mm(Number(from.least_cut_length));
   report.set_point_count(from.point_count);
   report.set_retract_count(from.motion.retract_count);
   report.set_certificate_defect_count(static_cast<int>(from.certificate_defects));

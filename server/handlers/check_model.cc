@@ -80,7 +80,8 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
     }
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildSurface(std::move(network), SurfaceParams{}, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
-    PM_ASSIGN_OR_RETURN(ModelCheck check, CheckModel(surface, tool, ReachGive(job.operation.tolerance), run));
+    PM_ASSIGN_OR_RETURN(ModelCheck check,
+                        CheckModel(surface, tool, ReachTolerance(job.operation.tolerance), run));
     for (const Diagnostic& remark : Placed(model.remarks, job.setup.placement))
       check.findings.push_back(remark);
     if (model.unitless) check.findings.push_back(UnitFinding(check.box, tool));

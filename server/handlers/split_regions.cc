@@ -29,7 +29,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
                         BuildPlacedSurface(std::move(prepared.model.model), job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
     PM_ASSIGN_OR_RETURN(const ChosenRegions regions, PlanRegions(surface, job, run));
-    AddDiagnostics(IdleSettings(job.operation), resolved.program_zero, response->mutable_diagnostics());
+    AddDiagnostics(UnusedSettings(job.operation), resolved.program_zero, response->mutable_diagnostics());
     AddDiagnostics(job.model_remarks, resolved.program_zero, response->mutable_diagnostics());
     AddDiagnostics(surface.network.findings, resolved.program_zero, response->mutable_diagnostics());
     if (outputs.contains(v1::OUTPUT_REGIONS)) {

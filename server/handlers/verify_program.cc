@@ -118,7 +118,7 @@ absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
-  PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, JudgedParts(surface, job, resolved, run));
+  PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, VerifiedParts(surface, job, resolved, run));
   VerifyParams params = MakeVerifyParams(job, resolved, parts);
   if (!request.has_scallop_mm()) {
     params.scallop.reset();

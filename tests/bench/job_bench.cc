@@ -30,7 +30,8 @@ EnumArray<PassKind, double> LengthsByKind(const LinkResult& motion) {
   return lengths;
 }
 
-// mm: LeastFeed's integral over the steps across the passes that the ground gets, contours or its region's
+// mm: LeastCutLength's integral over the steps across the passes that the ground gets, contours or its
+// region's
 // lines (as if they did not bend), in place of the widest: what feed would be if passes cost nothing but what
 // the scallop asks for. The rest goes for their ends, for steps that are narrower than they need be, and
 // links.
@@ -79,15 +80,15 @@ void MeasureJob(benchmark::State& state, Part part) {
   const EnumArray<PassKind, double> lengths = LengthsByKind(result.motion);
   state.counters["moves"] = report.point_count;
   state.counters["feed_m"] = 1e-3 * report.verify.cut_length;
-  state.counters["over_least"] = report.verify.cut_length / report.least_feed;
+  state.counters["over_least"] = report.verify.cut_length / report.least_cut_length;
   if (const auto resolved = Resolve(SurfaceOf(part), job, RunContext()); resolved.ok()) {
     state.counters["directions_over_least"] =
-        FeedInItsDirections(SurfaceOf(part), job, result, resolved->plan_radius) / report.least_feed;
+        FeedInItsDirections(SurfaceOf(part), job, result, resolved->plan_radius) / report.least_cut_length;
   }
   state.counters["lines_m"] = lengths[PassKind::kZigzag];
   state.counters["contours_m"] = lengths[PassKind::kContour];
   state.counters["borders_m"] = lengths[PassKind::kBorder];
-  state.counters["rest_m"] = lengths[PassKind::kCrease] + lengths[PassKind::kRest];
+  state.counters["rest_m"] = lengths[PassKind::kPencil] + lengths[PassKind::kRest];
   state.counters["retracts"] = static_cast<double>(report.motion.retract_count);
   state.counters["program_MB"] = 1e-6 * static_cast<double>(result.program.size());
   for (const StageTime& stage : report.stages) state.counters["s_" + stage.name] = stage.seconds;

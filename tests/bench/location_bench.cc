@@ -26,7 +26,7 @@ struct Grid {
   int nx, ny;
 
   explicit Grid(const Surface& surface)
-      : origin(Plan(surface.box.min)),
+      : origin(Xy(surface.box.min)),
         nx(1 + static_cast<int>((surface.box.max.x() - surface.box.min.x()) / kGrid)),
         ny(1 + static_cast<int>((surface.box.max.y() - surface.box.min.y()) / kGrid)) {}
   Vec2 At(int i, int j) const { return origin + kGrid * Vec2(i, j); }

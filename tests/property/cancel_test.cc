@@ -48,11 +48,11 @@ void ExpectStops(const std::function<absl::Status(const RunContext&)>& work, int
   constexpr double kLatency = testing::kSanitized ? 3.0 : 0.2, kSilence = testing::kSanitized ? 10.0 : 0.5;
   const auto now = [] { return testing::ClockSeconds(CLOCK_THREAD_CPUTIME_ID); };
   const double start = now();
-  double reported = start, silence = 0.0;
+  double reported = start, throttle = 0.0;
   std::string stage = "the start", after;
   const auto report = [&](std::string_view at, double) {
-    if (now() - reported > silence) {
-      silence = now() - reported;
+    if (now() - reported > throttle) {
+      throttle = now() - reported;
       after = stage;
     }
     reported = now();
@@ -63,8 +63,8 @@ void ExpectStops(const std::function<absl::Status(const RunContext&)>& work, int
   ASSERT_TRUE(work(whole).ok());
   report("the end", 1.0);
   const double all = now() - start;
-  EXPECT_LE(silence, kSilence) << "nothing said after " << after;
-  ::testing::Test::RecordProperty("silence after " + after, std::to_string(silence));
+  EXPECT_LE(throttle, kSilence) << "nothing said after " << after;
+  ::testing::Test::RecordProperty("silence after " + after, std::to_string(throttle));
 
   if (testing::kSanitized) count = 2;
   int stopped = 0;
@@ -169,8 +169,8 @@ TEST(Cancel, Contours) {
   ExpectStops([&](const RunContext& run) { return ContourPaths(locator, params, run).status(); });
 }
 
-CoverageParams CoarseCoverage() {
-  CoverageParams params;
+RestPassParams CoarseCoverage() {
+  RestPassParams params;
   params.scallop = 0.05;
   params.limit = 0.06;
   return params;
@@ -179,7 +179,7 @@ CoverageParams CoarseCoverage() {
 TEST(Cancel, RestPasses) {
   const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
   const Locator locator(surface, 2.0);
-  const CoverageParams params = CoarseCoverage();
+  const RestPassParams params = CoarseCoverage();
   const Locator reach = *ReachLocator(locator, params, RunContext());
   ExpectStops([&](const RunContext& run) { return RestPaths(locator, reach, {}, params, run).status(); });
 }
@@ -187,7 +187,7 @@ TEST(Cancel, RestPasses) {
 TEST(Cancel, NeedlessPasses) {
   const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
   const Locator locator(surface, 2.0);
-  const CoverageParams params = CoarseCoverage();
+  const RestPassParams params = CoarseCoverage();
   const Locator reach = *ReachLocator(locator, params, RunContext());
   ZigzagParams lines;
   lines.scallop = params.scallop;
@@ -195,8 +195,9 @@ TEST(Cancel, NeedlessPasses) {
   lines.angle = 1.0;
   const std::vector<CutterPath> across = *ZigzagPaths(locator, lines, RunContext());
   paths.insert(paths.end(), across.begin(), across.end());
-  ExpectStops(
-      [&](const RunContext& run) { return WithoutNeedless(locator, reach, paths, {params}, run).status(); });
+  ExpectStops([&](const RunContext& run) {
+    return RemoveRedundantPasses(locator, reach, paths, {params}, run).status();
+  });
 }
 
 TEST(Cancel, Regions) {
@@ -245,7 +246,7 @@ TEST(Cancel, OneLeaf) {
   job.operation.scallop = 0.01;
   ExpectStops([&](const RunContext& run) { return RunJob(surface, job, run).status(); });
   const Locator locator(surface, 2.0);
-  const CoverageParams params = CoarseCoverage();
+  const RestPassParams params = CoarseCoverage();
   const Locator reach = *ReachLocator(locator, params, RunContext());
   ExpectStops([&](const RunContext& run) { return RestPaths(locator, reach, {}, params, run).status(); });
 }

@@ -55,7 +55,7 @@ TEST(FeedLength, TwoHillsBetweenTheLeastAndPlainLines) {
   job.operation.tolerance = 0.005;
   const JobResult result = Mill(surface, job);
   ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
-  const double least = result.report.least_feed, cut = result.report.verify.cut_length;
+  const double least = result.report.least_cut_length, cut = result.report.verify.cut_length;
   const double plain = PlainParallel(surface, 3.0, job.operation.scallop, 100.0);
   RecordProperty("least_mm", std::to_string(least));
   RecordProperty("cut_mm", std::to_string(cut));
@@ -77,7 +77,7 @@ TEST(FeedLength, TeapotNearTheLeast) {
   job.operation.contour_direction = CutDirection::kEither;
   const JobResult result = Mill(PlacedSurface(LoadModel("examples/teapot.bpt"), job.setup), job);
   ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
-  const double least = result.report.least_feed, cut = result.report.verify.cut_length;
+  const double least = result.report.least_cut_length, cut = result.report.verify.cut_length;
   std::printf("least %.0f mm, feed %.0f mm\n", least, cut);
   EXPECT_GT(cut, least);
   EXPECT_LT(cut, 1.1 * least);

@@ -30,7 +30,7 @@ void ExpectSameHeights(const PatchModel& model, double radius, std::uint64_t see
       continue;
     }
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto h = locator.Height(places[i] + Plan(way.shift));
+      const auto h = locator.Height(places[i] + Xy(way.shift));
       ASSERT_EQ(h.has_value(), heights[i].has_value()) << places[i].transpose();
       if (h) {
         EXPECT_NEAR(h->z - way.shift.z(), *heights[i], 1e-9) << places[i].transpose();

@@ -31,7 +31,7 @@ std::vector<double> Places(const JobResult& result, PassKind kind, double angle)
     double place = across.dot(c);
     if (around) {
       place = 0.0;
-      for (const CutterPoint& p : path.points) place = std::max(place, (Plan(p.center) - *around).norm());
+      for (const CutterPoint& p : path.points) place = std::max(place, (Xy(p.center) - *around).norm());
     }
     all.push_back(kind == PassKind::kContour ? c.z() : place);
   }

@@ -35,7 +35,7 @@ HeightOracle::HeightOracle(const PatchModel& model, double radius, int samples)
 
 double HeightOracle::Value(const Vec2& q, int patch, double u, double v) const {
   const Vec3 p = Position(model_.patches[static_cast<std::size_t>(patch)].shape, u, v);
-  const double rim = radius_ * radius_ - (Plan(p) - q).squaredNorm();
+  const double rim = radius_ * radius_ - (Xy(p) - q).squaredNorm();
   return rim >= 0.0 ? p.z() + std::sqrt(rim) : -kInfinity;
 }
 
@@ -73,7 +73,7 @@ HeightOracle::Answer HeightOracle::Height(const Vec2& q) const {
   };
   std::vector<Hit> hits;
   for (const Sample& s : samples_) {
-    const double rim = radius_ * radius_ - (Plan(s.p) - q).squaredNorm();
+    const double rim = radius_ * radius_ - (Xy(s.p) - q).squaredNorm();
     if (rim >= 0.0) hits.push_back({s.p.z() + std::sqrt(rim), &s});
   }
   Answer answer;

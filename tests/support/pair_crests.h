@@ -139,7 +139,8 @@ inline std::vector<PairOfPasses> CrestsOfPairs(const Surface& surface, const std
         Place last = at(0.0, other);
         for (int k = 1; k <= steps; ++k) {
           Place next = at(double(k) / steps, other);
-          if (last.near && next.near && paths[last.near->path].line != paths[next.near->path].line) {
+          if (last.near && next.near &&
+              paths[last.near->path].order_key != paths[next.near->path].order_key) {
             double from = double(k - 1) / steps, to = double(k) / steps;
             Place low = last, high = next;
             for (int i = 0; i < 16; ++i) {

@@ -25,20 +25,20 @@ inline BallDistances DistancesOf(const Surface& surface, const Vec3& c) {
 // Of the ball of one radius that touches p. nullopt within what planner and verifier may be off of a limit:
 // 0.04 of the give, 0.002 of the radius.
 inline std::optional<Blocked> WhatBlocks(const Surface& surface, const Vec3& p, const Vec3& e, double radius,
-                                         double give) {
+                                         double reach_tolerance) {
   const auto [ray, ball] = DistancesOf(surface, p + radius * e);
-  const double free = ray - (radius - give), clears = ball - (radius - 0.5 * give),
+  const double free = ray - (radius - reach_tolerance), clears = ball - (radius - 0.5 * reach_tolerance),
                nearer = ball - 0.02 * radius - ray;
-  if (std::abs(free) < 0.04 * give) return std::nullopt;
+  if (std::abs(free) < 0.04 * reach_tolerance) return std::nullopt;
   if (free > 0.0) return Blocked::kNot;
-  if (std::abs(nearer) < 0.002 * radius || std::abs(clears) < 0.06 * give) return std::nullopt;
+  if (std::abs(nearer) < 0.002 * radius || std::abs(clears) < 0.06 * reach_tolerance) return std::nullopt;
   return nearer > 0.0 || clears > 0.0 ? Blocked::kAbove : Blocked::kByItself;
 }
 
 // Whether something stands above the least ball.
 inline std::optional<bool> StandsAboveLeast(const Surface& surface, const Vec3& p, const Vec3& e,
-                                            double give) {
-  const double radius = LeastBall(give);
+                                            double reach_tolerance) {
+  const double radius = SmallestBallRadius(reach_tolerance);
   const auto [ray, ball] = DistancesOf(surface, p + radius * e);
   const double least = std::min(0.5 * radius - ray, ball - 0.02 * radius - ray);
   return std::abs(least) < 0.002 * radius ? std::nullopt : std::optional(least > 0.0);
@@ -46,10 +46,10 @@ inline std::optional<bool> StandsAboveLeast(const Surface& surface, const Vec3& 
 
 // UNDERCUT is kAbove, CONCAVE kByItself.
 inline std::optional<Blocked> ReachByDefinition(const Surface& surface, const Vec3& p, const Vec3& e,
-                                                double radius, double give) {
-  const auto tool = WhatBlocks(surface, p, e, radius, give);
+                                                double radius, double reach_tolerance) {
+  const auto tool = WhatBlocks(surface, p, e, radius, reach_tolerance);
   if (tool != Blocked::kByItself) return tool;
-  const auto above = StandsAboveLeast(surface, p, e, give);
+  const auto above = StandsAboveLeast(surface, p, e, reach_tolerance);
   if (!above) return std::nullopt;
   return *above ? Blocked::kAbove : Blocked::kByItself;
 }

@@ -72,7 +72,7 @@ class Oracle {
           const Vec2 q(static_cast<double>(i) / nu, static_cast<double>(j) / nv);
           if (IsTriangle(shape) && q.sum() > 1.0 + 1e-12) continue;
           const Vec3 p = At(shape, Clamped(shape, q));
-          cells_[Cell(Plan(p))].push_back({p, static_cast<int>(k), q.x(), q.y()});
+          cells_[Cell(Xy(p))].push_back({p, static_cast<int>(k), q.x(), q.y()});
         }
       }
       steps_.emplace_back(1.0 / nu, 1.0 / nv);
@@ -106,7 +106,7 @@ class Oracle {
     std::vector<Hit> hits;
     for (int i = -1; i <= 1; ++i) {
       for (int j = -1; j <= 1; ++j) {
-        const auto cell = cells_.find(Cell(Plan(c) + radius_ * Vec2(i, j)));
+        const auto cell = cells_.find(Cell(Xy(c) + radius_ * Vec2(i, j)));
         if (cell == cells_.end()) continue;
         for (const Sample& s : cell->second) {
           const double distance = Distance(s.p, c);

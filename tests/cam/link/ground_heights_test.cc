@@ -14,22 +14,22 @@ namespace {
 using testing::Random;
 
 // Never below the ground near the rectangle, and not above what stands within two squares more.
-TEST(GroundHeights, BoundTheGroundOverRectangles) {
+TEST(SurfaceHeights, BoundTheGroundOverRectangles) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const Surface surface = testing::SurfaceOf(testing::RandomBspline(seed));
     const double beside = 2.0;
-    const GroundHeights ground(surface, beside);
+    const SurfaceHeights ground(surface, beside);
     std::vector<Vec3> points;
     Random random(seed);
     for (int i = 0; i < 20000; ++i) {
       const auto piece = static_cast<std::size_t>(random.Uniform(0, 0.999999) * surface.pieces.size());
       points.push_back(Position(surface.pieces[piece], random.Uniform(0, 1), random.Uniform(0, 1)));
     }
-    const Vec2 size = Plan(surface.box.max - surface.box.min);
+    const Vec2 size = Xy(surface.box.max - surface.box.min);
     const double square = (size.maxCoeff() + 2.0 * beside) / 64.0;
     double leaf = 0.0;  // a leaf counts as a whole
     for (const SurfaceNode& node : surface.nodes) {
-      if (node.leaf >= 0) leaf = std::max(leaf, Plan(node.box.max - node.box.min).maxCoeff());
+      if (node.leaf >= 0) leaf = std::max(leaf, Xy(node.box.max - node.box.min).maxCoeff());
     }
     for (int k = 0; k < 200; ++k) {
       const Vec2 a(random.Uniform(-5, 45), random.Uniform(-5, 45)),
@@ -38,7 +38,7 @@ TEST(GroundHeights, BoundTheGroundOverRectangles) {
       const auto highest = [&](double margin) {
         double z = -kInfinity;
         for (const Vec3& p : points) {
-          if ((Plan(p) - Plan(p).cwiseMax(low).cwiseMin(high)).cwiseAbs().maxCoeff() <= margin)
+          if ((Xy(p) - Xy(p).cwiseMax(low).cwiseMin(high)).cwiseAbs().maxCoeff() <= margin)
             z = std::max(z, p.z());
         }
         return z;
@@ -55,11 +55,11 @@ TEST(GroundHeights, BoundTheGroundOverRectangles) {
   }
 }
 
-TEST(GroundHeights, NothingStandsBesideThePart) {
+TEST(SurfaceHeights, NothingStandsBesideThePart) {
   const Surface surface = testing::SurfaceOf(testing::Join(
       {testing::Plane(5),
        testing::Transformed(testing::Plane(5, 2), Eigen::Affine3d(Eigen::Translation3d(90, 0, 0)))}));
-  const GroundHeights ground(surface, 1.0);
+  const SurfaceHeights ground(surface, 1.0);
   EXPECT_EQ(ground.HighestOver({30, -1}, {60, 1}), -kInfinity);
   EXPECT_EQ(ground.HighestOver({-2, -1}, {2, 1}), 0.0);
   EXPECT_EQ(ground.HighestOver({-2, -1}, {90, 1}), 2.0);

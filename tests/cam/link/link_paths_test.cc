@@ -29,7 +29,7 @@ Surface Build(const PatchModel& model) {
 CutterPath Line(const Locator& locator, int line, const Vec2& a, const Vec2& b) {
   CutterPath path;
   path.kind = PassKind::kZigzag;
-  path.line = line;
+  path.order_key = line;
   const int n = static_cast<int>((b - a).norm() / 0.2);
   for (int i = 0; i <= n; ++i) {
     const Vec2 q = a + (b - a) * i / n;
@@ -44,7 +44,7 @@ CutterPath Line(const Locator& locator, int line, const Vec2& a, const Vec2& b) 
 CutterPath Circle(const Surface& surface, int line, double r, double z) {
   CutterPath path;
   path.kind = PassKind::kContour;
-  path.line = line;
+  path.order_key = line;
   path.closed = true;
   const double rho = std::sqrt((r + kRadius) * (r + kRadius) - z * z);
   for (int i = 0; i < 120; ++i) {
@@ -89,7 +89,7 @@ void CheckMotion(const Surface& surface, const LinkResult& result, const LinkPar
       }
     }
     if (moves[i].kind != MoveKind::kRapid) {
-      const double descent = std::atan2(-d.z(), Plan(d).norm());
+      const double descent = std::atan2(-d.z(), Xy(d).norm());
       EXPECT_EQ(moves[i].feed, descent > params.plunge_angle ? params.plunge_feed : params.feed)
           << "move " << i;
     }
@@ -118,10 +118,10 @@ TEST(LinkPaths, LinksGoAroundLimitsThatBend) {
   for (int k = 0; k < 96; ++k) round.push_back({std::cos(2.0 * kPi * k / 96), std::sin(2.0 * kPi * k / 96)});
   Containment containment;
   containment.obstacles.push_back({"clamp", Outline({round}), 30.0, 0.0});
-  const KeepInParams limits{.ball_radius = kRadius, .tool_radius = kRadius};
-  const KeepIn keep_in = *KeepIn::Make(surface, containment, limits, RunContext());
+  const OperationLimitsParams limits{.ball_radius = kRadius, .tool_radius = kRadius};
+  const OperationLimits operation_limits = *OperationLimits::Make(surface, containment, limits, RunContext());
   LinkParams params = Params();
-  params.keep_in = &keep_in;
+  params.operation_limits = &operation_limits;
   const RunContext run;
   const LinkMaker maker(locator, stock, params, run);
   const double keep = 1.0 + kRadius;
@@ -139,7 +139,7 @@ TEST(LinkPaths, LinksGoAroundLimitsThatBend) {
       for (const Move& move : *moves) {
         // The polygon of 96 sides is 5e-4 within its circle.
         for (int k = 0; k <= 20; ++k)
-          EXPECT_GE(Plan(Vec3(from + (move.to - from) * k / 20.0)).norm(),
+          EXPECT_GE(Xy(Vec3(from + (move.to - from) * k / 20.0)).norm(),
                     keep - 0.5 * limits.tolerance - 1e-3);
         from = move.to;
       }
@@ -172,7 +172,7 @@ TEST(LinkPaths, ShortPassesAreCutOnTheWay) {
       const CutterPath& pass = result->passes[i];
       if (pass.kind != PassKind::kRest) continue;
       for (const CutterPoint& p : pass.points)
-        if ((Plan(p.center) - q).norm() < 0.3) return i;
+        if ((Xy(p.center) - q).norm() < 0.3) return i;
     }
     return std::size_t{99};
   };
@@ -230,16 +230,16 @@ TEST(LinkPaths, ContoursThatALimitCutsOffAreEnteredFromBesideTheWall) {
                                        Outline({Ring{side - 30.0 * along, back - 30.0 * along,
                                                      back + 30.0 * along, side + 30.0 * along}}),
                                        200.0, 0.0});
-      const KeepInParams limits{.ball_radius = kRadius, .tool_radius = kRadius};
-      const KeepIn keep_in = *KeepIn::Make(surface, containment, limits, run);
-      params.keep_in = &keep_in;
+      const OperationLimitsParams limits{.ball_radius = kRadius, .tool_radius = kRadius};
+      const OperationLimits operation_limits = *OperationLimits::Make(surface, containment, limits, run);
+      params.operation_limits = &operation_limits;
       std::vector<Move> moves;
       LinkMaker(locator, stock, params, run).Approach(end, moves);
       ASSERT_GE(moves.size(), 2u);
       ASSERT_EQ(moves.back().kind, MoveKind::kLead) << degrees;
       const Vec3& beside = moves[moves.size() - 2].to;
       EXPECT_GE(beside.x(), 0.99 * depth) << degrees;
-      EXPECT_LE(beyond.dot(Plan(beside)), 1e-3 + 0.5 * limits.tolerance) << degrees;
+      EXPECT_LE(beyond.dot(Xy(beside)), 1e-3 + 0.5 * limits.tolerance) << degrees;
     }
   }
 }
@@ -260,7 +260,7 @@ TEST(LinkPaths, FarPassesRetractAndConventionalTurnsContours) {
   const auto& loop = result->passes.front().points;
   double area = 0.0;
   for (std::size_t i = 0; i < loop.size(); ++i)
-    area += Cross(Plan(loop[i].center), Plan(loop[(i + 1) % loop.size()].center));
+    area += Cross(Xy(loop[i].center), Xy(loop[(i + 1) % loop.size()].center));
   EXPECT_GT(area, 0.0) << "conventional runs counter-clockwise around a mountain";
 }
 

@@ -35,7 +35,7 @@ double Ground(double x, double y) {
 
 std::size_t FeatureOf(const CutterPath& path) {
   Vec2 middle = Vec2::Zero();
-  for (const CutterPoint& p : path.points) middle += Plan(p.center) / static_cast<double>(path.points.size());
+  for (const CutterPoint& p : path.points) middle += Xy(p.center) / static_cast<double>(path.points.size());
   const auto nearer = [&](const Feature& a, const Feature& b) {
     return (a.at - middle).norm() < (b.at - middle).norm();
   };
@@ -114,8 +114,7 @@ TEST_F(OrderOfParts, EachFromTheTop) {
     if (feature != FeatureOf(*contours[i - 1])) continue;
     const Vec3 before = contours[i - 1]->points.front().center, now = contours[i]->points.front().center;
     EXPECT_LE(now.z(), before.z()) << i;
-    const double out =
-        (Plan(now) - kFeatures[feature].at).norm() - (Plan(before) - kFeatures[feature].at).norm();
+    const double out = (Xy(now) - kFeatures[feature].at).norm() - (Xy(before) - kFeatures[feature].at).norm();
     if (now.z() < before.z() - 1e-3) {
       EXPECT_GT(kFeatures[feature].height > 0 ? out : -out, 0.0) << i;
     }
@@ -140,7 +139,7 @@ TEST_F(OrderOfParts, CapThenFlankThenGroundThenWallThenFloor) {
     } else {
       double near = kInfinity, far = 0.0;
       for (const CutterPoint& p : ordered_[i].points) {
-        const double distance = (Plan(p.center) - kFeatures[feature].at).norm();
+        const double distance = (Xy(p.center) - kFeatures[feature].at).norm();
         near = std::min(near, distance);
         far = std::max(far, distance);
       }
@@ -217,7 +216,7 @@ TEST_F(OrderOfParts, LinesGoToAndFro) {
   std::size_t jumps = 0;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const Vec3 gap = lines[i]->points.front().center - lines[i - 1]->points.back().center;
-    jumps += Plan(gap).norm() > 6.0 * Step();
+    jumps += Xy(gap).norm() > 6.0 * Step();
   }
   EXPECT_LE(jumps, lines.size() / 8) << lines.size();
 }

@@ -18,7 +18,7 @@ using testing::Random;
 CutterPath Path(PassKind kind, int line, std::vector<Vec3> centers, bool closed = false) {
   CutterPath path;
   path.kind = kind;
-  path.line = line;
+  path.order_key = line;
   path.closed = closed;
   for (const Vec3& c : centers) path.points.push_back({c, std::nullopt, std::nullopt});
   return path;
@@ -41,7 +41,7 @@ TEST(OrderPasses, ZigzagLinesGoToAndFro) {
   const auto out = Ordered(lines, {});
   ASSERT_EQ(out.size(), 6u);
   for (int i = 0; i < 6; ++i) {
-    EXPECT_EQ(out[static_cast<std::size_t>(i)].line, i);
+    EXPECT_EQ(out[static_cast<std::size_t>(i)].order_key, i);
     EXPECT_EQ(out[static_cast<std::size_t>(i)].points.front().center.x(), i % 2 == 0 ? 0.0 : 30.0);
   }
 }
@@ -55,7 +55,7 @@ TEST(OrderPasses, EachMountainIsCutFromTheTopBeforeTheNext) {
   const auto out = Ordered(loops, {});
   ASSERT_EQ(out.size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_EQ(out[i].line, static_cast<int>(i % 5));
+    EXPECT_EQ(out[i].order_key, static_cast<int>(i % 5));
     EXPECT_EQ(out[i].points.front().center.x() < 20, out[i < 5 ? 0 : 5].points.front().center.x() < 20);
   }
   EXPECT_NE(out[0].points.front().center.x() < 20, out[5].points.front().center.x() < 20);
@@ -77,7 +77,7 @@ TEST(OrderPasses, EachBasinIsCutFromTheTopInwards) {
   const auto out = Ordered(loops, {});
   ASSERT_EQ(out.size(), 12u);
   for (std::size_t i = 0; i < 12; ++i) {
-    EXPECT_EQ(out[i].line, static_cast<int>(i % 6));
+    EXPECT_EQ(out[i].order_key, static_cast<int>(i % 6));
     const auto pit = [&](std::size_t k) { return out[k].points.front().center.x() > 30.0; };
     EXPECT_EQ(pit(i), pit(i < 6 ? 0 : 6));
     if (i % 6 == 0) continue;
@@ -100,10 +100,10 @@ TEST(OrderPasses, BranchesAreCutBeforeWhatTheyJoin) {
   ASSERT_EQ(out.size(), 9u);
   // One peak, the other, then around both.
   const auto peak = [&](std::size_t i) {
-    return out[i].line > 2 ? 2 : out[i].points.front().center.x() > 6.0 ? 1 : 0;
+    return out[i].order_key > 2 ? 2 : out[i].points.front().center.x() > 6.0 ? 1 : 0;
   };
   for (std::size_t i = 0; i < out.size(); ++i) {
-    EXPECT_EQ(out[i].line, static_cast<int>(i < 6 ? i % 3 : i - 3)) << i;
+    EXPECT_EQ(out[i].order_key, static_cast<int>(i < 6 ? i % 3 : i - 3)) << i;
     EXPECT_EQ(peak(i), peak(i / 3 * 3)) << i;
   }
   EXPECT_NE(peak(0), peak(3));
@@ -126,7 +126,7 @@ TEST(OrderPasses, PitsBelowOneRimAreCutOneAfterTheOther) {
   std::vector<int> parts;
   for (const CutterPath& path : out) {
     const double x = 0.5 * (path.points[0].center.x() + path.points[1].center.x());
-    const int part = x > 60.0 ? 3 : path.line < 3 ? 0 : x < 0.0 ? 1 : 2;
+    const int part = x > 60.0 ? 3 : path.order_key < 3 ? 0 : x < 0.0 ? 1 : 2;
     if (parts.empty() || parts.back() != part) parts.push_back(part);
   }
   EXPECT_EQ(parts.size(), 4u);
@@ -168,13 +168,13 @@ TEST(OrderPasses, NoLevelRunsAheadOfWhatItTouches) {
     ASSERT_EQ(out.size(), loops.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
       for (std::size_t j = i + 1; j < out.size(); ++j) {
-        const int down = out[i].line - out[j].line;
+        const int down = out[i].order_key - out[j].order_key;
         if (down < 1 || down > 2) continue;
         // j is above i and cut later: they may not touch.
         double nearest = kInfinity;
         for (const CutterPoint& p : out[i].points) {
           for (const CutterPoint& q : out[j].points)
-            nearest = std::min(nearest, (Plan(p.center) - Plan(q.center)).norm());
+            nearest = std::min(nearest, (Xy(p.center) - Xy(q.center)).norm());
         }
         EXPECT_GT(nearest, 3.0) << round;
       }
@@ -224,12 +224,12 @@ TEST(OrderPasses, ContoursKeepTheirDirectionUnlessFree) {
 TEST(OrderPasses, SteepBeforeGentleBeforeRest) {
   const auto out = Ordered(
       {Path(PassKind::kRest, 0, {{0, 0, 0}, {1, 0, 0}}), Path(PassKind::kZigzag, 0, {{0, 0, 0}, {1, 0, 0}}),
-       Path(PassKind::kCrease, 0, {{0, 0, 0}, {1, 0, 0}}), Square(0, 0, 0)},
+       Path(PassKind::kPencil, 0, {{0, 0, 0}, {1, 0, 0}}), Square(0, 0, 0)},
       {});
   ASSERT_EQ(out.size(), 4u);
   EXPECT_EQ(out[0].kind, PassKind::kContour);
   EXPECT_EQ(out[1].kind, PassKind::kZigzag);
-  EXPECT_EQ(out[2].kind, PassKind::kCrease);
+  EXPECT_EQ(out[2].kind, PassKind::kPencil);
   EXPECT_EQ(out[3].kind, PassKind::kRest);
 }
 

@@ -66,13 +66,13 @@ Vec2 RandomPlace(const Surface& surface, double radius, Random& random) {
   if (kind <= 2) {
     (random.Int(2) == 0 ? u : v) = random.Int(2);
     const double distance = kind == 1 ? tiny : radius + tiny;
-    return Plan(Position(piece, u, v)) + distance * direction;
+    return Xy(Position(piece, u, v)) + distance * direction;
   }
   SurfaceJet jet = Evaluate(piece, u, v);
   if (kind == 4) jet = Silhouette(piece, random).value_or(jet);
   const Vec3 n = jet.du.cross(jet.dv);
-  if (!(n.norm() > 0.0)) return Plan(jet.p);
-  return Plan(jet.p) + (radius + tiny) / n.norm() * Plan(n);
+  if (!(n.norm() > 0.0)) return Xy(jet.p);
+  return Xy(jet.p) + (radius + tiny) / n.norm() * Xy(n);
 }
 
 struct Tally {

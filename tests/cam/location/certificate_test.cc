@@ -55,7 +55,7 @@ void Fuzz(const PatchModel& model, double radius, int count, std::uint64_t seed,
       const double phi = random.Uniform(0, 2 * kPi), tiny = std::pow(10.0, random.Uniform(-9.0, -1.0));
       const double sign = random.Int(2) == 0 ? 1.0 : -1.0;
       const double distance = i % 3 == 1 ? tiny : radius + sign * tiny;
-      Query(locator, Plan(p) + distance * Vec2(std::cos(phi), std::sin(phi)), eps, tally);
+      Query(locator, Xy(p) + distance * Vec2(std::cos(phi), std::sin(phi)), eps, tally);
     }
     if (::testing::Test::HasFatalFailure()) return;
   }
@@ -169,7 +169,7 @@ TEST(Certificate, HeightIsTheMaximumOverNeighboursContacts) {
       const Vec2 b = a + Vec2(random.Uniform(-2, 2), random.Uniform(-2, 2));
       const auto ha = locator.Height(a), hb = locator.Height(b);
       ASSERT_TRUE(ha.has_value());
-      const double rim = r * r - (Plan(ha->contact.p) - b).squaredNorm();
+      const double rim = r * r - (Xy(ha->contact.p) - b).squaredNorm();
       if (rim < 0.0) continue;
       ASSERT_TRUE(hb.has_value());
       EXPECT_GE(hb->z, ha->contact.p.z() + std::sqrt(rim) - 1e-9);

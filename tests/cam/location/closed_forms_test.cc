@@ -229,7 +229,7 @@ TEST(ClosedForms, SaddleAtItsPointAndOnItsAxes) {
     const double x = random.Uniform(-15, 15), y = random.Uniform(-15, 15);
     const Vec3 n = Vec3(-2 * a * x, 2 * b * y, 1).normalized();
     const Vec3 c = Vec3(x, y, a * x * x - b * y * y) + r * n;
-    ExpectHeight(locator, Plan(c), c.z());
+    ExpectHeight(locator, Xy(c), c.z());
   }
 }
 

@@ -236,9 +236,9 @@ TEST(SweptGouge, AgreesWithSampledPoints) {
       const Vec3 b(random.Uniform(0, 40), random.Uniform(0, 40), random.Uniform(2, 7));
       double sampled = 0.0;
       for (const Vec3& p : points) {  // nearest of many points of the swept set, in place of a formula
-        const Vec2 d = Plan(b) - Plan(a);
-        const double t0 = std::clamp((Plan(p) - Plan(a)).dot(d) / d.squaredNorm(), 0.0, 1.0);
-        if ((Plan(a) + t0 * d - Plan(p)).norm() > r) continue;
+        const Vec2 d = Xy(b) - Xy(a);
+        const double t0 = std::clamp((Xy(p) - Xy(a)).dot(d) / d.squaredNorm(), 0.0, 1.0);
+        if ((Xy(a) + t0 * d - Xy(p)).norm() > r) continue;
         double nearest = kInfinity;
         for (int k = -40; k <= 40; ++k) {
           const double t = std::clamp(t0 + k * 0.5 * r / 40.0 / d.norm(), 0.0, 1.0);

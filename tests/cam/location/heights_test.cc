@@ -63,8 +63,8 @@ std::vector<Case> Cases() {
 
 // A grid of rows beyond all borders, `count` squared.
 void AddGrid(const Surface& surface, double radius, int count, std::vector<Vec2>& places) {
-  const Vec2 low = Plan(surface.box.min) - Vec2::Constant(1.3 * radius);
-  const Vec2 step = (Plan(surface.box.max) + Vec2::Constant(1.3 * radius) - low) / (count - 1);
+  const Vec2 low = Xy(surface.box.min) - Vec2::Constant(1.3 * radius);
+  const Vec2 step = (Xy(surface.box.max) + Vec2::Constant(1.3 * radius) - low) / (count - 1);
   for (int j = 0; j < count; ++j) {
     for (int i = 0; i < count; ++i) places.push_back(low + step.cwiseProduct(Vec2(i, j)));
   }
@@ -83,7 +83,7 @@ void AddBorderPlaces(const Surface& surface, double radius, int count, std::vect
     const double phi = random.Uniform(0, 2 * kPi), tiny = std::pow(10.0, random.Uniform(-9.0, -1.0));
     const double sign = random.Int(2) == 0 ? 1.0 : -1.0;
     const double distance = k % 3 == 0 ? tiny : radius + sign * tiny;
-    places.push_back(Plan(p) + distance * Vec2(std::cos(phi), std::sin(phi)));
+    places.push_back(Xy(p) + distance * Vec2(std::cos(phi), std::sin(phi)));
   }
 }
 
@@ -97,7 +97,7 @@ void AddRestingPlaces(const Surface& surface, double radius, int count, std::vec
     for (int i = 0; i < 10; ++i) {
       const SurfaceJet jet = Evaluate(surface.pieces[static_cast<std::size_t>(at)], 0.1 * i, v);
       const Vec3 n = jet.du.cross(jet.dv);
-      if (n.norm() > 0.0) places.push_back(Plan(jet.p) + radius / n.norm() * Plan(n));
+      if (n.norm() > 0.0) places.push_back(Xy(jet.p) + radius / n.norm() * Xy(n));
     }
   }
 }
@@ -190,7 +190,7 @@ TEST(Heights, AreThoseOfOnePlaceAtATime) {
       // The contact is on the surface, and the ball at that height touches it.
       const SurfacePoint& p = answers[k]->contact;
       ASSERT_LE((Position(surface.piece(p.piece), p.u, p.v) - p.p).norm(), 1e-9);
-      const double rim2 = c.radius * c.radius - (Plan(p.p) - places[k]).squaredNorm();
+      const double rim2 = c.radius * c.radius - (Xy(p.p) - places[k]).squaredNorm();
       ASSERT_NEAR(p.p.z() + std::sqrt(std::max(0.0, rim2)), answers[k]->z, 1e-12 * surface.scale);
     }
     EXPECT_GT(found, 100);

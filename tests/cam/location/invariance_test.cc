@@ -124,7 +124,7 @@ TEST(Invariance, TranslationAndRotationAboutZ) {
     const Vec3 shift(137.25, -41.5, 12.75);
     const Surface moved =
         SurfaceOf(testing::Transformed(model, Eigen::Affine3d(Eigen::Translation3d(shift))));
-    ExpectSameHeights(locator, Locator(moved, 2.5), Plan(shift), shift.z(), 6);
+    ExpectSameHeights(locator, Locator(moved, 2.5), Xy(shift), shift.z(), 6);
 
     const double angle = 0.7;
     const Surface turned =

@@ -54,22 +54,22 @@ void ExpectOneAnswer(const Surface& surface, std::optional<WideShank> shank) {
   for (std::size_t n = 0; n < all.size(); ++n) {
     const Containment& limits = all[n];
     SCOPED_TRACE(n);
-    const auto keep_in = KeepIn::Make(
+    const auto operation_limits = OperationLimits::Make(
         surface, limits,
         {.ball_radius = kBall, .tool_radius = kShank, .shank = shank, .tolerance = kTolerance}, RunContext());
-    ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+    ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
     for (int i = 0; i < 400; ++i) {
       const Vec2 q(random.Uniform(-20, 20), random.Uniform(-20, 20));
-      const auto heights = keep_in->HeightsOver(q, 0.1 * kTolerance);
+      const auto heights = operation_limits->HeightsOver(q, 0.1 * kTolerance);
       for (int k = 0; k < 8; ++k) {
         const double z = random.Uniform(-5, 25);
-        const bool is = keep_in->Allows(Lift(q, z));
+        const bool is = operation_limits->Allows(Lift(q, z));
         ++(is ? allowed : forbidden);
         const double around = random.Uniform(0.0, 3.0);
-        if (keep_in->Forbids(Lift(q, z), around)) {
+        if (operation_limits->Forbids(Lift(q, z), around)) {
           ++balls;
           const Vec3 way(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
-          EXPECT_FALSE(keep_in->Allows(Lift(q, z) + 0.99 * around * way.normalized()));
+          EXPECT_FALSE(operation_limits->Allows(Lift(q, z) + 0.99 * around * way.normalized()));
         }
         if (!heights) {
           EXPECT_FALSE(is) << q.transpose() << " " << z;
@@ -88,22 +88,24 @@ void ExpectOneAnswer(const Surface& surface, std::optional<WideShank> shank) {
   EXPECT_GT(balls, 1000);
 }
 
-TEST(KeepIn, HeightsOverAColumnAreThoseOfItsCentres) { ExpectOneAnswer(Part(), std::nullopt); }
+TEST(OperationLimits, HeightsOverAColumnAreThoseOfItsCentres) { ExpectOneAnswer(Part(), std::nullopt); }
 
-TEST(KeepIn, HeightsUnderAWideShankAreThoseOfItsCentres) { ExpectOneAnswer(Part(), WideShank{kShank, 4.0}); }
+TEST(OperationLimits, HeightsUnderAWideShankAreThoseOfItsCentres) {
+  ExpectOneAnswer(Part(), WideShank{kShank, 4.0});
+}
 
 // Flutes longer than the part is high: nothing more is asked.
-TEST(KeepIn, LongFlutesLimitNothing) {
+TEST(OperationLimits, LongFlutesLimitNothing) {
   const Surface surface = Part();
   const Containment none;
   const double height = surface.box.max.z() - surface.box.min.z();
   for (const double rise : {height - 0.1, height + 0.1}) {
-    const auto keep_in = KeepIn::Make(
+    const auto operation_limits = OperationLimits::Make(
         surface, none, {.ball_radius = kBall, .tool_radius = kShank, .shank = WideShank{kShank, rise}},
         RunContext());
-    ASSERT_TRUE(keep_in.ok()) << keep_in.status();
-    EXPECT_EQ(keep_in->HasShank(), rise < height);
-    EXPECT_EQ(keep_in->AllowsAll(), rise > height);
+    ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
+    EXPECT_EQ(operation_limits->HasShank(), rise < height);
+    EXPECT_EQ(operation_limits->AllowsAll(), rise > height);
   }
 }
 

@@ -52,7 +52,7 @@ void Compare(const PatchModel& model, double radius, int samples, int queries, s
     // The contact is on the surface and touches the ball.
     const SurfacePoint& c = h->contact;
     EXPECT_LE((Position(surface.piece(c.piece), c.u, c.v) - c.p).norm(), 1e-9);
-    EXPECT_NEAR(c.p.z() + std::sqrt(std::max(0.0, radius * radius - (Plan(c.p) - q).squaredNorm())), h->z,
+    EXPECT_NEAR(c.p.z() + std::sqrt(std::max(0.0, radius * radius - (Xy(c.p) - q).squaredNorm())), h->z,
                 1e-9);
   }
 }

@@ -21,7 +21,7 @@ constexpr double kRadius = 5.0, kRise = 12.0, kProof = 1e-3;  // the shank
 // How deep the block and the plate under it stand in the shank over c; below 0 how far they are from it.
 double Depth(const Vec3& c, double keep) {
   const double radius = kRadius + keep, bottom = c.z() + kRise - keep;
-  const double beside = (Plan(c).cwiseAbs().array() - kHalf).max(0.0).matrix().norm();
+  const double beside = (Xy(c).cwiseAbs().array() - kHalf).max(0.0).matrix().norm();
   const double block = std::min(radius - beside, kTop - bottom);
   return std::max(block, std::min(radius, 0.0 - bottom));
 }
@@ -38,9 +38,9 @@ TEST_P(ShankOverABlock, CentresMovesAndBalls) {
   int clear = 0, hit = 0, forbidden = 0;
   for (int i = 0; i < 3000; ++i) {
     const Vec3 c(random.Uniform(-20, 20), random.Uniform(-20, 20), random.Uniform(-20, 25));
-    const double give = random.Uniform(0.0, 0.5), depth = Depth(c, keep_);
-    if (std::abs(depth - give) > 2.0 * kProof) {
-      EXPECT_EQ(limit_.Clears(c, c, give), depth < give) << c.transpose();
+    const double allowed_penetration = random.Uniform(0.0, 0.5), depth = Depth(c, keep_);
+    if (std::abs(depth - allowed_penetration) > 2.0 * kProof) {
+      EXPECT_EQ(limit_.Clears(c, c, allowed_penetration), depth < allowed_penetration) << c.transpose();
     }
     const double around = random.Uniform(0.0, 4.0);
     if (std::abs(depth - around) > 2.0 * kProof) {
@@ -63,12 +63,12 @@ TEST_P(ShankOverABlock, CentresMovesAndBalls) {
       deepest = std::max(deepest, Depth(c + (to - c) * (static_cast<double>(k) / kPlaces), keep_));
     }
     const double between = (to - c).norm() / kPlaces;
-    if (deepest > give + 2.0 * kProof) {
-      EXPECT_FALSE(limit_.Clears(c, to, give)) << c.transpose() << " to " << to.transpose();
+    if (deepest > allowed_penetration + 2.0 * kProof) {
+      EXPECT_FALSE(limit_.Clears(c, to, allowed_penetration)) << c.transpose() << " to " << to.transpose();
       ++hit;
     }
-    if (deepest < give - between - 2.0 * kProof) {
-      EXPECT_TRUE(limit_.Clears(c, to, give)) << c.transpose() << " to " << to.transpose();
+    if (deepest < allowed_penetration - between - 2.0 * kProof) {
+      EXPECT_TRUE(limit_.Clears(c, to, allowed_penetration)) << c.transpose() << " to " << to.transpose();
       ++clear;
     }
   }

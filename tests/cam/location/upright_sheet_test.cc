@@ -16,9 +16,9 @@ namespace patchmill {
 namespace {
 
 using namespace patchmill::testing;
-using internal::OutsideInPlan;
-using internal::PlanCurve;
-using internal::PlanCurveOf;
+using internal::OutsideInXy;
+using internal::XyCurve;
+using internal::XyCurveOf;
 
 constexpr double kRounding = 1e-13;
 
@@ -38,7 +38,7 @@ std::vector<Vec3> Quarter(double radius) {
   return {{radius, 0, 1}, {w * radius, w * radius, w}, {0, radius, 1}};
 }
 
-Vec2 At(const PlanCurve& curve, double t) {
+Vec2 At(const XyCurve& curve, double t) {
   std::vector<Vec4> p(curve.points.begin(), curve.points.begin() + curve.degree + 1);
   for (std::size_t n = p.size(); n > 1; --n) {
     for (std::size_t k = 0; k + 1 < n; ++k) p[k] = (1.0 - t) * p[k] + t * p[k + 1];
@@ -46,10 +46,10 @@ Vec2 At(const PlanCurve& curve, double t) {
   return p[0].head<2>() / p[0].w();
 }
 
-TEST(PlanCurveOf, KnowsUprightSheetsEitherWay) {
+TEST(XyCurveOf, KnowsUprightSheetsEitherWay) {
   Random random(3);
   const std::vector<Vec4> net = Sweep(Quarter(5.0), 4, random);
-  const auto curve = PlanCurveOf({2, 3}, net.data(), kRounding);
+  const auto curve = XyCurveOf({2, 3}, net.data(), kRounding);
   ASSERT_TRUE(curve);
   EXPECT_EQ(curve->degree, 2);
   EXPECT_LT(curve->spread, 1e-12);
@@ -57,46 +57,46 @@ TEST(PlanCurveOf, KnowsUprightSheetsEitherWay) {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) turned[j * 3 + i] = net[i * 4 + j];
   }
-  const auto other = PlanCurveOf({3, 2}, turned.data(), kRounding);
+  const auto other = XyCurveOf({3, 2}, turned.data(), kRounding);
   ASSERT_TRUE(other);
   EXPECT_EQ(other->degree, 2);
   for (const double t : {0.0, 0.3, 1.0}) EXPECT_NEAR((At(*curve, t) - At(*other, t)).norm(), 0.0, 1e-15);
 }
 
-TEST(PlanCurveOf, KnowsOthers) {
+TEST(XyCurveOf, KnowsOthers) {
   Random random(4);
   const std::vector<Vec4> upright = Sweep(Quarter(5.0), 3, random);
   for (std::size_t k = 0; k < upright.size(); ++k) {
     std::vector<Vec4> net = upright;
     net[k].x() += 1e-11;
-    EXPECT_FALSE(PlanCurveOf({2, 2}, net.data(), kRounding)) << k;
+    EXPECT_FALSE(XyCurveOf({2, 2}, net.data(), kRounding)) << k;
     net = upright;
     net[k].w() *= 1.0 + 1e-12;
-    EXPECT_FALSE(PlanCurveOf({2, 2}, net.data(), kRounding)) << k;
+    EXPECT_FALSE(XyCurveOf({2, 2}, net.data(), kRounding)) << k;
     net = upright;
     net[k].w() = 0.0;
-    EXPECT_FALSE(PlanCurveOf({2, 2}, net.data(), kRounding)) << k;
+    EXPECT_FALSE(XyCurveOf({2, 2}, net.data(), kRounding)) << k;
   }
 }
 
 // A circle that touches the curve from outside or inside: 1e-10 mm decide.
-TEST(OutsideInPlan, TellsACircleThatTouchesFromOneThatCuts) {
+TEST(OutsideInXy, TellsACircleThatTouchesFromOneThatCuts) {
   Random random(5);
   const std::vector<Vec4> net = Sweep(Quarter(9.0), 2, random);
-  const auto curve = PlanCurveOf({2, 1}, net.data(), kRounding);
+  const auto curve = XyCurveOf({2, 1}, net.data(), kRounding);
   ASSERT_TRUE(curve);
   for (int i = 0; i < 200; ++i) {
     const double angle = random.Uniform(0.05, 0.5 * kPi - 0.05), radius = random.Uniform(0.5, 6.0);
     const Vec2 out(std::cos(angle), std::sin(angle));
     for (const double side : {1.0, -1.0}) {
       const Vec2 q = (9.0 + side * radius) * out;
-      EXPECT_TRUE(OutsideInPlan(*curve, q, radius - 1e-10));
-      EXPECT_FALSE(OutsideInPlan(*curve, q, radius + 1e-10));
+      EXPECT_TRUE(OutsideInXy(*curve, q, radius - 1e-10));
+      EXPECT_FALSE(OutsideInXy(*curve, q, radius + 1e-10));
     }
   }
 }
 
-TEST(OutsideInPlan, IsRightAboutRandomCurves) {
+TEST(OutsideInXy, IsRightAboutRandomCurves) {
   Random random(6);
   int outside = 0, inside = 0;
   for (int i = 0; i < 300; ++i) {
@@ -107,13 +107,13 @@ TEST(OutsideInPlan, IsRightAboutRandomCurves) {
       points.emplace_back(w * random.Uniform(-5, 5), w * random.Uniform(-5, 5), w);
     }
     const std::vector<Vec4> net = Sweep(points, 2, random);
-    const auto curve = PlanCurveOf({degree, 1}, net.data(), kRounding);
+    const auto curve = XyCurveOf({degree, 1}, net.data(), kRounding);
     ASSERT_TRUE(curve);
     const Vec2 q(random.Uniform(-6, 6), random.Uniform(-6, 6));
     double nearest = kInfinity;
     for (int k = 0; k <= 4000; ++k) nearest = std::min(nearest, (At(*curve, k / 4000.0) - q).norm());
     const double radius = random.Uniform(0.2, 6.0);
-    const bool is_outside = OutsideInPlan(*curve, q, radius);
+    const bool is_outside = OutsideInXy(*curve, q, radius);
     // Between two of the 4001 places the curve may come a little nearer.
     if (nearest < radius) {
       EXPECT_FALSE(is_outside);

@@ -36,8 +36,8 @@ class Judge {
         exact_(surface_, radius),
         larger_(surface_, radius + error),
         mesh_(model, ParamsFor(radius, error, window)),
-        area_(window.value_or(Area{Plan(surface_.box.min) - Vec2::Constant(0.9 * radius),
-                                   Plan(surface_.box.max) + Vec2::Constant(0.9 * radius)})) {}
+        area_(window.value_or(Area{Xy(surface_.box.min) - Vec2::Constant(0.9 * radius),
+                                   Xy(surface_.box.max) + Vec2::Constant(0.9 * radius)})) {}
 
   void Compare(int queries, std::uint64_t seed) {
     Random random(seed);

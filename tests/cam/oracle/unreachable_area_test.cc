@@ -45,7 +45,7 @@ double OfTable(const Surface& surface, const ReachQuestion& question) {
 // As Verify measures it, of a program without moves.
 double OfReport(const Surface& surface, const ReachQuestion& question) {
   LeftoverParams params;
-  params.reach = {question.radius, ReachGive(question.tolerance), question.floor_z + question.radius};
+  params.reach = {question.radius, ReachTolerance(question.tolerance), question.floor_z + question.radius};
   params.most = surface.box.Diagonal();
   const RunContext run;
   const auto areas = MeasureAreas(surface, RootCells(surface, 0.3 * question.radius, run),

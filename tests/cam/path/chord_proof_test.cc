@@ -33,12 +33,12 @@ void Judge(const PatchModel& model, double radius, std::uint64_t seed, Tally& ta
     return Vec2(x, random.Uniform(box.min.y(), box.max.y()));
   };
   for (int line = 0; line < 4; ++line) {
-    const LineTraceParams trace{.chord_tolerance = tolerance * random.Uniform(0.2, 1.0),
-                                .certificate_gap = 1e-5};
+    const SegmentTraceParams trace{.chord_tolerance = tolerance * random.Uniform(0.2, 1.0),
+                                   .certificate_gap = 1e-5};
     const Vec2 from = place(), to = place();
-    for (const auto& stations : TraceLine(locator, PlanLine::Through(from, to), trace)) {
+    for (const auto& stations : TraceSegment(locator, XyLine::Through(from, to), trace)) {
       std::vector<Vec3> free;
-      for (const LineStation& s : stations) {
+      for (const TraceStation& s : stations) {
         ASSERT_LT(s.ceiling, kInfinity);
         ASSERT_GE(s.ceiling, s.z);
         ASSERT_LE(s.ceiling, s.z + 1.1e-5);

@@ -61,8 +61,8 @@ Count CheckSurface(const Surface& surface) {
           }
           if (part.directed) {
             ++count.directed;
-            EXPECT_GE(Cross(part.right, Plan(e)), -1e-9);
-            EXPECT_LE(Cross(part.left, Plan(e)), 1e-9);
+            EXPECT_GE(Cross(part.right, Xy(e)), -1e-9);
+            EXPECT_LE(Cross(part.left, Xy(e)), 1e-9);
           }
         }
         EXPECT_TRUE(Inside(box, c)) << c.transpose();

@@ -25,7 +25,7 @@ inline Surface MakeSurface(PatchModel model) {
 inline double SignedArea(const CutterPath& loop) {
   double twice = 0.0;
   for (std::size_t i = 0; i < loop.points.size(); ++i)
-    twice += Cross(Plan(loop.points[i].center), Plan(loop.points[(i + 1) % loop.points.size()].center));
+    twice += Cross(Xy(loop.points[i].center), Xy(loop.points[(i + 1) % loop.points.size()].center));
   return 0.5 * twice;
 }
 
@@ -41,8 +41,8 @@ inline int CornerCount(const LevelContours& level) {
 inline int Winding(const CutterPath& loop, const Vec2& q) {
   int winding = 0;
   for (std::size_t i = 0; i < loop.points.size(); ++i) {
-    const Vec2 a = Plan(loop.points[i].center) - q;
-    const Vec2 b = Plan(loop.points[(i + 1) % loop.points.size()].center) - q;
+    const Vec2 a = Xy(loop.points[i].center) - q;
+    const Vec2 b = Xy(loop.points[(i + 1) % loop.points.size()].center) - q;
     if (a.y() <= 0.0 && b.y() > 0.0 && Cross(a, b) > 0.0) ++winding;
     if (a.y() > 0.0 && b.y() <= 0.0 && Cross(a, b) < 0.0) --winding;
   }
@@ -57,14 +57,14 @@ inline void CheckVertices(const Locator& locator, const LevelContours& level) {
     ASSERT_GE(loop.points.size(), 3u);
     for (const CutterPoint& p : loop.points) {
       EXPECT_EQ(p.center.z(), level.z);
-      const auto h = locator.Height(Plan(p.center));
+      const auto h = locator.Height(Xy(p.center));
       if (h) {
         EXPECT_LE(h->z, level.z + 2e-9) << p.center.transpose();
       }
       ASSERT_TRUE(p.contact.has_value());
       for (const auto& contact : {p.contact, p.other_contact}) {
         if (!contact) continue;
-        const Vec2 d = Plan(p.center) - Plan(contact->p);
+        const Vec2 d = Xy(p.center) - Xy(contact->p);
         const double below = std::max(0.0, level.z - contact->p.z());
         EXPECT_NEAR(std::hypot(d.x(), d.y(), below), locator.radius(), 2e-9) << p.center.transpose();
       }
@@ -82,8 +82,8 @@ inline ProbeCount ProbeChords(const Surface& surface, double radius, const Level
   ProbeCount count;
   for (const CutterPath& loop : level.loops) {
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
-      const Vec2 a = Plan(loop.points[i].center);
-      const Vec2 b = Plan(loop.points[(i + 1) % loop.points.size()].center);
+      const Vec2 a = Xy(loop.points[i].center);
+      const Vec2 b = Xy(loop.points[(i + 1) % loop.points.size()].center);
       for (int k = 1; k <= per_chord; ++k) {
         const Vec2 q = a + (b - a) * (k / (per_chord + 1.0));
         ++count.probes;
@@ -138,7 +138,7 @@ struct Level {
 inline double LargestRadiusError(const CutterPath& loop, const Vec2& center, double radius) {
   double error = 0.0;
   for (const CutterPoint& p : loop.points)
-    error = std::max(error, std::abs((Plan(p.center) - center).norm() - radius));
+    error = std::max(error, std::abs((Xy(p.center) - center).norm() - radius));
   return error;
 }
 

@@ -29,7 +29,7 @@ Found LevelsOf(const Surface& surface, double radius, double scallop, double tol
   const auto contours = ContourPaths(locator, params, RunContext(1));
   EXPECT_TRUE(contours.ok());
   Found found;
-  for (const CutterPath& path : contours->paths) found.levels.insert(path.line);
+  for (const CutterPath& path : contours->paths) found.levels.insert(path.order_key);
   if (!found.levels.empty()) found.planned = static_cast<std::size_t>(*found.levels.rbegin()) + 1;
   return found;
 }

@@ -91,7 +91,7 @@ int CrossingChords(const LevelContours& level, Vec3* first) {
   for (std::size_t l = 0; l < level.loops.size(); ++l) {
     const auto& points = level.loops[l].points;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vec2 a = Plan(points[i].center), b = Plan(points[(i + 1) % points.size()].center);
+      const Vec2 a = Xy(points[i].center), b = Xy(points[(i + 1) % points.size()].center);
       chords.push_back({a, b, l, i, points.size(), std::min(a.y(), b.y()), std::max(a.y(), b.y())});
     }
   }

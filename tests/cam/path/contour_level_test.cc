@@ -64,7 +64,7 @@ TEST(ContourLevel, TwoSpheresMeetInTwoExactCorners) {
     const double rho = std::sqrt(64.0 - c * c);
     ASSERT_EQ(CornerCount(level), 2);
     for (const CutterPoint& p : level.loops[0].points) {
-      const double left = (Plan(p.center) - Vec2(-5, 0)).norm(), right = (Plan(p.center) - Vec2(5, 0)).norm();
+      const double left = (Xy(p.center) - Vec2(-5, 0)).norm(), right = (Xy(p.center) - Vec2(5, 0)).norm();
       EXPECT_NEAR(std::min(left, right), rho, 1e-9);
       if (p.other_contact) {
         EXPECT_NEAR(p.center.x(), 0.0, 1e-9);
@@ -93,7 +93,7 @@ TEST(ContourLevel, BlockOnAFloorIsARoundedSquare) {
     ASSERT_EQ(level.loops.size(), 1u);
     const double rho = c <= 5.0 ? kR : std::sqrt(9.0 - (c - 5.0) * (c - 5.0));
     for (const CutterPoint& p : level.loops[0].points)
-      EXPECT_NEAR(SquareDistance(Plan(p.center), 8.0), rho, 1e-9);
+      EXPECT_NEAR(SquareDistance(Xy(p.center), 8.0), rho, 1e-9);
     const double area = 16.0 * 16.0 + 4.0 * 16.0 * rho + kPi * rho * rho;
     EXPECT_NEAR(SignedArea(level.loops[0]), -area, 0.005 * 90.0);
   }
@@ -102,8 +102,7 @@ TEST(ContourLevel, BlockOnAFloorIsARoundedSquare) {
   EXPECT_GE(floor.z, 3.0);
   EXPECT_LE(floor.z, 3.01);
   ASSERT_EQ(floor.loops.size(), 1u);
-  for (const CutterPoint& p : floor.loops[0].points)
-    EXPECT_NEAR(SquareDistance(Plan(p.center), 8.0), kR, 1e-9);
+  for (const CutterPoint& p : floor.loops[0].points) EXPECT_NEAR(SquareDistance(Xy(p.center), 8.0), kR, 1e-9);
   EXPECT_TRUE(block.At(8.0).loops.empty());
 }
 
@@ -116,7 +115,7 @@ TEST(ContourLevel, LevelsCloselyBelowAFlatTop) {
     ASSERT_EQ(level.loops.size(), 1u);
     const double rho = std::sqrt(9.0 - (level.z - 5.0) * (level.z - 5.0));
     for (const CutterPoint& p : level.loops[0].points)
-      EXPECT_NEAR(SquareDistance(Plan(p.center), 8.0), rho, 1e-9);
+      EXPECT_NEAR(SquareDistance(Xy(p.center), 8.0), rho, 1e-9);
   }
 }
 
@@ -142,8 +141,8 @@ double PlateHeight(const Vec2& q, double slope, double a) {
 void CheckOnPlate(const LevelContours& level, double slope, double a) {
   for (const CutterPath& loop : level.loops) {
     for (const CutterPoint& p : loop.points) {
-      const Vec2 q = Plan(p.center);
-      const Vec2 out = (q - Plan(p.contact->p)).normalized();
+      const Vec2 q = Xy(p.center);
+      const Vec2 out = (q - Xy(p.contact->p)).normalized();
       EXPECT_LE(PlateHeight(q + 1e-9 * out, slope, a), level.z + 1e-12) << q.transpose();
       EXPECT_GT(PlateHeight(q - 1e-9 * out, slope, a), level.z - 1e-12) << q.transpose();
     }

@@ -38,7 +38,7 @@ TEST(ContourLimits, StraightBordersAlongTheGrid) {
       EXPECT_EQ(level.ambiguous_cells, 0);
       EXPECT_EQ(level.z, c);
       for (const CutterPoint& p : level.loops[0].points)
-        EXPECT_NEAR(RectangleDistance(Plan(p.center), a, a), rho, 1e-9);
+        EXPECT_NEAR(RectangleDistance(Xy(p.center), a, a), rho, 1e-9);
       EXPECT_NEAR(SignedArea(level.loops[0]), -(4.0 * a * a + 8.0 * a * rho + kPi * rho * rho),
                   0.005 * 100.0);
     }
@@ -62,7 +62,7 @@ TEST(ContourLimits, VerticalSheets) {
       ASSERT_EQ(level.loops.size(), 1u);
       const double above = std::max(0.0, c - top), rho = std::sqrt(kR * kR - above * above);
       for (const CutterPoint& p : level.loops[0].points) {
-        const Vec2 q = Eigen::Rotation2Dd(-turn) * Plan(p.center);
+        const Vec2 q = Eigen::Rotation2Dd(-turn) * Xy(p.center);
         EXPECT_NEAR(RectangleDistance(q, a, 0.0), rho, 1e-9);
       }
       EXPECT_NEAR(SignedArea(level.loops[0]), -(4.0 * a * rho + kPi * rho * rho), 0.005 * 60.0);
@@ -86,7 +86,7 @@ TEST(ContourLimits, FlatsExactlyAtTheLevel) {
   ASSERT_EQ(below.loops.size(), 1u);
   const double rho = std::sqrt(kR * kR - below.z * below.z);
   for (const CutterPoint& p : below.loops[0].points)
-    EXPECT_NEAR(RectangleDistance(Plan(p.center), 20.0, 20.0), rho, 1e-7);
+    EXPECT_NEAR(RectangleDistance(Xy(p.center), 20.0, 20.0), rho, 1e-7);
 }
 
 // The same sphere twice, and one inside the other that touches it at the peak: one circle each.
@@ -136,7 +136,7 @@ TEST(ContourLimits, HolesAsWideAsTheTool) {
       ASSERT_EQ(level.loops.size(), 2u);
       for (const CutterPath& loop : level.loops) {
         const bool outer = SignedArea(loop) < 0.0;
-        EXPECT_LE(LargestRadiusError(loop, Plan(center), outer ? eye + 2.0 * reach : eye), 1e-9);
+        EXPECT_LE(LargestRadiusError(loop, Xy(center), outer ? eye + 2.0 * reach : eye), 1e-9);
       }
     }
     // No free place at all, by a nanometre: the outer circle alone.
@@ -193,7 +193,7 @@ TEST(ContourLimits, WhatCannotBeDecidedCountsAsMaterial) {
   for (const double off : {-1e-6, 0.0, 1e-6}) {
     const LevelContours neck = spheres.At(saddle + off, spheres.params.resolution / 8.0);
     EXPECT_GT(neck.ambiguous_cells, 0);
-    EXPECT_LE(Plan(neck.ambiguous_at).norm(), 0.5);
+    EXPECT_LE(Xy(neck.ambiguous_at).norm(), 0.5);
     EXPECT_TRUE(CountsAsMaterial(neck, Vec2::Zero()));
   }
 }
@@ -265,14 +265,14 @@ TEST(ContourLimits, FindingsAreOneForAllLevels) {
   const LevelContours twice = level(7.0, 0.025, 500, Vec3(3.0, 0.0, 0.0));
   ContourFindings none(0.1), one(0.1), all(0.1), back(0.1);
   none.Take(fine);
-  EXPECT_TRUE(none.Told().empty());
+  EXPECT_TRUE(none.Findings().empty());
   one.Take(few);
-  ASSERT_EQ(one.Told().size(), 1u);
-  EXPECT_EQ(one.Told()[0].message.find("contour at centre height 4.0000 mm: 3 cells"), 0u)
-      << one.Told()[0].message;
+  ASSERT_EQ(one.Findings().size(), 1u);
+  EXPECT_EQ(one.Findings()[0].message.find("contour at centre height 4.0000 mm: 3 cells"), 0u)
+      << one.Findings()[0].message;
   for (const LevelContours& l : {fine, few, coarse, twice}) all.Take(l);
   for (const LevelContours& l : {twice, coarse, few, fine}) back.Take(l);
-  const Diagnostics told = all.Told(), same = back.Told();
+  const Diagnostics told = all.Findings(), same = back.Findings();
   ASSERT_EQ(told.size(), 2u);
   EXPECT_EQ(
       told[0].message.find("2 contours at centre heights from 3.0000 to 7.0000 mm: a resolution of 0.1 mm"),
@@ -301,7 +301,7 @@ TEST(ContourLimits, LargePlatesKeepTheResolution) {
   EXPECT_EQ(level.ambiguous_cells, 0);
   ASSERT_EQ(level.loops.size(), 1u);
   for (const CutterPoint& p : level.loops[0].points)
-    EXPECT_NEAR(RectangleDistance(Plan(p.center), a, a), rho, 1e-9);
+    EXPECT_NEAR(RectangleDistance(Xy(p.center), a, a), rho, 1e-9);
 }
 
 }  // namespace

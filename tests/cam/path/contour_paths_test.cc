@@ -44,10 +44,10 @@ struct Job {
       const double z = path.points.front().center.z();
       EXPECT_GE(z, params.floor_z + kR - 1e-9);
       if (i > 0) {
-        EXPECT_LE(paths[i - 1].line, path.line);
+        EXPECT_LE(paths[i - 1].order_key, path.order_key);
         const double before = paths[i - 1].points.front().center.z();
         // Beyond the few levels of one ground that may be without a pass another begins.
-        const int farther = path.line - paths[i - 1].line;
+        const int farther = path.order_key - paths[i - 1].order_key;
         EXPECT_TRUE(farther == 0 ? before == z : before > z || farther > 4);
       }
       for (const CutterPoint& p : path.points) {
@@ -146,8 +146,7 @@ TEST(ContourPaths, DomeOnAPlane) {
     EXPECT_TRUE(path.closed);
     EXPECT_LT(testing::SignedArea(path), 0.0);  // climb: material on the right
     const double z = path.points.front().center.z();
-    for (const CutterPoint& p : path.points)
-      EXPECT_NEAR(Plan(p.center).norm(), std::sqrt(169.0 - z * z), 1e-6);
+    for (const CutterPoint& p : path.points) EXPECT_NEAR(Xy(p.center).norm(), std::sqrt(169.0 - z * z), 1e-6);
   }
   // The lowest one touches plane and dome.
   EXPECT_GE(Bottom(paths), 3.0);

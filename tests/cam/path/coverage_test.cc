@@ -22,8 +22,8 @@ using namespace patchmill::testing;
 
 constexpr double kScallop = 0.01, kTolerance = 0.01;
 
-CoverageParams Coverage() {
-  CoverageParams params;
+RestPassParams Coverage() {
+  RestPassParams params;
   params.scallop = kScallop;
   params.chord_tolerance = 0.4 * kTolerance;
   params.tolerance = kTolerance;
@@ -63,7 +63,7 @@ struct Leftover {
 // Largest leftover over random surface points that are reachable as [regions (6)] defines it.
 Leftover Measure(const Surface& surface, double radius, const std::vector<CutterPath>& paths, int samples,
                  double floor_z = -kInfinity, double max_slope = kPi / 2) {
-  const Locator reach(surface, radius - ReachGive(kTolerance));
+  const Locator reach(surface, radius - ReachTolerance(kTolerance));
   const DistanceToPaths distance(paths);
   Random random(11);
   Leftover out;
@@ -138,7 +138,7 @@ TEST(RestPaths, CreasePassIsTheExactTwoContactLine) {
   const auto rest = Rest(locator, plain);
   double crease_length = 0;
   for (const auto& path : rest) {
-    if (path.kind != PassKind::kCrease) continue;
+    if (path.kind != PassKind::kPencil) continue;
     crease_length += Length(path);
     for (const auto& p : path.points) {
       EXPECT_NEAR(p.center.x(), 0.0, 1e-9);
@@ -173,9 +173,9 @@ void ExpectOneRing(double r) {
   const auto rest = Rest(locator, plain);
   double crease_length = 0;
   for (const auto& path : rest) {
-    if (path.kind != PassKind::kCrease) continue;
+    if (path.kind != PassKind::kPencil) continue;
     crease_length += Length(path);
-    for (const auto& p : path.points) EXPECT_NEAR(Plan(p.center).norm(), ring, 2e-4);
+    for (const auto& p : path.points) EXPECT_NEAR(Xy(p.center).norm(), ring, 2e-4);
   }
   EXPECT_NEAR(crease_length, 2 * kPi * ring, 0.5);
 }
@@ -242,7 +242,7 @@ TEST(RestPaths, FloorAndWindowLimitWhatIsMended) {
   const double radius = 3.0;
   const Surface surface = JoinedSurface(Sphere(Vec3::Zero(), 8, Half::kUpper));
   const Locator locator(surface, radius);
-  CoverageParams params = Coverage();
+  RestPassParams params = Coverage();
   params.floor_z = 3.0;
   params.window.max = Radians(60);
   const auto plain = Zigzag(locator, 0.0, Radians(30));

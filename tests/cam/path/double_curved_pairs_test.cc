@@ -80,7 +80,7 @@ Measured Measure(const Surface& surface, const std::vector<CutterPath>& paths, d
 // The way is shared by a whole number of gaps, so each is shorter by up to a gap's share of it.
 double LeastOfShared(const std::vector<CutterPath>& paths) {
   std::set<int> lines;
-  for (const CutterPath& path : paths) lines.insert(path.line);
+  for (const CutterPath& path : paths) lines.insert(path.order_key);
   return 0.95 * std::pow(1.0 - 1.0 / static_cast<double>(lines.size() - 1), 2.0);
 }
 
@@ -107,20 +107,20 @@ TEST_P(LinesOn, LeaveTheScallop) {
   const Vec2 a = ground.middle - ground.half, b = ground.middle + ground.half;
   Containment containment;
   containment.boundary = Boundary{Outline({{a, {b.x(), a.y()}, b, {a.x(), b.y()}}}), BoundaryMode::kContact};
-  const auto keep_in =
-      KeepIn::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
-  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+  const auto operation_limits =
+      OperationLimits::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
+  ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
   ZigzagParams params;
   SetFinish(params, kScallop);
   params.angle = Radians(ground.angle);
   params.window.max = Radians(45);
-  params.part = &*keep_in;
+  params.part = &*operation_limits;
   const auto paths = ZigzagPaths(locator, params, RunContext(2));
   ASSERT_TRUE(paths.ok()) << paths.status();
   // Next to the part's border lines end, and border passes have the last word.
   const Vec2 inner = ground.half - Vec2(0.35, 0.35);
   const Measured all = Measure(surface, *paths, 0.25, [&](const Vec3& p, const Vec3& e) {
-    return e.z() > std::cos(Radians(44)) && ((Plan(p) - ground.middle).cwiseAbs() - inner).maxCoeff() < 0.0;
+    return e.z() > std::cos(Radians(44)) && ((Xy(p) - ground.middle).cwiseAbs() - inner).maxCoeff() < 0.0;
   });
   const double least = LeastOfShared(*paths);
   EXPECT_GE(all.pairs, 4);
@@ -169,7 +169,7 @@ TEST(LinesBetweenRims, AreAsFarApartAsTheyMayBe) {
   const double flat = CenterStep(kR, params.scallop, 0.0);
   const auto pairs =
       CrestsOfPairs(surface, *paths, kR, 0.5, flat / 6.0, 1.5 * flat,
-                    [](const Vec3& p, const Vec3&) { return Plan(p).cwiseAbs().maxCoeff() < 7.0; });
+                    [](const Vec3& p, const Vec3&) { return Xy(p).cwiseAbs().maxCoeff() < 7.0; });
   EXPECT_GT(pairs.size(), 25u);
   for (const PairOfPasses& pair : pairs) {
     EXPECT_LE(pair.worst.leftover, 1.05 * params.scallop);
@@ -203,7 +203,7 @@ TEST_P(LevelsOn, LeaveTheScallop) {
                   .ok());
   // Where levels cross the window's limit they end there, and border passes have the last word.
   const Measured all = Measure(surface, contours->paths, ground.apart, [&](const Vec3& p, const Vec3& e) {
-    return e.z() < std::cos(Radians(49)) && e.z() > 1e-3 && Plan(p).cwiseAbs().maxCoeff() < ground.within;
+    return e.z() < std::cos(Radians(49)) && e.z() > 1e-3 && Xy(p).cwiseAbs().maxCoeff() < ground.within;
   });
   const double least = LeastOfShared(contours->paths);
   EXPECT_GE(all.pairs, 3);
@@ -244,7 +244,7 @@ TEST(TwoHillsUnderAWideTolerance, LeaveNoMoreThanFivePercentOnTop) {
     for (const PairOfPasses& pair :
          CrestsOfPairs(surface, level ? contours->paths : *lines, kR, 1.0, flat / 6.0, 1.5 * flat,
                        [&](const Vec3&p, const Vec3&e) {
-                         const bool inside = (Plan(p) - Vec2(50, 50)).cwiseAbs().maxCoeff() < 48.0;
+                         const bool inside = (Xy(p) - Vec2(50, 50)).cwiseAbs().maxCoeff() < 48.0;
                          return inside && (level ? e.z() < std::cos(split + Radians(4))
                                                  : e.z() > std::cos(split - Radians(1)));
                        })) {

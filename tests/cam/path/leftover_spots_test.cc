@@ -16,10 +16,10 @@ namespace {
 
 using namespace patchmill::testing;
 
-constexpr double kTolerance = 0.01, kGive = ReachGive(kTolerance);
+constexpr double kTolerance = 0.01, kGive = ReachTolerance(kTolerance);
 
-CoverageParams Coverage() {
-  CoverageParams params;
+RestPassParams Coverage() {
+  RestPassParams params;
   params.scallop = 0.02;
   params.tolerance = kTolerance;
   params.limit = params.scallop + 0.75 * kTolerance;
@@ -55,7 +55,7 @@ std::vector<LeftoverSpot> SpotsAlongBottom(double depth) {
   EXPECT_NEAR(DepthInValley(radius, k), depth, 1e-12);
   const Surface surface = JoinedSurface(NarrowingValley(k, 0.05 * k));
   const Locator locator(surface, radius);
-  const CoverageParams params = Coverage();
+  const RestPassParams params = Coverage();
   const Locator reach = *ReachLocator(locator, params, RunContext());
   // A strip along the bottom, 0.02 mm wide, and nothing cut yet.
   auto spots = FindSpots(locator, reach, {}, {{PieceId(0), 0.4975, 0.5025, 0.0, 1.0}}, params, RunContext(1));

@@ -22,7 +22,7 @@ constexpr double kSpacing = 0.5, kFlat = 0.5;
 constexpr HeightParams kParams = {.radius = 3.0, .flat = kFlat, .smallest = 0.125};
 
 // A wall from a to b, `height` high; its ball stands off by `off`.
-void AddWall(const Vec2& a, const Vec2& b, double height, const Vec2& off, ContourGround& ground) {
+void AddWall(const Vec2& a, const Vec2& b, double height, const Vec2& off, ContourArea& contour_area) {
   const int along = static_cast<int>(std::ceil((b - a).norm() / kSpacing)),
             up = static_cast<int>(std::ceil(height / kSpacing));
   for (int i = 0; i <= along; ++i) {
@@ -35,16 +35,16 @@ void AddWall(const Vec2& a, const Vec2& b, double height, const Vec2& off, Conto
       sample.up = sample.down = half;
       sample.step = kFlat;
       sample.width = kSpacing;
-      ground.samples.push_back(sample);
+      contour_area.samples.push_back(sample);
     }
   }
-  ground.spacing = kSpacing;
+  contour_area.spacing = kSpacing;
 }
 
-LevelGrounds GroundsOf(const ContourGround& ground) {
-  auto grounds = LevelGrounds::Make(ground, kParams, nullptr, RunContext(1));
-  EXPECT_TRUE(grounds.ok());
-  return *std::move(grounds);
+LevelGroups GroundsOf(const ContourArea& contour_area) {
+  auto groups = LevelGroups::Make(contour_area, kParams, nullptr, RunContext(1));
+  EXPECT_TRUE(groups.ok());
+  return *std::move(groups);
 }
 
 CutterPath PathOf(const std::vector<Vec3>& centers) {
@@ -53,8 +53,8 @@ CutterPath PathOf(const std::vector<Vec3>& centers) {
   return path;
 }
 
-TEST(LevelGrounds, WallsAroundACornerAreOne) {
-  ContourGround outer, inner;
+TEST(LevelGroups, WallsAroundACornerAreOne) {
+  ContourArea outer, inner;
   // Around an outer corner the contacts meet, though the balls stand apart.
   AddWall({0, 0}, {20, 0}, 10, {0, -3}, outer);
   AddWall({20, 0}, {20, 20}, 10, {3, 0}, outer);
@@ -65,110 +65,110 @@ TEST(LevelGrounds, WallsAroundACornerAreOne) {
   EXPECT_EQ(GroundsOf(inner).size(), 1u);
 }
 
-TEST(LevelGrounds, WallsApartAreTwo) {
-  ContourGround ground;
-  AddWall({0, 0}, {20, 0}, 10, {0, 3}, ground);
-  AddWall({0, 12}, {40, 12}, 7, {0, -3}, ground);
-  ground.lower_ends.push_back({Vec3(5, 3, 0), 1.0});
-  ground.lower_ends.push_back({Vec3(9, 9, 0), 1.0});
-  ground.lower_ends.push_back({Vec3(30, 9, 0), 1.0});
-  const LevelGrounds grounds = GroundsOf(ground);
-  ASSERT_EQ(grounds.size(), 2u);
+TEST(LevelGroups, WallsApartAreTwo) {
+  ContourArea contour_area;
+  AddWall({0, 0}, {20, 0}, 10, {0, 3}, contour_area);
+  AddWall({0, 12}, {40, 12}, 7, {0, -3}, contour_area);
+  contour_area.lower_ends.push_back({Vec3(5, 3, 0), 1.0});
+  contour_area.lower_ends.push_back({Vec3(9, 9, 0), 1.0});
+  contour_area.lower_ends.push_back({Vec3(30, 9, 0), 1.0});
+  const LevelGroups groups = GroundsOf(contour_area);
+  ASSERT_EQ(groups.size(), 2u);
   // The larger one first, 280 and 200 mm2; every sample and every end in one of them.
-  EXPECT_EQ(grounds[0].samples.size() + grounds[1].samples.size(), ground.samples.size());
-  EXPECT_EQ(grounds[0].lower_ends.size(), 2u);
-  EXPECT_EQ(grounds[1].lower_ends.size(), 1u);
-  for (const ContourSample& sample : grounds[0].samples) EXPECT_EQ(sample.contact.y(), 12.0);
-  for (const ContourSample& sample : grounds[1].samples) EXPECT_EQ(sample.contact.y(), 0.0);
+  EXPECT_EQ(groups[0].samples.size() + groups[1].samples.size(), contour_area.samples.size());
+  EXPECT_EQ(groups[0].lower_ends.size(), 2u);
+  EXPECT_EQ(groups[1].lower_ends.size(), 1u);
+  for (const ContourSample& sample : groups[0].samples) EXPECT_EQ(sample.contact.y(), 12.0);
+  for (const ContourSample& sample : groups[1].samples) EXPECT_EQ(sample.contact.y(), 0.0);
   const CutterPath small = PathOf({Vec3(0, 3, 5), Vec3(20, 3, 5), Vec3(20, 9, 5)});
-  EXPECT_EQ(grounds.FamilyUnder(small, std::array<std::size_t, 2>{0, 1}), 1u);
-  EXPECT_EQ(grounds.FamilyUnder(small, std::array<std::size_t, 2>{7, 5}), 5u);
+  EXPECT_EQ(groups.FamilyUnder(small, std::array<std::size_t, 2>{0, 1}), 1u);
+  EXPECT_EQ(groups.FamilyUnder(small, std::array<std::size_t, 2>{7, 5}), 5u);
 }
 
-TEST(LevelGrounds, ScrapsGoWithTheLargest) {
-  ContourGround ground;
-  AddWall({0, 0}, {20, 0}, 10, {0, 3}, ground);
-  AddWall({0, 12}, {40, 12}, 1.9 * kFlat, {0, -3}, ground);
-  EXPECT_EQ(GroundsOf(ground).size(), 1u);
-  AddWall({0, 30}, {40, 30}, 2.1 * kFlat, {0, -3}, ground);
-  EXPECT_EQ(GroundsOf(ground).size(), 2u);
+TEST(LevelGroups, ScrapsGoWithTheLargest) {
+  ContourArea contour_area;
+  AddWall({0, 0}, {20, 0}, 10, {0, 3}, contour_area);
+  AddWall({0, 12}, {40, 12}, 1.9 * kFlat, {0, -3}, contour_area);
+  EXPECT_EQ(GroundsOf(contour_area).size(), 1u);
+  AddWall({0, 30}, {40, 30}, 2.1 * kFlat, {0, -3}, contour_area);
+  EXPECT_EQ(GroundsOf(contour_area).size(), 2u);
 }
 
 // A plate full of dimples: the levels of most are for all of them.
-TEST(LevelGrounds, AreNotMoreThanWhatIsWorthIt) {
-  ContourGround ground;
+TEST(LevelGroups, AreNotMoreThanWhatIsWorthIt) {
+  ContourArea contour_area;
   for (int k = 0; k < 300; ++k) {
     const Vec2 from(20.0 * (k % 20), 20.0 * (k / 20.0));
-    AddWall(from, from + Vec2(2.0 + 0.01 * k, 0.0), 4, {0, 3}, ground);
+    AddWall(from, from + Vec2(2.0 + 0.01 * k, 0.0), 4, {0, 3}, contour_area);
   }
-  const LevelGrounds grounds = GroundsOf(ground);
-  EXPECT_EQ(grounds.size(), 256u);
+  const LevelGroups groups = GroundsOf(contour_area);
+  EXPECT_EQ(groups.size(), 256u);
   std::size_t all = 0;
-  for (std::size_t k = 0; k < grounds.size(); ++k) all += grounds[k].samples.size();
-  EXPECT_EQ(all, ground.samples.size());
-  EXPECT_GT(grounds[0].samples.size(), 44 * grounds[255].samples.size());
+  for (std::size_t k = 0; k < groups.size(); ++k) all += groups[k].samples.size();
+  EXPECT_EQ(all, contour_area.samples.size());
+  EXPECT_GT(groups[0].samples.size(), 44 * groups[255].samples.size());
 }
 
 // A wall from z = 0 to 20, beside it one that needs `step` above z = 10, where the two part.
-ContourGround Forked(double step) {
-  ContourGround ground, branch;
-  AddWall({0, 0}, {40, 0}, 20, {0, -3}, ground);
-  AddWall({40, 0}, {80, 0}, 10, {0, -3}, ground);
+ContourArea Forked(double step) {
+  ContourArea contour_area, branch;
+  AddWall({0, 0}, {40, 0}, 20, {0, -3}, contour_area);
+  AddWall({40, 0}, {80, 0}, 10, {0, -3}, contour_area);
   AddWall({50, 0}, {80, 0}, 10, {0, -3}, branch);
   for (ContourSample& sample : branch.samples) {
     sample.center.z() += 10.0;
     sample.contact.z() += 10.0;
     sample.step = step;
   }
-  ground.samples.insert(ground.samples.end(), branch.samples.begin(), branch.samples.end());
-  return ground;
+  contour_area.samples.insert(contour_area.samples.end(), branch.samples.begin(), branch.samples.end());
+  return contour_area;
 }
 
 // Above `fork` each wall has a contour of its own.
-LevelGrounds::ContoursAt ContoursForkedAt(double fork) {
+LevelGroups::ContoursAt ContoursForkedAt(double fork) {
   return [fork](double z) -> std::vector<CutterPath> {
     if (z <= fork) return {PathOf({Vec3(0, -3, z), Vec3(20, -3, z), Vec3(60, -3, z), Vec3(80, -3, z)})};
     return {PathOf({Vec3(0, -3, z), Vec3(40, -3, z)}), PathOf({Vec3(50, -3, z), Vec3(80, -3, z)})};
   };
 }
 
-TEST(LevelGrounds, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
-  ContourGround ground = Forked(0.8 * kFlat);
-  ground.lower_ends.push_back({Vec3(60, -3, 12), 1.0});
+TEST(LevelGroups, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
+  ContourArea contour_area = Forked(0.8 * kFlat);
+  contour_area.lower_ends.push_back({Vec3(60, -3, 12), 1.0});
   for (const double fork : {10.0, 13.0}) {  // between them the ground may rise gently, without samples
-    const auto grounds = LevelGrounds::Make(ground, kParams, ContoursForkedAt(fork), RunContext(1));
-    ASSERT_TRUE(grounds.ok());
-    ASSERT_EQ(grounds->size(), 2u);
-    EXPECT_FALSE(grounds->foot(0));
-    ASSERT_TRUE(grounds->foot(1));
-    EXPECT_EQ(grounds->foot(1)->ground, 0u);
-    const double foot = grounds->foot(1)->below;
-    EXPECT_GE(foot, fork);
-    EXPECT_LE(foot, fork + 3.0 * kFlat);
-    EXPECT_EQ((*grounds)[0].samples.size() + (*grounds)[1].samples.size(), ground.samples.size());
-    EXPECT_EQ((*grounds)[foot < 12.0 ? 1 : 0].lower_ends.size(), 1u);
-    for (const ContourSample& sample : (*grounds)[1].samples) {
-      EXPECT_GT(sample.center.z(), foot);
+    const auto groups = LevelGroups::Make(contour_area, kParams, ContoursForkedAt(fork), RunContext(1));
+    ASSERT_TRUE(groups.ok());
+    ASSERT_EQ(groups->size(), 2u);
+    EXPECT_FALSE(groups->base_level(0));
+    ASSERT_TRUE(groups->base_level(1));
+    EXPECT_EQ(groups->base_level(1)->group, 0u);
+    const double base_level = groups->base_level(1)->below;
+    EXPECT_GE(base_level, fork);
+    EXPECT_LE(base_level, fork + 3.0 * kFlat);
+    EXPECT_EQ((*groups)[0].samples.size() + (*groups)[1].samples.size(), contour_area.samples.size());
+    EXPECT_EQ((*groups)[base_level < 12.0 ? 1 : 0].lower_ends.size(), 1u);
+    for (const ContourSample& sample : (*groups)[1].samples) {
+      EXPECT_GT(sample.center.z(), base_level);
       EXPECT_GE(sample.contact.x(), 50.0);
     }
-    for (const ContourSample& sample : (*grounds)[0].samples)
-      EXPECT_TRUE(sample.contact.x() <= 40.0 || sample.center.z() <= foot);
+    for (const ContourSample& sample : (*groups)[0].samples)
+      EXPECT_TRUE(sample.contact.x() <= 40.0 || sample.center.z() <= base_level);
     const CutterPath high = PathOf({Vec3(50, -3, 18), Vec3(80, -3, 18)});
-    EXPECT_EQ(grounds->FamilyUnder(high, std::array<std::size_t, 2>{0, 1}), 1u);
+    EXPECT_EQ(groups->FamilyUnder(high, std::array<std::size_t, 2>{0, 1}), 1u);
 
     // Its levels stand on one of the wall's, each no farther from the next than it needs.
-    const auto wall = LevelHeights((*grounds)[0], kParams, RunContext(1));
+    const auto wall = LevelHeights((*groups)[0], kParams, RunContext(1));
     ASSERT_TRUE(wall.ok());
     HeightParams on_wall = kParams;
     for (const double z : wall->heights) {
-      if (z <= foot) on_wall.foot = z;
+      if (z <= base_level) on_wall.base_level = z;
     }
-    ASSERT_TRUE(on_wall.foot);
-    EXPECT_GT(*on_wall.foot, foot - 1.1 * kFlat);
-    const auto branch = LevelHeights((*grounds)[1], on_wall, RunContext(1));
+    ASSERT_TRUE(on_wall.base_level);
+    EXPECT_GT(*on_wall.base_level, base_level - 1.1 * kFlat);
+    const auto branch = LevelHeights((*groups)[1], on_wall, RunContext(1));
     ASSERT_TRUE(branch.ok());
     ASSERT_GT(branch->heights.size(), 10u);
-    EXPECT_EQ(branch->heights.front(), *on_wall.foot);
+    EXPECT_EQ(branch->heights.front(), *on_wall.base_level);
     for (std::size_t i = 0; i + 1 < branch->heights.size(); ++i) {
       const double gap = branch->heights[i + 1] - branch->heights[i];
       EXPECT_LE(gap, kWideGap * 0.8 * kFlat);
@@ -177,7 +177,7 @@ TEST(LevelGrounds, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
   }
 }
 
-TEST(LevelGrounds, ABranchStandsOnTheNextLevelThatGroundLeadsTo) {
+TEST(LevelGroups, ABranchStandsOnTheNextLevelThatGroundLeadsTo) {
   const std::vector<double> heights = {1.0, 2.0, 3.0};
   EXPECT_EQ(LevelBelow(heights, 2.5, kFlat), 2.0);
   EXPECT_EQ(LevelBelow(heights, 3.0, kFlat), 3.0);
@@ -185,11 +185,11 @@ TEST(LevelGrounds, ABranchStandsOnTheNextLevelThatGroundLeadsTo) {
   EXPECT_EQ(LevelBelow(heights, 4.2, kFlat), std::nullopt);  // nothing is in so wide a gap
 }
 
-TEST(LevelGrounds, NothingBranchesOffWithoutNeed) {
-  const auto size = [](const ContourGround& ground, const LevelGrounds::ContoursAt& contours) {
-    const auto grounds = LevelGrounds::Make(ground, kParams, contours, RunContext(1));
-    EXPECT_TRUE(grounds.ok());
-    return grounds->size();
+TEST(LevelGroups, NothingBranchesOffWithoutNeed) {
+  const auto size = [](const ContourArea& contour_area, const LevelGroups::ContoursAt& contours) {
+    const auto groups = LevelGroups::Make(contour_area, kParams, contours, RunContext(1));
+    EXPECT_TRUE(groups.ok());
+    return groups->size();
   };
   // The same needs on both; contours that run over both, as high as it goes or nearly; no contours at hand.
   EXPECT_EQ(size(Forked(kFlat), ContoursForkedAt(10.0)), 1u);
@@ -198,7 +198,7 @@ TEST(LevelGrounds, NothingBranchesOffWithoutNeed) {
   EXPECT_EQ(size(Forked(0.8 * kFlat), nullptr), 1u);
 }
 
-TEST(LevelGrounds, OfNoGround) { EXPECT_EQ(GroundsOf({}).size(), 0u); }
+TEST(LevelGroups, OfNoGround) { EXPECT_EQ(GroundsOf({}).size(), 0u); }
 
 PatchModel Quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   BezierPatch patch;
@@ -223,21 +223,21 @@ std::vector<CutterPath> ContoursOf(const PatchModel& model) {
 }
 
 // Samples of a patch much longer than the ball lie farther apart than elsewhere.
-TEST(LevelGrounds, ALongPatchIsOne) {
+TEST(LevelGroups, ALongPatchIsOne) {
   const double radius = 0.5;
   const Surface surface = JoinedSurface(Quad({0, 0, 0}, {200, 0, 0}, {200, 0.7, 14}, {0, 0.5, 10}));
   const Locator locator(surface, radius);
   const RunContext run(1);
-  const auto ground = SampleGround(LevelContext(locator, run), SteepParams(), run);
-  ASSERT_TRUE(ground.ok());
-  const auto grounds =
-      LevelGrounds::Make(*ground, {.radius = radius, .flat = 0.2, .smallest = 0.05}, nullptr, run);
-  ASSERT_TRUE(grounds.ok());
-  EXPECT_EQ(grounds->size(), 1u);
+  const auto contour_area = SampleContourArea(LevelContext(locator, run), SteepParams(), run);
+  ASSERT_TRUE(contour_area.ok());
+  const auto groups =
+      LevelGroups::Make(*contour_area, {.radius = radius, .flat = 0.2, .smallest = 0.05}, nullptr, run);
+  ASSERT_TRUE(groups.ok());
+  EXPECT_EQ(groups->size(), 1u);
 }
 
 // An upright sheet has contours on both sides, whichever is called the upper one, and whatever stands beside.
-TEST(LevelGrounds, BothSidesOfASheet) {
+TEST(LevelGroups, BothSidesOfASheet) {
   for (const bool turned : {false, true}) {
     const PatchModel sheet = turned ? Quad({0, 0, 12}, {60, 0, 12}, {60, 0, 0}, {0, 0, 0})
                                     : Quad({0, 0, 0}, {60, 0, 0}, {60, 0, 12}, {0, 0, 12});
@@ -259,7 +259,7 @@ TEST(LevelGrounds, BothSidesOfASheet) {
 }
 
 // Walls that would take more levels than are allowed, each its own, share them as far as that is enough.
-TEST(LevelGrounds, ShareLevelsWhereTheyAreTooMany) {
+TEST(LevelGroups, ShareLevelsWhereTheyAreTooMany) {
   PatchModel walls;
   constexpr int kWalls = 70;
   double height = 0.0;
@@ -301,11 +301,12 @@ Runs RunsOver(const PatchModel& model, double from_x, double to_x) {
 
 // Three bosses whose walls want different steps and whose tops and feet lie at different heights: each is cut
 // as if it stood alone.
-TEST(LevelGrounds, BossesAreCutAsIfTheyStoodAlone) {
-  const auto boss = [](double x, double foot, double height, double draft) {
+TEST(LevelGroups, BossesAreCutAsIfTheyStoodAlone) {
+  const auto boss = [](double x, double base_level, double height, double draft) {
     const double top = 4.0, bottom = top + height * std::tan(draft);
-    return Transformed(Turned({Line({0, foot + height}, {top, foot + height}),
-                               Line({top, foot + height}, {bottom, foot}), Line({bottom, foot}, {12, foot})}),
+    return Transformed(Turned({Line({0, base_level + height}, {top, base_level + height}),
+                               Line({top, base_level + height}, {bottom, base_level}),
+                               Line({bottom, base_level}, {12, base_level})}),
                        Eigen::Affine3d(Eigen::Translation3d(x, 0, 0)));
   };
   const std::vector<PatchModel> bosses = {boss(0.0, 0.0, 9.3, Radians(3.0)),

@@ -18,21 +18,21 @@ constexpr HeightParams kParams = {.radius = 3.0, .flat = 0.5, .smallest = 0.125}
 constexpr double kSpacing = 0.5;
 
 // A wall of the plane y = const: samples over [x0, x1] x [z0, z1] that all need this step.
-void AddWall(double x0, double x1, double z0, double z1, double step, double y, ContourGround& ground) {
+void AddWall(double x0, double x1, double z0, double z1, double step, double y, ContourArea& contour_area) {
   const auto count = [](double length) { return static_cast<int>(std::ceil(length / kSpacing)); };
   const int nx = count(x1 - x0), nz = count(z1 - z0);
   for (int i = 0; i < nx; ++i) {
     for (int k = 0; k < nz; ++k) {
       const double half = 0.5 * (z1 - z0) / nz;
-      ground.samples.push_back(
+      contour_area.samples.push_back(
           {{x0 + (i + 0.5) * (x1 - x0) / nx, y, z0 + (2 * k + 1) * half}, half, half, step, (x1 - x0) / nx});
     }
   }
-  ground.spacing = kSpacing;
+  contour_area.spacing = kSpacing;
 }
 
-std::vector<double> HeightsOf(const ContourGround& ground) {
-  const auto heights = LevelHeights(ground, kParams, RunContext(2));
+std::vector<double> HeightsOf(const ContourArea& contour_area) {
+  const auto heights = LevelHeights(contour_area, kParams, RunContext(2));
   EXPECT_TRUE(heights.ok()) << heights.status();
   return heights->heights;
 }
@@ -45,9 +45,9 @@ double WidestGap(const std::vector<double>& heights) {
 
 TEST(LevelHeights, OfOneNeedAreThatFarApartAndHalfOfItFromTheEnds) {
   for (const double height : {1.3, 5.0, 12.4, 12.6}) {
-    ContourGround ground;
-    AddWall(0.0, 40.0, 0.0, height, 0.5, 0.0, ground);
-    const std::vector<double> heights = HeightsOf(ground);
+    ContourArea contour_area;
+    AddWall(0.0, 40.0, 0.0, height, 0.5, 0.0, contour_area);
+    const std::vector<double> heights = HeightsOf(contour_area);
     ASSERT_FALSE(heights.empty());
     const double to = (std::floor(height / 0.0625 + 1e-9) + 1.0) * 0.0625;  // ground is seen in eighths
     // As few as gaps that are wider by no more than a pass is added for allow.
@@ -62,22 +62,22 @@ TEST(LevelHeights, OfOneNeedAreThatFarApartAndHalfOfItFromTheEnds) {
 // wider than their need.
 TEST(LevelHeights, AreNotTooWideThroughout) {
   for (const double height : {9.55, 15.0, 20.02}) {
-    ContourGround ground;
-    AddWall(0.0, 40.0, 0.0, height, 0.5, 0.0, ground);
+    ContourArea contour_area;
+    AddWall(0.0, 40.0, 0.0, height, 0.5, 0.0, contour_area);
     HeightParams exact = kParams;
     exact.wide = 1.001;
-    const auto heights = LevelHeights(ground, exact, RunContext(1));
+    const auto heights = LevelHeights(contour_area, exact, RunContext(1));
     ASSERT_TRUE(heights.ok());
     EXPECT_LE(WidestGap(heights->heights), 1.001 * 0.5) << height;
   }
 }
 
 TEST(LevelHeights, LieAtCommonLowerEnds) {
-  ContourGround ground;
-  AddWall(0.0, 40.0, 0.0, 6.05, 0.5, 0.0, ground);
-  ground.lower_ends.push_back({Vec3(0, 0, 0), 40.0});
-  ground.lower_ends.push_back({Vec3(0, 0, 3), 40.0});
-  const std::vector<double> heights = HeightsOf(ground);
+  ContourArea contour_area;
+  AddWall(0.0, 40.0, 0.0, 6.05, 0.5, 0.0, contour_area);
+  contour_area.lower_ends.push_back({Vec3(0, 0, 0), 40.0});
+  contour_area.lower_ends.push_back({Vec3(0, 0, 3), 40.0});
+  const std::vector<double> heights = HeightsOf(contour_area);
   for (const double end : {0.0, 3.0}) {
     EXPECT_TRUE(std::any_of(heights.begin(), heights.end(), [&](double z) {
       return z >= end && z <= end + 1e-5;
@@ -90,10 +90,10 @@ TEST(LevelHeights, LieAtCommonLowerEnds) {
 TEST(LevelHeights, FollowTheNarrowGroundWhereThatIsShorter) {
   const double wide = 0.5, narrow = 0.4, height = 20.0, length = 200.0;
   for (const double share : {0.05, 0.4, 0.6}) {
-    ContourGround ground;
-    AddWall(0.0, length * (1.0 - share), 0.0, height, wide, 0.0, ground);
-    AddWall(length * (1.0 - share), length, 0.0, height, narrow, 0.0, ground);
-    const std::vector<double> heights = HeightsOf(ground);
+    ContourArea contour_area;
+    AddWall(0.0, length * (1.0 - share), 0.0, height, wide, 0.0, contour_area);
+    AddWall(length * (1.0 - share), length, 0.0, height, narrow, 0.0, contour_area);
+    const std::vector<double> heights = HeightsOf(contour_area);
     const double all = length / narrow, both = length * (1.0 + share) / wide;  // a mm of height
     const double best = both < all ? wide : narrow;
     EXPECT_NEAR(height / static_cast<double>(heights.size()), best, 0.03 * best) << share;
@@ -102,10 +102,10 @@ TEST(LevelHeights, FollowTheNarrowGroundWhereThatIsShorter) {
 
 // Ground at one height that needs little, and elsewhere none that does.
 TEST(LevelHeights, AreNearerOnlyWhereTheGroundAsksForIt) {
-  ContourGround ground;
-  AddWall(0.0, 50.0, 0.0, 10.0, 0.5, 0.0, ground);
-  AddWall(0.0, 50.0, 10.0, 14.0, 0.25, 0.0, ground);
-  const std::vector<double> heights = HeightsOf(ground);
+  ContourArea contour_area;
+  AddWall(0.0, 50.0, 0.0, 10.0, 0.5, 0.0, contour_area);
+  AddWall(0.0, 50.0, 10.0, 14.0, 0.25, 0.0, contour_area);
+  const std::vector<double> heights = HeightsOf(contour_area);
   int low = 0, high = 0;
   for (const double z : heights) ++(z < 9.8 ? low : high);
   EXPECT_NEAR(low, 9.8 / 0.5, 2.0);
@@ -113,14 +113,14 @@ TEST(LevelHeights, AreNearerOnlyWhereTheGroundAsksForIt) {
 }
 
 TEST(LevelHeights, DoNotDependOnTheOrderOfSamples) {
-  ContourGround ground;
+  ContourArea contour_area;
   Random random(5);
   for (int k = 0; k < 40; ++k) {
     const double z = random.Uniform(0.0, 12.0);
-    AddWall(0.0, 10.0, z, z + random.Uniform(1.0, 6.0), random.Uniform(0.2, 0.6), 3.0 * k, ground);
+    AddWall(0.0, 10.0, z, z + random.Uniform(1.0, 6.0), random.Uniform(0.2, 0.6), 3.0 * k, contour_area);
   }
-  const std::vector<double> heights = HeightsOf(ground);
-  ContourGround other = ground;
+  const std::vector<double> heights = HeightsOf(contour_area);
+  ContourArea other = contour_area;
   std::reverse(other.samples.begin(), other.samples.end());
   const std::vector<double> again = HeightsOf(other);
   ASSERT_EQ(heights.size(), again.size());
@@ -130,36 +130,37 @@ TEST(LevelHeights, DoNotDependOnTheOrderOfSamples) {
 // Rounded tops allow steps of three times that on a plane; what stands beside them does not.
 TEST(LevelHeights, AreNeverSoFarApartThatTheyWouldTakeTheGroundForNone) {
   for (const double share : {0.0, 0.02, 0.1, 0.3}) {
-    ContourGround ground;
-    AddWall(0.0, 100.0 * (1.0 - share), 0.0, 20.0, 3.0 * kParams.flat, 0.0, ground);
-    AddWall(100.0 * (1.0 - share), 100.0, 0.0, 20.0, kParams.flat, 0.0, ground);
-    const std::vector<double> heights = HeightsOf(ground);
+    ContourArea contour_area;
+    AddWall(0.0, 100.0 * (1.0 - share), 0.0, 20.0, 3.0 * kParams.flat, 0.0, contour_area);
+    AddWall(100.0 * (1.0 - share), 100.0, 0.0, 20.0, kParams.flat, 0.0, contour_area);
+    const std::vector<double> heights = HeightsOf(contour_area);
     EXPECT_LE(WidestGap(heights), kMostGap * kParams.flat) << share;
     EXPECT_GE(heights.size(), 20.0 / (kMostGap * kParams.flat)) << share;
   }
 }
 
 TEST(LevelHeights, DoNotDependOnThreadsAndEndWhenCancelled) {
-  ContourGround ground;
+  ContourArea contour_area;
   Random random(6);
   for (int k = 0; k < 30; ++k) {
     const double z = random.Uniform(0.0, 12.0);
-    AddWall(0.0, 10.0, z, z + random.Uniform(1.0, 6.0), random.Uniform(0.2, 1.6), 3.0 * k, ground);
+    AddWall(0.0, 10.0, z, z + random.Uniform(1.0, 6.0), random.Uniform(0.2, 1.6), 3.0 * k, contour_area);
   }
-  EXPECT_EQ(LevelHeights(ground, kParams, RunContext(1))->heights,
-            LevelHeights(ground, kParams, RunContext(8))->heights);
+  EXPECT_EQ(LevelHeights(contour_area, kParams, RunContext(1))->heights,
+            LevelHeights(contour_area, kParams, RunContext(8))->heights);
   RunContext stopped(2);
   stopped.Cancel();
-  EXPECT_EQ(LevelHeights(ground, kParams, stopped).status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(LevelHeights(contour_area, kParams, stopped).status().code(), absl::StatusCode::kCancelled);
 }
 
 TEST(LevelHeights, AreRefusedWhereThereAreTooMany) {
-  ContourGround ground;
-  AddWall(0.0, 10.0, 0.0, 10.0, 1e-4, 0.0, ground);
+  ContourArea contour_area;
+  AddWall(0.0, 10.0, 0.0, 10.0, 1e-4, 0.0, contour_area);
   HeightParams fine = kParams;
   fine.flat = 1e-4;
   fine.smallest = 2.5e-5;
-  EXPECT_EQ(LevelHeights(ground, fine, RunContext(2)).status().code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(LevelHeights(contour_area, fine, RunContext(2)).status().code(),
+            absl::StatusCode::kResourceExhausted);
 }
 
 TEST(LevelHeights, AreNoneWithoutGround) { EXPECT_TRUE(HeightsOf({}).empty()); }

@@ -38,7 +38,7 @@ TEST_F(FarDome, NoRootBeforeTheBorder) {
   for (int i = 0; i < 500; ++i) {
     const double angle = random.Uniform(0.0, 2.0 * kPi), reach = std::pow(10.0, random.Uniform(-4.0, 0.0));
     const Vec2 out(std::cos(angle), std::sin(angle));
-    const Vec2 m = Plan(kMiddle) + random.Uniform(9.5, 10.5) * out;
+    const Vec2 m = Xy(kMiddle) + random.Uniform(9.5, 10.5) * out;
     const std::optional<SurfacePoint> contact = oracle_.Obstacle(m, nullptr);
     ASSERT_TRUE(contact);
     EXPECT_FALSE(oracle_.RootOnLine(m, out, *contact, *contact, {0.0, reach, true})) << reach;
@@ -50,12 +50,12 @@ TEST_F(FarDome, TheRootWhereItIs) {
   for (int i = 0; i < 500; ++i) {
     const double angle = random.Uniform(0.0, 2.0 * kPi);
     const Vec2 out(std::cos(angle), std::sin(angle));
-    const Vec2 m = Plan(kMiddle) + random.Uniform(11.0, 11.9) * out;
+    const Vec2 m = Xy(kMiddle) + random.Uniform(11.0, 11.9) * out;
     const std::optional<SurfacePoint> contact = oracle_.Obstacle(m, nullptr);
     ASSERT_TRUE(contact);
     const auto root = oracle_.RootOnLine(m, out, *contact, *contact, {0.0, 2.0, true});
     ASSERT_TRUE(root);
-    EXPECT_NEAR((root->q - Plan(kMiddle)).norm(), 12.0, 1e-8);
+    EXPECT_NEAR((root->q - Xy(kMiddle)).norm(), 12.0, 1e-8);
   }
 }
 

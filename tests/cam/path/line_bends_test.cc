@@ -40,7 +40,7 @@ double FarthestTurn(const std::vector<CutterPath>& paths, double angle) {
   double turn = 0.0;
   for (const CutterPath& path : paths) {
     for (std::size_t i = 1; i < path.points.size(); ++i) {
-      const Vec2 d = Plan(path.points[i].center - path.points[i - 1].center);
+      const Vec2 d = Xy(path.points[i].center - path.points[i - 1].center);
       if (d.norm() > 1e-3) turn = std::max(turn, std::atan2(std::abs(d.dot(across)), d.dot(along)));
     }
   }
@@ -69,7 +69,7 @@ TEST_P(BentOverHills, ShorterAsFineAndWithinTheAngle) {
     const Vec3 e = *UpwardNormal(jet);
     if (!locator.Free(jet.p + 3.0 * e, 1e-7)) continue;
     // Along slanting borders rest passes have the last word.
-    if ((Plan(jet.p) - Vec2(50, 50)).cwiseAbs().maxCoeff() > 49.0) continue;
+    if ((Xy(jet.p) - Vec2(50, 50)).cwiseAbs().maxCoeff() > 49.0) continue;
     worst = std::max(worst, distance.At(jet.p, 4.0) - 3.0);
   }
   EXPECT_LE(worst, 0.02 + 0.005);

@@ -19,31 +19,31 @@ namespace {
 
 using testing::Random;
 using testing::SurfaceOf;
-using Runs = std::vector<std::vector<LineStation>>;
+using Runs = std::vector<std::vector<TraceStation>>;
 
 constexpr double kTolerance = 0.01;
 
-bool IsSwitch(const LineStation& s, double radius) {
+bool IsSwitch(const TraceStation& s, double radius) {
   return s.keep && s.left && s.right && (s.left->p - s.right->p).norm() > 1e-3 * radius;
 }
 
-std::vector<LineStation> Switches(const Runs& runs, double radius) {
-  std::vector<LineStation> found;
+std::vector<TraceStation> Switches(const Runs& runs, double radius) {
+  std::vector<TraceStation> found;
   for (const auto& run : runs) {
     std::copy_if(run.begin(), run.end(), std::back_inserter(found),
-                 [&](const LineStation& s) { return IsSwitch(s, radius); });
+                 [&](const TraceStation& s) { return IsSwitch(s, radius); });
   }
   return found;
 }
 
-PlanLine RandomLine(const Surface& surface, Random& random) {
+XyLine RandomLine(const Surface& surface, Random& random) {
   const Box3& box = surface.box;
   const auto place = [&] {
     const double x = random.Uniform(box.min.x(), box.max.x());
     return Vec2(x, random.Uniform(box.min.y(), box.max.y()));
   };
   const Vec2 a = place();
-  return PlanLine::Through(a, place());
+  return XyLine::Through(a, place());
 }
 
 struct Tally {
@@ -57,10 +57,10 @@ void Judge(const PatchModel& model, double radius, std::uint64_t seed, int lines
   Random random(seed);
   for (int i = 0; i < lines; ++i) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed << " line " << i);
-    const PlanLine line = RandomLine(surface, random);
-    const Runs runs = TraceLine(locator, line, {.chord_tolerance = kTolerance});
-    const std::vector<LineStation> switches = Switches(runs, radius);
-    for (const LineStation& s : switches) {
+    const XyLine line = RandomLine(surface, random);
+    const Runs runs = TraceSegment(locator, line, {.chord_tolerance = kTolerance});
+    const std::vector<TraceStation> switches = Switches(runs, radius);
+    for (const TraceStation& s : switches) {
       ++tally.switches;
       const Vec3 c = Lift(s.q, s.z);
       // Both contacts carry the ball there: solved.
@@ -85,14 +85,14 @@ void Judge(const PatchModel& model, double radius, std::uint64_t seed, int lines
       const auto followed = locator.Follow(last->contact, line.At(t));
       if (!followed || followed->z > h->z - 1e-7) continue;
       ++tally.jumps;
-      const bool solved = std::any_of(switches.begin(), switches.end(), [&](const LineStation& s) {
+      const bool solved = std::any_of(switches.begin(), switches.end(), [&](const TraceStation& s) {
         return s.t > t0 - 1e-9 && s.t < t + 1e-9;
       });
       if (solved) continue;
       ++tally.passed;
       for (const auto& run : runs) {
         for (std::size_t n = 0; n + 1 < run.size(); ++n) {
-          const LineStation &a = run[n], &b = run[n + 1];
+          const TraceStation &a = run[n], &b = run[n + 1];
           if (t < a.t || t > b.t) continue;
           const double z = a.z + (t - a.t) / (b.t - a.t) * (b.z - a.z);
           EXPECT_FALSE(larger.Free(Lift(line.At(t), z), -1e-9)) << "no switch in " << t0 << " " << t;
@@ -106,11 +106,11 @@ void Judge(const PatchModel& model, double radius, std::uint64_t seed, int lines
     std::vector<Vec2> vertices;
     for (const ScanRun& run : scanned) {
       for (const CutterPoint& p : run.points) {
-        if (p.contact && p.other_contact) vertices.push_back(Plan(p.center));
+        if (p.contact && p.other_contact) vertices.push_back(Xy(p.center));
       }
     }
-    const LineTraceParams same{.chord_tolerance = kTolerance - 1e-4, .certificate_gap = 1e-4};
-    for (const LineStation& s : Switches(TraceLine(locator, line, same), radius)) {
+    const SegmentTraceParams same{.chord_tolerance = kTolerance - 1e-4, .certificate_gap = 1e-4};
+    for (const TraceStation& s : Switches(TraceSegment(locator, line, same), radius)) {
       EXPECT_TRUE(std::any_of(vertices.begin(), vertices.end(), [&](const Vec2& v) {
         return (v - s.q).norm() < 1e-9;
       })) << s.t;
@@ -145,15 +145,15 @@ TEST(LineSwitches, AreTheSameHoweverThePartIsCut) {
       const Surface surface = SurfaceOf(part.model);
       const Locator locator(surface, radius);
       Random random(seed);
-      const Vec2 shift = Plan(part.shift);
+      const Vec2 shift = Xy(part.shift);
       std::vector<std::vector<double>> all;
       for (int i = 0; i < 4; ++i) {
         const Vec2 a(random.Uniform(1, 29), random.Uniform(1, 29)),
             b(random.Uniform(1, 29), random.Uniform(1, 29));
-        const PlanLine line = PlanLine::Through(a + shift, b + shift);
+        const XyLine line = XyLine::Through(a + shift, b + shift);
         std::vector<double> t;
-        for (const LineStation& s :
-             Switches(TraceLine(locator, line, {.chord_tolerance = kTolerance}), radius)) {
+        for (const TraceStation& s :
+             Switches(TraceSegment(locator, line, {.chord_tolerance = kTolerance}), radius)) {
           t.push_back(s.t);
         }
         all.push_back(t);
@@ -185,8 +185,8 @@ class NoneOnSmoothGround {
     for (int i = 0; i < lines; ++i) {
       SCOPED_TRACE(::testing::Message() << "line " << i);
       const Vec2 a = place();
-      const PlanLine line = PlanLine::Through(a, place());
-      const Runs runs = TraceLine(locator, line, {.chord_tolerance = kTolerance});
+      const XyLine line = XyLine::Through(a, place());
+      const Runs runs = TraceSegment(locator, line, {.chord_tolerance = kTolerance});
       EXPECT_TRUE(Switches(runs, kRadius).empty());
       for (const auto& run : runs) CountJoints(run);
     }
@@ -195,7 +195,7 @@ class NoneOnSmoothGround {
   int joints() const { return joints_; }  // crossed so far
 
  private:
-  void CountJoints(const std::vector<LineStation>& run) {
+  void CountJoints(const std::vector<TraceStation>& run) {
     for (std::size_t n = 0; n + 1 < run.size(); ++n) {
       ASSERT_TRUE(run[n].hint && run[n + 1].hint);
       joints_ += surface_.piece(run[n].hint->piece).patch != surface_.piece(run[n + 1].hint->piece).patch;

@@ -23,8 +23,8 @@ using namespace patchmill::testing;
 constexpr double kRadius = 3.0, kScallop = 0.01, kTolerance = 0.01, kHalf = 20.0, kVertexStep = 0.5;
 const double kStep = CenterStep(kRadius, kScallop, 0.0);
 
-CoverageParams Coverage() {
-  CoverageParams params;
+RestPassParams Coverage() {
+  RestPassParams params;
   params.scallop = kScallop;
   params.chord_tolerance = 0.1 * kScallop;
   params.tolerance = kTolerance;
@@ -34,7 +34,7 @@ CoverageParams Coverage() {
 
 std::vector<CutterPath> Without(const Locator& locator, std::vector<CutterPath> paths, int threads = 1) {
   const Locator reach = *ReachLocator(locator, Coverage(), RunContext());
-  auto kept = WithoutNeedless(locator, reach, std::move(paths), {Coverage()}, RunContext(threads));
+  auto kept = RemoveRedundantPasses(locator, reach, std::move(paths), {Coverage()}, RunContext(threads));
   EXPECT_TRUE(kept.ok()) << kept.status();
   return std::move(*kept);
 }
@@ -70,14 +70,14 @@ void ExpectSame(const std::vector<CutterPath>& a, const std::vector<CutterPath>&
   }
 }
 
-TEST(WithoutNeedless, EvenRowsStay) {
+TEST(RemoveRedundantPasses, EvenRowsStay) {
   const Surface surface = JoinedSurface(Plane(kHalf));
   const Locator locator(surface, kRadius);
   const std::vector<CutterPath> rows = Rows(-kHalf, kHalf);
   ExpectSame(Without(locator, rows), rows);
 }
 
-TEST(WithoutNeedless, RowsBetweenOthersGo) {
+TEST(RemoveRedundantPasses, RowsBetweenOthersGo) {
   const Surface surface = JoinedSurface(Plane(kHalf));
   const Locator locator(surface, kRadius);
   const std::vector<CutterPath> rows = Rows(-kHalf, kHalf);
@@ -88,7 +88,7 @@ TEST(WithoutNeedless, RowsBetweenOthersGo) {
   ExpectSame(Without(locator, more), rows);
 }
 
-TEST(WithoutNeedless, OfWhatIsNeededInPartTheRestGoes) {
+TEST(RemoveRedundantPasses, OfWhatIsNeededInPartTheRestGoes) {
   const Surface surface = JoinedSurface(Plane(kHalf));
   const Locator locator(surface, kRadius);
   const std::vector<CutterPath> rows = Rows(-kHalf, 0.0);
@@ -106,7 +106,7 @@ TEST(WithoutNeedless, OfWhatIsNeededInPartTheRestGoes) {
   ExpectSame(Without(locator, more), more);
 }
 
-TEST(WithoutNeedless, ADoubledVertexIsNoPass) {
+TEST(RemoveRedundantPasses, ADoubledVertexIsNoPass) {
   const Surface surface = JoinedSurface(Plane(kHalf));
   const Locator locator(surface, kRadius);
   const std::vector<CutterPath> rows = Rows(-kHalf, kHalf);
@@ -119,10 +119,10 @@ TEST(WithoutNeedless, ADoubledVertexIsNoPass) {
 
 // A finer finish than the tolerance: what was taken must have left less by a share of the scallop, not of the
 // tolerance. Rows too far apart, with others beside them that make up for it.
-TEST(WithoutNeedless, AFineFinishAtALooseToleranceIsKept) {
+TEST(RemoveRedundantPasses, AFineFinishAtALooseToleranceIsKept) {
   const Surface surface = JoinedSurface(Plane(10.0));
   const Locator locator(surface, kRadius);
-  CoverageParams params = Coverage();
+  RestPassParams params = Coverage();
   params.scallop = 0.002;
   params.tolerance = 0.05;
   params.limit = params.scallop + 0.75 * params.tolerance;
@@ -133,7 +133,7 @@ TEST(WithoutNeedless, AFineFinishAtALooseToleranceIsKept) {
     rows.push_back(Row(y + 0.19 * step, -10.0, 10.0));
   }
   const Locator reach = *ReachLocator(locator, params, RunContext());
-  const auto kept = WithoutNeedless(locator, reach, rows, {params}, RunContext());
+  const auto kept = RemoveRedundantPasses(locator, reach, rows, {params}, RunContext());
   ASSERT_TRUE(kept.ok()) << kept.status();
   const DistanceToPaths after(*kept);
   Random random(7);
@@ -143,10 +143,10 @@ TEST(WithoutNeedless, AFineFinishAtALooseToleranceIsKept) {
   }
 }
 
-TEST(WithoutNeedless, LongMiddlesAndArcsOfLoopsGo) {
+TEST(RemoveRedundantPasses, LongMiddlesAndArcsOfLoopsGo) {
   const Surface surface = JoinedSurface(Plane(kHalf));
   const Locator locator(surface, kRadius);
-  const double worth = 0.5 * kWorthBetween * kRadius;
+  const double worth = 0.5 * kMinRemovedBetween * kRadius;
   for (const double half : {worth - 1.0, worth + 2.0}) {
     std::vector<CutterPath> more = Rows(-half, half);
     more.push_back(Row(0.5 * kStep, -kHalf, kHalf));
@@ -185,7 +185,7 @@ TEST(WithoutNeedless, LongMiddlesAndArcsOfLoopsGo) {
 
 // Lines over contours, and both over creases: half of it is needless, and nowhere does more remain than two
 // neighbours may leave, or than was left before.
-TEST(WithoutNeedless, NowhereDoesMoreRemain) {
+TEST(RemoveRedundantPasses, NowhereDoesMoreRemain) {
   const std::vector<PatchModel> models = {Sphere(Vec3::Zero(), 9.0, Half::kUpper),
                                           TwoPlanes(Radians(40), 8.0), Saddle(0.04, 0.05, 8.0),
                                           RandomBspline(5, {.spans = 5, .size = 20, .amplitude = 2.5})};

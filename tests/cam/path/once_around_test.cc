@@ -13,13 +13,13 @@ constexpr double kOnce = 100.0, kEnd = 112.0;
 
 std::vector<std::pair<double, double>> Once(std::vector<Interval> keep, double end = kEnd) {
   std::vector<std::pair<double, double>> out;
-  for (const Interval& i : OnceAround(keep, {end > kOnce ? 0.0 : end - kOnce, end}, kOnce))
+  for (const Interval& i : RemoveOverlapTurn(keep, {end > kOnce ? 0.0 : end - kOnce, end}, kOnce))
     out.emplace_back(i.begin, i.end);
   return out;
 }
 using Stretches = std::vector<std::pair<double, double>>;
 
-TEST(OnceAround, EveryStretchOnceAndWholeOverTheBeginning) {
+TEST(RemoveOverlapTurn, EveryStretchOnceAndWholeOverTheBeginning) {
   EXPECT_EQ(Once({}), Stretches());
   EXPECT_EQ(Once({{20, 30}}), (Stretches{{20, 30}}));
   EXPECT_EQ(Once({{3, 9}, {103, 109}}), (Stretches{{103, 109}}));  // seen twice
@@ -31,13 +31,13 @@ TEST(OnceAround, EveryStretchOnceAndWholeOverTheBeginning) {
   EXPECT_EQ(Once({{12.0, 30}, {111.8, 112}}), (Stretches{{111.8, 130}}));  // the two sights differ
 }
 
-TEST(OnceAround, OfOneTurnWhatIsThere) {
+TEST(RemoveOverlapTurn, OfOneTurnWhatIsThere) {
   EXPECT_EQ(Once({{0, 8}, {95, 100}}, kOnce), (Stretches{{0, 8}, {95, 100}}));
   EXPECT_EQ(Once({{0, 100}}, kOnce), (Stretches{{0, 100}}));
 }
 
 // Random stretches on the circle, seen from 0 to the end: what comes back covers the same ground once.
-TEST(OnceAround, CoversWhatWasSeen) {
+TEST(RemoveOverlapTurn, CoversWhatWasSeen) {
   Random random(5);
   for (int k = 0; k < 2000; ++k) {
     std::vector<Interval> truth;  // begins in [0, once), may run over

@@ -35,7 +35,7 @@ void ExpectCertified(const Surface& surface, double radius, const std::vector<Sc
     ASSERT_GE(run.points.size(), 2u);
     for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
       const Vec3 &a = run.points[i].center, &b = run.points[i + 1].center;
-      const bool vertical = (Plan(a) - Plan(b)).norm() < 1e-6;
+      const bool vertical = (Xy(a) - Xy(b)).norm() < 1e-6;
       for (int k = 0; k <= probes_per_chord; ++k) {
         const Vec3 x = a + (static_cast<double>(k) / probes_per_chord) * (b - a);
         bad_gouge += !smaller.Free(x, 1e-9);
@@ -44,8 +44,8 @@ void ExpectCertified(const Surface& surface, double radius, const std::vector<Sc
           bad_excess += larger.Free(x, -1e-9);
         }
       }
-      const auto h = exact.Height(Plan(a));
-      if (h && !vertical && (i == 0 || (Plan(run.points[i - 1].center) - Plan(a)).norm() > 1e-6)) {
+      const auto h = exact.Height(Xy(a));
+      if (h && !vertical && (i == 0 || (Xy(run.points[i - 1].center) - Xy(a)).norm() > 1e-6)) {
         EXPECT_GE(a.z() - h->z, -1e-8 - deepest / std::max(0.05, a.z() - h->contact.p.z()) * radius);
       }
     }
@@ -107,7 +107,7 @@ TEST(ScanLine, WallOfABlockIsADropInItsPlace) {
     int drops = 0;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       const Vec3 &a = points[i].center, &b = points[i + 1].center;
-      if ((Plan(a) - Plan(b)).norm() > 0.0 || std::abs(a.z() - b.z()) < 1.0) continue;
+      if ((Xy(a) - Xy(b)).norm() > 0.0 || std::abs(a.z() - b.z()) < 1.0) continue;
       ++drops;
       EXPECT_NEAR(std::abs(a.x()), 10 + radius, 1e-7);
       EXPECT_NEAR(std::max(a.z(), b.z()), 8.0, 4e-4);
@@ -172,9 +172,9 @@ TEST(ScanLine, RoundWallIsADropInItsPlaceAtAnyHeading) {
         const auto& points = runs[0].points;
         for (std::size_t i = 0; i < points.size(); ++i) {
           const Vec3& c = points[i].center;
-          if (i + 1 < points.size() && (Plan(points[i + 1].center) - Plan(c)).norm() == 0.0) {
-            found.push_back((Plan(c) - middle).dot(d));
-            EXPECT_NEAR(Cross(d, Plan(c) - middle), 0.0, 1e-12);
+          if (i + 1 < points.size() && (Xy(points[i + 1].center) - Xy(c)).norm() == 0.0) {
+            found.push_back((Xy(c) - middle).dot(d));
+            EXPECT_NEAR(Cross(d, Xy(c) - middle), 0.0, 1e-12);
             const double top = std::max(c.z(), points[i + 1].center.z()),
                          foot = std::min(c.z(), points[i + 1].center.z());
             // The top stands where the ball's side still holds the rim, 1e-8 mm inside.
@@ -183,9 +183,9 @@ TEST(ScanLine, RoundWallIsADropInItsPlaceAtAnyHeading) {
             EXPECT_NEAR(foot, radius, 1e-9);
             continue;
           }
-          if (i > 0 && (Plan(points[i - 1].center) - Plan(c)).norm() == 0.0) continue;
+          if (i > 0 && (Xy(points[i - 1].center) - Xy(c)).norm() == 0.0) continue;
           // Between the drops: on the lid, around the rim or on the plane.
-          const double beside = (Plan(c) - axis).norm() - boss;
+          const double beside = (Xy(c) - axis).norm() - boss;
           const double on_rim = height + std::sqrt(std::max(0.0, radius * radius - beside * beside));
           const double h = lid && beside < 0.0         ? height + radius
                            : std::abs(beside) < radius ? on_rim
@@ -233,7 +233,7 @@ TEST(ScanLine, FloorCarriesTheBallAndTheSwitchIsSolved) {
   int found = 0;
   for (const auto& p : runs[0].points) {
     EXPECT_GE(p.center.z(), floor_z + radius);
-    const double d2 = Plan(p.center).squaredNorm();
+    const double d2 = Xy(p.center).squaredNorm();
     if (!p.contact || !p.other_contact) {
       if (std::abs(std::abs(p.center.x()) - where) < 1e-9) ++found;
     }
@@ -306,7 +306,7 @@ double DeepestChord(const Locator& locator, const std::vector<ScanRun>& runs) {
       constexpr int kProbes = 32;
       for (int k = 0; k <= kProbes; ++k) {
         const Vec3 x = a + (static_cast<double>(k) / kProbes) * (b - a);
-        const auto h = locator.Height(Plan(x));
+        const auto h = locator.Height(Xy(x));
         if (h) highest = std::max(highest, x.z() - h->z);
       }
       deepest = std::max(deepest, -highest);
@@ -374,7 +374,7 @@ TEST(ScanLine, FineChordsStayAboveTheFloor) {
   bool below = false;
   for (const CutterPoint& p : runs[0].points) {
     EXPECT_GE(p.center.z(), params.floor_z + 3.0);
-    const auto h = locator.Height(Plan(p.center));
+    const auto h = locator.Height(Xy(p.center));
     below |= h && p.center.z() < h->z - 1e-5;
   }
   EXPECT_TRUE(below);
@@ -410,10 +410,10 @@ TEST(ScanPolyline, GoesOnOverCornersAndKeepsThemAsVertices) {
   ExpectCertified(surface, 3.0, runs, params);
   std::size_t next = 0;
   for (const CutterPoint& p : runs[0].points) {
-    if (next < corners.size() && (Plan(p.center) - corners[next]).norm() < 1e-9) ++next;
+    if (next < corners.size() && (Xy(p.center) - corners[next]).norm() < 1e-9) ++next;
   }
   EXPECT_EQ(next, corners.size());
-  EXPECT_EQ(Plan(runs[0].points.front().center), corners.front());
+  EXPECT_EQ(Xy(runs[0].points.front().center), corners.front());
 }
 
 TEST(ScanPolyline, BreaksWhereThereIsNothingBelow) {
@@ -423,8 +423,8 @@ TEST(ScanPolyline, BreaksWhereThereIsNothingBelow) {
   const std::vector<Vec2> corners = {{0, 0}, {9, 1}, {0, 2}};
   const auto runs = ScanPolyline(locator, corners, PassParams());
   ASSERT_EQ(runs.size(), 2u);
-  EXPECT_EQ(Plan(runs[0].points.front().center), corners.front());
-  EXPECT_EQ(Plan(runs[1].points.back().center), corners.back());
+  EXPECT_EQ(Xy(runs[0].points.front().center), corners.front());
+  EXPECT_EQ(Xy(runs[1].points.back().center), corners.back());
 }
 
 }  // namespace

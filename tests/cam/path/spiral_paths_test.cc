@@ -107,7 +107,7 @@ TEST(SpiralPaths, OnePassDownADome) {
   for (std::size_t i = 0; i < spiral.points.size(); ++i) {
     EXPECT_NEAR(spiral.points[i].center.norm(), 13.0, 1e-8);  // on the offset sphere, at every height
     if (i == 0) continue;
-    const Vec2 a = Plan(spiral.points[i - 1].center), b = Plan(spiral.points[i].center);
+    const Vec2 a = Xy(spiral.points[i - 1].center), b = Xy(spiral.points[i].center);
     turned += std::atan2(Cross(a, b), a.dot(b));
     // Both sides of every chord: its middle is nowhere farther from the dome than the tolerance.
     const Vec3 middle = 0.5 * (spiral.points[i - 1].center + spiral.points[i].center);
@@ -128,7 +128,7 @@ TEST(SpiralPaths, BackwardsFallsToo) {
   ASSERT_EQ(wound.paths.size(), 1u);
   const CutterPath& spiral = wound.paths.front();
   CheckShape(wound, spiral);
-  const Vec2 a = Plan(spiral.points[0].center), b = Plan(spiral.points[1].center);
+  const Vec2 a = Xy(spiral.points[0].center), b = Xy(spiral.points[1].center);
   EXPECT_GT(Cross(a, b), 0.0) << "counter-clockwise around a mountain is conventional";
 }
 
@@ -156,7 +156,7 @@ TEST(SpiralPaths, AroundABlocksVerticalWalls) {
     // The offset of the square, rounded at its corners.
     for (const CutterPoint& p : path.points) {
       if (p.center.z() > 5.0) continue;
-      const Vec2 out = Plan(p.center).cwiseAbs() - Vec2(8.0, 8.0);
+      const Vec2 out = Xy(p.center).cwiseAbs() - Vec2(8.0, 8.0);
       EXPECT_NEAR(out.cwiseMax(0.0).norm(), kR, 1e-6);
     }
   }

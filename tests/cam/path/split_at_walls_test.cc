@@ -10,7 +10,7 @@ CutterPath PathOf(const std::vector<Vec3>& centers, bool closed = false) {
   CutterPath path;
   path.kind = PassKind::kZigzag;
   path.closed = closed;
-  path.line = 7;
+  path.order_key = 7;
   for (const Vec3& c : centers) path.points.push_back({c, {}, {}});
   return path;
 }
@@ -18,7 +18,7 @@ CutterPath PathOf(const std::vector<Vec3>& centers, bool closed = false) {
 std::vector<std::vector<Vec3>> PartsOf(const CutterPath& path) {
   std::vector<std::vector<Vec3>> parts;
   for (const CutterPath& part : SplitAtWalls(path, 1.0)) {
-    EXPECT_EQ(part.line, 7);
+    EXPECT_EQ(part.order_key, 7);
     std::vector<Vec3>& centers = parts.emplace_back();
     for (const CutterPoint& p : part.points) centers.push_back(p.center);
   }

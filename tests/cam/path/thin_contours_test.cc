@@ -92,7 +92,7 @@ void ExpectPromises(const Thinned& t, Cells cells = Cells::kResolved) {
   for (std::size_t i = 0; i < t.after.size(); ++i) {
     const CutterPath &before = t.before[i], &after = t.after[i];
     EXPECT_EQ(before.closed, after.closed);
-    EXPECT_EQ(before.line, after.line);
+    EXPECT_EQ(before.order_key, after.order_key);
     // Ends and corners stay as they are.
     EXPECT_EQ(before.points.front().center, after.points.front().center);
     if (!before.closed) {

@@ -77,7 +77,7 @@ TEST(ZigzagPaths, PlaneHasLinesAtItsBordersAndTheFlatStep) {
   EXPECT_NEAR(paths.front().points.front().center.y(), -half, 2e-3 * flat);
   EXPECT_NEAR(paths.back().points.front().center.y(), half, 2e-3 * flat);
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    EXPECT_EQ(paths[i].line, static_cast<int>(i));
+    EXPECT_EQ(paths[i].order_key, static_cast<int>(i));
     EXPECT_EQ(paths[i].points.size(), 2u);
     EXPECT_NEAR(paths[i].points.front().center.x(), -half, 1e-4);
     EXPECT_NEAR(paths[i].points.back().center.x(), half, 1e-4);
@@ -136,16 +136,16 @@ TEST(ZigzagPaths, EveryPathRunsAlongTheAngleInOrderOfLines) {
     double last_y = -kInfinity;
     int last_line = -1;
     for (const auto& path : paths) {
-      const double y = Plan(path.points.front().center).dot(across);
+      const double y = Xy(path.points.front().center).dot(across);
       EXPECT_GE(y, last_y - 1e-9);
-      EXPECT_GE(path.line, last_line);
+      EXPECT_GE(path.order_key, last_line);
       last_y = y;
-      last_line = path.line;
+      last_line = path.order_key;
       EXPECT_EQ(path.kind, PassKind::kZigzag);
       for (std::size_t i = 0; i < path.points.size(); ++i) {
-        EXPECT_NEAR(Plan(path.points[i].center).dot(across), y, 1e-9);
+        EXPECT_NEAR(Xy(path.points[i].center).dot(across), y, 1e-9);
         if (i > 0) {
-          EXPECT_GE(Plan(path.points[i].center - path.points[i - 1].center).dot(along), -1e-12);
+          EXPECT_GE(Xy(path.points[i].center - path.points[i - 1].center).dot(along), -1e-12);
         }
       }
     }
@@ -259,7 +259,7 @@ TEST(ZigzagPaths, GroundBetweenTwoEdgesKeepsItsLines) {
       const bool over_top = std::any_of(path.points.begin(), path.points.end(), [](const CutterPoint& p) {
         return p.contact && p.contact->p.z() > 2.0 - 1e-9;
       });
-      if (over_top) lines.insert(path.line);
+      if (over_top) lines.insert(path.order_key);
     }
     const double across = 18.0 * std::cos(turned) / CenterStep(3.0, 0.01, 0.0);
     EXPECT_GE(static_cast<double>(lines.size()), 0.9 * across) << turned;
@@ -282,7 +282,7 @@ TEST(ZigzagPaths, NarrowSpotsGetPartialLines) {
     ++(to.x() - from.x() > 29 ? full : partial);
     for (std::size_t k = 0; k < i; ++k) {  // those beside it, of other lines
       const Vec3 &a = paths[k].points.front().center, &b = paths[k].points.back().center;
-      if (paths[k].line == paths[i].line || a.x() >= to.x() || b.x() <= from.x()) continue;
+      if (paths[k].order_key == paths[i].order_key || a.x() >= to.x() || b.x() <= from.x()) continue;
       EXPECT_GE(from.y() - a.y(), 0.999 * params.min_step_fraction * flat);
     }
   }
@@ -302,7 +302,7 @@ TEST(ZigzagPaths, FloorHeldPlacesAreNoPasses) {
       EXPECT_GE(p.center.z(), 7.0);
       if (p.contact) continue;
       // Within half a step of the circle where the sphere takes over.
-      EXPECT_LE(Plan(p.center).norm(), std::sqrt(13.0 * 13 - 49) + 0.6);
+      EXPECT_LE(Xy(p.center).norm(), std::sqrt(13.0 * 13 - 49) + 0.6);
     }
   }
 }
@@ -314,7 +314,7 @@ TEST(ZigzagPaths, SameBytesForAnyThreadCount) {
   ASSERT_EQ(one.size(), two.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
     ASSERT_EQ(one[i].points.size(), two[i].points.size());
-    EXPECT_EQ(one[i].line, two[i].line);
+    EXPECT_EQ(one[i].order_key, two[i].order_key);
     for (std::size_t k = 0; k < one[i].points.size(); ++k) {
       EXPECT_EQ(one[i].points[k].center, two[i].points[k].center);
     }
@@ -339,7 +339,7 @@ const Vec3 kAxis(4, -3, 0);
 ZigzagParams AroundRim(double scallop) {
   ZigzagParams params = Params(scallop, 45);
   const double reach = kTube * std::sqrt(0.5);
-  params.around = RoundLines{Plan(kAxis), kRim - reach, kRim + reach};
+  params.around = CircularLines{Xy(kAxis), kRim - reach, kRim + reach};
   return params;
 }
 
@@ -358,7 +358,7 @@ TEST(ZigzagPaths, RoundLinesLieOnARimAtTheStepItNeeds) {
     EXPECT_EQ(path.kind, PassKind::kZigzag);
     double inner = kInfinity, outer = 0.0;
     for (const CutterPoint& p : path.points) {
-      const double r = (Plan(p.center) - Plan(kAxis)).norm();
+      const double r = (Xy(p.center) - Xy(kAxis)).norm();
       inner = std::min(inner, r);
       outer = std::max(outer, r);
       EXPECT_NEAR(p.center.z(), std::sqrt(tube * tube - (r - kRim) * (r - kRim)), 2e-4 + 1e-6);
@@ -406,7 +406,7 @@ TEST(ZigzagPaths, RoundLinesKeepAStepFromPassesBesideThem) {
     EXPECT_LT(paths.size(), alone) << gap;
     EXPECT_GE(paths.size() + 2, alone) << gap;
     const auto angle_of = [&](const CutterPath& path) {
-      return std::asin(((Plan(path.points.front().center) - Plan(kAxis)).norm() - kRim) / tube);
+      return std::asin(((Xy(path.points.front().center) - Xy(kAxis)).norm() - kRim) / tube);
     };
     const double from = tube * (angle_of(paths.front()) + kPi / 4.0) + gap * step,
                  to = tube * (kPi / 4.0 - angle_of(paths.back())) + gap * step;
@@ -464,7 +464,7 @@ TEST(ZigzagPaths, PartialRoundLinesAreCutOnce) {
     const Surface surface = JoinedSurface(Single(InterpolatedHeights(height, -18, 18, -18, 18, 60, 60)));
     const Locator locator(surface, 3.0);
     ZigzagParams params = Params(0.01, 45);
-    params.around = RoundLines{{0, 0}, 9, 15};
+    params.around = CircularLines{{0, 0}, 9, 15};
     double length = 0.0;
     std::size_t partial = 0;
     std::vector<std::pair<Vec2, Vec2>> ends;
@@ -472,7 +472,7 @@ TEST(ZigzagPaths, PartialRoundLinesAreCutOnce) {
       length += Length(path);
       if (path.closed) continue;
       ++partial;
-      ends.emplace_back(Plan(path.points.front().center), Plan(path.points.back().center));
+      ends.emplace_back(Xy(path.points.front().center), Xy(path.points.back().center));
     }
     for (std::size_t i = 0; i < ends.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k)

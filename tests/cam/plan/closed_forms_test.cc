@@ -108,7 +108,7 @@ TEST(ClosedForms, ValleyOfTwoPlanesAtSeveralFeedAngles) {
       job.operation.scallop = 0.02;
       const JobResult result = RunAndCheck(TwoPlanes(Radians(slope), half), job).result;
       const double a = Radians(slope);
-      const double strip = radius * std::tan(a) - ReachGive(job.operation.tolerance) / std::sin(2.0 * a);
+      const double strip = radius * std::tan(a) - ReachTolerance(job.operation.tolerance) / std::sin(2.0 * a);
       const double area = 2.0 * strip * 2.0 * half;
       ExpectUnreachable(result, area, 0.01 * area);
       if (kSanitized) break;
@@ -127,7 +127,7 @@ TEST(ClosedForms, HemisphereOnAPlane) {
   Job job = BallJob(radius);
   job.operation.scallop = 0.02;
   const JobResult result = RunAndCheck(Join({Sphere({0, 0, 0}, r, Half::kUpper), Plane(half)}), job).result;
-  const double t = ReachGive(job.operation.tolerance);
+  const double t = ReachTolerance(job.operation.tolerance);
   const double on_plane = kPi * ((r + radius - t) * (r + radius - t) - radius * radius);
   const double on_sphere = 2.0 * kPi * r * r * (radius - t) / (r + radius);
   ExpectUnreachable(result, on_plane + on_sphere, 0.01 * (on_plane + on_sphere));
@@ -139,7 +139,7 @@ TEST(ClosedForms, BlockWithVerticalWalls) {
   Job job = BallJob(radius);
   job.operation.scallop = 0.02;
   const JobResult result = RunAndCheck(Block(half, height, 14.0), job).result;
-  const double reach = radius - ReachGive(job.operation.tolerance);
+  const double reach = radius - ReachTolerance(job.operation.tolerance);
   const double on_floor = 8.0 * half * reach + kPi * reach * reach, on_walls = 8.0 * half * reach;
   ExpectUnreachable(result, on_floor + on_walls, 0.01 * (on_floor + on_walls));
 }

@@ -52,7 +52,7 @@ TEST(Containment, CenterBoundaryIsCutToTheLineAndNotBeyond) {
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
   AlongMoves(result, IsFeed, [](const Vec3& c) {
-    EXPECT_LE(FromBox(Plan(c), Vec2(-8, -8), Vec2(8, 8)), 0.01);
+    EXPECT_LE(FromBox(Xy(c), Vec2(-8, -8), Vec2(8, 8)), 0.01);
     EXPECT_LE(std::min(c.x(), (c.x() + c.y()) * std::sqrt(0.5)), 0.01);
   });
   const double area = 16.0 * 8.0 + 0.5 * 8.0 * 8.0;
@@ -78,7 +78,7 @@ TEST(Containment, InsideAndOutsideAreTheBallFromAbove) {
     const double in = (w - 2 * kLimitedRadius) * (h - 2 * kLimitedRadius);
     EXPECT_NEAR(inside.report.verify.reachable_area, in, 0.015 * in) << Describe(inside);
     AlongMoves(inside, IsFeed, [&](const Vec3& c) {
-      EXPECT_LE(FromBox(Plan(c), Vec2(-0.5 * w + kLimitedRadius, -0.5 * h + kLimitedRadius),
+      EXPECT_LE(FromBox(Xy(c), Vec2(-0.5 * w + kLimitedRadius, -0.5 * h + kLimitedRadius),
                         Vec2(0.5 * w - kLimitedRadius, 0.5 * h - kLimitedRadius)),
                 0.01);
     });
@@ -88,7 +88,7 @@ TEST(Containment, InsideAndOutsideAreTheBallFromAbove) {
     const double out = 14 * 10 + 2 * r * (14 + 10) + kPi * r * r;
     EXPECT_NEAR(outside.report.verify.reachable_area, out, 0.01 * out) << Describe(outside);
     AlongMoves(outside, IsFeed,
-               [&](const Vec3& c) { EXPECT_LE(FromBox(Plan(c), Vec2(-7, -5), Vec2(7, 5)), r + 0.01); });
+               [&](const Vec3& c) { EXPECT_LE(FromBox(Xy(c), Vec2(-7, -5), Vec2(7, 5)), r + 0.01); });
   }
 }
 
@@ -108,7 +108,7 @@ TEST(Containment, ContactBoundaryIsWhatMustBeFinished) {
       result, [](const Move& m) { return m.kind == MoveKind::kCut; },
       [&](const Vec3& c) {
         const Vec3 p = c - kLimitedRadius * Vec3(-slope, 0, 1).normalized();
-        EXPECT_LE(FromBox(Plan(p), Vec2(-6, -4), Vec2(6, 4)), 1.5 * step + 0.01);
+        EXPECT_LE(FromBox(Xy(p), Vec2(-6, -4), Vec2(6, 4)), 1.5 * step + 0.01);
       });
 }
 
@@ -187,7 +187,7 @@ TEST(Containment, ObstacleIsGoneAroundAndOver) {
       result, [](const Move&) { return true; },
       [&](const Vec3& c) {
         EXPECT_TRUE(c.z() - kLimitedRadius >= top + margin - 0.01 ||
-                    FromBox(Plan(c), Vec2(-4, -25), Vec2(4, 2)) >= keep - 0.01);
+                    FromBox(Xy(c), Vec2(-4, -25), Vec2(4, 2)) >= keep - 0.01);
       });
   const double area = (8 + 2 * keep) * 22 + 8 * keep + 0.5 * kPi * keep * keep;
   EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], area, 0.01 * area);
@@ -218,7 +218,7 @@ TEST(Containment, ObstacleIsKeptOffByTheShank) {
       result, [&](const Move&) { return true; },
       [&](const Vec3& c) {
         if (c.z() - kLimitedRadius >= top + margin - 0.01) return;
-        least = std::min(least, FromBox(Plan(c), Vec2(-4, -30), Vec2(4, 2)));
+        least = std::min(least, FromBox(Xy(c), Vec2(-4, -30), Vec2(4, 2)));
       });
   EXPECT_NEAR(least, keep, 0.02);
   const double area = (8 + 2 * keep) * 27 + 8 * keep + 0.5 * kPi * keep * keep;
@@ -273,8 +273,8 @@ TEST(Containment, WhatIsWantedAndAllowedIsFinished) {
     const auto e = UpwardNormal(jet);
     if (!e) continue;
     const Vec3 c = jet.p + kLimitedRadius * *e;
-    if (boundary.SignedDistance(Plan(c)) < 0.0) continue;
-    const bool beside = FromBox(Plan(c), Vec2(18, 8), Vec2(21, 11)) >= kLimitedRadius + 0.5;
+    if (boundary.SignedDistance(Xy(c)) < 0.0) continue;
+    const bool beside = FromBox(Xy(c), Vec2(18, 8), Vec2(21, 11)) >= kLimitedRadius + 0.5;
     if (!beside && c.z() - kLimitedRadius < 8.5) continue;
     if (!locator.Free(c)) continue;
     EXPECT_LE(Distance(jet.p, result), kLimitedRadius + 0.02 + 0.01 + 1e-6);

@@ -12,7 +12,7 @@ namespace {
 using namespace testing;  // NOLINT: the support folder's
 
 double OverLeast(const JobResult& result) {
-  return result.report.verify.cut_length / result.report.least_feed;
+  return result.report.verify.cut_length / result.report.least_cut_length;
 }
 
 // A plane at the very angle that divides steep from gentle is cut in one of the two ways, not in both, nor by

@@ -33,7 +33,7 @@ std::vector<Feed> LevelFeeds(const JobResult& result) {
   EXPECT_TRUE(motion.ok()) << motion.status();
   std::vector<Feed> feeds;
   for (const ProgramMove& m : motion->moves) {
-    if (m.kind != ProgramMove::Kind::kFeed || Plan(Vec3(m.to - m.from)).norm() < 1e-9) continue;
+    if (m.kind != ProgramMove::Kind::kFeed || Xy(Vec3(m.to - m.from)).norm() < 1e-9) continue;
     feeds.push_back({m.from + Vec3(0, 0, kRadius), m.to + Vec3(0, 0, kRadius)});
   }
   return feeds;

@@ -82,17 +82,18 @@ TEST(HeightLimits, NothingIsCutWhereAllIsAboveTheHighestTip) {
 TEST(HeightLimits, FlatsBelowTheFloor) {
   const Surface surface = PlacedSurface(Ramp());
   Job job = BallJob(3.0);
-  const double give = ReachGive(job.operation.tolerance);
-  for (const double above : {0.1 * give, 0.9 * give, 1.2 * give, 0.03, 0.3}) {
+  const double reach_tolerance = ReachTolerance(job.operation.tolerance);
+  for (const double above :
+       {0.1 * reach_tolerance, 0.9 * reach_tolerance, 1.2 * reach_tolerance, 0.03, 0.3}) {
     SCOPED_TRACE(above);
     job.operation.floor_z = above;
     const JobResult result = MillChecked(surface, job);
     // What the ball cannot touch for the other side of the corner, `blocked` on each, is CONCAVE; of the ramp
     // the floor takes as much as it is higher. Between two reasons areas are sampled coarsely.
     const double slope = std::atan2(kHigh, 3.0),
-                 blocked = (3.0 * (1.0 - std::cos(slope)) - give) / std::sin(slope);
+                 blocked = (3.0 * (1.0 - std::cos(slope)) - reach_tolerance) / std::sin(slope);
     const double left = 15.0 - blocked + above / std::sin(slope);
-    EXPECT_NEAR(result.report.verify.unreachable_area[kFloor], above > give ? left * kLength : 0.0,
+    EXPECT_NEAR(result.report.verify.unreachable_area[kFloor], above > reach_tolerance ? left * kLength : 0.0,
                 0.15 * kLength);
     for (const Move& move : result.motion.toolpath.moves) ASSERT_GE(move.to.z() - 3.0, above - 1e-6);
   }

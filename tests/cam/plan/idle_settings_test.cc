@@ -17,7 +17,7 @@ using namespace testing;  // NOLINT: the support folder's
 
 std::vector<std::string> Fields(const Operation& op) {
   std::vector<std::string> fields;
-  for (const Diagnostic& d : IdleSettings(op)) {
+  for (const Diagnostic& d : UnusedSettings(op)) {
     EXPECT_EQ(d.code, "SETTING_WITHOUT_EFFECT");
     fields.push_back(d.where.field);
   }
@@ -26,7 +26,7 @@ std::vector<std::string> Fields(const Operation& op) {
 
 using List = std::vector<std::string>;
 
-TEST(IdleSettings, OfLinesWhereContoursCutEverything) {
+TEST(UnusedSettings, OfLinesWhereContoursCutEverything) {
   Operation op;
   op.zigzag_angle = 0.5;
   op.one_way = true;
@@ -43,7 +43,7 @@ TEST(IdleSettings, OfLinesWhereContoursCutEverything) {
   EXPECT_EQ(Fields(op), List{});
 }
 
-TEST(IdleSettings, OfFlutesWithoutAWiderShank) {
+TEST(UnusedSettings, OfFlutesWithoutAWiderShank) {
   Operation op;
   op.tool.flute_length = 10.0;
   EXPECT_EQ(Fields(op), List{"tool.flute_length_mm"});
@@ -51,7 +51,7 @@ TEST(IdleSettings, OfFlutesWithoutAWiderShank) {
   EXPECT_EQ(Fields(op), List{});
 }
 
-TEST(IdleSettings, OfContoursWhereLinesCutEverything) {
+TEST(UnusedSettings, OfContoursWhereLinesCutEverything) {
   Operation op;
   op.spirals = true;
   op.contour_direction = CutDirection::kEither;
@@ -64,7 +64,7 @@ TEST(IdleSettings, OfContoursWhereLinesCutEverything) {
   EXPECT_EQ(Fields(op), List{});
 }
 
-TEST(IdleSettings, OfSingleRegions) {
+TEST(UnusedSettings, OfSingleRegions) {
   Operation op;
   RegionOverride& first = op.overrides.emplace_back();
   first.strategy = Strategy::kContour;
@@ -80,14 +80,14 @@ TEST(IdleSettings, OfSingleRegions) {
   EXPECT_EQ(Fields(op), List{"region_overrides[0].zigzag_angle_deg"});
 }
 
-TEST(IdleSettings, ChangeNothing) {
+TEST(UnusedSettings, ChangeNothing) {
   const Surface surface = PlacedSurface(Saddle(0.05, 0.03, 8));
   const auto milled = [&](auto change) {
     Job job = BallJob(3.0);
     job.operation.scallop = 0.03;
     change(job.operation);
     const JobResult result = Mill(surface, job);
-    EXPECT_EQ(IdleSettings(job.operation).empty(),
+    EXPECT_EQ(UnusedSettings(job.operation).empty(),
               std::none_of(result.report.diagnostics.begin(), result.report.diagnostics.end(),
                            [](const Diagnostic& d) { return d.code == "SETTING_WITHOUT_EFFECT"; }));
     EXPECT_FALSE(result.program.empty()) << Describe(result);

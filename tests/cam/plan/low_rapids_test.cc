@@ -25,7 +25,7 @@ std::vector<Rapid> RapidsAcross(const JobResult& result) {
   std::vector<Rapid> rapids;
   const std::vector<Move>& moves = result.motion.toolpath.moves;
   for (std::size_t i = 1; i < moves.size(); ++i) {
-    if (moves[i].kind != MoveKind::kRapid || Plan(moves[i].to - moves[i - 1].to).norm() < 1e-6) continue;
+    if (moves[i].kind != MoveKind::kRapid || Xy(moves[i].to - moves[i - 1].to).norm() < 1e-6) continue;
     EXPECT_NEAR(moves[i].to.z(), moves[i - 1].to.z(), 1e-9) << "across, then down";
     rapids.push_back({moves[i - 1].to, moves[i].to});
   }
@@ -38,7 +38,7 @@ double Excess(const Locator& locator, const Rapid& rapid, int n) {
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; j <= n; ++j) {
       const Vec2 share(double(i) / n, double(j) / n);
-      const Vec2 q = Plan(rapid.from) + share.cwiseProduct(Plan(rapid.to - rapid.from));
+      const Vec2 q = Xy(rapid.from) + share.cwiseProduct(Xy(rapid.to - rapid.from));
       if (const auto h = locator.Height(q)) most = std::max(most, h->z - rapid.from.z());
     }
   }

@@ -26,7 +26,7 @@ std::pair<int, int> Senses(const JobResult& result, double angle) {
   for (std::size_t i = 1; i < moves.size(); ++i) {
     if (moves[i].kind != MoveKind::kCut) continue;
     if (result.motion.passes[static_cast<std::size_t>(moves[i].pass)].kind != PassKind::kZigzag) continue;
-    const double forward = Plan(moves[i].to - moves[i - 1].to).dot(along);
+    const double forward = Xy(moves[i].to - moves[i - 1].to).dot(along);
     ++(forward > 0.0 ? count.first : count.second);
   }
   return count;

@@ -69,7 +69,7 @@ TEST(PathLimits, AnEstimateRefusesNothing) {
   const JobResult free = Mill(once, job);
   job.path_limits.length = 1.6 * (free.report.motion.cut_length + free.report.motion.link_length);
   const JobResult result = Mill(thrice, job);
-  EXPECT_GT(result.report.least_feed, job.path_limits.length);
+  EXPECT_GT(result.report.least_cut_length, job.path_limits.length);
   EXPECT_FALSE(result.program.empty()) << Describe(result);
 }
 
@@ -78,13 +78,14 @@ TEST(PathLimits, FarAboveThemNoPassIsMade) {
   const Surface surface = PlacedSurface(Hill());
   Job job = BallJob(3.0);
   const JobResult free = Mill(surface, job);
-  job.path_limits.length = free.report.least_feed / 10.1;
+  job.path_limits.length = free.report.least_cut_length / 10.1;
   std::string last;
   RunContext run(1);
   run.set_progress([&](std::string_view stage, double) { last = std::string(stage); });
   const absl::StatusOr<JobResult> result = RunJob(surface, job, run);
   ExpectPassed(result, "cut_length_mm", job.path_limits.length);
-  EXPECT_THAT(std::string(result.status().message()), HasSubstr("that is what the passes of this finish come to"));
+  EXPECT_THAT(std::string(result.status().message()),
+              HasSubstr("that is what the passes of this finish come to"));
   EXPECT_EQ(last.find("zigzag"), std::string::npos) << last;
   EXPECT_EQ(last.find("contours"), std::string::npos) << last;
 }

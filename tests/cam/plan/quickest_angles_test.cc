@@ -35,7 +35,7 @@ std::vector<RegionChoice> OpenChoices(std::size_t n) {
   return std::vector<RegionChoice>(n, open);
 }
 
-std::vector<RoundTry> NoCircles(std::size_t n) { return std::vector<RoundTry>(n); }
+std::vector<CircularTrial> NoCircles(std::size_t n) { return std::vector<CircularTrial>(n); }
 
 // Degrees between two directions of lines.
 double Apart(double a, double b) {
@@ -109,18 +109,18 @@ TEST(QuickestAngles, AMixtureThatCostsMoreIsNotTaken) {
 // Components that have circles anyhow, one more that may have them, and one with lines whatever is tried: it
 // takes its best angle, and the others stand in their order.
 TEST(QuickestAngles, CirclesOnAPartOfARegion) {
-  const RoundGround first{1, {Vec2(1, 2), 3.0, 12.0}}, second{2, {Vec2(40, 2), 3.0, 9.0}},
+  const CircularComponent first{1, {Vec2(1, 2), 3.0, 12.0}}, second{2, {Vec2(40, 2), 3.0, 9.0}},
       third{5, {Vec2(80, 2), 3.0, 9.0}};
   std::vector<RegionChoice> choices = OpenChoices(1);
   choices[0].around = {first, third};
   const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
-    EXPECT_FALSE(with[0].all_round);
+    EXPECT_FALSE(with[0].all_circular);
     return RegionTimes{(with[0].around.size() == 3 ? 9.0 : 10.0) + Apart(with[0].zigzag_angle, 90.0) / 10.0};
   };
   const auto chosen =
       QuickestAngles(MapOf({SlopeClass::kGentle}), std::move(choices), {{{second}, false}}, plan);
   ASSERT_TRUE(chosen.ok()) << chosen.status();
-  EXPECT_EQ((*chosen)[0].around, (std::vector<RoundGround>{first, second, third}));
+  EXPECT_EQ((*chosen)[0].around, (std::vector<CircularComponent>{first, second, third}));
   EXPECT_NEAR(Degrees((*chosen)[0].zigzag_angle), 90.0, 1e-9);
   EXPECT_FALSE((*chosen)[0].angle_open);
 }
@@ -136,16 +136,16 @@ TEST(QuickestAngles, AnErrorEndsIt) {
 // Of two regions that may have circles one is quicker with them, and one with lines; the third has none to
 // try.
 TEST(QuickestAngles, CirclesWhereTheyAreQuicker) {
-  std::vector<RoundTry> circles = NoCircles(3);
+  std::vector<CircularTrial> circles = NoCircles(3);
   circles[0] = {{{0, {Vec2(1, 2), 3.0, 12.0}}}, true};
   circles[1] = {{{1, {Vec2(40, 2), 3.0, 9.0}}}, true};
   int plans = 0;
   const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
     ++plans;
     EXPECT_TRUE(with[2].around.empty());
-    for (const RegionChoice& c : with) EXPECT_EQ(c.all_round, !c.around.empty());
+    for (const RegionChoice& c : with) EXPECT_EQ(c.all_circular, !c.around.empty());
     const auto time = [&](std::size_t id, double round, double best_angle) {
-      return with[id].all_round ? round : 10.0 + Apart(with[id].zigzag_angle, best_angle) / 10.0;
+      return with[id].all_circular ? round : 10.0 + Apart(with[id].zigzag_angle, best_angle) / 10.0;
     };
     return RegionTimes{time(0, 9.9, 33.0), time(1, 10.5, 48.0), time(2, 0.0, 7.0)};
   };
@@ -190,7 +190,7 @@ TEST(QuickestAngles, CirclesAroundAWideRing) {
   job.operation.angle_auto = true;
   const JobResult result = Mill(surface, job);
   ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
-  EXPECT_TRUE(result.report.choices.front().all_round);
+  EXPECT_TRUE(result.report.choices.front().all_circular);
   job.operation.round_lines = false;
   EXPECT_LT(result.report.motion.time, 0.97 * Mill(surface, job).report.motion.time);
 }

@@ -83,9 +83,9 @@ TEST(Reasons, FloorBesideATallWallIsConcave) {
   const Surface surface = PlacedSurface(Block(8, 10, 20));
   const Job job = BallJob(3.0);
   const auto area = FromRegions(surface, job);
-  const double radius = 3.0, give = ReachGive(job.operation.tolerance);
+  const double radius = 3.0, reach_tolerance = ReachTolerance(job.operation.tolerance);
   // On the floor: nearer to the footprint than R - give. On the walls: lower than that.
-  const double reach = radius - give;
+  const double reach = radius - reach_tolerance;
   const double strip = 4 * 16 * reach + kPi * reach * reach, walls = 4 * 16 * reach;
   EXPECT_EQ(area[kUndercut], 0.0);
   EXPECT_NEAR(area[kConcave], strip + walls, 0.01 * (strip + walls));
@@ -109,14 +109,15 @@ TEST(Reasons, TheUndersideOfAThinShellIsUndercut) {
 // A plate a millimetre above a floor keeps the ball off it by itself: a smaller one would come no nearer but
 // along the plate's edge.
 TEST(Reasons, UnderAPlateIsUndercutAndBesideItConcave) {
-  const double half = 10.0, give = ReachGive(0.01), under = 0.5 * LeastBall(give);
+  const double half = 10.0, reach_tolerance = ReachTolerance(0.01),
+               under = 0.5 * SmallestBallRadius(reach_tolerance);
   const PatchModel model = Join({Plane(20.0), Plane(half, 1.0)});
   const Job job = BallJob(3.0);
   ExpectAgreement(model, job);
   const Surface surface = PlacedSurface(model);
   const auto grown = [&](double by) { return 4.0 * half * half + 8.0 * half * by + kPi * by * by; };
   // Its ball stands on the floor beside the plate, whose edge is 2 mm below the centre.
-  const double tool = std::sqrt((3.0 - give) * (3.0 - give) - 4.0);
+  const double tool = std::sqrt((3.0 - reach_tolerance) * (3.0 - reach_tolerance) - 4.0);
   for (const auto& area : {FromRegions(surface, job), FromVerifier(surface, job)}) {
     EXPECT_NEAR(area[kUndercut], grown(under), 0.01 * grown(under));
     const double beside = grown(tool) - grown(under);

@@ -97,8 +97,7 @@ TEST_F(RegionChoices, ASkippedRegionIsNeitherCutNorDemanded) {
   const JobResult result = Mill(surface_, job);
   ASSERT_EQ(result.report.outcome, Outcome::kComplete) << Describe(result);
   double farthest = 0.0;
-  ForContacts(result,
-              [&](const Vec3& p, const CutterPath&) { farthest = std::max(farthest, Plan(p).norm()); });
+  ForContacts(result, [&](const Vec3& p, const CutterPath&) { farthest = std::max(farthest, Xy(p).norm()); });
   EXPECT_GT(farthest, kCap - kCell);
   EXPECT_LT(farthest, kCap + kStep + 2.0 * kCell);
   // The cap's area in closed form; its border runs in cells of the map.
@@ -148,7 +147,7 @@ TEST_F(RegionChoices, ARegionHasItsOwnScallop) {
     double length = 0.0;
     const auto& moves = of.motion.toolpath.moves;
     for (std::size_t i = 1; i < moves.size(); ++i) {
-      if (moves[i].kind != MoveKind::kCut || Plan(moves[i].to).norm() > kCap - 2.0) continue;
+      if (moves[i].kind != MoveKind::kCut || Xy(moves[i].to).norm() > kCap - 2.0) continue;
       length += (moves[i].to - moves[i - 1].to).norm();
     }
     return length;
@@ -181,12 +180,12 @@ TEST_F(RegionChoices, ARegionHasItsOwnAngleAndStrategy) {
   const auto& moves = result.motion.toolpath.moves;
   for (std::size_t i = 1; i < moves.size(); ++i) {
     if (moves[i].kind != MoveKind::kCut || !moves[i].contact) continue;
-    const double r = Plan(moves[i].contact->p).norm();
+    const double r = Xy(moves[i].contact->p).norm();
     const CutterPath& pass = result.motion.passes[static_cast<std::size_t>(moves[i].pass)];
     // Contours still belong to what is steep in the cap's part: its border's cells.
     EXPECT_TRUE(pass.kind != PassKind::kContour || std::abs(r - kCap) < kStep + 2 * kCell) << r;
     if (pass.kind != PassKind::kZigzag) continue;
-    const Vec2 d = Plan(moves[i].to - moves[i - 1].to).normalized();
+    const Vec2 d = Xy(moves[i].to - moves[i - 1].to).normalized();
     if (r < kCap - 2.0) {
       ++inside;
       EXPECT_NEAR(std::abs(Cross(d, Vec2(0.5, std::sqrt(0.75)))), 0.0, 1e-3);

@@ -102,11 +102,11 @@ TEST(RegionSteps, NoneWhereTheBallDoesNotFit) {
 double LeastFeedOf(const PatchModel& model, const Job& job) {
   const JobResult result = Mill(PlacedSurface(model), job);
   EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
-  EXPECT_GT(result.report.verify.cut_length, result.report.least_feed);
-  return result.report.least_feed;
+  EXPECT_GT(result.report.verify.cut_length, result.report.least_cut_length);
+  return result.report.least_cut_length;
 }
 
-TEST(LeastFeed, IsTheAreaOfTheCentersOverTheWidestStep) {
+TEST(LeastCutLength, IsTheAreaOfTheCentersOverTheWidestStep) {
   Job job = BallJob(3.0);
   job.operation.scallop = 0.05;
   const double s = job.operation.scallop, flat = 2.0 * std::sqrt(6.0 * s - s * s);
@@ -119,7 +119,7 @@ TEST(LeastFeed, IsTheAreaOfTheCentersOverTheWidestStep) {
   EXPECT_NEAR(LeastFeedOf(Cylinder(Vec3::Zero(), 10, 10, Half::kUpper), job), shell, 2e-3 * shell);
 }
 
-TEST(LeastFeed, LeavesOutWhatForcedPassesLeave) {
+TEST(LeastCutLength, LeavesOutWhatForcedPassesLeave) {
   // Contours on a dome, whose step is the same all over and seen under the slope: its cap wants steps below a
   // quarter of the flat one.
   Job job = BallJob(3.0);
@@ -132,7 +132,7 @@ TEST(LeastFeed, LeavesOutWhatForcedPassesLeave) {
               8e-3 * zone);  // two limits in cells
 }
 
-TEST(LeastFeed, DoesNotDependOnHowManyPatchesThereAre) {
+TEST(LeastCutLength, DoesNotDependOnHowManyPatchesThereAre) {
   // A level plane of 20 x 20 spline patches: few points of each are looked at.
   PatchModel plane;
   plane.patches.push_back(
@@ -143,16 +143,16 @@ TEST(LeastFeed, DoesNotDependOnHowManyPatchesThereAre) {
   EXPECT_NEAR(LeastFeedOf(plane, job), 256.0 / (2.0 * std::sqrt(6.0 * s - s * s)), 1e-6);
 }
 
-TEST(LeastFeed, LeavesOutSkippedRegions) {
+TEST(LeastCutLength, LeavesOutSkippedRegions) {
   Job job = BallJob(3.0);
   job.operation.scallop = 0.05;
   const Surface dome = PlacedSurface(Sphere(Vec3::Zero(), 10, Half::kUpper));
-  const double all = Mill(dome, job).report.least_feed;
+  const double all = Mill(dome, job).report.least_cut_length;
   RegionOverride& cap = job.operation.overrides.emplace_back();  // the gentle one, above 45 degrees
   cap.at = Vec3(0, 0, 10);
   cap.skip = true;
   const double share = std::cos(job.operation.steep_angle);
-  EXPECT_NEAR(Mill(dome, job).report.least_feed, all * share, 0.01 * all);
+  EXPECT_NEAR(Mill(dome, job).report.least_cut_length, all * share, 0.01 * all);
 }
 
 // The map is that of the whole part, whatever is selected.
@@ -175,13 +175,13 @@ TEST(WantedShare, IsWhatIsSelectedOfARegion) {
               0.75, 0.01);
 }
 
-TEST(LeastFeed, LeavesOutWhatIsNotSelected) {
+TEST(LeastCutLength, LeavesOutWhatIsNotSelected) {
   const Surface surface = PlacedSurface(TwoPlanes(Radians(20), 12));
   Job job = BallJob(3.0);
   job.operation.scallop = 0.05;
-  const double all = Mill(surface, job).report.least_feed;
+  const double all = Mill(surface, job).report.least_cut_length;
   job.operation.selection.patches = {"#1"};
-  EXPECT_NEAR(Mill(surface, job).report.least_feed, 0.5 * all, 0.02 * all);
+  EXPECT_NEAR(Mill(surface, job).report.least_cut_length, 0.5 * all, 0.02 * all);
 }
 
 }  // namespace

@@ -26,22 +26,22 @@ ChosenRegions Regions(const PatchModel& model, const Job& job) {
   return *std::move(regions);
 }
 
-std::vector<RoundLines> RoundOnes(const PatchModel& model, const Job& job) {
-  std::vector<RoundLines> found;
+std::vector<CircularLines> RoundOnes(const PatchModel& model, const Job& job) {
+  std::vector<CircularLines> found;
   for (const RegionChoice& choice : Regions(model, job).choices) {
-    EXPECT_FALSE(choice.round_open);
-    for (const RoundGround& round : choice.around) found.push_back(round.lines);
+    EXPECT_FALSE(choice.circles_open);
+    for (const CircularComponent& round : choice.around) found.push_back(round.lines);
   }
   return found;
 }
 
 // Outside its crest a mountain, inside a basin: two regions, one axis.
-TEST(RoundLines, AWideRimHasThemAroundItsAxis) {
+TEST(CircularLines, AWideRimHasThemAroundItsAxis) {
   const auto found = RoundOnes(Torus(kAxis, 20, 8, Half::kUpper), BallJob(3.0));
   ASSERT_EQ(found.size(), 2u);
   double inner = kInfinity, outer = 0.0;
-  for (const RoundLines& around : found) {
-    EXPECT_NEAR((around.center - Plan(kAxis)).norm(), 0.0, 1e-6);
+  for (const CircularLines& around : found) {
+    EXPECT_NEAR((around.center - Xy(kAxis)).norm(), 0.0, 1e-6);
     inner = std::min(inner, around.inner);
     outer = std::max(outer, around.outer);
   }
@@ -51,7 +51,7 @@ TEST(RoundLines, AWideRimHasThemAroundItsAxis) {
 }
 
 // One part, one family of circles, over cells of both regions.
-TEST(RoundLines, RegionsAroundOneAxisShareThem) {
+TEST(CircularLines, RegionsAroundOneAxisShareThem) {
   const ChosenRegions regions = Regions(Torus(kAxis, 20, 8, Half::kUpper), BallJob(3.0));
   const std::vector<PlanPart> parts = PartsOf(regions.map, regions.choices);
   ASSERT_EQ(parts.size(), 1u);
@@ -74,19 +74,19 @@ TEST(RoundLines, RegionsAroundOneAxisShareThem) {
   }
 }
 
-TEST(RoundLines, ANarrowRimOfASteepRegionHasThemToo) {
+TEST(CircularLines, ANarrowRimOfASteepRegionHasThemToo) {
   const PatchModel bead = Torus(kAxis, 15, 0.8, Half::kUpper);
   const ChosenRegions regions = Regions(bead, BallJob(3.0));
   int round = 0;
   for (std::size_t id = 0; id < regions.choices.size(); ++id) {
     if (regions.choices[id].around.empty()) continue;
     ++round;
-    EXPECT_NEAR((regions.choices[id].around.front().lines.center - Plan(kAxis)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((regions.choices[id].around.front().lines.center - Xy(kAxis)).norm(), 0.0, 1e-6);
   }
   EXPECT_GT(round, 0);
 }
 
-TEST(RoundLines, NotWhereTheyDoNotPay) {
+TEST(CircularLines, NotWhereTheyDoNotPay) {
   const Job job = BallJob(3.0);
   EXPECT_TRUE(RoundOnes(Plane(15), job).empty());
   EXPECT_TRUE(RoundOnes(Saddle(0.02, 0.02, 12), job).empty());
@@ -95,7 +95,7 @@ TEST(RoundLines, NotWhereTheyDoNotPay) {
   EXPECT_TRUE(RoundOnes(TwoHills(), job).empty());
 }
 
-TEST(RoundLines, NotAgainstWhatIsAsked) {
+TEST(CircularLines, NotAgainstWhatIsAsked) {
   const PatchModel rim = Torus(kAxis, 20, 8, Half::kUpper);
   const auto count = [&](auto change) {
     Job job = BallJob(3.0);
@@ -155,12 +155,12 @@ TEST_P(RoundJobs, AreShorterAndKeepWhatEveryJobKeeps) {
 INSTANTIATE_TEST_SUITE_P(Rims, RoundJobs, ::testing::Values(Rim{"Wide", 20, 8}, Rim{"Narrow", 15, 0.8}),
                          [](const auto& rim) { return rim.param.name; });
 
-TEST(RoundLines, OfTwoRimsEachItsOwn) {
+TEST(CircularLines, OfTwoRimsEachItsOwn) {
   const PatchModel model =
       Join({Torus({-20, 0, 0}, 14, 5, Half::kUpper), Torus({21, 3, 0}, 12, 4, Half::kUpper)});
   const auto found = RoundOnes(model, BallJob(3.0));
   int first = 0, second = 0;
-  for (const RoundLines& around : found) {
+  for (const CircularLines& around : found) {
     first += (around.center - Vec2(-20, 0)).norm() < 1e-6 ? 1 : 0;
     second += (around.center - Vec2(21, 3)).norm() < 1e-6 ? 1 : 0;
   }
@@ -171,7 +171,7 @@ TEST(RoundLines, OfTwoRimsEachItsOwn) {
 
 // More rims than there may be regions: those alike are one region, and yet each has circles of its own; a
 // plate that goes with them keeps straight lines.
-TEST(RoundLines, OfManyRimsInOneRegionEachItsOwn) {
+TEST(CircularLines, OfManyRimsInOneRegionEachItsOwn) {
   PatchModel rims;
   std::vector<Vec2> places;
   for (int k = 0; k < 24; ++k) {
@@ -192,8 +192,8 @@ TEST(RoundLines, OfManyRimsInOneRegionEachItsOwn) {
           found[k] += (around.center - places[k]).norm() < 1e-6 && around.outer < 24.0;
       }
       if (regions.map.regions[id].slope != SlopeClass::kGentle) continue;
-      EXPECT_FALSE(choice.around.empty() && choice.all_round);
-      plate = plate || !choice.all_round;
+      EXPECT_FALSE(choice.around.empty() && choice.all_circular);
+      plate = plate || !choice.all_circular;
       for (std::size_t k = 1; k < choice.around.size(); ++k)
         EXPECT_LT(choice.around[k - 1].component, choice.around[k].component);
     }
@@ -209,7 +209,7 @@ TEST(RoundLines, OfManyRimsInOneRegionEachItsOwn) {
   const JobResult round = Mill(surface, job);
   job.operation.round_lines = false;
   const JobResult straight = Mill(surface, job);
-  EXPECT_LE(round.report.verify.cut_length, 1.25 * round.report.least_feed);
+  EXPECT_LE(round.report.verify.cut_length, 1.25 * round.report.least_cut_length);
   EXPECT_LE(round.report.verify.cut_length, 0.9 * straight.report.verify.cut_length);
   // Straight lines have fewer ways too since each rim is cut by itself (OrderParts).
   EXPECT_LE(3 * round.report.motion.retract_count, 2 * straight.report.motion.retract_count);
@@ -217,7 +217,7 @@ TEST(RoundLines, OfManyRimsInOneRegionEachItsOwn) {
 
 // Whatever is taken from straight lines lies where circles are looked for, up to the ball radius that these
 // are looked for beyond.
-TEST(RoundLines, TheirCellsLieWhereTheyAreLookedFor) {
+TEST(CircularLines, TheirCellsLieWhereTheyAreLookedFor) {
   // Of the last one cells are wide: four of them are a ball radius.
   for (const PatchModel& model : {Torus(kAxis, 20, 8, Half::kUpper), Torus(kAxis, 15, 0.8, Half::kUpper),
                                   Torus(kAxis, 120, 40, Half::kUpper)}) {
@@ -236,7 +236,7 @@ TEST(RoundLines, TheirCellsLieWhereTheyAreLookedFor) {
               const SurfaceJet jet = Evaluate(surface.pieces[piece], (i + 0.5) / n, (j + 0.5) / n);
               const auto normal = UpwardNormal(jet);
               if (!normal || normal->z() < std::sqrt(0.5)) continue;
-              const double r = (Plan(jet.p) - round.around.center).norm();
+              const double r = (Xy(jet.p) - round.around.center).norm();
               ASSERT_GE(r, round.around.inner - 1e-9);
               ASSERT_LE(r, round.around.outer + 1e-9);
             }
@@ -248,7 +248,7 @@ TEST(RoundLines, TheirCellsLieWhereTheyAreLookedFor) {
   }
 }
 
-TEST(RoundLines, OnlyWhatIsWantedCounts) {
+TEST(CircularLines, OnlyWhatIsWantedCounts) {
   // Half of a rim goes around nothing.
   Job job = BallJob(3.0);
   const PatchModel rim = Torus(kAxis, 20, 8, Half::kUpper);
@@ -258,7 +258,7 @@ TEST(RoundLines, OnlyWhatIsWantedCounts) {
 }
 
 // With open angles too, and then nothing is left to turn.
-TEST(RoundLines, NeedNoAngle) {
+TEST(CircularLines, NeedNoAngle) {
   Job job = BallJob(3.0);
   job.operation.scallop = 0.05;
   job.operation.angle_auto = true;
@@ -270,7 +270,7 @@ TEST(RoundLines, NeedNoAngle) {
 
 // A rim beside gentle ground of another kind: straight lines there, circles here, and nothing between them is
 // left.
-TEST(RoundLines, BesideStraightOnes) {
+TEST(CircularLines, BesideStraightOnes) {
   const Surface surface = PlacedSurface(
       Join({Torus({-20, 0, 0}, 14, 5, Half::kUpper),
             Transformed(Paraboloid(-0.02, 12), Eigen::Affine3d(Eigen::Translation3d(14, 0, 2)))}));
@@ -308,7 +308,7 @@ PatchModel AroundRectangle(const std::vector<Profile>& profiles, double hx, doub
 
 // The frame around an oblong boss with rounded corners and a fillet at its foot: circles would cross its
 // borders at up to 45 degrees.
-TEST(RoundLines, OblongFramesHaveStraightLines) {
+TEST(CircularLines, OblongFramesHaveStraightLines) {
   const std::vector<Profile> profiles = {Line({0, 10}, {2, 10}), Round({2, 10}, {3, 10}, {3, 9}),
                                          Line({3, 9}, {3, 4}), Round({3, 4}, {3, 0}, {7, 0}),
                                          Line({7, 0}, {13, 0})};

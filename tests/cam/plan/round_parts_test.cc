@@ -36,7 +36,7 @@ TEST(RoundParts, LeastFeedInAHole) {
   const double wall = 2.0 * kPi * (hole - radius) * (deep - radius);
   const double s = BallJob(radius).operation.scallop, flat = 2.0 * std::sqrt(2.0 * radius * s - s * s);
   const double least = (floor + top + wall) / flat;
-  EXPECT_NEAR(result.report.least_feed, least, 0.01 * least);
+  EXPECT_NEAR(result.report.least_cut_length, least, 0.01 * least);
   EXPECT_GT(result.report.verify.cut_length, least);
 }
 
@@ -47,7 +47,7 @@ TEST(RoundParts, HoleThatTheBallJustFits) {
       Turned({Line({0, 0}, {hole, 0}), Line({hole, 0}, {hole, deep}), Line({hole, deep}, {12, deep})}));
   const JobResult result = MillChecked(surface);
   EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable);
-  EXPECT_GT(result.report.verify.cut_length, result.report.least_feed);
+  EXPECT_GT(result.report.verify.cut_length, result.report.least_cut_length);
 }
 
 // The centre goes around in rings shorter than a step: they are the wall's contours, not crumbs of a level
@@ -171,10 +171,10 @@ TEST(RoundParts, CapOverAPlate) {
   const std::vector<Move>& moves = result.motion.toolpath.moves;
   for (std::size_t i = 1; i < moves.size(); ++i) {
     const Vec3 d = moves[i].to - moves[i - 1].to;
-    if (moves[i].kind == MoveKind::kCut && Plan(d).norm() < 1e-9) upright += std::abs(d.z());
+    if (moves[i].kind == MoveKind::kCut && Xy(d).norm() < 1e-9) upright += std::abs(d.z());
   }
   EXPECT_LT(upright, 20.0);  // mm; 140 lines cross a rim 9 mm high
-  EXPECT_LT(result.report.verify.cut_length, 1.4 * result.report.least_feed);
+  EXPECT_LT(result.report.verify.cut_length, 1.4 * result.report.least_cut_length);
   EXPECT_LE(result.report.motion.retract_count, 10);
 }
 
@@ -206,7 +206,7 @@ TEST(RoundParts, TerracesAlongCircles) {
   for (const RegionChoice& choice : result.report.choices) around += !choice.around.empty();
   EXPECT_EQ(around, 3);
   // 1.51 along straight lines.
-  EXPECT_LT(result.report.verify.cut_length, 1.35 * result.report.least_feed);
+  EXPECT_LT(result.report.verify.cut_length, 1.35 * result.report.least_cut_length);
   EXPECT_LE(result.report.motion.retract_count, 8);
 }
 
@@ -223,9 +223,9 @@ TEST(RoundParts, NoContourOverEdgesAlone) {
   // The sine of the angle between the way to the centre and the normal of a ledge or a wall there.
   const auto off_ground = [&](const Vec3& center, const std::optional<SurfacePoint>& at) {
     if (!at) return 1.0;
-    if (Plan(tilt.transpose() * at->p).norm() > 19.999) return 0.0;  // a sheet's highest border
+    if (Xy(tilt.transpose() * at->p).norm() > 19.999) return 0.0;  // a sheet's highest border
     const Vec3 e = tilt.transpose() * (center - at->p).normalized(), p = tilt.transpose() * at->p;
-    return std::min(e.cross(Vec3::UnitZ()).norm(), e.cross(Lift(Plan(p).normalized(), 0.0)).norm());
+    return std::min(e.cross(Vec3::UnitZ()).norm(), e.cross(Lift(Xy(p).normalized(), 0.0)).norm());
   };
   int contours = 0;
   for (const CutterPath& pass : result.motion.passes) {

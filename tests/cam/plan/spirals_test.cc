@@ -41,7 +41,7 @@ TEST(Spirals, DomeOnAPlane) {
   for (const CutterPath& pass : result.motion.passes) {
     if (!pass.spiral) continue;
     EXPECT_GT(pass.points.front().center.z(), pass.points.back().center.z()) << "cut from the top";
-    EXPECT_GT(Cross(Plan(pass.points[0].center), Plan(pass.points[1].center)), 0.0);
+    EXPECT_GT(Cross(Xy(pass.points[0].center), Xy(pass.points[1].center)), 0.0);
   }
 }
 

@@ -123,7 +123,7 @@ TEST(Strategies, ContoursTurnAsAsked) {
       if (path.kind != PassKind::kContour || !path.closed) continue;
       double turn = 0.0;  // twice the area, counter-clockwise positive
       for (std::size_t i = 0; i < path.points.size(); ++i) {
-        turn += Cross(Plan(path.points[i].center), Plan(path.points[(i + 1) % path.points.size()].center));
+        turn += Cross(Xy(path.points[i].center), Xy(path.points[(i + 1) % path.points.size()].center));
       }
       // Material on the right of a climbing tool: round a hill that is
       // clockwise.
@@ -153,7 +153,7 @@ TEST(Strategies, RestPassesAlongWallsClimbToo) {
       const std::size_t moves = pass.points.size() - (pass.closed ? 0 : 1);
       double around = 0.0;  // mm2, twice the area that the way sweeps about the dome's axis
       for (std::size_t i = 0; i < moves; ++i)
-        around += Cross(Plan(pass.points[i].center), Plan(pass.points[(i + 1) % pass.points.size()].center));
+        around += Cross(Xy(pass.points[i].center), Xy(pass.points[(i + 1) % pass.points.size()].center));
       if (Length(pass) < 16.0) continue;
       EXPECT_EQ(around < 0.0, direction == CutDirection::kClimb) << pass.points[0].center.transpose();
       if (pass.kind == PassKind::kRest) rest += Length(pass);

@@ -53,7 +53,7 @@ double DeepestInShank(const Surface& surface, const Job& job, const JobResult& r
     for (int k = 0; k < places; ++k) {
       const Vec3 c = from + way * (static_cast<double>(k) / places);
       for (const Vec3& p : samples) {
-        deepest = std::max(deepest, std::min(radius - (Plan(p) - Plan(c)).norm(), p.z() - c.z() - rise));
+        deepest = std::max(deepest, std::min(radius - (Xy(p) - Xy(c)).norm(), p.z() - c.z() - rise));
       }
     }
   }

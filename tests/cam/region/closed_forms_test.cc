@@ -147,7 +147,7 @@ TEST(RegionClosedForms, SaddleNodeAnywhereInThePatch) {
     bool node = false;
     for (const Region& r : map.regions) {
       for (const auto& loop : r.border) {
-        for (const Vec3& p : loop) node = node || (Plan(p) - shift).norm() < 1e-9;
+        for (const Vec3& p : loop) node = node || (Xy(p) - shift).norm() < 1e-9;
       }
     }
     EXPECT_TRUE(node);
@@ -184,7 +184,7 @@ TEST(RegionClosedForms, HemisphereOnAPlane) {
   ExpectArea(total, 4 * half * half + 2 * kPi * r * r);
   // Plane: within the circle where a ball of R - give that stands R high touches the sphere. Sphere: below
   // the circle where a ball that touches it comes down to R - give.
-  const double reach = radius - ReachGive(tolerance);
+  const double reach = radius - ReachTolerance(tolerance);
   const double disc = kPi * ((r + reach) * (r + reach) - radius * radius);
   const double band = 2 * kPi * r * r * reach / (r + radius);
   ExpectArea(unreachable, disc + band);
@@ -349,7 +349,7 @@ TEST(RegionClosedForms, SheetOfManyWaves) {
 
 TEST(RegionClosedForms, TheToolForAParabolicGroove) {
   // z = x^2 / (2 q) bends by 1 / q at its bottom: a ball of q reaches all of it, and with the tolerance one a
-  // little larger, the largest r whose distance from the groove is nowhere below r - ReachGive.
+  // little larger, the largest r whose distance from the groove is nowhere below r - ReachTolerance.
   const double half = 6.0, length = 30.0;
   for (const double q : {1.0, 2.0, 2.5}) {
     SCOPED_TRACE(q);
@@ -364,7 +364,7 @@ TEST(RegionClosedForms, TheToolForAParabolicGroove) {
       double nearest = kInfinity;
       for (double t = -1.5 * q; t < 1.5 * q; t += 0.002 * q)
         nearest = std::min(nearest, std::hypot(t - cx, t * t / (2 * q) - cz));
-      return nearest >= r - ReachGive(params.tolerance);
+      return nearest >= r - ReachTolerance(params.tolerance);
     };
     double largest = 3.0;
     for (double x = 0.0; x < q; x += 0.005 * q) {

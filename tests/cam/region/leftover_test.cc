@@ -23,8 +23,8 @@ double LeftoverAt(const Surface& surface, const Vec3& p, const LeftoverParams& p
   return DeepestLeftover(Locator(surface, kR), params, {&p, 1}, RunContext()).leftover;
 }
 
-absl::StatusOr<KeepIn> Within(const Surface& surface, const Containment& containment) {
-  return KeepIn::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
+absl::StatusOr<OperationLimits> Within(const Surface& surface, const Containment& containment) {
+  return OperationLimits::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
 }
 
 TEST(Leftover, InAValleyOfTwoPlanes) {
@@ -151,9 +151,9 @@ TEST(Leftover, KeepsToWhatIsAllowed) {
   Containment containment;
   const Outline outline({{{-20, -20}, {4, -20}, {4, 20}, {-20, 20}}});
   containment.boundary = Boundary{outline, BoundaryMode::kCenter, 0.0};
-  const auto keep_in = Within(surface, containment);
-  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
-  const LeftoverParams params{.keep_in = &*keep_in};
+  const auto operation_limits = Within(surface, containment);
+  ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
+  const LeftoverParams params{.operation_limits = &*operation_limits};
   for (const double x : {5.0, 9.0, 17.0})
     EXPECT_NEAR(LeftoverAt(surface, Vec3(x, 1, 0), params), std::hypot(x - 4.0, kR) - kR, kNear) << x;
   EXPECT_EQ(LeftoverAt(surface, Vec3(3, 1, 0), params), 0.0);
@@ -167,14 +167,15 @@ TEST(Leftover, UnderAHighestTipIsMeasuredFromTheSide) {
   const auto under = Within(ball, low);
   ASSERT_TRUE(under.ok()) << under.status();
   const double beside = std::sqrt(13.0 * 13.0 - 8.0 * 8.0);
-  EXPECT_NEAR(LeftoverAt(ball, Vec3(0, 0, 10), {.keep_in = &*under}), std::hypot(beside, 2.0) - kR, kNear);
-  EXPECT_NEAR(LeftoverAt(ball, Vec3(6, 0, 8), {.keep_in = &*under}), beside - 6.0 - kR, kNear);
+  EXPECT_NEAR(LeftoverAt(ball, Vec3(0, 0, 10), {.operation_limits = &*under}), std::hypot(beside, 2.0) - kR,
+              kNear);
+  EXPECT_NEAR(LeftoverAt(ball, Vec3(6, 0, 8), {.operation_limits = &*under}), beside - 6.0 - kR, kNear);
   // Below the sheet altogether: from beyond its edge, which the ball touches.
   const Surface sheet = SurfaceOf(Plane(6));
   low.top_z = -2.0;
   const auto below = Within(sheet, low);
   ASSERT_TRUE(below.ok()) << below.status();
-  EXPECT_NEAR(LeftoverAt(sheet, Vec3::Zero(), {.keep_in = &*below}),
+  EXPECT_NEAR(LeftoverAt(sheet, Vec3::Zero(), {.operation_limits = &*below}),
               std::hypot(6.0 + std::sqrt(8.0), 1.0) - kR, kNear);
 }
 
@@ -183,9 +184,9 @@ TEST(Leftover, BesideAClampIsMeasuredFromItsSideOrFromAboveIt) {
   const Surface surface = SurfaceOf(Plane(40));
   Containment containment;
   containment.obstacles.push_back({"clamp", Outline({{{-5, -30}, {5, -30}, {5, 30}, {-5, 30}}}), 4.0, 1.0});
-  const auto keep_in = Within(surface, containment);
-  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
-  const LeftoverParams params{.keep_in = &*keep_in};
+  const auto operation_limits = Within(surface, containment);
+  ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
+  const LeftoverParams params{.operation_limits = &*operation_limits};
   EXPECT_NEAR(LeftoverAt(surface, Vec3(0, 0, 0), params), 5.0, kNear);
   EXPECT_NEAR(LeftoverAt(surface, Vec3(3, 0, 0), params), std::hypot(6.0, kR) - kR, kNear);
   EXPECT_NEAR(LeftoverAt(surface, Vec3(9.5, 0, 0), params), 0.0, kNear);
@@ -195,11 +196,12 @@ TEST(Leftover, WhereNothingIsAllowedIsAllThereIs) {
   const Surface surface = SurfaceOf(Plane(30));
   Containment containment;
   containment.top_z = -2.0;
-  const auto keep_in = Within(surface, containment);
-  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+  const auto operation_limits = Within(surface, containment);
+  ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
   // A floor over what is allowed.
-  EXPECT_DOUBLE_EQ(LeftoverAt(surface, Vec3::Zero(), {.floor_z = -1.0, .keep_in = &*keep_in}),
-                   surface.box.Diagonal());
+  EXPECT_DOUBLE_EQ(
+      LeftoverAt(surface, Vec3::Zero(), {.floor_z = -1.0, .operation_limits = &*operation_limits}),
+      surface.box.Diagonal());
 }
 
 // In a hole hardly wider than the ball its centre has a thread of room, which no column beside it tells of.
@@ -239,10 +241,10 @@ TEST(Leftover, IsAsBruteForceFindsIt) {
       double nearest = kInfinity;
       for (int k = 0; k < 4000; ++k) {
         const double angle = random.Uniform(0, 2 * kPi), out = (found + kR) * std::sqrt(random.Uniform(0, 1));
-        const Vec2 q = Plan(p) + out * Vec2(std::cos(angle), std::sin(angle));
+        const Vec2 q = Xy(p) + out * Vec2(std::cos(angle), std::sin(angle));
         const auto height = locator.Height(q, nullptr, 1e-3);
         const double up = height ? std::max(0.0, height->z - p.z()) : 0.0;
-        nearest = std::min(nearest, std::hypot((q - Plan(p)).norm(), up));
+        nearest = std::min(nearest, std::hypot((q - Xy(p)).norm(), up));
       }
       EXPECT_LE(found, nearest - kR + 0.03 * nearest) << seed << " " << p.transpose();
       deep += found > 0.3 * kR;

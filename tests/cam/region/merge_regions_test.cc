@@ -24,7 +24,7 @@ double Energy(const std::vector<double>& cost, const std::vector<LabelPair>& pai
   return sum;
 }
 
-TEST(LeastCut, NoOtherSetCostsLess) {
+TEST(MinCut, NoOtherSetCostsLess) {
   Random random(7);
   for (int round = 0; round < 200; ++round) {
     const int n = 2 + round % 9;
@@ -36,22 +36,22 @@ TEST(LeastCut, NoOtherSetCostsLess) {
         if (random.Uniform(0, 1) < 0.5) pairs.push_back({i, j, random.Uniform(0, 0.8)});
       }
     }
-    const std::vector<bool> cut = LeastCut(cost, pairs);
+    const std::vector<bool> cut = MinCut(cost, pairs);
     unsigned ones = 0;
     for (int i = 0; i < n; ++i) ones |= cut[static_cast<std::size_t>(i)] ? 1u << i : 0u;
     const double least = Energy(cost, pairs, ones);
     for (unsigned other = 0; other < 1u << n; ++other) EXPECT_LE(least, Energy(cost, pairs, other) + 1e-12);
     std::reverse(pairs.begin(), pairs.end());
-    EXPECT_EQ(LeastCut(cost, pairs), cut);
+    EXPECT_EQ(MinCut(cost, pairs), cut);
   }
 }
 
-TEST(LeastCut, TakesTheSmallestOfEqualSets) {
-  EXPECT_EQ(LeastCut(std::vector<double>{0.0, 0.0}, {}), (std::vector<bool>{false, false}));
+TEST(MinCut, TakesTheSmallestOfEqualSets) {
+  EXPECT_EQ(MinCut(std::vector<double>{0.0, 0.0}, {}), (std::vector<bool>{false, false}));
   const std::vector<LabelPair> pair = {{0, 1, 1.0}};
-  EXPECT_EQ(LeastCut(std::vector<double>{-1.0, 1.0}, pair), (std::vector<bool>{false, false}));
-  EXPECT_EQ(LeastCut(std::vector<double>{-1.5, 1.0}, pair), (std::vector<bool>{true, false}));
-  EXPECT_EQ(LeastCut(std::vector<double>{-1.5, 0.5}, pair), (std::vector<bool>{true, true}));
+  EXPECT_EQ(MinCut(std::vector<double>{-1.0, 1.0}, pair), (std::vector<bool>{false, false}));
+  EXPECT_EQ(MinCut(std::vector<double>{-1.5, 1.0}, pair), (std::vector<bool>{true, false}));
+  EXPECT_EQ(MinCut(std::vector<double>{-1.5, 0.5}, pair), (std::vector<bool>{true, true}));
 }
 
 // A strip `width` wide and 100 long that bends by `turn` across it, between two halves of a large mountain.

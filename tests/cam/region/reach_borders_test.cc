@@ -20,7 +20,7 @@ namespace {
 using namespace testing;  // NOLINT: the support folder's
 
 constexpr double kR = 3.0, kTolerance = 0.01,
-                 kKept = kR - ReachGive(kTolerance);  // of the shank's axis from an edge
+                 kKept = kR - ReachTolerance(kTolerance);  // of the shank's axis from an edge
 constexpr double kHigh = 40.0;
 
 RegionParams Exact() {
@@ -71,7 +71,7 @@ TEST(ReachBorders, UnderASlabIsARoundedRectangle) {
     const bool limit = reachable(line.region) || reachable(line.other);
     for (std::size_t i = 0; i < line.points.size(); ++i) {
       const Vec3& p = line.points[i];
-      const Vec2 beside = ((Plan(p) - Vec2(2, 1)).cwiseAbs() - Vec2(hx, hy)).cwiseMax(0.0);
+      const Vec2 beside = ((Xy(p) - Vec2(2, 1)).cwiseAbs() - Vec2(hx, hy)).cwiseMax(0.0);
       EXPECT_LE(beside.norm(), kKept + 1e-6);
       if (!limit) continue;
       EXPECT_GE(beside.norm(), kKept - 1e-6) << p.transpose();
@@ -117,7 +117,7 @@ class FreeBeside {
  public:
   FreeBeside(const Surface& surface, const RegionParams& params)
       : surface_(surface),
-        ball_(surface, params.radius - ReachGive(params.tolerance)),
+        ball_(surface, params.radius - ReachTolerance(params.tolerance)),
         reach_(ball_, params, RunContext()) {}
   bool operator()(const Vec3& near) const {
     const auto at = ClosestToPoint(surface_, near, 1.0, 1e-5);
@@ -152,7 +152,7 @@ TEST(ReachBorders, OfTwoBossesSideBySideAreTwoCircles) {
       for (std::size_t i = 0; i + (line.closed ? 0 : 1) < line.points.size(); ++i) {
         const Vec3 &a = line.points[i], &b = line.points[(i + 1) % line.points.size()];
         if (std::max(a.z(), b.z()) > 1e-6) continue;  // on a boss
-        const Vec2 middle = Plan(0.5 * (a + b));
+        const Vec2 middle = Xy(0.5 * (a + b));
         if (std::min((middle - c).norm(), (middle + c).norm()) < r) continue;  // under one, UNDERCUT begins
         length += (b - a).norm();
         EXPECT_NEAR(std::min((middle - c).norm(), (middle + c).norm()), limit, 0.0201) << middle.transpose();

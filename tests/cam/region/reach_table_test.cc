@@ -34,7 +34,7 @@ TEST(ReachTable, ValleyOfTwoPlanes) {
   ASSERT_EQ(table.unreachable.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) {
     const double r = params.radii[k];
-    const double nearest = r * std::tan(a) - ReachGive(params.tolerance) / std::sin(2 * a);
+    const double nearest = r * std::tan(a) - ReachTolerance(params.tolerance) / std::sin(2 * a);
     const double area = 2 * nearest * 2 * half;
     EXPECT_NEAR(table.unreachable[k], area, 0.01 * r * 2 * 2 * half) << r;  // of each of the two limits
   }

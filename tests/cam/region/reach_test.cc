@@ -75,7 +75,7 @@ TEST(ReachTest, AgreesWithTheDefinition) {
     const Surface surface = Folded(seed);
     RegionParams params;
     params.radius = 1.5;
-    const double free_radius = params.radius - ReachGive(params.tolerance);
+    const double free_radius = params.radius - ReachTolerance(params.tolerance);
     const Locator free_ball(surface, free_radius);
     const ReachTest reach(free_ball, params, RunContext());
     Random random(seed);
@@ -105,7 +105,7 @@ TEST(ReachTest, AgreesWithTheDefinition) {
       ASSERT_TRUE(obstacles[i]);
       EXPECT_LT(reach.Clearance(obstacles[i]->p, jets[i]), 0.0);
       const auto by =
-          ReachByDefinition(surface, jets[i].p, facing->e, params.radius, ReachGive(params.tolerance));
+          ReachByDefinition(surface, jets[i].p, facing->e, params.radius, ReachTolerance(params.tolerance));
       if (!by || by == Blocked::kNot) continue;
       const bool is_above = by == Blocked::kAbove;
       EXPECT_EQ(reach.BlockedAbove(jets[i].p, *facing), is_above);
@@ -125,10 +125,10 @@ TEST(ReachLimits, AreThoseOfAHemisphereOnAPlane) {
   RegionParams params;
   params.radius = radius;
   params.tolerance = tolerance;
-  const Locator free_ball(surface, radius - ReachGive(tolerance));
+  const Locator free_ball(surface, radius - ReachTolerance(tolerance));
   const ReachTest reach(free_ball, params, RunContext());
   // On the plane, outwards from the rim in all directions: free from this circle on.
-  const double reached = r + radius - ReachGive(tolerance),
+  const double reached = r + radius - ReachTolerance(tolerance),
                limit = std::sqrt(reached * reached - radius * radius);
   std::vector<ZeroSegment> segments;
   for (int i = 0; i < 24; ++i) {
@@ -142,7 +142,7 @@ TEST(ReachLimits, AreThoseOfAHemisphereOnAPlane) {
     ReachLimits(reach, surface.pieces[0], segments, exact, limits);
     for (std::size_t k = 0; k < segments.size(); ++k) {
       const Vec2 q = segments[k].from + limits[k] * (segments[k].to - segments[k].from);
-      EXPECT_NEAR(Plan(Position(surface.pieces[0], q.x(), q.y())).norm(), limit, exact) << exact;
+      EXPECT_NEAR(Xy(Position(surface.pieces[0], q.x(), q.y())).norm(), limit, exact) << exact;
     }
   }
 }
@@ -159,7 +159,7 @@ struct Bosses {
       : half(half_size),
         limit(LimitAround(r)),
         surface(SurfaceOf(Model(half_size, r, at_x))),
-        free_ball(surface, params.radius - ReachGive(params.tolerance)),
+        free_ball(surface, params.radius - ReachTolerance(params.tolerance)),
         reach(free_ball, params, RunContext()) {}
   // The place (mm) on the plane in its parameters.
   Vec2 Place(double x, double y) const { return {0.5 + x / (2 * half), 0.5 + y / (2 * half)}; }
@@ -168,7 +168,7 @@ struct Bosses {
  private:
   static double LimitAround(double r) {
     const RegionParams p;
-    const double reached = r + p.radius - ReachGive(p.tolerance);
+    const double reached = r + p.radius - ReachTolerance(p.tolerance);
     return std::sqrt(reached * reached - p.radius * p.radius);
   }
   static PatchModel Model(double half, double r, const std::vector<double>& at_x) {

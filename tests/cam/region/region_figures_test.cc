@@ -64,7 +64,7 @@ double TotalArea(const RegionMap& map) {
 // What is said is kept somewhere, and nowhere more than a twentieth more.
 void ExpectDeepest(const Region& r, double stays) {
   EXPECT_LE(r.deepest_leftover, stays + 0.01 * kR);
-  EXPECT_GE(r.deepest_leftover, stays / 1.05 - 0.002 * kR - ReachGive(Params().tolerance));
+  EXPECT_GE(r.deepest_leftover, stays / 1.05 - 0.002 * kR - ReachTolerance(Params().tolerance));
 }
 
 TEST(RegionFigures, NoToolReachesACrease) {
@@ -97,7 +97,7 @@ TEST(RegionFigures, TheToolForASlotOfUprightWallsIsAsWide) {
   for (const Region& r : map.regions) {
     if (r.kind != RegionKind::kUnreachable || r.reason != UnreachableReason::kConcave) continue;
     ++walls;
-    EXPECT_NEAR(r.largest_tool_diameter, 2.0 * half + 2.0 * ReachGive(params.tolerance), 0.01);
+    EXPECT_NEAR(r.largest_tool_diameter, 2.0 * half + 2.0 * ReachTolerance(params.tolerance), 0.01);
   }
   EXPECT_EQ(walls, 2);
 }
@@ -120,7 +120,7 @@ TEST(RegionFigures, TheToolForARegionReachesAllOfIt) {
           map.regions[id].reason != UnreachableReason::kConcave) {
         continue;
       }
-      least[id] = LargestFreeRadius(surface, jet.p, *e, least[id], ReachGive(params.tolerance));
+      least[id] = LargestFreeRadius(surface, jet.p, *e, least[id], ReachTolerance(params.tolerance));
     }
   }
   int creases = 0, grooves = 0;
@@ -173,8 +173,8 @@ TEST(RegionFigures, NoPlaceOfARegionKeepsMoreThanIsSaid) {
     RegionParams params = Params();
     params.floor_z = surface.box.min.z();
     const RegionMap map = Split(surface, params);
-    const double give = ReachGive(params.tolerance);
-    const Locator free_ball(surface, kR - give);
+    const double reach_tolerance = ReachTolerance(params.tolerance);
+    const Locator free_ball(surface, kR - reach_tolerance);
     struct Places {
       std::vector<Vec3> points, normals;
     };
@@ -207,11 +207,11 @@ TEST(RegionFigures, UnderAHighestTipTheTopOfABallStays) {
   const Surface surface = SurfaceOf(Sphere(Vec3::Zero(), 10, Half::kUpper));
   Containment containment;
   containment.top_z = 5.0;
-  const auto keep_in =
-      KeepIn::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
-  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+  const auto operation_limits =
+      OperationLimits::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
+  ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
   RegionParams params = Params();
-  params.keep_in = &*keep_in;
+  params.operation_limits = &*operation_limits;
   const RegionMap map = Split(surface, params);
   ASSERT_EQ(Count(map, UnreachableReason::kAvoided), 1);
   for (const Region& r : map.regions) {
@@ -226,11 +226,11 @@ TEST(RegionFigures, WhereNoBallIsAllowedEverythingStays) {
   const Surface surface = SurfaceOf(Sphere(Vec3::Zero(), 10, Half::kUpper));
   Containment containment;
   containment.top_z = -5.0;
-  const auto keep_in =
-      KeepIn::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
-  ASSERT_TRUE(keep_in.ok()) << keep_in.status();
+  const auto operation_limits =
+      OperationLimits::Make(surface, containment, {.ball_radius = kR, .tool_radius = kR}, RunContext());
+  ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
   RegionParams params = Params();
-  params.keep_in = &*keep_in;
+  params.operation_limits = &*operation_limits;
   params.floor_z = 0.0;
   const RegionMap map = Split(surface, params);
   ASSERT_GE(map.regions.size(), 1u);

@@ -146,18 +146,18 @@ TEST(SplitRegions, PlaneIsNeutralAndWhole) {
 }
 
 TEST(SplitRegions, HemisphereOnAPlaneLeavesWhatTheBallCannotTouch) {
-  const double r = 8, R = 3, give = 0.01;
+  const double r = 8, R = 3, reach_tolerance = 0.01;
   const PatchModel model =
       testing::Join({testing::Plane(20), testing::Sphere(Vec3::Zero(), r, Half::kUpper)});
   const Surface surface = Build(model);
   RegionParams params = Unmerged();
-  params.tolerance = 2.0 * give;
+  params.tolerance = 2.0 * reach_tolerance;
   const RegionMap map = Split(surface, params);
   EXPECT_NEAR(Total(map), 1600 + 2 * kPi * r * r, 0.05);
   // Plane: everything nearer to the axis than a ball of R - give that stands R high and touches the sphere.
   // Sphere: everything lower than where a ball that touches it comes down to R - give.
-  const double ring = kPi * ((r + R - give) * (r + R - give) - R * R);
-  const double band = 2 * kPi * r * (R - give) * r / (r + R);
+  const double ring = kPi * ((r + R - reach_tolerance) * (r + R - reach_tolerance) - R * R);
+  const double band = 2 * kPi * r * (R - reach_tolerance) * r / (r + R);
   EXPECT_NEAR(Area(map, RegionKind::kUnreachable), ring + band, 0.005 * (ring + band));
   EXPECT_GT(Area(map, UnreachableReason::kUndercut), 0.0);
   EXPECT_GT(Area(map, UnreachableReason::kConcave), band * 0.99);
@@ -171,7 +171,7 @@ TEST(SplitRegions, FloorTakesWhatLiesTooDeep) {
   const RegionMap map = Split(surface, params);
   // Tip = p_z + R e_z - R with p_z = 10 e_z: below the floor by more than the give for e_z < (R - give) / (10
   // + R).
-  const double lowest = (3.0 - ReachGive(params.tolerance)) / 13.0;
+  const double lowest = (3.0 - ReachTolerance(params.tolerance)) / 13.0;
   EXPECT_NEAR(Area(map, UnreachableReason::kFloor), 2 * kPi * 100 * lowest, 0.05);
 }
 

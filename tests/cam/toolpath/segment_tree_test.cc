@@ -48,7 +48,7 @@ double ShankBySampling(const PathSegment& s, const Vec3& p, double r, int n) {
   double least = kInfinity;
   for (int i = 0; i <= n; ++i) {
     const Vec3 c = s.a + (s.b - s.a) * (double(i) / n);
-    least = std::min(least, std::max(Plan(Vec3(c - p)).norm(), r - (p.z() - c.z())));
+    least = std::min(least, std::max(Xy(Vec3(c - p)).norm(), r - (p.z() - c.z())));
   }
   return least;
 }

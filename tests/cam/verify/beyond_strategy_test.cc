@@ -72,7 +72,7 @@ TEST(BeyondStrategy, UprightGroundCountsAsTheEasierOfItsSides) {
   for (const Piece& piece : surface.pieces) {
     const SurfaceJet jet = Evaluate(piece, 0.5, 0.0);  // on the outer equator or the inner one, or on top
     const auto normal = UnitNormal(jet);
-    if (!normal || std::abs(normal->z()) > 1e-9 || Plan(jet.p).norm() < 3.0) continue;
+    if (!normal || std::abs(normal->z()) > 1e-9 || Xy(jet.p).norm() < 3.0) continue;
     ++upright;
     const Vec3 e = normal->dot(jet.p) > 0.0 ? *normal : -*normal;
     // Lines that climb the rim here.

@@ -21,7 +21,7 @@ constexpr double kRadius = 3.0;
 ReachParams Params() {
   ReachParams params;
   params.radius = kRadius;
-  params.give = 0.01;
+  params.reach_tolerance = 0.01;
   return params;
 }
 
@@ -79,7 +79,7 @@ TEST(VerifyReach, WallsAndEquatorsAreToBeFinished) {
 }
 
 std::optional<ReachClass> ByDefinition(const Surface& surface, const Vec3& p, const Vec3& e) {
-  const auto blocked = ReachByDefinition(surface, p, e, kRadius, Params().give);
+  const auto blocked = ReachByDefinition(surface, p, e, kRadius, Params().reach_tolerance);
   if (!blocked) return std::nullopt;
   if (blocked == Blocked::kNot) return ReachClass::kReachable;
   return blocked == Blocked::kAbove ? ReachClass::kUndercut : ReachClass::kConcave;

@@ -225,8 +225,8 @@ TEST(VerifyMotion, NoKindOfMotionMayGouge) {
     EXPECT_NEAR(report.max_gouge_at.line, guilty, 1);  // the way up out of it is as deep
     if (std::string(c.kind) == "rapid from machine zero, aslant")
       continue;  // deep all along, for all we know
-    EXPECT_NEAR(Plan(report.max_gouge_at.point).x(), 2.0, 0.2);
-    EXPECT_NEAR(Plan(report.max_gouge_at.point).y(), 2.0, 0.2);
+    EXPECT_NEAR(Xy(report.max_gouge_at.point).x(), 2.0, 0.2);
+    EXPECT_NEAR(Xy(report.max_gouge_at.point).y(), 2.0, 0.2);
   }
 }
 

@@ -63,7 +63,8 @@ TEST(VerifyRandom, MaximaBoundDenseSamples) {
           gouge = std::max(gouge, r - d_swept);
           const double area = jet.du.cross(jet.dv).norm() / (n * n);
           total += area;
-          if (ReachAt(surface, jet.p, *facing, {r, ReachGive(params.tolerance)}) != ReachClass::kReachable)
+          if (ReachAt(surface, jet.p, *facing, {r, ReachTolerance(params.tolerance)}) !=
+              ReachClass::kReachable)
             continue;
           reachable += area;
           leftover = std::max(leftover, d_cut - r);
@@ -89,7 +90,7 @@ TEST(VerifyRandom, MaximaBoundDenseSamples) {
     EXPECT_LE(at->distance, 1e-8);
     const auto facing = FacingAt(Evaluate(surface, at->at.piece, at->at.u, at->at.v));
     ASSERT_TRUE(facing.has_value());
-    EXPECT_EQ(ReachAt(surface, at->at.p, *facing, {r, ReachGive(params.tolerance) * 1.001}),
+    EXPECT_EQ(ReachAt(surface, at->at.p, *facing, {r, ReachTolerance(params.tolerance) * 1.001}),
               ReachClass::kReachable)
         << seed;
   }

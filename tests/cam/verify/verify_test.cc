@@ -208,7 +208,7 @@ TEST(Verify, ValleyOfTwoPlanesIsConcave) {
     VerifyParams params = Params(15.0);
     const VerifyReport report = Judged(SurfaceOf(TwoPlanes(a, half)), Ball(r), text.End(), params);
     // p at s from the crease: dist(p + R n1, plane 2) = s sin 2a + R cos 2a >= R - give.
-    const double s = (r * (1 - std::cos(2 * a)) - ReachGive(params.tolerance)) / std::sin(2 * a);
+    const double s = (r * (1 - std::cos(2 * a)) - ReachTolerance(params.tolerance)) / std::sin(2 * a);
     const double truth = 2 * s * 2 * half;
     EXPECT_NEAR(report.unreachable_area[1], truth, 0.01 * truth);
     EXPECT_NEAR(report.deepest_unreachable[1], r / std::cos(a) - r, 0.05);
@@ -287,7 +287,7 @@ TEST(Verify, BothSidesOfAVerticalWallCount) {
   const VerifyReport report = Judged(surface, Ball(2.0), text.End(), params);
   // The ball touches a wall down to R - give above the floor, and the floor from where it is R - give off the
   // wall on. The inner side of a wall is never free, but it is not the reason.
-  const double r = 2.0 - ReachGive(params.tolerance);
+  const double r = 2.0 - ReachTolerance(params.tolerance);
   const double truth = 2 * 4 * 10.0 * r + kPi * r * r;
   EXPECT_NEAR(report.unreachable_area[1], truth, 0.01 * truth);
   EXPECT_EQ(report.unreachable_area[0], 0.0);

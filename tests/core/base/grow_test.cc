@@ -8,18 +8,18 @@
 namespace patchmill {
 namespace {
 
-TEST(Grow, IsAsResize) {
+TEST(ResizePolling, IsAsResize) {
   std::vector<int> v(100), old(100);
   std::iota(v.begin(), v.end(), 1);
   old = v;
   for (const std::size_t size : {100, 101, 20'000, 100'000}) {
-    EXPECT_TRUE(Grow(v, size, RunContext()).ok());
+    EXPECT_TRUE(ResizePolling(v, size, RunContext()).ok());
     old.resize(size);
     EXPECT_EQ(v, old);
   }
 }
 
-TEST(Grow, StopsBetweenSteps) {
+TEST(ResizePolling, StopsBetweenSteps) {
   static RunContext told;
   static int made = 0;
   struct Tells {
@@ -28,7 +28,7 @@ TEST(Grow, StopsBetweenSteps) {
     }
   };
   std::vector<Tells> v;
-  EXPECT_EQ(Grow(v, 100'000, told).code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(ResizePolling(v, 100'000, told).code(), absl::StatusCode::kCancelled);
   EXPECT_GE(v.size(), 20'000U);
   EXPECT_LT(v.size(), 50'000U);
 }

@@ -52,7 +52,7 @@ TEST(HosakaFit, Loop) {
   EXPECT_NEAR(loop->first + loop->second, difference + 1, 1e-12);
   EXPECT_NEAR(loop->first * loop->second, difference * difference + d["p"].Number(), 1e-12);
   const HosakaSegment s{Vec3::Zero(), Vec3(d["A"].Number(), 0, 0), Lift(b, 0), Lift(c, 0), {}};
-  EXPECT_LE((Plan(Evaluate(s, loop->first).p) - Pair(d["point"])).norm(), 1e-12);
+  EXPECT_LE((Xy(Evaluate(s, loop->first).p) - Pair(d["point"])).norm(), 1e-12);
   EXPECT_LE((Evaluate(s, loop->first).p - Evaluate(s, loop->second).p).norm(), 1e-12);
   const Json& none = Data()["noloop"];
   ASSERT_FALSE(none["roots_in_01"].Bool());
@@ -100,7 +100,7 @@ TEST(HosakaFit, Slope) {
     EXPECT_NEAR(((a[0] * t + a[1]) * t + a[2]) * t + a[3], 0, 1e-12);
     // Its lengths too, negative ones included, lead the curve through the point.
     const HosakaSegment s = Plane(chord, beta, gamma, {t, solution[1].Number(), solution[2].Number()});
-    EXPECT_LE((Plan(Evaluate(s, t).p) - q).norm(), 1e-12);
+    EXPECT_LE((Xy(Evaluate(s, t).p) - q).norm(), 1e-12);
   }
   const auto fits = FitSlope(chord, beta, gamma, q, theta);
   ASSERT_TRUE(fits.ok());
@@ -110,7 +110,7 @@ TEST(HosakaFit, Slope) {
   EXPECT_NEAR(fit.b, d["B"].Number(), 1e-11);
   EXPECT_NEAR(fit.c, d["C"].Number(), 1e-11);
   const CurveJet jet = Evaluate(Plane(chord, beta, gamma, fit), fit.t);
-  EXPECT_LE((Plan(jet.p) - q).norm(), 1e-13);
+  EXPECT_LE((Xy(jet.p) - q).norm(), 1e-13);
   EXPECT_NEAR(std::atan2(jet.d.y(), jet.d.x()), theta, 1e-12);
   EXPECT_FALSE(FitSlope(chord, beta, beta, q, theta).ok());
 }
@@ -120,7 +120,7 @@ TEST(HosakaFit, VerticalTangentIsNoException) {
   const HosakaSegment s = Plane(chord, beta, gamma, {0, 1.8, 1.2});
   double low = 0, high = 0.5;  // x' < 0 at the start
   for (int k = 0; k < 60; ++k) (Evaluate(s, 0.5 * (low + high)).d.x() < 0 ? low : high) = 0.5 * (low + high);
-  const auto fits = FitSlope(chord, beta, gamma, Plan(Evaluate(s, low).p), kPi / 2);
+  const auto fits = FitSlope(chord, beta, gamma, Xy(Evaluate(s, low).p), kPi / 2);
   ASSERT_TRUE(fits.ok());
   ASSERT_FALSE(fits->empty());
   EXPECT_NEAR(fits->front().t, low, 1e-9);
@@ -138,7 +138,7 @@ TEST(HosakaFit, Extremum) {
   bool found = false;
   for (const HosakaFit& fit : *fits) {
     const CurveJet jet = Evaluate(Plane(chord, beta, gamma, fit), fit.t);
-    EXPECT_LE((Plan(jet.p) - q).norm(), 1e-12);
+    EXPECT_LE((Xy(jet.p) - q).norm(), 1e-12);
     EXPECT_NEAR(jet.d.y(), 0, 1e-12);
     found = found || (std::abs(fit.t - d["t"].Number()) < 1e-12 &&
                       std::abs(fit.b - d["B"].Number()) < 1e-11 && std::abs(fit.c - d["C"].Number()) < 1e-11);

@@ -41,7 +41,7 @@ TEST(Forms, SphereIsUmbilicAndOutward) {
       return;
     }
     ++others;
-    const double rho = Plan(jet.p - center).norm() / r;  // |S_u| shrinks with it: so do the digits left
+    const double rho = Xy(jet.p - center).norm() / r;  // |S_u| shrinks with it: so do the digits left
     EXPECT_LE((*normal - (jet.p - center) / r).norm(), 1e-14 / rho);
     const FundamentalForms f = Forms(jet, *normal);
     const PrincipalCurvatures k = Principal(f);
@@ -93,7 +93,7 @@ TEST(Forms, ContourOfParaboloidAndSaddle) {
   ForSamples(testing::Paraboloid(a, 10), 300, [&](const SurfaceJet& jet) {
     EXPECT_NEAR(jet.p.z(), a * jet.p.head<2>().squaredNorm(), 1e-14);
     const FundamentalForms f = Forms(jet, UpwardNormal(jet).value());
-    const double rho = Plan(jet.p).norm();
+    const double rho = Xy(jet.p).norm();
     const double slope = std::atan(2 * a * rho);
     EXPECT_NEAR(ContourCurvature(jet, f), std::sin(slope) / rho, 1e-12);  // a basin
   });

@@ -230,7 +230,7 @@ void ExpectFaired(const std::string& name, const std::vector<Vec3>& points) {
     curve.points = points;
     const double diagonal = Diagonal(curve.points);
     Random random(5);
-    for (Vec3& p : curve.points) p += 0.001 * diagonal * Lift(Plan(random.Point(-1, 1)), 0);
+    for (Vec3& p : curve.points) p += 0.001 * diagonal * Lift(Xy(random.Point(-1, 1)), 0);
     const int locked = static_cast<int>(curve.points.size() / 2);
     curve.terms.locks = {{locked, {true, true, true}}};
     curve.terms.band.setConstant(band * diagonal);

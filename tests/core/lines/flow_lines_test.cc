@@ -28,9 +28,9 @@ TEST(FlowLines, StraightDownATiltedPlane) {
   EXPECT_GE(lines.size(), 10u);  // 24 mm across the flow at most
   const Vec2 up = Vec2(0.3, 0.4).normalized();
   for (const ZeroCurve& line : lines) {
-    const Vec2 first = Plan(line.points.front().p), last = Plan(line.points.back().p);
+    const Vec2 first = Xy(line.points.front().p), last = Xy(line.points.back().p);
     EXPECT_GT((last - first).dot(up), 0.0);
-    for (const SurfacePoint& p : line.points) EXPECT_NEAR(Cross(up, Plan(p.p) - first), 0.0, 1e-9);
+    for (const SurfacePoint& p : line.points) EXPECT_NEAR(Cross(up, Xy(p.p) - first), 0.0, 1e-9);
   }
 }
 
@@ -68,11 +68,11 @@ TEST(FlowLines, OfASphereAreMeridians) {
     double longest = 0.0;
     for (const ZeroCurve& line : lines) {
       double length = 0.0;
-      const Vec2 first = Plan(line.points[line.points.size() / 2].p).normalized();
+      const Vec2 first = Xy(line.points[line.points.size() / 2].p).normalized();
       for (std::size_t i = 0; i < line.points.size(); ++i) {
         const Vec3& p = line.points[i].p;
         EXPECT_NEAR(p.norm(), r, 1e-9);
-        EXPECT_NEAR(Cross(first, Plan(p)), 0.0, 0.003);
+        EXPECT_NEAR(Cross(first, Xy(p)), 0.0, 0.003);
         if (i == 0) continue;
         length += (p - line.points[i - 1].p).norm();
         // Height grows along the flow; so does |n_z|, away from the equator.

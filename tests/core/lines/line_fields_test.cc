@@ -100,7 +100,7 @@ TEST(LineFields, SlopeExtremumLinesOfAParaboloidAreItsAxes) {
     ASSERT_EQ(curves.size(), 4u);
     for (const ZeroCurve& curve : curves) {
       EXPECT_LT(std::min(curve.points.front().p.norm(), curve.points.back().p.norm()), 1e-9);
-      EXPECT_GT(std::max(Plan(curve.points.front().p).norm(), Plan(curve.points.back().p).norm()), 8 - 1e-9);
+      EXPECT_GT(std::max(Xy(curve.points.front().p).norm(), Xy(curve.points.back().p).norm()), 8 - 1e-9);
       for (const SurfacePoint& p : curve.points)
         EXPECT_NEAR(std::min(std::abs(p.p.x()), std::abs(p.p.y())), 0.0, 1e-9);
     }

@@ -160,7 +160,7 @@ TEST(ZeroMesh, SaddlesAreVerticesWithFourSectorsWhereverTheyLie) {
     int at = -1;
     double nearest = 1e-9;
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-      const double away = (Plan(mesh.vertices[i].p) - node).norm();
+      const double away = (Xy(mesh.vertices[i].p) - node).norm();
       if (mesh.vertices[i].on != 1 || away >= nearest) continue;
       at = static_cast<int>(i);
       nearest = away;

@@ -249,7 +249,7 @@ TEST(Closest, AboveNothingThatIsAboveIsLeftOut) {
     const double limit = random.Uniform(0.5, 8.0);
     const auto found = ClosestAbove(s, c, limit, 1e-6);
     const double proven = (found ? found->distance : limit) - 1e-6;
-    for (const Vec3& p : samples) EXPECT_FALSE(p.z() > c.z() && (Plan(p) - Plan(c)).norm() < proven);
+    for (const Vec3& p : samples) EXPECT_FALSE(p.z() > c.z() && (Xy(p) - Xy(c)).norm() < proven);
     // What boxes alone say is a proof one way.
     const bool may = MayRiseAbove(s, c, limit);
     EXPECT_TRUE(may || !found || !(found->at.p.z() > c.z()));

@@ -30,7 +30,7 @@ double HighestSample(const Surface& s, const Column& column, int cells) {
     for (int i = 0; i <= cells; ++i) {
       for (int j = 0; j <= cells; ++j) {
         const Vec3 p = Position(piece, static_cast<double>(i) / cells, static_cast<double>(j) / cells);
-        if (ToSegment(column, Plan(p)) < column.radius) highest = std::max(highest, p.z());
+        if (ToSegment(column, Xy(p)) < column.radius) highest = std::max(highest, p.z());
       }
     }
   }
@@ -41,7 +41,7 @@ double HighestSample(const Surface& s, const Column& column, int cells) {
 void ExpectHonest(const Surface& s, const Column& column, double above, const SurfacePoint& found) {
   ASSERT_LT(found.piece.index(), s.pieces.size());
   EXPECT_LT((Position(s.piece(found.piece), found.u, found.v) - found.p).norm(), 1e-11);
-  EXPECT_LT(ToSegment(column, Plan(found.p)), column.radius);
+  EXPECT_LT(ToSegment(column, Xy(found.p)), column.radius);
   EXPECT_GT(found.p.z(), above);
 }
 

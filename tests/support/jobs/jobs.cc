@@ -81,7 +81,7 @@ class ProgramJudge {
       EXPECT_FALSE(m.from_above || m.to_above) << "line " << m.line;
       const Vec3 d = m.to - m.from;
       if (d.norm() < 20.0 * kRounding) continue;  // its angle is rounding
-      const double descent = std::atan2(-d.z(), Plan(d).norm());
+      const double descent = std::atan2(-d.z(), Xy(d).norm());
       // Both ends are rounded: of short moves the angle is known no better.
       if (descent > Radians(30.0) + slack + 1.5 * kRounding / d.norm()) {
         EXPECT_LE(m.feed, kTestPlungeFeed) << "line " << m.line << " descends at " << Degrees(descent);
@@ -137,8 +137,8 @@ class ProgramJudge {
   Centers CentersOf(const ProgramMove& m) const {
     constexpr double kAbove = 50.0;
     Centers c{m.from, m.to};
-    if (m.from_above) c.from = Lift(Plan(m.to), std::max(m.to.z(), top_ + kAbove));
-    if (m.to_above) c.to = Lift(Plan(m.from), std::max(m.from.z(), top_ + kAbove));
+    if (m.from_above) c.from = Lift(Xy(m.to), std::max(m.to.z(), top_ + kAbove));
+    if (m.to_above) c.to = Lift(Xy(m.from), std::max(m.from.z(), top_ + kAbove));
     c.from.z() += radius_;
     c.to.z() += radius_;
     return c;
@@ -147,9 +147,9 @@ class ProgramJudge {
   // For sure: nothing near the ball that the tolerance of the searches could hide.
   bool Reachable(const Vec3& p, const Vec3& e) const {
     const Vec3 c = p + kept_ * e;
-    const double tip = c.z() - radius_, give = ReachGive(job_.operation.tolerance);
-    return tip >= floor_ - give + kSearch && tip <= job_.operation.top_z.value_or(kInfinity) &&
-           !AnythingNearUpwardRay(surface_, c, kept_ - give + kSearch, kSearch);
+    const double tip = c.z() - radius_, reach_tolerance = ReachTolerance(job_.operation.tolerance);
+    return tip >= floor_ - reach_tolerance + kSearch && tip <= job_.operation.top_z.value_or(kInfinity) &&
+           !AnythingNearUpwardRay(surface_, c, kept_ - reach_tolerance + kSearch, kSearch);
   }
 
   const Surface& surface_;

@@ -149,7 +149,7 @@ std::optional<MeshOracle::Bracket> MeshOracle::Height(const Vec2& q, double radi
   for (int step = 0; step < kMostSteps && z > mesh_->bottom - radius; ++step) {
     const Kernel::Point_3 near = mesh_->tree.closest_point({q.x(), q.y(), z});
     const Vec3 p(near.x(), near.y(), near.z());
-    const double rim = radius * radius - (Plan(p) - q).squaredNorm();
+    const double rim = radius * radius - (Xy(p) - q).squaredNorm();
     if (rim >= 0.0) bracket.low = std::max(bracket.low, p.z() + std::sqrt(rim));
     if (z - bracket.low <= within) break;
     z -= std::max((Vec3(q.x(), q.y(), z) - p).norm() - radius, 1e-3 * within);
