@@ -16,10 +16,10 @@ libraries=(
 # Arithmetic, patches, every height, and what differs between instruction sets.
 tests=(
   core_patch_bicubic_sums_test core_patch_piece_test
-  cam_location_heights_test cam_location_closed_forms_test "$@"
+  cam_location_simd_heights_test cam_location_locator_closed_forms_test "$@"
 )
 # These record digests (RecordProperty "digest"): the same from both builds.
-compared=(cam_location_heights_test)
+compared=(cam_location_simd_heights_test)
 
 for tool in aarch64-linux-gnu-g++ qemu-aarch64-static; do
   command -v "$tool" >/dev/null || { echo "cross_aarch64.sh: $tool is missing" >&2; exit 2; }

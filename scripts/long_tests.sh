@@ -39,7 +39,7 @@ random() {  # a hundred parts of each kind
 certificates() {  # ten million heights
   build release cam_location_tests
   PATCHMILL_FUZZ_QUERIES=10000000 PATCHMILL_FUZZ_SEED="$seed" \
-    build/release/tests/cam_location_tests --file=tests/cam/location/certificate_fuzz_test.cc
+    build/release/tests/cam_location_tests --file=tests/cam/location/simd/heights_certificate_fuzz_test.cc
 }
 fuzz() {  # a minute of each target
   command -v clang++ > /dev/null || install clang llvm

@@ -45,7 +45,8 @@ inline constexpr int kMaxThreads = 64;            // of one job
 inline constexpr int kMaxJobs = 64;               // at once, of one server
 inline constexpr double kMaxJobSeconds = 3600.0;  // default of the server
 // Of the passes of one plan, counted while they are made, and of the program with its links: a job that comes
-// to more ends there (cam/path/counted_loop.h), and one whose finish cannot take less before its passes are
+// to more ends there (cam/toolpath/counted_loop.h), and one whose finish cannot take less before its passes
+// are
 // made (LeastCutLength). Every plan that the choice of an angle makes counts for itself. A point takes about
 // 0.6
 // kB of memory, and the verifier of other people's programs reads as many.

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "cam/location/touched.h"
-#include "cam/path/keep_in_clip.h"
-#include "cam/path/spacing.h"
+#include "cam/location/contact_points.h"
+#include "cam/path/edge/limits_clip.h"
+#include "cam/path/stepover/step_over.h"
 
 namespace patchmill {
 namespace {
@@ -87,7 +87,8 @@ bool LinkMaker::LeavesUnwanted(const Vec3& c) const {
 
 bool LinkMaker::StraightIsFree(const Vec3& a, const Vec3& b) const {
   if (!Allowed(a, b)) return false;
-  // Passes in slots and holes that are a little too narrow end where nothing is free (cam/path/spot_passes):
+  // Passes in slots and holes that are a little too narrow end where nothing is free
+  // (cam/path/rest/spot_passes):
   // for links from there [location T2] promises nothing.
   const double tolerance = params_.pass.chord_tolerance;
   if ((b - a).norm() <= t2_length_) return locator_.GougeWithin(a, b, kProven * tolerance, 0.02 * tolerance);

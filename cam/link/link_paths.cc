@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "cam/link/ground_heights.h"
+#include "cam/link/insert_passes.h"
 #include "cam/link/link_moves.h"
-#include "cam/link/on_the_way.h"
 #include "cam/link/order_passes.h"
+#include "cam/link/surface_heights.h"
 #include "core/base/status.h"
 
 namespace patchmill {

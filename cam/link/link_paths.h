@@ -6,10 +6,10 @@
 
 #include <absl/status/statusor.h>
 
-#include "cam/location/keep_in.h"
+#include "cam/location/limits/operation_limits.h"
 #include "cam/location/locator.h"
-#include "cam/path/scan_line.h"
-#include "cam/region/region_map.h"
+#include "cam/path/chord/scan_line.h"
+#include "cam/region/map/region_map.h"
 #include "cam/toolpath/toolpath.h"
 #include "core/base/run_context.h"
 

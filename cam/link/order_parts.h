@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "cam/region/region_map.h"
+#include "cam/region/map/region_map.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {

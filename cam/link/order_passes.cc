@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "cam/link/order_parts.h"
-#include "cam/link/order_search.h"
-#include "cam/region/pass_regions.h"
+#include "cam/link/shorten_order.h"
+#include "cam/region/map/pass_regions.h"
 #include "core/base/status.h"
 #include "core/base/union_find.h"
 

@@ -6,8 +6,8 @@
 
 #include <absl/status/statusor.h>
 
-#include "cam/link/order_search.h"
-#include "cam/region/region_map.h"
+#include "cam/link/shorten_order.h"
+#include "cam/region/map/region_map.h"
 #include "cam/toolpath/cutter_path.h"
 #include "core/base/run_context.h"
 
@@ -28,7 +28,8 @@ struct OrderParams {
 
 // Contours of a mountain or basin and lines of a region are parts that are cut in one go, in the order of
 // OrderParts: from the top down, neighbours together; then borders, creases and rest. A contour is never cut
-// before those of the two levels of its ground (cam/path/level_grounds.h) above it that it touches in plan;
+// before those of the two levels of its ground (cam/path/contour/level_groups.h) above it that it touches in
+// plan;
 // beyond that each mountain is cut from its top and each basin from its top inwards, down to where they end
 // or join others that are not cut yet, before the next is begun, but for those at hand, and for those that
 // `travel` shows to be on the way (ShortenOrder); open contours that end where others of about their height

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "cam/location/leaf_errors.h"
-#include "core/base/outward.h"
+#include "core/base/round_outward.h"
 #include "core/math/box_qp.h"
 #include "core/surface/net_kernel.h"
 

@@ -10,7 +10,7 @@
 
 #include <absl/status/statusor.h>
 
-#include "cam/tool/containment.h"
+#include "cam/limits/containment.h"
 #include "core/base/run_context.h"
 #include "core/surface/surface.h"
 

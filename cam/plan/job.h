@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "cam/limits/containment.h"
 #include "cam/link/link_paths.h"
-#include "cam/path/line_frame.h"
+#include "cam/path/parallel/line_frame.h"
 #include "cam/post/program_writer.h"
-#include "cam/region/region_map.h"
-#include "cam/tool/containment.h"
+#include "cam/region/map/region_map.h"
 #include "cam/tool/tool.h"
 #include "cam/toolpath/path_amount.h"
 #include "cam/verify/verify.h"

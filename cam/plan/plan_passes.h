@@ -5,10 +5,10 @@
 
 #include <absl/status/statusor.h>
 
-#include "cam/location/keep_in.h"
+#include "cam/location/limits/operation_limits.h"
 #include "cam/plan/region_choices.h"
 #include "cam/plan/resolve.h"
-#include "cam/region/region_map.h"
+#include "cam/region/map/region_map.h"
 #include "cam/toolpath/cutter_path.h"
 
 namespace patchmill {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "cam/region/regions_digest.h"
+#include "cam/region/map/regions_digest.h"
 #include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/surface/closest.h"

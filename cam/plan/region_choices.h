@@ -8,9 +8,9 @@
 
 #include <absl/status/statusor.h>
 
-#include "cam/path/forced_steps.h"
+#include "cam/limits/surface_mask.h"
+#include "cam/path/reach/forced_steps.h"
 #include "cam/plan/job.h"
-#include "cam/tool/surface_mask.h"
 
 namespace patchmill {
 

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <map>
 
-#include "cam/path/across_feed.h"
-#include "cam/path/cell_reach.h"
-#include "cam/path/forced_steps.h"
-#include "cam/path/pass_params.h"
-#include "cam/path/spacing.h"
+#include "cam/path/reach/cell_reach.h"
+#include "cam/path/reach/forced_steps.h"
+#include "cam/path/stepover/across_feed.h"
+#include "cam/path/stepover/pass_params.h"
+#include "cam/path/stepover/step_over.h"
 #include "cam/plan/region_points.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"

@@ -5,8 +5,8 @@
 #include <absl/strings/numbers.h>
 #include <fmt/format.h>
 
+#include "cam/limits/reach_tolerance.h"
 #include "cam/plan/beside_part.h"
-#include "cam/tool/reach_give.h"
 #include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"

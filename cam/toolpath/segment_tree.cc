@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/outward.h"
+#include "core/base/round_outward.h"
 #include "core/base/status.h"
 
 namespace patchmill {

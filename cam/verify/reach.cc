@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "cam/tool/reach_give.h"
+#include "cam/limits/reach_tolerance.h"
 #include "core/surface/closest.h"
 #include "core/surface/highest.h"
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "cam/tool/containment.h"
-#include "cam/tool/wide_shank.h"
+#include "cam/limits/containment.h"
+#include "cam/limits/wide_shank.h"
 #include "cam/verify/verify.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/surface.h"
@@ -35,7 +35,7 @@ struct ReachParams {
   CenterLimits limits = {};
 };
 
-// Room of boundary, obstacles and top (cam/tool/containment.h): >= 0 where the centre is allowed.
+// Room of boundary, obstacles and top (cam/limits/containment.h): >= 0 where the centre is allowed.
 double RoomAt(const CenterLimits& limits, const Vec3& center);
 // Room of what is forbidden beside the part.
 double BesideRoomAt(const CenterLimits& limits, const Vec3& center);

@@ -5,17 +5,17 @@
 
 #include <fmt/format.h>
 
-#include "cam/tool/reach_give.h"
-#include "cam/tool/wide_shank.h"
+#include "cam/limits/reach_tolerance.h"
+#include "cam/limits/wide_shank.h"
+#include "cam/verify/broken_limits.h"
 #include "cam/verify/gouge.h"
-#include "cam/verify/keep_out.h"
 #include "cam/verify/leftover.h"
 #include "cam/verify/leftover_spread.h"
 #include "cam/verify/motion_figures.h"
 #include "cam/verify/motion_rules.h"
 #include "cam/verify/motion_sets.h"
-#include "cam/verify/operation_limits.h"
 #include "cam/verify/validate.h"
+#include "cam/verify/verify_limits.h"
 #include "core/base/status.h"
 
 namespace patchmill {

@@ -16,8 +16,8 @@
 
 #include <absl/status/statusor.h>
 
-#include "cam/tool/containment.h"
-#include "cam/tool/surface_mask.h"
+#include "cam/limits/containment.h"
+#include "cam/limits/surface_mask.h"
 #include "cam/tool/tool.h"
 #include "cam/toolpath/toolpath.h"
 #include "core/base/diagnostic.h"

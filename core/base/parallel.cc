@@ -8,7 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "core/base/silence.h"
+#include "core/base/progress_throttle.h"
 
 namespace patchmill {
 namespace {

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cstdint>
 
+#include "core/base/progress_throttle.h"
 #include "core/base/run_context.h"
-#include "core/base/silence.h"
 
 namespace patchmill {
 

@@ -4,7 +4,7 @@
 #include <bitset>
 #include <cmath>
 
-#include "core/base/silence.h"
+#include "core/base/progress_throttle.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 

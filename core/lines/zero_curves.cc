@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/base/silence.h"
+#include "core/base/progress_throttle.h"
 #include "core/base/status.h"
 
 namespace patchmill {

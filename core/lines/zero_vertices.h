@@ -6,7 +6,7 @@
 
 #include <absl/container/flat_hash_map.h>
 
-#include "core/base/silence.h"
+#include "core/base/progress_throttle.h"
 #include "core/lines/zero_mesh.h"
 
 namespace patchmill {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/base/index.h"
-#include "core/network/box_tree.h"
+#include "core/spatial/box_tree.h"
 
 namespace patchmill {
 namespace {

@@ -1,6 +1,6 @@
 #include "core/surface/box_node.h"
 
-#include "core/base/outward.h"
+#include "core/base/round_outward.h"
 #include "core/surface/collapse.h"
 #include "core/surface/surface.h"
 

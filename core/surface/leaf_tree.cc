@@ -7,9 +7,9 @@
 #include <span>
 #include <utility>
 
-#include "core/base/grow.h"
 #include "core/base/lanes.h"
 #include "core/base/parallel.h"
+#include "core/base/resize_polling.h"
 
 namespace patchmill {
 namespace {

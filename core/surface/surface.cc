@@ -7,8 +7,8 @@
 #include <absl/strings/str_cat.h>
 
 #include "core/base/parallel.h"
+#include "core/base/progress_throttle.h"
 #include "core/base/share_progress.h"
-#include "core/base/silence.h"
 #include "core/base/status.h"
 #include "core/patch/split_pieces.h"
 #include "core/surface/air_sides.h"

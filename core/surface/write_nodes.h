@@ -5,8 +5,8 @@
 
 #include <absl/status/status.h>
 
-#include "core/base/grow.h"
 #include "core/base/parallel.h"
+#include "core/base/resize_polling.h"
 #include "core/base/status.h"
 #include "core/surface/box_node.h"
 #include "core/surface/collapse.h"

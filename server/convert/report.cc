@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cam/region/regions_digest.h"
+#include "cam/region/map/regions_digest.h"
 #include "server/convert/enums.h"
 #include "server/convert/setup.h"
 #include "server/digest.h"

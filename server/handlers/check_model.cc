@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "cam/limits/reach_tolerance.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
-#include "cam/tool/reach_give.h"
 #include "core/base/status.h"
 #include "core/joining/continuity.h"
 #include "server/convert/joints.h"

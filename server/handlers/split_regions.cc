@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "cam/plan/idle_settings.h"
 #include "cam/plan/job_preview.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
+#include "cam/plan/unused_settings.h"
 #include "core/base/status.h"
 #include "server/convert/report.h"
 #include "server/handlers/handlers.h"

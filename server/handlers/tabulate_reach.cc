@@ -4,7 +4,7 @@
 
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
-#include "cam/region/reach_table.h"
+#include "cam/region/figures/reach_table.h"
 #include "core/base/status.h"
 #include "server/convert/fields.h"
 #include "server/convert/report.h"

@@ -1,8 +1,8 @@
 // Whole jobs, from the model to the verified program, and the verifier alone; on all cores, wall clock.
 #include <benchmark/benchmark.h>
 
-#include "cam/path/across_feed.h"
-#include "cam/path/spacing.h"
+#include "cam/path/stepover/across_feed.h"
+#include "cam/path/stepover/step_over.h"
 #include "cam/plan/job_preview.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/region_points.h"

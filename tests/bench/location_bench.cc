@@ -7,7 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "cam/location/heights.h"
+#include "cam/location/simd/heights.h"
 #include "tests/bench/bench_parts.h"
 #include "tests/bench/over_plain.h"
 #include "tests/support/clock.h"

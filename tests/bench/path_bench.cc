@@ -5,10 +5,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "cam/location/heights.h"
-#include "cam/path/level_trace.h"
-#include "cam/path/scan_line.h"
-#include "cam/region/region_map.h"
+#include "cam/location/simd/heights.h"
+#include "cam/path/chord/scan_line.h"
+#include "cam/path/zlevel/level_trace.h"
+#include "cam/region/split_regions.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 #include "tests/bench/bench_parts.h"

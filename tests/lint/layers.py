@@ -9,24 +9,40 @@ import re
 import sys
 
 # Each folder and the folders it may include from, itself always.
-CORE = ["base", "math", "curve", "patch", "diffgeo", "network", "surface", "lines"]
-CAM = ["tool", "toolpath", "location", "region", "path", "link"]
-JUDGES = ["post", "verify", "picture"]  # see only tool, toolpath and core, so that verify is an independent judge
+CORE = ["base", "math", "curve", "patch", "diffgeo", "spatial", "network", "surface", "lines"]
+# The rooms of cam in their order; region and path are siblings: neither sees the other.
+CAM = ["tool", "limits", "toolpath", "location", "location/limits", "location/simd"]
+REGION = ["map", "reach", "split", "watershed", "merge", "border", "figures", ""]
+PATH = ["stepover", "chord", "edge", "zlevel", "reach", "parallel", "contour", "rest"]
+JUDGES = ["post", "verify", "picture"]  # see only tool, limits, toolpath and core, so that verify is an independent judge
 
-ALLOWED = {}
-for i, name in enumerate(CORE):
-    ALLOWED["core/" + name] = {"core/" + below for below in CORE[:i]}
-ALLOWED["core/io"] = {"core/" + below for below in CORE[: CORE.index("network") + 1]}
-ALLOWED["core/joining"] = {"core/" + below for below in CORE[: CORE.index("network") + 1]}
-ALLOWED["core/editing"] = {"core/" + below for below in CORE[: CORE.index("surface") + 1]} | {"core/joining"}
+
+def rooms(top, names):
+    return [f"{top}/{name}".rstrip("/") for name in names]
+
+
+def in_order(names, below):
+    """Each name may see `below` and the names before it."""
+    return {name: below | set(names[:i]) for i, name in enumerate(names)}
+
+
+core = rooms("core", CORE)
+ALLOWED = in_order(core, set())
+UP_TO_NETWORK = set(core[: CORE.index("network") + 1])
+ALLOWED["core/io"] = set(UP_TO_NETWORK)
+ALLOWED["core/joining"] = set(UP_TO_NETWORK)
+ALLOWED["core/editing"] = set(core[: CORE.index("surface") + 1]) | {"core/joining"}
 ALLOWED["core/fairing"] = {"core/base"}
-ALL_CORE = {"core/" + name for name in CORE}
-for i, name in enumerate(CAM):
-    ALLOWED["cam/" + name] = ALL_CORE | {"cam/" + below for below in CAM[:i]}
-for name in JUDGES:
-    ALLOWED["cam/" + name] = ALL_CORE | {"cam/tool", "cam/toolpath"}
+ALL_CORE = set(core)
+cam, region, path = rooms("cam", CAM), rooms("cam/region", REGION), rooms("cam/path", PATH)
+ALLOWED |= in_order(cam, ALL_CORE)
+ALLOWED |= in_order(region, ALL_CORE | set(cam))
+ALLOWED |= in_order(path, ALL_CORE | set(cam))
+ALLOWED["cam/link"] = ALL_CORE | set(cam + region + path)
+for name in rooms("cam", JUDGES):
+    ALLOWED[name] = ALL_CORE | {"cam/tool", "cam/limits", "cam/toolpath"}
 ALLOWED["cam/picture"].add("core/fairing")
-ALLOWED["cam/plan"] = ALL_CORE | {"cam/" + n for n in CAM + JUDGES}
+ALLOWED["cam/plan"] = ALLOWED["cam/link"] | {"cam/link"} | set(rooms("cam", JUDGES))
 
 ALLOWED["proto/json"] = set()
 PROTO = {"proto/patchmill/v1", "patchmill/v1", "proto/json"}

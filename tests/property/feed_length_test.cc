@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cam/path/across_feed.h"
-#include "cam/path/scan_line.h"
-#include "cam/path/spacing.h"
+#include "cam/path/chord/scan_line.h"
+#include "cam/path/stepover/across_feed.h"
+#include "cam/path/stepover/step_over.h"
 #include "core/diffgeo/forms.h"
 #include "tests/support/files.h"
 #include "tests/support/jobs/jobs.h"

@@ -214,7 +214,7 @@ TEST_F(Regions, AVerdictOnTheirScallopsNeedsOneForTheRest) {
                           HasSubstr("region_overrides[0].scallop_mm is set without scallop_mm")));
 }
 
-// The networks of tests/cam/region/region_counts.txt, as they are and with each vertex moved a little.
+// The networks of tests/cam/region/split_regions_counts.txt, as they are and with each vertex moved a little.
 TEST_F(Regions, OfNetworksAreAsManyAsTheTableSays) {
   int networks = 0;
   for (const testing::TableRow& row : testing::ModelTable()) {

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "cam/region/leftover.h"
+#include "cam/region/figures/leftover.h"
 #include "core/base/status.h"
 
 namespace patchmill::testing {

@@ -1,4 +1,4 @@
-// The real parts that tests run over: tests/cam/region/region_counts.txt.
+// The real parts that tests run over: tests/cam/region/split_regions_counts.txt.
 #pragma once
 
 #include <sstream>
@@ -17,7 +17,7 @@ struct TableRow {
 
 inline std::vector<TableRow> ModelTable() {
   std::vector<TableRow> rows;
-  std::istringstream lines(ReadRepositoryFile("tests/cam/region/region_counts.txt"));
+  std::istringstream lines(ReadRepositoryFile("tests/cam/region/split_regions_counts.txt"));
   for (std::string line; std::getline(lines, line);) {
     if (line.empty() || line[0] == '#') continue;
     TableRow row;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "cam/tool/reach_give.h"
+#include "cam/limits/reach_tolerance.h"
 #include "core/surface/closest.h"
 #include "core/surface/surface.h"
 

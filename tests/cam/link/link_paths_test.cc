@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cam/link/link_moves.h"
-#include "cam/location/keep_in.h"
+#include "cam/location/limits/operation_limits.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/surface/closest.h"
-#include "tests/cam/path/contour_checks.h"
+#include "tests/cam/path/zlevel/level_checks.h"
 #include "tests/support/shapes.h"
 
 namespace patchmill {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cam/location/heights.h"
 #include "cam/location/locator.h"
+#include "cam/location/simd/heights.h"
 #include "tests/support/files.h"
 #include "tests/support/mesh/mesh_oracle.h"
 #include "tests/support/random.h"

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cam/region/reach_table.h"
-#include "cam/region/region_map.h"
-#include "cam/tool/reach_give.h"
+#include "cam/limits/reach_tolerance.h"
+#include "cam/region/figures/reach_table.h"
+#include "cam/region/split_regions.h"
 #include "cam/verify/leftover.h"
 #include "tests/support/model_table.h"
 #include "tests/support/reach_oracle.h"

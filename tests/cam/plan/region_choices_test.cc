@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cam/plan/resolve.h"
-#include "cam/region/regions_digest.h"
+#include "cam/region/map/regions_digest.h"
 #include "core/surface/closest.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"

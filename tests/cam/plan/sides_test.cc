@@ -8,7 +8,7 @@
 #include "cam/plan/beside_part.h"
 #include "cam/plan/plan.h"
 #include "cam/post/program_reader.h"
-#include "cam/region/reach_table.h"
+#include "cam/region/figures/reach_table.h"
 #include "core/base/status.h"
 #include "tests/support/jobs/limited_job.h"
 #include "tests/support/walls.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cam/path/forced_steps.h"
+#include "cam/path/reach/forced_steps.h"
 #include "core/diffgeo/forms.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"

@@ -1,7 +1,7 @@
 // The verifier against dense sampling that shares nothing with it but the evaluation of the surface.
 #include <cmath>
 
-#include "cam/tool/reach_give.h"
+#include "cam/limits/reach_tolerance.h"
 #include "cam/toolpath/segment_metric.h"
 #include "cam/verify/reach.h"
 #include "core/surface/closest.h"

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "cam/tool/reach_give.h"
+#include "cam/limits/reach_tolerance.h"
 #include "tests/cam/verify/verify_models.h"
 
 namespace patchmill {

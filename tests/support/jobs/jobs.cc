@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cam/path/forced_steps.h"
+#include "cam/limits/reach_tolerance.h"
+#include "cam/path/reach/forced_steps.h"
 #include "cam/plan/job_preview.h"
 #include "cam/post/program_reader.h"
-#include "cam/tool/reach_give.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/closest.h"

@@ -1,0 +1,109 @@
+#include "cam/link/insert_passes.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+constexpr std::size_t kMostPasses = 256, kGaps = 4;
+
+const CutterPoint& StartOf(const CutterPath& pass) { return pass.points.front(); }
+const CutterPoint& EndOf(const CutterPath& pass) {
+  return pass.closed ? pass.points.front() : pass.points.back();
+}
+
+bool IsShort(const CutterPath& pass, double longest) {
+  const bool mends =
+      pass.kind == PassKind::kBorder || pass.kind == PassKind::kPencil || pass.kind == PassKind::kRest;
+  return mends && !pass.closed && !pass.one_way && !pass.directed && !pass.spiral && Length(pass) <= longest;
+}
+
+// Between the pass `after` and the next one.
+struct Gap {
+  std::size_t after = 0;
+  bool reversed = false;
+  double way = 0.0;  // mm, straight: what the two links are longer than the one they replace
+};
+
+// The nearest ones, the nearest first.
+std::vector<Gap> GapsFor(const std::vector<CutterPath>& passes, std::size_t which, double longest) {
+  const CutterPath& pass = passes[which];
+  const Vec3 start = StartOf(pass).center, end = EndOf(pass).center;
+  std::vector<Gap> gaps;
+  for (std::size_t i = 0; i + 1 < passes.size(); ++i) {
+    if (i == which || i + 1 == which) continue;
+    const CutterPath &a = passes[i], &b = passes[i + 1];
+    if (a.kind == PassKind::kContour || b.kind == PassKind::kContour || b.one_way) continue;
+    const Vec3 &from = EndOf(a).center, &to = StartOf(b).center;
+    const double straight = (to - from).norm();
+    for (const bool reversed : {false, true}) {
+      const double in = (from - (reversed ? end : start)).norm(),
+                   out = (to - (reversed ? start : end)).norm();
+      if (in <= longest && out <= longest) gaps.push_back({i, reversed, in + out - straight});
+    }
+  }
+  const auto count = std::min(kGaps, gaps.size());
+  std::partial_sort(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(count), gaps.end(),
+                    [](const Gap& a, const Gap& b) {
+                      return std::pair(a.way, std::pair(a.after, a.reversed)) <
+                             std::pair(b.way, std::pair(b.after, b.reversed));
+                    });
+  gaps.resize(count);
+  return gaps;
+}
+
+// s: of the link from one pass to another.
+double LinkTime(const LinkMaker& maker, const CutterPath& from, const CutterPath& to) {
+  return TimeOf(EndOf(from).center, LinkTo(maker, EndOf(from), to));
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<CutterPath>> InsertPasses(const LinkMaker& maker, std::vector<CutterPath> passes,
+                                                     const LinkParams& params, const RunContext& run) {
+  const double longest = MaxLinkLength(params);
+  std::size_t tried = 0;
+  for (std::size_t i = 1; i < passes.size() && tried < kMostPasses; ++i) {
+    PM_RETURN_IF_ERROR(run.Check());
+    if (!IsShort(passes[i], longest)) continue;
+    const CutterPath& before = passes[i - 1];
+    const std::vector<Move> in = LinkTo(maker, EndOf(before), passes[i]);
+    if (std::none_of(in.begin(), in.end(), [](const Move& m) { return m.kind == MoveKind::kRapid; }))
+      continue;
+    ++tried;
+    run.Progress("link: on the way", static_cast<double>(i) / static_cast<double>(passes.size()));
+    // s: saved by taking it out.
+    double least = TimeOf(EndOf(before).center, in);
+    if (i + 1 < passes.size())
+      least += LinkTime(maker, passes[i], passes[i + 1]) - LinkTime(maker, before, passes[i + 1]);
+    std::optional<Gap> best;
+    CutterPath reversed = passes[i];
+    Reverse(reversed);
+    for (const Gap& gap : GapsFor(passes, i, longest)) {
+      const CutterPath &pass = gap.reversed ? reversed : passes[i], &from = passes[gap.after],
+                       &to = passes[gap.after + 1];
+      const double cost = LinkTime(maker, from, pass) + LinkTime(maker, pass, to) - LinkTime(maker, from, to);
+      if (!(cost < least)) continue;
+      least = cost;
+      best = gap;
+    }
+    if (!best) continue;
+    if (best->reversed) passes[i] = std::move(reversed);
+    const auto at = [&](std::size_t k) { return passes.begin() + static_cast<std::ptrdiff_t>(k); };
+    if (best->after < i) {
+      std::rotate(at(best->after + 1), at(i), at(i + 1));
+    } else {
+      std::rotate(at(i), at(i + 1), at(best->after + 1));
+      --i;  // another one has come here
+    }
+  }
+  PM_RETURN_IF_ERROR(run.Check());
+  return passes;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,324 @@
+#include "cam/path/contour/level_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "cam/path/contour/level_branches.h"
+#include "cam/path/stepover/cheapest_step.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kReachOfSpacing = 3.0;
+constexpr double kMostReach = 2.0;         // ball radii
+constexpr double kMinGroupHeight = 2.0;    // flat steps high
+constexpr std::size_t kMostGroups = 256;   // smaller ones go with the largest
+constexpr double kRise = 6.0;              // flat steps: lower ones are no branches
+constexpr std::size_t kMostBranches = 12;  // the largest; smaller ones stay part of what they stand on
+constexpr double kRulingShare = 0.1;       // of the ground: what the rest can bear rules
+constexpr double kSameNeeds = 0.05;        // steps that differ by less are the same
+constexpr double kMaxOverlapLength = 1.0;  // ball radii: so much of a contour may lie over other ground
+constexpr int kMostContours = 24;          // traced to see whether they part
+constexpr double kLift = 1.5;              // of a lift: the next
+constexpr double kMinBranchSaving =
+    6.0;  // ball radii that levels of a branch's own must save: the estimate's error
+
+std::vector<Vec3> PointsOf(const ContourArea& contour_area, Vec3 ContourSample::*point) {
+  std::vector<Vec3> points;
+  points.reserve(contour_area.samples.size());
+  for (const ContourSample& sample : contour_area.samples) points.push_back(sample.*point);
+  return points;
+}
+
+}  // namespace
+
+std::optional<double> LevelBelow(std::span<const double> heights, double height, double flat) {
+  std::optional<double> highest;
+  for (const double z : heights) {
+    if (z <= height && z > height - kMostGap * flat && z > highest.value_or(-kInfinity)) highest = z;
+  }
+  return highest;
+}
+
+LevelGroups::LevelGroups(ContourArea all) {
+  if (all.samples.empty()) return;
+  groups_.push_back(std::move(all));
+  base_levels_.emplace_back();
+}
+
+// Divides the samples into parts, sets and the branches on them, and joins the branches that do not pay
+// again.
+class LevelGroups::Builder {
+ public:
+  Builder(const ContourArea& contour_area, const PointCells& centers, const HeightParams& params,
+          const ContoursAt& contours, const RunContext& run)
+      : area_(contour_area), centers_(centers), params_(params), contours_(contours), run_(run) {}
+
+  // `set_of`: each sample's set, from 0 on.
+  absl::Status Divide(std::vector<std::size_t> set_of, std::size_t sets, std::vector<LevelBranch> branches) {
+    part_of_ = std::move(set_of);
+    parts_.resize(sets);
+    for (std::size_t k = 0; k < branches.size(); ++k) {
+      for (const std::size_t i : branches[k].samples) part_of_[i] = sets + k;
+    }
+    for (const LevelBranch& branch : branches)
+      parts_.push_back({.on = BaseLevel{part_of_[branch.from], branch.base_level}});
+    for (std::size_t i = 0; i < part_of_.size(); ++i) parts_[part_of_[i]].samples.push_back(i);
+    for (const LowerEnd& end : area_.lower_ends)
+      parts_[part_of_[*centers_.Nearest(end.center)]].ends.push_back(end);
+    const std::size_t spared = branches.size() - std::min(branches.size(), kMostBranches);
+    for (std::size_t k = 0; k < branches.size(); ++k) {
+      run_.Progress("contours: branches", static_cast<double>(k) / static_cast<double>(branches.size()));
+      if (k < spared || SameNeeds(sets + k) || !LiftBaseLevel(sets + k)) {
+        Join(sets + k, Both(sets + k));
+      } else {
+        PM_RETURN_IF_ERROR(JoinUnlessShorter(sets + k));
+      }
+    }
+    return absl::OkStatus();
+  }
+
+  // Grounds in order, those that others stand on before them.
+  void Put(LevelGroups& made) {
+    std::vector<std::size_t> number(parts_.size(), 0);
+    for (std::size_t left = 1; left > 0;) {
+      left = 0;
+      for (std::size_t k = 0; k < parts_.size(); ++k) {
+        Part& part = parts_[k];
+        if (part.samples.empty()) continue;
+        if (part.on && !parts_[part.on->group].samples.empty()) {  // what it stands on comes first
+          ++left;
+          continue;
+        }
+        number[k] = made.groups_.size();
+        if (part.on) part.on->group = number[part.on->group];
+        made.base_levels_.push_back(part.on);
+        made.groups_.push_back(AreaOf(part));
+        for (const std::size_t i : std::exchange(part.samples, {})) part_of_[i] = number[k];
+      }
+    }
+    made.of_sample_ = std::move(part_of_);
+  }
+
+ private:
+  struct Part {  // what will be a ground; without samples once it is joined
+    std::optional<BaseLevel> on = std::nullopt;
+    std::vector<std::size_t> samples = {};
+    std::vector<LowerEnd> ends = {};
+    std::optional<LevelPlan> plan = std::nullopt;  // without a foot
+  };
+
+  ContourArea AreaOf(const Part& part) const {
+    ContourArea contour_area;
+    contour_area.spacing = area_.spacing;
+    contour_area.lower_ends = part.ends;
+    contour_area.samples.reserve(part.samples.size());
+    for (const std::size_t i : part.samples) contour_area.samples.push_back(area_.samples[i]);
+    return contour_area;
+  }
+
+  absl::StatusOr<LevelPlan> LevelPlanOf(const Part& part, std::optional<double> base_level) const {
+    HeightParams params = params_;
+    params.base_level = base_level;
+    return LevelHeights(AreaOf(part), params, run_);
+  }
+
+  // Part k as one with what it stands on.
+  Part Both(std::size_t k) const {
+    Part both = parts_[parts_[k].on->group];
+    const Part& branch = parts_[k];
+    both.samples.insert(both.samples.end(), branch.samples.begin(), branch.samples.end());
+    std::sort(both.samples.begin(), both.samples.end());
+    both.ends.insert(both.ends.end(), branch.ends.begin(), branch.ends.end());
+    both.plan.reset();
+    return both;
+  }
+
+  // `both`: Both(k).
+  void Join(std::size_t k, Part both) {
+    const std::size_t on = parts_[k].on->group;
+    for (const std::size_t i : parts_[k].samples) part_of_[i] = on;
+    parts_[on] = std::move(both);
+    parts_[k] = {};
+    for (Part& part : parts_) {
+      if (part.on && part.on->group == k) part.on->group = on;
+    }
+  }
+
+  // The step that all but a tenth of a part's ground between two heights can bear; 0 without any.
+  double NeedOf(const Part& part, double low, double high) const {
+    std::vector<StepNeed> needs;
+    double total = 0.0;
+    for (const std::size_t i : part.samples) {
+      const ContourSample& sample = area_.samples[i];
+      if (sample.center.z() < low || sample.center.z() > high) continue;
+      needs.push_back({sample.step, sample.width});
+      total += sample.width;
+    }
+    std::sort(needs.begin(), needs.end(),
+              [](const StepNeed& a, const StepNeed& b) { return a.step < b.step; });
+    double passed = 0.0;
+    for (const StepNeed& need : needs) {
+      passed += need.weight;
+      if (passed >= kRulingShare * total) return need.step;
+    }
+    return 0.0;
+  }
+
+  double TopOf(const Part& part) const {
+    double top = -kInfinity;
+    for (const std::size_t i : part.samples) top = std::max(top, area_.samples[i].center.z());
+    return top;
+  }
+
+  // A branch and what stands beside it can share their levels: seen at once.
+  bool SameNeeds(std::size_t k) const {
+    const double low = parts_[k].on->below, high = TopOf(parts_[k]);
+    const double own = NeedOf(parts_[k], low, high), beside = NeedOf(parts_[parts_[k].on->group], low, high);
+    return std::abs(own - beside) < kSameNeeds * std::max(own, beside);
+  }
+
+  // No contour of a height runs over both a branch and other ground.
+  bool AroundItAlone(std::size_t k, double z) const {
+    for (const CutterPath& path : contours_(z)) {
+      double lengths[2] = {0.0, 0.0};  // over other ground, over the branch
+      const std::size_t n = path.points.size();
+      for (std::size_t i = 0; i + (path.closed ? 0 : 1) < n; ++i) {
+        const Vec3 &a = path.points[i].center, &b = path.points[(i + 1) % n].center;
+        const auto nearest = centers_.Nearest(0.5 * (a + b));
+        if (nearest) lengths[part_of_[*nearest] == k] += (b - a).norm();
+      }
+      if (std::min(lengths[0], lengths[1]) > kMaxOverlapLength * params_.radius) return false;
+    }
+    return true;
+  }
+
+  // Lifts the foot of branch k to where contours go around it alone: where the ground in between rises gently
+  // it has no samples, and the branch begins higher than they tell. False: nowhere, by far enough.
+  bool LiftBaseLevel(std::size_t k) {
+    const double top = TopOf(parts_[k]);
+    const std::size_t on = parts_[k].on->group;
+    double z = parts_[k].on->below + params_.flat;
+    for (double step = params_.flat;; step *= kLift) {
+      if (z > top - kRise * params_.flat || contours_left_ == 0) return false;
+      --contours_left_;
+      if (AroundItAlone(k, z)) break;
+      z += step;
+    }
+    Part &branch = parts_[k], &trunk = parts_[on];
+    branch.on->below = z;
+    std::erase_if(branch.samples, [&](std::size_t i) {
+      if (area_.samples[i].center.z() > z) return false;
+      part_of_[i] = on;
+      trunk.samples.push_back(i);
+      return true;
+    });
+    std::erase_if(branch.ends, [&](const LowerEnd& end) {
+      if (end.center.z() > z) return false;
+      trunk.ends.push_back(end);
+      return true;
+    });
+    std::sort(trunk.samples.begin(), trunk.samples.end());
+    trunk.plan.reset();
+    for (Part& part : parts_) {
+      if (part.on && part.on->group == k && part.on->below <= z) part.on->group = on;
+    }
+    return true;
+  }
+
+  absl::Status JoinUnlessShorter(std::size_t k) {
+    Part& trunk = parts_[parts_[k].on->group];
+    if (!trunk.plan) {
+      PM_ASSIGN_OR_RETURN(trunk.plan, LevelPlanOf(trunk, std::nullopt));
+    }
+    PM_ASSIGN_OR_RETURN(
+        const LevelPlan branch,
+        LevelPlanOf(parts_[k], LevelBelow(trunk.plan->heights, parts_[k].on->below, params_.flat)));
+    Part both = Both(k);
+    PM_ASSIGN_OR_RETURN(both.plan, LevelPlanOf(both, std::nullopt));
+    const double apart = trunk.plan->length + branch.length;
+    if (!(apart < both.plan->length - kMinBranchSaving * params_.radius)) Join(k, std::move(both));
+    return absl::OkStatus();
+  }
+
+  const ContourArea& area_;
+  const PointCells& centers_;
+  const HeightParams& params_;
+  const ContoursAt& contours_;
+  const RunContext& run_;
+  int contours_left_ = kMostContours;
+  std::vector<std::size_t> part_of_;  // of each sample
+  std::vector<Part> parts_;
+};
+
+absl::StatusOr<LevelGroups> LevelGroups::Make(const ContourArea& contour_area, const HeightParams& params,
+                                              const ContoursAt& contours, const RunContext& run) {
+  LevelGroups made;
+  const std::size_t count = contour_area.samples.size();
+  if (count == 0) return made;
+  const double reach = std::max(kReachOfSpacing * contour_area.spacing,
+                                std::min(contour_area.widest, kMostReach * params.radius));
+  made.centers_ = PointCells(PointsOf(contour_area, &ContourSample::center), reach);
+  PM_RETURN_IF_ERROR(run.Check());
+  UnionFind sets(count);
+  for (const auto& [a, b] : contour_area.neighbors) sets.Join(a, b);
+  made.centers_.JoinNear(sets, run);
+  PM_RETURN_IF_ERROR(run.Check());
+  PointCells(PointsOf(contour_area, &ContourSample::contact), reach).JoinNear(sets, run);
+  PM_RETURN_IF_ERROR(run.Check());
+
+  struct Set {
+    double low = kInfinity, high = -kInfinity;
+    double area = 0.0;  // mm2
+    std::size_t number = 0;
+  };
+  std::map<std::size_t, Set> found;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ContourSample& sample = contour_area.samples[i];
+    Set& set = found[sets.Find(i)];
+    set.low = std::min(set.low, sample.center.z() - sample.down);
+    set.high = std::max(set.high, sample.center.z() + sample.up);
+    set.area += sample.width * (sample.up + sample.down);
+  }
+  std::vector<Set*> order;
+  for (auto& [first, set] : found) order.push_back(&set);
+  std::stable_sort(order.begin(), order.end(), [](const Set* a, const Set* b) { return a->area > b->area; });
+  std::size_t numbers = 0;
+  for (Set* set : order) {
+    const bool scrap = set != order.front() &&
+                       (set->high - set->low < kMinGroupHeight * params.flat || numbers == kMostGroups);
+    set->number = scrap ? 0 : numbers++;
+  }
+  std::vector<std::size_t> set_of;
+  set_of.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) set_of.push_back(found[sets.Find(i)].number);
+  std::vector<LevelBranch> branches;
+  if (contours) {
+    PM_ASSIGN_OR_RETURN(
+        branches, FindBranches(contour_area, set_of, {.reach = reach, .rise = kRise * params.flat}, run));
+    run.Progress("contours: branches", 0.0);
+  }
+  Builder builder(contour_area, made.centers_, params, contours, run);
+  PM_RETURN_IF_ERROR(builder.Divide(std::move(set_of), numbers, std::move(branches)));
+  builder.Put(made);
+  return made;
+}
+
+std::size_t LevelGroups::FamilyUnder(const CutterPath& pass, std::span<const std::size_t> family_of) const {
+  if (groups_.size() == 1) return family_of[0];
+  std::map<std::size_t, double> lengths;
+  const std::size_t n = pass.points.size();
+  for (std::size_t i = 0; i + (pass.closed ? 0 : 1) < n; ++i) {
+    const Vec3 &a = pass.points[i].center, &b = pass.points[(i + 1) % n].center;
+    const auto nearest = centers_.Nearest(0.5 * (a + b));
+    if (nearest) lengths[family_of[of_sample_[*nearest]]] += (b - a).norm();
+  }
+  const auto longest = std::max_element(lengths.begin(), lengths.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  return longest == lengths.end() ? 0 : longest->first;
+}
+
+}  // namespace patchmill

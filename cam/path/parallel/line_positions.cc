@@ -1,0 +1,328 @@
+#include "cam/path/parallel/line_positions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "cam/path/stepover/cheapest_step.h"
+#include "cam/path/stepover/step_over.h"
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+constexpr double kSteady = 1.03;   // steps of neighbouring rows that differ by more want a row between them,
+constexpr double kNearest = 0.15;  // but none nearer than this many flat steps
+constexpr double kInsetShare = 0.98;  // of a step: the passes beside it bend between the places asked
+
+struct Row {
+  double y = 0.0;
+  std::vector<StepNeed> needs;  // of every wanted sample, in their order, half a sample's way each
+  std::vector<char> first;      // of each: nothing is wanted before it
+  double step = 0.0;            // CheapestStep of a wanted row
+  bool wanted() const { return !needs.empty(); }
+};
+
+Row SampleRow(const LineProber& prober, const Interval& range, double spacing, double y) {
+  Row row{y, {}, {}, 0.0};
+  const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
+  const std::vector<LineProbe> probes =
+      prober.ProbeRow(range.begin, range.end, count, LineShape::Straight(y));
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (!probes[i].wanted) continue;
+    // Partial lines begin a flat step before the spot that needs them: half way from sample to sample.
+    for (const std::size_t k : {i > 0 ? i - 1 : i, i + 1 < probes.size() ? i + 1 : i}) {
+      row.first.push_back(k < i && !probes[k].wanted);
+      row.needs.push_back({probes[k].wanted ? std::min(probes[i].need, probes[k].need) : probes[i].need});
+    }
+  }
+  return row;
+}
+
+// The last row with something wanted between two rows of which only one has something.
+Row WantedLimit(const LineProber& prober, const Interval& range, double spacing, Row with, double without) {
+  while (std::abs(with.y - without) > 1e-3 * prober.flat_step() && !prober.Cancelled()) {
+    Row mid = SampleRow(prober, range, spacing, 0.5 * (with.y + without));
+    if (mid.wanted()) {
+      with = std::move(mid);
+    } else {
+      without = mid.y;
+    }
+  }
+  return with;
+}
+
+// Of a limit along which round lines run, whose ground is not exactly round: the row of the limit itself sees
+// little of it, and would leave it to rest passes. The last place before it with nine tenths of what `inside`
+// has, if that is near.
+Row AlongLimit(const LineProber& prober, const Interval& range, double spacing, const Row& inside,
+               Row limit) {
+  const auto sees = [&](const Row& row) { return 10 * row.needs.size() >= 9 * inside.needs.size(); };
+  if (!prober.frame().round() || sees(limit)) return limit;
+  const double near = kNearest * prober.flat_step(), way = inside.y - limit.y;
+  Row along = SampleRow(prober, range, spacing, limit.y + std::copysign(std::min(near, std::abs(way)), way));
+  if (!sees(along)) return limit;
+  double without = limit.y;
+  while (std::abs(along.y - without) > 1e-3 * prober.flat_step() && !prober.Cancelled()) {
+    Row mid = SampleRow(prober, range, spacing, 0.5 * (along.y + without));
+    if (sees(mid)) {
+      along = std::move(mid);
+    } else {
+      without = mid.y;
+    }
+  }
+  // Circles are cut along chords.
+  const double chords = std::min(2.0 * kCircleSagitta * prober.flat_step(), std::abs(inside.y - along.y));
+  Row clear = SampleRow(prober, range, spacing, along.y + std::copysign(chords, way));
+  return clear.wanted() ? clear : along;
+}
+
+// How far (in y) a line at this limit of a band may move inwards: as long as no place of it is farther from
+// the passes beside it than its own step. Half way between the two, that is the ground of the limit.
+double InsetOf(const LineProber& prober, const Interval& range, double spacing, double y,
+               const SegmentTree& beside) {
+  const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
+  double inset = kInfinity;
+  int hint = -1;
+  for (const LineProbe& p : prober.ProbeRow(range.begin, range.end, count, LineShape::Straight(y))) {
+    if (!p.wanted || p.need == kInfinity) continue;
+    const double step = kInsetShare * 2.0 * p.half_step;
+    const SegmentTree::Nearest pass = beside.FindNearest(p.center, step, hint);
+    if (pass.segment < 0) return 0.0;
+    hint = pass.segment;
+    inset = std::min(inset, (step - pass.distance) * p.lateral / p.half_step);
+  }
+  return inset < kInfinity ? inset : 0.0;
+}
+
+// Moves the ends of a band inwards, each up to the band's middle; leaves none of it where they stay.
+absl::Status MoveInwards(const LineProber& prober, const Interval& range, double spacing,
+                         const SegmentTree& beside, std::vector<Row>& band, const RunContext& run) {
+  const double low = band.front().y, high = band.back().y, middle = 0.5 * (low + high);
+  const double from = std::min(middle, low + InsetOf(prober, range, spacing, low, beside));
+  const double to = std::max(middle, high - InsetOf(prober, range, spacing, high, beside));
+  PM_RETURN_IF_ERROR(run.Check());
+  Row first = SampleRow(prober, range, spacing, from), last = SampleRow(prober, range, spacing, to);
+  PM_RETURN_IF_ERROR(run.Check());
+  if ((from == low && to == high) || !first.wanted() || !last.wanted()) {
+    band.clear();
+    return absl::OkStatus();
+  }
+  std::erase_if(band, [&](const Row& row) { return row.y <= from || row.y >= to; });
+  band.insert(band.begin(), std::move(first));
+  if (to > from) band.push_back(std::move(last));
+  return absl::OkStatus();
+}
+
+bool Steady(const Row& a, const Row& b) {
+  return std::max(a.step, b.step) <= kSteady * std::min(a.step, b.step);
+}
+
+// Lines per mm between two rows.
+double Density(const Row& a, const Row& b) {
+  return Steady(a, b) ? 0.5 / a.step + 0.5 / b.step : 1.0 / std::min(a.step, b.step);
+}
+
+// Full lines and the partial ones between them where gaps of this width run along a row, in samples' halves;
+// `way`: what one run more costs.
+double LinesAlong(const Row& row, double gap, double way, double least) {
+  double length = 0.0;
+  int last = 0;
+  for (std::size_t i = 0; i < row.needs.size(); ++i) {
+    const int parts = PartsOfGap(gap, kWideGap * row.needs[i].step, least);
+    length += row.needs[i].weight * parts;
+    if (i == 0 || row.first[i]) {
+      length += way * parts;
+    } else if (parts != last) {
+      length += way * (parts - 1);
+    }
+    last = parts;
+  }
+  return length;
+}
+
+// How many gaps, and what full and partial lines come to, in samples' halves.
+struct Count {
+  int gaps = 1;
+  double length = 0.0;
+};
+
+// How many gaps a band gets, `total` or more: with the fewest every gap is shortened a little, and where
+// partial lines cut a gap into parts those end up far below what they may be. A few gaps more can need fewer
+// parts. Once the prober is cancelled the answer means nothing.
+Count CheapestCount(const LineProber& prober, const std::vector<Row>& band,
+                    const std::vector<double>& density, double total, double way, double least) {
+  constexpr int kCandidates = 24;
+  const int fewest = std::max(1, static_cast<int>(std::ceil(total - 1e-9)));
+  const int stride = 1 + fewest / kCandidates;
+  const auto length_of = [&](int count, bool full_lines_only) {
+    double length = 0.0;
+    for (std::size_t i = 0; i < density.size() && !prober.Cancelled(); ++i) {
+      const double gap = total / (count * density[i]), lines = 0.5 * (band[i + 1].y - band[i].y) / gap;
+      for (const Row* row : {&band[i], &band[i + 1]}) {
+        const double stretch = prober.frame().Stretch(row->y);
+        length += lines * stretch * LinesAlong(*row, full_lines_only ? 0.0 : gap, way / stretch, least);
+      }
+    }
+    return length;
+  };
+  int best = fewest;
+  double best_length = length_of(best, false);
+  const double full_line = length_of(best, true) / best;
+  for (int k = 1; k <= kCandidates; ++k) {
+    const int count = fewest + k * stride;
+    if (prober.Cancelled() || count * full_line >= best_length) break;
+    const double length = length_of(count, false);
+    if (length < best_length * (1.0 - 1e-9)) {
+      best_length = length;
+      best = count;
+    }
+  }
+  return {best, best_length};
+}
+
+// Reads off the step of a row.
+void Judge(Row& row, double min_step, double flat) {
+  if (!row.wanted()) return;
+  std::vector<StepNeed> sorted = row.needs;
+  row.step = CheapestStep(sorted, min_step, 4.0 * flat);
+}
+
+// Rows at their y, side by side.
+absl::Status SampleRows(const LineProber& prober, const Interval& range, double spacing, double min_step,
+                        const char* what, std::vector<Row>& rows, const RunContext& run) {
+  return ParallelFor(run, what, rows.size(), [&](std::size_t i) {
+    rows[i] = SampleRow(prober, range, spacing, rows[i].y);
+    Judge(rows[i], min_step, prober.flat_step());
+  });
+}
+
+struct DividedBand {
+  LineBand lines;
+  double length = 0.0;  // of Count
+};
+
+// The lines of a band from its first row to its last, both among them.
+absl::StatusOr<DividedBand> Divide(const LineProber& prober, const Interval& range, double spacing,
+                                   double min_step, std::vector<Row> band, const RunContext& run) {
+  const double flat = prober.flat_step();
+  Judge(band.front(), min_step, flat);
+  Judge(band.back(), min_step, flat);
+  for (;;) {
+    std::vector<Row> between;
+    for (std::size_t k = 0; k + 1 < band.size(); ++k) {
+      if (!Steady(band[k], band[k + 1]) && band[k + 1].y - band[k].y >= 2.0 * kNearest * flat)
+        between.push_back({0.5 * (band[k].y + band[k + 1].y), {}, {}, 0.0});
+    }
+    if (between.empty()) break;
+    PM_RETURN_IF_ERROR(SampleRows(prober, range, spacing, min_step, nullptr, between, run));
+    std::erase_if(between, [](const Row& row) { return !row.wanted(); });
+    if (between.empty()) break;
+    band.insert(band.end(), std::make_move_iterator(between.begin()), std::make_move_iterator(between.end()));
+    std::sort(band.begin(), band.end(), [](const Row& a, const Row& b) { return a.y < b.y; });
+  }
+  const double end = band.back().y;
+  DividedBand divided{{{band.front().y, end}, {}}, 0.0};
+  std::vector<double>& positions = divided.lines.positions;
+  // Density 1/step, constant between rows, is integrated and cut into equal parts.
+  std::vector<double> edges{band.front().y}, density;
+  for (std::size_t k = 0; k + 1 < band.size(); ++k) {
+    edges.push_back(band[k + 1].y);
+    density.push_back(Density(band[k], band[k + 1]));
+  }
+  if (density.empty()) {  // one row has all
+    positions.push_back(end);
+    return divided;
+  }
+  double total = 0.0;
+  for (std::size_t k = 0; k < density.size(); ++k) total += density[k] * (edges[k + 1] - edges[k]);
+  const Count count =
+      CheapestCount(prober, band, density, total, kRunCost * prober.radius() / (0.5 * spacing), min_step);
+  PM_RETURN_IF_ERROR(run.Check());
+  std::size_t k = 0;
+  double passed = 0.0;
+  for (int g = 0; g < count.gaps; ++g) {
+    const double target = total * g / count.gaps;
+    while (k + 1 < density.size() && passed + density[k] * (edges[k + 1] - edges[k]) < target) {
+      passed += density[k] * (edges[k + 1] - edges[k]);
+      ++k;
+    }
+    positions.push_back(edges[k] + (target - passed) / density[k]);
+  }
+  positions.push_back(end);
+  divided.length = count.length;
+  return divided;
+}
+
+}  // namespace
+
+FrameExtent ExtentOfParallels(const Surface& surface, double angle, double margin) {
+  const LineFrame frame = LineFrame::At(angle);
+  FrameExtent e{{kInfinity, -kInfinity}, {kInfinity, -kInfinity}};
+  for (const SurfaceLeaf& leaf : surface.leaves) {
+    const Eigen::Matrix3d axis = leaf.axis();
+    const auto grow = [&](Interval& i, const Vec2& d) {
+      const Vec3 direction = Lift(d, 0.0);
+      const double mid = leaf.center().dot(direction);
+      const double half = (axis.transpose() * direction).cwiseAbs().dot(leaf.half());
+      i.begin = std::min(i.begin, mid - half);
+      i.end = std::max(i.end, mid + half);
+    };
+    grow(e.t, frame.Along(0.0));
+    grow(e.y, frame.Across(0.0));
+  }
+  e.t = {e.t.begin - margin, e.t.end + margin};
+  e.y = {e.y.begin - margin, e.y.end + margin};
+  return e;
+}
+
+absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, const FrameExtent& extent,
+                                                    double min_step, const SegmentTree* beside,
+                                                    const RunContext& run) {
+  const double flat = prober.flat_step();
+  const double row_step = 1.5 * flat, spacing = 2.0 * flat;
+  const double height = extent.y.end - extent.y.begin;
+  if (!(height > 0.0)) return std::vector<LineBand>{};
+  const auto count = static_cast<std::size_t>(std::ceil(height / row_step)) + 1;
+  std::vector<Row> rows(count);
+  for (std::size_t i = 0; i < count; ++i)
+    rows[i].y = extent.y.begin + height * static_cast<double>(i) / static_cast<double>(count - 1);
+  PM_RETURN_IF_ERROR(SampleRows(prober, extent.t, spacing, min_step, "zigzag: positions", rows, run));
+
+  std::vector<LineBand> bands;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].wanted()) continue;
+    std::size_t last = i;
+    while (last + 1 < rows.size() && rows[last + 1].wanted()) ++last;
+    PM_RETURN_IF_ERROR(run.Check());
+    // The rows of a band, from the first to the last place where something is wanted.
+    std::vector<Row> band(rows.begin() + static_cast<std::ptrdiff_t>(i),
+                          rows.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    const auto limit = [&](const Row& inside, double outside) {
+      return AlongLimit(prober, extent.t, spacing, inside,
+                        WantedLimit(prober, extent.t, spacing, inside, outside));
+    };
+    if (i > 0) band.insert(band.begin(), limit(rows[i], rows[i - 1].y));
+    if (last + 1 < rows.size()) band.push_back(limit(rows[last], rows[last + 1].y));
+    PM_RETURN_IF_ERROR(run.Check());
+    std::vector<Row> inner;
+    if (prober.frame().round() && beside != nullptr && !beside->empty()) {
+      inner = band;
+      PM_RETURN_IF_ERROR(MoveInwards(prober, extent.t, spacing, *beside, inner, run));
+    }
+    PM_ASSIGN_OR_RETURN(DividedBand lines, Divide(prober, extent.t, spacing, min_step, std::move(band), run));
+    if (!inner.empty()) {
+      PM_ASSIGN_OR_RETURN(DividedBand fewer,
+                          Divide(prober, extent.t, spacing, min_step, std::move(inner), run));
+      if (fewer.lines.positions.size() < lines.lines.positions.size() && fewer.length < lines.length)
+        lines = std::move(fewer);
+    }
+    bands.push_back(std::move(lines.lines));
+    i = last;
+  }
+  return bands;
+}
+
+}  // namespace patchmill

@@ -1,0 +1,55 @@
+#include "cam/path/stepover/step_over.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/vec.h"
+
+namespace patchmill {
+namespace {
+
+// asin(x) / x and sin(x) / x without cancellation at 0.
+double AsinRatio(double x) { return x < 1e-4 ? 1.0 + x * x / 6.0 : std::asin(x) / x; }
+double SinRatio(double x) { return x < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / x; }
+
+}  // namespace
+
+// With A = 1 - kappa R, B = 1 - kappa s, m^2 = 2 R s - s^2 the two-circle formula becomes
+//   sin^2(alpha / 2) = kappa^2 m^2 / (4 A B),   alpha half the angle between the centres,
+// for both signs of kappa, and w_c = 2 alpha A / |kappa| = 2 m sqrt(A / B) asin(x) / x.
+double CenterStep(double radius, double scallop, double kappa) {
+  const double a = 1.0 - kappa * radius;
+  if (!(a > 0.0)) return 0.0;
+  const double b = 1.0 - kappa * scallop;
+  const double m = std::sqrt(scallop * (2.0 * radius - scallop));
+  const double x = 0.5 * std::abs(kappa) * m / std::sqrt(a * b);
+  // x > 1: a bore so tight that no two centres in it leave as much; half way round is the most there is.
+  if (x >= 1.0) return 2.0 * kPi * a / std::abs(kappa);
+  return 2.0 * m * std::sqrt(a / b) * AsinRatio(x);
+}
+
+double ScallopOfStep(double radius, double center_step, double kappa) {
+  const double a = 1.0 - kappa * radius;
+  if (!(a > 0.0)) return 0.0;
+  const double half_alpha = std::min(0.25 * std::abs(kappa) * center_step / a, 0.5 * kPi);
+  const double half_chord = half_alpha < 0.5 * kPi || kappa == 0.0 ? 0.5 * center_step * SinRatio(half_alpha)
+                                                                   : 2.0 * a / std::abs(kappa);
+  const double t = half_chord * half_chord / a;  // s^2 - (2 R + t kappa) s + t = 0, the smaller root
+  const double p = 2.0 * radius + t * kappa;
+  const double discriminant = p * p - 4.0 * t;
+  if (discriminant < 0.0 || p < 0.0) return kInfinity;
+  return 2.0 * t / (p + std::sqrt(discriminant));
+}
+
+int PartsOfGap(double gap, double need, double least) {
+  constexpr double kSlack = 1e-9;  // of a part: a gap that was made to fit does fit
+  const double parts = need >= least ? std::ceil(gap / need - kSlack) : std::floor(gap / least + kSlack);
+  return static_cast<int>(std::max(1.0, parts));
+}
+
+double WideGap(double scallop, double chord_tolerance) {
+  return std::min(kWideGap,
+                  std::sqrt(1.0 + 0.5 * chord_tolerance / scallop));  // leftovers grow by its square
+}
+
+}  // namespace patchmill

@@ -1,0 +1,103 @@
+// The parts of the surface that can carry a contact of one level of h, as a tree that is opened on demand.
+//
+// At centre height c a surface point p forbids the disc |q - p_xy| < rho(p), rho = sqrt(R^2 - max(0, c -
+// p_z)^2). A point q of the contour touches some p with |q - p_xy| = rho(p) ([contours T8b]). On smooth
+// ground the contact rule of level_bounds.h holds there and (q, c) lies in the box of the part's centres; on
+// an open edge or a crease p lies on that curve, and only the distance counts, as it does where a ball may
+// touch with its equator.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "cam/location/locator.h"
+#include "cam/path/stepover/pass_params.h"
+#include "cam/path/zlevel/direction_cone.h"
+#include "cam/path/zlevel/level_bounds.h"
+#include "cam/path/zlevel/piece_sides.h"
+
+namespace patchmill {
+
+// An axis-parallel rectangle in plan: a cell, or an edge of one (one half side zero).
+struct XyRect {
+  Vec2 mid = Vec2::Zero();
+  Vec2 half = Vec2::Zero();
+};
+
+class ContactCandidates {
+ public:
+  // All references are kept.
+  ContactCandidates(const Locator& locator, const PieceSides& sides, const LevelBounds& bounds, double z);
+
+  // Candidates are items, or nodes of the surface not looked into yet (negative).
+  static constexpr std::int32_t kRoot = -1;
+
+  // Appends the parts of `candidates` that may be touched from the cell, opened until they are small enough
+  // for a cell of `width` ([contours (3)]).
+  void Collect(const std::vector<std::int32_t>& candidates, const XyRect& cell, double width,
+               std::vector<std::int32_t>& out);
+  // Is the cell covered by the disc of the candidate's middle point?
+  bool Covers(std::int32_t candidate, const XyRect& cell) const;
+  // Can a contact on the candidate be part of a pass: not above the centre, its slope in the window?
+  bool Wanted(std::int32_t candidate, const SlopeWindow& window) const;
+  // Directions from contacts on the candidates to points of the cell.
+  // `closely`: the directions from the parts' boxes count too; dearer.
+  DirectionCone Directions(const std::vector<std::int32_t>& candidates, const XyRect& cell,
+                           bool closely) const;
+
+ private:
+  enum class Kind : std::int8_t { kRect, kCurve };
+  struct Candidate {
+    // What the test of a cell needs. Oriented: the slice of the centres' box at this level, |ax x + ay y -
+    // mid| <= half thrice, inside the plan box of centres. Else the plan box of the part widened by rho.
+    double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+    std::array<double, 3> ax{}, ay{}, mid{}, half{};
+    bool oriented = false;
+    bool directed = false;
+    // The part lies below the centre: the ball must also reach its box, |ax x + ay y - own_mid| <= own_half
+    // thrice (exact where the centres of a round hollow meet).
+    bool below = false;
+    Kind kind = Kind::kRect;
+    bool opened = false;
+    std::int32_t first = 0, last = 0;  // children, when opened
+    double rho2 = 0, rho = 0;          // largest disc
+    std::array<double, 3> own_mid{}, own_half{};
+    Vec2 right = Vec2::Zero(), left = Vec2::Zero();
+    double px0 = 0, px1 = 0, py0 = 0, py1 = 0;  // plan box of the part
+    double size = 0;                            // its larger side
+    std::int32_t piece = 0;
+    int side = 0;  // kCurve: of its piece; kRect: 1 or -1 as in level_bounds.h, 0: both
+    double u0 = 0, u1 = 1, v0 = 0, v1 = 1;
+    NormalCone normals;
+    double z_min = -kInfinity, z_max = kInfinity;
+    Vec2 middle = Vec2::Zero();  // plan of a surface point, with its disc
+    double middle_rho = -1.0;
+  };
+
+  double ForbiddenRadius2(double z) const;
+  bool NodeTouches(std::int32_t node, const XyRect& cell) const;
+  bool Touches(const Candidate& item, const XyRect& cell) const;
+  DirectionCone DirectionsFrom(const Candidate& item, const XyRect& cell, bool closely) const;
+  bool NeedsOpening(const Candidate& item, double width) const;
+  void Open(std::int32_t index);
+  // The items of a leaf, made when first asked for.
+  std::pair<std::int32_t, std::int32_t> OfLeaf(std::int32_t node);
+  bool SetLevel(Candidate& item, const Box3& box) const;  // false: out of reach
+  void AddFace(Candidate item, const RectBounds& part);
+  void AddRect(const Candidate& parent, double u0, double u1, double v0, double v1);
+  void SetMiddle(Candidate& item, const Vec3& p) const;
+  void AddCurve(PieceId piece, int side, double t0, double t1);
+
+  const Locator& locator_;
+  const Surface& surface_;
+  const PieceSides& sides_;
+  const LevelBounds& bounds_;
+  double z_, radius_;
+  std::vector<Candidate> candidates_;
+  std::vector<std::int32_t> first_of_leaf_;  // -1: not made yet
+  std::vector<std::int32_t> stack_;
+};
+
+}  // namespace patchmill

@@ -1,0 +1,26 @@
+// From the crossings of a contour to certified chords.
+#pragma once
+
+#include <vector>
+
+#include "cam/path/zlevel/level_chains.h"
+#include "cam/path/zlevel/level_oracle.h"
+
+namespace patchmill {
+
+struct LoopTolerance {
+  double gouge = 0.005;   // mm, of every chord ([location T2])
+  double excess = 0.005;  // mm, normal to the surface (two discs, as [location T3])
+};
+
+// What a straight move a b leaves at most above the contacts of its ends: min over the split of the larger
+// end cap ([location T3]), closed form.
+double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b);
+
+// Polyline of border points (closed when the chain is), forbidden side on the right, every chord within
+// tolerance; corners between two contacts are vertices with both contacts. Points that the tolerance does not
+// need are left out. Empty when the run is cancelled meanwhile.
+std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain,
+                                   const LoopTolerance& tolerance, const RunContext& run);
+
+}  // namespace patchmill

@@ -1,0 +1,104 @@
+#include "cam/plan/forced_strategy.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "cam/path/reach/forced_steps.h"
+#include "cam/path/stepover/pass_params.h"
+#include "cam/plan/region_choices.h"
+#include "cam/plan/region_points.h"
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+#include "core/spatial/point_cells.h"
+
+namespace patchmill {
+namespace {
+
+constexpr std::size_t kMostPlaces = 500;  // of a region
+
+struct ForcedPlace {
+  std::size_t region = 0;
+  Vec3 p = Vec3::Zero();
+  double left = 0.0;  // mm, by the least step
+};
+
+// What there is to see of forced passes on one piece, or on all.
+struct Seen {
+  std::vector<ForcedPlace> beyond;  // in regions that are not finished
+  std::vector<Vec3> centers;        // mm, of balls that touch what is
+};
+
+absl::StatusOr<Seen> Look(const Surface& surface, const std::vector<RegionChoice>& choices, double radius,
+                          const RunContext& run, const RegionMap& map) {
+  const auto reached = [&](std::size_t id) {
+    return map.regions[id].kind != RegionKind::kUnreachable && !choices[id].skip;
+  };
+  std::vector<Seen> pieces(surface.pieces.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
+    VisitPiece(
+        surface, i, map, StrideOf(map), reached,
+        [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
+          if (map.regions[id].reason == UnreachableReason::kNone) {
+            pieces[i].centers.push_back(jet.p + radius * e);
+            return;
+          }
+          pieces[i].beyond.push_back({id, jet.p,
+                                      LeftByStep(ForcedOf(choices[id]), jet, e, radius, choices[id].scallop,
+                                                 PassParams().min_step_fraction)});
+        });
+  }));
+  Seen all;
+  for (Seen& seen : pieces) {
+    all.beyond.insert(all.beyond.end(), seen.beyond.begin(), seen.beyond.end());
+    all.centers.insert(all.centers.end(), seen.centers.begin(), seen.centers.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::function<double(const SurfaceJet&)> FinishedByForced(const Operation& op, double radius) {
+  const ForcedSteps forced = ForcedOf(ChoiceOf(op));
+  if (forced.passes == ForcedPasses::kNone) return {};
+  return [=](const SurfaceJet& jet) {
+    const auto e = UpwardNormal(jet);
+    return e ? NeededFineStep(forced, jet, *e, radius) - PassParams().min_step_fraction : 0.0;
+  };
+}
+
+absl::Status MarkUnfinishedByStrategy(const Surface& surface, const Operation& op,
+                                      const std::vector<RegionChoice>& choices, double radius,
+                                      const RunContext& run, RegionMap& map) {
+  bool any = false;
+  for (Region& region : map.regions) {
+    if (region.reason != UnreachableReason::kStrategy) continue;
+    const RegionChoice& choice = choices[static_cast<std::size_t>(region.id)];
+    const bool otherwise =
+        choice.strategy != op.strategy || (choice.strategy == Strategy::kZigzag &&
+                                           (choice.angle_open || choice.zigzag_angle != op.zigzag_angle));
+    if (otherwise) region.reason = UnreachableReason::kNone;
+    any = any || !otherwise;
+  }
+  if (!any) return absl::OkStatus();
+  PM_ASSIGN_OR_RETURN(Seen seen, Look(surface, choices, radius, run, map));
+  std::vector<std::size_t> places(map.regions.size(), 0), met = places;
+  for (const ForcedPlace& place : seen.beyond) ++places[place.region];
+  std::erase_if(seen.beyond, [&](const ForcedPlace& place) {
+    return met[place.region]++ % (1 + places[place.region] / kMostPlaces) != 0;
+  });
+  const PointCells finished(seen.centers, radius);
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, seen.beyond.size(), [&](std::size_t k) {
+    ForcedPlace& place = seen.beyond[k];
+    const auto nearest = finished.Nearest(place.p);
+    const double away = nearest ? (seen.centers[*nearest] - place.p).norm() : surface.box.Diagonal();
+    place.left = std::min(place.left, away - radius);
+  }));
+  for (const ForcedPlace& place : seen.beyond) {
+    Region& region = map.regions[place.region];
+    region.deepest_leftover = std::max(region.deepest_leftover, place.left);
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace patchmill

@@ -1,0 +1,255 @@
+#include "cam/region/border/border_arcs.h"
+
+#include <algorithm>
+#include <compare>
+
+#include "core/base/parallel.h"
+#include "core/base/segment.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+// The field on whose zero curve both ends lie, a smooth one first.
+const ZeroField* CommonField(const ZeroVertex& a, const ZeroVertex& b, std::span<const ZeroField> fields) {
+  const ZeroField* limit = nullptr;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if ((((a.on & b.on) >> k) & 1u) == 0) continue;
+    if (fields[k].smooth) return &fields[k];
+    if (limit == nullptr) limit = &fields[k];
+  }
+  return limit;
+}
+
+// A smooth field that has no sign at either end: the grid met its curve exactly.
+const ZeroField* FieldWithoutSign(const ZeroVertex& a, const ZeroVertex& b,
+                                  std::span<const ZeroField> fields) {
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (fields[k].smooth && a.sign[k] == 0 && b.sign[k] == 0) return &fields[k];
+  }
+  return nullptr;
+}
+
+// The places along a watershed, if the side lies on one.
+std::vector<Vec2> LineAlong(const SplitMesh& mesh, const TriangleSide& side) {
+  const int a = VertexOf(mesh, side, 0), b = VertexOf(mesh, side, 1);
+  const auto line = mesh.lines.find(std::minmax(a, b));
+  if (line == mesh.lines.end()) return {};
+  const std::vector<Vec2>& places = line->second.places;
+  return a < b ? places : std::vector<Vec2>(places.rbegin(), places.rend());
+}
+
+int RegionOf(const std::vector<std::vector<int>>& region_of, int piece, int triangle) {
+  return region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
+}
+
+// The borders of one piece: sides with different regions on them, and of each the first one of these along
+// the same edge (both see one arc).
+struct PieceBorders {
+  std::vector<std::size_t> sides, first;
+};
+PieceBorders BordersOf(const SplitMesh& mesh, const AdjacencyList& adjacency, std::size_t piece,
+                       const std::vector<std::vector<int>>& region_of) {
+  struct Edge {
+    int low, high;
+    std::size_t place;
+    auto operator<=>(const Edge&) const = default;
+  };
+  PieceBorders borders{BorderSides(adjacency, piece, region_of), {}};
+  std::vector<Edge> edges;
+  for (const std::size_t i : borders.sides) {
+    const TriangleSide side = adjacency[i].side;
+    const auto [low, high] = std::minmax({VertexOf(mesh, side, 0), VertexOf(mesh, side, 1)});
+    edges.push_back({low, high, edges.size()});
+  }
+  std::sort(edges.begin(), edges.end());
+  borders.first.resize(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Edge &edge = edges[i], &before = edges[i > 0 ? i - 1 : 0];
+    const bool again = i > 0 && edge.low == before.low && edge.high == before.high;
+    borders.first[edge.place] = again ? borders.first[before.place] : edge.place;
+  }
+  return borders;
+}
+
+// The arcs of some borders (places in `arcs`) of one piece, those of one field all at once.
+void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
+                 std::size_t index, const std::vector<std::size_t>& borders,
+                 std::span<const ZeroField> fields, double tolerance, BorderArcs& arcs) {
+  std::vector<std::vector<std::size_t>> along(fields.size());  // their field
+  std::vector<std::vector<ZeroSegment>> chords(fields.size());
+  for (const std::size_t i : borders) {
+    const TriangleSide side = adjacency[arcs.sides[i]].side;
+    const ZeroVertex &a = EndOf(meshes[index], side, 0), &b = EndOf(meshes[index], side, 1);
+    const ZeroField* field = CommonField(a, b, fields);
+    if (field == nullptr) {
+      arcs.places[i] = LineAlong(meshes[index], side);
+      if (arcs.places[i].empty()) field = FieldWithoutSign(a, b, fields);
+    }
+    if (field == nullptr) continue;
+    const auto f = static_cast<std::size_t>(field - fields.data());
+    along[f].push_back(i);
+    chords[f].push_back({{a.u, a.v}, {b.u, b.v}});
+  }
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    auto refined = RefineZeroArcs(surface.pieces[index], fields[f], chords[f], tolerance);
+    for (std::size_t k = 0; k < refined.size(); ++k) arcs.places[along[f][k]] = std::move(refined[k]);
+  }
+}
+
+constexpr int kMostHalvings = 12;
+
+// Points of the surface along a line straight in the parameters, from a to b without these.
+void AddBetween(const Piece& piece, const Vec2& a, const Vec3& at_a, const Vec2& b, const Vec3& at_b,
+                double tolerance, int halvings, std::vector<Vec3>& out) {
+  if (halvings == 0 || (at_b - at_a).norm() <= tolerance) return;
+  const auto at = [&](double t) {
+    const Vec2 q = (1.0 - t) * a + t * b;
+    return Position(piece, q.x(), q.y());
+  };
+  const Vec3 mid = at(0.5);
+  const auto near = [&](const Vec3& p) { return SegmentDistance(p, at_a, at_b) <= tolerance; };
+  // The first chord is looked at in three places: a line of two bends may cross it in the middle.
+  const bool first = halvings == kMostHalvings;
+  if (near(mid) && (!first || (near(at(0.25)) && near(at(0.75))))) return;
+  const Vec2 middle = 0.5 * (a + b);
+  AddBetween(piece, a, at_a, middle, mid, tolerance, halvings - 1, out);
+  out.push_back(mid);
+  AddBetween(piece, middle, mid, b, at_b, tolerance, halvings - 1, out);
+}
+
+// mm^2 between the chord of a side and its arc, positive when the arc bulges out of the triangle the side
+// belongs to.
+double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
+                const std::vector<Vec2>& arc) {
+  if (arc.empty()) return 0.0;
+  const Piece& piece = surface.pieces[static_cast<std::size_t>(side.piece)];
+  const ZeroVertex &a = EndOf(mesh, side, 0), &b = EndOf(mesh, side, 1);
+  const Vec2 from(a.u, a.v), to(b.u, b.v);
+  // The triangle lies on the left of its side (counter-clockwise): an arc to the right adds to it, and turns
+  // counter-clockwise around the side's start.
+  double area = 0.0;
+  for (std::size_t i = 0; i < arc.size(); ++i)
+    area += SurfaceArea(piece, from, arc[i], i + 1 < arc.size() ? arc[i + 1] : to);
+  return area;
+}
+
+}  // namespace
+
+absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                          const AdjacencyList& adjacency,
+                                          const std::vector<std::vector<int>>& region_of,
+                                          std::span<const ZeroField> fields, double tolerance,
+                                          const RunContext& run) {
+  std::vector<PieceBorders> pieces(meshes.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
+    pieces[piece] = BordersOf(meshes[piece], adjacency, piece, region_of);
+  }));
+  // Runs of borders of one piece, no longer than is refined between two looks at a cancelled run.
+  struct Run {
+    std::size_t piece, begin, end;
+  };
+  constexpr std::size_t kLongest = 256;
+  std::vector<Run> runs;
+  BorderArcs arcs;
+  std::vector<std::size_t> first;
+  for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
+    const std::size_t begin = arcs.sides.size(), end = begin + pieces[piece].sides.size();
+    arcs.sides.insert(arcs.sides.end(), pieces[piece].sides.begin(), pieces[piece].sides.end());
+    for (const std::size_t k : pieces[piece].first) first.push_back(begin + k);
+    for (std::size_t k = begin; k < end; k += kLongest)
+      runs.push_back({piece, k, std::min(end, k + kLongest)});
+  }
+  arcs.places.resize(arcs.sides.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: borders", runs.size(), [&](std::size_t r) {
+    std::vector<std::size_t> own;
+    for (std::size_t k = runs[r].begin; k < runs[r].end; ++k) {
+      if (first[k] == k) own.push_back(k);
+    }
+    RefineSides(surface, meshes, adjacency, runs[r].piece, own, fields, tolerance, arcs);
+  }));
+  for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
+    const std::vector<Vec2>& arc = arcs.places[first[k]];
+    if (first[k] != k) arcs.places[k].assign(arc.rbegin(), arc.rend());
+  }
+  return arcs;
+}
+
+absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                              const AdjacencyList& adjacency,
+                                              const std::vector<std::vector<int>>& region_of,
+                                              const std::vector<double>& flat, const RunContext& run,
+                                              BorderArcs& arcs) {
+  constexpr double kLeast = 0.01;  // of the triangles: less is left of a region whose arcs cross
+  struct Lens {
+    TriangleSide side;
+    std::size_t own = 0, other = 0;  // regions
+    std::size_t arc = 0;
+    double area = 0.0;
+  };
+  std::vector<Lens> lenses;  // each from both sides
+  for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
+    if (arcs.places[k].empty()) continue;
+    const Adjacency a = adjacency[arcs.sides[k]];
+    if (a.other_piece != a.side.piece) continue;
+    lenses.push_back({a.side, static_cast<std::size_t>(RegionOf(region_of, a.side.piece, a.side.triangle)),
+                      static_cast<std::size_t>(RegionOf(region_of, a.other_piece, a.other_triangle)), k});
+  }
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: areas", lenses.size(), [&](std::size_t k) {
+    Lens& lens = lenses[k];
+    if (lens.own > lens.other) return;
+    lens.area = LensArea(surface, meshes[static_cast<std::size_t>(lens.side.piece)], lens.side,
+                         arcs.places[lens.arc]);
+  }));
+  std::vector<double> gained;
+  std::vector<bool> straight(flat.size(), false);
+  for (bool again = true; again;) {  // a region of straight borders takes from its neighbours
+    PM_RETURN_IF_ERROR(run.Check());
+    gained.assign(flat.size(), 0.0);
+    for (const Lens& lens : lenses) {
+      if (straight[lens.own] || straight[lens.other]) continue;
+      gained[lens.own] += lens.area;
+      gained[lens.other] -= lens.area;
+    }
+    again = false;
+    for (std::size_t r = 0; r < flat.size(); ++r) {
+      if (straight[r] || flat[r] + gained[r] >= kLeast * flat[r]) continue;
+      straight[r] = again = true;
+    }
+  }
+  for (const Lens& lens : lenses) {
+    if (straight[lens.own] || straight[lens.other]) arcs.places[lens.arc].clear();
+  }
+  return gained;
+}
+
+absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                              const AdjacencyList& adjacency, const BorderArcs& arcs,
+                                              double tolerance, const RunContext& run) {
+  BorderPoints points(arcs.sides.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: border points", points.size(), [&](std::size_t k) {
+    const Adjacency a = adjacency[arcs.sides[k]];
+    const auto index = static_cast<std::size_t>(a.side.piece);
+    const Piece& piece = surface.pieces[index];
+    const ZeroVertex &from = EndOf(meshes[index], a.side, 0), &to = EndOf(meshes[index], a.side, 1);
+    const std::vector<Vec2>& arc = arcs.places[k];
+    Vec2 last(from.u, from.v);
+    points[k].push_back(from.p);
+    // Where the curve was not found the chord between its neighbours follows the surface at least.
+    const int halvings = arc.empty() ? kMostHalvings : kMostHalvings - 1;
+    const auto go_on = [&](const Vec2& q, const Vec3& p) {
+      AddBetween(piece, last, Vec3(points[k].back()), q, p, tolerance, halvings, points[k]);
+      last = q;
+    };
+    for (const Vec2& q : arc) {
+      const Vec3 p = Position(piece, q.x(), q.y());
+      go_on(q, p);
+      points[k].push_back(p);
+    }
+    go_on({to.u, to.v}, to.p);
+    points[k].push_back(to.p);
+  }));
+  return points;
+}
+
+}  // namespace patchmill

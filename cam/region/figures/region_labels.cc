@@ -1,0 +1,102 @@
+#include "cam/region/figures/region_labels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+// Every cell whose centre lies in a triangle gets that triangle's region. Triangles tile the piece. n is a
+// power of two, by which products are as exact as quotients.
+std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& region_of, int n) {
+  const auto size = static_cast<std::size_t>(n * n);
+  if (!region_of.empty() &&
+      std::all_of(region_of.begin(), region_of.end(), [&](int id) { return id == region_of.front(); }))
+    return std::vector<int>(size, region_of.front());
+  std::vector<int> labels(size, -1);
+  const double cell = 1.0 / n;
+  const auto cell_at = [&](double x) { return std::clamp(static_cast<int>(x * n), 0, n - 1); };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Vec2 q[3], side[3];
+    Vec2 low(1, 1), high(0, 0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t].vertex[k])];
+      q[k] = {vertex.u, vertex.v};
+      low = low.cwiseMin(q[k]);
+      high = high.cwiseMax(q[k]);
+    }
+    for (int k = 0; k < 3; ++k) side[k] = q[(k + 1) % 3] - q[k];
+    const int first = cell_at(low.y()), last = cell_at(high.y());
+    for (int i = cell_at(low.x()); i <= cell_at(high.x()); ++i) {
+      double across[3];  // what the cross product of a side with the way to a cell of this column has of u
+      for (int k = 0; k < 3; ++k) across[k] = side[k].y() * ((i + 0.5) * cell - q[k].x());
+      for (int j = first; j <= last; ++j) {
+        const double v = (j + 0.5) * cell;
+        const auto left = [&](int k) { return side[k].x() * (v - q[k].y()) - across[k] >= -1e-12; };
+        if (left(0) && left(1) && left(2)) labels[static_cast<std::size_t>(i * n + j)] = region_of[t];
+      }
+    }
+  }
+  return labels;
+}
+
+// A cell for each region that has none.
+void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
+               std::size_t regions, RegionMap& map) {
+  std::vector<std::size_t> cells_of(regions, 0);
+  for (const std::vector<int>& labels : map.labels)
+    for (const int id : labels)
+      if (id >= 0) ++cells_of[static_cast<std::size_t>(id)];
+  if (std::none_of(cells_of.begin(), cells_of.end(), [](std::size_t count) { return count == 0; })) return;
+  for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
+    for (std::size_t t = 0; t < region_of[piece].size(); ++t) {
+      const int id = region_of[piece][t];
+      if (id < 0 || cells_of[static_cast<std::size_t>(id)] > 0) continue;
+      const Vec2 at = map.cells * MiddleOf(meshes[piece], t);
+      const auto i = std::min(static_cast<int>(at.x()), map.cells - 1);
+      const auto j = std::min(static_cast<int>(at.y()), map.cells - 1);
+      int& label = map.labels[piece][static_cast<std::size_t>(i * map.cells + j)];
+      if (label >= 0 && cells_of[static_cast<std::size_t>(label)] == 1) continue;
+      if (label >= 0) --cells_of[static_cast<std::size_t>(label)];
+      label = id;
+      cells_of[static_cast<std::size_t>(id)] = 1;
+    }
+  }
+}
+
+}  // namespace
+
+absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
+                        const std::vector<std::vector<int>>& component_of, std::size_t regions,
+                        const RunContext& run, RegionMap& map) {
+  constexpr double kMaxLabels = 8e6;
+  constexpr int kMaxCells = 256;
+  const auto pieces = static_cast<double>(std::max<std::size_t>(1, meshes.size()));
+  // A power of two: halves of pieces, halved again and again, end with whole cells.
+  map.cells = 1;
+  while (map.cells < kMaxCells && 4.0 * map.cells * map.cells * pieces <= kMaxLabels) map.cells *= 2;
+  map.labels.resize(meshes.size());
+  const bool fall_apart = map.component_region.size() > regions;
+  if (fall_apart) map.components.resize(meshes.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
+    map.labels[piece] = PieceLabels(meshes[piece], region_of[piece], map.cells);
+    if (fall_apart) map.components[piece] = PieceLabels(meshes[piece], component_of[piece], map.cells);
+  }));
+  GiveCells(meshes, region_of, regions, map);
+  for (std::size_t piece = 0; piece < map.components.size(); ++piece) {
+    for (std::size_t cell = 0; cell < map.labels[piece].size(); ++cell) {
+      int& component = map.components[piece][cell];
+      const int label = map.labels[piece][cell];
+      if (component >= 0 && map.component_region[static_cast<std::size_t>(component)] == label) continue;
+      // A cell that was given to a region counts for the first component of it.
+      const auto first = std::lower_bound(map.component_region.begin(), map.component_region.end(), label);
+      component = label < 0 ? -1 : static_cast<int>(first - map.component_region.begin());
+    }
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace patchmill

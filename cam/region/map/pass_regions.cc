@@ -1,0 +1,52 @@
+#include "cam/region/map/pass_regions.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace patchmill {
+namespace {
+
+constexpr int kStretches = 8;    // of a move along one piece: ends run on over borders, chords may be long
+constexpr double kPoint = 1e-9;  // mm
+
+// `id_at`: of the surface point.
+template <class IdAt>
+std::map<int, double> LengthIn(const CutterPath& pass, const IdAt& id_at) {
+  std::map<int, double> lengths;
+  if (pass.points.empty()) return lengths;
+  const auto add = [&](const std::optional<SurfacePoint>& at, double length) {
+    if (at) lengths[id_at(*at)] += length;
+  };
+  add(pass.points.front().contact, kPoint);
+  for (std::size_t i = 1; i < pass.points.size(); ++i) {
+    const CutterPoint &a = pass.points[i - 1], &b = pass.points[i];
+    const std::optional<SurfacePoint>&from = a.other_contact ? a.other_contact : a.contact, &to = b.contact;
+    const double length = (b.center - a.center).norm();
+    if (!from || !to || from->piece.value != to->piece.value) {
+      add(from, 0.5 * length);
+      add(to, 0.5 * length);
+      continue;
+    }
+    for (int k = 0; k < kStretches; ++k) {
+      const double s = (k + 0.5) / kStretches;
+      const SurfacePoint at{from->piece, from->u + s * (to->u - from->u), from->v + s * (to->v - from->v),
+                            Vec3::Zero()};
+      add(at, length / kStretches);
+    }
+  }
+  return lengths;
+}
+
+}  // namespace
+
+std::map<int, double> LengthInRegions(const CutterPath& pass, const RegionMap& map) {
+  if (map.regions.empty()) return {};
+  return LengthIn(pass, [&](const SurfacePoint& at) { return map.At(at); });
+}
+
+std::map<int, double> LengthInComponents(const CutterPath& pass, const RegionMap& map) {
+  if (map.regions.empty()) return {};
+  return LengthIn(pass, [&](const SurfacePoint& at) { return map.ComponentAt(at); });
+}
+
+}  // namespace patchmill

@@ -1,0 +1,312 @@
+#include "cam/region/split_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "cam/limits/reach_tolerance.h"
+#include "cam/region/border/border_arcs.h"
+#include "cam/region/border/border_lines.h"
+#include "cam/region/border/region_border.h"
+#include "cam/region/figures/describe_regions.h"
+#include "cam/region/figures/probe_region.h"
+#include "cam/region/figures/region_labels.h"
+#include "cam/region/merge/merge_regions.h"
+#include "cam/region/merge/raw_regions.h"
+#include "cam/region/watershed/catchments.h"
+#include "cam/region/watershed/watershed_lines.h"
+#include "core/base/parallel.h"
+#include "core/base/status.h"
+#include "core/base/union_find.h"
+
+namespace patchmill {
+namespace {
+
+// A region that bends less than this part of the ball's radius in all is neither mountain nor basin
+// ([regions, section 5]).
+constexpr double kMinCurvature = 1.0 / 6.0;
+
+// A strip whose normal turns by twice this across it is not worth its borders (at middle detail).
+constexpr double kBorderTurn = 0.1;  // rad
+constexpr int kMostRegions = 40;     // reachable ones, at full detail
+
+// Summits and pits that stand out by less than this part of the ball's radius are no mountains and basins of
+// their own; nor by less than this part of a cell, which triangles may miss.
+constexpr double kPersistence = 0.1;
+
+// Of the diagonal of the box: cells are no smaller where nothing is seen in them.
+constexpr double kCell = 0.02;
+
+constexpr double kCoarsest = 0.05;
+
+// How much coarser than at middle detail regions are: 0 for the raw split.
+double Coarseness(const RegionParams& params) {
+  const double detail = std::clamp(params.detail, kCoarsest, 1.0);
+  return (1.0 - detail) / detail;
+}
+
+// Reachable ones; not of the raw split.
+std::size_t MostRegions(const RegionParams& params) {
+  return std::max<std::size_t>(1,
+                               static_cast<std::size_t>(kMostRegions * std::max(params.detail, kCoarsest)));
+}
+
+// Divides the meshes along the watersheds of summits, then of pits, that persist. The raw split is not
+// divided.
+absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& params,
+                                  std::span<const ZeroField> fields, double max_cell, const RunContext& run,
+                                  std::vector<SplitMesh>& meshes, AdjacencyList& adjacency) {
+  const double persistence =
+      std::max({2.0 * params.tolerance, kPersistence * params.radius, kPersistence * max_cell}) *
+      std::max(1.0, Coarseness(params));
+  WatershedParams line;
+  line.tolerance = params.border_tolerance;
+  line.spacing = params.radius;
+  line.steep_angle = params.steep_angle;
+  line.fields = fields;
+  constexpr double kSigns[] = {1.0, -1.0};
+  HeightExtrema tops[2];
+  if (params.detail < 1.0) {
+    PM_ASSIGN_OR_RETURN(const HeightGraph graph, HeightGraph::Make(meshes, adjacency, run));
+    absl::StatusOr<HeightExtrema> heights[2];
+    PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
+      heights[k] = graph.Find(kSigns[k], persistence, MostRegions(params), run);
+    }));
+    PM_ASSIGN_OR_RETURN(tops[0], std::move(heights[0]));
+    PM_ASSIGN_OR_RETURN(tops[1], std::move(heights[1]));
+    PM_ASSIGN_OR_RETURN(const bool cut,
+                        CutWatersheds(surface, {tops[0].passes, tops[1].passes}, line, run, meshes));
+    if (cut) {
+      PM_ASSIGN_OR_RETURN(adjacency, FindAdjacency(surface, meshes, run));
+    }
+  }
+  absl::StatusOr<std::vector<std::vector<int>>> found[2];
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
+    found[k] = Catchments(meshes, adjacency, tops[k].tops, kSigns[k], run);
+  }));
+  Watersheds watersheds;
+  PM_ASSIGN_OR_RETURN(watersheds.summit, std::move(found[0]));
+  PM_ASSIGN_OR_RETURN(watersheds.pit, std::move(found[1]));
+  return watersheds;
+}
+
+// 1/mm: mean contour curvature that no tool could feel.
+double FlatBend(const RegionParams& params) {
+  return 8.0 * params.tolerance / (4.0 * params.radius * params.radius);
+}
+
+MergedRegions Merge(const RawRegions& raw, const RegionParams& params) {
+  MergeParams p;
+  if (params.detail >= 1.0) {
+    p.border_turn = p.border_slope = p.flat = p.min_area = p.min_width = p.min_curvature = 0.0;
+    p.sliver = 0.0;
+    p.max_regions = std::numeric_limits<int>::max();
+  } else {
+    const double coarse = Coarseness(params);
+    p.border_turn = kBorderTurn * coarse;
+    p.border_slope = p.border_turn * params.radius;
+    p.flat = FlatBend(params);
+    p.flat_cost = 0.5 * kBorderTurn / params.radius;
+    p.min_area = 2.0 * kPi * params.radius * params.radius * coarse;
+    p.min_width = params.radius * coarse;
+    p.min_curvature = kMinCurvature * params.radius;
+    p.sliver = params.tolerance;
+    p.max_regions = static_cast<int>(MostRegions(params));
+  }
+  return MergeRegions(raw.regions, raw.contacts, p);
+}
+
+Region FromLabel(const SplitLabel& label) {
+  Region region;
+  region.reason = label.reason;
+  const bool reached =
+      label.reason == UnreachableReason::kNone || label.reason == UnreachableReason::kStrategy;
+  region.kind = !reached              ? RegionKind::kUnreachable
+                : label.curvature < 0 ? RegionKind::kMountain
+                : label.curvature > 0 ? RegionKind::kBasin
+                                      : RegionKind::kNeutral;
+  region.slope = region.kind == RegionKind::kUnreachable ? SlopeClass::kUnspecified
+                 : label.steep                           ? SlopeClass::kSteep
+                                                         : SlopeClass::kGentle;
+  return region;
+}
+
+// The groups of merged regions, borders bent onto the true curves, as regions in their final order.
+struct Numbered {
+  std::vector<Region> regions;
+  std::vector<std::vector<int>> region_of, component_of;  // [piece][triangle]
+  std::vector<int> component_region;
+  BorderArcs arcs;
+};
+
+// What hangs together of each region, numbered by regions, then by their first raw regions. What no ball
+// reaches counts as one component wherever it is: nothing is cut there.
+void NumberComponents(const RawRegions& raw, const std::vector<int>& id_of_raw, Numbered& numbered) {
+  UnionFind sets(raw.regions.size());
+  for (const RawContact& contact : raw.contacts) {
+    const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
+    if (id_of_raw[a] == id_of_raw[b]) sets.Join(a, b);
+  }
+  std::vector<int> first(numbered.regions.size(), -1);
+  for (std::size_t i = 0; i < id_of_raw.size(); ++i) {
+    const auto id = static_cast<std::size_t>(id_of_raw[i]);
+    if (numbered.regions[id].kind != RegionKind::kUnreachable) continue;
+    if (first[id] < 0) first[id] = static_cast<int>(i);
+    sets.Join(static_cast<std::size_t>(first[id]), i);
+  }
+  std::vector<std::size_t> order(raw.regions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return id_of_raw[a] < id_of_raw[b]; });
+  std::vector<int> component(raw.regions.size(), -1);
+  for (const std::size_t i : order) {
+    if (sets.Find(i) != i) continue;  // the first of each set comes first
+    component[i] = static_cast<int>(numbered.component_region.size());
+    numbered.component_region.push_back(id_of_raw[i]);
+  }
+  numbered.component_of = raw.of;
+  for (std::vector<int>& piece : numbered.component_of) {
+    for (int& id : piece) id = component[sets.Find(static_cast<std::size_t>(id))];
+  }
+}
+
+absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitMesh>& meshes,
+                                const AdjacencyList& adjacency, const RawRegions& raw,
+                                const MergedRegions& merged, std::span<const ZeroField> fields,
+                                const RegionParams& params, const RunContext& run) {
+  Numbered numbered;
+  numbered.region_of = raw.of;
+  for (std::vector<int>& piece : numbered.region_of) {
+    for (int& id : piece) id = merged.group[static_cast<std::size_t>(id)];
+  }
+  PM_ASSIGN_OR_RETURN(numbered.arcs, FindBorderArcs(surface, meshes, adjacency, numbered.region_of, fields,
+                                                    params.border_tolerance, run));
+  std::vector<double> flat(merged.label.size(), 0.0), curvature = flat, steepness = flat;
+  for (std::size_t i = 0; i < raw.regions.size(); ++i) {
+    const auto group = static_cast<std::size_t>(merged.group[i]);
+    flat[group] += raw.regions[i].area;
+    curvature[group] += raw.regions[i].curvature;
+    steepness[group] += raw.regions[i].steepness;
+  }
+  PM_ASSIGN_OR_RETURN(const std::vector<double> gained,
+                      BendAreas(surface, meshes, adjacency, numbered.region_of, flat, run, numbered.arcs));
+  std::vector<Region> groups;
+  for (std::size_t k = 0; k < merged.label.size(); ++k) {
+    SplitLabel label = merged.label[k];
+    if (label.reason == UnreachableReason::kStrategy) {
+      const bool bent =
+          std::abs(curvature[k]) >= std::max(kMinCurvature * params.radius, FlatBend(params) * flat[k]);
+      label.curvature = static_cast<std::int8_t>(!bent ? 0 : curvature[k] < 0.0 ? -1 : 1);
+      label.steep = steepness[k] > 0.0;
+    }
+    groups.push_back(FromLabel(label));
+    groups.back().area = flat[k] + gained[k];
+  }
+  std::vector<std::size_t> order(groups.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const bool ua = groups[a].kind == RegionKind::kUnreachable,
+               ub = groups[b].kind == RegionKind::kUnreachable;
+    return ua != ub ? ub : groups[a].area > groups[b].area;
+  });
+  std::vector<int> id_of(groups.size());
+  for (const std::size_t group : order) {
+    const int id = static_cast<int>(numbered.regions.size());
+    id_of[group] = id;
+    numbered.regions.push_back(groups[group]);
+    numbered.regions.back().id = id;
+  }
+  for (std::vector<int>& piece : numbered.region_of) {
+    for (int& id : piece) id = id_of[static_cast<std::size_t>(id)];
+  }
+  std::vector<int> id_of_raw;
+  for (const int group : merged.group) id_of_raw.push_back(id_of[static_cast<std::size_t>(group)]);
+  NumberComponents(raw, id_of_raw, numbered);
+  return numbered;
+}
+
+// Patches stand in rising order because the pieces of each follow those of the one before.
+void ListPatches(const Surface& surface, const std::vector<std::vector<int>>& region_of,
+                 std::vector<Region>& regions) {
+  for (std::size_t piece = 0; piece < region_of.size(); ++piece) {
+    const PatchId patch = surface.pieces[piece].patch;
+    for (const int id : region_of[piece]) {
+      std::vector<PatchId>& patches = regions[static_cast<std::size_t>(id)].patches;
+      if (patches.empty() || patches.back() != patch) patches.push_back(patch);
+    }
+  }
+}
+
+}  // namespace
+
+absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParams& params,
+                                       const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(
+      const Locator free_ball,
+      Locator::Make(surface, std::max(params.radius - ReachTolerance(params.tolerance), 0.5 * params.radius),
+                    run));
+  const ReachTest reach(free_ball, params, run);
+  PM_RETURN_IF_ERROR(run.Check());
+  const std::vector<ZeroField> fields = RegionFields(reach, params);
+  const ZeroMeshParams mesh_params = RegionMeshParams(surface, params, kCell, run);
+  std::vector<SplitMesh> meshes(surface.pieces.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions", meshes.size(), [&](std::size_t i) {
+    meshes[i] = BuildSplitMesh(surface.pieces[i], fields, params.steep_angle, mesh_params);
+  }));
+  PM_ASSIGN_OR_RETURN(AdjacencyList adjacency, FindAdjacency(surface, meshes, run));
+  PM_ASSIGN_OR_RETURN(const Watersheds watersheds,
+                      Divide(surface, params, fields, mesh_params.max_cell, run, meshes, adjacency));
+  PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(meshes, adjacency, watersheds, run));
+  PM_ASSIGN_OR_RETURN(Numbered numbered,
+                      Number(surface, meshes, adjacency, raw, Merge(raw, params), fields, params, run));
+  // What is told of the regions, at once: none of it needs any other.
+  RegionMap map;
+  map.component_region = numbered.component_region;
+  BorderNet net;
+  std::vector<std::vector<std::vector<Vec3>>> borders;
+  std::vector<Region>& regions = numbered.regions;
+  const std::vector<std::vector<int>>& region_of = numbered.region_of;
+  const BorderArcs& arcs = numbered.arcs;
+  PM_ASSIGN_OR_RETURN(const BorderPoints points,
+                      FindBorderPoints(surface, meshes, adjacency, arcs, params.border_tolerance, run));
+  const auto unreachable = UnreachableTriangles(meshes, region_of, regions);
+  // The largest regions first, not for one thread at last.
+  std::vector<std::size_t> probed;
+  for (std::size_t id = 0; id < regions.size(); ++id) {
+    if (!unreachable[id].empty()) probed.push_back(id);
+  }
+  std::stable_sort(probed.begin(), probed.end(), [&](std::size_t a, std::size_t b) {
+    return unreachable[a].size() > unreachable[b].size();
+  });
+  absl::Status told[3];
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: figures", 3 + probed.size(), [&](std::size_t k) {
+    if (k >= 3) {
+      const std::size_t id = probed[k - 3];
+      ProbeRegion(surface, meshes, reach, params, unreachable[id], run, regions[id]);
+    } else if (k == 0) {
+      auto found = FindBorderLines(surface, meshes, adjacency, arcs, points, numbered.component_of,
+                                   numbered.component_region, regions, run);
+      told[k] = found.status();
+      if (found.ok()) net = *std::move(found);
+    } else if (k == 1) {
+      auto found = RegionBorders(surface, adjacency, arcs, points, region_of, regions.size(),
+                                 params.border_tolerance, run);
+      told[k] = found.status();
+      if (found.ok()) borders = *std::move(found);
+    } else {
+      told[k] = FillLabels(meshes, region_of, numbered.component_of, regions.size(), run, map);
+    }
+  }));
+  ListPatches(surface, region_of, regions);
+  for (const absl::Status& status : told) PM_RETURN_IF_ERROR(status);
+  PlaceRegions(surface, meshes, region_of, map, regions);
+  map.border_lines = std::move(net.lines);
+  map.nodes = std::move(net.nodes);
+  map.regions = std::move(regions);
+  for (std::size_t i = 0; i < map.regions.size(); ++i) map.regions[i].border = std::move(borders[i]);
+  return map;
+}
+
+}  // namespace patchmill
