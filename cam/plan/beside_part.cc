@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/parallel.h"
+#include "core/base/progress_throttle.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/highest.h"
@@ -36,14 +37,18 @@ double GapOf(const BesidePartParams& params) { return std::sqrt(params.radius * 
 // holes.
 class Footprint {
  public:
-  explicit Footprint(const Surface& surface) {
+  // Unusable when the run was cancelled meanwhile.
+  Footprint(const Surface& surface, const RunContext& run) {
     const Vec3 size = surface.box.max - surface.box.min;
     cell_ = std::max({size.x(), size.y(), 1e-6 * surface.box.Diagonal()}) / kCells;
     low_ = Xy(surface.box.min).array() - kBorderCells * cell_;
     nx_ = 1 + static_cast<int>(size.x() / cell_) + 2 * kBorderCells;
     ny_ = 1 + static_cast<int>(size.y() / cell_) + 2 * kBorderCells;
     covered_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_), 0);
-    for (const Tessellation::PieceMesh& mesh : Tessellate(surface, 0.1 * cell_, kMostMeshCells).meshes) {
+    ProgressThrottle throttle;
+    for (std::size_t k = 0; k < surface.pieces.size() && !run.Cancelled(); ++k) {
+      throttle.ReportIfDue(run, "seen from above", k, surface.pieces.size());
+      const Tessellation::PieceMesh mesh = TessellatePiece(surface, PieceId(k), 0.1 * cell_, kMostMeshCells);
       const auto at = [&](int i, int j) -> Vec2 {
         return Xy(mesh.vertices[static_cast<std::size_t>(i * (mesh.nv + 1) + j)].p);
       };
@@ -350,7 +355,7 @@ absl::StatusOr<std::vector<BesideStrip>> FindBesideStrips(const Surface& surface
   }
   if (walls.empty()) return std::vector<BesideStrip>();
   PM_RETURN_IF_ERROR(run.Check());
-  const Footprint footprint(surface);
+  const Footprint footprint(surface, run);
   PM_RETURN_IF_ERROR(run.Check());
   const StretchFinder finder(surface, footprint, params);
   std::vector<std::vector<Stretch>> found(walls.size());

@@ -52,24 +52,27 @@ Cells CellsFor(const Piece& piece, double chord, int max_cells) {
 
 }  // namespace
 
+Tessellation::PieceMesh TessellatePiece(const Surface& surface, PieceId id, double chord, int max_cells) {
+  const Piece& piece = surface.piece(id);
+  const Cells cells = CellsFor(piece, std::max(chord, 1e-12 * surface.scale), std::max(1, max_cells));
+  Tessellation::PieceMesh mesh{id, cells.u, cells.v, {}};
+  mesh.vertices.reserve(static_cast<std::size_t>((cells.u + 1) * (cells.v + 1)));
+  for (int k = 0; k <= cells.u; ++k) {
+    for (int l = 0; l <= cells.v; ++l) {
+      const double u = static_cast<double>(k) / cells.u, v = static_cast<double>(l) / cells.v;
+      const SurfaceJet jet = Evaluate(piece, u, v);
+      mesh.vertices.push_back(
+          {jet.p, UpwardNormal(jet).value_or(Vec3::Zero()), static_cast<float>(u), static_cast<float>(v)});
+    }
+  }
+  return mesh;
+}
+
 Tessellation Tessellate(const Surface& surface, double chord, int max_cells) {
   Tessellation out;
   out.meshes.reserve(surface.pieces.size());
-  for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
-    const Piece& piece = surface.pieces[i];
-    const Cells cells = CellsFor(piece, std::max(chord, 1e-12 * surface.scale), std::max(1, max_cells));
-    Tessellation::PieceMesh mesh{PieceId(i), cells.u, cells.v, {}};
-    mesh.vertices.reserve(static_cast<std::size_t>((cells.u + 1) * (cells.v + 1)));
-    for (int k = 0; k <= cells.u; ++k) {
-      for (int l = 0; l <= cells.v; ++l) {
-        const double u = static_cast<double>(k) / cells.u, v = static_cast<double>(l) / cells.v;
-        const SurfaceJet jet = Evaluate(piece, u, v);
-        mesh.vertices.push_back(
-            {jet.p, UpwardNormal(jet).value_or(Vec3::Zero()), static_cast<float>(u), static_cast<float>(v)});
-      }
-    }
-    out.meshes.push_back(std::move(mesh));
-  }
+  for (std::size_t i = 0; i < surface.pieces.size(); ++i)
+    out.meshes.push_back(TessellatePiece(surface, PieceId(i), chord, max_cells));
   return out;
 }
 

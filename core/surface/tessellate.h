@@ -24,5 +24,7 @@ struct Tessellation {
 // from sampled second derivatives), at most `max_cells` (>= 1) a side. Neighbouring pieces may differ in
 // their grids: no promise of a closed mesh. Cost 0.1 us a vertex.
 Tessellation Tessellate(const Surface& surface, double chord, int max_cells);
+// The same of one piece.
+Tessellation::PieceMesh TessellatePiece(const Surface& surface, PieceId piece, double chord, int max_cells);
 
 }  // namespace patchmill
