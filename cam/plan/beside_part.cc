@@ -139,7 +139,7 @@ struct UprightGrid {
   int nu = 1, nv = 1;
   std::vector<Vec3> points;    // (nu + 1) (nv + 1), v fastest
   std::vector<Vec2> air_side;  // unit normal in plan on the side of du x dv, of each cell
-  int side = 0;                // Piece::air_side
+  int side = 0;  // the air side: Piece::air_side, or the upper side where all of it leans that way
   const Vec3& At(int i, int j) const { return points[static_cast<std::size_t>(i * (nv + 1) + j)]; }
 };
 
@@ -150,6 +150,7 @@ std::optional<UprightGrid> GridOn(const Piece& piece, double tolerance, int nu, 
   grid.nv = nv;
   grid.side = piece.air_side;
   double low = kInfinity, high = -kInfinity, steepest = 0.0;
+  bool leans_over = true, leans_under = true;
   for (int i = 0; i <= nu; ++i) {
     for (int j = 0; j <= nv; ++j) {
       grid.points.push_back(Position(piece, double(i) / nu, double(j) / nv));
@@ -165,10 +166,13 @@ std::optional<UprightGrid> GridOn(const Piece& piece, double tolerance, int nu, 
         continue;
       }
       steepest = std::max(steepest, std::abs(normal->z()));
-      if (steepest * (high - low) > 0.5 * tolerance && steepest > kUprightFace) return std::nullopt;
+      if (steepest * (high - low) > 0.5 * tolerance && steepest > piece.upright) return std::nullopt;
+      leans_over = leans_over && normal->z() > piece.upright;
+      leans_under = leans_under && normal->z() < -piece.upright;
       grid.air_side.push_back(Xy(*normal).normalized());
     }
   }
+  if (grid.side == 0 && leans_over != leans_under) grid.side = leans_over ? 1 : -1;
   return grid;
 }
 
@@ -315,8 +319,9 @@ class StripMaker {
       : gap_(GapOf(params)), meet_(kSameEnd * params.tolerance), overlap_(kOverlap * params.tolerance) {}
 
   BesideStrip Beside(const Stretch& s) const {
-    const Vec2 out = s.Out();
-    const Ring ring = {s.a + gap_ * out, s.a + s.deep * out, s.b + s.deep * out, s.b + gap_ * out};
+    // Areas are kept within half a tolerance: past the end of a wall the tool would go down beside it.
+    const Vec2 out = s.Out(), past = overlap_ * (s.b - s.a).normalized(), a = s.a - past, b = s.b + past;
+    const Ring ring = {a + gap_ * out, a + s.deep * out, b + s.deep * out, b + gap_ * out};
     return {s.kind, Outline({ring}), s.top_z};
   }
 

@@ -26,18 +26,25 @@ absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup,
   return BuildSurface(std::move(network), SurfaceParams{}, run);
 }
 
-absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool,
-                                      double reach_tolerance, const RunContext& run) {
-  ModelCheck check;
-  check.findings = surface.network.findings;
-  check.box = TightBox(surface);
+Diagnostics WallsWithoutSide(const Surface& surface) {
+  Diagnostics found;
   for (const PatchId id : surface.two_sided_walls) {
-    check.findings.push_back(MakeWarning(
+    found.push_back(MakeWarning(
         "WALL_WITHOUT_SIDE",
         "the patch stands upright, and nothing that it is joined to says which of its sides is air: both are "
         "milled",
         {.patch_id = surface.network.model.patches[id.index()].id, .patch_index = id.value}));
   }
+  return found;
+}
+
+absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool,
+                                      double reach_tolerance, const RunContext& run) {
+  ModelCheck check;
+  check.findings = surface.network.findings;
+  check.box = TightBox(surface);
+  const Diagnostics walls = WallsWithoutSide(surface);
+  check.findings.insert(check.findings.end(), walls.begin(), walls.end());
   const ConcaveSpot spot = SmallestConcaveRadius(surface, run);
   PM_RETURN_IF_ERROR(run.Check());
   check.min_concave_radius = spot.radius;

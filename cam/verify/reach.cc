@@ -125,13 +125,13 @@ bool Undercut(const Surface& surface, const Vec3& p, const Facing& facing, const
               Obstacles& obstacles) {
   const auto centers = Centers(p, facing, params.radius);
   if (BlockedAbove(surface, centers[0], params, obstacles) &&
-      (facing.e.z() > kUprightFace || BlockedAbove(surface, centers[1], params, obstacles))) {
+      (!facing.upright || BlockedAbove(surface, centers[1], params, obstacles))) {
     return true;
   }
   const double least = SmallestBallRadius(params.reach_tolerance);
   const auto beside = Centers(p, facing, least);
   return least < params.radius && StandsAboveLeast(surface, beside[0], least, obstacles) &&
-         (facing.e.z() > kUprightFace || StandsAboveLeast(surface, beside[1], least, obstacles));
+         (!facing.upright || StandsAboveLeast(surface, beside[1], least, obstacles));
 }
 
 }  // namespace

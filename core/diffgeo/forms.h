@@ -1,6 +1,7 @@
 // First and second fundamental forms and what follows from them [shapes, section 9].
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "core/patch/patch.h"
@@ -10,23 +11,22 @@ namespace patchmill {
 // Unit normal S_u x S_v / |S_u x S_v|; nullopt where |S_u x S_v| <= 1e-12 max(|S_u|,|S_v|)^2: a degenerate
 // parametrisation, be it parallel tangents or, at a pole, a tangent that is rounding noise.
 std::optional<Vec3> UnitNormal(const SurfaceJet& jet);
-// |e_z| up to which a face is upright: neither of its sides is the upper one.
-inline constexpr double kUprightFace = 1e-6;
 
-// The same, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On an upright face it
-// points to the air side where that is known; else either way.
+// The same, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On an upright face
+// (SurfaceJet::upright) it points to the air side where that is known, else to either side.
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet);
 
 // From where a tool stands at a place of the surface.
 struct Facing {
   Vec3 e = Vec3::UnitZ();  // UpwardNormal
   bool both = false;       // an upright face whose air side is unknown: the tool may stand at -e as well
+  bool upright = false;    // of an upright face (SurfaceJet::upright)
 };
 std::optional<Facing> FacingAt(const SurfaceJet& jet);
 
 // Whether the tool may stand on either side of the surface, where `e` is its UpwardNormal.
 inline bool HasTwoSides(const SurfaceJet& jet, const Vec3& e) {
-  return jet.air_side == 0 && e.z() <= kUprightFace;
+  return jet.air_side == 0 && std::abs(e.z()) <= jet.upright;
 }
 
 struct FundamentalForms {

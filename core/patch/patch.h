@@ -240,6 +240,9 @@ struct Patch {
   PatchShape shape;
 };
 
+// |e_z| of the unit normal up to which a place stands upright, so that neither of its sides is the upper one.
+inline constexpr double kUprightFace = 1e-6;
+
 // Position and derivatives with respect to the two parameters.
 struct SurfaceJet {
   Vec3 p = Vec3::Zero();
@@ -248,6 +251,8 @@ struct SurfaceJet {
   // The air side of upright surface: 1 the side of du x dv, -1 the other, 0 unknown
   // (core/surface/air_sides.h).
   int air_side = 0;
+  double upright =
+      kUprightFace;  // |e_z| up to which this place stands upright; more on a wall that leans a little
 };
 
 // Analytic evaluation in the native form of each kind. Error about 1e-15 of the patch's size.

@@ -116,6 +116,7 @@ std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape) {
 SurfaceJet Evaluate(const Piece& piece, double u, double v) {
   SurfaceJet jet = JetOf(piece, u, v);
   jet.air_side = piece.air_side;
+  jet.upright = piece.upright;
   return jet;
 }
 
@@ -134,6 +135,7 @@ SurfaceJet EvaluateSlopes(const Piece& piece, double u, double v) {
   jet.du = three(4);
   jet.dv = three(8);
   jet.air_side = piece.air_side;
+  jet.upright = piece.upright;
   return jet;
 }
 

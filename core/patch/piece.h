@@ -47,7 +47,8 @@ struct Piece {
   const PatchShape* shape = nullptr;
   // Native parameters of the piece's corners (0,0) (1,0) (0,1) (1,1); bilinear in between, exactly.
   std::array<Vec2, 4> native;
-  int air_side = 0;  // as SurfaceJet::air_side, in the piece's own parameters
+  int air_side = 0;               // as SurfaceJet::air_side, in the piece's own parameters
+  double upright = kUprightFace;  // as SurfaceJet::upright
 };
 
 // Never empty for a valid patch. Pieces of a B-spline in order of u span, then v span. They may point to

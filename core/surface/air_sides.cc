@@ -94,11 +94,17 @@ bool HasUpright(const Piece& piece) {
   for (const double u : kAt) {
     for (const double v : kAt) {
       const auto normal = UnitNormal(Evaluate(piece, u, v));
-      if (normal && std::abs(normal->z()) <= kUprightFace) return true;
+      if (normal && std::abs(normal->z()) <= piece.upright) return true;
     }
   }
   return false;
 }
+
+// Files round coordinates: a wall of four decimals leans by some 1e-4 mm, and says nothing of its sides by that. A
+// piece that leans by no more than this over its height, and by a hundredth of its height, is upright all over.
+constexpr double kMostLean = 5e-3;  // mm, half of the default tolerance
+constexpr double kMostLeanShare = 0.01;
+constexpr double kLeanMargin = 1.5;  // between the places that are looked at a wall may lean a little more
 
 bool IsOpenToTheSky(const Surface& surface, const Vec3& p) {
   const double size = surface.box.Diagonal();
@@ -216,6 +222,23 @@ absl::StatusOr<AirSides> FindAirSides(const Surface& surface, const RunContext& 
   }
   if (!any) return AirSides{std::vector<int>(upright.size(), 0), {}};
   return SideFinder(surface, run).Run(upright);
+}
+
+double UprightOf(const Piece& piece) {
+  constexpr int kCells = 4;  // each way, corners included: a bilinear patch leans most there
+  double low = kInfinity, high = -kInfinity, steepest = 0.0;
+  for (int i = 0; i <= kCells; ++i) {
+    for (int j = 0; j <= kCells; ++j) {
+      const SurfaceJet jet =
+          Evaluate(piece, static_cast<double>(i) / kCells, static_cast<double>(j) / kCells);
+      low = std::min(low, jet.p.z());
+      high = std::max(high, jet.p.z());
+      const auto normal = UnitNormal(jet);
+      if (normal) steepest = std::max(steepest, std::abs(normal->z()));
+      if (steepest > kMostLeanShare || steepest * (high - low) > kMostLean) return kUprightFace;
+    }
+  }
+  return std::max(kUprightFace, kLeanMargin * steepest);
 }
 
 void SetAirSides(const AirSides& sides, std::vector<Piece>& pieces) {

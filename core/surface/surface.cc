@@ -282,6 +282,9 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   PM_RETURN_IF_ERROR(WriteNodes(surface.nodes, run, surface.box_nodes));
   surface.box = surface.nodes.front().box;
   surface.scale = std::max(surface.box.min.cwiseAbs().maxCoeff(), surface.box.max.cwiseAbs().maxCoeff());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, surface.pieces.size(), [&](std::size_t i) {
+    surface.pieces[i].upright = UprightOf(surface.pieces[i]);
+  }));
   PM_ASSIGN_OR_RETURN(AirSides sides, FindAirSides(surface, run));
   SetAirSides(sides, surface.pieces);
   surface.two_sided_walls = std::move(sides.undecided);

@@ -142,6 +142,7 @@ absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const
                      {.field = "scallop_mm"})},
         resolved.program_zero, report->mutable_diagnostics());
   }
+  AddDiagnostics(WallsWithoutSide(surface), resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(verify.findings, resolved.program_zero, report->mutable_diagnostics());
   return absl::OkStatus();
 }

@@ -13,6 +13,7 @@
 #include "cam/path/rest/leftover_spots.h"
 #include "cam/path/rest/redundant_passes.h"
 #include "cam/path/rest/rest_passes.h"
+#include "cam/plan/beside_part.h"
 #include "cam/region/figures/reach_table.h"
 #include "cam/region/split_regions.h"
 #include "core/joining/join_network.h"
@@ -210,6 +211,15 @@ TEST(Cancel, ReachOfManyBalls) {
   ExpectStops([&](const RunContext& run) {
     return ReachTable(surface, {.radii = {0.5, 1.0, 2.0, 3.0, 5.0}}, run).status();
   });
+}
+
+// What the part covers, seen from above.
+TEST(Cancel, BesideStrips) {
+  PatchModel model = RandomPart(7, 40, 40.0);
+  model.patches.push_back(
+      {"", testing::Bilinear(Vec3(0, 0, -9), Vec3(40, 0, -9), Vec3(0, 0, 0), Vec3(40, 0, 0))});
+  const Surface surface = SurfaceOf(model);
+  ExpectStops([&](const RunContext& run) { return FindBesideStrips(surface, {}, run).status(); });
 }
 
 TEST(Cancel, Jobs) {

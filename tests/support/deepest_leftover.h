@@ -16,8 +16,9 @@ inline Deepest DeepestLeftover(const Locator& locator, const LeftoverParams& par
   LeftoverSearch search(locator, params);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const bool none = normals.empty() || normals[i].isZero();
-    search.AddPoint(places[i],
-                    none ? std::nullopt : std::optional(Facing{normals[i], normals[i].z() <= kUprightFace}));
+    search.AddPoint(places[i], none ? std::nullopt
+                                    : std::optional(Facing{normals[i], normals[i].z() <= kUprightFace,
+                                                           normals[i].z() <= kUprightFace}));
   }
   return search.Find(run);
 }

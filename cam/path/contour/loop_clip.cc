@@ -134,7 +134,7 @@ class Clipper {
   // The ball, in direction e, stands on the side of a wall that is not the air side.
   bool BehindWall(const SurfacePoint& at, const Vec3& e) const {
     const std::optional<Facing> facing = FacingAt(Evaluate(surface_, at.piece, at.u, at.v));
-    return facing && !facing->both && facing->e.z() <= kUprightFace && facing->e.dot(e) < 0.0;
+    return facing && !facing->both && facing->upright && facing->e.dot(e) < 0.0;
   }
 
   // May the ball rest on this surface point from direction e?

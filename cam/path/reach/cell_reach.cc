@@ -29,6 +29,7 @@ std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& re
     const auto normal = UnitNormal(jet);
     at.p[k] = jet.p;
     at.air_side = jet.air_side;
+    at.upright = jet.upright;
     at.n[k] = normal ? *normal : UpwardNormalNear(surface, {rect.piece, uv[k].x(), uv[k].y(), jet.p});
     if (!normal && at.n[k].dot(at.n[8]) < 0.0) at.n[k] = -at.n[k];
     if ((at.n[k] - at.n[8]).norm() > kMostTurn) return std::nullopt;
@@ -66,9 +67,9 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
       highest_center = std::max(highest_center, c[k].z());
     }
     // Looks down, or but for a strip of this share of the diameter.
-    const double up = highest_normal + turn + kUprightFace;
+    const double up = highest_normal + turn + at.upright;
     if (up < 0.0 || up * size < params.narrow * (highest_normal - lowest_normal)) continue;
-    if (up <= 2.0 * kUprightFace && sign * at.air_side < 0.0) continue;  // the back of a wall
+    if (up <= 2.0 * at.upright && sign * at.air_side < 0.0) continue;  // the back of a wall
     const double bend = BendOver(c);
     if (TooBent(c, size)) return false;
     if (highest_center + bend < params.floor_z - params.reach_tolerance) continue;

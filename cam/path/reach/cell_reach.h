@@ -21,7 +21,8 @@ std::array<Vec2, 9> NineParameters(const SurfaceRect& rect);
 // The surface there; normals are unit and all on one side of it.
 struct RectPlaces {
   std::array<Vec3, 9> p, n;
-  int air_side = 0;  // of upright places: 1 the side of n, -1 the other, 0 unknown (SurfaceJet)
+  int air_side = 0;               // of upright places: 1 the side of n, -1 the other, 0 unknown (SurfaceJet)
+  double upright = kUprightFace;  // SurfaceJet::upright
 };
 // nullopt where the normals turn by more than 0.7 rad, or have no direction.
 std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& rect);

@@ -78,9 +78,9 @@ bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const 
       step[k] = Vec3(NeededStep(forced, jets[k], n, radius, scallop), 0.0, 0.0);
       most = std::max(most, step[k].x());
     }
-    if (highest_normal + turn < -kUprightFace) continue;  // looks down
+    if (highest_normal + turn < -jets.back().upright) continue;  // looks down
     // The back of a wall.
-    if (highest_normal + turn <= kUprightFace && sign * jets.back().air_side < 0.0) continue;
+    if (highest_normal + turn <= jets.back().upright && sign * jets.back().air_side < 0.0) continue;
     if (most + BendOver(step) >= fraction) return false;
   }
   return true;

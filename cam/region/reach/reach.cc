@@ -92,7 +92,7 @@ bool ReachTest::BlockedAbove(const Vec3& p, const Facing& facing, Shanks& shanks
   // Of upright surface on both sides, each ball by itself: a ball that is too large for a slot is under the
   // slot's top beyond the other wall.
   const auto on_all_sides = [&](const auto& blocked) {
-    return blocked(facing.e) && (facing.e.z() > kUprightFace || blocked(-facing.e));
+    return blocked(facing.e) && (!facing.upright || blocked(-facing.e));
   };
   return on_all_sides([&](const Vec3& e) { return shanks.ball.Blocked(p + params_.radius * e); }) ||
          (least < params_.radius &&

@@ -82,6 +82,30 @@ TEST(Sides, ABoxIsMilledInsideAlone) {
   }
 }
 
+// The tops of the walls moved by `out` (mm), as files round them.
+PatchModel Leaning(PatchModel box, double out) {
+  for (Patch& patch : box.patches) {
+    for (Vec3& p : std::get<BezierPatch>(patch.shape).points) {
+      if (p.z() < kZ) continue;
+      p.x() += std::copysign(out, p.x());
+      p.y() += std::copysign(out, p.y());
+    }
+  }
+  return box;
+}
+
+TEST(Sides, AWallThatFilesRoundIsAWall) {
+  for (const double out : {1e-4, -1e-4, 4e-3, -1e-3}) {
+    SCOPED_TRACE(out);
+    const JobResult result = Mill(PlacedSurface(Leaning(OpenBox(kX, kY, kZ), out)), BoxJob());
+    ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+    EXPECT_GE(LowestTipBeyond(result.program, kX, kY, 0.01), kZ - 0.02);
+    EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0);
+    EXPECT_EQ(AreaFor(result, UnreachableReason::kUndercut), 0.0);
+    EXPECT_NEAR(result.report.verify.reachable_area, kReached, 0.01 * kReached);
+  }
+}
+
 TEST(Sides, TheRegionsOfABoxTellItsCorners) {
   const Surface surface = PlacedSurface(OpenBox(kX, kY, kZ));
   const auto regions = PlanRegions(surface, BoxJob(), RunContext());
@@ -129,6 +153,20 @@ TEST(Sides, TheBackOfAWallFinishesNothing) {
 }
 
 // --- Outside ---
+
+// Not beside the ends of its wall either, where the part goes on.
+TEST(Outside, ASheetWithOneWallIsMilledOnItsTop) {
+  const auto at = [](double x, double y, double z) { return Vec3(x, y, z); };
+  PatchModel sheet;
+  sheet.patches.push_back(
+      {"top", Bilinear(at(-kX, -kY, kZ), at(kX, -kY, kZ), at(-kX, kY, kZ), at(kX, kY, kZ))});
+  sheet.patches.push_back(
+      {"wall", Bilinear(at(-kX, -kY, 0), at(kX, -kY, 0), at(-kX, -kY, kZ), at(kX, -kY, kZ))});
+  const JobResult result = Mill(PlacedSurface(sheet), BoxJob());
+  ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+  EXPECT_GE(LowestTipBeyond(result.program, kX, kY, -1.0), kZ - 0.02);
+  EXPECT_NEAR(AreaFor(result, UnreachableReason::kOutside), 2.0 * kX * kZ, 1e-3 * kX * kZ);
+}
 
 TEST(Outside, AClosedBlockIsMilledOnItsTop) {
   const Surface surface = PlacedSurface(ClosedBlock(kX, kY, kZ));
