@@ -42,7 +42,7 @@ bool SurfaceMask::Has(PieceId piece, double u, double v) const {
 }
 
 bool SurfaceMask::HasAny(PieceId piece, double u0, double u1, double v0, double v1) const {
-  constexpr double kSlack = 1e-9;  // of a cell: parameters halved again and again meet its sides to rounding
+  constexpr double kSlack = 1e-9;  // of a cell: repeatedly halved parameters meet its sides up to rounding
   const auto first = [&](double x) {
     return std::clamp(static_cast<int>(std::floor(x * cells_ + kSlack)), 0, cells_ - 1);
   };

@@ -1,5 +1,5 @@
-// A shank that is wider than the ball: an upright cylinder about the tool's axis without an upper end. What
-// the planner and the judge mean by it.
+// A shank that is wider than the ball: a vertical cylinder around the tool's axis without an upper end.
+// Planner and verifier share this definition.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@ struct Tool;
 
 struct WideShank {
   double radius = 0.0;  // mm
-  double rise = 0.0;    // mm, from the ball's centre up to where it begins; negative for flutes below it
+  double rise = 0.0;    // mm, from the ball's centre up to its lower end; may be negative
 };
 
-// None where it is no wider than the ball: the ball's own sweep upward holds it then.
+// nullopt if the shank is no wider than the ball. The upward sweep of the ball then contains it.
 std::optional<WideShank> WideShankOf(const Tool& tool);
 
-// The wider one of ball and shank, mm.
+// The larger radius of ball and shank, mm.
 double WidestRadius(const Tool& tool);
 
 }  // namespace patchmill

@@ -10,6 +10,7 @@
 namespace patchmill {
 namespace {
 
+// Largest number of passes that are tried, and of gaps for each of them.
 constexpr std::size_t kMostPasses = 256, kGaps = 4;
 
 const CutterPoint& StartOf(const CutterPath& pass) { return pass.points.front(); }
@@ -23,14 +24,14 @@ bool IsShort(const CutterPath& pass, double longest) {
   return mends && !pass.closed && !pass.one_way && !pass.directed && !pass.spiral && Length(pass) <= longest;
 }
 
-// Between the pass `after` and the next one.
+// The gap between the pass `after` and the next one.
 struct Gap {
   std::size_t after = 0;
   bool reversed = false;
-  double way = 0.0;  // mm, straight: what the two links are longer than the one they replace
+  double way = 0.0;  // mm; how much longer the two straight links are than the one that they replace
 };
 
-// The nearest ones, the nearest first.
+// The nearest gaps for a pass, nearest first.
 std::vector<Gap> GapsFor(const std::vector<CutterPath>& passes, std::size_t which, double longest) {
   const CutterPath& pass = passes[which];
   const Vec3 start = StartOf(pass).center, end = EndOf(pass).center;
@@ -57,7 +58,7 @@ std::vector<Gap> GapsFor(const std::vector<CutterPath>& passes, std::size_t whic
   return gaps;
 }
 
-// s: of the link from one pass to another.
+// Time of the link from one pass to another, s.
 double LinkTime(const LinkMaker& maker, const CutterPath& from, const CutterPath& to) {
   return TimeOf(EndOf(from).center, LinkTo(maker, EndOf(from), to));
 }
@@ -77,7 +78,7 @@ absl::StatusOr<std::vector<CutterPath>> InsertPasses(const LinkMaker& maker, std
       continue;
     ++tried;
     run.Progress("link: on the way", static_cast<double>(i) / static_cast<double>(passes.size()));
-    // s: saved by taking it out.
+    // The time that is saved if the pass is removed from its place, s.
     double least = TimeOf(EndOf(before).center, in);
     if (i + 1 < passes.size())
       least += LinkTime(maker, passes[i], passes[i + 1]) - LinkTime(maker, before, passes[i + 1]);
@@ -99,7 +100,7 @@ absl::StatusOr<std::vector<CutterPath>> InsertPasses(const LinkMaker& maker, std
       std::rotate(at(best->after + 1), at(i), at(i + 1));
     } else {
       std::rotate(at(i), at(i + 1), at(best->after + 1));
-      --i;  // another one has come here
+      --i;  // another pass is at this place now
     }
   }
   PM_RETURN_IF_ERROR(run.Check());

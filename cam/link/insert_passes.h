@@ -1,5 +1,4 @@
-// Short passes that mend a spot are cut on the way from one line to the next where that is quicker than at
-// the end.
+// Moves short border, pencil and rest passes to places between other passes where they are cut sooner.
 #pragma once
 
 #include <vector>
@@ -12,11 +11,12 @@
 
 namespace patchmill {
 
-// `passes` in the order they would be cut. Open border, crease and rest passes no longer than
-// MaxLinkLength(params) that are reached over the top go, one after the other, in between two neighbours that
-// are no contours, either way round, where the links to and from it (LinkTo, not estimates) take the least
-// time together and less than where they are. Of places for each the nearest few are tried; of passes the
-// first 256. Nothing else changes its place. Deterministic. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// `passes` come in the order in which they would be cut. A pass is moved if it is an open border, pencil or
+// rest pass, no longer than MaxLinkLength(params), and reached with a rapid. It goes between two neighbours
+// that are no contours, and may be reversed. The place is the one where the links to and from the pass (those
+// of LinkTo, not estimates) take the least time, if that is less than at its present place. The nearest few
+// places are tried for each pass, and the first 256 such passes are looked at. Other passes keep their order.
+// Deterministic. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<CutterPath>> InsertPasses(const LinkMaker& maker, std::vector<CutterPath> passes,
                                                      const LinkParams& params, const RunContext& run);
 

@@ -12,29 +12,30 @@
 namespace patchmill {
 namespace {
 
-// Below this slope of the contact a pass is entered from above; steeper, from beside.
+// Where the slope of the contact is below this, a pass is entered from above, else from beside.
 constexpr double kBesideWallSlope = Radians(50.0);
-// A link along the surface may be this much longer than straight, plus one ball.
+// A link along the surface may be this many times as long as a straight one, plus one ball diameter.
 constexpr double kDetour = 3.0;
-// One this many times as long as straight needs no better.
+// If a link is at most this many times as long as a straight one, no better one is looked for.
 constexpr double kShortDetour = 1.5;
-// How far off a wall, in parts of its length, a link between two places at it may lead.
+// How far off a wall a link between two places at the wall may lead, in parts of the distance in plan.
 constexpr std::array<double, 4> kBulges = {0.0625, 0.125, 0.25, 0.5};
-// Of the chord tolerance: what short links may take, each proven by itself, without the certificates' share.
+// In chord tolerances: gouge that short links may have. Each is proven by itself, so the certificates' share
+// of the tolerance is free.
 constexpr double kProven = 1.2;
-// Ball radii: in a corner this much farther off is beside the link, too.
+// In R: places of the surface that are farther than the nearest one by this still count as touched.
 constexpr double kCornerOffset = 0.04;
-// rad: how leads may turn from the normal, either way; less than kAlong they lead off a wall. And how far, in
-// ways through the stock: at a limit that runs almost along the wall they must be long to lead off it. One
-// that needs no more than kTurnAwayRatio of those is good enough.
+// Turns of a lead from the contact's normal, rad, to either side. With less than kAlong it leads off the
+// wall. kFarther are its lengths, in stock depths: at a limit that runs almost along the wall, leads must be
+// long to lead off it. A way no longer than kTurnAwayRatio stock depths is good enough.
 constexpr std::array<double, 7> kTurns = {0.0,       kPi / 4.0,       kPi / 3.0, kPi / 2.4,
                                           kPi / 2.0, 3.0 * kPi / 4.0, kPi};
 constexpr double kAlong = kPi / 2.2;
 constexpr std::array<double, 4> kFarther = {1.0, std::numbers::sqrt2, 2.0, 4.0};
 constexpr double kTurnAwayRatio = 1.5;
-// At least this many mm of a lead are better than one of plunge.
+// A mm of plunge costs as much as at least this many mm of lead.
 constexpr double kPlunge = 3.0;
-constexpr double kFineRapid = 0.1;  // mm: to which the height of a low rapid is looked for
+constexpr double kFineRapid = 0.1;  // mm; accuracy of the height of a low rapid
 
 }  // namespace
 
@@ -44,7 +45,8 @@ LinkMaker::LinkMaker(const Locator& locator, const Locator& stock_locator, const
       locator_(locator),
       stock_locator_(stock_locator),
       params_(params),
-      // [location T2]: two free centres this far apart gouge at most the chord tolerance in between.
+      // [location T2]: between two free centres this far apart a straight move gouges at most the chord
+      // tolerance.
       t2_length_(2.0 *
                  std::sqrt(std::max(0.0, 2.0 * locator.radius() * params.pass.chord_tolerance -
                                              params.pass.chord_tolerance * params.pass.chord_tolerance))),
@@ -87,9 +89,9 @@ bool LinkMaker::LeavesUnwanted(const Vec3& c) const {
 
 bool LinkMaker::StraightIsFree(const Vec3& a, const Vec3& b) const {
   if (!Allowed(a, b)) return false;
-  // Passes in slots and holes that are a little too narrow end where nothing is free
-  // (cam/path/rest/spot_passes):
-  // for links from there [location T2] promises nothing.
+  // Passes in slots and holes that are a little too narrow end at centres that are not free
+  // (cam/path/rest/spot_passes). [location T2] does not hold for links from there, so short links are proven,
+  // too.
   const double tolerance = params_.pass.chord_tolerance;
   if ((b - a).norm() <= t2_length_) return locator_.GougeWithin(a, b, kProven * tolerance, 0.02 * tolerance);
   return locator_.GougeWithin(a, b, tolerance, 0.1 * tolerance);
@@ -100,8 +102,8 @@ std::optional<LinkMaker::Way> LinkMaker::AlongSurface(const Vec3& a, const Vec3&
   const std::vector<ScanRun> runs = ScanPolyline(locator_, corners, params_.pass, &run_);
   if (runs.size() != 1 || runs.front().points.size() < 2) return std::nullopt;
   const auto& points = runs.front().points;
-  // The run must start and end over or under a and b: straight up or down from a free centre to one on the
-  // centre surface nothing is in the way.
+  // The run must start and end over or under a and b. Between a free centre and the centre surface over or
+  // under it nothing is in the way.
   if ((Xy(points.front().center) - Xy(a)).norm() > 1e-6 || (Xy(points.back().center) - Xy(b)).norm() > 1e-6) {
     return std::nullopt;
   }
@@ -131,8 +133,8 @@ std::optional<std::vector<Move>> LinkMaker::StayDown(const CutterPoint& from, co
   if (plan < 1e-6) return std::nullopt;
   std::optional<Way> best = AlongSurface(a, b, std::array{Xy(a), Xy(b)});
   if (length <= 2.0 * params_.radius) {
-    // Ends at a wall that bends: straight on would climb it, a little off it the way is short. Or at a limit
-    // that bends: straight on would cross it.
+    // If both ends are at a wall that bends, a straight way climbs the wall, and a way a little off it is
+    // short. If they are at a limit that bends, a straight way crosses the limit.
     const bool limits = params_.operation_limits != nullptr && !params_.operation_limits->AllowsAll();
     const Vec2 along = Xy(b) - Xy(a);
     const Vec2 across(-along.y(), along.x());
@@ -140,7 +142,7 @@ std::optional<std::vector<Move>> LinkMaker::StayDown(const CutterPoint& from, co
     for (const double bulge : kBulges) {
       for (const double side : {1.0, -1.0}) {
         if (best && best->length <= kShortDetour * length) break;
-        if (!limits && side * off < -1e-3 * across.norm()) continue;  // into the wall
+        if (!limits && side * off < -1e-3 * across.norm()) continue;  // it would lead into the wall
         const Vec2 middle = 0.5 * (Xy(a) + Xy(b)) + side * bulge * across;
         std::optional<Way> round = AlongSurface(a, b, std::array{Xy(a), middle, Xy(b)});
         if (round && (!best || round->length < best->length)) best = std::move(round);
@@ -178,7 +180,7 @@ LinkMaker::WayOut LinkMaker::FindWayOut(const CutterPoint& point, Going going) c
     const Vec3 normal = (c - point.contact->p).normalized();
     steep = std::acos(std::clamp(normal.z(), -1.0, 1.0)) >= kBesideWallSlope;
     if (Xy(normal).norm() > 1e-6) out = Xy(normal).normalized();
-    if (steep && point.other_contact) {  // a corner: out along the bisector of the two walls
+    if (steep && point.other_contact) {  // a corner: the lead runs along the bisector of the two walls
       const Vec2 other = Xy(Vec3(c - point.other_contact->p));
       const Vec2 both = out + (other.norm() > 1e-9 ? Vec2(other.normalized()) : Vec2(Vec2::Zero()));
       if (both.norm() > 1e-3) out = both.normalized();
@@ -190,7 +192,7 @@ LinkMaker::WayOut LinkMaker::FindWayOut(const CutterPoint& point, Going going) c
   };
   WayOut best = up(c);
   if (!steep && enough(best)) return best;
-  bool beside_wall = !steep;  // a wall is left beside it wherever there is a way, not along it
+  bool beside_wall = !steep;  // true once a way off the wall is found; ways along the wall then do not count
   const Vec2 left(-out.y(), out.x());
   for (const double farther : kFarther) {
     for (const double turn : kTurns) {
@@ -249,7 +251,8 @@ std::vector<Move> LinkMaker::Over(const CutterPoint& from, const CutterPoint& to
 
 double LinkMaker::RapidHeight(const Vec3& a, const Vec3& b) const {
   if (!params_.low_rapids) return clearance_center_z();
-  // A shank that is wider counts as a ball that is, as far as it begins no lower: it need not be looked at.
+  // A wider shank counts as a wider ball if it begins no lower than the ball's centre; params_.shank_lower
+  // makes up for a shank that does.
   const double wider = std::max(0.0, params_.tool_radius - params_.radius);
   const double above_all = params_.stock_top_z + params_.approach_gap + params_.radius;
   const double highest = stock_locator_.MaxHeight(Xy(a), Xy(b), wider, kFineRapid);
@@ -273,7 +276,7 @@ std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const C
   const CutterPoint& start = next.points.front();
   std::optional<std::vector<Move>> down;
   if (!next.one_way) down = maker.StayDown(end, start);
-  // Straight and no longer than out of the stock and back: nothing over the top is shorter.
+  // A straight link no longer than the way out of the stock and back is shorter than any way over the top.
   const bool near = (start.center - end.center).norm() <= 2.0 * maker.stock_depth();
   if (down && down->size() <= 1 && near) return *std::move(down);
   std::vector<Move> over = maker.Over(end, start);

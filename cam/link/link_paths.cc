@@ -13,7 +13,7 @@
 namespace patchmill {
 namespace {
 
-// mm/min; only the time estimate uses it, machines differ.
+// mm/min; machines differ. It is used to estimate times only.
 constexpr double kAssumedRapid = 5000.0;
 
 void AppendPass(const CutterPath& pass, int index, const LinkMaker& maker, const Surface& surface,
@@ -81,7 +81,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
   PM_ASSIGN_OR_RETURN(result.passes,
                       OrderPasses(regions, std::move(paths),
                                   {.neighbor_distance = params.radius,
-                                   .at_hand = MaxLinkLength(params),  // no farther than a link may lead
+                                   .at_hand = MaxLinkLength(params),  // as far as a stay-down link may lead
                                    .reversible_contours = params.contour_direction == CutDirection::kEither,
                                    .travel = travel},
                                   run));

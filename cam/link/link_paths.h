@@ -1,4 +1,4 @@
-// Order, leads, links, rapids, feeds: passes -> one safe motion ([machining M1, M2, M6, M7, M11],
+// Joins passes to one safe motion: order, leads, links, rapids and feeds ([machining M1, M2, M6, M7, M11],
 // [verification P3]).
 #pragma once
 
@@ -18,44 +18,46 @@ namespace patchmill {
 enum class CutDirection { kClimb, kConventional, kEither };
 
 struct LinkParams {
-  double radius = 3.0;       // mm, the ball's own radius (the locator's includes the stock to leave)
+  double radius = 3.0;       // mm, radius of the ball itself (the locator's includes the stock to leave)
   double clearance_z = 0.0;  // mm, TIP height of rapids, above model and stock
   double stock_top_z = 0.0;  // mm
-  double allowance = 0.5;    // mm of stock along the normal
-  // Rapids between passes as low as they are proven clear of the stock, not at the clearance plane.
+  double allowance = 0.5;    // mm, stock allowance along the normal
+  // If true, rapids between passes run as low as they are proven clear of the stock; else at the clearance
+  // plane.
   bool low_rapids = false;
-  double tool_radius = 0.0;   // mm, the wider one of ball and shank; only low rapids ask
-  double shank_lower = 0.0;   // mm, how far below the ball's centre a wide shank begins, the stock to leave
-                              // counted in; mostly 0. Only low rapids ask
-  double approach_gap = 1.0;  // mm: clear means allowance + gap from the surface
+  double tool_radius = 0.0;   // mm, larger radius of ball and shank; for low rapids only
+  double shank_lower = 0.0;   // mm, how far below the ball's centre a wide shank begins, including the stock
+                              // to leave; mostly 0. For low rapids only
+  double approach_gap = 1.0;  // mm; clear of the stock means allowance + gap from the surface
   double feed = 0.0, plunge_feed = 0.0;  // mm/min
-  double plunge_angle = Radians(30.0);   // descents steeper than this run at plunge feed
+  double plunge_angle = Radians(30.0);   // steeper descents run at plunge feed
   CutDirection contour_direction = CutDirection::kClimb;
   PassParams pass;               // for links along the centre surface
-  double max_link_length = 0.0;  // mm in plan; 0: 6 ball radii. Longer ones retract
-  // Feeds stay where it allows them; links keep clear of the stock over ground that is not wanted and above
-  // the highest tip, but for a step. Null: anywhere.
+  double max_link_length = 0.0;  // mm; 0 means 6 ball radii. The tool retracts instead of a longer link
+  // Feed moves stay where these limits allow them. Links keep clear of the stock where the surface is not to
+  // be finished or the tip is too high; they may overrun the border of such places by about a step. null
+  // allows everything.
   const OperationLimits* operation_limits = nullptr;
 };
 
-// mm in plan: the longest link made instead of a retract.
+// The longest stay-down link that is made instead of a retract, mm.
 inline double MaxLinkLength(const LinkParams& params) {
   return params.max_link_length > 0.0 ? params.max_link_length : 6.0 * params.radius;
 }
 
 struct LinkStats {
   double cut_length = 0.0, link_length = 0.0, rapid_length = 0.0;  // mm
-  double time = 0.0;  // s, feeds only; rapids counted at 5000 mm/min
+  double time = 0.0;  // s, at the programmed feeds; rapids count at 5000 mm/min
   int retract_count = 0;
   double steepest_descent = 0.0;  // rad, of any feed move
 };
 
-// s: of a move that is `length` mm long, at its feed; rapids as in LinkStats.
+// Time of a move that is `length` mm long at its feed, s; rapids as in LinkStats.
 double EstimatedTime(const Move& move, double length);
 
 struct LinkResult {
   Toolpath toolpath;
-  std::vector<CutterPath> passes;  // in the order they are cut, as cut (direction, start point)
+  std::vector<CutterPath> passes;  // in the order, direction and with the start points of the cut
   LinkStats stats;
 };
 absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& regions,

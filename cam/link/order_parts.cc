@@ -10,9 +10,9 @@
 namespace patchmill {
 namespace {
 
-constexpr double kLevel = 0.01;  // mm
+constexpr double kLevel = 0.01;  // mm; heights within this count as equal
 
-// A place for each component, the last for what lies in none; of each those beside it, rising, itself too.
+// Lists of components, rising. Index: component; one more entry stands for parts that lie in none.
 using Places = std::vector<std::vector<std::size_t>>;
 
 void SortEach(Places& places) {
@@ -22,7 +22,7 @@ void SortEach(Places& places) {
   }
 }
 
-// Those that share a border.
+// For each component itself and those that share a border with it.
 Places Neighbours(const RegionMap& map) {
   Places beside(map.component_region.size() + 1);
   for (std::size_t i = 0; i < beside.size(); ++i) beside[i].push_back(i);
@@ -37,7 +37,7 @@ Places Neighbours(const RegionMap& map) {
   return beside;
 }
 
-// What is reached around each unreachable ground.
+// For each connected unreachable area the reachable components around it, if there are at least two.
 Places AroundUnreachable(const RegionMap& map, const Places& beside) {
   const auto reached = [&](std::size_t i) {
     if (i >= map.component_region.size()) return true;
@@ -74,7 +74,7 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
     for (const int component : parts[i].components) places[i].push_back(static_cast<std::size_t>(component));
     if (places[i].empty()) places[i].push_back(nowhere);
   }
-  // Of each component its parts, the next one last: only that one need not wait for another of the same.
+  // [component]: its parts, the next one last. The others wait for this one.
   Places left(nowhere + 1);
   for (std::size_t i = n; i-- > 0;) {
     for (const std::size_t place : places[i]) left[place].push_back(i);
@@ -84,9 +84,9 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
                      [&](std::size_t a, std::size_t b) { return level[a] < level[b]; });
   }
   std::vector<bool> done(n, false), near(nowhere + 1, false);
-  // In which step a part was looked at last: it may be next in each of its components.
+  // [part]: the last step in which it was looked at, because it may be the next one of several components.
   std::vector<std::size_t> asked(n, 0);
-  // Of all that is left in these places.
+  // The greatest height of the parts that are left in these components.
   constexpr long long kNothing = std::numeric_limits<long long>::min();
   const auto highest = [&](const std::vector<std::size_t>& of) {
     long long high = kNothing;
@@ -110,7 +110,7 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
   std::vector<std::size_t> order;
   while (order.size() < n && !run.Cancelled()) {
     for (std::size_t g = 0; g < around_unreachable.size(); ++g) across[g] = highest(around_unreachable[g]);
-    // The highest of all waits for none, so that there always is one.
+    // The highest part of all need not wait, so there always is one.
     using Rank = std::tuple<bool, long long, std::size_t>;
     Rank best{true, std::numeric_limits<long long>::max(), n};
     for (const auto& own : left) {

@@ -1,5 +1,5 @@
-// Which part of a job comes after which: every mountain from its top, every basin from its top inwards,
-// neighbours together.
+// Orders the parts of a job: each mountain is cut from its top, each basin from its top inwards, and
+// neighbours follow each other.
 #pragma once
 
 #include <cstddef>
@@ -10,18 +10,21 @@
 
 namespace patchmill {
 
-// Passes that are cut in one go: the contours of a mountain or a basin, the lines of a region.
+// Passes that are cut in one go: the contours of a mountain or basin, or the lines of a region.
 struct JobPart {
-  std::vector<int> components;  // of regions, that they lie in, rising; empty: not known
-  double height = 0.0;          // mm, between their lowest and highest centre
+  std::vector<int> components;  // components of regions that the passes lie in, rising; empty if unknown
+  double height = 0.0;          // mm, halfway between their lowest and highest centre
 };
 
-// The parts by position. None comes before a higher one beside it: in the same component of a region or in
-// one that shares a border with its own, or has only unreachable ground between (the foot of a boss that no
-// ball gets into); of many equal bosses, whose caps are one region, each is cut from its top by itself. Of
-// those that need not wait a neighbour of the last part goes before others, then the higher, then the first.
-// Heights are told apart to 0.01 mm, so that level ground keeps the order it came in. Deterministic; O(n m)
-// for n parts and m pairs of components that share a border. Cancelled it ends early.
+// Returns the indices of the parts in the order of cutting. No part comes before a higher part beside it. A
+// part is beside another if both lie in the same component, if their components share a border, or if only an
+// unreachable area lies between them (as around the foot of a boss that no ball gets into). So of many equal
+// bosses whose caps are one region, each is cut from its top by itself.
+//
+// Among the parts that need not wait, a neighbour of the last part comes first, then the highest one, then
+// the first one in `parts`. Heights within 0.01 mm count as equal, so parts of a flat area keep their order.
+// Deterministic. Cost: O(n m) for n parts and m pairs of components that share a border. Ends early if `run`
+// is cancelled.
 std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobPart>& parts,
                                     const RunContext& run);
 

@@ -13,7 +13,7 @@
 namespace patchmill {
 namespace {
 
-constexpr int kLevelReach = 2;  // levels whose numbers differ by more are no neighbours
+constexpr int kLevelReach = 2;  // levels whose order keys differ by more are no neighbours
 
 Box3 XyBox(const CutterPath& path) {
   Box3 box;
@@ -30,8 +30,8 @@ double XyGap(const Box3& a, const Box3& b) {
   return std::sqrt(squared);
 }
 
-// Smallest distance in plan between vertices of a and the vertices of b, at most `limit` looked for; coarse
-// but enough to tell which passes belong together.
+// True if some of the vertices of a (about 48 of them) are within `limit` of b in plan. This is coarse, but
+// enough to decide which passes belong together.
 bool Near(const CutterPath& a, const Box3& box_a, const CutterPath& b, const Box3& box_b, double limit) {
   if (XyGap(box_a, box_b) > limit) return false;
   const std::size_t step_a = std::max<std::size_t>(1, a.points.size() / 48);
@@ -68,7 +68,7 @@ int KindRank(PassKind kind) {
 
 struct End {
   double distance = kInfinity;
-  std::size_t start = 0;  // closed: vertex to start at; open: 0 forward, 1 reversed
+  std::size_t start = 0;  // closed pass: vertex to start at; open pass: 0 forward, 1 reversed
 };
 
 End NearestEnd(const CutterPath& path, const Vec3& from, bool reversible) {
@@ -96,13 +96,13 @@ void StartAt(CutterPath& path, std::size_t start) {
   }
 }
 
-// Passes of one kind and region that belong together: one mountain, one field of lines. Ordered by line.
+// Passes of one kind that belong together: one mountain, or one set of lines. Sorted by order key.
 struct Cluster {
   std::vector<CutterPath> passes;
-  std::vector<std::vector<std::size_t>> above;  // of each: nearby ones of lines before its own
+  std::vector<std::vector<std::size_t>> above;  // [pass]: nearby contours of the levels above its own
 };
 
-// Cuts a pass from this end.
+// Adds a pass that is cut from this end.
 void Take(CutterPath& pass, const End& end, Vec3& at, std::vector<CutterPath>& out) {
   StartAt(pass, end.start);
   at = pass.closed ? pass.points.front().center : pass.points.back().center;
@@ -113,7 +113,7 @@ End EndOf(const CutterPath& pass, const Vec3& from, bool reversible) {
   return NearestEnd(pass, from, reversible && !pass.one_way && !pass.directed && !pass.spiral);
 }
 
-// Nearest first. Stops when cancelled.
+// Adds the passes of a cluster, each time the nearest one. Stops when cancelled.
 void TakeNearest(Cluster& cluster, const RunContext& run, Vec3& at, std::vector<CutterPath>& out) {
   std::vector<bool> done(cluster.passes.size(), false);
   for (std::size_t n = 0; n < cluster.passes.size() && !run.Cancelled(); ++n) {
@@ -132,7 +132,7 @@ void TakeNearest(Cluster& cluster, const RunContext& run, Vec3& at, std::vector<
   }
 }
 
-// Which pass is cut next, and where it starts (as in End).
+// The pass that is cut next, and where it starts (as in End).
 struct Choice {
   std::size_t pass;
   std::size_t start;
@@ -150,20 +150,20 @@ Vec3 Leave(const CutterPath& pass, std::size_t start) {
 
 double HeightOf(const CutterPath& contour) { return contour.points.front().center.z(); }
 
-// From the top down, never before what lies above: a mountain or a basin is cut to its foot, or to where it
-// joins another that is not cut yet, before the next is begun. Stops when cancelled.
+// Orders contours from the top down, none before those above it. A mountain or basin is cut to its foot, or
+// to where it joins another that is not cut yet, before the next one is begun. Stops when cancelled.
 std::vector<Choice> Downwards(const Cluster& cluster, const OrderParams& params, const RunContext& run,
                               Vec3 at) {
   const std::size_t count = cluster.passes.size();
   std::vector<std::vector<std::size_t>> below(count);
-  std::vector<std::size_t> waiting(count);  // how many above are not cut
+  std::vector<std::size_t> waiting(count);  // [pass]: number of passes above it that are not cut yet
   for (std::size_t i = 0; i < count; ++i) {
     waiting[i] = cluster.above[i].size();
     for (const std::size_t j : cluster.above[i]) below[j].push_back(i);
   }
   struct Ready {
     std::size_t pass;
-    std::ptrdiff_t after;  // when the last one above it was cut
+    std::ptrdiff_t after;  // step in which the last pass above it was cut
   };
   std::vector<Ready> ready;
   for (std::size_t i = 0; i < count; ++i) {
@@ -171,7 +171,7 @@ std::vector<Choice> Downwards(const Cluster& cluster, const OrderParams& params,
   }
   std::vector<Choice> order;
   for (std::ptrdiff_t n = 0; !ready.empty() && !run.Cancelled(); ++n) {
-    // What is at hand goes first, the higher before the lower; else what lies below the latest one.
+    // Passes at hand come first, higher ones before lower ones. Then come those below the pass cut last.
     using Rank = std::tuple<int, std::ptrdiff_t, double, double>;
     std::size_t best = 0;
     Rank best_rank;
@@ -198,7 +198,7 @@ std::vector<Choice> Downwards(const Cluster& cluster, const OrderParams& params,
   return order;
 }
 
-// The same passes on a quicker way, still none before what lies above it.
+// The same passes in a quicker order, still none before those above it.
 std::vector<Choice> Quicker(const Cluster& cluster, const std::vector<Choice>& order,
                             const OrderParams& params, const RunContext& run, Vec3 at) {
   std::vector<Stop> stops(cluster.passes.size());
@@ -229,7 +229,8 @@ void TakeDownwards(Cluster& cluster, const OrderParams& params, const RunContext
   }
 }
 
-// One of two open contours begins where the other ends: opposite walls of a slot are cut to and fro.
+// True if one of two open contours begins where the other ends. Opposite walls of a slot are cut back and
+// forth.
 bool LeadsOn(const CutterPath& a, const CutterPath& b, double reach) {
   const auto far = [](const CutterPath& from, const CutterPath& to) {
     return (to.points.front().center - from.points.back().center).norm();
@@ -237,7 +238,8 @@ bool LeadsOn(const CutterPath& a, const CutterPath& b, double reach) {
   return std::min(far(a, b), far(b, a)) <= reach;
 }
 
-// Those at about one height, whatever their lines are: each ground has levels of its own.
+// Joins open contours at about the same height that lead on to each other. Their order keys do not matter,
+// because each group has levels of its own.
 void JoinThoseThatLeadOn(const std::vector<CutterPath>& contours, double reach, double higher,
                          const RunContext& run, UnionFind& sets) {
   std::vector<std::size_t> open;
@@ -255,7 +257,7 @@ void JoinThoseThatLeadOn(const std::vector<CutterPath>& contours, double reach, 
   }
 }
 
-// In order of their first line. Stops when cancelled.
+// Divides passes of one kind into clusters, in the order of their first passes. Stops when cancelled.
 std::vector<Cluster> Clusters(std::vector<CutterPath> group, const OrderParams& params, int line_reach,
                               const RunContext& run) {
   const double distance = params.neighbor_distance;
@@ -294,8 +296,8 @@ std::vector<Cluster> Clusters(std::vector<CutterPath> group, const OrderParams& 
   return clusters;
 }
 
-// Passes near a border may count for the ground beyond it: a component that has less than this share of what
-// the one with most has is not one that the part lies in.
+// Passes near a border may count for the component beyond it. So a part does not lie in a component that has
+// less than this share of the length in its main component.
 constexpr double kTouchedOnly = 0.1;
 
 JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
@@ -321,8 +323,8 @@ JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
 
 absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, std::vector<CutterPath> paths,
                                                     const OrderParams& params, const RunContext& run) {
-  // Contours of one mountain may change their region on the way down; levels decide, so contours form one
-  // group. Lines form one in each region; borders, creases and rest come last.
+  // The contours of a mountain may change their region on the way down, and their levels decide. So all
+  // contours form one group. The lines of each region form a group. Border, pencil and rest passes come last.
   using Key = std::tuple<int, double, int>;
   std::map<Key, std::vector<CutterPath>> groups;
   for (CutterPath& path : paths) {

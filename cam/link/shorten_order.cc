@@ -7,10 +7,10 @@
 namespace patchmill {
 namespace {
 
-constexpr std::ptrdiff_t kLongestRun = 3;
-constexpr std::ptrdiff_t kFarthest = 200;  // places, each way
-constexpr int kMostSweeps = 20;
-constexpr double kMinSavingSeconds = 1e-6;  // s
+constexpr std::ptrdiff_t kLongestRun = 3;   // stops that are moved together
+constexpr std::ptrdiff_t kFarthest = 200;   // places that a run may move, each way
+constexpr int kMostSweeps = 20;             // over all stops
+constexpr double kMinSavingSeconds = 1e-6;  // s; moves that save less are not made
 
 class OrderSearch {
  public:
@@ -24,7 +24,7 @@ class OrderSearch {
     for (std::ptrdiff_t i = 0; i < Count(); ++i) place_[At(i)] = i;
   }
 
-  // Whether anything was moved.
+  // Tries to move each run once. True if anything was moved.
   bool Sweep(const RunContext& run) {
     bool moved = false;
     for (std::ptrdiff_t i = 0; i < Count() && !run.Cancelled(); ++i) {
@@ -40,13 +40,15 @@ class OrderSearch {
  private:
   std::ptrdiff_t Count() const { return static_cast<std::ptrdiff_t>(order_.size()); }
   std::size_t At(std::ptrdiff_t i) const { return order_[static_cast<std::size_t>(i)]; }
-  // Time from the stop at place i to that at j; i may be -1, the way ends behind the last.
+  // Time from the stop at place i to the stop at place j, s. i = -1 stands for the start. There is no way
+  // after the last stop.
   double Leg(std::ptrdiff_t i, std::ptrdiff_t j) const {
     if (j >= Count()) return 0.0;
     return travel_(i < 0 ? from_ : stops_[At(i)].leave, stops_[At(j)].enter);
   }
 
-  // Moves the stops at [first, end) to the best place they may go to, if that is better.
+  // Moves the stops at [first, end) to the best place that is allowed, if that saves time. True if they
+  // moved.
   bool MoveRun(std::ptrdiff_t first, std::ptrdiff_t end) {
     std::ptrdiff_t lowest = std::max<std::ptrdiff_t>(0, first - kFarthest);
     std::ptrdiff_t highest = std::min(Count(), end + kFarthest);
@@ -61,7 +63,7 @@ class OrderSearch {
     const double saved = Leg(first - 1, first) + Leg(end - 1, end) - Leg(first - 1, end);
     double best_gain = kMinSavingSeconds;
     std::ptrdiff_t best = first;
-    for (std::ptrdiff_t k = lowest; k <= highest; ++k) {  // between the stops at k - 1 and k
+    for (std::ptrdiff_t k = lowest; k <= highest; ++k) {  // to between the stops at k - 1 and k
       if (k >= first && k <= end) continue;
       const double gain = saved - (Leg(k - 1, first) + Leg(end - 1, k) - Leg(k - 1, k));
       if (gain > best_gain) {
@@ -84,8 +86,8 @@ class OrderSearch {
   std::vector<std::size_t> order_;
   const Vec3& from_;
   const TravelTime& travel_;
-  std::vector<std::ptrdiff_t> place_;            // of each stop
-  std::vector<std::vector<std::size_t>> after_;  // of each stop: those that it must come before
+  std::vector<std::ptrdiff_t> place_;            // [stop]
+  std::vector<std::vector<std::size_t>> after_;  // [stop]: the stops that must come after it
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A shorter way through stops of which some must come before others.
+// Finds a quicker order of stops, some of which must come before others.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,10 @@ struct Stop {
 
 using TravelTime = std::function<double(const Vec3& from, const Vec3& to)>;  // s
 
-// `order`, which keeps what must come before, with runs of up to three stops moved to where that saves most
-// time, never past what must come before or after them, until nothing saves any (Or-opt). `from`: where the
-// tool is. Deterministic. Cost per sweep O(n w), w: how far stops may move, 400 places at most; 20 sweeps at
-// most. Stops when cancelled.
+// Improves `order`, in which each stop comes after those that must come before it (Or-opt). Runs of up to
+// three stops are moved to where this saves most time, never past stops that must come before or after them,
+// until no move saves time. `from` is the place of the tool. Deterministic. Cost: O(n w) per sweep, where w
+// <= 400 is the number of places to which a run may move; at most 20 sweeps. Stops when cancelled.
 std::vector<std::size_t> ShortenOrder(const std::vector<Stop>& stops, std::vector<std::size_t> order,
                                       const Vec3& from, const TravelTime& travel, const RunContext& run);
 

@@ -22,7 +22,7 @@ SurfaceHeights::SurfaceHeights(const Surface& surface, double beside)
       }
     }
   }
-  // Each from two of half the size; what would reach beyond the grid is not asked for.
+  // Each entry follows from two of half the size. Entries that would reach beyond the grid are never used.
   for (int lx = 0; lx < kLevels; ++lx) {
     for (int ly = lx == 0 ? 1 : 0; ly < kLevels; ++ly) {
       const int dx = lx == 0 ? 0 : 1 << (lx - 1), dy = lx == 0 ? 1 << (ly - 1) : 0;

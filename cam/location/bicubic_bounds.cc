@@ -5,7 +5,7 @@
 
 #include "core/base/instruction_set.h"
 
-// Functions that take or give vectors are inlined wherever they are used: there is no call to agree about.
+// Functions that take or return vectors are always inlined, so no calling convention for vectors is needed.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 #define PM_LANE_INLINE inline __attribute__((always_inline))
@@ -18,7 +18,8 @@ using Four = double __attribute__((vector_size(32)));
 
 constexpr std::size_t kRow = 4;
 
-// One number of every control point, row after row; a row more, so that whole rows may be read one place on.
+// One coordinate of every control point, row after row. One more row is added, so that whole rows can be read
+// with an offset.
 struct Numbers {
   double of[5 * kRow];
 };
@@ -26,7 +27,7 @@ struct Grid {
   Numbers x[3];
 };
 
-// The control points by number, along v first or, `turned`, along u first.
+// The coordinates of the control points, along v first or, if `turned`, along u first.
 PM_LANE_INLINE void Sort(const double* points, bool turned, Grid& grid) {
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < kRow; ++i) {
@@ -68,10 +69,11 @@ template <class Lanes>
 PM_LANE_INLINE double Largest(const Lanes& lanes) {
   double most = lanes[0];
   for (std::size_t k = 1; k < sizeof(Lanes) / sizeof(double); ++k) most = most > lanes[k] ? most : lanes[k];
-  return most + 0.0;  // which of two zeros came first is no matter
+  return most + 0.0;  // the sign of a zero does not matter
 }
 
-// Visits the net's difference of this order along the grid's rows, its lanes at a time, less `middle`.
+// Visits the differences of this order along the grid's rows, less `middle`, as many as there are lanes at a
+// time.
 template <class Lanes, class Take>
 PM_LANE_INLINE void Differences(const Grid& grid, std::size_t order, const double* middle, const Take& take) {
   constexpr std::size_t kWidth = sizeof(Lanes) / sizeof(double);
@@ -111,7 +113,7 @@ PM_LANE_INLINE void BoundReach(const Grid& grid, const ModelVectors& m, BicubicB
   out.reach_vv = Largest(vv);
 }
 
-// Along the rows of the grid: first and second derivatives.
+// Bounds first and second derivatives along the rows of the grid.
 template <class Lanes>
 PM_LANE_INLINE void BoundAlong(const Grid& grid, const ModelVectors& m, const double* first,
                                const double* second, double& first2, double& first_a, double& first_b,
@@ -135,7 +137,7 @@ PM_LANE_INLINE void BoundAlong(const Grid& grid, const ModelVectors& m, const do
 template <class Lanes>
 PM_LANE_INLINE void BoundMixed(const Grid& grid, const ModelVectors& m, double& mixed2) {
   constexpr std::size_t kWidth = sizeof(Lanes) / sizeof(double);
-  constexpr double kInRow[kRow] = {1.0, 1.0, 1.0, 0.0};  // no difference leads from the end of a row
+  constexpr double kInRow[kRow] = {1.0, 1.0, 1.0, 0.0};  // no difference begins at the end of a row
   Lanes all{};
   for (std::size_t at = 0; at < (kRow - 1) * kRow; at += kWidth) {
     Vectors<Lanes> d;

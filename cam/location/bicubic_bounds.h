@@ -1,16 +1,16 @@
-// How far the points and derivatives of a polynomial bicubic net stray from a LeafModel, several control
-// points at a time.
+// How far the points and derivatives of a polynomial bicubic net deviate from a LeafModel. Several control
+// points are computed at a time.
 #pragma once
 
 namespace patchmill::internal {
 
-// The model's vectors, three numbers each.
+// The vectors of the model, three numbers each.
 struct ModelVectors {
   const double *s, *a, *b, *uu, *uv, *vv;
 };
 
-// The largest over the control points of each net: of the squared length of the difference from the model's
-// vector, and of its parts along a and b.
+// The largest values over the control points of each net: of the squared length of the difference from the
+// model's vector, and of the parts of the difference along a and b.
 struct BicubicBounds {
   double reach2, reach_a, reach_b, reach_uu, reach_uv, reach_vv;  // of S - s
   double z_max;                                                   // of S
@@ -19,8 +19,8 @@ struct BicubicBounds {
   double uu2, uv2, vv2;                                           // of the second derivatives
 };
 
-// `points`: 4 x 4 control points, v fastest, four numbers each of which the last is not used. The same bits
-// on every processor. Cost: some 0.1 us.
+// `points`: 4 x 4 control points, v fastest, four numbers each; the last number is not used. The result has
+// the same bits on every processor. Cost: some 0.1 us.
 BicubicBounds BoundBicubic(const double* points, const ModelVectors& model);
 
 }  // namespace patchmill::internal

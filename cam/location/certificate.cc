@@ -1,5 +1,5 @@
-// The proof behind every search: what local searches alone cannot exclude is subdivided until hulls,
-// oriented boxes or convexity ([location T6]) exclude it.
+// The proof behind every search. Parts that local searches alone cannot exclude are subdivided until hulls,
+// oriented boxes or convexity ([location T6]) exclude them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,30 +17,30 @@ using internal::LeafModel;
 using internal::LowerModel;
 using internal::Rect;
 
-constexpr int kBudget = 20000;  // parts of one query
-// Halvings of one leaf. Beside a singular corner no model helps: a part is divided until it is smaller than
-// the gap, twice log2(leaf / gap) times; 100 take a leaf of 100 m below 1e-7 mm.
+constexpr int kBudget = 20000;  // parts per query
+// Halvings of one leaf. Beside a singular corner no model helps. There a part is divided until it is smaller
+// than the gap, which takes 2 log2(leaf / gap) halvings. 100 halvings take a leaf of 100 m below 1e-7 mm.
 constexpr int kMaxLevel = 100;
 
-// What that many parts do not decide is asked of distance forms too, that many parts each.
+// After so many parts distance forms are tried, too, with at most kFormParts parts each.
 constexpr int kPartsBeforeForms = 200;
 constexpr int kFormParts = 100;
 
 struct Prover {
   const Locator::Impl& impl;
-  const bool any;      // the first contact that is no rounding ends it: `done`
-  const double start;  // the ball's first height
+  const bool any;      // the first contact that is more than rounding ends it: `done`
+  const double start;  // first height of the ball
   const Ball& ball;
   double free_f;  // f from which a part counts as outside
   double eps;
   Contact& best;
   int budget = kBudget;
   bool done = false;
-  double top = -kInfinity;  // everything handled so far is proven to lie below this centre height
+  double top = -kInfinity;  // all parts handled so far are proven to lie below this centre height
   std::vector<Vec4>& buffer;
   DistanceForm& form;  // scratch
 
-  // Excludes a part for a centre at height z, and notes z as proven.
+  // Excludes a part for a centre at height z, and records z as proven.
   bool Excluded(const RectBounds& bounds, double z) {
     const Vec3 c = Lift(ball.q, z);
     const double limit2 = 2.0 * free_f;
@@ -57,7 +57,7 @@ struct Prover {
     return true;
   }
 
-  // Excludes a part of an upright wall that the ball is beside, however high.
+  // Excludes a part of a vertical wall if the ball stands beside it at any height.
   bool Beside(NetShape shape, const Vec4* points) {
     const auto curve = internal::XyCurveOf(shape, points, 4.0 * impl.rounding);
     if (!curve) return false;
@@ -66,8 +66,8 @@ struct Prover {
     return true;
   }
 
-  // The same of any part, by its distance form: for balls that touch it along a line, or all over, as in a
-  // hole or a fillet of their own size. Above the centre counts the distance in plan.
+  // Excludes any part by its distance form. This serves balls that touch the part along a line or all over,
+  // as in a hole or a fillet of their own radius. Above the centre the distance in plan counts.
   bool ClearsForm(NetShape shape, const Vec4* points, bool rational, double highest, double z) {
     const Vec3 c = Lift(ball.q, z);
     std::array<Vec4, kMaxNetPoints> local;
@@ -81,7 +81,7 @@ struct Prover {
     return true;
   }
 
-  // The ball on p stands higher than the best by more than the gap.
+  // True if the ball that touches p stands higher than the best one by more than the gap.
   bool Touches(const Vec3& p) const {
     const double rim2 = ball.radius * ball.radius - (Xy(p) - ball.q).squaredNorm();
     return rim2 > 0.0 && p.z() + std::sqrt(rim2) > best.z + eps;
@@ -104,7 +104,8 @@ struct Prover {
     const LeafModel model = internal::MakeLeafModel(piece, points, hull.data(), hull_count, rect);
     LowerModel low = internal::BoundBelow(model, Lift(ball.q, best.z));
     if (Excluded(model, low, best.z)) return;
-    // Hollow ground well inside the ball would be divided without end, and nothing be found on it.
+    // A concave part well inside the ball is not searched. It would be searched at each of its many divisions
+    // without a result.
     if (low.convex || level <= 2 || Touches(model.s)) {
       const Vec3 c = Lift(ball.q, best.z);
       const BoxMinimum guess = internal::GuessMinimum(model, c);
@@ -148,7 +149,7 @@ double Locator::Impl::Certify(const Ball& ball, std::span<const std::int32_t> op
   if (open.empty()) return slack;
   thread_local std::vector<Vec4> buffer(2 * kMaxLevel * kMaxNetPoints);
   thread_local DistanceForm form;
-  // What a proof allows itself counts as gap too, and so do roundings of heights.
+  // The slack of a proof counts as gap, and so do roundings of heights.
   Prover prover{.impl = *this,
                 .any = aim == Aim::kAny,
                 .start = best.z,
@@ -164,7 +165,7 @@ double Locator::Impl::Certify(const Ball& ball, std::span<const std::int32_t> op
     if (prover.done) break;
     const internal::SearchLeaf& leaf = tree.leaves[index];
     const Rect rect = leaf.rect();
-    // The ball may have been raised since.
+    // The ball may have been raised since the search.
     const LeafModel model = leaf.Model(tree.grid);
     const LowerModel low = internal::BoundBelow(model, Lift(ball.q, best.z));
     if (prover.Excluded(model, low, best.z)) continue;
@@ -180,7 +181,8 @@ double Locator::Impl::Certify(const Ball& ball, std::span<const std::int32_t> op
     RestrictNet(shape, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
     prover.Prove(piece, leaf.piece(), rect, points.data(), 0);
   }
-  // Found on a part of a leaf, whose neighbours the gap excluded: the maximum may lie beyond its border.
+  // The contact was found on a part of a leaf whose neighbours the gap excluded. So the maximum may lie
+  // beyond its border.
   if (!prover.any && best.z > prover.start) {
     internal::RaiseOnPiece(surface.pieces[static_cast<std::size_t>(best.piece)], best.piece, Rect{}, best.u,
                            best.v, ball, {}, best);

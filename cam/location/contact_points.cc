@@ -7,10 +7,10 @@
 namespace patchmill {
 namespace {
 
-// All in radii.
+// All lengths are in radii.
 constexpr double kCertainty = 1e-4;
 constexpr double kOff =
-    0.05;  // how far off those known the next is looked for; that may be kOff^2 / 2 farther
+    0.05;  // how far from the known places the next is searched; it may be kOff^2 / 2 farther
 constexpr double kMinSeparation = 0.1;
 constexpr std::size_t kMost = 4;
 

@@ -1,6 +1,6 @@
-// Questions about a move: the highest centre over the rectangle between its ends, and the gouge of the swept
-// ball. Both are maxima over the surface, found by best-first branch and bound: tree nodes, leaves, then
-// halves of leaves. Where only a limit of the gouge matters, the leaves' models prove most of it first.
+// Queries about a move: the highest centre over the rectangle between its ends, and the gouge of the swept
+// ball. Both are maxima over the surface, found by best-first branch and bound over tree nodes, leaves and
+// halves of leaves. If only a limit of the gouge matters, the models of the leaves prove most of it first.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 using internal::Rect;
 using internal::SweptBall;
 
-constexpr int kBudget = 200000;  // parts looked at; then the bound reached so far is returned
+constexpr int kBudget = 200000;  // parts visited; then the bound reached so far is returned
 
 // A node of the tree, or a part of a leaf with its own net.
 struct Part {
@@ -24,7 +24,7 @@ struct Part {
   std::int32_t node = -1;
   std::int32_t piece = -1;
   Rect rect;
-  std::size_t net = 0;  // first point in the arena
+  std::size_t net = 0;  // index of its first point in the arena
 };
 
 struct Halves {
@@ -32,10 +32,10 @@ struct Halves {
   std::array<Vec4, kMaxNetPoints> low, high;
 };
 
-// Across the longer side.
+// Halves across the longer side.
 void Halve(NetShape shape, const Vec4* points, const Rect& r, Halves& out) {
   const int last_u = shape.degree_u * (shape.degree_v + 1), last_v = shape.degree_v;
-  const auto side = [&](int from, int to) {  // without the weightless corners
+  const auto side = [&](int from, int to) {  // corners without weight are left out
     const Vec4 &p = points[from], &q = points[to];
     if (!(p.w() > 0.0 && q.w() > 0.0)) return 0.0;
     return Vec3(q.head<3>() / q.w() - p.head<3>() / p.w()).norm();
@@ -50,12 +50,12 @@ void Halve(NetShape shape, const Vec4* points, const Rect& r, Halves& out) {
   (along_u ? out.high_rect.u0 : out.high_rect.v0) = along_u ? mu : mv;
 }
 
-// The largest of a quantity over the surface, between `lower` (attained, or all that matters) and the
-// returned upper bound, which is at most lower + gap unless the budget runs out. Stops as soon as more than
-// `enough` is attained.
-//   box(b): upper bound of the quantity over a box; oriented(center, axis, half): over an oriented one, as in
-//   RectBounds; at(p): its value at a surface point.
-// `among` (may be null): leaves of a search tree, in place of the whole surface.
+// Finds the largest value of a quantity over the surface. It lies between `lower` (attained, or all that
+// matters) and the returned upper bound, which is at most lower + gap unless the budget is used up. Stops as
+// soon as more than `enough` is attained.
+//   box(b): upper bound of the quantity over a box; oriented(center, axis, half): the same over an oriented
+//   box as in RectBounds; at(p): its value at a surface point.
+// If `among` is not null, its leaves of a search tree are searched in place of the whole surface.
 struct LeafSet {
   const internal::SearchTree& tree;
   const std::vector<std::int32_t>& leaves;
@@ -148,7 +148,7 @@ double Maximize(const Surface& surface, const LeafSet* among, double lower, doub
 double Locator::MaxHeight(const Vec2& a, const Vec2& b, double half_width, double slack) const {
   const double r2 = impl_->radius * impl_->radius;
   const Vec2 min = a.cwiseMin(b), max = a.cwiseMax(b);
-  const auto off = [&](const Vec2& low, const Vec2& high) {  // of a rectangle in plan
+  const auto off = [&](const Vec2& low, const Vec2& high) {  // distance in plan from another rectangle
     return (low - max).cwiseMax(min - high).cwiseMax(0.0).norm();
   };
   const auto height = [&](double z, double distance) {
@@ -164,7 +164,7 @@ double Locator::MaxHeight(const Vec2& a, const Vec2& b, double half_width, doubl
 
 namespace {
 
-// Largest gouge above `lower`, to `gap`.
+// The largest gouge above `lower`, exact to `gap`.
 double LargestGouge(const Surface& surface, const LeafSet* among, double radius, const SweptBall& swept,
                     double lower, double gap, double enough) {
   const auto box = [&](const Box3& x) {
@@ -189,8 +189,8 @@ bool Locator::GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps
   if (limit >= radius) return true;  // no distance is below zero
   thread_local std::vector<std::int32_t> open;
   open.clear();
-  // A chord of two free centres is as deep as [location T2] says, or less: a 64th of the limit to spare is
-  // little.
+  // A chord of two free centres is at most as deep as [location T2] says. So a margin of a 64th of the limit
+  // loses little.
   const double spare = std::max({limit, eps, 1e-4 * radius}) / 64.0;
   if (!internal::CollectSweptLeaves(*impl_, a, b, radius - limit + impl_->slack, spare, open)) return false;
   if (open.empty()) return true;

@@ -1,6 +1,6 @@
-// Follow: the local maximum of g reached from a given contact without leaving its hill, over the borders of
-// pieces. Neighbours are found by place, not by topology: also over seams, poles, T-junctions and gaps within
-// the join tolerance.
+// Follow: the local maximum of g that is reached from a given contact without leaving its hill, across the
+// borders of pieces. Neighbours are found by position, not by topology: also across seams, poles, T-junctions
+// and gaps within the join tolerance.
 #include <algorithm>
 #include <vector>
 
@@ -26,8 +26,8 @@ struct Spot {
   bool OnBorder() const { return u <= 0.0 || u >= 1.0 || v <= 0.0 || v >= 1.0; }
 };
 
-// Parameters on `rect` nearest to p from a start near by: Gauss-Newton with the exact box step; steps that do
-// not help are halved.
+// The parameters on `rect` nearest to p from a start near by: Gauss-Newton with the exact box step. Steps
+// that do not help are halved.
 Spot Nearest(const Piece& piece, int index, const Rect& rect, double u, double v, const Vec3& p) {
   Spot at{index, u, v, Vec3::Zero()};
   SurfaceJet jet = Evaluate(piece, u, v);
@@ -63,12 +63,12 @@ std::optional<CenterPoint> Locator::Follow(const SurfacePoint& from, const Vec2&
   const Ball ball = impl_->BallAt(q);
   const double tolerance = std::max(surface.network.join_tolerance, 1e-9 * surface.scale);
   SearchOptions options;
-  options.max_step = 0.2 * impl_->radius;  // stays on its hill
+  options.max_step = 0.2 * impl_->radius;  // so that it stays on its hill
 
   struct Walk {
     Contact best;
     Spot at;
-    double f = kInfinity;  // while nothing is under the ball: 1/2 of the squared distance in plan
+    double f = kInfinity;  // half the squared distance in plan, while nothing is under the ball
     bool Feasible() const { return best.piece >= 0; }
   };
   const auto walk = [&](const Spot& start, const Contact& floor) {

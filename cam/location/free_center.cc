@@ -10,20 +10,20 @@
 namespace patchmill {
 namespace {
 
-constexpr double kClear = 1e-7;     // mm: kept from everything, for rounding
-constexpr double kAccuracy = 1e-8;  // mm, of the distance to what is in the way
+constexpr double kClear = 1e-7;     // mm; distance kept from everything, for rounding
+constexpr double kAccuracy = 1e-8;  // mm; of the distance to obstacles
 constexpr int kMostObstacles = 24;
-constexpr double kWedged = 0.95;  // of the gouge: how far what is in the way gives in
-constexpr int kMostBeyond = 3;    // obstacles looked at for a free centre where one that may gouge is known
+constexpr double kWedged = 0.95;  // share of the gouge by which obstacles yield
+constexpr int kMostBeyond = 3;    // further obstacles considered once a centre that gouges is known
 
-// normal . x >= offset
+// All x with normal . x >= offset.
 struct HalfSpace {
   Vec3 normal;
   double offset = 0.0;
 };
 
-// The point of all half-spaces nearest to p, by Hildreth's method [references: hildreth1957]; near it after
-// the last sweep.
+// The point of all half-spaces nearest to p, by Hildreth's method [references: hildreth1957]. After the last
+// sweep it is only close to that point.
 Vec3 NearestIn(const std::vector<HalfSpace>& all, const Vec3& p) {
   constexpr int kSweeps = 200;
   std::vector<double> push(all.size(), 0.0);
@@ -53,7 +53,8 @@ std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const 
     const Vec3 c = NearestIn(allowed, p);
     if ((c - p).norm() > radius + most) break;
     if (locator.Free(c)) return c;
-    // What is in the way keeps the centre out of a ball swept downwards: the half-space beyond it is free.
+    // An obstacle keeps the centre out of a ball that is swept downwards. The half-space beyond this ball is
+    // free of it.
     const auto obstacle = ClosestToUpwardRay(locator.surface(), c, radius + kClear, kAccuracy);
     if (!obstacle) break;
     if (!near && obstacle->distance >= radius - gouge + kAccuracy) {

@@ -16,19 +16,19 @@ Interval operator*(double t, const Interval& a) {
   return t < 0.0 ? Interval{t * a.hi, t * a.lo} : Interval{t * a.lo, t * a.hi};
 }
 
-// f over [x.lo, x.hi]: a monotonic function of its argument.
+// The range of f over [x.lo, x.hi], for a monotonic function f.
 template <class F>
 Interval Monotonic(const Interval& x, const F& f) {
   const double a = f(x.lo), b = f(x.hi);
   return {std::min(a, b), std::max(a, b)};
 }
 
-// A function of one variable and its derivatives.
+// A function of one variable and its derivatives, as ranges.
 struct Curve {
   Interval f, d, dd;
 };
 
-// p and M of the term 9 M(a) N(b) h(p(a), q(b)), h = p^2 q / (p + q); a: distance from the corner.
+// p and M of the term 9 M(a) N(b) h(p(a), q(b)) with h = p^2 q / (p + q); a is the distance from the corner.
 void OneVariable(bool edge_blend, const Interval& a, Curve& p, Curve& m) {
   const Interval rest = Monotonic(a, [](double x) { return 1.0 - x; });
   if (edge_blend) {
@@ -47,7 +47,7 @@ BlendedTerm BoundTerm(bool edge_blend, const Interval& a, const Interval& b) {
   Curve p, q, m, n;
   OneVariable(edge_blend, a, p, m);
   OneVariable(edge_blend, b, q, n);
-  // Shares s = q/(p+q), t = 1 - s: all derivatives of h are monotonic in them.
+  // In the shares s = q/(p+q) and t = 1 - s all derivatives of h are monotonic.
   const auto share = [](double x, double y) { return x + y > 0.0 ? x / (x + y) : 0.5; };
   const Interval s{p.f.hi > 0.0 ? share(q.f.lo, p.f.hi) : 0.0, q.f.hi > 0.0 ? share(q.f.hi, p.f.lo) : 1.0};
   const Interval t{1.0 - s.hi, 1.0 - s.lo};

@@ -1,6 +1,7 @@
-// Bounds of a Gregory quad's derivatives over a rectangle, from its own form: a bicubic and four blended
-// terms (core/patch/gregory_patch.cc). The rational net bounds points well but derivatives badly: its weights
-// fall to zero at the corners, though the surface's second derivatives stay bounded there.
+// Bounds of the derivatives of a Gregory quad over a rectangle. They come from its own form, a bicubic and
+// four blended terms (core/patch/gregory_patch.cc). The rational net bounds points well but derivatives
+// badly: its weights fall to zero at the corners, although the surface's second derivatives stay bounded
+// there.
 #pragma once
 
 #include <array>
@@ -15,17 +16,17 @@ struct Interval {
   double spread() const { return 0.5 * (hi - lo); }
 };
 
-// One blended term phi(u,v) D: the ranges of its derivatives with respect to the rectangle's local
-// parameters.
+// One blended term phi(u,v) D: the ranges of its derivatives with respect to the local parameters of the
+// rectangle.
 struct BlendedTerm {
   Vec3 d;
   Interval u, v, uu, uv, vv;
 };
 
-// The four terms over `rect`; true bounds on all of it, corners included.
+// The four terms over `rect`. The bounds hold on all of it, corners included.
 std::array<BlendedTerm, 4> BoundBlend(const GregoryPatch& patch, const Rect& rect);
 
-// The bicubic part, as a net of 16 homogeneous points (w = 1), v fastest.
+// The bicubic part as a net of 16 homogeneous points (w = 1), v fastest.
 std::array<Vec4, 16> BicubicPart(const GregoryPatch& patch);
 
 }  // namespace patchmill::internal

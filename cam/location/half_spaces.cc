@@ -12,10 +12,10 @@
 namespace patchmill::internal {
 namespace {
 
-// Larger parts of a surface bend too much.
+// Parts of a surface with more leaves than this bend too much.
 constexpr std::int32_t kMostLeaves = 2048;
 
-// The leaves below every node, one after the other, and where those of a child begin and end.
+// The leaves below every node, one after the other. For each child: the range of its leaves.
 struct LeafOrder {
   std::vector<std::int32_t> leaves;
   std::vector<std::array<std::pair<std::int32_t, std::int32_t>, 4>> of_child;
@@ -37,7 +37,8 @@ void Order(const SearchTree& tree, std::int32_t at, LeafOrder& order) {
   }
 }
 
-// The side of a box that is its normal, not pointing down; of upright ones always the same.
+// The normal of a box, on the side that does not point down. For vertical boxes the choice is always the
+// same.
 Vec3 NormalOf(const LeafBox& box) {
   const Vec3 n = box.axis.col(2);
   const double side = n.z() != 0.0 ? n.z() : n.x() != 0.0 ? n.x() : n.y();

@@ -54,10 +54,10 @@ void ForEachDifference(const Net& net, int ou, int ov, const Take& take) {
   }
 }
 
-// The polynomial case (w = 1) and the rational one by the quotient rule around the middle point:
+// The polynomial case (w = 1), and the rational one by the quotient rule around the middle point:
 //   S_u - a     = [(N_u - w0 a) - (w - w0) a - w_u (S - s)] / w,
 //   S_uu - s_uu = [(N_uu - N_uu0) - 2 (w_u S_u - w_u0 a) - w_uu (S - s) - (w - w0) s_uu] / w,
-// with N = w (S - s) and N_uu0 = w0 s_uu + 2 w_u0 a; true for any constants w0, w_u0.
+// with N = w (S - s) and N_uu0 = w0 s_uu + 2 w_u0 a. Both hold for any constants w0, w_u0.
 struct Range {
   double middle = 0.0, spread = 0.0;  // |value - middle| <= spread
   double Largest() const { return std::abs(middle) + spread; }
@@ -101,7 +101,8 @@ Deviation BoundFirst(const Net& net, int ou, const Vec3& first, const LeafModel&
   return d;
 }
 
-// Bounds |S_ij - second|. The product rule's middle terms are w_1 S_2 + w_2 S_1 (once each, also when i = j).
+// Bounds |S_ij - second|. The middle terms of the product rule are w_1 S_2 + w_2 S_1, once each, also if
+// i = j.
 struct Slope {
   const Range& weight;
   const Vec3& first;
@@ -125,7 +126,7 @@ double BoundSecond(const Net& net, int ou, int ov, const Vec3& second, const Lea
          w.min();
 }
 
-// How far S - s goes, over the hull: at all (squared), and along the model's vectors.
+// The largest S - s over the hull: its length (squared), and its products with the model's vectors.
 struct HullReach {
   double all2 = 0.0, a = 0.0, b = 0.0, uu = 0.0, uv = 0.0, vv = 0.0;
   double z_max = -kInfinity;
@@ -145,13 +146,13 @@ HullReach ReachOf(const Vec3* hull, int count, const LeafModel& m) {
   return r;
 }
 
-// How far derivatives stray from the model's.
+// How far derivatives deviate from those of the model.
 struct Derivatives {
   Deviation du, dv;
   double uu = 0.0, uv = 0.0, vv = 0.0;
 };
 
-// Nothing where a singular corner's weights leave no bound.
+// nullopt where the weights of a singular corner leave no bound.
 std::optional<Derivatives> BoundNetDerivatives(const Net& net, bool rational, const HullReach& reach,
                                                const LeafModel& m) {
   const WeightBounds w = rational ? BoundWeights(net) : WeightBounds{};
@@ -167,8 +168,8 @@ std::optional<Derivatives> BoundNetDerivatives(const Net& net, bool rational, co
   return d;
 }
 
-// S = bicubic + sum phi_c D_c. With k_c the middle of a derivative's range, the bicubic's strays from
-// middle - sum k_c D_c and each term by the range's spread.
+// S = bicubic + sum phi_c D_c. With k_c the middle of a derivative's range, the bicubic deviates from
+// middle - sum k_c D_c, and each term by the spread of its range.
 std::optional<Derivatives> BoundGregory(const GregoryPatch& patch, const Rect& rect, const LeafModel& m) {
   std::array<Vec4, 16> points = BicubicPart(patch);
   RestrictNet({3, 3}, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
@@ -220,13 +221,13 @@ void SetErrors(const HullReach& reach, const std::optional<Derivatives>& bounds,
   m.drift_uu = RoundUp(bounds->uu);
   m.drift_uv = RoundUp(bounds->uv);
   m.drift_vv = RoundUp(bounds->vv);
-  // S_u.S_u >= a.a + 2 (S_u - a).a: only the part along a can make it smaller.
+  // S_u.S_u >= a.a + 2 (S_u - a).a, so only the part along a can make it smaller.
   m.gram_uu = RoundUp(2.0 * du.along_a + reach.uu);
   m.gram_vv = RoundUp(2.0 * dv.along_b + reach.vv);
   m.gram_uv = RoundUp(du.along_b + dv.along_a + du.Length() * dv.Length() + reach.uv);
 }
 
-// Most patches there are: the same bounds, several points at a time.
+// For most patches: the same bounds, several points at a time.
 void SetErrorsOfBicubic(const double* points, LeafModel& m) {
   const BicubicBounds b =
       BoundBicubic(points, {m.s.data(), m.a.data(), m.b.data(), m.uu.data(), m.uv.data(), m.vv.data()});

@@ -9,15 +9,15 @@ namespace {
 
 constexpr int kMaxIterations = 200;
 constexpr int kMaxHalvings = 30;
-// Iterations after which every other step models g instead of f, steps on hollow or flat ground go as far as
-// the model falls, and a search ends whose model stays out of the ball.
+// After so many iterations every other step models g in place of f. Steps on concave or flat surface go as
+// far as the model falls. A search whose model stays out of the ball ends.
 constexpr int kSlowIterations = 6;
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
-// Stop when the model promises less (mm of height); the last step is then taken on the Taylor polynomial,
-// whose error is of third order in a step of about 1e-4 mm.
+// The search stops when the model promises less (mm of height). Below kFinishGain the last step is taken on
+// the Taylor polynomial, whose error is of third order in a step of about 1e-4 mm.
 constexpr double kFinishGain = 1e-9;
 constexpr double kStopGain = 1e-13;
-// Nor may it be long in parameters, as beside a pole, where a step in place turns them far.
+// The last step must also be short in parameters. Beside a pole a short step in space turns them far.
 constexpr double kLastStep = 1e-3;
 
 struct State {
@@ -27,8 +27,8 @@ struct State {
   double f;  // 1/2 |d|^2
 };
 
-// Height of the centre that touches p; -infinity when p is not under the ball: at its rim within rounding p
-// is outside, as for the proofs (FreeF), so that a ball exactly beside a wall is free.
+// Height of the centre that touches p; -infinity if p is not under the ball. A point at the ball's rim,
+// within rounding, is outside, as in the proofs (FreeF). So a ball exactly beside a wall is free.
 double TouchingHeight(const Vec3& p, const Ball& ball) {
   const double dx = p.x() - ball.q.x(), dy = p.y() - ball.q.y();
   const double rim = ball.radius * ball.radius - (dx * dx + dy * dy);
@@ -41,13 +41,13 @@ void Measure(const Ball& ball, double z, State& s) {
 }
 
 struct Step {
-  Quadratic2 model;    // of f around the state
-  bool exact = false;  // model holds the true Hessian and it is well conditioned
+  Quadratic2 model;    // model of f around the state
+  bool exact = false;  // the model holds the true Hessian and is well conditioned
   BoxMinimum to;
 };
 
-// Makes the Hessian positive definite against the metric e, f, g: its eigenvalues by their absolute values,
-// at least kFloor. True curvatures are kept, so convex directions converge as before.
+// Makes the Hessian positive definite with respect to the metric e, f, g: replaces its eigenvalues by their
+// absolute values, at least kFloor. True curvatures are kept, so convex directions converge as before.
 void MakeDefinite(double e, double f, double g, double tiny, Quadratic2& m) {
   constexpr double kFloor = 1e-3;
   tiny = std::max(tiny, 1e-300);
@@ -60,7 +60,7 @@ void MakeDefinite(double e, double f, double g, double tiny, Quadratic2& m) {
   const double high = std::max(std::abs(middle + radius), kFloor);
   const double low = std::max(std::abs(middle - radius), kFloor);
   // high w w^T + low (1 - w w^T), w the eigenvector of middle + radius
-  double ww = 1.0, wx = 0.0;  // cos^2, sin cos of its angle
+  double ww = 1.0, wx = 0.0;  // cos^2 and sin cos of its angle
   if (radius > 0.0) {
     ww = 0.5 * (1.0 + half / radius);
     wx = 0.5 * b / radius;
@@ -71,15 +71,15 @@ void MakeDefinite(double e, double f, double g, double tiny, Quadratic2& m) {
   m.c = l21 * (l21 * na + 2.0 * l22 * nb) + l22 * l22 * nc;
 }
 
-// Along one parameter line, the other variable held by its bound.
+// A step along one parameter line. The other variable is held by its bound.
 double LineStep(double curvature, double metric, double slope, double lo, double hi, double& used) {
   used = std::max(std::abs(curvature), 1e-3 * metric + 1e-300);
   return std::clamp(-slope / used, lo, hi);
 }
 
-// The model of f = 1/2 dist^2 crawls where the ball touches a steep wall near its own equator: f hardly falls
-// along the wall, yet g rises with z. This is the exact second-order model of -s g, s = d_z, in its place; it
-// may be unbounded and then leads to the border.
+// If the ball touches a steep wall near its own equator, the model of f = 1/2 dist^2 makes little progress: f
+// hardly falls along the wall, yet g rises with z. This step uses the exact second-order model of -s g,
+// s = d_z, instead. It may be unbounded and then leads to the border.
 Step RiseStep(const State& s, const Box2& box) {
   Step step;
   const SurfaceJet& j = s.jet;
@@ -96,18 +96,18 @@ Step RiseStep(const State& s, const Box2& box) {
   return step;
 }
 
-// At a bound of [lo, hi], which 0 lies in, f falls beyond it.
+// True at a bound of [lo, hi] (which holds 0) if f falls beyond the bound.
 bool PushesBack(double slope, double lo, double hi) {
   return (lo == 0.0 && slope > 0.0) || (hi == 0.0 && slope < 0.0);
 }
 
-// `definite`: hollow and flat directions count as convex. Where the ball nearly fits the ground that makes
-// small steps only; without, the step ends at the border of the box.
+// `definite`: concave and flat directions count as convex. If the ball nearly fits the surface, this gives
+// small steps only. Without it the step ends at the border of the box.
 Step NewtonStep(const State& s, const Box2& box, bool definite) {
   Step step;
   const SurfaceJet& j = s.jet;
   const Vec3& d = s.d;
-  // First form of what f measures: without z above the centre.
+  // First form as f measures it: without z above the centre.
   double e = j.du.squaredNorm(), f = j.du.dot(j.dv), g = j.dv.squaredNorm();
   const double tiny = 1e-14 * (e + g);
   if (!(d.z() > 0.0)) {
@@ -121,8 +121,8 @@ Step NewtonStep(const State& s, const Box2& box, bool definite) {
   m.a = e - d.dot(j.duu);
   m.b = f - d.dot(j.duv);
   m.c = g - d.dot(j.dvv);
-  // A bound that pushes back holds its variable: what is left is a problem of one variable with its own
-  // curvature, however hollow the surface is across. The bound must still push back where that one ends.
+  // A bound that pushes back holds its variable. A problem of one variable with its own curvature remains,
+  // however concave the surface is across. The bound must still push back at the end of that step.
   const bool holds_u = PushesBack(m.gx, box.x0, box.x1), holds_v = PushesBack(m.gy, box.y0, box.y1);
   if (holds_u && holds_v) return step;
   if (definite && (holds_u || holds_v)) {
@@ -154,7 +154,8 @@ Step NewtonStep(const State& s, const Box2& box, bool definite) {
   return step;
 }
 
-// Derivative of -f after the last step: that of the model at its minimum, zero but for active bounds.
+// Derivative of -f after the last step: that of the model at its minimum. It is zero except for active
+// bounds.
 Vec2 KktSlope(const Step& step, const Box2& box) {
   Vec2 slope;
   const double x = step.to.x, y = step.to.y;
@@ -270,7 +271,7 @@ SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect,
     s = next;
     if (touch(s.jet.p, s.u, s.v)) Measure(ball, best.z, s);
   }
-  // Not finished: the slope as it is.
+  // The search has not finished. The slope is that at the last place.
   const Vec2 slope(s.d.dot(s.jet.du), s.d.dot(s.jet.dv));
   if (result.improved && best.u == s.u && best.v == s.v && std::isnan(best.slope.x())) best.slope = slope;
   result.convex_minimum = LinearMinimum(s.f, slope, rect, s.u, s.v);

@@ -46,7 +46,8 @@ void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Co
 }
 
 // A box is out of the ball's way iff plan distance^2 + max(0, z - max_z)^2 >= R^2, for the current centre
-// height z; and where it ends below the ball, see SearchNode. In floats, with a margin for their rounding.
+// height z. If it ends below the ball, its half-space is tested, too (SearchNode). Computed in floats, with a
+// margin for their rounding.
 void Locator::Impl::Search(const Ball& ball, double enough, Aim aim, Contact& best, OpenLeaves& open) const {
   const auto x = static_cast<float>(ball.q.x()), y = static_cast<float>(ball.q.y());
   internal::WalkTree(
@@ -67,13 +68,13 @@ Locator::Impl::FreeBall Locator::Impl::TryFree(const Ball& ball, double z, doubl
                                                OpenLeaves& open) const {
   open.clear();
   Contact best;
-  best.z = std::max(z, Lowest());  // below nothing changes
+  best.z = std::max(z, Lowest());  // nothing changes below
   Search(ball, best.z, Aim::kAny, best, open);
   if (best.piece >= 0) return {.contact = best, .lift = 0.0};
   return ProveFree(ball, z, eps, open);
 }
 
-// What lies within rounding of the ball's surface is as much outside as inside.
+// A point within rounding of the ball's surface counts as outside.
 Locator::Impl::FreeBall Locator::Impl::ProveFree(const Ball& ball, double z, double eps,
                                                  std::span<const std::int32_t> open) const {
   Contact best;
@@ -123,14 +124,14 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Aim aim, Con
   const SearchResult found =
       internal::RaiseOnPiece(piece, leaf.piece(), rect, start.x(), start.y(), ball, options, best);
   if (found.out || (aim == Aim::kAny && found.improved)) return;
-  // One maximum, proven? Then the search has found it.
+  // If f is proven convex, there is one maximum, and the search has found it.
   const LowerModel raised = found.improved ? internal::BoundBelow(model, Lift(ball.q, best.z)) : lower;
   if (raised.convex) {
     if (found.convex_minimum < ProofF()) open.push_back(index);
     return;
   }
   if (found.improved && IsOnlyContact(best, leaf.piece(), rect, model, raised, ball)) return;
-  // From the corners of the quarters that may hold more.
+  // Start again from the corners of the quarters that may hold more.
   const Vec3 now = Lift(ball.q, best.z);
   const internal::LocalJet ended =
       internal::LocalJetAt(rect, found.u, found.v, internal::ToRay(found.p, now), found.slope);

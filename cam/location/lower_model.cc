@@ -1,4 +1,4 @@
-// What a leaf's model proves for one centre.
+// The proofs that a leaf's model gives for one centre.
 #include <algorithm>
 #include <cmath>
 
@@ -28,8 +28,8 @@ LowerModel BoundBelow(const LeafModel& m, const Vec3& c) {
   low.minorant = m.z_max <= c.z();
   if (low.minorant || !low.convex) return low;
 
-  // The part above c is measured horizontally: there the Hessian lacks z_i z_j + (z - c_z) z_ij. f is once
-  // differentiable across the level of c, so it is convex when both Hessians are positive definite.
+  // The part above c is measured horizontally. There the Hessian lacks z_i z_j + (z - c_z) z_ij. f is once
+  // differentiable across the level of c, so it is convex if both Hessians are positive definite.
   const double az = std::abs(m.a.z()), bz = std::abs(m.b.z());
   const double rise = std::abs(d.z()) + m.reach;
   const double h_uu =
@@ -45,12 +45,12 @@ LowerModel BoundBelow(const LeafModel& m, const Vec3& c) {
   return low;
 }
 
-// With d = (s_xy - c_xy, -t), the gradient of the bound at s in space, and everything of the plan as that of
-// space without its z-part:
+// Let d = (s_xy - c_xy, -t), the gradient of the bound at s in space. Products in plan are those in space
+// without their z parts:
 //   S_u.S_u of the plan >= a.a of the plan + 2 (S_u - a).a - 2 (S_u - a)_z a_z,
 //   (S - s).S_uu of the plan = (S - s).uu - (S - s)_z uu_z + (S - s).(S_uu - uu) of the plan,
-//   d.S_uu = d.uu + d.(S_uu - uu),
-// where gram_uu bounds 2 (S_u - a).a + (S - s).uu from below; the mixed entry likewise.
+//   d.S_uu = d.uu + d.(S_uu - uu).
+// Here gram_uu bounds 2 (S_u - a).a + (S - s).uu from below. The mixed entry is alike.
 LowerModel BoundBelowAtDepth(const LeafModel& m, const Vec3& c, double depth) {
   LowerModel low;
   low.minorant = true;

@@ -1,4 +1,4 @@
-// The ball with everything above it, seen from the surface: a point p lies in its way iff the distance from p
+// The ball with everything above it, seen from the surface. A point p lies in its way iff the distance from p
 // to the upward ray {c + s e_z, s >= 0} is less than R ([location T1]).
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace patchmill::internal {
 
-// From p to the nearest point of the ray.
+// The vector from p to the nearest point of the ray.
 inline Vec3 ToRay(const Vec3& p, const Vec3& c) {
   return {c.x() - p.x(), c.y() - p.y(), std::max(0.0, c.z() - p.z())};
 }
@@ -20,15 +20,16 @@ inline double XyDistance2(const Box3& box, const Vec2& q) {
   return dx * dx + dy * dy;
 }
 
-// True when the box is at least sqrt(limit2) away from the ray.
+// True if the box is at least sqrt(limit2) away from the ray.
 inline bool BoxOutside(const Box3& box, const Vec3& c, double limit2) {
   const double dz = std::max(0.0, c.z() - box.max.z());
   return XyDistance2(box, Xy(c)) + dz * dz >= limit2;
 }
 
-// The same for an oriented box |(x - center) . axis.col(k)| <= half[k]. Proof: the plane through the box
-// point nearest to c, square to the shortest connection, separates the box from c by the distance; where it
-// does not rise towards the box, from the whole ray. Otherwise its horizontal part is tried.
+// The same for an oriented box |(x - center) . axis.col(k)| <= half[k]. Proof: consider the plane through the
+// box point nearest to c, at right angles to the shortest connection. It separates the box from c by the
+// distance. If it does not rise towards the box, it separates the box from the whole ray. Otherwise its
+// horizontal part is tried.
 inline bool OrientedBoxOutside(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half,
                                const Vec3& c, double limit2) {
   const Vec3 m = c - center;
@@ -51,7 +52,7 @@ inline bool OrientedBoxOutside(const Vec3& center, const Eigen::Matrix3d& axis, 
   return gap > 0.0 && gap * gap >= limit2 * length2;
 }
 
-// A lower bound of that squared distance, by the same planes.
+// A lower bound of the squared distance of the same oriented box, by the same planes.
 inline double OrientedBoxDistance2(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half,
                                    const Vec3& c) {
   const Vec3 m = c - center;

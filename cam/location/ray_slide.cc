@@ -9,8 +9,8 @@ namespace patchmill {
 namespace {
 
 constexpr int kMaxHalvings = 12;
-constexpr double kDescent = 1e-4;  // part of the promised decrease a step must keep
-constexpr double kUnseen = 1e-13;  // of f: a smaller decrease drowns in rounding, the step is taken as it is
+constexpr double kDescent = 1e-4;  // share of the promised decrease that a step must reach
+constexpr double kUnseen = 1e-13;  // share of f; rounding hides a smaller decrease, and the step is taken
 
 }  // namespace
 

@@ -9,14 +9,14 @@
 namespace patchmill::internal {
 namespace {
 
-// 2^level + index of a dyadic interval.
+// The code 2^level + index of a dyadic interval.
 std::uint32_t CodeOf(double low, double high) {
   const int level = -std::ilogb(high - low);
   return (std::uint32_t{1} << level) + static_cast<std::uint32_t>(std::ldexp(low, level));
 }
 
-// Of a frame and those with two axes turned about, the one whose rotation is smallest (quaternions q, q i, q
-// j, q k): its vector part over its scalar part, all within [-1, 1].
+// A frame gives four frames if two of its axes are turned about (quaternions q, q i, q j, q k). Takes the one
+// with the smallest rotation. Returns its vector part divided by its scalar part, all within [-1, 1].
 Vec3 TurnOf(const Eigen::Matrix3d& axis) {
   const Eigen::Quaterniond q(axis);
   const double w = q.w(), x = q.x(), y = q.y(), z = q.z();
@@ -51,13 +51,14 @@ SearchLeaf::SearchLeaf(const LeafGrid& grid, std::int32_t piece, const Rect& rec
   RoundBox(grid, axis, hull, hull_count);
 }
 
-// With ds, da, ... how far s, a, ... are from what is stored for them (s', a', ...), and S the surface:
+// Let s', a', ... be the stored values, ds, da, ... their distances from s, a, ..., and S the surface. Then
 //   |S - s'| <= reach + ds,   |S_u - a'| <= drift_a + da,   |S_uu - uu'| <= drift_uu + d_uu, and so on;
 //   (S_u - a').a' = (S_u - a).a + (S_u - a).(a' - a) + (a - a').a', so twice drift_a da + da |a'| more;
 //   (S - s').uu' = (S - s).uu + (S - s).(uu' - uu) + (s - s').uu', so reach d_uu + ds |uu'| more;
-//   the mixed entry (S_u - a').b' + (S_v - b').a' + (S_u - a').(S_v - b') likewise.
-// The Hessian's bounds hold for any constants s', a', ... (leaf_model.cc). Value and slopes at the middle are
-// those of s, a, b: at distance D from s' the lower model is, on |x|, |y| <= 1/2, off by at most
+//   the mixed entry (S_u - a').b' + (S_v - b').a' + (S_u - a').(S_v - b') is alike.
+// The bounds of the Hessian hold for any constants s', a', ... (leaf_model.cc). Value and slopes at the
+// middle are those of s, a, b. At the distance D from s' the lower model is off, on |x|, |y| <= 1/2, by at
+// most
 //   ds (D + ds/2) + (ds (|a| + |b|) + D (da + db)) / 2  <=  rest (D + reach).
 void SearchLeaf::RoundModel(const LeafGrid& grid, const LeafModel& m) {
   for (int k = 0; k < 3; ++k) {
@@ -77,14 +78,14 @@ void SearchLeaf::RoundModel(const LeafGrid& grid, const LeafModel& m) {
   }
 
   const LeafModel to = Model(grid);
-  // The differences themselves are rounded: of numbers as large as the coordinates, resp. of nearly equal
-  // ones.
+  // The differences themselves are rounded: ds with numbers as large as the coordinates, the others with
+  // nearly equal numbers.
   const double rounding =
       4.0 * std::numeric_limits<double>::epsilon() * (m.s.cwiseAbs().maxCoeff() + grid.origin.norm());
   const double ds = (m.s - to.s).norm() + rounding, da = (m.a - to.a).norm(), db = (m.b - to.b).norm();
   const double d_uu = (m.uu - to.uu).norm(), d_uv = (m.uv - to.uv).norm(), d_vv = (m.vv - to.vv).norm();
   const double a = to.a.norm(), b = to.b.norm(), drift_a = m.drift_a, drift_b = m.drift_b;
-  constexpr double kUp = 1.0 + 1e-12;  // for the rounding of these sums
+  constexpr double kUp = 1.0 + 1e-12;  // covers the rounding of these sums
   const auto up = [&](double x) { return UpperBound(kUp * x); };
   gram_uu_ = up(m.gram_uu + 2.0 * da * (drift_a + a) + m.reach * d_uu + ds * to.uu.norm());
   gram_vv_ = up(m.gram_vv + 2.0 * db * (drift_b + b) + m.reach * d_vv + ds * to.vv.norm());
@@ -102,7 +103,7 @@ void SearchLeaf::RoundModel(const LeafGrid& grid, const LeafModel& m) {
   rest_ = up(std::max(ds + 0.5 * (da + db), at_middle / reach));
 }
 
-// Axes are stored first, then the hull is measured along what they have become.
+// The axes are stored first. Then the hull is measured along the stored axes.
 void SearchLeaf::RoundBox(const LeafGrid& grid, const Eigen::Matrix3d& axis, const Vec3* hull,
                           int hull_count) {
   const Vec3 turn = TurnOf(axis);

@@ -1,10 +1,10 @@
-// A leaf of the search tree in 116 bytes: everything a query asks of it, rounded, and each rounding paid for
-// in the bounds.
+// A leaf of the search tree in 116 bytes. It holds everything that a query needs, rounded; the bounds include
+// each rounding.
 //
-// Bounds (half sides, errors) are rounded up to 8 bits of mantissa: never below what was proven. Everything
-// else (place, model vectors, frame of the box) is rounded to the nearest number that can be stored; box and
-// errors are those of the stored numbers, not of the numbers before rounding. Nothing that rests on a leaf is
-// therefore weaker in what it claims, only, by less than 1 % of a leaf's error terms, in how often it can.
+// Bounds (half sides, errors) are rounded up to 8 bits of mantissa, so they are never below what was proven.
+// Everything else (place, model vectors, frame of the box) is rounded to the nearest number that can be
+// stored. Box and errors are those of the stored numbers, not of the numbers before rounding. So a leaf never
+// claims too much. Its proofs only succeed less often, by less than 1 % of its error terms.
 #pragma once
 
 #include <bit>
@@ -15,28 +15,28 @@
 
 namespace patchmill::internal {
 
-// A bound that is never negative: the upper half of a float without its sign, rounded up. At most 0.4 % above
-// what was put in (2^-126 for zero); infinity stays.
+// A bound that is never negative: the upper half of a float without its sign, rounded up. It is at most 0.4 %
+// above the given number (2^-126 for zero). Infinity stays.
 class UpperBound {
  public:
   UpperBound() = default;
   explicit UpperBound(double x);
   float value() const { return std::bit_cast<float>(static_cast<std::uint32_t>(bits_) << 15); }
-  UpperBound Next() const;  // the next larger one
+  UpperBound Next() const;  // the next larger bound
 
  private:
   std::uint16_t bits_ = 0;
 };
 
-// The places of leaves: integer multiples of `step` from `origin`.
+// The grid of the leaves' places: integer multiples of `step` from `origin`.
 struct LeafGrid {
   Vec3 origin = Vec3::Zero();
-  double step = 0.0;  // mm, the model's size / 2^32
+  double step = 0.0;  // mm, size of the model / 2^32
 
   explicit LeafGrid(const Box3& box);
 };
 
-// Oriented box as in RectBounds; the axes may point either way.
+// An oriented box as in RectBounds, but its axes may point either way.
 struct LeafBox {
   Vec3 center;
   Eigen::Matrix3d axis;
@@ -45,11 +45,12 @@ struct LeafBox {
 
 class SearchLeaf {
  public:
-  // `model` and `hull` (points in whose hull the leaf lies) of the dyadic part `rect` of a piece.
+  // `model` and `hull` belong to the dyadic part `rect` of a piece. The leaf lies in the convex hull of the
+  // points `hull`.
   SearchLeaf(const LeafGrid& grid, std::int32_t piece, const Rect& rect, const LeafModel& model,
              const Eigen::Matrix3d& axis, const Vec3* hull, int hull_count);
 
-  static constexpr double kShiftUnit = 1.0 / 32768.0;  // of a half side
+  static constexpr double kShiftUnit = 1.0 / 32768.0;  // in half sides
 
   std::int32_t piece() const { return piece_; }
   Rect rect() const {
@@ -57,12 +58,12 @@ class SearchLeaf {
     return {u.low, u.high, v.low, v.high};
   }
   LeafBox Box(const LeafGrid& grid) const;
-  // As OrientedBoxOutside of that box.
+  // As OrientedBoxOutside for that box.
   bool Outside(const LeafGrid& grid, const Vec3& c, double limit2) const;
   LeafModel Model(const LeafGrid& grid) const;
 
  private:
-  // A dyadic interval of [0, 1] as 2^level + index.
+  // A dyadic interval of [0, 1], coded as 2^level + index.
   struct Side {
     double low, high;
   };
@@ -80,9 +81,9 @@ class SearchLeaf {
 
   std::int32_t piece_;
   std::uint32_t u_, v_;
-  std::int32_t place_[3];  // the model's s
+  std::int32_t place_[3];  // s of the model
   float first_[6];         // a, b
-  float second_unit_;      // of uu, uv, vv
+  float second_unit_;      // for uu, uv, vv
   std::int16_t second_[9];
   std::int16_t shift_[3];  // of the box's centre from s along its axes, in half sides times kShiftUnit
   float turn_[3];          // the box's frame: the rotation of the quaternion (1, turn)
@@ -92,7 +93,7 @@ class SearchLeaf {
 };
 static_assert(sizeof(SearchLeaf) == 116);
 
-// Orthonormal to a few roundings whatever `turn` is.
+// The matrix is orthonormal up to a few roundings, whatever `turn_` is.
 inline Eigen::Matrix3d SearchLeaf::Axis() const {
   const double x = turn_[0], y = turn_[1], z = turn_[2];
   const double xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z;
@@ -110,9 +111,9 @@ inline LeafBox SearchLeaf::Box(const LeafGrid& grid) const {
   return box;
 }
 
-// Most boxes are settled without the frame: too near, or with a separating plane that does not rise towards
-// them. 1 + t t times the coordinates of
-// m = c - s along the axes is (1 - t t) m + 2 (t m) t - 2 t x m, t the turn.
+// Most boxes are decided without the frame: they are too near, or a separating plane does not rise towards
+// them. With t = turn_, the coordinates of m = c - s along the axes, times 1 + t t, are
+//   (1 - t t) m + 2 (t m) t - 2 t x m.
 inline bool SearchLeaf::Outside(const LeafGrid& grid, const Vec3& c, double limit2) const {
   const Vec3 m = c - Place(grid), t(turn_[0], turn_[1], turn_[2]);
   const double tt = t.squaredNorm(), scale = 1.0 + tt;

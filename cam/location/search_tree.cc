@@ -14,14 +14,15 @@
 namespace patchmill::internal {
 namespace {
 
-constexpr int kMaxLevel = 24;  // halvings of one piece, both directions together
-// What a leaf may look like, in radii. Where convexity is proven, models are tight and leaves may be thick;
-// what the ball is only kept off (too hollow) needs tight boxes; where nothing is proven, leaves are small.
+constexpr int kMaxLevel = 24;  // halvings of one piece, in both directions together
+// Limits of a leaf, in radii. Where convexity is proven, models are tight and leaves may be thick. Where the
+// ball is only kept off (the surface is too concave), boxes must be tight. Where nothing is proven, leaves
+// are small.
 constexpr double kConvexThickness = 1.0 / 15.0, kHollowThickness = 1.0 / 150.0;
 constexpr double kOpenReach = 1.0 / 9.0;
-// Bounds memory: a piece that needs more leaves has its limits doubled until it does not.
+// Bounds the memory. If a piece needs more leaves, its limits are doubled until it does not.
 constexpr std::size_t kMaxLeaves = 1'000'000, kMinLeavesPerPiece = 16;
-constexpr std::size_t kBatch = 2048;  // pieces
+constexpr std::size_t kBatch = 2048;  // pieces per batch
 
 // The leaves of one piece and their boxes.
 struct PieceLeaves {
@@ -31,22 +32,22 @@ struct PieceLeaves {
 
 enum class Proof { kConvex, kHollow, kOpen };
 
-// Smallest and largest of the Hessian a, b, c with entries off by up to e_uu, e_uv, e_vv: positive definite?
+// True if the matrix a, b, c is positive definite for all errors of its entries up to e_uu, e_uv, e_vv.
 bool SurelyPositive(double a, double b, double c, double e_uu, double e_uv, double e_vv) {
   const double low_a = a - e_uu - e_uv, low_c = c - e_vv - e_uv;
   return low_a > 0.0 && low_c > 0.0 && low_a * low_c > b * b;
 }
 
-// Is the distance to a centre resting on this side of the leaf (n: unit normal) proven convex; or can the
-// ball nowhere rest inside? The centre is not the one above the leaf's middle: it is off by up to twice the
-// leaf's reach, along the leaf.
+// Says whether the distance to a centre that rests on this side of the leaf (n: unit normal) is proven
+// convex, or the ball can nowhere rest inside. The centre is not exactly above the leaf's middle: it is off
+// by up to twice the leaf's reach, along the leaf.
 Proof ProofOf(const LeafModel& m, const Vec3& n, double radius) {
   const double size = radius + m.reach, reach = m.reach;
   double e_uu = m.gram_uu + size * m.drift_uu, e_uv = m.gram_uv + size * m.drift_uv,
          e_vv = m.gram_vv + size * m.drift_vv;
   const double a = m.a.squaredNorm() - radius * n.dot(m.uu), b = m.a.dot(m.b) - radius * n.dot(m.uv),
                c = m.b.squaredNorm() - radius * n.dot(m.vv);
-  // Too hollow for the ball all over: no contact inside, other tests exclude it.
+  // All of it is too concave for the ball: there is no contact inside, and other tests exclude it.
   if (!SurelyPositive(a + 2.0 * (e_uu + e_uv), b, c + 2.0 * (e_vv + e_uv), e_uu, e_uv, e_vv)) {
     return Proof::kHollow;
   }
@@ -60,7 +61,7 @@ Proof ProofOf(const LeafModel& m, const Vec3& n, double radius) {
   if (!SurelyPositive(a, b, c, e_uu, e_uv, e_vv)) return Proof::kOpen;
   const double rise = m.z_max - m.s.z();
   if (radius * n.z() > 2.0 * rise) return Proof::kConvex;
-  // A ball may rest on it with its centre below the leaf's top: see BoundBelow.
+  // A ball may rest on it with its centre below the leaf's top, see BoundBelow.
   const double az = std::abs(m.a.z()), bz = std::abs(m.b.z());
   const double h_uu = e_uu + 2.0 * az * m.drift_a + m.drift_a * m.drift_a + 2.0 * rise * m.drift_uu +
                       reach * std::abs(m.uu.z());
@@ -75,12 +76,12 @@ Proof ProofOf(const LeafModel& m, const Vec3& n, double radius) {
   return flat_enough ? Proof::kConvex : Proof::kOpen;
 }
 
-// Of all sides that the ball may rest on: both, where the leaf may stand upright somewhere.
+// The proof for all sides on which the ball may rest: both sides if the leaf may be vertical somewhere.
 Proof ProofOf(const LeafModel& m, double radius) {
   Vec3 n = m.a.cross(m.b);
   const double length = n.norm();
   if (!(length > 0.0)) return Proof::kOpen;
-  const double turn = m.drift_a * (m.b.norm() + m.drift_b) + m.drift_b * m.a.norm();  // of S_u x S_v
+  const double turn = m.drift_a * (m.b.norm() + m.drift_b) + m.drift_b * m.a.norm();  // turn of S_u x S_v
   const bool upright = !(std::abs(n.z()) > turn);
   n *= (n.z() < 0.0 ? -1.0 : 1.0) / length;
   const Proof up = ProofOf(m, n, radius);
@@ -111,14 +112,14 @@ class PieceSplitter {
   }
 
  private:
-  // How thick (half, mm) a leaf of this model may be; negative: it is too large however thin.
+  // The largest half thickness (mm) of a leaf of this model. Negative: it is too large, however thin it is.
   double MostThickness(const LeafModel& model, const Rect& r) const {
     const bool small = model.reach <= kOpenReach * radius_ * coarseness_;
     switch (ProofOf(model, radius_)) {
       case Proof::kConvex:
         return kConvexThickness * radius_ * coarseness_;
       case Proof::kHollow:
-        // Not inside, but the ball may well rest on the piece's own border.
+        // The ball cannot rest inside, but it may rest on the border of the piece.
         if (!small && (r.u0 == 0.0 || r.u1 == 1.0 || r.v0 == 0.0 || r.v1 == 1.0)) return -1.0;
         return kHollowThickness * radius_ * coarseness_;
       case Proof::kOpen:
@@ -189,7 +190,7 @@ absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius
   const std::size_t max_leaves = std::max(kMinLeavesPerPiece, kMaxLeaves / count);
   SearchTree tree{{}, LeafGrid(surface.box), {}};
   std::vector<Box3> boxes;
-  // Pieces by the batch: what is gathered twice for a moment is small.
+  // Pieces are handled in batches, so that little memory is held twice.
   std::vector<PieceLeaves> parts(std::min(count, kBatch));
   for (std::size_t begin = 0; begin < count; begin += kBatch) {
     const std::size_t end = std::min(count, begin + kBatch);

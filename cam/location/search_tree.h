@@ -1,5 +1,5 @@
-// What a height search walks over: rectangles of the pieces with their second-order models, as large as the
-// ball's radius allows, under a tree of four children a node.
+// The tree of a height search. It has four children per node. Its leaves are rectangles of the pieces with
+// their second-order models, as large as the ball's radius allows.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace patchmill::internal {
 
-// Below each child everything lies in a half-space up . p <= top as well, up a unit vector that does not
-// point down, mostly the normal there: of ground that slopes the box reaches far under a ball that rests on
-// it, the half-space does not.
+// Everything below a child also lies in a half-space up . p <= top. `up` is a unit vector that does not point
+// down, mostly the normal there. On a slope the box reaches far under a ball that rests on it, but the
+// half-space does not.
 struct SearchNode : BoxNode {
   Float4 up_x, up_y, up_z, top;
 };
 
-// Leaves by number, in blocks: they never move, so they are never held twice.
+// Leaves by number, in blocks. They never move, so they are never held twice.
 class SearchLeaves {
  public:
   const SearchLeaf& operator[](std::int32_t index) const {
@@ -39,7 +39,7 @@ struct SearchTree {
   LeafGrid grid;
   SearchLeaves leaves;
 
-  // Of a node's child: soon to be looked at.
+  // Prefetches a node's child that will be visited soon.
   void Prefetch(std::int32_t child) const {
     const char* at = child >= 0 ? reinterpret_cast<const char*>(&nodes[static_cast<std::size_t>(child)])
                                 : reinterpret_cast<const char*>(&leaves[~child]);
@@ -49,9 +49,9 @@ struct SearchTree {
   }
 };
 
-// Leaves are large where the distance to a centre resting there is proven convex ([location T6]), and small
-// where a ball of this radius may rest without that proof. About 3 us a leaf, parallel, deterministic.
-// CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Leaves are large where the distance to a centre that rests there is proven convex ([location T6]). They are
+// small where a ball of this radius may rest without that proof. About 3 us per leaf. Parallel,
+// deterministic. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius, const RunContext& run);
 
 }  // namespace patchmill::internal

@@ -26,7 +26,7 @@ Vec3 SweptBall::Nearest(const Vec3& p) const {
   const Vec2 e = Xy(b_) - Xy(a_);
   const double length = e.norm();
   if (!(length > 0.0)) return {a_.x(), a_.y(), std::max(p.z(), std::min(a_.z(), b_.z()))};
-  // In the vertical plane through the move: x along it, z up. K is everything above the segment.
+  // Coordinates in the vertical plane through the move: x along it, z up. K is everything above the segment.
   const double x = (Xy(p) - Xy(a_)).dot(e) / length;
   const Vec2 in_plane(x, p.z());
   const Vec2 a(0.0, a_.z()), b(length, b_.z());

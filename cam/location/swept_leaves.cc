@@ -31,7 +31,7 @@ class LeafProof {
         distance2_(distance * distance),
         spare2_(2.0 * distance * spare) {}
 
-  // The dearer bounds only where [location T2a] does not get along with the cheaper ones of both ends.
+  // The costly bounds are used only if [location T2a] cannot decide with the cheaper bounds of both ends.
   bool Out() {
     double d0 = BoxDistance2(a_), d1 = BoxDistance2(b_);
     if (ChordDistance2(d0, d1, length_) >= distance2_) return true;
@@ -44,10 +44,10 @@ class LeafProof {
     d0 = NearDistance2(a_, low0, enough, d0);
     return d0 >= distance2_ && Out(0.0, d0, 1.0, NearDistance2(b_, low1, enough, d1));
   }
-  bool met() const { return met_; }  // a point of the leaf is nearer than `distance`
+  bool met() const { return met_; }  // true if a point of the leaf is nearer than `distance`
 
  private:
-  // At this distance of both ends [location T2a] proves an interval.
+  // With this squared distance from both ends, [location T2a] proves an interval.
   double Enough(double length) const { return distance2_ + 0.25 * length * length; }
 
   bool Out(double t0, double d0, double t1, double d1) {
@@ -59,7 +59,7 @@ class LeafProof {
     return Out(t0, d0, t, d) && Out(t, d, t1, d1);
   }
 
-  // Lower bounds of the squared distance from the leaf to the centre c with everything above it.
+  // A lower bound of the squared distance from the leaf to the centre c with everything above it.
   double BoxDistance2(const Vec3& c) const {
     return OrientedBoxDistance2(box_.center, box_.axis, box_.half, c);
   }
@@ -70,8 +70,8 @@ class LeafProof {
     return NearDistance2(c, low, enough, std::max(box2, 2.0 * LeastOn(*model_, low, c)));
   }
 
-  // From places near the minimum. Where f is convex on the leaf its tangent plane is a lower bound, too, and
-  // Newton's steps find better places.
+  // Bounds from places near the minimum. If f is convex on the leaf, its tangent plane is a lower bound, too,
+  // and Newton's steps find better places.
   double NearDistance2(const Vec3& c, const LowerModel& low, double enough, double bound) {
     if (bound >= enough) return bound;
     const Rect r = leaf_.rect();
@@ -103,7 +103,7 @@ class LeafProof {
   const SearchLeaf& leaf_;
   const LeafBox& box_;
   const LeafGrid& grid_;
-  std::optional<LeafModel> model_;  // once the box does not suffice
+  std::optional<LeafModel> model_;  // set if the box does not suffice
   const Piece& piece_;
   const Vec3 &a_, &b_;
   const double length_, distance2_, spare2_;
@@ -112,8 +112,8 @@ class LeafProof {
 
 }  // namespace
 
-// A node is out of the way when its boxes are: in plan from the move's box or across the move, and below it;
-// or by [location T2a] from both ends; or its half-space is, under both ends.
+// A node is out of the way if one of three holds: its boxes are (in plan, from the move's box or across the
+// move, and below it); [location T2a] proves it from both ends; or its half-space lies below both ends.
 bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b, double distance,
                         double spare, std::vector<std::int32_t>& open) {
   const double radius = impl.radius;
@@ -132,7 +132,7 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
   const Float4 offset = Splat(static_cast<float>(across.dot(Xy(a))));
   const Float4 zero = Splat(0.0F), half = Splat(0.5F);
   const bool is_long = plan_length > radius;
-  // With what rounding hides of squares as large as the chord's.
+  // Includes the rounding of squares as large as that of the chord.
   const Float4 both =
       Splat(static_cast<float>(static_cast<double>(limit) + (0.25 + 1e-6) * (b - a).squaredNorm()));
   const auto from_end = [&](const SearchNode& node, const Vec3& end) {
@@ -142,7 +142,7 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
     const Float4 dz = Max(Splat(static_cast<float>(end.z())) - node.max_z, zero);
     return dx * dx + dy * dy + dz * dz;
   };
-  // Both ends, and so all centres between them.
+  // Both ends are tested, and so all centres between them.
   const double coordinate = std::max({impl.reach, a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()});
   const Float4 away = Splat(static_cast<float>(distance + 4e-6 * (radius + coordinate)));
   const auto over_half_space = [&](const SearchNode& node, const Vec3& end) {

@@ -1,4 +1,5 @@
-// The walk of a height search: leaves that may be in the way of some balls, the most promising first.
+// The walk of a height search. It visits the leaves that may be in the way of some balls, the most promising
+// first.
 #pragma once
 
 #include <algorithm>
@@ -11,26 +12,27 @@
 
 namespace patchmill::internal {
 
-// Where the balls' centres are in plan.
+// The box in plan that holds the balls' centres.
 struct XyBox {
   float x0, x1, y0, y1;
 };
 
-// How near a leaf has to be, with a margin for the rounding of floats.
+// How near a leaf must be, with a margin for the rounding of floats.
 struct WalkLimits {
-  float square;  // of the distance from boxes
-  float radius;  // above half-spaces
+  float square;  // for the squared distance from boxes
+  float radius;  // for the height above half-spaces
 };
 
-// Calls visit(leaf), until it returns false, for every leaf whose box reaches into the way of a ball over
-// `at` (and everything above it) at height lowest(): plan distance^2 + max(0, lowest - max_z)^2 <
-// limits.square, and whose half-space does, and so on for the nodes above it.
-// `lowest` may rise from call to call. meets(node, k): child k of the node, which does so, is wanted.
+// Calls visit(leaf), until it returns false, for every leaf that may be in the way of a ball over `at` (and
+// everything above it) at height lowest(). The test for boxes is plan distance^2 + max(0, lowest - max_z)^2 <
+// limits.square. Box and half-space of the leaf and of all nodes above it must reach into the way. `lowest`
+// may rise from call to call. meets(node, k) says whether child k of the node, which passed these tests, is
+// wanted.
 template <class Lowest, class Meets, class Visit>
 void WalkTree(const SearchTree& tree, const XyBox& at, const WalkLimits& limits, const Lowest& lowest,
               const Meets& meets, const Visit& visit) {
   const float limit = limits.square;
-  // A node or leaf still to visit: its squared distance in plan, and how high it reaches.
+  // A node or leaf still to be visited, its squared distance in plan and the height that it reaches.
   struct Pending {
     std::int32_t child;
     float distance2, max_z, promise;

@@ -12,7 +12,7 @@ namespace {
 constexpr int kMostParts = 400;
 constexpr double kSameWeight = 4.0 * std::numeric_limits<double>::epsilon();
 
-// Rows along z: `along` points of `across` each, `stride` and `step` apart.
+// Rows along z: `along` rows of `across` points each, `stride` and `step` apart.
 std::optional<XyCurve> Swept(const Vec4* points, int along, int stride, int across, int step,
                              double rounding) {
   XyCurve curve;
@@ -29,7 +29,7 @@ std::optional<XyCurve> Swept(const Vec4* points, int along, int stride, int acro
     }
     curve.points[static_cast<std::size_t>(i)] = Vec4(first.x(), first.y(), 0.0, first.w());
   }
-  curve.spread = 2.0 * (curve.spread + rounding);  // of both coordinates; weights differ by less
+  curve.spread = 2.0 * (curve.spread + rounding);  // for both coordinates; different weights matter less
   return curve;
 }
 

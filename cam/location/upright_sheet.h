@@ -1,6 +1,6 @@
-// Walls that stand upright: a curve in plan, swept along z. A ball beside one touches it along a whole line,
-// however far it is lifted; models in two parameters would be divided along that line without end. In plan it
-// is one place of a curve.
+// Vertical walls, each a curve in plan that is swept along z. A ball beside such a wall touches it along a
+// whole line, however far it is lifted. Models in two parameters would be divided along that line without
+// end. In plan the line is one point of a curve.
 #pragma once
 
 #include <array>
@@ -10,20 +10,20 @@
 
 namespace patchmill::internal {
 
-// Homogeneous: (x w, y w, 0, w).
+// Homogeneous points (x w, y w, 0, w).
 struct XyCurve {
   int degree = 0;
   std::array<Vec4, kMaxDegree + 1> points{};
-  double spread = 0.0;  // mm: how far points of the sheet lie from the curve in plan at most
+  double spread = 0.0;  // mm, largest distance in plan of a point of the sheet from the curve
 };
 
-// The curve in plan of a net whose rows or columns are upright, to `rounding` (mm); nullopt for any other net
-// or where a point has no weight.
+// The curve in plan of a net whose rows or columns are vertical, to `rounding` (mm). nullopt for any other
+// net, or if a point has no weight.
 std::optional<XyCurve> XyCurveOf(NetShape shape, const Vec4* points, double rounding);
 
-// Is no point of the curve nearer to q than `radius` (mm)? True is proven: its distance form (core/surface)
-// has no negative coefficient in any of the parts it is divided into (by halves, quadratic convergence: about
-// 40 parts where a circle touches), beyond what rounding explains. False: some point is nearer, or nothing
+// True is proven: no point of the curve is nearer to q than `radius` (mm). The distance form of the curve
+// (core/surface) is divided into halves, and no coefficient of any part is negative by more than rounding.
+// (Convergence is quadratic; about 40 parts where a circle touches.) False: some point is nearer, or nothing
 // could be proven.
 bool OutsideInXy(const XyCurve& curve, const Vec2& q, double radius);
 

@@ -30,7 +30,7 @@ DepthMap::DepthMap(const Surface& surface, const View& view, const Vec2& corner,
   }
 }
 
-// Every dot whose middle lies in the triangle.
+// Fills each dot whose middle lies in the triangle.
 void DepthMap::Fill(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec2 p = ToDots(a), q = ToDots(b), r = ToDots(c);
   const double twice = Cross(q - p, r - p);
@@ -54,8 +54,7 @@ void DepthMap::Fill(const Vec3& a, const Vec3& b, const Vec3& c) {
 bool DepthMap::Visible(const Vec3& p, double slack) const {
   const Vec2 x = ToDots(p);
   const int i = static_cast<int>(std::lround(x.x())), j = static_cast<int>(std::lround(x.y()));
-  // Seen through the farthest of the dots around: a line along an edge or a silhouette is not cut by the
-  // dots.
+  // The farthest of the dots around p counts, so that dots do not cut up a line along an edge or silhouette.
   double farthest = kInfinity;
   for (int di = -1; di <= 1; ++di) {
     for (int dj = -1; dj <= 1; ++dj) {

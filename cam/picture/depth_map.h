@@ -1,4 +1,4 @@
-// What hides what: how near to the eye the surface is at every dot of a view.
+// The depth of a view: how near to the eye the surface is at each dot. It decides what is hidden.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@ namespace patchmill {
 
 class DepthMap {
  public:
-  // Dots of `dot` px over `width` x `height` px from `corner`. The surface is taken as `cells` x `cells`
-  // facets a piece.
+  // Covers `width` x `height` px from `corner` with dots of `dot` px. The surface is approximated by
+  // `cells` x `cells` facets per piece.
   DepthMap(const Surface& surface, const View& view, const Vec2& corner, double width, double height,
            double dot, int cells);
 
-  // Nothing of the surface is nearer to the eye than p by more than `slack` (mm) and what the slope around p
-  // makes of two dots.
+  // True if no part of the surface is nearer to the eye than p by more than `slack` (mm), except for the
+  // depth that changes within about a dot around p.
   bool Visible(const Vec3& p, double slack) const;
 
  private:

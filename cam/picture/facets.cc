@@ -6,10 +6,10 @@
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kMaxFacets = 14000;  // per view, before any is cut finer
-constexpr std::size_t kMaxShaded = 10000;  // by slope or curvature
-constexpr double kFine = 4.0;              // px: facets at borders are cut to about this
-constexpr int kFinest = 4;                 // times, along each side
+constexpr std::size_t kMaxFacets = 14000;  // in a view by region, before any are divided
+constexpr std::size_t kMaxShaded = 10000;  // in a view by slope or curvature
+constexpr double kFine = 4.0;              // px; facets at borders are divided to about this size
+constexpr int kFinest = 4;                 // parts along each side of a facet, at most
 constexpr const char* kNoRegion = "#d8d8d8";
 
 int PerSide(const Surface& surface, std::size_t facets, int most) {
@@ -23,7 +23,7 @@ class FacetMaker {
   FacetMaker(const PreviewInput& input, const View& view, Paint paint, int piece)
       : input_(input), view_(view), paint_(paint), id_(piece), piece_(input.surface->piece(id_)) {}
 
-  // The rectangle from (u,v), `side` wide.
+  // The facet over the square of parameters from (u,v), `side` wide.
   Facet Make(double u, double v, double side) const {
     Facet f;
     f.corners = {Position(piece_, u, v), Position(piece_, u + side, v), Position(piece_, u + side, v + side),
@@ -40,7 +40,7 @@ class FacetMaker {
   }
   bool Uniform(double u, double v, double side, const Facet& f) const {
     if (paint_ != Paint::kRegions) return true;
-    constexpr double kIn = 0.02;  // of the side: corners belong to neighbours too
+    constexpr double kIn = 0.02;  // of the side: distance from the corners, which neighbours share
     for (int k = 0; k < 4; ++k) {
       const double x = k == 1 || k == 2 ? 1.0 - kIn : kIn, y = k >= 2 ? 1.0 - kIn : kIn;
       if (RegionAt(u + x * side, v + y * side, f.corners[static_cast<std::size_t>(k)]) != f.region)

@@ -1,4 +1,4 @@
-// The surface as coloured facets, the farthest first.
+// Divides the surface into coloured facets, the farthest first.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@ namespace patchmill {
 struct Facet {
   std::array<Vec3, 4> corners;
   double nearness;
-  int region;         // index into PreviewInput::regions, -1 none
+  int region;         // index into PreviewInput::regions, or -1
   std::string color;  // CSS
 };
 
-// How finely pieces are cut, along each side.
+// The number of facets along each side of a piece, before any are divided.
 int FacetsPerSide(const Surface& surface);
 
-// Painted by region, facets across which the region changes are cut finer, so that colours keep to the
-// borders; by slope or curvature, all are finer.
+// If painted by region, facets that a border crosses are divided, so that colours follow the borders. If
+// painted by slope or curvature, pieces may have more facets from the start.
 std::vector<Facet> MakeFacets(const PreviewInput& input, const View& view, Paint paint);
 
 }  // namespace patchmill

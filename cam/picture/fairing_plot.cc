@@ -12,14 +12,14 @@ namespace patchmill {
 namespace {
 
 constexpr double kWidth = 1000.0, kPanelHeight = 360.0;  // px
-constexpr double kMargin = 30.0, kLineHeight = 17.0;
-constexpr double kToothRoom = 0.25;          // of the panel's height, on both sides of the curve
-constexpr double kTypicalTooth = 0.08;       // of the panel's height: that of the comb scale
-constexpr double kTypicalShare = 0.9;        // of all teeth before fairing are no longer than typical
-constexpr double kCurveTolerance = 0.2;      // px
-constexpr double kMaxCurvePoints = 150'000;  // more, and only the nodes are drawn
+constexpr double kMargin = 30.0, kLineHeight = 17.0;     // px
+constexpr double kToothRoom = 0.25;      // of the panel's height: room for teeth on either side of the curve
+constexpr double kTypicalTooth = 0.08;   // of the panel's height: length of a typical tooth, which scales all
+constexpr double kTypicalShare = 0.9;    // share of the teeth before fairing that are no longer than typical
+constexpr double kCurveTolerance = 0.2;  // px, sagitta of the drawn curve
+constexpr double kMaxCurvePoints = 150'000;  // of a curve with more points only the nodes are drawn
 
-// Along the least extended axis.
+// The view along the axis in which the box is least extended.
 View PlaneView(const Box3& box) {
   const Vec3 extent = box.max - box.min;
   View view;
@@ -34,7 +34,7 @@ View PlaneView(const Box3& box) {
 struct Tooth {
   Vec3 foot = Vec3::Zero();
   Vec3 out = Vec3::Zero();  // unit, in the view's plane, away from the centre of curvature
-  double curvature = 0.0;   // >= 0, of the projection
+  double curvature = 0.0;   // 1/mm, >= 0, of the projection
 };
 
 std::vector<Tooth> Comb(const Beam& beam, const View& view) {
@@ -50,7 +50,7 @@ std::vector<Tooth> Comb(const Beam& beam, const View& view) {
       const double speed = flat.norm();
       if (!(speed > 1e-9 * d.norm())) continue;
       const double curvature = Cross(flat, bend) / (speed * speed * speed);
-      const Vec2 right(flat.y() / speed, -flat.x() / speed);  // away from the centre of a left turn
+      const Vec2 right(flat.y() / speed, -flat.x() / speed);  // points away from the centre of a left turn
       const Vec2 out = curvature >= 0.0 ? right : Vec2(-right);
       comb.push_back({segment.Point(t), out.x() * view.right + out.y() * view.up, std::abs(curvature)});
     }

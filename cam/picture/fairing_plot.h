@@ -1,4 +1,4 @@
-// A curve before and after fairing with its curvature comb, as SVG.
+// Draws a curve before and after fairing with its curvature comb, as SVG.
 #pragma once
 
 #include <string>
@@ -15,9 +15,10 @@ struct FairingPlot {
   std::vector<std::string> notes;  // lines under the title
 };
 
-// Seen along the axis in which the curve is least extended, both in the same scale; the comb's teeth point
-// away from the centre of curvature, as long as the curvature of the projection, in one scale for both, cut
-// off at a quarter of the picture's height. At most kMaxCombTeeth teeth each.
+// The view is along the axis in which the curve is least extended, with one scale for both curves. The teeth
+// of the comb point away from the centre of curvature. Their length is proportional to the curvature of the
+// projection, with one scale for both, and at most a quarter of a panel's height. Each comb has about
+// kMaxCombTeeth teeth at most.
 inline constexpr int kMaxCombTeeth = 3000;
 std::string DrawFairing(const FairingPlot& plot);
 

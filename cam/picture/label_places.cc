@@ -6,7 +6,7 @@
 namespace patchmill {
 namespace {
 
-constexpr double kDot = 4.0;  // px
+constexpr double kDot = 4.0;  // px, side of a dot
 
 }  // namespace
 
@@ -41,7 +41,7 @@ void LabelPlaces::PaintTriangle(const Vec2& a, const Vec2& b, const Vec2& c, int
 }
 
 std::vector<std::optional<Vec2>> LabelPlaces::Find(std::size_t count, double room) const {
-  // Steps to the nearest dot of another area, by two sweeps over the picture.
+  // Counts the steps to the nearest dot of another area, in two sweeps over the picture.
   const auto index = [&](int i, int j) { return static_cast<std::size_t>(j * columns_ + i); };
   std::vector<int> steps(id_.size(), 0);
   const auto look = [&](int i, int j, int di, int dj) {

@@ -1,4 +1,4 @@
-// Where the names of areas of a picture have room.
+// Finds where the names of areas have room in a picture.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@ namespace patchmill {
 
 class LabelPlaces {
  public:
-  // A picture of `size` px from `corner`, seen in dots of 4 px.
+  // Covers a picture of `size` px from `corner` with dots of 4 px.
   LabelPlaces(const Vec2& corner, const Vec2& size);
 
-  // The quadrangle is area `id` (-1: none); it hides what was painted before.
+  // Paints a quadrangle of the area `id` (-1: no area) over everything painted before.
   void Paint(const std::array<Vec2, 4>& quad, int id);
 
-  // Of each of the areas 0 .. count - 1 the middle of the widest place that is left of it; nothing where it
-  // is not at least about `room` px wide.
+  // For each area 0 .. count - 1 the middle of the widest place where it can be seen. nullopt if that is not
+  // at least about `room` px wide.
   std::vector<std::optional<Vec2>> Find(std::size_t count, double room) const;
 
  private:

@@ -12,8 +12,8 @@
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kMaxRows = 24;  // of regions, and of families of lines
-constexpr double kRow = 17.0;         // px
+constexpr std::size_t kMaxRows = 24;  // for regions, and as many for lines
+constexpr double kRow = 17.0;         // px, height of a row
 
 class Legend {
  public:
@@ -38,12 +38,12 @@ class Legend {
     DrawNode(at_ + Vec2(11, -4), svg_);
     Text(text);
   }
-  // A strip of colours, `color(share)` for shares from 0 to 1, with texts at its ends and at one share.
+  // Draws a strip of the colours color(0) to color(1), with texts at its ends and one at `share`.
   template <typename Color>
   void Scale(const Color& color, const std::string& from, double share, const std::string& middle,
              const std::string& to) {
-    constexpr int kParts = 60;
-    constexpr double kWidth = 240.0;
+    constexpr int kParts = 60;        // rectangles of one colour
+    constexpr double kWidth = 240.0;  // px
     for (int i = 0; i < kParts; ++i) {
       svg_.Rect(at_ + Vec2(kWidth * i / kParts, -9), kWidth / kParts + 0.3, 11,
                 fmt::format("fill=\"{}\"", color((i + 0.5) / kParts)));
@@ -69,7 +69,7 @@ class Legend {
   SvgWriter& svg_;
 };
 
-// Positions of the largest, as many as there are rows, in the order they came in.
+// The indices of the largest regions, as many as there are rows, in rising order.
 std::vector<std::size_t> RowsOf(const std::vector<PreviewRegion>& regions) {
   std::vector<std::size_t> rows(regions.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});

@@ -1,4 +1,4 @@
-// What the colours and lines of a picture mean.
+// Draws the legend of a picture: the meaning of its colours and lines.
 #pragma once
 
 #include "cam/picture/preview.h"
@@ -6,10 +6,10 @@
 
 namespace patchmill {
 
-// The dot that stands for a node, in the views as in the legend.
+// Draws the dot that stands for a node, in the views and in the legend.
 void DrawNode(const Vec2& at, SvgWriter& svg);
 
-// A column from `corner` (px) down.
+// Draws the legend as a column from `corner` (px) down.
 void DrawLegend(const PreviewInput& input, const Vec2& corner, SvgWriter& svg);
 
 }  // namespace patchmill

@@ -1,4 +1,4 @@
-// The moves of a program in a view, by what they are for.
+// Draws the moves of a program in a view, by their purpose.
 #pragma once
 
 #include "cam/picture/preview.h"
@@ -8,7 +8,7 @@
 
 namespace patchmill {
 
-// What a move is drawn as: a cut by the kind of its pass.
+// How a move is drawn. A cut is drawn by the kind of its pass.
 enum class MoveLine { kZigzag, kContour, kBorder, kCrease, kRest, kLink, kRapid };
 constexpr MoveLine LastOf(MoveLine) { return MoveLine::kRapid; }
 
@@ -22,14 +22,14 @@ struct MoveStyle {
 inline constexpr EnumArray<MoveLine, MoveStyle> kMoveStyles{{{{"zig-zag passes", "#1f4e9c", ""},
                                                               {"contour passes", "#9c2f1f", ""},
                                                               {"border passes", "#5d7a00", ""},
-                                                              {"crease passes", "#7a1fa2", ""},
+                                                              {"pencil passes", "#7a1fa2", ""},
                                                               {"rest passes", "#00796b", ""},
                                                               {"links and leads", "#e09000", "2,1.5"},
                                                               {"rapids", "#d0208f", "4,3"}}}};
 
 MoveLine LineOf(const PreviewInput& input, const Move& move);
 
-// The moves that are drawn as `line`, as polylines of tip positions, vertices closer than `apart` px dropped.
+// Draws the moves of one kind as polylines of the tip. Vertices that are closer than `apart` px are dropped.
 void DrawMoves(const PreviewInput& input, const View& view, MoveLine line, double apart, SvgWriter& svg);
 
 }  // namespace patchmill

@@ -42,7 +42,7 @@ std::string SlopeColor(double slope, const PaintScales& scales) {
 }
 
 std::string CurvatureColor(double curvature, const PaintScales& scales) {
-  // Gentle bends show too: the root of the share.
+  // The square root makes small curvatures visible, too.
   const double share = std::sqrt(std::min(1.0, std::abs(curvature) * scales.radius));
   return Mix(kNeither, curvature < 0.0 ? kOutward : kInward, share);
 }

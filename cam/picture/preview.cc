@@ -17,15 +17,15 @@
 namespace patchmill {
 namespace {
 
-constexpr double kViewSize = 620.0;  // px, each of the two views
+constexpr double kViewSize = 620.0;  // px, side of each view
 constexpr double kMargin = 24.0;
-constexpr double kHead = 70.0;
-constexpr double kLegendWidth = 300.0;
+constexpr double kHead = 70.0;                          // px, height of title and notes
+constexpr double kLegendWidth = 300.0;                  // px
 constexpr double kLabelSize = 12.0, kLabelRoom = 14.0;  // px
 
 void DrawSurface(const PreviewInput& input, const View& view, Paint paint, LabelPlaces& places,
                  SvgWriter& svg) {
-  // Strokes as wide as this close the seams that smoothing leaves between facets.
+  // Strokes of this width close the seams that anti-aliasing leaves between facets.
   svg.OpenGroup(
       "fill=\"currentColor\" stroke=\"currentColor\" stroke-width=\"0.8\" stroke-linejoin=\"round\"");
   for (const Facet& f : MakeFacets(input, view, paint)) {
@@ -37,7 +37,7 @@ void DrawSurface(const PreviewInput& input, const View& view, Paint paint, Label
   svg.CloseGroup();
 }
 
-// The regions' names where they show widest, white around them.
+// Draws the labels of the regions where these are widest, with a white outline.
 void DrawLabels(const PreviewInput& input, const LabelPlaces& places, SvgWriter& svg) {
   const auto found = places.Find(input.regions.size(), kLabelRoom);
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -50,7 +50,7 @@ void DrawLabels(const PreviewInput& input, const LabelPlaces& places, SvgWriter&
   }
 }
 
-// Of a view by slope or curvature those lines that belong to it.
+// Draws the borders of regions. A view by slope or curvature gets only those that belong to it.
 void DrawBorders(const PreviewInput& input, Paint paint, const SeenLines& seen, SvgWriter& svg) {
   for (const PreviewLines& lines : input.borders) {
     if (paint != Paint::kRegions && lines.on != paint) continue;
@@ -67,7 +67,7 @@ void DrawNodes(const PreviewInput& input, const View& view, const SeenLines& see
 }
 
 void DrawOpenEdges(const PreviewInput& input, const SeenLines& seen, SvgWriter& svg) {
-  constexpr int kSteps = 24;
+  constexpr int kSteps = 24;  // chords of one edge
   svg.OpenGroup("fill=\"none\" stroke=\"#000000\" stroke-width=\"1.6\"");
   const PatchNetwork& network = input.surface->network;
   for (const EdgeLink& link : network.edges) {
@@ -92,7 +92,7 @@ void DrawLines(const PreviewInput& input, const SeenLines& seen, SvgWriter& svg)
   }
 }
 
-// The round length nearest to a sixth of the view.
+// The largest round length (1, 2 or 5 times a power of ten, mm) up to a sixth of the view.
 double ScaleBarLength(double px_per_mm) {
   const double wish = kViewSize / 6.0 / px_per_mm;
   const double decade = std::pow(10.0, std::floor(std::log10(wish)));
@@ -117,7 +117,7 @@ struct Panel {
   const char* caption;
 };
 
-// The part in a view, with its borders, edges and lines, and a scale below it.
+// Draws the part in one view, with borders, edges and lines, and a scale below it.
 void DrawPanel(const PreviewInput& input, const Panel& panel, const Vec2& corner, SvgWriter& svg) {
   LabelPlaces places(corner, {kViewSize, kViewSize});
   DrawSurface(input, panel.view, panel.paint, places, svg);
@@ -139,7 +139,7 @@ void DrawPanel(const PreviewInput& input, const Panel& panel, const Vec2& corner
 
 std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes) {
   Box3 box = input.surface->box;
-  if (input.toolpath != nullptr) {  // centres run up to a radius beside the part, leads a little more
+  if (input.toolpath != nullptr) {  // centres lie up to a radius beside the part, leads a little more
     const double beside = 1.5 * input.toolpath->ball_radius;
     box.min -= Vec3(beside, beside, 0);
     box.max += Vec3(beside, beside, 0);
@@ -166,13 +166,13 @@ std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes) {
     DrawPanel(input, panels[k], corner, svg);
   }
   if (input.toolpath != nullptr) {
-    // 14 bytes a vertex; the distance between drawn vertices grows until both views fit.
+    // A vertex takes 14 bytes. Vertices are drawn so far apart that both views fit.
     const std::size_t left = max_bytes > svg.size() ? max_bytes - svg.size() : 0;
     const double vertices = 2.0 * static_cast<double>(input.toolpath->moves.size());
     const double apart =
         std::clamp(0.5 * 14.0 * vertices / std::max(1.0, static_cast<double>(left)), 0.6, 12.0);
     for (std::size_t k = 0; k < 2; ++k) {
-      using enum MoveLine;  // rapids first, then links; cuts lie over them
+      using enum MoveLine;  // rapids come first, then links, so that cuts are drawn over them
       for (const MoveLine line : {kRapid, kLink, kZigzag, kContour, kBorder, kCrease, kRest}) {
         DrawMoves(input, panels[k].view, line, apart, svg);
       }

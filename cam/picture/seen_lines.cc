@@ -3,9 +3,9 @@
 namespace patchmill {
 namespace {
 
-constexpr double kDot = 1.5;    // px, of the depth map
-constexpr double kSlack = 3.0;  // dots: facets lie beside the surface
-constexpr double kApart = 0.6;  // px between vertices
+constexpr double kDot = 1.5;    // px, dot of the depth map
+constexpr double kSlack = 3.0;  // in dots; allowed depth, because facets deviate from the surface
+constexpr double kApart = 0.6;  // px; closer vertices are dropped
 
 }  // namespace
 

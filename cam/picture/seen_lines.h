@@ -1,4 +1,4 @@
-// Lines of a view without what the surface hides.
+// Draws lines in a view without the parts that the surface hides.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,11 @@ namespace patchmill {
 
 class SeenLines {
  public:
-  // The view fills `size` px from `corner`; `cells`: facets along each side of a piece that hide.
+  // The view fills `size` px from `corner`. `cells` is the number of hiding facets along each side of a
+  // piece.
   SeenLines(const Surface& surface, const View& view, const Vec2& corner, const Vec2& size, int cells);
 
-  // The parts of the polyline that are not hidden, vertices closer than 0.6 px dropped.
+  // Draws the parts of the polyline that are not hidden. Vertices closer than 0.6 px are dropped.
   void Draw(const std::vector<Vec3>& line, SvgWriter& svg) const;
   bool Sees(const Vec3& p) const;
 

@@ -1,4 +1,4 @@
-// Just enough SVG: shapes into a string, numbers short, text escaped.
+// Writes simple SVG: shapes, with short numbers and escaped text, into a string.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace patchmill {
 class SvgWriter {
  public:
   SvgWriter(double width, double height);
-  // Points in picture units (px), y down. `style` is put verbatim: fill="..." stroke="...".
+  // Points are in px, y down. `style` is written verbatim: fill="..." stroke="...".
   void Polygon(const std::vector<Vec2>& points, std::string_view style);
   void Polyline(const std::vector<Vec2>& points, std::string_view style);
   void Line(const Vec2& a, const Vec2& b, std::string_view style);

@@ -1,4 +1,5 @@
-// A parallel view of the part: 3-D (mm) to picture (px, y down), and how far away a point is.
+// A parallel view of the part. It maps points (mm) to the picture (px, y down) and to their nearness to the
+// eye.
 #pragma once
 
 #include "core/base/vec.h"
@@ -10,7 +11,7 @@ struct View {
   Vec3 up = Vec3::UnitY();      // unit, picture up
   Vec3 toward = Vec3::UnitZ();  // unit, towards the eye
   double scale = 1.0;           // px per mm
-  Vec2 origin = Vec2::Zero();   // px of the model point 0 0 0
+  Vec2 origin = Vec2::Zero();   // px, place of the model point 0 0 0
 
   Vec2 operator()(const Vec3& p) const {
     return {origin.x() + scale * right.dot(p), origin.y() - scale * up.dot(p)};
@@ -29,7 +30,7 @@ inline View IsometricView() {
   return v;
 }
 
-// Scales and shifts the view so that the box fills `width` x `height` px from `corner` (upper left).
+// Scales and shifts the view so that the box fits into `width` x `height` px from `corner` (upper left).
 View FitView(View view, const Box3& box, const Vec2& corner, double width, double height);
 
 }  // namespace patchmill

@@ -9,10 +9,12 @@ namespace patchmill {
 
 namespace {
 
+// The radii at both ends may differ by kRadiusSlack, or by kRelativeRadiusSlack of the radius if that is
+// more, but never by more than kLargestRadiusSlack.
 constexpr double kRadiusSlack = 0.005;         // mm
 constexpr double kRelativeRadiusSlack = 1e-3;  // of the radius
 constexpr double kLargestRadiusSlack = 0.5;    // mm
-constexpr double kFullCircle = 1e-10;          // rad: a smaller sweep means all the way round
+constexpr double kFullCircle = 1e-10;          // rad; a smaller sweep means a full circle
 
 }  // namespace
 
@@ -29,7 +31,7 @@ absl::StatusOr<ArcChords> ChordArc(const PlaneArc& arc, double chord_error, std:
   double sweep = std::atan2(Cross(start, end), start.dot(end));
   if (arc.clockwise) sweep = -sweep;
   if (sweep < kFullCircle) sweep += 2.0 * kPi;
-  // |chord - arc| <= r dtheta^2 / 8 when both are followed at the same rate.
+  // |chord - arc| <= r dtheta^2 / 8 if both are followed at the same rate.
   const double largest = std::max(r0, r1);
   const double chords = std::ceil(sweep * std::sqrt(largest / (8.0 * chord_error)));
   if (!(chords <= static_cast<double>(max_chords))) {
@@ -64,7 +66,7 @@ absl::StatusOr<Vec2> CenterFromRadius(const Vec2& from, const Vec2& to, double r
   }
   const double height = std::sqrt(std::max(0.0, r * r - half * half));
   const Vec2 left = Vec2(-chord.y(), chord.x()).normalized();
-  // Counter-clockwise and shorter: the centre lies left of the chord.
+  // The centre of the shorter counter-clockwise arc lies left of the chord.
   const double side = clockwise == (radius > 0.0) ? -1.0 : 1.0;
   return from + 0.5 * chord + side * height * left;
 }

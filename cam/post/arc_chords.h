@@ -1,4 +1,4 @@
-// G2/G3 as chords.
+// Divides the arcs of G2 and G3 into chords.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace patchmill {
 
-// In axes of the arc's plane: x first, y second, counter-clockwise from x to y; z along the plane's normal.
+// An arc in the axes of its plane: x is the first axis, y the second, z the plane's normal. Counter-clockwise
+// is from x to y.
 struct PlaneArc {
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();  // mm
   Vec2 center = Vec2::Zero();
@@ -17,17 +18,18 @@ struct PlaneArc {
 };
 
 struct ArcChords {
-  std::vector<Vec3> points;  // the end of each chord; the last is exactly `to`
-  double chord_error = 0.0;  // mm: sagitta plus what the two radii differ by
+  std::vector<Vec3> points;  // end of each chord; the last one is exactly `to`
+  double chord_error = 0.0;  // mm, sagitta plus the difference of the two radii
 };
 
-// A helix or spiral with linear rise and radius; equal ends in the plane are a full circle. `chord_error` >
-// 0, mm. INVALID_ARGUMENT when the radii at both ends differ by more than 0.005 mm and by more than 0.1 %
-// (the strictest usual control, [machining M19]), by more than 0.5 mm, or when the radius vanishes;
-// RESOURCE_EXHAUSTED for more than `max_chords`.
+// The arc may be a helix or a spiral; rise and radius change linearly. If both ends are equal in the plane,
+// it is a full circle. `chord_error` > 0 is the largest sagitta, mm. INVALID_ARGUMENT if the radii at both
+// ends differ by more than 0.005 mm and by more than 0.1 % (the strictest usual control, [machining M19]), or
+// by more than 0.5 mm, or if a radius vanishes. RESOURCE_EXHAUSTED if more than `max_chords` are needed.
 absl::StatusOr<ArcChords> ChordArc(const PlaneArc& arc, double chord_error, std::size_t max_chords);
 
-// Centre of the arc of a given radius (R word): the shorter way round for radius > 0, else the longer.
+// Centre of the arc with a given radius (R word), which may be negative. If radius > 0 the arc is the shorter
+// of the two, else the longer. INVALID_ARGUMENT if both ends are equal or farther apart than the diameter.
 absl::StatusOr<Vec2> CenterFromRadius(const Vec2& from, const Vec2& to, double radius, bool clockwise);
 
 }  // namespace patchmill

@@ -4,8 +4,8 @@ namespace patchmill {
 
 namespace {
 
-// RS274/NGC as LinuxCNC reads it: a line may have 255 characters, G91.1 is stated because G90.1 is modal, and
-// a G64 without Q would take Q = P and merge moves on top of blending them.
+// RS274/NGC as LinuxCNC reads it. A line may have 255 characters. G91.1 is stated because G90.1 is modal. Q0
+// is stated because G64 without Q takes Q = P, which merges moves in addition to blending them.
 Dialect LinuxCnc() {
   return {.name = "linuxcnc",
           .decimals = 4,

@@ -39,7 +39,7 @@ absl::Status StripLine(std::string_view line, std::string& code) {
   return absl::OkStatus();
 }
 
-// [+-] digits [. digits], at least one digit; no exponent, as RS274 has it.
+// Reads [+-] digits [. digits] with at least one digit. There is no exponent in RS274.
 absl::StatusOr<double> ParseNumber(char letter, std::string_view code, std::size_t& at) {
   const std::size_t begin = at;
   if (at < code.size() && (code[at] == '+' || code[at] == '-')) ++at;

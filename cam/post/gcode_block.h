@@ -1,4 +1,5 @@
-// One line of RS274-like text as words. Strict: what is not understood is an error, never skipped.
+// Splits one line of RS274-like text into words. Anything that it does not understand is an error; nothing is
+// skipped.
 #pragma once
 
 #include <string_view>
@@ -14,13 +15,13 @@ struct GcodeWord {
 };
 
 struct GcodeBlock {
-  std::vector<GcodeWord> words;  // in order, N left out
-  bool percent = false;          // the line is a lone %
+  std::vector<GcodeWord> words;  // in their order, without N
+  bool percent = false;          // the line is a single %
 };
 
-// Comments "( )" and ";", spaces anywhere, lower case, N at the start. INVALID_ARGUMENT (without the line
-// number) for expressions, parameters, O-words, block delete, unclosed or nested comments, any other byte.
-// `block` is reused between calls.
+// Accepts comments "( )" and ";", spaces anywhere, lower case, and N at the start. INVALID_ARGUMENT (without
+// the line number) for expressions, parameters, O-words, block delete, unclosed or nested comments, and any
+// other byte. `block` is overwritten; reuse it to save allocations.
 absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block);
 
 }  // namespace patchmill

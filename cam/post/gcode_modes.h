@@ -1,4 +1,4 @@
-// The words of one block sorted into modal groups (RS274/NGC tables 4 and 5).
+// Sorts the words of one block into modal groups (RS274/NGC tables 4 and 5).
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace patchmill {
 
-// Codes as ten times their number: G90.1 is 901. 0 is a code (G0, M0), absence is std::nullopt.
+// Codes are ten times their number: G90.1 is 901. 0 is a code (G0, M0); a missing code is std::nullopt.
 struct BlockModes {
   using Code = std::optional<int>;
   Code motion;                                  // G0 G1 G2 G3 G80
@@ -35,8 +35,8 @@ struct BlockModes {
   }
 };
 
-// INVALID_ARGUMENT (without the line number) for codes and letters that are not known here, for two codes of
-// one group and for a letter given twice.
+// INVALID_ARGUMENT (without the line number) for codes and letters that are not supported, for two codes of
+// one group, and for a letter that occurs twice.
 absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block);
 
 }  // namespace patchmill

@@ -51,7 +51,7 @@ std::vector<std::string> CommentLines(const Dialect& dialect, std::string_view t
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     const std::size_t mark = dialect.comment_marks.find(c);
-    if (byte >= 0x80 && byte < 0xC0) continue;  // a tail byte of UTF-8: one '?' per character
+    if (byte >= 0x80 && byte < 0xC0) continue;  // a tail byte of UTF-8; each character becomes one '?'
     if (mark != std::string::npos) {
       safe += mark % 2 == 0 ? '[' : ']';
     } else if (byte == '\n' || byte == '\r' || byte == '\t') {

@@ -1,4 +1,4 @@
-// Numbers and comments as a control can read them: no exponent, no "-0", ASCII only.
+// Formats numbers and comments so that a control can read them: no exponent, no "-0", ASCII only.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,15 @@
 
 namespace patchmill {
 
-// A coordinate in units of its last decimal. Two positions that print alike are equal as ticks.
+// A coordinate in units of its last decimal (ticks). Two positions have the same text if and only if their
+// ticks are equal.
 std::int64_t ToTicks(double value, int decimals);
 std::string FormatTicks(std::int64_t ticks, int decimals);  // "-12.0040"
-// Up to `decimals` decimals, trailing zeros and point dropped: "1200", "0.5". Not for coordinates.
+// Up to `decimals` decimals, without trailing zeros and point: "1200", "0.5". Not for coordinates.
 std::string FormatShort(double value, int decimals);
 
-// One comment line or several: ASCII, comment marks replaced, wrapped, never read as a command of the control
-// ("MSG,", "DEBUG,", ... at the start of a comment are).
+// The text as one or more comment lines: in ASCII, wrapped, with comment marks replaced. No line is read as a
+// command of the control, as a comment that starts with "MSG,", "DEBUG," and so on would be.
 std::vector<std::string> CommentLines(const Dialect& dialect, std::string_view text);
 
 }  // namespace patchmill

@@ -16,15 +16,15 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kInch = 25.4;
-constexpr int kLinesBetweenPolls = 4096;
-constexpr double kLargestCoordinate = 1e6;  // mm
+constexpr double kInch = 25.4;              // mm
+constexpr int kLinesBetweenPolls = 4096;    // of ReaderParams::run
+constexpr double kLargestCoordinate = 1e6;  // mm; a move beyond it is an error
 constexpr std::array<char, 3> kAxis = {'X', 'Y', 'Z'};
 constexpr std::array<char, 3> kOffset = {'I', 'J', 'K'};
 
 absl::Status Bad(const std::string& message) { return absl::InvalidArgumentError(message); }
 
-// The control's state and what it has done so far.
+// The state of the control and its motion so far.
 class Interpreter {
  public:
   explicit Interpreter(const ReaderParams& params) : params_(params) {}
@@ -42,12 +42,12 @@ class Interpreter {
   absl::Status Home(const BlockModes& block);
   absl::Status Straight(const BlockModes& block);
   absl::Status Arc(const BlockModes& block);
-  // Remarks what the program leaves open, once each, when it first counts.
+  // Notes what the program leaves to the control's state, once each, when it first matters.
   void NoteAssumptions(ProgramMove::Kind kind, bool below);
   void Note(const char* code, const std::string& message) { NoteAt(line_, code, message); }
   void NoteAt(int line, const char* code, const std::string& message);
   void SetFeed(const BlockModes& block);
-  // Where the axis words lead to. Axes whose place is not known yet start where they are first sent.
+  // The target of the axis words. An axis whose place is unknown is taken to start where it is first sent.
   absl::StatusOr<Vec3> Target(const BlockModes& block);
   absl::Status TooMany() const {
     return absl::ResourceExhaustedError(fmt::format("more than {} moves", params_.max_moves));
@@ -64,20 +64,20 @@ class Interpreter {
   bool arc_absolute_ = false;
   Vec3 at_ = Vec3::Zero();
   std::array<bool, 3> known_{};
-  bool anywhere_ = false;  // X or Y of at_ was not known before this line
-  bool above_ = true;      // at machine zero, or at a Z that nothing has told yet
-  double feed_ = 0.0;
-  int feed_line_ = 0;             // of the F in force
-  bool feed_unit_stated_ = true;  // its unit was in force by G20 or G21
+  bool anywhere_ = false;         // X or Y of at_ was not known before this line
+  bool above_ = true;             // Z is at machine zero, or was never stated
+  double feed_ = 0.0;             // mm/min
+  int feed_line_ = 0;             // line of the F in force
+  bool feed_unit_stated_ = true;  // G20 or G21 was in force when it was read
   double smoothing_ = 0.0;
   bool unit_stated_ = false, distance_stated_ = false, path_stated_ = false, arc_stated_ = false;
-  int length_of_ = -1;  // H of the last G43; -1: none
-  int tool_ = -1, loaded_ = -1;
-  int work_offset_ = 0;   // 0: none named yet
-  int tool_length_ = 0;   // 0: none named yet
-  bool shifted_ = false;  // the tool length changed where Z counts
+  int length_of_ = -1;           // H of the last G43; -1 if it had none
+  int tool_ = -1, loaded_ = -1;  // T of the program and the tool in the spindle; -1 if not known yet
+  int work_offset_ = 0;          // code; 0 if not stated yet
+  int tool_length_ = 0;          // code; 0 if not stated yet
+  bool shifted_ = false;         // the tool or its length changed below machine zero, so Z is unknown
   bool moved_ = false, moved_below_ = false;
-  double speed_ = 0.0;  // 1/min; that of RS274 before any S
+  double speed_ = 0.0;  // 1/min; 0 before any S, as in RS274
   bool spindle_on_ = false, reversed_ = false, coolant_on_ = false, ended_ = false;
 };
 
@@ -86,7 +86,7 @@ double UnitOf(int units_code) { return units_code == 200 ? kInch : 1.0; }  // mm
 bool HasAxis(const BlockModes& block) { return block['X'] || block['Y'] || block['Z']; }
 bool HasCenter(const BlockModes& block) { return block['I'] || block['J'] || block['K'] || block['R']; }
 
-// Every word must have somebody who uses it; one that has none was meant for something we do not know.
+// Each word must have a use. A word without one was meant for something that this reader does not know.
 absl::Status Interpreter::CheckUse(const BlockModes& block) const {
   const bool dwell = block.once == 40;
   const bool smooth = block.path == 640;
@@ -110,9 +110,9 @@ absl::Status Interpreter::SetPathMode(const BlockModes& block) {
   if (*block.path != 640) {
     smoothing_ = 0.0;
   } else if (block['P'].value_or(0.0) == 0.0) {
-    smoothing_ = kInfinity;  // P0 is no tolerance at all to LinuxCNC
+    smoothing_ = kInfinity;  // for LinuxCNC P0 means that there is no limit
   } else {
-    // Blending within P of moves that were merged within Q; LinuxCNC takes Q = P when it is left out.
+    // LinuxCNC merges moves within Q and blends the result within P. If Q is absent it takes Q = P.
     smoothing_ = unit_ * (*block['P'] + block['Q'].value_or(*block['P']));
   }
   return absl::OkStatus();
@@ -124,7 +124,7 @@ absl::Status Interpreter::SetTool(const BlockModes& block) {
     tool_ = static_cast<int>(*block['T']);
   }
   if (block.tool_change) {
-    spindle_on_ = false;  // so it is after a change on every RS274 control
+    spindle_on_ = false;  // every RS274 control stops it for the change
     if (!above_) shifted_ = true;
   }
   if (block.tool_change && tool_ >= 0) {
@@ -140,7 +140,7 @@ absl::Status Interpreter::SetOffsets(const BlockModes& block) {
   if (block.tool_length) {
     const int of =
         *block.tool_length == 430 && block['H'] ? static_cast<int>(std::min(*block['H'], 1e9)) : -1;
-    const auto entry = [&](int h) { return h < 0 ? loaded_ : h; };  // G43 without H is the loaded tool's
+    const auto entry = [&](int h) { return h < 0 ? loaded_ : h; };  // G43 without H means the loaded tool
     if (!above_ && (*block.tool_length != tool_length_ || entry(of) != entry(length_of_))) shifted_ = true;
     tool_length_ = *block.tool_length;
     length_of_ = of;
@@ -156,8 +156,8 @@ absl::Status Interpreter::SetOffsets(const BlockModes& block) {
   return absl::OkStatus();
 }
 
-// A control takes F before G20 and G21 of the same line: it counts in the unit in force before them
-// (RS274/NGC, order of execution; so does LinuxCNC's interpreter).
+// F takes effect before G20 and G21 of the same line, so it counts in the unit before them (RS274/NGC, order
+// of execution; LinuxCNC's interpreter does the same).
 void Interpreter::SetFeed(const BlockModes& block) {
   if (!block['F']) return;
   feed_ = *block['F'] * unit_;
@@ -362,7 +362,7 @@ absl::Status Interpreter::Run(const BlockModes& block, int line) {
     PM_RETURN_IF_ERROR(arc ? Arc(block) : Straight(block));
   }
   if (block.stop == 20 || block.stop == 300) {
-    spindle_on_ = coolant_on_ = false;  // so it is on every RS274 control
+    spindle_on_ = coolant_on_ = false;  // every RS274 control switches them off at the end
     ended_ = true;
   }
   return absl::OkStatus();
@@ -399,7 +399,7 @@ absl::StatusOr<ProgramMotion> ReadProgram(std::string_view text, const ReaderPar
     }
     if (const absl::Status parsed = ParseGcodeLine(code, block); !parsed.ok()) return AtLine(line, parsed);
     if (block.percent) {
-      if (percent_opened) break;  // the end of the tape
+      if (percent_opened) break;  // the second % ends the program
       if (begun) return AtLine(line, Bad("% within the program"));
       percent_opened = begun = true;
       continue;

@@ -65,8 +65,8 @@ absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostPara
   return absl::OkStatus();
 }
 
-// Centres to rounded tips in the program frame. What goes first is a rapid over the first point at the
-// clearance plane or higher; moves that vanish in rounding are dropped.
+// Turns centres into rounded tips in the program frame. The first move is a rapid to the place over the first
+// point, at the clearance plane or higher. Moves that vanish in rounding are dropped.
 std::vector<RoundedMove> RoundMoves(const Toolpath& toolpath, const PostParams& params, int decimals) {
   const auto ticks = [&](const Vec3& centre) {
     const Vec3 tip = centre - Vec3(0, 0, toolpath.ball_radius) - params.program_zero;
@@ -91,7 +91,7 @@ std::vector<RoundedMove> RoundMoves(const Toolpath& toolpath, const PostParams& 
   return moves;
 }
 
-// Blocks with modal words suppressed.
+// Writes blocks without repeating modal words.
 class BlockWriter {
  public:
   explicit BlockWriter(int decimals) : decimals_(decimals) {}
@@ -100,7 +100,7 @@ class BlockWriter {
     text_ += text;
     text_ += '\n';
   }
-  // The first positioning, from machine zero: X and Y above everything, then Z alone.
+  // The first motion from machine zero: X and Y above everything, then Z alone.
   void First(const RoundedMove& move) {
     Line(fmt::format("G0 X{} Y{}", FormatTicks(move.to[0], decimals_), FormatTicks(move.to[1], decimals_)));
     Line(fmt::format("Z{}", FormatTicks(move.to[2], decimals_)));
@@ -208,7 +208,7 @@ absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& t
     for (const std::string& line : CommentLines(dialect, text)) out.Line(line);
   }
   out.Line(fmt::format(fmt::runtime(dialect.safe_start), params.work_offset));
-  // Rounded down: the control must not get more than the budget gives it.
+  // The tolerance is rounded down, so that the control does not get more than its share of the budget.
   const auto tolerance_ticks =
       static_cast<std::int64_t>(std::floor(params.controller_tolerance * 1e4 * (1.0 + 1e-9)));
   out.Line(tolerance_ticks > 0

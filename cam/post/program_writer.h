@@ -1,4 +1,4 @@
-// Toolpath -> program text of one dialect ([machining M3, M8, M14, M17, M18]). Dialects are data.
+// Writes a toolpath as the text of a program in one dialect [machining M3, M8, M14, M17, M18].
 #pragma once
 
 #include <string>
@@ -17,15 +17,17 @@ struct PostParams {
   std::string work_offset = "G54";         // G54..G59
   Vec3 program_zero = Vec3::Zero();        // point of the placed model that becomes X0 Y0 Z0
   std::string zero_name = "model origin";  // for the header
-  double controller_tolerance = 0.0;       // mm, P of G64; > 0
-  double clearance_z = 0.0;                // mm, tip, placed frame
+  double controller_tolerance = 0.0;       // mm, > 0, P of G64
+  double clearance_z = 0.0;                // mm, tip height of rapids, placed frame
   std::vector<std::string>
-      header;  // comment lines: assumptions, warnings, hash; made safe for the dialect here
+      header;  // comment lines: assumptions, warnings, hash; WriteProgram makes them safe for the dialect
 };
 
-// Straight moves only. Four decimals, no exponent, no "-0.0000"; moves that vanish in rounding are dropped.
-// Starts and ends with G53 G0 Z0; spindle and coolant off at the end; modal words suppressed; ASCII; ends in
-// a newline. INVALID_ARGUMENT for an unknown dialect (lists the known ones) or work offset.
+// Writes straight moves only. Coordinates have four decimals, no exponent and no "-0.0000"; moves that vanish
+// in rounding are dropped. The program starts and ends with G53 G0 Z0. It switches off spindle and coolant at
+// the end. Modal words are not repeated. The text is ASCII and ends with a newline. INVALID_ARGUMENT for an
+// unknown dialect (the message lists the known ones) or work offset, for tool data, moves or parameters out
+// of range, and for a toolpath without moves.
 absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& tool,
                                          const PostParams& params);
 

@@ -24,37 +24,38 @@
 namespace patchmill {
 namespace {
 
-// A region that bends less than this part of the ball's radius in all is neither mountain nor basin
-// ([regions, section 5]).
+// In ball radii. A region is neutral if the integral of its contour curvature is smaller than this
+// [regions, section 5].
 constexpr double kMinCurvature = 1.0 / 6.0;
 
-// A strip whose normal turns by twice this across it is not worth its borders (at middle detail).
+// At middle detail a strip joins its sides if its normal turns by less than twice this across it.
 constexpr double kBorderTurn = 0.1;  // rad
-constexpr int kMostRegions = 40;     // reachable ones, at full detail
+constexpr int kMostRegions = 40;     // reachable regions at full detail
 
-// Summits and pits that stand out by less than this part of the ball's radius are no mountains and basins of
-// their own; nor by less than this part of a cell, which triangles may miss.
+// In ball radii, and in cells of the split. A summit or pit with less persistence than this gets no mountain
+// or basin of its own. Triangles may miss a summit that is lower than this part of a cell.
 constexpr double kPersistence = 0.1;
 
-// Of the diagonal of the box: cells are no smaller where nothing is seen in them.
+// Largest cell of the split in diagonals of the surface's box, unless 0.6 R is more (RegionMeshParams).
 constexpr double kCell = 0.02;
 
+// Smaller details count as this one.
 constexpr double kCoarsest = 0.05;
 
-// How much coarser than at middle detail regions are: 0 for the raw split.
+// How much coarser the regions are than at middle detail: 1 at detail 0.5, 0 for the raw split.
 double Coarseness(const RegionParams& params) {
   const double detail = std::clamp(params.detail, kCoarsest, 1.0);
   return (1.0 - detail) / detail;
 }
 
-// Reachable ones; not of the raw split.
+// Largest number of reachable regions. The raw split has no such limit.
 std::size_t MostRegions(const RegionParams& params) {
   return std::max<std::size_t>(1,
                                static_cast<std::size_t>(kMostRegions * std::max(params.detail, kCoarsest)));
 }
 
-// Divides the meshes along the watersheds of summits, then of pits, that persist. The raw split is not
-// divided.
+// Divides the meshes along the watersheds of the summits that persist, then along those of the pits. Does not
+// divide the raw split.
 absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& params,
                                   std::span<const ZeroField> fields, double max_cell, const RunContext& run,
                                   std::vector<SplitMesh>& meshes, AdjacencyList& adjacency) {
@@ -92,7 +93,7 @@ absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& pa
   return watersheds;
 }
 
-// 1/mm: mean contour curvature that no tool could feel.
+// Mean contour curvature that counts as flat, 1/mm: its sagitta over the ball's diameter is the tolerance.
 double FlatBend(const RegionParams& params) {
   return 8.0 * params.tolerance / (4.0 * params.radius * params.radius);
 }
@@ -133,7 +134,7 @@ Region FromLabel(const SplitLabel& label) {
   return region;
 }
 
-// The groups of merged regions, borders bent onto the true curves, as regions in their final order.
+// The groups of merged regions as regions in their final order. Their borders follow the true curves.
 struct Numbered {
   std::vector<Region> regions;
   std::vector<std::vector<int>> region_of, component_of;  // [piece][triangle]
@@ -141,8 +142,8 @@ struct Numbered {
   BorderArcs arcs;
 };
 
-// What hangs together of each region, numbered by regions, then by their first raw regions. What no ball
-// reaches counts as one component wherever it is: nothing is cut there.
+// Numbers the connected components of each region, by region and then by their first raw region. An
+// unreachable region is one component even if it is not connected, because nothing is cut there.
 void NumberComponents(const RawRegions& raw, const std::vector<int>& id_of_raw, Numbered& numbered) {
   UnionFind sets(raw.regions.size());
   for (const RawContact& contact : raw.contacts) {
@@ -162,7 +163,7 @@ void NumberComponents(const RawRegions& raw, const std::vector<int>& id_of_raw, 
                    [&](std::size_t a, std::size_t b) { return id_of_raw[a] < id_of_raw[b]; });
   std::vector<int> component(raw.regions.size(), -1);
   for (const std::size_t i : order) {
-    if (sets.Find(i) != i) continue;  // the first of each set comes first
+    if (sets.Find(i) != i) continue;  // the root of a set is its smallest member
     component[i] = static_cast<int>(numbered.component_region.size());
     numbered.component_region.push_back(id_of_raw[i]);
   }
@@ -227,7 +228,7 @@ absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitM
   return numbered;
 }
 
-// Patches stand in rising order because the pieces of each follow those of the one before.
+// The patches of a region come in rising order, because pieces are sorted by patch.
 void ListPatches(const Surface& surface, const std::vector<std::vector<int>>& region_of,
                  std::vector<Region>& regions) {
   for (std::size_t piece = 0; piece < region_of.size(); ++piece) {
@@ -261,7 +262,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(meshes, adjacency, watersheds, run));
   PM_ASSIGN_OR_RETURN(Numbered numbered,
                       Number(surface, meshes, adjacency, raw, Merge(raw, params), fields, params, run));
-  // What is told of the regions, at once: none of it needs any other.
+  // The figures of the regions do not depend on each other and are computed in parallel.
   RegionMap map;
   map.component_region = numbered.component_region;
   BorderNet net;
@@ -272,7 +273,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_ASSIGN_OR_RETURN(const BorderPoints points,
                       FindBorderPoints(surface, meshes, adjacency, arcs, params.border_tolerance, run));
   const auto unreachable = UnreachableTriangles(meshes, region_of, regions);
-  // The largest regions first, not for one thread at last.
+  // The largest regions come first, so that no thread is left with one of them at the end.
   std::vector<std::size_t> probed;
   for (std::size_t id = 0; id < regions.size(); ++id) {
     if (!unreachable[id].empty()) probed.push_back(id);

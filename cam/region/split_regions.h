@@ -1,4 +1,4 @@
-// The split of a surface into regions: all stages of cam/region in their order [regions].
+// Splits a surface into regions: runs all stages of cam/region in their order [regions].
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -9,8 +9,8 @@
 
 namespace patchmill {
 
-// Deterministic. Cost: some 10 us per triangle of the split, parallel. INVALID_ARGUMENT: the radius is not in
-// the locator's range. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// Deterministic. Cost: some 10 us per triangle of the split, in parallel. INVALID_ARGUMENT if the radius is
+// outside the locator's range. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParams& params,
                                        const RunContext& run);
 

@@ -11,9 +11,10 @@
 namespace patchmill {
 namespace {
 
-// Calls between two looks at the sum: so many at first, then as many as there were before, for neighbouring
-// lines and levels are about as long; but no more than would reach the limit if all were as long as the
-// longest so far.
+// The number of calls between two checks of the sum. The first check comes after kFirst calls. After each
+// check as many calls follow as there were before, because neighbouring lines and levels have about the same
+// length. They are never more than would reach the limit if all were as long as the longest so far (but at
+// least kFewest).
 constexpr std::size_t kFirst = 64, kFewest = 16;
 
 std::size_t CallsLeft(const PathLimits& limits, const PathAmount& made, const PathAmount& longest) {

@@ -1,4 +1,4 @@
-// The parallel loop in which passes are made: it counts them and ends where they pass a limit.
+// The parallel loop in which passes are made. It counts them and ends if they exceed a limit.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,11 @@
 
 namespace patchmill {
 
-// ParallelFor whose body tells how much it has made. CheckAmount's error once that and budget.made pass
-// budget.limits: the same one for any number of threads, and soon after. The limit is passed by as much as
-// one look allows at most: 64 calls at first, later as many as reach it at the length of the longest call so
-// far, or as there were before, whichever is fewer. `stage` names the work in progress and error.
+// A ParallelFor whose body returns how much it has made. If the sum and budget.made exceed budget.limits, it
+// returns CheckAmount's error soon after. The error is the same for any number of threads. Between two checks
+// there are 64 calls at first. Later there are as many as before, or as many as would reach the limit at the
+// length of the longest call so far, whichever is fewer, but at least 16. The limit can be exceeded by no
+// more than these calls make. `stage` names the work in progress and in the error.
 absl::Status CountedFor(const RunContext& run, const char* stage, std::size_t count, const PathBudget& budget,
                         const std::function<PathAmount(std::size_t)>& body);
 

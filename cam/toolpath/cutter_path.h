@@ -1,4 +1,4 @@
-// A pass: the polyline of ball centres with the contacts under it.
+// A pass: a polyline of ball centres with their contacts on the surface.
 #pragma once
 
 #include <cstddef>
@@ -11,30 +11,31 @@
 
 namespace patchmill {
 
-// kBorder: along the border of what lines cover.
+// kBorder runs along the border of the area that lines cover.
 enum class PassKind { kZigzag, kContour, kBorder, kPencil, kRest };
 constexpr PassKind LastOf(PassKind) { return PassKind::kRest; }
 
-// A ball centre and what it touches: free, or in the ground by less than its chords may be (fewest_chords.h).
+// A ball centre and its contacts. The ball is free, or penetrates the surface by less than its chords may
+// (fewest_chords.h).
 struct CutterPoint {
   Vec3 center = Vec3::Zero();
-  std::optional<SurfacePoint> contact;        // absent where the floor holds the ball
-  std::optional<SurfacePoint> other_contact;  // the second one at a switch or corner vertex
+  std::optional<SurfacePoint> contact;        // none where the floor holds the ball
+  std::optional<SurfacePoint> other_contact;  // the second contact at a contact switch or a corner
 };
 
-// Consecutive centres are joined by straight moves, each certified: gouge and excess within the path's chord
+// Straight moves join consecutive centres. Each is certified: gouge and excess are within the path's chord
 // tolerance.
 struct CutterPath {
   PassKind kind = PassKind::kZigzag;
-  bool closed = false;  // the last point joins the first (not repeated)
-  // Is cut from its first point to its last, never back, and the ball comes to it from above.
+  bool closed = false;  // the last point joins the first, which is not repeated
+  // Cut from the first point to the last only. The ball approaches the first point from above.
   bool one_way = false;
-  // Is cut from its first point to its last, but for that linked as any.
+  // Cut from the first point to the last only. Otherwise it is linked like any pass.
   bool directed = false;
-  // Winds down from its first point to its last and is cut like that, whatever the direction of contours: it
-  // was made for it.
+  // A helical pass: it winds down from the first point to the last and is cut that way only, whatever the
+  // direction of contours.
   bool spiral = false;
-  int region = -1;    // RegionMap id of most of its length, -1: none
+  int region = -1;    // RegionMap id of most of its length; -1: none
   int order_key = 0;  // index of the scan line or level it came from; orders passes within a region
   std::vector<CutterPoint> points;
 };
@@ -42,11 +43,11 @@ struct CutterPath {
 double Length(const CutterPath& path);  // mm, closing move included
 double Length(std::span<const CutterPoint> open_path);
 
-// The same closed path started at its vertex `start`.
+// Makes the closed path start at its vertex `start`.
 void RotateClosed(CutterPath& path, std::size_t start);
 void Reverse(CutterPath& path);
 
-// All straight moves of passes, in their order; a pass of one point is a move of no length.
+// All straight moves of the passes, in their order. A pass of one point is a move of length 0.
 std::vector<PathSegment> MovesOf(const std::vector<CutterPath>& paths);
 
 }  // namespace patchmill

@@ -1,4 +1,4 @@
-// How much of passes there is, and how much there may be.
+// The amount of passes: how much there is, and how much is allowed.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ struct CutterPath;
 struct CutterPoint;
 
 struct PathAmount {
-  double length = 0.0;  // mm of chords
+  double length = 0.0;  // mm, total length of the chords
   double points = 0.0;
 
   PathAmount& operator+=(const PathAmount& more) {
@@ -28,20 +28,20 @@ PathAmount AmountOf(const CutterPath& path);
 PathAmount AmountOf(std::span<const CutterPoint> open_path);
 PathAmount AmountOf(std::span<const CutterPath> paths);
 
-// What the passes of one plan may come to; the program's points and feed with their links too.
+// Limits for the passes of one plan, and for the points and the feed length of the program with its links.
 struct PathLimits {
   double length = kInfinity;  // mm, > 0
   double points = kInfinity;  // > 0
 };
 
-// Limits, and what counts against them before anything more is made.
+// Limits, and the amount that counts against them from the start.
 struct PathBudget {
   PathLimits limits;
   PathAmount made;
 };
 
-// OK while `amount` is within the limits; else a LimitPassedError (core/base/error_details.h) of
-// "cut_length_mm" or "point_count". `when` goes on the sentence: "after 40 % of the lines".
+// OK while `amount` is within the limits. Otherwise a LimitPassedError (core/base/error_details.h) of
+// "cut_length_mm" or "point_count". The sentence ends with `when`, for example "after 40 % of the lines".
 absl::Status CheckAmount(const PathLimits& limits, const PathAmount& amount, std::string_view when);
 
 }  // namespace patchmill

@@ -25,9 +25,10 @@ double NearestInXy(const PathSegment& s, const Vec3& p) {
   return std::clamp(((p.x() - s.a.x()) * dx + (p.y() - s.a.y()) * dy) / length2, 0.0, 1.0);
 }
 
-// The squared distance at parameter t is plan^2 + max(0, z(t) - p_z)^2, convex in t. Where the segment lies
-// below p at its nearest point in plan, the plan distance is reached. Otherwise the nearest point of the
-// segment itself decides, if it is above p; if it is not, the minimum is where the segment passes p's height.
+// The squared distance at the parameter t is plan^2 + max(0, z(t) - p_z)^2, convex in t. If the segment lies
+// below p at its nearest point in plan, the plan distance is the answer. Otherwise the nearest point of the
+// segment itself is the answer if it lies above p. If it does not, the minimum lies where the segment passes
+// p's height.
 Vec3 NearestOnSwept(const PathSegment& s, const Vec3& p) {
   const double t = NearestInXy(s, p);
   const Vec3 q = s.a + t * (s.b - s.a);
@@ -70,7 +71,7 @@ double DistanceToEither(const PathSegment& a, const PathSegment& b, const Vec3* 
     for (std::size_t k = 0; k < n; ++k) most = std::max(most, (1.0 - share) * to_a[k] + share * to_b[k]);
     return most;
   };
-  // Convex in the share: narrow it down.
+  // The function is convex in the share, so the interval is narrowed down.
   double low = 0.0, high = 1.0, best = at(0.5);
   for (int i = 0; i < 10 && best > enough; ++i) {
     const double left = low + (high - low) / 3.0, right = high - (high - low) / 3.0;
@@ -98,8 +99,8 @@ double ShankDistance(const PathSegment& s, const Vec3& p, double shank_radius) {
   return ShankDistanceAndGradient(s, p, shank_radius).distance;
 }
 
-// At the best place t of the segment 0 = a plan'(t) + (1 - a) rise'(t) for some a in [0,1], and with the same
-// a the gradients of the two terms in p make one of their smallest maximum.
+// At the best place t of the segment, 0 = a plan'(t) + (1 - a) rise'(t) for some a in [0,1]. With the same a,
+// the gradients of the two terms in p give a subgradient of their smallest maximum.
 MetricValue ShankDistanceAndGradient(const PathSegment& s, const Vec3& p, double shank_radius) {
   const Vec3 d = s.b - s.a;
   const auto beside = [&](double t) { return Xy(Vec3(p - s.a - t * d)); };
@@ -109,7 +110,7 @@ MetricValue ShankDistanceAndGradient(const PathSegment& s, const Vec3& p, double
   if (plan(near) >= rise(near)) return From(Lift(Xy(p) - beside(near), p.z()), p);
   double low = d.z() < 0.0 ? 1.0 : 0.0;
   if (rise(low) >= plan(low)) return {rise(low), -Vec3::UnitZ()};
-  for (int i = 0; i < 50; ++i) {  // between them the two terms cross
+  for (int i = 0; i < 50; ++i) {  // the two terms cross between near and low
     const double middle = 0.5 * (near + low);
     (plan(middle) >= rise(middle) ? low : near) = middle;
   }

@@ -1,5 +1,5 @@
-// Distances from a point to a straight move and to what its tool sweeps upwards. All are convex functions of
-// the point, with slope at most 1.
+// Distances from a point to a straight move, and to the volume that its tool sweeps upwards. All are convex
+// functions of the point with slope at most 1.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,17 @@ struct PathSegment {
 
 enum class Metric {
   kPath,   // to the segment
-  kSwept,  // to the half strip {c + s e_z : c on the segment, s >= 0}: ball and the shank above it
-  // To everything above the lower end's height over the rectangle with the ends as corners and sides along x
-  // and y: where a rapid may go, for controls need not drive its axes together.
+  kSwept,  // to the half strip {c + s e_z : c on the segment, s >= 0}: the ball and the shank above it
+  // To everything above the height of the lower end, over the rectangle with the ends as corners and sides
+  // along x and y. A rapid may pass any place of it, because a control need not drive its axes together.
   kSweptBox,
-  kShank,     // max(plan distance, shank radius - height above the segment), smallest over the segment:
-              // shank radius minus this is how deep the point sits in a cylinder that begins at the segment
+  kShank,     // max(plan distance, shank radius - height above the segment), the smallest over the segment.
+              // The shank radius minus this is the depth of the point in a cylinder from there up
   kShankBox,  // the same over the rectangle of kSweptBox, at the lower end's height
 };
 
-// Value and a subgradient: nowhere is the value below distance + gradient . (q - p). For all but the
-// shank the unit vector in which it grows.
+// The value and a subgradient: nowhere is the value below distance + gradient . (q - p). Except for the
+// shank, the gradient is the unit vector in which the value grows.
 struct MetricValue {
   double distance = 0.0;
   Vec3 gradient = Vec3::Zero();  // zero where the distance is zero
@@ -33,7 +33,7 @@ struct MetricValue {
 
 double PathDistance(const PathSegment& s, const Vec3& p);
 
-// The same to many points of one segment.
+// The same for many points and one segment.
 class PathRuler {
  public:
   explicit PathRuler(const PathSegment& s) : a_(s.a), d_(s.b - s.a) {
@@ -50,11 +50,11 @@ class PathRuler {
   double scale_ = 0.0;
 };
 
-// Upper bound of the distance to the nearer of two segments all over the convex hull of up to kMaxNetPoints
-// points. The distance to one is convex, and so is every mean of both: over the hull it is nowhere above its
-// largest value at the points, and never below the distance to the nearer one. Of all means the one that
-// makes it least, or the first that makes it `enough`. One segment from each side of a crest between two
-// passes makes the bound second-order there.
+// An upper bound, over the convex hull of up to kMaxNetPoints points, of the distance to the nearer of two
+// segments. The distance to one segment is convex, and so is every weighted mean of both. Over the hull such
+// a mean is nowhere above its largest value at the points, and it is never below the distance to the nearer
+// segment. The mean with the smallest bound is used, or the first whose bound is `enough`. With one segment
+// from each side of a crest between two passes, the bound is exact to second order there.
 double DistanceToEither(const PathSegment& a, const PathSegment& b, const Vec3* hull, int count,
                         double enough);
 

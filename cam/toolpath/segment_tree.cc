@@ -12,12 +12,12 @@ namespace patchmill {
 
 namespace {
 
-// A move of these is not the sum of its parts.
+// For these metrics a move is not the sum of its parts.
 bool OverBox(Metric metric) { return metric == Metric::kSweptBox || metric == Metric::kShankBox; }
 bool OfShank(Metric metric) { return metric == Metric::kShank || metric == Metric::kShankBox; }
 
-constexpr double kMostPieces = 2'000'000;  // of cut segments
-constexpr float kFar = 1e30F;              // its square is infinite: never near
+constexpr double kMostPieces = 2'000'000;  // number of segments after cutting
+constexpr float kFar = 1e30F;              // its square is infinite, so it is never near
 
 std::vector<PathSegment> CutLong(std::vector<PathSegment> segments, double longest) {
   double total = 0.0;
@@ -49,14 +49,15 @@ std::vector<PathSegment> CutLong(std::vector<PathSegment> segments, double longe
 
 struct SegmentTree::Order {
   struct Item {
-    Vec3 middle;  // twice, in fact
+    Vec3 middle;  // twice the midpoint
     std::int32_t segment;
   };
   const std::vector<PathSegment>& segments;
   const RunContext& run;
   std::vector<Item> items;
 
-  // Where the second half begins: whole leaves come before it. Along the longer side of the middles' box.
+  // Returns where the second half begins; the first half has whole leaves. Halves along the longest side of
+  // the midpoints' box.
   std::size_t Halve(std::size_t begin, std::size_t end) {
     const std::size_t half = begin + ((end - begin + 1) / 2 + kLanes - 1) / kLanes * kLanes;
     if (run.Cancelled()) return half;
@@ -87,11 +88,11 @@ SegmentTree::SegmentTree(std::vector<PathSegment> segments, Metric metric, doubl
   Build(order, 0, segments.size());
 }
 
-// The node of all in [begin, end).
+// Makes the node of all items in [begin, end).
 std::int32_t SegmentTree::Build(Order& order, std::size_t begin, std::size_t end) {
   const auto self = static_cast<std::int32_t>(nodes_.size());
   nodes_.emplace_back();
-  // Halves of halves.
+  // Two rounds of halving give up to four parts.
   std::array<std::size_t, kLanes + 1> cuts{begin, end};
   std::size_t parts = 1;
   for (int round = 0; round < 2; ++round) {
@@ -141,14 +142,15 @@ std::int32_t SegmentTree::Build(Order& order, std::size_t begin, std::size_t end
   return self;
 }
 
-// Single precision: what its rounding of the point and of the sums can hide is added to what counts as near.
+// A query in single precision. The possible rounding of the point and of the sums is added to the distance
+// that counts as near.
 struct SegmentTree::Query {
   Query(const Vec3& p, double shank_radius)
       : at{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())},
         shank(static_cast<float>(shank_radius)),
         hidden(kUlps * (p.cwiseAbs().sum() + std::abs(shank_radius))) {}
 
-  // Boxes whose squared distance is less may hold something nearer than `distance`.
+  // A box may hold something nearer than `distance` if its squared distance is less than this.
   float Near2(double distance) const {
     const double wide = distance * (1.0 + kUlps) + hidden;
     return RoundUp(wide * wide * (1.0 + kUlps));
@@ -160,7 +162,7 @@ struct SegmentTree::Query {
   double hidden;  // mm
 };
 
-// Of all children at once, a lane each.
+// The squared distances of all children, one lane each.
 SegmentTree::Floats SegmentTree::ChildDistances2(const Node& node, const Query& q) const {
   const auto above_zero = [](Floats x) { return x > 0.0F ? x : Floats{}; };
   const auto outside = [&](int axis) {
@@ -172,7 +174,7 @@ SegmentTree::Floats SegmentTree::ChildDistances2(const Node& node, const Query& 
     const Floats dz = outside(2);
     return plan + dz * dz;
   }
-  // No upper end in z: the swept sets go up for ever.
+  // The swept sets have no upper end in z.
   const Floats rise = node.low[2] - q.at[2];
   if (metric_ == Metric::kSwept || metric_ == Metric::kSweptBox) {
     const Floats dz = above_zero(rise);
@@ -214,7 +216,7 @@ MetricValue SegmentTree::DistanceAndGradient(int i, const Vec3& p) const {
   return {};
 }
 
-// Squares of the distances to the moves of a leaf, up to rounding.
+// Squared distances to the moves of a leaf, up to rounding.
 void SegmentTree::Distances2(const Leaf& leaf, const Vec3& p, double (&distance2)[kLanes]) {
   const Doubles dx = leaf.b[0] - leaf.a[0], dy = leaf.b[1] - leaf.a[1], dz = leaf.b[2] - leaf.a[2];
   const Doubles x = p.x() - leaf.a[0], y = p.y() - leaf.a[1], z = p.z() - leaf.a[2];
@@ -247,7 +249,7 @@ SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int h
       for (int k = 0; k < leaf.count; ++k) consider(kLanes * index + k);
       return;
     }
-    // Only what is about as near as the nearest is measured one by one.
+    // Only moves about as near as the nearest one are measured one by one.
     constexpr double kRounded = 1.0 + 1e-9;
     double of_move[kLanes];
     Distances2(leaf, p, of_move);
@@ -259,8 +261,8 @@ SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int h
       if (of_move[k] <= best.distance * best.distance * kRounded) consider(kLanes * index + k);
     }
   };
-  // Boxes to be opened, and their distances: arrays of their own, for what is written as two and read as one
-  // waits in the processor.
+  // The boxes to be opened and their distances are separate arrays: data written as two values and read as
+  // one stalls the processor.
   constexpr std::size_t kStack = 128;
   float distance2[kStack];
   std::int32_t open[kStack];
@@ -277,7 +279,7 @@ SegmentTree::Nearest SegmentTree::FindNearest(const Vec3& p, double limit, int h
     const Node& node = nodes_[static_cast<std::size_t>(open[size])];
     const Floats of_child = ChildDistances2(node, q);
     PM_CHECK(size + kLanes <= kStack);
-    // Without a branch for each, which no processor foresees; the nearest on top.
+    // No branch for each child, because no processor could predict it. The nearest child comes on top.
     const std::size_t first = size;
     std::size_t nearest = size;
     for (std::size_t k = 0; k < kLanes; ++k) {

@@ -1,5 +1,5 @@
-// The whole motion: what is posted, drawn and streamed. Positions are of the ball CENTRE in the placed
-// model's frame (mm); the post subtracts radius (tip) and program zero.
+// The whole motion, as it is posted, drawn and streamed. Positions are those of the ball CENTRE in the placed
+// model's frame (mm). The post subtracts the radius (for the tip) and the program zero.
 #pragma once
 
 #include <optional>
@@ -13,20 +13,19 @@ namespace patchmill {
 
 enum class MoveKind { kRapid, kApproach, kPlunge, kLead, kCut, kLink, kRetract };
 
-// Where the ball touches the surface.
+// The place where the ball touches the surface.
 struct MoveContact {
   Vec3 p = Vec3::Zero();
   PatchId patch;
 };
 
-// Straight move from the previous move's `to` (the first one: from machine zero above everything,
-// vertical-safe).
+// A straight move from `to` of the previous move. The first move starts at machine zero, above everything.
 struct Move {
   MoveKind kind = MoveKind::kRapid;
   Vec3 to = Vec3::Zero();
   double feed = 0.0;  // mm/min; ignored for kRapid
   int region = -1;
-  int pass = -1;  // index of the pass in the linked order, -1 between passes
+  int pass = -1;  // index of the pass in the linked order; -1 between passes
   std::optional<MoveContact> contact = std::nullopt;  // at `to`
 };
 
@@ -35,7 +34,8 @@ struct Toolpath {
   double ball_radius = 0.0;
 };
 
-// What a program text means, as read back from it: TIP positions in the program frame, mm.
+// The meaning of a program text, as read back from it. Positions are those of the TIP in the program frame,
+// mm.
 struct ProgramMove {
   enum class Kind { kRapid, kFeed };
   Kind kind = Kind::kRapid;
@@ -43,26 +43,26 @@ struct ProgramMove {
   Vec3 to = Vec3::Zero();
   double feed = 0.0;        // mm/min
   int line = 0;             // 1-based line of the text
-  bool from_above = false;  // starts at machine Z zero ("above everything"): from.z() means +infinity
-  bool to_above = false;    // ends there
-  // X or Y of `from` was never stated: it stands for wherever the machine was, and is written down as the
-  // place where the axis is first sent.
+  bool from_above = false;  // starts at machine Z zero ("above everything"); from.z() means +infinity
+  bool to_above = false;    // ends at machine Z zero
+  // X or Y of `from` was never stated, so the axis may have been anywhere. `from` then holds the place to
+  // which the axis is first sent.
   bool from_anywhere = false;
-  double chord_error = 0.0;  // mm, when the move is one chord of an arc
+  double chord_error = 0.0;  // mm, if the move is one chord of an arc
   bool spindle_on = false;   // at a speed above zero
 };
 
 struct ProgramMotion {
   std::vector<ProgramMove> moves;
-  // What the program leaves to the state of the control, and what is taken for it: UNITS_ASSUMED (mm, of
+  // What the program leaves to the state of the control, and the value that is assumed: UNITS_ASSUMED (mm, of
   // coordinates or of an F), DISTANCE_MODE_ASSUMED (G90), ARC_MODE_ASSUMED (G91.1), LENGTH_OFFSET_ASSUMED
   // (set before), LENGTH_OFFSET_OF_OTHER_TOOL (H is not T), PATH_MODE_ASSUMED (no smoothing),
-  // SPINDLE_REVERSED (a left-hand cutter); and FEED_IN_UNIT_BEFORE, an F on a line that changes the unit.
-  // Warnings with their lines.
+  // SPINDLE_REVERSED (a left-hand cutter). Also FEED_IN_UNIT_BEFORE: an F on a line that changes the unit.
+  // All are warnings with their program lines.
   Diagnostics assumptions;
   int tool_number = 0;
-  // mm, largest G64 P + Q in force (Q absent: P), kInfinity for G64 without P or with P0: while feeding, and
-  // over rapids below machine zero.
+  // mm, the largest G64 P + Q in force (Q absent: P); kInfinity for G64 without P or with P0.
+  // controller_tolerance holds while feeding, rapid_tolerance over rapids below machine zero.
   double controller_tolerance = 0.0;
   double rapid_tolerance = 0.0;
   bool ends_with_spindle_off = false;

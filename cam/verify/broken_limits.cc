@@ -11,12 +11,12 @@
 namespace patchmill {
 namespace {
 
-constexpr double kCertainty = 1e-3;  // mm
-constexpr double kClear = 0.5;       // mm: farther from the surface is not looked at
+constexpr double kCertainty = 1e-3;  // mm; how exactly the deepest violation of a move is known
+constexpr double kClear = 0.5;       // mm; room that a centre this far from touching the surface counts as
 constexpr std::size_t kMost = 20;    // findings per code
 
-using Room = std::function<double(const Vec3&)>;          // of a centre; slope at most 1
-using Floor = std::function<double(const PathSegment&)>;  // what no place of a move has less than
+using Room = std::function<double(const Vec3&)>;          // mm, room of a centre; slope at most 1
+using Floor = std::function<double(const PathSegment&)>;  // mm, a lower bound for the room on a move
 
 struct Least {
   double room = kInfinity;
@@ -24,8 +24,8 @@ struct Least {
   int move = -1;
 };
 
-// Lowers `least` to the smallest room on a b when that is smaller by more than the certainty. `floor`: there
-// is no smaller one, and it may be the same over wide ground.
+// Lowers `least` to the smallest room on the segment a b if that is smaller by more than the certainty. No
+// room on it is below `floor`. Over large areas the room may be constant; then `floor` ends the search.
 void Lower(const Room& room, double floor, const Vec3& a, const Vec3& b, Least& least) {
   if (floor >= least.room - kCertainty) return;
   const Vec3 middle = 0.5 * (a + b);
@@ -39,7 +39,7 @@ void Lower(const Room& room, double floor, const Vec3& a, const Vec3& b, Least& 
   Lower(room, floor, middle, b, least);
 }
 
-// The same over the rectangle with corners a and b and sides along x and y, at the height z.
+// The same over the rectangle with corners a and b and sides along x and y, at height z.
 void LowerOver(const Room& room, double floor, const Vec2& a, const Vec2& b, double z, Least& least) {
   if (floor >= least.room - kCertainty) return;
   const Vec2 middle = 0.5 * (a + b);
@@ -96,9 +96,9 @@ std::vector<Least> Broken(const std::vector<PathSegment>& moves, const Room& roo
   return broken;
 }
 
-constexpr double kLeastPart = 0.01;  // mm
+constexpr double kLeastPart = 0.01;  // mm; shorter parts of a move are not divided
 
-// Adds what of the segment lies in no material.
+// Adds the parts of the segment that lie in no material.
 void AddFree(const Containment& c, double ball, const PathSegment& s, std::vector<PathSegment>& out) {
   const Vec3 tip = 0.5 * (s.a + s.b) - Vec3(0.0, 0.0, ball);
   double room = kInfinity;
@@ -183,7 +183,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
                "a feed leaves the boundary");
   }
   if (c.top_z) {
-    // Touching: the surface lies within `slack` of the ball, beside what Broken allows.
+    // A ball touches the surface if it is within `slack` of it. Broken allows another `slack`.
     const double touching = radius + 2.0 * slack;
     const Room room = [&](const Vec3& center) {
       const double below = TopRoom(c, center.z() - limits.ball);

@@ -1,4 +1,5 @@
-// [verification P3] for the operation's own limits: no feed outside the boundary, nothing in an obstacle.
+// Checks a program against the limits of the operation [verification P3]: no feed leaves the boundary, and
+// nothing enters an obstacle.
 #pragma once
 
 #include <vector>
@@ -9,16 +10,20 @@
 
 namespace patchmill {
 
-// OBSTACLE_HIT and BESIDE_PART (all moves), OUTSIDE_BOUNDARY (feed moves) and ABOVE_TOP (feed moves, but not
-// straight up or down, that touch the surface while the tip is above the highest), the deepest first, one a
-// line and at most 20 of each: moves that go more than `slack` (mm) beyond a limit somewhere, known to 1e-3
-// mm. `radius`, mm: of ball and stock to leave. `offset` as in CollectMoves; places are said in the program
-// frame. Obstacles are kept off by rapids wherever a control may go that drives one axis before the other.
-// Means nothing once `run` is cancelled.
+// Reports moves that go more than `slack` (mm) beyond a limit, to 1e-3 mm:
+// - OBSTACLE_HIT: all moves, and for rapids all places to which a control may go that drives one axis before
+//   the other;
+// - BESIDE_PART: all moves;
+// - OUTSIDE_BOUNDARY: feed moves;
+// - ABOVE_TOP: feed moves that touch the surface while the tip is above the highest one allowed. Moves
+//   straight up or down do not count.
+// Of each code at most 20 findings are reported, one for each program line, the deepest first. `radius` is
+// that of the ball plus the stock to leave, mm. `offset` is that of CollectMoves; messages give places in the
+// program frame. Meaningless once `run` is cancelled.
 Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const CenterLimits& limits,
                          double radius, const Vec3& offset, double slack, const RunContext& run);
 
-// The parts of feed moves that may finish something. Behind a wall (StripKind::kMaterial) a ball finishes
+// The parts of feed moves that count as cutting. A ball on the back of a wall (StripKind::kMaterial) finishes
 // nothing: on a thin wall it would be as near to the other side. Moves are divided down to 0.01 mm.
 std::vector<PathSegment> OutsideOfMaterial(const CenterLimits& limits, std::vector<PathSegment> moves);
 

@@ -10,6 +10,7 @@ namespace patchmill {
 absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const Extreme& known, double limit,
                                      double certainty, const MakeRootSearch& make, const RunContext& run,
                                      const char* stage) {
+  // Every kFirst-th root is searched in the first round; kChunk roots form one task.
   constexpr std::size_t kFirst = 8, kChunk = 32;
   std::vector<std::size_t> first, second;
   for (std::size_t i = 0; i < roots.size(); ++i) (i % kFirst == 0 ? first : second).push_back(i);
@@ -21,7 +22,7 @@ absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const E
     const std::size_t chunks = (round->size() + kChunk - 1) / kChunk;
     PM_RETURN_IF_ERROR(ParallelFor(run, round == &second ? stage : nullptr, chunks, [&](std::size_t chunk) {
       const RootSearch search = make();
-      Threshold so_far = threshold;  // what this chunk has found already
+      Threshold so_far = threshold;  // with the values of this chunk
       const std::size_t end = std::min(round->size(), (chunk + 1) * kChunk);
       for (std::size_t k = chunk * kChunk; k < end && !run.Cancelled(); ++k) {
         const std::size_t i = (*round)[k];

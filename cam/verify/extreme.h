@@ -1,5 +1,5 @@
-// Searching the whole surface for the largest value of something, in two rounds whose result does not depend
-// on the number of threads.
+// Searches the whole surface for the largest value of some quantity. The result does not depend on the number
+// of threads.
 #pragma once
 
 #include <functional>
@@ -12,9 +12,9 @@
 
 namespace patchmill {
 
-// A value attained at a surface point, and the move that is to blame.
+// A value at a surface point, and the move that causes it.
 struct Extreme {
-  double value = 0.0;  // mm, >= 0; 0: nothing found
+  double value = 0.0;  // mm, >= 0; 0 if nothing was found
   Vec3 point = Vec3::Zero();
   PieceId piece;
   int move = -1;
@@ -22,31 +22,32 @@ struct Extreme {
 
 struct Extremes {
   Extreme worst;
-  // One of each root cell with something above the limit, largest first: its worst, or the first one found
-  // when it is surely not the worst of all.
+  // One for each root cell with a value above the limit, largest first. It is the largest value of the cell,
+  // or the first one found if it is certainly not the largest of all cells.
   std::vector<Extreme> violations;
 };
 
-// What branch and bound compares with: cells that cannot exceed `drop` are left.
+// Thresholds of branch and bound. Cells that cannot exceed Drop() are abandoned.
 struct Threshold {
-  double known = 0.0;  // largest value attained before this root was opened
+  double known = 0.0;  // largest value found before this root was searched
   double limit = kInfinity;
   double certainty = 0.0;
 
-  // A value above this improves the answer, or is the root's first violation. `here`: the largest of this
-  // root.
+  // A value above this is the largest so far or the first violation in this root. `here` is the largest value
+  // found in this root.
   double Floor(double here) const {
     return here > limit ? std::max(known, here) : std::max(here, std::min(known, limit));
   }
   double Drop(double here) const { return Floor(here) + certainty; }
 };
 
-// One searcher per chunk of roots: search(root, threshold) -> its largest value.
+// search(root, threshold) returns the largest value in the root cell. Each chunk of roots makes a search of
+// its own.
 using RootSearch = std::function<Extreme(const CellRect& root, const Threshold& threshold)>;
 using MakeRootSearch = std::function<RootSearch()>;
 
-// Every eighth root first, then the others knowing what these have found; within a chunk each root knows what
-// the ones before it have found. `known` is attained already.
+// Searches every eighth root first, then the others with the value found by these. Within a chunk each root
+// starts with the values of the roots before it. `known` is a value that was found before.
 absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const Extreme& known, double limit,
                                      double certainty, const MakeRootSearch& make, const RunContext& run,
                                      const char* stage);

@@ -23,7 +23,7 @@ class GougeSearch {
  private:
   bool Visit(const SurfaceCell& cell, const Threshold& threshold, Extreme& here) {
     if (run_.Cancelled()) return false;
-    if (threshold.Drop(here.value) >= radius_) return false;  // no distance is below zero
+    if (threshold.Drop(here.value) >= radius_) return false;  // distances are never negative
     const auto depth = static_cast<std::size_t>(cell.depth);
     std::vector<int>& from = candidates_[depth];
     std::vector<int>& to = candidates_[depth + 1];
@@ -36,7 +36,7 @@ class GougeSearch {
       if (radius_ - f.distance > here.value) {
         here = {radius_ - f.distance, cell.middle, cell.rect.piece, tree_.segment(i).move};
       }
-      // Slope 1 bounds it as well; the gradient of a segment through the point is unknown.
+      // The distance has slope at most 1, which is a second bound. Where it is 0, the gradient is unknown.
       double least = -cell.radius;
       if (f.distance > 0.0) {
         double lowest = kInfinity;
@@ -45,7 +45,7 @@ class GougeSearch {
         }
         least = std::max(least, lowest);
       }
-      if (f.distance + least >= radius_ - threshold.Drop(here.value)) continue;  // nor anywhere in its parts
+      if (f.distance + least >= radius_ - threshold.Drop(here.value)) continue;  // holds for all parts, too
       to.push_back(i);
       open = true;
     }
@@ -56,7 +56,7 @@ class GougeSearch {
   const SegmentTree& tree_;
   double radius_;
   const RunContext& run_;
-  std::vector<std::vector<int>> candidates_;  // by depth: what the parent has left
+  std::vector<std::vector<int>> candidates_;  // [depth]: moves that the parent cell could not exclude
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// [verification P1, P3]: how deep the surface lies inside what moves: the ball and the shank above it, a
-// shank that is wider, the ball with the stock around the surface.
+// Finds how deep the surface lies inside moving bodies [verification P1, P3]: the ball and its upward sweep,
+// a wider shank, or the ball enlarged by the stock.
 #pragma once
 
 #include "cam/toolpath/segment_tree.h"
@@ -8,16 +8,17 @@
 namespace patchmill {
 
 struct GougeParams {
-  double radius = 0.0;       // mm: of the metric: ball and stock to leave; shank; ball and stock to keep off
-  double chord_error = 0.0;  // mm: what the segments may be off
+  double radius = 0.0;       // mm, of the body: ball + stock to leave, shank, or ball + stock allowance
+  double chord_error = 0.0;  // mm, error of the segments
   double certainty = 1e-3;   // mm
-  double limit = kInfinity;  // mm: deeper is a violation
+  double limit = kInfinity;  // mm; a deeper place is a violation
 };
 
-// Largest radius - dist(p, moves) over the surface, dist being the tree's metric: Metric::kSwept
-// ([verification, section 4]) or Metric::kShank. The distance to one move is convex in p, so over a cell's
-// hull it is nowhere below the smallest value that its tangent plane at the cell's middle takes at the
-// control points. Cells are halved until no move can be deeper than what is known by more than `certainty`.
+// Largest radius + chord_error - distance(p, moves) over the surface. The distance is that of the tree's
+// metric, which is not Metric::kPath [verification, section 4]. The distance to one move is convex in p. So
+// over a cell's hull it is nowhere below the smallest value that the tangent plane at the cell's middle takes
+// at the control points [verification T9]. Cells are halved until no move can be deeper than the value found
+// by more than `certainty`. `roots` must cover the surface; `stage` names the progress.
 absl::StatusOr<Extremes> FindGouge(const Surface& surface, const std::vector<CellRect>& roots,
                                    const SegmentTree& tree, const GougeParams& params, const RunContext& run,
                                    const char* stage);

@@ -11,15 +11,15 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kBorderCell = 0.025;    // of the radius: unreachable cells are not halved below
-constexpr double kSteepCell = 0.005;     // the same where the leftover may still rise by more than
-constexpr double kBorderRise = 5.0;      // this many times the certainty
-constexpr double kListedCell = 0.1;      // the same where only one more violation could be found
-constexpr double kSmallestCell = 0.001;  // of the radius: nor any others
-constexpr double kStrategyCell = 0.1;    // of the radius: excused cells are judged by their middle
-constexpr double kFar = 1.2;             // of the radius
-constexpr double kFarSlack = 0.02;
-constexpr double kShankProof = 0.02;  // of the give
+constexpr double kBorderCell = 0.025;    // of R: smaller cells with an unreachable middle are not halved
+constexpr double kSteepCell = 0.005;     // the same if the leftover may still rise by kBorderRise
+constexpr double kBorderRise = 5.0;      // in certainties
+constexpr double kListedCell = 0.1;      // the same as kBorderCell if it could only be one more violation
+constexpr double kSmallestCell = 0.001;  // of R: no smaller cell is halved
+constexpr double kStrategyCell = 0.1;    // of R: smaller cells are excused by their middle (BeyondStrategy)
+constexpr double kFar = 1.2;             // of R: cells farther from all moves may be far inside a wall
+constexpr double kFarSlack = 0.02;       // relative error of their distances
+constexpr double kShankProof = 0.02;     // of the reach tolerance: error of the shank's place
 
 class LeftoverSearch {
  public:
@@ -38,16 +38,16 @@ class LeftoverSearch {
     return std::min(params_.most, distance + params_.chord_error - params_.reach.radius);
   }
 
-  // The distance that leaves so much.
+  // The distance from the moves at which this leftover stays, mm.
   double Distance(double leftover) const {
     return params_.most <= leftover ? kInfinity : leftover + params_.reach.radius - params_.chord_error;
   }
 
-  // How small an unreachable cell must be to be left at the border of the reachable set.
+  // Radius below which a cell with an unreachable middle is abandoned at the border of the reachable set.
   double BorderCell(double upper, const Threshold& threshold, const Extreme& here) const {
     const double known = std::max(threshold.known, here.value);
     if (upper <= known) return kListedCell * params_.reach.radius;
-    // The steeper the leftover, the more a sample between the last ones could add.
+    // Where the leftover is steep, a place between two samples may have much more left.
     return (upper - known > kBorderRise * params_.certainty ? kSteepCell : kBorderCell) *
            params_.reach.radius;
   }
@@ -55,11 +55,12 @@ class LeftoverSearch {
   bool Visit(const SurfaceCell& cell, const Threshold& threshold, Extreme& here) {
     if (run_.Cancelled()) return false;
     if (OutsideContacts(cell)) return false;
-    // Any move bounds the distance from above: often the last one will do.
+    // Any move is an upper bound for the distance. Often the last one is enough.
     if (hint_ >= 0 && IsDone(cell, hint_, threshold.Drop(here.value))) return false;
     SegmentTree::Nearest nearest;
     std::optional<bool> asked;
-    // Far from all cuts and surely unreachable: the common case of an inner wall. No need to know how far.
+    // Cells of inner walls are mostly far from all cuts and certainly unreachable. Their distance need not be
+    // known exactly.
     if (hint_ < 0 || tree_.Distance(hint_, cell.middle) > kFar * params_.reach.radius) {
       nearest = tree_.FindNearest(cell.middle, kInfinity, hint_, kFarSlack);
       const double least = Leftover(nearest.distance * (1.0 - kFarSlack));
@@ -91,7 +92,7 @@ class LeftoverSearch {
     return upper > threshold.Drop(here.value) && cell.radius > kSmallestCell * params_.reach.radius;
   }
 
-  // The segment alone leaves no more than `enough` on the whole cell.
+  // True if the segment alone leaves no more than `enough` on the whole cell.
   bool IsDone(const SurfaceCell& cell, int segment, double enough) const {
     const double reach = Distance(enough);
     if (!(reach >= 0.0)) return false;
@@ -100,8 +101,8 @@ class LeftoverSearch {
                        [&](const Vec3& p) { return ruler.Distance2(p) <= reach * reach; });
   }
 
-  // Upper bound of the distance to the moves over the whole cell; at most one more segment is tried when the
-  // nearest one alone does not keep it below what would count.
+  // Upper bound for the distance to the moves over the whole cell. If the nearest segment alone leaves more
+  // than `enough`, one more segment is tried.
   double UpperDistance(const SurfaceCell& cell, int nearest, double enough) {
     if (nearest < 0) return kInfinity;
     const PathRuler to_nearest(tree_.segment(nearest));
@@ -121,7 +122,7 @@ class LeftoverSearch {
                                           cell.hull_count, Distance(enough)));
   }
 
-  // No point of the cell is to be finished.
+  // True if no point of the cell is to be finished.
   bool OutsideContacts(const SurfaceCell& cell) const {
     const CellRect& r = cell.rect;
     if (params_.where != nullptr && !params_.where->HasAny(r.piece, r.u0, r.u1, r.v0, r.v1)) return true;
@@ -137,9 +138,9 @@ class LeftoverSearch {
     return facing && IsAskedOn(surface_, {r.piece, r.u(), r.v(), jet.p}, *facing, params_.reach, obstacles_);
   }
 
-  // No point of the cell is reachable, as all centres over it lie below the floor or above the top, or the
-  // centre cannot move far enough from the one over its middle. Normals are taken near the corners and
-  // widened by a quarter.
+  // True if no point of the cell is reachable: all centres over it lie below the floor or above the top, or
+  // the shank blocks them, or the blocker at the middle lies deeper than centres over the cell can move. The
+  // spread of normals is sampled near the corners and widened by a quarter.
   bool Closed(const SurfaceCell& cell) {
     const CellRect& r = cell.rect;
     const auto middle = FacingAt(Evaluate(surface_, r.piece, r.u(), r.v()));
@@ -151,7 +152,7 @@ class LeftoverSearch {
       const auto corner =
           FacingAt(Evaluate(surface_, r.piece, r.u0 + s * (r.u1 - r.u0), r.v0 + t * (r.v1 - r.v0)));
       if (!corner) return false;
-      if (corner->both || corner->e.dot(facing.e) < 0.0) facing.both = true;  // a silhouette runs through it
+      if (corner->both || corner->e.dot(facing.e) < 0.0) facing.both = true;  // a silhouette crosses the cell
       turn = std::max(turn, std::min((corner->e - facing.e).norm(), (corner->e + facing.e).norm()));
     }
     const double spread = cell.radius + 1.25 * turn * params_.reach.radius;
@@ -161,7 +162,8 @@ class LeftoverSearch {
     return BlockedDepth(surface_, cell.middle, facing, params_.reach, obstacles_) > spread;
   }
 
-  // All centres over the cell are too low or too high. Its normals are within `turn` of the one of `facing`.
+  // True if all centres over the cell are too low or too high. Its normals differ from that of `facing` by at
+  // most `turn`.
   bool OutsideHeights(const SurfaceCell& cell, const Facing& facing, double turn) const {
     const double radius = params_.reach.radius, z = facing.e.z();
     const double highest = std::min(1.0, z + turn),
@@ -172,7 +174,8 @@ class LeftoverSearch {
     return TopRoomAt(params_.reach.limits, low->z() + radius * lowest) < 0.0;
   }
 
-  // The shank is in the way of all centres over the cell, as flat ground has them at one height.
+  // True if the shank blocks all centres over the cell. This is tested with one height for all centres, as
+  // over a flat surface.
   bool UnderShank(const SurfaceCell& cell, const Facing& facing, double turn) const {
     const CenterLimits& limits = params_.reach.limits;
     if (!limits.shank) return false;

@@ -14,30 +14,30 @@ namespace patchmill {
 
 namespace {
 
-// Quarterings at most, and about how many cells are spent on them.
+// The largest number of quarterings, and the number of cells that they may take, about.
 struct Spent {
   int deepest;
   double cells;
 };
-constexpr Spent kBorder = {5, 60'000};   // between reachable and not
-constexpr Spent kReasons = {4, 2'000};   // between two reasons
-constexpr Spent kFinish = {4, 250'000};  // all over, where something is not finished
-constexpr double kFarSlack = 0.02;       // how exactly the distance of far unreachable points is known
-constexpr double kNear = 2.0;            // of the radius: nearer ones are measured exactly
+constexpr Spent kBorder = {5, 60'000};   // for the border of the reachable set
+constexpr Spent kReasons = {4, 2'000};   // for borders between two reasons
+constexpr Spent kFinish = {4, 250'000};  // for all reachable cells if something is not finished
+constexpr double kFarSlack = 0.02;       // relative error of the distance of far unreachable points
+constexpr double kNear = 2.0;            // of R: nearer unreachable points are measured exactly
 
-// One point of the surface as the areas need it.
+// One point of the surface.
 struct Sample {
-  std::optional<FinishClass> kind;  // nullopt where the surface has no normal: of no area
+  std::optional<FinishClass> kind;  // nullopt where the surface has no normal; it has no area there
   double element = 0.0;             // |S_u x S_v|
 };
 
 struct Sums {
   AreaReport report;
-  // Where report.lowest_center and report.highest_rise were seen: rectangles without size.
+  // Places of report.lowest_center and report.highest_rise, as rectangles without size.
   CellRect lowest, highest;
 };
 
-// Centre height over a point that only the floor forbids; infinity for any other point.
+// Height of the centre over a point that only the floor makes unreachable, mm; infinity for other points.
 double CenterBelowFloor(const Surface& surface, PieceId piece, double u, double v, const ReachParams& reach) {
   const SurfaceJet jet = Evaluate(surface, piece, u, v);
   const auto facing = FacingAt(jet);
@@ -48,7 +48,7 @@ double CenterBelowFloor(const Surface& surface, PieceId piece, double u, double 
   return jet.p.z() + reach.radius * facing->e.z();
 }
 
-// RiseNeeded of a place; `known` for any other.
+// RiseNeeded of a place; `known` if there is no normal.
 double RiseAt(const Surface& surface, PieceId piece, double u, double v, const ReachParams& reach,
               double known) {
   const SurfaceJet jet = Evaluate(surface, piece, u, v);
@@ -56,13 +56,13 @@ double RiseAt(const Surface& surface, PieceId piece, double u, double v, const R
   return facing ? RiseNeeded(surface, jet.p, *facing, reach, known) : known;
 }
 
-// The least of all values that a pattern search finds in a piece around a place where it is `best`.
-// value(piece, u, v, best): `best` or more will do for what is not less.
+// The smallest value that a pattern search finds in the piece around a place with the value `best`.
+// value(piece, u, v, best) may return anything >= best if the value is not smaller.
 template <class Value>
 double LeastAround(const CellRect& place, double best, const Value& value) {
   double u = place.u0, v = place.v0;
   if (!std::isfinite(best)) return best;
-  int left = 2000;  // of evaluations
+  int left = 2000;  // evaluations
   for (double step = 0.0625; step > 1e-6; step *= 0.5) {
     for (int k = 0; k < 9 && left > 0; ++k, --left) {
       const double x = std::clamp(u + (k / 3 - 1) * step, 0.0, 1.0);
@@ -72,21 +72,21 @@ double LeastAround(const CellRect& place, double best, const Value& value) {
       best = z;
       u = x;
       v = y;
-      k = -1;  // around the new place
+      k = -1;  // start again around the new place
     }
   }
   return best;
 }
 
-// What runs through a cell.
+// What the samples of a cell show.
 struct Limits {
-  bool border = false;   // of the reachable set
-  bool reasons = false;  // between two reasons
-  bool reached = false;  // it has reachable ground,
-  bool finish = false;   // some of which is not finished
+  bool border = false;   // the border of the reachable set crosses the cell
+  bool reasons = false;  // a border between two reasons crosses the cell
+  bool reached = false;  // the cell has reachable places
+  bool finish = false;   // some of these are not finished
 };
 
-// A place on a piece. Cells share corners; halving keeps parameters exact, so equal ones are equal.
+// A place on a piece. Cells share corners. Halving is exact, so equal places have equal parameters.
 struct Key {
   int piece;
   double u, v;
@@ -100,8 +100,8 @@ struct KeyHash {
   }
 };
 
-// How often to quarter so many cells, which become `more` times as many each time: those of a line twice as
-// many.
+// How often this many cells may be quartered if their number grows `more` times with each quartering. The
+// cells along a line double.
 int DeepestFor(std::size_t cells, const Spent& spent, double more = 2.0) {
   int deepest = 1;
   while (deepest < spent.deepest && static_cast<double>(cells) * std::pow(more, deepest + 1) <= spent.cells) {
@@ -115,24 +115,24 @@ bool Unreachable(FinishClass kind) {
          kind == FinishClass::kAvoided || kind == FinishClass::kShank || kind == FinishClass::kOutside;
 }
 
-// Reachable, finished or not.
+// True for a reachable place, finished or not.
 bool Reached(FinishClass kind) {
   return kind == FinishClass::kDone || kind == FinishClass::kAboveLimit || kind == FinishClass::kStrategy;
 }
 
 class AreaSampler {
  public:
-  // Cells are quartered `border` times where the border of the reachable set runs, `reasons` times between
-  // reasons. Not where what is finished ends: ridges between passes are narrower than cells, and to look
-  // closer only where one is seen would count too few of them.
+  // Cells are quartered `border` times at the border of the reachable set and `reasons` times between
+  // reasons. They are not quartered at the edge of unfinished places: ridges between passes are narrower than
+  // cells, so quartering only the cells whose samples meet a ridge would underestimate their area.
   AreaSampler(const Surface& surface, const SegmentTree& tree, const LeftoverParams& params, int border,
               int reasons)
       : surface_(surface), tree_(tree), params_(params), border_(border), reasons_(reasons) {}
 
-  // Returns what runs through the cell, which is quartered `all` times in any case.
+  // Adds the areas of the cell, which is quartered at least `all` times. Returns what its samples show.
   Limits Add(const CellRect& cell, int depth, int all, Sums& sums) {
-    // The middle and the corners: a border that crosses the cell shows. The weights make the area exact for
-    // a cubic area element.
+    // Samples at the middle and the corners show whether a border crosses the cell. The weights make the area
+    // exact for a cubic area element.
     constexpr double kMiddleWeight = 2.0 / 3.0, kCornerWeight = 1.0 / 12.0;
     const std::array<const Sample*, 5> samples = {
         &At(cell.piece, cell.u0, cell.v0, sums), &At(cell.piece, cell.u0, cell.v1, sums),
@@ -220,7 +220,7 @@ class AreaSampler {
     }
     Extreme& known = sums.report.deepest[static_cast<std::size_t>(kind)];
     if (hint_ >= 0) {
-      // Any move bounds the distance from above; most points need no search.
+      // Any move is an upper bound for the distance, so most points need no search.
       const double most = tree_.Distance(hint_, jet.p) + params_.chord_error - params_.reach.radius;
       if (most <= known.value && (kind != FinishClass::kDone || most <= params_.limit)) return kind;
     }
@@ -262,12 +262,13 @@ bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId pi
 absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vector<CellRect>& roots,
                                         const SegmentTree& tree, const LeftoverParams& params,
                                         const RunContext& run) {
-  constexpr std::size_t kChunk = 64;
+  constexpr std::size_t kChunk = 64;  // roots in one task
   const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
   std::vector<Sums> parts(chunks);
   std::vector<Limits> limits(roots.size());
-  std::vector<char> again(roots.size(), 0);  // its areas come in the second round
-  // First all roots as they are, then limits as finely as their length allows.
+  std::vector<char> again(roots.size(), 0);  // 1 if the root's areas are measured in the second round
+  // The first round takes all roots as they are. The second quarters those with borders, as finely as the
+  // number of these roots allows.
   PM_RETURN_IF_ERROR(ParallelFor(run, "verify: reach", chunks, [&](std::size_t chunk) {
     AreaSampler sampler(surface, tree, params, 0, 0);
     std::array<double, kFinishClasses>& area = parts[chunk].report.area;

@@ -10,7 +10,7 @@
 namespace patchmill {
 namespace {
 
-// [0, 1), as if drawn at random, the same for the same n (Steele, Lea and Flood's SplitMix64).
+// A pseudo-random number in [0, 1), the same for the same n (SplitMix64 by Steele, Lea and Flood).
 double Draw(std::uint64_t n) {
   std::uint64_t z = n * 0x9e3779b97f4a7c15ULL;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -23,7 +23,7 @@ double Draw(std::uint64_t n) {
 absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::vector<CellRect>& roots,
                                              const SegmentTree& tree, const LeftoverParams& params,
                                              const RunContext& run) {
-  constexpr std::size_t kChunk = 64;
+  constexpr std::size_t kChunk = 64;  // roots in one task
   const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
   std::vector<LeftoverSpread> parts(chunks, LeftoverSpread{});
   PM_RETURN_IF_ERROR(ParallelFor(run, "verify: spread", chunks, [&](std::size_t chunk) {

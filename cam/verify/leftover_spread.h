@@ -1,4 +1,5 @@
-// How much area has how much left: passes that lie closer together than the scallop asks for show here.
+// Measures how much area has how much leftover. It shows passes that are closer together than the scallop
+// needs.
 #pragma once
 
 #include <vector>
@@ -7,12 +8,13 @@
 
 namespace patchmill {
 
-// Reachable area by leftover in scallops, in the classes of kLeftoverClasses: from the edge before to its
-// own, the last one everything above; mm^2. What a forced strategy cannot finish does not count.
+// Reachable area by leftover, mm^2. Class k reaches from edge k - 1 to edge k of kLeftoverEdges (in
+// scallops); the last class holds everything above the last edge. Places that a forced strategy cannot finish
+// do not count.
 using LeftoverSpread = std::array<double, kLeftoverClasses>;
 
-// By one point in each root cell, drawn anew in each, so that no grid of points meets a grid of passes:
-// shares of a part with passes all over it are good to 1 %. params.scallop must be there; `tree` as for
+// Takes one random point in each root cell, so that no grid of points coincides with a grid of passes. Shares
+// are good to 1 % on a part with passes all over it. params.scallop must be set. `tree` is that of
 // MeasureAreas.
 absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::vector<CellRect>& roots,
                                              const SegmentTree& tree, const LeftoverParams& params,

@@ -10,12 +10,12 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kRounding = 2e-3;   // mm: shorter moves have no direction to speak of
-constexpr double kTraceable = 0.02;  // mm: four decimals turn a move this long by a quarter of a degree
-constexpr double kSteepSlack = Radians(0.5);
-constexpr int kGrid = 256;
+constexpr double kRounding = 2e-3;   // mm; rounding dominates the direction of shorter moves
+constexpr double kTraceable = 0.02;  // mm; rounding to four decimals turns this length by up to 0.25 degrees
+constexpr double kSteepSlack = Radians(0.5);  // added to kSteepDescent because of rounding
+constexpr int kGrid = 256;                    // squares along the longer side of the plan
 
-// Largest material height over squares of the plan; -infinity where there is none.
+// Largest height of material over each square of the plan; -infinity if there is none.
 class HeightGrid {
  public:
   HeightGrid(const Surface& surface, double allowance, double top, const RunContext& run) {
@@ -33,7 +33,7 @@ class HeightGrid {
               [&](double& h) { h = std::max(h, z); });
     }
   }
-  // Every square becomes the highest within `radius`, in two passes over rows and columns.
+  // Sets each square to the largest height within `radius`, in two passes over rows and columns.
   void Dilate(double radius) {
     const double squares = std::min(std::ceil(radius / step_), static_cast<double>(std::max(nx_, ny_)));
     const int reach = static_cast<int>(squares) + 1;
@@ -42,8 +42,8 @@ class HeightGrid {
     const std::vector<double> rows = height_;
     Slide(rows, height_, ny_, nx_, nx_, 1, reach);
   }
-  // Highest in the rectangle with corners a and b, sides along x and y; in all of the outermost squares when
-  // it lies within `radius` outside.
+  // The largest height in the rectangle with corners a and b and sides along x and y. If the rectangle lies
+  // outside of the grid, but within `radius` of it, the outermost squares count.
   double HighestIn(const Vec2& a, const Vec2& b, double radius) {
     const Vec2 lo = a.cwiseMin(b), hi = a.cwiseMax(b), high = low_ + step_ * Vec2(nx_, ny_);
     double highest = -kInfinity;
@@ -52,10 +52,11 @@ class HeightGrid {
     ForEach(lo, hi, [&](double& h) { highest = std::max(highest, h); });
     return highest;
   }
-  // Highest near the line from a to b: over the squares it touches and, next to corners, some beside it. Also
-  // from outside of the grid, within `radius` of its border. Cost: a few squares a row or column it crosses.
+  // The largest height near the line from a to b: over the squares that it touches and some next to its
+  // corners. Parts outside of the grid, but within `radius` of it, count as its border. Cost: a few squares
+  // for each row or column that the line crosses.
   double Highest(const Vec2& a, const Vec2& b, double radius) {
-    constexpr double kMostParts = 1024.0;
+    constexpr double kMostParts = 1024.0;  // of one line
     double highest = -kInfinity, begin = 0.0, end = 1.0;
     const Vec2 d = b - a, margin = Vec2::Constant(radius);
     const Vec2 low = low_ - margin, high = low_ + step_ * Vec2(nx_, ny_) + margin;
@@ -92,7 +93,8 @@ class HeightGrid {
       for (int i = i0; i <= i1; ++i) f(height_[static_cast<std::size_t>(j * nx_ + i)]);
     }
   }
-  // out = largest of in within +- reach along lines of n values `stride` apart.
+  // Sets each value of `out` to the largest value of `in` within +- reach places. Runs along `lines` lines of
+  // n values each; the values are `stride` apart and the lines `line_stride`.
   static void Slide(const std::vector<double>& in, std::vector<double>& out, int n, int lines, int stride,
                     int line_stride, int reach) {
     for (int line = 0; line < lines; ++line) {
@@ -112,15 +114,16 @@ class HeightGrid {
   std::vector<double> height_;
 };
 
-constexpr double kFeedDigits = 5e-5;  // mm/min: F words have four decimals
+constexpr double kFeedDigits = 5e-5;  // mm/min, rounding of F words to four decimals
 
-// Descents at more than plunge feed, however small the steps they are cut into: moves are added up until they
-// have a direction to speak of. The path in plan is added up too, so that a helix is as steep as its moves.
+// Finds steep descents that are faster than plunge feed, even if they are divided into tiny moves: moves are
+// added up until rounding no longer dominates their direction. The lengths in plan are added up, too, so a
+// helix is as steep as its moves.
 class DescentWatch {
  public:
   explicit DescentWatch(double plunge_feed) : plunge_feed_(plunge_feed) {}
 
-  // True when this move ends a descent steeper than allowed.
+  // True if this move ends a descent that is steeper than allowed.
   bool Add(const ProgramMove& move) {
     const bool watched = plunge_feed_ > 0.0 && move.kind == ProgramMove::Kind::kFeed && !move.from_above &&
                          !move.to_above && move.feed > plunge_feed_ * (1.0 + 1e-6) + kFeedDigits;
@@ -139,7 +142,7 @@ class DescentWatch {
 
  private:
   double plunge_feed_;
-  double drop_ = 0.0, along_ = 0.0;  // mm, since the last verdict
+  double drop_ = 0.0, along_ = 0.0;  // mm, down and in plan, since the last test
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the motion alone tells: lengths, box, descents; and how far the tool must stick out.
+// Measures a program's motion: lengths, box and descents, and the stick-out that the tool needs.
 #pragma once
 
 #include "cam/tool/tool.h"
@@ -8,21 +8,23 @@
 
 namespace patchmill {
 
-inline constexpr double kSteepDescent = Radians(30.0);  // [verification P3]: steeper ones run at plunge feed
+// Steeper descents must run at plunge feed [verification P3].
+inline constexpr double kSteepDescent = Radians(30.0);
 
 struct MotionFigures {
-  Box3 tip_box;  // program frame, moves below machine zero; empty if there are none
-  double cut_length = 0.0, rapid_length = 0.0;
-  double steepest_descent = 0.0;  // rad, of feed moves longer than rounding
-  // First feed move that ends a descent steeper than 30 degrees and faster than plunge feed.
+  Box3 tip_box;  // program frame; places of the tip below machine zero; empty if there are none
+  double cut_length = 0.0, rapid_length = 0.0;  // mm, of moves that do not touch machine zero
+  double steepest_descent = 0.0;                // rad, of feed moves longer than rounding
+  // First feed move that ends a descent steeper than 30 degrees and faster than plunge feed; -1 if none.
   int steep_move = -1;
 };
 MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool);
 
-// Highest material within tool or shank radius of a move minus the lowest tip of that move, largest over all
-// moves. Material is taken as highest_surface + allowance, no higher than the stock, on a square grid over
-// the plan: an estimate from above, by at most the height the surface gains within two grid steps.
-// CANCELLED or DEADLINE_EXCEEDED when `run` says so.
+// The stick-out that the tool needs, mm: the height of the highest material within the radius of tool or
+// shank around a move over the lowest tip of that move, largest over all moves. The material reaches up to
+// the surface plus the allowance, but no higher than the stock or the surface's highest point. It is taken
+// from a grid of squares in plan. So the result is an upper bound. It exceeds the true value by at most the
+// height that the surface gains within two grid steps. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<double> RequiredStickout(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
                                         const VerifyParams& params, const RunContext& run);
 

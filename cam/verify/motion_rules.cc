@@ -9,7 +9,7 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kHeightSlack = 1e-4;  // mm: four decimals
+constexpr double kHeightSlack = 1e-4;  // mm; rounding to four decimals
 
 class Rules {
  public:
@@ -77,7 +77,7 @@ class Rules {
   Diagnostics Take() { return std::move(broken_); }
 
  private:
-  // A tip where material may be.
+  // True if material may be at this tip.
   bool InStock(const Vec3& tip) const {
     return tip.z() + params_.program_zero.z() < params_.stock_top_z - kHeightSlack;
   }

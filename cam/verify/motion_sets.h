@@ -1,4 +1,5 @@
-// A program's motion as the sets that are judged: ball centres in the placed frame.
+// Selects a program's moves into the sets that are judged, as ball centres in the placed frame
+// [verification, section 4].
 #pragma once
 
 #include <vector>
@@ -8,25 +9,25 @@
 
 namespace patchmill {
 
-// Which of a program's moves.
+// A selection of a program's moves.
 enum class MotionSet {
-  kCut,          // feed moves: what removes material
-  kSwept,        // all moves below machine zero: what must not gouge
+  kCut,          // feed moves: they remove material
+  kSwept,        // all moves below machine zero: they must not gouge
   kSweptRapids,  // the rapids among them
-  // Rapids, cut off at the height where nothing stands any more, without those straight up: these only leave
-  // through the space that the tool already fills.
+  // The parts of rapids below `clear_z`. Rapids straight up are left out, because they only leave through the
+  // space that the tool already fills.
   kRapid,
-  kDogLegs,  // those of kRapid that drive more than one axis, whole
+  kDogLegs,  // whole rapids that drive more than one axis and go below `clear_z`
 };
 
-// `offset` is added to tips: program zero plus ball radius upwards. For kRapid and kDogLegs what has its
-// centre at or above `clear_z` is left out. A move between machine zero and a place beside it is taken as
-// going level at the lower height, which contains whatever the control really does; of a feed move from or to
-// machine zero only the lower end is known to be cut.
+// Returns the moves of a set. `offset` is added to tips: the program zero plus the ball radius upwards.
+// Nothing stands at centres of height `clear_z` (kRapid and kDogLegs only). A move between machine zero and
+// another place is taken as level at the lower height, which contains whatever the control really does. Of a
+// feed move from or to machine zero only the lower end counts as cut.
 std::vector<PathSegment> CollectMoves(const ProgramMotion& motion, MotionSet set, const Vec3& offset,
                                       double clear_z = kInfinity);
 
-// Largest of all moves, mm: what the segments may be off.
+// The largest chord error of all moves, mm: the error of the segments.
 double ChordError(const ProgramMotion& motion);
 
 }  // namespace patchmill

@@ -11,17 +11,16 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kBesideRadii = 0.02;  // of the radius: how far beside a place it is looked at again
-constexpr double kProof = 0.02;        // of the give: how exactly "free" is decided
-constexpr double kCoarse = 0.02;       // of the radius: how exactly a blocked depth is known
-constexpr double kShankMargin =
-    0.02;  // of the radius: the shank is blocked by more than this beyond the ball
+constexpr double kBesideRadii = 0.02;  // in R: distance of the places beside a place
+constexpr double kProof = 0.02;        // of the reach tolerance: error of distances that decide "free"
+constexpr double kCoarse = 0.02;       // in R: error of a blocked depth
+constexpr double kShankMargin = 0.02;  // in R: T < B - kShankMargin R of [regions, section 6]
 constexpr double kAboveSmallestBall =
-    0.5;                              // of the least ball's radius: what is over it comes nearer to its axis
-constexpr double kLimitSlack = 1e-6;  // mm: limits along the ground hold but for rounding
-constexpr double kReasonProof = 0.001;  // of the radius: how exactly the two are known
+    0.5;                              // in radii of the smallest ball: what is above comes nearer to its axis
+constexpr double kLimitSlack = 1e-6;  // mm; rounding of limits that run along the surface
+constexpr double kReasonProof = 0.001;  // in R: error of T and B
 
-// Places of the piece about kBesideRadii away, each way in both parameters; near its sides there are fewer.
+// Up to four places of the piece about kBesideRadii away in both parameters. Near its sides there are fewer.
 std::vector<SurfaceJet> Beside(const Surface& surface, const SurfacePoint& at, double radius) {
   const SurfaceJet here = Evaluate(surface, at.piece, at.u, at.v);
   const double aside = kBesideRadii * radius;
@@ -45,8 +44,8 @@ bool NearAvoided(const CenterLimits& limits, const Vec3& c, double proof) {
          AnythingNearUpwardRay(*limits.avoided, c, limits.avoid_distance + limits.within, proof);
 }
 
-// Whether the surface stands, to `proof`, in a shank that keeps `keep` off it, whatever centre it is over
-// within `beside` of c in plan and no higher.
+// True if the surface stands, to `proof`, in a shank that is enlarged by `keep`, for each centre within
+// `beside` of c in plan that is no higher than c.
 bool InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c, double keep, double beside,
              double proof) {
   const Vec2 q = Xy(c);
@@ -54,7 +53,7 @@ bool InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c, 
   return AnyInColumn(surface, column, c.z() + limits.shank->rise - keep, proof);
 }
 
-// All limits but those beside the part allow the centre.
+// True if all limits but those beside the part allow the centre.
 bool AllowsBesidePart(const Surface& surface, const Vec3& c, const ReachParams& params) {
   const double proof = kProof * params.reach_tolerance;
   return RoomAt(params.limits, c) >= 0.0 && !NearAvoided(params.limits, c, proof) &&
@@ -65,7 +64,7 @@ Vec3 FromRay(const Vec3& p, const Vec3& c) {
   return {p.x() - c.x(), p.y() - c.y(), std::min(p.z() - c.z(), 0.0)};
 }
 
-// As ClosestToUpwardRay: what is known already may be the nearest point, within `tolerance`.
+// As ClosestToUpwardRay, but a known obstacle may be returned as the nearest point, within `tolerance`.
 std::optional<Obstacles::Near> NearestToRay(const Surface& surface, const Vec3& c, double limit,
                                             double tolerance, Obstacles& obstacles) {
   const auto known = obstacles.NearestToRay(c, limit);
@@ -75,7 +74,8 @@ std::optional<Obstacles::Near> NearestToRay(const Surface& surface, const Vec3& 
   return Obstacles::Near{found->at.p, found->distance};
 }
 
-// Anything nearer to the upward ray at c than `limit`; within `tolerance` of it, what is known may decide.
+// True if anything is nearer to the upward ray at c than `limit`. Within `tolerance` of the limit the known
+// obstacles may decide.
 bool InTheWay(const Surface& surface, const Vec3& c, double limit, double tolerance, Obstacles& obstacles) {
   if (obstacles.NearestToRay(c, limit)) return true;
   const auto found = FirstNearUpwardRay(surface, c, limit, tolerance);
@@ -83,8 +83,8 @@ bool InTheWay(const Surface& surface, const Vec3& c, double limit, double tolera
   return found.has_value();
 }
 
-// Whatever is nearer to c than limit - proof is seen; what is known already counts no sooner than a search is
-// sure to see it.
+// False if anything is nearer to c than limit - proof. A known obstacle counts only if it is so near that a
+// search would certainly find it.
 bool NothingNear(const Surface& surface, const Vec3& c, double limit, double proof, Obstacles& obstacles) {
   if (obstacles.DistanceTo(c, limit) < limit - proof) return false;
   const auto found = ClosestToPoint(surface, c, limit, proof);
@@ -92,13 +92,14 @@ bool NothingNear(const Surface& surface, const Vec3& c, double limit, double pro
   return !found;
 }
 
-// What stands above the centre comes nearer to the shank than anything to the ball ([regions, section 6]),
-// which touches the surface at `radius`. Close to where the rule changes, what is known may decide.
+// True if something above the centre comes nearer to the axis than anything comes to the centre, by
+// kShankMargin [regions, section 6], and nearer than `limit`. The ball touches the surface at `radius`. Near
+// the threshold known obstacles may decide.
 bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
   const double proof = kReasonProof * radius, nearer = kShankMargin * radius;
   limit = std::min(limit, obstacles.DistanceTo(c, radius) - nearer + proof);
   if (!(limit > 0.0)) return false;
-  // Anything above that does so will do: what is nearest to the ray then does so too.
+  // Any such point above is enough, because the point nearest to the ray then fulfils the rule, too.
   const auto above = obstacles.NearestAbove(c, limit);
   if (above && NothingNear(surface, c, above->distance + nearer, proof, obstacles)) return true;
   const auto nearest = NearestToRay(surface, c, limit, proof, obstacles);
@@ -106,7 +107,8 @@ bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double 
          NothingNear(surface, c, nearest->distance + nearer, proof, obstacles);
 }
 
-// Of the tool's ball, where it is not free: not because of itself.
+// For a tool's ball that is not free: true if something above it blocks it, or if the ball without its upward
+// sweep would be free.
 bool BlockedAbove(const Surface& surface, const Vec3& c, const ReachParams& params, Obstacles& obstacles) {
   const double limit = params.radius - params.reach_tolerance;
   return ShankIsNearer(surface, c, params.radius, limit, obstacles) ||
@@ -119,8 +121,8 @@ bool StandsAboveLeast(const Surface& surface, const Vec3& c, double least, Obsta
          ShankIsNearer(surface, c, least, kAboveSmallestBall * least, obstacles);
 }
 
-// UNDERCUT, where the ball is free on no side: it is blocked above, or something stands above the least
-// ball, each on both sides of a vertical face.
+// For a ball that is free on no side: true for UNDERCUT. Something blocks it above, or something stands above
+// the smallest ball. On a vertical face either must hold on both sides.
 bool Undercut(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
               Obstacles& obstacles) {
   const auto centers = Centers(p, facing, params.radius);
@@ -207,10 +209,10 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
       found = ReachClass::kShank;
     }
     if (found == ReachClass::kReachable) return found;
-    // Of two blocked sides the one that is easier to free gives the reason: shank, limits, floor, ball.
+    // If both sides are blocked, the side that is easier to free gives the reason.
     reason = std::max(reason, found);
   }
-  // In the way on all sides.
+  // The surface is in the way on all sides.
   if (reason == ReachClass::kConcave && Undercut(surface, p, facing, params, obstacles)) {
     reason = ReachClass::kUndercut;
   }
@@ -242,7 +244,7 @@ bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& fac
   }
   ReachParams moved = params;
   moved.limits.within = params.reach_tolerance;
-  // The ball is free; what its limits say is told without looking for what is in its way again.
+  // The ball is known to be free, so on one side the limits decide without another search for obstacles.
   const double proof = kProof * params.reach_tolerance;
   const Vec3 center = at.p + params.radius * facing.e;
   if (!facing.both && RoomAt(moved.limits, center) >= 0.0 && BesideRoomAt(moved.limits, center) >= 0.0 &&

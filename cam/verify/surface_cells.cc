@@ -6,7 +6,7 @@ namespace patchmill {
 
 namespace {
 
-// Length of the longest of three lines of the net, along u and along v.
+// Length of the longest of three lines of the net along u, and of three lines along v.
 std::pair<double, double> Lengths(NetShape shape, const Vec4* points) {
   const auto at = [&](int i, int j) -> Vec3 {
     const Vec4& p = points[i * (shape.degree_v + 1) + j];
@@ -77,8 +77,8 @@ void CellWalker::Choose(int depth, int which) {
 }
 
 std::vector<CellRect> RootCells(const Surface& surface, double size, const RunContext& run) {
-  constexpr int kDeepest = 30;
-  constexpr std::size_t kChunk = 64;  // pieces
+  constexpr int kDeepest = 30;        // halvings
+  constexpr std::size_t kChunk = 64;  // pieces in one task
   const std::size_t chunks = (surface.pieces.size() + kChunk - 1) / kChunk;
   std::vector<std::vector<CellRect>> parts(chunks);
   const absl::Status done = ParallelFor(run, "verify: cells", chunks, [&](std::size_t chunk) {

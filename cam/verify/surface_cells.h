@@ -1,4 +1,5 @@
-// The surface cut into parameter rectangles with the control points of each: what bounds are taken over.
+// Divides the surface into rectangles of parameters with the control points of each. Bounds are taken over
+// these cells.
 #pragma once
 
 #include <algorithm>
@@ -18,25 +19,26 @@ struct CellRect {
   double v() const { return 0.5 * (v0 + v1); }
 };
 
-// One cell as a visitor sees it. The surface over the rectangle lies in the hull of `hull[0..hull_count)`.
+// One cell as a visitor gets it. The surface over the rectangle lies in the convex hull of
+// hull[0..hull_count).
 struct SurfaceCell {
   CellRect rect;
   int depth = 0;  // halvings below the root cell
   const Vec3* hull = nullptr;
   int hull_count = 0;
-  Vec3 middle = Vec3::Zero();  // the surface at the rectangle's middle
-  double radius = 0.0;         // no surface point of the cell is farther from `middle`
+  Vec3 middle = Vec3::Zero();  // surface point at the middle of the rectangle
+  double radius = 0.0;         // mm; no surface point of the cell is farther from `middle`
 };
 
-inline constexpr int kMaxCellDepth = 48;
+inline constexpr int kMaxCellDepth = 48;  // halvings
 
-// Halves nets of one piece without touching the heap after the first use.
+// Halves the net of a piece. It allocates no memory after the first use.
 class CellWalker {
  public:
   explicit CellWalker(const Surface& surface) : surface_(surface) {}
 
-  // Depth-first over `root` and, as long as visit(cell) returns true, its halves along the longer side. The
-  // cell of depth d is visited after its parent of depth d - 1 and before the parent's sibling.
+  // Visits `root` and, as long as visit(cell) returns true, the halves of the cell along its longer side,
+  // depth first. So a cell is visited after its parent and before its parent's second half.
   template <class Visit>
   void Walk(const CellRect& root, Visit&& visit) {
     Load(root);
@@ -63,20 +65,22 @@ class CellWalker {
 
   void Load(const CellRect& root);
   SurfaceCell View(const CellRect& rect, int depth);
-  bool Halve(int depth);              // the net in use at `depth` into the two of depth + 1; true: along u
-  void Choose(int depth, int which);  // which half is in use at depth + 1
+  bool Halve(int depth);              // halves the net in use at `depth`; returns true if along u
+  void Choose(int depth, int which);  // uses half `which` at depth + 1
 
   const Surface& surface_;
   NetShape shape_;
-  std::vector<std::vector<Vec4>> nets_;  // per depth: two nets
-  std::vector<const Vec4*> in_use_;      // per depth
+  std::vector<std::vector<Vec4>> nets_;  // [depth]: the nets of both halves
+  std::vector<const Vec4*> in_use_;      // [depth]
   std::vector<Vec3> hull_;
 };
 
-// Roots: every piece, halved until no cell is wider than `size` mm. In order of piece. Cancelled: incomplete.
+// The root cells: all pieces in their order, halved until no cell is wider than `size` mm. Incomplete if
+// `run` is cancelled.
 std::vector<CellRect> RootCells(const Surface& surface, double size, const RunContext& run);
 
-// Area estimated from one 4 x 4 sampling per piece, for choosing sizes only.
+// The area of the surface, mm^2, estimated from 4 x 4 samples of each piece. Use it only to choose cell
+// sizes.
 double RoughArea(const Surface& surface);
 
 }  // namespace patchmill

@@ -23,7 +23,7 @@ namespace patchmill {
 namespace {
 
 constexpr std::size_t kMostFindings = 20;  // per code
-constexpr double kRapidSlack = 1e-3;       // mm: rounding, and what planned heights are certain to
+constexpr double kRapidSlack = 1e-3;       // mm; rounding and the certainty of planned heights
 
 class Verifier {
  public:
@@ -37,7 +37,7 @@ class Verifier {
   absl::StatusOr<VerifyReport> Run() {
     offset_ = params_.program_zero + Vec3(0, 0, ball_);
     chord_error_ = ChordError(motion_);
-    // Fine enough for areas, no wider than the ball, and not without end.
+    // Cells are fine enough for areas and no wider than R, but there are not much more than 400,000 of them.
     const double area = RoughArea(surface_);
     const double size = std::clamp(std::sqrt(area / 9e3), 0.02 * radius_, radius_);
     roots_ = RootCells(surface_, std::max(size, std::sqrt(area / 4e5)), run_);
@@ -72,7 +72,7 @@ class Verifier {
     report_.findings.push_back(std::move(d));
   }
 
-  // The worst ones, each of another line or at another place.
+  // Reports the worst ones. Of several with the same line or within one radius only the worst is reported.
   void ReportPlaces(const std::string& code, const std::vector<Extreme>& found, const std::string& what) {
     std::vector<const Extreme*> kept;
     for (const Extreme& e : found) {
@@ -99,7 +99,7 @@ class Verifier {
     }
   }
 
-  // Whatever moves keeps its distance from avoided patches.
+  // Checks that all moves keep their distance from avoided patches.
   absl::Status JudgeAvoided() {
     const Surface* avoided = limits_->centers().avoided;
     if (avoided == nullptr) return absl::OkStatus();
@@ -117,7 +117,8 @@ class Verifier {
                                       "near to an avoided patch"));
     const auto shank = WideShankOf(tool_);
     if (!shank) return absl::OkStatus();
-    // What is within the margin of a cylinder lies in one that is so much wider and begins so much lower.
+    // Everything within the margin of a cylinder lies in a cylinder that is wider and begins lower by the
+    // margin.
     const double margin = params_.containment.avoid_margin;
     p.radius = shank->radius + margin;
     const Vec3 up(0, 0, shank->rise - margin);
@@ -145,7 +146,7 @@ class Verifier {
     p.radius = radius_;
     p.chord_error = chord_error_;
     p.certainty = params_.certainty;
-    // The control's own smoothing may deepen every gouge ([verification P1]).
+    // The control's own smoothing may deepen each gouge [verification P1].
     const double smoothing = motion_.controller_tolerance;
     p.limit = std::max(0.0, params_.tolerance - smoothing);
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
@@ -167,7 +168,7 @@ class Verifier {
     return JudgeSmoothedRapids();
   }
 
-  // Rapids may be smoothed more than feeds, as long as they are that much farther off.
+  // Rapids may be smoothed more than feeds if they are that much farther from the surface.
   absl::Status JudgeSmoothedRapids() {
     const double smoothing = motion_.rapid_tolerance;
     if (smoothing <= motion_.controller_tolerance) return absl::OkStatus();
@@ -297,7 +298,7 @@ class Verifier {
       report_.finishing_floor_z = std::min(report_.finishing_floor_z.value_or(kInfinity), floor_z);
     }
     if (std::isfinite(areas.highest_rise)) {
-      // Beside a wall the ball may stand lower by what reach gives.
+      // Beside a wall the ball may stand lower by the reach tolerance.
       const double needed = areas.highest_rise + ReachTolerance(params_.tolerance) + ball_;
       const double flutes = std::ceil(std::max(needed, *tool_.flute_length) * 1e3) / 1e3;
       report_.finishing_flute_length = std::max(report_.finishing_flute_length.value_or(0.0), flutes);
@@ -337,7 +338,7 @@ class Verifier {
     return absl::OkStatus();
   }
 
-  // Of the moves that are not among those found already.
+  // The dog-legs of the moves that have no violation in `found`.
   std::vector<PathSegment> OtherDogLegs(const Extremes& found, const Vec3& offset,
                                         double clear_z = kInfinity) const {
     std::vector<bool> known(motion_.moves.size(), false);
@@ -372,11 +373,11 @@ class Verifier {
   const VerifyParams& params_;
   const RunContext& run_;
   double ball_ = 0.0, radius_ = 0.0;
-  bool shank_may_hit_ = false;  // on a rapid, which only its control's way decides
-  Vec3 offset_ = Vec3::Zero();  // from a tip of the program to the ball centre
+  bool shank_may_hit_ = false;  // on a rapid; it depends on the way that the control takes
+  Vec3 offset_ = Vec3::Zero();  // mm, from a tip in the program frame to the ball's centre
   double chord_error_ = 0.0;
   std::vector<CellRect> roots_;
-  std::vector<CellRect> wanted_;  // those of patches to be finished
+  std::vector<CellRect> wanted_;  // roots of the patches to be finished
   std::optional<VerifyLimits> limits_;
   VerifyReport report_;
 };

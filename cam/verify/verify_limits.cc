@@ -48,7 +48,7 @@ std::vector<CellRect> VerifyLimits::Wanted(const std::vector<CellRect>& cells) c
 }
 
 PieceId VerifyLimits::PieceOfWhole(PieceId avoided) const {
-  // The part has the avoided patches in their order.
+  // The separate surface has the avoided patches in the order of the model.
   std::int32_t left = avoided_->piece(avoided).patch.value;
   for (std::size_t i = 0; i < containment_->avoided.size(); ++i) {
     if (containment_->avoided[i] && left-- == 0) return surface_->first_piece[i];

@@ -1,4 +1,4 @@
-// What of the surface is to be finished and where centres are allowed, for one judgement.
+// Which patches are to be finished and where centres are allowed, for one call of Verify.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@ namespace patchmill {
 
 class VerifyLimits {
  public:
-  // Keeps references to `surface` and `params`. Builds the avoided patches as a surface of their own when a
-  // margin is kept from them. CANCELLED and DEADLINE_EXCEEDED from `run`.
+  // Keeps references to `surface` and `params`. Builds the avoided patches as a separate surface if a margin
+  // is kept from them. CANCELLED and DEADLINE_EXCEEDED from `run`.
   static absl::StatusOr<VerifyLimits> Make(const Surface& surface, const Tool& tool,
                                            const VerifyParams& params, const RunContext& run);
 
-  CenterLimits centers() const;  // good as long as this object
-  // Those cells whose patches are to be finished.
+  CenterLimits centers() const;  // valid as long as this object
+  // The cells whose patches are to be finished.
   std::vector<CellRect> Wanted(const std::vector<CellRect>& cells) const;
-  // A piece of the avoided patches as a piece of the whole surface: the first one of its patch.
+  // The first piece of the whole surface that belongs to the same patch as this piece of the avoided patches.
   PieceId PieceOfWhole(PieceId avoided) const;
 
  private:

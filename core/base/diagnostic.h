@@ -1,4 +1,4 @@
-// Findings about untrusted input: coded, all at once, never a status.
+// Findings about untrusted input. Each has a code; all are reported at once, and never as a status.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace patchmill {
 
 enum class Severity { kInfo, kWarning, kError };
 
-// Where a finding is. Everything optional; what is set is printed.
+// Where a finding is. All fields are optional; those that are set are printed.
 struct Where {
   std::string patch_id = {};            // the client's own id
   std::optional<int> patch_index = {};  // 0-based, order of the model

@@ -1,4 +1,4 @@
-// Values in 32 bytes: SHA-256 (OpenSSL's libcrypto, which gRPC links anyway).
+// Digests of 32 bytes: SHA-256 from OpenSSL's libcrypto, which gRPC links anyway.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace patchmill {
 std::string Sha256(std::string_view bytes);  // 32 bytes
 std::string Hex(std::string_view bytes);     // lower case
 
-// Appends values in one defined way, so that equal values give equal bytes on every machine: numbers little
-// endian, strings with their length, -0 as 0.
+// Appends values in one defined way, so that equal values give equal bytes on every machine. Numbers are
+// little endian, strings carry their length, and -0 counts as 0.
 class Canonical {
  public:
   Canonical& Add(double value);

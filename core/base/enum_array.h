@@ -13,14 +13,14 @@
 
 namespace patchmill {
 
-// How many enumerators E has: they begin at 0, without gaps, and LastOf(E) names the last one.
+// Number of enumerators of E. They begin at 0, have no gaps, and LastOf(E) names the last one.
 template <class E>
 constexpr std::size_t CountOf() {
   static_assert(std::is_enum_v<E>);
   return static_cast<std::size_t>(LastOf(E{})) + 1;
 }
 
-// All of them in their order.
+// All enumerators in their order.
 template <class E>
 constexpr std::array<E, CountOf<E>()> Enumerators() {
   std::array<E, CountOf<E>()> all{};
@@ -28,7 +28,7 @@ constexpr std::array<E, CountOf<E>()> Enumerators() {
   return all;
 }
 
-// An aggregate: EnumArray<E, T>{} has default values, EnumArray<E, T>{{a, b, c}} those given, in order.
+// An aggregate: EnumArray<E, T>{} has default values, EnumArray<E, T>{{a, b, c}} has these values, in order.
 template <class E, class T>
 struct EnumArray {
   std::array<T, CountOf<E>()> values;

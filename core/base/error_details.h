@@ -1,5 +1,5 @@
-// What goes with an error besides its text, so that a program that asked can act on it: which field is wrong,
-// a code of what is, or which limit was passed by how much.
+// Details that an error carries besides its text, so that the calling program can act on them: the field that
+// is wrong, a code of the error, or the limit that was passed and by how much.
 #pragma once
 
 #include <optional>
@@ -13,19 +13,19 @@ namespace patchmill {
 // INVALID_ARGUMENT "<field> <text>": FieldError("heights.clearance_z_mm", "= 3; must be at least 5").
 absl::Status FieldError(std::string_view field, std::string_view text);
 
-// The field's path; empty where the status is no FieldError.
+// The field's path; empty if the status is no FieldError.
 std::string FieldOf(const absl::Status& status);
 
-// What is wrong with it: the message without the path. Only of a FieldError.
+// The message of a FieldError without the path. The status must be a FieldError.
 std::string FieldText(const absl::Status& status);
 
-// The same error with `prefix` before the path; any other status as it is.
+// The same error with `prefix` before the path. Any other status comes back unchanged.
 absl::Status WithFieldPrefix(std::string_view prefix, const absl::Status& status);
 
-// INVALID_ARGUMENT with a code, UPPER_SNAKE_CASE.
+// INVALID_ARGUMENT with a code in UPPER_SNAKE_CASE.
 absl::Status CodedError(std::string_view code, std::string_view message);
 
-// Empty where the status has none.
+// The code of a CodedError; empty if the status has none.
 std::string CodeOf(const absl::Status& status);
 
 struct PassedLimit {
@@ -33,10 +33,10 @@ struct PassedLimit {
   double limit = 0.0, value = 0.0;
 };
 
-// RESOURCE_EXHAUSTED "<name> = <value>; the limit is <limit>: <text>"; the text says what to do.
+// RESOURCE_EXHAUSTED "<name> = <value>; the limit is <limit>: <text>". The text says what to do.
 absl::Status LimitPassedError(const PassedLimit& passed, std::string_view text);
 
-// Absent where the status is no LimitPassedError.
+// Absent if the status is no LimitPassedError.
 std::optional<PassedLimit> LimitPassedOf(const absl::Status& status);
 
 }  // namespace patchmill

@@ -31,7 +31,7 @@ std::vector<InstructionSet> InstructionSets() {
   return sets;
 }
 
-// Plain (zero) until it is initialised: what runs before that gets the same bits.
+// The value is kPlain (zero) before it is initialised. Code that runs earlier gets the same bits.
 std::atomic<InstructionSet> internal::used_instruction_set{InstructionSets().front()};
 
 void UseInstructionSet(InstructionSet set) {

@@ -1,12 +1,12 @@
-// The vector instructions that code with a choice of them runs on. Every choice gives the same bits
-// ([verification P5]): it is a matter of speed alone.
+// Which vector instructions run the code that is compiled for several of them. Every choice gives the same
+// bits ([verification P5]) and differs in speed only.
 #pragma once
 
 #include <atomic>
 #include <vector>
 
-// Where the build holds code for more than every processor of its kind has. GCC alone: others do not compile
-// functions for another instruction set from the same pragma.
+// Defined where the build holds code for instructions that not every processor of the kind has. This is GCC
+// only: other compilers do not compile functions for another instruction set from the same pragma.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define PATCHMILL_X86_VECTORS 1
 #endif
@@ -17,20 +17,20 @@ namespace patchmill {
 enum class InstructionSet { kPlain, kAvx2, kAvx512 };
 const char* Name(InstructionSet set);  // "plain", "avx2", "avx512"
 
-// What this processor can run and the build has code for, fastest first; kPlain is always the last.
+// The sets that this processor can run and the build has code for, fastest first. kPlain is always the last.
 std::vector<InstructionSet> InstructionSets();
 
 namespace internal {
 extern std::atomic<InstructionSet> used_instruction_set;
 }
 
-// What everything runs on: the fastest, unless UseInstructionSet says otherwise.
+// The set that all code runs on: the fastest one, unless UseInstructionSet says otherwise.
 inline InstructionSet UsedInstructionSet() {
   return internal::used_instruction_set.load(std::memory_order_relaxed);
 }
 
-// One of InstructionSets(), for the whole process, from the next query on. For tests, measurements and the
-// search for faults.
+// Takes one of InstructionSets() for the whole process, from the next query on. It serves tests, measurements
+// and the search for faults.
 void UseInstructionSet(InstructionSet set);
 
 }  // namespace patchmill

@@ -10,7 +10,8 @@ namespace patchmill {
 
 void KeepFreedMemory() {
 #if defined(__GLIBC__)
-  // Both, for setting either ends that glibc raises both as it sees large arrays freed (mallopt(3)).
+  // Both are set, because setting either one stops glibc from raising both when large arrays are freed
+  // (mallopt(3)).
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 128 << 20);
 #endif

@@ -1,13 +1,13 @@
-// For programs that do one job after another: memory that a job has freed stays for the next one.
+// For programs that do one job after another: memory that one job has freed stays for the next one.
 #pragma once
 
 namespace patchmill {
 
-// Changes the allocator of the whole process, so it is for `main`, before threads start. Arrays of up to 32
-// MB come from arenas, and these keep what is freed: about the last heap of 64 MB where a thread has its own,
-// up to 128 MB at the end of the first one, all that something alive stands behind. Else a job begins with
-// thousands of page faults: a tenth of its time and more where these are slow. Does nothing where malloc is
-// not glibc's.
+// Changes the allocator of the whole process. Call it in `main`, before threads start. Arrays of up to 32 MB
+// then come from arenas, and these keep freed memory: an arena of a thread keeps about its last heap of 64
+// MB; the first arena keeps up to 128 MB at its end, and all memory that lies before a live block. Without
+// this, a job begins with thousands of page faults, which cost a tenth of its time or more where they are
+// slow. Does nothing where malloc is not that of glibc.
 void KeepFreedMemory();
 
 }  // namespace patchmill

@@ -1,4 +1,5 @@
-// Lanes: arithmetic and comparisons lane by lane (GCC and Clang vectors, same bits as scalar code).
+// Four numbers at once: arithmetic and comparisons lane by lane (GCC and Clang vectors, same bits as scalar
+// code).
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@ namespace patchmill {
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int __attribute__((vector_size(16)));
 
-// from[at] to from[at + 3].
+// The four numbers from[at] to from[at + 3].
 inline Float4 Load(const std::vector<float>& from, std::size_t at) {
   Float4 lanes;
   std::memcpy(&lanes, &from[at], sizeof lanes);
@@ -24,7 +25,7 @@ inline Float4 Splat(float x) { return Float4{x, x, x, x}; }
 inline Float4 Max(Float4 a, Float4 b) { return a > b ? a : b; }
 inline Float4 Min(Float4 a, Float4 b) { return a < b ? a : b; }
 
-// Bit k: a < b in lane k.
+// Bit k is set where a < b in lane k.
 inline unsigned BelowBits(Float4 a, Float4 b) {
 #if defined(__SSE__)
   return static_cast<unsigned>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));

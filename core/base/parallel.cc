@@ -13,8 +13,8 @@
 namespace patchmill {
 namespace {
 
-// ThreadSanitizer does not see how the packaged TBB hands work over, and would report every hand-over as a
-// race. Plain threads do the same there.
+// ThreadSanitizer does not see how the packaged TBB passes work between threads and would report every
+// passing as a race. Plain threads do the same work there.
 #if defined(__SANITIZE_THREAD__)
 void InParallel(int threads, std::size_t count, const std::function<void(std::size_t)>& one) {
   const std::size_t most =

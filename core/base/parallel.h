@@ -1,5 +1,4 @@
-// Parallel loops whose results do not depend on the number of threads: slot i is written by the call with i
-// only.
+// Parallel loops whose results do not depend on the number of threads: only the call with i writes slot i.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +10,13 @@
 
 namespace patchmill {
 
-// Calls body(i) for i in [0,count) on up to run.threads() threads. Stops early when cancelled and returns
-// that status; otherwise OK. `body` must not throw. Reports run.Progress(stage, done/count) when `stage` is
-// not null.
+// Calls body(i) for i in [0,count) on up to run.threads() threads. When cancelled, it stops early and returns
+// that status; otherwise OK. `body` must not throw. Reports run.Progress(stage, done/count) if `stage` is not
+// null.
 absl::Status ParallelFor(const RunContext& run, const char* stage, std::size_t count,
                          const std::function<void(std::size_t)>& body);
 
-// The calls [first,last) of such a loop; progress is that of the whole loop.
+// Runs the calls [first,last) of a loop over [0,count). Progress is that of the whole loop.
 struct LoopPart {
   std::size_t first = 0, last = 0, count = 0;
 };

@@ -1,4 +1,4 @@
-// When progress is told again: not for every item of fast work, and not too late for slow work.
+// Decides when progress is reported again: not for every item of fast work, and not too late for slow work.
 #pragma once
 
 #include <atomic>
@@ -8,13 +8,14 @@
 
 namespace patchmill {
 
-// Since a stage's last word, for any number of threads. A look at the clock, some 30 ns.
+// Measures the time since the last report of a stage, for any number of threads. A call reads the clock,
+// about 30 ns.
 class ProgressThrottle {
  public:
-  // A tenth of a second without a word: told at twice the rate that a client may count on (0.2 s).
+  // True after 0.1 s without a report, half of the 0.2 s that a client may count on.
   bool Due() const { return Now() - reported_.load(std::memory_order_relaxed) > kInterval; }
   void Report() { reported_.store(Now(), std::memory_order_relaxed); }
-  // Tells run.Progress(stage, done/all) when it has been too long.
+  // Reports run.Progress(stage, done/all) if Due().
   void ReportIfDue(const RunContext& run, const char* stage, std::size_t done, std::size_t all) {
     if (!Due()) return;
     Report();

@@ -1,4 +1,4 @@
-// Large vectors made longer, with an eye on cancel: memory that is new to the process is slow to touch.
+// Resizing of large vectors that can be cancelled: the first touch of new memory is slow.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace patchmill {
 
-// As v.resize(size) with size >= v.size(). CANCELLED and DEADLINE_EXCEEDED within some thousand elements.
+// Does v.resize(size), with size >= v.size(). Returns CANCELLED or DEADLINE_EXCEEDED within some thousand
+// elements.
 template <typename T>
 absl::Status ResizePolling(std::vector<T>& v, std::size_t size, const RunContext& run) {
   constexpr std::size_t kBetweenPolls = 1 << 14;

@@ -1,4 +1,4 @@
-// Progress and cancel as one small handle passed down to every long computation.
+// Progress and cancel as one small handle that is passed down to every long computation.
 #pragma once
 
 #include <atomic>
@@ -10,17 +10,19 @@
 
 namespace patchmill {
 
-// Shared by all threads of one job. Cheap to poll: Cancelled() is one relaxed load and, rarely, a clock read.
+// All threads of one job share it. It is cheap to poll: Cancelled() is one relaxed load and, only if a
+// deadline is set, a clock read.
 class RunContext {
  public:
   using Clock = std::chrono::steady_clock;
-  // stage, fraction in [0,1] of that stage. Called from the thread that works; must be quick and thread-safe.
+  // Arguments: the stage, and the fraction in [0,1] of that stage that is done. The working thread calls it,
+  // so it must be quick and thread-safe.
   using ProgressSink = std::function<void(std::string_view stage, double fraction)>;
 
   RunContext() = default;
   explicit RunContext(int threads) : threads_(threads) {}
 
-  // 0: as many as the machine has. Results never depend on it ([verification P5]).
+  // 0: as many as the machine has. Results never depend on the number ([verification P5]).
   int threads() const { return threads_; }
   void set_threads(int threads) { threads_ = threads; }
   void set_progress(ProgressSink sink) { sink_ = std::move(sink); }

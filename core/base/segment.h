@@ -1,4 +1,4 @@
-// Points and segments.
+// Distances of points to segments.
 #pragma once
 
 #include <algorithm>

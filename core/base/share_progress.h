@@ -1,4 +1,4 @@
-// Progress of work on a few large items, each done by halves of halves: by what is done of all of them.
+// Progress of work on a few large items that are halved again and again: the share of all work that is done.
 #pragma once
 
 #include <atomic>
@@ -9,14 +9,14 @@
 
 namespace patchmill {
 
-// Tells run.Progress(stage, share) some 64 times, and after any silence that is too long. For any number of
-// threads; at most 2^23 items. A part costs an atomic addition and a look at the clock, 40 ns.
+// Reports run.Progress(stage, share) about 64 times, and whenever ProgressThrottle is due. Any number of
+// threads may call it; at most 2^23 items. A part costs an atomic addition and a clock read, 40 ns.
 class ShareProgress {
  public:
   ShareProgress(const RunContext& run, const char* stage, std::size_t items)
       : run_(run), stage_(stage), all_(static_cast<std::uint64_t>(items) << kHalvings) {}
 
-  // An item's part is done: 2^-halvings of it, halvings in [0, 40].
+  // Counts 2^-halvings of an item as done; halvings in [0, 40].
   void Add(int halvings) {
     const std::uint64_t part = std::uint64_t{1} << (kHalvings - halvings);
     const std::uint64_t done = done_.fetch_add(part, std::memory_order_relaxed) + part;

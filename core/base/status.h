@@ -21,10 +21,11 @@
   auto tmp = (expr);                         \
   if (!tmp.ok()) return tmp.status();        \
   lhs = std::move(*tmp)
-// PM_ASSIGN_OR_RETURN(auto x, F()): x = the value of F(), or returns its status.
+// PM_ASSIGN_OR_RETURN(auto x, F()): x is the value of F(), or the calling function returns the status of F().
 #define PM_ASSIGN_OR_RETURN(lhs, expr) PM_ASSIGN_OR_RETURN_(PM_CONCAT(pm_or_, __LINE__), lhs, expr)
 
-// A promise of our own code, not of the input. Aborts with the place when it does not hold.
+// Checks a condition that our own code must keep, whatever the input. Aborts with the place if it does not
+// hold.
 #define PM_CHECK(condition)                                                                       \
   do {                                                                                            \
     if (!(condition)) {                                                                           \

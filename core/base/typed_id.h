@@ -1,4 +1,4 @@
-// Typed indices: a PatchId is not a PieceId. Absence is std::optional, never a special value.
+// Typed indices: a PatchId is not a PieceId. An absent id is an empty std::optional, never a special value.
 #pragma once
 
 #include <compare>

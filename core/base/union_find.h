@@ -1,4 +1,4 @@
-// Sets of numbers that grow together.
+// Disjoint sets of numbers that can be joined.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace patchmill {
 
-// Numbers 0 .. count-1, each in a set of its own at first. The smallest member stands for its set, so that
-// the answer does not depend on the order of joining. Near-constant cost.
+// Holds the numbers 0 .. count-1, at first each in a set of its own. The smallest member stands for its set,
+// so the answer does not depend on the order of joining. Cost near constant.
 class UnionFind {
  public:
   explicit UnionFind(std::size_t count) : parent_(count) {

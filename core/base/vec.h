@@ -23,7 +23,7 @@ inline Vec2 Xy(const Vec3& p) { return {p.x(), p.y()}; }  // the view from above
 inline Vec3 Lift(const Vec2& q, double z) { return {q.x(), q.y(), z}; }
 inline double Cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// Axis-parallel box, closed. A new one is empty (min > max) and grows by Add.
+// Axis-parallel box, closed. A new box is empty (min > max) and grows by Add.
 struct Box3 {
   Vec3 min = Vec3::Constant(kInfinity);
   Vec3 max = Vec3::Constant(-kInfinity);

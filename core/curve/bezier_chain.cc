@@ -65,7 +65,7 @@ void Elevate(BezierChain& chain, int degree) {
   chain.points = std::move(points);
 }
 
-// The common break that one of a chain's counts as.
+// Index of the common break that a chain's break `at` counts as.
 std::size_t IndexOf(const std::vector<double>& breaks, double at) {
   return static_cast<std::size_t>(std::ranges::upper_bound(breaks, at) - breaks.begin()) - 1;
 }

@@ -43,7 +43,7 @@ CurveJet Evaluate(const BsplineCurve& curve, double t) {
 
 CurveJet Evaluate(const HosakaSegment& s, double t) {
   CurveJet jet = Evaluate(HermiteCurve{s.origin, s.b, s.origin + s.a, s.c}, t);
-  // t^2 (t-1)^2 and its derivatives, times the polynomial by Horner.
+  // t^2 (t-1)^2 and its derivatives, times the polynomial, which is evaluated by Horner's rule.
   const double r = t * (t - 1.0), r1 = 2.0 * t - 1.0;
   const double w = r * r, w1 = 2.0 * r * r1, w2 = 2.0 * r1 * r1 + 4.0 * r;
   CurveJet q;
@@ -116,7 +116,8 @@ absl::StatusOr<BezierCurve> BezierOf(const HosakaSegment& s) {
                                                   s.extra.size(), kMaxBasisDegree - 3));
   }
   BezierCurve bezier = Elevated(cubic, n);
-  // sum extra_i t^i in degree k: coefficient j is sum_i extra_i C(j,i)/C(k,i); times t^2 (1-t)^2 shifts it.
+  // sum extra_i t^i in degree k has the coefficients j: sum_i extra_i C(j,i)/C(k,i). The factor t^2 (1-t)^2
+  // shifts them.
   for (int j = 0; j <= k; ++j) {
     Vec3 q = Vec3::Zero();
     for (int i = 0; i <= j; ++i) {

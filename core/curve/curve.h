@@ -1,4 +1,5 @@
-// Curves of one parameter t in [0,1]: a closed set, polynomial or piecewise polynomial. Length unit as given.
+// Curves of one parameter t in [0,1]: a closed set, polynomial or piecewise polynomial, in the caller's unit
+// of length.
 #pragma once
 
 #include <variant>
@@ -11,8 +12,8 @@
 
 namespace patchmill {
 
-// Cubic by its ends and TRUE end derivatives [curves (2)]: C'(0) = d0, C'(1) = d1. An outgoing tangent T2 at
-// the far end is -d1.
+// Cubic given by its ends and its TRUE end derivatives [curves (2)]: C'(0) = d0, C'(1) = d1. An outgoing
+// tangent T2 at the far end is -d1.
 struct HermiteCurve {
   Vec3 p0 = Vec3::Zero(), d0 = Vec3::Zero(), p1 = Vec3::Zero(), d1 = Vec3::Zero();
 };
@@ -41,7 +42,7 @@ struct HosakaSegment {
 
 using Curve = std::variant<HermiteCurve, BezierCurve, BsplineCurve, HosakaSegment>;
 
-// Value and derivatives in t.
+// Value and derivatives with respect to t.
 struct CurveJet {
   Vec3 p = Vec3::Zero(), d = Vec3::Zero(), dd = Vec3::Zero();
 };
@@ -53,20 +54,20 @@ CurveJet Evaluate(const BsplineCurve& curve, double t);
 CurveJet Evaluate(const HosakaSegment& curve, double t);
 CurveJet Evaluate(const Curve& curve, double t);
 
-// The same curve run the other way.
+// The same curve in the opposite direction.
 HermiteCurve Reversed(const HermiteCurve& curve);
 BezierCurve Reversed(BezierCurve curve);
 
-// The part [t1,t2] as a curve of its own [curves (11)]: chord, and (t2-t1) times the derivatives. Exact.
+// The part [t1,t2] as a curve of its own [curves (11)]: its chord, and (t2-t1) times the derivatives. Exact.
 HermiteCurve Part(const HermiteCurve& curve, double t1, double t2);
-// The same of a Bezier curve, 0 <= t1 < t2 <= 1; ends at 0 and 1 stay to the bit.
+// The part [t1,t2] of a Bezier curve, 0 <= t1 < t2 <= 1. Ends at 0 and 1 are copied without rounding.
 BezierCurve Part(BezierCurve curve, double t1, double t2);
 
 // The cubic with the same ends and end derivatives.
 HermiteCurve HermiteOf(const BezierCurve& curve);
 
-// Exact Bezier form. INVALID_ARGUMENT for a B-spline of more than one span (it has no single polynomial) and
-// for a form of degree above kMaxBasisDegree.
+// The exact Bezier form. INVALID_ARGUMENT for a B-spline of more than one span (it has no single polynomial)
+// and for a form of degree above kMaxBasisDegree.
 BezierCurve ToBezier(const HermiteCurve& curve);
 absl::StatusOr<BezierCurve> ToBezier(const Curve& curve);
 

@@ -33,7 +33,7 @@ absl::StatusOr<EdgeTangents> ArcTangents(const EdgeDirections& ends) {
   if (!(turn < 2.0 * std::numbers::pi - 1e-6)) {
     return absl::InvalidArgumentError("both end directions point away from the other end; no arc leaves so");
   }
-  // The ratio of length and chord tends to 1 with the angle.
+  // The ratio of length and chord tends to 1 as the angle tends to 0.
   const double t = turn > 1e-6 ? ArcTangentLength(length, turn) : length;
   return EdgeTangents{t * ends.u1, t * ends.u2};
 }

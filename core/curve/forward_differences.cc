@@ -10,7 +10,7 @@ namespace patchmill {
 
 absl::StatusOr<CubicStepper> CubicStepper::Make(int n, std::int64_t a, std::int64_t b, std::int64_t c) {
   if (n < 0 || n > 16) return absl::InvalidArgumentError(fmt::format("n = {}; must be in [0, 16]", n));
-  // Bounds x on [0,1] and, with room to spare, every register: A, B, C are differences of x over a step.
+  // Bounds x on [0,1] and, with room to spare, every register: A, B and C are differences of x over a step.
   const double largest = 8.0 * (std::abs(static_cast<double>(a)) + std::abs(static_cast<double>(b)) +
                                 std::abs(static_cast<double>(c)));
   if (std::ldexp(largest, 3 * n) >= std::ldexp(1.0, 62)) {

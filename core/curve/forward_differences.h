@@ -1,4 +1,4 @@
-// Incremental evaluation of a cubic by three additions a step, in exact integers [curves, section 7].
+// Incremental evaluation of a cubic by three additions per step, in exact integers [curves, section 7].
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@
 namespace patchmill {
 
 // x(t) = a t + b t^2 + c t^3 in integer units, stepped by 2^-n [curves (31)-(32)]. Registers are scaled by
-// 2^(3n), so every step is exact: value() / 2^(3n) = x(i 2^-n), no rounding ever.
+// 2^(3n), so every step is exact: value() / 2^(3n) = x(i 2^-n) without any rounding.
 class CubicStepper {
  public:
-  // INVALID_ARGUMENT unless n is in 0..16 and 3n bits plus those of |a|+|b|+|c|, |2b|+|6c| leave room for the
-  // sign in 64.
+  // INVALID_ARGUMENT unless n is in 0..16 and 8 (|a| + |b| + |c|) 2^(3n) < 2^62, so that every register fits
+  // into 64 bits.
   static absl::StatusOr<CubicStepper> Make(int n, std::int64_t a, std::int64_t b, std::int64_t c);
 
   void Step();                                // uses the old values: R += A, then A += B, then B += C
@@ -33,8 +33,8 @@ class CubicStepper {
 };
 
 // The 2^n + 1 points of a cubic at t = i 2^-n, each coordinate a whole number of `unit` (> 0) from the start.
-// The three coefficients of each coordinate are rounded to whole units, the sum is exact and then cut to
-// whole units downwards: every coordinate lies within kForwardDifferenceError units of the curve.
+// The three coefficients of each coordinate are rounded to whole units. Their sum is exact and then rounded
+// down to whole units. So every coordinate lies within kForwardDifferenceError units of the curve.
 // INVALID_ARGUMENT as CubicStepper.
 inline constexpr double kForwardDifferenceError = 2.5;
 absl::StatusOr<std::vector<std::array<std::int64_t, 3>>> ForwardDifferences(const HermiteCurve& curve, int n,

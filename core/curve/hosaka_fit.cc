@@ -149,7 +149,7 @@ Vec3 FitExtraAtPeak(const HosakaSegment& segment, double y, double z) {
 }
 
 std::vector<double> RootsInUnitInterval(const std::array<double, 4>& a) {
-  // Between the zeros of the derivative the cubic is monotone.
+  // The cubic is monotone between the zeros of its derivative.
   std::vector<double> stops = {0.0};
   const double p = 3.0 * a[0], h = a[1], r = a[2];  // p t^2 + 2 h t + r
   const double d = h * h - p * r;

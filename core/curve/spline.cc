@@ -27,7 +27,8 @@ std::vector<Value> Solve(const Rows& rows, std::vector<Value> right) {
   return right;
 }
 
-// The same with the corners below[0] and above[n-1] of a closed chain [references: shermanmorrison1950].
+// Solves the rows of a closed chain, with the corners below[0] and above[n-1] [references:
+// shermanmorrison1950].
 std::vector<Vec3> SolveClosed(Rows rows, const std::vector<Vec3>& right) {
   const std::size_t n = rows.on.size();
   const double top = rows.below[0], bottom = rows.above[n - 1], gamma = -rows.on[0];
@@ -47,9 +48,9 @@ std::vector<HermiteCurve> Splined(const std::vector<Vec3>& points, const std::ve
                                   bool closed, const SplineEnds& ends) {
   const std::size_t n = points.size(), spans = chord.size();
   const auto next = [n](std::size_t i) { return i + 1 == n ? 0 : i + 1; };
-  // Unknown: the derivative m in the chord parameter. Equal second derivatives at point i:
+  // The unknowns are the derivatives m in the chord parameter. Equal second derivatives at point i:
   //   h1 m(i-1) + 2 (h0 + h1) m(i) + h0 m(i+1) = 3 (h1 slope(i-1) + h0 slope(i)),
-  // h0 and h1 the chords beside it.
+  // where h0 and h1 are the chords before and after it.
   const auto slope = [&](std::size_t i) { return Vec3((points[next(i)] - points[i]) / chord[i]); };
   Rows rows{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   std::vector<Vec3> right(n);

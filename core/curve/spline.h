@@ -11,19 +11,20 @@
 namespace patchmill {
 
 struct SplineEnds {
-  // Directions and speeds per unit of chord at the ends; natural (no curvature) where not given. Unused when
+  // Derivatives per unit of chord at the ends. An end without one is natural (no curvature). Unused when
   // closed.
   std::optional<Vec3> start, end;
 };
 
 // One cubic per pair of neighbours (when closed, also from the last point to the first), each with its own
-// parameter in [0,1]; neighbours share tangent line and curvature vector at the point between them. Residual
-// about 1e-15 of the chords. Cost O(n). INVALID_ARGUMENT for fewer than two points (closed: three),
-// neighbours that coincide, and numbers that are not finite.
+// parameter in [0,1]. At the point between them, neighbours share tangent line and curvature vector. Residual
+// about 1e-15 of the chords. Cost O(n). INVALID_ARGUMENT for fewer than two points (closed: three), for
+// neighbours that coincide, and for numbers that are not finite.
 absl::StatusOr<std::vector<HermiteCurve>> SplineThrough(const std::vector<Vec3>& points, bool closed,
                                                         const SplineEnds& ends = {});
 
-// The natural open spline in a given parameter: spans[i] > 0 from point i to the next, two points or more.
+// The natural open spline in a given parameter. spans[i] > 0 is the length of the span from point i to the
+// next. Needs two points or more.
 std::vector<HermiteCurve> SplineOver(const std::vector<Vec3>& points, const std::vector<double>& spans);
 
 }  // namespace patchmill

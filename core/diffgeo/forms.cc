@@ -44,15 +44,15 @@ double NormalCurvature(const FundamentalForms& f, double du, double dv) {
 }
 
 double NormalCurvature(const FundamentalForms& f, const SurfaceJet& jet, const Vec3& t) {
-  // t = S_u du + S_v dv in the tangent plane, up to the common factor EG - F^2 that [shapes (31)] does not
-  // see.
+  // (du, dv) with t = S_u du + S_v dv in the tangent plane, times the common factor EG - F^2, which cancels
+  // in [shapes (31)].
   const double tu = t.dot(jet.du), tv = t.dot(jet.dv);
   return NormalCurvature(f, f.G * tu - f.F * tv, f.E * tv - f.F * tu);
 }
 
 PrincipalCurvatures Principal(const FundamentalForms& f) {
-  // The second form in the orthonormal frame S_u/|S_u| and its perpendicular: a symmetric matrix (a b; b c),
-  // whose eigenvalues need no root of a difference (H^2 - K loses half the digits near umbilics).
+  // The second form in the orthonormal frame of S_u/|S_u| and its perpendicular is a symmetric matrix (a b; b
+  // c). Its eigenvalues need no root of a difference (H^2 - K loses half the digits near umbilics).
   const double w2 = f.E * f.G - f.F * f.F;
   const double a = f.L / f.E;
   const double b = (f.E * f.M - f.F * f.L) / (f.E * std::sqrt(w2));

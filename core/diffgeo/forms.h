@@ -1,4 +1,4 @@
-// First and second fundamental forms and what follows from them [shapes, section 9].
+// First and second fundamental forms and the curvatures that follow from them [shapes, section 9].
 #pragma once
 
 #include <cmath>
@@ -8,15 +8,15 @@
 
 namespace patchmill {
 
-// Unit normal S_u x S_v / |S_u x S_v|; nullopt where |S_u x S_v| <= 1e-12 max(|S_u|,|S_v|)^2: a degenerate
-// parametrisation, be it parallel tangents or, at a pole, a tangent that is rounding noise.
+// Unit normal S_u x S_v / |S_u x S_v|. It is nullopt where |S_u x S_v| <= 1e-12 max(|S_u|,|S_v|)^2. There the
+// parametrisation is degenerate: the tangents are parallel or, at a pole, one of them is rounding noise.
 std::optional<Vec3> UnitNormal(const SurfaceJet& jet);
 
 // The same, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On an upright face
 // (SurfaceJet::upright) it points to the air side where that is known, else to either side.
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet);
 
-// From where a tool stands at a place of the surface.
+// The side from which a tool reaches a point of the surface.
 struct Facing {
   Vec3 e = Vec3::UnitZ();  // UpwardNormal
   bool both = false;       // an upright face whose air side is unknown: the tool may stand at -e as well
@@ -24,7 +24,7 @@ struct Facing {
 };
 std::optional<Facing> FacingAt(const SurfaceJet& jet);
 
-// Whether the tool may stand on either side of the surface, where `e` is its UpwardNormal.
+// Whether the tool may stand on either side of the surface; `e` is its UpwardNormal.
 inline bool HasTwoSides(const SurfaceJet& jet, const Vec3& e) {
   return jet.air_side == 0 && std::abs(e.z()) <= jet.upright;
 }
@@ -38,8 +38,8 @@ FundamentalForms Forms(const SurfaceJet& jet, const Vec3& normal);
 
 // Normal curvature [shapes (31)] in the direction (du,dv), 1/mm, > 0 concave towards `normal`.
 double NormalCurvature(const FundamentalForms& f, double du, double dv);
-// Normal curvature in the direction of the tangent vector t (3-D, need not be unit; its part in the tangent
-// plane counts).
+// Normal curvature in the direction of the 3-D tangent vector t. It need not be a unit vector, and only its
+// part in the tangent plane counts.
 double NormalCurvature(const FundamentalForms& f, const SurfaceJet& jet, const Vec3& t);
 
 struct PrincipalCurvatures {

@@ -1,4 +1,4 @@
-// Control vectors of a network while it is edited: one for each edge of a face.
+// The control vectors of a network while it is edited. There is one control for each edge of a face.
 #pragma once
 
 #include <array>
@@ -13,26 +13,26 @@ namespace patchmill {
 
 class ControlStore {
  public:
-  // INVALID_ARGUMENT for two of one edge and face.
+  // INVALID_ARGUMENT if two controls belong to the same edge and face.
   absl::Status Read(const std::vector<CrossControl>& controls);
 
-  // Those that were read in their order, then the new ones.
+  // The controls that were read, in their order, then the new ones.
   std::vector<CrossControl> List() const;
 
-  // What `control` gives replaces what is there; the rest stays.
+  // Replaces the vectors that `control` gives. Its other vector stays.
   void Put(const CrossControl& control);
-  // The same, and drops what it gives of the face across.
+  // As Put. Also drops the same vectors of the face across the edge.
   void Set(const CrossControl& control);
   // Drops the second derivatives of both faces at the edge.
   void DropSecond(const CrossControl& at);
-  // Drops what the face across has.
+  // Drops both vectors of the face across the edge.
   void DropAcross(const CrossControl& at);
 
  private:
   using Key = std::array<int, 3>;  // ends of the edge in ascending order, face
   static Key KeyOf(const CrossControl& c);
   template <class Visit>
-  void ForEdge(const CrossControl& at, const Visit& visit);  // and drops what is empty then
+  void ForEdge(const CrossControl& at, const Visit& visit);  // then drops empty controls
 
   std::vector<Key> order_;
   std::map<Key, CrossControl> controls_;

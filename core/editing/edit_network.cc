@@ -89,7 +89,7 @@ class Editor {
     const MiddleCross wished = CrossOf(points);
     CrossControl control{edit.at.start, edit.at.end, edit.at.face, {}, {}};
     if (edit.point == 1) {
-      controls_.DropSecond(control);  // found anew
+      controls_.DropSecond(control);  // joining finds it anew
       control.first = wished.first;
     } else {
       control.first = cross.first, control.second = wished.second;
@@ -157,7 +157,7 @@ class Editor {
       controls_.Put({a, b, faces[k], from.d, from.dd});
       controls_.Put({c, d, faces[k], Vec3(-to.d), to.dd});
     }
-    if (!edit.closed) {  // what lies beyond the row follows
+    if (!edit.closed) {  // the faces beyond the ends of the row follow
       controls_.DropAcross({edit.edges[0][0], edit.edges[0][1], faces.front(), {}, {}});
       controls_.DropAcross({edit.edges.back()[0], edit.edges.back()[1], faces.back(), {}, {}});
     }
@@ -179,7 +179,7 @@ class Editor {
     return Error(at + ".face", fmt::format("= {}; must be in [0, {}]", face, count - 1));
   }
 
-  // The side of the face that is the edge.
+  // Returns the side of the face that is the edge.
   absl::StatusOr<int> CheckSide(const EdgeOfFace& e, const std::string& at) const {
     PM_RETURN_IF_ERROR(CheckFace(e.face, at));
     const auto& loop = network_.faces[At(e.face)].vertices;
@@ -234,10 +234,10 @@ class Editor {
     return group;
   }
 
-  // The face beside `edge` whose opposite side is `next`.
+  // Returns the face beside `edge` whose opposite side is `next`.
   std::optional<int> FaceBetween(const TableEdge& edge, const std::array<int, 2>& next) const {
     for (const FaceSide& s : edge.faces) {
-      if (At(s.face) >= network_.faces.size()) continue;  // a piece of one with cuts
+      if (At(s.face) >= network_.faces.size()) continue;  // a piece of a face with cuts
       const NetworkFace& face = network_.faces[At(s.face)];
       if (face.scheme != PatchScheme::kG2Gregory || face.vertices.size() != 4) continue;
       if (SameEdge(face.vertices[At((s.side + 2) % 4)], face.vertices[At((s.side + 3) % 4)], next[0],
@@ -250,8 +250,8 @@ class Editor {
 
   CurveNetwork network_;
   const RunContext& run_;
-  ControlStore controls_;                // as edited; those of network_ are older
-  std::optional<JoinedNetwork> joined_;  // as edited
+  ControlStore controls_;                // with the edits; the controls in network_ are older
+  std::optional<JoinedNetwork> joined_;  // with the edits; empty after a change
 };
 
 }  // namespace

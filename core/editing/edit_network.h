@@ -1,5 +1,5 @@
-// Edits of a curve network, one after the other [editing]. What no edit touches stays as it is, to
-// the bit, and so do the patches made from it.
+// Edits of a curve network, one after the other [editing]. All that no edit touches stays as it is, to the
+// bit, and so do the patches made from it.
 #pragma once
 
 #include <array>
@@ -14,53 +14,53 @@
 
 namespace patchmill {
 
-// Pushes a face in or out at a place, on top of what it is pushed already.
+// Pushes a face in or out at a place. The push adds to the earlier pushes of the face.
 struct PushEdit {
   int face = 0;
   FacePush push;
 };
 
-// Turns a vertex normal: the one of `face` and of the faces that meet it smoothly there; of all faces when
-// none is named and the vertex has no more than one.
+// Turns a vertex normal: the normal of `face` and of the faces that meet it smoothly there. Without `face`,
+// the vertex must have at most one normal, and that one turns.
 struct NormalEdit {
   int vertex = 0;
   std::optional<int> face;
-  Vec3 direction = Vec3::Zero();  // any length but zero
+  Vec3 direction = Vec3::Zero();  // any length but 0
 };
 
-// First- and second-order control vectors [editing, section 3]; what is not given stays. The same vectors of
-// the face across are dropped: it follows.
+// Sets the first- and second-order control vectors [editing, section 3]. A vector that is not given stays.
+// The vectors of the same order of the face across are dropped, because that face follows.
 struct ControlEdit {
   CrossControl control;
 };
 
-// A face's side at an edge, the edge by its two vertices in either order.
+// The side of a face at an edge. The edge is given by its two vertices in either order.
 struct EdgeOfFace {
   int start = 0, end = 0, face = 0;
 };
 
-// Moves the user's control point Q1 (the tangent plane at Q0 turns, Q2 follows from the edge's ends) or Q2
-// (Q0 and Q1 stay) of an edge [editing, section 3].
+// Moves a control point of an edge [editing, section 3]. If Q1 moves, the tangent plane at Q0 turns, and Q2
+// follows from the edge's ends. If Q2 moves, Q0 and Q1 stay.
 struct ControlPointEdit {
   EdgeOfFace at;
   int point = 1;  // 1 or 2
   Vec3 position = Vec3::Zero();
 };
 
-// Curvature of the section across the middle of the edge, 1/mm, > 0 the way it bends now when that is towards
-// the face's S_u x S_v [editing, section 4]. Q0, Q1 and the direction of the second derivative stay.
+// Sets the curvature of the section across the middle of the edge, 1/mm [editing, section 4]. It is positive
+// where the section bends towards the face's S_u x S_v. Q0, Q1 and the line of the second derivative stay.
 struct CurvatureEdit {
   EdgeOfFace at;
   double curvature = 0.0;
 };
 
-// Corrects a row of faces at once [editing, section 5]: a cubic spline through the middles of the edges
-// between them, in the chord parameter, gives all their control vectors across the row. Each edge and the
-// next are opposite sides of one G2-Gregory face; closed: the last and the first, too.
+// Corrects a row of faces at once [editing, section 5]. A cubic spline in the chord parameter runs through
+// the middles of the edges between the faces. It gives all their control vectors across the row. Each edge
+// and the next one must be opposite sides of one G2-Gregory face; if closed, so must the last and the first.
 struct GuideEdit {
-  std::vector<std::array<int, 2>> edges;  // two or more (closed: three), by their vertices
+  std::vector<std::array<int, 2>> edges;  // each by its two vertices; at least 2, closed: at least 3
   bool closed = false;
-  std::optional<Vec3> start, end;  // directions there, any length but zero; natural where not given
+  std::optional<Vec3> start, end;  // directions at the ends, any length but 0; natural ends where not given
 };
 
 using NetworkEdit =
@@ -68,10 +68,10 @@ using NetworkEdit =
 
 inline constexpr int kMaxEdits = 1000;
 
-// Errors: INVALID_ARGUMENT with the path of the edit ("edits[2].face = 9; must be in [0, 5]"), also where the
-// network cannot be joined before an edit that asks for its surface; those of `run`, asked before each edit.
-// Cost: O(1) for an edit; ControlPointEdit, CurvatureEdit, GuideEdit and a NormalEdit of a face join the
-// network first when another edit went before.
+// Errors: INVALID_ARGUMENT with the path of the edit ("edits[2].face = 9; must be in [0, 5]"). The same error
+// is returned if an edit needs the surface before it and the network cannot be joined. Also the errors of
+// `run`, which is checked before each edit. Cost: O(1) for an edit. ControlPointEdit, CurvatureEdit,
+// GuideEdit and a NormalEdit with a face join the network first if it was edited since it was last joined.
 absl::StatusOr<CurveNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
                                          const RunContext& run = {});
 

@@ -13,7 +13,7 @@ absl::StatusOr<NetworkOnSurface> WithNormalsOf(const Surface& surface, CurveNetw
   std::vector<double> distance(network.vertices.size(), 0.0);
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, network.vertices.size(), [&](std::size_t k) {
     NetworkVertex& vertex = network.vertices[k];
-    if (!vertex.position.allFinite() || vertex.on_edge) return;  // a T-junction's follows its edge
+    if (!vertex.position.allFinite() || vertex.on_edge) return;  // a T-junction: its edge decides
     const auto nearest = ClosestToPoint(surface, vertex.position, kInfinity, 1e-9 * surface.box.Diagonal());
     if (!nearest) return;
     distance[k] = nearest->distance;

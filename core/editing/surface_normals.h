@@ -1,4 +1,4 @@
-// Normals of a network from a surface that lies near it, such as its first global shape [editing, section 6].
+// Normals of a network from a surface near it, such as its first global shape [editing, section 6].
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -11,13 +11,14 @@ namespace patchmill {
 
 struct NetworkOnSurface {
   CurveNetwork network;
-  double max_distance = 0.0;  // mm, of a vertex from the surface
-  int farthest_vertex = -1;   // -1: there are no vertices
+  double max_distance = 0.0;  // mm, largest distance of a vertex from the surface
+  int farthest_vertex = -1;   // -1 if there are no vertices
 };
 
-// Every vertex without normals gets that of the surface at its nearest point (found to 1e-9 of the surface's
-// size), none where the surface has none there; positions and given normals stay. Vertices that are not
-// finite are left alone: joining reports them. In parallel; CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Every vertex without normals gets the normal of the surface at its nearest point, which is found to 1e-9 of
+// the surface's size. It gets none where the surface has none. Positions and given normals stay. Vertices
+// that are not finite are left alone: joining reports them. Vertices on edges are left alone, too. Runs in
+// parallel. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<NetworkOnSurface> WithNormalsOf(const Surface& surface, CurveNetwork network,
                                                const RunContext& run);
 

@@ -10,9 +10,10 @@ namespace patchmill {
 namespace {
 
 constexpr double kCollinear = 1e-12;        // sine of the angle below which three points are in line
-constexpr double kVanishingTangent = 1e-9;  // of a projection; the tangents themselves are about 1 long
+constexpr double kVanishingTangent = 1e-9;  // of a projection; the tangents themselves have a length of about
+                                            // 1
 
-// The tangent at p1 of the circle p1, p2, p3, by inversion at p1.
+// The tangent at p1 of the circle through p1, p2 and p3, by inversion at p1.
 Vec3 CircleDirection(const Vec3& p1, const Vec3& p2, const Vec3& p3) {
   const Vec3 d1 = p2 - p1, d2 = p3 - p1;
   const double sine = d1.cross(d2).norm(), size = d1.norm() * d2.norm();
@@ -20,14 +21,14 @@ Vec3 CircleDirection(const Vec3& p1, const Vec3& p2, const Vec3& p3) {
   return (d1 / d1.squaredNorm() - d2 / d2.squaredNorm()).normalized();
 }
 
-// The length at p1 of the derivative of the parabola through three points, in the chord parameter.
+// The length, at p1, of the derivative of the parabola through three points in the chord parameter.
 double ParabolaSpeed(const Vec3& p1, const Vec3& p2, const Vec3& p3, double c1, double c2) {
   const double k = c1 / c2;
   return (((1.0 + 2.0 * k) * (p2 - p1) - k * k * (p3 - p2)) / (1.0 + k)).norm() / c1;
 }
 
 double SecondDerivativeBound(const BeamSegment& segment) {
-  return std::max(segment.Second(0.0).norm(), segment.Second(1.0).norm());  // linear between
+  return std::max(segment.Second(0.0).norm(), segment.Second(1.0).norm());  // linear in t
 }
 
 double StepsNeeded(const BeamSegment& segment, double tolerance) {

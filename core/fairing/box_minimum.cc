@@ -12,7 +12,7 @@ Hold Revised(const BoxQuadratic& f, const std::vector<double>& x, std::size_t i,
   switch (hold) {
     case Hold::kFree:
       return x[i] < f.lower[i] ? Hold::kLower : (x[i] > f.upper[i] ? Hold::kUpper : Hold::kFree);
-    case Hold::kLower:  // held as long as going up would not pay
+    case Hold::kLower:  // stays held as long as a larger x would not lower the value
       return f.slope(x, i) < 0.0 ? Hold::kFree : Hold::kLower;
     case Hold::kUpper:
       return f.slope(x, i) > 0.0 ? Hold::kFree : Hold::kUpper;

@@ -1,4 +1,5 @@
-// The least of a convex quadratic within a box, by guessing which bounds hold (primal-dual active set).
+// The minimum of a convex quadratic function within a box, by guessing which bounds hold (primal-dual active
+// set).
 #pragma once
 
 #include <functional>
@@ -6,28 +7,30 @@
 
 namespace patchmill {
 
-// 1/2 x.Hx - g.x over lower <= x <= upper, H symmetric positive definite without positive entries beside the
-// diagonal, as the systems of fairing are. lower <= 0 <= upper; equal ones hold a variable where it is.
+// The function 1/2 x.Hx - g.x over the box lower <= x <= upper with lower <= 0 <= upper. H is symmetric
+// positive definite and has no positive entry off its diagonal, as in the systems of fairing. A variable
+// whose two bounds are equal stays where it is.
 struct BoxQuadratic {
   enum class Hold : signed char { kFree, kLower, kUpper };
   std::vector<double> lower, upper, diagonal;
-  // The least with the held variables at their bounds, the others without bounds.
+  // Returns the minimum with the held variables at their bounds; the other variables have no bounds.
   std::function<std::vector<double>(const std::vector<Hold>&)> solve;
-  // (Hx - g)_i.
+  // Returns (Hx - g)_i.
   std::function<double(const std::vector<double>& x, std::size_t i)> slope;
 };
 
 struct BoxStep {
   std::vector<double> x;
   int solves = 0;      // at most kMaxBoxSolves
-  bool exact = false;  // the least itself; else some x with no larger value than 0 has
+  bool exact = false;  // x is the minimum; otherwise the value at x is no larger than at 0
 };
 
 inline constexpr int kMaxBoxSolves = 30;
-inline constexpr int kBoxSweeps = 20;  // of Gauss-Seidel, cut back to the box, when the guesses do not settle
+inline constexpr int kBoxSweeps = 20;  // of Gauss-Seidel, cut back to the box; used if the guesses do not
+                                       // settle
 
-// One solve where no bound holds. Cost: solves of `solve`, as many passes over `slope`; at worst kBoxSweeps
-// passes more.
+// Where no bound holds, one call of `solve` suffices. Cost: BoxStep::solves calls of `solve` and as many
+// passes over `slope`; in the worst case kBoxSweeps more passes.
 BoxStep MinimizeInBox(const BoxQuadratic& f);
 
 }  // namespace patchmill

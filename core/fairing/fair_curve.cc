@@ -37,8 +37,9 @@ Nodes MergeCoincident(const std::vector<Vec3>& points) {
   return nodes;
 }
 
-// The rows of [fairing (8)], and what they leave of one component: solved for the step, not for the place, so
-// that what lies fair already does not creep with the rounding of large coordinates.
+// The rows of [fairing (8)] and their residuals, for all three components. They are solved for the steps of
+// the points, not for their places. So points that are fair already do not creep with the rounding of large
+// coordinates.
 class ChainSystem {
  public:
   explicit ChainSystem(const Beam& beam) : rows_(At(beam.count())), force_(At(beam.count())) {
@@ -50,7 +51,7 @@ class ChainSystem {
     }
   }
 
-  // Steps along one axis to the least energy within the limits.
+  // The steps along one axis that lead to the least energy within the limits.
   BoxStep LeastAlong(int axis, const std::vector<Vec3>& points, const FairingLimits& limits) const {
     BoxQuadratic f;
     limits.SetBounds(axis, points, f);
@@ -82,10 +83,10 @@ class ChainSystem {
   }
 
   std::vector<PositionRow> rows_;
-  std::vector<Vec3> force_;  // half of rhs - lhs
+  std::vector<Vec3> force_;  // half of rhs - lhs, at the present points
 };
 
-// What RunFairing asks of a curve.
+// The functions that RunFairing needs, for a curve.
 struct CurveModel {
   using State = Beam;
   const CurveFairing& curve;

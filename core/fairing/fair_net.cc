@@ -33,7 +33,7 @@ absl::Status CheckApart(const NetFairing& net) {
   return absl::OkStatus();
 }
 
-// The five-term rows of all inner nodes, and what they leave.
+// The five-term rows of all inner nodes and their residuals.
 class NetSystem {
  public:
   explicit NetSystem(const BeamNet& net)
@@ -72,7 +72,7 @@ class NetSystem {
     return k % 2 == 0 ? at - step : at + step;
   }
 
-  // Held nodes go to the right side; the others are numbered in their order.
+  // Held nodes move to the right-hand side. The free nodes are numbered in their order.
   std::vector<double> Solve(int axis, const BoxQuadratic& f, const std::vector<Hold>& holds) const {
     const std::size_t n = rows_.size();
     std::vector<double> x(n, 0.0);
@@ -104,7 +104,7 @@ class NetSystem {
     Sparse h(count, count);
     h.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Sparse> factor(h);
-    PM_CHECK(factor.info() == Eigen::Success);  // dominated by its diagonal, and the border is held
+    PM_CHECK(factor.info() == Eigen::Success);  // the diagonal dominates, and the border is held
     const Eigen::VectorXd solved = factor.solve(rhs);
     for (std::size_t at = 0; at < n; ++at) {
       if (unknown[at] >= 0) x[at] = solved[unknown[at]];
@@ -114,10 +114,10 @@ class NetSystem {
 
   int count_v_;
   std::vector<Weights> rows_;
-  std::vector<Vec3> force_;  // half of rhs - lhs
+  std::vector<Vec3> force_;  // half of rhs - lhs, at the present points
 };
 
-// What RunFairing asks of a net.
+// The functions that RunFairing needs, for a net.
 struct NetModel {
   using State = BeamNet;
   const NetFairing& net;

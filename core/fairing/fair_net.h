@@ -16,14 +16,14 @@
 namespace patchmill {
 
 struct NetFairing {
-  int count_u = 0, count_v = 0;  // >= 2 each, together at most kMaxFairingPoints
-  std::vector<Vec3> points;      // neighbours along both families apart
+  int count_u = 0, count_v = 0;  // each >= 2; their product is at most kMaxFairingPoints
+  std::vector<Vec3> points;      // neighbours along both families must not coincide
   FairingTerms terms;            // locks by index of the point
 };
 
 struct BeamNet {
-  std::vector<Beam> u;  // by j
-  std::vector<Beam> v;  // by i
+  std::vector<Beam> u;  // index: j
+  std::vector<Beam> v;  // index: i
   std::vector<Vec3> points;
 };
 
@@ -32,8 +32,8 @@ BeamNet FitNet(int count_u, std::vector<Vec3> points);
 
 double Energy(const BeamNet& net);  // of all beams
 
-// The five-term equation of an inner node [fairing (13)]: the sum of the two equations of its beams
-// [fairing (8)], whose lhs - rhs is dV/dP_ij / 12. Over the free nodes symmetric positive definite.
+// The five-term equation of an inner node [fairing (13)]: the sum of the equations of its two beams
+// [fairing (8)]. Its lhs - rhs is dV/dP_ij / 12. The system of the free nodes is symmetric positive definite.
 struct FiveTermRow {
   PositionRow u, v;
 };
@@ -41,15 +41,15 @@ FiveTermRow FiveTermRowOf(const BeamNet& net, int i, int j);
 
 struct FairedNet {
   BeamNet before, after;
-  std::vector<double> energies;  // V of the fit, then after each iteration: falls strictly
-  bool settled = false;          // as FairedCurve::settled; signs of both families
-  std::vector<Vec3> moved;       // after - given
+  std::vector<double> energies;  // V of the fit, then V after each iteration; strictly decreasing
+  bool settled = false;          // as FairedCurve::settled; the signs are those of both families
+  std::vector<Vec3> moved;       // new minus given place
 };
 
-// One iteration: the tangents of both families [fairing (7)], then the five-term system axis by axis, by
-// sparse Cholesky factors, one solve where no band holds; else as FairCurve. About O(n^1.5) for n nodes.
-// Errors: INVALID_ARGUMENT with field path, also for neighbours that coincide; those of `run`, asked before
-// each axis.
+// One iteration finds the tangents of both families [fairing (7)]. Then it solves the five-term system axis
+// by axis with sparse Cholesky factors; one solve suffices where no band holds. The rest is as in FairCurve.
+// Cost about O(n^1.5) for n nodes. Errors: INVALID_ARGUMENT with a field path, also for neighbours that
+// coincide, and those of `run`, which is checked before each axis.
 absl::StatusOr<FairedNet> FairNet(const NetFairing& net, const RunContext& run = {});
 
 }  // namespace patchmill

@@ -15,7 +15,7 @@
 
 namespace patchmill {
 
-// How far each node may go from where it was given.
+// How far each node may move from its given place.
 struct FairingLimits {
   std::vector<Vec3> given;
   std::vector<Axes> locked;
@@ -23,14 +23,15 @@ struct FairingLimits {
   BandRule rule = BandRule::kLeastEnergy;
 
   void Lock(int node, const Axes& axes);
-  // Bounds of the steps along one axis from `points`, into f.lower and f.upper: equal and 0 where locked,
-  // none with BandRule::kCut.
+  // Writes the bounds of the steps along one axis from `points` into f.lower and f.upper. Both are 0 where
+  // the node is locked. With BandRule::kCut the other nodes have no bounds.
   void SetBounds(int axis, const std::vector<Vec3>& points, BoxQuadratic& f) const;
-  // A share of the way, within the bands whatever the rounding; what is locked stays bit by bit.
+  // The points a share of the way from `from` to `to`. They stay within the bands in spite of rounding;
+  // locked components do not change at all.
   std::vector<Vec3> Part(double share, const std::vector<Vec3>& from, const std::vector<Vec3>& to) const;
 };
 
-// The limits of points whose ends or border, listed in `fixed`, are locked.
+// The limits of points. `fixed` marks the points that are locked: the ends of a curve, the border of a net.
 FairingLimits MakeLimits(std::vector<Vec3> given, const FairingTerms& terms, const std::vector<bool>& fixed);
 
 template <class State>
@@ -41,8 +42,8 @@ struct FairingRun {
 };
 
 // Model has: State; State Fit(std::vector<Vec3> points); const std::vector<Vec3>& Points(const State&);
-// double Energy(const State&); std::vector<Vec3> Curvatures(const State&);
-// absl::StatusOr<std::vector<Vec3>> Target(const State&), the points of least energy with tangents fixed.
+// double Energy(const State&); std::vector<Vec3> Curvatures(const State&); absl::StatusOr<std::vector<Vec3>>
+// Target(const State&), which returns the points of least energy for fixed tangents.
 template <class Model>
 absl::StatusOr<FairingRun<typename Model::State>> RunFairing(Model& model, typename Model::State first,
                                                              const FairingLimits& limits,
@@ -66,7 +67,7 @@ absl::StatusOr<FairingRun<typename Model::State>> RunFairing(Model& model, typen
     for (int halving = 0; halving <= kMaxHalvings && !better; ++halving, share *= 0.5) {
       State next = model.Fit(limits.Part(share, model.Points(out.state), target));
       const double energy = model.Energy(next);
-      better = energy < last_energy;  // false where nodes ran into each other: NaN or infinite
+      better = energy < last_energy;  // false where nodes coincide: the energy is NaN or infinite
       if (!better) continue;
       out.state = std::move(next);
       out.energies.push_back(energy);

@@ -9,12 +9,13 @@
 
 namespace patchmill {
 
-// First BBP (bicubic, x y z) or BEZabc: degree a in u, b in v, each 1 to 6 as Geomview has them, c numbers
-// per point: 3, or 4 with the weight last, x y z already multiplied by it. Then patch after patch until the
-// text ends, (a+1)(b+1) points each, u FASTEST. # starts a comment. Texture coordinates (STBBP, BEZabc_ST)
-// and colours (CBEZabc) are refused by name. Weights must be positive: a weight of 0 is a point at infinity
-// and is refused with the code ZERO_WEIGHT. Errors: INVALID_ARGUMENT "line 12: reason" for anything else.
-// Cost O(text), memory a small multiple of it.
+// The text starts with BBP (bicubic, x y z) or BEZabc. Here a is the degree in u and b the degree in v, each
+// 1 to 6 as in Geomview. The number c of coordinates per point is 3, or 4 if a weight comes last; x y z are
+// then already multiplied by the weight. Patch after patch follows until the text ends. Each has (a+1)(b+1)
+// points, u FASTEST. The character # starts a comment. Texture coordinates (STBBP, BEZabc_ST) and colours
+// (CBEZabc) are refused by name. Weights must be positive. A weight of 0 is a point at infinity and is
+// refused with the code ZERO_WEIGHT. All other errors are INVALID_ARGUMENT "line 12: reason". Cost O(text);
+// memory is a small multiple of the text.
 absl::StatusOr<PatchModel> ReadBez(std::string_view text);
 
 }  // namespace patchmill

@@ -19,7 +19,7 @@ std::string_view Trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-// Four fields are as wrong as more, so no more are kept.
+// Four fields are as wrong as more, so no more than four are kept.
 std::vector<std::string_view> Fields(std::string_view line, bool commas) {
   std::vector<std::string_view> fields;
   while (fields.size() < 4) {
@@ -43,7 +43,7 @@ absl::Status Fail(int line, std::string_view reason) {
   return absl::InvalidArgumentError(fmt::format("line {}: {}", line, reason));
 }
 
-// Lednicer's .dat states how many points of the upper and the lower side follow.
+// Lednicer's form of .dat starts with the counts of points of the upper and the lower side.
 bool LooksLikeCounts(const CurvePoints& curve) {
   if (!curve.planar || curve.points.size() < 3) return false;
   const Vec3& first = curve.points.front();

@@ -9,9 +9,9 @@
 
 namespace patchmill {
 
-// `format` is the file's ending without the point: "bpt", "bv", "bez" or "patches"; text formats are told by
-// it alone, for a truncated .bpt can be a valid .bv. An unknown one is INVALID_ARGUMENT and lists those
-// known; else as the reader.
+// `format` is the file's ending without the point: "bpt", "bv", "bez" or "patches". The format is never
+// guessed from the text, because a truncated .bpt can be a valid .bv. An unknown format is INVALID_ARGUMENT,
+// and the message lists the known ones. Other errors are those of the reader.
 absl::StatusOr<PatchModel> ReadModelText(std::string_view format, std::string_view text);
 
 }  // namespace patchmill

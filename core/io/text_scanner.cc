@@ -15,7 +15,8 @@ namespace {
 
 bool IsSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
 
-// from_chars knows no leading plus and reads "inf" and "nan"; numbers here start with a digit or a point.
+// from_chars accepts no leading plus, but accepts "inf" and "nan". Numbers here start with a digit or a
+// point.
 std::string_view WithoutPlus(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   return word;

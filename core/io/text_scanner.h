@@ -12,31 +12,32 @@
 
 namespace patchmill {
 
-// Words are separated by blanks, tabs and line ends (LF, CRLF, CR LF mixed); a byte order mark at the start
-// is skipped. Numbers are decimal in the C form, strict and independent of any locale: 1e400, nan, inf,
-// hexadecimal and a decimal comma are refused. `comment`, when not 0, starts text that counts as blank up to
-// the line's end. Every error is INVALID_ARGUMENT "line 12: reason".
+// Words are separated by blanks, tabs and line ends (LF, CRLF and CR LF mixed). A byte order mark at the
+// start is skipped. Numbers are decimal in the C form, strict and independent of any locale: 1e400, nan, inf,
+// hexadecimal numbers and a decimal comma are refused. If `comment` is not 0, this character and the rest of
+// its line count as blank. Every error is INVALID_ARGUMENT "line 12: reason".
 class TextScanner {
  public:
   explicit TextScanner(std::string_view text, char comment = 0);
 
-  // No word is left.
+  // True if no word is left.
   bool AtEnd();
-  // The next word without taking it; empty at the end.
+  // Returns the next word without taking it. Empty at the end.
   std::string_view Peek();
   absl::StatusOr<std::string_view> Word(std::string_view what);
-  // Finite and |x| <= kMaxCoordinate.
+  // A finite number with |x| <= kMaxCoordinate.
   absl::StatusOr<double> Number(std::string_view what);
   absl::StatusOr<int> Integer(std::string_view what, int min, int max);
   absl::StatusOr<Vec3> Point();
-  // Skips what is left of the line of the word taken last.
+  // Skips the rest of the line of the word that was taken last.
   void SkipLine();
-  // OK when nothing but white space is left.
+  // OK if only white space and comments are left.
   absl::Status ExpectEnd();
 
-  // Bytes not read yet. Whatever a count in the text claims, no more than remaining() / 2 numbers can follow.
+  // Bytes that are not yet read. At most remaining() / 2 more numbers can follow, whatever a count in the
+  // text says.
   std::size_t remaining() const { return text_.size() - at_; }
-  // 1-based: the line of the next word after Peek or AtEnd, else of the word taken last.
+  // The line, 1-based: that of the next word after Peek or AtEnd, else that of the word that was taken last.
   int line() const { return line_; }
   // "line <line>: <reason>".
   absl::Status Fail(std::string_view reason) const;
@@ -53,10 +54,10 @@ class TextScanner {
   char comment_ = 0;
 };
 
-// One word as such a number; the message names `what`, but no line.
+// Reads one word as TextScanner::Number does. The message names `what`, but no line.
 absl::StatusOr<double> ParseNumber(std::string_view word, std::string_view what);
 
-// `word` fit for a message: quoted, control bytes as \xNN, cut after 24 bytes.
+// Returns `word` in a form fit for a message: quoted, control bytes as \xNN, cut after 24 bytes.
 std::string Quoted(std::string_view word);
 
 }  // namespace patchmill

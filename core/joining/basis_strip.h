@@ -20,7 +20,7 @@ inline constexpr int kG2Degree = 6;  // n: cubic edges
 inline constexpr double kControlPlace =
     0.5;  // v0 of [joining, section 8]: where the user's control vectors stand
 
-// What the strip does at one place of the edge.
+// Direction and bend of the strip at one place of the edge.
 struct StripPlace {
   Vec3 direction = Vec3::Zero();  // unit
   Vec3 bend = Vec3::Zero();       // across the direction: n / (n-1) times the curvature vector there
@@ -30,7 +30,7 @@ struct BasisStrip {
   std::array<Vec3, 3> a, A;  // Bernstein coefficients [joining (17)]
 };
 
-// Through the given places at v = 0, kControlPlace, 1: [joining (18)-(20)].
+// The strip with the given places at v = 0, kControlPlace and 1: [joining (18)-(20)].
 BasisStrip MakeBasisStrip(const StripPlace& start, const StripPlace& middle, const StripPlace& end);
 
 // First and second control vector of a patch at one place of the edge: S_n/n and S_nn/(n(n-1)).
@@ -45,19 +45,19 @@ struct ConnectionFactors {
   std::array<double, 3> k{}, l{};  // Bernstein coefficients of the k and l of [joining (16)]
 };
 
-// Factors that give the patch these vectors at the three places, as far as they fit the strip. Nothing where
-// k(v) has a zero: the patch would fold at the edge.
+// The factors that give the patch these vectors at the three places, as far as they fit the strip. nullopt
+// where k(v) has a zero: the patch would fold at the edge.
 std::optional<ConnectionFactors> FactorsFor(const BasisStrip& strip, const ControlVectors& start,
                                             const ControlVectors& middle, const ControlVectors& end);
 
-// Bernstein coefficients along the edge, degree n, of both differences into a patch: its control points are
-// P_1i = P_0i + first_i, P_2i = P_0i + 2 first_i + second_i.
+// Bernstein coefficients of degree n, along the edge, of both differences into a patch. Its control points
+// are P_1i = P_0i + first_i, P_2i = P_0i + 2 first_i + second_i.
 struct CrossRows {
   std::array<Vec3, kG2Degree + 1> first, second;
 };
 CrossRows Connect(const BasisStrip& strip, const ConnectionFactors& factors);
 
-// [joining (23), (24)] for any n >= 5: a_lower of degree n-2, A_lower of degree n-4; b and B of degree n.
+// [joining (23), (24)] for any n >= 5: a_lower has degree n-2, A_lower degree n-4, b and B degree n.
 struct ConnectedRows {
   std::vector<Vec3> b, B;
 };

@@ -29,7 +29,7 @@ CurvatureForm FormAt(const SurfaceJet& jet, const Vec3& normal, const Vec3& x, c
   return form;
 }
 
-// Two edges of the same curve; that of `e` runs over [from, to] of the parameter of `f`.
+// Two edges on the same curve. Edge `e` runs over [from, to] of the parameter of `f`.
 struct Pair {
   int e = 0, f = 0;
   double from = 0.0, to = 1.0;
@@ -39,8 +39,8 @@ struct Pair {
 EdgeContinuity Measure(const EdgeCurves& curves, const Pair& pair, int steps) {
   const auto& [e, f, from, to, part] = pair;
   EdgeContinuity joint{curves.edge(e), curves.edge(f), part};
-  // Counter-clockwise the two patches run a consistently turned edge against each other. A triangle's edge 1
-  // runs counter-clockwise, its edge 2 does not: as a quad's edges 1 and 3.
+  // If both patches run counter-clockwise with the same orientation, they pass a shared edge in opposite
+  // directions. A triangle's edge 1 runs counter-clockwise, its edge 2 does not, as a quad's edges 1 and 3.
   const double sign = (Forward(joint.a.edge) == Forward(joint.b.edge)) != (to < from) ? -1.0 : 1.0;
   for (int k = 0; k <= steps; ++k) {
     const double t = static_cast<double>(k) / steps;

@@ -12,7 +12,7 @@
 namespace patchmill {
 namespace {
 
-// Directions along which a listed edge leaves its ends, where the network gives them.
+// The direction in which a listed edge leaves one end, if the network gives it.
 std::optional<Vec3> GivenDirection(const EdgeShape& shape, bool at_start) {
   if (const auto* tangents = std::get_if<TangentsEdge>(&shape))
     return at_start ? tangents->start : tangents->end;

@@ -17,7 +17,8 @@ bool IsHosaka(const JoinFrame& frame, const FaceSide& s) {
   return frame.network.faces[At(s.face)].scheme == PatchScheme::kHosaka;
 }
 
-// What a face wishes for the twists of one of its edges: given ones, pushes on top.
+// Sets w0 and w1 to the twists that a face wants along one of its edges: given ones replace them, pushes add
+// to them.
 void Wish(const JoinFrame& frame, const FaceSide& s, const HermiteCurve& edge, const Vec3& b0, const Vec3& b1,
           Vec3& w0, Vec3& w1) {
   const NetworkFace& face = frame.network.faces[At(s.face)];
@@ -38,7 +39,7 @@ void Wish(const JoinFrame& frame, const FaceSide& s, const HermiteCurve& edge, c
   }
 }
 
-// Finds fault with an edge, if there is one.
+// The factors of an edge. If it has none, the reason is reported.
 std::optional<JoinFactors> Factors(const JoinFrame& frame, const JoinedEdge& edge, const CrossTangents& t) {
   const HermiteCurve cubic = HermiteOf(edge.curve);
   const FaceSide& side = edge.topology.faces[0];
@@ -55,21 +56,21 @@ std::optional<JoinFactors> Factors(const JoinFrame& frame, const JoinedEdge& edg
   return std::nullopt;
 }
 
-// With the degree and the breaks of the edge, and breaks of its own.
+// The tangent with the degree of the edge and the breaks of both.
 BezierChain Along(const BezierChain& edge, const BezierChain& tangent) {
   const BezierChain raised = Elevated(tangent, edge.degree);
   if (edge.spans() == 1) return raised;
   return CutAt(raised, CommonBreaks({edge, raised}));
 }
 
-// Largest |l| of [joining (4)] times how far a jump of the edge's second derivative bends its faces across
-// that break, rad.
+// The angle (rad) by which the faces bend across a break where the edge's second derivative jumps, taken with
+// the largest |l| of [joining (4)]; the largest of all breaks.
 double BendAtBreaks(const BezierChain& edge, const JoinFactors& factors) {
   const double l = std::max(std::abs(factors.l[0]), std::abs(factors.l[1]));
   double worst = 0.0;
   for (int k = 1; k < edge.spans(); ++k) {
     const auto jets = JetsAtBreak(edge, k);
-    // The tangents get l (C - H)' / 2 in addition, weighted by phi1 <= 4/27.
+    // The tangents get the additional term l (C - H)' / 2, weighted by phi1 <= 4/27.
     worst = std::max(worst, 2.0 / 27.0 * l * (jets[1].dd - jets[0].dd).norm() / jets[0].d.norm());
   }
   return worst;
@@ -86,10 +87,10 @@ bool SmoothEnough(const JoinFrame& frame, const JoinedEdge& edge, const JoinFact
   return false;
 }
 
-// Whether two tangents lie in one plane with the edge all along, as they do at its ends.
+// Checks that two tangents lie in one plane with the edge everywhere, as they do at its ends.
 void CheckOnePlane(const JoinFrame& frame, const JoinedEdge& edge, const BezierChain& a,
                    const BezierChain& b) {
-  // det(C', a, b) is a polynomial on each span: places enough for its degree.
+  // det(C', a, b) is a polynomial on each span, so a number of places above its degree is enough.
   const std::vector<double> breaks = CommonBreaks({edge.curve, a, b});
   const int places = edge.curve.degree + a.degree + b.degree + 1;
   double worst = 0.0;
@@ -106,13 +107,12 @@ void CheckOnePlane(const JoinFrame& frame, const JoinedEdge& edge, const BezierC
       "HOSAKA_RATIO", frame.Place(edge),
       fmt::format(
           "from vertex {} to {} has Hosaka faces whose tangent planes part by {:.3g} rad between its ends: "
-          "the "
-          "edges that cross it there must run on with one ratio of lengths; give their tangents, make it a "
-          "crease, or let one face be a Brown quad, which follows",
+          "the edges that cross it there must continue with one ratio of lengths; give their tangents, make "
+          "it a crease, or let one face be a Brown quad, which follows",
           edge.topology.start, edge.topology.end, std::asin(std::min(1.0, worst))));
 }
 
-// A face that follows another one along an edge has no say in its tangents there.
+// A face that follows another one along an edge must not have twists there.
 void RefuseTwists(const JoinFrame& frame, const TableEdge& edge, int face, int leader) {
   const auto ends = std::minmax(edge.start, edge.end);
   const auto here = [&](const SideTwists& w) { return std::minmax(w.start, w.end) == ends; };
@@ -123,7 +123,7 @@ void RefuseTwists(const JoinFrame& frame, const TableEdge& edge, int face, int l
                   ends.second, leader));
 }
 
-// A smooth edge with Hosaka faces beside it, whose tangents are not free.
+// Joins the faces of a smooth edge of which at least one is a Hosaka face, whose tangents are fixed.
 void JoinHosaka(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const CrossTangents& t,
                 const JoinFactors& factors, JoinedEdge& edge) {
   const auto& sides = edge.topology.faces;
@@ -143,7 +143,7 @@ void JoinHosaka(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, co
   if (!first) std::swap(edge.tangents[0], edge.tangents[1]);
 }
 
-// Both faces of a smooth edge.
+// Joins both faces of a smooth edge.
 void Join(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, JoinedEdge& edge) {
   const auto& sides = edge.topology.faces;
   const CrossTangents t{frame.Beside(edges, sides[0], true), frame.Beside(edges, sides[0], false),
@@ -167,7 +167,7 @@ void Join(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, JoinedEd
   }
 }
 
-// The face along a part follows the one along the whole edge.
+// Makes the face along a part follow the face along the whole edge.
 void Follow(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, JoinedEdge& edge) {
   const JoinedEdge& whole = edges[At(edge.topology.part->whole)];
   const BezierChain leading = Part(LoneTangent(frame, edges, whole.topology.faces[0]),
@@ -186,8 +186,8 @@ void Follow(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, Joined
   edge.tangents = {FollowingTangent(edge.curve, leading, *factors, t.b0, t.b1)};
 }
 
-// [joining (12)]: a smooth step from one end to the other; between vertices on the edge one each, f(v_j) =
-// v_j.
+// [joining (12)]: a smooth step from one end to the other. With vertices on the edge there is one step
+// between neighbouring places, and f(v_j) = v_j.
 BezierChain HosakaTangent(const JoinedEdge& edge, const std::vector<JoinedEdge>& edges, const Vec3& a0,
                           const Vec3& a1) {
   BezierChain tangent{3, {0.0}, {a0}};

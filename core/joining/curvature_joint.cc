@@ -17,13 +17,13 @@ ControlVectors Mean(const CrossSide& side) {
 
 double Angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-// Difference of two bends, as a share of the larger, or of the reciprocal length of the vectors.
+// Difference of two bends, as a share of the largest of both and of the reciprocal length of the vectors.
 double BendMisfit(const Vec3& x, const Vec3& y, const ControlVectors& a, const ControlVectors& b) {
   const double length = std::max(a.first.norm(), b.first.norm());
   return (x - y).norm() / std::max({x.norm(), y.norm(), kFirst / length});
 }
 
-// The strip at an end from the curves that cross there, from a to b.
+// The strip at an end, from the curves of a and b that cross the edge there. It points from a to b.
 std::variant<StripPlace, CurvatureFault> CrossingAt(const CrossEnd& a, const CrossEnd& b, bool at_end) {
   const ControlVectors va = VectorsOf(a), vb = VectorsOf(b);
   if (const double angle = Angle(-a.d, b.d); !(angle <= kMaxCurveMisfit)) {
@@ -36,7 +36,7 @@ std::variant<StripPlace, CurvatureFault> CrossingAt(const CrossEnd& a, const Cro
   return StripPlace{(vb.first - va.first).normalized(), 0.5 * (bend_a + bend_b)};
 }
 
-// Control vectors at the middle: the wished first ones, else the mean, along `direction`.
+// Control vectors at the middle: `along` as the first; the wished second one, else the mean of the ends.
 ControlVectors Middle(const CrossSide& side, const Vec3& along) {
   const ControlVectors mean = Mean(side);
   const Vec3 second = side.second ? Vec3(kSecond * *side.second) : mean.second;

@@ -1,4 +1,5 @@
-// Rows of G2-Gregory patches along an edge: joined with equal curvature, alone, or with a tangent plane only.
+// Cross rows of G2-Gregory patches along an edge: joined with equal curvature, alone, or with a tangent plane
+// only.
 #pragma once
 
 #include <array>
@@ -16,8 +17,8 @@ struct CrossEnd {
 };
 
 // One side of an edge. `first`, `second`: wished derivatives of the surface across the edge into the face, at
-// the edge's middle. Default: the means of the two ends [joining, section 8], turned to what both sides can
-// share.
+// the edge's middle. By default they are the means of the two ends [joining, section 8], turned to a
+// direction that both sides can share.
 struct CrossSide {
   CrossEnd start, end;
   std::optional<Vec3> first, second;
@@ -25,10 +26,10 @@ struct CrossSide {
 
 struct CurvatureFault {
   enum class Kind {
-    kDirection,      // the crossing curves do not run on in one line at an end; amount in rad
+    kDirection,      // the crossing curves do not continue in one line at an end; amount in rad
     kCurvature,      // they do, but bend differently; amount: share of the larger curvature vector or 1/|d|
     kTurn,           // the directions across the edge turn so far along it that a patch would fold
-    kControlsDiffer  // both sides have wishes, and they do not fit together; amount as kDirection or
+    kControlsDiffer  // both sides have wishes that contradict each other; amount as kDirection or
                      // kCurvature
   };
   Kind kind = Kind::kDirection;
@@ -36,19 +37,19 @@ struct CurvatureFault {
   bool at_end = false;
 };
 
-// Largest misfit at the ends that counts as one curve; both kinds of amount.
+// Crossing curves count as one up to this misfit at an end, for both kinds of amount.
 inline constexpr double kMaxCurveMisfit = 1e-9;
 
 // Both sides joined to one strip (basis_strip.h): equal tangent planes and normal curvatures all along.
 std::variant<std::array<CrossRows, 2>, CurvatureFault> JoinCurvature(const CrossSide& a, const CrossSide& b);
 
-// A side on its own, at a crease or a border.
+// The rows of a side on its own, at a crease or a border.
 std::variant<CrossRows, CurvatureFault> RowsAlone(const CrossSide& side);
 
-// First differences from a cross-boundary tangent (degree <= kG2Degree) whose ends are those of `side`;
-// second ones between those of the ends.
+// First differences from a cross-boundary tangent (degree <= kG2Degree) whose ends are those of `side`.
+// Second differences are interpolated between those of the ends.
 CrossRows RowsWithTangent(const BezierCurve& tangent, const CrossSide& side);
 
-CrossRows Reversed(CrossRows rows);  // of the edge run the other way
+CrossRows Reversed(CrossRows rows);  // for the edge in the opposite direction
 
 }  // namespace patchmill

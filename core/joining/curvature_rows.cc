@@ -16,7 +16,7 @@ class RowMaker {
            std::vector<JoinedEdge>& edges)
       : network_(network), table_(table), findings_(findings), edges_(edges) {}
 
-  // Finds what the controls are for.
+  // Finds the edge and the face of each control and checks its vectors.
   void ReadControls() {
     for (int k = 0; k < static_cast<int>(network_.controls.size()); ++k) {
       const CrossControl& control = network_.controls[At(k)];
@@ -112,7 +112,8 @@ class RowMaker {
                                : findings_.AtVertex(edge.topology.start);
   }
 
-  // The face's other edge at the start (end) of the edge, as it leaves it.
+  // Derivatives of the face's other edge at the start (end) of this edge, in the direction in which it
+  // leaves.
   CrossEnd CrossingAt(const FaceSide& s, bool start) const {
     const int n = SideCount(network_.faces[At(s.face)]);
     const bool first = table_.Forward(s, network_) == start;  // at the side's own first corner
@@ -165,7 +166,7 @@ class RowMaker {
   const EdgeTable& table_;
   const NetworkWriter& findings_;
   std::vector<JoinedEdge>& edges_;
-  std::map<std::pair<int, int>, int> controls_;  // of edge and face
+  std::map<std::pair<int, int>, int> controls_;  // key: edge and face
 };
 
 }  // namespace

@@ -8,11 +8,11 @@
 
 namespace patchmill {
 
-// Fills `rows` and `equal_curvature` of every edge beside a G2-Gregory face. Between two of them where the
-// curves that cross the edge run on with equal curvature: one strip for both. At creases and borders: each
-// side alone. Elsewhere the tangent plane of `tangents`, with a warning TANGENT_PLANE_ONLY that says why.
-// INVALID_CONTROL: controls for a face that is not beside the edge or no G2-Gregory patch, two for one, or
-// vectors that nothing can follow; NOT_FINITE.
+// Fills `rows` and `equal_curvature` of every edge beside a G2-Gregory face. Two such faces share one strip
+// where the curves that cross the edge continue with equal curvature. At creases and borders each side has
+// its own strip. Elsewhere the tangent plane of `tangents` is taken, with a warning TANGENT_PLANE_ONLY that
+// says why. Errors: INVALID_CONTROL (controls for a face that is not beside the edge or is no G2-Gregory
+// patch, two for one face, vectors that nothing can follow), NOT_FINITE.
 void AddCurvatureRows(const CurveNetwork& network, const EdgeTable& table, const NetworkWriter& findings,
                       std::vector<JoinedEdge>& edges);
 

@@ -1,6 +1,6 @@
 // A curve network as given: vertices with normals, edge curves, faces of three or four edges [joining].
 //
-// Length unit as the patches of a PatchModel. Indices are 0-based.
+// The unit of length is that of the patches of a PatchModel. Indices are 0-based.
 #pragma once
 
 #include <array>
@@ -16,74 +16,76 @@ namespace patchmill {
 
 inline constexpr int kMaxNetworkFaces = 100'000;
 
-// A place on the edge between two vertices. The one face that has the whole edge as a side leads: faces along
-// parts of it take the parts of its curve, and where it is smooth follow its tangent plane
-// [joining, section 6].
+// A place on the edge between two vertices. The one face that has the whole edge as a side leads. Faces along
+// parts of the edge take the parts of its curve and, where it is smooth, follow its tangent plane [joining,
+// section 6].
 struct PlaceOnEdge {
   int start = 0, end = 0;  // vertices
   double parameter = 0.5;  // (0, 1), of the edge's curve from `start`
 };
 
 struct NetworkVertex {
-  // A normal of the faces listed, of all faces when none are listed. Any length but zero; its sense does not
-  // matter.
+  // A normal of the listed faces, or of all faces if none are listed. Its length is any but zero; its sense
+  // does not matter.
   struct Normal {
     Vec3 direction = Vec3::Zero();
     std::vector<int> faces;
   };
   std::string id;
   Vec3 position = Vec3::Zero();  // not read where on_edge is given
-  // Several where creases part the faces around the vertex. Faces without a given normal get the mean of the
-  // corner normals of their group, a group being faces joined by smooth edges around the vertex.
+  // There are several where creases part the faces around the vertex. Faces without a given normal get the
+  // mean of the corner normals of their group: the faces joined by smooth edges around the vertex.
   std::vector<Normal> normals;
   std::optional<PlaceOnEdge> on_edge = {};  // a T-junction: no normal where the leading face gives it
 };
 
-// Tangents from the normals [curves (26), (27)], gamma |chord| long. At a crease between two normals: along
-// both planes; a face that meets others there in creases only, and has no normal given, asks for no plane.
-// `length` says what gamma multiplies: the chord; or, of the cubic nearest to an arc or to a quarter of an
-// ellipse that leaves both ends so, the tangents.
+// Tangents from the normals [curves (26), (27)], gamma |chord| long. At a crease between two normals the
+// tangent lies in both planes. A face that meets the others there in creases only, and has no given normal,
+// requires no plane. `length` says what gamma multiplies. kChord: the chord. kArc, kQuarterEllipse: the
+// tangents of the cubic nearest to an arc or to a quarter ellipse with these end directions.
 enum class TangentLength { kChord, kArc, kQuarterEllipse };
 struct NormalsEdge {
   double gamma = 1.0;  // (0, 10]
   TangentLength length = TangentLength::kChord;
 };
-// Outgoing tangents at both ends [curves (3)]; they must lie in the tangent planes.
+// Outgoing tangents at both ends [curves (3)]. They must lie in the tangent planes.
 struct TangentsEdge {
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();
 };
-// Hosaka's segment: directions from the normals, lengths such that it passes through a point of space
-// [curves (18)].
+// Hosaka's segment: its directions come from the normals, its lengths are such that it passes through a point
+// in space [curves (18)].
 struct ThroughPointEdge {
   Vec3 point = Vec3::Zero();
 };
-// The same as far from the plane of chord and start tangent as `peak`, and no farther [curves (20)].
+// Hosaka's segment whose largest distance from the plane of chord and start tangent is that of `peak` [curves
+// (20)].
 struct PeakEdge {
   Vec3 peak = Vec3::Zero();
 };
-// The same of a plane curve through `point` along `direction` [curves (21)]; without one along the chord
-// [curves (21)].
+// Hosaka's segment as a plane curve through `point` along `direction` [curves (21)]; without a direction,
+// along the chord [curves (21)].
 struct SlopeEdge {
   Vec3 point = Vec3::Zero();
   std::optional<Vec3> direction;
 };
-// A NormalsEdge led through `point` at `parameter` by the extra term [curves (10)]: end tangents stay. Degree
-// 4, with a derivative 5.
+// A NormalsEdge led through `point` at `parameter` by the extra term [curves (10)]; end tangents stay. The
+// degree is 4, with a derivative 5.
 struct LedEdge {
   NormalsEdge ends;
   double parameter = 0.5;  // [0.05, 0.95]
   Vec3 point = Vec3::Zero();
   std::optional<Vec3> derivative;  // at `parameter`
 };
-// A curve from vertex `start` to vertex `end` of the edge, of degree up to kMaxBrownDegree; of several spans
-// only beside Brown quads, with a continuous first derivative, where the edge is smooth also second.
+// A curve from vertex `start` to vertex `end` of the edge, of degree up to kMaxBrownDegree. It may have
+// several spans only beside Brown quads. Its first derivative must be continuous, on a smooth edge also its
+// second.
 struct CurveEdge {
   Curve curve;
 };
 using EdgeShape =
     std::variant<NormalsEdge, TangentsEdge, ThroughPointEdge, PeakEdge, SlopeEdge, LedEdge, CurveEdge>;
 
-// Places nearer to an end than this give the extra term no hold.
+// Nearer to an end than this (of the parameter), the extra term has too little effect.
 inline constexpr double kMinLedPlace = 0.05;
 
 struct NetworkEdge {
@@ -94,9 +96,9 @@ struct NetworkEdge {
   std::optional<int> line = {};  // the entry of CurveNetwork::lines it was made from
 };
 
-// A smooth curve through three or more vertices, two when it is not closed: the cubic spline in the chord
-// parameter (core/curve/spline.h), natural at its ends, cut into one cubic edge per pair of neighbours. Where
-// two lines cross, G2-Gregory faces can share their curvature.
+// A smooth curve through three or more vertices, or two if it is not closed. It is the cubic spline in the
+// chord parameter (core/curve/spline.h), natural at its ends, cut into one cubic edge per pair of neighbours.
+// Where two lines cross, G2-Gregory faces can share their curvature.
 struct NetworkLine {
   std::vector<int> vertices;
   bool closed = false;
@@ -111,28 +113,28 @@ enum class PatchScheme {
   kGregoryTriangle,  // triangle: [shapes (12)-(14)], cubic edges only
   kG2Gregory,  // quad: [shapes (20), (21)], cubic edges only; equal curvature across edges with its like
   // Quad: [shapes (23)-(27)]. Its tangents across an edge are those of the crossing edges, blended by a
-  // smooth step, with breaks at vertices on the edge; faces of other kinds follow them.
+  // smooth step, with breaks at vertices on the edge. Faces of other kinds follow them.
   kHosaka,
 };
 
-inline constexpr std::size_t kMaxFacePushes = 101;  // of one face: on the wire `push` and 100 more
+inline constexpr std::size_t kMaxFacePushes = 101;  // of one face: `push` on the wire and 100 more
 
-// A bulge or dent at one place of a face [editing, section 1], by the twists of its edges: corners and edges
-// stay, the faces across its smooth edges follow.
+// A bulge or dent at one place of a face [editing, section 1], made by the twists of its edges. Corners and
+// edges stay; the faces across its smooth edges follow.
 struct FacePush {
-  // The place, inside the face: u along side 0 from the first vertex, v away from it; of a triangle the
-  // shares of the second and third vertex.
+  // The place, inside the face: u along side 0 from the first vertex, v away from it. In a triangle they are
+  // the shares of the second and third vertex.
   double u = 0.5, v = 0.5;
-  // > 0: towards the side from which the vertices run anticlockwise. Per length: the place moves in
-  // proportion to it and to the area of the face, by a small share of their product.
+  // > 0: towards the side from which the vertices run anticlockwise. Unit 1/length: the place moves by a
+  // small share of the product of amount and area of the face.
   double amount = 0.0;
 
   bool operator==(const FacePush&) const = default;
 };
 
-// Wished twists at the ends of one side of a face, as seen from there: the change of the tangent across the
-// side by the side's parameter as it leaves that end ([joining (3)]: Wa0, Wa1). [joining (8)] where not
-// given.
+// Wished twists at the ends of one side of a face, as seen from that end: the derivative of the tangent
+// across the side with respect to the side's parameter, which leaves that end ([joining (3)]: Wa0, Wa1).
+// Where one is not given, [joining (8)] holds.
 struct SideTwists {
   int start = 0, end = 0;  // the corners of the side
   std::optional<Vec3> at_start, at_end;
@@ -144,24 +146,24 @@ struct NetworkFace {
   PatchScheme scheme = PatchScheme::kAuto;
   std::vector<FacePush> pushes = {};  // they add up
   std::vector<SideTwists> twists = {};
-  // Inserted edges between two corners, that leave pieces of three or four sides [joining, section 2]. A
-  // scheme is for the pieces with its number of sides.
+  // Inserted edges between two corners, which leave pieces of three or four sides [joining, section 2]. The
+  // scheme applies to the pieces with its number of sides.
   std::vector<std::array<int, 2>> cuts = {};
-  std::optional<int> of = {};  // of a piece: the face it was cut from (face_cuts.h)
+  std::optional<int> of = {};  // for a piece: the face it was cut from (face_cuts.h)
 };
 
 // How a G2-Gregory face leaves an edge in its middle [joining, section 8]: first and second derivative of the
 // face's surface across the edge, into it. The face across a smooth edge follows: its first derivative turns
-// with this one and keeps its share of the length, its normal curvatures become this face's.
+// with this one and keeps its share of the length, and it takes over the normal curvatures of this face.
 struct CrossControl {
   int start = 0, end = 0;             // the ends of the edge, in either order
   int face = 0;                       // at most one control for each edge of it
-  std::optional<Vec3> first, second;  // what is not given is the mean of the edge's ends
+  std::optional<Vec3> first, second;  // one that is not given is the mean of the edge's ends
 
   bool operator==(const CrossControl&) const = default;
 };
 
-// An edge that no entry of `edges` and `lines` describes is a smooth NormalsEdge with gamma 1.
+// An edge that no entry of `edges` or `lines` describes is a smooth NormalsEdge with gamma 1.
 struct CurveNetwork {
   std::vector<NetworkVertex> vertices;
   std::vector<NetworkEdge> edges;

@@ -1,4 +1,4 @@
-// Whether the edges of a curve network are described by numbers that make a curve.
+// Checks that the numbers which describe the edges of a curve network make curves.
 #pragma once
 
 #include "core/joining/network_findings.h"
@@ -7,7 +7,7 @@ namespace patchmill {
 
 // Codes: NOT_FINITE, ZERO_TANGENT, INVALID_GAMMA (outside (0, 10]), INVALID_PARAMETER, UNSUPPORTED_CURVE
 // (degree outside 1..kMaxBrownDegree, wrong number of points or knots, knots that decrease or span nothing).
-// What passes may be evaluated.
+// An edge without a finding may be evaluated.
 void CheckEdgeShapes(const CurveNetwork& network, const NetworkWriter& findings);
 
 }  // namespace patchmill

@@ -48,7 +48,8 @@ class Shaper {
     return AsChain(std::move(curve));
   }
 
-  // Of the whole edge's curve, with the degree that following the leading face takes (cross_tangents.h).
+  // A part of the whole edge's curve, with the degree that it takes to follow the leading face
+  // (cross_tangents.h).
   BezierChain PartOf(const JoinedEdge& whole) const {
     const bool cubic = CubicAcross(frame_.network.faces[At(whole.topology.faces[0].face)]);
     const int degree = std::max(whole.curve.degree, cubic ? 4 : 3);
@@ -66,8 +67,8 @@ class Shaper {
     frame_.findings.Error(code, Place(), text);
   }
 
-  // The corner at one end on the other side of the edge: of a divided one, the face along its first (last)
-  // part.
+  // The corner normal at one end, on the other side of the edge. For a divided edge it is that of the face
+  // along its first (last) part.
   const CornerNormal& Opposite(bool start) const {
     const int vertex = start ? edge_.start : edge_.end;
     for (const int p : edge_.parts) {
@@ -78,7 +79,7 @@ class Shaper {
     return frame_.CornerNormalAt(edge_.faces.back(), start);
   }
 
-  // Tangent direction at one end from the normals there, gamma |chord| long; nothing after a finding.
+  // Tangent direction at one end from the normals there, gamma |chord| long; nullopt after a finding.
   std::optional<Vec3> FromNormals(bool start, double gamma) const {
     const Vec3 chord = start ? Vec3(p1_ - p0_) : Vec3(p0_ - p1_);
     const CornerNormal& first = frame_.CornerNormalAt(edge_.faces[0], start);
@@ -140,7 +141,7 @@ class Shaper {
     return curve;
   }
 
-  // What keeps spans from making one edge; empty when nothing does.
+  // Says why the spans cannot make one edge; empty if they can.
   static std::string SpanFault(const BezierChain& curve) {
     if (curve.spans() > kMaxBrownBreaks + 1) {
       return fmt::format("has a curve of {} spans; at most {}", curve.spans(), kMaxBrownBreaks + 1);
@@ -177,7 +178,7 @@ std::optional<BezierChain> MakeEdgeCurve(const JoinFrame& frame, const std::vect
   const Shaper shaper(frame, edge);
   if (edge.part) return shaper.PartOf(edges[At(edge.part->whole)]);
   std::optional<BezierChain> curve = shaper.Make();
-  // The face across from a Hosaka face follows it, with a tangent of one degree more than that one's.
+  // The face across from a Hosaka face follows it, with a tangent of one degree more than the Hosaka face's.
   const auto hosakas = std::ranges::count_if(edge.faces, [&](const FaceSide& s) {
     return frame.network.faces[At(s.face)].scheme == PatchScheme::kHosaka;
   });

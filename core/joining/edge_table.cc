@@ -56,7 +56,7 @@ void AddFaceSides(const CurveNetwork& network, const DividedEdges& divided, Edge
   }
 }
 
-// Parts of divided edges in their order, and the corners at each vertex on an edge.
+// Sorts the parts of divided edges and lists the corners at each vertex on an edge.
 void LinkParts(const CurveNetwork& network, EdgeTable& table) {
   if (table.t_vertices.empty()) return;
   for (int e = 0; e < static_cast<int>(table.edges.size()); ++e) {
@@ -77,7 +77,7 @@ void LinkParts(const CurveNetwork& network, EdgeTable& table) {
 
 void CheckFaceCounts(const EdgeTable& table, const NetworkWriter& findings) {
   for (const TableEdge& edge : table.edges) {
-    if (edge.divided) continue;  // t_vertices.h
+    if (edge.divided) continue;  // checked by CheckTVertices
     const Where where = edge.given ? findings.AtEdge(*edge.given) : findings.AtVertex(edge.start);
     if (edge.faces.empty()) {
       findings.Error("DANGLING_EDGE", where,
@@ -105,7 +105,8 @@ void CheckFaceCounts(const EdgeTable& table, const NetworkWriter& findings) {
   }
 }
 
-// Groups: corners of faces that meet in a vertex, joined by smooth edges; fans: by any edge.
+// Groups are corners of faces that meet in a vertex, joined by smooth edges. Fans are joined by edges of any
+// kind.
 class CornerSets {
  public:
   CornerSets(const CurveNetwork& network, const EdgeTable& table)
@@ -123,7 +124,7 @@ class CornerSets {
         }
       }
     }
-    // Faces along the parts meet at a place between them through the leading face.
+    // The faces along the parts meet at a place between them through the leading face.
     for (const TVertex& t : table.t_vertices) {
       const std::vector<FaceSide> corners = CornersAlong(network, table, t);
       for (const FaceSide& c : corners) {
@@ -133,7 +134,8 @@ class CornerSets {
     }
   }
 
-  // Numbers the groups; NON_MANIFOLD_VERTEX where fans touch, unless that follows from an earlier finding.
+  // Numbers the groups. Reports NON_MANIFOLD_VERTEX where fans touch, unless an earlier finding explains it
+  // (`told`).
   void Write(const NetworkWriter& findings, bool told, EdgeTable& table) {
     std::map<std::size_t, int> number;
     std::map<int, std::size_t> fan_of_vertex;
@@ -170,7 +172,7 @@ class CornerSets {
   UnionFind groups_, fans_;
 };
 
-// Breadth first over the edges; a one-sided strip keeps what it met first.
+// Breadth-first search over the edges. On a one-sided strip the sense found first stays.
 void FindSenses(const CurveNetwork& network, EdgeTable& table) {
   const int faces = static_cast<int>(network.faces.size());
   table.sense.assign(At(faces), 0.0);
@@ -190,7 +192,7 @@ void FindSenses(const CurveNetwork& network, EdgeTable& table) {
       for (int s = 0; s < SideCount(network.faces[At(f)]); ++s) {
         const TableEdge& edge = table.edges[At(table.face_edges[At(f)][At(s)])];
         for (const FaceSide& other : edge.faces) meet({f, s}, other);
-        // Parts run with the whole.
+        // Parts run in the direction of the whole edge.
         if (edge.part) {
           for (const FaceSide& other : table.edges[At(edge.part->whole)].faces) meet({f, s}, other);
         }

@@ -19,7 +19,7 @@ bool HasSide(const Loop& loop, int a, int b) {
   return false;
 }
 
-// Cuts the piece that has both ends as corners; false where there is none.
+// Cuts the piece that has both ends as corners; false if there is none.
 bool Cut(std::vector<Loop>& pieces, const std::array<int, 2>& ends) {
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const auto a = std::ranges::find(pieces[k], ends[0]), b = std::ranges::find(pieces[k], ends[1]);
@@ -50,7 +50,7 @@ bool ForSides(PatchScheme scheme, std::size_t sides) {
   return true;
 }
 
-// The pieces of one face; nothing after a finding.
+// The pieces of one face; empty after a finding.
 std::vector<Loop> PiecesOf(const NetworkFace& face, int index, const NetworkWriter& findings) {
   const auto error = [&](std::string_view text) {
     findings.Error("INVALID_CUT", findings.AtFace(index), text);
@@ -88,7 +88,7 @@ CurveNetwork WithCutFaces(CurveNetwork network, Diagnostics& list) {
                         ForSides(face.scheme, pieces[k].size()) ? face.scheme : PatchScheme::kAuto};
       if (k > 0 && !face.id.empty()) piece.id += fmt::format("/{}", k + 1);
       for (const SideTwists& twists : face.twists) {
-        const bool inner = !HasSide(face.vertices, twists.start, twists.end);  // no side: told by CheckTwists
+        const bool inner = !HasSide(face.vertices, twists.start, twists.end);  // no side: see CheckTwists
         if (HasSide(pieces[k], twists.start, twists.end) || (inner && k == 0)) piece.twists.push_back(twists);
       }
       pieces_of[At(f)].push_back(k == 0 ? f : static_cast<int>(faces.size()));

@@ -24,7 +24,7 @@ bool AllCubic(const FaceBoundary& face) {
 
 BezierChain Turned(const BezierChain& chain, bool reversed) { return reversed ? Reversed(chain) : chain; }
 
-// Edge and rail (edge + tangent/3) of one side with the given degree and breaks.
+// Edge and rail (edge + tangent/3) of one side, with the given degree and breaks.
 struct Strip {
   std::vector<Vec3> edge, rail;
 };
@@ -40,7 +40,7 @@ Strip StripOf(const FaceBoundary& face, int side, int degree, bool reversed,
   return strip;
 }
 
-// Of two opposite sides, the second one reversed.
+// Common breaks of two opposite sides, of which the second runs reversed.
 std::vector<double> BreaksOf(const FaceBoundary& face, int side, int opposite) {
   const std::size_t a = At(side), b = At(opposite);
   return CommonBreaks({face.curve[a], face.tangent[a], Reversed(face.curve[b]), Reversed(face.tangent[b])});
@@ -97,7 +97,7 @@ PatchShape LoftedTriangle(const FaceBoundary& face) {
   return patch;
 }
 
-// [shapes (13), (14)]. The radial derivative on a side is 4 (R - C), so R, a cubic, is C + b/4.
+// [shapes (13), (14)]. The radial derivative on a side is 4 (R - C), so the cubic R is C + b/4.
 PatchShape QuarticTriangle(const FaceBoundary& face) {
   GregoryTriangle patch;
   patch.blend = GregoryPatch::Blend::kEdge;
@@ -115,7 +115,7 @@ PatchShape QuarticTriangle(const FaceBoundary& face) {
   return patch;
 }
 
-// Rows 1 and 2 beside every side of a bisextic net [joining (25)]. The middle point is no side's
+// Rows 1 and 2 beside every side of a bisextic net [joining (25)]. The middle point belongs to no side
 // [joining (26)].
 PatchShape G2GregoryQuad(const FaceBoundary& face) {
   constexpr int n = kG2Degree;
@@ -152,7 +152,7 @@ PatchShape G2GregoryQuad(const FaceBoundary& face) {
   return patch;
 }
 
-// [shapes (23)]: the four edges alone, with breaks where vertices lie on them.
+// [shapes (23)]: made of the four edges alone, with breaks where vertices lie on them.
 PatchShape HosakaQuad(const FaceBoundary& face) {
   HosakaPatch patch;
   const int n = patch.degree = HighestDegree(face);

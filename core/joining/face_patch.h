@@ -1,4 +1,4 @@
-// The patch of one face from its edge curves and cross-boundary tangents [joining, section 7].
+// Makes the patch of one face from its edge curves and cross-boundary tangents [joining, section 7].
 #pragma once
 
 #include <array>
@@ -17,22 +17,22 @@ struct FaceBoundary {
   int sides = 4;
   std::array<BezierChain, 4> curve;           // degree >= 3
   std::array<BezierChain, 4> tangent;         // degree <= that of the curve
-  std::array<CrossRows, 4> rows;              // only of a kG2Gregory face; their ends are those of the curves
-  std::array<std::vector<double>, 4> breaks;  // only of a kHosaka face: of its blending functions, f(v) = v
+  std::array<CrossRows, 4> rows;              // of a kG2Gregory face only; their ends are those of the curves
+  std::array<std::vector<double>, 4> breaks;  // of a kHosaka face only: of its blending functions, f(v) = v
 };
 
-// What a scheme must cope with on the edges of a face.
+// What the edges of a face demand of its scheme.
 struct EdgeDemand {
   int degree = 3;  // the highest, >= 3
   int spans = 1;   // the most
   int breaks = 0;  // the most vertices on one edge
 };
 
-// Why the face's scheme cannot make a patch from such edges; nothing when it can.
+// Why the face's scheme cannot make a patch from such edges; nullopt if it can.
 std::optional<std::string> SchemeFault(const NetworkFace& face, const EdgeDemand& edges);
 
-// Requires that SchemeFault finds nothing. Quads: u along side 0, v along side 3 reversed. Triangles: corners
-// (0,0) (1,0) (0,1).
+// SchemeFault must find nothing. Quads: u runs along side 0, v along side 3 reversed. Triangles: the corners
+// are (0,0) (1,0) (0,1).
 PatchShape MakeFacePatch(const FaceBoundary& face, PatchScheme scheme);
 
 }  // namespace patchmill

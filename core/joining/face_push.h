@@ -1,26 +1,26 @@
-// Pushing a face in or out at a picked place through the twists of its edges [editing (1), (2)].
-// Corners, edge curves and the tangent planes at the corners stay.
+// Pushes a face in or out at a picked place by the twists of its edges [editing (1), (2)]. Corners, edge
+// curves and the tangent planes at the corners stay.
 #pragma once
 
 #include "core/joining/network_findings.h"
 
 namespace patchmill {
 
-// A place beside an edge: `along` it and `away` from it, both [0,1].
+// A place beside an edge: `along` it and `away` from it, both in [0,1].
 struct EdgePlace {
   double along = 0.0, away = 0.0;
 };
 
-// Where the push is, seen from side `side` of a face of 3 or 4 sides, along the side as the face runs.
+// The place of the push relative to side `side` of a face of 3 or 4 sides; `along` runs as the face does.
 EdgePlace PlaceBeside(const FacePush& push, int sides, int side);
 
 // Adds [editing (2)] to the wished twists w0, w1 of a patch with cross tangents b0, b1 at the ends of an edge
-// with the true end derivatives `start`, `end`. amount > 0 pushes along b x C'; per length, as b x C' is a
-// length squared.
+// with the true end derivatives `start`, `end`. amount > 0 pushes along b x C'. Its unit is 1/length, because
+// b x C' is a length squared.
 void PushTwists(const Vec3& start, const Vec3& end, const Vec3& b0, const Vec3& b1, const EdgePlace& place,
                 double amount, Vec3& w0, Vec3& w1);
 
-// INVALID_TWIST: not of a side of the face, twice of one, a number that is not finite.
+// INVALID_TWIST: twists of no side of the face, two of one side, or a number that is not finite.
 void CheckTwists(const CurveNetwork& network, const NetworkWriter& findings);
 
 // INVALID_PUSH: a place outside the face, or an amount that is not finite.

@@ -1,4 +1,4 @@
-// What the steps of joining share: the network, its topology, the normals at corners, where findings go.
+// The data that the steps of joining share: the network, its topology, the corner normals, the findings.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct JoinFrame {
   std::vector<std::array<CornerNormal, 4>> normals;  // of each face corner
   const NetworkWriter& findings;
 
-  // The corner of the side's face at the start (end) of the edge.
+  // The corner of the side's face at the start (end) of the side's edge.
   int CornerAt(const FaceSide& s, bool start) const;
   const CornerNormal& CornerNormalAt(const FaceSide& s, bool start) const;
   Vec3 NormalAt(const FaceSide& s, bool start) const { return CornerNormalAt(s, start).unit; }

@@ -29,7 +29,7 @@ EdgeKind KindOf(const TableEdge& edge) {
   return edge.crease ? EdgeKind::kCrease : EdgeKind::kSmooth;
 }
 
-// All curves; vertices on edges get their places as soon as these are known.
+// Makes all curves. A vertex on an edge gets its place as soon as the edge's curve is known.
 std::vector<JoinedEdge> MakeEdges(JoinFrame& frame, const RunContext& run) {
   const EdgeTable& table = frame.table;
   std::vector<JoinedEdge> edges(table.edges.size());
@@ -101,7 +101,7 @@ PatchModel MakePatches(const JoinFrame& frame, const std::vector<JoinedEdge>& ed
   return model;
 }
 
-// Step by step; a step with an error is the last one.
+// Runs the steps in order. A step with an error is the last one.
 void Join(CurveNetwork network, const EdgeTable& table, const RunContext& run, JoinedNetwork& joined) {
   EstimateTPlaces(table, network);
   const NetworkWriter findings(network, joined.findings);

@@ -1,5 +1,5 @@
-// CurveNetwork -> patches joined with equal tangent planes, and equal curvatures between G2-Gregory faces
-// [joining].
+// Makes patches from a CurveNetwork [joining]: joined with equal tangent planes, and with equal curvatures
+// between G2-Gregory faces.
 #pragma once
 
 #include <vector>
@@ -18,36 +18,37 @@ namespace patchmill {
 
 enum class EdgeKind {
   kSmooth,     // the two faces share their tangent plane all along
-  kCrease,     // two faces, said to be a crease; or divided, or a part of an edge, and said to be one
+  kCrease,     // two faces, a divided edge, or a part of one, and listed as a crease
   kFree,       // one face
-  kLeading,    // one face along the whole of it, others along parts follow its tangent plane
-  kFollowing,  // one face, along a part of a leading edge
+  kLeading,    // one face along the whole of it; others along parts follow its tangent plane
+  kFollowing,  // one face along a part of a leading edge
 };
 
 struct JoinedEdge {
   TableEdge topology;
   EdgeKind kind = EdgeKind::kFree;
-  BezierChain curve;  // from vertex start to end, degree >= 3; of several spans where such a spline was given
-  // Cross-boundary tangents along the curve, into the face topology.faces[k], degree that of the curve.
+  BezierChain curve;  // from vertex start to end, degree >= 3; several spans if such a spline was given
+  // Cross-boundary tangents along the curve, into the face topology.faces[k]. Their degree is that of the
+  // curve.
   std::vector<BezierChain> tangents;
-  // Of the G2-Gregory faces beside it, along the curve, in the order of topology.faces; in place of
-  // `tangents`. Empty where there is none.
+  // The rows of the G2-Gregory faces beside it, along the curve, in the order of topology.faces. These faces
+  // use them in place of `tangents`. Empty if there is no such face.
   std::vector<CrossRows> rows;
   bool equal_curvature = false;  // smooth, and equal normal curvatures in every direction, to about 1e-13
 };
 
 struct JoinedNetwork {
   // One patch per face, in order, with the faces' ids; then the further pieces of faces with cuts
-  // (face_cuts.h). Empty when a finding is an error.
+  // (face_cuts.h). Empty if a finding is an error.
   PatchModel model;
-  std::vector<int> face_of;       // of each patch: the face it is, or a piece of; empty then, too
-  std::vector<JoinedEdge> edges;  // likewise
+  std::vector<int> face_of;       // the face that each patch is or is a piece of; empty on an error
+  std::vector<JoinedEdge> edges;  // empty on an error
   // Edges made from lines have a `given` beyond CurveNetwork::edges, in the order of WithLinesAsEdges.
   // Errors: those of BuildEdgeTable, WithLinesAsEdges, WithCutFaces, AddCurvatureRows and PlaceTVertex, and
   //   CHORD_ALONG_NORMAL    a tangent from a normal that has no direction: give the tangent
   //   NO_FIT                no Hosaka segment, arc or ellipse has these end directions and the shape that is
-  //                         asked of it
-  //   CURVE_OFF_VERTEX      a given curve does not start and end at its vertices
+  //   NO_FIT                no Hosaka segment, arc or ellipse has these end directions and the requested
+  //                         shape
   //   UNSUPPORTED_CURVE     several spans with a corner between them, or on a smooth edge a jump of the
   //                         second derivative
   //   HOSAKA_RATIO          Hosaka faces on both sides of a smooth edge, or one along a part of it, whose end
@@ -65,8 +66,9 @@ struct JoinedNetwork {
 // The largest angle (rad) by which a given tangent may leave the tangent plane of a smooth joint.
 inline constexpr double kMaxTangentTilt = 1e-7;
 
-// Cost O(n log n). CANCELLED and DEADLINE_EXCEEDED from `run`, asked at every edge and face. Adjacent patches
-// share their edge curves bit for bit up to the direction; their tangent planes agree to about 1e-14.
+// Cost O(n log n). CANCELLED and DEADLINE_EXCEEDED from `run`, which is polled at every edge and face.
+// Adjacent patches share their edge curves bit for bit up to the direction. Their tangent planes agree to
+// about 1e-14.
 absl::StatusOr<JoinedNetwork> JoinNetwork(const CurveNetwork& network, const RunContext& run);
 JoinedNetwork JoinNetwork(const CurveNetwork& network);
 

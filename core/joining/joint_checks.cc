@@ -13,7 +13,7 @@
 namespace patchmill {
 namespace {
 
-// Whether the face meets another one smoothly at that corner, so that its plane there is not its own affair.
+// Whether the face meets another one smoothly at that corner, so that both must have one plane there.
 bool Constrained(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, const FaceSide& s,
                  bool start) {
   const int corner = frame.CornerAt(s, start), n = SideCount(frame.network.faces[At(s.face)]);

@@ -36,7 +36,7 @@ CurveNetwork WithLinesAsEdges(const CurveNetwork& network, Diagnostics& list) {
     std::vector<Vec3> points;
     for (const int v : line.vertices)
       points.push_back(network.vertices[static_cast<std::size_t>(v)].position);
-    // A finding of its vertex already.
+    // Its vertex has a finding already.
     if (!std::ranges::all_of(points, [](const Vec3& p) { return p.allFinite(); })) continue;
     const auto spline = SplineThrough(points, line.closed);
     if (!spline.ok()) {

@@ -1,4 +1,4 @@
-// The lines of a curve network as edges.
+// Turns the lines of a curve network into edges.
 #pragma once
 
 #include "core/base/diagnostic.h"
@@ -6,9 +6,9 @@
 
 namespace patchmill {
 
-// The network without lines; their edges come after the listed ones, line by line. Code: INVALID_LINE (a
-// vertex that does not exist or lies on an edge, too few, neighbours that are one or coincide); such a line
-// gives no edges.
+// The network without lines. Their edges come after the listed ones, line by line. Code: INVALID_LINE (a
+// vertex that does not exist or lies on an edge, too few vertices, neighbours that are the same vertex or
+// coincide). Such a line gives no edges.
 CurveNetwork WithLinesAsEdges(const CurveNetwork& network, Diagnostics& findings);
 
 }  // namespace patchmill

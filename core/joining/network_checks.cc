@@ -29,8 +29,8 @@ bool CheckPlace(const Vec3& p, std::string_view what, const NetworkWriter& findi
   return false;
 }
 
-// The edges that could be inserted into a face of any number of sides but three and four
-// [joining, section 2]. Which one suits is the drawer's choice: it is a line of the surface.
+// The edges that could be inserted into a face of any number of sides but three and four [joining, section
+// 2]. Which one suits is the designer's choice, because it becomes a line of the surface.
 std::string CutsOf(const std::vector<int>& loop) {
   const std::size_t n = loop.size();
   if (n < 3) return "give three or four vertices";
@@ -137,7 +137,7 @@ bool CheckReferences(const CurveNetwork& network, const NetworkWriter& findings)
     for (const int v : loop) check(v, vertices, "vertex", findings.AtFace(f));
     if (loop.size() < 3 || loop.size() > 4) {
       sound = false;
-      if (!network.faces[At(f)].cuts.empty()) continue;  // told by WithCutFaces
+      if (!network.faces[At(f)].cuts.empty()) continue;  // WithCutFaces reports it
       findings.Error("FACE_SIDES", findings.AtFace(f),
                      fmt::format("has {} sides; {}", loop.size(), CutsOf(loop)));
     } else if (std::set<int>(loop.begin(), loop.end()).size() != loop.size()) {

@@ -36,7 +36,7 @@ void PlaceTVertex(const std::vector<JoinedEdge>& edges, const TVertex& t, JoinFr
   for (const FaceSide& c : CornersAlong(frame.network, frame.table, t)) {
     led[At(frame.table.group[At(c.face)][At(c.side)])] = true;
   }
-  // Every corner of the groups: also faces that touch the edge in this point only.
+  // Sets every corner of these groups, also of faces that touch the edge in this point only.
   for (const FaceSide& c : t.corners) {
     if (!led[At(frame.table.group[At(c.face)][At(c.side)])]) continue;
     CornerNormal& corner = frame.normals[At(c.face)][At(c.side)];

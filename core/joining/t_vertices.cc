@@ -17,7 +17,7 @@ struct Place {
   int vertex = 0;
 };
 
-// Cuts one edge at its places, which ascend.
+// Cuts one edge at its places, which are in ascending order.
 void AddParts(const NetworkWriter& findings, int index, const std::vector<Place>& places,
               const EdgeByEnds& by_ends, const TableEdge& whole, DividedEdges& divided) {
   std::vector<Place> all = {{0.0, whole.start}};
@@ -46,7 +46,7 @@ void AddParts(const NetworkWriter& findings, int index, const std::vector<Place>
   }
 }
 
-// Of every vertex: its entry of t_vertices, or none.
+// For every vertex its entry of t_vertices, or nullptr.
 std::vector<const TVertex*> ByVertex(const CurveNetwork& network, const EdgeTable& table) {
   std::vector<const TVertex*> of(network.vertices.size());
   for (const TVertex& t : table.t_vertices) of[At(t.vertex)] = &t;
@@ -93,7 +93,7 @@ bool CheckLeaders(const CurveNetwork& network, const NetworkWriter& findings, co
   return sound;
 }
 
-// Sides between two places of one edge that are no part of it.
+// Reports sides that join two places of one edge and skip a place between them.
 bool CheckSkips(const CurveNetwork& network, const NetworkWriter& findings, const EdgeTable& table) {
   bool sound = true;
   const std::vector<const TVertex*> of = ByVertex(network, table);
@@ -172,8 +172,8 @@ bool CheckTVertices(const CurveNetwork& network, const NetworkWriter& findings, 
 }
 
 void OrderTVertices(const CurveNetwork& network, const NetworkWriter& findings, EdgeTable& table) {
-  // A vertex waits for those among the corners of its leading face: the ends of its edge, and of the edges
-  // that cross it there.
+  // A vertex waits for the vertices on edges among the corners of its leading face: the ends of its edge, and
+  // of the edges that cross it there.
   const std::vector<const TVertex*> of = ByVertex(network, table);
   std::vector<int> waits(network.vertices.size());
   std::vector<std::vector<const TVertex*>> then(network.vertices.size());

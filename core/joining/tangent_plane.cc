@@ -9,7 +9,7 @@
 namespace patchmill {
 namespace {
 
-// [joining (5)] at one end, c the true derivative of the edge.
+// [joining (5)] at one end, where c is the true derivative of the edge.
 std::variant<std::array<double, 3>, JoinFault> FactorsAt(const Vec3& c, const Vec3& a, const Vec3& b,
                                                          const Vec3& n) {
   const auto area = [&n](const Vec3& x, const Vec3& y) { return n.dot(x.cross(y)); };
@@ -114,7 +114,7 @@ BezierChain CorrectionFor(const BezierChain& edge, const JoinFactors& f) {
     const auto span = static_cast<std::size_t>(k);
     const double from = edge.breaks[span], to = edge.breaks[span + 1];
     const std::size_t first = span * static_cast<std::size_t>(n);
-    // Bezier points of (C - H)' / 2, degree n - 1; both ends of the edge vanish by construction.
+    // Bezier points of (C - H)' / 2, degree n - 1. They are zero at both ends of the edge by construction.
     std::vector<Vec3> slope;
     for (std::size_t i = first; i < first + static_cast<std::size_t>(n); ++i) {
       slope.push_back(0.5 * n / (to - from) *

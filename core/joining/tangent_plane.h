@@ -3,8 +3,8 @@
 // An edge curve C runs from P0 to P1. On either side a patch, a and b, has a cross-boundary tangent (CBT)
 // pointing into it,
 //   a(u) = phi0 a0 + phi1 Wa0 + psi0 a1 + psi1 (-Wa1)                                        [joining (3)]
-// with a0, a1 the outgoing tangents at P0, P1 of that patch's other edge there and Wa0, Wa1 the twists as
-// seen from their own vertex: a'(0) = Wa0, a'(1) = -Wa1. For quads and triangles alike.
+// where a0, a1 are the outgoing tangents at P0, P1 of that patch's other edge there, and Wa0, Wa1 the twists
+// as seen from their own vertex: a'(0) = Wa0, a'(1) = -Wa1. Quads and triangles are treated alike.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct CrossTangents {
 };
 
 // l(u) C'(u) = h(u) a(u) + k(u) b(u) with all three linear in u [joining (4), (5)]; index 0, 1: the value at
-// that end. Scaled so that h + k = 2 at both ends, hence everywhere: then [joining (7)] always has a
+// that end. They are scaled so that h + k = 2 at both ends, hence everywhere. Then [joining (7)] always has a
 // solution.
 struct JoinFactors {
   std::array<double, 2> l{}, h{}, k{};
@@ -34,7 +34,7 @@ enum class JoinFault {
   kFolded,    // both patches leave the edge to the same side
 };
 
-// Smallest share of h and k in h + k = 2, and sine between tangents that span a plane.
+// Smallest share of h and k in h + k = 2, and smallest sine between tangents that span a plane.
 inline constexpr double kMinJoinFactor = 1e-6;
 inline constexpr double kMinTangentSine = 1e-6;
 
@@ -60,9 +60,9 @@ struct TwistConditions {
 TwistConditions ConditionsFor(const HermiteCurve& edge, const CrossTangents& tangents,
                               const JoinFactors& factors);
 
-// The twists nearest to `wished` (least sum of squares, [joining (9)]) that satisfy [joining (7)], by the
-// Moore-Penrose inverse with relative cut-off kPseudoInverseCutoff; rank 2 (a = -b at both ends and the like)
-// included. Residual of [joining (7)] about 1e-15 of the tangents.
+// The twists nearest to `wished` (least sum of squares, [joining (9)]) that satisfy [joining (7)]. They are
+// found by the Moore-Penrose inverse with relative cut-off kPseudoInverseCutoff, which covers rank 2 as well
+// (a = -b at both ends and the like). Residual of [joining (7)] about 1e-15 of the tangents.
 inline constexpr double kPseudoInverseCutoff = 1e-9;
 EdgeTwists NearestTwists(const HermiteCurve& edge, const CrossTangents& tangents, const JoinFactors& factors,
                          const EdgeTwists& wished);
@@ -70,16 +70,16 @@ EdgeTwists NearestTwists(const HermiteCurve& edge, const CrossTangents& tangents
 // The CBT [joining (3)] as a vector-valued cubic.
 BezierCurve CrossBoundaryTangent(const Vec3& at0, const Vec3& twist0, const Vec3& at1, const Vec3& twist1);
 
-// b where a is given all along: [joining (4)] solved for b with k = 1, so that b = l C' - h a with linear l,
-// h that give it its ends b0, b1 ([joining (11)], with l for curves that do not cross the edge in one line).
-// Exact; of the degree of `edge`, which must be above that of `leading`, and cut at the breaks of both.
+// The CBT b where a is given everywhere: [joining (4)] solved for b with k = 1, so that b = l C' - h a. The
+// linear l and h give it its ends b0, b1 ([joining (11)], with l for curves that do not cross the edge in one
+// line). Exact. It has the degree of `edge`, which must be above that of `leading`, and the breaks of both.
 BezierChain FollowingTangent(const BezierChain& edge, const BezierChain& leading, const JoinFactors& factors,
                              const Vec3& b0, const Vec3& b1);
 
-// What a and b both need in addition where the edge is not its own cubic Hermite part H: with h + k = 2,
-// l (C' - H')/2 on each side restores [joining (4)] exactly. Vector-valued, degree and breaks those of the
-// edge, of degree 3 at least; zero for a cubic. Where the edge's second derivative jumps, so does its
-// derivative.
+// The additional term of a and b where the edge is not its own cubic Hermite part H: with h + k = 2, l (C' -
+// H')/2 on each side restores [joining (4)] exactly. It is vector-valued, with the degree (3 at least) and
+// the breaks of the edge; zero for a cubic. Where the edge's second derivative jumps, the derivative of this
+// term jumps, too.
 BezierChain CorrectionFor(const BezierChain& edge, const JoinFactors& factors);
 
 }  // namespace patchmill

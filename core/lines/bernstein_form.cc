@@ -25,7 +25,7 @@ struct Range {
   double low = kInfinity, high = -kInfinity;
 };
 
-// Of the differences of neighbours along u (stride n + 1) or v (stride 1).
+// The range of the differences of neighbours along u (stride n + 1) or v (stride 1).
 Range Differences(const BernsteinForm& form, bool along_u) {
   Range range;
   const int stride = along_u ? form.n + 1 : 1;
@@ -40,7 +40,7 @@ Range Differences(const BernsteinForm& form, bool along_u) {
   return range;
 }
 
-// Rounding apart, of one sign and not zero throughout.
+// True if the differences have one sign, apart from rounding, and are not all zero.
 bool Monotone(const BernsteinForm& form, bool along_u) {
   const Range d = Differences(form, along_u);
   return (d.low >= -form.slack && d.high > form.slack) || (d.low < -form.slack && d.high <= form.slack);
@@ -77,8 +77,9 @@ bool MayBeFlat(const BernsteinForm& form) {
 
 namespace {
 
-// De Casteljau at the middle for the n + 1 rows of `width` numbers at `low`, `stride` apart: afterwards these
-// are of the first half, those at `high` of the second. What KeepLeft and KeepRight give, to the bit.
+// De Casteljau's algorithm at the middle, for n + 1 rows of `width` numbers, `stride` apart. On entry `low`
+// holds the rows. On return `low` holds the first half and `high` the second half, the same bits as KeepLeft
+// and KeepRight give.
 void Halve(double* low, double* high, int n, int stride, int width) {
   for (int r = 0;; ++r) {
     std::copy_n(low + n * stride, width, high + (n - r) * stride);

@@ -1,4 +1,5 @@
-// Polynomials over a rectangle of parameters in Bernstein form: certain about signs, halved exactly.
+// Polynomials over a rectangle of parameters in Bernstein form. Their signs are certain, and halving is
+// exact.
 #pragma once
 
 #include <array>
@@ -6,9 +7,10 @@
 
 namespace patchmill {
 
-// c[i * (n + 1) + j]: coefficient of B_i^m(u) B_j^n(v); its values over the rectangle lie in the hull of its
-// coefficients. `slack`: coefficients this small are rounding. `negligible`: where all are this small nobody
-// asks for the sign (walls that are vertical, plates that are flat, but for the digits of a file).
+// c[i * (n + 1) + j] is the coefficient of B_i^m(u) B_j^n(v). The values over the rectangle lie between the
+// smallest and the largest coefficient. Coefficients up to `slack` are rounding. If all coefficients are at
+// most `negligible`, the sign does not matter (for instance walls that are vertical, and plates that are
+// flat, except for the digits of a file).
 struct BernsteinForm {
   int m = 0, n = 0;
   std::vector<double> c;
@@ -17,20 +19,21 @@ struct BernsteinForm {
 };
 
 enum class FormSign { kNegative, kZero, kPositive, kOpen };
-// kZero: rounding or negligible everywhere. kOpen: the coefficients have both signs, or one of them is within
-// the slack.
+// kZero: all coefficients are rounding or negligible. kOpen: the coefficients have both signs, or one of them
+// is within the slack.
 FormSign SignOf(const BernsteinForm& form);
-// All coefficients are rounding.
+// True if all coefficients are rounding.
 bool IsRounding(const BernsteinForm& form);
 
-// The zero set in the rectangle is one arc at most, a graph over u or v, and each side is met once at most: a
-// partial derivative has one sign, and no side's coefficients change sign twice (Descartes).
+// True if the zero set in the rectangle is at most one arc. The arc is a graph over u or v and meets each
+// side at most once. Proof: a partial derivative has one sign, and the coefficients of no side change sign
+// twice (Descartes).
 bool IsGraph(const BernsteinForm& form);
 
-// Not excluded: a point of the closed rectangle where both partial derivatives vanish.
+// False proves that no point of the closed rectangle has two vanishing partial derivatives.
 bool MayBeFlat(const BernsteinForm& form);
 
-// The form over the four quarters: [2 a + b] has u in the a-th half, v in the b-th. Cost O(m n (m + n)).
+// The form over the four quarters. In [2 a + b], u lies in half a and v in half b. Cost O(m n (m + n)).
 std::array<BernsteinForm, 4> Quarters(const BernsteinForm& form);
 
 }  // namespace patchmill

@@ -5,7 +5,7 @@
 namespace patchmill {
 namespace {
 
-// Field k changes its sign four times around the cell.
+// True if field k changes its sign at least four times around the cell.
 bool MeetsTwice(ZeroVertices& vertices, const std::vector<int>& ring, std::size_t k) {
   int changes = 0, last = 0;
   for (std::size_t i = 0; i <= ring.size(); ++i) {
@@ -17,7 +17,7 @@ bool MeetsTwice(ZeroVertices& vertices, const std::vector<int>& ring, std::size_
   return changes >= 4;
 }
 
-// The chords from `place` to those of the ring that have its sign have it all along.
+// True if the chords from `place` to the ring's vertices of the same sign have this sign all along.
 bool SeesItsSign(ZeroVertices& vertices, const std::vector<int>& ring, std::size_t k, const Vec2& place) {
   constexpr int kSteps = 8;
   std::vector<Vec2> seen = {place};

@@ -1,4 +1,4 @@
-// Where the fan of triangles of a cell starts that two arcs of a zero curve pass.
+// Chooses where the fan of triangles of a cell starts if two arcs of a zero curve pass through the cell.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace patchmill {
 
-// The sign at the start of the fan decides which vertices of `ring` (around the cell low + [0,side]^2) are
-// joined. Where the centre's is one that chords to the ring's vertices of its sign do not keep - a node near
-// by, whose arms cut the centre off - a place that does better; nothing where the centre will do, or nothing
-// better is found. Looks at smooth fields. Cost: some hundred evaluations, only when a field changes its sign
-// four times around the cell.
+// The sign at the start of the fan decides which vertices of `ring` are joined (the ring runs around the cell
+// low + [0,side]^2). The centre is unfit if a chord from it to a ring vertex of its own sign meets the other
+// sign. This happens near a node whose arms cut the centre off. Then a better place is returned. nullopt if
+// the centre is fit or no better place is found. Uses smooth fields only. Cost: some hundred evaluations,
+// only if a field changes its sign four times around the cell.
 std::optional<Vec2> BetterMiddle(ZeroVertices& vertices, std::span<const ZeroField> fields,
                                  const std::vector<int>& ring, const Vec2& low, double side);
 

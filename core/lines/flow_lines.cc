@@ -13,19 +13,19 @@
 namespace patchmill {
 namespace {
 
-constexpr double kNear = 0.5;       // of the spacing: lines end this near to others
-constexpr double kShortest = 0.5;   // of the spacing: shorter lines are left out
-constexpr double kLongest = 100.0;  // of the box's diagonal
-constexpr int kMostBorders = 100;   // with less than a whole step in between: a line that makes no way
+constexpr double kNear = 0.5;       // share of the spacing; lines end this near to others
+constexpr double kShortest = 0.5;   // share of the spacing; shorter lines are left out
+constexpr double kLongest = 100.0;  // in diagonals of the box
+constexpr int kMostBorders = 100;   // less than a whole step apart: such a line makes no progress
 
-// Points of all lines by cells of the spacing.
+// Points of all lines, in cells as large as the spacing.
 class Neighbors {
  public:
   explicit Neighbors(double spacing) : spacing_(spacing) {}
 
   void Add(const FlowPlace& place) { cells_[Key(place.at.p)].push_back({place.at.p, place.normal}); }
 
-  // A point of a line on the same side of the surface lies nearer than `distance` <= spacing.
+  // True if a point of a line on the same side of the surface is nearer than `distance` <= spacing.
   bool Any(const Vec3& p, const Vec3& normal, double distance) const {
     for (int i = -1; i <= 1; ++i) {
       for (int j = -1; j <= 1; ++j) {
@@ -51,7 +51,7 @@ class Neighbors {
     return key;
   }
   double spacing_;
-  std::unordered_map<std::uint64_t, std::vector<std::pair<Vec3, Vec3>>> cells_;  // looked up, never walked
+  std::unordered_map<std::uint64_t, std::vector<std::pair<Vec3, Vec3>>> cells_;  // looked up, never iterated
 };
 
 class FlowTracer {
@@ -84,7 +84,7 @@ class FlowTracer {
   }
 
  private:
-  // About one in half a spacing.
+  // About one seed per half spacing.
   int SeedsAcross(const Piece& piece) const {
     double size = 0.0;
     for (const double t : {0.0, 0.5, 1.0}) {
@@ -120,7 +120,7 @@ class FlowTracer {
     Seed(line);
   }
 
-  // Both sides of the line, one spacing away.
+  // Adds seeds on both sides of the line, one spacing away.
   void Seed(const std::vector<FlowPlace>& line) {
     double since = kInfinity;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -141,7 +141,7 @@ class FlowTracer {
     std::vector<FlowPlace> line;
     FlowPlace at = start;
     double step = 0.1 * params_.spacing, length = 0.0;
-    int borders = 0;  // met one after the other
+    int borders = 0;  // borders met one after the other
     const double longest = kLongest * surface_.box.Diagonal();
     while (length < longest && line.size() <= params_.max_points && !run_.Cancelled()) {
       const auto next = Advance(surface_, params_, at, sign, &step);

@@ -1,5 +1,5 @@
-// Flow lines: the orthogonals of contours [lines (3)] and of lines of equal slope [lines (7)]. They follow
-// the gradient of a function on the surface, evenly spread [references: jobard1997].
+// Flow lines: the lines orthogonal to contours [lines (3)] and to lines of equal slope [lines (7)]. They
+// follow the gradient of a function on the surface and are evenly spread [references: jobard1997].
 #pragma once
 
 #include <vector>
@@ -13,29 +13,30 @@
 namespace patchmill {
 
 enum class FlowKind {
-  kAlongHeight,  // up the gradient of phi = axis . S: where water runs
-  kAlongSlope,   // up the gradient of |axis . n|: towards gentler ground
+  kAlongHeight,  // up the gradient of phi = axis . S, where water runs
+  kAlongSlope,   // up the gradient of |axis . n|, towards gentler slopes
 };
 
 struct FlowParams {
   FlowKind kind = FlowKind::kAlongHeight;
   Vec3 axis = Vec3::UnitZ();  // unit
-  double spacing = 1.0;       // mm, > 0: new lines begin this far from all others, and end at half of it
-  double tolerance = 0.01;    // mm, > 0: of chords, and of a step
+  double spacing = 1.0;       // mm, > 0; new lines begin this far from all others and end at half of it
+  double tolerance = 0.01;    // mm, > 0; for chords and for one step
   std::size_t max_points = 1'000'000;
 };
 
-// Lines in the direction in which the function grows. They end at singular points (|gradient| below 1e-6, per
-// mm of spacing for kAlongSlope; a gradient that turns back), at the border of the surface, where the
-// parametrisation has no normal, and near other lines; those shorter than half the spacing are left out. In
-// the order in which they were begun; deterministic, one thread. RESOURCE_EXHAUSTED for more than max_points,
-// some 200 bytes each; CANCELLED and DEADLINE_EXCEEDED from `run`.
-// Cost: some microseconds a step, a closest-point query at each patch border and for each new line.
+// Traces lines in the direction in which the function grows. They end at four kinds of places: singular
+// points (|gradient| below 1e-6, per mm of spacing for kAlongSlope; or the gradient turns back); the border
+// of the surface; places without a normal; places near other lines. Lines shorter than half the spacing are
+// left out. The order is that in which the lines were begun. Deterministic, one thread. RESOURCE_EXHAUSTED
+// for more than max_points, some 200 bytes each; CANCELLED and DEADLINE_EXCEEDED from `run`. Cost: some
+// microseconds per step, and a closest-point query at each patch border and for each new line.
 absl::StatusOr<std::vector<ZeroCurve>> TraceFlowLines(const Surface& surface, const FlowParams& params,
                                                       const RunContext& run);
 
-// The gradient on the surface of the flow's function, in space (tangent); zero where there is no normal.
-// With (f_u, f_v) its derivatives: ((f_u G - f_v F) S_u + (f_v E - f_u F) S_v) / W.
+// The gradient on the surface of the flow's function, as a tangent vector in space. Zero where there is no
+// normal. With the derivatives (f_u, f_v) of the function it is ((f_u G - f_v F) S_u + (f_v E - f_u F) S_v) /
+// W.
 Vec3 FlowGradient(const SurfaceJet& jet, const FlowParams& params);
 
 }  // namespace patchmill

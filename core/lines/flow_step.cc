@@ -9,19 +9,19 @@
 namespace patchmill {
 namespace {
 
-constexpr double kFlat = 1e-6;        // of the gradient
-constexpr double kLeastGrowth = 0.3;  // of the function over a step, of what the gradient promises
-constexpr double kOnBorder = 1e-9;    // of a piece
-constexpr double kStray = 1e-12;      // of a piece, by rounding
+constexpr double kFlat = 1e-6;        // length of the gradient
+constexpr double kLeastGrowth = 0.3;  // of the function over a step, as a share of the predicted growth
+constexpr double kOnBorder = 1e-9;    // in parameters of a piece
+constexpr double kStray = 1e-12;      // in parameters of a piece; rounding
 
-// As far as FlowGradient needs it.
+// The derivatives that FlowGradient needs.
 SurfaceJet JetFor(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q) {
   const Piece& on = surface.piece(piece);
   return params.kind == FlowKind::kAlongHeight ? EvaluateSlopes(on, q.x(), q.y())
                                                : Evaluate(on, q.x(), q.y());
 }
 
-// Unit speed in space, in parameters; zero where the flow has no direction.
+// The velocity in parameters for unit speed in space. Zero where the flow has no direction.
 Vec2 Velocity(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q, double sign) {
   const SurfaceJet jet = JetFor(surface, params, piece, q);
   const Vec3 g = FlowGradient(jet, params);
@@ -36,8 +36,8 @@ Vec2 Velocity(const Surface& surface, const FlowParams& params, PieceId piece, c
 
 Vec2 Clamped(const Vec2& q) { return q.cwiseMax(0.0).cwiseMin(1.0); }
 
-// The classical step of length h; nullopt when the flow has no direction on the way. Stages may look a little
-// beyond the piece: they are taken on its border.
+// The classical Runge-Kutta step of length h. nullopt if the flow has no direction on the way. Stages may lie
+// a little beyond the piece; they are moved to its border.
 std::optional<Vec2> RungeKutta(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q,
                                double h, double sign) {
   const auto slope = [&](const Vec2& x) { return Velocity(surface, params, piece, Clamped(x), sign); };
@@ -49,10 +49,10 @@ std::optional<Vec2> RungeKutta(const Surface& surface, const FlowParams& params,
   return q + (h / 6.0) * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
 }
 
-// A flow along a border may stray from it by rounding.
+// A flow along a border may leave it by rounding.
 bool Inside(const Vec2& q) { return q.minCoeff() >= -kStray && q.maxCoeff() <= 1.0 + kStray; }
 
-// The longest step that stays inside, by halving.
+// The longest step that stays inside, found by halving.
 double StepToBorder(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q, double h,
                     double sign) {
   double low = 0.0, high = h;
@@ -73,7 +73,7 @@ Vec3 FlowGradient(const SurfaceJet& jet, const FlowParams& params) {
   const double w = f.E * f.G - f.F * f.F;
   double fu = params.axis.dot(jet.du), fv = params.axis.dot(jet.dv);
   if (params.kind == FlowKind::kAlongSlope) {
-    // [lines (5)]: psi_u = alpha phi_u + beta phi_v, and alike for v; of the side that faces along the axis.
+    // [lines (5)]: psi_u = alpha phi_u + beta phi_v, and alike for v, on the side that faces along the axis.
     const double side = params.axis.dot(*normal) < 0.0 ? -1.0 : 1.0;
     const double pu = fu, pv = fv;
     fu = side * ((f.M * f.F - f.L * f.G) * pu + (f.L * f.F - f.M * f.E) * pv) / w;
@@ -121,7 +121,7 @@ std::optional<FlowStep> Advance(const Surface& surface, const FlowParams& params
       if (step.at_border) return std::nullopt;
       continue;
     }
-    // Two halves tell the error of the whole; the turn tells how far the chord lies beside the line.
+    // Two half steps show the error of the whole step. The turn shows how far the chord lies beside the line.
     const double turn = (place->tangent - from.tangent).norm();
     double error = h * turn / 8.0;
     if (const auto half = RungeKutta(surface, params, piece, q, 0.5 * h, sign)) {
@@ -131,7 +131,7 @@ std::optional<FlowStep> Advance(const Surface& surface, const FlowParams& params
                          10.0 * (Position(surface.piece(piece), there.x(), there.y()) - place->at.p).norm());
       }
     }
-    // Around a summit or a pit steps would leap to and fro.
+    // Around a summit or a pit, long steps would jump back and forth.
     const double grown = sign * (place->value - from.value);
     const bool sound = error <= params.tolerance && grown > kLeastGrowth * h * from.gradient;
     if (!sound && h > shortest) {
@@ -148,14 +148,14 @@ std::optional<FlowStep> Advance(const Surface& surface, const FlowParams& params
 
 std::optional<FlowPlace> CrossBorder(const Surface& surface, const FlowParams& params, const FlowPlace& from,
                                      double sign) {
-  // What lies a little beyond the border, if anything does.
+  // Finds the surface a little beyond the border, if there is any.
   const double beyond = std::max(1e-3 * params.spacing, 2.0 * surface.network.join_tolerance);
   const auto enter = [&](const Vec3& p) -> std::optional<FlowPlace> {
     const auto next = ClosestToPoint(surface, p, 0.1 * beyond, 0.01 * beyond);
     if (!next) return std::nullopt;
     const auto place = PlaceOn(surface, params, next->at.piece, next->at.u, next->at.v, sign);
     if (!place || place->tangent.dot(from.tangent) <= 0.0) return std::nullopt;
-    // On a border again, and leaving there: the surface ends here, at a slant.
+    // The point lies on a border again, and the flow leaves there: the surface ends here, at a slant.
     const Vec2 q(next->at.u, next->at.v), to = Velocity(surface, params, next->at.piece, q, sign);
     for (int k = 0; k < 2; ++k) {
       if ((q[k] <= kOnBorder && to[k] < 0.0) || (q[k] >= 1.0 - kOnBorder && to[k] > 0.0)) return std::nullopt;
@@ -164,7 +164,7 @@ std::optional<FlowPlace> CrossBorder(const Surface& surface, const FlowParams& p
   };
   const Vec3 ahead = from.at.p + beyond * from.tangent;
   if (const auto place = enter(ahead)) return place;
-  // Or a flow along the seam, that leaves it by rounding: on its other side.
+  // A flow along the seam may leave it by rounding. Then it continues on the other side of the seam.
   const SurfaceJet jet = Evaluate(surface, from.at.piece, from.at.u, from.at.v);
   Vec3 out = Vec3::Zero();
   if (from.at.u <= kOnBorder || from.at.u >= 1.0 - kOnBorder) out += (from.at.u < 0.5 ? -jet.du : jet.du);

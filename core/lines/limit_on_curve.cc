@@ -9,10 +9,10 @@
 namespace patchmill {
 namespace {
 
-constexpr double kStep = 1e-6, kDone = 1e-12;  // of the parameters
-constexpr double kFirst = 1e-3;                // of the reach
+constexpr double kStep = 1e-6, kDone = 1e-12;  // in parameters
+constexpr double kFirst = 1e-3;                // share of the reach
 
-// How far along the way from q, of length 1, the piece goes; `most` at most.
+// How far the piece extends from q in the direction `way` of length 1; `most` at most.
 double Room(const Vec2& q, const Vec2& way, double most) {
   for (int c = 0; c < 2; ++c) {
     if (way[c] > 0.0) most = std::min(most, (1.0 - q[c]) / way[c]);
@@ -30,10 +30,10 @@ Vec2 Gradient(const ZeroField& field, const Piece& piece, const Vec2& q, double 
 }
 
 struct OnCurve {
-  Vec2 q, along;  // of length 1
+  Vec2 q, along;  // `along` has length 1
 };
 
-// Newton across the curve, no farther than `reach`.
+// Newton's method across the curve, within `reach` of the start.
 std::optional<OnCurve> Project(const ZeroField& curve, const Piece& piece, Vec2 q, double reach) {
   const Vec2 start = q;
   for (int i = 0; i < 12; ++i) {
@@ -54,7 +54,7 @@ std::optional<OnCurve> Project(const ZeroField& curve, const Piece& piece, Vec2 
 std::optional<Vec2> LimitOnCurve(const ZeroField& curve, const ZeroField& limit, const Piece& piece,
                                  const Vec2& place, double reach) {
   std::optional<OnCurve> at = Project(curve, piece, place, reach);
-  // Along the tangent the limit is found, and from there the curve again: each time much nearer.
+  // Finds the limit along the tangent, then returns to the curve from there. Each round comes much nearer.
   bool found = false;
   for (double half = kFirst * reach; at && half > kDone;) {
     if (!(half <= reach)) return std::nullopt;
@@ -62,7 +62,7 @@ std::optional<Vec2> LimitOnCurve(const ZeroField& curve, const ZeroField& limit,
     ZeroSegment tangent{q - Room(q, -along, half) * along, q + Room(q, along, half) * along};
     const double from = Value(limit, piece, tangent.from), to = Value(limit, piece, tangent.to);
     if (!(from * to < 0.0)) {
-      if (found) break;  // nearer than signs tell
+      if (found) break;  // nearer than signs can show
       half *= 4.0;
       continue;
     }

@@ -13,7 +13,7 @@ struct Overloaded : Fs... {
   using Fs::operator()...;
 };
 
-// The smallest 1, 2 or 5 times a power of ten that is at least x > 0.
+// The smallest number that is 1, 2 or 5 times a power of ten and at least x > 0.
 double RoundStep(double x) {
   const double decade = std::pow(10.0, std::floor(std::log10(x)));
   for (const double m : {1.0, 2.0, 5.0}) {
@@ -22,7 +22,7 @@ double RoundStep(double x) {
   return 10.0 * decade;
 }
 
-// Multiples of the roundest step of which at most `count` lie strictly between low and high.
+// Multiples of the roundest step for which at most `count` of them lie strictly between low and high.
 std::vector<double> RoundLevels(double low, double high, int count) {
   if (!(high - low > 1e-9 * std::max(std::abs(low), std::abs(high)))) return {};
   double step = RoundStep((high - low) / (count + 1));
@@ -53,7 +53,7 @@ std::vector<double> Heights(const Surface& surface, const Vec3& axis, int count,
   return levels;
 }
 
-// Every 90 / n degrees, n - 1 of them, n the largest divisor of 90 for which they are at most `count`.
+// Every 90 / n degrees: n - 1 slopes, where n is the largest divisor of 90 that gives at most `count`.
 std::vector<double> Slopes(int count) {
   int parts = 2;
   for (const int n : {2, 3, 6, 9, 10, 15, 18, 30, 45, 90}) {

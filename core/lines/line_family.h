@@ -9,7 +9,7 @@
 
 namespace patchmill {
 
-// Directions are unit vectors, levels as said.
+// Directions are unit vectors. The comments say what a level is.
 struct ContourLines {
   Vec3 axis = Vec3::UnitZ();  // level: axis . S, mm
 };
@@ -26,8 +26,8 @@ struct EyeSilhouetteLines {
   Vec3 eye = Vec3::Zero();  // mm; no levels
 };
 struct HighlightLines {
-  Vec3 plane = Vec3::UnitZ();   // level: how far `across` is turned about it, rad
-  Vec3 across = Vec3::UnitX();  // square to `plane`
+  Vec3 plane = Vec3::UnitZ();   // level: angle by which `across` is turned about `plane`, rad
+  Vec3 across = Vec3::UnitX();  // at right angles to `plane`
 };
 struct ContourInflectionLines {
   Vec3 axis = Vec3::UnitZ();  // no levels
@@ -41,13 +41,13 @@ using LineFamily =
 
 bool HasLevels(const LineFamily& family);
 
-// `level` is of no effect for a family without.
+// `level` has no effect for a family without levels.
 ZeroField FieldOf(const LineFamily& family, double level);
 
-// About `count` (>= 1) levels over what the surface has: contours at round multiples (1, 2 or 5 times a power
-// of ten) of axis . (S - origin), slopes at round shares of 90 degrees, brightnesses evenly in (-1, 1),
-// highlights evenly over half a turn. At most `count`; none for a family without levels, or a surface that is
-// flat across the axis.
+// About `count` (>= 1) levels over the range of the surface. Contours lie at round multiples (1, 2 or 5 times
+// a power of ten) of axis . (S - origin), slopes at round shares of 90 degrees. Brightnesses are spread
+// evenly in (-1, 1), highlights evenly over half a turn. There are at most `count`. There are none for a
+// family without levels, or for a surface that is flat across the axis.
 std::vector<double> ChooseLevels(const Surface& surface, const LineFamily& family, int count,
                                  const Vec3& origin = Vec3::Zero());
 

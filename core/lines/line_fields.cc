@@ -11,7 +11,7 @@ namespace {
 constexpr double kLevelNoise = 1e-12;  // mm
 constexpr double kHorizontal = 1e-12;  // sine of the slope below which a contour has no direction
 
-// Turns `axis` to z. Exactly nothing for z itself.
+// The rotation that turns `axis` to z. Exactly the identity for z itself.
 Eigen::Matrix3d ToAxis(const Vec3& axis) {
   if (axis == Vec3::UnitZ()) return Eigen::Matrix3d::Identity();
   return Eigen::Quaterniond::FromTwoVectors(axis, Vec3::UnitZ()).toRotationMatrix();
@@ -33,8 +33,8 @@ BernsteinNet Turned(const Eigen::Matrix3d& turn, BernsteinNet net) {
   return net;
 }
 
-// A point of the box (or as near to it as rounding) where phi_u = phi_v = 0, by Newton from its middle; a
-// saddle of phi, or any.
+// A point of the box (or as near to it as rounding) where phi_u = phi_v = 0. Newton's method starts at the
+// middle of the box. With saddles_only, summits and pits are left out.
 std::optional<Vec2> CriticalPoint(const Piece& piece, const ParameterBox& box, const Vec3& axis,
                                   bool saddles_only) {
   const Vec2 low(box.u0, box.v0), high(box.u1, box.v1), side = high - low;
@@ -49,13 +49,13 @@ std::optional<Vec2> CriticalPoint(const Piece& piece, const ParameterBox& box, c
     if (!(std::abs(determinant) > 0.0)) return std::nullopt;
     const Vec2 step((fvv * fu - fuv * fv) / determinant, (fuu * fv - fuv * fu) / determinant);
     q -= step;
-    // One box beyond is still near enough to come back.
+    // From up to one box beyond, the iteration may still come back.
     if (!((q - low + side).minCoeff() >= 0.0 && (high + side - q).minCoeff() >= 0.0)) return std::nullopt;
     q = q.cwiseMax(0.0).cwiseMin(1.0);
     if (step.norm() < 1e-14) break;
   }
   if ((q - low).minCoeff() < -margin || (high - q).minCoeff() < -margin) return std::nullopt;
-  if (saddles_only && determinant >= 0.0) return std::nullopt;  // no curve passes a peak or a pit
+  if (saddles_only && determinant >= 0.0) return std::nullopt;  // no curve passes a summit or a pit
   const SurfaceJet jet = Evaluate(piece, q.x(), q.y());
   const double flat = std::hypot(axis.dot(jet.du), axis.dot(jet.dv));
   if (!(flat <= 1e-9 * (jet.du.norm() + jet.dv.norm()))) return std::nullopt;  // stopped at the piece's side
@@ -111,7 +111,7 @@ ZeroField BrightnessField(double brightness, const Vec3& light) {
     return normal ? light.dot(*normal) - brightness : 0.0;
   };
   const Eigen::Matrix3d turn = ToAxis(light);
-  // (light . n)^2 - brightness^2 vanishes on light . n = -brightness too, never on both along one arc.
+  // (light . n)^2 - brightness^2 also vanishes on light . n = -brightness, but never on both along one arc.
   field.form = [=](const BernsteinNet& net) {
     return brightness == 0.0 ? TurnForm(Turned(turn, net)) : SlopeForm(Turned(turn, net), brightness);
   };

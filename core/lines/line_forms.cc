@@ -11,9 +11,9 @@ namespace {
 
 using Form = ScaledBernstein<double>;
 
-constexpr double kNegligible = 1e-6;                   // of a field's unit
+constexpr double kNegligible = 1e-6;                   // in units of the field
 constexpr double kRounding = 64 * 2.2e-16;             // of a chain of products and differences
-constexpr int kMaxDegreeOfForm = 2 * kMaxBasisDegree;  // what Binomial knows
+constexpr int kMaxDegreeOfForm = 2 * kMaxBasisDegree;  // the largest degree for which Binomial works
 
 Form operator*(const Form& a, const Form& b) {
   Form product(a.m + b.m, a.n + b.n, 0.0);
@@ -31,7 +31,7 @@ Form operator*(const Form& a, const Form& b) {
   return product;
 }
 
-// Operands of equal degrees.
+// The operands must have equal degrees.
 Form operator+(Form a, const Form& b) {
   for (std::size_t k = 0; k < a.c.size(); ++k) a.c[k] += b.c[k];
   return a;
@@ -51,12 +51,12 @@ double Largest(const Form& f) {
   return most;
 }
 
-// `unit`: the value of the form where its field is 1 (1/mm for curvatures), at most.
+// `unit` is the largest possible value of the form where its field is 1 (1/mm for curvatures).
 BernsteinForm Finished(const Form& f, double noise, double unit) {
   return {f.m, f.n, f.Unscaled(), noise * unit, kNegligible * unit};
 }
 
-// One coordinate of the homogeneous net with its derivatives.
+// One coordinate of the homogeneous net and its derivatives.
 struct Coordinate {
   Form f, u, v, uu, uv, vv;
 };
@@ -70,7 +70,7 @@ Form Scaled(int m, int n, const std::vector<double>& c) {
   return f;
 }
 
-// Derivative along u (or v) of plain coefficients; a constant gives a zero of degree 0.
+// Derivative along u (or v) of plain coefficients. A constant has the derivative zero of degree 0.
 std::vector<double> Differences(int& m, int n, const std::vector<double>& c, bool along_u) {
   const int rows = along_u ? m : n, width = n + 1;
   if (rows == 0) return std::vector<double>(c.size(), 0.0);
@@ -104,7 +104,7 @@ Form Derivative(int m, int n, const std::vector<double>& c, int du, int dv) {
   return Scaled(m, n, d);
 }
 
-// `second`: its second derivatives are wanted too.
+// `second`: whether to compute the second derivatives, too.
 Coordinate CoordinateOf(const BernsteinNet& net, int k, bool second) {
   std::vector<double> c;
   c.reserve(net.points.size());
@@ -119,7 +119,8 @@ Coordinate CoordinateOf(const BernsteinNet& net, int k, bool second) {
           second ? Derivative(m, n, c, 0, 2) : none};
 }
 
-// Degree a n + b of a form, of a polynomial or a rational net, is beyond what is worth its cost.
+// True if the degree of a form is too high to be worth its cost. The degree is a n + b for a polynomial net
+// and rational_a n + rational_b for a rational one.
 bool TooHigh(const BernsteinNet& net, int a, int b, int rational_a, int rational_b) {
   const int n = std::max(net.degree_u, net.degree_v);
   return (net.rational ? rational_a * n + rational_b : a * n + b) > kMaxDegreeOfForm;
@@ -130,10 +131,10 @@ Form Triple(const Coordinate& a, const Coordinate& b, const Coordinate& c) {
   return a.f * (b.u * c.v - b.v * c.u) + b.f * (c.u * a.v - c.v * a.u) + c.f * (a.u * b.v - a.v * b.u);
 }
 
-// The net's coordinates and its normal: w^3 S_u x S_v, and as fourth entry what makes it a plane.
+// The net's coordinates and its normal w^3 S_u x S_v. The fourth entry of the normal completes a plane.
 struct Parts {
   bool rational = false;
-  std::vector<Coordinate> x;  // X Y Z, and W when rational
+  std::vector<Coordinate> x;  // X Y Z, and W if rational
   std::vector<Form> normal;
 };
 
@@ -149,7 +150,7 @@ Parts MakeParts(const BernsteinNet& net, bool second = false) {
   return parts;
 }
 
-// Relative error of a form: differences of points far from the origin have fewer digits left.
+// Relative error of a form. Differences of points far from the origin have fewer digits left.
 double Noise(const BernsteinNet& net) {
   double reach = 0.0, extent = 0.0;
   for (const Vec4& p : net.points) {
@@ -163,14 +164,14 @@ double LargestNormal(const Parts& parts) {
   return std::max({Largest(parts.normal[0]), Largest(parts.normal[1]), Largest(parts.normal[2])});
 }
 
-// w^4 (S_u x S_v) . S_ij, or w^0 for a polynomial net.
+// w^4 (S_u x S_v) . S_ij, or w^0 times it for a polynomial net.
 Form SecondForm(const Parts& parts, Form Coordinate::*derivative) {
   Form sum = parts.normal[0] * (parts.x[0].*derivative);
   for (std::size_t k = 1; k < parts.x.size(); ++k) sum = sum + parts.normal[k] * (parts.x[k].*derivative);
   return sum;
 }
 
-// w^2 z_u (or z_v).
+// w^2 z_u (or w^2 z_v).
 Form Rise(const Parts& parts, Form Coordinate::*derivative) {
   const Coordinate& z = parts.x[2];
   if (!parts.rational) return z.*derivative;
@@ -178,7 +179,7 @@ Form Rise(const Parts& parts, Form Coordinate::*derivative) {
   return (z.*derivative) * w.f - z.f * (w.*derivative);
 }
 
-// Derivative of a polynomial given as a form.
+// The derivative of a polynomial that is given as a form.
 Form Derived(const Form& f, bool along_u) {
   int m = f.m, n = f.n;
   const std::vector<double> d = Differences(m, n, f.Unscaled(), along_u);
@@ -217,7 +218,7 @@ std::optional<BernsteinForm> EyeForm(const BernsteinNet& net, const Vec3& eye) {
     reach = std::max(reach, p.head<3>().norm());
   }
   const Parts parts = MakeParts(moved);
-  // (S - eye) . (S_u x S_v): w^3 times it is the determinant of the moved net and its derivatives.
+  // w^3 (S - eye) . (S_u x S_v) is the determinant of the moved net and its derivatives.
   const Form form = Triple(parts.x[0], parts.x[1], parts.x[2]);
   return Finished(form, Noise(moved), LargestNormal(parts) * reach);
 }
@@ -227,7 +228,7 @@ std::optional<BernsteinForm> ContourCurvatureForm(const BernsteinNet& net) {
   const Parts parts = MakeParts(net, true);
   const Form zu = Rise(parts, &Coordinate::u), zv = Rise(parts, &Coordinate::v);
   const auto degree = [&](int n) { return net.rational ? 8 * n - 3 : 5 * n - 3; };
-  // A coordinate of degree 1 has no second derivative along it; its place is left out.
+  // A coordinate of degree 1 has no second derivative. Its term is left out.
   Form sum(degree(net.degree_u), degree(net.degree_v), 0.0);
   if (net.degree_u > 1) sum = sum + SecondForm(parts, &Coordinate::uu) * (zv * zv);
   sum = sum - 2.0 * (SecondForm(parts, &Coordinate::uv) * (zu * zv));
@@ -240,8 +241,8 @@ std::optional<BernsteinForm> SlopeExtremumForm(const BernsteinNet& net) {
   if (TooHigh(net, 7, -4, 11, -4)) return std::nullopt;
   const Parts parts = MakeParts(net);
   const Form zu = Rise(parts, &Coordinate::u), zv = Rise(parts, &Coordinate::v);
-  // With N along the normal: |N|^3 times the derivative of N_z / |N| along the contour,
-  // (N . N) dN_z - N_z (N . dN), d = z_v d/du - z_u d/dv; equal to [lines (10)] up to a positive factor.
+  // With N along the normal, the form is |N|^3 times the derivative of N_z / |N| along the contour: (N . N)
+  // dN_z - N_z (N . dN), d = z_v d/du - z_u d/dv. It equals [lines (10)] up to a positive factor.
   Form along[3] = {Form(0, 0, 0.0), Form(0, 0, 0.0), Form(0, 0, 0.0)};
   for (std::size_t k = 0; k < 3; ++k)
     along[k] = zv * Derived(parts.normal[k], true) - zu * Derived(parts.normal[k], false);

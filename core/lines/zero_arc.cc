@@ -17,8 +17,8 @@ class Refiner {
     if (field.follow) follow_ = field.follow(piece);
   }
 
-  // The places on both sides of the point `at` of the chord a b, within the tolerance of it, between which
-  // the curve passes if it is straight there.
+  // Two places beside the point `at` of the chord a b, one on each side and within the tolerance of the
+  // chord. If the curve is straight there, it passes between them.
   std::optional<std::array<Vec2, 2>> Beside(const Vec2& from, const Vec2& to, double at, const Vec3& a,
                                             const Vec3& b) const {
     const Vec2 mid = from + at * (to - from);
@@ -29,7 +29,7 @@ class Refiner {
   }
   Vec3 At(const Vec2& q) const { return Position(piece_, q.x(), q.y()); }
 
-  // The first chord is looked at in three places: an arc of two bends may cross it in the middle.
+  // The first chord is tested in three places, because an arc with two bends may cross it in the middle.
   void AddFirst(const Vec2& from, const Vec2& to, std::vector<Vec2>& out) const {
     const Vec3 a = At(from), b = At(to);
     if ((b - a).norm() <= tolerance_) return;
@@ -41,7 +41,7 @@ class Refiner {
     AddBent(from, to, at_mid, out);
   }
 
-  // One that is known not to be straight. `at_mid`: the value at its middle, 0 where it is not known.
+  // For a chord that is known not to be straight. `at_mid` is the value at its middle, 0 if it is not known.
   void AddBent(const Vec2& from, const Vec2& to, double at_mid, std::vector<Vec2>& out) const {
     std::optional<Vec2> root = Followed(from, to);
     if (!root) root = OnPerpendicular(from, to, (At(to) - At(from)).norm(), at_mid);
@@ -55,8 +55,8 @@ class Refiner {
   bool Near(const Vec2& q, const Vec3& a, const Vec3& b) const {
     return SegmentDistance(At(q), a, b) <= tolerance_;
   }
-  // 1 mm on the surface at right angles to the direction `along` there: parameters are no plan, and their own
-  // right angle leads elsewhere, and too far.
+  // A step of 1 mm on the surface, at right angles to the direction `along`. A right angle in the parameters
+  // would be another direction and another length.
   Vec2 Across(const Vec2& at, const Vec2& along, double length) const {
     const SurfaceJet jet = Evaluate(piece_, at.x(), at.y());
     const Vec3 tangent = along.x() * jet.du + along.y() * jet.dv;
@@ -64,8 +64,9 @@ class Refiner {
     const double millimetres = (across.x() * jet.du + across.y() * jet.dv).norm();
     return millimetres > 0.0 ? Vec2(across / millimetres) : Vec2(Vec2(-along.y(), along.x()) / length);
   }
-  // The curve passes within the tolerance of the point `at` of the chord a b: the cheap test. Where it does
-  // not, the point is on the same side of a limit as what lies beside it: `value`.
+  // The cheap test: true if the curve passes within the tolerance of the point `at` of the chord a b. If not,
+  // the point lies on the same side of a limit as the two places beside it, and `value` is the value at one
+  // of them.
   bool Straight(const Vec2& from, const Vec2& to, double at, const Vec3& a, const Vec3& b,
                 double* value = nullptr) const {
     const auto beside = Beside(from, to, at, a, b);
@@ -100,8 +101,9 @@ class Refiner {
     return Vec2(mid + *share * across);
   }
 
-  // The root on the perpendicular through the chord's middle, at most half a chord away (of a limit, which
-  // cells may hold a sharper bend of, a whole one), inside the piece. `at_mid` as for AddBent.
+  // The root on the perpendicular through the chord's middle, inside the piece and at most half a chord away.
+  // For a limit it may be a whole chord away, because cells may hold a sharper bend of a limit. `at_mid` as
+  // for AddBent.
   std::optional<Vec2> OnPerpendicular(const Vec2& from, const Vec2& to, double length, double at_mid) const {
     const Vec2 mid = 0.5 * (from + to), across(-(to - from).y(), (to - from).x());
     if (at_mid == 0.0) at_mid = Value(field_, piece_, mid);
@@ -125,7 +127,7 @@ class Refiner {
     return std::nullopt;
   }
 
-  // The largest part of `step` from `at` that stays in the piece.
+  // The largest share of `step` from `at` that stays in the piece.
   static double Inside(const Vec2& at, const Vec2& step) {
     double part = 1.0;
     for (int c = 0; c < 2; ++c) {
@@ -158,9 +160,9 @@ std::vector<std::vector<Vec2>> RefineZeroArcs(const Piece& piece, const ZeroFiel
     for (std::size_t k = 0; k < chords.size(); ++k) refiner.AddFirst(chords[k].from, chords[k].to, arcs[k]);
     return arcs;
   }
-  // Most are straight: they are asked at once.
+  // Most chords are straight. They are all evaluated in one call.
   std::vector<std::size_t> asked;
-  std::vector<std::pair<std::size_t, double>> bent;  // and the value in the middle
+  std::vector<std::pair<std::size_t, double>> bent;  // with the value at the chord's middle
   std::vector<SurfaceJet> jets;
   for (std::size_t k = 0; k < chords.size(); ++k) {
     const Vec3 a = refiner.At(chords[k].from), b = refiner.At(chords[k].to);

@@ -11,13 +11,13 @@
 namespace patchmill {
 namespace {
 
-// Bits of a 3 x 3 grid of places that a straight line can divide from the others: half-planes with small
-// whole numbers cut every set that there is, 58 of them.
+// All sets of places of a 3 x 3 grid, as bits, that a straight line can divide from the other places. There
+// are 58 sets. Half-planes with small integer coefficients give all of them.
 std::bitset<512> CutsByLines() {
   std::bitset<512> cuts;
   for (int a = -3; a <= 3; ++a) {
     for (int b = -3; b <= 3; ++b) {
-      for (int c = -13; c <= 13; c += 2) {  // halves
+      for (int c = -13; c <= 13; c += 2) {  // odd numbers, compared with even ones
         unsigned in = 0;
         for (int place = 0; place < 9; ++place) {
           if (2 * (a * (place / 3 - 1) + b * (place % 3 - 1)) > c) in |= 1U << place;
@@ -30,18 +30,18 @@ std::bitset<512> CutsByLines() {
   return cuts;
 }
 
-constexpr int kExtraLevels = 2;  // finer than the shape asks for, where only samples tell
-// A node this near to a side of its cell (in sides) is a vertex of the side; coordinates of nodes are known
+constexpr int kExtraLevels = 2;  // levels beyond those for the shape, where only samples show a limit
+// A node this near to a side of its cell (in sides) is a vertex of the side. Coordinates of nodes are known
 // to about 1e-13.
 constexpr double kOnSide = 1e-7;
 
 struct Levels {
-  int start = 1;    // for the shape's sake
+  int start = 1;    // for the shape
   int sampled = 1;  // where samples show a limit
   int finest = 1;   // where a form is not settled
 };
 
-// Turn of the normal and length of the sides, seen on a 5 x 5 grid.
+// Estimates the turn of the normal and the length of the sides on a 5 x 5 grid.
 Levels ChooseLevels(const Piece& piece, const ZeroMeshParams& params) {
   constexpr int n = 4;
   double turn = 0.0, side = 0.0;
@@ -123,8 +123,9 @@ class Divider {
                           level.size());
   }
 
-  // Takes out what has one sign, or none that anybody asks for. A node is asked for wherever it is: around
-  // one all values are small, and without it the sectors that meet there would be joined at random.
+  // Removes forms with one sign and forms whose sign does not matter. A form with a node stays open even if
+  // it is negligible: all values are small around a node, and without the node its sectors would be joined at
+  // random.
   bool Settled(const ZeroCell& cell, std::vector<OpenForm>& open) {
     std::erase_if(open, [&](const OpenForm& f) {
       const FormSign sign = SignOf(f.form);
@@ -140,7 +141,7 @@ class Divider {
                  std::max(0.0, cell.j / cells - slack), std::min(1.0, (cell.j + 1) / cells + slack)});
   }
 
-  // The points at which samples of field k are looked at: 3 x 3 of smooth ones, of limits corners and middle.
+  // The points at which field k is sampled: 3 x 3 for a smooth field, corners and middle for a limit.
   std::vector<int> Samples(const ZeroCell& cell, std::size_t k) {
     std::vector<int> ids;
     for (int place = 0; place < 9; place += fields_[k].smooth ? 1 : 2) ids.push_back(Place(cell, place));
@@ -160,8 +161,8 @@ class Divider {
     return seen[0] && seen[1];
   }
 
-  // As far as 3 x 3 places tell, a straight line divides the signs: the limit is not looked at more closely,
-  // its bend is found when arcs are refined, and where curves meet it.
+  // True if a straight line divides the signs at 3 x 3 places. Then the cell is not divided for the limit.
+  // Bends of the limit are found when arcs are refined, and where curves meet it.
   bool MayBeStraight(const ZeroCell& cell, std::size_t k) {
     static const std::bitset<512> cuts = CutsByLines();
     unsigned positive = 0;
@@ -173,7 +174,7 @@ class Divider {
     return cuts.test(positive);
   }
 
-  // One level of cells; those of the next. A level at a time, so that signs are asked for many at once.
+  // Takes one level of cells and returns the next one. Signs of a whole level are evaluated together.
   std::vector<Task> Refine(std::vector<Task> level) {
     const int depth = level.front().cell.level;
     const bool proofs_only = sampled_.empty();
@@ -219,7 +220,8 @@ class Divider {
     return next;
   }
 
-  // One arc at most, and no node on the cell's border either; or division; or, at the end, the node.
+  // Decides about an open form. The cell is done if it has at most one arc and no node, its border included.
+  // Otherwise the cell is divided. At the finest level the node is searched.
   void Decide(const OpenForm& f, Task& task) {
     if (task.divide || (IsGraph(f.form) && !(fields_[f.field].node && MayBeFlat(f.form)))) return;
     if (task.cell.level < levels_.finest) {
@@ -248,7 +250,7 @@ class Divider {
     return std::max(std::abs(vertices_[id].u - q.x()), std::abs(vertices_[id].v - q.y())) <= slack;
   }
 
-  // A vertex on a side of cells, one for all that ask.
+  // Returns the vertex on a side of cells. Cells that share the side share the vertex.
   int OnSide(const Vec2& q, double slack) {
     for (const int id : result_.on_sides) {
       if (Near(id, q, slack)) return id;
@@ -257,8 +259,8 @@ class Divider {
     return result_.on_sides.back();
   }
 
-  // A crossing of the field's curves with themselves in the closed cell becomes a vertex of it: inside, on
-  // its side, or its corner; and every sector between them gets its share of the sides.
+  // Finds a crossing of the field's curves with themselves in the closed cell. It becomes a vertex inside the
+  // cell, on a side or at a corner. Every sector between the curves gets a vertex on the sides.
   void FindNode(std::size_t k, ZeroCell& cell) {
     if (!fields_[k].node || cell.node) return;
     const double cells = 1 << cell.level;
@@ -283,10 +285,10 @@ class Divider {
     SampleSide(k, *node, low, {low.x(), high.y()}, slack);
   }
 
-  // Sectors of a node may leave through a side whose ends are in other sectors: a vertex for each of these,
-  // found in the directions of a rose around the node.
+  // A sector of a node may leave through a side whose ends lie in other sectors. Each such sector gets a
+  // vertex. The sectors are found along rays at equal angles around the node.
   void SampleSide(std::size_t k, const Vec2& node, const Vec2& from, const Vec2& to, double slack) {
-    constexpr int kRays = 24;  // in half a turn
+    constexpr int kRays = 24;  // per half turn
     const Vec2 along = to - from;
     const double distance = std::abs(Cross(along, node - from)) / along.squaredNorm();  // in sides
     if (distance == 0.0) return;
@@ -326,7 +328,7 @@ class Divider {
   const ZeroMeshParams& params_;
   ZeroVertices& vertices_;
   Levels levels_;
-  std::vector<std::size_t> sampled_;  // fields without form
+  std::vector<std::size_t> sampled_;  // fields without a form
   ZeroCells result_;
   ProgressThrottle throttle_;
 };

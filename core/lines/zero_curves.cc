@@ -13,13 +13,13 @@
 namespace patchmill {
 namespace {
 
-constexpr double kPole = 1e-9;  // mm: a side this short is a degenerate edge
+constexpr double kPole = 1e-9;  // mm; a side this short is a degenerate edge
 
 SurfacePoint At(PieceId id, const Piece& piece, const Vec2& q) {
   return {id, q.x(), q.y(), Position(piece, q.x(), q.y())};
 }
 
-// The arcs of one piece, joined end to end where exactly two meet.
+// The arcs of one piece, joined end to end where exactly two arcs meet.
 class PieceCurves {
  public:
   PieceCurves(PieceId id, const Piece& piece, const ZeroField& field, const ZeroMeshParams& params,
@@ -34,7 +34,7 @@ class PieceCurves {
   std::vector<ZeroCurve> Trace() {
     FindArcs();
     std::vector<ZeroCurve> curves;
-    // Curves that begin somewhere first, then the closed ones.
+    // Open curves come first, then closed ones.
     for (const bool open : {true, false}) {
       for (const auto& [from, arcs] : next_) {
         if (open && Runs(from)) continue;
@@ -57,8 +57,8 @@ class PieceCurves {
     return {v.u, v.v};
   }
 
-  // Sides with both ends on the curve and the positive triangle on their left, not on both: there the curve
-  // is touched. At poles sides have no length.
+  // An arc is a side with both ends on the curve and the positive triangle on its left. If positive triangles
+  // lie on both sides, the curve only touches there. Sides at poles have no length.
   void FindArcs() {
     std::set<std::pair<int, int>> sides;
     for (const ZeroTriangle& t : mesh_.triangles) {
@@ -76,7 +76,7 @@ class PieceCurves {
     }
   }
 
-  // Just one arc arrives and one leaves: a curve runs through.
+  // True if exactly one arc arrives and one leaves: a curve runs through the vertex.
   bool Runs(int id) const {
     const auto leaving = next_.find(id);
     const auto arriving = arriving_.find(id);
@@ -121,8 +121,8 @@ class PieceCurves {
 
 bool OnPieceBorder(const SurfacePoint& p) { return p.u == 0.0 || p.u == 1.0 || p.v == 0.0 || p.v == 1.0; }
 
-// Joins open curves whose ends lie together on piece borders, just two at a place: an end to a start, or,
-// where neighbours run S_u x S_v to opposite sides, after turning one of them round.
+// Joins open curves whose ends lie together on piece borders, exactly two at a place. An end is joined to a
+// start. If the neighbours have opposite S_u x S_v, one of the curves is reversed first.
 std::vector<ZeroCurve> Join(std::vector<ZeroCurve> curves, double weld) {
   struct End {
     std::size_t curve;
@@ -156,7 +156,7 @@ std::vector<ZeroCurve> Join(std::vector<ZeroCurve> curves, double weld) {
   };
   std::vector<bool> used(curves.size(), false);
   std::vector<ZeroCurve> joined;
-  // A chain begins at a curve with a free start, else anywhere.
+  // A chain begins at a curve with a free start, if there is one.
   for (const bool free_start : {true, false}) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       if (used[i] || (free_start && !curves[i].closed && partner({i, true}))) continue;

@@ -18,7 +18,7 @@ std::uint64_t EdgeKey(int a, int b) {
   return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
 }
 
-// Triangles of one piece: fans of the cells, cut along one field after the other.
+// The triangles of one piece: fans of the cells, cut along one field after the other.
 class Builder {
  public:
   Builder(const Piece& piece, std::span<const ZeroField> fields, const ZeroMeshParams& params)
@@ -34,12 +34,12 @@ class Builder {
   }
 
  private:
-  // Vertices strictly between two corners of a cell on one of its sides, in order: corners of finer
-  // neighbours, and nodes.
+  // Appends the vertices strictly between two corners of a cell on one of its sides, in order: corners of
+  // finer neighbours, and nodes.
   void Between(int i0, int j0, int i1, int j1, std::vector<int>& ring) {
     const int length = std::abs(i1 - i0) + std::abs(j1 - j0);
     const Vec2 from = Vec2(i0, j0) / kZeroGrid, along = Vec2(i1 - i0, j1 - j0) / kZeroGrid;
-    std::vector<std::pair<double, int>> found;  // place along the side in units of the grid, id
+    std::vector<std::pair<double, int>> found;  // share of the side, id
     for (int s = 1; s < length; ++s) {
       const int gi = i0 + (i1 - i0) * s / length, gj = j0 + (j1 - j0) * s / length;
       if (cells_.corners[static_cast<std::size_t>(gi * (kZeroGrid + 1) + gj)])
@@ -66,7 +66,7 @@ class Builder {
     return vertices_.Add(low + Vec2::Constant(0.5 * side));
   }
 
-  // A side of the cell and a middle on it: sides run along the axes.
+  // True if the middle lies on the side a b of the cell. Sides run along the axes.
   bool InLine(int middle, int a, int b) const {
     const ZeroVertex &m = vertices_[middle], &x = vertices_[a], &y = vertices_[b];
     return (m.u == x.u && m.u == y.u) || (m.v == x.v && m.v == y.v);
@@ -95,7 +95,7 @@ class Builder {
     }
   }
 
-  // Whether field k counts on a triangle, which the curves of the field that tells have been cut out of.
+  // True if field k counts on a triangle. The curves of the field `where` must be cut out already.
   bool Counts(const ZeroTriangle& t, std::size_t k) {
     const int where = fields_[k].where;
     if (where < 0) return true;
@@ -115,7 +115,7 @@ class Builder {
     return Vec2(x.u, x.v) + t * (Vec2(y.u, y.v) - Vec2(x.u, x.v));
   }
 
-  // The vertices where field k changes sign on an edge, each made once for both triangles of it.
+  // Finds the vertices where field k changes sign on an edge. Both triangles of an edge share one vertex.
   void FindCrossings(std::size_t k) {
     crossings_.clear();
     const bool by_sign = !fields_[k].smooth;
@@ -174,7 +174,7 @@ class Builder {
     const ZeroVertex x = vertices_[e.a], y = vertices_[e.b];
     const Vec2 from(x.u, x.v), to(y.u, y.v);
     Vec2 q = from + t * (to - from);
-    // An edge along another field's curve: the crossing is where both vanish.
+    // The edge lies along another field's curve: the crossing is where both fields vanish.
     const ZeroFieldBits both = x.on & y.on;
     for (std::size_t other = 0; other < k; ++other) {
       if (((both >> other) & 1u) == 0) continue;
@@ -188,8 +188,8 @@ class Builder {
     }
     const int id = vertices_.Add(q);
     vertices_.PutOn(id, k);
-    // Of fields already cut the edge lies on one side of their curves, or on them; where they do not count
-    // nobody asks.
+    // With respect to fields that were cut before, the edge lies on one side of their curves or on them.
+    // Where they do not count, the sign does not matter.
     for (std::size_t other = 0; other < k; ++other) {
       if ((both >> other) & 1u) {
         vertices_.PutOn(id, other);
@@ -200,17 +200,18 @@ class Builder {
     return id;
   }
 
-  // Where two fields change sign, near q.
+  // The place near q where two fields change sign.
   std::optional<Vec2> CommonPlace(std::size_t k, std::size_t other, const Vec2& q, double reach) const {
     const ZeroField &a = fields_[k], &b = fields_[other];
     if (a.smooth && b.smooth) return CommonZero(k, other, q, reach);
-    // Limits may bend within a cell: chords leave them by less than their length.
+    // Limits may bend within a cell, but chords deviate from them by less than their length.
     if (a.smooth && b.limits) return LimitOnCurve(a, b, piece_, q, 2.0 * reach);
     if (b.smooth && a.limits) return LimitOnCurve(b, a, piece_, q, 2.0 * reach);
     return std::nullopt;
   }
 
-  // Newton on two fields from q with differences; nothing when it leaves the piece or the neighbourhood.
+  // Newton's method on two fields from q, with differences. nullopt if it leaves the piece or the
+  // neighbourhood.
   std::optional<Vec2> CommonZero(std::size_t k, std::size_t other, Vec2 q, double reach) const {
     constexpr double kStep = 1e-6, kDone = 1e-12;
     const Vec2 start = q;
@@ -242,7 +243,7 @@ class Builder {
     vertices_.Ask(corners, k);
     FindCrossings(k);
     const auto crossing = [&](int a, int b) { return crossings_.at(EdgeKey(a, b)); };
-    // Where the field does not count: divided only for the sake of a neighbour on which it does.
+    // A triangle on which the field does not count is divided only to match a neighbour on which it does.
     const auto keep = [&](ZeroTriangle t, const auto& self) -> void {
       for (std::size_t s = 0; s < 3; ++s) {
         const int a = t.vertex[s], b = t.vertex[(s + 1) % 3], c = t.vertex[(s + 2) % 3];
@@ -264,7 +265,7 @@ class Builder {
       }
       const int sign[3] = {vertices_.Sign(t.vertex[0], k), vertices_.Sign(t.vertex[1], k),
                            vertices_.Sign(t.vertex[2], k)};
-      // Turn the triangle so that corner 0 is the odd one out: alone on its side, or the vertex on the curve.
+      // Turn the triangle so that corner 0 is alone on its side, or is the vertex on the curve.
       int odd = -1;
       for (int c = 0; c < 3 && odd < 0; ++c) {
         const int s0 = sign[c], s1 = sign[(c + 1) % 3], s2 = sign[(c + 2) % 3];
@@ -280,7 +281,8 @@ class Builder {
         const int m = crossing(b, c);
         triangles_.push_back({{a, b, m}, {}});
         triangles_.push_back({{a, m, c}, {}});
-        // The curve leaves the triangle through this vertex: it lies on it as far as rounding can tell.
+        // The curve leaves the triangle through this vertex, so the vertex lies on it as far as rounding can
+        // show.
         vertices_[a].on |= static_cast<ZeroFieldBits>(1u << k);
         continue;
       }
@@ -291,7 +293,7 @@ class Builder {
     }
   }
 
-  // Sign of each field on a triangle: of a vertex off its curve, else of the centroid.
+  // The sign of each field on a triangle: that of a vertex off the field's curve, else that of the centroid.
   void Label(ZeroTriangle& t) {
     for (std::size_t k = 0; k < fields_.size(); ++k) {
       const int where = fields_[k].where;
@@ -313,7 +315,7 @@ class Builder {
   ZeroVertices vertices_;
   ZeroCells cells_;
   std::vector<ZeroTriangle> triangles_;
-  absl::flat_hash_map<std::uint64_t, int> crossings_;  // of one field; looked up, never walked
+  absl::flat_hash_map<std::uint64_t, int> crossings_;  // of one field; looked up, never iterated
 };
 
 }  // namespace

@@ -6,10 +6,11 @@ namespace patchmill {
 
 double ZeroBracket::Next() const {
   if (by_sign_ || waited_ >= kPatience || f_ == g_) return Middle();
-  // A field may be infinite, or no number, where the parametrisation has no normal.
+  // A field may be infinite or NaN where the parametrisation has no normal.
   const double t = (low_ * g_ - high_ * f_) / (g_ - f_);
   if (!(t >= low_ && t <= high_)) return Middle();
-  // Steps stop short of the ends by a part of what is enough: then one more from the other side ends it.
+  // Steps stop short of the ends by a share of `enough_`. Then one more step from the other side ends the
+  // search.
   const double margin = 0.45 * enough_;
   return std::clamp(t, low_ + margin, high_ - margin);
 }

@@ -1,4 +1,4 @@
-// A sign change of a field on a straight segment of a piece's parameters.
+// Finds a sign change of a field on a straight segment of a piece's parameters.
 #pragma once
 
 #include "core/lines/zero_field.h"
@@ -9,16 +9,18 @@ inline double Value(const ZeroField& field, const Piece& piece, const Vec2& q) {
   return field.value(Evaluate(piece, q.x(), q.y()));
 }
 
-// A sign change of a function of t in [0,1], closed in step by step: Illinois, halved where that stalls.
+// A sign change of a function of t in [0,1], bracketed step by step: Illinois method, with halving where it
+// stalls.
 class ZeroBracket {
  public:
-  // Values at 0 and 1, of different signs (zero counts as negative); `by_sign`: only their signs tell.
+  // Takes the values at 0 and 1, which must differ in sign (zero counts as negative). `by_sign`: only the
+  // signs of values are used.
   ZeroBracket(double at_0, double at_1, double enough, bool by_sign)
       : f_(at_0), g_(at_1), enough_(enough), by_sign_(by_sign) {}
 
   bool Open() const { return high_ - low_ > enough_ && steps_ < kMostSteps; }
-  double Next() const;     // where the function is wanted
-  void Put(double value);  // there
+  double Next() const;     // where to evaluate the function
+  void Put(double value);  // the value at Next()
   double Middle() const { return 0.5 * (low_ + high_); }
 
  private:
@@ -31,10 +33,11 @@ class ZeroBracket {
 };
 
 // The parameter t in [0,1] of a sign change between `from` and `to`, whose values differ in sign (zero counts
-// as negative): smooth fields to 1e-13, in about 8 steps; others to `enough` (a share of the segment).
+// as negative). Smooth fields are solved to 1e-13, in about 8 steps, others to `enough` (a share of the
+// segment).
 double ZeroBetween(const ZeroField& field, const Piece& piece, const Vec2& from, const Vec2& to,
                    double at_from, double at_to, double enough);
-// What ZeroBetween takes for enough on a segment of this length (mm).
+// The value of `enough` for a segment of this length (mm).
 double EnoughFor(const ZeroField& field, double length);
 
 }  // namespace patchmill

@@ -64,7 +64,7 @@ void ZeroVertices::Ask(const std::vector<int>& ids, std::size_t k) {
     if (((vertex.known >> k) & 1u) != 0) continue;
     vertex.known |= static_cast<ZeroFieldBits>(1u << k);
     if (where >= 0 && Sign(id, static_cast<std::size_t>(where)) == -fields_[k].where_sign)
-      continue;  // sign 0
+      continue;  // its sign stays 0
     asked.push_back(id);
     places.emplace_back(vertex.u, vertex.v);
   }

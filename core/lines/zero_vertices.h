@@ -1,4 +1,5 @@
-// The vertices of a ZeroMesh while it is made: shared on the quadtree's grid, with signs asked for once.
+// The vertices of a ZeroMesh while it is made. Cells share them on the quadtree's grid; each sign is computed
+// once.
 #pragma once
 
 #include <span>
@@ -11,29 +12,29 @@
 
 namespace patchmill {
 
-inline constexpr int kZeroMaxLevel = 7;               // cells down to 1/128 of a piece
-inline constexpr int kZeroGrid = 1 << kZeroMaxLevel;  // vertices sit on this grid before any is cut in
+inline constexpr int kZeroMaxLevel = 7;               // cells are at least 1/128 of a piece
+inline constexpr int kZeroGrid = 1 << kZeroMaxLevel;  // all vertices lie on this grid before any cut
 
 class ZeroVertices {
  public:
-  // `run`: polled when not null, and told "cells" after a silence that is too long; values asked for after a
-  // cancel are zeros.
+  // `run` is polled if not null. It gets the progress stage "cells" after too long a silence. After a
+  // cancellation all values are zero.
   ZeroVertices(const Piece& piece, std::span<const ZeroField> fields, const RunContext* run = nullptr)
       : piece_(piece), fields_(fields), run_(run) {}
 
-  // The vertex (gi,gj) / kZeroGrid, made when first asked for.
+  // The vertex (gi,gj) / kZeroGrid. It is made on first use.
   int OnGrid(int gi, int gj);
-  // Signs of smooth fields at once, of others when they are asked for.
+  // Adds a vertex. Signs of smooth fields are computed at once, those of others on first use.
   int Add(const Vec2& q);
-  // On the curve of field k: sign 0 from now on.
+  // Puts the vertex on the curve of field k: its sign is 0 from now on.
   void PutOn(int id, std::size_t k);
   void SetSign(int id, std::size_t k, std::int8_t sign);
   int Sign(int id, std::size_t k);
-  // Sign(id, k) of all these at once; repeated ids do no harm.
+  // Computes Sign(id, k) of all these vertices together. Repeated ids do no harm.
   void Ask(const std::vector<int>& ids, std::size_t k);
-  // Values of field k at places between vertices, at once.
+  // Values of field k at places between vertices, computed together.
   std::vector<double> Values(const std::vector<Vec2>& places, std::size_t k) const;
-  // -1, 0 or +1 of a value of field k.
+  // The sign -1, 0 or +1 of a value of field k.
   std::int8_t SignOf(std::size_t k, double value) const;
 
   ZeroVertex& operator[](int id) { return all_[static_cast<std::size_t>(id)]; }
@@ -46,7 +47,7 @@ class ZeroVertices {
   const RunContext* run_;
   mutable ProgressThrottle throttle_;
   std::vector<ZeroVertex> all_;
-  absl::flat_hash_map<int, int> grid_;  // looked up, never walked
+  absl::flat_hash_map<int, int> grid_;  // looked up, never iterated
 };
 
 }  // namespace patchmill

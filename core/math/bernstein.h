@@ -1,8 +1,9 @@
 // Bernstein polynomials of one variable on [0,1]: bases with derivatives, products, degree elevation,
 // subdivision.
 //
-// B_i^n(t) = C(n,i) (1-t)^(n-i) t^i, degree n <= kMaxBasisDegree. All by recurrences whose terms are
-// non-negative on [0,1], so values carry a relative error of about n * 1e-16; outside [0,1] they extrapolate.
+// B_i^n(t) = C(n,i) (1-t)^(n-i) t^i, degree n <= kMaxBasisDegree. All are computed by recurrences whose terms
+// are non-negative on [0,1], so values carry a relative error of about n * 1e-16. Outside [0,1] they
+// extrapolate.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +13,14 @@ namespace patchmill {
 
 inline constexpr int kMaxBasisDegree = 15;
 
-// Values and first two derivatives of the basis functions 0..n at one parameter; entries beyond n are unset.
+// Values and first two derivatives of the basis functions 0..n at one parameter. Entries beyond n are unset.
 struct BasisJet {
   double f[kMaxBasisDegree + 1];
   double d[kMaxBasisDegree + 1];
   double dd[kMaxBasisDegree + 1];
 };
 
-// b[0..n] = B_i^n(t). O(n^2), no allocation. `b` may hold B^(n-1) already: RaiseBernstein is one step of it.
+// One step of the recurrence, in place.
 inline void RaiseBernstein(int n, double t, double* b) {  // B^(n-1) in b[0..n-1] -> B^n in b[0..n]
   const double s = 1.0 - t;
   double left = 0.0;
@@ -31,12 +32,13 @@ inline void RaiseBernstein(int n, double t, double* b) {  // B^(n-1) in b[0..n-1
   b[n] = left;
 }
 
+// b[0..n] = B_i^n(t). Cost O(n^2), no allocation.
 inline void AllBernstein(int n, double t, double* b) {
   b[0] = 1.0;
   for (int k = 1; k <= n; ++k) RaiseBernstein(k, t, b);
 }
 
-// f and d from lower[0..n-1] = B^(n-1) (any for n = 0), which becomes B^n.
+// Computes f and d from lower[0..n-1] = B^(n-1), and raises `lower` to B^n. For n = 0, lower[0] must be 1.
 inline void SlopesFromLower(int n, double t, double* lower, BasisJet& out) {
   for (int i = 0; i <= n; ++i) {
     const double a = i >= 1 ? lower[i - 1] : 0.0;
@@ -47,8 +49,8 @@ inline void SlopesFromLower(int n, double t, double* lower, BasisJet& out) {
   for (int i = 0; i <= n; ++i) out.f[i] = lower[i];
 }
 
-// B' = n (B_{i-1}^{n-1} - B_i^{n-1}), B'' = n(n-1) (B_{i-2}^{n-2} - 2 B_{i-1}^{n-2} + B_i^{n-2}). Inline so
-// that a constant n unrolls.
+// B' = n (B_{i-1}^{n-1} - B_i^{n-1}), B'' = n(n-1) (B_{i-2}^{n-2} - 2 B_{i-1}^{n-2} + B_i^{n-2}). The
+// function is inline so that a constant n unrolls.
 inline void AllBernsteinJet(int n, double t, BasisJet& out) {
   double lower[kMaxBasisDegree + 1];
   lower[0] = 1.0;
@@ -68,7 +70,7 @@ inline void AllBernsteinJet(int n, double t, BasisJet& out) {
   SlopesFromLower(n, t, lower, out);
 }
 
-// The same without second derivatives: `dd` is unset.
+// AllBernsteinJet without second derivatives: `dd` is unset.
 inline void AllBernsteinSlopes(int n, double t, BasisJet& out) {
   double lower[kMaxBasisDegree + 1];
   AllBernstein(n - 1, t, lower);
@@ -78,14 +80,15 @@ inline void AllBernsteinSlopes(int n, double t, BasisJet& out) {
 // C(n,k), 0 <= k <= n; exact for n <= 2 * kMaxBasisDegree.
 double Binomial(int n, int k);
 
-// Coefficients of the product of two polynomials; degree is the sum of the degrees. Never empty arguments.
+// Coefficients of the product of two polynomials. Its degree is the sum of their degrees. Neither argument
+// may be empty.
 std::vector<double> BernsteinProduct(const std::vector<double>& a, const std::vector<double>& b);
 
 // The same polynomial with degree one higher.
 std::vector<double> BernsteinElevate(const std::vector<double>& a);
 
-// De Casteljau in place on the n+1 points p[0], p[stride], ...: afterwards they describe the part [0,t]
-// (KeepLeft) or [t,1] (KeepRight) of the curve. For t in [0,1] every step is a convex combination; a t of
+// De Casteljau in place on the n+1 points p[0], p[stride], ... Afterwards they describe the part [0,t]
+// (KeepLeft) or [t,1] (KeepRight) of the curve. For t in [0,1] every step is a convex combination. A t of
 // exactly 0 or 1 copies points without rounding, and non-negative coordinates stay non-negative.
 template <class Point>
 void KeepLeft(Point* p, int n, std::ptrdiff_t stride, double t) {

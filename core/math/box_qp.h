@@ -31,8 +31,8 @@ inline double MinimumOnSegment(double a, double g, double lo, double hi) {
 }
 }  // namespace internal
 
-// Needs x0 <= x1, y0 <= y1; f need not be convex. Where there is no free minimum inside, the minimum lies on
-// the border: each edge fixes one variable, the other is solved and clamped, the best of the four is kept
+// Needs x0 <= x1, y0 <= y1; f need not be convex. If there is no free minimum inside, the minimum lies on the
+// border: each edge fixes one variable, the other is solved and clamped, and the best of the four is kept
 // ([location, section 7]: clamping the free minimum component-wise is not a descent step).
 inline BoxMinimum MinimizeOnBox(const Quadratic2& f, const Box2& box) {
   const double det = f.a * f.c - f.b * f.b;

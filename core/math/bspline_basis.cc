@@ -6,8 +6,7 @@ namespace patchmill {
 
 int FindSpan(std::span<const double> knots, int degree, double t) {
   const int n = static_cast<int>(knots.size()) - degree - 1;
-  // First knot > t among those that may end a span; empty spans are skipped by construction except at the
-  // ends.
+  // Finds the first knot > t among those that may end a span. This skips empty spans, except at the ends.
   int k =
       static_cast<int>(std::upper_bound(knots.begin() + degree, knots.begin() + n + 1, t) - knots.begin()) -
       1;
@@ -27,7 +26,7 @@ std::vector<int> NonEmptySpans(std::span<const double> knots, int degree) {
 }
 
 void BsplineBasisJet(std::span<const double> knots, int degree, int k, double t, BasisJet& out) {
-  // Rows p-2, p-1, p of the Cox-de Boor triangle; derivatives are differences of the lower rows.
+  // Rows p-2, p-1 and p of the Cox-de Boor triangle. Derivatives are differences of the lower rows.
   const int p = degree;
   double row[kMaxBasisDegree + 1];
   double minus1[kMaxBasisDegree + 1];

@@ -1,6 +1,6 @@
 // B-spline basis on a knot vector (Piegl and Tiller, The NURBS Book, A2.1-A2.3) and exact Bezier extraction.
 //
-// A knot vector of degree p with n = knots.size() - p - 1 functions; its domain is [knots[p], knots[n]].
+// A knot vector of degree p has n = knots.size() - p - 1 functions; its domain is [knots[p], knots[n]].
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,21 @@
 
 namespace patchmill {
 
-// Index k in [p, n-1] with knots[k] < knots[k+1] and knots[k] <= t < knots[k+1]; the first or last non-empty
-// span for a t before or after the domain (t == knots[n] belongs to the last). O(log n). The domain is not
-// empty.
+// Index k in [p, n-1] with knots[k] < knots[k+1] and knots[k] <= t < knots[k+1]. For a t before or after the
+// domain it is the first or last non-empty span (t == knots[n] belongs to the last). Cost O(log n). The
+// domain must not be empty.
 int FindSpan(std::span<const double> knots, int degree, double t);
 
 // Indices k of all non-empty spans of the domain, in order.
 std::vector<int> NonEmptySpans(std::span<const double> knots, int degree);
 
-// The degree+1 functions that do not vanish on span k (numbers k-p .. k), with two derivatives in t. No
-// allocation; relative error about p * 1e-16.
+// The degree+1 functions that do not vanish on span k (numbers k-p .. k), with two derivatives with respect
+// to t. No allocation; relative error about p * 1e-16.
 void BsplineBasisJet(std::span<const double> knots, int degree, int k, double t, BasisJet& out);
 
-// Bezier point `j` (0..p) of span k by blossoming: the polar form at (a,..,a,b,..,b) with p-j times
-// a = knots[k] and j times b = knots[k+1]. d[0], d[stride], ..: the p+1 control points k-p .. k. Same result
-// as inserting both knots p times (Boehm); every step is a convex combination.
+// Bezier point `j` (0..p) of span k by blossoming: the polar form at (a,..,a,b,..,b) with p-j times a =
+// knots[k] and j times b = knots[k+1]. The p+1 control points k-p .. k are d[0], d[stride], .. The result is
+// that of inserting both knots p times (Boehm). Every step is a convex combination.
 template <class Point>
 Point BezierPointOfSpan(std::span<const double> knots, int p, int k, int j, const Point* d,
                         std::ptrdiff_t stride) {

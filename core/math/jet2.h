@@ -1,6 +1,6 @@
 // Second-order jets of two variables: a value with first and second partial derivatives, carried exactly
-// through + - * / [shapes, section 7]. For blends of patches; T is double here, vectors multiply from the
-// right.
+// through + - * / [shapes, section 7]. They serve the blended patches, where a scalar jet multiplies a vector
+// (AddTerm in core/patch/kinds.h).
 #pragma once
 
 namespace patchmill {

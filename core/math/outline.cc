@@ -50,7 +50,7 @@ Outline::Outline(const std::vector<Ring>& rings) : rings_(rings) {
   if (!edges_.empty()) Build(0, static_cast<int>(edges_.size()));
 }
 
-// Neighbours along a ring are neighbours in the plan: halving the list is a good tree.
+// Neighbours along a ring are neighbours in the plan, so halving the list gives a good tree.
 int Outline::Build(int first, int count) {
   const int id = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
@@ -85,7 +85,7 @@ double Outline::Distance2(int id, const Vec2& q, double best) const {
   return Distance2(node.right, q, Distance2(id + 1, q, best));
 }
 
-// Parity of the edges that a ray towards +x crosses; an edge holds its lower end and not its upper one.
+// Parity of the edges that a ray towards +x crosses. An edge contains its lower end and not its upper one.
 bool Outline::Odd(int id, const Vec2& q) const {
   const Node& node = nodes_[static_cast<std::size_t>(id)];
   if (q.y() < node.min.y() || q.y() >= node.max.y() || q.x() > node.max.x()) return false;

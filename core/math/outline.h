@@ -1,4 +1,4 @@
-// Closed outlines in the plan: inside, outside, and how far from the line.
+// Closed outlines in the plan: whether a point lies inside, and its distance from the outline.
 #pragma once
 
 #include <string>
@@ -10,19 +10,19 @@ namespace patchmill {
 
 using Ring = std::vector<Vec2>;  // closed: the last point joins the first, which is not repeated
 
-// What keeps rings from being an outline; empty when nothing does. Each needs three points or more, finite
-// ones, not all within 1e-6 mm of one line.
+// Says why `rings` are no outline; empty if they are one. There must be a ring, and each ring needs three or
+// more finite points that do not all lie within 1e-6 mm of one line.
 std::string OutlineFault(const std::vector<Ring>& rings);
 
-// The points with an odd number of rings around them (even-odd rule): rings may lie in each other, cross
+// The points with an odd number of rings around them (even-odd rule). Rings may lie in each other, cross
 // themselves and run either way. Immutable after construction.
 class Outline {
  public:
   Outline() = default;                               // nothing is inside
-  explicit Outline(const std::vector<Ring>& rings);  // sound ones: OutlineFault
+  explicit Outline(const std::vector<Ring>& rings);  // OutlineFault(rings) must be empty
 
-  // Distance (mm) of q to the nearest ring, positive inside, negative outside; -infinity without rings.
-  // Slope at most 1; error some ulps of the coordinates. Cost O(log n) near the outline for the usual ones.
+  // Distance (mm) of q to the nearest ring, positive inside, negative outside; -infinity without rings. Its
+  // slope is at most 1, its error some ulps of the coordinates. Cost O(log n) near a usual outline.
   double SignedDistance(const Vec2& q) const;
 
   const std::vector<Ring>& rings() const { return rings_; }
@@ -31,8 +31,8 @@ class Outline {
   struct Edge {
     Vec2 a, b;
   };
-  // Edges [first, first + count) and their box; inner nodes have their left child next, the right one at
-  // `right`.
+  // Edges [first, first + count) and their box. The left child of an inner node is the next node; the right
+  // child is `right`.
   struct Node {
     Vec2 min, max;
     int first = 0, count = 0, right = -1;

@@ -1,7 +1,7 @@
 // Polynomials of two variables in scaled tensor Bernstein form, for composing and multiplying patches.
 //
-// The coefficient c(i,j) of u^i (1-u)^(m-i) v^j (1-v)^(n-j) carries the binomials, so a product is a plain
-// convolution and a convex combination of non-negative forms has no cancellation.
+// The coefficient c(i,j) of u^i (1-u)^(m-i) v^j (1-v)^(n-j) contains the binomials. So a product is a plain
+// convolution, and a convex combination of non-negative forms has no cancellation.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ struct ScaledBernstein {
     }
   }
 
-  // Ordinary Bernstein coefficients: the binomials taken out.
+  // Ordinary Bernstein coefficients: those without the binomials.
   std::vector<T> Unscaled() const {
     std::vector<T> out = c;
     for (int i = 0; i <= m; ++i) {

@@ -1,7 +1,7 @@
 // Homogeneous polynomials of area coordinates (u0,u1,u2), u0 + u1 + u2 = 1, in scaled Bernstein form.
 //
-// The coefficient of u0^a u1^b u2^c carries the multinomial, so a product is a plain convolution. Layout as
-// BezierTriangle: row c (exponent of u2 = t), place b in it (exponent of u1 = s).
+// The coefficient of u0^a u1^b u2^c contains the multinomial, so a product is a plain convolution. The layout
+// is that of BezierTriangle: row c (exponent of u2 = t), place b in it (exponent of u1 = s).
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace patchmill {
 
-// Point b of row c of a triangle of degree n; rows shrink by one.
+// Index of point b of row c of a triangle of degree n. Each row is one point shorter than the one before.
 constexpr int TriangleIndex(int n, int c, int b) { return c * (n + 1) - c * (c - 1) / 2 + b; }
 constexpr int TriangleCount(int n) { return (n + 1) * (n + 2) / 2; }
 
@@ -48,7 +48,7 @@ struct ScaledTriangle {
     }
   }
 
-  // Ordinary Bernstein coefficients: the multinomials taken out.
+  // Ordinary Bernstein coefficients: those without the multinomials.
   std::vector<T> Unscaled() const {
     std::vector<T> out = c;
     for (int r = 0; r <= n; ++r) {

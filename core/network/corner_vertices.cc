@@ -8,8 +8,8 @@
 namespace patchmill {
 namespace {
 
-// In tolerances. Wide enough that most points ask one or two cells, small enough that vertices, which keep a
-// tolerance apart, cannot crowd in one.
+// In tolerances. It is so wide that most points look into one or two cells, and so small that vertices, which
+// are a tolerance apart, cannot crowd in one.
 constexpr double kCellWidth = 8.0;
 
 using Cell = std::array<std::int64_t, 3>;

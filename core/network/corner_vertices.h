@@ -1,4 +1,4 @@
-// Patch corners within the join tolerance of each other become one vertex.
+// Merges patch corners within the join tolerance of each other into one vertex.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,8 @@ struct CornerVertices {
   std::vector<Vec3> position;  // of each vertex: the first point that made it
 };
 
-// Each point joins the first vertex within `tolerance`, else makes a new one. Expected cost O(n): a hash over
-// cells in which vertices cannot crowd.
+// Each point joins the first vertex within `tolerance`, else it makes a new one. Expected cost O(n), by a
+// hash of cells in which vertices cannot crowd.
 CornerVertices MergeCorners(const std::vector<Vec3>& points, double tolerance);
 
 }  // namespace patchmill

@@ -13,7 +13,7 @@ std::optional<Vec3> RawNormal(const PatchShape& shape, const Vec2& uv) {
   const SurfaceJet jet = Evaluate(shape, uv.x(), uv.y());
   const Vec3 n = jet.du.cross(jet.dv);
   const double length = n.norm();
-  // Relative to the larger derivative: near a pole one of them vanishes and takes the direction with it.
+  // Relative to the larger derivative: near a pole one of them vanishes, and its direction is lost.
   const double size = std::max(jet.du.squaredNorm(), jet.dv.squaredNorm());
   if (!(length > 1e-7 * size)) return std::nullopt;
   return Vec3(n / length);
@@ -25,7 +25,8 @@ double Angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm()
 
 double MaxAngle(const EdgeCurves& curves, int e, int f, bool reversed) {
   const int e_edge = curves.edge(e).edge, f_edge = curves.edge(f).edge;
-  // Counter-clockwise the two patches run a consistently turned edge against each other.
+  // If both patches run counter-clockwise with the same orientation, they pass a shared edge in opposite
+  // directions.
   const double sign = (Forward(e_edge) == Forward(f_edge)) != reversed ? -1.0 : 1.0;
   const std::span<const Vec3> samples = curves.samples(e);
   const double last = static_cast<double>(samples.size() - 1);
@@ -56,7 +57,8 @@ std::optional<Vec3> PatchNormal(const PatchShape& shape, const Vec2& uv) {
 
 void MeasureAngles(const EdgeCurves& curves, const RunContext& run, std::vector<EdgeLink>& links) {
   const auto index = [&](PatchEdge e) { return curves.first_edge()[e.patch.index()] + e.edge; };
-  // Each pair once, by its lower edge; further members of a non-manifold edge for themselves.
+  // Each pair is measured once, from its lower edge. Further members of a non-manifold edge are measured,
+  // too.
   const auto measures = [&](int e) {
     const auto& neighbor = links[At(e)].neighbor;
     if (!neighbor) return false;

@@ -1,4 +1,4 @@
-// How far the tangent planes of two patches differ along their shared edge.
+// Measures by how much the tangent planes of two patches differ along their shared edge.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@
 
 namespace patchmill {
 
-// Unit u x v at native parameters; where it vanishes, a little further inside the patch; nothing where it
-// vanishes there too.
+// Unit u x v at native parameters. Where it vanishes, it is taken a little further inside the patch; nullopt
+// if it vanishes there, too.
 std::optional<Vec3> PatchNormal(const PatchShape& shape, const Vec2& uv);
 
 // Fills max_angle of every linked edge from the sampled points of its lower-numbered partner. Exact at those
-// points; error 1e-3 rad or less where an edge ends in a pole.
+// points. The error is 1e-3 rad or less where an edge ends in a pole.
 void MeasureAngles(const EdgeCurves& curves, const RunContext& run, std::vector<EdgeLink>& links);
 
 }  // namespace patchmill

@@ -13,7 +13,7 @@ namespace {
 constexpr int kMinSteps = 8;
 constexpr int kMaxSteps = 256;
 
-// Native direction of growing t along each edge.
+// Direction of growing t along each edge, in native parameters.
 Vec2 EdgeDirection(const PatchShape& shape, int edge) {
   return EdgeParameters(shape, edge, 1.0) - EdgeParameters(shape, edge, 0.0);
 }
@@ -75,7 +75,8 @@ double PolylineFoot(std::span<const Vec3> samples, const Vec3& p) {
   return best_t;
 }
 
-// Distances of points of equal parameter up to `enough` are taken as they are.
+// Largest distance from a sample of a to b. Distances of points of equal parameter up to `enough` are taken
+// as they are.
 double OneSidedDistance(const EdgeCurves& curves, int a, int b, bool reversed, double limit, double enough) {
   const std::span<const Vec3> from = curves.samples(a);
   const std::span<const Vec3> onto = curves.samples(b);
@@ -127,7 +128,7 @@ EdgeCurves::EdgeCurves(const PatchModel& model, const RunContext& run) : model_(
   }
   first_sample_.push_back(samples);
   samples_.resize(samples);
-  // A cancelled run leaves zeros behind; BuildNetwork checks it next.
+  // A cancelled run leaves zeros behind. BuildNetwork checks the run next.
   (void)ParallelFor(run, "joins: edges", edges_.size(), [&](std::size_t e) {
     const std::size_t begin = first_sample_[e], end = first_sample_[e + 1];
     const double steps = static_cast<double>(end - begin - 1);

@@ -10,8 +10,8 @@
 
 namespace patchmill {
 
-// Points of every edge at equal steps of its parameter, both ends included: at least 8 steps, more for high
-// degrees and many knots.
+// Points of every edge at equal steps of its parameter, both ends included. There are at least 8 steps, more
+// for high degrees and many knots.
 class EdgeCurves {
  public:
   EdgeCurves(const PatchModel& model, const RunContext& run);
@@ -40,18 +40,18 @@ struct EdgeFoot {
   double t = 0.0;
   double distance = 0.0;
 };
-// The point of edge `e` closest to `p`: the nearest stretch between samples, then Gauss-Newton (quadratic
-// when p lies on the edge), golden section where the edge's derivative vanishes.
+// The point of edge `e` closest to `p`. It starts at the nearest stretch between samples and continues by
+// Gauss-Newton (quadratic when p lies on the edge), or by golden section where the edge's derivative
+// vanishes.
 EdgeFoot ClosestOnEdge(const EdgeCurves& curves, int e, const Vec3& p);
 
-// Is EdgeDistance within `tolerance`? Quicker: points of equal parameter settle it when they lie close
-// enough.
+// Whether EdgeDistance is within `tolerance`. It is quicker: points of equal parameter decide where they lie
+// close enough.
 bool EdgesAgree(const EdgeCurves& curves, int a, int b, bool reversed, double tolerance);
 
-// Largest distance from a sample of either edge to the other one; `limit` ends the search early: any result
-// above it only says "more than limit". `reversed`: the parameters run against each other.
-// Where points of equal parameter are closer than a tenth of `limit`, their distance is taken as it is (an
-// upper bound).
+// Largest distance from a sample of either edge to the other one. `limit` ends the search early: any result
+// above it only says "more than limit". `reversed`: the parameters run in opposite directions. Where points
+// of equal parameter are closer than a tenth of `limit`, their distance is taken as it is (an upper bound).
 double EdgeDistance(const EdgeCurves& curves, int a, int b, bool reversed, double limit);
 
 }  // namespace patchmill

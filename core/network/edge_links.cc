@@ -10,14 +10,14 @@ namespace patchmill {
 namespace {
 
 constexpr std::size_t kMaxCurvesPerPair = 64;
-constexpr std::size_t kMaxPatchesPerRim = 16;  // different patches in one closed rim that are told apart
+constexpr std::size_t kMaxPatchesPerRim = 16;  // different patches with one closed rim that are kept apart
 
-// Two closed edges from one vertex: does b run against a?
+// Whether b runs against a; both are closed edges from one vertex.
 bool LoopsBackwards(const EdgeCurves& curves, int a, int b) {
   return ClosestOnEdge(curves, b, curves.Point(a, 0.25)).t > ClosestOnEdge(curves, b, curves.Point(a, 0.5)).t;
 }
 
-// Points of a patch's inside that a turn or mirror image of its parameters only permutes.
+// Points inside a patch, which a turn or mirror image of its parameters only permutes.
 std::vector<Vec3> InsidePoints(const PatchShape& shape) {
   std::vector<Vec3> points;
   if (IsTriangle(shape)) {

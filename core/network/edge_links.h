@@ -1,4 +1,4 @@
-// Which edges are the same curve, which patches are the same surface, and the neighbours that follow.
+// Finds edges that are the same curve, patches that are the same surface, and the neighbours that follow.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace patchmill {
 
-// Ends of each edge as vertices.
+// The ends of each edge as vertices.
 struct EdgeEnds {
   int start = 0, end = 0;
 };
 std::vector<EdgeEnds> EdgeEndVertices(const EdgeCurves& curves, const CornerVertices& corners);
 
-// Edges that agree within the tolerance. Between the same two vertices at most 64 different curves are told
-// apart (more come only from hostile models); further ones stay alone.
+// Groups of edges that agree within the tolerance. Between the same two vertices at most 64 different curves
+// are distinguished (only hostile models have more). Further ones stay alone.
 struct EdgeClusters {
   std::vector<int> cluster_of;            // of each edge; -1 when it is collapsed
   std::vector<bool> reversed;             // of each edge, against the first one of its cluster
@@ -26,11 +26,11 @@ struct EdgeClusters {
 EdgeClusters ClusterEdges(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends, double tolerance,
                           const RunContext& run);
 
-// Of each patch: an earlier patch that is the same surface up to turning or mirroring its parameters.
+// For each patch an earlier patch that is the same surface, up to turning or mirroring its parameters.
 std::vector<std::optional<PatchId>> FindDuplicates(const PatchModel& model, const EdgeCurves& curves,
                                                    const EdgeClusters& clusters, double tolerance);
 
-// The link table; see EdgeLink for what happens where more than two edges meet.
+// The link table. EdgeLink says what it holds where more than two edges meet.
 std::vector<EdgeLink> LinkEdges(const EdgeCurves& curves, const EdgeClusters& clusters,
                                 const std::vector<std::optional<PatchId>>& duplicate_of, double tolerance,
                                 const RunContext& run);

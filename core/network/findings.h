@@ -17,7 +17,7 @@ class NetworkFindings {
   // "edge 2 of patch 7" or, with an id, "edge 2 of patch 7 (lid)".
   std::string Name(int edge) const;
   std::string Name(PatchId patch) const;
-  // `message` is a function that makes the text: it is asked only while there is room.
+  // `message` is a function that makes the text. It is called only while there is room.
   template <class Message>
   void AtEdge(std::string_view code, Severity severity, int edge, const Message& message) {
     if (HasRoom(code)) Add(code, severity, WhereIs(edge), message());
@@ -31,9 +31,9 @@ class NetworkFindings {
   Diagnostics Take();  // by code, then in order of arrival
 
  private:
-  bool HasRoom(std::string_view code);  // counts one that has not
-  Where WhereIs(int edge) const;        // its middle
-  Where WhereIs(PatchId patch) const;   // its middle
+  bool HasRoom(std::string_view code);  // counts the finding as dropped if there is none
+  Where WhereIs(int edge) const;        // at the middle of the edge
+  Where WhereIs(PatchId patch) const;   // at the middle of the patch
   void Add(std::string_view code, Severity severity, Where where, std::string message);
 
   const PatchModel& model_;

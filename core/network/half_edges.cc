@@ -64,7 +64,7 @@ class Builder {
   }
   int Patches() const { return static_cast<int>(curves_.first_edge().size()); }
   bool Left(int patch) const { return duplicate_of_[At(patch)].has_value(); }
-  // Both patches run the shared edge the same way round: one of them has to be turned.
+  // Both patches run the shared edge in the same direction, so one of them has to be turned.
   bool Opposed(int e) const {
     const int f = partner_[At(e)];
     const bool e_forward = curves_.edge(e).edge <= 1, f_forward = curves_.edge(f).edge <= 1;
@@ -86,8 +86,8 @@ class Builder {
   const std::vector<EdgeLink>& links_;
   const std::vector<std::optional<PatchId>>& duplicate_of_;
   const RunContext& run_;
-  std::vector<int> joined_;   // mutual neighbour of each edge, -1 without
-  std::vector<int> partner_;  // the same, cut where no orientation fits
+  std::vector<int> joined_;   // mutual neighbour of each edge, -1 if it has none
+  std::vector<int> partner_;  // as joined_, but cut where no orientation fits
   std::vector<bool> turned_;  // of each patch
   std::vector<int> fan_;      // of each corner slot
   std::vector<Mesh::VertexHandle> fan_vertex_, middle_;
@@ -138,7 +138,7 @@ void Builder::Orient() {
   }
 }
 
-// Corners of patches around a vertex fall into fans that hang together over edges.
+// Corners of patches around a vertex fall into fans: those that are connected by edges.
 void Builder::SplitVertices() {
   UnionFind sets(2 * links_.size());
   const auto join = [&](int a, int b) { sets.Join(At(a), At(b)); };
@@ -170,8 +170,8 @@ void Builder::SplitVertices() {
   }
 }
 
-// Corners and edge middles in turn, counter-clockwise, without collapsed edges. Middles keep edges apart that
-// run between the same corners.
+// Corners and edge middles in turn, counter-clockwise, without collapsed edges. The middles keep edges
+// between the same corners apart.
 std::vector<Mesh::VertexHandle> Builder::Outline(int patch) {
   std::vector<Mesh::VertexHandle> outline;
   for (const Side side : Boundary(Edges(patch))) {
@@ -204,8 +204,8 @@ void Builder::AddPatch(int patch) {
     if (n >= 3) mesh_.add_face(outline);
     return;
   }
-  // A corner or an edge comes twice (seam of a tube, two corners in one pole): a ring of own quads keeps
-  // every face simple.
+  // A corner or an edge comes twice (seam of a tube, two corners in one pole). A ring of additional quads
+  // keeps every face simple.
   std::vector<Mesh::VertexHandle> inner(n);
   for (Mesh::VertexHandle& v : inner) v = mesh_.add_vertex({});
   for (std::size_t i = 0; i < n; ++i) {

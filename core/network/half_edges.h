@@ -1,4 +1,4 @@
-// The joined patches as a half-edge mesh (OpenMesh): what only whole chains of edges can tell.
+// The joined patches as a half-edge mesh (OpenMesh), for results that need whole chains of edges.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@ namespace patchmill {
 struct Component {
   PatchId first;  // its patch of lowest index
   int patches = 0;
-  int turned = 0;              // patches whose u x v looks to the other side than most
+  int turned = 0;              // patches whose u x v points to the other side than that of most
   std::optional<PatchId> odd;  // one of them
-  bool one_sided = false;      // like a Moebius strip: no orientation fits
+  bool one_sided = false;      // as a Moebius strip: no orientation fits
 };
 struct Topology {
   std::vector<Component> components;  // by first patch; duplicates belong to none
@@ -24,7 +24,8 @@ struct Topology {
   int euler_characteristic = 0;  // vertices - edges + faces, all components together
 };
 
-// `links` as LinkEdges gives them; only mutual links join. Meaningless when the run was cancelled meanwhile.
+// `links` are those of LinkEdges; only mutual links join. The result is meaningless if `run` was cancelled
+// meanwhile.
 Topology InspectTopology(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
                          const std::vector<EdgeLink>& links,
                          const std::vector<std::optional<PatchId>>& duplicate_of, const RunContext& run);

@@ -9,12 +9,12 @@
 namespace patchmill {
 namespace {
 
-// Candidates looked at; finding a foot costs as much as looking at some twenty. Hostile models end here after
-// seconds, real ones never come near.
+// Number of candidates that may be examined. Finding a foot costs as much as examining twenty. Hostile models
+// reach this limit after seconds; real ones never come near it.
 constexpr std::int64_t kSearchBudget = 20'000'000;
 constexpr std::int64_t kFootCost = 20;
 
-// The search: open edges in a tree, and what is left of the budget. Slots number `open_`.
+// Holds the open edges in a tree and the rest of the budget. Slots are indices into `open_`.
 class Search {
  public:
   Search(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends, const std::vector<int>& open,
@@ -70,7 +70,8 @@ void Search::MarkVertex(int vertex, const Vec3& p, std::vector<bool>& touched, s
   });
 }
 
-// Is every point of edge e on some other open edge? If one edge alone covers it, e lies along that one.
+// Finds out whether every point of edge e lies on some other open edge. If one edge alone covers e, e lies
+// along it.
 void Search::Cover(int e, OpenEdgeReport& report, std::vector<std::vector<int>>& along) {
   const std::span<const Vec3> samples = curves_.samples(e);
   const double steps = static_cast<double>(samples.size() - 1);
@@ -79,7 +80,7 @@ void Search::Cover(int e, OpenEdgeReport& report, std::vector<std::vector<int>>&
   for (std::size_t i = 0; i < 2 * samples.size() - 1; ++i) {
     const Vec3 p = i % 2 == 0 ? samples[i / 2] : curves_.Point(e, 0.5 * static_cast<double>(i) / steps);
     if (single >= 0 && LiesOn(p, single)) continue;
-    // At an end any edge that passes through the corner would do; inside points tell which one goes along.
+    // At an end any edge through the corner would do. Inner points show which edge runs along e.
     const bool at_end = i == 0 || i + 1 == 2 * samples.size() - 1;
     int found = -1;
     Near(p, tolerance_, [&](int f) {
@@ -93,7 +94,7 @@ void Search::Cover(int e, OpenEdgeReport& report, std::vector<std::vector<int>>&
     single = found;
   }
   report.covered[At(e)] = true;
-  // The corners may lie beyond its end, by less than the way between two points.
+  // The corners may lie beyond the end of `single`, by less than the distance of two points.
   if (!several && single >= 0 && LiesOn(samples.front(), single) && LiesOn(samples.back(), single))
     along[At(single)].push_back(e);
 }
@@ -117,7 +118,7 @@ void Search::FindTJunctions(OpenEdgeReport& report) {
     const bool suspect = suspects[At(e)] || touched[At(ends_[At(e)].start)] || touched[At(ends_[At(e)].end)];
     if (suspect && !Stop()) Cover(e, report, along);
   }
-  std::vector<bool> told(At(curves_.count()));  // a junction speaks for this edge
+  std::vector<bool> told(At(curves_.count()));  // a junction with short edges reports this edge
   for (const int e : open_) {
     for (const int f : along[At(e)]) told[At(f)] = true;
     if (!along[At(e)].empty()) told[At(e)] = true;

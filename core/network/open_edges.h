@@ -1,4 +1,4 @@
-// What open edges have to do with each other: T-junctions, gaps, and matches that corner merging missed.
+// Relations between open edges: T-junctions, gaps, and matches that corner merging missed.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct TJunction {
 struct EdgeGap {
   int edge = 0, other = 0;
   bool reversed = false;
-  double distance = 0.0;  // mm; within the join tolerance: a neighbour after all
+  double distance = 0.0;  // mm; if within the join tolerance, the edges are neighbours after all
 };
 struct OpenEdgeReport {
   std::vector<TJunction> t_junctions;  // by long edge
@@ -24,9 +24,10 @@ struct OpenEdgeReport {
   bool limited = false;                // the search budget ran out
 };
 
-// `open`: edges without neighbour that are neither collapsed nor nearly so. `gap_limit`: how far apart two
-// edges may run and still be meant to meet (mm); never more than a tenth of the shorter one. Cost O(n log n)
-// for models whose open edges do not pile up; the search gives up (limited) after a budget of some seconds.
+// `open`: edges without neighbour that are neither collapsed nor nearly so. `gap_limit` (mm): two edges
+// farther apart are not meant to meet; nor are edges farther apart than a tenth of the shorter one. Cost O(n
+// log n) for models whose open edges do not pile up. After a budget of some seconds the search gives up
+// (`limited`).
 OpenEdgeReport InspectOpenEdges(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
                                 const std::vector<int>& open, double tolerance, double gap_limit,
                                 const RunContext& run);

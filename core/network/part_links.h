@@ -10,8 +10,8 @@
 
 namespace patchmill {
 
-// By whole, then by part, without edges that have a neighbour after all. Places on the whole to about 1e-13
-// of it. Incomplete when `run` is cancelled meanwhile.
+// Sorted by whole, then by part, without edges that have a neighbour after all. Places on the whole are exact
+// to about 1e-13 of it. Incomplete if `run` is cancelled meanwhile.
 std::vector<PartLink> FindPartLinks(const EdgeCurves& curves, const std::vector<EdgeLink>& edges,
                                     const std::vector<TJunction>& junctions, const RunContext& run);
 

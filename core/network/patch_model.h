@@ -9,7 +9,7 @@
 
 namespace patchmill {
 
-// What a model may hold at most. Beyond them ValidateModel refuses it.
+// Limits of a model. ValidateModel refuses a model beyond them.
 inline constexpr int kMaxPatches = 100'000;
 inline constexpr int kMaxControlPoints = 10'000'000;  // of all patches together
 inline constexpr double kMaxCoordinate = 1e9;         // |x|, |y|, |z|
@@ -26,7 +26,7 @@ struct PatchModel {
   std::optional<double> join_tolerance;  // length unit of the points; default kDefaultJoinTolerance
 };
 
-// How the model lies on the machine: scale first, then `up`, then translation ([machining M3]).
+// How the model lies on the machine: it is scaled, then turned by `up`, then translated ([machining M3]).
 enum class UpAxis { kZ, kY, kX, kNegZ, kNegY, kNegX };
 struct Placement {
   double scale = 1.0;  // > 0
@@ -35,12 +35,14 @@ struct Placement {
 };
 Vec3 Place(const Placement& placement, const Vec3& p);
 Box3 Place(const Placement& placement, const Box3& box);  // exactly the box of the placed points
-// All control points placed, and join_tolerance scaled with them. The kinds are affine-invariant: exact. A
-// model moved in is placed where it lies.
+// All control points placed, and join_tolerance scaled with them. This is exact, because all kinds are
+// affine-invariant. A model that is moved in is placed in its own memory.
 PatchModel Place(const Placement& placement, PatchModel model);
 
-// Everything that makes a single patch unusable: sizes, degrees, knots, weights, finite numbers, magnitude.
-// One error diagnostic per kind of fault and patch, with patch index, field path and reason (the first bad
+// Finds everything that makes a single patch unusable: sizes, degrees, knots, weights, finite numbers,
+// magnitude. There is one error diagnostic per kind of fault and patch, with patch index, field path and
+// reason (the first bad
+// point of a patch stands for all of them), at most 1000. It is empty if the model is sound. Cost O(points).
 // point of a patch stands for all of them), at most 1000; empty when the model is sound. Cost O(points).
 // Codes: PATCH_COUNT, POINT_COUNT, WEIGHT_COUNT, INVALID_DEGREE, INVALID_KNOTS, INVALID_WEIGHT, NOT_FINITE,
 // TOO_LARGE, ZERO_EXTENT, DUPLICATE_ID, INVALID_JOIN_TOLERANCE, INVALID_BREAKS.

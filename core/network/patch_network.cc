@@ -19,8 +19,8 @@
 namespace patchmill {
 namespace {
 
-// An edge is negligible when it is shorter than both: this share of its patch's longest edge and of the
-// model.
+// An edge is negligible if it is shorter than both this share of its patch's longest edge and this share of
+// the diagonal of the model.
 constexpr double kNearlyCollapsedOfPatch = 1e-2;
 constexpr double kNearlyCollapsedOfModel = 1e-3;
 constexpr double kGapOfModel =
@@ -55,8 +55,8 @@ void Join(const EdgeCurves& curves, const EdgeGap& match, std::vector<EdgeLink>&
   }
 }
 
-// Nearly collapsed edges are no news, but lines cross them: they count where anything lies along another
-// edge.
+// Nearly collapsed edges are not reported as open, but lines cross them. So they count where anything lies
+// along another edge.
 std::vector<PartLink> LinkParts(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
                                 const std::vector<bool>& nearly, const OpenEdgeReport& meetings,
                                 double tolerance, const std::vector<EdgeLink>& links, const RunContext& run) {
@@ -73,7 +73,7 @@ std::vector<PartLink> LinkParts(const EdgeCurves& curves, const std::vector<Edge
   return FindPartLinks(curves, links, all.t_junctions, run);
 }
 
-// Everything BuildNetwork knows before it speaks.
+// All results of BuildNetwork from which its findings are made.
 struct Facts {
   const EdgeCurves& curves;
   const std::vector<EdgeEnds>& ends;
@@ -102,10 +102,10 @@ void ReportEdges(const Facts& facts, PatchNetwork& network, NetworkFindings& fin
       });
     }
     if (!link.neighbor || link.max_angle <= kTangentBreak) continue;
-    if (facts.duplicate_of[link.self.patch.index()]) continue;  // its original has told it
+    if (facts.duplicate_of[link.self.patch.index()]) continue;  // its original has reported it
     const int other = network.first_edge[link.neighbor->patch.index()] + link.neighbor->edge;
     const auto& back = network.edges[At(other)].neighbor;
-    if (back && *back == link.self && other < e) continue;  // told by the other side
+    if (back && *back == link.self && other < e) continue;  // the other side has reported it
     findings.AtEdge("TANGENT_BREAK", Severity::kInfo, e, [&] {
       return fmt::format("{} meets {} at an angle of up to {:.4g} degrees", findings.Name(e),
                          findings.Name(other), Degrees(link.max_angle));
@@ -145,7 +145,7 @@ void ReportMeetings(const Facts& facts, PatchNetwork& network, NetworkFindings& 
   }
 }
 
-// Fans that a T-junction or a gap keeps apart are not worth a word of their own.
+// Fans that a T-junction or a gap keeps apart get no finding of their own.
 void ReportVertices(const Facts& facts, const PatchNetwork& network, NetworkFindings& findings) {
   std::vector<bool> excused(facts.corners.position.size());
   for (int e = 0; e < facts.curves.count(); ++e) {

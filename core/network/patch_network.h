@@ -1,4 +1,4 @@
-// PatchModel -> PatchNetwork: which patch edges meet, and everything that is wrong or remarkable about it.
+// Makes a PatchNetwork from a PatchModel: which patch edges meet, and all faults and findings about them.
 //
 // Edges by index, and the parameter that grows along each:
 //
@@ -25,21 +25,21 @@ struct PatchEdge {
 };
 
 // One edge of one patch and its neighbour, if it has one. Neighbours are mutual except where a finding says
-// NON_MANIFOLD_EDGE or DUPLICATE_PATCH: there a further edge names one of the two that are linked.
+// NON_MANIFOLD_EDGE or DUPLICATE_PATCH. There a further edge names one of the two that are linked.
 struct EdgeLink {
   PatchEdge self;
   std::optional<PatchEdge> neighbor;
   bool reversed = false;   // the neighbour's parameter runs the other way
   bool collapsed = false;  // stays within the join tolerance of its start: a point
-  // Has no single neighbour and yet no border: lies along a longer edge of another patch, or is covered all
-  // along by shorter ones.
+  // It has no single neighbour and yet is no border: it lies along a longer edge of another patch, or shorter
+  // ones cover all of it.
   bool on_t_junction = false;
   double gap = 0.0;        // mm, largest distance found between the two edges
   double max_angle = 0.0;  // rad, largest angle found between the two patches' normals along the edge, both
                            // turned to one side of the joined sheet: 0 smooth, pi folded back
 };
 
-// An edge that lies all along a longer one of another patch: the link of a T-junction.
+// An edge that lies all along a longer one of another patch: one link of a T-junction.
 struct PartLink {
   PatchEdge part, whole;
   double from = 0.0, to = 1.0;  // parameters of the whole at the start and end of the part; may run backwards
@@ -50,8 +50,8 @@ struct PatchNetwork {
   PatchModel model;
   double join_tolerance = 0.0;       // mm, resolved
   std::vector<EdgeLink> edges;       // 4 (triangle 3) per patch, in order of patch, then edge index
-  std::vector<PartLink> part_links;  // by whole, then by part: the edges told by T_JUNCTION findings
-  // What is remarkable, by code, then by edge; at most 1000 of a code and one line that counts the rest.
+  std::vector<PartLink> part_links;  // by whole, then by part: the edges that T_JUNCTION findings report
+  // Ordered by code, then by edge; at most 1000 of a code and one line that counts the rest.
   //   OPEN_EDGE                 no neighbour: a border (info)
   //   COLLAPSED_EDGE            a point, a pole (info)
   //   NEARLY_COLLAPSED_EDGE     longer than the join tolerance, but negligible beside its patch; kept so
@@ -83,9 +83,10 @@ Vec2 EdgeParameters(const PatchShape& shape, int edge, double t);
 int EdgeCount(const PatchShape& shape);
 
 // Fails with INVALID_ARGUMENT (message: the first fault and how many more) only when ValidateModel finds a
-// fault; topology is never an error, only a finding. Cost O(n log n).
+// fault. Topology is never an error, only a finding. Cost O(n log n).
 // Two edges are joined when every point tried on either one lies within the join tolerance of the other:
-// their ends and at least 7 points between, compared with the closest point, so parametrisations may differ.
+// their ends and at least 7 points between. Each is compared with the closest point, so parametrisations may
+// differ.
 absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model);
 absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& run);  // run's threads, cancel
 

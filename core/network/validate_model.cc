@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxFaults = 1000;
 
-// Collects the faults of one model; knows which patch it is at.
+// Collects the faults of one model. Enter names the patch that they belong to.
 class Faults {
  public:
   void Enter(const Patch& patch, std::size_t index, std::string_view kind) {
@@ -24,7 +24,7 @@ class Faults {
     index_ = static_cast<int>(index);
     kind_ = kind;
   }
-  // `field` within the patch, may be empty; the message becomes "<path> <text>".
+  // `field` is a field of the patch and may be empty. The message becomes "<path> <text>".
   void Add(std::string_view code, std::string_view field, std::string_view text) {
     Where where;
     where.patch_id = patch_->id;
@@ -102,7 +102,7 @@ void CheckPointCount(std::size_t have, std::size_t want, Faults& faults) {
   faults.Add("POINT_COUNT", "points", fmt::format("has {} points; must have {}", have, want));
 }
 
-// What is wrong with a knot vector, or empty.
+// Says what is wrong with a knot vector; empty if nothing is.
 std::string KnotFault(std::span<const double> knots, int degree) {
   const auto p = static_cast<std::size_t>(degree);
   if (knots.size() < 2 * (p + 1)) {
@@ -245,7 +245,7 @@ void CheckBreaks(const HosakaPatch& h, Faults& faults) {
     const auto fault = [&](std::string_view text) {
       faults.Add("INVALID_BREAKS", "breaks", fmt::format("of side {} {}", k, text));
     };
-    // Values may stay level; places must increase.
+    // Values may stay equal; places must increase.
     if (!list.empty() && h.blend == HosakaPatch::Blend::kLinear) fault("need the smooth blend");
     if (list.size() > static_cast<std::size_t>(kMaxHosakaBreaks)) {
       fault(fmt::format("have {} entries; at most {}", list.size(), kMaxHosakaBreaks));
@@ -279,7 +279,8 @@ void CheckShape(const HosakaPatch& h, Faults& faults) {
   CheckPoints(h.points, faults);
 }
 
-// Few breaks or knots cut a patch into many pieces, so it counts with the points of these.
+// The number of points that counts for a patch. Few breaks or knots can cut it into many pieces, so it counts
+// with the points of these.
 std::size_t PointLoad(const PatchShape& shape) {
   const std::size_t given = ControlPoints(shape).size();
   std::size_t pieces = 1, each = 0;

@@ -6,7 +6,7 @@
 namespace patchmill::internal {
 
 SurfaceJet EvaluateShape(const BezierPatch& patch, double u, double v) {
-  PM_CHECK(!patch.points.empty());  // of a Surface's model: its piece has them
+  PM_CHECK(!patch.points.empty());  // empty in the model of a Surface, where the piece holds the points
   BasisJet bu, bv;
   AllBernsteinJet(patch.degree_u, u, bu);
   AllBernsteinJet(patch.degree_v, v, bv);

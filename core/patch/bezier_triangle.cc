@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMaxTrianglePoints = (kMaxDegree + 1) * (kMaxDegree + 2) / 2;
 
-// De Casteljau from degree n down to degree `stop` in place (rows keep the layout of their own degree).
+// De Casteljau from degree n down to degree `stop`, in place. Rows keep the layout of their own degree.
 void Reduce(Vec4* b, int n, int stop, double s, double t) {
   const double w = 1.0 - s - t;
   for (int m = n - 1; m >= stop; --m) {

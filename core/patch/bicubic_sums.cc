@@ -10,7 +10,8 @@ namespace {
 using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
 
-// As many of the four numbers at once as registers hold: sums of all four in pairs would not stay in them.
+// Handles as many of the four numbers at a time as a register holds. The sums of all four, held in pairs,
+// would not stay in registers.
 template <class Numbers, bool kSeconds>
 inline __attribute__((always_inline)) void Sum(const double* points, const BasisJet& bu, const BasisJet& bv,
                                                double* out) {

@@ -1,15 +1,16 @@
-// The inner loop of bicubic patches, the commonest ones. Private to core/patch.
+// The inner loop of bicubic patches, which are the most common. Private to core/patch.
 #pragma once
 
 #include "core/math/bernstein.h"
 
 namespace patchmill::internal {
 
-// Of 16 homogeneous points (four numbers each, i along u) and two bases of degree 3: p, du, dv, duu, duv,
-// dvv, four numbers each, to out[24]. Four numbers at once: an AVX register where UsedInstructionSet() has
-// them, else two of SSE2 or NEON; the operations of TensorJet in its order either way, hence its bits.
+// Sums 16 homogeneous points (four numbers each, i along u) with two bases of degree 3. out[24] holds p, du,
+// dv, duu, duv and dvv, four numbers each. Four numbers are summed at once in an AVX register if
+// UsedInstructionSet() has these, else in two of SSE2 or NEON. Either way the operations are those of
+// TensorJet in its order, hence its bits.
 void SumBicubic(const double* points, const BasisJet& bu, const BasisJet& bv, double* out);
-// Only p, du and dv of these, to out[12].
+// As SumBicubic, but only p, du and dv, to out[12].
 void SumBicubicSlopes(const double* points, const BasisJet& bu, const BasisJet& bv, double* out);
 
 }  // namespace patchmill::internal

@@ -1,10 +1,10 @@
 // Brown quad: two lofts of general boundary curves, blended by squared weights.
 //
-// Rows may be chains of curves between breaks; a rectangle between breaks sees its own stretch of each.
-// Each row (curve or rail of v=0, v=1) is its cubic Hermite part plus a rest that vanishes to second order at
-// both ends; columns likewise. With H1, H2 the bicubics of the Hermite parts, X, Y the lofts of the rests,
-//   S = H2 + lambda (H1 - H2) + lambda X + (1 - lambda) Y,   lambda = p/(p+q), 1 - lambda = q/(p+q),
-// and H1 - H2 has only its four inner Bezier points: nothing cancels near a corner.
+// Rows may be chains of curves between breaks; a rectangle between breaks sees its own stretch of each. Each
+// row (curve or rail of v=0, v=1) is its cubic Hermite part plus a rest that vanishes to second order at both
+// ends; columns likewise. With H1, H2 the bicubics of the Hermite parts, X, Y the lofts of the rests,
+//   S = H2 + lambda (H1 - H2) + lambda X + (1 - lambda) Y,   lambda = p/(p+q), 1 - lambda = q/(p+q).
+// H1 - H2 has only its four inner Bezier points, so nothing cancels near a corner.
 #include "core/math/tensor_bernstein.h"
 #include "core/patch/kinds.h"
 #include "core/patch/tensor_kernel.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMaxRow = kMaxBrownDegree + 1;
 
-// One rectangle between breaks.
+// The stretch of one parameter between two breaks.
 struct Span {
   double t0 = 0.0, t1 = 1.0;
   int index = 0;
@@ -30,11 +30,11 @@ Span SpanAt(const std::vector<double>& breaks, double t) {
   return SpanNumber(breaks, k);
 }
 
-// The four curves of one loft, in order from parameter 0 to 1 across: edge, rail, rail, edge.
+// The four curves of one loft, in the order of the parameter across them: edge, rail, rail, edge.
 struct Loft {
   int degree = 0;
   Span span;
-  Vec3 row[4][kMaxRow];  // on the span
+  Vec3 row[4][kMaxRow];  // points on the span
   Vec3 cubic[4][4];      // of the whole row: Bezier points of the cubic with its ends and end derivatives
 };
 
@@ -42,7 +42,7 @@ struct Lofts {
   Loft u, v;  // rows along u (lofted across v), columns along v (lofted across u)
 };
 
-// The points of a patch by what they belong to; side 0 and 3 are edges, 1 and 2 rails.
+// Finds the points of a patch by row and side. Sides 0 and 3 are edges, 1 and 2 are rails.
 class Rows {
  public:
   explicit Rows(const BrownPatch& patch)
@@ -85,7 +85,7 @@ class Rows {
  private:
   const Vec3& Point(int k) const { return patch_.points[static_cast<std::size_t>(k)]; }
   Vec3 At(bool along_u, int side, int k) const { return along_u ? U(side, k) : V(side, k); }
-  // A third of the derivative beyond the first (before the last) point of a row.
+  // The first point of a row plus (the last point minus) a third of the row's derivative there.
   Vec3 StartOf(bool along_u, int side) const {
     const std::vector<double>& breaks = along_u ? patch_.breaks_u : patch_.breaks_v;
     const int degree = along_u ? patch_.degree_u : patch_.degree_v;
@@ -114,9 +114,10 @@ void Restrict(Vec3* points, int degree, const Span& span) {
   if (span.t0 > 0.0) KeepRight(points, degree, 1, span.t0 / span.t1);
 }
 
-// Bernstein coefficients of row - cubic on the span; zero to second order at the ends of the whole row.
+// Bernstein coefficients of row - cubic on the span. They are zero to second order at the ends of the whole
+// row.
 struct Rest {
-  int first = 0, last = 0;  // those that are not zero
+  int first = 0, last = 0;  // range of those that are not zero
   Vec3 c[kMaxRow];
 };
 Rest RestOf(const Loft& loft, int side) {
@@ -138,7 +139,7 @@ Rest RestOf(const Loft& loft, int side) {
   return rest;
 }
 
-// Of the span's Bernstein basis, by the parameter of the whole.
+// The span's Bernstein basis, with derivatives with respect to the parameter of the whole row.
 void SpanBasis(const Loft& loft, double t, BasisJet& basis) {
   const double length = loft.span.t1 - loft.span.t0;
   AllBernsteinJet(loft.degree, (t - loft.span.t0) / length, basis);
@@ -229,7 +230,7 @@ Vec3 ShapePosition(const BrownPatch& patch, double u, double v) {
 
 namespace {
 
-// t^2 (1-t)^2 on the span, times binomials.
+// Bernstein coefficients of t^2 (1-t)^2 on the span, times binomials.
 std::array<double, 5> ScaledWeight(const Span& span) {
   const std::vector<double> t = {span.t0, span.t1}, r = {1.0 - span.t0, 1.0 - span.t1};
   const auto product = BernsteinProduct(BernsteinProduct(t, t), BernsteinProduct(r, r));
@@ -240,13 +241,13 @@ std::array<double, 5> ScaledWeight(const Span& span) {
   return scaled;
 }
 
-// (p S1 + q S2) / (p + q), times one where needed to reach degrees n + 4, m + 4.
+// The net of (p S1 + q S2) / (p + q), raised to the degrees n + 4 and m + 4 where it has less.
 BernsteinNet NetOn(const Lofts& lofts) {
   const int n = lofts.u.degree, m = lofts.v.degree;
   ScaledBernstein<Vec4> s1(n, 3, Vec4::Zero()), s2(3, m, Vec4::Zero()), net(n + 4, m + 4, Vec4::Zero());
   ScaledBernstein<double> p(4, m + 1, 0.0), q(n + 1, 4, 0.0);
   const auto put = [](const Vec3& x, double factor) { return Vec4(factor * Vec4(x.x(), x.y(), x.z(), 1.0)); };
-  // The cubics across, on the other direction's span.
+  // The cubic across the loft at its point `along`, restricted to the span of the other direction.
   const auto across = [](const Loft& loft, int along, const Span& span, Vec3 cubic[4]) {
     for (int k = 0; k < 4; ++k) cubic[k] = loft.row[k][along];
     Restrict(cubic, 3, span);

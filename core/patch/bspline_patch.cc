@@ -6,7 +6,7 @@
 namespace patchmill::internal {
 namespace {
 
-// One parameter direction, [0,1] mapped to the knots' domain.
+// One parameter direction: [0,1] is mapped to the domain of the knots.
 struct Direction {
   const std::vector<double>& knots;
   int degree;
@@ -14,11 +14,11 @@ struct Direction {
   double begin() const { return knots[static_cast<std::size_t>(degree)]; }
   double end() const { return knots[static_cast<std::size_t>(count())]; }
   double length() const { return end() - begin(); }
-  // As knot value; exactly the end knot for 1.
+  // The knot value of u; exactly the end knot for u = 1.
   double ToKnot(double u) const { return u == 1.0 ? end() : begin() + u * length(); }
   double FromKnot(double t) const { return t == end() ? 1.0 : (t - begin()) / length(); }
 
-  // Basis and its derivatives with respect to u in [0,1]; returns the number of the first function.
+  // Basis and its derivatives with respect to u in [0,1]. Returns the number of the first function.
   int Basis(double u, BasisJet& out) const {
     const double t = ToKnot(u);
     const int k = FindSpan(knots, degree, t);
@@ -32,7 +32,7 @@ struct Direction {
   }
 };
 
-// Asks a run whether it is cancelled, once in many points: a point takes half a microsecond at most.
+// Polls `run` once in 1024 points; a point takes half a microsecond at most.
 class Poll {
  public:
   explicit Poll(const RunContext& run) : run_(run) {}
@@ -65,8 +65,8 @@ Vec3 ShapePosition(const BsplinePatch& patch, double u, double v) {
   return patch.weights.empty() ? Vec3(p.head<3>()) : Vec3(p.head<3>() / p.w());
 }
 
-// First along u into a grid whose columns are still B-splines in v, then along v. Neighbouring spans share
-// their border points, so the pieces of one patch fit bit for bit.
+// Extracts first along u, into a grid whose columns are still B-splines in v, then along v. Neighbouring
+// spans share their border points, so the pieces of one patch fit bit for bit.
 std::vector<Piece> ShapePieces(const BsplinePatch& patch, const RunContext& run) {
   const Direction du{patch.knots_u, patch.degree_u}, dv{patch.knots_v, patch.degree_v};
   const std::vector<int> spans_u = NonEmptySpans(patch.knots_u, patch.degree_u);

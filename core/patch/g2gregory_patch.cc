@@ -1,6 +1,6 @@
-// G2-Gregory patches: the net with the block entries P_ij0 of v=0, v=1, plus at each of them
+// G2-Gregory patches: the net with the block entries P_ij0 of v=0, v=1, plus at each block entry
 //   lambda(u,v) B_i(u) B_j(v) (P_ij1 - P_ij0),  lambda = b^2/(a^2 + b^2),
-// a and b the distances along u and v from the block's corner [shapes (21)].
+// where a and b are the distances along u and v from the block's corner [shapes (21)].
 #include "core/math/tensor_bernstein.h"
 #include "core/patch/kinds.h"
 #include "core/patch/tensor_kernel.h"
@@ -8,7 +8,7 @@
 namespace patchmill::internal {
 namespace {
 
-// Index 0..3 within {1, 2, n-2, n-1}.
+// Index in the net of block entry 0..3: one of 1, 2, n-2, n-1.
 int BlockIndex(int n, int block) { return block < 2 ? 1 + block : n - 4 + block; }
 
 Jet2 Ratio(bool end_u, bool end_v, double u, double v) {
@@ -81,7 +81,7 @@ Vec3 ShapePosition(const G2GregoryPatch& patch, double u, double v) {
   return s;
 }
 
-// Times the product of the four corner sums a^2 + b^2: degree n + 8 each way.
+// The net is multiplied by the product of the four corner sums a^2 + b^2: degree n + 8 each way.
 std::vector<Piece> ShapePieces(const G2GregoryPatch& patch) {
   using Scalar = ScaledBernstein<double>;
   const int n = patch.degree;

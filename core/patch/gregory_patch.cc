@@ -14,7 +14,7 @@
 namespace patchmill::internal {
 namespace {
 
-// The blend of [shapes (7)]; 1/2 and flat at a corner, where its factor vanishes to second order.
+// The blend of [shapes (7)]. At a corner it is 1/2 and flat; its factor vanishes there to second order.
 Jet2 EdgeRatio(double u, double v) {
   const Jet2 p{u * (1.0 - u), 1.0 - 2.0 * u, 0.0, -2.0, 0.0, 0.0};
   const Jet2 q{v * (1.0 - v), 0.0, 1.0 - 2.0 * v, 0.0, 0.0, -2.0};
@@ -22,7 +22,7 @@ Jet2 EdgeRatio(double u, double v) {
   return sum.f > kNothing ? p / sum : Jet2::Constant(0.5);
 }
 
-// a/(a+b) with a, b the distances from the corner along u and v; the derivatives in closed form.
+// a/(a+b), with a and b the distances from the corner along u and v. Derivatives are in closed form.
 Jet2 CornerRatio(const GregoryCorner& c, double u, double v) {
   const double a = c.i == 1 ? u : 1.0 - u, b = c.j == 1 ? v : 1.0 - v;
   if (!(a + b > kNothing)) return Jet2::Constant(0.5);
@@ -40,7 +40,7 @@ SurfaceJet EvaluateBlend(const GregoryPatch& patch, double u, double v) {
   BasisJet bu, bv;
   AllBernsteinJet(3, u, bu);
   AllBernsteinJet(3, v, bv);
-  // Four lanes are faster than three; the last is not used.
+  // Four lanes are faster than three; the last one is unused.
   Vec4 points[20];
   for (int k = 0; k < 20; ++k) points[k] << patch.points[static_cast<std::size_t>(k)], 0.0;
   const auto point = [&](int number) -> const Vec4& { return points[number]; };
@@ -119,7 +119,7 @@ Scalar Linear(double c00, double c01, double c10, double c11) {  // values at (0
   return s;
 }
 
-// The bicubic with the given choice of inner points, or with none of them; homogeneous with w = 1, scaled.
+// The bicubic with the first or second inner points, or with none of them; homogeneous with w = 1, scaled.
 Points Bicubic(const GregoryPatch& patch, bool inner, bool first) {
   Points net(3, 3, Vec4::Zero());
   for (int i = 0; i < 4; ++i) {
@@ -137,7 +137,7 @@ Points Bicubic(const GregoryPatch& patch, bool inner, bool first) {
   return net;
 }
 
-// (p S1 + q S2) / (p + q), times one where needed to reach bidegree (5,5).
+// The net of (p S1 + q S2) / (p + q), raised to bidegree (5,5).
 Points EdgeNet(const GregoryPatch& patch) {
   Scalar p(2, 2, 0.0), q(2, 2, 0.0);  // scaled: u(1-u) (1-v+v)^2 and likewise
   for (int k = 0; k < 3; ++k) p(1, k) = q(k, 1) = Binomial(2, k);
@@ -147,7 +147,7 @@ Points EdgeNet(const GregoryPatch& patch) {
   return net;
 }
 
-// Multiplied by the product of the four corner denominators: bidegree (7,7).
+// The net multiplied by the product of the four corner denominators: bidegree (7,7).
 Points CornerNet(const GregoryPatch& patch) {
   const Scalar from_u[2] = {Linear(0, 0, 1, 1), Linear(1, 1, 0, 0)};  // u, 1-u
   const Scalar from_v[2] = {Linear(0, 1, 0, 1), Linear(1, 0, 1, 0)};  // v, 1-v
@@ -156,7 +156,7 @@ Points CornerNet(const GregoryPatch& patch) {
     for (std::size_t k = 0; k < 4; ++k) sum.c[k] += from_v[c.j - 1].c[k];
     return sum;
   };
-  // Product of the denominators of all corners but `without`.
+  // Product of the denominators of all corners except `without`.
   const auto denominators = [&](int without) {
     Scalar w(0, 0, 1.0);
     for (int k = 0; k < 4; ++k) {

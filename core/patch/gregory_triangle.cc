@@ -1,7 +1,7 @@
 // Quartic Gregory triangles: the quartic of the mean inner points plus, at each corner i with the pair F+,
 // F-,
 //   12 u_i^2 u_j u_k * ratio * (F+ - F-)/2,   j = i+1, k = i+2,
-// ratio = (u_j - u_k)/(u_j + u_k) (kCorner) or u_i (u_j - u_k)/(u1 u2 + u2 u3 + u3 u1) (kEdge).
+// where ratio = (u_j - u_k)/(u_j + u_k) (kCorner) or u_i (u_j - u_k)/(u1 u2 + u2 u3 + u3 u1) (kEdge).
 #include "core/math/triangle_bernstein.h"
 #include "core/patch/kinds.h"
 #include "core/patch/triangle_pieces.h"
@@ -9,7 +9,7 @@
 namespace patchmill::internal {
 namespace {
 
-// kQuartic[k]: number of quartic point k, row after row; -1 - i: the inner point of corner i.
+// kQuartic[k]: number of quartic point k, row after row. -1 - i stands for the inner point of corner i.
 constexpr int kQuartic[15] = {0, 1, 15, 7, 5, 2, -1, -2, 6, 17, -3, 16, 11, 12, 10};
 
 const Vec3& Plus(const GregoryTriangle& g, int corner) {
@@ -19,7 +19,7 @@ const Vec3& Minus(const GregoryTriangle& g, int corner) {
   return g.points[static_cast<std::size_t>(5 * corner + 4)];
 }
 
-// The quartic with one of each pair at the three corners.
+// The quartic with these inner points at the three corners.
 BezierTriangle Quartic(const GregoryTriangle& g, const Vec3 (&inner)[3]) {
   BezierTriangle quartic;
   quartic.degree = 4;
@@ -48,7 +48,7 @@ SurfaceJet EvaluateShape(const GregoryTriangle& patch, double s, double t) {
     if (!(below.f > kNothing)) continue;
     const Jet2 above = patch.blend == GregoryPatch::Blend::kCorner ? a - b : u * (a - b);
     Jet2 phi = 6.0 * (u * u * a * b * (above / below));
-    // At its own corner the term has no second derivatives to speak of: the mean twist.
+    // At its own corner the term gets no second derivatives, which leaves the mean twist.
     if (a.f < kCornerRadius && b.f < kCornerRadius) phi.uu = phi.uv = phi.vv = 0.0;
     AddTerm(phi, Plus(patch, i) - Minus(patch, i), jet);
   }

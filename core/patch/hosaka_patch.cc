@@ -125,7 +125,7 @@ ScaledBernstein<T> Along(bool u, std::vector<T> c, const T& zero) {
   return form;
 }
 
-// Of the part [t0,t1] of a curve.
+// The coefficients of the part [t0,t1] of a curve.
 template <class T>
 std::vector<T> PartOf(std::vector<T> c, double t0, double t1) {
   const int n = static_cast<int>(c.size()) - 1;
@@ -141,7 +141,7 @@ ScaledBernstein<T> Times(const ScaledBernstein<T>& a, const Scalar& b, const T& 
   return product;
 }
 
-// to += factor * a, with the degrees of `to`.
+// to += factor * a, raised to the degrees of `to`.
 template <class T>
 void AddInto(const ScaledBernstein<T>& a, double factor, ScaledBernstein<T>& to) {
   Scalar ones(to.m - a.m, to.n - a.n, 0.0);
@@ -162,7 +162,7 @@ std::vector<double> BreakParameters(const std::vector<HosakaPatch::Break>& a,
   return at;
 }
 
-// Everything of one rectangle.
+// The Bernstein net of the patch on one rectangle between breaks.
 BernsteinNet NetOf(const HosakaPatch& patch, const Edges& e, double u0, double u1, double v0, double v1) {
   const auto blend = [&](bool along_u, const std::vector<HosakaPatch::Break>* breaks) {
     const double t0 = along_u ? u0 : v0, t1 = along_u ? u1 : v1;

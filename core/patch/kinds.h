@@ -1,6 +1,7 @@
-// What each kind of patch implements; patch.h and piece.h dispatch to it. Private to core/patch.
+// The functions that each kind of patch implements. patch.h and piece.h dispatch to them. Private to
+// core/patch.
 //
-// Every kind has its native evaluation and its cutting into Bernstein nets [shapes, section 8].
+// Every kind has its own evaluation and its own way to be cut into Bernstein nets [shapes, section 8].
 #pragma once
 
 #include <type_traits>
@@ -33,7 +34,7 @@ Vec3 ShapePosition(const LoftTriangle& patch, double s, double t);
 Vec3 ShapePosition(const G2GregoryPatch& patch, double u, double v);
 Vec3 ShapePosition(const HosakaPatch& patch, double u, double v);
 
-// Whether the kind's nets lose weight at corners, so that they bound it there but do not evaluate it.
+// Whether the kind's nets have zero weight at corners. They bound the patch there but do not evaluate it.
 template <class Shape>
 constexpr bool HasSingularNet(const Shape&) {
   return std::is_same_v<Shape, GregoryPatch> || std::is_same_v<Shape, BrownPatch> ||
@@ -41,8 +42,8 @@ constexpr bool HasSingularNet(const Shape&) {
          std::is_same_v<Shape, G2GregoryPatch>;
 }
 
-// Without the patch id and what points to the patch. Kinds of many pieces poll `run`, and once it is
-// cancelled return what they have.
+// The pieces, without patch id and without pointers to the patch. Kinds of many pieces poll `run` and, once
+// it is cancelled, return the pieces made so far.
 std::vector<Piece> ShapePieces(const BezierPatch& patch);
 std::vector<Piece> ShapePieces(const BsplinePatch& patch, const RunContext& run);
 std::vector<Piece> ShapePieces(const GregoryPatch& patch);
@@ -58,12 +59,13 @@ inline std::array<Vec2, 4> NativeRectangle(double u0, double u1, double v0, doub
   return {Vec2{u0, v0}, Vec2{u1, v0}, Vec2{u0, v1}, Vec2{u1, v1}};
 }
 
-// Within this distance of a singular corner second derivatives are those of [shapes, section 7].
+// Within this distance of a singular corner, second derivatives are those of [shapes, section 7].
 inline constexpr double kCornerRadius = 1e-6;
-// Below this distance the blended terms, of second order, are nothing and their ratios would overflow.
+// Below this distance the blended terms, which are of second order, count as zero: their ratios would
+// overflow.
 inline constexpr double kNothing = 1e-90;
 
-// Sums scalar * vector with all derivatives.
+// Adds phi * d to the jet, with all derivatives.
 inline void AddTerm(const Jet2& phi, const Vec3& d, SurfaceJet& s) {
   s.p += phi.f * d;
   s.du += phi.u * d;

@@ -3,10 +3,10 @@
 // Each sub-patch S_o (o: its own vertex; its edge runs from e = o+1 to f = o+2; r = u_e + u_f) is
 //   S_o = B_0(u_o) C(t) + B_1(u_o) Rail(t) + B_2(u_o) (P_o + d_o(t)/3) + B_3(u_o) P_o,  t = u_f / r.
 // With cubic Hermite parts of C and Rail, all three differ from one cubic triangle R only by
-//   3 u_o u_e u_f (u_e X + u_f Y)/r,  X = 3 Rail_1 - Rail_0 - 2 b, Y = 3 Rail_2 - Rail_3 - 2 b, b inner point
-//   of R;
-// what a quartic edge has beyond its Hermite part adds 6 u_e^2 u_f^2 (dC/r + 3 u_o dRail/r^2). So
-// S = R + sum of blends of these, and nothing cancels near a vertex.
+//   3 u_o u_e u_f (u_e X + u_f Y)/r,  X = 3 Rail_1 - Rail_0 - 2 b, Y = 3 Rail_2 - Rail_3 - 2 b,
+// where b is the inner point of R. The part of a quartic edge beyond its Hermite part adds
+//   6 u_e^2 u_f^2 (dC/r + 3 u_o dRail/r^2).
+// So S is R plus a sum of blends of these, and nothing cancels near a vertex.
 #include "core/math/triangle_bernstein.h"
 #include "core/patch/kinds.h"
 #include "core/patch/triangle_pieces.h"
@@ -29,15 +29,15 @@ void ReadSides(const LoftTriangle& patch, Side (&sides)[3]) {
     for (int k = 1; k < n; ++k) {
       sides[e].rail[k] = patch.points[static_cast<std::size_t>(3 * n + e * (n - 1) + k - 1)];
     }
-    // The other edge at either end, left by a third of its end derivative.
+    // A rail starts and ends on the other edge there: a third of that edge's derivative from the vertex.
     const Vec3 &start = boundary(e * n), &end = boundary(e * n + n);
     sides[e].rail[0] = start + n / 3.0 * (boundary(e * n - 1) - start);
     sides[e].rail[n] = end + n / 3.0 * (boundary(e * n + n + 1) - end);
   }
 }
 
-// Bezier points of the cubic with the ends and end derivatives of `row`; for n = 4 the rest is
-// excess * t^2 (1-t)^2.
+// Bezier points of the cubic with the ends and end derivatives of `row`. For n = 4 the rest is excess * t^2
+// (1-t)^2.
 struct HermiteSplit {
   Vec3 cubic[4];
   Vec3 excess = Vec3::Zero();
@@ -54,7 +54,7 @@ HermiteSplit Split(const Vec3* row, int n) {
 
 struct Parts {
   HermiteSplit curve[3], rail[3];
-  Vec3 center;  // inner point of R: the mean of the rails' inner points, any would do
+  Vec3 center;  // inner point of R; the mean of the rails' inner points (any point would do)
 };
 Parts PartsOf(const LoftTriangle& patch) {
   Side sides[3];
@@ -69,7 +69,7 @@ Parts PartsOf(const LoftTriangle& patch) {
   return parts;
 }
 
-// Second derivatives of phi set to those of the quadratic form h_ee u_e^2/2 + h_ef u_e u_f + h_ff u_f^2/2.
+// Sets the second derivatives of phi to those of h_ee u_e^2/2 + h_ef u_e u_f + h_ff u_f^2/2.
 void SetHessian(double ee, double ef, double ff, const Jet2& e, const Jet2& f, Jet2& phi) {
   phi.uu = ee * e.u * e.u + 2.0 * ef * e.u * f.u + ff * f.u * f.u;
   phi.uv = ee * e.u * e.v + ef * (e.u * f.v + e.v * f.u) + ff * f.u * f.v;
@@ -82,7 +82,7 @@ SurfaceJet EvaluateShape(const LoftTriangle& patch, double s, double t) {
   const Parts parts = PartsOf(patch);
   const Jet2 area[3] = {{1.0 - s - t, -1, -1, 0, 0, 0}, Jet2::U(s), Jet2::V(t)};
   SurfaceJet jet;
-  // R, the cubic triangle.
+  // R is the cubic triangle.
   for (int e = 0; e < 3; ++e) {
     const Jet2 &a = area[e], &b = area[(e + 1) % 3];
     AddTerm(a * a * a, parts.curve[e].cubic[0], jet);
@@ -107,7 +107,7 @@ SurfaceJet EvaluateShape(const LoftTriangle& patch, double s, double t) {
     const Jet2 r = a + b;
     if (!(r.f > kNothing)) continue;
     const Jet2 share = at_vertex ? Jet2::Constant(0.0) : weight[e] / all, across = share * (o * (a * b));
-    // At a vertex of the edge: pure second derivatives of the edge curve, half of each edge's twist.
+    // At a vertex of the edge: pure second derivatives of the edge curve, and half of each edge's twist.
     const bool at_a = vertex == e, at_b = vertex == (e + 1) % 3;
     const auto add = [&](Jet2 phi, double twist_a, double twist_b, double curve, const Vec3& d) {
       if (at_a) {
@@ -132,7 +132,7 @@ SurfaceJet EvaluateShape(const LoftTriangle& patch, double s, double t) {
 
 Vec3 ShapePosition(const LoftTriangle& patch, double s, double t) { return EvaluateShape(patch, s, t).p; }
 
-// Over the common denominator prod_i (1 - u_i)^(n-2) * sum of weights: a rational triangle.
+// All sub-patches over the common denominator prod_i (1 - u_i)^(n-2) * sum of weights: a rational triangle.
 std::vector<Piece> ShapePieces(const LoftTriangle& patch) {
   using Scalar = ScaledTriangle<double>;
   const int n = patch.degree, power = n - 2;
@@ -153,8 +153,8 @@ std::vector<Piece> ShapePieces(const LoftTriangle& patch) {
   ScaledTriangle<Vec4> net((patch.squared ? 4 : 2) + n + 1 + 2 * power, Vec4::Zero());
   for (int e = 0; e < 3; ++e) {
     const int f = (e + 1) % 3, o = (e + 2) % 3;
-    // (1 - u_o)^(n-2) S_o, degree n + 1: r C + 3 u_o Rail + r^(n-2) u_o^2 (3 (..) + u_o P_o) with C, Rail as
-    // forms of u_e, u_f.
+    // (1 - u_o)^(n-2) S_o has degree n + 1: r C + 3 u_o Rail + r^(n-2) u_o^2 (3 (..) + u_o P_o), with C and
+    // Rail as forms of u_e, u_f.
     ScaledTriangle<Vec4> own(n + 1, Vec4::Zero());
     const auto add = [&](int ke, int kf, int ko, double factor, const Vec3& p) {
       int k[3] = {};

@@ -41,7 +41,7 @@ absl::Status TooLarge(std::size_t points) {
                                          kMaxOutlinePoints));
 }
 
-// The chains of an outline with common corners; those opposite each other alike.
+// The chains of an outline, with common corners. Opposite chains are made alike.
 absl::StatusOr<std::array<BezierChain, 4>> ChainsOf(const BoundaryCurves& outline) {
   std::array<BezierChain, 4> chains;
   for (std::size_t k = 0; k < 4; ++k) {

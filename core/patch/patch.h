@@ -1,10 +1,10 @@
-// Patches as given: a closed set of parametric shapes. Frames and units: model units until placed, then mm.
+// Patches as given: a closed set of parametric shapes, in model units until they are placed, then in mm.
 //
-// Parameters: (u,v) in [0,1]^2; for triangles area coordinates (s,t), s,t >= 0, s+t <= 1.
+// Parameters: (u,v) in [0,1]^2; for triangles the area coordinates (s,t) with s,t >= 0 and s+t <= 1.
 //
 // Above each kind its points are drawn by their index, in the parameter plane: u (s) to the right, v (t) up.
-// The frame is the border of the patch. A line from a point of the frame to one inside joins the two whose
-// difference is the tangent across the border there, in the line's direction (LoftTriangle: towards the
+// The frame is the border of the patch. A line from a point of the frame to a point inside joins the two
+// whose difference is the tangent across the border there, in the line's direction (LoftTriangle: towards the
 // opposite vertex). control_net_pictures_test reads these pictures and checks them against Evaluate.
 #pragma once
 
@@ -38,9 +38,9 @@ struct BezierPatch {
   std::vector<double> weights;
 };
 
-// Untrimmed B-spline or NURBS patch. n_u = knots_u.size() - degree_u - 1 points along u; layout as
-// BezierPatch. Knots do not decrease; the domain [knots[p], knots[n]] is mapped to [0,1]. Multiplicity of an
-// inner knot <= degree.
+// Untrimmed B-spline or NURBS patch. It has n_u = knots_u.size() - degree_u - 1 points along u. The layout is
+// that of BezierPatch. Knots do not decrease; the domain [knots[p], knots[n]] is mapped to [0,1]. An inner
+// knot has at most the multiplicity `degree`.
 //
 //   v=1    2 --- 5 --- 8 -- 11      degree 2 each way; knots_u 0 0 0 1 2 2 2, knots_v 0 0 0 1 1 1
 //          |     |     |     |
@@ -72,7 +72,7 @@ struct BsplinePatch {
 //   v=0    0 ------- 1 ----- 7 ------- 5
 //         u=0                         u=1
 //
-// Each corner has a pair of inner points: F+ and F-, 3 and 4 at (0,0). They are blended.
+// Each corner has a pair of inner points, F+ and F- (3 and 4 at (0,0)), which are blended.
 // kCorner: near (0,0) the inner point is (u p3 + v p4) / (u + v), near (1,0) (v p8 + (1-u) p9) / ((1-u) + v),
 // near (1,1) ((1-u) p13 + (1-v) p14) / ((1-u) + (1-v)), near (0,1) ((1-v) p18 + u p19) / (u + (1-v)).
 // kEdge: [shapes (7)], two bicubics blended by p = u(1-u) and q = v(1-v). The one with weight p / (p + q)
@@ -85,9 +85,9 @@ struct GregoryPatch {
   Blend blend = Blend::kCorner;
 };
 
-// Triangular Bezier patch of degree n (1..15), (n+1)(n+2)/2 points row after row: n+1 along the edge t=0 from
-// (s,t) = (0,0) to (1,0), then n, ... , 1 at (0,1). Point k of row r belongs to s^k t^r (1-s-t)^(n-k-r).
-// Weights as BezierPatch.
+// Triangular Bezier patch of degree n (1..15) with (n+1)(n+2)/2 points, row after row: n+1 along the edge t=0
+// from (s,t) = (0,0) to (1,0), then n, ... , 1 at (0,1). Point k of row r belongs to s^k t^r (1-s-t)^(n-k-r).
+// Weights are those of BezierPatch.
 //
 //   t=1    9                    degree 3
 //          | \.
@@ -104,17 +104,17 @@ struct BezierTriangle {
 };
 
 // Quad on four general boundary curves with given cross-boundary tangents ([shapes (4), (5), (8)]: "Brown
-// quad"). Each edge has its Bezier curve C and beside it a rail C + b/3, b the tangent across the edge into
-// the patch; rails have the degree of their edge. The ends of a rail follow from the two curves that cross
+// quad"). Each edge has its Bezier curve C and beside it a rail C + b/3, where b is the tangent across the
+// edge into the patch. A rail has the degree of its edge. Its ends follow from the two curves that cross
 // there and are not given, so the data always meet at the corners.
 //   points, with n = degree_u, m = degree_v; all rows along u, all columns along v:
 //     edge v=0 (n+1), edge v=1 (n+1), inner points of edge u=0 (m-1) and of edge u=1 (m-1),
 //     inner points of the rails of v=0 (n-1), v=1 (n-1), u=0 (m-1), u=1 (m-1): 4 (n + m) - 4 in all.
-// Edges and rails along u may be chains of curves of degree degree_u that meet at breaks_u, and so along v:
-// then n = degree_u (breaks_u.size() + 1), neighbours sharing a point. The surface is as smooth across a
-// break as the four chains are, up to one derivative. Cubic everywhere: two bicubic nets that differ in their
-// inner points, as GregoryPatch::kEdge, with weights u^2 (1-u)^2 and v^2 (1-v)^2 in place of u (1-u) and v
-// (1-v).
+// Edges and rails along u may be chains of curves of degree degree_u that meet at breaks_u; the same holds
+// along v. Then n = degree_u (breaks_u.size() + 1), and neighbours share a point. The surface is as smooth
+// across a break as the four chains are, up to one derivative. If all are cubic, the patch blends two bicubic
+// nets that differ in their inner points, as GregoryPatch::kEdge, but with the weights u^2 (1-u)^2 and v^2
+// (1-v)^2.
 //
 //   v=1    4 --- 5 --------- 6 --- 7      degree_u = 3, degree_v = 4
 //          |     |           |     |
@@ -132,7 +132,7 @@ struct BrownPatch {
   std::vector<Vec3> points;
   std::vector<double> breaks_u = {}, breaks_v = {};  // in (0, 1), increasing; at most kMaxBrownBreaks
 };
-inline constexpr int kMaxBrownDegree = 11;  // its net has degree 4 more
+inline constexpr int kMaxBrownDegree = 11;  // its net has four degrees more
 inline constexpr int kMaxBrownBreaks = 1000;
 
 // Quartic Gregory triangle [shapes (12)-(15)], 18 points: five at each corner (0,0) (1,0) (0,1) as
@@ -151,7 +151,7 @@ inline constexpr int kMaxBrownBreaks = 1000;
 //         s=0           s=1
 //
 // kCorner: x = (s p3 + t p4)/(s+t), y = (t p8 + r p9)/(t+r), z = (r p13 + s p14)/(r+s).
-// kEdge: three quartics blended by u_j u_k / (u2 u3 + u1 u3 + u1 u2). The one that serves an edge takes the
+// kEdge: three quartics blended by u_j u_k / (u2 u3 + u1 u3 + u1 u2). The quartic of an edge takes the
 // two inner points next to it from that edge (F+ of the corner it leaves, F- of the one it reaches) and the
 // mean of the third pair.
 struct GregoryTriangle {
@@ -181,9 +181,9 @@ struct LoftTriangle {
   std::vector<Vec3> points;
 };
 
-// G2-Gregory patch [shapes (20)] of degree n = 5..7 each way: (n+1)^2 points, [i (n+1) + j], i along u, whose
-// block entries (i and j both in {1, 2, n-2, n-1}) serve the edges v=0 and v=1; then 16 points, the block
-// entries in the same order that serve u=0 and u=1.
+// G2-Gregory patch [shapes (20)] of degree n = 5..7 each way. First come (n+1)^2 points, [i (n+1) + j], i
+// along u, whose block entries (i and j both in {1, 2, n-2, n-1}) serve the edges v=0 and v=1. Then come 16
+// points, the block entries in the same order that serve u=0 and u=1.
 //
 //   v=1    5 ----- 11 ------ 17 ------ 23 ------ 29 ----- 35      degree 5; of a pair the first serves
 //          |        |         |         |         |        |      v=0 and v=1, the second u=0 and u=1
@@ -203,9 +203,8 @@ struct G2GregoryPatch {
 };
 
 // Hosaka's blended boundary patch [shapes, section 6].
-//   points, with n = degree 1..11: edge v=0 (n+1), edge v=1 (n+1), inner points of edge u=0 (n-1) and u=1
-// (n-1): Bezier points, 4 n in all; then corner (0,0) + s_ij, i slow, for the inner term
-// [shapes [shapes (28)]].
+//   points, with n = degree 1..11: edge v=0 (n+1), edge v=1 (n+1), inner points of edge u=0 (n-1) and of
+//   u=1 (n-1): Bezier points, 4 n in all; then corner (0,0) + s_ij, i slow, for the inner term [shapes (28)].
 //
 //   v=1    4 --- 5 --- 6 --- 7      degree 3, inner_u = 1, inner_v = 2;
 //          |                 |      inside the coefficients s_ij, i to the right, j up
@@ -222,11 +221,11 @@ struct HosakaPatch {
   };
   int degree = 3;
   Blend blend = Blend::kSmooth;
-  // Where other patches end on a part of an edge [shapes (27)]: of the blending function of edge v=0, u=0,
-  // v=1, u=1 (f1..f4). Only with kSmooth, at most kMaxHosakaBreaks each.
+  // The break parameters of the blending functions f1..f4 of the edges v=0, u=0, v=1, u=1, for other patches
+  // that end on a part of an edge [shapes (27)]. Only with kSmooth; at most kMaxHosakaBreaks each.
   std::array<std::vector<Break>, 4> breaks;
-  // The inner term has (inner_u + 1)(inner_v + 1) coefficients, both 0..4; -1: none. inner_order 1 is (28), 2
-  // multiplies it by another u v (1-u)(1-v), so that edge normals stay.
+  // The inner term has (inner_u + 1)(inner_v + 1) coefficients, both 0..4; -1 means none. inner_order 1 is
+  // [shapes (28)] with k = 1; 2 multiplies it by another u v (1-u)(1-v), so that edge normals stay.
   int inner_u = -1, inner_v = -1, inner_order = 1;
   std::vector<Vec3> points;
 };
@@ -248,17 +247,17 @@ struct SurfaceJet {
   Vec3 p = Vec3::Zero();
   Vec3 du = Vec3::Zero(), dv = Vec3::Zero();
   Vec3 duu = Vec3::Zero(), duv = Vec3::Zero(), dvv = Vec3::Zero();
-  // The air side of upright surface: 1 the side of du x dv, -1 the other, 0 unknown
+  // The air side of a vertical face: 1 the side of du x dv, -1 the other side, 0 unknown
   // (core/surface/air_sides.h).
   int air_side = 0;
   double upright =
       kUprightFace;  // |e_z| up to which this place stands upright; more on a wall that leans a little
 };
 
-// Analytic evaluation in the native form of each kind. Error about 1e-15 of the patch's size.
-// Corners of blended kinds (Gregory, Brown, LoftTriangle, G2Gregory): value and first derivatives are exact;
-// second derivatives have no limit there, the values of [shapes, section 7] (boundary curves, mean twist) are
-// returned within 1e-6 of a corner.
+// Analytic evaluation in the native form of each kind. Error about 1e-15 of the patch's size. Corners of
+// blended kinds (Gregory, Brown, LoftTriangle, G2Gregory): value and first derivatives are exact. Second
+// derivatives have no limit there; within 1e-6 of a corner the values of [shapes, section 7] are returned
+// (boundary curves, mean twist).
 SurfaceJet Evaluate(const PatchShape& shape, double u, double v);
 Vec3 Position(const PatchShape& shape, double u, double v);
 

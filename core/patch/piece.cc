@@ -10,7 +10,7 @@ namespace {
 
 using internal::HomogeneousJet;
 
-// The common degrees as constants, so that the compiler unrolls; -1: any.
+// The common degrees are constants, so that the compiler unrolls; -1 stands for any degree.
 template <int kU, int kV>
 HomogeneousJet NetJet(const BernsteinNet& net, double u, double v) {
   const int degree_u = kU < 0 ? net.degree_u : kU, degree_v = kV < 0 ? net.degree_v : kV;
@@ -28,7 +28,7 @@ SurfaceJet BicubicJet(const BernsteinNet& net, double u, double v) {
   AllBernsteinJet(3, v, bv);
   double sums[24];
   internal::SumBicubic(net.points.front().data(), bu, bv, sums);
-  if (!net.rational) {  // most of all: no copies on the way
+  if (!net.rational) {  // the most frequent case: avoid copies
     const auto three = [&](int k) { return Vec3(sums[k], sums[k + 1], sums[k + 2]); };
     return {three(0), three(4), three(8), three(12), three(16), three(20)};
   }
@@ -58,7 +58,7 @@ Vec4 NetPoint(const BernsteinNet& net, double u, double v) {
   return NetPoint<-1, -1>(net, u, v);
 }
 
-// Of the patch through the bilinear map of the piece into its parameters, by the chain rule.
+// The jet of the patch, mapped to the piece's parameters by the chain rule through the bilinear map `native`.
 SurfaceJet ShapeJet(const Piece& piece, double u, double v) {
   const auto& c = piece.native;
   const Vec2 at = NativeParameters(piece, u, v);
@@ -90,7 +90,7 @@ SurfaceJet JetOf(const Piece& piece, double u, double v) {
 BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, double v1) {
   BernsteinNet sub = net;
   const int row = net.degree_v + 1;
-  // [x0,1] first, then [x0,x1] as a part of it; parameters stay in [0,1], so every step is convex.
+  // Cuts [x0,1] first, then [x0,x1] from it. The parameters stay in [0,1], so every step is convex.
   if (u0 > 0.0) {
     for (int j = 0; j < row; ++j) KeepRight(&sub.points[static_cast<std::size_t>(j)], net.degree_u, row, u0);
   }

@@ -1,5 +1,5 @@
-// One algebra for all patches [shapes, section 8]: every patch is cut into pieces, each a rational Bernstein
-// rectangle.
+// One algebra for all patches [shapes, section 8]: every patch is cut into pieces, and each piece is a
+// rational Bernstein rectangle.
 //
 //   kind              pieces
 //   Bezier            1 of its own degrees
@@ -25,7 +25,7 @@
 namespace patchmill {
 
 // Homogeneous control points (w x, w y, w z, w) of a tensor Bernstein form; points[i * (degree_v + 1) + j], i
-// along u. A polynomial net has all w = 1. A point with w = 0 is zero altogether (singular Gregory corner,
+// along u. A polynomial net has all w = 1. A point with w = 0 has all coordinates 0 (singular Gregory corner,
 // [location T10]) and does not belong to the hull: the surface lies in the convex hull of {xyz / w : w > 0}.
 struct BernsteinNet {
   int degree_u = 0;
@@ -40,26 +40,27 @@ BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, do
 struct Piece {
   PatchId patch;
   BernsteinNet net;  // exact for every kind
-  // Gregory pieces are evaluated natively (faster, and right at the corners), others from the net.
+  // Gregory pieces are evaluated natively (faster, and correct at the corners), others from the net.
   const GregoryPatch* gregory = nullptr;
-  // The patch itself where the net is singular at a corner and the kind has no field of its own: evaluated
-  // through `native`.
+  // The patch itself, if the net is singular at a corner and the kind has no member of its own. The piece is
+  // then evaluated through `native`.
   const PatchShape* shape = nullptr;
-  // Native parameters of the piece's corners (0,0) (1,0) (0,1) (1,1); bilinear in between, exactly.
+  // Native parameters of the piece's corners (0,0) (1,0) (0,1) (1,1). The map between them is exactly
+  // bilinear.
   std::array<Vec2, 4> native;
   int air_side = 0;               // as SurfaceJet::air_side, in the piece's own parameters
   double upright = kUprightFace;  // as SurfaceJet::upright
 };
 
-// Never empty for a valid patch. Pieces of a B-spline in order of u span, then v span. They may point to
-// `shape`, which must outlive them where it is.
+// The pieces of a patch; never empty for a valid one. Pieces of a B-spline come in order of u span, then v
+// span. They may point to `shape`, which must outlive them in its place.
 std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape);
 std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape&& shape) = delete;
 
 // Jet in the piece's own parameters (u,v) in [0,1]^2.
 SurfaceJet Evaluate(const Piece& piece, double u, double v);
-// The same, the same bits, where second derivatives are not wanted: they may be zero. Fewer operations
-// for polynomial bicubic pieces, the same for others.
+// As Evaluate and with the same bits, for callers that need no second derivatives: these may be zero. Takes
+// fewer operations for polynomial bicubic pieces and the same for others.
 SurfaceJet EvaluateSlopes(const Piece& piece, double u, double v);
 Vec3 Position(const Piece& piece, double u, double v);
 Vec2 NativeParameters(const Piece& piece, double u, double v);

@@ -1,4 +1,4 @@
-// Cutting a patch of many pieces: what it costs, known beforehand, and how it ends early.
+// Cutting a patch into many pieces: its cost beforehand, and how to end it early.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,19 @@
 
 namespace patchmill {
 
-// As SplitIntoPieces(id, shape), but kinds of many pieces (B-spline, Brown) poll `run`: once it is cancelled
-// the pieces are not complete, and the caller asks run.Check().
+// As SplitIntoPieces(id, shape), but kinds of many pieces (B-spline, Brown) poll `run`. Once it is cancelled
+// the pieces are incomplete, so the caller must check run.Check().
 std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape, const RunContext& run);
 std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape&& shape, const RunContext& run) = delete;
 
-// One direction of a B-spline.
+// One parameter direction of a B-spline.
 struct SplineDirection {
   int degree = 0;
   std::span<const double> knots;
 };
 
-// Control points of all Bezier pieces that a B-spline is cut into. Of any numbers: 0 where they make no
-// B-spline of degrees 1 to kMaxDegree. Cost O(knots).
+// Number of control points of all Bezier pieces that a B-spline is cut into. The arguments may be invalid: 0
+// if a degree is outside 1..kMaxDegree. Cost O(knots).
 std::size_t CountSplinePiecePoints(const SplineDirection& u, const SplineDirection& v);
 
 }  // namespace patchmill

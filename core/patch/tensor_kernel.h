@@ -48,7 +48,7 @@ inline Vec4 TensorPoint(int degree_u, int degree_v, const double* bu, const doub
   return p;
 }
 
-// The jet in space: xyz as they are (polynomial), or xyz / w by the quotient rule.
+// The jet in space: xyz as it is (polynomial), or xyz / w by the quotient rule (rational).
 inline SurfaceJet PolynomialJet(const HomogeneousJet& h) {
   SurfaceJet s;
   s.p = h.p.head<3>();

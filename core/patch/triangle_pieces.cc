@@ -6,9 +6,9 @@
 
 namespace patchmill::internal {
 
-// Around each vertex: vertex, middle of the edge that leaves it, centroid, middle of the edge that arrives.
-// Along the unit square each area coordinate is bilinear; de Casteljau with these bilinear forms in place of
-// numbers gives the net of bidegree (n,n) exactly, by convex combinations only.
+// One piece lies around each vertex: vertex, middle of the edge that leaves it, centroid, middle of the edge
+// that arrives. On the unit square each area coordinate is bilinear. De Casteljau with these bilinear forms
+// in place of numbers gives the net of bidegree (n,n) exactly, by convex combinations only.
 std::vector<Piece> TrianglePieces(int degree, const std::vector<Vec4>& points, bool rational) {
   const int n = degree;
   const Vec2 vertex[3] = {{0, 0}, {1, 0}, {0, 1}};

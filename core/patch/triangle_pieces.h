@@ -1,4 +1,5 @@
-// A triangle in rational Bernstein form as three rectangles around its centroid. Private to core/patch.
+// Cuts a triangle in rational Bernstein form into three rectangles around its centroid. Private to
+// core/patch.
 #pragma once
 
 #include <vector>
@@ -7,8 +8,8 @@
 
 namespace patchmill::internal {
 
-// `points`: homogeneous, laid out as BezierTriangle, degree 1..kMaxDegree; a point without weight is zero
-// altogether. Without patch id. Cost O(degree^6).
+// `points`: homogeneous, in the layout of BezierTriangle, degree 1..kMaxDegree. A point with w = 0 has all
+// coordinates 0. The pieces have no patch id. Cost O(degree^6).
 std::vector<Piece> TrianglePieces(int degree, const std::vector<Vec4>& points, bool rational);
 
 }  // namespace patchmill::internal

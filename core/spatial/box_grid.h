@@ -1,4 +1,4 @@
-// What lies near a place: small boxes in a hash grid.
+// A hash grid of small boxes that finds those near a place.
 #pragma once
 
 #include <array>
@@ -12,14 +12,17 @@
 
 namespace patchmill {
 
-// In one array: the boxes of all cells with one last part of their hash stand together, rising.
+// One array holds the entries of all cells, ordered by slot (the low bits of the cell's hash) and within a
+// slot by box number.
 class BoxGrid {
  public:
-  // `cell`: mm, > 0; best as wide as boxes and reaches are. Cost: 0.1 us a cell that a box meets.
+  // `cell`: mm, > 0; best about as wide as the boxes and the usual `reach`. Cost: 0.1 us for each cell that a
+  // box meets.
   BoxGrid(std::span<const Box3> boxes, double cell);
 
-  // visit(i) for every box whose cells p and what is within `reach` (mm) of it in each coordinate meet, once
-  // a cell: some lie farther away, some come again.
+  // Calls visit(i) for every box that shares a cell with the cube of all points within `reach` (mm) of p in
+  // each coordinate. It is called once for each shared cell, so a box may come several times, and some boxes
+  // lie farther away than `reach`.
   template <class Visit>
   void Near(const Vec3& p, double reach, const Visit& visit) const {
     VisitCells(p - Vec3::Constant(reach), p + Vec3::Constant(reach), [&](std::uint64_t hash) {

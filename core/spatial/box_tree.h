@@ -1,4 +1,4 @@
-// A balanced tree over boxes for "which boxes hold this point".
+// A balanced tree of boxes that finds the boxes around a point.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@ namespace patchmill {
 
 class BoxTree {
  public:
-  // Median splits, ties by index: the same tree whatever sorted it. Cost O(n log n).
+  // Splits at the median centre; equal centres are ordered by index. So the tree does not depend on how the
+  // library selects. Cost O(n log n).
   explicit BoxTree(std::vector<Box3> boxes);
 
   // Calls visit(i) for every box within `reach` (by coordinates) of `p`, until it returns false.

@@ -7,11 +7,11 @@
 namespace patchmill {
 namespace {
 
-// A little less than 1 / sqrt(3), so that rounding puts no two points of one cell out of reach.
+// A little less than 1 / sqrt(3), so that in spite of rounding any two points of one cell are within reach.
 constexpr double kSideOfReach = 0.577;
-// Cells within the reach of one, each way.
+// Number of cells on each side of a cell that its reach can touch.
 constexpr std::int64_t kCellsAround = 2;
-// Farther away, all points are looked at.
+// Beyond this many rings of cells all points are compared.
 constexpr std::int64_t kMostRings = 10;
 
 }  // namespace
@@ -54,7 +54,8 @@ void PointCells::JoinNear(UnionFind& sets, const RunContext& run) const {
     std::size_t last = first;
     for (; last < entries_.size() && entries_[last].key == key; ++last)
       sets.Join(entries_[first].point, entries_[last].point);
-    // Cells before this one have seen it; in its own column they lie below.
+    // The cells before this one have been joined with it already. In its own column these are the cells
+    // below.
     for (std::int64_t dx = -kCellsAround; dx <= 0; ++dx) {
       for (std::int64_t dy = -kCellsAround; dy <= (dx < 0 ? kCellsAround : 0); ++dy) {
         const bool own = dx == 0 && dy == 0;
@@ -62,7 +63,7 @@ void PointCells::JoinNear(UnionFind& sets, const RunContext& run) const {
             Column(key[0] + dx, key[1] + dy, key[2] - kCellsAround, key[2] + (own ? -1 : kCellsAround));
         for (std::size_t other = begin; other < end; ++other) {
           const std::size_t b = entries_[other].point;
-          // What a cell holds is one set already.
+          // The points of one cell are one set already.
           for (std::size_t one = first; one < last && sets.Find(entries_[first].point) != sets.Find(b);
                ++one) {
             const std::size_t a = entries_[one].point;
@@ -92,7 +93,7 @@ std::optional<std::size_t> PointCells::Nearest(const Vec3& place) const {
     }
   };
   for (std::int64_t ring = 0; ring <= most; ++ring) {
-    // Whatever lies in farther rings is this far away at least.
+    // All points in farther rings are at least this far away.
     const double beyond = (static_cast<double>(ring) - 1.0) * side_;
     if (beyond > 0.0 && beyond * beyond > least) break;
     if (ring > kMostRings) {

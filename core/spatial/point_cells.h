@@ -1,4 +1,4 @@
-// Points in cubic cells, to find those near each other or near a place.
+// Points in cubic cells: finds those near each other or near a place.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace patchmill {
 class PointCells {
  public:
   PointCells() = default;
-  // `reach`, mm, > 0: points this near to each other are joined by JoinNear; about that of a typical
-  // question. Cost O(n log n).
+  // `reach`: mm, > 0. JoinNear joins points this near to each other. Near is fastest for about this distance.
+  // Cost O(n log n).
   PointCells(std::vector<Vec3> points, double reach);
 
-  // Calls visit(number) for every point within `reach` (mm) of a place, in the same order everywhere.
+  // Calls visit(number) for every point within `reach` (mm) of `place`, in the same order on every machine.
   template <class Visit>
   void Near(const Vec3& place, double reach, const Visit& visit) const {
     if (entries_.empty()) return;
@@ -37,11 +37,11 @@ class PointCells {
       }
     }
   }
-  // Joins all that are within the reach of each other. Cost O(n log n), more where many points of two cells
-  // are just out of it. Not all of them once cancelled.
+  // Joins all points that are within the reach of each other. Cost O(n log n); more where many points of two
+  // cells are just out of reach. Once `run` is cancelled, some stay apart.
   void JoinNear(UnionFind& sets, const RunContext& run) const;
-  // The point nearest to a place, the first of equally near ones; none without points. Cost O(log n), more
-  // where it is some reaches away, O(n) beyond five.
+  // The point nearest to `place`, the first of equally near ones; absent if there are no points. Cost O(log
+  // n); more where the point is some reaches away, O(n) beyond five.
   std::optional<std::size_t> Nearest(const Vec3& place) const;
 
  private:
@@ -56,7 +56,7 @@ class PointCells {
                                              std::int64_t high) const;
 
   std::vector<Vec3> points_;
-  double reach_ = 1.0, side_ = 1.0;  // mm; of a cell: two points in one are within the reach
+  double reach_ = 1.0, side_ = 1.0;  // mm; side of a cell: two points in one are within the reach
   std::vector<Entry> entries_;       // by rising keys
   Key low_ = {0, 0, 0}, high_ = {0, 0, 0};
 };

@@ -9,7 +9,7 @@ namespace patchmill {
 namespace {
 
 constexpr std::size_t kLanes = 4;
-constexpr double kFloat = 1e-6;  // of the coordinates: more than rounding them does to a distance
+constexpr double kFloat = 1e-6;  // share of the coordinates; more than their rounding changes a distance
 
 }  // namespace
 

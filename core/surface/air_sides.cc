@@ -14,25 +14,26 @@
 namespace patchmill {
 namespace {
 
-// Places on a piece, each way: no symmetric ones, so that a silhouette does not pass for upright surface.
+// Sample parameters on a piece, the same for u and v. They are not symmetric, so that a silhouette is not
+// taken for a vertical face.
 constexpr std::array kAt = {0.17, 0.53, 0.86};
-constexpr std::size_t kMostPlaces = 2000;  // of a component
-constexpr double kDecides = 0.9;           // share of the open surface in plan that makes a side the air side
-constexpr double kLeastSlope = 0.02;       // e_z: steeper places tell nothing of the sky
-constexpr double kColumn = 1e-6, kOver = 1e-4;  // of the box's diagonal
+constexpr std::size_t kMostPlaces = 2000;  // per component
+constexpr double kDecides = 0.9;           // share of the open area in plan that makes a side the air side
+constexpr double kLeastSlope = 0.02;       // e_z; steeper places say nothing of the sky
+constexpr double kColumn = 1e-6, kOver = 1e-4;  // share of the box's diagonal
 
-// Links between edges of patches: 1 keeps the orientation, -1 turns it.
+// A patch that is joined by an edge. `turn` is 1 if both have the same orientation, -1 otherwise.
 struct Neighbor {
   std::size_t patch = 0;
   int turn = 1;
 };
-using Neighbors = std::vector<std::vector<Neighbor>>;  // of each patch
+using Neighbors = std::vector<std::vector<Neighbor>>;  // index: patch
 
 // Edges 0 and 1 run counter-clockwise around a patch, the others clockwise.
 bool Forward(const PatchEdge& edge) { return edge.edge <= 1; }
 
-// `reversed`: the parameters of the two edges run against each other. Two patches have one orientation where
-// they run around their common edge in opposite directions.
+// `reversed`: the parameters of the two edges run against each other. Two patches have the same orientation
+// if they run around their common edge in opposite directions.
 int TurnOf(const PatchEdge& a, const PatchEdge& b, bool reversed) {
   return (Forward(a) == Forward(b)) != reversed ? -1 : 1;
 }
@@ -53,7 +54,7 @@ Neighbors FindNeighbors(const PatchNetwork& network) {
   return neighbors;
 }
 
-// Patches that are joined, each with its orientation against the first one's.
+// Patches that are joined to each other. `one_sided`: they have no common orientation.
 struct Component {
   std::vector<std::size_t> patches;
   bool one_sided = false;
@@ -84,7 +85,7 @@ std::vector<Component> FindComponents(const Neighbors& neighbors, std::vector<in
   return components;
 }
 
-// Of the piece's parameters against those of its patch.
+// Orientation of the piece's parameters relative to those of its patch: 1 or -1.
 int OrientationOf(const Piece& piece) {
   const Vec2 u = piece.native[1] - piece.native[0], v = piece.native[2] - piece.native[0];
   return u.x() * v.y() - u.y() * v.x() < 0.0 ? -1 : 1;
@@ -100,8 +101,9 @@ bool HasUpright(const Piece& piece) {
   return false;
 }
 
-// Files round coordinates: a wall of four decimals leans by some 1e-4 mm, and says nothing of its sides by that. A
-// piece that leans by no more than this over its height, and by a hundredth of its height, is upright all over.
+// Files round coordinates: a wall of four decimals leans by some 1e-4 mm, and says nothing of its sides by
+// that. A piece that leans by no more than this over its height, and by a hundredth of its height, is upright
+// all over.
 constexpr double kMostLean = 5e-3;  // mm, half of the default tolerance
 constexpr double kMostLeanShare = 0.01;
 constexpr double kLeanMargin = 1.5;  // between the places that are looked at a wall may lean a little more
@@ -112,7 +114,8 @@ bool IsOpenToTheSky(const Surface& surface, const Vec3& p) {
   return !AnyInColumn(surface, {q, q, kColumn * size}, p.z() + kOver * size, 0.1 * kColumn * size);
 }
 
-// Area in plan that is open to the sky, by the side of du x dv that looks up.
+// Area in plan that is open to the sky. `over` is the part where du x dv looks up, `under` the part where it
+// looks down.
 struct OpenArea {
   double over = 0.0, under = 0.0;
   void Add(const OpenArea& other, int orientation) {
@@ -177,7 +180,7 @@ class SideFinder {
     return open;
   }
 
-  // Against the orientation of the component's first patch.
+  // The air side relative to the orientation of the component's first patch: 1, -1, or 0 if undecided.
   int SideOf(const Component& component) const {
     std::vector<std::size_t> pieces;
     for (const std::size_t patch : component.patches)
@@ -192,7 +195,7 @@ class SideFinder {
     return open.Side();
   }
 
-  // In the patch's own parameters.
+  // The air side in the patch's own parameters: 1, -1, or 0 if undecided.
   int SideByNeighbors(std::size_t patch) const {
     OpenArea open;
     for (const Neighbor& next : neighbors_[patch]) open.Add(OpenOf(next.patch), next.turn);

@@ -11,7 +11,7 @@ namespace {
 struct GapAlongRay {
   Vec3 a, b, h;
 
-  double Gap(int k, double s) const {  // signed: which side of the slab
+  double Gap(int k, double s) const {  // signed: the sign tells the side of the slab
     const double x = a[k] + s * b[k];
     return x > h[k] ? x - h[k] : x < -h[k] ? x + h[k] : 0.0;
   }
@@ -54,14 +54,14 @@ double SquaredDistanceToUpwardRay(const Vec3& center, const Eigen::Matrix3d& axi
   std::sort(breaks.begin(), breaks.begin() + static_cast<std::ptrdiff_t>(count));
   for (std::size_t i = 0; i < count; ++i) {
     const double s1 = breaks[i], slope1 = gap.HalfSlope(s1);
-    if (slope1 >= 0.0) {  // the slope is linear in between
+    if (slope1 >= 0.0) {  // the slope is linear between the break points
       const double t = slope1 > slope0 ? -slope0 / (slope1 - slope0) : 1.0;
       return gap.Value(s0 + t * (s1 - s0));
     }
     s0 = s1;
     slope0 = slope1;
   }
-  // Beyond the last break point every slab has been left: slope of the slope is |b|^2 = 1.
+  // Beyond the last break point the ray has left every slab. There the derivative of the slope is |b|^2 = 1.
   return gap.Value(s0 - slope0 / gap.b.squaredNorm());
 }
 

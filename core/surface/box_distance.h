@@ -1,4 +1,5 @@
-// Distance of boxes to a point or to the upward ray {c + s e_z, s >= 0}. Squared, exact up to rounding.
+// Distances of boxes to a point or to the upward ray {c + s e_z, s >= 0}. They are squared and exact up to
+// rounding.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,8 @@ namespace patchmill {
 
 enum class Reach { kPoint, kUpwardRay };
 
-// Vector from the set at the origin to p: of a point p itself, of the ray without what lies above 0.
+// The vector from the set at the origin to p. For a point it is p itself; for the ray, a positive z becomes
+// 0.
 template <Reach kReach>
 inline Vec3 FromSet(const Vec3& p) {
   return kReach == Reach::kUpwardRay && p.z() > 0.0 ? Vec3(p.x(), p.y(), 0.0) : p;
@@ -26,10 +28,10 @@ inline double SquaredDistance(const Box3& box, const Vec3& c) {
   return x * x + y * y + z * z;
 }
 
-// The same of the four boxes of a node, in double lanes.
+// The same for the four boxes of a node, in double lanes.
 template <Reach kReach>
 inline std::array<double, 4> SquaredDistances(const BoxNode& node, const Vec3& c) {
-  using Lanes = double __attribute__((vector_size(16)));  // two: what every processor has
+  using Lanes = double __attribute__((vector_size(16)));  // two lanes, which every processor has
   std::array<double, 4> squared;
   for (int half = 0; half < 2; ++half) {
     const auto lanes = [half](const Float4& four) {
@@ -48,10 +50,11 @@ inline std::array<double, 4> SquaredDistances(const BoxNode& node, const Vec3& c
   return squared;
 }
 
-// Oriented box: center, orthonormal axes (columns), half sides. The point c.
+// Distance of the point c to an oriented box, given by its center, orthonormal axes (columns) and half sides.
 double SquaredDistanceToPoint(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half,
                               const Vec3& c);
-// The same to the ray: the minimum over s of a convex piecewise quadratic, found between its break points.
+// The same for the upward ray from c: the minimum over s of a convex piecewise quadratic, found between its
+// break points.
 double SquaredDistanceToUpwardRay(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half,
                                   const Vec3& c);
 

@@ -1,5 +1,6 @@
-// The exact minimum of a quadratic of two variables over a box: the step of a bounded Newton method. (A step
-// clamped variable by variable is not a descent step and crawls along the border; [location, section 7].)
+// The exact minimum of a quadratic of two variables over a box: one step of a bounded Newton method. (A step
+// that is clamped variable by variable is not a descent step and crawls along the border;
+// [location, section 7].)
 #pragma once
 
 #include <algorithm>
@@ -16,8 +17,8 @@ struct Sym2 {
   bool PositiveDefinite() const { return uu > 0.0 && vv > 0.0 && Determinant() > 1e-14 * uu * vv; }
 };
 
-// argmin of g.d + d.H d / 2 over low <= d <= high; low <= 0 <= high. Any H: where it is not positive definite
-// the minimum lies on the border and is found there.
+// Returns argmin of g.d + d.H d / 2 over low <= d <= high, with low <= 0 <= high. H may be any matrix: if it
+// is not positive definite, the minimum lies on the border and is found there.
 inline Vec2 MinimizeInBox(const Vec2& g, const Sym2& h, const Vec2& low, const Vec2& high) {
   if (h.PositiveDefinite()) {
     const double det = h.Determinant();

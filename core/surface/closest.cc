@@ -13,12 +13,12 @@
 namespace patchmill {
 namespace {
 
-// Nets with more points than this get the distance polynomial only after so many halvings: its cost grows
-// with the square of the points.
+// A net with more points than this gets the distance polynomial only after so many halvings, because the cost
+// of the polynomial grows with the square of the number of points.
 constexpr int kLargeNet = 40;
 constexpr int kHalvingsBeforeLargeForm = 1;
 
-// Boxes that do not rise above c are infinitely far away.
+// Sets the distance of boxes that do not rise above c to infinity.
 void LeaveBelow(const BoxNode& node, const Vec3& c, std::array<double, 4>& squared) {
   for (int k = 0; k < 4; ++k) {
     if (static_cast<double>(node.max_z[k]) <= c.z()) squared[static_cast<std::size_t>(k)] = kInfinity;
@@ -54,7 +54,7 @@ class Search {
   }
 
  private:
-  // What is not nearer than this need not be looked at.
+  // A point that is not nearer than this is of no interest.
   double Target() const { return std::min(limit_, best_ ? best_->distance : kInfinity) - tolerance_; }
   bool Excluded(double squared) const {
     const double target = Target();
@@ -64,7 +64,7 @@ class Search {
 
   static double OrientedSquared(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half,
                                 const Vec3& c, double max_z) {
-    // A ray passes a box that lies below its start as its start does.
+    // If a box lies below the start of the ray, the distance to the ray is that to its start.
     return kReach == Reach::kPoint || max_z <= c.z() ? SquaredDistanceToPoint(center, axis, half, c)
                                                      : SquaredDistanceToUpwardRay(center, axis, half, c);
   }
@@ -76,7 +76,7 @@ class Search {
     const BernsteinNet& net = surface_.piece(leaf.piece).net;
     shape_ = {net.degree_u, net.degree_v};
     rational_ = net.rational;
-    // What goes through a leaf's box mostly meets the leaf: no polynomial is needed then.
+    // A ray that passes through a leaf's box mostly meets the leaf. Then no polynomial is needed.
     if (!(Target() < kInfinity) || squared <= 0.0) {
       Improve(0.5 * (leaf.u0 + leaf.u1), 0.5 * (leaf.v0 + leaf.v1));
       if (Done()) return;
@@ -84,7 +84,7 @@ class Search {
     VisitCell(LeafCell(net, leaf, c_), max_z - c_.z());
   }
 
-  // The cell's boxes have not excluded it. z_max bounds its height relative to c.
+  // The cell's boxes have not excluded it. z_max is an upper bound of its height relative to c.
   void VisitCell(const NetCell& cell, double z_max) {
     bool along_u = true;
     if (shape_.count() > kLargeNet && cell.halvings < kHalvingsBeforeLargeForm) {
@@ -97,11 +97,12 @@ class Search {
     VisitHalves(cell, along_u);
   }
 
-  // True when the distance polynomial proves the cell free of nearer points, if need be after finding a
-  // nearer one. Otherwise says along which parameter to halve.
+  // Returns true if the distance polynomial proves that the cell holds no nearer point. It may find a nearer
+  // point first. Otherwise sets `along_u`: whether to halve along u.
   bool ExcludedByForm(const NetCell& cell, double z_max, bool& along_u) {
-    // Above its start the ray is a vertical line; the line is never farther than the ray. (A rim at the very
-    // height of the start counts as below: the two distances differ by less than the rounding slack.)
+    // Above its start the ray is a vertical line, and the line is never farther than the ray. (A rim at
+    // exactly the height of the start counts as below: the two distances differ by less than the rounding
+    // slack.)
     const bool horizontal = kReach == Reach::kUpwardRay && z_max > 0.5 * rounding_;
     DistanceForm form;
     for (int attempt = 0; attempt < 8; ++attempt) {
@@ -119,7 +120,7 @@ class Search {
       } else if (Evaluate(form, minimum.place.x(), minimum.place.y()).f < 0.0) {
         nearer = minimum.place;
       }
-      // With the vertical line (horizontal) a point nearer to the line need not be nearer to the ray.
+      // With the vertical line (`horizontal`), a point nearer to the line need not be nearer to the ray.
       if (!nearer || !Improve(cell.u0 + nearer->x() * (cell.u1 - cell.u0),
                               cell.v0 + nearer->y() * (cell.v1 - cell.v0))) {
         break;
@@ -147,7 +148,8 @@ class Search {
     }
   }
 
-  // Descends from (u,v) over the whole piece and keeps what it finds if that is nearer. Says whether it was.
+  // Descends from (u,v) over the whole piece. If the point found is nearer than the best one, keeps it and
+  // returns true.
   bool Improve(double u, double v) {
     constexpr int kMaxSteps = 40;
     const Piece& piece = surface_.piece(piece_);
@@ -156,7 +158,7 @@ class Search {
     double f = 0.5 * d.squaredNorm();
     for (int step = 0; step < kMaxSteps; ++step) {
       const Vec2 g(d.dot(jet.du), d.dot(jet.dv));
-      // Above the start of the ray height does not count.
+      // Above the start of the ray, height does not count.
       const double kz = kReach == Reach::kUpwardRay && jet.p.z() > c_.z() ? 0.0 : 1.0;
       const Vec3 du(jet.du.x(), jet.du.y(), kz * jet.du.z()), dv(jet.dv.x(), jet.dv.y(), kz * jet.dv.z());
       const Sym2 first{du.dot(jet.du), du.dot(jet.dv), dv.dot(jet.dv)};
@@ -181,7 +183,7 @@ class Search {
       jet = Evaluate(piece, u, v);
       d = FromSet<kReach>(jet.p - c_);
       f = 0.5 * d.squaredNorm();
-      // distance^2 / 2 changes by distance * change: far below the tolerance.
+      // distance^2 / 2 changes by distance * change, so the distance changes by far less than the tolerance.
       if (gain < 1e-3 * tolerance_ * std::sqrt(f)) break;
     }
     const double distance = d.norm();
@@ -198,7 +200,7 @@ class Search {
   double rounding_;
   double tolerance_;
   std::optional<ClosestPoint> best_;
-  // Of the leaf at hand; cells are relative to c_.
+  // The leaf at hand. Cells are relative to c_.
   PieceId piece_;
   NetShape shape_;
   bool rational_ = false;

@@ -1,4 +1,4 @@
-// Closest surface point to simple sets; what the independent verifier stands on (no code of cam/location).
+// Closest surface point to simple sets. The verifier is built on it; it uses no code of cam/location.
 #pragma once
 
 #include <optional>
@@ -9,40 +9,40 @@ namespace patchmill {
 
 struct ClosestPoint {
   SurfacePoint at;
-  double distance = 0.0;  // mm, of the surface point `at`: at most `tolerance` above the true minimum
+  double distance = 0.0;  // mm, to the surface point `at`; at most `tolerance` above the minimum
 };
 
-// Nearest point of the surface to the upward vertical ray {c + s e_z, s >= 0}, if nearer than `limit` (mm,
-// may be infinite). nullopt proves that nothing is nearer than limit - tolerance. Every kind of patch, open
-// edges and degenerate places included.
+// The surface point nearest to the upward vertical ray {c + s e_z, s >= 0}, if it is nearer than `limit` (mm,
+// may be infinite). nullopt proves that nothing is nearer than limit - tolerance. Covers every kind of patch,
+// open edges and degenerate places.
 //
-// Branch and bound over the leaves: their boxes, then the polynomial of the squared distance over the leaf
-// (core/surface/distance_form.h), halved until proven. `tolerance` (mm) is raised to 1e-12 of the largest
-// coordinate, which is the rounding slack. A tight `limit` is the best help: leaves beyond it are not opened.
-// Thread-safe.
+// Branch and bound over the leaves. It uses their boxes first, then the polynomial of the squared distance
+// over the leaf (core/surface/distance_form.h), halved until the answer is proven. `tolerance` (mm) is raised
+// to 1e-12 of the largest coordinate, which is the rounding slack. A tight `limit` saves the most time,
+// because leaves beyond it are not opened. Thread-safe.
 std::optional<ClosestPoint> ClosestToUpwardRay(const Surface& surface, const Vec3& c, double limit,
                                                double tolerance);
-// What is above c: as ClosestToUpwardRay, but only of the leaves that reach above it. nullopt proves that
-// nothing above c is nearer to the ray than limit - tolerance; a point found that is not above c, that
-// nothing above is nearer than this point, up to the tolerance.
+// As ClosestToUpwardRay, but searches only the leaves that reach above c. nullopt proves that no point above
+// c is nearer to the ray than limit - tolerance. The point found may lie below c. It then proves that no
+// point above c is nearer than this one, up to the tolerance.
 std::optional<ClosestPoint> ClosestAbove(const Surface& surface, const Vec3& c, double limit,
                                          double tolerance);
-// Nearest point of the surface to the point c, if nearer than `limit`; otherwise as above.
+// The surface point nearest to the point c, if it is nearer than `limit`. Otherwise as ClosestToUpwardRay.
 std::optional<ClosestPoint> ClosestToPoint(const Surface& surface, const Vec3& c, double limit,
                                            double tolerance);
-// Some point of the surface nearer than `limit` to the point c (the first one found, not the nearest): much
+// Some surface point nearer than `limit` to the point c: the first one found, not the nearest. This is much
 // cheaper. nullopt proves that nothing is nearer than limit - tolerance.
 std::optional<ClosestPoint> FirstNearPoint(const Surface& surface, const Vec3& c, double limit,
                                            double tolerance);
 
-// Whether some point of the surface is nearer than `limit` to the upward ray: true with such a point found
-// (the first one, not the nearest), false proves that nothing is nearer than limit - tolerance.
+// Whether some surface point is nearer than `limit` to the upward ray. True: such a point was found (the
+// first one, not the nearest). False proves that nothing is nearer than limit - tolerance.
 bool AnythingNearUpwardRay(const Surface& surface, const Vec3& c, double limit, double tolerance);
-// The same, with the point.
+// The same, but returns the point.
 std::optional<ClosestPoint> FirstNearUpwardRay(const Surface& surface, const Vec3& c, double limit,
                                                double tolerance);
-// Whether anything above c may be nearer than `limit` to the upward ray, as far as boxes tell: false proves
-// that nothing is. Below a microsecond.
+// Whether anything above c may be nearer than `limit` to the upward ray, judged by boxes alone. False proves
+// that nothing is. Cost below a microsecond.
 bool MayRiseAbove(const Surface& surface, const Vec3& c, double limit);
 
 }  // namespace patchmill

@@ -9,7 +9,7 @@ namespace {
 class Collapser {
  public:
   Collapser(const std::vector<SurfaceNode>& binary, const RunContext& run) : binary_(binary), run_(run) {
-    nodes_.reserve(binary.size() / 10 * 3 + 4);  // up to 0.26 of them are seen
+    nodes_.reserve(binary.size() / 10 * 3 + 4);  // measured: at most 0.26 nodes per binary node
     Emit(0, 1);
   }
   std::vector<FourChildren> Take() { return std::move(nodes_); }
@@ -59,7 +59,7 @@ class Collapser {
   const std::vector<SurfaceNode>& binary_;
   const RunContext& run_;
   std::vector<FourChildren> nodes_;
-  bool stopped_ = false;  // what is there is of no use
+  bool stopped_ = false;  // true: nodes_ is not complete and must not be used
 };
 
 }  // namespace

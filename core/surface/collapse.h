@@ -1,4 +1,5 @@
-// A binary tree of boxes with four children a node: half as deep, and four boxes at once.
+// Turns a binary tree of boxes into one with four children per node. It is half as deep, and four boxes are
+// tested at once.
 #pragma once
 
 #include <array>
@@ -14,17 +15,18 @@ namespace patchmill {
 
 struct SurfaceNode;
 
-// Of a walk that keeps what it has not visited on a stack: three siblings a level.
+// Capacity of the stack of a depth-first walk. The stack holds at most three siblings per level.
 inline constexpr std::size_t kMaxPending = 512;
 
-// Of a node: in the binary tree, and where they stand among the nodes of four (leaves as ~leaf).
+// The children of a node: their indices in the binary tree, and their indices among the nodes of four
+// children (leaves as ~leaf).
 struct FourChildren {
   std::array<std::int32_t, 4> binary{}, child{};
   std::size_t count = 1;
 };
 
-// Each node takes the binary node's children and opens the largest ones. The root comes first; a tree of one
-// leaf is a root with one child. Serial. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Each node takes the children of its binary node and opens the largest ones. The root comes first. A tree of
+// one leaf is a root with one child. Serial. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<FourChildren>> Collapse(const std::vector<SurfaceNode>& binary,
                                                    const RunContext& run);
 

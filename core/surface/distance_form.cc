@@ -22,7 +22,7 @@ const Binomials& BinomialTable() {
   return table;
 }
 
-// out[0..2m] += 2 or 1 times the convolution of two rows of scaled coefficients.
+// Adds the convolution of two rows of scaled coefficients, times 1 or 2, to out[0..2m].
 template <int kM, int kComponents>
 inline void AddRowProduct(int degree, double factor, const double (*a)[kMaxDegree + 1],
                           const double (*b)[kMaxDegree + 1], double* out) {
@@ -38,8 +38,8 @@ inline void AddRowProduct(int degree, double factor, const double (*a)[kMaxDegre
   }
 }
 
-// kM, the degree along v, as a constant for the common ones. Components: x y, z unless horizontal, r w if
-// rational (its sign is negative).
+// kM is the degree along v, a constant for the common degrees. The components are x and y, z unless
+// horizontal, and r w if rational (with a negative sign).
 template <int kM, int kPositive, bool kRational>
 void Multiply(NetShape shape, const Vec4* points, double radius, DistanceForm& form) {
   constexpr int kComponents = kPositive + (kRational ? 1 : 0);
@@ -191,12 +191,12 @@ FormJet Evaluate(const DistanceForm& form, double u, double v) {
 }
 
 ConvexVerdict DecideConvex(const DistanceForm& form, const Vec2& start) {
-  constexpr int kMaxSteps = 12;  // quadratic from the first or second on
+  constexpr int kMaxSteps = 12;  // converges quadratically from the first or second step on
   Vec2 x = start;
   for (int step = 0; step < kMaxSteps; ++step) {
     const FormJet jet = Evaluate(form, x.x(), x.y());
     if (jet.f < 0.0) return {false, x};
-    // Convex: q(y) >= q(x) + g.(y - x), smallest at a corner of the square.
+    // The form q is convex: q(y) >= q(x) + g.(y - x). The right side is smallest at a corner of the square.
     const Vec2& g = jet.gradient;
     const double below =
         std::min(-g.x() * x.x(), g.x() * (1.0 - x.x())) + std::min(-g.y() * x.y(), g.y() * (1.0 - x.y()));

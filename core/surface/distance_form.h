@@ -1,12 +1,12 @@
-// Squared distance of a net to the origin as a polynomial: an exact test that a whole rectangle stays out of
-// a ball.
+// The squared distance of a net to the origin as a polynomial. It gives an exact test that a whole rectangle
+// stays out of a ball.
 //
 // For a net N = (X, Y, Z, w), coordinates relative to the ball's centre,
 //   q(u,v) = X^2 + Y^2 + Z^2 - r^2 w^2 = w^2 (|S|^2 - r^2)
-// is a polynomial of twice the net's degrees (X^2 + Y^2 alone for the vertical line through the centre). Its
-// Bernstein coefficients bound it, and where its Hessian is positive definite all over the rectangle
-// ([location T6] in this form), one point with a supporting plane bounds it exactly. Both tests are as good
-// for rational nets and for spheres around the centre (q constant) as for planes.
+// is a polynomial of twice the net's degrees. (For the vertical line through the centre, X^2 + Y^2 alone
+// stands in front.) Its Bernstein coefficients bound it. If its Hessian is positive definite all over the
+// rectangle ([location T6] in this form), one point with a supporting plane bounds it exactly. Both tests are
+// as good for rational nets and for spheres around the centre (q constant) as for planes.
 #pragma once
 
 #include <array>
@@ -28,20 +28,20 @@ struct DistanceForm {
   int count() const { return (degree_u + 1) * (degree_v + 1); }
 };
 
-// radius >= 0. Cost (number of net points)^2 / 2 products.
+// `radius` must be >= 0. Cost: (number of net points)^2 / 2 products.
 void MakeDistanceForm(NetShape shape, const Vec4* points, bool rational, bool horizontal, double radius,
                       DistanceForm& form);
 
 struct FormMinimum {
   double value = 0.0;         // smallest coefficient: a lower bound of q
-  Vec2 place = Vec2::Zero();  // of that coefficient (its Greville abscissa)
+  Vec2 place = Vec2::Zero();  // the Greville abscissa of that coefficient
 };
 FormMinimum SmallestCoefficient(const DistanceForm& form);
 
 // Bounds of the second derivatives over [0,1]^2.
 struct FormBend {
   bool convex = false;                // the Hessian is positive definite everywhere
-  double max_uu = 0.0, max_vv = 0.0;  // largest absolute values: where to cut
+  double max_uu = 0.0, max_vv = 0.0;  // largest absolute values; they say where to cut
 };
 FormBend BoundSecondDerivatives(const DistanceForm& form);
 
@@ -52,7 +52,8 @@ struct FormJet {
 };
 FormJet Evaluate(const DistanceForm& form, double u, double v);
 
-// A convex form: either proves q >= 0 on [0,1]^2 or finds a point with q < 0; neither only by rounding.
+// For a convex form. Either proves q >= 0 on [0,1]^2 or finds a point with q < 0. Only rounding can leave
+// both open.
 struct ConvexVerdict {
   bool nonnegative = false;
   std::optional<Vec2> negative_at;

@@ -9,7 +9,7 @@
 namespace patchmill {
 namespace {
 
-// Sub-rectangle of a piece with a lower bound of sign * coordinate.
+// A sub-rectangle of a piece with a lower bound of sign * coordinate.
 struct Candidate {
   double bound;
   PieceId piece;
@@ -75,8 +75,8 @@ SurfacePoint Extreme(const Surface& surface, int axis, double sign, double toler
   return answer;
 }
 
-// Largest normal curvature towards the upward normal; -infinity where it does not exist or the normal is
-// horizontal.
+// The largest normal curvature towards the upward normal. It is -infinity where it does not exist or the
+// normal is horizontal.
 double ConcaveCurvature(const Piece& piece, double u, double v) {
   const SurfaceJet jet = Evaluate(piece, u, v);
   const auto normal = UpwardNormal(jet);
@@ -90,7 +90,7 @@ struct Peak {
   double u = 0.0, v = 0.0;
 };
 
-// Samples the leaf 3 x 3, then halves a pattern around the best sample, staying in the leaf.
+// Samples the leaf at 3 x 3 places. Then shrinks a search pattern around the best sample within the leaf.
 Peak LeafPeak(const Surface& surface, const SurfaceLeaf& leaf) {
   const Piece& piece = surface.piece(leaf.piece);
   Peak peak{-kInfinity, 0, 0};

@@ -9,18 +9,18 @@ namespace patchmill {
 namespace {
 
 constexpr int kMostHalvings = 40;
-// Of the largest coefficient: sums of a few dozen products.
+// Share of the largest coefficient; covers sums of a few dozen products.
 constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 struct Halver {
-  const int rows, columns;  // of coefficients
+  const int rows, columns;  // numbers of coefficients
   const double rounding;
   int parts;
   std::vector<double>& buffer;  // two parts for each halving
 
   double At(const double* c, int i, int j) const { return c[i * columns + j]; }
 
-  // Along u where the form bends most that way.
+  // Whether the form bends more along u than along v.
   bool BendsMostAlongU(const double* c) const {
     double u = 0.0, v = 0.0;
     for (int i = 0; i < rows; ++i) {
@@ -32,7 +32,8 @@ struct Halver {
     return u >= v;
   }
 
-  // De Casteljau at the middle, of `count` rows of coefficients `step` apart, the rows `stride` apart.
+  // De Casteljau's algorithm at the middle, for `count` rows of coefficients. Coefficients of a row are
+  // `step` apart, rows are `stride` apart.
   static void Halve(const double* c, double* low, double* high, int size, int count, int step, int stride) {
     std::copy_n(c, size, high);
     const int along = size / count;
@@ -49,7 +50,7 @@ struct Halver {
   bool Prove(const double* c, int halvings) {
     const int size = rows * columns;
     if (*std::min_element(c, c + size) >= rounding) return true;
-    // The corners are values.
+    // The corner coefficients are values of the form.
     const double corner = std::min({c[0], c[columns - 1], c[size - columns], c[size - 1]});
     if (corner < rounding || --parts < 0 || halvings >= kMostHalvings) return false;
     double* low = buffer.data() + 2 * halvings * size;

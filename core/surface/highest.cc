@@ -10,7 +10,7 @@
 namespace patchmill {
 namespace {
 
-constexpr int kMostSlopes = 6;  // looked at for the height of a hull inside the column
+constexpr int kMostSlopes = 6;  // slopes that are tried to bound the height of a hull inside the column
 
 Vec2 NearestOnSegment(const Vec2& a, const Vec2& b, const Vec2& p) {
   const Vec2 d = b - a;
@@ -29,7 +29,8 @@ class Search {
     half_ = 0.5 * (column.a - column.b).cwiseAbs();
   }
 
-  // The column so much narrower has this point higher than so much more: no search can miss such a one.
+  // True if this point lies in the column of radius - tolerance and higher than above + tolerance. No search
+  // can miss such a point.
   bool IsSure(const Vec3& p) const {
     return !TooLow(p.z() - rounding_) &&
            (Xy(p) - NearestOnSegment(column_.a, column_.b, Xy(p))).norm() < reach_ - rounding_;
@@ -51,13 +52,13 @@ class Search {
   bool TooLow(double z) const { return !(z > known_ + tolerance_); }
   bool Done() const { return any_ && best_.has_value(); }
 
-  // Minus the top of each box, the highest first; infinite where it stands beside the column.
+  // Minus the top of each box, so that the highest comes first. Infinite if the box stands beside the column.
   std::array<double, 4> Depths(const BoxNode& node) const {
     std::array<double, 4> depths;
     for (int k = 0; k < 4; ++k) {
       const Vec2 low(static_cast<double>(node.min_x[k]), static_cast<double>(node.min_y[k]));
       const Vec2 high(static_cast<double>(node.max_x[k]), static_cast<double>(node.max_y[k]));
-      // To the segment's own box: never more than to the segment.
+      // The distance to the segment's own box is never more than the distance to the segment.
       const Vec2 gap = (low - middle_ - half_).cwiseMax(middle_ - half_ - high).cwiseMax(Vec2::Zero());
       depths[static_cast<std::size_t>(k)] =
           gap.squaredNorm() >= reach_ * reach_ ? kInfinity : -static_cast<double>(node.max_z[k]);
@@ -65,7 +66,7 @@ class Search {
     return depths;
   }
 
-  // By the summed steps of the net, which a net that closes upon itself has too.
+  // Compares the summed steps of the net. These are large even for a net that closes upon itself.
   bool LongerAlongU(const NetCell& cell, const Vec3* hull, int count) const {
     if (count < shape_.count()) {
       const NetBend bend = MeasureBend(shape_, cell.points, Vec3::UnitZ(), kInfinity);
@@ -77,19 +78,20 @@ class Search {
     for (int i = 1; i < count; ++i) {
       if (i % row != 0) steps_v += (hull[i] - hull[i - 1]).lpNorm<1>();
     }
-    // The mean line of each: there are row lines along u.
+    // Compares means per line: there are `row` lines along u.
     return steps_u * (shape_.degree_u + 1) >= steps_v * row;
   }
 
-  // A bound of the heights that a hull has inside the column, and about where that is in a net.
+  // An upper bound of the heights of a hull inside the column, and about where in the net the bound is
+  // reached.
   struct Top {
     double z = kInfinity;
-    Vec2 at = Vec2(0.5, 0.5);  // of the cell's parameters
+    Vec2 at = Vec2(0.5, 0.5);  // in the cell's own parameters [0,1]^2
   };
 
-  // x: how far each point is outside the column, by the linearised distance. Inside, z is at most the largest
-  // z - slope x for any slope >= 0; the best slope is that of the edge of the points' upper hull over x = 0,
-  // which is exact to second order where the surface leaves the column.
+  // x[k] is how far the point k lies outside the column, by the linearised distance. Inside the column z is
+  // at most the largest z - slope x, for any slope >= 0. The best slope is that of the edge over x = 0 of the
+  // points' upper hull. It is exact to second order where the surface leaves the column.
   Top TopInside(const double* x, const Vec3* hull, int count) const {
     const auto highest = [&](double slope) {
       int best = 0;
@@ -119,7 +121,7 @@ class Search {
     return top;
   }
 
-  // Where a point of a net belongs; of nets with points left out just the middle.
+  // The parameters of a point of the net. If some points were left out, the middle.
   Vec2 At(int point, int count) const {
     const int row = shape_.degree_v + 1;
     if (count < shape_.count() || shape_.degree_u == 0 || shape_.degree_v == 0) return Vec2(0.5, 0.5);
@@ -127,8 +129,8 @@ class Search {
                 static_cast<double>(point % row) / shape_.degree_v);
   }
 
-  // Nothing of the cell is in the column and higher than what is known. `top`: a bound of its height, made
-  // tighter; `along_u`: the longer way.
+  // True if the cell has no point in the column that is higher than the known one. Otherwise tightens `top`,
+  // a bound of the cell's height, and sets `along_u`: whether the cell is longer along u.
   bool Excluded(const NetCell& cell, Top& top, bool& along_u) const {
     std::array<Vec3, kMaxNetPoints> hull;
     std::array<double, kMaxNetPoints> x;
@@ -140,7 +142,8 @@ class Search {
     const Vec2 center = Xy(Vec3(0.5 * (box.min + box.max)));
     const Vec2 nearest = NearestOnSegment(column_.a, column_.b, center);
     const double distance = (center - nearest).norm();
-    // The half plane behind `nearest` holds the segment: the distance to it is never more.
+    // The half plane behind `nearest` holds the segment, so the distance to it is never more than the
+    // distance to the segment.
     const Vec2 away = distance > 0.0 ? Vec2((center - nearest) / distance) : Vec2::Zero();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       x[i] = (Xy(hull[i]) - nearest).dot(away) - reach_;
@@ -152,7 +155,7 @@ class Search {
     return false;
   }
 
-  // Corners of a net are on the surface.
+  // The corners of a net lie on the surface.
   void TakeCorners(const NetCell& cell) {
     const int row = shape_.degree_v + 1;
     for (int k = 0; k < 4; ++k) {
@@ -172,7 +175,8 @@ class Search {
     best_ = at;
   }
 
-  // Of the leaf's oriented box: as TopInside, with the slopes along which a side of the box does not count.
+  // As TopInside, for the leaf's oriented box. The slopes tried are those along which one side of the box
+  // drops out.
   double TopOfBox(const SurfaceLeaf& leaf) const {
     const Vec3 center = leaf.center(), half = leaf.half();
     const Eigen::Matrix3d axis = leaf.axis();
@@ -203,7 +207,7 @@ class Search {
     if (!Excluded(cell, top, along_u)) Visit(cell, top, along_u);
   }
 
-  // The cell is not excluded.
+  // Searches a cell that is not excluded.
   void Visit(const NetCell& cell, const Top& top, bool along_u) {
     TakeCorners(cell);
     if (Done() || TooLow(top.z)) return;
@@ -226,12 +230,12 @@ class Search {
   const Surface& surface_;
   const Column column_;
   const bool any_;
-  double known_;  // mm: what is not higher does not count
+  double known_;  // mm; only points higher than this count
   const Vec2 middle_;
   Vec2 half_;
   double rounding_ = 0.0, tolerance_ = 0.0, reach_ = 0.0;
   std::optional<SurfacePoint> best_;
-  // Of the leaf at hand.
+  // The leaf at hand.
   PieceId piece_;
   NetShape shape_;
 };
@@ -244,8 +248,8 @@ std::optional<SurfacePoint> HighestInColumn(const Surface& surface, const Column
 }
 
 bool AnyInColumn(const Surface& surface, const Column& column, double above, double tolerance) {
-  // What was found lately is mostly in the way of neighbours too. Of whatever surface it was: what counts is
-  // where that place of this one is.
+  // The points found last mostly stand in the way of neighbouring columns, too. They may come from another
+  // surface. So a kept place counts only if this surface's point at that place lies in the column.
   constexpr std::size_t kKept = 8;
   thread_local std::array<SurfacePoint, kKept> kept;
   thread_local std::size_t found_count = 0;

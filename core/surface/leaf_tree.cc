@@ -16,12 +16,12 @@ namespace {
 
 constexpr int kBins = 16;
 constexpr std::size_t kFew = 8, kMostSteps = kBins;
-// Subtrees are built in parallel, at least so many where there are enough items.
+// Subtrees are built in parallel: at least kShares of them, if each has at least kAlone items.
 constexpr std::size_t kShares = 32, kAlone = 512;
-constexpr float kNarrow = 1e-30F;  // of no use: its bins would be too narrow for a float
+constexpr float kNarrow = 1e-30F;  // a narrower spread is not cut: its bins would be too narrow for a float
 
-// A box as it is weighed here, from an origin among all boxes: how it was rounded costs nothing but a
-// slightly dearer cut.
+// A box in floats, relative to an origin among all boxes. It only weighs cuts, so its rounding can do no harm
+// but a slightly dearer cut.
 struct LaneBox {
   Float4 low = Splat(std::numeric_limits<float>::infinity());
   Float4 high = Splat(-std::numeric_limits<float>::infinity());
@@ -46,7 +46,7 @@ LaneBox LaneBoxOf(const Box3& box, const Vec3& origin) {
   return {lanes(box.min), lanes(box.max)};
 }
 
-// The bins of what is spread like this, along each axis.
+// Bins of equal width over a spread of centres, along each axis.
 struct Bins {
   Float4 min, scale;
 
@@ -66,7 +66,7 @@ struct Builder {
   std::vector<std::int32_t> order;
   std::vector<SurfaceNode> nodes;
 
-  // Where to cut items: those below `bin` of `axis` go left. cost is +inf when bins cannot part them.
+  // A cut of the items: those below `bin` of `axis` go left. The cost is +inf if bins cannot part the items.
   struct Cut {
     float cost = std::numeric_limits<float>::infinity();
     int axis = -1, bin = 0;
@@ -74,7 +74,7 @@ struct Builder {
 
   const LaneBox& Box(std::int32_t item) const { return boxes[static_cast<std::size_t>(item)]; }
 
-  // Of some boxes in a row, after each of which a cut at the given bin is possible.
+  // The box and number of some items in a row. After a step, a cut at its bin is possible.
   struct Step {
     LaneBox box;
     int count = 0, bin = 0;
@@ -98,7 +98,7 @@ struct Builder {
     }
   }
 
-  // Most nodes have few items: these are put in order of their bins, and no bins are filled.
+  // Most nodes have few items. These are sorted by their bins, and no bins are filled.
   Cut BestCutOfFew(std::span<const std::int32_t> items, const Bins& bins) const {
     std::array<Int4, kFew> bin;
     for (std::size_t k = 0; k < items.size(); ++k) bin[k] = bins.Of(Box(items[k]));
@@ -152,7 +152,7 @@ struct Builder {
     return best;
   }
 
-  // Returns the number of items that go left, at least 1 and fewer than all.
+  // Parts the items in place. Returns the number of items that go left, at least 1 and fewer than all.
   std::size_t Part(std::span<std::int32_t> items, int depth) const {
     if (items.size() == 2) return 1;
     LaneBox spread;
@@ -161,7 +161,7 @@ struct Builder {
       spread.Add({center, center});
     }
     const Bins bins(spread);
-    const Cut cut = depth < 30 ? BestCut(items, bins) : Cut{};  // too deep: medians end it in log2(n)
+    const Cut cut = depth < 30 ? BestCut(items, bins) : Cut{};  // too deep: halving ends it in log2(n)
     if (cut.axis >= 0) {
       const auto middle = std::partition(items.begin(), items.end(), [&](std::int32_t item) {
         return bins.Of(Box(item))[cut.axis] < cut.bin;
@@ -178,13 +178,13 @@ struct Builder {
     return half;
   }
 
-  // A node over `items` and all below it; they take 2 items - 1 places from `self` on.
+  // A node over `items` and all nodes below it. They take 2 items - 1 places from `self` on.
   struct Task {
     std::span<std::int32_t> items;
     std::size_t self = 0;
     int depth = 0;
   };
-  // Nodes of at most `enough` items are left to be built: they go to `rest`.
+  // Builds the subtree of `task`. Nodes of at most `enough` items are not built but added to `rest`.
   void Build(const Task& task, std::size_t enough, std::vector<Task>* rest) {
     const auto [items, self, depth] = task;
     if (items.size() <= enough && rest != nullptr) {
@@ -220,12 +220,12 @@ std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const Run
   run.Progress("bounds: tree", 0.0);
   std::vector<Builder::Task> rest;
   builder.Build({builder.order, 0, 0}, std::max(kAlone, boxes.size() / kShares), &rest);
-  // A cancel shows in `run`.
+  // A cancellation shows in `run`.
   ParallelFor(run, "bounds: tree", rest.size(), [&](std::size_t k) {
     builder.Build(rest[k], 0, nullptr);
   }).IgnoreError();
   if (run.Cancelled()) return {};
-  // Children come after their parents.
+  // Children come after their parents, so this loop visits them first.
   for (std::size_t i = builder.nodes.size(); i-- > 0;) {
     SurfaceNode& node = builder.nodes[i];
     if (node.leaf >= 0) {

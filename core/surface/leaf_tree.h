@@ -7,9 +7,10 @@
 
 namespace patchmill {
 
-// Nodes over `boxes` (one per leaf, none empty), split where the surface area heuristic finds it cheapest, at
-// the median where it finds nothing. Depth at most about 2 log2(n) + 30. Deterministic, in parallel; cost O(n
-// log n), about 0.5 us a box. Empty when `run` is cancelled meanwhile.
+// Builds the nodes over `boxes` (one per leaf, none empty). Each node is split where the surface area
+// heuristic finds it cheapest, or at the median if it finds no split. The depth is at most about 2 log2(n) +
+// 30. Deterministic, in parallel. Cost O(n log n), about 0.5 us per box. Returns an empty tree if `run` is
+// cancelled.
 std::vector<SurfaceNode> BuildLeafTree(const std::vector<Box3>& boxes, const RunContext& run);
 
 }  // namespace patchmill

@@ -6,9 +6,9 @@
 namespace patchmill {
 namespace {
 
-// One line of a net: `n + 1` points `stride` apart.
+// Halves one line of a net: `n + 1` points, `stride` apart.
 void HalveLine(int n, int stride, Vec4* low, Vec4* high) {
-  // `high` holds the line and becomes the right half in place; its first point runs through the left half.
+  // `high` holds the line and becomes the upper half in place. Its first point runs through the lower half.
   low[0] = high[0];
   for (int k = 1; k <= n; ++k) {
     for (int i = 0; i <= n - k; ++i) high[i * stride] = 0.5 * (high[i * stride] + high[(i + 1) * stride]);
@@ -17,12 +17,12 @@ void HalveLine(int n, int stride, Vec4* low, Vec4* high) {
 }
 
 void RestrictLine(int n, int stride, Vec4* p, double t0, double t1) {
-  if (t1 < 1.0) {  // keep [0, t1]
+  if (t1 < 1.0) {  // keeps [0, t1]
     for (int k = 1; k <= n; ++k) {
       for (int i = n; i >= k; --i) p[i * stride] = (1.0 - t1) * p[(i - 1) * stride] + t1 * p[i * stride];
     }
   }
-  if (t0 > 0.0) {  // of that keep [t0 / t1, 1]
+  if (t0 > 0.0) {  // keeps [t0 / t1, 1] of that
     const double t = t0 / t1;
     for (int k = 1; k <= n; ++k) {
       for (int i = 0; i <= n - k; ++i) p[i * stride] = (1.0 - t) * p[i * stride] + t * p[(i + 1) * stride];
@@ -30,8 +30,8 @@ void RestrictLine(int n, int stride, Vec4* p, double t0, double t1) {
   }
 }
 
-// A right-handed frame of points that do not span a surface with their two families of lines: the longest
-// direction first, then the farthest point from that line.
+// A right-handed frame for points whose two families of lines span no surface. The first axis is the longest
+// direction, the second points to the point farthest from that line.
 Eigen::Matrix3d FrameOfPoints(const Vec3* hull, int count) {
   const auto farthest = [&](const auto& part) {
     Vec3 best = Vec3::Zero();
@@ -55,7 +55,7 @@ Eigen::Matrix3d FrameOfPoints(const Vec3* hull, int count) {
 
 Eigen::Matrix3d FrameOfTangents(const Vec3& along_u, const Vec3& along_v, const Vec3* hull, int count) {
   const Vec3 normal = along_u.cross(along_v);
-  // Less than 1e-6 rad between the two: their cross product has no digits to trust.
+  // The two directions are less than 1e-6 rad apart: their cross product has no digits to trust.
   if (!(normal.norm() > 1e-6 * along_u.norm() * along_v.norm())) return FrameOfPoints(hull, count);
   Eigen::Matrix3d axis;
   axis.col(2) = normal.normalized();
@@ -65,7 +65,7 @@ Eigen::Matrix3d FrameOfTangents(const Vec3& along_u, const Vec3& along_v, const 
   return axis;
 }
 
-// Sum over the lines of one family of (last point - first point), points without weight left out.
+// Sum over the lines of one family of (last point - first point). Points without weight are left out.
 Vec3 SumOfChords(int lines, int line_stride, int n, int stride, const Vec4* points) {
   Vec3 sum = Vec3::Zero();
   for (int l = 0; l < lines; ++l) {
@@ -145,7 +145,7 @@ int HullPoints(NetShape shape, const Vec4* points, Vec3* hull) {
 RectBounds BoundInFrame(const Eigen::Matrix3d& axis, const Vec3* hull, int hull_count) {
   RectBounds bounds;
   bounds.axis = axis;
-  Box3 oriented;  // coordinates relative to the first point: no digits lost far from the origin
+  Box3 oriented;  // relative to the first point: no digits are lost far from the origin
   for (int i = 0; i < hull_count; ++i) {
     bounds.box.Add(hull[i]);
     const Vec3 d = hull[i] - hull[0];

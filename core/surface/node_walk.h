@@ -1,4 +1,4 @@
-// A walk of a surface's tree of boxes, nearer ones first.
+// A walk of a surface's tree of boxes, nearer boxes first.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace patchmill {
 
-// bound(node): of each child the square of how near anything in it may be. excluded(bound): children so far
-// away are left out; asked again when their turn comes. leaf(number, max_z), with the top of its box, is
-// called for the rest of the leaves, until it returns true.
+// bound(node) returns for each child a lower bound of the squared distance of its contents. excluded(bound)
+// says whether children so far away are left out; it is called again when their turn comes. leaf(number,
+// max_z) is called for the remaining leaves, with the top of the leaf's box, until it returns true.
 template <class Bound, class Excluded, class Leaf>
 void WalkNearestFirst(const std::vector<BoxNode>& nodes, const Bound& bound, const Excluded& excluded,
                       const Leaf& leaf) {

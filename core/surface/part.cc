@@ -15,7 +15,8 @@ absl::StatusOr<Surface> PartOf(const Surface& surface, const std::vector<bool>& 
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (patches[i]) part.patches.push_back({whole.patches[i].id, ShapeOf(surface, PatchId(i))});
   }
-  // What is joined in the whole is joined here, as far as so small a part may have it.
+  // The part keeps the join tolerance of the whole surface, up to the largest one allowed for so small a
+  // part.
   part.join_tolerance =
       std::min(surface.network.join_tolerance, kMaxJoinTolerance * ControlBox(part).Diagonal());
   PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(std::move(part), run));

@@ -19,16 +19,15 @@
 namespace patchmill {
 namespace {
 
-// A planar leaf may be large, but not curled: the box of an arc longer than a quarter circle holds mostly
-// air.
+// A planar leaf may be large, but not curled. The box of an arc longer than a quarter circle is mostly empty.
 constexpr double kMaxCurl = 0.1;
 
-constexpr std::size_t kBatch = 2048;  // pieces
+constexpr std::size_t kBatch = 2048;  // pieces per batch
 constexpr const char* kStage = "bounds";
 
 struct Leaves {
   std::vector<SurfaceLeaf> leaves;
-  std::vector<Box3> boxes;  // one per leaf
+  std::vector<Box3> boxes;  // one box per leaf
 
   void Append(const Leaves& more) { Append(more, 0, more.leaves.size()); }
   void Append(const Leaves& more, std::size_t from, std::size_t to) {
@@ -37,8 +36,8 @@ struct Leaves {
   }
 };
 
-// Shared by the pieces of one attempt: gives up as soon as the sum of leaves is beyond the budget. Whether it
-// is does not depend on the order of work.
+// Shared by the pieces of one attempt, which gives up as soon as all leaves exceed the budget. Whether they
+// do does not depend on the order of work.
 struct Budget {
   double thickness;
   int max_depth;
@@ -79,14 +78,14 @@ class LeafSplitter {
     v = v && rect.depth_v < budget_.max_depth;
     if (!u && !v) return Cut::kNone;
     if (u != v) {
-      // The other direction has reached max_depth or is straight: cutting this one must still help.
+      // The other direction has reached max_depth or is straight. A cut in this one must still help.
       const double help = u ? bend.normal_u : bend.normal_v;
       const double curl = u ? bend.curl_u : bend.curl_v;
       const bool twisted = bend.normal_u + bend.normal_v < budget_.thickness;
       if (thick && !(help > 0.5 * budget_.thickness) && !twisted && !(curl > kMaxCurl)) return Cut::kNone;
       return u ? Cut::kU : Cut::kV;
     }
-    // Twist alone (no bend of the lines) is halved by either cut: take the longer side.
+    // Twist alone (the lines do not bend) is halved by either cut. The longer side is cut.
     if (!thick || std::max(bend.normal_u, bend.normal_v) < 0.25 * bounds.half.z()) {
       return bend.length_u >= bend.length_v ? Cut::kU : Cut::kV;
     }
@@ -156,7 +155,7 @@ absl::Status CheckParams(const PatchNetwork& network, const SurfaceParams& param
   return absl::OkStatus();
 }
 
-// Leaves the points of a patch to its piece where they are that piece's net.
+// Empties a patch whose points are the net of its one piece. So no net is kept twice.
 void LeavePointsTo(const std::vector<Piece>& pieces, PatchShape& shape) {
   const bool bezier = std::holds_alternative<BezierPatch>(shape);
   const auto* spline = std::get_if<BsplinePatch>(&shape);
@@ -183,7 +182,7 @@ absl::Status MakePieces(Surface& surface, const RunContext& run) {
   return absl::OkStatus();
 }
 
-// One attempt, of pieces by the batch; false when the budget does not suffice.
+// One attempt, in batches of pieces. Returns false if the budget does not suffice.
 absl::StatusOr<bool> MakeLeaves(const Surface& surface, Budget& budget, std::vector<Leaves>& batches) {
   batches.clear();
   const std::size_t count = surface.pieces.size();
@@ -214,7 +213,7 @@ absl::StatusOr<bool> MakeLeaves(const Surface& surface, Budget& budget, std::vec
   return true;
 }
 
-// The leaves of all batches in one, each batch freed before the next is held twice.
+// Joins the leaves of all batches. Each batch is freed before the next one is copied.
 absl::StatusOr<Leaves> Joined(std::vector<Leaves> batches, const RunContext& run) {
   if (batches.size() == 1) return std::move(batches.front());
   std::size_t count = 0;
@@ -234,7 +233,8 @@ absl::StatusOr<Leaves> Joined(std::vector<Leaves> batches, const RunContext& run
   return all;
 }
 
-// Leaves wanted at a thickness, from how the nets of the whole pieces bend; rather too many.
+// Estimates the number of leaves for a thickness from the bend of whole pieces. The estimate is rather too
+// high.
 double EstimateLeaves(const std::vector<Piece>& pieces, double thickness, int max_depth) {
   const auto parts = [&](double bend) {
     return std::clamp(std::sqrt(bend / thickness), 1.0, std::ldexp(1.0, max_depth));
@@ -266,11 +266,11 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
     Budget budget{thickness, max_depth, max_leaves, run, {run, kStage, surface.pieces.size()}};
     PM_ASSIGN_OR_RETURN(const bool fits, MakeLeaves(surface, budget, batches));
     if (fits) break;
-    // Skip what is hopeless even if the estimate is 16 times too high.
+    // Skips a thickness that is hopeless even if the estimate is 16 times too high.
     do {
       PM_RETURN_IF_ERROR(run.Check());
       thickness *= 4.0;
-      if (max_depth > 0 && thickness > 1e3 * params.leaf_thickness) --max_depth;  // ends in one leaf a piece
+      if (max_depth > 0 && thickness > 1e3 * params.leaf_thickness) --max_depth;  // ends in a leaf per piece
     } while (EstimateLeaves(surface.pieces, thickness, max_depth) > 16.0 * static_cast<double>(max_leaves));
   }
 

@@ -1,7 +1,8 @@
 // A leaf of the bounds hierarchy: a part of a piece and an oriented box that holds it, in 72 bytes.
 //
-// The box's frame is stored rounded, and the box is that of the stored frame; half sides are rounded up. What
-// is read is therefore as true as what was measured, only larger by less than 2e-7 of the leaf's size.
+// The frame of the box is stored rounded, and the box is measured in the stored frame. The half sides are
+// rounded up. So the stored box is a true bound, larger than the exact one by less than 2e-7 of the leaf's
+// size.
 #pragma once
 
 #include <array>
@@ -12,12 +13,12 @@
 
 namespace patchmill {
 
-// Outer bounds of a rectangle of a piece.
+// Outer bounds of a sub-rectangle of a piece.
 struct RectBounds {
   Box3 box;  // axis-parallel
-  // Oriented box: |(x - center) . axis.col(k)| <= half[k] for every x of the rectangle, rounded outward by a
-  // few ulps of the coordinates. axis is orthonormal to 1e-15 and right-handed; col(2) is the mean normal
-  // (along du x dv), col(0) runs along the longer side.
+  // The oriented box: |(x - center) . axis.col(k)| <= half[k] for every x of the rectangle, rounded outward
+  // by a few ulps of the coordinates. `axis` is orthonormal to 1e-15 and right-handed. col(2) is the mean
+  // normal (along du x dv), col(0) runs along the longer side.
   Vec3 center = Vec3::Zero();
   Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();
   Vec3 half = Vec3::Zero();
@@ -28,13 +29,13 @@ class SurfaceLeaf {
   PieceId piece;
   float u0 = 0, u1 = 1, v0 = 0, v1 = 1;  // dyadic, hence exact
 
-  // Takes the box of the hull's points in the frame `axis` (right-handed, orthonormal); one point at least.
+  // Sets the box of the hull's points in the frame `axis` (right-handed, orthonormal). At least one point.
   void SetBox(const Eigen::Matrix3d& axis, const Vec3* hull, int hull_count);
 
   const Vec3& center() const { return center_; }
   Eigen::Matrix3d axis() const;
   Vec3 half() const { return {half_[0], half_[1], half_[2]}; }
-  // All bounds together, with the leaf's box in the tree.
+  // All bounds of the leaf. `box` is the leaf's box in the tree.
   RectBounds Bounds(const Box3& box) const { return {box, center_, axis(), half()}; }
 
  private:
@@ -44,7 +45,7 @@ class SurfaceLeaf {
 };
 static_assert(sizeof(SurfaceLeaf) == 72);
 
-// Orthonormal to a few roundings, for the quaternion is divided by its own length.
+// The matrix is orthonormal up to a few roundings, because the quaternion is divided by its own length.
 inline Eigen::Matrix3d SurfaceLeaf::axis() const {
   const double x = turn_[0], y = turn_[1], z = turn_[2], w = turn_[3];
   const double xx = x * x, yy = y * y, zz = z * z, ww = w * w, one = 1.0 / (ww + xx + yy + zz),

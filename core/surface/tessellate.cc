@@ -14,7 +14,7 @@ struct SecondDerivatives {
 };
 
 SecondDerivatives SampleSecondDerivatives(const Piece& piece) {
-  // A polynomial of degree n bends at most n - 2 times: n + 2 samples see every bend.
+  // A polynomial of degree n bends at most n - 2 times, so n + 2 samples see every bend.
   const int nu = piece.net.degree_u + 1, nv = piece.net.degree_v + 1;
   SecondDerivatives max;
   for (int i = 0; i <= nu; ++i) {
@@ -32,8 +32,8 @@ struct Cells {
   int u = 1, v = 1;
 };
 
-// A triangle over a cell of sides a, b in parameters deviates by at most
-// (a^2 |S_uu| + 2 a b |S_uv| + b^2 |S_vv|) / 8: a third of `chord` for each term.
+// A triangle over a cell with sides a, b in parameters deviates by at most (a^2 |S_uu| + 2 a b |S_uv| + b^2
+// |S_vv|) / 8. Each of the three terms gets a third of `chord`.
 Cells CellsFor(const Piece& piece, double chord, int max_cells) {
   const SecondDerivatives d = SampleSecondDerivatives(piece);
   double u = std::max(1.0, std::sqrt(3.0 * d.uu / (8.0 * chord)));

@@ -1,4 +1,4 @@
-// Triangles for pictures and labels only; no path is planned on them.
+// Triangles for pictures and labels only. No path is planned on them.
 #pragma once
 
 #include <vector>
@@ -20,9 +20,9 @@ struct Tessellation {
   };
   std::vector<PieceMesh> meshes;
 };
-// Uniform grid per piece, fine enough that its triangles deviate by at most about `chord` mm (> 0; estimated
-// from sampled second derivatives), at most `max_cells` (>= 1) a side. Neighbouring pieces may differ in
-// their grids: no promise of a closed mesh. Cost 0.1 us a vertex.
+// A uniform grid for each piece. It is so fine that its triangles deviate by at most about `chord` mm (> 0;
+// estimated from sampled second derivatives), but has at most `max_cells` (>= 1) cells per side. The grids of
+// neighbouring pieces may differ, so the mesh need not be closed. Cost 0.1 us per vertex.
 Tessellation Tessellate(const Surface& surface, double chord, int max_cells);
 // The same of one piece.
 Tessellation::PieceMesh TessellatePiece(const Surface& surface, PieceId piece, double chord, int max_cells);

@@ -1,4 +1,4 @@
-// A binary tree of boxes written as nodes of four children, whatever else these hold.
+// Writes a binary tree of boxes as nodes of four children. The nodes may hold other data, too.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@
 
 namespace patchmill {
 
-// Children and boxes of `nodes`, which are empty before; Node is a BoxNode, nodes[0] the root. Parallel, but
-// for Collapse. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Writes children and boxes of `nodes`, which must be empty before. Node is a BoxNode or derives from it;
+// nodes[0] is the root. Parallel, except for Collapse. CANCELLED and DEADLINE_EXCEEDED from `run`.
 template <typename Node>
 absl::Status WriteNodes(const std::vector<SurfaceNode>& binary, const RunContext& run,
                         std::vector<Node>& nodes) {

@@ -10,7 +10,7 @@ namespace patchmill {
 namespace {
 
 constexpr std::size_t kLeafBalls = 8;
-constexpr double kBulge = 1.1;  // what a cell reaches beyond nine of its points
+constexpr double kBulge = 1.1;  // reach of a cell, as a multiple of the reach of nine of its points
 
 double Squared(const Box3& box, const Vec3& p) {
   return (box.min - p).cwiseMax(p - box.max).cwiseMax(0.0).squaredNorm();

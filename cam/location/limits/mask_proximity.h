@@ -1,4 +1,4 @@
-// How near a part of the surface is: for passes that run on over its border.
+// How near a part of the surface is. Used for passes that overrun its border.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace patchmill {
 
-// Balls around the cells along the border of a mask (a piece's sides count as border), in a tree.
+// Balls around the cells along the border of a mask, in a tree. The sides of a piece count as border.
 // Thread-safe.
 class MaskProximity {
  public:
-  // Cost: nine surface points a cell of the border. CANCELLED and DEADLINE_EXCEEDED from `run`.
+  // Cost: nine surface points per cell of the border. CANCELLED and DEADLINE_EXCEEDED from `run`.
   static absl::StatusOr<MaskProximity> Make(const Surface& surface, const SurfaceMask& mask,
                                             const RunContext& run);
 
-  // Some point of these cells may lie within `distance` (mm) of p. True up to a cell's size; false takes it
-  // that no cell reaches beyond nine of its points by more than a tenth of what they span.
+  // Whether some point of these cells may lie within `distance` (mm) of p. True is exact up to the size of a
+  // cell. False assumes that no cell reaches beyond nine of its points by more than a tenth of their span.
   bool Within(const Vec3& p, double distance) const;
 
  private:
@@ -29,7 +29,7 @@ class MaskProximity {
     Vec3 center;
     double radius;
   };
-  struct Node {  // left child next, right child at `right`; a leaf has balls [first, right)
+  struct Node {  // the left child is the next node, the right one is `right`; a leaf has balls [first, right)
     Box3 box;
     std::int32_t right = 0, first = -1;
   };

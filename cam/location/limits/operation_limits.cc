@@ -10,7 +10,8 @@
 namespace patchmill {
 namespace {
 
-// Of the tolerance: how exactly the shank is known, as the verifier does; of moves that climb or fall.
+// Shares of the tolerance: accuracy of the shank, as in the verifier, and its accuracy for moves that climb
+// or fall.
 constexpr double kShankProof = 0.01, kShankSlope = 0.1;
 
 bool Any(const std::vector<bool>& list) { return std::find(list.begin(), list.end(), true) != list.end(); }
@@ -41,7 +42,7 @@ absl::StatusOr<OperationLimits> OperationLimits::Make(const Surface& surface, co
     const auto add = [&](const Surface& off, double distance) {
       const ShankLimit limit(off, *params.shank, distance, kShankProof * params.tolerance,
                              kShankSlope * params.tolerance);
-      // The ball's centre is nowhere below the lowest point that it touches.
+      // The ball's centre is never below the lowest point that the ball touches.
       if (limit.MayTouch(surface.box.min.z())) keep.shanks_.push_back(limit);
     };
     add(surface, params.leave);
@@ -139,7 +140,7 @@ std::optional<AllowedHeights> OperationLimits::HeightsOver(const Vec2& q, double
 double OperationLimits::ClearHeight(const Vec2& a, const Vec2& b) const {
   constexpr double kFine = 0.1;  // mm
   double clear = -kInfinity;
-  // Some place of the outline lies within `beside` (mm) of the rectangle, as far as boxes tell.
+  // True if some place of the outline may lie within `beside` (mm) of the rectangle, judged by boxes.
   const auto meets = [&](const Outline& outline, double beside) {
     const Vec2 low = a.cwiseMin(b).array() - beside, high = a.cwiseMax(b).array() + beside;
     Box3 box;
@@ -158,7 +159,7 @@ double OperationLimits::ClearHeight(const Vec2& a, const Vec2& b) const {
   }
   if (avoided_locator_) {
     const double wider = params_.tool_radius - params_.ball_radius;
-    // A wide shank with its margin counts as such a ball, as far as it begins no lower.
+    // A wide shank with its margin counts as such a ball, raised if the shank begins lower.
     const double lower =
         params_.shank ? std::max(0.0, containment_->avoid_margin - params_.shank->rise) : 0.0;
     clear = std::max(clear, avoided_locator_->MaxHeight(a, b, wider, kFine) + lower);

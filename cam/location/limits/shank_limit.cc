@@ -13,7 +13,7 @@ bool ShankLimit::Hits(const Vec2& a, const Vec2& b, double radius, double bottom
 
 bool ShankLimit::Clears(const Vec3& a, const Vec3& b, double allowed_penetration) const {
   const double radius = radius_ - allowed_penetration, rise = rise_ + allowed_penetration;
-  // As low as its lower end is all along, it is no less deep in.
+  // If the shank stood at its lowest height all along, it would be at least as deep.
   if (!Hits(Xy(a), Xy(b), radius, std::min(a.z(), b.z()) + rise)) return true;
   if (std::abs(a.z() - b.z()) <= slope_) return false;
   const Vec3& low = a.z() < b.z() ? a : b;

@@ -1,4 +1,4 @@
-// Where a shank that is wider than the ball is clear of a surface: a limit of the ball's centre.
+// Where a shank that is wider than the ball is clear of a surface. This is a limit of the ball's centre.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,13 @@
 
 namespace patchmill {
 
-// The shank over a centre c is as deep in the surface as the deepest point p with distance d from the axis in
-// plan is in its cylinder: min(radius - d, p_z - c_z - rise). Moving c by some mm changes that by no more.
+// The depth of the shank over a centre c in the surface is that of the deepest point p. A point at the
+// distance d from the axis in plan has the depth min(radius - d, p_z - c_z - rise). If c moves by some mm,
+// the depth changes by no more.
 class ShankLimit {
  public:
-  // Keeps `keep` (mm) off `surface`, which must stay: a cylinder that much wider, that begins so much lower.
-  // Answers are right to `proof` (mm), of moves that climb or fall to `slope` (mm).
+  // Keeps `keep` (mm) off `surface`, which must outlive this object: the cylinder is that much wider and
+  // begins that much lower. Answers are exact to `proof` (mm), for moves that climb or fall to `slope` (mm).
   ShankLimit(const Surface& surface, const WideShank& shank, double keep, double proof, double slope)
       : surface_(&surface),
         radius_(shank.radius + keep),
@@ -21,17 +22,17 @@ class ShankLimit {
         proof_(proof),
         slope_(slope) {}
 
-  // The highest point of `surface` may be in it while the centre is no lower than this.
+  // Whether the highest point of `surface` may be in the shank while the centre is no lower than this.
   bool MayTouch(double lowest_center) const { return surface_->box.max.z() > lowest_center + rise_; }
-  // Along the whole straight move of the centre the shank is nowhere deeper in than `give` (mm). Cost: some
-  // microseconds; a move along the limit as often as it changes height by `slope`, and a column as wide as a
-  // bore milliseconds.
+  // True if the shank is nowhere deeper than `allowed_penetration` (mm) along the whole straight move of the
+  // centre. Cost: some microseconds. A move along the limit costs this once for every `slope` of its change
+  // of height. A column as wide as a bore costs milliseconds.
   bool Clears(const Vec3& a, const Vec3& b, double allowed_penetration) const;
-  // Wherever the centre is within `beside` of c in plan and at most `above` higher (mm, >= 0), the surface is
-  // in it.
+  // True if the surface is in the shank wherever the centre is within `beside` of c in plan and at most
+  // `above` higher (mm, >= 0).
   bool Forbids(const Vec3& c, double beside, double above) const;
-  // Lowest centre over q where the shank is no deeper in than `give`, if that is above `from` (mm);
-  // -infinity otherwise. To `gap` (mm).
+  // The lowest centre over q at which the shank is no deeper than `allowed_penetration`, if that is above
+  // `from` (mm); otherwise -infinity. Exact to `gap` (mm).
   double LowestOver(const Vec2& q, double allowed_penetration, double from, double gap) const;
 
  private:

@@ -1,5 +1,5 @@
-// Heights of many places: the tree is walked once for eight neighbours, a leaf meets all eight at once
-// (lane_kernel.h).
+// Heights of many places. The tree is walked once for eight neighbours, and each leaf is tested against all
+// eight at once (lane_kernel.h).
 #include "cam/location/simd/heights.h"
 
 #include <algorithm>
@@ -87,12 +87,12 @@ class PacketSearch {
     for (auto& open : open_) open.clear();
   }
 
-  // Newton on whole pieces, from where the contacts are expected.
+  // Newton's method on whole pieces, from the places where the contacts are expected.
   void Approach(const LaneStart& start);
   void Run();
-  // Of balls that stand at the packet's heights: lanes that find anything are done and look no further.
+  // For balls that stand at the packet's heights. Lanes that find a contact are done.
   void RunFree();
-  // What a lane's search left unproven.
+  // The leaves that a lane's search left unproven.
   const Locator::Impl::OpenLeaves& open(std::size_t lane) const { return open_[lane]; }
 
  private:
@@ -113,7 +113,7 @@ class PacketSearch {
   std::array<Locator::Impl::OpenLeaves, kLanes>& open_ = Scratch();
 };
 
-// As Locator::Impl::Search, for all lanes at the lowest height of one.
+// As Locator::Impl::Search, for all lanes at the lowest height of any lane.
 template <class Meets, class OnLeaf>
 void PacketSearch::Walk(const Meets& meets, const OnLeaf& on_leaf) {
   const internal::WalkLimits limits = impl_.Limits();
@@ -138,7 +138,7 @@ void PacketSearch::Run() {
 
 namespace {
 
-// The packet's balls as the tree's boxes are stored.
+// The packet's balls in floats, as the boxes of the tree are stored.
 struct FloatLanes {
   static constexpr std::size_t kGroups = kLanes / 4;
   Float4 x[kGroups], y[kGroups], z[kGroups];
@@ -153,7 +153,7 @@ struct FloatLanes {
   void SetHeights(const LanePacket& packet) {
     for (int k = 0; k < kLanes; ++k) z[k / 4][k % 4] = static_cast<float>(packet.z[k]);
   }
-  // WalkTree's test of child k, lane by lane.
+  // WalkTree's test of child k, for each lane.
   bool Meet(const internal::SearchNode& node, int k, const internal::WalkLimits& limits) const {
     const Float4 up_x = Splat(node.up_x[k]), up_y = Splat(node.up_y[k]), up_z = Splat(node.up_z[k]),
                  top = Splat(node.top[k] + limits.radius);
@@ -177,8 +177,9 @@ struct FloatLanes {
 
 }  // namespace
 
-// Balls do not rise here, and lie less close together than those of neighbouring heights: boxes are tried
-// against each of them, most leaves are out of the way of all, and little is done before that is known.
+// Balls do not rise here, and they lie less close together than those of neighbouring heights. So boxes are
+// tested against each ball. Most leaves are out of the way of all balls, and this is known before more is
+// done.
 void PacketSearch::RunFree() {
   aim_ = Locator::Impl::Aim::kAny;
   FloatLanes lanes(packet_);
@@ -192,7 +193,7 @@ void PacketSearch::RunFree() {
          bounds.half = box.half.data();
          if (kernel_.meets(bounds, limits_, packet_) == 0) return;
          Visit(leaf, box);
-         // Nothing reaches a ball above everything.
+         // A ball above everything meets nothing.
          for (int k = 0; k < kLanes; ++k) {
            if (packet_.piece[k] >= 0) packet_.z[k] = impl_.surface.box.max.z() + 2.0 * impl_.radius;
          }
@@ -230,7 +231,8 @@ void PacketSearch::VisitScalar(std::int32_t index, int k) {
   PutContact(best, packet_, k);
 }
 
-// What a packet learns from the two before it: lane by lane, when the places step on evenly.
+// Predicts the start of a packet from the two packets before it, lane by lane. This helps if the places are
+// evenly spaced.
 class Forecast {
  public:
   void Start(const Locator::Impl& impl, std::span<const Vec2> q, LanePacket& packet, LaneStart& start) const;
@@ -245,8 +247,8 @@ class Forecast {
   int known_ = 0;
 };
 
-// The packet's places, the last one repeated. Each ball starts at the height at which it touches the last
-// contact of its lane.
+// Fills in the packet's places; the last one is repeated. Each ball starts at the height at which it touches
+// the last contact of its lane.
 void Forecast::Start(const Locator::Impl& impl, std::span<const Vec2> q, LanePacket& packet,
                      LaneStart& start) const {
   const double graze = LimitsOf(impl).graze();
@@ -303,7 +305,7 @@ void Heights(const Locator& locator, std::span<const Vec2> q, std::span<std::opt
 
 namespace {
 
-// Fewer balls are searched for one by one.
+// Fewer balls are searched one by one.
 constexpr std::size_t kWorthLanes = 2;
 
 std::optional<SurfacePoint> FindObstacle(const Locator::Impl& impl, const Vec3& center) {

@@ -1,4 +1,4 @@
-// The proofs of ray_distance.h, box_qp.h and leaf_model.h, a ball to a lane.
+// The proofs of ray_distance.h, box_qp.h and leaf_model.h, with one ball per lane.
 #pragma once
 
 #include "cam/location/simd/lane_types.h"
@@ -44,7 +44,7 @@ PM_LANE_INLINE D MinimumOnSegmentLanes(D a, D g, D lo, D hi) {
   return a > 0.0 ? Clamp(-g / a, lo, hi) : end;
 }
 
-// As MinimizeOnBox; only the lanes of `wanted` mean something.
+// As MinimizeOnBox. Only the lanes of `wanted` are valid.
 PM_LANE_INLINE Minimum MinimizeOnBoxLanes(const Quadratic& f, const Box& box, M wanted) {
   const D det = f.a * f.c - f.b * f.b;
   const D x = (f.b * f.gy - f.c * f.gx) / det, y = (f.b * f.gx - f.a * f.gy) / det;

@@ -1,5 +1,6 @@
-// Position and derivatives of a piece at a lane's own parameters: bicubics with constant degrees, any net,
-// Gregory quads. The same formulas as core/patch; see there for the sources.
+// Position and derivatives of a piece, each lane at its own parameters. There are versions for bicubics with
+// constant degrees, for any net and for Gregory quads. The formulas are those of core/patch, where their
+// sources are cited.
 #pragma once
 
 #include "cam/location/simd/lane_types.h"
@@ -69,7 +70,7 @@ PM_LANE_INLINE void MakeCubicBasis(D t, Basis& out) {
   out.dd[3] = 6.0 * t;
 }
 
-// point(i, j) -> const double*, xyz. Constant degrees unroll.
+// point(i, j) returns const double* to x y z. Loops over constant degrees are unrolled.
 template <class PointSource>
 PM_LANE_INLINE void PolynomialJet(int degree_u, int degree_v, const Basis& bu, const Basis& bv,
                                   const PointSource& point, Jet& jet) {
@@ -91,7 +92,7 @@ PM_LANE_INLINE void PolynomialJet(int degree_u, int degree_v, const Basis& bu, c
   }
 }
 
-// Divides a homogeneous jet by its weight's (quotient rule).
+// Divides a homogeneous jet by that of its weight (quotient rule).
 PM_LANE_INLINE void DivideByWeight(int degree_u, int degree_v, const Basis& bu, const Basis& bv,
                                    const double* points, Jet& jet) {
   D w{}, wu{}, wv{}, wuu{}, wuv{}, wvv{};
@@ -129,8 +130,8 @@ struct Curve {
   D f, d, dd;
 };
 
-// The blended terms: at each corner lambda B_i B_j D = 9 M(u) N(v) h(p(u), q(v)) D with h = p^2 q / (p + q),
-// which is smooth but at the corner and has bounded second derivatives there. Corner blend: p = a the
+// The blended terms. At each corner, lambda B_i B_j D = 9 M(u) N(v) h(p(u), q(v)) D with h = p^2 q / (p + q).
+// h is smooth except at the corner and has bounded second derivatives there. Corner blend: p = a is the
 // distance from the corner, M = (1 - a)^2. Edge blend: p = a (1 - a), M = 1 - a.
 PM_LANE_INLINE void AddBlend(const double* points, bool edge_blend, D u, D v, Jet& jet) {
   for (const GregoryCorner& c : kGregoryCorners) {
@@ -153,7 +154,7 @@ PM_LANE_INLINE void AddBlend(const double* points, bool edge_blend, D u, D v, Je
     const D haa = hpp * (p.d * p.d) + hp * p.dd, hab = hpq * (p.d * q.d), hbb = hqq * (q.d * q.d) + hq * q.dd;
     const double su = high_u ? -1.0 : 1.0, sv = high_v ? -1.0 : 1.0;
     const D m9 = 9.0 * m.f, n9 = 9.0 * n.f;
-    const D ga = m.d * h + m.f * ha;  // of M h
+    const D ga = m.d * h + m.f * ha;  // derivative of M h
     const D phi = m9 * n.f * h, phi_u = su * (n9 * ga), phi_v = sv * (m9 * (n.d * h + n.f * hb));
     const D phi_uu = n9 * (m.dd * h + 2.0 * (m.d * ha) + m.f * haa);
     const D phi_vv = m9 * (n.dd * h + 2.0 * (n.d * hb) + n.f * hbb);

@@ -2,7 +2,8 @@
 
 namespace patchmill::internal {
 
-// No function of a kernel, not even the one that tells of it, runs on a processor that cannot run it.
+// No function of a kernel runs on a processor that cannot run it, not even the function that returns the
+// kernel.
 const LaneKernel& UsedLaneKernel() {
 #ifdef PATCHMILL_X86_VECTORS
   const InstructionSet used = UsedInstructionSet();

@@ -2,7 +2,7 @@
 #include "cam/location/simd/lane_kernel.h"
 
 #ifdef PATCHMILL_X86_VECTORS
-// What others share comes before the instruction set, so that no copy of it is made for this one.
+// Shared headers are included before the instruction set is chosen, so that no copy of them is made for it.
 #include <immintrin.h>
 
 #include "core/math/bernstein.h"

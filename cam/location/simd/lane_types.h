@@ -1,5 +1,5 @@
-// Vectors of doubles, a ball to a lane. Included once by each translation unit that sets PM_LANES (the name
-// of its namespace) and PM_LANE_WIDTH (2, 4 or 8), with the instruction set already chosen.
+// Vectors of doubles, with one ball per lane. Each translation unit includes this file once, after it has
+// chosen the instruction set. It must set PM_LANES (the name of its namespace) and PM_LANE_WIDTH (2, 4 or 8).
 #pragma once
 
 #if defined(__x86_64__)
@@ -16,7 +16,7 @@ namespace patchmill::internal::PM_LANES {
 
 constexpr int kWidth = PM_LANE_WIDTH;
 using D = double __attribute__((vector_size(8 * PM_LANE_WIDTH)));
-using M = long long __attribute__((vector_size(8 * PM_LANE_WIDTH)));  // -1 or 0 a lane
+using M = long long __attribute__((vector_size(8 * PM_LANE_WIDTH)));  // -1 or 0 per lane
 
 PM_LANE_INLINE D Splat(double x) { return D{} + x; }
 PM_LANE_INLINE M SplatInt(long long x) { return M{} + x; }
@@ -32,7 +32,7 @@ PM_LANE_INLINE D Clamp(D x, D lo, D hi) { return Min(Max(x, lo), hi); }
 
 PM_LANE_INLINE D Sqrt(D x) {
 #if defined(__x86_64__) && PM_LANE_WIDTH == 8
-  return _mm512_maskz_sqrt_pd(static_cast<__mmask8>(-1), x);  // the plain one warns in GCC 12
+  return _mm512_maskz_sqrt_pd(static_cast<__mmask8>(-1), x);  // _mm512_sqrt_pd warns in GCC 12
 #elif defined(__x86_64__) && PM_LANE_WIDTH == 4
   return _mm256_sqrt_pd(x);
 #elif defined(__x86_64__)

@@ -1,6 +1,6 @@
-// One leaf against a group of lanes: proofs first, then Newton where they leave something to find. The same
-// method as VisitLeaf and RaiseOnPiece, without line search: a lane that would need one, or whose leaf is not
-// proven convex, is handed back to them.
+// One leaf against a group of lanes: first proofs, then Newton's method where the proofs leave something to
+// find. The method is that of VisitLeaf and RaiseOnPiece without the line search. A lane that would need a
+// line search, or whose leaf is not proven convex, is returned to them.
 #pragma once
 
 #include "cam/location/simd/lane_bounds.h"
@@ -9,7 +9,7 @@
 namespace patchmill::internal::PM_LANES {
 
 constexpr int kMaxLaneIterations = 8;
-// As in local_search.cc.
+// The values are those in local_search.cc.
 constexpr double kLaneFinishGain = 1e-9, kLaneStopGain = 1e-13, kLaneLastStep = 1e-3;
 
 struct Group {
@@ -35,7 +35,7 @@ PM_LANE_INLINE void StoreContacts(const Group& g, LanePacket& p, int k) {
   Store(p.piece + k, g.piece);
 }
 
-// Height of the centre that touches p, where p is under the ball.
+// Height of the centre that touches p, valid where p is under the ball.
 struct Touch {
   D z;
   M under;
@@ -71,7 +71,7 @@ PM_LANE_INLINE M Grazes(const Group& g, const LaneLimits& limits) {
   return (g.piece >= 0) & (g.z - g.pz < limits.graze());
 }
 
-// Takes the lanes of `where` back to what they were.
+// Restores the lanes of `where` from `before`.
 PM_LANE_INLINE void Restore(M where, const Group& before, Group& g) {
   g.z = where ? before.z : g.z;
   g.u = where ? before.u : g.u;
@@ -88,13 +88,13 @@ PM_LANE_INLINE D Taylor(D x, D y, D p, D pu, D pv, D puu, D puv, D pvv) {
   return p + x * (pu + 0.5 * x * puu + y * puv) + y * (pv + 0.5 * y * pvv);
 }
 
-// How a search ended, by lanes: at a local maximum, or nothing in reach on a rectangle where f is convex.
-// Neither: it gave up.
+// How a search ended, by lane. `arrived`: at a local maximum. `out`: nothing in reach, on a rectangle where f
+// is convex. Neither: it gave up.
 struct Ended {
   M arrived, out;
 };
 
-// Newton from (u, v) on the lanes of `run`, within the rectangle of `leaf`.
+// Newton's method from (u, v) on the lanes of `run`, within the rectangle of `leaf`.
 PM_LANE_INLINE Ended RaiseLanes(const LaneLeaf& leaf, const LaneLimits& limits, D u, D v, M run, Group& g) {
   const D u0 = Splat(leaf.u0), u1 = Splat(leaf.u1), v0 = Splat(leaf.v0), v1 = Splat(leaf.v1);
   M improved{}, out{}, arrived{};
@@ -112,7 +112,7 @@ PM_LANE_INLINE Ended RaiseLanes(const LaneLeaf& leaf, const LaneLimits& limits, 
     const V3 d{dx, dy, dz};
     const D f = 0.5 * (plan2 + dz * dz);
 
-    // The model of f; above the centre it measures horizontally.
+    // The model of f. Above the centre, f measures horizontally.
     D e = Dot(j.du, j.du), ef = Dot(j.du, j.dv), eg = Dot(j.dv, j.dv);
     const M above = ~(dz > 0.0);
     if (Any(run & above)) {
@@ -156,8 +156,8 @@ PM_LANE_INLINE Ended RaiseLanes(const LaneLeaf& leaf, const LaneLimits& limits, 
   return {arrived, out};
 }
 
-// The search on the lanes of `todo`, where f is convex at the first height; returns those not resolved, which
-// stay as they were.
+// The search on the lanes of `todo`, where f is convex at the first height. Returns the lanes that are not
+// resolved, which stay unchanged.
 PM_LANE_INLINE M SearchLeaf(const LaneLeaf& leaf, const LaneLimits& limits, M todo, Group& g) {
   const Minimum guess = GuessMinimumLanes(leaf, {g.qx, g.qy, g.z}, todo);
   const D u0 = Splat(leaf.u0), u1 = Splat(leaf.u1), v0 = Splat(leaf.v0), v1 = Splat(leaf.v1);
@@ -165,7 +165,7 @@ PM_LANE_INLINE M SearchLeaf(const LaneLeaf& leaf, const LaneLimits& limits, M to
   const D v = Clamp(v0 + (0.5 + guess.y) * (v1 - v0), v0, v1);
   const Group before = g;
   Ended end = RaiseLanes(leaf, limits, u, v, todo, g);
-  // One maximum, proven at the final height? Then the search has found it.
+  // If f is proven convex at the final height, there is one maximum, and the search has found it.
   if (Any(end.arrived)) end.arrived &= BoundBelowLanes(leaf, {g.qx, g.qy, g.z}).convex;
   end.arrived &= ~Grazes(g, limits);
   todo &= ~(end.out | end.arrived);
@@ -180,7 +180,7 @@ PM_LANE_INLINE M Holds(const LaneLeaf& leaf, const Group& g) {
   return (g.piece == leaf.piece) & inside & kkt_u & kkt_v;
 }
 
-// Returns the lanes not resolved.
+// Returns the lanes that are not resolved.
 PM_LANE_INLINE unsigned VisitGroup(const LaneLeaf& leaf, const LaneLimits& limits, LanePacket& packet,
                                    int first) {
   Group g = LoadGroup(packet, first);

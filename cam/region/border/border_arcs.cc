@@ -10,7 +10,7 @@
 namespace patchmill {
 namespace {
 
-// The field on whose zero curve both ends lie, a smooth one first.
+// The field on whose zero curve or limit both ends lie; a smooth one is preferred.
 const ZeroField* CommonField(const ZeroVertex& a, const ZeroVertex& b, std::span<const ZeroField> fields) {
   const ZeroField* limit = nullptr;
   for (std::size_t k = 0; k < fields.size(); ++k) {
@@ -21,7 +21,7 @@ const ZeroField* CommonField(const ZeroVertex& a, const ZeroVertex& b, std::span
   return limit;
 }
 
-// A smooth field that has no sign at either end: the grid met its curve exactly.
+// A smooth field that is 0 at both ends, because the grid met its curve exactly.
 const ZeroField* FieldWithoutSign(const ZeroVertex& a, const ZeroVertex& b,
                                   std::span<const ZeroField> fields) {
   for (std::size_t k = 0; k < fields.size(); ++k) {
@@ -30,7 +30,7 @@ const ZeroField* FieldWithoutSign(const ZeroVertex& a, const ZeroVertex& b,
   return nullptr;
 }
 
-// The places along a watershed, if the side lies on one.
+// The places along a watershed if the side lies on one, else none.
 std::vector<Vec2> LineAlong(const SplitMesh& mesh, const TriangleSide& side) {
   const int a = VertexOf(mesh, side, 0), b = VertexOf(mesh, side, 1);
   const auto line = mesh.lines.find(std::minmax(a, b));
@@ -43,8 +43,8 @@ int RegionOf(const std::vector<std::vector<int>>& region_of, int piece, int tria
   return region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
 }
 
-// The borders of one piece: sides with different regions on them, and of each the first one of these along
-// the same edge (both see one arc).
+// The border sides of one piece. `first` is, for each of them, the place of the first border side along the
+// same edge: both triangles at an edge share one arc.
 struct PieceBorders {
   std::vector<std::size_t> sides, first;
 };
@@ -72,11 +72,11 @@ PieceBorders BordersOf(const SplitMesh& mesh, const AdjacencyList& adjacency, st
   return borders;
 }
 
-// The arcs of some borders (places in `arcs`) of one piece, those of one field all at once.
+// Finds the arcs of some borders (places in `arcs`) of one piece. Borders of one field are refined together.
 void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
                  std::size_t index, const std::vector<std::size_t>& borders,
                  std::span<const ZeroField> fields, double tolerance, BorderArcs& arcs) {
-  std::vector<std::vector<std::size_t>> along(fields.size());  // their field
+  std::vector<std::vector<std::size_t>> along(fields.size());  // [field]: borders along it
   std::vector<std::vector<ZeroSegment>> chords(fields.size());
   for (const std::size_t i : borders) {
     const TriangleSide side = adjacency[arcs.sides[i]].side;
@@ -97,9 +97,9 @@ void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes, c
   }
 }
 
-constexpr int kMostHalvings = 12;
+constexpr int kMostHalvings = 12;  // of one line that is straight in the parameters
 
-// Points of the surface along a line straight in the parameters, from a to b without these.
+// Adds points of the surface along a line that is straight in the parameters, between a and b.
 void AddBetween(const Piece& piece, const Vec2& a, const Vec3& at_a, const Vec2& b, const Vec3& at_b,
                 double tolerance, int halvings, std::vector<Vec3>& out) {
   if (halvings == 0 || (at_b - at_a).norm() <= tolerance) return;
@@ -109,7 +109,7 @@ void AddBetween(const Piece& piece, const Vec2& a, const Vec3& at_a, const Vec2&
   };
   const Vec3 mid = at(0.5);
   const auto near = [&](const Vec3& p) { return SegmentDistance(p, at_a, at_b) <= tolerance; };
-  // The first chord is looked at in three places: a line of two bends may cross it in the middle.
+  // The first chord is checked at three places, because a line with two bends may cross it in the middle.
   const bool first = halvings == kMostHalvings;
   if (near(mid) && (!first || (near(at(0.25)) && near(at(0.75))))) return;
   const Vec2 middle = 0.5 * (a + b);
@@ -118,16 +118,16 @@ void AddBetween(const Piece& piece, const Vec2& a, const Vec3& at_a, const Vec2&
   AddBetween(piece, middle, mid, b, at_b, tolerance, halvings - 1, out);
 }
 
-// mm^2 between the chord of a side and its arc, positive when the arc bulges out of the triangle the side
-// belongs to.
+// Area between the chord of a side and its arc, mm^2. It is positive if the arc bulges out of the side's own
+// triangle.
 double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSide& side,
                 const std::vector<Vec2>& arc) {
   if (arc.empty()) return 0.0;
   const Piece& piece = surface.pieces[static_cast<std::size_t>(side.piece)];
   const ZeroVertex &a = EndOf(mesh, side, 0), &b = EndOf(mesh, side, 1);
   const Vec2 from(a.u, a.v), to(b.u, b.v);
-  // The triangle lies on the left of its side (counter-clockwise): an arc to the right adds to it, and turns
-  // counter-clockwise around the side's start.
+  // The triangle lies on the left of its side (counter-clockwise). An arc to the right adds to it and runs
+  // counter-clockwise around the start of the side.
   double area = 0.0;
   for (std::size_t i = 0; i < arc.size(); ++i)
     area += SurfaceArea(piece, from, arc[i], i + 1 < arc.size() ? arc[i + 1] : to);
@@ -145,11 +145,11 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
     pieces[piece] = BordersOf(meshes[piece], adjacency, piece, region_of);
   }));
-  // Runs of borders of one piece, no longer than is refined between two looks at a cancelled run.
+  // A stretch of the borders of one piece. A cancel is looked at between two of them.
   struct Run {
     std::size_t piece, begin, end;
   };
-  constexpr std::size_t kLongest = 256;
+  constexpr std::size_t kLongest = 256;  // borders in one stretch
   std::vector<Run> runs;
   BorderArcs arcs;
   std::vector<std::size_t> first;
@@ -180,14 +180,14 @@ absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std:
                                               const std::vector<std::vector<int>>& region_of,
                                               const std::vector<double>& flat, const RunContext& run,
                                               BorderArcs& arcs) {
-  constexpr double kLeast = 0.01;  // of the triangles: less is left of a region whose arcs cross
+  constexpr double kLeast = 0.01;  // of the area of the triangles; if less is left, the arcs cross each other
   struct Lens {
     TriangleSide side;
     std::size_t own = 0, other = 0;  // regions
     std::size_t arc = 0;
     double area = 0.0;
   };
-  std::vector<Lens> lenses;  // each from both sides
+  std::vector<Lens> lenses;  // each twice, once from either side
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     if (arcs.places[k].empty()) continue;
     const Adjacency a = adjacency[arcs.sides[k]];
@@ -203,7 +203,7 @@ absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std:
   }));
   std::vector<double> gained;
   std::vector<bool> straight(flat.size(), false);
-  for (bool again = true; again;) {  // a region of straight borders takes from its neighbours
+  for (bool again = true; again;) {  // a border that becomes straight may take area from the neighbour
     PM_RETURN_IF_ERROR(run.Check());
     gained.assign(flat.size(), 0.0);
     for (const Lens& lens : lenses) {
@@ -235,7 +235,7 @@ absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std:
     const std::vector<Vec2>& arc = arcs.places[k];
     Vec2 last(from.u, from.v);
     points[k].push_back(from.p);
-    // Where the curve was not found the chord between its neighbours follows the surface at least.
+    // If no curve was found, the line that is straight in the parameters follows the surface at least.
     const int halvings = arc.empty() ? kMostHalvings : kMostHalvings - 1;
     const auto go_on = [&](const Vec2& q, const Vec3& p) {
       AddBetween(piece, last, Vec3(points[k].back()), q, p, tolerance, halvings, points[k]);

@@ -18,7 +18,7 @@ struct Strand {
   int region = -1, other = -1;
   int component = -1, other_component = -1;
   std::vector<Vec3> points;
-  std::size_t ends[2] = {0, 0};  // places of its first and last point
+  std::size_t ends[2] = {0, 0};  // numbers of the places of its first and last point
 
   bool Continues(const Strand& s) const {
     return std::tie(kind, region, other) == std::tie(s.kind, s.region, s.other);
@@ -39,17 +39,17 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
   if (!slope && !curvature && watershed) return BorderKind::kWatershed;
   const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
   const ZeroVertex &from = EndOf(mesh, a.side, 0), &to = EndOf(mesh, a.side, 1);
-  const auto on = [&](Field field) {  // the zero curve; vertices on it have no sign
+  const auto on = [&](Field field) {  // both ends lie on its zero curve: vertices there have the sign 0
     const auto k = static_cast<std::size_t>(field);
     return from.sign[k] == 0 && to.sign[k] == 0;
   };
-  // What differs first. Merged ground may also end where something else does: where the triangles differ, for
-  // on planes curvature is 0 all over.
+  // A field that differs across the side is preferred. After merging, a region may also end where another
+  // field changes. Then the labels of the triangles must differ, because curvature is 0 all over a plane.
   const SplitLabel &here = mesh.triangles[static_cast<std::size_t>(a.side.triangle)].label,
                    &there = meshes[static_cast<std::size_t>(a.other_piece)]
                                 .triangles[static_cast<std::size_t>(a.other_triangle)]
                                 .label;
-  // Vertices of watersheds have no signs: there, too, the triangles tell.
+  // Vertices of watersheds have no signs, so the labels of the triangles decide there, too.
   for (const bool differs : {true, false}) {
     const bool by_regions = differs && !watershed;
     if (slope == differs && (by_regions || here.steep != there.steep) && on(Field::kSlope))
@@ -58,8 +58,8 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
     if (on(Field::kCurvature)) return BorderKind::kCurvature;
     if (on(Field::kTurn)) return BorderKind::kSilhouette;
   }
-  // Of two mountains or basins, and of one that a part of another went with: what the lines did not reach is
-  // divided along triangles.
+  // The border lies between two mountains or two basins, or a part of one of them has joined another region.
+  // Where watershed lines do not reach, areas are divided along triangles.
   if (watershed || (!slope && !curvature) || here == there) return BorderKind::kWatershed;
   if (a.across_seam) return BorderKind::kSeam;
   return slope ? BorderKind::kSlope : BorderKind::kCurvature;
@@ -68,7 +68,7 @@ BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region
 // The places where strands end.
 class EndPlaces {
  public:
-  // Ends within `weld` (mm) of each other are one place; others are looked for up to `reach` (mm) away.
+  // Ends within `weld` (mm) of each other are one place. JoinLoose looks for ends up to `reach` (mm) away.
   EndPlaces(double weld, double reach, const std::vector<Strand>& strands)
       : strands_(strands),
         reach_(std::max(weld, reach)),
@@ -78,9 +78,9 @@ class EndPlaces {
       ForNear(end, weld, [&](std::size_t other, double) { sets_.Join(end, other); });
   }
 
-  // Where a seam is cut differently on its two sides lines end beside each other: loose ends of lines that
-  // continue each other become one place, the nearest first, then those that are left join the place nearest
-  // to them.
+  // Where a seam is cut differently on its two sides, lines end close to each other without meeting. Loose
+  // ends of lines that continue each other become one place, nearest pairs first. Then each other loose end
+  // joins the place nearest to it.
   void JoinLoose() {
     struct Pair {
       double distance;
@@ -119,19 +119,19 @@ class EndPlaces {
     }
   }
 
-  // A number for the place of every end, 2 for each strand in turn, and how many places there are.
+  // The number of each end's place (index 2 i and 2 i + 1 for strand i), and the number of places.
   std::pair<std::vector<std::size_t>, std::size_t> Number() {
     std::vector<std::size_t> number(Ends());
     std::size_t count = 0;
     for (std::size_t end = 0; end < number.size(); ++end) {
-      const std::size_t set = sets_.Find(end);  // the smallest of them
+      const std::size_t set = sets_.Find(end);  // the smallest end at the place
       number[end] = set == end ? count++ : number[set];
     }
     return {std::move(number), count};
   }
 
  private:
-  static constexpr double kCell = 0.25;  // of the reach
+  static constexpr double kCell = 0.25;  // of reach_: cell of the grid
 
   std::size_t Ends() const { return 2 * strands_.size(); }
 
@@ -149,7 +149,7 @@ class EndPlaces {
     return places;
   }
 
-  // visit(other end, distance) for those within `reach`.
+  // Calls visit(other, distance) for the other ends within `reach`.
   template <typename Visit>
   void ForNear(std::size_t end, double reach, const Visit& visit) const {
     const Vec3& p = At(end);
@@ -159,7 +159,7 @@ class EndPlaces {
     });
   }
 
-  // How many ends are in each set, by the smallest of them.
+  // The number of ends in each set, at the index of its smallest end.
   std::vector<int> Counts() {
     std::vector<int> counts(Ends(), 0);
     for (std::size_t end = 0; end < Ends(); ++end) ++counts[sets_.Find(end)];
@@ -168,11 +168,11 @@ class EndPlaces {
 
   const std::vector<Strand>& strands_;
   double reach_;
-  BoxGrid grid_;  // of the ends: 2 i and 2 i + 1 of strand i
+  BoxGrid grid_;  // of the ends; 2 i and 2 i + 1 belong to strand i
   UnionFind sets_;
 };
 
-// Strands put together: from every end where others than one like it begin, then around.
+// Joins strands to lines. Lines that begin at a node come first, then closed ones.
 class Chainer {
  public:
   Chainer(const std::vector<Strand>& strands, std::size_t places, double weld)
@@ -205,7 +205,7 @@ class Chainer {
   }
 
  private:
-  // A line runs on through this place.
+  // True if a line passes through this place: exactly two strands end here, and they continue each other.
   bool Passes(std::size_t place) const {
     const std::vector<std::size_t>& here = at_[place];
     return here.size() == 2 && strands_[here[0]].Continues(strands_[here[1]]);
@@ -215,7 +215,8 @@ class Chainer {
     return which == 0 ? strand.points.front() : strand.points.back();
   }
 
-  // A line runs straight to where it meets others, if that is not where it ends.
+  // Adds p to the line, unless the line ends there already. A line whose end is not at its node continues
+  // straight to the node.
   void Append(const Vec3& p, std::vector<Vec3>& points) const {
     if (points.empty() || (points.back() - p).norm() > weld_) points.push_back(p);
   }
@@ -263,13 +264,13 @@ class Chainer {
 
   const std::vector<Strand>& strands_;
   double weld_;
-  std::vector<std::vector<std::size_t>> at_;  // strands by the places they end at
-  std::vector<Vec3> where_;                   // those places
-  std::vector<int> node_;                     // their nodes, once lines end there
+  std::vector<std::vector<std::size_t>> at_;  // [place]: strands that end there
+  std::vector<Vec3> where_;                   // [place]
+  std::vector<int> node_;                     // [place]: its node, or -1 while no line ends there
   std::vector<char> used_;
 };
 
-// mm, between the ends.
+// Largest distance between the ends of a side on a seam, mm.
 double LongestSeamSide(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency) {
   double longest = 0.0;
   for (const AdjacencyList::Seam& seam : adjacency.seams) {
@@ -297,7 +298,7 @@ absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vec
     const Adjacency a = adjacency[arcs.sides[k]];
     const int own = component(a.side.piece, a.side.triangle),
               other = component(a.other_piece, a.other_triangle);
-    if (other >= 0 && other < own) continue;  // seen from there
+    if (other >= 0 && other < own) continue;  // the side of the other triangle stands for both
     strands.push_back({BorderKind::kOpenEdge, region(own), region(other), own, other, points[k], {}});
     strands.back().kind = KindOf(meshes, regions, a, strands.back());
   }
@@ -310,7 +311,7 @@ absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vec
     strands[i].ends[0] = number[2 * i];
     strands[i].ends[1] = number[2 * i + 1];
   }
-  // A side shorter than what is one place is nothing.
+  // A short side whose ends are one place is dropped.
   std::erase_if(strands, [](const Strand& s) { return s.ends[0] == s.ends[1] && s.points.size() == 2; });
   return Chainer(strands, count, weld).Chain();
 }

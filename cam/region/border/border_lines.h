@@ -1,4 +1,5 @@
-// The borders of regions as lines, each of one kind between two regions, and the nodes where they meet.
+// Joins the borders of regions to lines, each of one kind and between two regions, and finds the nodes where
+// lines meet.
 #pragma once
 
 #include <vector>
@@ -15,13 +16,15 @@ struct BorderNet {
   std::vector<Vec3> nodes;
 };
 
-// Of all sides between different regions, which `component_of[piece][triangle]` (-1 none) are components of
-// (`component_region`, rising), along the `points` of the `arcs` of the split; every side once. Of the
-// `regions` kind, slope and reason are read: what makes a side is the field on whose zero curve or limit it
-// lies, one that differs across it first. Ends nearer than twice the join tolerance are one place, and where
-// a seam is cut differently on its two sides lines run on across the gap (no longer than the longest side on
-// a seam). Lines are ordered by their first side, nodes as lines come to them. CANCELLED, DEADLINE_EXCEEDED
-// from `run`.
+// Joins all border sides, each once, along the `points` of the `arcs` of the split.
+// component_of[piece][triangle] is a component or -1; component_region[component] is its region, rising.
+// Kind, slope and reason of the `regions` are read. The kind of a line follows from the field on whose zero
+// curve or limit it lies; a field that differs across the line is preferred.
+//
+// Ends nearer to each other than twice the join tolerance are one place. Where a seam is cut differently on
+// its two sides, a line continues across the gap, which may be as long as the longest side on a seam. Lines
+// are ordered by their first side, nodes by the lines that end there. CANCELLED and DEADLINE_EXCEEDED from
+// `run`.
 absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency, const BorderArcs& arcs,
                                           const BorderPoints& points,

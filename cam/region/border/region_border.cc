@@ -9,10 +9,10 @@
 namespace patchmill {
 namespace {
 
-constexpr int kMostHalvings = 8;
+constexpr int kMostHalvings = 8;  // of one gap
 
-// Points of the surface from a to b without these, so dense that chords keep to `tolerance` (mm); none where
-// it does not go on from a to b.
+// Adds points of the surface between a and b, so dense that chords deviate by at most `tolerance` (mm). Adds
+// none where the surface has a gap between a and b.
 void AddBetween(const Surface& surface, const Vec3& a, const Vec3& b, double tolerance, int halvings,
                 std::vector<Vec3>& out) {
   const double length = (b - a).norm();
@@ -25,13 +25,13 @@ void AddBetween(const Surface& surface, const Vec3& a, const Vec3& b, double tol
   AddBetween(surface, p, b, tolerance, halvings - 1, out);
 }
 
-// Directed strands of one region's outline -> closed loops. Strands are matched end to start exactly first,
-// then to the nearest, along the surface: where a seam is cut differently on its two sides, a side may be
-// missing.
+// Joins the directed strands of one region's outline to closed loops. First an end is matched with a start
+// within `weld`. Then the open ends that remain are joined to the nearest start, along the surface: where a
+// seam is cut differently on its two sides, a side may be missing.
 std::vector<std::vector<Vec3>> Chain(const Surface& surface, std::vector<std::vector<Vec3>> strands,
                                      double weld, double tolerance) {
   std::vector<std::vector<Vec3>> loops;
-  // Starts sorted by x, so that an end finds the starts near it without looking at all.
+  // Starts are sorted by x, so that an end finds the starts near it fast.
   std::vector<std::size_t> by_x(strands.size());
   for (std::size_t i = 0; i < by_x.size(); ++i) by_x[i] = i;
   std::sort(by_x.begin(), by_x.end(), [&](std::size_t i, std::size_t j) {
@@ -69,7 +69,7 @@ std::vector<std::vector<Vec3>> Chain(const Surface& surface, std::vector<std::ve
       open.push_back(std::move(loop));
     }
   }
-  // What is left open: join each end to the nearest open start until the loop's own start is nearest.
+  // Joins each open end to the nearest open start until the loop's own start is nearest.
   std::vector<bool> taken(open.size(), false);
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (taken[i]) continue;

@@ -1,4 +1,4 @@
-// Outlines of regions: sides between triangles of different regions, put together.
+// Joins the sides between triangles of different regions to outlines of the regions.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,11 @@
 
 namespace patchmill {
 
-// Closed polylines on the surface for every region (`region_of[piece][triangle]`, -1 none), the region on the
-// left in the sense of the triangles, along the `points` of the `arcs` of the split. Pieces of outline that
-// do not meet end to end (seams cut differently on their two sides) are joined to the nearest open end, along
-// the surface to `tolerance` (mm). CANCELLED, DEADLINE_EXCEEDED from `run`.
+// Returns closed polylines on the surface: [region][loop][point], along the `points` of the `arcs` of the
+// split. region_of[piece][triangle] is a region. The region lies on the left of its outline, as each triangle
+// lies on the left of its sides. Where a seam is cut differently on its two sides, parts of an outline do not
+// meet. They are joined to the nearest open end, along the surface, to `tolerance` (mm). CANCELLED and
+// DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Surface& surface, const AdjacencyList& adjacency, const BorderArcs& arcs,
     const BorderPoints& points, const std::vector<std::vector<int>>& region_of, std::size_t region_count,

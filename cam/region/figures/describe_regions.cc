@@ -3,7 +3,8 @@
 #include <algorithm>
 
 namespace patchmill {
-// The middle of the largest triangle of each is the point inside, of those that its labels tell of.
+// The point inside is the middle of the region's largest triangle whose middle has the region's label. If
+// there is none, it is the middle of the largest triangle.
 void PlaceRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
                   const std::vector<std::vector<int>>& region_of, const RegionMap& map,
                   std::vector<Region>& regions) {

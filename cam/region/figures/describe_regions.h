@@ -1,4 +1,4 @@
-// What a region is like: a point of it and its heights; which triangles no ball gets to.
+// Describes regions: a point inside, their heights, and the triangles of unreachable ones.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace patchmill {
 
-// Fills inside, z_min and z_max of all regions. `region_of[piece][triangle]`. A point inside is one by which
-// the region is found among the labels of `map`, where it has any.
+// Fills inside, z_min and z_max of all regions. region_of[piece][triangle] is a region. The label of `map` at
+// the point inside is the region, if the region has any label.
 void PlaceRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
                   const std::vector<std::vector<int>>& region_of, const RegionMap& map,
                   std::vector<Region>& regions);
 
-// The triangles of each unreachable region; none of others.
+// [region]: the triangles of each unreachable region. Lists of other regions are empty.
 std::vector<std::vector<TriangleRef>> UnreachableTriangles(const std::vector<SplitMesh>& meshes,
                                                            const std::vector<std::vector<int>>& region_of,
                                                            const std::vector<Region>& regions);

@@ -9,14 +9,15 @@
 namespace patchmill {
 namespace {
 
-constexpr double kDepthResolution = 1e-3;  // of R: no depth is told closer
-// Of the leftover: places more than that and kDepthResolution deeper are looked at until none more than
-// kProvenDepthGain and
-// twice kDepthResolution deeper may be left.
+constexpr double kDepthResolution = 1e-3;  // in R: depths are not determined more finely
+// Shares of the leftover. A place is examined if it may be deeper than the deepest one by kMinDepthGain and
+// kDepthResolution. The search ends when none may be deeper by kProvenDepthGain and twice kDepthResolution.
 constexpr double kMinDepthGain = 0.02, kProvenDepthGain = 0.05;
-constexpr double kFewLooks = 100.0, kMostLooks = 1000.0, kSquare = 0.1;  // one more for a square of that R
-constexpr std::size_t kMostQuartered = 10000;
-constexpr int kMostSettled = 8;
+// At most kFewLooks places and one more for each square with a side of kSquare R are examined, and never more
+// than kMostLooks.
+constexpr double kFewLooks = 100.0, kMostLooks = 1000.0, kSquare = 0.1;
+constexpr std::size_t kMostQuartered = 10000;  // cells
+constexpr int kMostSettled = 8;                // calls of Settle in one search
 
 }  // namespace
 
@@ -42,7 +43,8 @@ std::size_t LeftoverSearch::Pop() {
   return cell;
 }
 
-// What was added since. A centre right above every point is where to begin.
+// Enters the cells that were added since the last call. The search begins with a centre right above each
+// point.
 void LeftoverSearch::EnterNew(const RunContext& run) {
   const std::size_t from = std::exchange(entered_, cells_.size());
   for (std::size_t i = from; i < cells_.size() && !run.Cancelled(); ++i) {
@@ -57,7 +59,8 @@ void LeftoverSearch::EnterNew(const RunContext& run) {
   std::make_heap(heap_.begin(), heap_.end(), Below);
 }
 
-// Looks no further once it is low enough. The centre that served the last cell often serves its neighbour.
+// Lowers the cell's bound with the centres found, until it is at most `enough`. The centre that bounded the
+// last cell is tried first, because it often serves the neighbour.
 void LeftoverSearch::Bound(Cell& cell, double enough) {
   if (cell.seen == 0 && last_ < found_.size()) {
     cell.bound = Farthest(cell.element, found_[last_].center, cell.bound);
@@ -130,8 +133,8 @@ double LeftoverSearch::Distance() const {
   return std::max(locator_.radius(), worst ? worst->nearest.distance : 0.0);
 }
 
-// The deepest place's nearest centre is searched for until it is found; false: there was a nearer one, which
-// may be so to others.
+// Searches the nearest centre of the deepest place to the end. False if a much nearer one was found, because
+// that one may be nearer to other places, too.
 bool LeftoverSearch::Settle() {
   const Looked* const worst = Worst();
   const double radius = locator_.radius();

@@ -1,5 +1,6 @@
-// What stays over ground that no free ball touches: the distance to the nearest centre where one may stand,
-// less R ([verification, section 1], with all of those centres as the path).
+// Finds the deepest leftover of an area that no free ball touches. The leftover at a place is the distance to
+// the nearest centre where a ball may stand, less R ([verification, section 1], with all these centres as the
+// path).
 #pragma once
 
 #include <array>
@@ -16,51 +17,53 @@ namespace patchmill {
 
 struct Deepest {
   double leftover = 0.0;  // mm, >= 0
-  bool proven = true;     // nothing is deeper by more than a twentieth and twice LeftoverParams::fine
+  bool proven = true;     // no place is deeper by more than a twentieth and twice LeftoverParams::fine
 };
 
-// The largest over some ground of a ball of locator.radius(). Leftover changes by no more than the way along
-// the ground, and a centre found for one place is a bound for all: the part whose bound is largest is looked
-// at, or quartered, until none may be deeper. Measured to centres that are free, so a place's own is never
-// too small; too large where the search for the nearest ends in another local minimum. Deterministic. Keeps
-// references to the locator and params.operation_limits. Cost: two hundred heights for each of the places
-// that may be
-// the deepest when they are looked at, more under limits; some ten of them on most ground, hundreds where
-// much of it is as deep, as along a groove; then not proven where they are more than 100, and one for a
-// square of R / 10.
+// Finds the largest leftover over some area for a ball of locator.radius(). Leftover changes by no more than
+// the way along the surface, and a centre found for one place bounds the leftover of all places
+// [regions T16]. So the part with the largest bound is examined or quartered until no part may be deeper.
+// All centres used are free, so the leftover found for a place is never too small. It is too large if the
+// search for the nearest centre ends in another local minimum. Deterministic. Keeps references to the locator
+// and to params.operation_limits.
+//
+// Cost: two hundred heights for each place that may be the deepest when it is examined, more under limits.
+// These are some ten places of most areas, and hundreds where much of the area is equally deep, as along a
+// groove. At most 100 places and one more for each square of R / 10 are examined (1000 in all); if that is
+// not enough, the result is not proven.
 class LeftoverSearch {
  public:
   LeftoverSearch(const Locator& locator, const LeftoverParams& params) : locator_(locator), params_(params) {}
 
-  // A point of the surface. `facing`, none where the surface has no normal: a ball that has hardly any room,
-  // as in a hole of its own size, is looked for on that side too.
+  // Adds a point of the surface. On the side of `facing` a ball with hardly any room, as in a hole of its own
+  // size, is looked for, too; nullopt where the surface has no normal.
   void AddPoint(const Vec3& p, const std::optional<Facing>& facing) { Add(PointElement(p, facing)); }
-  // A triangle of parameters of a piece of locator.surface().
+  // Adds a triangle in the parameters of a piece of locator.surface().
   void AddTriangle(std::size_t piece, const std::array<Vec2, 3>& uv);
 
-  // Of all that was added. The diagonal of the surface's box at most, and where nothing is allowed within
-  // 32 R of a place. Means nothing when `run` was cancelled meanwhile.
+  // The deepest leftover of all that was added. It is at most the diagonal of the surface's box, and it is
+  // that where no centre is allowed within 32 R of a place. Meaningless if `run` was cancelled meanwhile.
   Deepest Find(const RunContext& run);
 
  private:
   struct Cell {
     SurfaceElement element;
-    double bound = kInfinity;  // mm from the nearest centre known: nothing of it is farther
-    std::size_t seen = 0;      // centres that the bound is of
+    double bound = kInfinity;  // mm; no point of it is farther than this from the nearest known centre
+    std::size_t seen = 0;      // number of centres that the bound takes into account
   };
   struct Entry {
     double bound = kInfinity;
     std::size_t cell = 0;
   };
   struct Limits {
-    double enough = 0.0;  // mm from the nearest centre: places farther than that are looked at
-    double proven = 0.0;  // until no cell may be farther than this
+    double enough = 0.0;  // mm; places farther than this from the nearest known centre are examined
+    double proven = 0.0;  // mm; the search ends when no cell has a larger bound
   };
   struct Looked {
     Vec3 p;
     Column nearest;
   };
-  static bool Below(const Entry& a, const Entry& b);  // in the heap
+  static bool Below(const Entry& a, const Entry& b);  // order of the heap
   void Add(SurfaceElement element) { cells_.push_back({.element = std::move(element)}); }
   void Push(std::size_t cell);
   std::size_t Pop();
@@ -72,17 +75,17 @@ class LeftoverSearch {
   void LookAt(const ElementPlace& place, double enough);
   bool Settle();
   const Looked* Worst() const;
-  double Distance() const;  // of the deepest, mm
+  double Distance() const;  // mm, from the deepest place known to its nearest centre; at least R
 
   const Locator& locator_;
   const LeftoverParams params_;
   std::vector<Cell> cells_;
-  std::size_t entered_ = 0;  // of them, in the heap
+  std::size_t entered_ = 0;  // number of cells that have been entered into the heap
   std::vector<Entry> heap_;
   std::vector<Column> found_;
-  PointList centers_;            // of those found
-  std::vector<Looked> deepest_;  // each was the deepest when it was looked at
-  std::size_t last_ = 0;         // the centre that bounded the last cell
+  PointList centers_;            // centres of found_
+  std::vector<Looked> deepest_;  // places that were the deepest when they were examined
+  std::size_t last_ = 0;         // index in found_ of the centre that bounded the last cell
   double area_ = 0.0;
   std::size_t looks_ = 0, quartered_ = 0;
   int settled_ = 0;

@@ -12,19 +12,19 @@
 namespace patchmill {
 namespace {
 
-constexpr double kHeightGap = 1e-3;                   // of R: what heights are proven to
-constexpr double kSettledGap = 1e-5;                  // the same at last
-constexpr double kMinDescentStep = 1e-3;              // of R: a step this short ends a descent
-constexpr double kMinDistanceGain = 0.005;            // of a distance: what is less nearer is not looked for
-constexpr double kFirstStep = 0.1, kLastStep = 1e-5;  // of R, of the last search
-constexpr int kMostLooks = 600;                       // of it
-constexpr int kSteps = 30;
-constexpr int kMisses = 2;
-constexpr int kRing = 16;
-constexpr int kMostBetween = 6;         // halvings between two columns of a direction
-constexpr std::size_t kMostSpaces = 8;  // the latest; all triples of them are tried
+constexpr double kHeightGap = 1e-3;                   // in R: gap to which heights are proven
+constexpr double kSettledGap = 1e-5;                  // in R: the same in Settle
+constexpr double kMinDescentStep = 1e-3;              // in R: a shorter step ends a descent
+constexpr double kMinDistanceGain = 0.005;            // of a distance: smaller gains are not looked for
+constexpr double kFirstStep = 0.1, kLastStep = 1e-5;  // in R: step sizes of Settle
+constexpr int kMostLooks = 600;                       // heights in one call of Settle
+constexpr int kSteps = 30;                            // of one descent
+constexpr int kMisses = 2;              // steps of a descent that may fail in a row before steps are halved
+constexpr int kRing = 16;               // directions of FromAround
+constexpr int kMostBetween = 6;         // halvings between two columns of one direction
+constexpr std::size_t kMostSpaces = 8;  // latest half-spaces of a descent; all triples of them are tried
 
-// Free centres are those with normal . c >= offset, as far as one column tells.
+// One column allows centres c with normal . c >= offset.
 struct HalfSpace {
   Vec3 normal;
   double offset = 0.0;
@@ -32,7 +32,8 @@ struct HalfSpace {
 
 double Outside(const HalfSpace& space, const Vec3& x) { return space.offset - space.normal.dot(x); }
 
-// The point nearest to p of what up to three of the half-spaces leave, when they alone decide it.
+// The point nearest to p on the planes of up to three half-spaces. nullopt if it is not the nearest point of
+// their common part, because one of them does not hold it back.
 std::optional<Vec3> Foot(std::span<const HalfSpace* const> active, const Vec3& p) {
   const auto n = static_cast<Eigen::Index>(active.size());
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> normals(3, n);
@@ -48,7 +49,7 @@ std::optional<Vec3> Foot(std::span<const HalfSpace* const> active, const Vec3& p
   return p + normals * push;
 }
 
-// The point of all half-spaces that is nearest to p; nullopt when rounding hides it.
+// The point nearest to p that lies in all half-spaces. nullopt if there is none or if rounding hides it.
 std::optional<Vec3> NearestIn(std::span<const HalfSpace> spaces, const Vec3& p, double slack) {
   if (spaces.empty()) return p;
   const auto try_these = [&](std::initializer_list<const HalfSpace*> active) -> std::optional<Vec3> {
@@ -74,7 +75,8 @@ Column NearestCenter::Descend(Column at) const {
   if (at.distance == kInfinity) return at;
   const double slack = kMinDescentStep * kMinDescentStep * locator_.radius();
   std::vector<HalfSpace> spaces;
-  // Where the border bends away from p, what is known at one place excludes free centres at another.
+  // Where the border of the free centres bends away from p, a half-space may exclude centres that are free
+  // elsewhere. Such half-spaces are dropped.
   const auto excludes = [&](const HalfSpace& space) { return Outside(space, at.center) > slack; };
   const auto learn = [&](const Column& column) {
     if (column.held) {
@@ -118,14 +120,14 @@ Column NearestCenter::FromAround(Column known) const {
   const double nearest = 0.12 * std::min(known.distance, locator_.radius());
   std::vector<double> radii;
   for (double radius = farthest; radius > nearest; radius *= 0.75) radii.push_back(radius);
-  std::array<Column, kRing> ring;  // the nearest of some columns in each direction
+  std::array<Column, kRing> ring;  // the nearest of the columns in each direction
   for (int i = 0; i < kRing; ++i) {
     const double angle = 2.0 * kPi * i / kRing;
     const Vec2 way(std::cos(angle), std::sin(angle));
     Column& best = ring[static_cast<std::size_t>(i)];
-    // A column is no nearer than its radius.
+    // No centre of a column is nearer to p than the column's radius.
     Column inner;
-    double at = 0.0;  // its radius; 0: none
+    double at = 0.0;  // radius of `inner`; 0 if there is none
     for (auto radius = radii.rbegin(); radius != radii.rend() && *radius < best.distance; ++radius) {
       Column column = At(Xy(p_) + *radius * way, inner);
       const bool drops = at > 0.0 && column.distance < inner.distance;
@@ -168,9 +170,8 @@ Column NearestCenter::Settle(Column at) const {
   return at;
 }
 
-// What is nearer between two columns in one direction from p, where the ball drops beside what overhangs:
-// right beside it, which no slope tells. Columns between are taken to stand no lower than the lower of the
-// two.
+// Looks for a nearer centre between two columns in one direction from p. Right beside an overhang the ball
+// drops, and no slope shows where. It assumes that no column in between is lower than the lower of the two.
 void NearestCenter::Between(const Vec2& way, double low, const Column& inner, double high,
                             const Column& outer, int halvings, Column& best) const {
   if (halvings == 0 || inner.distance == kInfinity || outer.distance == kInfinity) return;
@@ -184,7 +185,8 @@ void NearestCenter::Between(const Vec2& way, double low, const Column& inner, do
   Between(way, radius, middle, high, outer, halvings - 1, best);
 }
 
-// Around p and down again: along the foot of an upright wall, whose columns tell of no side.
+// Turns the centre around p and descends again. This finds nearer centres along the foot of a vertical wall,
+// where the half-spaces of columns give no direction along the wall.
 Column NearestCenter::Polish(Column at) const {
   if (at.distance == kInfinity) return at;
   for (double turn = kPi / kRing; turn > 0.01; turn *= 0.5)
@@ -197,14 +199,14 @@ Column NearestCenter::Polish(Column at) const {
   return at;
 }
 
-// The same in its direction from p, as near as the limits of the operation let it: they have no slope that
-// a descent could follow.
+// Moves the centre along its direction from p as near as the limits of the operation allow. Limits have no
+// slope that a descent could follow.
 Column NearestCenter::AlongRay(Column at) const {
   if (at.distance == kInfinity || params_.operation_limits == nullptr ||
       params_.operation_limits->AllowsAll())
     return at;
   const Vec2 span = Xy(at.center - p_);
-  double inner = 0.75, outer = 1.0;  // of the span; columns at the inner end are no nearer
+  double inner = 0.75, outer = 1.0;  // of the span; the column at `inner` is taken to be no nearer
   while (outer - inner > kMinDescentStep) {
     const double share = 0.5 * (inner + outer);
     const Column column = At(Xy(p_) + share * span, at);
@@ -237,7 +239,7 @@ Column NearestCenter::At(const Vec2& q, const Column& near, double gap) const {
   column.center = Lift(q, std::max(low, p_.z()));
   column.held = low > p_.z();
   if (low > allowed->highest) {
-    column.center.z() = low;  // of a ball that stands too high: it tells of lower ones beside it
+    column.center.z() = low;  // the ball is too high, but its half-space leads to lower balls
     column.held = true;
     return column;
   }

@@ -1,4 +1,4 @@
-// The centre nearest to a place where a ball may stand: free, above the floor, allowed.
+// Finds the centre nearest to a place where a ball may stand: free, above the floor and allowed.
 #pragma once
 
 #include <optional>
@@ -11,39 +11,41 @@ namespace patchmill {
 struct LeftoverParams {
   double floor_z = -kInfinity;                        // mm, lowest tip
   const OperationLimits* operation_limits = nullptr;  // null: allows all centres
-  double fine = 0.0;                                  // mm, at least R / 1000: depths are not told closer
+  double fine = 0.0;  // mm; depths are not determined more finely than this and R / 1000
 };
 
-// The centre in the column over a place of the plane that is nearest to what is asked for.
+// The best centre in a vertical column: the allowed one nearest to the place p of the search.
 struct Column {
-  Vec3 center = Vec3::Zero();   // where none is allowed, the lowest that the surface alone would leave free
-  Vec3 normal = Vec3::UnitZ();  // of the free centres' border there, towards them
-  bool held = false;            // stands on that border
-  double distance = kInfinity;  // infinite: not allowed
-  // What the lowest free ball over this place touches.
+  Vec3 center = Vec3::Zero();   // if none is allowed: the lowest that the surface alone leaves free
+  Vec3 normal = Vec3::UnitZ();  // normal of the border of the free centres at `center`, towards them
+  bool held = false;            // `center` lies on that border
+  double distance = kInfinity;  // mm from p to `center`; infinite if none is allowed
+  // Contact of the lowest free ball in the column.
   std::optional<SurfacePoint> contact = std::nullopt;
 };
 
-// Search for the free centre that is nearest to one place, by steps that know more and more. One as near as
-// `enough` (mm) ends each of them. Keeps references to locator and params.
+// Searches the free centre nearest to the place p, in steps of rising cost. Each step ends early when it has
+// a centre within `enough` (mm). Keeps references to locator and params.
 class NearestCenter {
  public:
   NearestCenter(const Locator& locator, const LeftoverParams& params, const Vec3& p, double enough = 0.0)
       : locator_(locator), params_(params), p_(p), enough_(enough) {}
 
-  // From right above it; no distance: nothing is allowed there. Cost: a height, less with a column nearby.
+  // The column right above p. Its distance is infinite if no centre is allowed there. Cost: one height, less
+  // if a column nearby is passed.
   Column Above(const Column& near = Column()) const { return At(Xy(p_), near); }
-  // Each column looked at adds the half-space that it knows; the next one is towards the point of all of them
-  // that is nearest to p. Exact in kinks, where two contacts hold the ball and coordinate searches stop.
-  // Cost: some ten heights.
+  // Descent by half-spaces. Each column adds the half-space of free centres behind its normal. The next
+  // column lies towards the point nearest to p that all half-spaces contain. This is exact in kinks, where
+  // two contacts hold the ball and coordinate searches stop. Cost: some ten heights.
   Column Descend(Column at) const;
-  // On the side of a normal at p, pushed aside by what is in the way there: where no column beside that one
-  // is free.
+  // The free centre near p + R normal, pushed aside by what is in the way there (FreeCenterNear). It finds
+  // centres whose neighbouring columns are not free, as in a hole of the ball's own size.
   Column Beside(const Vec3& normal, Column known) const;
-  // From all around, as far as something nearer than `known` may be. Cost: some two hundred heights.
+  // Searches columns in all directions, as far away as a centre nearer than `known` may be. Cost: some two
+  // hundred heights.
   Column FromAround(Column known) const;
-  // Eight ways around, ever closer: exact where a whole circle holds the ball, as on the rim of a hole or a
-  // dimple, where every descent by half-spaces ends beside the tip. Cost: up to 600 heights.
+  // Steps in eight directions, ever shorter. It is exact where a whole circle holds the ball, as on the rim
+  // of a hole or dimple, where a descent by half-spaces stops before the minimum. Cost: up to 600 heights.
   Column Settle(Column at) const;
 
  private:
@@ -51,7 +53,8 @@ class NearestCenter {
                int halvings, Column& best) const;
   Column Polish(Column at) const;
   Column AlongRay(Column at) const;
-  // The column over q; one nearby, only for speed. To a thousandth of R, or to the gap in mm.
+  // The column over q. `near` is a column nearby and only makes it faster. The height is exact to R / 1000,
+  // or to `gap` (mm).
   Column At(const Vec2& q, const Column& near) const;
   Column At(const Vec2& q, const Column& near, double gap) const;
 

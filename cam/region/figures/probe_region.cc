@@ -12,23 +12,25 @@
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kLooked = 200;
-constexpr std::size_t kFirst = 4;                 // every fourth of them tells about how deep it is
-constexpr std::size_t kTighter = 16;              // around the worst
-constexpr double kClosest = 0.01, kCloser = 0.4;  // of the radius, and of the last: around the tightest
+constexpr std::size_t kLooked = 200;  // places spread over the region
+constexpr std::size_t kFirst = 4;     // every fourth of them gives a first estimate of the depth
+constexpr std::size_t kTighter = 16;  // places in each round about the worst one
+// Each round about the worst place is kCloser times as wide as the last. The last one is about kClosest
+// radii wide.
+constexpr double kClosest = 0.01, kCloser = 0.4;
 
 SurfaceJet JetAt(const Surface& surface, const RegionSample& spot) {
   return Evaluate(surface.pieces[spot.triangle.piece], spot.uv.x(), spot.uv.y());
 }
 
-// The larger principal curvature, > 0 concave.
+// The larger principal curvature, 1/mm, > 0 concave; 0 where there is no normal.
 double Bend(const Surface& surface, const RegionSample& spot) {
   const SurfaceJet jet = JetAt(surface, spot);
   const auto normal = UpwardNormal(jet);
   return normal ? Principal(Forms(jet, *normal)).k_max : 0.0;
 }
 
-// Where it bends most first: what is found there leaves the others one look each.
+// Sorts by curvature, most concave first. The small ball found there leaves one test for each other place.
 void SortByBend(const Surface& surface, std::vector<RegionSample>& spots) {
   std::vector<std::pair<double, RegionSample>> bends;
   for (const RegionSample& spot : spots) bends.emplace_back(Bend(surface, spot), spot);
@@ -37,8 +39,9 @@ void SortByBend(const Surface& surface, std::vector<RegionSample>& spots) {
   for (std::size_t i = 0; i < spots.size(); ++i) spots[i] = bends[i].second;
 }
 
-// Radius of the largest ball that reaches all of a region, at most params.radius; 0 where it would be so
-// small that the tolerance decides. First the places given, then ever closer around the worst.
+// Radius of the largest ball that reaches all of a region, at most params.radius. 0 if it would be so small
+// that the tolerance decides (SmallestBallRadius). Tests the given places, then others ever closer around the
+// worst one.
 double BallForAll(const Surface& surface, const std::vector<RegionSample>& spots, const RegionParams& params,
                   const RunContext& run, RegionSamples& more) {
   double radius = params.radius;
@@ -76,7 +79,7 @@ void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, c
     const SurfaceJet jet = JetAt(surface, spots[i]);
     search.AddPoint(jet.p, FacingAt(jet));
   }
-  search.Find(run);  // with which most of the triangles are known to be no deeper
+  search.Find(run);  // its centres show at once that most triangles are no deeper
   for (const TriangleRef& t : triangles) {
     const SplitMesh& mesh = meshes[t.piece];
     search.AddTriangle(t.piece, {CornerOf(mesh, t.triangle, 0), CornerOf(mesh, t.triangle, 1),

@@ -1,4 +1,4 @@
-// What would help where no ball gets to: what stays there, and the tool that would reach it.
+// Finds what would help in an unreachable region: how much stays there, and which tool would reach it.
 #pragma once
 
 #include <span>
@@ -10,10 +10,10 @@
 
 namespace patchmill {
 
-// Fills deepest_leftover and largest_tool_diameter of an unreachable region of these triangles, at least one
-// ([regions, section 9]; the tool by some 200 places spread over them and by others closer and closer around
-// the worst). Means nothing once `run` is cancelled. Regions are independent of each other. Cost:
-// milliseconds.
+// Fills deepest_leftover and, if the reason is CONCAVE, largest_tool_diameter of an unreachable region that
+// consists of these triangles (at least one) [regions, section 9]. The tool follows from some 200 places
+// spread over the region and from others ever closer around the worst of them. Meaningless once `run` is
+// cancelled. Different regions may be probed in parallel. Cost: milliseconds.
 void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
                  const RegionParams& params, std::span<const TriangleRef> triangles, const RunContext& run,
                  Region& region);

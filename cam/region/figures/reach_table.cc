@@ -16,8 +16,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kCell = 0.005;   // of the diagonal of the box
-constexpr double kBorder = 0.01;  // of the radius: how near its limits are known
+constexpr double kCell = 0.005;   // largest cell in diagonals of the surface's box, unless 0.6 R is more
+constexpr double kBorder = 0.01;  // in R: accuracy of the limits of reach, unless border_tolerance is less
 
 absl::Status Check(const ReachTableParams& params) {
   if (params.radii.empty() || params.radii.size() > kMaxReachRadii) {
@@ -42,7 +42,8 @@ struct Areas {
   double all = 0.0, unreachable = 0.0;
 };
 
-// The split of the region map with the limits of reach alone, its borders bent onto the true ones.
+// Splits the surface like the region map, but along the limits of reach alone. Borders follow the true
+// limits.
 absl::StatusOr<Areas> MeasureReach(const Surface& surface, const RegionParams& params, const RunContext& run,
                                    ShareProgress& progress) {
   PM_ASSIGN_OR_RETURN(const Locator free_ball,
@@ -59,7 +60,7 @@ absl::StatusOr<Areas> MeasureReach(const Surface& surface, const RegionParams& p
     progress.Add(0);
   }));
   PM_ASSIGN_OR_RETURN(const AdjacencyList adjacency, FindAdjacency(surface, meshes, run));
-  std::vector<std::vector<int>> region_of;  // 0: reached, 1: not
+  std::vector<std::vector<int>> region_of;  // 0 is reachable, 1 is not
   std::vector<double> flat(2, 0.0);
   for (const SplitMesh& mesh : meshes) {
     std::vector<int>& of = region_of.emplace_back();
@@ -90,7 +91,7 @@ absl::StatusOr<ReachTableResult> ReachTable(const Surface& surface, const ReachT
     region.border_tolerance = std::min(region.border_tolerance, kBorder * region.radius);
     PM_ASSIGN_OR_RETURN(const Areas areas, MeasureReach(surface, region, run, progress));
     if (k == 0) table.area = areas.all;
-    // What a ball does not reach no larger one does.
+    // A larger ball reaches no more [regions T14]; the clamp hides errors of measurement.
     const double before = k == 0 ? 0.0 : table.unreachable.back();
     table.unreachable.push_back(std::clamp(areas.unreachable, before, table.area));
     if (k > 0) table.largest.push_back(table.unreachable[k] - before);

@@ -9,8 +9,8 @@
 namespace patchmill {
 namespace {
 
-// Every cell whose centre lies in a triangle gets that triangle's region. Triangles tile the piece. n is a
-// power of two, by which products are as exact as quotients.
+// Each cell whose centre lies in a triangle gets that triangle's region. Triangles tile the piece. n is a
+// power of two, so that products with 1 / n are exact.
 std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& region_of, int n) {
   const auto size = static_cast<std::size_t>(n * n);
   if (!region_of.empty() &&
@@ -31,7 +31,7 @@ std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& regi
     for (int k = 0; k < 3; ++k) side[k] = q[(k + 1) % 3] - q[k];
     const int first = cell_at(low.y()), last = cell_at(high.y());
     for (int i = cell_at(low.x()); i <= cell_at(high.x()); ++i) {
-      double across[3];  // what the cross product of a side with the way to a cell of this column has of u
+      double across[3];  // the part with u of the cross product of a side and the way to a cell's centre
       for (int k = 0; k < 3; ++k) across[k] = side[k].y() * ((i + 0.5) * cell - q[k].x());
       for (int j = first; j <= last; ++j) {
         const double v = (j + 0.5) * cell;
@@ -43,7 +43,7 @@ std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& regi
   return labels;
 }
 
-// A cell for each region that has none.
+// Takes a cell for each region that has none.
 void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
                std::size_t regions, RegionMap& map) {
   std::vector<std::size_t> cells_of(regions, 0);
@@ -72,10 +72,10 @@ void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vect
 absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
                         const std::vector<std::vector<int>>& component_of, std::size_t regions,
                         const RunContext& run, RegionMap& map) {
-  constexpr double kMaxLabels = 8e6;
-  constexpr int kMaxCells = 256;
+  constexpr double kMaxLabels = 8e6;  // of all pieces together
+  constexpr int kMaxCells = 256;      // along each side of a piece
   const auto pieces = static_cast<double>(std::max<std::size_t>(1, meshes.size()));
-  // A power of two: halves of pieces, halved again and again, end with whole cells.
+  // A power of two, so that pieces that are halved again and again still end at borders of cells.
   map.cells = 1;
   while (map.cells < kMaxCells && 4.0 * map.cells * map.cells * pieces <= kMaxLabels) map.cells *= 2;
   map.labels.resize(meshes.size());
@@ -91,7 +91,7 @@ absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<
       int& component = map.components[piece][cell];
       const int label = map.labels[piece][cell];
       if (component >= 0 && map.component_region[static_cast<std::size_t>(component)] == label) continue;
-      // A cell that was given to a region counts for the first component of it.
+      // A cell that a region took counts for the first component of that region.
       const auto first = std::lower_bound(map.component_region.begin(), map.component_region.end(), label);
       component = label < 0 ? -1 : static_cast<int>(first - map.component_region.begin());
     }

@@ -1,4 +1,4 @@
-// The label grids behind RegionMap::At.
+// Fills the label grids behind RegionMap::At and RegionMap::ComponentAt.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,14 @@
 
 namespace patchmill {
 
-// Fills map.cells and map.labels from `region_of[piece][triangle]`, ids below `regions`; at most 8 million
-// labels, 256 x 256 a piece. A region that holds no cell's centre gets the cell of one of its triangles from
-// a neighbour that has others, so that it can be picked and switched off too; only regions crowded into
-// single cells may stay without one. CANCELLED, DEADLINE_EXCEEDED from `run`.
-// `component_of` fills map.components likewise, where map.component_region has more of them than `regions`;
-// cells that were given away are of none.
+// Fills map.cells and map.labels from region_of[piece][triangle], which holds ids below `regions`. There are
+// at most 8 million labels, and at most 256 x 256 for a piece. A region that contains no cell's centre takes
+// the cell of one of its triangles from a region that has others, so that it can be picked and switched off,
+// too. Regions that share single cells may stay without one.
+//
+// Fills map.components in the same way from `component_of` if map.component_region has more components than
+// there are `regions`. A cell that a region took counts for the first component of that region. CANCELLED and
+// DEADLINE_EXCEEDED from `run`.
 absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
                         const std::vector<std::vector<int>>& component_of, std::size_t regions,
                         const RunContext& run, RegionMap& map);

@@ -18,12 +18,12 @@ Vec3 RegionSamples::At(const RegionSample& spot) const {
 }
 
 std::vector<RegionSample> RegionSamples::Spread(std::size_t count) {
-  constexpr double kByNumber = 0.25;
+  constexpr double kByNumber = 0.25;  // share of the places that is spread by the number of triangles
   double all = 0.0;
   for (const TriangleRef& t : triangles_) all += meshes_[t.piece].triangles[t.triangle].area;
   const double by_number = all > 0.0 ? kByNumber : 1.0;
   std::vector<RegionSample> spots;
-  double share = 0.0;  // of what came before
+  double share = 0.0;  // of the places, up to the current triangle
   for (const TriangleRef& t : triangles_) {
     const double area = meshes_[t.piece].triangles[t.triangle].area;
     if (all > 0.0) share += (1.0 - by_number) * area / all;
@@ -43,12 +43,12 @@ std::vector<RegionSample> RegionSamples::Around(const RegionSample& from, double
   }
   std::vector<RegionSample> spots{from};
   for (std::size_t k = 0; k < count; ++k) {
-    // Evenly over many, several times over few.
+    // Many triangles are sampled evenly, few are sampled several times.
     const TriangleRef& t = near.size() > count ? near[k * near.size() / count] : near[k % near.size()];
     RegionSample spot{t, Inside(t)};
     const double way = (At(spot) - middle).norm();
     if (way > reach) {
-      // Of its own triangle what is near; of another it is not known.
+      // In the triangle of `from` the place moves nearer. A place in another triangle is dropped.
       if (t != from.triangle) continue;
       spot.uv = from.uv + reach / way * (spot.uv - from.uv);
     }
@@ -58,6 +58,7 @@ std::vector<RegionSample> RegionSamples::Around(const RegionSample& from, double
 }
 
 Vec2 RegionSamples::Inside(const TriangleRef& t) {
+  // Steps of Roberts' R2 sequence: 1 / x and 1 / x^2 for the plastic number x.
   constexpr double kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
   a_ = std::fmod(a_ + kFirst, 1.0);
   b_ = std::fmod(b_ + kSecond, 1.0);

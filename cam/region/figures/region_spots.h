@@ -1,5 +1,5 @@
-// Places spread over some triangles of a split, and close to one of them: where the figures of a region are
-// looked for.
+// Samples a region, that is some triangles of a split: places spread over it, or close to one place. The
+// figures of a region are measured there.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,20 @@ struct RegionSample {
   Vec2 uv = Vec2::Zero();
 };
 
-// Keeps references to all it is given. Deterministic: the places follow an additive recurrence (Roberts'
-// R2), one after the other in the order they are asked for.
+// Keeps references to all arguments of its constructor. Deterministic: places follow an additive recurrence
+// (Roberts' R2) in the order of the calls.
 class RegionSamples {
  public:
-  // `triangles`: at least one.
+  // `triangles` must not be empty.
   RegionSamples(const Surface& surface, const std::vector<SplitMesh>& meshes,
                 std::span<const TriangleRef> triangles);
 
-  // About `count` places: three quarters in proportion to area, the others to number, as small triangles lie
-  // along borders. At least one.
+  // About `count` places, at least one. Three quarters of them are spread in proportion to the area of the
+  // triangles. The others are spread in proportion to their number, because small triangles lie along
+  // borders.
   std::vector<RegionSample> Spread(std::size_t count);
 
-  // That place first, and up to `count` more within `reach` (mm) of it. Cost O(triangles).
+  // The place `from` itself first, then up to `count` more within `reach` (mm) of it. Cost: O(triangles).
   std::vector<RegionSample> Around(const RegionSample& from, double reach, std::size_t count);
 
  private:

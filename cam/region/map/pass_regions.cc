@@ -6,10 +6,11 @@
 namespace patchmill {
 namespace {
 
-constexpr int kStretches = 8;    // of a move along one piece: ends run on over borders, chords may be long
-constexpr double kPoint = 1e-9;  // mm
+// A move along one piece is looked up at this many places, because it may cross borders and be long.
+constexpr int kStretches = 8;
+constexpr double kPoint = 1e-9;  // mm; length that the first point of a pass counts as
 
-// `id_at`: of the surface point.
+// id_at(p) is the id of the region or component at the surface point p.
 template <class IdAt>
 std::map<int, double> LengthIn(const CutterPath& pass, const IdAt& id_at) {
   std::map<int, double> lengths;

@@ -1,4 +1,4 @@
-// In which regions a pass lies.
+// Measures in which regions a pass lies.
 #pragma once
 
 #include <map>
@@ -8,11 +8,12 @@
 
 namespace patchmill {
 
-// mm of the pass by the region below it, -1 where the map has none: moves along one piece by what they lead
-// over, others half and half by the contacts of their ends. A point alone counts a little (1e-9), what rests
-// on the floor nothing. The map may be empty.
+// Length of the pass in mm over each region. The key -1 stands for places where the map has no region. A move
+// along one piece counts for the regions that it leads over. Any other move counts half for the contact at
+// either end. The first point counts 1e-9 mm, so that a pass of one point has a region. Points on the floor
+// have no contact and count nothing. The map may be empty.
 std::map<int, double> LengthInRegions(const CutterPath& pass, const RegionMap& map);
-// The same by components of regions.
+// The same for components of regions.
 std::map<int, double> LengthInComponents(const CutterPath& pass, const RegionMap& map);
 
 }  // namespace patchmill

@@ -1,5 +1,5 @@
-// The surface split by what it is: mountain, basin, neutral x steep, gentle; and what no ball of this size
-// reaches [regions].
+// The map of a surface: its areas are mountain, basin or neutral, steep or gentle, or a ball of this size
+// cannot reach them [regions].
 #pragma once
 
 #include <algorithm>
@@ -29,16 +29,16 @@ enum class UnreachableReason {
   kOutside
 };
 
-// What makes a line a border of regions.
+// Why a line is a border of regions.
 enum class BorderKind {
   kOpenEdge,    // the surface ends
   kReach,       // limit of reach
   kSlope,       // slope = steep angle
-  kCurvature,   // contour curvature 0: contours turn from bending outward to bending inward
-  kSilhouette,  // the surface is upright, and its contours bend the other way beyond
+  kCurvature,   // contour curvature = 0: contours change from bending outward to bending inward
+  kSilhouette,  // the surface is vertical, and its contours bend the other way on the other side
   kWatershed,   // between two mountains or two basins
-  kSeam,        // a border of patches across which slope or curvature jump
-  kStrategy,    // limit of what forced passes finish
+  kSeam,        // border of two patches across which slope or curvature jumps
+  kStrategy,    // limit of the area that forced passes finish
 };
 
 const char* Name(RegionKind kind);
@@ -48,25 +48,28 @@ const char* Name(BorderKind kind);
 
 struct RegionParams {
   double radius = 3.0;      // mm, ball + stock to leave
-  double tolerance = 0.01;  // mm: the whole budget; reachable is what cam/limits/reach_tolerance.h says
+  double tolerance = 0.01;  // mm, the whole error budget; ReachTolerance of it decides what is reachable
   double steep_angle = Radians(45.0);
   double floor_z = -kInfinity;     // mm, lowest tip
-  double border_tolerance = 0.01;  // mm, sagitta of border polylines on the true loci
-  // How finely the surface is divided, 0 (coarse) to 1 (the raw split: nothing is merged). Of less than 1, at
-  // detail d: regions below 2 pi R^2 (1-d)/d, or narrower than R (1-d)/d, join a neighbour, borders cost in
-  // the same proportion (merge_regions.h), summits and pits that persist divide mountains and basins
-  // (height_tops.h), and at most 40 d reachable regions remain, those without a neighbour not counted.
+  double border_tolerance = 0.01;  // mm, sagitta of border polylines on the true curves
+  // How finely the surface is divided, from 0 (coarse, the same as 0.05) to 1 (the raw split, nothing is
+  // merged). At a detail d below 1:
+  // - regions smaller than 2 pi R^2 (1-d)/d or narrower than R (1-d)/d join a neighbour;
+  // - the cost of a border is proportional to (1-d)/d (merge_regions.h);
+  // - summits and pits that persist divide mountains and basins (height_tops.h);
+  // - at most 40 d reachable regions remain, unless no two of them may be joined.
   double detail = 0.5;
-  // Where it allows no centre the reason is kOutside if the centre is only forbidden beside the part, kShank
-  // if only the shank is in the way, else kAvoided; null: allows all.
+  // A place whose centre is not allowed is unreachable. The reason is kOutside if the centre is forbidden
+  // only because it lies beside the part, kShank if only the shank is in the way, else kAvoided. null allows
+  // all centres.
   const OperationLimits* operation_limits = nullptr;
-  // > 0 where forced passes finish the ground, continuous; where they do not the reason is kStrategy. Empty:
+  // Continuous; > 0 where forced passes finish the surface. Elsewhere the reason is kStrategy. Empty if
   // nothing is forced.
   std::function<double(const SurfaceJet&)> finished = nullptr;
 };
 
-// Ground that forced passes do not finish (kStrategy) is a region apart, of the kind and the slope that most
-// of it has: reached all the same, and cut like any other. The other reasons make it kUnreachable.
+// An area that forced passes do not finish (kStrategy) is a region of its own. It has the kind and slope that
+// prevail in it, and it is reachable and cut like any other. With any other reason the kind is kUnreachable.
 struct Region {
   int id = 0;
   RegionKind kind = RegionKind::kNeutral;
@@ -75,40 +78,39 @@ struct Region {
   double area = 0.0;           // mm^2 on the surface
   Vec3 inside = Vec3::Zero();  // a point of the region
   double z_min = 0.0, z_max = 0.0;
-  double step_min = 0.0, step_max = 0.0;  // mm between passes for the scallop; filled by cam/plan, else 0
-  double wanted_share = 1.0;              // of its area, selected; filled by cam/plan
-  double otherwise_share = 0.0;           // of its area, of the other slope and cut like that; by cam/plan
-  double deepest_leftover = 0.0;          // mm, regions with a reason: how much stays (leftover.h)
-  double largest_tool_diameter = 0.0;     // mm, unreachable CONCAVE ones: reaches all of it (0: none does)
+  double step_min = 0.0, step_max = 0.0;  // mm between passes for the scallop; cam/plan fills it, else 0
+  double wanted_share = 1.0;              // selected share of its area; cam/plan fills it
+  double otherwise_share = 0.0;           // share of its area that is cut as the other slope; from cam/plan
+  double deepest_leftover = 0.0;          // mm, if it has a reason: deepest material left (leftover.h)
+  double largest_tool_diameter = 0.0;     // mm, if CONCAVE: largest ball that reaches all of it; 0 if none
   std::vector<std::vector<Vec3>> border;  // closed polylines on the surface
-  std::vector<PatchId> patches;           // those it has a part of, rising
+  std::vector<PatchId> patches;           // patches that it has a part of, rising
 };
 
-// A line on the surface between two regions, or where one ends.
+// A line on the surface between two regions, or where one region ends.
 struct BorderLine {
   BorderKind kind = BorderKind::kSlope;
-  int region = -1, other = -1;               // ids, the lower one first; other = -1: the surface ends
-  int component = -1, other_component = -1;  // of those regions, on its sides
-  bool closed = false;                       // the last point joins the first and is not repeated
-  int from = -1, to = -1;                    // nodes of the map, of lines that are not closed
+  int region = -1, other = -1;               // ids, the lower one first; other = -1 if the surface ends
+  int component = -1, other_component = -1;  // components of these regions on the two sides
+  bool closed = false;                       // the last point is joined to the first, which is not repeated
+  int from = -1, to = -1;                    // nodes of the map at its ends; -1 if it is closed
   std::vector<Vec3> points;
 };
 
 struct RegionMap {
   std::vector<Region>
-      regions;  // ids are positions; reachable ones first, by falling area; then unreachable ones
+      regions;  // index = id; reachable regions first, then unreachable ones, each by falling area
   std::vector<BorderLine> border_lines;  // each once
-  std::vector<Vec3> nodes;               // where lines end: three or more meet, or two of different kinds
-  // Labels for lookup: per piece a grid of cells x cells, label of the cell's centre (id into regions, -1
-  // none).
+  std::vector<Vec3> nodes;  // where lines end: three or more lines meet, or two of different kinds
+  // Labels for lookup. Each piece has a grid of cells x cells. The label of a cell is the id of the region at
+  // the cell's centre, or -1.
   int cells = 0;
   std::vector<std::vector<int>> labels;  // [piece][i * cells + j], i along u
-  // Regions may fall into components, each of which hangs together: the regions of these, rising, and the
-  // components of cells like `labels`, which are empty where every region is one component.
-  std::vector<int> component_region;
-  std::vector<std::vector<int>> components;
+  // A region may consist of several connected components.
+  std::vector<int> component_region;         // [component]: its region, rising
+  std::vector<std::vector<int>> components;  // like `labels`; empty if every region is one component
 
-  // -1: none.
+  // The component or region at a cell or surface point; -1 if there is none.
   int ComponentAt(std::size_t piece, std::size_t cell) const {
     return (components.empty() ? labels : components)[piece][cell];
   }

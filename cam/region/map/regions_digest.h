@@ -1,4 +1,4 @@
-// Which region map it is: what overrides of single regions are addressed by.
+// Names a region map, so that overrides of single regions can say which map they were made for.
 #pragma once
 
 #include <string>

@@ -13,8 +13,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kIslands = 0.1;  // of min_area: islands of one label that are worth a region, together
-constexpr double kEqual = 1.1;    // times an area: regions that are not larger are as large
+constexpr double kIslands = 0.1;  // in min_area: area from which islands of one label form a region
+constexpr double kEqual = 1.1;    // ratio of areas up to which regions count as equally large
 
 bool Reached(const SplitLabel& label) { return label.reason == UnreachableReason::kNone; }
 
@@ -23,7 +23,7 @@ std::size_t WholeOf(const std::vector<RawRegion>& regions, int i) {
   return static_cast<std::size_t>(whole < 0 ? i : whole);
 }
 
-// The labels of least energy, in place: one for each whole.
+// Sets the labels of least energy, the same for all parts of a whole.
 void Relabel(const std::vector<RawContact>& contacts, const MergeParams& params,
              std::vector<RawRegion>& regions) {
   std::vector<RawRegion> wholes(regions.size());
@@ -40,7 +40,7 @@ void Relabel(const std::vector<RawContact>& contacts, const MergeParams& params,
     if (!Reached(r.label) || WholeOf(regions, static_cast<int>(i)) != i) continue;
     const double bend = std::abs(r.curvature);
     const bool flat = r.label.curvature == 0 || bend < params.flat * r.area;
-    // Cost of +1 against 0, and of 0 against -1: the loss is |label - own| times the bend.
+    // Costs of +1 against 0 and of 0 against -1. The loss of a label is |label - own label| times the bend.
     const double side = r.label.curvature > 0 ? -1.0 : 1.0;
     basin[i] = flat ? params.flat_cost * r.area : side * bend;
     no_mountain[i] = flat ? -params.flat_cost * r.area : side * bend;
@@ -75,9 +75,9 @@ struct Node {
   double open_border = 0.0;
   std::map<int, double> border = {};  // neighbour -> common length
   bool alive = true;
-  bool large = false;  // neither too small nor too narrow, when it was queued
+  bool large = false;  // it was neither too small nor too narrow when it was queued
 
-  // Together they are one region.
+  // True if the two nodes form one region when they are neighbours.
   bool Like(const Node& other) const {
     return label == other.label && (!(label.curvature < 0) || summit == other.summit) &&
            (!(label.curvature > 0) || pit == other.pit);
@@ -112,7 +112,8 @@ class Merger {
     AbsorbSlivers();
     for (Node& node : nodes_) Neutralise(node);
     for (std::size_t i = 0; i < nodes_.size(); ++i) FuseEqual(static_cast<int>(i));
-    // Those too small or too narrow first, each by area; a region's place is renewed whenever it grows.
+    // Regions that are too small or too narrow come first in the queue, by area. A region is queued anew
+    // whenever it grows.
     std::set<Place> queue;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       if (nodes_[i].alive && Reached(nodes_[i].label)) Queue(static_cast<int>(i), queue);
@@ -158,9 +159,10 @@ class Merger {
     return i;
   }
 
-  // Small reachable ground without neighbours: islands in what is out of reach, small sheets. Those of one
-  // label are one region with the largest that is no such island or, where there is none and they come to
-  // something, by themselves; crumbs go with the largest of their slope, or of all.
+  // Joins islands: small reachable regions without reachable neighbours, such as islands in unreachable areas
+  // and small sheets. Islands of one label join the largest other region of that label. If there is none they
+  // form one region if it is large enough (kIslands). The rest joins the largest region of its slope class,
+  // or the largest of all.
   void LumpIslands() {
     const auto is_island = [&](const Node& n) { return n.area < params_.min_area; };
     const auto largest = [&](const auto& fits) {
@@ -198,15 +200,15 @@ class Merger {
   using Group = std::pair<int, bool>;  // curvature, steep
   Group GroupOf(int i) const { return {At(i).label.curvature, At(i).label.steep}; }
   using ByArea = std::set<std::pair<double, int>>;
-  // What has changed since it was put in is left out when it is met.
+  // True if the region has not changed since the entry was made. Other entries are skipped.
   bool Stands(const ByArea::value_type& entry, const Group& group) const {
     return At(entry.second).alive && At(entry.second).area == entry.first && GroupOf(entry.second) == group;
   }
 
-  // While there are too many the smallest goes with a neighbour that is as steep or, where there is none,
-  // with those of its label that are hardly larger, wherever they are, or with the largest: equal features
-  // are one region. Steep ground never goes with gentle, for that is not cut as well by the other's passes.
-  // Cost O(log n) for each that goes.
+  // While there are too many regions, the smallest joins a neighbour of its slope class. If it has none, it
+  // and all regions of its label that are hardly larger (kEqual) join the largest of that label, wherever it
+  // is: equal features are one region. Steep regions never join gentle ones, because the passes of the one
+  // do not cut the other as well. Cost: O(log n) for each region that is joined.
   void LimitCount() {
     std::map<Group, ByArea> left;
     const auto put = [&](int i) { left[GroupOf(i)].insert({At(i).area, i}); };
@@ -214,7 +216,7 @@ class Merger {
       if (nodes_[i].alive && Reached(nodes_[i].label)) put(static_cast<int>(i));
     }
     while (reached_ > params_.max_regions) {
-      ByArea* alike = nullptr;  // those of the smallest one's label
+      ByArea* alike = nullptr;  // the regions with the label of the smallest one
       for (auto& [group, regions] : left) {
         while (!regions.empty() && !Stands(*regions.begin(), group)) regions.erase(regions.begin());
         while (!regions.empty() && !Stands(*regions.rbegin(), group)) regions.erase(std::prev(regions.end()));
@@ -222,7 +224,7 @@ class Merger {
       }
       if (alike == nullptr) return;
       const int small = alike->begin()->second;
-      alike->erase(alike->begin());  // it is gone after this, or stays as it is
+      alike->erase(alike->begin());  // it is joined below, or nothing can be joined to it
       const Group group = GroupOf(small);
       int into = LongestNeighbour(
           small, [&](const Node& n) { return Reached(n.label) && n.label.steep == group.second; });
@@ -242,7 +244,7 @@ class Merger {
     }
   }
 
-  // Small unreachable spots, wherever they are, count as one region per reason.
+  // Joins all small unreachable regions of one reason, wherever they are.
   void LumpUnreachable() {
     std::map<UnreachableReason, int> first;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -257,8 +259,8 @@ class Merger {
     if (Reached(node.label) && std::abs(node.curvature) < params_.min_curvature) node.label.curvature = 0;
   }
 
-  // Where the limits of two reasons run together, within the tolerance of their lines, slivers of one lie
-  // along the other.
+  // Joins unreachable slivers to an unreachable neighbour. Slivers arise where the limits of two reasons
+  // coincide within the tolerance of their lines.
   void AbsorbSlivers() {
     std::set<std::pair<double, int>> slivers;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -277,7 +279,7 @@ class Merger {
 
   const Node& At(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
 
-  // Of those that fit; -1: none does.
+  // The neighbour with the longest common border among those that fit; -1 if none fits.
   template <class Fits>
   int LongestNeighbour(int i, const Fits& fits) const {
     int best = -1;
@@ -291,11 +293,11 @@ class Merger {
   }
 
   int BestNeighbour(int i) const {
-    if (!Reached(At(i).label)) return -1;  // reasons are never mixed
+    if (!Reached(At(i).label)) return -1;  // unreachable regions are joined elsewhere, by reason
     return LongestNeighbour(i, [](const Node& n) { return Reached(n.label); });
   }
 
-  // `gone` becomes part of `into`, whose label follows the larger part.
+  // Makes `gone` a part of `into`, which takes the label of the larger part.
   void Join(int into, int gone) {
     Node& a = nodes_[static_cast<std::size_t>(into)];
     Node& b = nodes_[static_cast<std::size_t>(gone)];
@@ -339,7 +341,7 @@ class Merger {
   const MergeParams& params_;
   std::vector<Node> nodes_;
   std::vector<int> parent_;
-  int reached_ = 0;  // nodes alive that a ball reaches
+  int reached_ = 0;  // number of reachable nodes that are alive
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace patchmill {
 namespace {
 
-// Flow from a source (what gains by being 1) to a sink (what loses by it).
+// A flow network. Nodes that gain by the label 1 hang on the source, nodes that lose by it on the sink.
 class Network {
  public:
   explicit Network(std::size_t nodes) : arcs_of_(nodes), level_(nodes), next_(nodes) {}
@@ -30,7 +30,8 @@ class Network {
     }
   }
 
-  // Steps from `source` along arcs with room, -1: none. After Fill: the source's side of the cut.
+  // Number of steps from `source` to each node along arcs with room; -1 if there is no such way. After Fill
+  // the nodes with a level >= 0 are the source's side of the cut.
   const std::vector<int>& Levels(std::size_t source) {
     std::fill(level_.begin(), level_.end(), -1);
     level_[source] = 0;
@@ -52,7 +53,8 @@ class Network {
     double room;
   };
 
-  // One path of the levelled network, filled: its narrowest arc has no room left, exactly.
+  // Finds one path through the levels and fills it: its narrowest arc has exactly no room left. False if
+  // there is no path.
   bool Push(std::size_t source, std::size_t sink) {
     std::vector<std::size_t> path;
     for (std::size_t at = source; at != sink;) {
@@ -80,7 +82,7 @@ class Network {
     return true;
   }
 
-  std::vector<Arc> arcs_;  // 2 k and 2 k + 1 run to and fro
+  std::vector<Arc> arcs_;  // arcs 2 k and 2 k + 1 are one pair, forth and back
   std::vector<std::vector<std::size_t>> arcs_of_;
   std::vector<int> level_;
   std::vector<std::size_t> next_;

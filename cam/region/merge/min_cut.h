@@ -1,4 +1,5 @@
-// Labels for the nodes of a graph that cost least: the data on the nodes against the borders between them.
+// Labels the nodes of a graph with 0 or 1 at least cost, which comes from the nodes and from the borders
+// between different labels.
 #pragma once
 
 #include <span>
@@ -8,13 +9,14 @@ namespace patchmill {
 
 struct LabelPair {
   int a = 0, b = 0;
-  double weight = 0.0;  // >= 0, cost of different labels
+  double weight = 0.0;  // >= 0, cost if a and b have different labels
 };
 
-// The set of nodes labelled 1 (the others 0) for which
+// Returns the set of nodes labelled 1 (the others are 0) for which
 //   sum of cost[i] over the set + sum of weight over the pairs it separates
-// is least, and of all such sets the smallest: one and the same for any order of the pairs, ties and rounding
-// apart. By a minimum cut [references: greig1989], [references: dinic1970]: about pairs^1.5 steps.
+// is least. Of several such sets it returns the smallest one. So the result does not depend on the order of
+// the pairs, except where rounding decides. It is a minimum cut [references: greig1989],
+// [references: dinic1970]. Cost: about pairs^1.5 steps.
 std::vector<bool> MinCut(std::span<const double> cost, std::span<const LabelPair> pairs);
 
 }  // namespace patchmill

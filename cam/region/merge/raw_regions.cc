@@ -24,7 +24,7 @@ absl::Status Connect(const std::vector<SplitMesh>& meshes, const AdjacencyList& 
     return Triangle(meshes, a.side.piece, a.side.triangle).label ==
            Triangle(meshes, a.other_piece, a.other_triangle).label;
   };
-  // Summits and pits divide what is reached.
+  // Both triangles belong to the same summit or pit. Only reachable areas are divided by them.
   const auto same = [](const std::vector<std::vector<int>>& top, const Adjacency& a) {
     return top[static_cast<std::size_t>(a.side.piece)][static_cast<std::size_t>(a.side.triangle)] ==
            top[static_cast<std::size_t>(a.other_piece)][static_cast<std::size_t>(a.other_triangle)];
@@ -61,11 +61,11 @@ absl::Status Connect(const std::vector<SplitMesh>& meshes, const AdjacencyList& 
   return absl::OkStatus();
 }
 
-// Lengths of the regions' borders with each other (half from each side) and with nothing.
+// Measures the borders between regions (each side of a border adds half of its length) and open borders.
 absl::Status MeasureBorders(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
                             const RunContext& run, RawRegions& raw) {
   PM_ASSIGN_OR_RETURN(const std::vector<std::size_t> sides, BorderSides(adjacency, raw.of, run));
-  std::unordered_map<std::uint64_t, std::size_t> contact_of;  // looked up, never walked
+  std::unordered_map<std::uint64_t, std::size_t> contact_of;  // for lookup only: its order is not fixed
   for (const std::size_t i : sides) {
     const Adjacency a = adjacency[i];
     const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];

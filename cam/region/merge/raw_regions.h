@@ -1,4 +1,4 @@
-// Connected parts of equal label, before anything is merged, and what they have in common.
+// Finds the raw regions: connected areas of equal label, before anything is merged, and their common borders.
 #pragma once
 
 #include <vector>
@@ -11,19 +11,20 @@
 
 namespace patchmill {
 
-// Which summit and which pit every triangle belongs to: [piece][triangle].
+// The summit and the pit that each triangle belongs to: [piece][triangle].
 struct Watersheds {
   std::vector<std::vector<int>> summit, pit;
 };
 
 struct RawRegions {
-  std::vector<std::vector<int>> of;  // [piece][triangle]: its raw region, in order of their first triangles
+  std::vector<std::vector<int>> of;  // [piece][triangle]: its raw region, numbered by their first triangles
   std::vector<RawRegion> regions;
-  std::vector<RawContact> contacts;  // one for any two regions with a common border
+  std::vector<RawContact> contacts;  // one for each two regions with a common border
 };
 
-// Ground of one label is divided where summits or pits change. Borders are still chords, areas end at them:
-// most go when regions are merged. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// A reachable area of one label is divided where its summit or pit changes. Borders are still chords here,
+// and areas end at the chords, because merging removes most borders. CANCELLED and DEADLINE_EXCEEDED from
+// `run`.
 absl::StatusOr<RawRegions> FindRawRegions(const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency, const Watersheds& watersheds,
                                           const RunContext& run);

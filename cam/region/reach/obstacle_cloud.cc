@@ -12,11 +12,11 @@
 namespace patchmill {
 namespace {
 
-constexpr double kMostPoints = 1e6;
-constexpr double kCell = 2.0;     // spacings
-constexpr int kMostCells = 1024;  // along x, and along y
-constexpr int kLanes = 4;         // cells, and points, looked at together
-constexpr double kFloat = 1e-6;   // of the size: more than floats do to a distance
+constexpr double kMostPoints = 1e6;  // about, in the whole cloud
+constexpr double kCell = 2.0;        // in spacings: side of a cell of the plan
+constexpr int kMostCells = 1024;     // cells along x and along y; also points along one side of a piece
+constexpr int kLanes = 4;            // cells or points that are examined together
+constexpr double kFloat = 1e-6;      // in the size of the surface: bound for the error of float distances
 
 double LengthAlong(const Piece& piece, bool u) {
   double longest = 0.0;
@@ -29,8 +29,8 @@ double LengthAlong(const Piece& piece, bool u) {
   return longest;
 }
 
-// Calls visit(i) for the points [first, last) that `near` (bits of the four from i on) tells of, until it
-// says true; then it does.
+// Calls visit(i) for each point of [first, last) whose bit is set in near(i), which tests four points from i
+// on. Ends with true when visit returns true.
 template <class Near, class Visit>
 bool VisitNear(std::size_t first, std::size_t last, const Near& near, const Visit& visit) {
   for (std::size_t i = first; i < last; i += kLanes) {
@@ -74,7 +74,7 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
       }
     }
   }
-  // A million points take a tenth of a second each time that they are walked through.
+  // One loop over a million points takes a tenth of a second.
   const auto cancelled = [&](std::size_t i) { return i % 65536 == 0 && run.Cancelled(); };
   low_ = surface.box.min;
   const Vec3 extent = surface.box.max - low_;
@@ -107,7 +107,7 @@ ObstacleCloud::ObstacleCloud(const Surface& surface, double spacing, const RunCo
   }
 }
 
-// The walk is by rows, in these by four cells, and what neighbours hold is one run of points.
+// Goes through the rows, and through each row by four cells. The points of neighbouring cells form one range.
 template <class Visit>
 void ObstacleCloud::Runs(const Vec3& c, const double& reach, const Visit& visit) const {
   const Vec3 q = c - low_;
@@ -126,7 +126,7 @@ void ObstacleCloud::Runs(const Vec3& c, const double& reach, const Visit& visit)
   for (int row = clamped(q.y() - reach, rows_); row <= last_row; ++row) {
     const double y = std::max({0.0, row * cell_ - q.y(), q.y() - (row + 1) * cell_});
     const Float4 y2 = Splat(static_cast<float>(y * y));
-    std::size_t from = 0, to = 0;  // the run so far
+    std::size_t from = 0, to = 0;  // the range so far
     Float4 left = lefts;
     for (int column = first; column <= last; column += kLanes, left = left + Splat(kLanes * width)) {
       const auto cell = static_cast<std::size_t>(row * columns_ + column);
@@ -147,7 +147,7 @@ void ObstacleCloud::Runs(const Vec3& c, const double& reach, const Visit& visit)
   }
 }
 
-// The square of a distance, and what floats may add to it.
+// The square of a distance, enlarged by the error of floats.
 Float4 ObstacleCloud::Squared(double distance) const {
   const float most = static_cast<float>(distance) + slack_;
   return Splat(1.00001F * most * most);

@@ -9,8 +9,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kRounding = 1e-9;    // relative, of the radius
-constexpr std::size_t kTogether = 8;  // balls searched at once
+constexpr double kRounding = 1e-9;    // in R: obstacles must be deeper than this
+constexpr std::size_t kTogether = 8;  // balls in one search of the surface
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// What is in the way of balls asked for in turn.
+// Finds obstacles: what is in the way of balls, one after the other.
 #pragma once
 
 #include <array>
@@ -10,15 +10,15 @@
 
 namespace patchmill {
 
-// Remembers what was in the way of the last balls, which mostly is in the way of the next; then asks the
-// cloud; only what is left is searched for, several balls at once. For balls near each other, one after the
-// other.
+// Tries the obstacles of the last balls first, because these mostly are in the way of the next ball, too.
+// Then it asks the cloud. Only for the balls that are left does it search the surface, for several at once.
+// Use it for balls near each other, one after the other.
 class ObstacleFinder {
  public:
   ObstacleFinder(const Locator& ball, const ObstacleCloud& cloud);
 
-  // obstacles[k]: a point of the surface in the ball at centers[k] or above it, deeper than rounding; none
-  // when it is free. Free as Locator::Free has it.
+  // Sets obstacles[k] to a point of the surface that lies in the ball at centers[k] or in its upward sweep by
+  // more than rounding. nullopt if the ball is free in the sense of Locator::Free.
   void Find(std::span<const Vec3> centers, std::span<std::optional<SurfacePoint>> obstacles);
 
  private:
@@ -28,10 +28,10 @@ class ObstacleFinder {
 
   const Locator& ball_;
   const ObstacleCloud& cloud_;
-  const double radius_;  // smaller than the ball's by rounding
+  const double radius_;  // radius of the ball less rounding
   std::array<SurfacePoint, 8> last_;
   std::size_t next_ = 0;
-  std::vector<std::size_t> open_;  // of the balls at hand
+  std::vector<std::size_t> open_;  // balls of the current call that wait for a search
 };
 
 }  // namespace patchmill

@@ -17,11 +17,11 @@ namespace {
 
 // The constants of [regions, section 6].
 constexpr double kAboveSmallestBall =
-    0.5;  // of the least ball's radius: what is over it comes nearer to its axis
+    0.5;  // in radii of the smallest ball: something stands above it if it comes nearer to its axis
 
-constexpr int kMostSlides = 12;  // Newton steps of an obstacle, unless one is
-constexpr double kSlid = 1e-4;   // of the radius: what is left then is the square
-constexpr double kCloud = 0.15;  // of the radius: spacing of the points tried first
+constexpr int kMostSlides = 12;  // Newton steps of an obstacle; fewer if a step is shorter than kSlid
+constexpr double kSlid = 1e-4;   // in R: after such a step the error is about the square of it
+constexpr double kCloud = 0.15;  // in R: spacing of the points of the cloud
 
 }  // namespace
 
@@ -59,7 +59,7 @@ void ReachTest::FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs
     ObstacleFinder(free_ball_, cloud_).Find(centers, found);
     for (std::size_t k = 0; k < asked.size(); ++k) {
       signs[asked[k]] = found[k] ? -1.0 : 1.0;
-      // What lets go on one side of a wall says nothing of the other.
+      // An obstacle on one side of a wall says nothing about the ball on the other side.
       if (!obstacles.empty()) obstacles[asked[k]] = side > 0.0 ? found[k] : std::nullopt;
     }
   }
@@ -89,8 +89,8 @@ ReachTest::Shanks ReachTest::MakeShanks() const {
 
 bool ReachTest::BlockedAbove(const Vec3& p, const Facing& facing, Shanks& shanks) const {
   const double least = SmallestBallRadius(ReachTolerance(params_.tolerance));
-  // Of upright surface on both sides, each ball by itself: a ball that is too large for a slot is under the
-  // slot's top beyond the other wall.
+  // On a vertical face each ball must be blocked on both sides: a ball that is too large for a slot lies
+  // under the slot's top beyond the other wall.
   const auto on_all_sides = [&](const auto& blocked) {
     return blocked(facing.e) && (!facing.upright || blocked(-facing.e));
   };
@@ -120,7 +120,7 @@ bool ReachTest::AllowedOnASide(const Vec3& p, const Facing& facing, const Allows
   const Vec3 other = p - params_.radius * facing.e;
   const bool other_allowed = allows(other);
   if (allowed && other_allowed) return true;
-  // A side that is free serves nobody where the other one is allowed.
+  // A free ball on one side does not help if only the centre on the other side is allowed.
   return (allowed && FreeCenter(c)) || (other_allowed && FreeCenter(other));
 }
 
@@ -154,7 +154,7 @@ double LargestFreeRadius(const Surface& surface, const Vec3& p, const Facing& fa
                                                             r - reach_tolerance, 0.1 * reach_tolerance);
     };
     if (free(limit)) return limit;
-    double low = 0.0, high = limit;  // what a ball sweeps on its way up holds what a smaller one does
+    double low = 0.0, high = limit;  // the sweep of a ball contains that of a smaller one [regions T14]
     for (int i = 0; i < 12; ++i) {
       const double r = 0.5 * (low + high);
       (free(r) ? low : high) = r;

@@ -1,5 +1,5 @@
-// Can the ball touch this point of the surface, and if not, why: [regions, section 6], by exact cutter
-// location.
+// Tests whether the ball can touch a point of the surface, and finds the reason if it cannot
+// [regions, section 6]. Uses exact cutter location.
 #pragma once
 
 #include <optional>
@@ -16,37 +16,37 @@ namespace patchmill {
 
 class ReachTest {
  public:
-  // `free_ball`: locator of radius params.radius - ReachTolerance(params.tolerance). Of a cancelled `run` its
-  // answers mean nothing.
+  // `free_ball` is the locator of radius params.radius - ReachTolerance(params.tolerance). Keeps references
+  // to it and to `params`. Its answers are meaningless if `run` was cancelled.
   ReachTest(const Locator& free_ball, const RegionParams& params, const RunContext& run);
 
-  // The ball that touches p from where `facing` says is free; the floor does not count. Of two sides either
-  // will do.
+  // True if the ball that touches p on the side of `facing` is free; the floor does not count. If p has two
+  // sides, one free ball is enough.
   bool Free(const Vec3& p, const Facing& facing) const;
-  // The same at many places near each other, faster: signs[i] = 1 free, -1 not, 0 where there is no normal.
-  // `obstacles`, as many or none: something in the way of the ball, where it is known and decides.
+  // The same at many places near each other, faster. signs[i] is 1 if the ball is free, -1 if not, 0 if there
+  // is no normal. `obstacles` is empty or as long as jets. obstacles[i] becomes something in the way of the
+  // ball, or nullopt if there is nothing or if p has two sides.
   void FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs,
               std::span<std::optional<SurfacePoint>> obstacles = {}) const;
-  // How far an obstacle is outside the ball that touches the surface at `jet` and all above it, mm; negative
-  // when it is in the way.
+  // Distance of the point `obstacle` from the ball that touches the surface at `jet` and from its upward
+  // sweep, mm. Negative if the obstacle is in the way.
   double Clearance(const Vec3& obstacle, const SurfaceJet& jet) const;
-  // The same of the deepest place of the obstacle's branch of the surface, which `obstacle` slides to.
+  // The same for the deepest place of the obstacle's branch of the surface. `obstacle` slides to that place.
   double Slide(RaySlide& obstacle, const SurfaceJet& jet) const;
   const Surface& surface() const { return free_ball_.surface(); }
-  // Where it is not: UNDERCUT, and not CONCAVE. Cost some microseconds.
+  // For a place where the ball is not free: true for UNDERCUT, false for CONCAVE. Cost: some microseconds.
   bool BlockedAbove(const Vec3& p, const Facing& facing) const;
-  // The same at many places near each other, faster: signs[i] = -1 blocked above, 1 not, 0 where there is no
-  // normal.
+  // The same at many places near each other, faster. signs[i] is -1 if blocked above, 1 if not, 0 if there is
+  // no normal.
   void BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<double> signs) const;
-  // Height of its tip over the floor, mm, the slack for rounding counted in: below 0 the place is FLOOR.
+  // Height of the ball's tip over floor_z less the reach tolerance, mm. Below 0 the place is FLOOR.
   double OverFloor(const Vec3& p, const Vec3& normal) const;
-  // Of a place where the ball is free: params.operation_limits allows its centre. Of two sides on the one
-  // where the
-  // ball is free.
+  // For a place where the ball is free: true if params.operation_limits allows its centre. If p has two
+  // sides, the centre must be allowed on a side on which the ball is free.
   bool Allowed(const Vec3& p, const Facing& facing) const;
-  // Where it is not: it would be, on one of the sides, if nothing were forbidden beside the part.
+  // For a place that is not Allowed: true if it would be if nothing were forbidden beside the part.
   bool ForbiddenBesidePart(const Vec3& p, const Facing& facing) const;
-  // The same if the shank were no wider than the ball.
+  // For a place that is not Allowed: true if it would be if the shank were no wider than the ball.
   bool BlockedByShank(const Vec3& p, const Facing& facing) const;
 
   const Locator& free_ball() const { return free_ball_; }
@@ -65,8 +65,9 @@ class ReachTest {
   ObstacleCloud cloud_;
 };
 
-// Largest ball (mm, radius) that touches p from where `facing` says and is free upward, at most `limit`; to
-// limit / 4096. All of at most `give` (mm, ReachTolerance) count as free.
+// Radius of the largest ball that touches p on the side of `facing` and is free together with its upward
+// sweep, mm. It is at most `limit` and exact to limit / 4096. The surface may enter the ball by
+// `reach_tolerance` (mm, ReachTolerance), so smaller balls always count as free.
 double LargestFreeRadius(const Surface& surface, const Vec3& p, const Facing& facing, double limit,
                          double reach_tolerance);
 

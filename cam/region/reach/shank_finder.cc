@@ -7,10 +7,9 @@
 namespace patchmill {
 namespace {
 
-constexpr double kShankMargin =
-    0.02;                         // of the radius: what blocks above is nearer by this ([regions, section 6])
-constexpr double kProof = 0.001;  // of the radius: how exactly distances are known here
-constexpr int kSlideSteps = 4;    // Newton's, of each point that is tried before a search
+constexpr double kShankMargin = 0.02;  // in R: T < B - kShankMargin R of [regions, section 6]
+constexpr double kProof = 0.001;       // in R: error of distances here
+constexpr int kSlideSteps = 4;         // Newton steps of each point that is tried before a search
 
 }  // namespace
 
@@ -50,7 +49,7 @@ bool ShankFinder::StandsAbove(const Vec3& center) {
 
 bool ShankFinder::BallClears(const Vec3& center, double near) {
   const double proof = 0.1 * (radius_ - free_radius_);
-  const double seen = clear_ - proof;  // a search is sure to see what is nearer
+  const double seen = clear_ - proof;  // a search certainly finds something that is nearer than this
   if (near < seen || SlidesNear(center, seen)) return false;
   const auto found = FirstNearPoint(surface_, center, clear_, proof);
   if (!found) return true;
@@ -72,15 +71,15 @@ bool ShankFinder::SlidesNear(const Vec3& center, double limit) {
   return false;
 }
 
-// Anything known bounds how near the nearest is.
+// Any known point is an upper bound for the distance of the nearest one.
 double ShankFinder::NearAtMost(const Vec3& center, double most) {
   const double near = std::min(most, (near_ - center).norm());
   if (const auto point = cloud_.Nearest(center, near)) near_ = *point;
   return std::min(near, (near_ - center).norm());
 }
 
-// With T the distance from the upward ray and B that from the centre: T < B - nearer. Any point above gives
-// an upper bound of T, any point one of B.
+// The condition is T < B - nearer_, with T the distance from the surface to the upward ray and B that to the
+// centre. Any point above the centre is an upper bound for T, any point one for B.
 bool ShankFinder::ShankIsNearer(const Vec3& center, bool known, double near) {
   double limit = free_radius_ + proof_;
   if (known) {

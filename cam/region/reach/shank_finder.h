@@ -1,4 +1,5 @@
-// Whether the shank is what keeps a ball from a place: UNDERCUT of [regions, section 6].
+// Tests whether something above a ball, in the way of its shank, keeps it from a place: UNDERCUT of
+// [regions, section 6].
 #pragma once
 
 #include <array>
@@ -10,42 +11,41 @@
 
 namespace patchmill {
 
-// Remembers what was over the last balls and near them, which mostly is so for the next and settles them with
-// one question.
-// For balls near each other, one after the other; what an answer rests on is proven anew for each.
+// Use it for balls near each other, one after the other. It remembers points above and near the last balls.
+// With these points one query often settles the next ball. Each answer is proven anew.
 class ShankFinder {
  public:
-  // `radius` is that of the ball that touches the ground, `free_radius` what of it must be free, both mm.
+  // `radius` is that of the ball that touches the surface. Within `free_radius` nothing may be in its way.
+  // Both in mm.
   ShankFinder(const Surface& surface, const ObstacleCloud& cloud, double free_radius, double radius);
 
-  // Of a ball that is not free: something over the one at `center` comes nearer to its axis than anything
-  // does to the centre, by 0.02 radii, with distances known to 0.001 of them; or the ball alone would be
-  // free, by half of ReachTolerance.
+  // For a ball that is not free. True if something above the centre comes nearer to the axis than anything
+  // comes to the centre, by 0.02 radii; distances are known to 0.001 radii. Also true if the ball without its
+  // upward sweep would be free: if the surface enters it by at most half of the reach tolerance.
   bool Blocked(const Vec3& center);
-  // The first alone, of any ball: what is over it comes nearer than free_radius as well.
+  // For any ball: the first of these conditions alone, and what stands above is nearer than free_radius.
   bool StandsAbove(const Vec3& center);
 
  private:
-  // The first half of it. `known`: KnownAbove is nearer than the free ball's radius; `near`: NearAtMost, or
-  // more.
+  // The first condition. `known` says that KnownAbove is below the free radius. `near` is NearAtMost or more.
   bool ShankIsNearer(const Vec3& center, bool known, double near);
-  // The second.
+  // The second condition.
   bool BallClears(const Vec3& center, double near);
-  // At least the distance of the nearest surface point from the centre, by the points known; at most `most`.
+  // An upper bound for the distance from the centre to the surface, from known points; at most `most`.
   double NearAtMost(const Vec3& center, double most);
-  // What was nearest to other centres comes nearer than `limit` when it slides to this one.
+  // True if a point that was nearest to another centre slides to within `limit` of this one.
   bool SlidesNear(const Vec3& center, double limit);
-  // Of the distance of the known points over `center` from its axis the least.
+  // Least distance from the axis to a known point above `center`.
   double KnownAbove(const Vec3& center) const;
 
   const Surface& surface_;
   const ObstacleCloud& cloud_;
   const double free_radius_, radius_;
-  const double clear_;  // halfway between the two: the ball alone is free when nothing is nearer
-  const double proof_, nearer_;
-  Vec3 near_ = Vec3::Constant(kInfinity);          // what was nearest last
-  std::array<std::optional<RaySlide>, 4> slides_;  // what searches have found near
-  std::array<Vec3, 8> last_;                       // what was above
+  const double clear_;           // halfway between the two radii: the ball alone is free if nothing is nearer
+  const double proof_, nearer_;  // mm
+  Vec3 near_ = Vec3::Constant(kInfinity);          // the last nearest point
+  std::array<std::optional<RaySlide>, 4> slides_;  // near points that searches found
+  std::array<Vec3, 8> last_;                       // the last points above
   std::size_t next_slide_ = 0, next_ = 0;
 };
 

@@ -8,15 +8,15 @@
 namespace patchmill {
 namespace {
 
-constexpr double kFreeBand = 0.7;       // of `exact`: where it must be free, and where not,
-constexpr double kFreeBandHeld = 0.05;  // where the obstacle is held back
-constexpr double kWell = 0.05;          // of `exact`: how exactly an obstacle's limit is found
-constexpr double kSame = 0.1;           // of `exact`, of clearance
-constexpr double kGrazing = 0.001;      // mm of clearance a mm: with less the limit is where it may be
-constexpr double kFarthest = 0.5;       // chords beside its middle
-constexpr int kMostSteps = 8;
-constexpr int kMostObstacles = 6;
-constexpr std::size_t kRemembered = 4;
+constexpr double kFreeBand = 0.7;       // of `exact`: distance from the limit where freedom is checked
+constexpr double kFreeBandHeld = 0.05;  // the same if the border of its piece holds the obstacle back
+constexpr double kWell = 0.05;          // of `exact`: accuracy of an obstacle's limit
+constexpr double kSame = 0.1;           // of `exact`: clearance up to which a chord's end is on the limit
+constexpr double kGrazing = 0.001;      // mm of clearance per mm; with less the limit is ill-conditioned
+constexpr double kFarthest = 0.5;       // shares of `across`: limits farther away are others
+constexpr int kMostSteps = 8;           // of the secant method
+constexpr int kMostObstacles = 6;       // tried for one chord
+constexpr std::size_t kRemembered = 4;  // obstacles before the current one
 
 bool OnPiece(const Vec2& q) { return q.minCoeff() >= 0.0 && q.maxCoeff() <= 1.0; }
 
@@ -54,7 +54,7 @@ RaySlide* LimitFollower::InTheWay(const SurfaceJet& jet) {
   return nullptr;
 }
 
-// The secant method: the clearance is smooth, and known to be nearly linear over some hundredths of a mm.
+// Uses the secant method: the clearance is smooth and nearly linear over some hundredths of a mm.
 std::optional<LimitFollower::LetGo> LimitFollower::FollowObstacle(const Vec2& at, const Vec2& step,
                                                                   double least, double most, double length) {
   const auto clearance = [&](double t) { return reach_->Slide(*obstacle_, At(at + t * step)); };
@@ -89,12 +89,12 @@ std::optional<double> LimitFollower::Find(const ZeroSegment& chord, const Vec2& 
   const SurfaceJet jet = At(at);
   const auto facing = FacingAt(jet);
   const double length = (across.x() * jet.du + across.y() * jet.dv).norm();
-  // What is in the way of the ball on one side says nothing of the ball on the other.
+  // An obstacle on one side of a face says nothing about the ball on the other side.
   if (!facing || facing->both || !(length > 0.0)) return std::nullopt;
-  // Farther away lie other limits.
+  // Limits that are farther away belong to other chords.
   least = std::max(least, -kFarthest);
   most = std::min(most, kFarthest);
-  // What was in the way of the chord before may make another limit.
+  // The obstacle of the last chord may belong to another limit.
   const auto touches = [&](const Vec2& end) { return std::abs(reach_->Slide(*obstacle_, At(end))) < exact_; };
   if (obstacle_ && !touches(chord.from) && !touches(chord.to)) obstacle_.reset();
   bool known = obstacle_.has_value();
@@ -105,7 +105,7 @@ std::optional<double> LimitFollower::Find(const ZeroSegment& chord, const Vec2& 
       limit = FollowObstacle(at, across, least, most, length);
     known = false;
     if (!limit) break;
-    // Held at the border of its piece the branch may go on beyond it.
+    // If the border of its piece holds the obstacle back, the branch may continue beyond the border.
     const double share = obstacle_->held_by() < 0 ? kFreeBand : kFreeBandHeld;
     const double beside = std::copysign(share * exact_ / length, limit->rate);
     const Vec2 blocked_at = at + (limit->share - beside) * across,

@@ -9,16 +9,16 @@
 namespace patchmill {
 namespace {
 
-constexpr int kMostSlides = 8;
-constexpr double kWell = 0.2;    // of what is enough
-constexpr int kFollowed = 6;     // questions with an obstacle to follow; from then on halving
-constexpr int kMostRounds = 60;  // a double has no more
+constexpr int kMostSlides = 8;   // of one obstacle in one round
+constexpr double kWell = 0.2;    // of Bracket::enough: accuracy of the place where an obstacle lets go
+constexpr int kFollowed = 6;     // rounds that follow the obstacle; later ones halve the bracket
+constexpr int kMostRounds = 60;  // halvings of a double
 
 struct Bracket {
-  double blocked = 0.0, free = 1.0, enough = 1.0;  // shares of the segment
-  double ask = 0.5;
-  std::optional<SurfacePoint> obstacle = {};  // in the way at `blocked`
-  bool let_go = false;                        // the obstacle lets go exactly there
+  double blocked = 0.0, free = 1.0, enough = 1.0;  // shares of the segment; `enough` is the wanted width
+  double ask = 0.5;                                // share that is tested next
+  std::optional<SurfacePoint> obstacle = {};       // in the way at `blocked`
+  bool let_go = false;                             // the obstacle lets go exactly at `blocked`
 
   bool Open() const { return free - blocked > enough; }
 };
@@ -28,9 +28,10 @@ SurfaceJet At(const Piece& piece, const ZeroSegment& s, double t) {
   return Evaluate(piece, q.x(), q.y());
 }
 
-// The share where what is in the way at `blocked` lets go. The ball is let go of by one point between
-// `blocked`, where that is in its way, and `free`, where nothing is; there the next deepest one of the same
-// branch of the surface is: Newton's steps, none too far.
+// The share where the obstacle at `blocked` lets the ball go. Each step slides the obstacle to the deepest
+// point of its branch and goes to the share where that point leaves the ball. It lies between `blocked`,
+// where the point is in the way, and `free`, where nothing is. This is Newton's method, and no step goes too
+// far.
 double LetsGo(const ReachTest& reach, const Piece& piece, const ZeroSegment& segment, const Bracket& b) {
   RaySlide obstacle(reach.surface(), *b.obstacle);
   double blocked = b.blocked;
@@ -68,7 +69,8 @@ void ReachLimits(const ReachTest& reach, const Piece& piece, std::span<const Zer
     for (std::size_t k = 0; k < segments.size(); ++k) {
       Bracket& b = brackets[k];
       if (!b.Open()) continue;
-      // What is in the way at the start is mostly known to be: it costs little to hear of it.
+      // The first round finds the obstacle at the start. This costs little, because the finder mostly
+      // remembers it.
       b.ask = round == 0 ? 0.0 : 0.5 * (b.blocked + b.free);
       if (b.obstacle && round < kFollowed) {
         b.blocked = LetsGo(reach, piece, segments[k], b);

@@ -1,4 +1,4 @@
-// Where balls that touch the surface begin to be free: the limits of reach on segments of a piece.
+// Finds where balls that touch the surface begin to be free: the limits of reach on segments of a piece.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace patchmill {
 
-// limits[k]: the share of segments[k] (at its start the ball is not free, at its end it is) where that
-// changes, in steps of at most `exact` mm on the surface. Follows what is in the way to where it lets go: two
-// or three questions a segment.
+// The ball must not be free at the start of each segment, and free at its end. limits[k] becomes the share of
+// segments[k] where this changes, to `exact` mm on the surface. Follows the obstacle to where it lets the
+// ball go. Cost: two or three searches per segment.
 void ReachLimits(const ReachTest& reach, const Piece& piece, std::span<const ZeroSegment> segments,
                  double exact, std::span<double> limits);
 

@@ -10,7 +10,7 @@
 namespace patchmill {
 namespace {
 
-// Shapes below this part of the ball's radius are too small for it to feel.
+// In R: smallest cell of the split. The ball does not feel smaller shapes.
 constexpr double kMinCell = 0.06;
 
 }  // namespace
@@ -82,7 +82,7 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
     const auto facing = FacingAt(jet);
     return !facing ? 0.0 : reach.BlockedByShank(jet.p, *facing) ? -1.0 : 1.0;
   };
-  // Ground out of reach has no other label.
+  // The floor and all labels of reachable areas count only where the ball is free.
   at(Field::kFinished).value = params.finished;
   for (const Field field :
        {Field::kFloor, Field::kTurn, Field::kSlope, Field::kCurvature, Field::kFinished}) {

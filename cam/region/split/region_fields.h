@@ -1,4 +1,4 @@
-// The functions whose zero curves and limits divide the surface into regions.
+// Makes the fields whose zero curves and limits divide the surface into regions [regions, section 2].
 #pragma once
 
 #include <vector>
@@ -8,38 +8,38 @@
 
 namespace patchmill {
 
-// Order matters: limits of reach cost most and are split first, so that the points where other borders are
-// cut in need no test; a silhouette (kTurn) is split before the contour curvature, which changes its meaning
+// The fields in the order in which they are cut. Limits of reach cost most and come first, so that points of
+// later borders need no test. A silhouette (kTurn) is cut before the contour curvature, whose meaning changes
 // across it [regions, section 2].
 enum class Field {
-  kFree,       // the ball is free, whatever the floor
-  kAbove,      // where it is not: < 0 UNDERCUT, > 0 CONCAVE
-  kFloor,      // tip over the floor: < 0 FLOOR
+  kFree,       // > 0 where the ball is free; the floor does not count
+  kAbove,      // where the ball is not free: < 0 UNDERCUT, > 0 CONCAVE
+  kFloor,      // height of the tip over the floor: < 0 FLOOR
   kTurn,       // SilhouetteField: > 0 where the normal looks up
   kSlope,      // SlopeField of the steep angle: > 0 gentle
   kCurvature,  // ContourCurvatureField: times the sign of kTurn it is < 0 on mountains
-  kAllowed,    // < 0 AVOIDED, OUTSIDE or SHANK; only there when something is to be kept in
-  kOutside,    // where it is not allowed: < 0 OUTSIDE; only there with kAllowed
-  kShank,      // where it is not allowed: < 0 SHANK, > 0 AVOIDED; only there when a wide shank may touch
-  kFinished,   // < 0 STRATEGY; only there when passes of one kind are forced upon the surface
+  kAllowed,    // < 0 AVOIDED, OUTSIDE or SHANK; missing if the operation has no limits and no later field
+  kOutside,    // where the centre is not allowed: < 0 OUTSIDE; missing if kAllowed is
+  kShank,      // where it is not allowed: < 0 SHANK, > 0 AVOIDED; missing if no shank and no later field
+  kFinished,   // < 0 STRATEGY; missing if no strategy is forced
 };
 inline constexpr int kFieldCount = 10;
 static_assert(kFieldCount <= kMaxZeroFields);
 
-// Fields in the order of the enum; they keep a reference to `reach`.
+// The fields in the order of the enum. They keep a reference to `reach`.
 std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& params);
 
-// The first three of them alone: what a ball reaches. Reasons are not told apart: where it is not free kAbove
-// is > 0.
+// The first three of them, which decide what a ball reaches. UNDERCUT and CONCAVE are not distinguished:
+// kAbove is > 0 everywhere.
 std::vector<ZeroField> ReachFields(const ReachTest& reach, const RegionParams& params);
 
-// How finely pieces are divided for them: cells of 0.6 radii, or this part of the diagonal of the surface's
-// box where that is more.
+// How finely pieces are divided for these fields. The largest cell is 0.6 radii, or `part` of the diagonal of
+// the surface's box if that is more.
 ZeroMeshParams RegionMeshParams(const Surface& surface, const RegionParams& params, double part,
                                 const RunContext& run);
 
-// What a triangle is; ground that is not finished has no other label than why. Triangles of equal labels that
-// share an edge belong together.
+// The label of a triangle. A triangle with a reason has no other label. Triangles that have equal labels and
+// share an edge belong to one raw region.
 struct SplitLabel {
   std::int8_t curvature = 0;  // -1 mountain, +1 basin, 0 flat along the contour (upward normal)
   bool steep = false;

@@ -17,20 +17,20 @@ namespace {
 
 struct BorderSide {
   TriangleSide side;
-  Vec3 a, b, mid;  // ends, and the true middle of the arc
+  Vec3 a, b, mid;  // ends, and the point of the surface in the middle of the parameters
   double sagitta = 0.0;
 
   double Length() const { return (b - a).norm(); }
 };
 
-// Fills the neighbours of one piece's triangles within it; returns those of its other sides that lie on its
-// border, and may have one elsewhere.
+// Fills `beside` with the neighbours of one piece's triangles within the piece. Returns the sides on the
+// border of the piece that have no neighbour in it, because they may have one across a seam.
 std::vector<BorderSide> FindInner(const Piece& piece, int index, const SplitMesh& mesh,
                                   std::span<std::array<int, 3>> beside) {
   const auto corner = [&](std::size_t t, std::size_t s) {
     return static_cast<std::size_t>(mesh.triangles[t].vertex[s % 3]);
   };
-  // Directed sides by their first vertex: those of vertex i are [first[i], first[i + 1]).
+  // Directed sides, sorted by their first vertex: those of vertex i are [first[i], first[i + 1]).
   std::vector<std::uint32_t> first(mesh.vertices.size() + 2, 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::size_t s = 0; s < 3; ++s) ++first[corner(t, s) + 2];
@@ -72,7 +72,7 @@ std::vector<BorderSide> FindInner(const Piece& piece, int index, const SplitMesh
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-// The side that border[k] faces across a seam, or kNone.
+// The side of `border` that border[k] faces across a seam, or kNone.
 std::size_t SideFacing(const std::vector<BorderSide>& border, const BoxGrid& grid, std::size_t k,
                        double join) {
   const BorderSide& side = border[k];
@@ -83,8 +83,8 @@ std::size_t SideFacing(const std::vector<BorderSide>& border, const BoxGrid& gri
     if (i == k) return;
     const double d = SegmentDistance(side.mid, other.a, other.b);
     if (d > join + 2.0 * (side.sagitta + other.sagitta) || d >= best) return;
-    // A piece may meet itself (a closed surface of one patch), but never its own neighbour triangle along
-    // the same border.
+    // A piece may meet itself (a closed surface of one patch), but a side is not matched with the next side
+    // along the same border.
     if (other.side.piece == side.side.piece && (other.a - side.b).norm() < 1e-12) return;
     best = d;
     found = i;
@@ -150,7 +150,7 @@ absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::v
     for (const Vec3& p : {border[k].a, border[k].b, border[k].mid}) boxes[k].Add(p);
   }
   const BoxGrid grid(boxes, std::max(0.25 * longest, 4.0 * join));
-  constexpr std::size_t kAtOnce = 64;  // sides
+  constexpr std::size_t kAtOnce = 64;  // sides in one task
   std::vector<std::size_t> facing(border.size());
   PM_RETURN_IF_ERROR(
       ParallelFor(run, "regions: neighbours", (border.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t part) {

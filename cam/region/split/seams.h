@@ -1,4 +1,4 @@
-// Which triangles lie beside each other: within a piece, and across the common borders of pieces.
+// Finds which triangles are neighbours, within a piece and across the common borders of pieces.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace patchmill {
 
-// A triangle side: triangle `triangle` of piece `piece`, from its vertex `side` to the next one.
+// A side of a triangle, from its vertex `side` (0, 1, 2) to the next one.
 struct TriangleSide {
   int piece = 0;
   int triangle = 0;
   int side = 0;
 };
 
-// A vertex of a side: its first (0) or its second (1).
+// The first (which = 0) or second (1) vertex of a side.
 inline int VertexOf(const SplitMesh& mesh, const TriangleSide& side, int which) {
   const auto& v = mesh.triangles[static_cast<std::size_t>(side.triangle)].vertex;
   return v[static_cast<std::size_t>((side.side + which) % 3)];
@@ -29,33 +29,33 @@ inline const ZeroVertex& EndOf(const SplitMesh& mesh, const TriangleSide& side, 
   return mesh.vertices[static_cast<std::size_t>(VertexOf(mesh, side, which))];
 }
 
-// A side and what lies beyond it.
+// A side and the triangle beyond it.
 struct Adjacency {
   TriangleSide side;
-  int other_piece = -1;  // -1: nothing there (open border)
+  int other_piece = -1;  // -1: there is none, the side is an open edge
   int other_triangle = -1;
-  bool across_seam = false;  // across a piece's border
+  bool across_seam = false;  // the side lies on the border of its piece
 };
 
-// Every side of every triangle (inner sides twice, once from each triangle), in the order piece, triangle,
-// side. Triangles of all pieces are numbered through; those of number n are 3 n, 3 n + 1 and 3 n + 2.
+// Every side of every triangle, in the order piece, triangle, side. Inner sides come twice, once from each
+// triangle. Triangles of all pieces are numbered through; triangle n has the sides 3 n, 3 n + 1 and 3 n + 2.
 struct AdjacencyList {
   struct Seam {
     std::size_t side = 0;
     int other_piece = 0, other_triangle = 0;
   };
-  std::vector<std::size_t> first{0};  // [piece]: triangles before it; and how many there are
-  // [triangle][side]: the triangle of the same piece; -1 nothing; -2 - k: across seams[k].
+  std::vector<std::size_t> first{0};  // [piece]: number of triangles before it; then the number of all
+  // [triangle][side]: the neighbour in the same piece; -1 if there is none; -2 - k if it is across seams[k].
   std::vector<std::array<int, 3>> beside;
-  std::vector<Seam> seams;                     // sides rise
+  std::vector<Seam> seams;                     // by rising sides
   std::vector<std::vector<std::size_t>> into;  // [piece]: sides of the seams that lead into it, rising
 
   std::size_t size() const { return 3 * beside.size(); }
   std::size_t NumberOf(int piece, int triangle) const {
     return first[static_cast<std::size_t>(piece)] + static_cast<std::size_t>(triangle);
   }
-  Adjacency operator[](std::size_t side) const;  // log(pieces)
-  // visit(i, side i) for the sides of one piece, rising.
+  Adjacency operator[](std::size_t side) const;  // cost: log(pieces)
+  // Calls visit(i, side i) for the sides of one piece, rising.
   template <class Visit>
   void VisitPiece(std::size_t piece, const Visit& visit) const {
     for (std::size_t n = first[piece]; n < first[piece + 1]; ++n) {
@@ -81,19 +81,18 @@ struct AdjacencyList {
   }
 };
 
-// Sides on a piece's border are matched by place: the neighbour is the border side of another piece that
-// passes nearest to the middle of this one, within the network's join tolerance plus both sagittas.
-// CANCELLED, DEADLINE_EXCEEDED from `run`.
+// Sides on the border of a piece are matched by their place. The neighbour is the border side that passes
+// nearest to the middle of this one, within the network's join tolerance and twice both sagittas. It may
+// belong to the same piece if the piece is closed. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                             const RunContext& run);
 
-// The sides of one piece with different regions on them (`region_of[piece][triangle]`), or with nothing
-// beyond, rising.
+// The sides of one piece that lie between different regions (`region_of[piece][triangle]`) or on an open
+// edge, rising.
 std::vector<std::size_t> BorderSides(const AdjacencyList& adjacency, std::size_t piece,
                                      const std::vector<std::vector<int>>& region_of);
 
-// The sides of the adjacency with different regions on them (`region_of[piece][triangle]`), or with nothing
-// beyond, rising. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// The same for all pieces. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList& adjacency,
                                                      const std::vector<std::vector<int>>& region_of,
                                                      const RunContext& run);

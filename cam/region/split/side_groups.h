@@ -1,4 +1,4 @@
-// Triangles that hang together across some of their sides.
+// Finds groups of triangles that are connected across some of their sides.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,10 @@
 
 namespace patchmill {
 
-// The triangles of all pieces by their numbers, joined across every side for which joins(adjacency) holds:
-// asked once of inner sides, from the lower number, and of seams from both sides; by several threads. Pieces
-// first, each by itself, then their seams. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// Joins the triangles of all pieces (by their numbers in the adjacency) across every side for which
+// joins(adjacency) is true. Each inner side is asked once, from the triangle with the lower number; a seam is
+// asked from both sides. `joins` is called by several threads. Each piece is joined by itself first, then all
+// seams. CANCELLED and DEADLINE_EXCEEDED from `run`.
 template <class Joins>
 absl::StatusOr<UnionFind> JoinAcross(const AdjacencyList& adjacency, const RunContext& run,
                                      const Joins& joins) {

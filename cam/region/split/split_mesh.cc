@@ -13,23 +13,24 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kMaxTurn = 0.35;  // rad, of the normal over one application of the rule
-constexpr double kMaxOff = 1e-4;   // of OffQuadratic
-constexpr int kMaxHalvings = 3;
-// Up to these the surface is so simple over a triangle that its corners and its middle tell its area to about
-// 1e-7: turn (rad), spread of the element of area over the corners and its bend in the middle, of its size.
+constexpr double kMaxTurn = 0.35;  // rad; turn of the normal over a triangle to which the rule is applied
+constexpr double kMaxOff = 1e-4;   // OffQuadratic above which a triangle is quartered
+constexpr int kMaxHalvings = 3;    // of the sides of one triangle
+// Up to these limits the corners and the middle of a triangle give its area to about 1e-7: turn of the normal
+// (rad), spread of the area element over the corners, and deviation of its value in the middle from their
+// mean, both in parts of the mean.
 constexpr double kSmallTurn = 0.15, kSmallSpread = 0.1, kSmallBend = 2e-3;
 
 double Turn(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
   return a && b ? std::atan2(a->cross(*b).norm(), a->dot(*b)) : 0.0;
 }
 
-// What is all but the turn where this is small, and costs less.
+// Nearly the turn if it is small, and cheaper.
 double Chord(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
   return a && b ? (*a - *b).norm() : 0.0;
 }
 
-// Of the surface over some parameters.
+// Integrals over a part of the surface, as in SplitTriangle.
 struct Measures {
   double area = 0.0, curvature = 0.0, steepness = 0.0;
 
@@ -40,27 +41,29 @@ struct Measures {
   }
 };
 
-// How far seven elements of area, in the order of the rule's points, are from every polynomial of degree two,
-// of their size: what is left over of it in the rule of degree 5 is about its square.
+// How far seven values of the area element, in the order of the rule's points, deviate from every polynomial
+// of degree 2, relative to their size. The relative error of the rule of degree 5 is about its square.
 double OffQuadratic(const std::array<double, 7>& element) {
   const double near_sides = (element[1] + element[2] + element[3]) / 3.0;
   const double near_corners = (element[4] + element[5] + element[6]) / 3.0;
-  // The squares of the barycentric coordinates add up to 1/3 in the middle, so much more at the others.
+  // The squares of the barycentric coordinates add up to 1/3 in the middle and to these amounts more at the
+  // other points.
   constexpr double kSides = 0.112298, kCorners = 0.323080;
   const double off = kCorners * (near_sides - element[0]) - kSides * (near_corners - element[0]);
   const double size = std::max({near_sides, near_corners, element[0]});
   return size > 0.0 ? std::abs(off) / size : 0.0;
 }
 
-// Of one point: the element of area for a unit of (u,v), and for a unit of area how it bends and how much
-// steeper than the limit it is.
+// Integrands at one point: the area element per unit of (u,v), and per unit of area the contour curvature
+// (1/mm) and the slope less the steep angle (rad).
 struct PointMeasures {
   double element = 0.0, bend = 0.0, steeper = 0.0;
 };
 
-// Of the triangle a b c: halved so often for certain, and more often where the element of area asks for it.
-// at(q, whole) is asked for more than the element only where `whole`, in the middle of each part: what it
-// bends and how steep it is decides which regions are merged, and needs no more.
+// Integrates over the triangle a b c. It is quartered `halvings` times, and up to `more` times again where
+// the area element is not nearly quadratic. at(q, whole) computes all integrands only if `whole` is true, in
+// the middle of each part. Curvature and steepness need no better rule: they only decide which regions are
+// merged.
 template <class MeasuresAt>
 Measures Integral(const MeasuresAt& at, const Vec2& a, const Vec2& b, const Vec2& c, int halvings, int more) {
   Measures sum;
@@ -89,10 +92,10 @@ Measures Integral(const MeasuresAt& at, const Vec2& a, const Vec2& b, const Vec2
   return sum;
 }
 
-// What is known of a corner of triangles.
+// The surface at a corner of triangles.
 struct Corner {
   std::optional<Vec3> normal;
-  double element = 0.0;  // of area
+  double element = 0.0;  // area element
 };
 
 Corner CornerAt(const Piece& piece, const Vec2& q) {
@@ -100,8 +103,8 @@ Corner CornerAt(const Piece& piece, const Vec2& q) {
   return {UnitNormal(jet), jet.du.cross(jet.dv).norm()};
 }
 
-// By a rule fine enough for how far the normal turns between the corners, and for the element of area: where
-// this is all but linear, by its values in the corners and the middle.
+// Integrates with a rule that fits the turn of the normal between the corners and the area element. If the
+// area element is nearly linear, its values at the corners and in the middle are enough.
 template <class MeasuresAt>
 Measures Integral(const MeasuresAt& at, const std::array<Vec2, 3>& q,
                   const std::array<const Corner*, 3>& corner) {
@@ -125,7 +128,7 @@ Measures Integral(const MeasuresAt& at, const std::array<Vec2, 3>& q,
   return Integral(at, q[0], q[1], q[2], halvings, kMaxHalvings - halvings);
 }
 
-// The vertices of a mesh, looked at once each, where triangles ask for them.
+// The corners at the vertices of a mesh. Each is evaluated once, when a triangle needs it.
 class Corners {
  public:
   Corners(const Piece& piece, const std::vector<ZeroVertex>& vertices)
@@ -158,7 +161,7 @@ void Measure(const Piece& piece, const std::array<Vec2, 3>& q, const std::array<
         if (!unit) return m;
         m.steeper = std::atan2(Xy(*unit).norm(), std::abs(unit->z())) - steep_angle;
         const double bend = triangle.turn * ContourCurvature(jet, Forms(jet, *unit));
-        if (std::isfinite(bend)) m.bend = bend;  // none at a summit or a pit
+        if (std::isfinite(bend)) m.bend = bend;  // it has no value at a summit or a pit
         return m;
       },
       q, corner);

@@ -11,7 +11,7 @@
 namespace patchmill {
 namespace {
 
-// A line that divides summits (for sign 1), or pits; or either (0).
+// True if a line along the side divides summits (sign 1), pits (-1) or either (0).
 bool HasLine(const SplitMesh& mesh, int triangle, int side, double sign) {
   if (mesh.lines.empty()) return false;
   const auto& v = mesh.triangles[static_cast<std::size_t>(triangle)].vertex;
@@ -23,29 +23,30 @@ bool HasLine(const SplitMesh& mesh, int triangle, int side, double sign) {
 
 constexpr std::size_t kOutside = std::numeric_limits<std::size_t>::max();
 
-// A side that water comes over, from one triangle (by its number) to the other: over the highest first.
+// A side over which the flood passes between two triangles (by their numbers). The highest sides come first.
 struct Link {
-  double below = 0.0;  // how far its higher end lies below zero
+  double below = 0.0;  // mm; how far its higher end lies below z = 0
   std::size_t side = 0;
-  std::size_t a = 0, b = 0;  // b may be kOutside, beyond what is looked at
+  std::size_t a = 0, b = 0;  // b is kOutside if the other triangle is not part of the current step
 
   bool Before(const Link& other) const {
     return below < other.below || (below == other.below && side < other.side);
   }
 };
 
-// Triangles joined over sides until all that is connected with a top belongs to one: the forest that joining
-// over all sides in their order gives, where no two tops are joined. It holds of every set without a top the
-// first side that leads out of it [references: boruvka1926], so sets grow side by side and nothing is sorted.
+// Joins triangles over sides until everything that is connected with a top belongs to one. The result is the
+// forest that one gets by joining over all sides in their order, except where this would join two tops. For
+// each set without a top this forest contains the first side that leads out of the set
+// [references: boruvka1926]. So sets grow side by side, and nothing is sorted.
 class Forest {
  public:
-  // top_of: of each triangle, -1 none.
+  // top_of[triangle] is the triangle's top, or -1.
   explicit Forest(std::vector<int> top_of)
       : sets_(top_of.size()), top_of_(std::move(top_of)), best_(top_of_.size(), kOutside) {}
 
-  // Joins over these links as far as their order is known: a set whose first link leads outside waits. Keeps
-  // in `links` those that may still join sets, not those outside. Links of different triangles may be given
-  // at the same time.
+  // Joins over these links as far as their order is known: a set whose first link leads outside waits. Leaves
+  // in `links` those that may still join sets and do not lead outside. Several threads may call it at the
+  // same time if their links have no triangle in common.
   void ResizePolling(std::vector<Link>& links) {
     for (bool grown = true; grown;) {
       std::size_t kept = 0;
@@ -64,7 +65,7 @@ class Forest {
         const Link& link = links[k];
         if (link.b == kOutside || (best_[link.a] != k && best_[link.b] != k)) continue;
         const std::size_t a = sets_.Find(link.a), b = sets_.Find(link.b);
-        const int top = std::max(top_of_[a], top_of_[b]);  // never two
+        const int top = std::max(top_of_[a], top_of_[b]);  // at least one of them is -1
         sets_.Join(a, b);
         top_of_[std::min(a, b)] = top;
         grown = true;
@@ -86,8 +87,8 @@ class Forest {
   }
 
   UnionFind sets_;
-  std::vector<int> top_of_;        // of sets, by their smallest triangle
-  std::vector<std::size_t> best_;  // of sets: place of its first link
+  std::vector<int> top_of_;        // top of each set, at the index of its smallest triangle
+  std::vector<std::size_t> best_;  // place of each set's first link, at the same index
 };
 
 }  // namespace
@@ -132,7 +133,7 @@ absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<Split
     const double level = std::max(sign * EndOf(mesh, a.side, 0).p.z(), sign * EndOf(mesh, a.side, 1).p.z());
     return Link{-level, i, i / 3, adjacency.NumberOf(a.other_piece, a.other_triangle)};
   };
-  // Each piece by itself as far as its seams allow, then all of them; over lines last.
+  // Floods each piece by itself as far as its seams allow, then all together, and across lines last.
   Forest forest(std::move(top_of));
   struct Rest {
     std::vector<Link> inner, seams, lines;

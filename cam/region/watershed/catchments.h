@@ -1,4 +1,4 @@
-// Which summit (or pit) every triangle belongs to.
+// Finds which summit (or pit) each triangle belongs to.
 #pragma once
 
 #include <vector>
@@ -10,18 +10,19 @@
 
 namespace patchmill {
 
-// [piece][triangle]: index into `tops`, -1 where none is connected. Ground is flooded from the tops down (for
-// `sign` -1 from the pits up), over the highest sides of triangles first (a spanning forest,
-// [references: cousty2009]), and over the lines of the meshes (SplitMesh::lines) that divide them
-// only where nothing else leads: where lines divide the surface they are the borders, elsewhere sides of
-// triangles. Deterministic; cost n log n in the worst case. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// Returns [piece][triangle]: index into `tops`, or -1 if no top is connected with the triangle. The surface
+// is flooded from the summits down (for `sign` -1 from the pits up), over the highest sides of triangles
+// first (a spanning forest, [references: cousty2009]). It is flooded across the watershed lines of the meshes
+// (SplitMesh::lines) last, where nothing else leads. So these lines are the borders where they divide the
+// surface; elsewhere sides of triangles are. Deterministic. Cost: n log n in the worst case. CANCELLED and
+// DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<SplitMesh>& meshes,
                                                          const AdjacencyList& adjacency,
                                                          const std::vector<MeshVertex>& tops, double sign,
                                                          const RunContext& run);
 
-// The side of a triangle runs along a line between summits (`sign` 1), pits (-1) or either (0), or along the
-// other side of a seam with one.
+// True if the side runs along a watershed line between summits (`sign` 1), between pits (-1) or of either
+// kind (0), or if the facing side across a seam does.
 bool OnWatershed(const std::vector<SplitMesh>& meshes, const Adjacency& adjacency, double sign);
 
 }  // namespace patchmill

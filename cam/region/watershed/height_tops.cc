@@ -10,11 +10,11 @@
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kPoll = 1 << 15;  // vertices between two looks at a cancelled run
+constexpr std::size_t kPoll = 1 << 15;  // vertices between two checks for a cancel
 
-// push(from, to) for every edge from a vertex of the piece, in the order of the sides they come from: those
-// of the sides themselves, and from the ends of sides along a seam to all corners of the triangle beyond it,
-// both ways. first[piece]: vertices of the pieces before it.
+// Calls push(from, to) for every edge from a vertex of the piece, in the order of the sides. Edges are the
+// sides themselves. Along a seam there are edges both ways between the ends of a side and all corners of the
+// triangle beyond it. first[piece] is the number of vertices of the pieces before it.
 template <class Push>
 void VisitEdges(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
                 const std::vector<std::size_t>& first, std::size_t piece, const Push& push) {
@@ -38,7 +38,7 @@ void VisitEdges(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjac
   adjacency.VisitPiece(piece, [&](std::size_t, const Adjacency& a) {
     const std::size_t from = end(a.side, 0), to = end(a.side, 1);
     push(from, to);
-    if (a.other_piece >= 0 && !a.across_seam) return;  // the way back comes from the other side
+    if (a.other_piece >= 0 && !a.across_seam) return;  // the other triangle's side adds the way back
     push(to, from);
     for (int k = 0; k < 3 && a.other_piece >= 0; ++k) {
       const std::size_t facing = corner(a, k);
@@ -61,7 +61,7 @@ absl::StatusOr<HeightGraph> HeightGraph::Make(const std::vector<SplitMesh>& mesh
   for (const SplitMesh& mesh : meshes) graph.first_.push_back(graph.first_.back() + mesh.vertices.size());
   const std::size_t count = graph.first_.back();
   graph.points_.resize(count);
-  // First how many neighbours each has, one place further; then where they begin.
+  // Counts the neighbours of each vertex, two places further on. Their sums then say where the lists begin.
   std::vector<std::size_t>& first = graph.first_neighbour_;
   first.assign(count + 2, 0);
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions: heights", meshes.size(), [&](std::size_t piece) {
@@ -72,7 +72,7 @@ absl::StatusOr<HeightGraph> HeightGraph::Make(const std::vector<SplitMesh>& mesh
   }));
   for (std::size_t k = 2; k < first.size(); ++k) first[k] += first[k - 1];
   graph.neighbours_.resize(first.back());
-  // A vertex' end so far stands where the next one's first is to be: nobody else writes there.
+  // The end of a vertex's list so far is kept at the place of the next vertex. No other vertex writes there.
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions: heights", meshes.size(), [&](std::size_t piece) {
     VisitEdges(meshes, adjacency, graph.first_, piece, [&](std::size_t from, std::size_t to) {
       graph.neighbours_[first[from + 1]++] = static_cast<Index>(to);
@@ -116,7 +116,7 @@ absl::StatusOr<HeightExtrema> HeightGraph::Find(double sign, double persistence,
   const auto above = [&](Index a, Index b) { return Above(a, b, sign); };
   const auto height = [&](Index i) { return sign * points_[i].z(); };
 
-  // Summits, and the one (its place among them) that each vertex climbs to.
+  // Finds the summits, and for each vertex the index of the summit that it climbs to.
   std::vector<Index> summits, summit(points_.size(), kNone), way;
   for (Index i = 0; i < points_.size(); ++i) {
     if (i % kPoll == 0) PM_RETURN_IF_ERROR(run.Check());
@@ -130,7 +130,7 @@ absl::StatusOr<HeightExtrema> HeightGraph::Find(double sign, double persistence,
     for (const Index passed : way) summit[passed] = summit[at];
     way.clear();
   }
-  std::vector<Index> meetings;  // vertices with higher neighbours that climb elsewhere
+  std::vector<Index> meetings;  // vertices with a higher neighbour that climbs to another summit
   for (Index i = 0; i < points_.size(); ++i) {
     if (i % kPoll == 0) PM_RETURN_IF_ERROR(run.Check());
     bool meets = false;
@@ -141,9 +141,9 @@ absl::StatusOr<HeightExtrema> HeightGraph::Find(double sign, double persistence,
   PM_RETURN_IF_ERROR(run.Check());
 
   UnionFind sets(summits.size());
-  std::vector<Index> top_of(summits.size());  // of each set, by its smallest member
+  std::vector<Index> top_of(summits.size());  // highest summit of each set, at the index of its smallest
   for (Index k = 0; k < summits.size(); ++k) top_of[k] = k;
-  std::vector<Index> swallowed(summits.size(), kNone);  // of each summit that does not persist: by which
+  std::vector<Index> swallowed(summits.size(), kNone);  // if the summit does not persist: what it belongs to
   struct Younger {
     double persistence;
     Index top, by;
@@ -160,7 +160,7 @@ absl::StatusOr<HeightExtrema> HeightGraph::Find(double sign, double persistence,
     roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
     if (roots.size() == 1) continue;
     const Index elder = top_of[roots.front()];
-    Index into = elder;  // the summit on the elder's side that is climbed to from here
+    Index into = elder;  // the summit of the elder's set to which a neighbour climbs
     Neighbours(i, [&](Index n) {
       if (into == elder && above(n, i) && sets.Find(summit[n]) == roots.front()) into = summit[n];
     });
@@ -178,8 +178,8 @@ absl::StatusOr<HeightExtrema> HeightGraph::Find(double sign, double persistence,
   }
 
   HeightExtrema found;
-  std::vector<Index> persisting(summits.size()), tops;  // of each summit; those that persist
-  std::vector<int> many(summits.size(), 0);             // of each sheet: how many summits it has
+  std::vector<Index> persisting(summits.size()), tops;  // the one each summit belongs to; all of these
+  std::vector<int> many(summits.size(), 0);             // number of persisting summits of each sheet
   for (Index k = 0; k < summits.size(); ++k) {
     persisting[k] = k;
     while (swallowed[persisting[k]] != kNone) persisting[k] = swallowed[persisting[k]];
@@ -190,7 +190,7 @@ absl::StatusOr<HeightExtrema> HeightGraph::Find(double sign, double persistence,
   }
   std::sort(tops.begin(), tops.end(), above);
   for (const Index top : tops) found.tops.push_back(At(top));
-  std::vector<bool> beside(points_.size(), false);  // a place where two meet
+  std::vector<bool> beside(points_.size(), false);  // at or beside a vertex where two tops meet
   for (const Index i : meetings) {
     bool meets = false, known = beside[i];
     Neighbours(i, [&](Index n) {

@@ -1,4 +1,4 @@
-// Summits that stand out, and the passes between what drains to them ([regions (3)]).
+// Finds the summits (or pits) that persist, and the passes between them [regions (3)].
 #pragma once
 
 #include <array>
@@ -17,23 +17,24 @@ struct MeshVertex {
 };
 
 struct HeightExtrema {
-  std::vector<MeshVertex> tops;    // of every connected sheet with several that persist
-  std::vector<MeshVertex> passes;  // where what climbs to one of them first meets what climbs to another
+  std::vector<MeshVertex> tops;    // persisting summits of each connected sheet that has several of them
+  std::vector<MeshVertex> passes;  // highest vertices at which the ways up to two of them meet
 };
 
-// The vertices of all meshes as a graph; those that face each other across a seam are joined.
+// The vertices of all meshes as a graph. Vertices that face each other across a seam are neighbours.
 class HeightGraph {
  public:
-  // CANCELLED, DEADLINE_EXCEEDED from `run`, here and below.
+  // CANCELLED and DEADLINE_EXCEEDED from `run`, here and below.
   static absl::StatusOr<HeightGraph> Make(const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency, const RunContext& run);
 
-  // Summits for `sign` +1, pits for -1. One persists when the way from it to a higher one (lower, for pits)
-  // leads down (up) by at least `persistence` mm [references: edelsbrunner2002]: every vertex
-  // climbs the steepest way; where several summits are climbed to from one vertex, highest such vertices
-  // first, they are joined, and all but the highest of those joined so far are the younger ones.
-  // Deterministic; cost n, and m log m of the m vertices where summits meet.
-  // `most`: of those beside the highest of each sheet, as many that persist longest.
+  // Finds summits for `sign` +1, pits for -1. A summit persists if every way from it to a higher one leads
+  // down by at least `persistence` mm [references: edelsbrunner2002]; for pits up and down are exchanged.
+  // Each vertex climbs the steepest way to a summit. Vertices from which several summits are climbed to are
+  // taken from the highest down. Each joins its summits; all but the highest summit joined so far are the
+  // younger ones, and the height above this vertex is their persistence. The highest summit of each sheet
+  // always counts. Of the others at most `most` count, those with the largest persistence. Deterministic.
+  // Cost: n + m log m for n vertices, m of which join summits.
   absl::StatusOr<HeightExtrema> Find(double sign, double persistence, std::size_t most,
                                      const RunContext& run) const;
 
@@ -42,7 +43,7 @@ class HeightGraph {
   static constexpr Index kNone = UINT32_MAX;
 
   MeshVertex At(Index i) const;
-  // Which of two comes first from the top down: for pits from the bottom up.
+  // True if a comes before b from the top down; for pits from the bottom up.
   bool Above(Index a, Index b, double sign) const {
     const double za = sign * points_[a].z(), zb = sign * points_[b].z();
     return za > zb || (za == zb && a < b);
@@ -53,11 +54,12 @@ class HeightGraph {
   }
   Index Steepest(Index i, double sign) const;
 
-  std::vector<std::size_t> first_{0};  // vertices of all meshes numbered through
-  std::vector<Vec3> points_;
-  std::vector<std::size_t> first_neighbour_;
+  std::vector<std::size_t> first_{0};  // [piece]: number of vertices before it; vertices are numbered through
+  std::vector<Vec3> points_;           // [vertex]
+  std::vector<std::size_t> first_neighbour_;  // [vertex]: index of its first one in neighbours_; then the end
   std::vector<Index> neighbours_;
-  // Where the steepest way leads, up [0] and down [1]; to itself from a summit, kNone without neighbours.
+  // [vertex]: the neighbour to which the steepest way leads, up [0] and down [1]. The vertex itself if it is
+  // a summit (pit), kNone if it has no neighbours.
   std::array<std::vector<Index>, 2> steepest_;
 };
 

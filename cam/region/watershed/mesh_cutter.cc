@@ -10,12 +10,12 @@
 namespace patchmill {
 namespace {
 
-// Where the segment p q crosses a b: its share of p q and of a b.
+// Where the segment p q crosses a b, as a share of p q and of a b.
 struct Crossing {
   double along = 0.0, on_edge = 0.0;
 };
 std::optional<Crossing> Cross(const Vec2& p, const Vec2& q, const Vec2& a, const Vec2& b) {
-  constexpr double kSlack = 1e-9;
+  constexpr double kSlack = 1e-9;  // share by which a crossing may lie beyond an end
   const Vec2 d = q - p, e = b - a;
   const double w = patchmill::Cross(d, e);
   if (w == 0.0) return std::nullopt;
@@ -29,7 +29,7 @@ double Foot(const Vec2& p, const Vec2& a, const Vec2& b) {
   return SegmentFoot({p.x(), p.y(), 0}, {a.x(), a.y(), 0}, {b.x(), b.y(), 0});
 }
 
-// The point of a polyline nearest to p, in parameters, and the vertex before it.
+// The point of a polyline nearest to p (all in parameters), and the index of the vertex before it.
 std::pair<Vec2, std::size_t> NearestOn(const std::vector<Vec2>& line, const Vec2& p) {
   std::pair<Vec2, std::size_t> best{line.front(), 0};
   for (std::size_t k = 0; k + 1 < line.size(); ++k) {
@@ -85,7 +85,8 @@ void MeshCutter::Mark(int at, int to, std::vector<Vec2> between) {
   on_line_[static_cast<std::size_t>(at)] = on_line_[static_cast<std::size_t>(to)] = true;
 }
 
-// A new vertex on the side a b; on the curve of a field that the side is a chord of.
+// Makes a new vertex on the side a b near `at`. If the side is a chord of a field's curve or of a line, the
+// vertex lies on that curve.
 int MeshCutter::Split(int a, int b, const Vec2& at) {
   const ZeroVertex &from = mesh_.vertices[static_cast<std::size_t>(a)],
                    &to = mesh_.vertices[static_cast<std::size_t>(b)];
@@ -102,7 +103,7 @@ int MeshCutter::Split(int a, int b, const Vec2& at) {
     break;
   }
   const auto line = mesh_.lines.find(std::minmax(a, b));
-  std::pair<std::vector<Vec2>, std::vector<Vec2>> halves;  // of the line along it, from its lower vertex
+  std::pair<std::vector<Vec2>, std::vector<Vec2>> halves;  // of the line along the side, from min(a, b)
   if (line != mesh_.lines.end()) {
     std::vector<Vec2> all{Place(std::min(a, b))};
     all.insert(all.end(), line->second.places.begin(), line->second.places.end());
@@ -112,7 +113,7 @@ int MeshCutter::Split(int a, int b, const Vec2& at) {
     halves.first.assign(all.begin() + 1, all.begin() + static_cast<std::ptrdiff_t>(before) + 1);
     halves.second.assign(all.begin() + static_cast<std::ptrdiff_t>(before) + 1, all.end() - 1);
   }
-  for (int c = 0; c < 2; ++c) {  // a point of the piece's border stays on it
+  for (int c = 0; c < 2; ++c) {  // a vertex on the piece's border stays there exactly
     const double border = Place(a)[c];
     if (border == Place(b)[c] && (border == 0.0 || border == 1.0)) q[c] = border;
   }
@@ -123,7 +124,7 @@ int MeshCutter::Split(int a, int b, const Vec2& at) {
   mesh_.vertices.push_back(fresh);
   fans_.AddVertex();
   on_line_.push_back(false);
-  // The fan of a stays as it is: each triangle keeps its corner there, and the other half goes to b.
+  // The fan of a stays as it is: each triangle keeps its corner at a, and a new triangle is the half at b.
   fans_.ForEach(a, [&](int t) {
     SplitTriangle& old = mesh_.triangles[static_cast<std::size_t>(t)];
     const auto corner = [&](int v) { return std::find(old.vertex.begin(), old.vertex.end(), v); };
@@ -147,7 +148,7 @@ int MeshCutter::Split(int a, int b, const Vec2& at) {
   if (line != mesh_.lines.end()) {
     const SplitMesh::Line old = std::move(line->second);
     mesh_.lines.erase(line);
-    // The new vertex has the highest number: both halves run towards it.
+    // The new vertex has the highest number, so the places of both halves run towards it.
     std::reverse(halves.second.begin(), halves.second.end());
     mesh_.lines[{std::min(a, b), vertex}] = {std::move(halves.first), old.summits, old.pits};
     mesh_.lines[{std::max(a, b), vertex}] = {std::move(halves.second), old.summits, old.pits};
@@ -180,7 +181,7 @@ std::optional<int> MeshCutter::OnBorder(const Vec3& p, double reach) {
       if (!AlongBorder(va, vb)) continue;
       const Vec2 from(va.u, va.v), along = Vec2(vb.u, vb.v) - from;
       const Vec3 &pa = va.p, &pb = vb.p;
-      // No side bends by more than its length.
+      // No side is taken to deviate from its chord by more than the length of the chord.
       if (SegmentDistance(p, pa, pb) > nearest + (pb - pa).norm()) continue;
       double share = SegmentFoot(p, pa, pb);
       for (int step = 0; step < 4; ++step) {

@@ -13,28 +13,28 @@ namespace patchmill {
 
 class MeshCutter {
  public:
-  // Keeps references. The curves divide summits, or pits (SplitMesh::Line). Vertices within `snap` mm of the
-  // curve become points of it.
+  // Keeps references. The curves divide summits, or pits if `summits` is false (SplitMesh::Line). Vertices
+  // within `snap` mm of a curve become points of it.
   MeshCutter(const Piece& piece, SplitMesh& mesh, bool summits, std::span<const ZeroField> fields,
              double snap);
 
-  // The vertex at a point of the piece's border: one within `snap` of p, else a new one on the side of a
-  // triangle that passes nearest to p, if within `reach` mm.
+  // The vertex at a point of the piece's border: one within `snap` of p, else a new one on the side that
+  // passes nearest to p. nullopt if no side passes within `reach` mm.
   std::optional<int> OnBorder(const Vec3& p, double reach);
 
   struct Next {
     int vertex = 0;
-    bool met = false;  // it lay on a line already
+    bool met = false;  // the vertex lay on a line already
   };
-  // Goes on from vertex `at` along the curve: `places` are its parameters after that vertex, of which the
-  // first `known` are among the triangles around it. Returns the vertex where the curve leaves these, and
-  // drops what lies before it from `places`; nothing while it does not (then add to the places). The side
-  // between the two becomes a line (SplitMesh::lines) that carries the places in between.
+  // Continues from vertex `at` along the curve. `places` are parameters of the curve after that vertex; the
+  // first `known` of them lie in the triangles around it. Returns the vertex where the curve leaves these
+  // triangles, and drops the places before it. nullopt while the curve stays in them; then add places. The
+  // side between the two vertices becomes a line (SplitMesh::lines) with the places in between.
   std::optional<Next> Advance(int at, std::vector<Vec2>& places, std::size_t& known);
 
-  // The side from `at` to `to` becomes a line.
+  // Makes the side from `at` to `to` a line with the places `between`.
   void Mark(int at, int to, std::vector<Vec2> between);
-  // Neighbours of `at` by a side.
+  // The vertices that are joined to `at` by a side.
   std::vector<int> Around(int at) const;
   bool OnLine(int vertex) const { return on_line_[static_cast<std::size_t>(vertex)]; }
 
@@ -52,8 +52,8 @@ class MeshCutter {
   std::span<const ZeroField> fields_;
   double snap_;
   VertexFans fans_;
-  std::vector<bool> on_line_;  // of each vertex
-  std::vector<bool> cut_;      // of each triangle
+  std::vector<bool> on_line_;  // [vertex]
+  std::vector<bool> cut_;      // [triangle]
   std::vector<int> rim_;       // triangles that may have a side on the piece's border, rising
 };
 

@@ -1,4 +1,5 @@
-// The triangles around each vertex of a mesh that grows: chains of corners, no memory of its own per vertex.
+// The triangles around each vertex of a growing mesh, as chains of corners; so no vertex needs a list of its
+// own.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,8 @@ class VertexFans {
  public:
   VertexFans(std::span<const SplitTriangle> triangles, std::size_t vertices);
 
-  // f(t) for the triangles around a vertex, in rising order at first, then as they were added.
+  // Calls f(t) for the triangles around a vertex: those of the constructor in rising order, then others in
+  // the order in which they were added.
   template <typename F>
   void ForEach(int vertex, F&& f) const {
     for (int corner = first_[static_cast<std::size_t>(vertex)]; corner >= 0;
@@ -23,15 +25,16 @@ class VertexFans {
     }
   }
 
-  // One without triangles yet; its number is that of the vertices before.
+  // Adds a vertex without triangles. Its number is the number of vertices before.
   void AddVertex();
-  void AddTriangle() { next_.resize(next_.size() + 3, -1); }  // its corners are in no fan yet
+  // Adds a triangle. Its corners are in no fan yet.
+  void AddTriangle() { next_.resize(next_.size() + 3, -1); }
   void Append(int vertex, int corner);
   void Replace(int vertex, int corner, int by);
 
  private:
-  std::vector<int> first_, last_;  // corner of each vertex's fan, -1 for none
-  std::vector<int> next_;          // after each corner
+  std::vector<int> first_, last_;  // [vertex]: first and last corner of its fan, -1 if it is empty
+  std::vector<int> next_;          // [corner]: the next one in its fan, or -1
 };
 
 }  // namespace patchmill

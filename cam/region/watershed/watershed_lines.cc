@@ -14,11 +14,11 @@
 namespace patchmill {
 namespace {
 
-constexpr double kStart = 0.01;           // of the spacing: the first step of a flow
-constexpr int kMostVertices = 5'000;      // of a line
-constexpr int kMostStuck = 100;           // of a line: sides of triangles where the flow had no direction
-constexpr int kMostBorders = 10;          // with less than a whole step in between: a line that makes no way
-constexpr std::size_t kMostPlaces = 500;  // among the triangles around one vertex: the same
+constexpr double kStart = 0.01;           // of the spacing: first step of a flow
+constexpr int kMostVertices = 5'000;      // of one line
+constexpr int kMostStuck = 100;           // sides of triangles that one line follows for lack of a direction
+constexpr int kMostBorders = 10;          // of pieces, met in a row; after more the line counts as stuck
+constexpr std::size_t kMostPlaces = 500;  // in the triangles around one vertex; with more it is stuck, too
 
 class Cutter {
  public:
@@ -56,7 +56,7 @@ class Cutter {
         .first->second;
   }
 
-  // The place and the vertex where a line through p goes on at `at`, maybe in another piece.
+  // The vertex of `piece` at the place of `from`, where a line continues in that piece.
   std::optional<MeshVertex> EnterAt(PieceId piece, const MeshVertex& from) {
     if (piece.value == from.piece) return from;
     const auto vertex = CutterOf(piece.value).OnBorder(PointOf(from), join_ + params_.tolerance);
@@ -75,7 +75,7 @@ class Cutter {
     int vertices = 0;
     for (int stuck = 0; stuck < kMostStuck && vertices < kMostVertices && !run_.Cancelled(); ++stuck) {
       if (track.Start() && Follow(here, track, vertices) == End::kDone) return;
-      // No way on: down the steepest side, and on from there.
+      // The flow is stuck here. The line takes the steepest side down and continues from its end.
       const auto next = SteepestSide(here);
       if (!next) return;
       MeshCutter& cutter = CutterOf(here.piece);
@@ -108,11 +108,11 @@ class Cutter {
     return best;
   }
 
-  // Follows the flow from its start among the triangles around the vertex `here`, which goes along.
+  // Follows the flow from its start, in the triangles around the vertex `here`. Moves `here` along.
   End Follow(MeshVertex& here, FlowTrack& track, int& vertices) {
     std::vector<Vec2> places{{track.Start()->at.u, track.Start()->at.v}};
     std::size_t known = 0;
-    // Nothing while the line goes on among the same triangles.
+    // Cuts as far as the places lead. True if the line has ended.
     const auto walk = [&] {
       while (const auto next = CutterOf(here.piece).Advance(here.vertex, places, known)) {
         here.vertex = next->vertex;
@@ -120,7 +120,7 @@ class Cutter {
       }
       return false;
     };
-    int borders = 0;  // met one after the other
+    int borders = 0;  // borders of pieces met in a row
     for (std::size_t step = 0; !run_.Cancelled(); ++step) {
       if (walk()) return End::kDone;
       if (places.size() > kMostPlaces || borders > kMostBorders) return End::kStuck;
@@ -168,7 +168,7 @@ class Cutter {
   const RunContext& run_;
   std::vector<SplitMesh>& meshes_;
   const double join_;
-  std::map<int, MeshCutter> cutters_;  // of the pieces that were asked for
+  std::map<int, MeshCutter> cutters_;  // of the pieces that lines have entered
 };
 
 }  // namespace
@@ -183,8 +183,8 @@ absl::StatusOr<bool> CutWatersheds(const Surface& surface, const WatershedPasses
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t k) {
     for (const ZeroVertex& v : meshes[k].vertices) boxes[k].Add(v.p);
   }));
-  // Lines are cut one after the other, and end where they meet; their flows know nothing of that, and are
-  // followed side by side.
+  // Flows do not depend on each other and are followed in parallel. Lines end where they meet, so they are
+  // cut one after the other.
   const std::size_t down = passes.summits.size();
   std::vector<std::vector<WatershedStart>> falls(down), climbs(passes.pits.size());
   PM_RETURN_IF_ERROR(

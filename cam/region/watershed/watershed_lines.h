@@ -1,5 +1,5 @@
-// The lines of steepest slope from the passes between summits (or pits) that stand out, cut into the meshes:
-// what divides one mountain from the next.
+// Cuts the lines of steepest slope from the passes between persisting summits (or pits) into the meshes. They
+// divide one mountain (or basin) from the next.
 #pragma once
 
 #include <span>
@@ -13,20 +13,21 @@
 namespace patchmill {
 
 struct WatershedParams {
-  double tolerance = 0.01;   // mm, of chords on the true lines, and of how near vertices become part of them
-  double spacing = 3.0;      // mm: twice the longest chord, about
-  double steep_angle = 0.0;  // rad, of the measures of cut triangles
-  std::span<const ZeroField> fields;  // of the meshes
+  double tolerance = 0.01;   // mm, sagitta of chords on the true lines; vertices this near become part of one
+  double spacing = 3.0;      // mm, about twice the longest chord
+  double steep_angle = 0.0;  // rad, for the steepness of the triangles that are cut
+  std::span<const ZeroField> fields;  // fields of the meshes
 };
 
 struct WatershedPasses {
-  std::vector<MeshVertex> summits, pits;  // between summits, from where lines run down; between pits: up
+  // Passes between summits, from which lines run down, and passes between pits, from which lines run up.
+  std::vector<MeshVertex> summits, pits;
 };
 
-// From the saddle of the surface next to each pass, else from the pass itself, to both sides. A line ends at
-// the border of the surface, at another line of its kind, or in a pit (on a summit); where the flow has no
-// direction, as along creases, it follows the steepest sides of triangles. The adjacency no longer holds
-// where meshes were cut; returns whether any was. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// Lines leave the saddle of the surface next to each pass, or the pass itself if there is no saddle, to both
+// sides. A line ends at the border of the surface, at another line of its kind, or in a pit (on a summit).
+// Where the flow has no direction, as along creases, it follows the steepest sides of triangles. Returns true
+// if any mesh was cut; then the adjacency is no longer valid. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<bool> CutWatersheds(const Surface& surface, const WatershedPasses& passes,
                                    const WatershedParams& params, const RunContext& run,
                                    std::vector<SplitMesh>& meshes);

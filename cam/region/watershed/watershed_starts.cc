@@ -11,10 +11,10 @@
 namespace patchmill {
 namespace {
 
-constexpr double kStart = 0.01;      // of the spacing: how far from the saddle a line begins
-constexpr double kNearSaddle = 2.0;  // of the longest side at a pass: where its saddle may lie
-constexpr double kLevel = 1e-7;      // of the gradient: none
-constexpr std::size_t kAhead = 64;   // of a flow: steps found ahead
+constexpr double kStart = 0.01;      // of the spacing: distance from the saddle at which a line begins
+constexpr double kNearSaddle = 2.0;  // times the longest side at a pass: how far away its saddle may lie
+constexpr double kLevel = 1e-7;      // length of FlowGradient below which the surface counts as level
+constexpr std::size_t kAhead = 64;   // steps of a flow that are computed in advance
 
 // Finds where the lines from passes begin, on meshes before they are cut.
 class StartFinder {
@@ -48,7 +48,7 @@ class StartFinder {
         meshes_[static_cast<std::size_t>(v.piece)].vertices[static_cast<std::size_t>(v.vertex)];
     return Evaluate(surface_.pieces[static_cast<std::size_t>(v.piece)], vertex.u, vertex.v);
   }
-  // Neighbours by a side.
+  // The vertices that are joined to v by a side.
   std::vector<int> Around(const MeshVertex& v) const {
     std::vector<int> found;
     for (const SplitTriangle& t : meshes_[static_cast<std::size_t>(v.piece)].triangles) {
@@ -60,16 +60,16 @@ class StartFinder {
     return found;
   }
 
-  // Second derivatives of the height where it has no gradient, in an orthonormal frame of the tangent plane.
+  // From the second derivatives of the height in the tangent plane, at a place where it has no gradient.
   struct Bend {
-    Vec3 along = Vec3::Zero();  // where it falls most (rises, for pits)
+    Vec3 along = Vec3::Zero();  // direction in which the surface falls most (rises most, for pits)
     bool saddle = false;
   };
   std::optional<Bend> BendAt(const SurfaceJet& jet) const {
     const double e = jet.du.squaredNorm(), f = jet.du.dot(jet.dv), g = jet.dv.squaredNorm();
     const double w = std::sqrt(e * g - f * f);
     if (!(w > 0.0) || !(FlowGradient(jet, flow_).norm() < kLevel)) return std::nullopt;
-    // x = du / |du|, y at right angles to it.
+    // x = du / |du|, and y is square to it.
     Eigen::Matrix2d to;  // columns: x and y in (u, v)
     to << 1.0 / std::sqrt(e), -f / (std::sqrt(e) * w), 0.0, std::sqrt(e) / w;
     Eigen::Matrix2d second;
@@ -82,7 +82,8 @@ class StartFinder {
     return bend;
   }
 
-  // Nodes of the split are saddles of the surface; the pass of the mesh lies within a cell of its own.
+  // The saddle of the surface next to a pass of the mesh; the pass itself if there is none. Saddles are
+  // vertices, because they are nodes of the split. A pass lies within a cell of its saddle.
   MeshVertex SaddleNear(const MeshVertex& pass) const {
     const Vec3 p = PointOf(pass);
     double reach = 0.0;
@@ -107,7 +108,8 @@ class StartFinder {
     return best;
   }
 
-  // Where lines leave a pass: both ways along the axis of a saddle, else down its steepest sides.
+  // Directions in which lines leave a pass: both ways along the axis of a saddle, else down the steepest
+  // sides of triangles.
   std::vector<Vec3> Directions(const MeshVertex& from) const {
     const auto bend = BendAt(JetAt(from));
     if (bend && bend->saddle) return {bend->along, -bend->along};

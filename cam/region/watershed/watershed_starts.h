@@ -1,4 +1,4 @@
-// Where the lines from passes begin, and the flows that they follow.
+// Finds where the watershed lines from passes begin, and the flows that they follow.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +11,23 @@
 
 namespace patchmill {
 
-// The flow from a place on, step by step: a function of that place alone. Keeps references.
+// The flow from a place, step by step. It depends on that place alone. Keeps references.
 class FlowTrack {
  public:
   struct Step {
     FlowPlace place;
     bool at_border = false;
-    std::optional<FlowPlace> beyond = {};  // the border: where the flow goes on, if it does
+    std::optional<FlowPlace> beyond = {};  // where the flow continues across the border, if it does
   };
-  // `length`: of the first step, mm; later ones follow from it.
+  // `length` is that of the first step, mm. The lengths of later steps follow from it.
   FlowTrack(const Surface& surface, const FlowParams& params, double sign, std::optional<FlowPlace> start,
             double length)
       : surface_(&surface), params_(&params), sign_(sign), start_(std::move(start)), length_(length) {}
 
   const std::optional<FlowPlace>& Start() const { return start_; }
-  // null from where the flow ends.
+  // Step k, or null if the flow ends before it.
   const Step* At(std::size_t k);
-  // Finds steps before they are asked for, as many as most lines have.
+  // Computes as many steps in advance as most lines have.
   void GoAhead(const RunContext& run);
 
  private:
@@ -37,20 +37,21 @@ class FlowTrack {
   const FlowParams* params_;
   double sign_;
   std::optional<FlowPlace> start_;
-  double length_;  // what to try next
+  double length_;  // mm, of the step to try next
   std::vector<Step> steps_;
   bool ended_ = false;
 };
 
-// A line leaves the vertex `from` into `piece`.
+// The start of a line that leaves the vertex `from` into `piece`.
 struct WatershedStart {
   MeshVertex from;
   PieceId piece;
   FlowTrack track;
 };
 
-// Of the lines from a pass between summits (`sign` 1; they run down) or pits (-1; up): from the saddle of the
-// surface next to it, else from the pass itself, to both sides. boxes: of the pieces' vertices.
+// The starts of the lines from a pass between summits (`sign` 1; lines run down) or pits (-1; lines run up).
+// Lines leave the saddle of the surface next to the pass, or the pass itself if there is no saddle, to both
+// sides. boxes[piece] is the box of the piece's vertices.
 std::vector<WatershedStart> FindStarts(const Surface& surface, const FlowParams& flow, double sign,
                                        const std::vector<SplitMesh>& meshes, const std::vector<Box3>& boxes,
                                        const MeshVertex& pass);
