@@ -123,16 +123,15 @@ absl::Status TooManyJobsError(int limit) {
                   fmt::format("the server runs {} jobs, as many as it may; try again later", limit), info);
 }
 
-absl::Status TooManyBytesError(double limit, double actual) {
+absl::Status TooManyBytesError(double limit, double actual, std::string_view name) {
   v1::ErrorInfo info;
   info.set_reason("TOO_MANY_BYTES");
-  info.set_limit("request_bytes_in_flight");
+  info.set_limit(std::string(name));
   info.set_limit_value(limit);
   info.set_actual_value(actual);
   return WithInfo(
       absl::StatusCode::kResourceExhausted,
-      fmt::format("request_bytes_in_flight = {:.10g} with this one; the limit is {:.10g}; try again later",
-                  actual, limit),
+      fmt::format("{} = {:.10g} with this one; the limit is {:.10g}; try again later", name, actual, limit),
       info);
 }
 

@@ -37,8 +37,9 @@ class FieldErrors {
 absl::Status LimitError(std::string_view limit, double limit_value, double actual_value,
                         std::string_view note = {});
 absl::Status TooManyJobsError(int limit);
-// `actual`: with what was asked for.
-absl::Status TooManyBytesError(double limit, double actual);
+// `actual`: with what was asked for; `name`: of the limit.
+absl::Status TooManyBytesError(double limit, double actual,
+                               std::string_view name = "request_bytes_in_flight");
 absl::Status DrainingError();
 // The bytes of the request are no message of its type.
 absl::Status RequestUnreadableError(std::string_view why);

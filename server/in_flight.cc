@@ -9,6 +9,12 @@
 #include "server/limits.h"
 
 namespace patchmill {
+namespace {
+
+// Of one call: its message, and a quarter for the frames, TLS and headers around it.
+constexpr std::size_t kMostOnTheWay = limits::kMaxMessageBytes + limits::kMaxMessageBytes / 4;
+
+}  // namespace
 
 InFlight::InFlight(std::size_t limit_bytes, ReceivedBytes received)
     : limit_(limit_bytes), received_(std::move(received)) {
@@ -24,11 +30,11 @@ InFlight::~InFlight() {
   if (watch_.joinable()) watch_.join();
 }
 
-absl::StatusOr<InFlight::Hold> InFlight::Take(std::size_t bytes) {
+absl::StatusOr<InFlight::Hold> InFlight::Take(std::size_t bytes, std::string_view name) {
   const auto limit = static_cast<double>(limit_);
-  if (bytes > limit_) return LimitError("request_bytes_in_flight", limit, static_cast<double>(bytes));
+  if (bytes > limit_) return LimitError(name, limit, static_cast<double>(bytes));
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (held_ + bytes > limit_) return TooManyBytesError(limit, static_cast<double>(held_ + bytes));
+  if (held_ + bytes > limit_) return TooManyBytesError(limit, static_cast<double>(held_ + bytes), name);
   held_ += bytes;
   return Hold(this, bytes);
 }
@@ -67,13 +73,13 @@ void InFlight::Arrived(Id id, std::size_t bytes) {
 
 void InFlight::Measure(Peer& peer, const std::string& name) const {
   const std::uint64_t received = received_(name).value_or(0);
-  peer.on_the_way = std::min<std::uint64_t>(received - std::min(received, peer.counted),
-                                            peer.calls.size() * limits::kMaxMessageBytes);
+  peer.came = received - std::min(received, peer.counted);
+  peer.on_the_way = std::min<std::uint64_t>(peer.came, peer.calls.size() * limits::kMaxMessageBytes);
 }
 
-std::list<std::pair<InFlight::Refuse, absl::Status>> InFlight::Overdue() {
+InFlight::Refused InFlight::Overdue() {
   const Clock::time_point latest = Clock::now() - std::chrono::seconds(limits::kReceiveSeconds);
-  std::list<std::pair<Refuse, absl::Status>> refused;
+  Refused refused;
   for (auto& [name, peer] : peers_) {
     for (Expected& call : peer.calls) {
       if (call.since > latest || !call.refuse) continue;
@@ -85,8 +91,27 @@ std::list<std::pair<InFlight::Refuse, absl::Status>> InFlight::Overdue() {
   return refused;
 }
 
-std::list<std::pair<InFlight::Refuse, absl::Status>> InFlight::Excess() {
-  std::list<std::pair<Refuse, absl::Status>> refused;
+void InFlight::RefuseAll(Peer& peer, const absl::Status& status, Refused& refused) {
+  for (Expected& call : peer.calls) {
+    if (call.refuse) refused.emplace_back(std::exchange(call.refuse, nullptr), status);
+  }
+  peer.counted += std::exchange(peer.came, 0);
+  peer.on_the_way = peer.forgiven = 0;
+}
+
+// gRPC reads a message whole, however long it says that it is, before it looks at its limit.
+InFlight::Refused InFlight::Oversize() {
+  Refused refused;
+  for (auto& [name, peer] : peers_) {
+    if (peer.came <= peer.calls.size() * kMostOnTheWay) continue;
+    const auto most = static_cast<double>(limits::kMaxMessageBytes * peer.calls.size());
+    RefuseAll(peer, LimitError("message_bytes", most, static_cast<double>(peer.came)), refused);
+  }
+  return refused;
+}
+
+InFlight::Refused InFlight::Excess() {
+  Refused refused;
   std::uint64_t total = held_;
   for (const auto& [name, peer] : peers_) total += peer.on_the_way;
   while (total > limit_) {
@@ -106,7 +131,26 @@ std::list<std::pair<InFlight::Refuse, absl::Status>> InFlight::Excess() {
     }
     total -= std::min(share, most->on_the_way);
     most->counted += std::min(share, most->on_the_way);
+    most->came -= std::min(share, most->on_the_way);
+    most->forgiven += std::min(share, most->on_the_way);
     most->on_the_way -= std::min(share, most->on_the_way);
+  }
+  return refused;
+}
+
+// A peer could have new calls refused that have sent nothing, in place of those that have sent much. What was
+// counted as theirs may come to the limit once; then the peer with most of it loses all its calls on the way.
+InFlight::Refused InFlight::Forgiven() {
+  Refused refused;
+  std::uint64_t total = 0;
+  for (const auto& [name, peer] : peers_) total += peer.forgiven;
+  while (total > limit_) {
+    Peer& most = std::max_element(peers_.begin(), peers_.end(), [](const auto& a, const auto& b) {
+                   return a.second.forgiven < b.second.forgiven;
+                 })->second;
+    const absl::Status status = TooManyBytesError(static_cast<double>(limit_), static_cast<double>(total));
+    total -= most.forgiven;
+    RefuseAll(most, status, refused);
   }
   return refused;
 }
@@ -119,8 +163,10 @@ void InFlight::Watch() {
       continue;
     }
     for (auto& [name, peer] : peers_) Measure(peer, name);
-    auto refused = Overdue();
+    Refused refused = Overdue();
+    refused.splice(refused.end(), Oversize());
     refused.splice(refused.end(), Excess());
+    refused.splice(refused.end(), Forgiven());
     lock.unlock();
     for (const auto& [refuse, status] : refused) refuse(status);
     refused.clear();

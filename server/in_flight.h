@@ -1,5 +1,5 @@
-// The bytes of requests a server holds: on their way to it, and from their arrival until their call has
-// ended.
+// The bytes that a server holds: of requests on their way to it, and from their arrival until they are
+// answered; of answers until they are written.
 #pragma once
 
 #include <chrono>
@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include <absl/status/statusor.h>
@@ -54,11 +55,13 @@ class InFlight {
   };
   // RESOURCE_EXHAUSTED: LIMIT_EXCEEDED where the bytes alone are too many, TOO_MANY_BYTES where they are with
   // what is held.
-  absl::StatusOr<Hold> Take(std::size_t bytes);
+  // `name`: how the error names them.
+  absl::StatusOr<Hold> Take(std::size_t bytes, std::string_view name = "request_bytes_in_flight");
 
   // A request on its way. `refuse` is called at most once, from another thread and possibly still after
   // Arrived: with TOO_MANY_BYTES when there are too many bytes and this peer sends the most, of several calls
-  // of it for the newest; with DEADLINE_EXCEEDED when the request has not come after limits::kReceiveSeconds.
+  // of it for the newest; with LIMIT_EXCEEDED when the peer has sent more than all its calls may; with
+  // DEADLINE_EXCEEDED when the request has not come after limits::kReceiveSeconds.
   using Refuse = std::function<void(const absl::Status&)>;
   using Id = std::uint64_t;
   Id Expect(const std::string& peer, Refuse refuse);
@@ -73,17 +76,23 @@ class InFlight {
     Refuse refuse;
   };
   struct Peer {
-    std::uint64_t counted = 0;  // of its received bytes, those that are no request on its way
-    std::uint64_t on_the_way = 0;
-    std::list<Expected> calls;  // oldest first
+    std::uint64_t counted = 0;     // of its received bytes, those that are no request on its way
+    std::uint64_t came = 0;        // beyond those
+    std::uint64_t on_the_way = 0;  // of these, no more than its calls may send
+    std::uint64_t forgiven = 0;    // counted as of calls that were refused, though they may be of others
+    std::list<Expected> calls;     // oldest first
   };
 
   void Release(std::size_t bytes);
   void Watch();
   void Measure(Peer& peer, const std::string& name) const;
   // Those to be refused now, and with what.
-  std::list<std::pair<Refuse, absl::Status>> Overdue();
-  std::list<std::pair<Refuse, absl::Status>> Excess();
+  using Refused = std::list<std::pair<Refuse, absl::Status>>;
+  Refused Overdue();
+  Refused Oversize();
+  Refused Excess();
+  Refused Forgiven();
+  static void RefuseAll(Peer& peer, const absl::Status& status, Refused& refused);
 
   const std::size_t limit_;
   const ReceivedBytes received_;

@@ -1,5 +1,6 @@
 #include "server/in_flight.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <mutex>
@@ -125,6 +126,46 @@ TEST_F(OnTheWay, WhatHasArrivedIsNotCountedTwice) {
   Receive("peer", 11 * kMib);
   EXPECT_TRUE(refused_.WaitFor(1));
   in_flight_.Arrived(two, 0);
+}
+
+// gRPC reads a message to its end, however long it is.
+TEST_F(OnTheWay, AMessageThatIsTooLongIsRefusedWhileItComes) {
+  const InFlight::Id id = Expect("peer", "long");
+  Receive("peer", 70 * kMib);
+  LetMeasure();
+  EXPECT_TRUE(refused_.Names().empty());
+  Receive("peer", 11 * kMib);
+  ASSERT_TRUE(refused_.WaitFor(1));
+  EXPECT_EQ(ReasonOf(refused_.last), "LIMIT_EXCEEDED");
+  EXPECT_EQ(InfoOf(ToGrpcStatus(refused_.last)).limit(), "message_bytes");
+  // What came is not counted as of the next.
+  const InFlight::Id next = Expect("peer", "next");
+  in_flight_.Arrived(id, 0);
+  Receive("peer", 30 * kMib);
+  LetMeasure();
+  EXPECT_EQ(refused_.Names().size(), 1u);
+  in_flight_.Arrived(next, 0);
+}
+
+// New calls that send nothing do not stand in for an old one that sends much without an end.
+TEST_F(OnTheWay, NewCallsShieldAnOldOneForAWhileOnly) {
+  const InFlight::Id old = Expect("peer", "old");
+  const auto is_refused = [this] {
+    const std::vector<std::string> names = refused_.Names();
+    return std::find(names.begin(), names.end(), "old") != names.end();
+  };
+  std::size_t shields = 0;
+  for (; shields < 10 && !is_refused(); ++shields) {
+    const std::size_t before = refused_.Names().size();
+    const InFlight::Id shield = Expect("peer", "shield");
+    Receive("peer", 60 * kMib);
+    refused_.WaitFor(before + (shields > 0 ? 1 : 0));
+    LetMeasure();
+    in_flight_.Arrived(shield, 0);
+  }
+  EXPECT_TRUE(is_refused());
+  EXPECT_LT(shields, 10u);
+  in_flight_.Arrived(old, 0);
 }
 
 TEST_F(OnTheWay, AnIdleCallCostsNothing) {
