@@ -25,6 +25,7 @@ namespace {
 struct Shared {
   InFlight& in_flight;
   CallLog log;
+  double write_seconds;
 };
 
 absl::Status Guarded(const RawMethod& method, RawCall& call) {
@@ -56,6 +57,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   Reactor(const RawMethod& method, Shared& shared, grpc::CallbackServerContext* context)
       : method_(method),
         shared_(shared),
+        context_(context),
         begin_(std::chrono::steady_clock::now()),
         deadline_(context->deadline()),
         peer_(context->peer()),
@@ -72,16 +74,27 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
 
   bool Write(const google::protobuf::Message& response) override {
     if (Cancelled()) return false;
-    response_.Clear();
+    grpc::ByteBuffer bytes;
     bool own = false;
-    if (!grpc::SerializationTraits<google::protobuf::Message>::Serialize(response, &response_, &own).ok())
-      return false;
+    return grpc::SerializationTraits<google::protobuf::Message>::Serialize(response, &bytes, &own).ok() &&
+           Write(bytes);
+  }
+
+  bool Write(const grpc::ByteBuffer& response) override {
+    if (Cancelled()) return false;
+    response_ = response;
     std::unique_lock<std::mutex> lock(mutex_);
     writing_ = true;
     lock.unlock();
     StartWrite(&response_);
     lock.lock();
-    written_.wait(lock, [this] { return !writing_; });
+    const auto written = [this] { return !writing_; };
+    if (!written_.wait_for(lock, std::chrono::duration<double>(shared_.write_seconds), written)) {
+      late_ = true;
+      context_->TryCancel();  // gRPC gives the message up, and tells that it is not written
+      written_.wait(lock, written);
+    }
+    response_.Clear();
     return write_ok_;
   }
 
@@ -136,7 +149,12 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   void Run() {
     const absl::Status status = Guarded(method_, *this);
     DropRequest();
-    End(Phase::kRunning, status);
+    End(Phase::kRunning, late_ ? LateError() : status);
+  }
+
+  absl::Status LateError() const {
+    return absl::DeadlineExceededError(
+        fmt::format("the client has not taken an answer within {} s", shared_.write_seconds));
   }
 
   // Ends the call with that status if it is in that phase. Nothing of it may be touched afterwards.
@@ -149,6 +167,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
 
   const RawMethod& method_;
   Shared& shared_;
+  grpc::CallbackServerContext* const context_;
   const std::chrono::steady_clock::time_point begin_;
   const std::chrono::system_clock::time_point deadline_;
   const std::string peer_;
@@ -163,14 +182,15 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   std::mutex mutex_;  // hands on between gRPC's threads and the call's own what the first ones wrote
   std::condition_variable written_;
   bool writing_ = false, write_ok_ = false;
+  bool late_ = false;  // of the call's own thread only
 };
 
 // To gRPC every method is one of two streams: so the call starts before its request is read. A client of a
 // unary or server-streaming method sees no difference.
 class RawService final : public grpc::Service {
  public:
-  RawService(std::vector<RawMethod> methods, InFlight& in_flight, CallLog log)
-      : methods_(std::move(methods)), shared_{in_flight, std::move(log)} {
+  RawService(std::vector<RawMethod> methods, InFlight& in_flight, CallLog log, double write_seconds)
+      : methods_(std::move(methods)), shared_{in_flight, std::move(log), write_seconds} {
     for (std::size_t k = 0; k < methods_.size(); ++k) {
       const RawMethod& method = methods_[k];
       AddMethod(new grpc::internal::RpcServiceMethod(method.path.c_str(),
@@ -191,8 +211,8 @@ class RawService final : public grpc::Service {
 }  // namespace
 
 std::unique_ptr<grpc::Service> MakeRawService(std::vector<RawMethod> methods, InFlight& in_flight,
-                                              CallLog log) {
-  return std::make_unique<RawService>(std::move(methods), in_flight, std::move(log));
+                                              CallLog log, double write_seconds) {
+  return std::make_unique<RawService>(std::move(methods), in_flight, std::move(log), write_seconds);
 }
 
 }  // namespace patchmill

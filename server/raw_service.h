@@ -27,8 +27,9 @@ class RawCall {
   virtual void DropRequest() = 0;
   virtual std::chrono::system_clock::time_point deadline() const = 0;  // max() when there is none
   virtual bool Cancelled() const = 0;                                  // any thread
-  // Waits until the message is on its way. False: the other side is gone.
+  // Waits until the message is on its way. False: the other side is gone, or has not taken it in time.
   virtual bool Write(const google::protobuf::Message& response) = 0;
+  virtual bool Write(const grpc::ByteBuffer& response) = 0;  // a message's bytes
   // How the log names the call; its method unless told otherwise.
   virtual void SetLabel(std::string label) = 0;
 };
@@ -48,8 +49,9 @@ struct CallRecord {
 using CallLog = std::function<void(const CallRecord&)>;
 
 // A service of these methods, of any number of responses each. Requests are counted in `in_flight`, which
-// outlives the service; what is refused there never runs.
+// outlives the service; what is refused there never runs. A client that does not take a response within
+// `write_seconds` is cut off.
 std::unique_ptr<grpc::Service> MakeRawService(std::vector<RawMethod> methods, InFlight& in_flight,
-                                              CallLog log);
+                                              CallLog log, double write_seconds);
 
 }  // namespace patchmill

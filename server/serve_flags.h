@@ -18,11 +18,15 @@ inline void AddServeFlags(CLI::App& app, ServerOptions& options) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   app.add_option("--max-in-flight-mib", options.max_in_flight_mib,
-                 "MiB of requests at once, on their way and in memory; more are refused")
+                 "MiB of requests and answers at once, on their way and in memory; more are refused")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str();
   app.add_option("--max-job-seconds", options.max_job_seconds, "longest a job may take, s")
       ->check(CLI::Range(1.0, 86400.0))
+      ->capture_default_str();
+  app.add_option("--max-write-seconds", options.max_write_seconds,
+                 "longest a client may take to read a message of an answer, s; then it is cut off")
+      ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
   app.add_option("--cert", options.cert_file, "TLS certificate (PEM)");
   app.add_option("--key", options.key_file, "its key (PEM)");

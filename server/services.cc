@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/impl/codegen/proto_utils.h>
 #include <spdlog/spdlog.h>
 
 #include "core/base/status.h"
@@ -47,10 +49,9 @@ void LabelCall(const v1::GenerateProgramRequest& request, RawCall& call) {
   if (!id.empty()) call.SetLabel("GenerateProgram [" + id + "]");
 }
 
-// Admission, counting and parsing, the handler. The request goes before the answer does.
+// Counting and parsing, the handler. The request goes before the answer does.
 template <class Request, class Body>
 absl::Status Run(ServerEnv* env, RawCall& raw, const Body& body) {
-  PM_ASSIGN_OR_RETURN(const Admission::Ticket ticket, env->admission.Enter());
   Request request;
   PM_ASSIGN_OR_RETURN(const InFlight::Hold hold, ParseRequest(raw, env->in_flight, request));
   LabelCall(request, raw);
@@ -60,19 +61,42 @@ absl::Status Run(ServerEnv* env, RawCall& raw, const Body& body) {
 template <class Request, class Response>
 using UnaryHandler = absl::Status (*)(const Call&, const Request&, Response*);
 
+// An answer in bytes, and what it holds until it is written: a client may take its time to read.
+struct Serialized {
+  InFlight::Hold held;
+  grpc::ByteBuffer bytes;
+};
+
+absl::StatusOr<Serialized> Serialize(InFlight& in_flight, const google::protobuf::Message& response) {
+  const std::size_t size = response.ByteSizeLong();
+  if (size > limits::kMaxMessageBytes) {
+    return LimitError("response_bytes", static_cast<double>(limits::kMaxMessageBytes),
+                      static_cast<double>(size));
+  }
+  Serialized answer;
+  PM_ASSIGN_OR_RETURN(answer.held, in_flight.Take(size, "response_bytes_in_flight"));
+  bool own = false;
+  if (!grpc::SerializationTraits<google::protobuf::Message>::Serialize(response, &answer.bytes, &own).ok()) {
+    return absl::InternalError("the answer cannot be serialized");
+  }
+  return answer;
+}
+
+// Admission, until the answer is bytes.
+template <class Request, class Response>
+absl::StatusOr<Serialized> Admitted(ServerEnv* env, RawCall& raw, UnaryHandler<Request, Response> handler) {
+  PM_ASSIGN_OR_RETURN(const Admission::Ticket ticket, env->admission.Enter());
+  Response response;
+  PM_RETURN_IF_ERROR(Run<Request>(
+      env, raw, [&](const Call& call, const Request& request) { return handler(call, request, &response); }));
+  return Serialize(env->in_flight, response);
+}
+
 template <class Request, class Response>
 RawMethod Unary(ServerEnv* env, std::string path, UnaryHandler<Request, Response> handler) {
   return {std::move(path), [env, handler](RawCall& raw) -> absl::Status {
-            Response response;
-            PM_RETURN_IF_ERROR(Run<Request>(env, raw, [&](const Call& call, const Request& request) {
-              return handler(call, request, &response);
-            }));
-            const std::size_t bytes = response.ByteSizeLong();
-            if (bytes > limits::kMaxMessageBytes) {
-              return LimitError("response_bytes", static_cast<double>(limits::kMaxMessageBytes),
-                                static_cast<double>(bytes));
-            }
-            return raw.Write(response) ? absl::OkStatus() : absl::CancelledError("the client is gone");
+            PM_ASSIGN_OR_RETURN(const Serialized answer, Admitted(env, raw, handler));
+            return raw.Write(answer.bytes) ? absl::OkStatus() : absl::CancelledError("the client is gone");
           }};
 }
 
@@ -81,7 +105,8 @@ using StreamHandler = absl::Status (*)(const Call&, const Request&, const Sink<R
 
 template <class Request, class Response>
 RawMethod Stream(ServerEnv* env, std::string path, StreamHandler<Request, Response> handler) {
-  return {std::move(path), [env, handler](RawCall& raw) {
+  return {std::move(path), [env, handler](RawCall& raw) -> absl::Status {
+            PM_ASSIGN_OR_RETURN(const Admission::Ticket ticket, env->admission.Enter());
             const Sink<Response> sink = [&raw](const Response& response) { return raw.Write(response); };
             return Run<Request>(env, raw, [&](const Call& call, const Request& request) {
               return handler(call, request, sink);
@@ -106,7 +131,8 @@ class ServiceBuilder {
   }
   NamedService Build() {
     return {name_, MakeRawService(std::move(methods_), env_->in_flight,
-                                  env_->options.log_requests ? CallLog(Log) : CallLog())};
+                                  env_->options.log_requests ? CallLog(Log) : CallLog(),
+                                  env_->options.max_write_seconds)};
   }
 
  private:

@@ -11,6 +11,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "patchmill/v1/analysis_service.pb.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
 #include "server/listen_address.h"
 #include "tests/service/daemon.h"
@@ -32,7 +33,9 @@ using testing::Finished;
 using ::testing::HasSubstr;
 using testing::InfoOf;
 using testing::kCheckModel;
+using testing::kEvaluateSurface;
 using testing::kGenerateProgram;
+using testing::RawStream;
 
 const std::string kPatchmill = PATCHMILL_BIN "/patchmill";
 const std::string kDaemon = PATCHMILL_BIN "/patchmilld";
@@ -43,6 +46,7 @@ std::shared_ptr<grpc::Channel> ChannelTo(const Daemon& daemon) {
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetMaxSendMessageSize(-1);
+  arguments.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);  // no more than 64 KiB come that nobody reads
   return grpc::CreateCustomChannel(daemon.target(), grpc::InsecureChannelCredentials(), arguments);
 }
 
@@ -98,6 +102,52 @@ TEST(DaemonLimits, RequestsOnTheirWayAreCounted) {
   EXPECT_LT(daemon.PeakMib(), testing::kSanitized ? 1000.0 : 350.0);
   const grpc::Status one = CallWithBytes(ChannelTo(daemon), kCheckModel, bytes);
   EXPECT_EQ(InfoOf(one).reason(), "MODEL_UNREADABLE") << one.error_message();  // nothing is held any more
+}
+
+// An answer of 3 MiB.
+std::string ManyPoints() {
+  v1::EvaluateSurfaceRequest request;
+  *request.mutable_source()->mutable_model() = testing::Bump();
+  for (int k = 0; k < 20'000; ++k) {
+    request.add_patch_index(0);
+    for (const int step : {7, 11}) request.add_uv((k * step % 1009 + 0.5) / 1009.0);
+  }
+  return request.SerializeAsString();
+}
+
+TEST(DaemonLimits, AnswersThatAreNotReadAreCounted) {
+  Daemon daemon(kDaemon, {"--max-in-flight-mib", "8"});
+  const std::string bytes = ManyPoints();
+  EXPECT_TRUE(CallWithBytes(ChannelTo(daemon), kEvaluateSurface, bytes).ok());
+  {
+    const auto channel = ChannelTo(daemon);
+    RawStream one(channel, kEvaluateSurface), two(channel, kEvaluateSurface);
+    for (RawStream* stream : {&one, &two}) {
+      ASSERT_TRUE(stream->Write(bytes));
+      ASSERT_TRUE(stream->Answered());
+    }
+    const grpc::Status refused = CallWithBytes(ChannelTo(daemon), kEvaluateSurface, bytes);
+    EXPECT_EQ(InfoOf(refused).reason(), "TOO_MANY_BYTES") << refused.error_message();
+    EXPECT_EQ(InfoOf(refused).limit(), "response_bytes_in_flight");
+  }
+  bool answers = false;  // once the others are gone
+  for (int k = 0; k < 200 && !answers; ++k) {
+    answers = CallWithBytes(ChannelTo(daemon), kEvaluateSurface, bytes).ok();
+    if (!answers) std::this_thread::sleep_for(50ms);
+  }
+  EXPECT_TRUE(answers);
+}
+
+TEST(DaemonLimits, AClientThatDoesNotReadIsCutOff) {
+  Daemon daemon(kDaemon, {"--max-write-seconds", "0.3"});
+  RawStream stream(ChannelTo(daemon), kEvaluateSurface);
+  ASSERT_TRUE(stream.Write(ManyPoints()));
+  const std::string why = "the client has not taken an answer within 0.3 s";
+  for (int k = 0; k < 400 && daemon.process().Err().find(why) == std::string::npos; ++k)
+    std::this_thread::sleep_for(50ms);
+  EXPECT_THAT(daemon.process().Err(), HasSubstr(why));
+  EXPECT_EQ(stream.Read(), std::nullopt);
+  EXPECT_EQ(stream.Finish().error_code(), StatusCode::CANCELLED);
 }
 
 // A B-spline of degree 15 with equal spans over a plate.
