@@ -7,8 +7,9 @@ namespace patchmill::limits {
 
 // Wire.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{64} << 20;  // either way, both ends
+inline constexpr std::size_t kMaxSmallMessageBytes = 4096;              // asked of health and reflection
 inline constexpr int kMaxInFlightMib =
-    256;  // default of the server: of requests, on their way, read, or in work
+    256;  // default of the server: of requests on their way, read, or in work, and of answers
 inline constexpr std::size_t kMaxFileModelBytes = std::size_t{256}
                                                   << 20;  // in memory, of a message in a model file
 inline constexpr int kReceiveSeconds = 300;         // from the start of a call until its request has come

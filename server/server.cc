@@ -8,16 +8,16 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
-#include <grpcpp/health_check_service_interface.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "core/base/keep_memory.h"
 #include "core/base/status.h"
+#include "server/health_service.h"
 #include "server/limits.h"
 #include "server/listener.h"
+#include "server/reflection_service.h"
 #include "server/services.h"
 #include "server/tls_files.h"
 
@@ -51,9 +51,9 @@ class GrpcServer final : public RunningServer {
              const std::shared_ptr<grpc::ServerCredentials>& credentials)
       : listener_(std::move(listener)),
         env_(options, MeterOf(listener_.get())),
-        services_(MakeServices(&env_)) {
-    grpc::EnableDefaultHealthCheckService(true);
-    grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+        services_(MakeServices(&env_)),
+        health_(env_.in_flight, options.max_write_seconds),
+        reflection_(MakeReflectionService(Names(), env_.in_flight, options.max_write_seconds)) {
     grpc::ServerBuilder builder;
     builder.SetMaxReceiveMessageSize(static_cast<int>(limits::kMaxMessageBytes));
     builder.SetMaxSendMessageSize(static_cast<int>(limits::kMaxMessageBytes));
@@ -69,8 +69,9 @@ class GrpcServer final : public RunningServer {
           grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, credentials);
     }
     for (const NamedService& service : services_) builder.RegisterService(service.service.get());
+    builder.RegisterService(health_.service());
+    builder.RegisterService(reflection_.get());
     server_ = builder.BuildAndStart();
-    // Per-service names answer NOT_FOUND until they are set.
     if (!started()) return;
     SetServing(true);
     if (!listener_) return;
@@ -107,10 +108,14 @@ class GrpcServer final : public RunningServer {
 
  private:
   void SetServing(bool serving) {
-    grpc::HealthCheckServiceInterface* health = server_->GetHealthCheckService();
-    if (health == nullptr) return;
-    health->SetServingStatus(serving);
-    for (const NamedService& service : services_) health->SetServingStatus(service.name, serving);
+    health_.SetServing("", serving);
+    for (const NamedService& service : services_) health_.SetServing(service.name, serving);
+  }
+
+  std::vector<std::string> Names() const {
+    std::vector<std::string> names;
+    for (const NamedService& service : services_) names.emplace_back(service.name);
+    return names;
   }
 
   static ReceivedBytes MeterOf(Listener* listener) {
@@ -121,6 +126,8 @@ class GrpcServer final : public RunningServer {
   std::unique_ptr<Listener> listener_;
   ServerEnv env_;
   std::vector<NamedService> services_;
+  HealthService health_;
+  std::unique_ptr<SmallService> reflection_;
   std::unique_ptr<grpc::Server> server_;
   int port_ = 0;
   bool drained_ = false;

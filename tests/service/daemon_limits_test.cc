@@ -35,6 +35,9 @@ using testing::InfoOf;
 using testing::kCheckModel;
 using testing::kEvaluateSurface;
 using testing::kGenerateProgram;
+using testing::kHealthCheck;
+using testing::kReflection;
+using testing::LengthDelimited;
 using testing::RawStream;
 
 const std::string kPatchmill = PATCHMILL_BIN "/patchmill";
@@ -102,6 +105,25 @@ TEST(DaemonLimits, RequestsOnTheirWayAreCounted) {
   EXPECT_LT(daemon.PeakMib(), testing::kSanitized ? 1000.0 : 350.0);
   const grpc::Status one = CallWithBytes(ChannelTo(daemon), kCheckModel, bytes);
   EXPECT_EQ(InfoOf(one).reason(), "MODEL_UNREADABLE") << one.error_message();  // nothing is held any more
+}
+
+// Methods that gRPC would serve itself are counted as all others are.
+TEST(DaemonLimits, RequestsOfHealthAndReflectionAreCounted) {
+  Daemon daemon(kDaemon, {"--max-in-flight-mib", "32"});
+  const std::string bytes = LengthDelimited(1, std::string(std::size_t{40} << 20, ' '));
+  std::vector<std::future<grpc::Status>> calls;
+  for (int k = 0; k < 12; ++k) {
+    const char* method = k % 2 == 0 ? kHealthCheck : kReflection;
+    calls.push_back(std::async(std::launch::async,
+                               [&, method] { return CallWithBytes(ChannelTo(daemon), method, bytes); }));
+  }
+  for (auto& call : calls) {
+    const grpc::Status status = call.get();
+    EXPECT_EQ(status.error_code(), StatusCode::RESOURCE_EXHAUSTED) << status.error_message();
+    EXPECT_NE(InfoOf(status).reason(), "") << status.error_message();
+  }
+  EXPECT_LT(daemon.PeakMib(), testing::kSanitized ? 800.0 : 250.0);
+  EXPECT_TRUE(Healthy(daemon));
 }
 
 // An answer of 3 MiB.
