@@ -30,10 +30,19 @@ constexpr std::size_t kMaxJsonCommas =
 // Objects of a JSON text cost memory before there is a message to count.
 constexpr std::size_t kMaxJsonObjects = 2 * limits::kMaxNetworkReferences;
 
-absl::Status CheckModelWire(const std::string& wire) {
+// A message in a file, and what it holds.
+struct FileMessage {
+  InFlight::Hold held;
+  v1::PatchModel model;
+};
+
+// Counts the message before it is parsed, and holds what it will take; `copied`: with its bytes.
+absl::StatusOr<InFlight::Hold> HoldModelWire(const std::string& wire, bool copied, InFlight* in_flight) {
   google::protobuf::io::ArrayInputStream bytes(wire.data(), static_cast<int>(wire.size()));
-  return CountWire(bytes, wire.size(), *v1::PatchModel::descriptor(), ListLimits(limits::kMaxFileModelBytes))
-      .status();
+  PM_ASSIGN_OR_RETURN(const WireCount count, CountWire(bytes, wire.size(), *v1::PatchModel::descriptor(),
+                                                       ListLimits(limits::kMaxFileModelBytes)));
+  if (in_flight == nullptr) return InFlight::Hold();
+  return in_flight->Take(count.memory_bytes + (copied ? wire.size() : 0));
 }
 
 bool LooksLikeJson(std::string_view content) {
@@ -41,7 +50,8 @@ bool LooksLikeJson(std::string_view content) {
   return first != std::string_view::npos && (content[first] == '{' || content[first] == '[');
 }
 
-absl::StatusOr<v1::PatchModel> ParseJson(const std::string& content) {
+absl::StatusOr<FileMessage> ParseJson(const std::string& content, const RunContext& run,
+                                      InFlight* in_flight) {
   const auto commas = static_cast<std::size_t>(std::count(content.begin(), content.end(), ','));
   if (commas > kMaxJsonCommas) {
     return LimitError("model.json_value_count", static_cast<double>(kMaxJsonCommas),
@@ -52,27 +62,36 @@ absl::StatusOr<v1::PatchModel> ParseJson(const std::string& content) {
     return LimitError("model.json_object_count", static_cast<double>(kMaxJsonObjects),
                       static_cast<double>(objects));
   }
-  v1::PatchModel model;
-  const absl::Status status = ReadJsonMessage(content, model, CheckModelWire);
+  FileMessage file;
+  const auto hold = [&](const std::string& wire) -> absl::Status {
+    PM_ASSIGN_OR_RETURN(file.held, HoldModelWire(wire, true, in_flight));
+    return absl::OkStatus();
+  };
+  const absl::Status status =
+      ReadJsonMessage(content, file.model, hold, [&run] { return !run.Check().ok(); });
+  PM_RETURN_IF_ERROR(run.Check());
   if (absl::IsResourceExhausted(status)) return status;
   if (!status.ok()) {
     return ModelUnreadableError(
         fmt::format("model file: not a PatchModel in JSON: {}", std::string(status.message())));
   }
-  return model;
+  return file;
 }
 
-absl::StatusOr<v1::PatchModel> ParseBinary(const std::string& content, std::string_view format) {
-  v1::PatchModel model;
-  const absl::Status counted = CheckModelWire(content);
-  if (absl::IsResourceExhausted(counted)) return counted;
-  const bool parsed = counted.ok() && model.ParseFromString(content);
+absl::StatusOr<FileMessage> ParseBinary(const std::string& content, std::string_view format,
+                                        InFlight* in_flight) {
+  absl::StatusOr<InFlight::Hold> held = HoldModelWire(content, false, in_flight);
+  if (absl::IsResourceExhausted(held.status())) return held.status();
+  FileMessage file;
+  if (held.ok()) file.held = *std::move(held);
+  const v1::PatchModel& model = file.model;
+  const bool parsed = held.ok() && file.model.ParseFromString(content);
   if (parsed && (model.patches_size() > 0 || model.has_network())) {
     if (const std::string unknown = UnknownField(model); !unknown.empty()) {
       return ModelUnreadableError(
           fmt::format("model file: {} is a field this server does not know", unknown));
     }
-    return model;
+    return file;
   }
   if (format == "pb") {
     return ModelUnreadableError(parsed ? "model file: a binary PatchModel without patches or network"
@@ -126,7 +145,8 @@ bool IsText(const std::string& format) {
 }
 
 // A .json or .pb file.
-absl::StatusOr<v1::PatchModel> ParseMessage(const v1::ModelFile& file, std::string_view at) {
+absl::StatusOr<FileMessage> ParseMessage(const v1::ModelFile& file, std::string_view at,
+                                         const RunContext& run, InFlight* in_flight) {
   if (!(file.format().empty() || file.format() == "json" || file.format() == "pb")) {
     FieldErrors errors;
     errors.Add(At(at, "format"),
@@ -134,27 +154,28 @@ absl::StatusOr<v1::PatchModel> ParseMessage(const v1::ModelFile& file, std::stri
                            fmt::join(kTextFormats, ", ")));
     return errors.ToStatus();
   }
-  PM_ASSIGN_OR_RETURN(v1::PatchModel model, LooksLikeJson(file.content()) || file.format() == "json"
-                                                ? ParseJson(file.content())
-                                                : ParseBinary(file.content(), file.format()));
-  if (file.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED && file.length_unit() != model.length_unit()) {
+  PM_ASSIGN_OR_RETURN(FileMessage message, LooksLikeJson(file.content()) || file.format() == "json"
+                                               ? ParseJson(file.content(), run, in_flight)
+                                               : ParseBinary(file.content(), file.format(), in_flight));
+  if (file.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED &&
+      file.length_unit() != message.model.length_unit()) {
     FieldErrors errors;
     errors.Add(At(at, "length_unit"), "differs from the file's own length_unit; leave it unset");
     return errors.ToStatus();
   }
-  return model;
+  return message;
 }
 
 absl::Status RequireContent(const v1::ModelFile& file) {
   return file.content().empty() ? ModelUnreadableError("model file: empty") : absl::OkStatus();
 }
 
-absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::string& at,
-                                     const RunContext& run) {
+absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::string& at, const RunContext& run,
+                                     InFlight* in_flight) {
   PM_RETURN_IF_ERROR(RequireContent(file));
   if (IsText(file.format())) return LoadText(file, at);
-  PM_ASSIGN_OR_RETURN(const v1::PatchModel model, ParseMessage(file, at));
-  return LoadMessage(model, At(at, "content"), run);
+  PM_ASSIGN_OR_RETURN(const FileMessage message, ParseMessage(file, at, run, in_flight));
+  return LoadMessage(message.model, At(at, "content"), run);
 }
 
 absl::Status NoSource(std::string_view at) {
@@ -163,12 +184,13 @@ absl::Status NoSource(std::string_view at) {
   return errors.ToStatus();
 }
 
-absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view at, const RunContext& run) {
+absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view at, const RunContext& run,
+                                 InFlight* in_flight) {
   switch (source.source_case()) {
     case v1::ModelSource::kModel:
       return LoadMessage(source.model(), At(at, "model"), run);
     case v1::ModelSource::kFile:
-      return LoadFile(source.file(), At(at, "file"), run);
+      return LoadFile(source.file(), At(at, "file"), run, in_flight);
     case v1::ModelSource::kModelSha256:
       return ModelNotCachedError();
     case v1::ModelSource::SOURCE_NOT_SET:
@@ -180,13 +202,14 @@ absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view
 }  // namespace
 
 absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at,
-                                      const RunContext& run) {
-  PM_ASSIGN_OR_RETURN(LoadedModel loaded, Load(source, at, run));
+                                      const RunContext& run, InFlight* in_flight) {
+  PM_ASSIGN_OR_RETURN(LoadedModel loaded, Load(source, at, run, in_flight));
   loaded.digest = ModelDigest(loaded.model);
   return loaded;
 }
 
-absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::string_view at) {
+absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::string_view at,
+                                          const RunContext& run, InFlight* in_flight) {
   LoadedNetwork loaded;
   std::string path;
   switch (source.source_case()) {
@@ -203,7 +226,9 @@ absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::st
                    fmt::format("= \"{}\"; must be json or pb, with a network", source.file().format()));
         return errors.ToStatus();
       }
-      PM_ASSIGN_OR_RETURN(loaded.message, ParseMessage(source.file(), path));
+      PM_ASSIGN_OR_RETURN(FileMessage file, ParseMessage(source.file(), path, run, in_flight));
+      loaded.held = std::move(file.held);
+      loaded.message = std::move(file.model);
       path = At(path, "content");
       break;
     }

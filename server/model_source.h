@@ -11,6 +11,7 @@
 #include "core/network/patch_model.h"
 #include "patchmill/v1/model.pb.h"
 #include "server/convert/model.h"
+#include "server/in_flight.h"
 
 namespace patchmill {
 
@@ -24,16 +25,19 @@ struct LoadedModel {
 };
 
 // INVALID_ARGUMENT for what cannot be read (with line and reason), NOT_FOUND for a digest, RESOURCE_EXHAUSTED
-// for a limit; those of `run` while a network is joined. Limits are checked before the cost is paid. `at` is
-// the path of the source in its request.
+// for a limit; those of `run` while JSON is read and while a network is joined. Limits are checked before the
+// cost is paid. `at` is the path of the source in its request. What the message in a file takes in memory is
+// held in `in_flight` (may be nothing) as long as there is that message.
 absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at,
-                                      const RunContext& run = {});
+                                      const RunContext& run = {}, InFlight* in_flight = nullptr);
 
 // A network as a message and as a value. Errors as LoadModel, and INVALID_ARGUMENT for a model of patches.
 struct LoadedNetwork {
+  InFlight::Hold held;  // what the message takes, where it was in a file
   v1::PatchModel message;
   CheckedNetwork checked;
 };
-absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::string_view at);
+absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::string_view at,
+                                          const RunContext& run = {}, InFlight* in_flight = nullptr);
 
 }  // namespace patchmill

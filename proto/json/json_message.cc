@@ -1,9 +1,11 @@
 #include "proto/json/json_message.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <absl/strings/str_cat.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/type_resolver_util.h>
 
@@ -62,16 +64,39 @@ google::protobuf::util::TypeResolver* GeneratedTypes() {
   return types;
 }
 
+// A text in pieces, which ends early when it is stopped.
+class StoppedInput final : public google::protobuf::io::ZeroCopyInputStream {
+ public:
+  StoppedInput(std::string_view text, const std::function<bool()>& stopped)
+      : pieces_(text.data(), static_cast<int>(text.size()), kJsonPieceBytes), ask_(stopped) {}
+
+  bool Next(const void** data, int* size) override {
+    stopped_ = stopped_ || (ask_ && ask_());
+    return !stopped_ && pieces_.Next(data, size);
+  }
+  void BackUp(int count) override { pieces_.BackUp(count); }
+  bool Skip(int count) override { return pieces_.Skip(count); }
+  std::int64_t ByteCount() const override { return pieces_.ByteCount(); }
+  bool stopped() const { return stopped_; }
+
+ private:
+  google::protobuf::io::ArrayInputStream pieces_;
+  const std::function<bool()>& ask_;
+  bool stopped_ = false;
+};
+
 }  // namespace
 
 absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message,
-                             const WireCheck& check) {
+                             const WireCheck& check, const std::function<bool()>& stopped) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
   if (std::string fault = FaultOfLists(text); !fault.empty()) return absl::InvalidArgumentError(fault);
   std::string wire;
-  const auto status = google::protobuf::util::JsonToBinaryString(
-      GeneratedTypes(), absl::StrCat(kTypePrefix, "/", message.GetDescriptor()->full_name()),
-      {text.data(), text.size()}, &wire);
+  StoppedInput in(text, stopped);
+  google::protobuf::io::StringOutputStream out(&wire);
+  const auto status = google::protobuf::util::JsonToBinaryStream(
+      GeneratedTypes(), absl::StrCat(kTypePrefix, "/", message.GetDescriptor()->full_name()), &in, &out);
+  if (in.stopped()) return absl::CancelledError("reading was stopped");
   if (!status.ok()) return absl::InvalidArgumentError(std::string(status.message()));
   if (check) {
     if (absl::Status checked = check(wire); !checked.ok()) return checked;

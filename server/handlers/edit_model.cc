@@ -28,9 +28,10 @@ void AddChanged(const JoinedNetwork& before, const JoinedNetwork& after, v1::Edi
   response->mutable_changed_faces()->Add(changed.begin(), changed.end());
 }
 
-absl::Status Edit(const v1::EditModelRequest& request, const RunContext& run,
+absl::Status Edit(const Call& call, const v1::EditModelRequest& request, const RunContext& run,
                   v1::EditModelResponse* response) {
-  PM_ASSIGN_OR_RETURN(LoadedNetwork loaded, LoadNetwork(request.source(), "source"));
+  PM_ASSIGN_OR_RETURN(LoadedNetwork loaded,
+                      LoadNetwork(request.source(), "source", run, &call.env->in_flight));
   const auto findings = [response](const Diagnostics& list) {
     AddDiagnostics(list, Vec3::Zero(), response->mutable_diagnostics());
   };
@@ -76,7 +77,7 @@ absl::Status HandleEditModel(const Call& call, const v1::EditModelRequest& reque
     return errors.ToStatus();
   }
   return RunJobThread(call, request.max_threads(), {},
-                      [&](const RunContext& run) { return Edit(request, run, response); });
+                      [&](const RunContext& run) { return Edit(call, request, run, response); });
 }
 
 }  // namespace patchmill

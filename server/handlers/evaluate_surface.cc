@@ -79,7 +79,7 @@ absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRe
   }
   PM_RETURN_IF_ERROR(errors.ToStatus());
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run));
+    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
     PM_RETURN_IF_ERROR(RequireSound(model));
     PM_RETURN_IF_ERROR(CheckPoints(request, model.model));
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));

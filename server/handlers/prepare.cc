@@ -30,13 +30,14 @@ Diagnostics Placed(Diagnostics remarks, const Placement& placement) {
   return remarks;
 }
 
-absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run) {
+absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run,
+                                       InFlight& in_flight) {
   PreparedJob prepared;
   FieldErrors errors;
   prepared.job = FromProto(job, post, "job", errors);
   prepared.name = job.name();
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  PM_ASSIGN_OR_RETURN(prepared.model, LoadModel(job.source(), "job.source", run));
+  PM_ASSIGN_OR_RETURN(prepared.model, LoadModel(job.source(), "job.source", run, &in_flight));
   PM_RETURN_IF_ERROR(RequireSound(prepared.model));
   prepared.job.unitless_file = prepared.model.unitless;
   prepared.job.model_remarks = Placed(prepared.model.remarks, prepared.job.setup.placement);

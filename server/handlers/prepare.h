@@ -21,7 +21,8 @@ struct PreparedJob {
 // All field errors of job and post together with those of the model. Nothing is refused for what it might
 // come to: the job has limits::kMaxCutLengthMm and kMaxPathPoints with it, and ends when its passes come to
 // more.
-absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run);
+absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run,
+                                       InFlight& in_flight);
 
 // INVALID_ARGUMENT for a field this version does not know: refused, never silently ignored.
 absl::Status RefuseUnknownFields(const google::protobuf::Message& request);

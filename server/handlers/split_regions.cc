@@ -22,7 +22,8 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
       const Outputs outputs,
       ReadOutputs(request.outputs(), {v1::OUTPUT_REGIONS, v1::OUTPUT_PICTURE}, {v1::OUTPUT_REGIONS}));
   const auto make = [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run));
+    PM_ASSIGN_OR_RETURN(PreparedJob prepared,
+                        PrepareJob(request.job(), v1::Post(), run, call.env->in_flight));
     PM_RETURN_IF_ERROR(run.Check());
     const Job& job = prepared.job;
     PM_ASSIGN_OR_RETURN(const Surface surface,

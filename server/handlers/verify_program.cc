@@ -104,10 +104,10 @@ int RetractCount(const ProgramMotion& motion) {
   return count;
 }
 
-absl::Status Make(const v1::VerifyProgramRequest& request, const Job& job, const RunContext& run,
-                  v1::Report* report) {
+absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, const Job& job,
+                  const RunContext& run, v1::Report* report) {
   run.Progress("model", 0.0);
-  PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run));
+  PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
   PM_RETURN_IF_ERROR(RequireSound(model));
   PM_RETURN_IF_ERROR(run.Check());
   absl::StatusOr<ProgramMotion> motion = ReadProgram(request.program(), {.run = &run});
@@ -164,7 +164,7 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
   };
   Response last;
   PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(), beat, [&](const RunContext& run) {
-    return Make(request, job, run, last.mutable_report());
+    return Make(call, request, job, run, last.mutable_report());
   }));
   return sink(last) ? absl::OkStatus() : absl::CancelledError("the client has gone");
 }

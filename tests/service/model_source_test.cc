@@ -7,8 +7,10 @@
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
+#include "proto/json/json_message.h"
 #include "server/digest.h"
 #include "tests/fuzz/model_source_contract.h"
+#include "tests/service/raw_stub.h"
 #include "tests/service/requests.h"
 #include "tests/service/status_matchers.h"
 #include "tests/support/files.h"
@@ -35,6 +37,39 @@ std::string JsonOf(const v1::PatchModel& model) {
   std::string json;
   EXPECT_TRUE(google::protobuf::util::MessageToJsonString(model, &json).ok());
   return json;
+}
+
+// Unknown fields take ten times their bytes.
+TEST(LoadModel, TheMessageInAFileIsHeld) {
+  InFlight in_flight(std::size_t{1} << 20, {});
+  const std::string binary = testing::Bump().SerializeAsString(),
+                    unknown = testing::Repeated("\xF8\x07\x01", 30'000);
+  EXPECT_TRUE(LoadModel(File("pb", binary), "source", {}, &in_flight).ok());
+  EXPECT_TRUE(LoadModel(File("json", JsonOf(testing::Bump())), "source", {}, &in_flight).ok());
+  const auto refused =
+      LoadModel(File("pb", binary + testing::Repeated(unknown, 2)), "source", {}, &in_flight);
+  EXPECT_THAT(refused.status(),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("request_bytes_in_flight")));
+  EXPECT_TRUE(in_flight.Take(std::size_t{1} << 20).ok());  // nothing is held any more
+  const auto all = in_flight.Take(std::size_t{1} << 20);
+  for (const auto& file : {File("pb", binary), File("json", JsonOf(testing::Bump()))}) {
+    EXPECT_EQ(LoadModel(file, "source", {}, &in_flight).status().code(),
+              absl::StatusCode::kResourceExhausted);
+    EXPECT_EQ(LoadNetwork(file, "source", {}, &in_flight).status().code(),
+              absl::StatusCode::kResourceExhausted);
+  }
+}
+
+TEST(LoadModel, ReadingJsonStopsWhenItIsCancelled) {
+  const std::string json = "{\"patches\":[" + testing::Repeated("{},", 200'000) + "{}]}";
+  v1::PatchModel model;
+  int asked = 0;
+  const absl::Status status = ReadJsonMessage(json, model, {}, [&asked] { return ++asked == 3; });
+  EXPECT_EQ(status.code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(asked, 3);
+  RunContext run;
+  run.Cancel();
+  EXPECT_EQ(LoadModel(File("json", json), "source", run).status().code(), absl::StatusCode::kCancelled);
 }
 
 TEST(LoadModel, MessageJsonAndBinaryAreTheSameModel) {
