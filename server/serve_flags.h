@@ -28,6 +28,10 @@ inline void AddServeFlags(CLI::App& app, ServerOptions& options) {
                  "longest a client may take to read a message of an answer, s; then it is cut off")
       ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str();
+  app.add_option("--max-idle-seconds", options.max_idle_seconds,
+                 "longest a connection may be without a call, s; then it is closed")
+      ->check(CLI::Range(1.0, 86400.0))
+      ->capture_default_str();
   app.add_option("--cert", options.cert_file, "TLS certificate (PEM)");
   app.add_option("--key", options.key_file, "its key (PEM)");
   app.add_flag("--insecure", options.insecure,

@@ -65,6 +65,8 @@ class GrpcServer final : public RunningServer {
     }
     std::shared_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor;
     if (listener_) {
+      builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS,
+                                 static_cast<int>(1000.0 * options.max_idle_seconds));
       acceptor = builder.experimental().AddExternalConnectionAcceptor(
           grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, credentials);
     }

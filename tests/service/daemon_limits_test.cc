@@ -172,6 +172,23 @@ TEST(DaemonLimits, AClientThatDoesNotReadIsCutOff) {
   EXPECT_EQ(stream.Finish().error_code(), StatusCode::CANCELLED);
 }
 
+// The preface of HTTP/2 and empty settings: a connection that is open, and asks for nothing.
+TEST(DaemonLimits, AConnectionWithoutCallsIsClosed) {
+  Daemon daemon(kDaemon, {"--max-idle-seconds", "1"});
+  const SocketAddress address = ResolveListenAddress(daemon.target())->front();
+  const int idle = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  ASSERT_EQ(connect(idle, address.get(), address.size), 0);
+  const timeval most{.tv_sec = 20, .tv_usec = 0};
+  setsockopt(idle, SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
+  const std::string_view hello("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n\0\0\0\4\0\0\0\0\0", 33);
+  ASSERT_EQ(send(idle, hello.data(), hello.size(), 0), static_cast<ssize_t>(hello.size()));
+  ssize_t got = 1;
+  for (char bytes[1024]; got > 0;) got = recv(idle, bytes, sizeof bytes, 0);
+  EXPECT_TRUE(got == 0 || errno == ECONNRESET) << errno;
+  close(idle);
+  EXPECT_TRUE(Healthy(daemon));
+}
+
 // A B-spline of degree 15 with equal spans over a plate.
 v1::CheckModelRequest Plate(int spans) {
   constexpr int kDegree = 15;
