@@ -48,6 +48,25 @@ Clock::time_point Deadline(const Call& call) {
   return call.deadline ? std::min(own, *call.deadline) : own;
 }
 
+// The thread that works. An exception in the one that talks cancels it, and waits for its end.
+class WorkerGuard {
+ public:
+  template <class Body>
+  WorkerGuard(RunContext& run, Body body) : run_(run), thread_(std::move(body)) {}
+  WorkerGuard(const WorkerGuard&) = delete;
+  WorkerGuard& operator=(const WorkerGuard&) = delete;
+  ~WorkerGuard() {
+    if (!thread_.joinable()) return;
+    run_.Cancel();
+    thread_.join();
+  }
+  void Join() { thread_.join(); }
+
+ private:
+  RunContext& run_;
+  std::thread thread_;
+};
+
 }  // namespace
 
 absl::Status RunJobThread(const Call& call, int max_threads, const Beat& beat,
@@ -60,7 +79,7 @@ absl::Status RunJobThread(const Call& call, int max_threads, const Beat& beat,
     board.stage = stage;
     board.fraction = std::clamp(fraction, 0.0, 1.0);
   });
-  std::thread worker([&] {
+  WorkerGuard worker(run, [&] {
     absl::Status status = Guarded(work, run);
     const std::lock_guard<std::mutex> lock(board.mutex);
     board.status = std::move(status);
@@ -83,7 +102,7 @@ absl::Status RunJobThread(const Call& call, int max_threads, const Beat& beat,
     lock.lock();
   }
   lock.unlock();
-  worker.join();
+  worker.Join();
   // The last word is the caller's: work that finished just as it was cancelled is cancelled.
   if (call.cancelled()) run.Cancel();
   const absl::Status late = run.Check();

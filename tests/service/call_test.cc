@@ -105,6 +105,12 @@ TEST_F(RunJobThreadTest, AnExceptionBecomesAStatus) {
       StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("memory")));
 }
 
+// Of the one that talks, while the other works: it stops the work, and goes its way.
+TEST_F(RunJobThreadTest, AnExceptionOfTheBeatStopsTheWork) {
+  const auto beat = [](std::string_view, double) -> bool { throw std::runtime_error("no memory"); };
+  EXPECT_THROW((void)RunJobThread(MakeCall(), 0, beat, Endless), std::runtime_error);
+}
+
 TEST_F(RunJobThreadTest, ThreadsNeverExceedTheServers) {
   env_.options.threads = 2;
   const auto threads = [&](int asked) {
