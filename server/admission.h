@@ -1,4 +1,4 @@
-// How many jobs may run at once; none start while draining.
+// Limits how many jobs run at once. No job starts while the server drains.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@ class Admission {
  public:
   explicit Admission(int max_jobs) : max_jobs_(max_jobs) {}
 
-  // Holds one place until destroyed.
+  // One of the places. It is free again when the ticket is destroyed.
   class Ticket {
    public:
     explicit Ticket(Admission* from) : from_(from) {}
@@ -27,7 +27,7 @@ class Admission {
     Admission* from_;
   };
 
-  // RESOURCE_EXHAUSTED TOO_MANY_JOBS, or UNAVAILABLE while draining.
+  // A place for a job. RESOURCE_EXHAUSTED TOO_MANY_JOBS if all are taken, UNAVAILABLE while draining.
   absl::StatusOr<Ticket> Enter() {
     if (draining_.load()) return DrainingError();
     if (running_.fetch_add(1) >= max_jobs_) {

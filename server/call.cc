@@ -16,7 +16,7 @@ namespace {
 
 using Clock = RunContext::Clock;
 
-// The newest progress and whether the work is done, between the thread that works and the one that talks.
+// The newest progress and the result. The worker thread writes them, the thread of the call reads them.
 struct Board {
   std::mutex mutex;
   std::condition_variable changed;
@@ -97,13 +97,13 @@ absl::Status RunJobThread(const Call& call, int max_threads, const Beat& beat,
     next_beat = Clock::now() + std::chrono::milliseconds(limits::kHeartbeatMs);
     const std::string stage = board.stage;
     const double fraction = board.fraction;
-    lock.unlock();  // a slow reader must not hold up the work
+    lock.unlock();  // a slow reader must not delay the work
     if (!beat(stage, fraction)) run.Cancel();
     lock.lock();
   }
   lock.unlock();
   worker.Join();
-  // The last word is the caller's: work that finished just as it was cancelled is cancelled.
+  // A cancel counts even if the work finished at the same time.
   if (call.cancelled()) run.Cancel();
   const absl::Status late = run.Check();
   return late.ok() ? board.status : late;

@@ -43,7 +43,8 @@ void AddShape(const GregoryPatch& p, Canonical& out) {
 void AddShape(const BrownPatch& p, Canonical& out) {
   out.Add("brown").Add(std::int64_t{p.degree_u}).Add(std::int64_t{p.degree_v});
   AddPoints(p.points, out);
-  if (p.breaks_u.empty() && p.breaks_v.empty()) return;  // as before there were any
+  if (p.breaks_u.empty() && p.breaks_v.empty())
+    return;  // the digest is that of the time before breaks existed
   out.Add("breaks");
   AddNumbers(p.breaks_u, out);
   AddNumbers(p.breaks_v, out);
@@ -90,7 +91,8 @@ void AddNames(const std::vector<std::string>& names, Canonical& out) {
   for (const std::string& name : names) out.Add(name);
 }
 
-// What there is of them, each under its name: a job without any keeps the digest it had before they existed.
+// Adds the limits that are set, each under its name. A job without any of them keeps the digest that it had
+// before they existed.
 void AddLimits(const Job& job, Canonical& out) {
   const Selection& s = job.operation.selection;
   if (!s.patches.empty()) {

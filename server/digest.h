@@ -1,5 +1,5 @@
-// What a request is, in 32 bytes: SHA-256 over resolved values in the server's own order, never over wire
-// bytes.
+// Digests of requests: SHA-256 (32 bytes) over resolved values in the server's own order, never over the
+// bytes of the message.
 #pragma once
 
 #include <string>
@@ -11,10 +11,11 @@
 
 namespace patchmill {
 
-// Over units-resolved control points (mm), kinds, degrees, knots, weights and ids, in the order of the model.
+// Digest over control points in mm, kinds, degrees, knots, weights and ids, in the order of the model.
 std::string ModelDigest(const PatchModel& model);
 
-// Over everything the program depends on, the model by its digest; not over threads, outputs or request ids.
+// Digest over everything that the program depends on, with the model as its digest. Threads, outputs and
+// request ids are not part of it.
 std::string JobDigest(const Job& job, std::string_view model_digest, std::string_view name);
 
 }  // namespace patchmill

@@ -21,16 +21,18 @@ std::string Cut(std::string text, std::size_t bytes) {
   return Utf8(text);
 }
 
-// The message's trailer is percent-encoded: what is not printable ASCII takes three bytes there.
+// The trailer that holds the message is percent-encoded: a byte that is not printable ASCII takes three
+// bytes.
 std::string CutMessage(std::string_view text) {
-  std::size_t size = 0, end = 0, room = 0;  // room: as far as the three dots still fit
+  std::size_t size = 0, end = 0, room = 0;  // room: end of the text before which three dots still fit
   for (; end < text.size() && size <= limits::kMaxStatusMessageBytes; ++end) {
     const char c = text[end];
     size += c >= ' ' && c <= '~' && c != '%' ? 1 : 3;
     if (size + 3 <= limits::kMaxStatusMessageBytes) room = end + 1;
   }
   if (size <= limits::kMaxStatusMessageBytes) return Utf8(text);
-  while (room > 0 && (static_cast<unsigned char>(text[room]) & 0xC0) == 0x80) --room;  // between characters
+  while (room > 0 && (static_cast<unsigned char>(text[room]) & 0xC0) == 0x80)
+    --room;  // to the start of a character
   return Utf8(text.substr(0, room)) + "...";
 }
 
@@ -53,7 +55,7 @@ const char* DefaultReason(absl::StatusCode code) {
     case absl::StatusCode::kUnimplemented:
       return "NOT_IMPLEMENTED";
     case absl::StatusCode::kFailedPrecondition:
-      return "REGIONS_STALE";  // of the domain only ChooseRegions has this code
+      return "REGIONS_STALE";  // in the domain only ChooseRegions returns this code
     case absl::StatusCode::kResourceExhausted:
       return "LIMIT_EXCEEDED";
     case absl::StatusCode::kCancelled:
@@ -225,7 +227,7 @@ std::string Utf8(std::string_view text) {
                                                      : 9;
     bool good = more < 9 && i + more < text.size();
     for (std::size_t k = 1; good && k <= more; ++k) good = (byte(i + k) & 0xC0) == 0x80;
-    // Overlong forms, surrogates and what lies beyond U+10FFFF.
+    // Not valid: overlong forms, surrogates and values above U+10FFFF.
     if (good && more == 2)
       good = !(lead == 0xE0 && byte(i + 1) < 0xA0) && !(lead == 0xED && byte(i + 1) > 0x9F);
     if (good && more == 3)

@@ -1,4 +1,5 @@
-// Errors of the wire: every one carries a reason a program can switch on, and where it is a field, its path.
+// Errors of the service. Each has a reason that a program can switch on; an error of a field has its path,
+// too.
 #pragma once
 
 #include <string>
@@ -12,17 +13,17 @@
 
 namespace patchmill {
 
-// Collects all wrong fields of a request. Fields that only have their place reserved are UNIMPLEMENTED, wrong
-// ones INVALID_ARGUMENT; a request with both is INVALID_ARGUMENT.
+// Collects all wrong fields of a request. A field that is reserved for later is UNIMPLEMENTED, a wrong one
+// is INVALID_ARGUMENT, and a request with both is INVALID_ARGUMENT.
 class FieldErrors {
  public:
-  // Reads "<field> <text>": Add("job.scallop_mm", "= -1; must be in (0, 3)").
+  // The message reads "<field> <text>": Add("job.scallop_mm", "= -1; must be in (0, 3)").
   void Add(std::string field, std::string text);
   void Missing(std::string field) { Add(std::move(field), "is missing; required"); }
   void NotYet(std::string field, std::string what);
 
   bool empty() const { return faults_.empty(); }
-  absl::Status ToStatus() const;  // OK when empty
+  absl::Status ToStatus() const;  // OK if empty
 
  private:
   struct Fault {
@@ -32,34 +33,34 @@ class FieldErrors {
   std::vector<Fault> faults_;
 };
 
-// One factory per kind of error.
-// `note` follows the message where the value alone would puzzle.
+// One factory for each kind of error.
+// `note` is added to the message where the value alone would not explain the error.
 absl::Status LimitError(std::string_view limit, double limit_value, double actual_value,
                         std::string_view note = {});
 absl::Status TooManyJobsError(int limit);
-// `actual`: with what was asked for; `name`: of the limit.
+// `actual` includes the requested bytes. `name` is that of the limit.
 absl::Status TooManyBytesError(double limit, double actual,
                                std::string_view name = "request_bytes_in_flight");
 absl::Status DrainingError();
-// The bytes of the request are no message of its type.
+// The bytes of the request do not form a message of its type.
 absl::Status RequestUnreadableError(std::string_view why);
 absl::Status ModelNotCachedError();
 absl::Status ModelUnreadableError(std::string_view why, std::string_view code = {});
 absl::Status CurveUnreadableError(std::string_view why);
 absl::Status ProgramUnreadableError(std::string_view why);
-// At least one; `at`: where the request has the model.
+// At least one fault is required. `at` is the path of the model in the request.
 absl::Status ModelInvalidError(const Diagnostics& faults, std::string_view at);
 
-// An error of the domain about a field of a job's set-up, operation or post, as a request with a `job` and a
-// `post` has it: "heights.floor_z_mm" becomes "job.operations[0].heights.floor_z_mm". Any other status as it
-// is.
+// Gives an error of the domain about a field of set-up, operation or post the path of that field in a
+// request with a `job` and a `post`: "heights.floor_z_mm" becomes "job.operations[0].heights.floor_z_mm".
+// Any other status is returned unchanged.
 absl::Status InJob(const absl::Status& status);
 
-// The status as gRPC sends it: message at most 1,000 bytes, details (v1.Status with one v1.ErrorInfo) under 4
-// KiB.
+// The status as gRPC sends it. The message has at most 1,000 bytes; the details (v1.Status with one
+// v1.ErrorInfo) are smaller than 4 KiB.
 grpc::Status ToGrpcStatus(const absl::Status& status);
 
-// Text that may come from a file, made valid UTF-8 for the wire: other bytes become '?'.
+// Makes text that may come from a file valid UTF-8 for the wire: all other bytes become '?'.
 std::string Utf8(std::string_view text);
 
 }  // namespace patchmill

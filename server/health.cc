@@ -15,7 +15,7 @@ namespace {
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> Credentials(const ServerOptions& options) {
   if (options.ca_file.empty() && options.cert_file.empty()) return grpc::InsecureChannelCredentials();
   grpc::SslCredentialsOptions ssl;
-  // A server's own certificate is what its health check trusts when no authority is named.
+  // Without a named authority the health check trusts the server's own certificate.
   PM_ASSIGN_OR_RETURN(ssl.pem_root_certs,
                       ReadPemFile(options.ca_file.empty() ? options.cert_file : options.ca_file));
   if (!options.cert_file.empty() && !options.key_file.empty()) {
@@ -33,8 +33,8 @@ int CheckHealth(const std::string& target, const ServerOptions& options) {
     fmt::print(stderr, "patchmill: {}\n", std::string(credentials.status().message()));
     return 1;
   }
-  // grpc.health.v1 is not packaged as a library; its request for the whole server is an empty message, and a
-  // server that serves answers field 1 = 1.
+  // grpc.health.v1 is not packaged as a library. The request for the whole server is an empty message. A
+  // server that serves answers with field 1 = 1.
   constexpr char kServing[] = {0x08, 0x01};
   grpc::TemplatedGenericStub<grpc::ByteBuffer, grpc::ByteBuffer> stub(
       grpc::CreateChannel(target, *credentials));

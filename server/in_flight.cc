@@ -120,7 +120,7 @@ InFlight::Refused InFlight::Excess() {
       if (peer.on_the_way > (most == nullptr ? 0 : most->on_the_way)) most = &peer;
     }
     if (most == nullptr) break;
-    // Whose bytes they are is known of connections only: each of its calls stands for its share.
+    // Bytes are known per connection, not per call. So each call of a peer counts as an equal share.
     const auto open = std::find_if(most->calls.rbegin(), most->calls.rend(),
                                    [](const Expected& call) { return call.refuse != nullptr; });
     const std::uint64_t share =

@@ -1,5 +1,5 @@
-// The bytes that a server holds: of requests on their way to it, and from their arrival until they are
-// answered; of answers until they are written.
+// Limits the bytes of requests and answers: requests on their way to the server, requests that it holds until
+// they are answered, and answers until they are written.
 #pragma once
 
 #include <chrono>
@@ -19,14 +19,14 @@
 
 namespace patchmill {
 
-// Bytes that have come in over the connection of a peer, as gRPC names it, since it was opened; nothing where
-// that cannot be told.
+// Bytes received over the connection of a peer, as gRPC names it, since the connection was opened. Nothing
+// if the number is unknown.
 using ReceivedBytes = std::function<std::optional<std::uint64_t>(const std::string& peer)>;
 
 class InFlight {
  public:
-  // With `received` (may be empty: then only what has arrived is counted) a thread measures every
-  // limits::kMeasureMs what is on its way.
+  // With `received`, a thread measures the bytes on their way every limits::kMeasureMs. If it is empty, only
+  // requests that have arrived are counted.
   InFlight(std::size_t limit_bytes, ReceivedBytes received);
   ~InFlight();
   InFlight(const InFlight&) = delete;
@@ -34,7 +34,7 @@ class InFlight {
 
   std::size_t limit_bytes() const { return limit_; }
 
-  // Bytes that are held until it is destroyed.
+  // Counts bytes as held until it is destroyed.
   class Hold {
    public:
     Hold() = default;
@@ -53,19 +53,18 @@ class InFlight {
     InFlight* from_ = nullptr;
     std::size_t bytes_ = 0;
   };
-  // RESOURCE_EXHAUSTED: LIMIT_EXCEEDED where the bytes alone are too many, TOO_MANY_BYTES where they are with
-  // what is held.
-  // `name`: how the error names them.
+  // Holds `bytes`. RESOURCE_EXHAUSTED: LIMIT_EXCEEDED if they alone exceed the limit, TOO_MANY_BYTES if they
+  // do together with the bytes already held. `name` is that of the limit in the error.
   absl::StatusOr<Hold> Take(std::size_t bytes, std::string_view name = "request_bytes_in_flight");
 
-  // A request on its way. `refuse` is called at most once, from another thread and possibly still after
-  // Arrived: with TOO_MANY_BYTES when there are too many bytes and this peer sends the most, of several calls
-  // of it for the newest; with LIMIT_EXCEEDED when the peer has sent more than all its calls may; with
-  // DEADLINE_EXCEEDED when the request has not come after limits::kReceiveSeconds.
+  // Announces a request on its way. `refuse` is called at most once, from another thread and possibly after
+  // Arrived. It gets TOO_MANY_BYTES if there are too many bytes, this peer sends the most, and the call is
+  // its newest. It gets LIMIT_EXCEEDED if the peer has sent more than all its calls may send, and
+  // DEADLINE_EXCEEDED if the request has not arrived within limits::kReceiveSeconds.
   using Refuse = std::function<void(const absl::Status&)>;
   using Id = std::uint64_t;
   Id Expect(const std::string& peer, Refuse refuse);
-  // The request has come, with that many bytes, or will not come (0). Once for each Expect.
+  // The request has arrived with `bytes`, or will not arrive (0). Call it once for each Expect.
   void Arrived(Id id, std::size_t bytes);
 
  private:
@@ -76,17 +75,17 @@ class InFlight {
     Refuse refuse;
   };
   struct Peer {
-    std::uint64_t counted = 0;     // of its received bytes, those that are no request on its way
-    std::uint64_t came = 0;        // beyond those
-    std::uint64_t on_the_way = 0;  // of these, no more than its calls may send
-    std::uint64_t forgiven = 0;    // counted as of calls that were refused, though they may be of others
+    std::uint64_t counted = 0;     // received bytes that belong to no request on its way
+    std::uint64_t came = 0;        // received bytes beyond `counted`
+    std::uint64_t on_the_way = 0;  // of `came`, at most what the calls of this peer may send
+    std::uint64_t forgiven = 0;    // bytes counted for refused calls that may belong to other calls
     std::list<Expected> calls;     // oldest first
   };
 
   void Release(std::size_t bytes);
   void Watch();
   void Measure(Peer& peer, const std::string& name) const;
-  // Those to be refused now, and with what.
+  // The requests to refuse now, each with its status.
   using Refused = std::list<std::pair<Refuse, absl::Status>>;
   Refused Overdue();
   Refused Oversize();

@@ -5,37 +5,36 @@
 
 namespace patchmill::limits {
 
-// Wire.
-inline constexpr std::size_t kMaxMessageBytes = std::size_t{64} << 20;  // either way, both ends
-inline constexpr std::size_t kMaxSmallMessageBytes = 4096;              // asked of health and reflection
-inline constexpr int kMaxInFlightMib =
-    256;  // default of the server: of requests on their way, read, or in work, and of answers
+// Messages and connections.
+inline constexpr std::size_t kMaxMessageBytes = std::size_t{64} << 20;  // in both directions
+inline constexpr std::size_t kMaxSmallMessageBytes = 4096;              // requests to health and reflection
+inline constexpr int kMaxInFlightMib = 256;  // default: MiB of requests and answers at once
 inline constexpr std::size_t kMaxFileModelBytes = std::size_t{256}
-                                                  << 20;  // in memory, of a message in a model file
-inline constexpr int kReceiveSeconds = 300;         // from the start of a call until its request has come
+                                                  << 20;  // memory of a message in a model file
+inline constexpr int kReceiveSeconds = 300;         // from the start of a call until its request has arrived
 inline constexpr int kMeasureMs = 10;               // requests on their way are measured this often
-inline constexpr int kMaxCallsPerConnection = 100;  // at once; more wait at the client
-inline constexpr int kMaxConnections = 10'000;      // open at once; fewer where there are fewer descriptors
+inline constexpr int kMaxCallsPerConnection = 100;  // at once; further calls wait at the client
+inline constexpr int kMaxConnections = 10'000;      // open at once; fewer if there are fewer descriptors
 inline constexpr int kSpareDescriptors = 64;        // never taken by connections
-inline constexpr int kHandshakeSeconds = 20;        // from a connection until it speaks HTTP/2
-inline constexpr std::size_t kChunkBytes = std::size_t{256} << 10;  // of program and artifact pieces
+inline constexpr int kHandshakeSeconds = 20;        // from the start of a connection until it speaks HTTP/2
+inline constexpr std::size_t kChunkBytes = std::size_t{256} << 10;  // of a piece of a program or artifact
 inline constexpr std::size_t kPathChunkPoints = 4096;               // of one PathChunk
-inline constexpr std::size_t kMaxStatusBytes = 4096;  // of grpc-status-details-bin; trailers stop at 8 KiB
+inline constexpr std::size_t kMaxStatusBytes = 4096;  // of grpc-status-details-bin; trailers end at 8 KiB
 inline constexpr std::size_t kMaxStatusMessageBytes = 1000;
 inline constexpr int kMaxViolations = 20;
 inline constexpr std::size_t kMaxPictureBytes = std::size_t{8} << 20;
-inline constexpr std::size_t kMaxDiagnostics = 2000;  // of one answer; the rest is counted
+inline constexpr std::size_t kMaxDiagnostics = 2000;  // of one answer; further ones are only counted
 
 // Models.
 inline constexpr std::size_t kMaxPatches = 100'000;
-// All patches together; 100,000 bicubic ones have 1.6 million. A patch of many pieces (B-spline, Brown,
-// Hosaka) counts with the points of these.
+// Control points of all patches together; 100,000 bicubic patches have 1.6 million. A patch of many pieces
+// (B-spline, Brown, Hosaka) counts as the points of its pieces.
 inline constexpr std::size_t kMaxControlPoints = 2'500'000;
-inline constexpr std::size_t kMaxKnots = 2'500'000;  // all patches together
+inline constexpr std::size_t kMaxKnots = 2'500'000;  // of all patches together
 inline constexpr std::size_t kMaxNetworkVertices = 4 * kMaxPatches;
 inline constexpr std::size_t kMaxNetworkEdges = 4 * kMaxPatches;
 inline constexpr std::size_t kMaxNetworkReferences = 16 * kMaxPatches;  // vertices of faces, faces of normals
-// Numbers of all lists of a request together: coordinates, weights and knots.
+// Numbers in all lists of a request together: coordinates, weights and knots.
 inline constexpr std::size_t kMaxRequestNumbers = 4 * kMaxControlPoints + kMaxKnots;
 inline constexpr std::size_t kMaxIdBytes = 200;
 inline constexpr std::size_t kMaxNameBytes = 100;
@@ -43,25 +42,23 @@ inline constexpr std::size_t kMaxRequestIdBytes = 128;
 
 // Jobs.
 inline constexpr int kMaxThreads = 64;            // of one job
-inline constexpr int kMaxJobs = 64;               // at once, of one server
+inline constexpr int kMaxJobs = 64;               // of one server at once
 inline constexpr double kMaxJobSeconds = 3600.0;  // default of the server
-// Of the passes of one plan, counted while they are made, and of the program with its links: a job that comes
-// to more ends there (cam/toolpath/counted_loop.h), and one whose finish cannot take less before its passes
-// are
-// made (LeastCutLength). Every plan that the choice of an angle makes counts for itself. A point takes about
-// 0.6
-// kB of memory, and the verifier of other people's programs reads as many.
+// Limits of the passes of one plan, counted while they are made, and of the program with its links. A job
+// ends when it exceeds them (cam/toolpath/counted_loop.h), or before its passes are made if no finish could
+// be shorter (LeastCutLength). Each plan that the choice of an angle makes counts by itself. A point takes
+// about 0.6 kB of memory. The verifier reads as many points of a program from elsewhere.
 inline constexpr double kMaxCutLengthMm = 5e6;
 inline constexpr double kMaxPathPoints = 5e6;
 inline constexpr std::size_t kMaxOutlinePoints =
-    20'000;  // of all boundary rings and obstacles of a job, each
+    20'000;  // of all boundary rings of a job, and of all its obstacles
 inline constexpr int kMaxObstacles = 1000;
 inline constexpr int kMaxRegionOverrides = 1000;
-inline constexpr std::size_t kMaxProgramBytes = std::size_t{512} << 20;  // of a made program
+inline constexpr std::size_t kMaxProgramBytes = std::size_t{512} << 20;  // of a program made here
 
 // Curves.
-inline constexpr std::size_t kMaxCurvePoints = 100'000;  // given; locks too
-inline constexpr double kMaxPolylinePoints = 1e6;        // answered
+inline constexpr std::size_t kMaxCurvePoints = 100'000;  // of a request; the limit of locks, too
+inline constexpr double kMaxPolylinePoints = 1e6;        // of an answer
 inline constexpr double kMaxCurveCoordinate = 1e9;       // in the unit of the curve
 
 // Lines and evaluations.
@@ -69,12 +66,12 @@ inline constexpr int kMaxLineFamilies = 20;
 inline constexpr int kMaxLineLevels = 1000;  // of a family
 inline constexpr int kMaxEvaluations = 200'000;
 
-// Times of the service itself.
-inline constexpr int kCancelPollMs = 50;  // a cancel is seen after at most this
+// Times of the service.
+inline constexpr int kCancelPollMs = 50;  // a cancel is noticed within this time
 inline constexpr int kHeartbeatMs = 250;  // Progress is sent this often
-inline constexpr int kDrainSeconds = 10;  // from SIGTERM until running calls are cut off
+inline constexpr int kDrainSeconds = 10;  // from SIGTERM until running calls are ended
 
-// Ranges of single fields; the messages name them.
+// Ranges of single fields. Error messages state them.
 inline constexpr double kMinDiameterMm = 0.02, kMaxDiameterMm = 1000.0;
 inline constexpr double kMinToleranceMm = 1e-4;
 inline constexpr double kMaxLeaveMm = 100.0;

@@ -48,7 +48,7 @@ bool SameAddress(const SocketAddress& a, const SocketAddress& b) {
   return a.size == b.size && std::memcmp(&a.storage, &b.storage, a.size) == 0;
 }
 
-// Nothing for other families.
+// Nothing for other families of addresses.
 const in6_addr* V6(const SocketAddress& address) {
   return address.family() == AF_INET6 ? &reinterpret_cast<const sockaddr_in6&>(address.storage).sin6_addr
                                       : nullptr;
@@ -88,7 +88,7 @@ absl::StatusOr<std::vector<SocketAddress>> ResolveListenAddress(std::string_view
     if (!twice) addresses.push_back(address);
   }
   if (!IsWildcard(host)) return addresses;
-  // One socket of IPv6 takes both families; the IPv4 one stands in where a machine has no IPv6.
+  // One IPv6 socket takes both families. The IPv4 address is for machines without IPv6.
   SocketAddress both, only_v4;
   auto& v6 = reinterpret_cast<sockaddr_in6&>(both.storage);
   auto& v4 = reinterpret_cast<sockaddr_in&>(only_v4.storage);

@@ -1,4 +1,4 @@
-// Where a server listens, as the command line says it, made socket addresses.
+// Turns the address of the command line into socket addresses.
 #pragma once
 
 #include <string>
@@ -19,16 +19,16 @@ struct SocketAddress {
   int family() const { return storage.ss_family; }
 };
 
-// "HOST:PORT" with a port of 0 to 65535 and a name, an IPv4 address, or an IPv6 one in brackets for the host;
-// or "unix:PATH". Every address of a name. A host of 0.0.0.0 or [::] is all addresses of the machine, of both
-// families where it has both. INVALID_ARGUMENT for anything else.
+// Reads "HOST:PORT" or "unix:PATH". HOST is a name, an IPv4 address, or an IPv6 address in brackets; PORT is
+// 0 to 65535. A name gives all its addresses. The host 0.0.0.0 or [::] means all addresses of the machine,
+// of both families if it has both. INVALID_ARGUMENT for anything else.
 absl::StatusOr<std::vector<SocketAddress>> ResolveListenAddress(std::string_view listen);
 
-// Whether only this machine reaches it: 127.0.0.0/8, ::1, a Unix socket.
+// Whether only this machine can reach the address: 127.0.0.0/8, ::1, a Unix socket.
 bool IsLoopback(const SocketAddress& address);
 
-// As gRPC names the peer of a call: "ipv4:127.0.0.1:50051", "ipv6:%5B::1%5D:50051"; empty for other families.
-// IPv4 addresses mapped into IPv6 are IPv4.
+// The address as gRPC names the peer of a call: "ipv4:127.0.0.1:50051", "ipv6:%5B::1%5D:50051". Empty for
+// other families. IPv4 addresses mapped into IPv6 count as IPv4.
 std::string PeerName(const SocketAddress& address);
 
 }  // namespace patchmill

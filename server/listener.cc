@@ -23,7 +23,7 @@ namespace patchmill {
 namespace {
 
 constexpr int kBacklog = 1024;
-constexpr int kAgainMs = 50;  // after accept() has failed for want of descriptors or memory
+constexpr int kAgainMs = 50;  // wait after accept() failed for lack of descriptors or memory
 
 bool Connects(const SocketAddress& address) {
   const int probe = socket(address.family(), SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -32,7 +32,7 @@ bool Connects(const SocketAddress& address) {
   return connected;
 }
 
-// The file that a server leaves when it is killed.
+// Removes the socket file that a killed server has left.
 void RemoveStaleSocket(const SocketAddress& address, const std::string& path) {
   struct stat file {};
   if (lstat(path.c_str(), &file) == 0 && S_ISSOCK(file.st_mode) && !Connects(address)) unlink(path.c_str());
@@ -52,7 +52,7 @@ int PortOf(int socket) {
   return 0;
 }
 
-// One IPv6 socket of all addresses takes the IPv4 ones too.
+// An IPv6 socket for all addresses also takes the IPv4 ones.
 bool IsAnyV6(const SocketAddress& address) {
   return address.family() == AF_INET6 &&
          IN6_IS_ADDR_UNSPECIFIED(&reinterpret_cast<const sockaddr_in6&>(address.storage).sin6_addr);
@@ -90,7 +90,7 @@ absl::StatusOr<std::unique_ptr<Listener>> Listener::Bind(const std::vector<Socke
     any = any || (opened.ok() && IsAnyV6(address));
     if (opened.ok()) continue;
     last = opened;
-    if (absl::IsAlreadyExists(opened)) break;  // half of a name's addresses would be a trap
+    if (absl::IsAlreadyExists(opened)) break;  // listening on some addresses of a name only would mislead
     // A machine without IPv6 may still know the IPv6 address of a name.
   }
   if (absl::IsAlreadyExists(last) || listener->sockets_.empty()) {
@@ -113,7 +113,7 @@ absl::Status Listener::Open(SocketAddress address, std::string_view listen) {
     RemoveStaleSocket(address, unix_path_);
   } else {
     const int on = 1, only_v6 = IsAnyV6(address) ? 0 : 1;
-    // A server that was just stopped leaves its port free; two at once are still refused.
+    // The port of a server that was just stopped can be taken. Two servers at one port are still refused.
     setsockopt(listening, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     if (address.family() == AF_INET6)
       setsockopt(listening, IPPROTO_IPV6, IPV6_V6ONLY, &only_v6, sizeof only_v6);
@@ -151,7 +151,7 @@ void Listener::Run(const Accepted& accepted) {
   for (const int socket : sockets_) waits.push_back({socket, POLLIN, 0});
   bool starved = false;
   for (;;) {
-    // Starved of descriptors it looks for the wake-up only, and tries again a little later.
+    // Without free descriptors the thread waits for the wake-up only, and tries again a little later.
     poll(waits.data(), starved ? 1 : waits.size(), starved ? kAgainMs : -1);
     if (waits.front().revents != 0) return;
     starved = false;
@@ -159,13 +159,13 @@ void Listener::Run(const Accepted& accepted) {
   }
 }
 
-// False: no descriptor or no memory for it.
+// False if there is no descriptor or no memory for the connection.
 bool Listener::AcceptOne(int listening, const Accepted& accepted) {
   SocketAddress peer;
   peer.size = sizeof peer.storage;
   const int socket = accept4(listening, peer.get(), &peer.size, SOCK_NONBLOCK | SOCK_CLOEXEC);
   if (socket < 0) return errno != EMFILE && errno != ENFILE && errno != ENOBUFS && errno != ENOMEM;
-  // The lowest free number is taken: one as high as this means that so many are open.
+  // A socket gets the lowest free number. A number this high means that as many are open.
   if (socket >= max_connections_) {
     close(socket);
     if (refused_++ % 1000 == 0) {
@@ -200,7 +200,7 @@ std::optional<std::uint64_t> Listener::ReceivedBytes(const std::string& peer) {
     if (at == socket_of_.end()) return std::nullopt;
     socket = at->second;
   }
-  // gRPC closes it when it likes: the number may be another's by now.
+  // gRPC may have closed the socket meanwhile, and its number may belong to another one.
   SocketAddress address;
   address.size = sizeof address.storage;
   if (getpeername(socket, address.get(), &address.size) != 0 || PeerName(address) != peer)

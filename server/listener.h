@@ -1,5 +1,6 @@
-// The sockets a server listens on, and its open connections: fewer than there are descriptors, so that it
-// always has some for its own. gRPC's own listener never accepts again after accept() has failed once.
+// The sockets that a server listens on, and its open connections. There are fewer connections than
+// descriptors, so that some are left for other uses. This replaces the listener of gRPC, which never accepts
+// again after accept() has failed once.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +20,19 @@
 
 namespace patchmill {
 
-// How many descriptors connections may take, having raised the process's soft limit on descriptors to its
-// hard one: at most limits::kMaxConnections and limits::kSpareDescriptors fewer than there are (a quarter
-// fewer where these are few).
+// Raises the soft limit of the process on descriptors to the hard limit. Returns how many of them
+// connections may take: at most limits::kMaxConnections, and limits::kSpareDescriptors fewer than there are
+// (a quarter fewer if there are few).
 int RaiseConnectionLimit();
 
 class Listener {
  public:
-  // Gets an accepted socket and owns it from then on; not blocking, closed on exec. `listening`: the one it
-  // came in at.
+  // Receives an accepted socket and owns it from then on. The socket does not block and is closed on exec.
+  // `listening` is the socket that accepted it.
   using Accepted = std::function<void(int listening, int socket)>;
 
-  // Listens at all of these addresses, at one port; `max_connections` as RaiseConnectionLimit gives it.
-  // INVALID_ARGUMENT when an address is taken, or none is one of this machine.
+  // Listens on all of these addresses, at one port. `max_connections` comes from RaiseConnectionLimit.
+  // INVALID_ARGUMENT if an address is taken, or if none belongs to this machine.
   static absl::StatusOr<std::unique_ptr<Listener>> Bind(const std::vector<SocketAddress>& addresses,
                                                         std::string_view listen, int max_connections);
   ~Listener();
@@ -40,11 +41,11 @@ class Listener {
 
   int port() const { return port_; }  // 0 for a Unix socket
 
-  // Accepts in a thread of its own until Stop(). A connection beyond the limit is closed at once.
+  // Accepts connections in its own thread until Stop(). A connection beyond the limit is closed at once.
   void Start(Accepted accepted);
   void Stop();
 
-  // Of the connection of that peer (PeerName); nothing where there is none, or it is no TCP connection.
+  // Bytes received over the connection of a peer (PeerName). Nothing if there is none, or if it is not TCP.
   std::optional<std::uint64_t> ReceivedBytes(const std::string& peer);
 
  private:
@@ -63,7 +64,8 @@ class Listener {
   std::uint64_t refused_ = 0;
 
   std::mutex mutex_;
-  std::unordered_map<std::string, int> socket_of_;  // by peer; may be closed meanwhile, or another's
+  std::unordered_map<std::string, int>
+      socket_of_;  // by peer; may be closed meanwhile, or belong to another peer
   std::unordered_map<int, std::string> peer_of_;
 };
 

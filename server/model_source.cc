@@ -23,11 +23,11 @@ namespace {
 
 constexpr std::string_view kTextFormats[] = {"bpt", "bv", "bez", "patches"};
 
-// Commas of a JSON text bound its values: coordinates, weights, knots, and the names of patches.
+// Limit on the commas of a JSON text. They bound its values: coordinates, weights, knots and patch names.
 constexpr std::size_t kMaxJsonCommas =
     4 * limits::kMaxControlPoints + limits::kMaxKnots + 10 * limits::kMaxPatches;
 
-// Objects of a JSON text cost memory before there is a message to count.
+// Limit on the objects of a JSON text. They cost memory before there is a message that could be counted.
 constexpr std::size_t kMaxJsonObjects = 2 * limits::kMaxNetworkReferences;
 
 // A message in a file, and what it holds.
@@ -97,9 +97,10 @@ absl::StatusOr<FileMessage> ParseBinary(const std::string& content, std::string_
     return ModelUnreadableError(parsed ? "model file: a binary PatchModel without patches or network"
                                        : "model file: not a binary PatchModel, or truncated");
   }
-  return ModelUnreadableError(fmt::format(
-      "model file: neither JSON nor a binary PatchModel; text formats ({}) are told by the file's ending",
-      fmt::join(kTextFormats, ", ")));
+  return ModelUnreadableError(
+      fmt::format("model file: neither JSON nor a binary PatchModel; the client states a text format ({}), "
+                  "by the file's ending",
+                  fmt::join(kTextFormats, ", ")));
 }
 
 absl::StatusOr<LoadedModel> LoadMessage(const v1::PatchModel& model, const std::string& at,
@@ -144,7 +145,7 @@ bool IsText(const std::string& format) {
   return std::find(std::begin(kTextFormats), std::end(kTextFormats), format) != std::end(kTextFormats);
 }
 
-// A .json or .pb file.
+// Loads a .json or .pb file.
 absl::StatusOr<FileMessage> ParseMessage(const v1::ModelFile& file, std::string_view at,
                                          const RunContext& run, InFlight* in_flight) {
   if (!(file.format().empty() || file.format() == "json" || file.format() == "pb")) {

@@ -1,4 +1,4 @@
-// v1.ModelSource -> PatchModel in millimetres, whatever it came as.
+// v1.ModelSource of any form -> PatchModel in millimetres.
 #pragma once
 
 #include <string>
@@ -17,21 +17,22 @@ namespace patchmill {
 
 struct LoadedModel {
   PatchModel model;
-  Diagnostics faults;     // everything wrong with the patches; the model may be used only when empty
-  Diagnostics remarks;    // warnings about a model that may be used; points in its own frame, mm
-  bool unitless = false;  // a file that states no unit, and the request did not either
+  Diagnostics faults;     // of the patches; the model may be used only if empty
+  Diagnostics remarks;    // warnings about a usable model; points in its own frame, mm
+  bool unitless = false;  // neither the file nor the request states a unit
   std::string digest;     // SHA-256, 32 bytes
-  std::string path;       // where the request has it; of a file, its content
+  std::string path;       // of the model in the request; for a file, of its content
 };
 
-// INVALID_ARGUMENT for what cannot be read (with line and reason), NOT_FOUND for a digest, RESOURCE_EXHAUSTED
-// for a limit; those of `run` while JSON is read and while a network is joined. Limits are checked before the
-// cost is paid. `at` is the path of the source in its request. What the message in a file takes in memory is
-// held in `in_flight` (may be nothing) as long as there is that message.
+// Loads a model. `at` is the path of the source in its request. INVALID_ARGUMENT if it cannot be read (with
+// line and reason), NOT_FOUND for a digest, RESOURCE_EXHAUSTED for a limit, and the errors of `run` while
+// JSON is read and while a network is joined. Limits are checked before the cost that they bound arises. The
+// memory of the message in a file is held in `in_flight` (may be null) as long as that message lives.
 absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at,
                                       const RunContext& run = {}, InFlight* in_flight = nullptr);
 
-// A network as a message and as a value. Errors as LoadModel, and INVALID_ARGUMENT for a model of patches.
+// Loads a network as a message and as a value. Errors as LoadModel, and INVALID_ARGUMENT for a model of
+// patches.
 struct LoadedNetwork {
   InFlight::Hold held;  // what the message takes, where it was in a file
   v1::PatchModel message;

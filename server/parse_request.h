@@ -1,4 +1,4 @@
-// From the bytes of a request to its message.
+// Turns the bytes of a request into its message.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -9,8 +9,8 @@
 
 namespace patchmill {
 
-// Counts the request, holds what it takes in memory, parses it into `message` and drops its bytes. Errors of
-// CountWire and InFlight::Take, and REQUEST_UNREADABLE.
+// Counts the request, holds the memory that it takes, parses it into `message` and frees its bytes. Errors:
+// those of CountWire and InFlight::Take, and REQUEST_UNREADABLE.
 absl::StatusOr<InFlight::Hold> ParseRequest(RawCall& call, InFlight& in_flight,
                                             google::protobuf::Message& message);
 

@@ -38,10 +38,10 @@ absl::Status Guarded(const RawMethod& method, RawCall& call) {
   }
 }
 
-// A call from its start to its end. gRPC calls the On... functions, from threads of its own.
+// A call from its start to its end. gRPC calls the On... functions from its own threads.
 class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>, public RawCall {
  public:
-  // Lives until gRPC is done with it, and nobody who may refuse it is at it.
+  // The call lives until gRPC is done with it and no thread that may refuse it still uses it.
   static Reactor* Start(const RawMethod& method, Shared& shared, grpc::CallbackServerContext* context) {
     const auto reactor = std::make_shared<Reactor>(method, shared, context);
     const std::lock_guard<std::mutex> lock(reactor->mutex_);
@@ -112,7 +112,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
       return;
     }
     Phase receiving = Phase::kReceiving;
-    if (!phase_.compare_exchange_strong(receiving, Phase::kRunning)) return;  // refused just now
+    if (!phase_.compare_exchange_strong(receiving, Phase::kRunning)) return;  // refused meanwhile
     held_ = *std::move(held);
     try {
       thread_ = std::thread([this] { Run(); });
@@ -140,7 +140,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
       self = std::move(self_);
       thread = std::move(thread_);
     }
-    if (thread.joinable()) thread.join();  // it has nothing left to do
+    if (thread.joinable()) thread.join();  // it has no work left
   }
 
  private:
@@ -157,7 +157,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
         fmt::format("the client has not taken an answer within {} s", shared_.write_seconds));
   }
 
-  // Ends the call with that status if it is in that phase. Nothing of it may be touched afterwards.
+  // Ends the call with `status` if it is in the phase `in`. No member may be used afterwards.
   void End(Phase in, const absl::Status& status) {
     if (!phase_.compare_exchange_strong(in, Phase::kEnded)) return;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin_;
@@ -179,14 +179,14 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   std::atomic<Phase> phase_{Phase::kReceiving};
   std::atomic<bool> cancelled_{false};
   std::thread thread_;
-  std::mutex mutex_;  // hands on between gRPC's threads and the call's own what the first ones wrote
+  std::mutex mutex_;  // orders the writes of gRPC's threads before the reads of the call's own
   std::condition_variable written_;
   bool writing_ = false, write_ok_ = false;
   bool late_ = false;  // of the call's own thread only
 };
 
-// To gRPC every method is one of two streams: so the call starts before its request is read. A client of a
-// unary or server-streaming method sees no difference.
+// For gRPC every method has a stream in both directions, so that a call starts before its request is read. A
+// client of a unary or server-streaming method sees no difference.
 class RawService final : public grpc::Service {
  public:
   RawService(std::vector<RawMethod> methods, InFlight& in_flight, CallLog log, double write_seconds)

@@ -46,7 +46,7 @@ absl::StatusOr<std::shared_ptr<grpc::ServerCredentials>> Credentials(const Serve
 
 class GrpcServer final : public RunningServer {
  public:
-  // Without a listener it serves its own process only.
+  // Without a listener the server serves its own process only.
   GrpcServer(const ServerOptions& options, std::unique_ptr<Listener> listener,
              const std::shared_ptr<grpc::ServerCredentials>& credentials)
       : listener_(std::move(listener)),
@@ -59,7 +59,7 @@ class GrpcServer final : public RunningServer {
     builder.SetMaxSendMessageSize(static_cast<int>(limits::kMaxMessageBytes));
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits::kMaxCallsPerConnection);
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 1000 * limits::kHandshakeSeconds);
-    // gRPC unpacks a message whole before it looks at its size: a thousand times what came is easily made.
+    // gRPC decompresses a message before it checks the size. The result may be a thousand times as large.
     for (const auto packed : {GRPC_COMPRESS_DEFLATE, GRPC_COMPRESS_GZIP}) {
       builder.SetCompressionAlgorithmSupportStatus(packed, false);
     }
@@ -135,14 +135,15 @@ class GrpcServer final : public RunningServer {
   bool drained_ = false;
 };
 
-// Anybody on the way reads what goes over the network without TLS, and anybody who reaches the port may call.
+// Without TLS anybody on the way can read the traffic, and anybody who reaches the port can call the
+// service.
 absl::Status CheckEncrypted(const ServerOptions& options, const std::vector<SocketAddress>& addresses) {
   const bool loopback = std::all_of(addresses.begin(), addresses.end(), IsLoopback);
   if (loopback || options.insecure || !options.cert_file.empty()) return absl::OkStatus();
-  return absl::InvalidArgumentError(fmt::format(
-      "--listen {} opens the service to the network without TLS: give --cert and --key "
-      "(PEM files; --ca too, and only its clients may call), or --insecure where the network is trusted",
-      options.listen));
+  return absl::InvalidArgumentError(
+      fmt::format("--listen {} opens the service to the network without TLS: set --cert and --key "
+                  "(PEM files; with --ca only its clients may call), or --insecure if the network is trusted",
+                  options.listen));
 }
 
 }  // namespace
@@ -166,7 +167,7 @@ std::unique_ptr<RunningServer> StartEmbeddedServer(ServerOptions options) {
 
 int Serve(const ServerOptions& options) {
   KeepFreedMemory();
-  // Blocked before any thread starts, so that only the wait below sees them.
+  // The signals are blocked before any thread starts, so that only the wait below receives them.
   sigset_t signals;
   sigemptyset(&signals);
   sigaddset(&signals, SIGTERM);

@@ -30,7 +30,7 @@ Call MakeCall(ServerEnv* env, const RawCall& raw) {
   return call;
 }
 
-// One line of a log, whatever a client put into it.
+// Makes one line for the log of a text that may come from a client.
 std::string OneLine(std::string text) {
   for (char& c : text) {
     if (c < ' ' || c > '~') c = ' ';
@@ -49,7 +49,8 @@ void LabelCall(const v1::GenerateProgramRequest& request, RawCall& call) {
   if (!id.empty()) call.SetLabel("GenerateProgram [" + id + "]");
 }
 
-// Counting and parsing, the handler. The request goes before the answer does.
+// Runs a call: counts and parses the request, then calls the handler. The request is freed before the answer
+// is sent.
 template <class Request, class Body>
 absl::Status Run(ServerEnv* env, RawCall& raw, const Body& body) {
   Request request;

@@ -1,4 +1,4 @@
-// The services, each method one call of its handler.
+// The services. Each method calls its handler.
 #pragma once
 
 #include <memory>
@@ -11,11 +11,11 @@
 namespace patchmill {
 
 struct NamedService {
-  const char* name;  // as health names it
+  const char* name;  // in the health service
   std::unique_ptr<grpc::Service> service;
 };
 
-// `env` outlives the services.
+// `env` must outlive the services.
 std::vector<NamedService> MakeServices(ServerEnv* env);
 
 }  // namespace patchmill

@@ -1,4 +1,4 @@
-// Small files of certificates and keys.
+// Reads the small files of certificates and keys.
 #pragma once
 
 #include <fstream>

@@ -24,7 +24,7 @@ std::string Find(const google::protobuf::Message& message, const std::string& at
       continue;
     }
     for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
-      // The path is built only for what is found: models have 100,000 patches.
+      // The path is built only for a field that is found, because models may have 100,000 patches.
       if (Find(reflection.GetRepeatedMessage(message, field, i), "").empty()) continue;
       return Find(reflection.GetRepeatedMessage(message, field, i),
                   fmt::format("{}{}[{}].", at, field->name(), i));

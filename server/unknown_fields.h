@@ -1,4 +1,4 @@
-// A field from a newer contract is refused, never silently ignored: it might be a clamp.
+// Finds fields of a newer contract. They are refused and never ignored silently: one might be a clamp.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace patchmill {
 
-// Path of the first message with a field this version does not know, with its number ("job.setup.#12"); empty
-// when there is none. Cost: one visit of every message, packed numbers not touched.
+// Path of the first field that this version does not know, with its number ("job.setup.#12"). Empty if there
+// is none. Cost: one visit of every message; packed numbers are not visited.
 std::string UnknownField(const google::protobuf::Message& message);
 
 }  // namespace patchmill

@@ -24,13 +24,13 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::internal::WireFormatLite;
 using google::protobuf::io::CodedInputStream;
 
-constexpr std::size_t kAllocationBytes = 16;  // what the allocator adds
+constexpr std::size_t kAllocationBytes = 16;  // overhead of the allocator
 constexpr std::size_t kElementBytes = sizeof(void*) + kAllocationBytes;
 constexpr std::size_t kTextBytes = sizeof(std::string) + kAllocationBytes;
 constexpr std::size_t kUnknownFieldBytes =
-    2 * sizeof(google::protobuf::UnknownField);  // a growing vector of them
+    2 * sizeof(google::protobuf::UnknownField);  // twice, because the vector of them grows by doubling
 
-// The least that a message of this type takes.
+// Memory of an empty message of this type.
 std::size_t EmptyBytes(const Descriptor& type) {
   const google::protobuf::Message* prototype =
       google::protobuf::MessageFactory::generated_factory()->GetPrototype(&type);
@@ -77,8 +77,8 @@ class Counter {
     std::size_t count = 0, most = 0;
   };
 
-  // The fields up to the current limit, or to the end of group `group` where that is not 0. Without a type
-  // all of them are unknown.
+  // Counts the fields up to the current limit, or up to the end of group `group` if that is not 0. Without a
+  // type all fields are unknown.
   absl::Status Message(const Descriptor* type, int group) {
     if (++depth_ > kMaxWireDepth) {
       return Unreadable(fmt::format("its messages are nested more than {} deep", kMaxWireDepth));
@@ -106,7 +106,7 @@ class Counter {
   absl::Status Field(const FieldDescriptor* field, int number, WireFormatLite::WireType wire) {
     const bool length_delimited = wire == WireFormatLite::WIRETYPE_LENGTH_DELIMITED;
     const bool packed = field != nullptr && length_delimited && field->is_packable();
-    // As the parser has it: a wire type that is not the field's makes an unknown field.
+    // As in the parser, a wire type that differs from that of the field makes an unknown field.
     if (field == nullptr || (wire != WireTypeOf(*field) && !packed)) return Unknown(number, wire);
     path_.push_back(field);
     PM_RETURN_IF_ERROR(IsMessage(*field)  ? Nested(*field, number, wire)
@@ -199,7 +199,7 @@ class Counter {
 
   absl::Status Skip(int bytes) { return in_.Skip(bytes) ? absl::OkStatus() : Unreadable(); }
 
-  // Of what follows; never beyond what is there.
+  // Skips bytes; never beyond the end.
   absl::StatusOr<int> Length() {
     std::uint32_t size = 0;
     if (!in_.ReadVarint32(&size) || size > static_cast<std::uint32_t>(in_.BytesUntilLimit()))

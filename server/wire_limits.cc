@@ -8,10 +8,10 @@
 namespace patchmill {
 namespace {
 
-// Most lists are short.
+// Limit of a list that is not named below.
 constexpr std::size_t kMaxElements = 100'000;
 
-// Those that may be longer, by the full name of the field; each of the whole message together.
+// Lists with their own limits, by the full name of the field. Each limit is for the whole message together.
 const std::unordered_map<std::string_view, std::size_t>& LongLists() {
   static const auto* const kLists = new std::unordered_map<std::string_view, std::size_t>{
       {"patchmill.v1.PatchModel.patches", limits::kMaxPatches},

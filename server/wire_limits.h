@@ -1,4 +1,4 @@
-// How long the lists of a request, or of a model file, may be before it is parsed.
+// Limits on the lists of a request or of a model file, checked before it is parsed.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace patchmill {
 
-// For messages of patchmill.v1. Looser than what the converters allow of each field, whose errors name the
-// fields better: a request that passes here costs at most `memory_bytes`, and is not yet right.
+// Limits for messages of patchmill.v1. They are looser than those of the converters, whose errors name the
+// fields better. A request that passes costs at most `memory_bytes`; it may still be wrong.
 WireLimits ListLimits(std::size_t memory_bytes);
 
 }  // namespace patchmill

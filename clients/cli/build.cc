@@ -49,7 +49,7 @@ absl::Status Run(const BuildOptions& options, InterruptWatch& watch) {
   }
   if (const int errors = CountErrors(response->diagnostics()); errors > 0) {
     return absl::FailedPreconditionError(
-        fmt::format("{}: {} errors; nothing is written", options.outline, errors));
+        fmt::format("{}: {} errors; no file was written", options.outline, errors));
   }
   SetModel(response->model(), output);
   SetModel(response->network_model(), network);
@@ -65,11 +65,12 @@ absl::Status Run(const BuildOptions& options, InterruptWatch& watch) {
 
 Command AddBuild(CLI::App& app) {
   auto options = std::make_shared<BuildOptions>();
-  app.add_option("OUTLINE", options->outline, "sections or boundary curves, .json: a BuildModelRequest")
+  app.add_option("OUTLINE", options->outline,
+                 "file with sections or boundary curves: a BuildModelRequest as .json")
       ->required();
   app.add_option("-o,--output", options->output, "the surface as a model, .json or .pb")->required();
   app.add_option("--network", options->network,
-                 "the outline's network with normals of the surface, .json or .pb");
+                 "write the network of OUTLINE with normals of the surface: .json or .pb");
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };
 }

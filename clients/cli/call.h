@@ -1,12 +1,12 @@
-// One request, one answer.
+// Calls a method with one request and one answer.
 #pragma once
 
 #include "clients/cli/connection.h"
 
 namespace patchmill::cli {
 
-// Asks `method` of a service, e.g. &v1::ModelService::Stub::CheckModel. INVALID_ARGUMENT when the request
-// does not fit the wire; what the server answers otherwise, in words for a user.
+// Calls `method` of a service, e.g. &v1::ModelService::Stub::CheckModel. INVALID_ARGUMENT if the request is
+// too large for the wire. Any other error is that of the server, worded for a user.
 template <class Stub, class Request, class Response>
 absl::StatusOr<Response> Call(const CommonOptions& options, InterruptWatch& watch,
                               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),

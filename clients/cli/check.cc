@@ -38,7 +38,7 @@ void Print(const CheckOptions& options, const v1::CheckModelResponse& response) 
                  response.min_concave_radius_mm() < radius ? "TIGHTER than" : "not tighter than", radius);
     }
   }
-  // The worst first.
+  // The largest angles come first.
   std::vector<v1::EdgeContinuity> joints(response.joints().begin(), response.joints().end());
   std::stable_sort(joints.begin(), joints.end(),
                    [](const auto& a, const auto& b) { return a.max_angle_deg() > b.max_angle_deg(); });
@@ -82,9 +82,10 @@ absl::Status Run(const CheckOptions& options, InterruptWatch& watch) {
 Command AddCheck(CLI::App& app) {
   auto options = std::make_shared<CheckOptions>();
   app.add_option("MODEL", options->model, kModelHelp)->required();
-  AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter to judge curvature by, mm");
+  AddNumber(app, "--tool-diameter", options->tool_diameter,
+            "ball diameter that concave curvature is compared with, mm");
   app.add_option("--continuity", options->continuity,
-                 "list every joint, measured at this many steps of its edge")
+                 "list every joint, measured at this many equal steps of its edge")
       ->check(CLI::Range(0, 10000));
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);

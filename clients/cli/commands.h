@@ -1,4 +1,5 @@
-// One function per command: adds its options, and returns what runs it once they are parsed.
+// One function per command. It adds the options of the command and returns the function that runs it after
+// parsing.
 #pragma once
 
 #include <functional>
@@ -9,7 +10,7 @@
 
 namespace patchmill::cli {
 
-// Runs a parsed command; the status decides the exit status, its message goes to stderr.
+// Runs a parsed command. Its status decides the exit status; the message of the status goes to stderr.
 using Command = std::function<absl::Status(InterruptWatch&)>;
 
 Command AddMill(CLI::App& app);

@@ -16,7 +16,7 @@
 namespace patchmill::cli {
 namespace {
 
-constexpr std::size_t kMaxMessageBytes = kMaxFileBytes;  // both ends
+constexpr std::size_t kMaxMessageBytes = kMaxFileBytes;  // of client and server
 
 std::string InWords(const grpc::Status& status) {
   const std::string& message = status.error_message();
@@ -24,7 +24,7 @@ std::string InWords(const grpc::Status& status) {
   return option != nullptr ? fmt::format("{}: {}", option, message) : message;
 }
 
-// TLS when any file is given, plain otherwise.
+// Credentials for TLS if a file is given, else for plain connections.
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> Credentials(const CommonOptions& options) {
   if (options.ca_file.empty() && options.cert_file.empty() && options.key_file.empty()) {
     return grpc::InsecureChannelCredentials();
@@ -52,7 +52,7 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options) {
   if (options.server.empty()) {
     ServerOptions server;
     server.threads = options.threads;
-    server.max_job_seconds = 7 * 86400.0;  // one's own machine: --timeout decides
+    server.max_job_seconds = 7 * 86400.0;  // the machine is the user's own; --timeout decides
     server.max_in_flight_mib = 4096;
     connection.embedded = StartEmbeddedServer(server);
     connection.channel = connection.embedded->InProcessChannel();

@@ -1,5 +1,4 @@
-// The service a command talks to: another machine's, or one inside this process. And the ways a call ends
-// early.
+// The service that a command calls, on another machine or inside this process; and how a call ends early.
 #pragma once
 
 #include <atomic>
@@ -27,15 +26,15 @@ struct CommonOptions {
   bool quiet = false;
 };
 
-// Keeps the embedded server, when there is one, as long as its channel.
+// A channel, and the embedded server that it belongs to, if any. Both live equally long.
 struct Connection {
   std::unique_ptr<RunningServer> embedded;
   std::shared_ptr<grpc::Channel> channel;
 };
 absl::StatusOr<Connection> Connect(const CommonOptions& options);
 
-// SIGINT and SIGTERM cancel the call instead of killing the process, so that nothing half done is left.
-// Blocked in the constructor: make it before any other thread.
+// SIGINT and SIGTERM cancel the call instead of killing the process, so that no unfinished file is left. The
+// constructor blocks both signals: make this object before any other thread.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -51,7 +50,7 @@ class InterruptWatch {
   std::thread thread_;
 };
 
-// A call's context: deadline set, cancelled by interrupts while this lives.
+// The context of a call. It has the deadline, and an interrupt cancels it while this object lives.
 class CallScope {
  public:
   CallScope(const CommonOptions& options, InterruptWatch& watch);
@@ -63,13 +62,13 @@ class CallScope {
   grpc::ClientContext context_;
 };
 
-// What went wrong in words for a user: options instead of field paths where there is one.
+// The error worded for a user. Field paths are replaced by the names of options where there is one.
 absl::Status FromGrpc(const grpc::Status& status, const CommonOptions& options, const InterruptWatch& watch);
 
-// 0; 2 for wrong usage and unreadable input; 1 for everything else.
+// 0 for OK; 2 for wrong usage and unreadable input; 1 for any other error.
 int ExitStatus(const absl::Status& status);
 
-// INVALID_ARGUMENT when a request does not fit the wire.
+// INVALID_ARGUMENT if a request is too large for the wire.
 absl::Status CheckRequestSize(std::size_t bytes);
 
 }  // namespace patchmill::cli

@@ -33,7 +33,7 @@ absl::Status ReadEdits(const std::string& path, v1::EditModelRequest& request) {
   v1::EditModelRequest rest = request;
   rest.clear_edits();
   if (rest.ByteSizeLong() == 0) return absl::OkStatus();
-  return absl::InvalidArgumentError(fmt::format("{}: has more than \"edits\"", path));
+  return absl::InvalidArgumentError(fmt::format("{}: has other fields than \"edits\"", path));
 }
 
 absl::Status ReadPush(const std::string& text, v1::EditModelRequest& request) {
@@ -106,7 +106,7 @@ absl::Status Run(const EditOptions& options, InterruptWatch& watch) {
   if (const int errors = CountErrors(response->diagnostics()); errors > 0) {
     for (const v1::Diagnostic& finding : response->diagnostics()) fmt::print(stderr, "  {}\n", Line(finding));
     return absl::FailedPreconditionError(
-        fmt::format("{}: {} errors after the edits; nothing is written", options.model, errors));
+        fmt::format("{}: {} errors after the edits; no file was written", options.model, errors));
   }
   SetModel(response->model(), output);
   SetModel(response->patches(), patches);
@@ -121,11 +121,13 @@ Command AddEdit(CLI::App& app) {
   auto options = std::make_shared<EditOptions>();
   app.add_option("MODEL", options->model, "model with a curve network: .json or .pb")->required();
   app.add_option("-o,--output", options->output, "the edited model, .json or .pb")->required();
-  app.add_option("--edits", options->edits, "edits to do, .json: {\"edits\": [ModelEdit, ...]}");
-  app.add_option("--push", options->pushes,
-                 "FACE,U,V,AMOUNT: push a face in or out there, after the edits; repeatable");
-  app.add_option("--patches", options->patches, "the patches made from it, .json or .pb");
-  app.add_option("--continuity", options->continuity, "measure every joint at this many steps of its edge")
+  app.add_option("--edits", options->edits, "edits: a .json file {\"edits\": [ModelEdit, ...]}");
+  app.add_option(
+      "--push", options->pushes,
+      "FACE,U,V,AMOUNT: push a face in or out at this place, after the edits; repeat it for more pushes");
+  app.add_option("--patches", options->patches, "write the patches of the edited model, .json or .pb");
+  app.add_option("--continuity", options->continuity,
+                 "measure every joint at this many equal steps of its edge")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
   AddCommonOptions(app, options->common);

@@ -21,7 +21,7 @@ struct EvaluateOptions {
   std::vector<std::string> at;
 };
 
-// "PATCH,U,V".
+// Reads "PATCH,U,V".
 absl::Status AddPlace(const std::string& text, v1::EvaluateSurfaceRequest& request) {
   std::istringstream in(text);
   int patch = -1;
@@ -89,10 +89,11 @@ absl::Status Run(const EvaluateOptions& options, InterruptWatch& watch) {
 Command AddEvaluate(CLI::App& app) {
   auto options = std::make_shared<EvaluateOptions>();
   app.add_option("MODEL", options->model, kModelHelp)->required();
-  app.add_option("--at", options->at,
-                 "PATCH,U,V: which patch, from 0, and its parameters in [0,1]; several with blanks")
+  app.add_option(
+         "--at", options->at,
+         "PATCH,U,V: index of the patch, from 0, and parameters in [0,1]; several are separated by blanks")
       ->required();
-  app.add_option("-o,--output", options->output, "the values as .json too");
+  app.add_option("-o,--output", options->output, "write the values, too: .json");
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

@@ -16,7 +16,7 @@ namespace {
 
 using Numbers = google::protobuf::RepeatedField<double>;
 
-// One point a line, each number in the shortest form that reads back the same.
+// Text with one point a line. Each number has the shortest form that reads back as the same value.
 template <class Response>
 std::string PointText(const Numbers& xyz, bool commas, const Response& response) {
   const char* separator = commas ? "," : " ";

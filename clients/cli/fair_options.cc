@@ -28,7 +28,7 @@ std::vector<std::string> Split(const std::string& text, char by) {
   return parts;
 }
 
-// All parts numbers, or nothing.
+// The parts as numbers; nothing if one of them is no number.
 std::vector<double> Numbers(const std::string& text) {
   std::vector<double> numbers;
   for (const std::string& part : Split(text, ',')) {
@@ -53,7 +53,7 @@ bool ReadIndex(const std::string& text, int& index) {
   return error == std::errc() && end == text.data() + text.size() && index >= 0;
 }
 
-// "7", "3-9", either with ":xz".
+// Reads "7" or "3-9", with or without ":xz".
 bool ReadLock(const std::string& text, v1::FairCurveRequest& request) {
   constexpr int kMostPoints = 100'000;
   const std::size_t colon = text.find(':');
@@ -103,7 +103,7 @@ bool ReadDirection(const std::string& text, google::protobuf::RepeatedField<doub
   return true;
 }
 
-// "csv", "dat" or what else stands behind the last point of a path, in lower case.
+// The ending of a path without its dot, in lower case: "csv", "dat" or any other.
 std::string Ending(const std::string& path) {
   const std::string ending = absl::AsciiStrToLower(std::filesystem::path(path).extension().native());
   return ending.empty() ? ending : ending.substr(1);
@@ -113,45 +113,51 @@ std::string Ending(const std::string& path) {
 
 void AddFairOptions(CLI::App& app, FairOptions& options) {
   app.add_option("POINTS", options.points,
-                 "measured points, one a line: .csv (commas) or .dat (blanks), two or three numbers")
+                 "measured points: .csv (commas) or .dat (blanks), one point of two or three numbers a line")
       ->required();
   app.add_option("-o,--output", options.output,
                  "the faired points: .csv, .dat, or .json with energies and curvatures")
       ->required();
-  app.add_option("--band", options.band,
-                 "how far a component may go: B or X,Y,Z in the unit of the points, P% of their box's "
-                 "diagonal, or none")
+  app.add_option(
+         "--band", options.band,
+         "how far a component may move: B or X,Y,Z in the unit of the points, P% of the diagonal of their "
+         "box, or none")
       ->capture_default_str();
   app.add_option("--lock", options.locks,
-                 "points that stay, from 0: 4, 4-9, or components 4:xz; several with commas")
+                 "points that do not move, from 0: 4, 4-9, or components 4:xz; separated by commas")
       ->delimiter(',');
   app.add_option("--axes", options.axes, "components that may move")->capture_default_str();
-  app.add_option("--start-direction", options.start_direction, "X,Y,Z; default: circle through 3 points");
-  app.add_option("--end-direction", options.end_direction, "X,Y,Z; default: circle through 3 points");
-  app.add_option("--iterations", options.iterations, "at most so many")
+  app.add_option("--start-direction", options.start_direction,
+                 "X,Y,Z at the first point; default: that of the circle through 3 points");
+  app.add_option("--end-direction", options.end_direction,
+                 "X,Y,Z at the last point; default: that of the circle through 3 points");
+  app.add_option("--iterations", options.iterations, "largest number of iterations")
       ->check(CLI::Range(0, 10'000))
       ->capture_default_str();
   app.add_option("--stop", options.stop,
-                 "when no curvature changes its sign (signs), and the energy settles (energy), or never")
+                 "end when no curvature changes its sign (signs), when the energy settles, too (energy), or "
+                 "not earlier\n"
+                 "(iterations)")
       ->check(CLI::IsMember({"signs", "energy", "iterations"}))
       ->capture_default_str();
   app.add_option("--band-rule", options.band_rule,
-                 "least energy within the bands, or cut back to them as in the paper")
+                 "find the least energy within the bands, or cut points back to the bands as in the paper")
       ->check(CLI::IsMember({"least", "cut"}))
       ->capture_default_str();
-  app.add_option(
-         "--net", options.net,
-         "the points are a net of so many lines, one after the other: both families of lines are faired, "
-         "its border stays")
+  app.add_option("--net", options.net,
+                 "the points are a net of this many lines, one after the other; both families of lines are "
+                 "faired, and "
+                 "the border stays")
       ->check(CLI::Range(2, 50'000));
-  app.add_flag("--fit", options.fit, "only the curve through the points, nothing moves");
+  app.add_flag("--fit", options.fit, "only fit the curve through the points; no point moves");
   CLI::Option* polyline =
-      app.add_option("--polyline", options.polyline, "the faired curve as a polyline: .csv or .dat");
-  CLI::Option* tolerance =
-      AddNumber(app, "--tolerance", options.tolerance, "of the polyline, in the unit of the points");
+      app.add_option("--polyline", options.polyline, "write the faired curve as a polyline: .csv or .dat");
+  CLI::Option* tolerance = AddNumber(app, "--tolerance", options.tolerance,
+                                     "tolerance of the polyline, in the unit of the points");
   polyline->needs(tolerance);
   tolerance->needs(polyline);
-  app.add_option("--preview", options.preview, "the curve before and after with its comb: .svg");
+  app.add_option("--preview", options.preview,
+                 "write a picture of the curve before and after fairing, with its curvature comb: .svg");
 }
 
 absl::StatusOr<v1::FairNetRequest> MakeFairNetRequest(const FairOptions& options) {
@@ -160,7 +166,8 @@ absl::StatusOr<v1::FairNetRequest> MakeFairNetRequest(const FairOptions& options
         std::pair{"--start-direction", &options.start_direction},
         std::pair{"--end-direction", &options.end_direction}}) {
     if (!given->empty())
-      return absl::InvalidArgumentError(fmt::format("{} is for curves, not with --net", option));
+      return absl::InvalidArgumentError(
+          fmt::format("{} is for curves; it cannot be combined with --net", option));
   }
   absl::StatusOr<v1::FairCurveRequest> curve = MakeFairRequest(options);
   if (!curve.ok()) return curve.status();

@@ -1,4 +1,4 @@
-// The options of `patchmill fair` as values, and the request they become.
+// The options of `patchmill fair` as values, and the requests made of them.
 #pragma once
 
 #include <string>
@@ -26,10 +26,10 @@ struct FairOptions {
 
 void AddFairOptions(CLI::App& app, FairOptions& options);
 
-// INVALID_ARGUMENT naming the option; reads the file of points.
+// The request for a curve. Reads the file of points. INVALID_ARGUMENT names the wrong option.
 absl::StatusOr<v1::FairCurveRequest> MakeFairRequest(const FairOptions& options);
 
-// The same for a net. INVALID_ARGUMENT also for options that only a curve has.
+// The request for a net. INVALID_ARGUMENT also for options that only a curve has.
 absl::StatusOr<v1::FairNetRequest> MakeFairNetRequest(const FairOptions& options);
 
 }  // namespace patchmill::cli

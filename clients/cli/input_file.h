@@ -1,4 +1,4 @@
-// Files the user names.
+// Files that the user names.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,13 @@
 
 namespace patchmill::cli {
 
-inline constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;  // the contract's limit of a message
+inline constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;  // limit of a message on the wire
 
-// INVALID_ARGUMENT with the reason when it cannot be read, or is longer than that; no more is read.
+// The bytes of a file. INVALID_ARGUMENT with the reason if it cannot be read or is longer than kMaxFileBytes.
+// Reading stops there.
 absl::StatusOr<std::string> ReadWholeFile(const std::string& path);
 
-// All that it was asked for: no result replaces one of them (output_file.h).
+// All paths that ReadWholeFile has read. No result replaces one of these files (output_file.h).
 const std::vector<std::string>& FilesRead();
 
 }  // namespace patchmill::cli

@@ -49,8 +49,9 @@ v1::Coolant MakeCoolant(const std::string& name) {
   return v1::COOLANT_OFF;
 }
 
-// 12000 rpm, 1200 and 400 mm/min at D 6; the same cutting speed for larger tools, the same share of the
-// diameter per turn for smaller ones, never above 12000 rpm.
+// Default cutting data: 12000 rpm, feed 1200 and plunge feed 400 mm/min at D 6. Larger tools have the same
+// cutting speed; smaller ones have the same feed per turn relative to the diameter. The spindle speed never
+// exceeds 12000 rpm.
 void SetCuttingData(const OperationOptions& options, v1::Tool& tool) {
   const double larger = std::min(1.0, 6.0 / options.tool_diameter);
   const double smaller = std::min(1.0, options.tool_diameter / 6.0);
@@ -99,50 +100,53 @@ CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<dou
 }
 
 void AddCommonOptions(CLI::App& app, CommonOptions& options) {
-  app.add_option("--server", options.server, "HOST:PORT of a patchmilld; default: inside this process");
-  app.add_option("--ca", options.ca_file, "TLS: authority of the server's certificate (PEM)");
-  app.add_option("--cert", options.cert_file, "TLS: own certificate (PEM)");
-  app.add_option("--key", options.key_file, "TLS: its key (PEM)");
-  app.add_option("--threads", options.threads, "0: all; the result does not depend on it")
+  app.add_option("--server", options.server,
+                 "HOST:PORT of a patchmilld; default: the service runs inside this process");
+  app.add_option("--ca", options.ca_file,
+                 "TLS: certificate of the authority that the server's certificate is checked with (PEM)");
+  app.add_option("--cert", options.cert_file, "TLS: certificate of this client (PEM)");
+  app.add_option("--key", options.key_file, "TLS: key of that certificate (PEM)");
+  app.add_option("--threads", options.threads, "number of threads; 0: all; the result does not depend on it")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();
   AddNumber(app, "--timeout", options.timeout, "give up after this many seconds")
       ->check(CLI::Range(0.001, 1e6));
-  app.add_flag(
-      "--quiet", options.quiet,
-      "no progress bar and no summary of what is written; answers to the screen remain, and warnings but\n"
-      "for what the header of every program says");
+  app.add_flag("--quiet", options.quiet,
+               "no progress bar and no summary of the files written; answers to the screen remain, and so do "
+               "warnings\n"
+               "except those that the header of every program states");
 }
 
 void AddSplitOptions(CLI::App& app, OperationOptions& options) {
   AddNumber(app, "--tool-diameter", options.tool_diameter, "ball diameter, mm");
-  AddNumber(app, "--scallop", options.scallop, "largest ridge between passes, mm");
-  AddNumber(app, "--tolerance", options.tolerance, "whole error budget, mm");
-  AddNumber(app, "--leave", options.leave, "material left along the normal, mm");
+  AddNumber(app, "--scallop", options.scallop, "scallop (cusp) height: highest ridge between passes, mm");
+  AddNumber(app, "--tolerance", options.tolerance, "whole error budget of the job, mm");
+  AddNumber(app, "--leave", options.leave, "stock to leave along the normal, mm");
   AddNumber(app, "--steep-angle", options.steep_angle,
-            "ground as steep as this or steeper is cut by contours, degrees");
+            "slope from which on contours (waterlines) cut instead of zig-zag lines, degrees");
   AddNumber(app, "--detail", options.detail,
-            "how finely the surface is divided into regions: 0 coarse, 1 finest")
+            "how finely the surface is divided into regions: 0 coarsest, 1 finest")
       ->check(CLI::Range(0.0, 1.0));
   AddNumber(app, "--floor", options.floor,
-            "lowest tip, mm, program frame; default: the model's lowest point");
+            "lowest tip, mm, program frame; default: lowest point of the model");
 }
 
 void AddShankOptions(CLI::App& app, ShankOptions& options) {
   AddNumber(app, "--flute-length", options.flute_length,
-            "cutting length from the tip, mm; default: not known, not checked");
-  AddNumber(app, "--shank-diameter", options.shank_diameter,
-            "above the flutes, mm: what it cannot get past is left, SHANK; default: as wide as the ball");
+            "flute length from the tip, mm; default: unknown and not checked");
+  AddNumber(
+      app, "--shank-diameter", options.shank_diameter,
+      "diameter above the flutes, mm; area that it blocks is left, SHANK; default: as wide as the ball");
   AddNumber(app, "--stickout", options.stickout,
-            "tip to holder, mm: a warning where the job needs more; default: not known");
+            "length from tip to holder, mm; a warning if the job needs more; default: unknown");
 }
 
 void AddSetupOptions(CLI::App& app, SetupOptions& options) {
-  AddNumber(app, "--scale", options.scale, "factor of the model's numbers");
-  app.add_option("--up", options.up, "the model's axis that points up on the machine")
+  AddNumber(app, "--scale", options.scale, "scale factor of the model");
+  app.add_option("--up", options.up, "axis of the model that points up on the machine")
       ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
       ->capture_default_str();
-  app.add_option("--translate", options.translate, "X,Y,Z added after scaling and turning, mm")
+  app.add_option("--translate", options.translate, "translation X,Y,Z after scaling and turning, mm")
       ->delimiter(',')
       ->expected(3)
       ->check(kFinite);
@@ -151,9 +155,10 @@ void AddSetupOptions(CLI::App& app, SetupOptions& options) {
 }
 
 void AddStockOptions(CLI::App& app, SetupOptions& options) {
-  AddNumber(app, "--stock-top", options.stock_top, "highest material, mm; default: model top + allowance");
+  AddNumber(app, "--stock-top", options.stock_top,
+            "top of the stock, mm; default: top of the model + allowance");
   AddNumber(app, "--allowance", options.allowance,
-            "material on the surface, mm; default 0.5, or --leave where that is more");
+            "stock allowance along the normal, mm; default 0.5, or --leave if that is more");
 }
 
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
@@ -239,8 +244,7 @@ absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::string_view kTextEndings[] = {".bpt", ".bv", ".bez",
-                                               ".patches"};  // the rest is told by content
+  constexpr std::string_view kTextEndings[] = {".bpt", ".bv", ".bez", ".patches"};  // others: by content
   if (std::find(std::begin(kTextEndings), std::end(kTextEndings), ending) != std::end(kTextEndings)) {
     file.set_format(ending.substr(1));
   }

@@ -1,4 +1,4 @@
-// The options of the commands as values, and the requests they become.
+// The options of the commands as values, and the messages made of them.
 #pragma once
 
 #include <optional>
@@ -39,13 +39,13 @@ struct OperationOptions {
   ShankOptions shank;
 };
 
-// A number option: finite, or the command line is wrong.
+// Adds an option for a finite number. Any other text is a usage error.
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, double& value, const std::string& help);
 CLI::Option* AddNumber(CLI::App& app, const std::string& name, std::optional<double>& value,
                        const std::string& help);
 
 void AddCommonOptions(CLI::App& app, CommonOptions& options);
-// --tool-diameter to --steep-angle, --detail, --floor: what regions depend on.
+// Adds the options that regions depend on: --tool-diameter to --steep-angle, --detail, --floor.
 void AddSplitOptions(CLI::App& app, OperationOptions& options);
 void AddShankOptions(CLI::App& app, ShankOptions& options);
 void AddSetupOptions(CLI::App& app, SetupOptions& options);
@@ -58,11 +58,11 @@ void SetShank(const ShankOptions& options, v1::Tool& tool);
 v1::Operation MakeOperation(const OperationOptions& options);
 v1::Strategy MakeStrategy(const std::string& name);
 bool ReadFinite(const std::string& text, double& value);
-// "X,Y,Z"; INVALID_ARGUMENT names the option.
+// Reads "X,Y,Z". INVALID_ARGUMENT names the option.
 absl::StatusOr<v1::Point3> ReadPoint(const std::string& text, const char* option);
 
-// The bytes of a model file and how to read them: text formats are told by their ending, JSON and protobuf by
-// content.
+// The bytes of a model file and its format. The ending of the path gives the text formats. The server
+// distinguishes JSON from protobuf by content.
 absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path);
 
 }  // namespace patchmill::cli

@@ -12,7 +12,7 @@
 namespace patchmill::cli {
 namespace {
 
-// "X,Y X,Y X,Y" into packed x y.
+// Reads "X,Y X,Y X,Y" into packed x y.
 absl::Status ReadPoints(const std::string& text, const std::string& what,
                         google::protobuf::RepeatedField<double>* xy) {
   std::istringstream in(text);
@@ -23,7 +23,7 @@ absl::Status ReadPoints(const std::string& text, const std::string& what,
     if (comma == std::string::npos || !ReadFinite(point.substr(0, comma), x) ||
         !ReadFinite(point.substr(comma + 1), y)) {
       return absl::InvalidArgumentError(
-          fmt::format("{}: \"{}\"; must be points X,Y with spaces between", what, point.substr(0, 50)));
+          fmt::format("{}: \"{}\"; must be points X,Y separated by spaces", what, point.substr(0, 50)));
     }
     xy->Add(x);
     xy->Add(y);
@@ -35,7 +35,7 @@ absl::Status ReadPoints(const std::string& text, const std::string& what,
   return absl::OkStatus();
 }
 
-// A ring of points, or those of a file "@FILE".
+// Reads a ring from its points, or from a file "@FILE".
 absl::Status ReadRing(const std::string& text, const std::string& option,
                       google::protobuf::RepeatedField<double>* xy) {
   if (text.empty() || text.front() != '@') return ReadPoints(text, option, xy);
@@ -44,7 +44,7 @@ absl::Status ReadRing(const std::string& text, const std::string& option,
   return ReadPoints(*content, text.substr(1), xy);
 }
 
-// [NAME=]TOP[,MARGIN]: POINTS
+// Reads "[NAME=]TOP[,MARGIN]: POINTS".
 absl::Status ReadObstacle(const std::string& text, v1::Obstacle& obstacle) {
   const std::size_t colon = text.find(':');
   std::string head = text.substr(0, colon);
@@ -76,24 +76,28 @@ v1::BoundaryMode MakeMode(const std::string& name) {
 }  // namespace
 
 void AddLimitOptions(CLI::App& app, LimitOptions& options) {
-  app.add_option("--only", options.only, "cut these patches: ids, or #INDEX from #0; several with commas")
+  app.add_option("--only", options.only,
+                 "cut only these patches: ids, or #INDEX from #0, separated by commas")
       ->delimiter(',');
-  app.add_option("--avoid", options.avoid, "do not cut these patches; several with commas")->delimiter(',');
-  AddNumber(app, "--avoid-margin", options.avoid_margin, "distance of the tool from avoided patches, mm");
-  CLI::Option* boundary = app.add_option(
-      "--boundary", options.boundary,
-      "closed outline from above, program frame: \"X,Y X,Y X,Y\" or @FILE; more than one: holes, islands");
-  app.add_option("--boundary-mode", options.boundary_mode, "what of the tool it limits")
+  app.add_option("--avoid", options.avoid, "do not cut these patches (check surfaces), separated by commas")
+      ->delimiter(',');
+  AddNumber(app, "--avoid-margin", options.avoid_margin, "distance between tool and avoided patches, mm");
+  CLI::Option* boundary = app.add_option("--boundary", options.boundary,
+                                         "containment: closed outline in plan, program frame, \"X,Y X,Y "
+                                         "X,Y\" or @FILE; more of them: holes, islands");
+  app.add_option("--boundary-mode", options.boundary_mode,
+                 "what the boundary limits: contacts, tool axis, or the ball seen from above")
       ->check(CLI::IsMember({"contact", "center", "inside", "outside"}))
       ->needs(boundary)
       ->capture_default_str();
   AddNumber(app, "--boundary-offset", options.boundary_offset,
-            "widens the boundary, mm; negative: narrows it");
-  app.add_flag("--outside", options.outside,
-               "mill upright walls on the part's outer border too: the tool goes down beside the part there");
+            "offset of the boundary, mm; > 0 widens it, < 0 narrows it");
+  app.add_flag(
+      "--outside", options.outside,
+      "mill upright walls on the part's outer border, too; the tool goes down beside the part there");
   AddNumber(app, "--top", options.top, "highest tip of a cutting ball, mm, program frame");
   app.add_option("--obstacle", options.obstacles,
-                 "a clamp or vice to keep off, to half the tolerance, program frame: "
+                 "a clamp or vice that the tool keeps off, to within half the tolerance, program frame: "
                  "\"[NAME=]TOP[,MARGIN]: X,Y X,Y X,Y\" or \"...: @FILE\"");
 }
 
@@ -102,7 +106,7 @@ bool Selects(const LimitOptions& options) {
 }
 
 absl::Status SetLimits(const LimitOptions& options, v1::Setup& setup, v1::Selection& selection) {
-  // Whoever gives one of these thinks that something is limited.
+  // A user who sets one of these expects a limit. Without the other option there would be none.
   if (options.boundary.empty() && options.boundary_offset != 0.0)
     return absl::InvalidArgumentError("--boundary-offset is given without --boundary");
   if (options.avoid.empty() && options.avoid_margin != 0.0)

@@ -1,4 +1,5 @@
-// Which part of the model, and what to keep off: options and the messages they become.
+// Options for the part of the model that is cut and for places that the tool keeps off, and the messages made
+// of them.
 #pragma once
 
 #include <optional>
@@ -23,9 +24,10 @@ struct LimitOptions {
 
 void AddLimitOptions(CLI::App& app, LimitOptions& options);
 
-// Adds obstacles to the set-up, and fills the selection when there is any. INVALID_ARGUMENT names the option.
+// Adds the obstacles to the set-up and fills the selection if an option sets it. INVALID_ARGUMENT names the
+// option.
 absl::Status SetLimits(const LimitOptions& options, v1::Setup& setup, v1::Selection& selection);
-// Whether the options say anything about the selection.
+// Whether an option sets the selection.
 bool Selects(const LimitOptions& options);
 
 }  // namespace patchmill::cli

@@ -53,7 +53,7 @@ absl::StatusOr<v1::TraceLinesRequest> MakeRequest(const LinesOptions& options, b
   *request.mutable_source() = *std::move(source);
   *request.mutable_setup() = *std::move(setup);
   if (!options.levels.empty() && options.kinds.size() > 1) {
-    return absl::InvalidArgumentError("--levels belong to one --kind; several are given");
+    return absl::InvalidArgumentError("--levels belong to one --kind; several kinds are set");
   }
   for (const std::string& kind : options.kinds) {
     v1::LineFamily& family = *request.add_families();
@@ -108,23 +108,24 @@ Command AddLines(CLI::App& app) {
   app.add_option("-o,--output", options->output, "the lines: .json or .svg")->required();
   std::vector<std::string> names;
   for (const auto& [name, kind] : kKinds) names.push_back(name);
-  app.add_option("--kind", options->kinds, "which lines; several with commas")
+  app.add_option("--kind", options->kinds, "kinds of lines, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(names))
       ->capture_default_str();
-  app.add_option("--levels", options->levels,
-                 "contour: heights, mm; slope: degrees; brightness: -1 to 1; highlight: degrees; with commas")
+  app.add_option(
+         "--levels", options->levels,
+         "levels, separated by commas. contour: mm; slope: degrees; brightness: -1 to 1; highlight: degrees")
       ->delimiter(',');
-  app.add_option("--count", options->count, "levels to choose when none are given; default 12")
+  app.add_option("--count", options->count, "number of levels to choose when none are given; default 12")
       ->check(CLI::Range(1, 1000));
   AddNumber(app, "--spacing", options->spacing,
-            "flow: between neighbouring lines, mm; default: a fortieth of the box");
+            "flow: distance between neighbouring lines, mm; default: a fortieth of the diagonal of the box");
   AddVector(app, "--direction", options->direction, "X,Y,Z: axis, light or sight; default 0,0,1");
   AddVector(app, "--across", options->across,
-            "X,Y,Z: of highlight lines, across the direction; default 1,0,0");
-  AddVector(app, "--eye", options->eye, "X,Y,Z, mm, program frame, for --kind eye");
-  AddNumber(app, "--tolerance", options->tolerance, "chords keep to it, mm");
-  AddNumber(app, "--min-loop", options->min_loop, "wider loops are found for certain, mm");
+            "X,Y,Z, for --kind highlight: a direction across --direction; default 1,0,0");
+  AddVector(app, "--eye", options->eye, "X,Y,Z, for --kind eye: place of the eye, mm, program frame");
+  AddNumber(app, "--tolerance", options->tolerance, "chord tolerance, mm");
+  AddNumber(app, "--min-loop", options->min_loop, "every loop wider than this is found, mm");
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

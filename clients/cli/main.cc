@@ -17,24 +17,25 @@ int Main(int argc, char** argv) {
   app.set_version_flag("--version", "patchmill " PATCHMILL_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit status: 0 done; 1 the job could not be done, or a verification failed; 2 wrong usage or "
-      "unreadable "
-      "input.");
+      "Exit status: 0 the command is done; 1 the job could not be done, or a verification failed; 2 the "
+      "usage "
+      "is wrong, or the input is unreadable.");
   std::map<CLI::App*, Command> commands;
   const auto add = [&](const char* name, const char* help, Command (*add_command)(CLI::App&)) {
     CLI::App* command = app.add_subcommand(name, help);
     commands[command] = add_command(*command);
   };
-  add("mill", "make a verified program", AddMill);
-  add("check", "what is good and bad about a model", AddCheck);
-  add("regions", "mountains, basins, walls, and what cannot be reached", AddRegions);
-  add("reach", "how much of the surface each of several tools does not reach", AddReach);
+  add("mill", "plan, write and verify a program", AddMill);
+  add("check", "check a model: patches, joints, curvature against the tool", AddCheck);
+  add("regions", "split the surface into regions: steep and gentle, mountain and basin, unreachable",
+      AddRegions);
+  add("reach", "how much of the surface each of several balls does not reach", AddReach);
   add("verify", "measure any program against the exact surface", AddVerify);
-  add("lines", "contours, slopes, silhouettes, highlights and other lines of the surface", AddLines);
-  add("evaluate", "points, derivatives, forms and curvatures of the surface", AddEvaluate);
-  add("build", "make a first surface from outline curves", AddBuild);
+  add("lines", "trace contours, silhouettes, highlights and other lines of the surface", AddLines);
+  add("evaluate", "points, derivatives, fundamental forms and curvatures of the surface", AddEvaluate);
+  add("build", "make a first surface from sections or boundary curves", AddBuild);
   add("edit", "edit a curve network", AddEdit);
-  add("fair", "fair a measured curve", AddFair);
+  add("fair", "fair a measured curve or net of points", AddFair);
   CLI::App* serve = app.add_subcommand("serve", "run the service (also as patchmilld)");
   ServerOptions server;
   AddServeFlags(*serve, server);

@@ -30,11 +30,11 @@ struct MillOptions {
   std::string model, program, report, preview, post = "linuxcnc", work_offset = "G54";
 };
 
-// What a stream has brought so far; on disk only after the report.
+// The part of the stream received so far. It goes to disk only after the report.
 struct Received {
   OutputFile program, report_file, preview;
   v1::Report report;
-  bool complete = false;  // the report came: a stream without it is void
+  bool complete = false;  // the report has come; a stream without it is void
 };
 
 absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& options) {
@@ -92,7 +92,7 @@ bool CarriesProgram(const v1::Report& report) {
   return report.outcome() == v1::OUTCOME_COMPLETE || report.outcome() == v1::OUTCOME_COMPLETE_WHERE_REACHABLE;
 }
 
-// The report and the picture of a failed job are worth having; a program is not.
+// Report and picture of a failed job are written, its program is not.
 absl::Status WriteFiles(const MillOptions& options, Received& received) {
   received.report_file.Set(Json(received.report));
   if (const absl::Status written = Commit({&received.report_file, &received.preview}); !written.ok())
@@ -117,22 +117,23 @@ absl::Status WriteFiles(const MillOptions& options, Received& received) {
   return received.program.Commit();
 }
 
-// "12 % above the least for this finish".
+// "12 % above the lower bound for this finish".
 std::string OverLeast(const v1::Report& report) {
   const double least = report.least_cut_length_mm();
-  if (!(least > 0.0)) return "the least is not known";
-  return fmt::format("{:.0f} % above the least for this finish",
+  if (!(least > 0.0)) return "no lower bound is known";
+  return fmt::format("{:.0f} % above the lower bound for this finish",
                      100.0 * (report.cut_length_mm() / least - 1.0));
 }
 
-// What is true of about every job; the program's own head has it.
+// Warnings that hold for nearly every job. The header of the program states them.
 bool IsAssumption(const v1::Diagnostic& finding) {
   constexpr std::string_view kCodes[] = {"STOCK_ASSUMED", "LOW_RAPIDS", "HOLDER_NOT_CHECKED",
                                          "DEFAULT_CUTTING_DATA"};
   return std::find(std::begin(kCodes), std::end(kCodes), finding.code()) != std::end(kCodes);
 }
 
-// Those of single patches by their first one.
+// Prints the warnings. Those of the same code about single patches are one line: the first, with the number
+// of the others.
 void PrintWarnings(const v1::Report& report, bool assumptions) {
   std::map<std::string, int> of_patches;
   for (const v1::Diagnostic& finding : report.diagnostics()) {
@@ -180,7 +181,7 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
              OverLeast(report));
   if (report.certificate_defect_count() > 0) {
     fmt::print(stderr,
-               "  heights   {} put right by their certificates: a defect of the planner, please report\n",
+               "  heights   {} corrected by their certificates: a defect of the planner, please report\n",
                report.certificate_defect_count());
   }
   PrintWarnings(report, true);
@@ -218,37 +219,44 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
 
 void AddOperationOptions(CLI::App& app, OperationOptions& op) {
   AddSplitOptions(app, op);
-  app.add_option("--strategy", op.strategy, "")
+  app.add_option("--strategy", op.strategy,
+                 "contours on steep and zig-zag lines on gentle areas (auto), or one of them everywhere")
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();
-  AddNumber(app, "--zigzag-angle", op.zigzag_angle, "direction of the lines from +X, degrees");
-  AddNumber(app, "--bend", op.bend,
-            "how far lines may turn from it to keep their steps even, degrees, 0 to 30; 0: straight");
-  app.add_flag("--auto-angle", op.auto_angle,
-               "lines of each region in the direction that takes the least time, to within 4 degrees");
-  app.add_flag("--one-way", op.one_way, "cut all lines in that direction, and lift the ball back");
-  app.add_flag("--spirals", op.spirals, "wind closed contours down around walls in one pass");
+  AddNumber(app, "--zigzag-angle", op.zigzag_angle,
+            "direction of zig-zag lines from +X, counter-clockwise, degrees");
+  AddNumber(
+      app, "--bend", op.bend,
+      "how far lines may turn from that direction to keep the step-over even, degrees, 0 to 30; 0: straight");
+  app.add_flag(
+      "--auto-angle", op.auto_angle,
+      "run the lines of each region in the direction that takes the least time, to within 4 degrees");
+  app.add_flag("--one-way", op.one_way, "cut all lines in that direction, with retracts in between");
+  app.add_flag("--spirals", op.spirals, "wind closed contours around walls into one helical pass");
   app.add_flag("--no-round-lines", op.no_round_lines,
-               "straight lines on rims and shoulders too, where circles around an axis are a tenth shorter");
-  app.add_flag("--no-border-passes", op.no_border_passes, "no passes along borders that lines run along");
+               "straight lines on rims and shoulders, too, where circular lines would be a tenth shorter");
+  app.add_flag("--no-border-passes", op.no_border_passes,
+               "no passes along borders where zig-zag lines end one after the other");
   app.add_option("--edges", op.edges,
-                 "stop at outer borders; roll over them; extend passes by a ball radius beyond them")
+                 "open edges: stop at them, roll over them, or extend passes by a ball radius beyond them")
       ->check(CLI::IsMember({"stop", "roll", "extend"}))
       ->capture_default_str();
-  app.add_option("--direction", op.direction,
-                 "of contours; either: open ones to and fro, with fewer retracts; links along the\n"
-                 "surface between them run as they must")
+  app.add_option(
+         "--direction", op.direction,
+         "direction of contours; either: open ones run back and forth, with fewer retracts. Links along\n"
+         "the surface may run in any direction")
       ->check(CLI::IsMember({"climb", "conventional", "either"}))
       ->capture_default_str();
   AddNumber(app, "--clearance", op.clearance,
-            "tip height of rapids above the highest of model, stock and obstacles, mm");
-  AddNumber(app, "--feed", op.feed, "mm/min; default 1200 at D 6, with a warning");
-  AddNumber(app, "--plunge-feed", op.plunge_feed, "mm/min; default a third of the feed, with a warning");
-  AddNumber(app, "--spindle", op.spindle, "rpm; default 12000 at D 6, with a warning");
-  app.add_option("--coolant", op.coolant, "")
+            "clearance plane: tip height of rapids above the highest of model, stock and obstacles, mm");
+  AddNumber(app, "--feed", op.feed, "cutting feed, mm/min; default 1200 at D 6, with a warning");
+  AddNumber(app, "--plunge-feed", op.plunge_feed,
+            "feed of steep descents, mm/min; default a third of the feed, with a warning");
+  AddNumber(app, "--spindle", op.spindle, "spindle speed, rpm; default 12000 at D 6, with a warning");
+  app.add_option("--coolant", op.coolant, "coolant while cutting")
       ->check(CLI::IsMember({"off", "flood", "mist", "air"}))
       ->capture_default_str();
-  app.add_option("--tool-number", op.tool_number, "T word")->capture_default_str();
+  app.add_option("--tool-number", op.tool_number, "number of the T word")->capture_default_str();
   AddShankOptions(app, op.shank);
 }
 
@@ -257,7 +265,9 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
 Command AddMill(CLI::App& app) {
   auto options = std::make_shared<MillOptions>();
   app.add_option("MODEL", options->model, kModelHelp)->required();
-  app.add_option("-o,--output", options->program, "where the program goes, once it is verified")->required();
+  app.add_option("-o,--output", options->program,
+                 "file of the program; it is written once the program is verified")
+      ->required();
   AddOperationOptions(app, options->operation);
   AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
@@ -265,10 +275,10 @@ Command AddMill(CLI::App& app) {
   AddStockOptions(app, options->setup);
   app.add_flag(
          "--low-rapids", options->operation.low_rapids,
-         "rapids between passes no higher than it takes to clear --allowance, which must be given, over all "
-         "of the rectangle between their ends")
+         "rapids between passes only as high as needed to clear the stock over the whole rectangle between "
+         "their ends; needs --allowance")
       ->needs(app.get_option("--allowance"));
-  app.add_option("--work-offset", options->work_offset, "G54 to G59")->capture_default_str();
+  app.add_option("--work-offset", options->work_offset, "work offset, G54 to G59")->capture_default_str();
   app.add_option("--post", options->post, "dialect of the program")->capture_default_str();
   app.add_option("--report", options->report, "write the report here (.json)");
   app.add_option("--preview", options->preview, "write a picture here (.svg)");

@@ -8,7 +8,7 @@
 
 namespace patchmill::cli {
 
-// Ends in .json (JSON of the contract) or .pb (its bytes); empty: nothing is wanted.
+// An output file for a model: .json (JSON of the contract) or .pb (its bytes). Empty path: no file is wanted.
 OutputFile ModelFile(const std::string& path);
 void SetModel(const v1::PatchModel& model, OutputFile& file);
 

@@ -8,7 +8,7 @@ struct Entry {
   const char* option;
 };
 
-// Whatever is below these.
+// Options for every field below one of these paths.
 constexpr Entry kLists[] = {
     {"region_overrides[", "--region"},
     {"setup.obstacles[", "--obstacle"},
@@ -18,7 +18,7 @@ constexpr Entry kLists[] = {
     {"tool_diameters_mm[", "--tool-diameters"},
 };
 
-// The end of a path.
+// Options for the fields whose path ends in one of these.
 constexpr Entry kOptions[] = {
     {"ball_end.diameter_mm", "--tool-diameter"},
     {"flute_length_mm", "--flute-length"},

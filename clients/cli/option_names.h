@@ -1,11 +1,11 @@
-// What users call the fields of requests.
+// Names of options for fields of requests.
 #pragma once
 
 #include <string_view>
 
 namespace patchmill::cli {
 
-// The option behind the field path at the start of `text` (up to a blank); null: none is known.
+// The option that sets the field whose path begins `text` (up to a blank); null if there is none.
 const char* OptionOf(std::string_view text);
 
 }  // namespace patchmill::cli

@@ -26,7 +26,8 @@ bool IsSpecial(const std::string& path) {
   return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode);
 }
 
-// One file, whether it is there yet or not. What is no regular file can take more than one result.
+// Whether two paths are one regular file, which need not exist yet. Other files (pipes) may take several
+// results.
 bool IsSame(const std::string& a, const std::string& b) {
   if (IsSpecial(a) || IsSpecial(b)) return false;
   std::error_code no_file, no_path;
@@ -42,7 +43,7 @@ bool IsSame(const std::string& a, const std::string& b) {
 absl::Status CheckNotRead(const std::string& path) {
   for (const std::string& input : FilesRead()) {
     if (IsSame(path, input))
-      return absl::InvalidArgumentError(fmt::format("{} is read; the result would replace it", path));
+      return absl::InvalidArgumentError(fmt::format("{} is an input; the result would replace it", path));
   }
   return absl::OkStatus();
 }
@@ -61,7 +62,7 @@ bool WriteAll(int file, std::string_view bytes) {
   return true;
 }
 
-// mkstemp makes files only their owner can read; a result is like any other file.
+// mkstemp makes files that only their owner can read. A result gets the usual permissions.
 mode_t UsualMode() {
   const mode_t mask = umask(0);
   umask(mask);
@@ -109,7 +110,7 @@ absl::Status CheckWritable(std::initializer_list<const OutputFile*> files) {
     if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
     for (const OutputFile* other : seen) {
       if (IsSame(file->path(), other->path()))
-        return absl::InvalidArgumentError(fmt::format("{} is named for two results", file->path()));
+        return absl::InvalidArgumentError(fmt::format("{} is the output file of two results", file->path()));
     }
     seen.push_back(file);
   }

@@ -14,7 +14,8 @@ namespace patchmill::cli {
 class OutputFile {
  public:
   OutputFile() = default;
-  // Empty: nothing is wanted. `endings`: what the path may end in (".json"); none: anything.
+  // An empty path means that no file is wanted. `endings` lists the allowed endings (".json"); empty allows
+  // any.
   explicit OutputFile(std::string path, std::vector<std::string> endings = {})
       : path_(std::move(path)), endings_(std::move(endings)) {}
 
@@ -25,10 +26,10 @@ class OutputFile {
   void Set(std::string bytes) { bytes_ = std::move(bytes); }
 
   bool EndsIn(const std::string& ending) const { return absl::EndsWithIgnoreCase(path_, ending); }
-  // Whether the ending is one of those allowed and Commit can work; no file that was read is replaced.
+  // OK if the ending is allowed, Commit can write the file, and the file is no input of this command.
   absl::Status CheckWritable() const;
-  // Writes under a temporary name beside the target, then renames. What is not a regular file (/dev/stdout, a
-  // pipe) is written directly. On failure nothing new is left.
+  // Writes under a temporary name beside the target, then renames it. A target that is no regular file
+  // (/dev/stdout, a pipe) is written directly. After a failure no new file is left.
   absl::Status Commit() const;
 
  private:
@@ -37,8 +38,8 @@ class OutputFile {
   std::string bytes_;  // in memory until it is known to be good
 };
 
-// Those of the files that are wanted, in order; the first fault ends it. No two may be the same regular file.
-// CheckWritable is asked when all that the request needs is read, before the job costs anything.
+// Both visit the wanted files in order and stop at the first fault. Two of them must not be the same regular
+// file. Call CheckWritable after all inputs are read and before the job runs.
 absl::Status CheckWritable(std::initializer_list<const OutputFile*> files);
 absl::Status Commit(std::initializer_list<const OutputFile*> files);
 

@@ -1,4 +1,4 @@
-// Progress on a terminal; nothing in a pipe.
+// A progress bar on a terminal. In a pipe nothing is shown.
 #pragma once
 
 #include <string>

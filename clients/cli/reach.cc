@@ -67,13 +67,14 @@ Command AddReach(CLI::App& app) {
   auto options = std::make_shared<ReachOptions>();
   OperationOptions& op = options->operation;
   app.add_option("MODEL", options->model, kModelHelp)->required();
-  app.add_option("-o,--output", options->output, "the table: .json");
-  app.add_option("--tool-diameters", options->diameters, "balls to try, mm, rising, with commas")
+  app.add_option("-o,--output", options->output, "write the table: .json");
+  app.add_option("--tool-diameters", options->diameters,
+                 "diameters of the balls, mm, rising, separated by commas")
       ->delimiter(',')
       ->capture_default_str();
-  AddNumber(app, "--tolerance", op.tolerance, "whole error budget, mm");
-  AddNumber(app, "--leave", op.leave, "material left along the normal, mm");
-  AddNumber(app, "--floor", op.floor, "lowest tip, mm, program frame; default: the model's lowest point");
+  AddNumber(app, "--tolerance", op.tolerance, "whole error budget of the job, mm");
+  AddNumber(app, "--leave", op.leave, "stock to leave along the normal, mm");
+  AddNumber(app, "--floor", op.floor, "lowest tip, mm, program frame; default: lowest point of the model");
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

@@ -20,7 +20,7 @@ std::vector<std::string> Split(const std::string& text, char separator) {
   return parts;
 }
 
-// One of the words after the colons; false when it is none.
+// Reads one of the words after the colons. False if the word is unknown or repeats a setting.
 bool ReadWord(const std::string& word, v1::RegionOverride& change) {
   const std::size_t equals = word.find('=');
   const std::string name = word.substr(0, equals);
@@ -49,7 +49,7 @@ bool ReadWord(const std::string& word, v1::RegionOverride& change) {
   return true;
 }
 
-// ID:WORD[:WORD] or X,Y,Z:WORD[:WORD].
+// Reads ID:WORD[:WORD] or X,Y,Z:WORD[:WORD].
 absl::Status ReadChange(const std::string& text, v1::RegionOverride& change) {
   const std::vector<std::string> parts = Split(text, ':');
   bool good = parts.size() >= 2;
@@ -70,7 +70,7 @@ absl::Status ReadChange(const std::string& text, v1::RegionOverride& change) {
       text.substr(0, 80)));
 }
 
-// 64 hexadecimal digits, or the file that `patchmill regions` wrote.
+// Reads the digest from 64 hexadecimal digits, or from the file that `patchmill regions` wrote.
 absl::StatusOr<std::string> ReadMap(const std::string& text) {
   constexpr std::size_t kBytes = 32;
   if (text.size() == 2 * kBytes && text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos) {
@@ -87,7 +87,7 @@ absl::StatusOr<std::string> ReadMap(const std::string& text) {
   if (read && response.regions().regions_sha256().size() == kBytes)
     return response.regions().regions_sha256();
   return absl::InvalidArgumentError(
-      fmt::format("--regions {}: is no .json of `patchmill regions`, nor 64 hexadecimal digits", text));
+      fmt::format("--regions {}: neither a .json of `patchmill regions` nor 64 hexadecimal digits", text));
 }
 
 }  // namespace
@@ -95,12 +95,12 @@ absl::StatusOr<std::string> ReadMap(const std::string& text) {
 void AddRegionChangeOptions(CLI::App& app, RegionChangeOptions& options) {
   app.add_option(
       "--region", options.changes,
-      "a region cut in a way of its own, or not at all: ID or X,Y,Z (program frame, a point of it), then "
-      ":off or any of :auto, :contour, :zigzag, :angle=DEG, :oneway, :bothways, :scallop=MM; "
-      "more than one: more options");
+      "how to cut one region: its ID, or X,Y,Z of a point of it (program frame), then :off, or any of "
+      ":auto, :contour, :zigzag, :angle=DEG, :oneway, :bothways, :scallop=MM; repeat the option for more "
+      "regions");
   app.add_option(
       "--regions", options.map,
-      "the map that the ids are of: the .json of `patchmill regions` with the same options, or its sha256");
+      "map that the ids refer to: the .json of `patchmill regions` with the same options, or its sha256");
 }
 
 absl::Status SetRegions(const RegionChangeOptions& options, std::string* sha256,
@@ -114,9 +114,8 @@ absl::Status SetRegions(const RegionChangeOptions& options, std::string* sha256,
   if (options.map.empty()) {
     if (!by_id) return absl::OkStatus();
     return absl::InvalidArgumentError(
-        "--region names a region by its id: --regions MAP.json, as `patchmill regions -o MAP.json` wrote it, "
-        "says of "
-        "which map; or name it by a point, --region X,Y,Z:...");
+        "--region names a region by its id; add --regions MAP.json, which `patchmill regions -o MAP.json` "
+        "writes, or name the region by a point, --region X,Y,Z:...");
   }
   absl::StatusOr<std::string> map = ReadMap(options.map);
   if (!map.ok()) return map.status();

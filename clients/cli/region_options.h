@@ -1,4 +1,4 @@
-// Regions cut in a way of their own, or not at all: options and the messages they become.
+// Options for regions that are cut differently or not at all, and the messages made of them.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct RegionChangeOptions {
 
 void AddRegionChangeOptions(CLI::App& app, RegionChangeOptions& options);
 
-// Into regions_sha256 and region_overrides. INVALID_ARGUMENT names the option.
+// Fills regions_sha256 and region_overrides. INVALID_ARGUMENT names the option.
 absl::Status SetRegions(const RegionChangeOptions& options, std::string* sha256,
                         google::protobuf::RepeatedPtrField<v1::RegionOverride>* overrides);
 

@@ -17,8 +17,8 @@
 namespace patchmill::cli {
 namespace {
 
-constexpr double kWhole = 1e-6;  // of the area: less than this is rounding
-constexpr double kFew = 0.005;   // of the area: cut in another way, not worth a word
+constexpr double kWhole = 1e-6;  // share of the area; less than this is rounding
+constexpr double kFew = 0.005;   // share of the area; a smaller share cut in another way is not printed
 
 struct RegionsOptions {
   CommonOptions common;
@@ -76,7 +76,7 @@ std::string HowItIsCut(const v1::Region& region) {
     around = fmt::format(" around {:.3f},{:.3f}", micron(region.lines_around().x_mm()),
                          micron(region.lines_around().y_mm()));
     if (region.more_lines_around_size() > 0)
-      around += fmt::format(" and {} more places", region.more_lines_around_size());
+      around += fmt::format(" and {} more centres", region.more_lines_around_size());
     if (region.has_zigzag_angle_deg()) around += ", others";
   }
   if (region.cut_otherwise_area_mm2() > kFew * region.area_mm2())
@@ -137,7 +137,7 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
   if (!response.ok()) return response.status();
   if (output.wanted()) output.Set(response->has_picture() ? response->picture().data() : Json(*response));
   if (const absl::Status written = Commit({&output}); !written.ok()) return written;
-  // What is said of the model `check` tells.
+  // Findings about the model are the business of `patchmill check`.
   for (const v1::Diagnostic& finding : response->diagnostics()) {
     if (finding.severity() != v1::SEVERITY_INFO && !finding.where().field().empty())
       fmt::print(stderr, "{}\n", Line(finding));
@@ -154,13 +154,14 @@ Command AddRegions(CLI::App& app) {
   app.add_option("-o,--output", options->output, "the region map: .json or .svg");
   AddSplitOptions(app, options->operation);
   AddShankOptions(app, options->operation.shank);
-  app.add_option("--strategy", options->operation.strategy, "how all regions are cut")
+  app.add_option("--strategy", options->operation.strategy,
+                 "contours on steep and zig-zag lines on gentle areas (auto), or one of them everywhere")
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();
   AddNumber(app, "--zigzag-angle", options->operation.zigzag_angle,
-            "direction of the lines from +X, degrees");
+            "direction of zig-zag lines from +X, counter-clockwise, degrees");
   app.add_flag("--no-round-lines", options->operation.no_round_lines,
-               "straight lines on rims and shoulders too");
+               "straight lines on rims and shoulders, too, where circular lines would be a tenth shorter");
   AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);

@@ -14,7 +14,7 @@ std::string Without(const std::string& name, std::string_view prefix) {
   return name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
 }
 
-// Names come from files: nothing in them may move a terminal's cursor or begin a line.
+// Names come from files. No character in them may move the cursor of a terminal or begin a line.
 std::string Printable(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -98,7 +98,7 @@ std::string UnreachableLine(const v1::Report& report) {
     text += fmt::format("{}{} {:.2f} mm2 (up to {:.3f} mm stays", text.empty() ? "" : ", ",
                         Short(part.reason()), part.area_mm2(), part.deepest_leftover_mm());
     if (part.has_finishing_floor_z_mm()) {
-      text += fmt::format("; --floor {:.3f} finishes it, as far as other limits let it",
+      text += fmt::format("; --floor {:.3f} finishes it, as far as other limits allow",
                           part.finishing_floor_z_mm());
     }
     if (part.has_finishing_flute_length_mm()) {
@@ -117,7 +117,7 @@ std::string SpreadLine(const v1::Report& report) {
     edges += part.has_up_to_scallops() ? fmt::format("{:g}", part.up_to_scallops()) : "more";
   }
   return shares.empty() ? shares
-                        : fmt::format("{} % of the ground with up to {} scallops left", shares, edges);
+                        : fmt::format("{} % of the surface with up to {} scallops left", shares, edges);
 }
 
 std::string SkippedLine(const v1::Report& report) {
@@ -130,7 +130,7 @@ std::string SkippedLine(const v1::Report& report) {
 }
 
 std::string WireText(std::string_view text, std::size_t most) {
-  // Length of the character at the start of `s`, 0 when it is none.
+  // Length of the character at the start of `s`; 0 if there is no valid one.
   const auto length = [](std::string_view s) -> std::size_t {
     const auto byte = [&](std::size_t k) { return k < s.size() ? static_cast<unsigned char>(s[k]) : 0u; };
     const unsigned lead = byte(0), next = byte(1);
@@ -143,7 +143,7 @@ std::string WireText(std::string_view text, std::size_t most) {
     for (std::size_t k = 1; k < n; ++k) {
       if ((byte(k) & 0xC0) != 0x80) return 0;
     }
-    // Overlong forms, surrogates and what lies beyond U+10FFFF.
+    // Not valid: overlong forms, surrogates and values above U+10FFFF.
     const bool bad = (lead == 0xE0 && next < 0xA0) || (lead == 0xED && next > 0x9F) ||
                      (lead == 0xF0 && next < 0x90) || (lead == 0xF4 && next > 0x8F);
     return bad ? 0 : n;

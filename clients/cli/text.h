@@ -1,4 +1,4 @@
-// Answers in words, for people.
+// Answers as text for users.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace patchmill::cli {
 
-// An enum's value without its prefix: "COMPLETE".
+// Name of an enum value without its prefix: "COMPLETE".
 std::string Short(v1::Outcome value);
 std::string Short(v1::UnreachableReason value);
 std::string Short(v1::CheckState value);
@@ -28,25 +28,24 @@ int CountErrors(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findin
 // "X 1.000 Y 2.000 Z 3.000".
 std::string Line(const v1::Point3& point);
 std::string Line(const v1::Place& place);
-// "12.3 % of the area (UNDERCUT 10.1 %, CONCAVE 2.2 %)": how much is not reached; "nothing" when all of it
-// is.
+// Share of the area that is unreachable: "12.3 % of the area (UNDERCUT 10.1 %, CONCAVE 2.2 %)", or "nothing".
 std::string UncutShare(const v1::Report& report);
-// "UNDERCUT 12.3 mm2, CONCAVE 4.5 mm2"; empty when nothing is left out.
+// "UNDERCUT 12.3 mm2 (up to 0.123 mm stays), CONCAVE ..."; empty if everything is reachable.
 std::string UnreachableLine(const v1::Report& report);
 
-// "52 / 20 / 15 / 12 / 1 % of it with up to 0.25 / 0.5 / 0.75 / 1 / more scallops"; empty when nothing was
-// judged.
+// "52 / 20 / 15 / 12 / 1 % of the surface with up to 0.25 / 0.5 / 0.75 / 1 / more scallops left"; empty if
+// the finish was not checked.
 std::string SpreadLine(const v1::Report& report);
-// "regions 3 (12.3 mm2), 5 (4.5 mm2)"; empty when none was switched off.
+// "regions 3 (12.3 mm2), 5 (4.5 mm2)"; empty if no region is switched off.
 std::string SkippedLine(const v1::Report& report);
 
-// What the contract takes as text: at most `most` bytes of UTF-8, cut between characters; bytes that are none
-// become '?'.
+// `text` as the contract allows it: at most `most` bytes of valid UTF-8, cut between characters. Bytes that
+// are no UTF-8 become '?'.
 std::string WireText(std::string_view text, std::size_t most);
 
-// The proto's own field names, zeros printed, one field a line.
+// JSON with the field names of the proto, one field a line. Zeros are printed.
 std::string Json(const google::protobuf::Message& message);
-// What is set only, on one line: for models.
+// JSON on one line with only the fields that are set. For models.
 std::string ShortJson(const google::protobuf::Message& message);
 
 }  // namespace patchmill::cli

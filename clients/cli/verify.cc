@@ -66,7 +66,7 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   return request;
 }
 
-// Some region is judged by a scallop of its own.
+// Whether a region has a scallop of its own.
 bool OwnScallops(const RegionChangeOptions& options) {
   return std::any_of(options.changes.begin(), options.changes.end(),
                      [](const std::string& change) { return change.find(":scallop=") != std::string::npos; });
@@ -76,13 +76,13 @@ void Print(const VerifyOptions& options, const v1::Report& report) {
   fmt::print("outcome   {}\n", Short(report.outcome()));
   fmt::print("gouge     {:<11} {:.4f} mm (limit {:g}) at {}\n", Short(report.gouge_check()),
              report.max_gouge_mm(), options.tolerance, Line(report.max_gouge_at()));
-  fmt::print("finish    {:<11} {:.4f} mm left{} at {}\n", Short(report.finish_check()),
-             report.max_leftover_mm(),
-             options.scallop
-                 ? fmt::format(" (limit {:g}{})", *options.scallop + options.tolerance,
-                               OwnScallops(options.regions) ? "; regions of their own scallop apart" : "")
-                 : "",
-             Line(report.max_leftover_at()));
+  fmt::print(
+      "finish    {:<11} {:.4f} mm left{} at {}\n", Short(report.finish_check()), report.max_leftover_mm(),
+      options.scallop
+          ? fmt::format(" (limit {:g}{})", *options.scallop + options.tolerance,
+                        OwnScallops(options.regions) ? ", except for regions with their own scallop" : "")
+          : "",
+      Line(report.max_leftover_at()));
   if (const std::string spread = SpreadLine(report); !spread.empty()) fmt::print("          {}\n", spread);
   fmt::print("motion    {:<11} steepest descent {:.1f} degrees\n", Short(report.motion_check()),
              report.steepest_descent_deg());
@@ -94,7 +94,7 @@ void Print(const VerifyOptions& options, const v1::Report& report) {
   for (const v1::Diagnostic& finding : report.diagnostics()) fmt::print("  {}\n", Line(finding));
 }
 
-// Exit 0 needs a finish that was judged, or one that was left out on purpose.
+// Exit status 0 needs a finish that was checked, or --no-finish.
 absl::Status Verdict(const VerifyOptions& options, v1::Outcome outcome) {
   std::string more;
   switch (outcome) {
@@ -103,13 +103,10 @@ absl::Status Verdict(const VerifyOptions& options, v1::Outcome outcome) {
       return absl::OkStatus();
     case v1::OUTCOME_NO_GOUGE_FOUND:
       if (options.no_finish) return absl::OkStatus();
-      more =
-          "; whether it finishes anything was not judged: give --scallop to judge it, or --no-finish to "
-          "leave "
-          "it out";
+      more = "; the finish was not checked: set --scallop to check it, or --no-finish to leave it out";
       break;
     case v1::OUTCOME_NOTHING_TO_CUT:
-      more = "; no program could finish anything here with this ball";
+      more = "; this ball reaches nothing here that a program could finish";
       break;
     default:
       break;
@@ -155,27 +152,32 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
 Command AddVerify(CLI::App& app) {
   auto options = std::make_shared<VerifyOptions>();
   app.add_option("MODEL", options->model, kModelHelp)->required();
-  app.add_option("PROGRAM", options->program, "program text, ours or another's")->required();
+  app.add_option("PROGRAM", options->program, "program text, of Patchmill or of any other source")
+      ->required();
   AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter, mm")->required();
   AddShankOptions(app, options->shank);
   AddNumber(app, "--plunge-feed", options->plunge_feed,
-            "mm/min: most for descents steeper than 30 degrees; default: not known, not checked");
-  AddNumber(app, "--tolerance", options->tolerance, "largest gouge, mm");
-  auto* scallop = AddNumber(app, "--scallop", options->scallop,
-                            "largest ridge, mm: without it leftover is measured, not judged, and the exit "
-                            "status is 1 unless --no-finish is given");
+            "highest feed of descents steeper than 30 degrees, mm/min; default: unknown and not checked");
+  AddNumber(app, "--tolerance", options->tolerance, "whole error budget and largest allowed gouge, mm");
+  auto* scallop =
+      AddNumber(app, "--scallop", options->scallop,
+                "scallop (cusp) height, mm; without it the leftover is measured but not checked, and "
+                "the exit status is 1 unless --no-finish is set");
   app.add_flag("--no-finish", options->no_finish,
-               "do not judge the finish: exit 0 when no gouge and no unsafe motion is found")
+               "do not check the finish: exit status 0 if no gouge and no unsafe motion is found")
       ->excludes(scallop);
-  AddNumber(app, "--leave", options->leave, "material meant to be left, mm");
+  AddNumber(app, "--leave", options->leave, "stock to leave along the normal, mm");
   AddNumber(app, "--floor", options->floor,
-            "lowest tip, mm, program frame; default: the model's lowest point");
-  app.add_option("--strategy", options->strategy, "what the program was forced to")
+            "lowest tip, mm, program frame; default: lowest point of the model");
+  app.add_option("--strategy", options->strategy, "strategy that the program was forced to")
       ->check(CLI::IsMember({"auto", "contour", "zigzag"}))
       ->capture_default_str();
-  AddNumber(app, "--zigzag-angle", options->zigzag_angle, "degrees, for --strategy zigzag");
-  AddNumber(app, "--steep-angle", options->steep_angle, "what regions were split by, degrees");
-  AddNumber(app, "--detail", options->detail, "what regions were split by")->check(CLI::Range(0.0, 1.0));
+  AddNumber(app, "--zigzag-angle", options->zigzag_angle,
+            "direction of the lines for --strategy zigzag, degrees");
+  AddNumber(app, "--steep-angle", options->steep_angle,
+            "steep angle that the regions were split by, degrees");
+  AddNumber(app, "--detail", options->detail, "detail that the regions were split with")
+      ->check(CLI::Range(0.0, 1.0));
   AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
   AddSetupOptions(app, options->setup);

@@ -18,7 +18,7 @@ import tempfile
 import grpc
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-TEXT_FORMATS = {".bpt", ".bv", ".bez", ".patches"}  # told by their ending; JSON and protobuf are told by content
+TEXT_FORMATS = {".bpt", ".bv", ".bez", ".patches"}  # known by their ending; the server distinguishes JSON and protobuf by content
 
 
 def generate_stubs(folder):

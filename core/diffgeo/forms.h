@@ -12,8 +12,8 @@ namespace patchmill {
 // parametrisation is degenerate: the tangents are parallel or, at a pole, one of them is rounding noise.
 std::optional<Vec3> UnitNormal(const SurfaceJet& jet);
 
-// The same, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On an upright face
-// (SurfaceJet::upright) it points to the air side where that is known, else to either side.
+// UnitNormal, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On an upright face
+// (SurfaceJet::upright) it points to the air side if that is known; else it may point either way.
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet);
 
 // The side from which a tool reaches a point of the surface.

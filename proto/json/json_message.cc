@@ -16,7 +16,7 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kNull = "null";
 constexpr char kTypePrefix[] = "type.googleapis.com";
 
-// What lists may not hold, with its line; empty when there is nothing of it.
+// A fault that protobuf would not report: a null or a list in a list, with its line. Empty if there is none.
 std::string FaultOfLists(std::string_view text) {
   std::vector<char> open;
   int line = 1;

@@ -1,4 +1,4 @@
-// Messages from JSON that people and scripts write.
+// Reads messages from JSON that people and scripts write.
 #pragma once
 
 #include <functional>
@@ -10,13 +10,11 @@
 
 namespace patchmill {
 
-// Canonical proto JSON into `message`, with or without a byte order mark. INVALID_ARGUMENT, with the line,
-// also for what protobuf drops without a word: a null in a list (how scripts write NaN) and a list in a list,
-// after which every number would stand one place off.
-// `check` (may be empty) sees the message in its binary form before it is parsed; an error of it is returned
-// as it is.
-// `stopped` (may be empty) is asked every kJsonPieceBytes; once it says so, the text is not read any further:
-// CANCELLED.
+// Reads canonical proto JSON into `message`, with or without a byte order mark. INVALID_ARGUMENT states the
+// line. It also covers two faults that protobuf drops silently: a null in a list (scripts write NaN so) and a
+// list in a list. After either, every number would be one place off. `check` (may be empty) receives the
+// message in its binary form before it is parsed. Its error is returned unchanged. `stopped` (may be empty)
+// is asked every kJsonPieceBytes; once it returns true, reading ends with CANCELLED.
 using WireCheck = std::function<absl::Status(const std::string& wire)>;
 inline constexpr int kJsonPieceBytes = 1 << 16;
 absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message,

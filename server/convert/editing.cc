@@ -133,7 +133,7 @@ void WriteEdited(const CurveNetwork& before, const CurveNetwork& after, double u
   for (int i = 0; i < proto->faces_size(); ++i) {
     const auto &old = before.faces[static_cast<std::size_t>(i)].pushes,
                &pushes = after.faces[static_cast<std::size_t>(i)].pushes;
-    for (std::size_t k = old.size(); k < pushes.size(); ++k) {  // edits add at the end
+    for (std::size_t k = old.size(); k < pushes.size(); ++k) {  // edits add pushes at the end
       v1::NetworkFace& face = *proto->mutable_faces(i);
       v1::FacePush& to = k == 0 ? *face.mutable_push() : *face.add_more_pushes();
       to.set_u(pushes[k].u);
@@ -142,7 +142,7 @@ void WriteEdited(const CurveNetwork& before, const CurveNetwork& after, double u
     }
   }
   if (before.controls == after.controls) return;
-  std::vector<v1::EdgeControl> given;  // as before.controls: those of edges, then the others
+  std::vector<v1::EdgeControl> given;  // in the order of before.controls: those of edges, then the others
   for (v1::NetworkEdge& edge : *proto->mutable_edges()) {
     for (const v1::CrossControl& control : edge.controls()) {
       v1::EdgeControl& to = given.emplace_back();
@@ -159,7 +159,7 @@ void WriteEdited(const CurveNetwork& before, const CurveNetwork& after, double u
     const auto same_place = [&](const CrossControl& old) {
       return old.start == control.start && old.end == control.end && old.face == control.face;
     };
-    std::size_t k = from;  // those that were there keep their order
+    std::size_t k = from;  // controls that stay keep their order
     while (k < before.controls.size() && !same_place(before.controls[k])) ++k;
     if (k < before.controls.size()) {
       from = k + 1;
@@ -193,7 +193,7 @@ absl::Status WithFieldPath(const absl::Status& status,
   const auto* kind = edit.GetReflection()->GetOneofFieldDescriptor(edit, edit.GetDescriptor()->oneof_decl(0));
   if (kind == nullptr) return status;
   std::string field(message.substr(close + 1, space - close - 1));
-  // Where the message has other names, or is deeper, than the edit that is made of it.
+  // Fields whose path in the message differs from that in the edit.
   if (edit.has_set_control() && field == ".face") field = ".control.face";
   if (edit.has_guide_row() && (field == ".start" || field == ".end")) field += "_direction";
   FieldErrors errors;

@@ -10,15 +10,16 @@
 
 namespace patchmill {
 
-// `unit`: mm of one length unit. INVALID_ARGUMENT with all wrong fields; RESOURCE_EXHAUSTED for too many
-// edits.
+// Reads the edits. `unit` is the length unit in mm. INVALID_ARGUMENT lists all wrong fields.
+// RESOURCE_EXHAUSTED if there are too many edits.
 absl::StatusOr<std::vector<NetworkEdit>> FromProto(
     const google::protobuf::RepeatedPtrField<v1::ModelEdit>& edits, double unit);
 
-// Writes into `proto`, the message of `before`, what differs in `after`; the rest stays to the bit.
+// `proto` is the message of `before`. Writes into it everything that differs in `after`. The rest stays as
+// it is, to the bit.
 void WriteEdited(const CurveNetwork& before, const CurveNetwork& after, double unit, v1::CurveNetwork* proto);
 
-// What EditNetwork says of "edits[k].face" and the like, with the field's path in the request.
+// Replaces paths of EditNetwork, such as "edits[k].face", by the path of the field in the request.
 absl::Status WithFieldPath(const absl::Status& status,
                            const google::protobuf::RepeatedPtrField<v1::ModelEdit>& edits);
 

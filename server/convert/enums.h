@@ -1,4 +1,4 @@
-// Enums of the wire <-> enums of the domain. Unspecified becomes the documented default; a number this
+// Enums of the wire <-> enums of the domain. Unspecified becomes the documented default. A number that this
 // version does not know is an error, never a silent default.
 #pragma once
 

@@ -110,7 +110,7 @@ BandRule FromProto(v1::BandRule value, FieldErrors& errors) {
   }
 }
 
-// Points of a request, sent or in a file.
+// The points of a request, which come as numbers or in a file.
 template <class Request>
 absl::StatusOr<CurvePoints> ReadPoints(const Request& request, const char* field) {
   if (request.has_points()) {
@@ -128,7 +128,7 @@ absl::StatusOr<CurvePoints> ReadPoints(const Request& request, const char* field
   return errors.ToStatus();
 }
 
-// What requests for curves and nets have in common.
+// The terms that requests for curves and nets share.
 template <class Request>
 FairingTerms ReadTerms(const Request& request, const std::vector<Vec3>& points, FieldErrors& errors) {
   FairingTerms terms;

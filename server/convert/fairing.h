@@ -1,4 +1,4 @@
-// v1.FairCurveRequest -> CurveFairing, v1.FairNetRequest -> NetFairing, and what was faired back.
+// v1.FairCurveRequest -> CurveFairing, v1.FairNetRequest -> NetFairing, and results -> responses.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,17 @@ namespace patchmill {
 
 struct FairingOrder {
   CurveFairing curve;
-  std::string title;  // of the file, else empty
+  std::string title;  // title of the file, or empty
   bool planar = false;
   std::optional<double> polyline_tolerance;
 };
 
-// INVALID_ARGUMENT with all wrong fields, or the file's line and reason; RESOURCE_EXHAUSTED for a limit.
+// INVALID_ARGUMENT lists all wrong fields, or states line and reason of a fault in the file.
+// RESOURCE_EXHAUSTED for a limit.
 absl::StatusOr<FairingOrder> FromProto(const v1::FairCurveRequest& request);
 
-// All but the picture. RESOURCE_EXHAUSTED when the polyline is longer than limits::kMaxPolylinePoints.
+// Fills everything but the picture. RESOURCE_EXHAUSTED if the polyline has more than
+// limits::kMaxPolylinePoints points.
 absl::Status Fill(const FairingOrder& order, const FairedCurve& faired, v1::FairCurveResponse* response);
 
 struct NetFairingOrder {
@@ -31,7 +33,7 @@ struct NetFairingOrder {
   bool planar = false;
 };
 
-// As above.
+// Errors as for a curve.
 absl::StatusOr<NetFairingOrder> FromProto(const v1::FairNetRequest& request);
 void Fill(const NetFairingOrder& order, const FairedNet& faired, v1::FairNetResponse* response);
 

@@ -1,4 +1,4 @@
-// Checks of single request fields, one line each where they are used.
+// Checks of single fields of a request. Each takes one line where it is used.
 #pragma once
 
 #include <cmath>

@@ -65,7 +65,7 @@ absl::StatusOr<std::vector<Curve>> CurvesOf(const Curves& curves, double unit, c
   return list;
 }
 
-// `at`: where the request has the curves.
+// `at` is the path of the curves in the request.
 template <class Shape>
 absl::StatusOr<PatchShape> Made(absl::StatusOr<Shape> shape, std::string_view at) {
   if (!shape.ok()) return WithFieldPrefix(at, shape.status());

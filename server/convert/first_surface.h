@@ -1,4 +1,4 @@
-// Outline curves on the wire -> the surface between them.
+// Outline curves of a request -> the surface between them.
 #pragma once
 
 #include <absl/status/statusor.h>
@@ -8,8 +8,8 @@
 
 namespace patchmill {
 
-// In mm; `unit`: mm of one length unit of the request. INVALID_ARGUMENT with the field; RESOURCE_EXHAUSTED
-// for a limit, checked before anything is copied.
+// The surface in mm. `unit` is the length unit of the request in mm. INVALID_ARGUMENT names the field.
+// RESOURCE_EXHAUSTED for a limit; limits are checked before anything is copied.
 absl::StatusOr<PatchShape> OutlineSurface(const v1::BuildModelRequest& request, double unit);
 
 }  // namespace patchmill

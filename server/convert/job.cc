@@ -152,10 +152,10 @@ Job FromProto(const v1::Job& proto, const v1::Post& post, std::string_view at, F
     job.operation = FromProto(proto.operations(0), path, errors);
     if (job.operation.low_rapids && !proto.setup().stock().has_allowance_mm()) {
       errors.Add(At(path, "heights.low_rapids"),
-                 "is set; needs setup.stock.allowance_mm, for what stands on the surface must be known");
+                 "is set; needs setup.stock.allowance_mm, because the stock on the surface must be known");
     }
     job.default_cutting_data = proto.operations(0).tool().cutting_data_is_default();
-    // What is meant to be left is there.
+    // The stock to leave is part of the allowance.
     if (!proto.setup().stock().has_allowance_mm())
       job.setup.allowance = std::max(job.setup.allowance, job.operation.leave);
     if (job.setup.allowance < job.operation.leave) {

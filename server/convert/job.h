@@ -9,19 +9,19 @@
 
 namespace patchmill {
 
-// Everything but the model, fully validated: every wrong field is added to `errors`; the result may be used
-// when none was. `at` is the path of the job in its request.
+// Reads and validates everything but the model. Every wrong field is added to `errors`; the result may be
+// used only if none was added. `at` is the path of the job in its request.
 Job FromProto(const v1::Job& job, const v1::Post& post, std::string_view at, FieldErrors& errors);
 
-// Two of its fields; `at` is the path of the message that has them.
+// Read two fields of an operation. `at` is the path of the message that has them.
 double ReadSteepAngle(double degrees, std::string_view at, FieldErrors& errors);  // rad
 double ReadDetail(double detail, std::string_view at, FieldErrors& errors);
 
-// One operation; `at` is its own path.
+// Reads one operation. `at` is the path of the operation.
 Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors& errors);
 
 v1::Operation ToProto(const Job& job, const Operation& operation);
-// The resolved job as the client gets it back, the model replaced by its digest.
+// The resolved job as the client receives it. The model is replaced by its digest.
 v1::Job ToProto(const Job& job, std::string_view model_digest, std::string_view name);
 v1::Post PostToProto(const Job& job);
 

@@ -11,7 +11,7 @@
 namespace patchmill {
 namespace {
 
-// The unit vector along it.
+// The unit vector along a direction.
 Vec3 ReadDirection(const v1::Point3& proto, const std::string& field, FieldErrors& errors) {
   const Vec3 d = FromProto(proto);
   if (!d.allFinite() || !(d.norm() > 0.0) || !std::isfinite(d.norm())) {
@@ -38,7 +38,7 @@ Vec3 ReadAcross(const v1::LineFamily& proto, const Vec3& direction, const std::s
   return beside.normalized();
 }
 
-// In the unit of the domain; errors name the range of the wire.
+// The level in the unit of the domain. Errors state the range on the wire.
 double ReadLevel(v1::LineKind kind, double level, const std::string& field, FieldErrors& errors) {
   constexpr double kMost = limits::kMaxCoordinateMm;
   switch (kind) {
@@ -55,7 +55,7 @@ double ReadLevel(v1::LineKind kind, double level, const std::string& field, Fiel
       Require(errors, field, level, level >= 0.0 && level < 360.0, "in [0, 360)");
       return Radians(level);
     default:
-      errors.Add(field, "is of no use: lines of this kind have no levels");
+      errors.Add(field, "is set; must be empty, because lines of this kind have no levels");
       return 0.0;
   }
 }

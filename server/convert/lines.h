@@ -15,24 +15,24 @@ namespace patchmill {
 
 struct LineOrder {
   v1::LineKind kind = v1::LINE_KIND_UNSPECIFIED;
-  LineFamily family;               // places in the program frame; of no meaning for a flow
-  std::optional<FlowParams> flow;  // its spacing 0: to be chosen
-  std::vector<double> levels;      // program frame, rad; as given
-  int count = 12;                  // to choose when none are given
+  LineFamily family;               // places in the program frame; not used for a flow
+  std::optional<FlowParams> flow;  // a spacing of 0 is still to be chosen
+  std::vector<double> levels;      // as given; program frame, rad
+  int count = 12;                  // number of levels to choose when none are given
 };
 
-// The order has levels, given or to be chosen.
+// Whether lines of this kind have levels, given or chosen.
 bool HasLevels(const LineOrder& order);
 
 LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErrors& errors);
 
-// From the program frame to the placed one: places and levels plus program zero.
+// Moves places and levels from the program frame to the placed frame: adds program zero.
 LineOrder Placed(LineOrder order, const Vec3& zero);
 
-// The level as the wire has it: program frame, degrees.
+// The level in the unit of the wire: program frame, degrees.
 double WireLevel(const LineOrder& placed, double level, const Vec3& zero);
 
-// "contour 12 mm", "slope 30 degrees", ...
+// Names lines: "contour 12 mm", "slope 30 degrees", ...
 std::string Describe(v1::LineKind kind, double wire_level);
 
 v1::SurfaceLine ToProto(const Surface& surface, const ZeroCurve& curve, const Vec3& zero);

@@ -28,7 +28,7 @@ std::optional<double> MillimetersPer(v1::LengthUnit unit) {
 
 namespace {
 
-// What every model has: mm of one unit, and the join tolerance.
+// Fields that every model has: length unit in mm, and join tolerance.
 struct ModelHead {
   double unit = 1.0;
   std::optional<double> join_tolerance;
@@ -44,7 +44,7 @@ absl::StatusOr<ModelHead> HeadOf(const v1::PatchModel& proto, std::string_view a
                            static_cast<int>(proto.length_unit())));
   }
   if (proto.has_network() && !proto.patches().empty()) {
-    errors.Add(At(at, "network"), "comes beside patches; give one of the two");
+    errors.Add(At(at, "network"), "is set together with patches; set one of them");
   }
   if (proto.patches().empty() && !proto.has_network()) errors.Missing(At(at, "patches"));
   ModelHead head;
@@ -97,7 +97,7 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
   for (int i = 0; i < proto.patches_size(); ++i) {
     checked.model.patches.push_back(FromProto(proto.patches(i), head.unit, i, checked.faults));
   }
-  // A patch the wire already got wrong is not reported twice.
+  // A patch with a fault of the message is not reported twice.
   std::set<int> reported;
   for (const Diagnostic& fault : checked.faults) reported.insert(fault.where.patch_index.value_or(-1));
   for (Diagnostic& fault : ValidateModel(checked.model)) {

@@ -11,33 +11,32 @@
 
 namespace patchmill {
 
-// mm of one unit; nothing for an unspecified or unknown one.
+// The unit in mm. Nothing for an unspecified or unknown unit.
 std::optional<double> MillimetersPer(v1::LengthUnit unit);
 
-// A model and everything that is wrong with it, all at once; the model may be used only when `faults` is
-// empty.
+// A model and all its faults. The model may be used only if `faults` is empty.
 struct CheckedModel {
   PatchModel model;
   Diagnostics faults;
-  Diagnostics remarks;  // warnings; none beside faults
+  Diagnostics remarks;  // warnings; empty if there are faults
 };
 
-// RESOURCE_EXHAUSTED for a limit, checked before anything is copied; INVALID_ARGUMENT for a missing
-// length_unit; those of `run` while a network is joined. Everything else is a fault of a patch. `at` is the
-// path of the model in its request.
+// Reads a model. `at` is its path in the request. RESOURCE_EXHAUSTED for a limit; limits are checked before
+// anything is copied. INVALID_ARGUMENT for a missing length_unit. The errors of `run` while a network is
+// joined. Everything else is a fault of a patch.
 absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_view at,
                                        const RunContext& run = {});
 
-// The network of a model as it is sent.
+// The network of a model as the client sent it.
 struct CheckedNetwork {
   CurveNetwork network;  // mm
-  double unit = 1.0;     // mm of one of the message's
-  Diagnostics faults;    // of the wire; the network may be used only when empty
+  double unit = 1.0;     // length unit of the message in mm
+  Diagnostics faults;    // of the message; the network may be used only if empty
 };
-// Errors as above; INVALID_ARGUMENT for a model without network, too.
+// Errors as FromProto, and INVALID_ARGUMENT for a model without network.
 absl::StatusOr<CheckedNetwork> NetworkFromProto(const v1::PatchModel& proto, std::string_view at);
 
-// The other way, in millimetres.
+// The message of a model, in millimetres.
 v1::PatchModel ToProto(const PatchModel& model);
 
 }  // namespace patchmill

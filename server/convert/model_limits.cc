@@ -26,7 +26,8 @@ struct Sizes {
   std::size_t points = 0, knots = 0;
 };
 
-// Few breaks cut a patch into many pieces, so it counts with the points of these.
+// Control points that a Hosaka patch counts as. A few breaks cut a patch into many pieces, so the points of
+// all pieces count.
 std::size_t HosakaPoints(const v1::HosakaPatch& patch) {
   std::size_t columns = 1, rows = 1;
   for (const v1::HosakaBreak& b : patch.breaks()) ++(b.side() % 2 == 0 ? columns : rows);
@@ -34,14 +35,14 @@ std::size_t HosakaPoints(const v1::HosakaPatch& patch) {
   return std::max(Count(patch.points()) / 3, columns * rows * across * across);
 }
 
-// So do the knots of a B-spline.
+// As HosakaPoints; the knots cut the patch.
 std::size_t BsplinePoints(const v1::BsplinePatch& patch) {
   return std::max(Count(patch.points()) / 3,
                   CountSplinePiecePoints({patch.degree_u(), View(patch.knots_u())},
                                          {patch.degree_v(), View(patch.knots_v())}));
 }
 
-// So do the breaks of a Brown quad.
+// As HosakaPoints.
 std::size_t BrownPoints(const v1::BrownPatch& patch) {
   const std::size_t pieces = (Count(patch.breaks_u()) + 1) * (Count(patch.breaks_v()) + 1);
   if (pieces == 1) return Count(patch.points()) / 3;
@@ -78,12 +79,13 @@ Sizes SizesOf(const v1::Patch& patch) {
   return {};
 }
 
-// Why a patch counts more than it is given.
+// Explains why a patch counts as more points than it has.
 std::string NoteOn(const v1::Patch& patch, int index, std::size_t points) {
   if (patch.shape_case() != v1::Patch::kBspline || points <= Count(patch.bspline().points()) / 3) return "";
   return fmt::format(
-      "patches[{}].bspline counts {}: the control points of its Bezier pieces, one between knots", index,
-      points);
+      "patches[{}].bspline counts as {}, the control points of its Bezier pieces: one piece for each "
+      "rectangle between distinct knots",
+      index, points);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How much a model may hold, counted before anything of it is copied.
+// Limits on the size of a model, checked before anything of it is copied.
 #pragma once
 
 #include <absl/status/status.h>
@@ -7,7 +7,7 @@
 
 namespace patchmill {
 
-// RESOURCE_EXHAUSTED with the first limit of server/limits.h that the model passes.
+// RESOURCE_EXHAUSTED with the first limit of server/limits.h that the model exceeds.
 absl::Status CheckLimits(const v1::PatchModel& proto);
 
 }  // namespace patchmill

@@ -81,7 +81,7 @@ class NetworkReader {
       vertex.on_edge = {from.on_edge().start(), from.on_edge().end(), from.on_edge().parameter()};
       if (!from.position().empty()) {
         Fault("INVALID_T_VERTEX", at + ".position",
-              "is given beside on_edge, which says where it is; leave it out");
+              "is set together with on_edge, which states the place; leave it out");
       }
     } else {
       vertex.position = Vector(from.position(), unit_, at + ".position");
@@ -170,7 +170,7 @@ class NetworkReader {
       return NormalsEdge{};
     }
     const auto curve = ToBezier(Curve(segment));
-    if (!curve.ok()) return NormalsEdge{};  // a fault already
+    if (!curve.ok()) return NormalsEdge{};  // already reported as a fault
     return CurveEdge{Part(*curve, start, end)};
   }
 

@@ -9,11 +9,12 @@
 
 namespace patchmill {
 
-// RESOURCE_EXHAUSTED for a network larger than server/limits.h allows; before anything is copied.
+// RESOURCE_EXHAUSTED for a network larger than server/limits.h allows. Call it before anything is copied.
 absl::Status CheckNetworkLimits(const v1::CurveNetwork& proto);
 
-// `unit`: mm of one length unit. What only the wire can get wrong is a fault: a vector without three numbers,
-// a point list of odd length, an enum this server does not know. The rest is JoinNetwork's.
+// Reads a network. `unit` is the length unit in mm. Faults that only a message can have are added to the
+// faults: a vector without three numbers, a list of points of the wrong length, an enum that this server
+// does not know. JoinNetwork finds the other faults.
 CurveNetwork FromProto(const v1::CurveNetwork& proto, double unit, Diagnostics& faults);
 
 }  // namespace patchmill

@@ -12,13 +12,13 @@
 
 namespace patchmill {
 
-// A sound ring (core/math/outline.h), or an error at `field`. `points` counts all rings read so far; more
-// than limits::kMaxOutlinePoints are an error.
+// Reads a sound ring (core/math/outline.h), or adds an error at `field`. `points` counts the points of all
+// rings read so far; more than limits::kMaxOutlinePoints are an error.
 Ring ReadRing(const google::protobuf::RepeatedField<double>& xy, const std::string& field,
               std::size_t& points, FieldErrors& errors);
 void WriteRing(const Ring& ring, google::protobuf::RepeatedField<double>* xy);
 
-// Whether the patches exist is seen once the model is there (Resolve).
+// Reads a selection. Resolve checks later, with the model, whether the patches exist.
 Selection FromProto(const v1::Selection& proto, std::string_view at, FieldErrors& errors);
 v1::Selection ToProto(const Selection& selection);
 

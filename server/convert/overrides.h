@@ -1,4 +1,4 @@
-// Overrides of single regions <-> the wire.
+// v1.RegionOverride <-> RegionOverride.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace patchmill {
 
-// Into op.regions_sha256 and op.overrides; op.tool is there already. `at` is the path of the message that has
-// the two fields. Whether the regions exist is seen once they are split (ChooseRegions).
+// Fills op.regions_sha256 and op.overrides; op.tool must be filled before. `at` is the path of the message
+// that has the two fields. ChooseRegions checks later, with the regions, whether they exist.
 void ReadOverrides(const std::string& regions_sha256,
                    const google::protobuf::RepeatedPtrField<v1::RegionOverride>& overrides,
                    std::string_view at, Operation& op, FieldErrors& errors);

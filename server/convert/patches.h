@@ -7,11 +7,12 @@
 
 namespace patchmill {
 
-// In mm; `unit`: mm of one of the message's. What only the wire can get wrong is added to `faults`, with the
-// patch's `index` in the model; the rest is ValidateModel's.
+// Reads a patch into mm. `unit` is the length unit of the message in mm. Faults that only a message can have
+// are added to `faults` with `index`, the position of the patch in the model. ValidateModel finds the
+// others.
 Patch FromProto(const v1::Patch& proto, double unit, int index, Diagnostics& faults);
 
-// The other way, in millimetres.
+// The message of a patch, in millimetres.
 v1::Patch ToProto(const Patch& patch);
 
 }  // namespace patchmill

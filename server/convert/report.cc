@@ -14,7 +14,8 @@
 namespace patchmill {
 namespace {
 
-// JSON has no NaN and no infinity: what does not exist is zero, or left out where the field can be.
+// JSON has no NaN and no infinity. A value that does not exist becomes zero, or is left out if the field is
+// optional.
 double Number(double x) { return std::isfinite(x) ? x : 0.0; }
 
 v1::CheckState State(bool ok) { return ok ? v1::CHECK_STATE_PASSED : v1::CHECK_STATE_FAILED; }
@@ -33,7 +34,7 @@ constexpr UnreachableReason kReasons[] = {UnreachableReason::kUndercut, Unreacha
                                           UnreachableReason::kStrategy, UnreachableReason::kShank,
                                           UnreachableReason::kOutside};
 
-// When nothing was cut nothing was verified; the regions know what is out of reach.
+// Without a program nothing was verified. The unreachable areas then come from the regions.
 void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Report* report) {
   const std::vector<Region>& regions = from.regions;
   const auto skipped = [&](const Region& region) {
@@ -248,7 +249,7 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
     part.set_deepest_leftover_mm(Number(verify.deepest_unreachable[i]));
     *part.mutable_deepest_at() = PlaceToProto(verify.deepest_unreachable_at[i], zero);
     if (kReasons[i] == UnreachableReason::kFloor && verify.finishing_floor_z) {
-      // Down once more: a zero between thousandths shifts them.
+      // Rounded down again: program zero may lie between thousandths.
       part.set_finishing_floor_z_mm(std::floor((*verify.finishing_floor_z - zero.z()) * 1e3) / 1e3);
     }
     if (kReasons[i] == UnreachableReason::kShank && verify.finishing_flute_length) {

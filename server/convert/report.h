@@ -1,4 +1,5 @@
-// What the domain found -> the wire. Placed points become program-frame points: minus program zero.
+// Results of the domain -> messages. Points of the placed frame become points of the program frame: program
+// zero is subtracted.
 #pragma once
 
 #include <functional>
@@ -15,31 +16,32 @@ namespace patchmill {
 
 v1::Diagnostic ToProto(const Diagnostic& diagnostic, const Vec3& zero);
 
-// At most limits::kMaxDiagnostics; then one says how many more there are.
+// Adds at most limits::kMaxDiagnostics findings. One more states how many are not listed.
 void AddDiagnostics(const Diagnostics& from, const Vec3& zero,
                     google::protobuf::RepeatedPtrField<v1::Diagnostic>* to);
 
 v1::Box ToProto(const Box3& box, const Vec3& zero);
 
-enum class Detail { kAll, kFigures };  // figures: without borders and patches
+enum class Detail { kAll, kFigures };  // kFigures leaves out borders and patches
 v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3& zero, Detail detail);
 
-// The client's own id of each patch, in the order of the model; none when none has one.
+// The client's own id of each patch, in the order of the model. Empty if no patch has an id.
 google::protobuf::RepeatedPtrField<std::string> PatchIds(const PatchModel& model);
 
-// `choices`: one for each region.
+// `choices` has one element for each region.
 v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& choices, const Vec3& zero);
 
 v1::SetupSheet ToProto(const Resolved& resolved, const Job& job);
 
-// What the verifier measured. `scallop_judged` is false when no scallop was asked for.
+// Fills the figures of the verifier. `scallop_judged` is false if no scallop was given.
 void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop_judged, v1::Report* report);
 
-// The report of a job; `program` is what is sent, empty when nothing is.
+// The report of a job. `program` is the text that is sent; empty if there is none.
 v1::Report ToProto(const JobReport& report, const Job& job, const Resolved& resolved,
                    std::string_view program);
 
-// The motion in chunks of at most limits::kPathChunkPoints, in order; stops early when `emit` says false.
+// Emits the motion in order, in chunks of at most limits::kPathChunkPoints points. Stops if `emit` returns
+// false.
 bool EmitPaths(const Toolpath& toolpath, const Vec3& zero, const std::function<bool(v1::PathChunk)>& emit);
 
 }  // namespace patchmill

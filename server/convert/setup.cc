@@ -144,7 +144,7 @@ Tool FromProto(const v1::Tool& proto, std::string_view at, CuttingData cutting_d
                            *tool.shank_diameter));
   }
   if (!proto.holder().empty())
-    errors.NotYet(At(at, "holder"), "leave it empty; the report says what stick-out is needed");
+    errors.NotYet(At(at, "holder"), "leave it empty; the report states the stick-out that is needed");
   CheckCuttingData(proto, at, cutting_data, errors);
   tool.spindle_rpm = proto.spindle_rpm();
   tool.feed = proto.feed_mm_per_min();

@@ -12,11 +12,12 @@
 namespace patchmill {
 
 Vec3 FromProto(const v1::Point3& proto);
-// The same, its numbers checked; `at` is its path.
+// Reads a point and checks its coordinates. `at` is the path of the point.
 Vec3 ReadPoint(const v1::Point3& proto, const std::string& at, FieldErrors& errors);
 v1::Point3 ToProto(const Vec3& p);
 
-// Every wrong field is added to `errors` with its path below `at`; the result may be used when none was.
+// Every wrong field is added to `errors` with its path below `at`. The result may be used only if none was
+// added.
 Setup FromProto(const v1::Setup& proto, std::string_view at, FieldErrors& errors);
 
 enum class CuttingData { kRequired, kOptional };

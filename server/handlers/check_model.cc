@@ -18,8 +18,8 @@
 namespace patchmill {
 namespace {
 
-// A file without a unit is taken as millimetres; say so, and louder when the size looks wrong
-// ([machining M14]).
+// The finding for a file without a unit, which is read as millimetres: an info, or a warning if the size
+// looks wrong [machining M14].
 Diagnostic UnitFinding(const Box3& box, const std::optional<Tool>& tool) {
   const double extent = (box.max - box.min).maxCoeff();
   const bool wrong = extent > 2000.0 || (tool && extent < 4.0 * BallRadius(*tool));

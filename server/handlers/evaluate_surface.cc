@@ -38,7 +38,7 @@ void AddPoint(const SurfaceJet& jet, const Vec3& zero, v1::EvaluateSurfaceRespon
   Add({principal.k_min, principal.k_max}, response->mutable_principal_curvatures_per_mm());
 }
 
-// Index and parameters of every point, against the model.
+// Checks index and parameters of every point against the model.
 absl::Status CheckPoints(const v1::EvaluateSurfaceRequest& request, const PatchModel& model) {
   FieldErrors errors;
   for (int k = 0; k < request.patch_index_size(); ++k) {

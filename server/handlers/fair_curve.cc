@@ -23,7 +23,7 @@ std::string Draw(const FairedCurve& faired, const std::string& title) {
 absl::Status HandleFairCurve(const Call& call, const v1::FairCurveRequest& request,
                              v1::FairCurveResponse* response) {
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
-  // One thread: a curve is a chain, each point waits for the one before.
+  // One thread suffices: a curve is a chain in which each point depends on the one before.
   return RunJobThread(call, 1, {}, [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(const FairingOrder order, FromProto(request));
     PM_RETURN_IF_ERROR(run.Check());

@@ -45,14 +45,14 @@ Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs) {
   return response;
 }
 
-// Everything the worker thread leaves behind for the answer.
+// The results of the worker thread that the answer needs.
 struct Made {
   Resolved resolved;
   JobResult result;
   std::string picture;
 };
 
-// Takes the model away: nothing else needs it.
+// Moves the model out of `prepared`; nothing else needs it.
 absl::Status Make(PreparedJob& prepared, bool with_picture, const RunContext& run, Made* made) {
   PM_ASSIGN_OR_RETURN(const Surface surface,
                       BuildPlacedSurface(std::move(prepared.model.model), prepared.job.setup, run));
@@ -66,7 +66,7 @@ absl::Status Make(PreparedJob& prepared, bool with_picture, const RunContext& ru
   return absl::OkStatus();
 }
 
-// Everything that can be checked without planning.
+// Checks everything that can be checked without planning.
 absl::Status Validate(const PreparedJob& prepared, const RunContext& run) {
   PM_ASSIGN_OR_RETURN(const Surface surface,
                       BuildPlacedSurface(prepared.model.model, prepared.job.setup, run));
@@ -111,8 +111,8 @@ bool SendProgram(std::string_view program, const Sink<Response>& sink) {
   });
 }
 
-// The order on the wire: regions, paths, artifacts, program, report. No path and no program of a job that
-// failed.
+// Sends regions, paths, artifacts, program and report, in this order. A job that failed has no paths and no
+// program.
 bool SendResult(const PreparedJob& prepared, const Made& made, const Outputs& outputs,
                 const Sink<Response>& sink) {
   const JobResult& result = made.result;

@@ -1,4 +1,5 @@
-// One free function per RPC: convert, call, convert. Streams go into a sink, so that tests can capture them.
+// One free function per RPC: it converts the request, calls the domain and converts the result. Streams go
+// into a sink, so that tests can capture them.
 #pragma once
 
 #include <absl/status/status.h>

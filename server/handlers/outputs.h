@@ -1,4 +1,4 @@
-// Which outputs a request asks for.
+// The outputs that a request wants.
 #pragma once
 
 #include <set>
@@ -12,8 +12,8 @@ namespace patchmill {
 
 using Outputs = std::set<int>;  // of v1::Output
 
-// What was asked for, or `defaults`. INVALID_ARGUMENT for one that is not in `possible`, UNIMPLEMENTED for
-// one that only has its place reserved.
+// The requested outputs, or `defaults` if none are requested. INVALID_ARGUMENT for an output that is not in
+// `possible`, UNIMPLEMENTED for one that is reserved for later.
 absl::StatusOr<Outputs> ReadOutputs(const google::protobuf::RepeatedField<int>& asked,
                                     const Outputs& possible, const Outputs& defaults);
 

@@ -1,4 +1,4 @@
-// What the handlers share: a request's job checked, its model loaded, its limits set.
+// Steps that the handlers share: they check the job of a request, load its model and set its limits.
 #pragma once
 
 #include <string>
@@ -15,22 +15,22 @@ struct PreparedJob {
   Job job;
   LoadedModel model;
   std::string digest;  // of the whole request, 32 bytes
-  std::string name;    // what the part is called
+  std::string name;    // of the part
 };
 
-// All field errors of job and post together with those of the model. Nothing is refused for what it might
-// come to: the job has limits::kMaxCutLengthMm and kMaxPathPoints with it, and ends when its passes come to
-// more.
+// Reads a job. Errors list all wrong fields of job, post and model together. No job is refused because of an
+// estimate: it carries limits::kMaxCutLengthMm and kMaxPathPoints, and ends when its passes exceed them.
+// While the model's file is parsed, its message is held in `in_flight`.
 absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run,
                                        InFlight& in_flight);
 
-// INVALID_ARGUMENT for a field this version does not know: refused, never silently ignored.
+// INVALID_ARGUMENT for a field that this version does not know. Such a field is never ignored silently.
 absl::Status RefuseUnknownFields(const google::protobuf::Message& request);
 
-// With their points as placed.
+// The remarks with their points in the placed frame.
 Diagnostics Placed(Diagnostics remarks, const Placement& placement);
 
-// OK for a usable model, MODEL_INVALID with the faults for another.
+// OK for a model without faults, else MODEL_INVALID with the faults.
 absl::Status RequireSound(const LoadedModel& model);
 
 }  // namespace patchmill

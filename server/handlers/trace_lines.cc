@@ -49,14 +49,14 @@ absl::StatusOr<Order> ReadOrder(const v1::TraceLinesRequest& request) {
   return order;
 }
 
-// One level of one family and its curves.
+// One level of one family, with its curves.
 struct Level {
   int family = 0;
   double level = 0.0;
   std::vector<ZeroCurve> curves;
 };
 
-// Points of all lines, which an answer can hold or not.
+// Counts the points of all lines and compares them with the limit of an answer.
 class PointCount {
  public:
   absl::Status Add(const std::vector<ZeroCurve>& curves) {
@@ -71,7 +71,7 @@ class PointCount {
 
 absl::StatusOr<std::vector<ZeroCurve>> TraceFlow(const Surface& surface, FlowParams flow, double tolerance,
                                                  const RunContext& run) {
-  constexpr double kUsual = 1.0 / 40.0, kClosest = 1e-3;  // of the box's diagonal
+  constexpr double kUsual = 1.0 / 40.0, kClosest = 1e-3;  // shares of the diagonal of the box
   const double diagonal = surface.box.Diagonal();
   if (flow.spacing == 0.0) flow.spacing = kUsual * diagonal;
   if (flow.spacing < kClosest * diagonal)
@@ -85,7 +85,7 @@ absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vect
                                          const Order& order, const Vec3& zero, const RunContext& run) {
   std::vector<Level> levels;
   std::vector<ZeroField> fields;
-  std::vector<std::size_t> of_field;  // its level
+  std::vector<std::size_t> of_field;  // position of its level
   PointCount points;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const int family = static_cast<int>(k);
@@ -111,7 +111,7 @@ absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vect
   ZeroMeshParams params;
   params.min_cell = order.min_loop;
   params.max_cell = std::max(params.max_cell, params.min_cell);
-  // Some at a time: too many points are known before they fill the memory.
+  // A few fields at a time, so that too many points are noticed before they fill the memory.
   constexpr std::size_t kAtOnce = 8;
   for (std::size_t first = 0; first < fields.size(); first += kAtOnce) {
     const std::size_t count = std::min(kAtOnce, fields.size() - first);
@@ -126,7 +126,7 @@ absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vect
   return levels;
 }
 
-// Blue for the lowest level of a family to red for the highest.
+// From blue for the lowest level of a family to red for the highest.
 std::string Color(double share) {
   const auto mix = [&](int a, int b) { return a + static_cast<int>(share * (b - a)); };
   return fmt::format("#{:02x}{:02x}{:02x}", mix(20, 200), mix(70, 30), mix(190, 30));

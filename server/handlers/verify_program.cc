@@ -33,7 +33,7 @@ void ReadRegions(const v1::VerifyProgramRequest& request, Operation& op, FieldEr
   }
 }
 
-// What to judge by, as a job: set-up, tool, tolerance, leave, floor, strategy.
+// The request as a job: set-up, tool, tolerance, stock to leave, floor, strategy.
 Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
   Job job;
   Operation& op = job.operation;
@@ -79,11 +79,11 @@ Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
   if (!request.dialect().empty() && request.dialect() != "linuxcnc") {
     errors.Add("dialect", fmt::format("= \"{}\"; must be one of: linuxcnc", request.dialect().substr(0, 50)));
   }
-  job.work_offset.clear();  // a verified program may use any
+  job.work_offset.clear();  // a program that is only verified may use any
   return job;
 }
 
-// COMPLETE means that the finish was judged too, and that there was something to finish.
+// COMPLETE means that the finish was checked, too, and that there was something to finish.
 v1::Outcome Judge(const v1::Report& report, bool nothing_to_finish) {
   const bool ok = report.gouge_check() == v1::CHECK_STATE_PASSED &&
                   report.motion_check() == v1::CHECK_STATE_PASSED &&
@@ -94,7 +94,7 @@ v1::Outcome Judge(const v1::Report& report, bool nothing_to_finish) {
   return report.unreachable_area_mm2() > 0.0 ? v1::OUTCOME_COMPLETE_WHERE_REACHABLE : v1::OUTCOME_COMPLETE;
 }
 
-// How often a rapid follows a feed.
+// Number of rapids that follow a feed move.
 int RetractCount(const ProgramMotion& motion) {
   int count = 0;
   for (std::size_t i = 1; i < motion.moves.size(); ++i) {
@@ -138,7 +138,7 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
   if (!request.has_scallop_mm()) {
     AddDiagnostics(
         {MakeWarning("FINISH_NOT_CHECKED",
-                     "no scallop is given: whether anything is finished, or cut at all, is not judged",
+                     "no scallop is given: the finish is not checked, nor whether the program cuts anything",
                      {.field = "scallop_mm"})},
         resolved.program_zero, report->mutable_diagnostics());
   }

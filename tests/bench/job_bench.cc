@@ -30,11 +30,10 @@ EnumArray<PassKind, double> LengthsByKind(const LinkResult& motion) {
   return lengths;
 }
 
-// mm: LeastCutLength's integral over the steps across the passes that the ground gets, contours or its
-// region's
-// lines (as if they did not bend), in place of the widest: what feed would be if passes cost nothing but what
-// the scallop asks for. The rest goes for their ends, for steps that are narrower than they need be, and
-// links.
+// mm: the integral of LeastCutLength, but with the step across the passes that each place gets (contours, or
+// the lines of its region as if they did not bend) instead of the widest step. It is the feed length if
+// passes cost no more than the scallop needs. The rest of the feed is for their ends, for steps narrower
+// than necessary, and for links.
 double FeedInItsDirections(const Surface& surface, const Job& job, const JobResult& result, double radius) {
   const RegionMap& map = result.regions;
   const int stride = StrideOf(map);
@@ -63,8 +62,9 @@ absl::StatusOr<JobResult> RunFromModel(const PatchModel& model, const Job& job) 
   return RunVerified(surface, job);
 }
 
-// Everything a request costs but the wire (JobOverWire): placing, surface, RunJob. peak_MB is the process's
-// largest resident memory, other parts kept by earlier benchmarks included: run alone for a figure.
+// Everything that a request costs except the wire (JobOverWire): placing, surface, RunJob. peak_MB is the
+// largest resident memory of the process. It includes parts kept by earlier benchmarks: run this one alone
+// for a figure.
 void MeasureJob(benchmark::State& state, Part part) {
   const PatchModel& model = ModelOf(part);
   const Job job = JobOf(part);
@@ -103,7 +103,7 @@ BENCHMARK_CAPTURE(MeasureJob, teapot, Part::kTeapot)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-// The independent judge on the program of Job/teapot; the items are the program's moves.
+// The verifier on the program of Job/teapot. The items are the moves of the program.
 void MeasureVerify(benchmark::State& state, Part part) {
   const Surface& surface = SurfaceOf(part);
   const Job job = JobOf(part);

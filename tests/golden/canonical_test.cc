@@ -1,4 +1,4 @@
-// What is pinned stays when words change, and changes when anything else does.
+// The pinned bytes stay the same when only wording changes, and differ when anything else changes.
 #include "tests/support/golden/canonical.h"
 
 #include <gtest/gtest.h>

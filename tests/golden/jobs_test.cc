@@ -33,7 +33,7 @@ using testing::Table;
 
 constexpr char kHashesFile[] = PATCHMILL_SOURCE_DIR "/tests/golden/hashes.tsv";
 constexpr char kFiguresFile[] = PATCHMILL_SOURCE_DIR "/tests/golden/figures.tsv";
-// Where a programmer compares: what is pinned and what came instead of it, each as text.
+// Folders with the pinned and the new answers as text, for comparison.
 constexpr char kPinnedFolder[] = PATCHMILL_GOLDEN_OUT "/pinned";
 constexpr char kNowFolder[] = PATCHMILL_GOLDEN_OUT "/now";
 
@@ -46,7 +46,7 @@ constexpr bool kAllVariants = false;
 
 bool Updating() { return std::getenv("PATCHMILL_UPDATE_GOLDEN") != nullptr; }
 
-// Read before any test runs, which are made of them.
+// They are read before any test runs, because the tests are made of them.
 const absl::StatusOr<std::vector<GoldenJob>>& ReadJobs() {
   static const auto* const jobs =
       new absl::StatusOr<std::vector<GoldenJob>>(testing::ReadGoldenJobs(PATCHMILL_SOURCE_DIR));
@@ -62,7 +62,7 @@ ServerOptions Options() {
   return options;
 }
 
-// As a client does that wants to name regions by their ids: it asks for the map first.
+// A client that names regions by their ids requests the map first.
 grpc::Status NameRegions(const Embedded& server, v1::GenerateProgramRequest& request) {
   v1::Operation& operation = *request.mutable_job()->mutable_operations(0);
   const auto& overrides = operation.region_overrides();

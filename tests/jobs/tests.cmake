@@ -20,7 +20,8 @@ if(PATCHMILL_SERVICE AND NOT PATCHMILL_SANITIZE)
 
   # The commands of README and reference do what they say there.
   foreach(page README.md docs/curves.md docs/patches.md docs/networks.md docs/curvature.md docs/editing.md
-          docs/first_surfaces.md docs/fairing.md docs/evaluation.md docs/lines.md docs/regions.md)
+          docs/first_surfaces.md docs/fairing.md docs/evaluation.md docs/lines.md docs/regions.md docs/reach.md
+          docs/limits.md)
     get_filename_component(name ${page} NAME_WE)
     add_test(NAME job_page_${name} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/jobs/run_page.sh $<TARGET_FILE:patchmill>
                                            ${CMAKE_SOURCE_DIR} ${page})

@@ -14,7 +14,7 @@ CORE = ["base", "math", "curve", "patch", "diffgeo", "spatial", "network", "surf
 CAM = ["tool", "limits", "toolpath", "location", "location/limits", "location/simd"]
 REGION = ["map", "reach", "split", "watershed", "merge", "border", "figures", ""]
 PATH = ["stepover", "chord", "edge", "zlevel", "reach", "parallel", "contour", "rest"]
-JUDGES = ["post", "verify", "picture"]  # see only tool, limits, toolpath and core, so that verify is an independent judge
+JUDGES = ["post", "verify", "picture"]  # see only tool, limits, toolpath and core, so that verify stays independent
 
 
 def rooms(top, names):

@@ -1,4 +1,4 @@
-// Every long computation stops within 0.2 s of being told to, wherever it stands.
+// Every long computation stops within 0.2 s of a cancel, at any moment.
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -43,8 +43,8 @@ PatchModel RandomPart(std::uint64_t seed, int spans, double size) {
   return testing::RandomBspline(seed, {.spans = used, .size = size * used / spans});
 }
 
-// Done alone, it tells twice a second how far it is; told to stop at any of `count` moments, it does. Times
-// are processor time.
+// Expects that `work` reports its progress twice a second, and that it stops when it is cancelled at each of
+// `count` moments. Times are processor time.
 void ExpectStops(const std::function<absl::Status(const RunContext&)>& work, int count = 6) {
   constexpr double kLatency = testing::kSanitized ? 3.0 : 0.2, kSilence = testing::kSanitized ? 10.0 : 0.5;
   const auto now = [] { return testing::ClockSeconds(CLOCK_THREAD_CPUTIME_ID); };

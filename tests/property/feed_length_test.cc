@@ -1,4 +1,4 @@
-// How long the feed is: against the least that the finish needs, and against plain parallel lines at a fixed
+// Length of feed, compared with the lower bound for the finish and with plain parallel lines at a fixed
 // step-over.
 #include <algorithm>
 #include <cmath>
@@ -67,8 +67,8 @@ TEST(FeedLength, TwoHillsBetweenTheLeastAndPlainLines) {
   EXPECT_LT(cut - least, 0.33 * (plain - least));
 }
 
-// 183 mm long, at the default finish, contours cut both ways (climbing each open one needs a way in and out
-// of the stock, which is no pass).
+// The teapot, 183 mm long, at the default finish. Contours are cut in both directions: for climb milling
+// each open one would need an approach and a retract, which are no pass.
 TEST(FeedLength, TeapotNearTheLeast) {
   if (kSanitized) GTEST_SKIP() << "too slow under sanitizers";
   Job job = BallJob(3.0, /*deep=*/false);

@@ -13,7 +13,8 @@ TEST_P(RandomFoldedJobs, KeepThePromises) {
   ExpectPromisesKept(DrawJob(seed, /*folds=*/true, /*rational=*/false), seed);
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFoldedJobs, JobSeeds(2000, kSanitized ? 2 : 10));
-// A wall whose spots are blocked by the wall beside it: away from both more stays than giving way sideways.
+// Spots of a wall that the wall beside it blocks. Raising the centre away from both leaves more than moving
+// it sideways.
 INSTANTIATE_TEST_SUITE_P(BesideWalls, RandomFoldedJobs, ::testing::Values(2116));
 
 }  // namespace

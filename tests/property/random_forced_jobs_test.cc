@@ -1,5 +1,5 @@
-// Jobs with a forced strategy over random parts keep the promises [verification, section 1] on the ground it
-// is for.
+// Jobs with a forced strategy over random parts keep the promises [verification, section 1] in the area that
+// the strategy can finish.
 #include "tests/property/random_job.h"
 
 namespace patchmill {

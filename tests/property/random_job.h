@@ -1,4 +1,4 @@
-// Jobs over random parts: every draw from one seed.
+// Jobs over random parts. Each job is drawn from one seed.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Jobs over parts with ground around an axis, which circles cut: wavy, oval and tilted rings of any size keep
-// the promises [verification, section 1].
+// Jobs over parts with an area around an axis, which circular lines cut, keep the promises [verification,
+// section 1]: wavy, oval and tilted rings of any size.
 #include "tests/property/random_job.h"
 
 namespace patchmill {
@@ -9,7 +9,7 @@ using namespace testing;  // NOLINT: the support folder's
 
 class RandomRims : public ::testing::TestWithParam<int> {
  protected:
-  // Of a full run a good part must have circles, or nothing is tested.
+  // In a full run many jobs must have circular lines, or nothing is tested.
   static void TearDownTestSuite() {
     if (jobs_ < 10) return;
     EXPECT_GE(4 * round_, jobs_);
@@ -17,8 +17,8 @@ class RandomRims : public ::testing::TestWithParam<int> {
   inline static int jobs_ = 0, round_ = 0;
 };
 
-// Rings of random height and width on a slope, waves along and across them; on squares and, more often, on
-// round dishes: circles are for ground whose borders they run along.
+// Rings of random height and width on a slope, with waves along and across them. They lie on squares and,
+// more often, on round dishes, because circular lines are for areas whose borders they run along.
 PatchModel DrawRims(Random& random) {
   const Vec2 center(random.Uniform(-2, 2), random.Uniform(-2, 2));
   const double ring = random.Uniform(6, 9), width = random.Uniform(1.0, 4.0),

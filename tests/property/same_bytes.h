@@ -1,4 +1,4 @@
-// Two jobs that must have come to the same, and the parts that they are tried on.
+// Compares two jobs that must give the same bytes, and supplies the parts for it.
 #pragma once
 
 #include "tests/property/random_job.h"

@@ -12,15 +12,15 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-// What round lines of the job run around.
+// The centre of the circular lines of a job.
 std::optional<Vec2> Around(const JobResult& result) {
   for (const RegionChoice& choice : result.report.choices)
     if (!choice.around.empty()) return choice.around.front().lines.center;
   return std::nullopt;
 }
 
-// Where the passes of one kind lie: heights of the levels, offsets of the lines across the feed, or radii of
-// round ones, whose corners lie on the circle; each once.
+// Places of the passes of one kind, each once: heights of levels, offsets of lines across the feed, or radii
+// of circular lines, whose corners lie on the circle.
 std::vector<double> Places(const JobResult& result, PassKind kind, double angle) {
   const Vec3 across(-std::sin(angle), std::cos(angle), 0.0);
   const std::optional<Vec2> around = Around(result);
@@ -85,8 +85,8 @@ void ExpectSameJob(const PatchModel& model, const Job& job) {
   }
 }
 
-// Straight lines, whose places are found to rounding; where lines bend follows from samples, of which one at
-// the limit of what is wanted counts or not.
+// Straight lines only, because their places are exact to rounding. Bends follow from samples, and a sample at
+// the limit of the selection may count or not.
 TEST(SameJob, SmoothPart) {
   Job job = BallJob(3.0);
   job.operation.zigzag_bend = 0.0;

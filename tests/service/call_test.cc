@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using testing::StatusIs;
 using Clock = std::chrono::steady_clock;
 
-// Work that goes on until it is told to stop.
+// Work that ends only after a cancel.
 absl::Status Endless(const RunContext& run) {
   while (run.Check().ok()) std::this_thread::sleep_for(1ms);
   return run.Check();

@@ -107,7 +107,7 @@ TEST_F(Cli, TheShankIsJudgedAndTheStickoutWarnedOf) {
   EXPECT_THAT(judged.out + judged.err, HasSubstr("SHANK_GOUGE"));
 }
 
-// What only the shank keeps the ball from is said with the flutes that would not.
+// An area that only the shank blocks is reported with the flute length that would finish it.
 TEST_F(Cli, AWideShankIsPlannedAround) {
   const Finished blunt = Mill(bump_, {"--flute-length", "0.5", "--shank-diameter", "30"});
   ASSERT_EQ(blunt.status, 0) << blunt.err;
@@ -119,7 +119,7 @@ TEST_F(Cli, AWideShankIsPlannedAround) {
   EXPECT_THAT(longer.err, AllOf(HasSubstr("verified"), Not(HasSubstr("SHANK"))));
 }
 
-// A file's name is not text until it is made so: cut between characters, other bytes replaced.
+// The name of a file may be no valid text. It is cut between characters, and other bytes are replaced.
 TEST_F(Cli, ModelsMayHaveAnyName) {
   std::string umlauts;
   for (int i = 0; i < 60; ++i) umlauts += "\u00fc";
@@ -149,7 +149,8 @@ TEST_F(Cli, QuietSaysNothingOfASuccess) {
   EXPECT_THAT(run.err + run.out, IsEmpty());
 }
 
-// But for warnings that not every job has; those of patches by their first one, names as they can be shown.
+// Warnings that hold for every job are left out. Of warnings about patches the first is shown, with printable
+// names.
 TEST_F(Cli, QuietSaysWarnings) {
   v1::PatchModel twice = testing::Bump();
   for (int i = 0; i < 3; ++i) *twice.add_patches() = twice.patches(0);
@@ -188,7 +189,7 @@ TEST_F(Cli, VerifyAcceptsWhatMillMadeAndRefusesWhatWasTamperedWith) {
   EXPECT_THAT(bad.out, HasSubstr("FINISH_NOT_CHECKED"));
 }
 
-// COMPLETE means judged: a program that cuts air passes every other check.
+// COMPLETE means that the finish was checked. A program that cuts air passes every other check.
 TEST_F(Cli, VerifySaysCompleteOnlyOfAFinishItHasJudged) {
   const std::string air = in_.Write("air.ngc",
                                     "G21 G17 G40 G49 G54 G80 G90 G91.1 G94\nG61\nG53 G0 Z0\nT1 M6\nS9000 M3\n"
@@ -213,7 +214,7 @@ TEST_F(Cli, VerifySaysCompleteOnlyOfAFinishItHasJudged) {
   EXPECT_EQ(verify({"--scallop", "0.05", "--no-finish"}).status, 2);
 }
 
-// An F beside G20 or G21 is in the unit before; what no word has stated is named.
+// An F beside G20 or G21 is in the unit that was in force before. Settings that no word has stated are named.
 TEST_F(Cli, UnitsAndArcsAreReadAsAControlReadsThem) {
   const std::string folder = std::string(PATCHMILL_SOURCE_DIR) + "/tests/models/gcode/";
   const auto verify = [&](const std::string& name) {
@@ -267,7 +268,7 @@ TEST_F(Cli, APartSmallerThanAStepIsNothingToCut) {
   EXPECT_THAT(out_.Names(), IsEmpty());
 }
 
-// What is odd or idle in the cutting data is said, by the options' names.
+// Strange or unused cutting data are reported by the names of the options.
 TEST_F(Cli, OddSettingsAreToldByTheirOptions) {
   const Finished run = Mill(bump_, {"--quiet", "--feed", "900", "--plunge-feed", "1000", "--flute-length",
                                     "10", "--strategy", "contour", "--bend", "0"});
@@ -292,7 +293,7 @@ TEST_F(Cli, EveryFormatOfTheReadmeIsReadByItsEnding) {
   EXPECT_THAT(weight.err, HasSubstr("ZERO_WEIGHT"));
 }
 
-// What the floor leaves is said with the floor that would not.
+// An area that only the floor blocks is reported with the floor that would finish it.
 TEST_F(Cli, TheFloorThatIsNamedFinishes) {
   const Finished high = Mill(bump_, {"--floor", "0.3"});
   ASSERT_EQ(high.status, 0) << high.err;
@@ -387,7 +388,7 @@ TEST_F(Cli, LowRapidsNeedTheStock) {
   EXPECT_LT(rapid_length({"--allowance", "0.3", "--low-rapids"}), 0.8 * rapid_length({"--allowance", "0.3"}));
 }
 
-// Listed with ids, switched off by id or point, and judged alike.
+// Regions are listed with ids, switched off by id or by point, and verified alike.
 TEST_F(Cli, RegionsAreListedSwitchedOffAndJudged) {
   const std::vector<std::string> split = {"--floor", "-5", "--tolerance", "0.02"};
   const auto with = [&](std::vector<std::string> arguments, std::vector<std::string> more = {}) {
@@ -413,7 +414,7 @@ TEST_F(Cli, RegionsAreListedSwitchedOffAndJudged) {
   const Finished judged = Patchmill(with(verify, {"--region", "0:off", "--regions", map}));
   EXPECT_EQ(judged.status, 0) << judged.out;
 
-  // The point that the list gives names the same region, and so does the sum in place of the file.
+  // The point in the list names the same region. The digest can replace the file.
   const v1::Point3& p = regions[0].inside_point();
   const std::string at =
       std::to_string(p.x_mm()) + "," + std::to_string(p.y_mm()) + "," + std::to_string(p.z_mm());
@@ -618,7 +619,7 @@ TEST_F(Cli, UnreadableModelsAreStatusTwoWithAReason) {
       {"count.bpt", "2000000000\n1 1\n0 0 0\n", "line "},
       {"kind.bv", "1\n4 1\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n", "line "},
       {"wrong.bv", good, "line 1"},
-      {"wrong.stl", "solid x\nendsolid x\n", "told by the file's ending"},
+      {"wrong.stl", "solid x\nendsolid x\n", "by the file's ending"},
       {"nounit.json", "{\"patches\": [{}]}", "length_unit"},
   };
   for (const auto& c : cases) {
@@ -641,7 +642,7 @@ TEST_F(Cli, NoResultReplacesWhatIsReadOrAnotherResult) {
   const std::string before = Slurp(bump_);
   const Finished model = Patchmill({"mill", bump_, "-o", bump_});
   EXPECT_EQ(model.status, 2);
-  EXPECT_THAT(model.err, HasSubstr("is read"));
+  EXPECT_THAT(model.err, HasSubstr("is an input"));
   EXPECT_EQ(Slurp(bump_), before);
   const Finished twice = Mill(bump_, {"--report", out_ / "./part.ngc"});
   EXPECT_EQ(twice.status, 2);
@@ -673,7 +674,7 @@ TEST_F(Cli, NoResultReplacesAnyFileThatIsRead) {
     const std::string before = Slurp(file);
     const Finished run = Patchmill(command);
     EXPECT_EQ(run.status, 2) << command[0] << " " << file;
-    EXPECT_THAT(run.err, HasSubstr(file + " is read")) << command[0];
+    EXPECT_THAT(run.err, HasSubstr(file + " is an input")) << command[0];
     EXPECT_EQ(Slurp(file), before) << command[0];
   }
   EXPECT_THAT(out_.Names(), UnorderedElementsAre("map.json"));

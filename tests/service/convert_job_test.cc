@@ -421,7 +421,8 @@ TEST(JobRoundTrip, EveryFieldComesBack) {
   EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(PostToProto(job), request.post()));
 }
 
-// The digest covers resolved values: a default said aloud changes nothing, any other value does.
+// The digest covers resolved values: a default that is stated explicitly does not change it, any other value
+// does.
 TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   const auto digest = [](const Request& r) {
     FieldErrors errors;

@@ -207,7 +207,7 @@ TEST(ModelErrors, BsplinesCountWithThePiecesTheyAreCutInto) {
       status,
       StatusIs(absl::StatusCode::kResourceExhausted,
                HasSubstr("model.control_point_count = 2509072; the limit is 2500000; patches[1].bspline "
-                         "counts 2509056")));
+                         "counts as 2509056")));
   EXPECT_TRUE(FromProto(sheet(15, 98), "m").ok());
   EXPECT_TRUE(FromProto(sheet(3, 390), "m").ok());
   EXPECT_FALSE(FromProto(sheet(3, 396), "m").ok());

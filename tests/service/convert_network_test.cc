@@ -233,8 +233,8 @@ TEST(NetworkModel, TwistsHosakaFacesAndCutsArrive) {
 TEST(NetworkModel, IsRefusedBesidePatches) {
   v1::PatchModel model = QuadAndTriangle();
   model.add_patches();
-  EXPECT_THAT(FromProto(model, "m").status(),
-              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("m.network comes beside patches")));
+  EXPECT_THAT(FromProto(model, "m").status(), StatusIs(absl::StatusCode::kInvalidArgument,
+                                                       HasSubstr("m.network is set together with patches")));
 }
 
 struct NetworkFault {

@@ -1,4 +1,4 @@
-// What ended the server, or left it deaf, from outside: it answers with a reason and goes on serving.
+// Requests that once ended the server or blocked it. It answers them with a reason and continues to serve.
 #include <chrono>
 #include <future>
 #include <memory>
@@ -216,7 +216,7 @@ grpc::Status CheckWithin(const Daemon& daemon, const v1::CheckModelRequest& requ
   return v1::ModelService::NewStub(ChannelTo(daemon))->CheckModel(&context, request, &response);
 }
 
-// Whether the process stops working within that time: a tenth of a second without work.
+// Whether the process becomes idle within that time, that is, for a tenth of a second.
 bool IdleWithin(const Daemon& daemon, std::chrono::milliseconds most) {
   const auto until = std::chrono::steady_clock::now() + most;
   double before = daemon.CpuSeconds();

@@ -36,7 +36,7 @@ TEST(InFlight, HoldsUpToItsLimitAndTakesBackWhatIsReleased) {
     EXPECT_FALSE(in_flight.Take(500).ok());
   }
   EXPECT_TRUE(in_flight.Take(1000).ok());
-  // What never fits is not told to come again.
+  // A request that can never fit gets another reason than one that may be sent again.
   EXPECT_EQ(ReasonOf(in_flight.Take(1001).status()), "LIMIT_EXCEEDED");
 }
 

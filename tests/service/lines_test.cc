@@ -227,7 +227,7 @@ TEST_F(Evaluations, ABowlInClosedForm) {
   EXPECT_NEAR(response_.dv_mm(4), 20, 1e-12);
 }
 
-// Knots are no parameters: a spline over 5 to 25 is asked for places in [0,1], as any patch.
+// Knots are no parameters. The places of a spline with knots from 5 to 25 are in [0,1], as for any patch.
 TEST_F(Evaluations, ASplineWhoseKnotsAreFarFromZeroAndOne) {
   v1::PatchModel& model = *request_.mutable_source()->mutable_model();
   model.clear_patches();

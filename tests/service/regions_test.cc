@@ -214,7 +214,8 @@ TEST_F(Regions, AVerdictOnTheirScallopsNeedsOneForTheRest) {
                           HasSubstr("region_overrides[0].scallop_mm is set without scallop_mm")));
 }
 
-// The networks of tests/cam/region/split_regions_counts.txt, as they are and with each vertex moved a little.
+// The networks of tests/cam/region/split_regions_counts.txt, as they are and with each vertex moved a
+// little.
 TEST_F(Regions, OfNetworksAreAsManyAsTheTableSays) {
   int networks = 0;
   for (const testing::TableRow& row : testing::ModelTable()) {
@@ -241,7 +242,7 @@ TEST_F(Regions, OfNetworksAreAsManyAsTheTableSays) {
   EXPECT_EQ(networks, 2);
 }
 
-// The lid and the rim of the teapot lie around its axis, which is told in the program's frame.
+// The lid and the rim of the teapot lie around its axis. The axis is reported in the program frame.
 TEST_F(Regions, SayWhatTheirLinesRunAround) {
   std::ifstream in(PATCHMILL_SOURCE_DIR "/examples/teapot.bpt");
   v1::ModelFile& file = *job_.mutable_source()->mutable_file();

@@ -206,7 +206,7 @@ TEST(BytesInFlight, CallsWithoutARequestDoNotKeepOthersOut) {
   *request.mutable_source()->mutable_model() = testing::Bump();
   v1::CheckModelResponse response;
   EXPECT_TRUE(embedded.Check(request, &response).ok());
-  // One that ends without a request is told so.
+  // A call that ends without a request gets an error that says so.
   silent[0]->WritesDone(nullptr);
   queue.Next(&tag, &ok);
   grpc::Status status;

@@ -45,8 +45,8 @@ TEST(CheckModel, ASoundModelHasABoxAndItsEdges) {
   EXPECT_EQ(response.open_edge_count(), 4);
   EXPECT_EQ(response.joined_edge_count(), 0);
   EXPECT_EQ(response.model_sha256().size(), 32u);
-  // The program frame: the model's [0, 12] shifted by program zero. The bump's top is at (27/64 + ...) = 9/16
-  // height.
+  // The program frame: the model's [0, 12] shifted by program zero. The bump's top is at (27/64 + ...) =
+  // 9/16 height.
   EXPECT_NEAR(response.box().min().x_mm(), -2.0, 1e-6);
   EXPECT_NEAR(response.box().max().x_mm(), 10.0, 1e-6);
   EXPECT_NEAR(response.box().max().z_mm(), 2.0 * 9.0 / 16.0, 1e-6);
@@ -87,7 +87,7 @@ TEST(CheckModel, MeasuresEveryJointOfACurveNetwork) {
   *request.mutable_source()->mutable_model() = ThreeFaces();
   v1::CheckModelResponse response;
   ASSERT_TRUE(embedded.Check(request, &response).ok());
-  EXPECT_EQ(response.joints_size(), 0);  // not asked for
+  EXPECT_EQ(response.joints_size(), 0);  // not requested
   request.set_continuity_steps(200);
   ASSERT_TRUE(embedded.Check(request, &response).ok());
   EXPECT_EQ(response.patch_count(), 3);

@@ -1,4 +1,4 @@
-// How long a computation goes on after it was told to stop.
+// How long a computation continues after a cancel.
 #pragma once
 
 #include <atomic>
@@ -20,8 +20,8 @@ struct CancelLatency {
   double seconds = 0.0;  // of its processor time, from the cancel to the end; 0 when it was done before
 };
 
-// Runs `work` on one thread, told to stop from another once it has had `after` seconds of processor time. The
-// processor's time, not the wall's: a busy machine spoils nothing.
+// Runs `work` on one thread and cancels it from another after `after` seconds of processor time. Processor
+// time is used instead of wall clock, so that a busy machine does not change the result.
 inline CancelLatency CancelAfter(double after, const std::function<absl::Status(const RunContext&)>& work) {
   clockid_t clock{};
   pthread_getcpuclockid(pthread_self(), &clock);

@@ -1,5 +1,5 @@
-// h by brute force, to judge cam/location by: dense samples of every patch in its native form, the best of
-// them polished by a direct search. Shares no code with it: no pieces, no bounds, no derivatives.
+// h by brute force, to check cam/location. It samples every patch densely in its native form and improves the
+// best samples by a direct search. It shares no code with cam/location: no pieces, no bounds, no derivatives.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The crests that neighbouring passes leave between them, by brute force on the ground itself.
+// The crests that neighbouring passes leave between them, by brute force on the surface itself.
 #pragma once
 
 #include <algorithm>
@@ -79,7 +79,7 @@ class NearestPath {
   std::map<Key, std::vector<std::size_t>> cells_;
 };
 
-// A place on the ground as far from one path as from another, and nearer to none.
+// A place on the surface as far from one path as from another, and no nearer to any third.
 struct Crest {
   Vec3 p = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
@@ -94,9 +94,10 @@ struct PairOfPasses {
 
 using GroundFilter = std::function<bool(const Vec3& p, const Vec3& normal)>;
 
-// Follows lines of constant u and constant v over every patch, `apart` mm from one another, in steps of
-// `step` mm, and wherever the nearest path changes to one of another line, halves the step until the crest
-// between the two is found. Only ground that `counts`; the worst crest of every pair.
+// Follows lines of constant u and constant v over every patch, `apart` mm from each other, in steps of
+// `step` mm. Where the nearest path changes to one of another line, it halves the step until the crest
+// between the two is found. Only places that `counts` accepts are used. Returns the worst crest of each
+// pair.
 inline std::vector<PairOfPasses> CrestsOfPairs(const Surface& surface, const std::vector<CutterPath>& paths,
                                                double radius, double apart, double step, double cell,
                                                const GroundFilter& counts) {

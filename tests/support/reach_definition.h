@@ -1,4 +1,5 @@
-// [regions (6)] by its words, without the floor and the limits of the operation: from plain distances.
+// The definition of reach [regions (6)] from plain distances, without the floor and the limits of the
+// operation.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace patchmill::testing {
 
 enum class Blocked { kNot, kAbove, kByItself };
 
-// T and B of the page, known to 1e-7 mm.
+// T and B of [regions, section 6], exact to 1e-7 mm.
 struct BallDistances {
   double ray = 0.0, ball = 0.0;
 };
@@ -23,7 +24,7 @@ inline BallDistances DistancesOf(const Surface& surface, const Vec3& c) {
 }
 
 // Of the ball of one radius that touches p. nullopt within what planner and verifier may be off of a limit:
-// 0.04 of the give, 0.002 of the radius.
+// 0.04 of the reach tolerance, 0.002 of the radius.
 inline std::optional<Blocked> WhatBlocks(const Surface& surface, const Vec3& p, const Vec3& e, double radius,
                                          double reach_tolerance) {
   const auto [ray, ball] = DistancesOf(surface, p + radius * e);
@@ -35,7 +36,7 @@ inline std::optional<Blocked> WhatBlocks(const Surface& surface, const Vec3& p, 
   return nearer > 0.0 || clears > 0.0 ? Blocked::kAbove : Blocked::kByItself;
 }
 
-// Whether something stands above the least ball.
+// Whether something stands above the smallest ball.
 inline std::optional<bool> StandsAboveLeast(const Surface& surface, const Vec3& p, const Vec3& e,
                                             double reach_tolerance) {
   const double radius = SmallestBallRadius(reach_tolerance);

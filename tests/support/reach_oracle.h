@@ -1,6 +1,7 @@
-// How much of a part no ball gets to, counted by brute force, to judge planner and verifier by: random places
-// of every patch in its native form, normals by differences, and for each its ball against dense samples of
-// all patches, the nearest of them polished by a direct search. No pieces, no bounds, no derivatives.
+// The unreachable area of a part by brute force, to check planner and verifier. It takes random places of
+// every patch in its native form, with normals by differences. The ball at each place is compared with dense
+// samples of all patches; the nearest sample is improved by a direct search. It uses no pieces, no bounds and
+// no derivatives.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The certificate for paths whose heights are given.
+// Certifies the centres of a path whose heights are known.
 #pragma once
 
 #include "cam/location/locator.h"
@@ -6,8 +6,8 @@
 
 namespace patchmill {
 
-// Every centre is proven free to `gap` mm. One that is not is raised to its certified height, with the
-// contact there, and counts as a defect (Locator::Correction). Cost of some microseconds a point.
+// Proves every centre free to `gap` mm. A centre that is not free is raised to its certified height, takes
+// the contact there, and counts as a defect (Locator::Correction). Costs some microseconds a point.
 void CertifyCenters(const Locator& locator, double gap, CutterPath& path);
 
 }  // namespace patchmill

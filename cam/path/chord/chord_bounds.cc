@@ -8,15 +8,15 @@
 namespace patchmill {
 namespace {
 
-// Where along the chord (0..1) both supports are equally far; any value is a valid split, this one is the
-// best.
+// Returns where along the chord (0..1) both supports are equally far. Any value is a valid split, this one is
+// the best.
 double BestSplit(double radius, const Vec3& a, const Vec3& b, const Support& at_a, const Support& at_b) {
   if (at_a.contact && at_b.contact) {
     // |x - p|^2 - |x - q|^2 is linear in x.
     const Vec3 pq = *at_a.contact - *at_b.contact;
     const double rise = -2.0 * (b - a).dot(pq);
     const double at0 = (a - *at_a.contact).squaredNorm() - (a - *at_b.contact).squaredNorm();
-    // One of the two nearer all along: it serves the whole chord.
+    // One support is nearer all along: it serves the whole chord.
     if (at0 <= 0.0 && at0 + rise <= 0.0) return 1.0;
     if (at0 >= 0.0 && at0 + rise >= 0.0) return 0.0;
     return std::clamp(-at0 / rise, 0.0, 1.0);
@@ -46,7 +46,8 @@ double ChordGouge(double radius, const Vec3& a, const Vec3& b, std::span<const V
   for (std::size_t k = 1; k < free.size(); ++k) {
     double t = 1.0, distance = 0.0;
     if (k + 1 < free.size()) {
-      // Straight above the centre where the move passes there, else at its foot.
+      // Take the place straight above the centre if the move passes there, else the foot of the
+      // perpendicular.
       const Vec3& c = free[k];
       t = (c - a).dot(move) / (length * length);
       const double plan2 = Xy(move).squaredNorm();

@@ -6,6 +6,7 @@
 namespace patchmill {
 
 int SupportParts(double radius, double length, double excess) {
+  // Parts: more do not pay.
   constexpr double kMost = 16.0;
   return static_cast<int>(
       std::ceil(std::clamp(length * std::sqrt(3.0 / (8.0 * radius * excess)), 2.0, kMost)));

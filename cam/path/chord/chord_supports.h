@@ -1,5 +1,5 @@
-// Points of the surface between two contacts, so many that [location T3] over them tells the true excess of a
-// chord from that of its length ([location (10)]): T3 alone counts L^2 / 8 R on a plane.
+// Points of the surface between two contacts. With enough of them [location T3] finds the true excess of a
+// chord ([location (10)]). The two contacts alone count L^2 / 8 R for a chord of length L even on a plane.
 #pragma once
 
 #include <span>
@@ -10,17 +10,17 @@
 
 namespace patchmill {
 
-// Into how many parts the way between the contacts of two centres `length` apart is divided, so that what
-// [location T3] counts on a plane is a third of `excess` (mm, > 0) at most. 2 to 16.
+// Number of parts into which the way between the contacts of two centres `length` apart (mm) is divided, so
+// that [location T3] counts at most a third of `excess` (mm, > 0) on a plane. 2 to 16.
 int SupportParts(double radius, double length, double excess);
 
-// The `parts` - 1 points of the surface that divide the way between two contacts on one piece evenly by its
-// parameters. Any surface point is a true support; these lie about where the ball touches.
+// Returns the `parts` - 1 points of the surface that divide the way between two contacts on one piece evenly
+// in its parameters. Any surface point is a true support; these lie about where the ball touches.
 std::vector<Support> SupportsBetween(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b,
                                      int parts, double floor_center);
 
-// [location T3] over many supports, each serving an equal stretch of the chord with the next: does the excess
-// stay within `limit`?
+// Applies [location T3] over many supports. Each serves, with the next one, an equal stretch of the chord.
+// Returns whether the excess stays within `limit` (mm).
 bool ExcessWithin(double radius, const Vec3& a, const Vec3& b, const Support& at_a,
                   std::span<const Support> between, const Support& at_b, double limit);
 

@@ -9,7 +9,7 @@
 namespace patchmill {
 namespace {
 
-// A second contact this far from the first one, in radii, makes a vertex of its own.
+// In radii: a second contact at least this far from the first one makes a vertex of its own.
 constexpr double kSecondContact = 1e-3;
 
 const SurfacePoint* Known(const std::optional<SurfacePoint>& contact) {
@@ -48,7 +48,8 @@ ChordLimits LimitsOf(const PassParams& params) {
   return limits;
 }
 
-// The way out of the ground in plan, where all contacts are beside the ball rather than below it.
+// Returns the direction in plan away from the surface, for a ball whose contacts are all beside it rather
+// than below it.
 std::optional<Vec3> AwayInXy(const CutterPoint& p) {
   if (!p.contact) return std::nullopt;
   Vec2 away = Xy(Vec3(p.center - p.contact->p));

@@ -10,17 +10,18 @@
 namespace patchmill {
 namespace {
 
-// What a closed-form prediction of gouge leaves to the proof, as parts of the tolerance.
+// Parts of the gouge tolerance: the most that a closed-form prediction may use, and the slack of the proof
+// after it.
 constexpr double kPredicted = 0.9, kProofSlack = 0.05;
-// By how much a small step out of the ground clears the ball at least, for its part of a step: where that is
-// less, vertices go down no farther.
+// Least clearance that the ball gains per mm of a small step away from the surface. Where the true gain is
+// less, vertices go down no farther than for this one.
 constexpr double kLeastUpright = 0.2;
-constexpr double kMostTilt = 0.5;  // cosine of the most by which the way out turns under one chord
-// Of the excess: by how much a station is below the chord between its neighbours where ground is hollow. Less
-// is rounding, or no hindrance to chords of dozens of stations.
+constexpr double kMostTilt = 0.5;  // cosine of the largest turn of `away` under one chord
+// Part of the excess: a station this far below the chord between its neighbours lies on a concave stretch.
+// Less is rounding, or does not hinder chords of dozens of stations.
 constexpr double kHollow = 1e-3;
-constexpr std::size_t kFirstLook = 8;  // stations ahead
-constexpr double kSamePlace = 1e-9;    // mm
+constexpr std::size_t kFirstLook = 8;  // stations ahead that are tried first
+constexpr double kSamePlace = 1e-9;    // mm: centres this near to each other count as one
 
 class Funnel {
  public:
@@ -40,22 +41,23 @@ class Funnel {
     bool known = false;
     std::vector<Support> supports;  // empty: none are known
   };
-  // How far below a station a vertex may be, by the stations passed over; none when least > most.
+  // How far below a station a vertex may be, given the stations passed over; nowhere if least > most.
   struct Depths {
     double least = 0.0, most = 0.0;
     bool Any() const { return least <= most; }
   };
-  // The slopes, rise over run, that chords from one vertex may have, and from which on they touch the ground.
+  // Slopes (rise over run) that chords from one vertex may have; from `touching` on they touch the surface.
   struct Slopes {
     double least = -kInfinity, most = kInfinity, touching = kInfinity;
     bool Open() const { return least <= most && most > -kInfinity; }
   };
-  // Chords from one vertex are seen in a frame of its own: along the way, and out of the ground.
+  // The frame in which chords from one vertex are seen: along the way, and away from the surface.
   struct Frame {
     Vec3 origin, along, up;
   };
 
-  // What lies above the ball's centre stands beside its shank, as an upright wall does that goes on below.
+  // A contact above the ball's centre touches the shank. It counts as a vertical wall that continues
+  // downwards.
   Support SupportOf(const SurfacePoint* contact, double center_z) const {
     Support s{{}, limits_.floor_center};
     if (contact != nullptr) s.contact = Lift(Xy(contact->p), std::min(contact->p.z(), center_z));
@@ -80,7 +82,7 @@ class Funnel {
     return depths.Any() && Fits(from, At(k, depths));
   }
   std::size_t Farthest(const ChordVertex& from, std::size_t barrier);
-  // A vertex with its proven centre. Not `known`: that one is higher than the station told.
+  // A vertex with its proven centre. `known` is false if that centre is higher than its station.
   struct Reached {
     ChordVertex vertex;
     Vec3 center = Vec3::Zero();
@@ -99,11 +101,11 @@ class Funnel {
   const double radius_;
   std::vector<Between> between_;
   std::vector<Depths> depths_;  // of the stations from the last vertex on
-  std::size_t barrier_ = 0;     // the next station to be kept
+  std::size_t barrier_ = 0;     // the next station that must be kept
   std::vector<Vec3> free_;      // scratch
 };
 
-// By how much of a small step along `up` the ball clears what it rests on.
+// Returns the clearance that the ball gains from its supports per mm of a small step along `up`.
 double Funnel::Upright(const ChordStation& s, const Vec3& up) const {
   double upright = 0.0;
   for (const SurfacePoint* contact : {s.left, s.right}) {
@@ -112,7 +114,7 @@ double Funnel::Upright(const ChordStation& s, const Vec3& up) const {
   return std::max(upright, kLeastUpright);
 }
 
-// How far below station k a vertex may be, whatever the chords.
+// Returns how far below station k a vertex may be, whatever the chords.
 double Funnel::Deepest(std::size_t k) const {
   const ChordStation& s = stations_[k];
   if (s.keep || !s.proven || k == 0 || k + 1 == stations_.size()) return 0.0;
@@ -140,8 +142,8 @@ std::optional<Funnel::Frame> Funnel::FrameAt(const ChordVertex& v) const {
   return Frame{Place(v), along / length, s.away};
 }
 
-// Goes on over stations up to `barrier`, narrowing the slopes, and tells for each how far below it the next
-// vertex may be. The last station that may have one.
+// Passes over stations up to `barrier` and narrows the slopes. Notes for each station how far below it the
+// next vertex may be. Returns the last station that may have a vertex.
 std::size_t Funnel::PassOver(const ChordVertex& from, const Frame& frame, std::size_t barrier,
                              Slopes& slopes) {
   std::size_t last = from.station;
@@ -158,8 +160,8 @@ std::size_t Funnel::PassOver(const ChordVertex& from, const Frame& frame, std::s
       depths.least = std::max(0.0, (rise - slopes.most * run) / tilt);
       depths.most = std::min(depths.most, (rise - slopes.least * run) / tilt);
     }
-    // No chord is below the ground all along: that would lower the crests beside it more than its gouge does
-    // elsewhere.
+    // No chord may be below the surface all along: it would lower the crests on its sides by more than its
+    // gouge does elsewhere.
     if (from.below > 0.0) {
       const double touching = std::max(0.0, (rise - slopes.touching * run) / std::max(tilt, kMostTilt));
       depths.most = std::min(depths.most, std::max(depths.least, touching));
@@ -175,8 +177,8 @@ std::size_t Funnel::PassOver(const ChordVertex& from, const Frame& frame, std::s
   return last;
 }
 
-// Supports between stations k and k+1. Any surface point will do: on one piece those between the contacts,
-// else one by branch following.
+// Returns the supports between stations k and k+1. Any surface point will do: on one piece those between the
+// contacts, else one found by following the branch.
 const std::vector<Support>& Funnel::SupportsAfter(std::size_t k) {
   Between& between = between_[k];
   if (!between.known) {
@@ -199,8 +201,8 @@ const std::vector<Support>& Funnel::SupportsAfter(std::size_t k) {
   return between.supports;
 }
 
-// Closed-form test of a chord against every support between its ends: excess proven ([location T3]), gouge
-// predicted (proven afterwards).
+// Tests a chord in closed form against every support between its ends. The excess is proven ([location T3]),
+// the gouge only predicted; it is proven afterwards.
 bool Funnel::Fits(const ChordVertex& from, const ChordVertex& to) {
   const Vec3 a = Place(from), b = Place(to), way = b - a;
   const auto on_chord = [&](std::size_t k) -> Vec3 {
@@ -213,7 +215,7 @@ bool Funnel::Fits(const ChordVertex& from, const ChordVertex& to) {
     return s.contact && radius_ - SegmentDistance(*s.contact, a, b) > kPredicted * limits_.gouge;
   };
   Vec3 x = a;
-  double highest = -kInfinity;  // above any support
+  double highest = -kInfinity;  // clearance of the highest place over its supports
   for (std::size_t k = from.station; k < to.station; ++k) {
     const ChordStation &s = stations_[k], &e = stations_[k + 1];
     const Support left = SupportOf(s.right, s.center.z()), right = SupportOf(e.left, e.center.z());
@@ -231,7 +233,7 @@ bool Funnel::Fits(const ChordVertex& from, const ChordVertex& to) {
   return from.below == 0.0 || to.below == 0.0 || highest >= -limits_.excess;
 }
 
-// The farthest station that a chord may lead to, by closed forms.
+// Returns the farthest station that a chord may lead to, by closed forms.
 std::size_t Funnel::Farthest(const ChordVertex& from, std::size_t barrier) {
   depths_.assign(1, Depths{from.below, from.below});
   Slopes slopes;
@@ -246,7 +248,7 @@ std::size_t Funnel::Farthest(const ChordVertex& from, std::size_t barrier) {
     if (j > good) (TryFits(from, j) ? good : bad) = j;
     if (from.station + depths_.size() > barrier || !slopes.Open()) break;
   }
-  // Mostly it is one of the stations just before.
+  // The farthest good station is mostly just before the bad one.
   for (std::size_t step = 1; bad > good + 1; step *= 2) {
     const std::size_t j = std::max(good + 1, bad - std::min(step, bad));
     if (TryFits(from, j)) {
@@ -262,8 +264,8 @@ std::size_t Funnel::Farthest(const ChordVertex& from, std::size_t barrier) {
   return good;
 }
 
-// Of the chord between two vertices, given the centres a, b over them, `proven` or not: first by
-// [location T2b] along the stations between, then by the surface. The chord runs nowhere farther below a b
+// Does the chord between two vertices gouge? a and b are the centres over them, `proven` or not. Tests first
+// by [location T2b] along the stations between, then by the surface. The chord runs nowhere farther below a b
 // than its ends do.
 bool Funnel::Gouges(const ChordVertex& from, const ChordVertex& to, const Vec3& a, const Vec3& b,
                     bool proven) {
@@ -280,7 +282,7 @@ bool Funnel::Gouges(const ChordVertex& from, const ChordVertex& to, const Vec3& 
                                kProofSlack * limits_.gouge);
 }
 
-// May a vertex that far down be followed by the next station as it is, whatever comes?
+// May a vertex that far down be followed by the next station as it is, whatever follows?
 bool Funnel::LeadsOn(const ChordVertex& v) {
   if (v.below == 0.0) return true;
   const ChordVertex next{v.station + 1, 0.0};
@@ -303,8 +305,8 @@ Funnel::Reached Funnel::Reach(const ChordVertex& v) const {
   return at;
 }
 
-// Closed forms know nothing of centres higher than their stations: chords from and to these go from station
-// to station.
+// The closed forms do not know of centres higher than their stations. Chords from and to such centres go from
+// station to station.
 Funnel::Reached Funnel::Next(const Reached& from) {
   const std::size_t start = from.vertex.station, first = start + 1;
   std::size_t j = Farthest(from.vertex, from.known ? BarrierAfter(start) : first);

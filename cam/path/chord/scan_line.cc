@@ -26,7 +26,7 @@ std::vector<ScanRun> ScanPolyline(const Locator& locator, std::span<const Vec2> 
     bool joins = !runs.empty();
     for (ScanRun& next : ScanLine(locator, corners[i], corners[i + 1], params, run)) {
       if (next.points.empty()) continue;
-      // Both stretches have the height over their corner, each certified to its own gap.
+      // Both stretches have their own height over the common corner, each certified to its own gap.
       const Vec3 step = joins ? Vec3(next.points.front().center - runs.back().points.back().center) : Vec3();
       if (!joins || step.norm() > 1e-9 + CertificateGap(params)) {
         runs.push_back(std::move(next));

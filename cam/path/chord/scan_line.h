@@ -12,21 +12,21 @@
 
 namespace patchmill {
 
-// A maximal run without a gap (where h does not exist the line breaks). Vertical drops are two points over
+// A maximal run without a gap (the line breaks where h does not exist). A vertical drop is two points over
 // one xy.
 struct ScanRun {
   std::vector<CutterPoint> points;  // from a to b
 };
 
-// Certified chords: gouge <= chord_tolerance ([location T2]), excess normal to the path <= chord_tolerance
-// ([location T3]); contact switches that a chord may not pass over solved to 1e-9 mm and kept as vertices
-// with both contacts; drops at vertical walls and open borders placed to 1e-7 mm; flat runs merged by
-// swept-ball queries. Heights are h (or the floor, whichever is higher), certified and raised by their gap.
-// `run` is polled when set: a cancelled line is cut short, and of no use.
+// Returns runs of certified chords. Gouge <= chord_tolerance ([location T2]); excess normal to the path <=
+// ExcessTolerance(params) ([location T3]). Contact switches that a chord may not pass over are solved to 1e-9
+// mm and kept as vertices with both contacts. Drops at vertical walls and open edges are placed to 1e-7 mm.
+// Flat runs are merged by swept-ball queries. Heights are h (or the floor, whichever is higher), certified
+// and raised by their gap. `run` is polled when set; a cancelled line is cut short and must not be used.
 std::vector<ScanRun> ScanLine(const Locator& locator, const Vec2& a, const Vec2& b, const PassParams& params,
                               const RunContext* run = nullptr);
 
-// The same over a line with corners (two or more), each of them a vertex; runs go on over corners.
+// The same over a line with corners (two or more), each of them a vertex. Runs continue over corners.
 std::vector<ScanRun> ScanPolyline(const Locator& locator, std::span<const Vec2> corners,
                                   const PassParams& params, const RunContext* run = nullptr);
 

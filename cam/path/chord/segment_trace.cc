@@ -10,17 +10,20 @@
 namespace patchmill {
 namespace {
 
-// Two heights closer than this belong to one branch: a hundred times the error of a local maximum.
+// mm: two heights closer than this belong to one branch. It is a hundred times the error of a local maximum.
 constexpr double kSameHeight = 1e-7;
-// Stations beside a drop stand this far from the wall's exact place, clear of rounding.
+// mm: stations at a drop stand this far from the exact place of the wall, clear of rounding.
 constexpr double kDropOffset = 1e-8;
-// Stations closer than this in plan are the ends of a drop that could not be placed otherwise.
+// mm in plan: stations closer than this are the ends of a drop that could not be placed otherwise.
 constexpr double kSmallestAdvance = 1e-7;
+// mm along the line: switches are solved to this.
 constexpr double kSwitchAccuracy = 1e-11;
+// Most steps of a solver, and deepest halving at which switches and drops are still sought.
 constexpr int kMaxIterations = 80;
-// Of what a chord between vertices and one between stations may be off, so that mostly neither fails.
+// Parts of the permitted deviation that a predicted chord between vertices, and one between stations, uses.
+// With these most chords pass their test at once.
 constexpr double kOfChord = 0.85, kOfExcess = 0.6;
-constexpr double kShortest = 0.125;  // of the chord that [location T2] allows, to begin with
+constexpr double kShortest = 0.125;  // of the chord that [location T2] allows: shortest first trial
 
 struct BranchPoint {
   double z = 0.0;
@@ -45,7 +48,7 @@ class SegmentTracer {
   std::optional<double> Bend() const;
   double NextChord() const;
   double NextAdvance(const TraceStation& s) const;
-  // Two contacts that make a corner worth a vertex of its own.
+  // Are two contacts so far apart that the corner between them is worth a vertex of its own?
   bool Apart(const std::optional<SurfacePoint>& p, const std::optional<SurfacePoint>& q) const {
     return p.has_value() != q.has_value() || (p && (p->p - q->p).norm() > 1e-3 * radius_);
   }
@@ -101,15 +104,15 @@ std::optional<BranchPoint> SegmentTracer::Branch(const std::optional<SurfacePoin
   return BranchPoint{c->z, c->contact};
 }
 
-// Where the line leaves the disc of radius R around the contact, going in direction `sign`.
+// Returns where the line, going in direction `sign`, leaves the disc of radius R around the contact.
 double SegmentTracer::DiscExit(const SurfacePoint& contact, double sign) const {
   const Vec2 d = Xy(contact.p) - line_.start;
   const double along = d.dot(line_.direction), across = Cross(line_.direction, d);
   return along + sign * std::sqrt(std::max(0.0, radius_ * radius_ - across * across));
 }
 
-// How the curve of centres bends over the last three stations, 1/mm, > 0 where it bulges; nullopt where they
-// tell nothing.
+// Returns how the curve of centres bends over the last three stations (1/mm, > 0 convex), or nullopt where
+// they do not show it.
 std::optional<double> SegmentTracer::Bend() const {
   if (runs_.empty() || runs_.back().size() < 3) return std::nullopt;
   const TraceStation* s = &*(runs_.back().end() - 3);
@@ -120,9 +123,9 @@ std::optional<double> SegmentTracer::Bend() const {
   return std::copysign(2.0 * ab.cross(ac).norm() / sides, over);
 }
 
-// The longest next chord whose [location T2] gouge and T3 excess are within their tolerances, as far as the
-// bend tells. A whole number of them makes a chord between vertices as long as that one may be
-// (FewestChords).
+// Returns the longest next chord (mm) whose [location T2] gouge and T3 excess are within their tolerances, as
+// far as the bend shows. A whole number of them makes a chord between vertices as long as FewestChords
+// permits.
 double SegmentTracer::NextChord() const {
   const double gouge = params_.chord_tolerance, excess = std::min(gouge, params_.excess_tolerance);
   const double chord = LongestChord(radius_, 0.97 * gouge);
@@ -132,18 +135,18 @@ double SegmentTracer::NextChord() const {
   const bool bulges = *bend > 0.0;
   const double most = bulges ? chord : std::min(chord, reach(kOfExcess * excess));
   const double whole = reach(kOfChord * (bulges ? gouge : DeepestVertex(gouge, excess) + excess));
-  // What stations too close to each other tell of the bend is mostly noise.
+  // The bend of stations too close to each other is mostly noise.
   return std::max(whole / std::ceil(whole / most), kShortest * chord);
 }
 
-// The plan advance that makes the next chord that long, from the slope under the ball.
+// Returns the advance in plan that makes the next chord that long, from the slope under the ball.
 double SegmentTracer::NextAdvance(const TraceStation& s) const {
   const double chord = NextChord();
   if (!s.right) return chord;
   const Vec3 n = Center(s) - s.right->p;
   const double along = Xy(n).dot(line_.direction);
   const double cosine = n.z() / std::hypot(along, n.z());
-  // The slope may grow over the chord by about its length over R; what fails is halved anyway.
+  // The slope may grow over the chord by about its length over R. A chord that fails is halved anyway.
   return chord * std::clamp(cosine - 0.02, 0.05, 1.0);
 }
 
@@ -189,11 +192,11 @@ void SegmentTracer::Refine(TraceStation a, TraceStation b, int depth) {
       if (!a_reaches_b && !b_reaches_a) {
         if (RefineAtSwitch(a, b, *a_at_b, *b_at_a, depth)) return;
       } else if (a_reaches_b != b_reaches_a) {
-        // One end stands exactly on a switch: give it the support of this side.
+        // One end stands exactly on a switch: it takes the support of this side.
         if (a_reaches_b) b.left = a_at_b->contact;
         if (b_reaches_a) {
           a.right = b_at_a->contact;
-          runs_.back().back().right = a.right;  // a is what was emitted last
+          runs_.back().back().right = a.right;  // a is the last station emitted
           runs_.back().back().keep |= Apart(a.left, a.right);
         }
         b.keep |= Apart(b.left, b.right);
@@ -221,7 +224,8 @@ void SegmentTracer::Refine(TraceStation a, TraceStation b, int depth) {
   Refine(begin, b, depth + 1);
 }
 
-// Solves branch a = branch b. True when it was the switch (or a third branch above it) and all is emitted.
+// Solves branch a = branch b. Returns true if the root was the switch (or a third branch lies above it) and
+// all stations are emitted.
 bool SegmentTracer::RefineAtSwitch(const TraceStation& a, const TraceStation& b, const BranchPoint& a_at_b,
                                    const BranchPoint& b_at_a, int depth) {
   double t0 = a.t, t1 = b.t;
@@ -270,7 +274,7 @@ bool SegmentTracer::RefineAtSwitch(const TraceStation& a, const TraceStation& b,
   return true;
 }
 
-// The higher branch ends where its contact leaves the disc: goes there and puts both ends of the drop.
+// The higher branch ends where its contact leaves the disc. Emits both ends of the drop there.
 bool SegmentTracer::RefineAtDrop(const TraceStation& a, const TraceStation& b, bool from_a, int depth) {
   const TraceStation& high = from_a ? a : b;
   const double sign = from_a ? 1.0 : -1.0, far = from_a ? b.t : a.t;
@@ -293,7 +297,7 @@ bool SegmentTracer::RefineAtDrop(const TraceStation& a, const TraceStation& b, b
   if (!top) return false;
   const auto foot = Query(wall + sign * kDropOffset, contact);
   if (!foot) {
-    // The surface itself ends here; it begins again before the other side.
+    // The surface itself ends here. It begins again before the other end.
     const TraceStation other = LastBeforeGap(from_a ? b : a, wall + sign * kDropOffset);
     top->keep = true;
     if (from_a) {
@@ -311,7 +315,7 @@ bool SegmentTracer::RefineAtDrop(const TraceStation& a, const TraceStation& b, b
   }
   TraceStation foot_station = *foot;
   if (top->z - foot->z > params_.chord_tolerance) {
-    // Both over the foot's place, which is outside the wall.
+    // Both stations stand over the place of the foot, which is outside the wall.
     top->t = foot->t;
     top->q = foot->q;
     top->keep = foot_station.keep = true;
@@ -326,14 +330,14 @@ bool SegmentTracer::RefineAtDrop(const TraceStation& a, const TraceStation& b, b
     }
     return true;
   }
-  // Something else carries the ball past that place: an ordinary station.
+  // Another part of the surface carries the ball past that place: it is an ordinary station.
   if (top->t - a.t < kSmallestAdvance || b.t - top->t < kSmallestAdvance) return false;
   Refine(a, *top, depth + 1);
   Refine(*top, b, depth + 1);
   return true;
 }
 
-// The end of the run that holds `from`, when h does not exist at gap_t.
+// Returns the end of the run that holds `from`, given that h does not exist at gap_t.
 TraceStation SegmentTracer::LastBeforeGap(const TraceStation& from, double gap_t) const {
   const double sign = gap_t > from.t ? 1.0 : -1.0;
   TraceStation inside = from;
@@ -342,7 +346,7 @@ TraceStation SegmentTracer::LastBeforeGap(const TraceStation& from, double gap_t
     double t = 0.5 * (inside.t + outside);
     if (i < kMaxIterations) {
       const double exit = DiscExit(*inside.hint, sign);
-      // First to the edge of the contact's own disc, then just past it: one of the two brackets the end.
+      // Try the edge of the contact's own disc, then a place just past it. One of the two brackets the end.
       const double edge = exit - sign * kDropOffset;
       t = sign * (edge - inside.t) > 0.5 * kDropOffset ? edge : exit + sign * kDropOffset;
       if (sign * (outside - t) <= 0.0 || sign * (t - inside.t) <= 0.0) t = 0.5 * (inside.t + outside);

@@ -1,6 +1,6 @@
-// The curve of h above a straight segment in plan, as stations dense enough that no feature hides between two
-// ([location, section 11]): contact switches that no chord may pass over and vertical drops are solved, the
-// rest is sampled.
+// The curve of h above a straight segment in plan, as stations so dense that no feature hides between two of
+// them ([location, section 11]). Contact switches that no chord may pass over and vertical drops are solved,
+// the rest is sampled.
 #pragma once
 
 #include <optional>
@@ -11,23 +11,24 @@
 
 namespace patchmill {
 
-// A centre on the curve. Left and right support differ at a switch; absent: the floor carries the ball there.
+// A centre on the curve. Left and right support differ at a switch. An absent support means that the floor
+// carries the ball.
 struct TraceStation {
   double t = 0.0;              // mm along the segment, or any curve in plan, by arc length
   Vec2 q = Vec2::Zero();       // the place in plan
   double z = 0.0;              // centre height
-  double ceiling = kInfinity;  // h at `at` is proven not to be above; infinite: not certified
-  Vec2 at = Vec2::Zero();      // where z is h: q, but just inside the wall for the top of a drop
+  double ceiling = kInfinity;  // proven upper bound of h at `at`; infinite: not certified
+  Vec2 at = Vec2::Zero();      // where z is h: q, but for the top of a drop just inside the wall
   std::optional<SurfacePoint> left, right;
-  std::optional<SurfacePoint> hint;  // the surface's own contact, set on the floor too
-  bool keep = false;                 // ends, switches, both ends of a drop
+  std::optional<SurfacePoint> hint;  // contact with the surface itself, set also where the floor carries
+  bool keep = false;                 // true at ends, switches and both ends of a drop
 };
 
 struct SegmentTraceParams {
   double chord_tolerance = 0.005;       // mm, [location T2] and T3 between neighbouring stations
-  double excess_tolerance = kInfinity;  // mm, [location T3] between them, where that is less
+  double excess_tolerance = kInfinity;  // mm, [location T3] between them, if below chord_tolerance
   double floor_center = -kInfinity;     // mm, lowest centre height
-  double certificate_gap = 0.0;         // mm: heights are certified to this; 0: not certified
+  double certificate_gap = 0.0;         // mm: heights are certified to this gap; 0: not certified
   const RunContext* run = nullptr;      // polled when set: a cancelled trace is cut short
 };
 
@@ -41,10 +42,10 @@ struct XyLine {
   Vec2 At(double t) const { return start + t * direction; }
 };
 
-// Runs where h exists, in order of t. Neighbouring stations are joined by a chord with [location T2] gouge
-// and T3 excess within their tolerances, or are the two ends of a vertical drop (same t). Switches to 1e-10
-// mm in t, drops and ends of runs to 1e-8 mm. One exact height per station, certified when asked for, a few
-// branch followings per switch.
+// Returns the runs where h exists, in order of t. Neighbouring stations are joined by a chord with
+// [location T2] gouge and T3 excess within their tolerances, or are the two ends of a vertical drop (same t).
+// Switches are placed to 1e-10 mm in t, drops and ends of runs to 1e-8 mm. Cost: one exact height per station
+// (certified when requested) and a few branch followings per switch.
 std::vector<std::vector<TraceStation>> TraceSegment(const Locator& locator, const XyLine& line,
                                                     const SegmentTraceParams& params);
 

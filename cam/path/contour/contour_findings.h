@@ -1,4 +1,4 @@
-// What tracing contours could not decide, told once for all levels.
+// Findings about what the tracing of contours could not decide, reported once for all levels.
 #pragma once
 
 #include <optional>
@@ -8,24 +8,24 @@
 
 namespace patchmill {
 
-// Takes levels in order, and keeps nothing of them but counts, heights and the worst.
+// Takes levels in order. Of each it keeps only counts, heights and the worst cell.
 class ContourFindings {
  public:
-  explicit ContourFindings(double resolution) : resolution_(resolution) {}  // mm, asked for
+  explicit ContourFindings(double resolution) : resolution_(resolution) {}  // mm, as requested
 
   void Take(const LevelContours& level);
 
-  // At most one of each, told at a place of the worst level: CONTOUR_COARSE (warning) with the resolution
-  // held in place of the one asked for, CONTOUR_AMBIGUOUS (info) with how many cells were left undecided, and
-  // their size.
+  // Returns at most one finding of each code, at a place of the worst level. CONTOUR_COARSE (warning) says
+  // which resolution was held instead of the requested one. CONTOUR_AMBIGUOUS (info) says how many cells were
+  // left undecided, and their size.
   Diagnostics Findings() const;
 
  private:
   struct Levels {
     int count = 0;
     double lowest = 0.0, highest = 0.0;  // mm, height of the centre
-    double cell = 0.0;                   // mm, the largest
-    std::optional<Vec3> where;           // on the first level with cells that large
+    double cell = 0.0;                   // mm, side of the finest cells, the largest of these levels
+    std::optional<Vec3> where;           // on the first level with cells of this size
   };
   static void Take(const LevelContours& level, Levels* of);
 

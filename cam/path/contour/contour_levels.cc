@@ -36,7 +36,7 @@ absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourArea& contour_
                             [&](double a, double b) { return a - b < 1e-3 * smallest; }),
                 heights.end());
 
-  // Samples that need more than they got.
+  // Add partial levels at samples that need a smaller gap than they got.
   std::vector<ContourSample> sorted = contour_area.samples;
   std::stable_sort(sorted.begin(), sorted.end(), [](const ContourSample& a, const ContourSample& b) {
     return a.center.z() > b.center.z();
@@ -49,7 +49,7 @@ absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourArea& contour_
     levels.push_back({z, std::min(gap, kMostGap * flat), false, {}});
     if (i + 1 == heights.size()) break;
     while (next < sorted.size() && sorted[next].center.z() > z) ++next;
-    std::map<int, std::vector<Vec3>> spots;  // by the number of parts that the gap is cut into there
+    std::map<int, std::vector<Vec3>> spots;  // by the number of parts into which the gap is divided there
     for (std::size_t k = next; k < sorted.size() && sorted[k].center.z() > heights[i + 1]; ++k) {
       if (gap > kMostGap * flat) continue;
       const int parts = PartsOfGap(gap, kWideGap * sorted[k].step, smallest);

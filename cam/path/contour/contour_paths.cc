@@ -23,9 +23,9 @@
 namespace patchmill {
 namespace {
 
-// Ball radii: how far contours run beside the samples of their ground, half way around a knife's edge.
+// Ball radii: contours are traced this far from the samples of their group, half way around a knife's edge.
 constexpr double kBesideSamples = 1.5;
-// Lines of different families are no neighbours (order_passes.h).
+// Gap between the order keys of two families: their passes are no neighbours (order_passes.h).
 constexpr int kBetweenFamilies = 4;
 constexpr double kSameHeight = 1e-6;  // mm
 
@@ -34,11 +34,11 @@ struct LevelPasses {
   LevelContours level;  // without its loops
 };
 
-// The levels of a ground, or of several that want the same ones.
+// The levels of one group, or of several groups that need the same levels.
 struct LevelFamily {
   std::vector<PlannedLevel> levels;
-  std::vector<Vec3> centers;           // of their samples
-  std::optional<NearSpotsMask> where;  // their contours may run; none: everywhere
+  std::vector<Vec3> centers;           // centres of their samples
+  std::optional<NearSpotsMask> where;  // places where their contours may run; none: everywhere
 };
 
 bool SameLevels(const std::vector<PlannedLevel>& a, const std::vector<PlannedLevel>& b) {
@@ -94,7 +94,7 @@ absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGroups& groups, const Cont
   return planned;
 }
 
-// One level of a family.
+// A level of a family, with its order key.
 struct FamilyLevel {
   std::size_t family = 0, level = 0;
   int line = 0;
@@ -158,7 +158,7 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
   const double radius = locator.radius();
   const HeightParams heights = HeightParamsOf(params, radius);
   const auto contours = [&](double z) -> std::vector<CutterPath> {
-    std::vector<Vec3> here;  // elsewhere this height has no passes, and none that hang together
+    std::vector<Vec3> here;  // elsewhere this height has no passes, and none that are connected
     for (const ContourSample& s : contour_area.samples) {
       if (z > s.center.z() - s.down - heights.flat && z < s.center.z() + s.up + heights.flat)
         here.push_back(s.center);
@@ -169,7 +169,7 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
   };
   PM_ASSIGN_OR_RETURN(LevelGroups groups, LevelGroups::Make(contour_area, heights, contours, run));
   PM_ASSIGN_OR_RETURN(LevelFamilies planned, PlanFamilies(groups, params, radius, run));
-  if (planned.levels > kMostLevels) {  // apart; together they may need fewer
+  if (planned.levels > kMostLevels) {  // apart the groups need too many; as one they may need fewer
     groups = LevelGroups(std::move(contour_area));
     PM_ASSIGN_OR_RETURN(planned, PlanFamilies(groups, params, radius, run));
   }

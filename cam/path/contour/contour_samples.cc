@@ -13,32 +13,32 @@
 namespace patchmill {
 namespace {
 
-constexpr double kMostSamples = 120000.0;  // about, of a whole surface
+constexpr double kMostSamples = 120000.0;  // about; samples of a whole surface
 constexpr int kMostNodes = 256;            // grid steps of a piece, each way
-constexpr double kSlopePerStep = 0.3;      // rad
+constexpr double kSlopePerStep = 0.3;      // rad: largest change of slope per grid step
 constexpr std::size_t kNone = ~std::size_t{0};
-constexpr double kAtLimit = 1e-6;  // rad: the window is so much wider
-// mm: a sample's ball may be in the ground by this and still count as free.
+constexpr double kAtLimit = 1e-6;  // rad: the window is wider by this at its steep end
+// mm: a sample's ball may enter the surface by this much and still count as free.
 constexpr double kFreeSlack = 1e-7;
-// mm: how exactly lower ends are found before they are compared, and after.
+// mm: accuracy of the lower ends before they are compared, and after.
 constexpr double kRoughEnd = 2e-3, kExactEnd = 1e-8;
 
 struct Node {
   Vec3 p = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ();  // to the side of the ball
-  double turn = 1.0;            // 1 where that is the side of du x dv, else -1
+  Vec3 normal = Vec3::UnitZ();  // towards the side of the ball
+  double turn = 1.0;            // 1 where du x dv points to that side, else -1
   Vec3 center = Vec3::Zero();
   double slope = 0.0;
   double step = 0.0;
   bool regular = false;    // has a normal
   bool steep = false;      // slope in the window
-  bool reachable = false;  // and the ball is free
-  // On the other side of upright ground, where the ball is free too: the step there; else 0.
+  bool reachable = false;  // steep, and the ball is free
+  // mm: the step on the other side of a vertical face if the ball is free there too; else 0.
   double other_step = 0.0;
 };
 
-// Least number of grid steps on a piece, from how its leaves bend: small round features must not fall between
-// the nodes.
+// Least number of grid steps on a piece, from the bend of its leaves. Small round features must not fall
+// between the nodes.
 struct Fineness {
   int u = 1, v = 1;
 };
@@ -92,7 +92,7 @@ class PieceSampler {
         const Node& n = nodes[index(i, j)];
         if (!n.reachable) continue;
         const Vec2 uv(double(i) / nu, double(j) / nv);
-        // On its side of the ground, and on the other.
+        // Extents on the node's side of the surface, and on the other side.
         Extent here, beyond;
         for (const auto& [di, dj] : {std::pair{1, 0}, std::pair{0, 1}, std::pair{-1, 0}, std::pair{0, -1}}) {
           if (i + di < 0 || i + di > nu || j + dj < 0 || j + dj > nv) {
@@ -123,17 +123,18 @@ class PieceSampler {
   }
 
  private:
-  // How far the ground goes on around a node, half way to its neighbours.
+  // How far the surface continues around a node, half way to its neighbours.
   struct Extent {
     double up = 0.0, down = 0.0;
-    double top = 0.0, bottom = 0.0;                // the same beyond the window
-    Vec3 along[2] = {Vec3::Zero(), Vec3::Zero()};  // of centres, from side to side
+    double top = 0.0, bottom = 0.0;                // the same, not limited to the window
+    Vec3 along[2] = {Vec3::Zero(), Vec3::Zero()};  // from side to side, of the centres
   };
 
-  // With the ball on the node's side, or on the other (`side` -1). By how much m is higher.
+  // Adds neighbour m of n, with the ball on the node's side or (`side` -1) on the other. Returns by how much
+  // the centre over m is higher.
   double Add(const Node& n, const Node& m, double side, int di, int dj, Extent& extent) const {
     const double radius = context_.locator.radius();
-    // The ball stays on its side of the ground, which may fall back under it.
+    // The ball stays on its side of the surface, which may fall back under the ball.
     const Vec3 normal_n = side * n.normal, normal_m = side * n.turn * m.turn * m.normal;
     const Vec3 way = (m.p + radius * normal_m) - (n.p + radius * normal_n);
     const double slope = normal_m.z() < 0.0 ? kPi - m.slope : m.slope;
@@ -142,7 +143,7 @@ class PieceSampler {
     extent.top = std::max(extent.top, 0.5 * rise);
     extent.bottom = std::max(extent.bottom, -0.5 * rise);
     if (slope < params_.window.min || slope > params_.window.max + kAtLimit) {
-      // Up to where the slope leaves the window.
+      // Count only the part up to where the slope leaves the window.
       const double limit = slope < n.slope ? params_.window.min : params_.window.max;
       rise *= 2.0 * std::clamp((n.slope - limit) / (n.slope - slope), 0.0, 1.0);
     }
@@ -153,7 +154,7 @@ class PieceSampler {
 
   ContourSample SampleOf(const Node& n, const Extent& extent, const Vec3& center, double step) const {
     const double most = 2.0 * spacing_;
-    // Levels through a stretch of ground are as long together as it is large, times the sine of its slope.
+    // The total length of the levels through a stretch of surface is its area times the sine of its slope.
     const double size = extent.along[0].cross(extent.along[1]).norm() * std::sin(n.slope);
     const double high = extent.top + extent.bottom;
     return {center, std::min(extent.up, most),      std::min(extent.down, most),
@@ -191,7 +192,7 @@ class PieceSampler {
       node.turn = -node.turn;
       node.center = jet.p - radius * *n;
     }
-    // Across the feed: the steepest direction.
+    // The direction across the feed is the steepest one.
     const auto step = [&](const Vec3& e) {
       Vec3 steepest = Vec3::UnitZ() - e.z() * e;
       if (steepest.norm() < 1e-9) steepest = jet.du;
@@ -211,7 +212,7 @@ class PieceSampler {
     double bad_z = 0.0;
   };
 
-  // Where along the edge the ball stops being free, until the height is known to `place` (mm).
+  // Solves where along the edge the ball stops being free, until the height is known to `place` (mm).
   void Solve(EndEdge& edge, double place) const {
     for (int k = 0; k < 40 && std::abs(edge.good_center.z() - edge.bad_z) > place; ++k) {
       const Vec2 middle = 0.5 * (edge.good + edge.bad);
@@ -225,7 +226,7 @@ class PieceSampler {
     }
   }
 
-  // Only ends that share their height with others are worth an exact height: a level can lie there.
+  // Solves the ends. Only those that share their height with others need it exactly: a level can lie there.
   void SolveEnds(const RunContext& run, std::vector<LowerEnd>& ends) {
     for (EndEdge& edge : ends_) {
       if (run.Cancelled()) return;
@@ -244,7 +245,7 @@ class PieceSampler {
     }
   }
 
-  // A reachable node on an open side whose face ends there downward.
+  // Adds a lower end at a reachable node on an open side if the face ends there downward.
   void BorderEnd(const Node& n, int i, int j, int di, int dj, int nu, int nv,
                  std::vector<LowerEnd>& ends) const {
     const int side = dj < 0 ? 0 : di > 0 ? 1 : dj > 0 ? 2 : 3;
@@ -273,7 +274,7 @@ absl::StatusOr<ContourArea> SampleContourArea(const LevelContext& context, const
   contour_area.spacing = std::max(context.locator.radius() / 6.0, std::sqrt(area / kMostSamples));
   std::vector<ContourArea> parts(surface.pieces.size());
   const std::vector<Fineness> fineness = BendOfPieces(context);
-  PM_RETURN_IF_ERROR(ParallelFor(run, "contours: ground", parts.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "contours: samples", parts.size(), [&](std::size_t i) {
     PieceSampler(context, params, PieceId(i), contour_area.spacing, fineness[i]).Run(run, parts[i]);
   }));
   for (ContourArea& part : parts) {

@@ -14,10 +14,10 @@
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kBetweenPolls = 1024;  // samples
+constexpr std::size_t kBetweenPolls = 1024;  // samples between two polls of the run
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-// Numbers next to each other, of each number.
+// For each number, the numbers that are paired with it.
 class Links {
  public:
   Links(std::size_t count, std::span<const std::pair<std::size_t, std::size_t>> pairs)
@@ -42,7 +42,7 @@ class Links {
   std::vector<std::size_t> first_, others_;
 };
 
-// The cubes of a lattice that hold points of one set, and which of them touch.
+// The cubes of a lattice that hold points of one set, and the pairs of cubes that touch.
 struct Cubes {
   std::vector<std::size_t> of_point;
   std::size_t count = 0;
@@ -72,7 +72,7 @@ Cubes CubesOf(std::span<const ContourSample> samples, std::span<const std::size_
   cubes.of_point.reserve(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) cubes.of_point.push_back(find(key_of(i)));
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    for (int k = 14; k < 27; ++k) {  // half of the 26 around it
+    for (int k = 14; k < 27; ++k) {  // half of the 26 cubes around it
       const auto other =
           find({keys[i][0], keys[i][1] + k / 9 - 1, keys[i][2] + k / 3 % 3 - 1, keys[i][3] + k % 3 - 1});
       if (other != kNone) cubes.touching.emplace_back(i, other);
@@ -81,14 +81,14 @@ Cubes CubesOf(std::span<const ContourSample> samples, std::span<const std::size_
   return cubes;
 }
 
-// What hangs together above the height looked at.
+// A connected part above the current height.
 struct Part {
   double top = 0.0;   // mm
   double area = 0.0;  // mm2
   std::vector<std::size_t> samples;
 };
 
-// Nodes are the cubes of centres and, behind them, those of contacts.
+// Sweeps from the top down. Its nodes are the cubes of centres and, after them, those of contacts.
 class Sweep {
  public:
   Sweep(std::size_t nodes, double rise) : rise_(rise), sets_(nodes), parts_(nodes), seen_(nodes, false) {}
@@ -103,7 +103,7 @@ class Sweep {
     part.samples.push_back(sample);
     part.area += area;
   }
-  // Two nodes hang together from z on down.
+  // Joins two nodes, which are connected from z on down.
   void Join(std::size_t a, std::size_t b, double z) {
     a = sets_.Find(a);
     b = sets_.Find(b);
@@ -127,7 +127,7 @@ class Sweep {
  private:
   double rise_;
   UnionFind sets_;
-  std::vector<Part> parts_;  // of the node that stands for its set
+  std::vector<Part> parts_;  // indexed by the node that stands for its set
   std::vector<bool> seen_;
   std::vector<LevelBranch> branches_;
 };

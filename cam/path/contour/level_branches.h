@@ -1,4 +1,4 @@
-// Where ground that hangs together parts upwards: a spout beside a body, two summits above a saddle.
+// Finds where a connected area forks upwards: a spout beside a body, two summits above a saddle.
 #pragma once
 
 #include <cstddef>
@@ -11,25 +11,26 @@
 
 namespace patchmill {
 
-// What rises from `from`, a sample of the ground that it joins at the height `foot` (mm, of centres), and
-// does not hang together with that above.
+// A branch rises from `from`, a sample of the surface that it joins at the height `base_level` (mm, of
+// centres). Above that height the two are not connected.
 struct LevelBranch {
   std::size_t from = 0;
   double base_level = 0.0;
-  double area = 0.0;                 // mm2, with the branches on it
-  std::vector<std::size_t> samples;  // without those of the branches on it
+  double area = 0.0;                 // mm2, with the branches that stand on it
+  std::vector<std::size_t> samples;  // without those of the branches that stand on it
 };
 
+// `reach`: samples this near to each other are connected. `rise`: least height of both sides of a fork.
 struct BranchParams {
   double reach = 1.0, rise = 3.0;  // mm
 };
 
-// The smaller side of every fork of which both rise at least `rise` above it, smaller ones first, so that
-// those on a branch come before it. Samples hang together where they are neighbours of one piece, or where
-// their contacts or their centres lie within `reach` of each other, at most in cubes of that size next to
-// each other: forks that are narrower are not seen. Those of different `sets`, one for each sample, never
-// do. Cost O(n log n); CANCELLED or DEADLINE_EXCEEDED from
-// `run`.
+// Returns the smaller side of every fork of which both sides rise at least `rise` above it. Smaller branches
+// come first, so that the branches on a branch come before it. Samples are connected where they are
+// neighbours on one piece, or where their contacts or their centres lie within `reach` of each other. The
+// latter is decided by cubes of that size that touch, so narrower forks are not seen. Samples of different
+// `sets` (one entry for each sample) are never connected. Cost O(n log n). Errors: CANCELLED or
+// DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<LevelBranch>> FindBranches(const ContourArea& contour_area,
                                                       std::span<const std::size_t> sets,
                                                       const BranchParams& params, const RunContext& run);

@@ -12,19 +12,20 @@
 namespace patchmill {
 namespace {
 
+// Sample spacings: contacts or centres this near to each other are connected.
 constexpr double kReachOfSpacing = 3.0;
-constexpr double kMostReach = 2.0;         // ball radii
-constexpr double kMinGroupHeight = 2.0;    // flat steps high
-constexpr std::size_t kMostGroups = 256;   // smaller ones go with the largest
-constexpr double kRise = 6.0;              // flat steps: lower ones are no branches
-constexpr std::size_t kMostBranches = 12;  // the largest; smaller ones stay part of what they stand on
-constexpr double kRulingShare = 0.1;       // of the ground: what the rest can bear rules
-constexpr double kSameNeeds = 0.05;        // steps that differ by less are the same
-constexpr double kMaxOverlapLength = 1.0;  // ball radii: so much of a contour may lie over other ground
+constexpr double kMostReach = 2.0;         // ball radii: largest reach for uneven spacing
+constexpr double kMinGroupHeight = 2.0;    // flat step-overs: lower areas get no levels of their own
+constexpr std::size_t kMostGroups = 256;   // smaller areas join the largest
+constexpr double kRise = 6.0;              // flat step-overs: least height of a branch
+constexpr std::size_t kMostBranches = 12;  // only the largest; smaller ones stay part of their trunk
+constexpr double kRulingShare = 0.1;       // share of the surface that may need less than the ruling step
+constexpr double kSameNeeds = 0.05;        // relative: steps that differ by less are the same
+constexpr double kMaxOverlapLength = 1.0;  // ball radii: length of a contour that may lie over other areas
 constexpr int kMostContours = 24;          // traced to see whether they part
-constexpr double kLift = 1.5;              // of a lift: the next
+constexpr double kLift = 1.5;              // ratio of successive lifts of a base level
 constexpr double kMinBranchSaving =
-    6.0;  // ball radii that levels of a branch's own must save: the estimate's error
+    6.0;  // ball radii that a branch's own levels must save: the estimate's error
 
 std::vector<Vec3> PointsOf(const ContourArea& contour_area, Vec3 ContourSample::*point) {
   std::vector<Vec3> points;
@@ -49,15 +50,15 @@ LevelGroups::LevelGroups(ContourArea all) {
   base_levels_.emplace_back();
 }
 
-// Divides the samples into parts, sets and the branches on them, and joins the branches that do not pay
-// again.
+// Divides the samples into parts: the connected sets and the branches on them. Joins again the branches that
+// do not pay.
 class LevelGroups::Builder {
  public:
   Builder(const ContourArea& contour_area, const PointCells& centers, const HeightParams& params,
           const ContoursAt& contours, const RunContext& run)
       : area_(contour_area), centers_(centers), params_(params), contours_(contours), run_(run) {}
 
-  // `set_of`: each sample's set, from 0 on.
+  // `set_of` is the set of each sample, counted from 0.
   absl::Status Divide(std::vector<std::size_t> set_of, std::size_t sets, std::vector<LevelBranch> branches) {
     part_of_ = std::move(set_of);
     parts_.resize(sets);
@@ -81,7 +82,7 @@ class LevelGroups::Builder {
     return absl::OkStatus();
   }
 
-  // Grounds in order, those that others stand on before them.
+  // Puts the groups in order. A group comes after the one it stands on.
   void Put(LevelGroups& made) {
     std::vector<std::size_t> number(parts_.size(), 0);
     for (std::size_t left = 1; left > 0;) {
@@ -89,7 +90,7 @@ class LevelGroups::Builder {
       for (std::size_t k = 0; k < parts_.size(); ++k) {
         Part& part = parts_[k];
         if (part.samples.empty()) continue;
-        if (part.on && !parts_[part.on->group].samples.empty()) {  // what it stands on comes first
+        if (part.on && !parts_[part.on->group].samples.empty()) {  // the group it stands on comes first
           ++left;
           continue;
         }
@@ -104,11 +105,11 @@ class LevelGroups::Builder {
   }
 
  private:
-  struct Part {  // what will be a ground; without samples once it is joined
+  struct Part {  // becomes a group; without samples once it is joined
     std::optional<BaseLevel> on = std::nullopt;
     std::vector<std::size_t> samples = {};
     std::vector<LowerEnd> ends = {};
-    std::optional<LevelPlan> plan = std::nullopt;  // without a foot
+    std::optional<LevelPlan> plan = std::nullopt;  // without a base level
   };
 
   ContourArea AreaOf(const Part& part) const {
@@ -126,7 +127,7 @@ class LevelGroups::Builder {
     return LevelHeights(AreaOf(part), params, run_);
   }
 
-  // Part k as one with what it stands on.
+  // Returns part k together with the part it stands on.
   Part Both(std::size_t k) const {
     Part both = parts_[parts_[k].on->group];
     const Part& branch = parts_[k];
@@ -137,7 +138,7 @@ class LevelGroups::Builder {
     return both;
   }
 
-  // `both`: Both(k).
+  // Joins part k to the part it stands on. `both` is Both(k).
   void Join(std::size_t k, Part both) {
     const std::size_t on = parts_[k].on->group;
     for (const std::size_t i : parts_[k].samples) part_of_[i] = on;
@@ -148,7 +149,7 @@ class LevelGroups::Builder {
     }
   }
 
-  // The step that all but a tenth of a part's ground between two heights can bear; 0 without any.
+  // Returns the step that all but a tenth of a part's surface between two heights can bear; 0: no surface.
   double NeedOf(const Part& part, double low, double high) const {
     std::vector<StepNeed> needs;
     double total = 0.0;
@@ -174,17 +175,17 @@ class LevelGroups::Builder {
     return top;
   }
 
-  // A branch and what stands beside it can share their levels: seen at once.
+  // Can a branch and the part it stands on share their levels? The steps they need decide.
   bool SameNeeds(std::size_t k) const {
     const double low = parts_[k].on->below, high = TopOf(parts_[k]);
     const double own = NeedOf(parts_[k], low, high), beside = NeedOf(parts_[parts_[k].on->group], low, high);
     return std::abs(own - beside) < kSameNeeds * std::max(own, beside);
   }
 
-  // No contour of a height runs over both a branch and other ground.
+  // Does no contour of a height run over both the branch and other areas?
   bool AroundItAlone(std::size_t k, double z) const {
     for (const CutterPath& path : contours_(z)) {
-      double lengths[2] = {0.0, 0.0};  // over other ground, over the branch
+      double lengths[2] = {0.0, 0.0};  // over other areas, over the branch
       const std::size_t n = path.points.size();
       for (std::size_t i = 0; i + (path.closed ? 0 : 1) < n; ++i) {
         const Vec3 &a = path.points[i].center, &b = path.points[(i + 1) % n].center;
@@ -196,8 +197,9 @@ class LevelGroups::Builder {
     return true;
   }
 
-  // Lifts the foot of branch k to where contours go around it alone: where the ground in between rises gently
-  // it has no samples, and the branch begins higher than they tell. False: nowhere, by far enough.
+  // Lifts the base level of branch k to where contours go around it alone. Where the surface in between rises
+  // gently it has no samples, and the branch begins higher than they show. Returns false if there is no such
+  // height at least kRise below the top, or no contour may be traced any more.
   bool LiftBaseLevel(std::size_t k) {
     const double top = TopOf(parts_[k]);
     const std::size_t on = parts_[k].on->group;

@@ -17,24 +17,25 @@
 namespace patchmill {
 namespace {
 
-constexpr int kBinsPerStep = 8;       // of the flat step
-constexpr double kMostFlat = 2.0;     // flat steps; a longer gap has no ground in it
+constexpr int kBinsPerStep = 8;       // height bins per flat step-over
+constexpr double kMostFlat = 2.0;     // flat step-overs: largest step between full levels
 constexpr double kSameHeight = 2e-4;  // mm: lower ends this close together are one
 // mm: a level at a flat lies this much above it, so that the flat itself is out of its reach.
 constexpr double kAboveFlat = 1e-6;
+// Most height bins: a taller part has wider ones.
 constexpr double kMostBins = 4e5;
-constexpr std::size_t kBetweenPolls = 1024;   // samples
-constexpr double kFewest = 0.9, kMost = 1.1;  // of the gaps that steps ask for: those tried,
-constexpr double kTooWide = 0.1;              // of a level: what a gap wider than `wide` costs
-constexpr double kNothing = 1e-9;             // steps
-constexpr int kTrials = 40;                   // so many numbers at most, and one
+constexpr std::size_t kBetweenPolls = 1024;   // samples between two polls of the run
+constexpr double kFewest = 0.9, kMost = 1.1;  // of the gaps that steps require: range that is tried
+constexpr double kTooWide = 0.1;              // part of a level's length: cost of a gap wider than `wide`
+constexpr double kNothing = 1e-9;             // steps: so small a count means no surface
+constexpr int kTrials = 40;                   // at most this many numbers of gaps per rule, and one more
 
-// Whose need rules at each height: 0 that of the least length, else this share of the ground.
+// Which step rules at each height: 0: that of least length (CheapestStep), else this quantile of needs.
 constexpr std::array<double, 5> kRules = {0.0, 0.02, 0.1, 0.25, 0.5};
 
 struct Bins {
   double bottom = 0.0, width = 1.0;
-  std::vector<double> step;  // needed; infinity: nothing there
+  std::vector<double> step;  // mm, needed; infinity: no surface there
   int Of(double z) const {
     return std::clamp(static_cast<int>(std::floor((z - bottom) / width)), 0,
                       static_cast<int>(step.size()) - 1);
@@ -42,7 +43,7 @@ struct Bins {
   bool Has(std::size_t b) const { return step[b] < kInfinity; }
 };
 
-// Heights at which lower ends gather: at least a ball radius of border at one height.
+// Returns the heights at which lower ends gather: at least a ball radius of them at one height.
 std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius, double nearest) {
   std::sort(ends.begin(), ends.end(),
             [](const LowerEnd& a, const LowerEnd& b) { return a.center.z() < b.center.z(); });
@@ -59,7 +60,7 @@ std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius, double
       ++i;
     }
   }
-  // A rim that is level only nearly gathers many such heights: the highest serves those closely below.
+  // A rim that is only nearly horizontal gathers many such heights. The highest serves those just below.
   std::vector<double> apart;
   for (std::size_t k = heights.size(); k-- > 0;) {
     if (apart.empty() || apart.back() - heights[k] >= nearest) apart.push_back(heights[k]);
@@ -67,7 +68,7 @@ std::vector<double> CommonEnds(std::vector<LowerEnd> ends, double radius, double
   return apart;
 }
 
-// The steps that rule over ground of these needs.
+// Returns the steps that rule over surface of these needs, one for each rule.
 std::array<double, kRules.size()> Ruling(std::vector<StepNeed>& needs, double smallest, double most) {
   std::array<double, kRules.size()> steps;
   steps.fill(CheapestStep(needs, smallest, most));  // sorts them
@@ -110,14 +111,14 @@ absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourArea& c
     for (std::size_t k = 0; k < kRules.size(); ++k) all[k].step[b] = steps[k];
   }));
   if (!params.base_level) return all;
-  for (Bins& of : all) {  // down to the foot the ground goes on as it ends
+  for (Bins& of : all) {  // down to the base level the lowest step continues
     const auto lowest = std::find_if(of.step.begin(), of.step.end(), [](double s) { return s < kInfinity; });
     std::fill(of.step.begin(), lowest, *lowest);
   }
   return all;
 }
 
-// How many steps the ground between two heights takes, per bin the worst of its neighbours.
+// Counts the steps that the surface between two heights takes. Each bin takes the worst of its neighbours.
 class StepCount {
  public:
   StepCount() = default;
@@ -138,7 +139,7 @@ class StepCount {
     const auto b = std::min(static_cast<std::size_t>(x), sum_.size() - 2);
     return sum_[b] + (x - static_cast<double>(b)) * (sum_[b + 1] - sum_[b]);
   }
-  // The height at which the count from the bottom reaches `steps`.
+  // Returns the height at which the count from the bottom reaches `steps`.
   double HeightOf(double steps) const {
     const auto above = std::upper_bound(sum_.begin(), sum_.end(), steps);
     if (above == sum_.end()) return bottom_ + width_ * static_cast<double>(sum_.size() - 1);
@@ -153,7 +154,7 @@ class StepCount {
 
 struct Stop {
   double z = 0.0;
-  bool level = false;  // a level lies exactly here; else the ground merely ends
+  bool level = false;  // a level lies exactly here; else the surface merely ends
 };
 
 std::vector<Stop> StopsOf(const ContourArea& contour_area, const Bins& bins, const HeightParams& params) {
@@ -175,8 +176,8 @@ std::vector<Stop> StopsOf(const ContourArea& contour_area, const Bins& bins, con
   return stops;
 }
 
-// Heights that cut the steps between two stops into `gaps` equal gaps, those of levels at the stops included;
-// an end without a level of its own is half a gap from the nearest.
+// Returns the heights that divide the steps between two stops into `gaps` equal gaps, with those of levels at
+// the stops. An end without a level of its own is half a gap from the nearest level.
 std::vector<double> Divided(const StepCount& count, const Stop& low, const Stop& high, int gaps) {
   std::vector<double> heights;
   if (low.level) heights.push_back(low.z);
@@ -189,8 +190,8 @@ std::vector<double> Divided(const StepCount& count, const Stop& low, const Stop&
   return heights;
 }
 
-// About how long a level is that runs within `near` of these places, from the squares of that size that it
-// touches, with the ways to its runs.
+// Estimates the length (mm) of a level that runs within `near` of these places, from the squares of that size
+// that it touches. Includes the cost of the ways to its runs.
 double PartialLength(std::span<const Vec2> places, double near, double radius) {
   using Square = std::pair<std::int64_t, std::int64_t>;
   std::vector<Square> squares;
@@ -224,9 +225,10 @@ double PartialLength(std::span<const Vec2> places, double near, double radius) {
   return 0.25 * kPi * near * static_cast<double>(squares.size()) + runs * kRunCost * radius;
 }
 
-// How long these levels, rising, are with the partial ones between them, over ground that rises likewise from
-// one stop to the other; anything once cancelled. Beyond the last level before an end without one, the gap
-// goes on as far again as the ground does.
+// Returns the length (mm) of these levels, which rise, with the partial ones between them. `contour_area`
+// holds the samples from one stop to the other, rising too. Beyond the last level before a stop without a
+// level the gap continues as far again as the surface does. The result is meaningless once the run is
+// cancelled.
 double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
                 std::span<const ContourSample> contour_area, double spacing, const HeightParams& params,
                 const RunContext& run) {
@@ -242,7 +244,7 @@ double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
       if (next % kBetweenPolls == 0 && run.Cancelled()) return length;
       const double own = s.width * (s.up + s.down) / gap;
       const int parts = PartsOfGap(gap, kWideGap * s.step, params.smallest);
-      // No level is added there, but what rest passes may have to do counts.
+      // No level is added there, but the work that rest passes may have there counts.
       const bool too_wide = parts == 1 && gap > params.wide * s.step && s.step >= params.smallest;
       length += too_wide ? (1.0 + kTooWide) * own : own;
       if (parts > 1) spots[parts].push_back(Xy(s.center));
@@ -275,13 +277,13 @@ absl::StatusOr<LevelPlan> LevelHeights(const ContourArea& contour_area, const He
     return std::lower_bound(rising.begin(), rising.end(), z,
                             [](const ContourSample& s, double height) { return s.center.z() < height; });
   };
-  // What is tried between two stops: by which rule, and with how many gaps.
+  // A trial between two stops: the rule that shares out the gaps, and their number.
   struct Trial {
     std::size_t stop = 0, rule = 0;
     int gaps = 0;
   };
   std::vector<Trial> trials;
-  std::vector<std::size_t> first;  // of each pair of stops, and the end
+  std::vector<std::size_t> first;  // first trial of each pair of stops, and the end
   double fewest_levels = 0.0;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     const Stop &low = stops[i], &high = stops[i + 1];
@@ -316,7 +318,7 @@ absl::StatusOr<LevelPlan> LevelHeights(const ContourArea& contour_area, const He
   std::vector<double>& heights = plan.heights;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     if (stops[i].level) heights.push_back(stops[i].z);
-    if (first[i] == first[i + 1]) continue;  // nothing to cut
+    if (first[i] == first[i + 1]) continue;  // no surface to divide
     std::size_t best = first[i];
     for (std::size_t k = first[i] + 1; k < first[i + 1]; ++k) {
       if (lengths[k] < lengths[best] * (1.0 - 1e-9)) best = k;

@@ -11,13 +11,15 @@ namespace patchmill {
 namespace {
 
 constexpr double kOnSide = 1e-6;     // parameter distance at which a contact lies on a side of its piece
-constexpr double kEndPlace = 1e-6;   // mm: how exactly the ends of a part are placed
+constexpr double kEndPlace = 1e-6;   // mm: accuracy of the ends of a part
 constexpr double kWallPlace = 1e-6;  // mm: how far a wall may be from vertical below its shank contact
-constexpr double kAtLimit = 1e-5;    // rad: a rim contact this close to the face's normal is the face's own
-constexpr double kOnFace = 1e-4;     // sine of the angle between normal and contact that is none, at least
-constexpr double kRimRise = 0.05;    // least rise of a face towards an open rim that counts as highest there
+constexpr double kAtLimit = 1e-5;    // rad: a rim contact this near to the face's normal is the face's own
+constexpr double kOnFace = 1e-4;     // sine: a contact direction at least this near to the normal lies on the
+                                     // face
+constexpr double kRimRise = 0.05;    // sine: a face that rises at least this much towards an open edge makes
+                                     // it a rim
 
-enum class Verdict { kNone, kAllowed, kWanted };  // no pass; pass ground outside the window; in the window
+enum class Verdict { kNone, kAllowed, kWanted };  // no pass; a pass outside the window; in the window
 
 class Clipper {
  public:
@@ -41,25 +43,25 @@ class Clipper {
   }
 
  private:
-  // A stretch of the loop with one kind of ground throughout.
+  // A stretch of the loop with one verdict throughout.
   struct Piece {
     CutterPoint from, to;
     Verdict verdict;
   };
 
-  // What the ball over q rests on, where `contact` is: below the shank the wall that goes down to the
-  // centre's height, nothing where there is none.
+  // Returns the point that carries the ball over q. If `contact` touches the shank it is the point of the
+  // wall below it at the centre's height, or nothing where the wall does not go down so far.
   std::optional<SurfacePoint> RestsOn(const SurfacePoint& contact) const {
     const double z = oracle_.z();
     if (z - contact.p.z() >= -1e-9 * oracle_.radius()) return contact;
     return WallAt(contact, Lift(Xy(contact.p), z));
   }
-  // From the contact towards the centre over q, unit.
+  // Returns the unit vector from the contact towards the centre over q.
   Vec3 OffContact(const Vec2& q, const SurfacePoint& contact) const {
     return Lift(Vec2(q - Xy(contact.p)), std::max(0.0, oracle_.z() - contact.p.z())).normalized();
   }
 
-  // Judges one contact under the centre over q.
+  // Judges one contact of the ball whose centre is over q.
   Verdict Judge(const Vec2& q, const SurfacePoint& contact) const {
     const std::optional<SurfacePoint> at = RestsOn(contact);
     const Vec3 off = OffContact(q, contact);
@@ -71,8 +73,9 @@ class Clipper {
     return NearSpot(Lift(q, z)) ? Verdict::kWanted : Verdict::kAllowed;
   }
 
-  // The surface point at `place`, on the piece of `contact` or on one that meets it there.
+  // Returns the surface point at `place`, on the piece of `contact` or on one that meets it there.
   std::optional<SurfacePoint> WallAt(const SurfacePoint& contact, const Vec3& place) const {
+    // Most pieces searched around a contact.
     constexpr std::size_t kMostPieces = 8;
     std::vector<SurfacePoint> starts = {contact};
     for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -95,8 +98,9 @@ class Clipper {
     return {at.v<kOnSide, at.u> 1.0 - kOnSide, at.v > 1.0 - kOnSide, at.u < kOnSide};
   }
 
-  // Gauss-Newton towards `place` over the wall and its joints.
+  // Descends by Gauss-Newton towards `place` over the wall and its joints.
   std::optional<SurfacePoint> Descend(SurfacePoint from, const Vec3& place) const {
+    // Most Gauss-Newton steps.
     constexpr int kSteps = 60;
     for (int step = 0; step < kSteps; ++step) {
       const SurfaceJet jet = Evaluate(surface_, from.piece, from.u, from.v);
@@ -106,7 +110,7 @@ class Clipper {
       const double e = jet.du.squaredNorm(), f = jet.du.dot(jet.dv), g = jet.dv.squaredNorm();
       const double a = gap.dot(jet.du), b = gap.dot(jet.dv), determinant = e * g - f * f;
       if (!(determinant > 1e-18 * e * g)) return std::nullopt;
-      // Inside the piece, or along the side that holds the point back.
+      // The step stays inside the piece, or runs along the side that holds the point back.
       Vec2 way((g * a - f * b) / determinant, (e * b - f * a) / determinant);
       const bool held_u = (from.u <= 0.0 && way.x() < 0.0) || (from.u >= 1.0 && way.x() > 0.0);
       const bool held_v = (from.v <= 0.0 && way.y() < 0.0) || (from.v >= 1.0 && way.y() > 0.0);
@@ -131,7 +135,7 @@ class Clipper {
     return std::nullopt;
   }
 
-  // The ball, in direction e, stands on the side of a wall that is not the air side.
+  // Does the ball, in direction e, stand on the side of a wall that is not the air side?
   bool BehindWall(const SurfacePoint& at, const Vec3& e) const {
     const std::optional<Facing> facing = FacingAt(Evaluate(surface_, at.piece, at.u, at.v));
     return facing && !facing->both && facing->upright && facing->e.dot(e) < 0.0;
@@ -156,8 +160,8 @@ class Clipper {
     return true;
   }
 
-  // The ball touches ground there or, rolling over an edge, has some within half a step; it rolls over a
-  // sheet's border on purpose.
+  // Does the ball touch a face there? If it rolls over an edge, a face within half a step counts too; an open
+  // edge of a sheet counts always, since the ball rolls over it on purpose.
   bool OnFace(const Vec2& q, const SurfacePoint& contact) const {
     const std::optional<SurfacePoint> at = RestsOn(contact);
     if (!at) return false;
@@ -165,7 +169,7 @@ class Clipper {
     const double turn = std::max(kOnFace, params_.overlap / oracle_.radius());
     const auto along = [&](const SurfacePoint& p) {
       const std::optional<Vec3> normal = UpwardNormal(Evaluate(surface_, p.piece, p.u, p.v));
-      // Where there is none it is the point of a cone or the like.
+      // A place without a normal is the point of a cone or the like.
       return !normal || normal->cross(e).norm() < turn;
     };
     if (along(*at)) return true;
@@ -183,12 +187,13 @@ class Clipper {
     const Vec2 q = Xy(p.center);
     return OnFace(q, *p.contact) || (p.other_contact && OnFace(q, *p.other_contact));
   }
-  // The same between two points, at places as far apart as ground beside an edge counts.
+  // The same between two points, at places as far apart as a face beside an edge counts.
   bool OnFaceBetween(const CutterPoint& a, const CutterPoint& b) const {
     const Vec2 qa = Xy(a.center), way = Xy(b.center) - qa;
     const double length = way.norm();
     if (!(length > kEndPlace)) return false;
     const Vec2 left = Vec2(-way.y(), way.x()) / length;
+    // Most places looked at on one chord.
     constexpr double kMostParts = 100.0;
     const int parts = static_cast<int>(std::min(kMostParts, 1.0 + std::ceil(length / params_.overlap)));
     for (int k = 1; k < parts; ++k) {
@@ -198,7 +203,7 @@ class Clipper {
     }
     return false;
   }
-  // All of it over edges: nothing is finished there.
+  // Does all of the part roll over edges? Then it finishes nothing.
   bool OverEdgesAlone(const CutterPath& part) const {
     const std::size_t n = part.points.size();
     if (std::any_of(part.points.begin(), part.points.end(),
@@ -228,7 +233,7 @@ class Clipper {
     Split(a, After(a), ga, b, gb, 0);
   }
 
-  // Cuts a chord where the ground changes between its ends.
+  // Cuts a chord where the verdict changes between its ends.
   void Split(const CutterPoint& a, const SurfacePoint& contact_a, Verdict ga, const CutterPoint& b,
              Verdict gb, int depth) {
     const double length = (b.center - a.center).norm();
@@ -249,7 +254,7 @@ class Clipper {
         return;
       }
     }
-    // Too short to cut: it goes with its better end.
+    // The chord is too short to cut. It goes with its better end.
     pieces_.push_back({a, b, std::max(ga, gb)});
   }
 
@@ -286,7 +291,7 @@ class Clipper {
     return parts;
   }
 
-  // Walks the overlap from every wanted end, both ways, over ground that allows a pass.
+  // Extends the kept stretches by the overlap from every wanted end, both ways, where a pass is allowed.
   void Dilate(std::vector<char>& keep) {
     const std::size_t n = pieces_.size();
     const std::vector<char> wanted = keep;

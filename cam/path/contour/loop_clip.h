@@ -1,4 +1,4 @@
-// Which part of a contour is a pass ([contours, section 6], [machining M12]).
+// Finds which parts of a contour are passes ([contours, section 6], [machining M12]).
 #pragma once
 
 #include <vector>
@@ -10,20 +10,20 @@ namespace patchmill {
 
 struct ClipParams {
   SlopeWindow window;
-  bool roll = false;  // over every open border, not only over rims that are locally highest
-  // mm along the loop, added at both ends of what lies in the window; half a step: ground this near an edge
-  // is finished from it.
+  bool roll = false;  // the ball rolls over every open edge, not only over rims that are locally highest
+  // mm along the loop, added at both ends of what lies in the window. It is half a step: surface this near to
+  // an edge is finished from the edge.
   double overlap = 0.0;
-  // Not empty: only within `near` (mm, in space) of one of these centres.
+  // If not empty, only places within `near` (mm, in space) of one of these centres count.
   std::vector<Vec3> spots;
   double near = 0.0;
 };
 
-// The parts of a contour (closed or not) whose contact has z <= c, is interior or lies on a crease, or on an
-// open rim that is locally highest, and whose slope lies in the window; dilated by the overlap where the
-// ground allows it. What rolls over creases alone, no ground within half a step, is left out: the ground on
-// both sides has passes of its own. Ends are solved on the contour to 1e-6 mm. A loop that stays whole stays
-// closed.
+// Returns the parts of a contour (closed or not) whose contact has z <= c, is interior or lies on a crease or
+// on an open rim that is locally highest, and whose slope lies in the window. They are dilated by the overlap
+// where passes are allowed. A part that rolls over creases alone, with no face within half a step, is left
+// out: the faces on both sides have passes of their own. Ends are solved on the contour to 1e-6 mm. A loop
+// that stays whole stays closed.
 std::vector<CutterPath> ClipLoop(const LevelContext& context, const CutterPath& loop,
                                  const ClipParams& params);
 

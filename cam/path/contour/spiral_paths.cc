@@ -20,11 +20,11 @@
 namespace patchmill {
 namespace {
 
-// Flat steps: contours farther apart somewhere do not belong together. Full levels lie up to two apart, and
-// twice that on the surface where they pass a saddle.
+// Flat step-overs: contours that are farther apart anywhere do not belong together. Full levels lie up to two
+// apart, and twice that on the surface where they pass a saddle.
 constexpr double kMaxTurnGap = 4.0;
 constexpr double kBackOff = 0.02;  // radii: how far behind the upper contour the way out begins
-constexpr double kNoWay = 1e-6;    // mm: contours this near leave the way out to the normal
+constexpr double kNoWay = 1e-6;    // mm: contours this near to each other leave the way out to the normal
 constexpr int kMostHalvings = 24;  // of a chord
 
 Vec2 OutwardOf(const CutterPoint& p) {
@@ -41,12 +41,12 @@ Vec2 OutwardOf(const CutterPoint& p) {
 
 const SurfacePoint& After(const CutterPoint& p) { return p.other_contact ? *p.other_contact : *p.contact; }
 
-// What the ball at a centre touches; where the shank touches, the wall beside the centre.
+// Returns what the ball at a centre touches. Where the shank touches it is the wall beside the centre.
 Support ContactPoints(const Vec3& center, const SurfacePoint& contact) {
   return {Vec3(Lift(Xy(contact.p), std::min(contact.p.z(), center.z()))), -kInfinity};
 }
 
-// The chord keeps the tolerances on both sides.
+// Does the chord keep the tolerances on both sides?
 bool Proven(const CutterPoint& a, const CutterPoint& b, const Locator& locator,
             const LoopTolerance& tolerance) {
   const double radius = locator.radius(), length = (b.center - a.center).norm();
@@ -61,7 +61,7 @@ bool Proven(const CutterPoint& a, const CutterPoint& b, const Locator& locator,
                       tolerance.excess);
 }
 
-// A closed contour by its length in plan.
+// A closed contour, parametrised by its length in plan.
 class Loop {
  public:
   explicit Loop(std::vector<CutterPoint> points) : points_(std::move(points)), at_(points_.size() + 1, 0.0) {
@@ -86,7 +86,7 @@ class Loop {
   struct Foot {
     double s = 0.0, distance = kInfinity;
   };
-  // The nearest place to q, on segments [first, last) only.
+  // Returns the place nearest to q, on segments [first, last) only.
   Foot Nearest(const Vec2& q, std::size_t first, std::size_t last) const {
     Foot best;
     for (std::size_t i = first; i < last; ++i) {
@@ -103,7 +103,7 @@ class Loop {
     for (std::size_t i = 0; i < points_.size(); ++i) twice += Cross(Place(i), Place(i + 1));
     return 0.5 * twice;
   }
-  // The same contour begun at the segment that `start` lies beside, with `start` as its first point.
+  // Returns the same contour begun at the segment beside `start`, with `start` as its first point.
   Loop BegunAt(const CutterPoint& start) const {
     const std::size_t segment = SegmentAt(Nearest(Xy(start.center), 0, points_.size()).s);
     std::vector<CutterPoint> points = {start};
@@ -133,12 +133,12 @@ class Turn {
   Turn(const LevelContext& context, const Loop& upper, const Loop& lower, const LoopTolerance& tolerance)
       : context_(context),
         upper_(upper),
-        // Begun beside the upper one's first point: feet then run from 0 to its length.
+        // It begins beside the upper one's first point, so that feet run from 0 to its length.
         lower_(lower.BegunAt(AsPoint(lower, upper.Place(0)))),
         tolerance_(tolerance),
         radius_(context.locator.radius()) {}
 
-  // The points after the upper contour's first one; empty when one cannot be found or proven.
+  // Returns the points after the upper contour's first one; empty if one cannot be found or proven.
   std::vector<CutterPoint> Wind() {
     Match();
     CutterPoint last = upper_.points().front();
@@ -160,13 +160,13 @@ class Turn {
     return p;
   }
 
-  // Feet of the upper contour's vertices on the lower one, never going back.
+  // Finds the feet of the upper contour's vertices on the lower one. They never go back.
   void Match() {
     const std::size_t n = upper_.points().size(), m = lower_.points().size();
     feet_.assign(n + 1, 0.0);
     for (std::size_t i = 1; i < n; ++i) {
-      // Not beyond what the same share of the way allows, within a quarter of it: a foot on the far side of
-      // a narrow neck is none.
+      // A foot must lie at the same share of the way, to within a quarter of the length. So it does not lie
+      // on the far side of a narrow neck.
       const double share = upper_.At(i) / upper_.length();
       const auto segment = [&](double part) {
         return std::min(m, lower_.SegmentAt(std::clamp(part, 0.0, 1.0) * lower_.length()));
@@ -178,7 +178,7 @@ class Turn {
     feet_[n] = lower_.length();
   }
 
-  // The point at length s of the upper contour, fallen by its share.
+  // Returns the point at length s of the upper contour, lowered by its share of the fall.
   std::optional<CutterPoint> At(double s) const {
     const std::size_t i = upper_.SegmentAt(s);
     const double span = upper_.At(i + 1) - upper_.At(i);
@@ -195,11 +195,11 @@ class Turn {
     const Vec2 start = base - kBackOff * radius_ * way;
     const double reach = radius_;
     const LevelPoint out = oracle.Exit(start, After(vertex), way, reach);
-    if ((out.q - start).norm() >= reach - 1e-9) return std::nullopt;  // stopped there
+    if ((out.q - start).norm() >= reach - 1e-9) return std::nullopt;  // the walk stopped there
     return CutterPoint{Lift(out.q, z), out.contact, out.other};
   }
 
-  // Appends the points after a up to b, every chord proven.
+  // Appends the points after a up to b, with every chord proven.
   bool Way(double sa, const CutterPoint& a, double sb, const CutterPoint& b, int depth) {
     if (Proven(a, b, context_.locator, tolerance_)) {
       points_.push_back(b);
@@ -220,14 +220,14 @@ class Turn {
   std::vector<CutterPoint> points_;
 };
 
-// Chords between a new first point of a contour and its neighbours.
+// Are the chords between a new first point of a contour and its neighbours within the tolerances?
 bool ClosesWithin(const Loop& loop, const Locator& locator, const LoopTolerance& both) {
   const std::vector<CutterPoint>& points = loop.points();
   return Proven(points[0], points[1], locator, both) && Proven(points.back(), points[0], locator, both);
 }
 
-// The closed contour of the next line that a closed contour runs beside, the only one and for it alone; -1:
-// none.
+// For each closed contour, returns the one closed contour of the next line that it runs beside; -1: none.
+// Each contour follows at most one other.
 std::vector<int> Followers(const std::vector<CutterPath>& contours, double most) {
   std::map<int, std::vector<std::size_t>> lines;
   for (std::size_t i = 0; i < contours.size(); ++i) {
@@ -275,7 +275,7 @@ absl::StatusOr<std::vector<CutterPath>> SpiralPaths(const Locator& locator, std:
   for (std::size_t i = 0; i < contours.size(); ++i) {
     if (below[i] >= 0 && !follows[i]) tops.push_back(i);
   }
-  // Each turn begins where the last one ended: one after the other, chains side by side.
+  // Each turn begins where the last one ended, so turns are made one after the other. Chains run in parallel.
   std::vector<std::vector<CutterPath>> spirals(tops.size());
   const auto loop_of = [&](std::size_t i) {
     std::vector<CutterPoint> points = contours[i].points;

@@ -17,22 +17,23 @@
 namespace patchmill {
 namespace {
 
-constexpr double kSpacing = 0.5;   // of the flat step: places on a border
-constexpr double kShortest = 4.0;  // flat steps: of a pass, and of a stretch of border between two
-constexpr double kReach = 2.0;     // flat steps: lines further away tell nothing
-constexpr double kLeft = 0.55;     // of the flat step: passes as near as this finish the border
-constexpr double kTouch = 0.02;    // of the flat step: how near the contact has to be to the border
-constexpr int kSteps = 12;         // towards the ball that touches a place
+constexpr double kSpacing = 0.5;   // flat step-overs: between places on a border
+constexpr double kShortest = 4.0;  // flat step-overs: shortest pass, and shortest gap between two
+constexpr double kReach = 2.0;     // flat step-overs: lines farther away do not count
+constexpr double kLeft = 0.55;     // flat step-overs: a pass this near finishes the border
+constexpr double kTouch = 0.02;    // flat step-overs: largest distance of contact and border
+constexpr int kSteps = 12;         // most iterations towards the ball that touches a place
 
 struct Stand {
   Vec3 center;
   SurfacePoint contact;
 };
 
-// Where the ball stands that touches the surface at `p` with its own normal (over an edge it could roll). The
-// place in plan is moved to where the normal of the contact found would have the ball over p, times what the
-// contact has been found to lag behind (by more than 1 on ridges, less in hollows). Nothing where it does not
-// come within `near` of that. `last`: at a place nearby.
+// Returns where the ball stands that touches the surface at `p` with its own normal (over an edge it could
+// roll). The place in plan moves to where the normal of the contact found would have the ball over p. The
+// move is scaled by how far the contact lagged behind in the last one (more than 1 on ridges, less in concave
+// places). Returns nothing if the contact does not come within `near` (mm) of p. `last` is the ball at a
+// place nearby.
 std::optional<Stand> BallTouching(const Locator& locator, double gap, const Vec3& p, double near,
                                   const std::optional<Stand>& last) {
   Vec2 q = Xy(p), before_q = q, before_off = Vec2::Zero();
@@ -59,7 +60,7 @@ std::optional<Stand> BallTouching(const Locator& locator, double gap, const Vec3
   return std::nullopt;
 }
 
-// What a place of a border tells.
+// What is known of a place on a border.
 struct BorderPlace {
   std::optional<Stand> stand;
   bool along = false;  // the nearest line runs along the border here
@@ -92,14 +93,14 @@ class BorderWalk {
       const PathSegment segment = lines_.segment(line);
       const Vec2 runs = Xy(segment.b - segment.a);
       const Vec2 way = Xy(points[std::min(i + 1, points.size() - 1)] - points[i > 0 ? i - 1 : 0]);
-      // Drops have no direction.
+      // Drops have no direction in plan.
       const double size = runs.norm() * way.norm();
       place.along = runs.norm() > 1e-6 * (segment.b - segment.a).norm() && size > 0.0 &&
                     std::abs(Cross(runs, way)) <= std::sin(kAlongBorder) * size;
       place.left = all_.FindNearest(c, kLeft * flat_).segment < 0;
     }
     if (border.closed && places.size() > 2) {
-      // Begins where no pass runs, so that none is cut in two there.
+      // Begin where no pass runs, so that no pass is cut in two there.
       places.pop_back();
       const auto rest = std::find_if(places.begin(), places.end(),
                                      [](const BorderPlace& p) { return !p.along || !p.stand; });
@@ -109,7 +110,7 @@ class BorderWalk {
     return places;
   }
 
-  // From one place to another, both included: where a pass is worth its way.
+  // A stretch from one place to another, both included, where a pass is worth its way.
   struct Stretch {
     std::size_t first, last;
   };
@@ -118,7 +119,7 @@ class BorderWalk {
     std::vector<Stretch> stretches;
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (!places[i].along || !places[i].left) continue;
-      // Where it can go on to the next place that needs it, it does.
+      // A stretch continues to the next place that needs a pass if it can.
       const auto goes = [&](std::size_t from, std::size_t to) {
         return std::all_of(places.begin() + static_cast<std::ptrdiff_t>(from),
                            places.begin() + static_cast<std::ptrdiff_t>(to),

@@ -1,5 +1,5 @@
-// Passes along borders: where lines run along the border of what they cover they end one after the other, and
-// a pass along the border itself finishes the steps between their ends in one go.
+// Passes along borders. Where lines run along the border of their area they end one after the other. A pass
+// along the border finishes the steps between their ends in one go.
 #pragma once
 
 #include <vector>
@@ -14,14 +14,15 @@
 
 namespace patchmill {
 
-// Lines within this angle (rad, in plan) of a border run along it.
+// rad, in plan: lines within this angle of a border run along it.
 inline constexpr double kAlongBorder = 0.35;
 
-// Of those of `paths` that are lines: a pass that touches each stretch of `borders` along which the nearest
-// line, at most two flat steps away, runs, and which the lines leave: somewhere on it the nearest pass is
-// more than half a flat step away. Stretches shorter than four flat steps need none; nor is there one where
-// the ball cannot touch the border (creases, undercuts). Certified to params.chord_tolerance, as lines are.
-// In the order of the borders; deterministic, parallel over them.
+// Returns passes that touch stretches of `borders` which lines leave unfinished. Of `paths` only lines count.
+// On such a stretch the nearest line, at most two flat step-overs away, runs along the border, and somewhere
+// the nearest pass is more than 0.55 flat step-overs away. Stretches shorter than four flat step-overs get no
+// pass, nor do places where the ball cannot touch the border (creases, undercuts). Passes are certified to
+// params.chord_tolerance, as lines are. They come in the order of the borders. Deterministic, parallel over
+// the borders.
 absl::StatusOr<std::vector<CutterPath>> BorderPasses(const Locator& locator,
                                                      const std::vector<BorderCurve>& borders,
                                                      const std::vector<CutterPath>& paths,

@@ -1,4 +1,4 @@
-// Borders as polylines in space, and lines through places of them.
+// Borders as polylines in space, and places on them.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,18 @@
 
 namespace patchmill {
 
-// A border on the surface; closed: the last point joins the first, which is not repeated.
+// A border on the surface. If closed, the last point joins the first, which is not repeated.
 struct BorderCurve {
   std::vector<Vec3> points;
   bool closed = false;
 };
 
-// Places `spacing` (mm) apart, a little less on the last bit; both ends of an open curve, the first one twice
-// of a closed one.
+// Returns places `spacing` (mm) apart, the last gap being shorter. Both ends of an open curve are among them;
+// of a closed curve the first place is also the last.
 std::vector<Vec3> PlacesOn(const BorderCurve& border, double spacing);
 
-// Fewest of `places`, the first and the last among them, that stay within `tolerance` (mm) of all. At least
-// one place.
+// Returns the fewest of `places` whose polyline stays within `tolerance` (mm) of all. The first and the last
+// are kept. There must be at least one place.
 std::vector<Vec2> Thinned(const std::vector<Vec2>& places, double tolerance);
 
 }  // namespace patchmill

@@ -12,7 +12,7 @@
 namespace patchmill {
 namespace {
 
-constexpr int kLooks = 4;  // along a move
+constexpr int kLooks = 4;  // places looked at along a move
 
 }  // namespace
 
@@ -22,7 +22,7 @@ absl::StatusOr<std::vector<CutterPath>> ExtendPasses(const Locator& locator, std
                                                      const RunContext& run) {
   const SheetBorder border(locator.surface());
   const double floor_center = params.floor_z + locator.radius();
-  // Passes end a step beyond what is wanted (ClipToLimits): where one also ends on the border there, it may
+  // Passes end a step beyond the selected surface (ClipToLimits). A pass that ends on the border there may
   // run along it.
   const double overrun = kOverrun * CenterStep(locator.radius(), params.scallop, 0.0);
   const auto leaves_unwanted = [&](const Vec3& from, const Vec3& to) {

@@ -1,4 +1,4 @@
-// Edge rule EXTEND: passes run on beyond the border they end at.
+// Edge rule EXTEND: passes continue beyond the open edge at which they end.
 #pragma once
 
 #include <vector>
@@ -13,12 +13,11 @@
 
 namespace patchmill {
 
-// Adds to each end of an open pass whose contact lies on an open border a straight move of `length` (mm) in
-// the direction of the pass there, or of a half or a quarter of it: the longest that gouges nothing by more
-// than params.chord_tolerance (swept ball, with what hangs above it), stays above the floor, where
-// `operation_limits` allows (null: anywhere), and off ground that is not wanted but for a step. Its end
-// touches
-// nothing. Deterministic, parallel over passes.
+// Adds a straight move to each end of an open pass whose contact lies on an open edge. The move has the
+// direction of the pass there and `length` (mm), or a half or a quarter of it. The longest one is taken that
+// gouges nothing by more than params.chord_tolerance (swept ball, with what hangs above it), stays above the
+// floor, stays where `operation_limits` allows (null: anywhere), and runs over surface that is not selected
+// by at most a step. The end of the move touches nothing. Deterministic, parallel over passes.
 absl::StatusOr<std::vector<CutterPath>> ExtendPasses(const Locator& locator, std::vector<CutterPath> paths,
                                                      double length, const PassParams& params,
                                                      const OperationLimits* operation_limits,

@@ -12,16 +12,17 @@
 namespace patchmill {
 namespace {
 
-constexpr double kAsNear = 2e-3;  // of the radius: a ball touches what is this much farther than the nearest
-constexpr int kHalvings = 4;      // of half the reach, where what is wanted ends
-constexpr double kAbove = 0.02;   // of the radius, that a contact may lie above the centre
+constexpr double kAsNear = 2e-3;  // of the radius: places this much farther than the nearest one count as
+                                  // contacts
+constexpr int kHalvings = 4;      // of half the reach, to place the end of the selected surface
+constexpr double kAbove = 0.02;   // of the radius: height above the centre at which a contact still counts
 constexpr double kClipLength = 1e-3;  // mm: shorter parts across a limit are left out
 
-// A pass cut into chords, each kept or not.
+// A pass divided into chords, each of which is kept or not.
 struct Chords {
   std::vector<CutterPoint> points;  // the last one closes a closed path
   std::vector<bool> keep;           // of the chord from points[i] to points[i + 1]
-  bool begun = false;               // the last of them is of the move that is cut now
+  bool begun = false;               // the last chord belongs to the move that is being divided
 };
 
 class Clipper {
@@ -72,8 +73,8 @@ class Clipper {
     }
   }
 
-  // From where something is wanted to where nothing is: just beyond where that ends. In a corner the ball
-  // would climb the next wall there.
+  // Returns a place between a wanted and an unwanted one, just beyond the end of the selected surface.
+  // Farther away, in a corner, the ball would climb the next wall.
   CutterPoint Switch(const CutterPoint& wanted, const CutterPoint& not_wanted) const {
     double low = 0.0, high = 1.0;
     CutterPoint end = not_wanted;
@@ -106,7 +107,7 @@ class Clipper {
     AddAllowed(middle, b, chords);
   }
 
-  // Neighbouring chords that are left out are one, and those of one move that stay.
+  // Adds a chord. Neighbouring chords that are left out become one, and so do kept ones of one move.
   static void Push(const CutterPoint& to, bool keep, Chords& chords) {
     const bool same = !chords.keep.empty() && chords.keep.back() == keep;
     if (same && (!keep || chords.begun)) {
@@ -128,8 +129,9 @@ class Clipper {
     return p;
   }
 
-  // The ball touches ground near what is wanted. A contact above its centre is the shank's, which finishes
-  // nothing; beside an upright wall the ball's own is known less exactly. Of several a point may name one.
+  // Does the ball touch the surface near a selected place? A contact above its centre is one of the shank,
+  // which finishes nothing; at a vertical face the ball's own contact is known less exactly. A point may name
+  // only one of several contacts.
   bool WantsNear(const CutterPoint& p) const {
     if (operation_limits_.WantsAll()) return true;
     const double radius = locator_.radius();

@@ -11,16 +11,16 @@
 
 namespace patchmill {
 
-// Flat steps from what is wanted to what may be touched beyond it, by passes clipped at one step and what is
-// added to their ends: links, run-ons.
+// Flat step-overs: how far beyond the selected surface the tool may touch. Passes are clipped at one step;
+// links and extensions add to their ends.
 inline constexpr double kOverrun = 1.25;
 
-// Keeps what is allowed all the way (OperationLimits::AllowsMove; ends within 1e-3 mm of the limit) and
-// touches the
-// surface within `reach` (mm) of a point to be finished, looked for every half `reach` along the pass and
-// ended at to a thirtieth of it. A ball that touches unwanted ground is tangent to it: running on for `reach`
-// leaves no ridge at the seam and takes nothing that is not to go. Order and direction stay; a closed path
-// that stays whole stays closed. Parallel over paths, deterministic.
+// Keeps the parts of passes that are allowed all the way (OperationLimits::AllowsMove; ends within 1e-3 mm of
+// the limit) and touch the surface within `reach` (mm) of a point to be finished. The latter is tested every
+// half `reach` along the pass, and ends are placed to a thirtieth of it. A ball that touches surface that is
+// not selected is tangent to it, so an overrun of `reach` leaves no ridge at the seam and removes nothing
+// that must stay. Order and direction stay; a closed path that stays whole stays closed. Parallel over paths,
+// deterministic.
 absl::StatusOr<std::vector<CutterPath>> ClipToLimits(const Locator& locator,
                                                      const OperationLimits& operation_limits,
                                                      std::vector<CutterPath> paths, double reach,

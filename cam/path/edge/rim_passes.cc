@@ -15,15 +15,14 @@
 namespace patchmill {
 namespace {
 
-constexpr double kSpacing = 0.5;    // of the flat step: places on a border
-constexpr double kMaxRimGap = 2.0;  // ball radii
-constexpr double kBeyond = 2.0;     // flat steps: before the first line and after the last
-constexpr double kLook = 0.5;       // ball radii: how often lines are looked at
-constexpr double kThin = 0.02;      // of the flat step: how far the pass may be off the rim in plan
+constexpr double kSpacing = 0.5;    // flat step-overs: between places on a border
+constexpr double kMaxRimGap = 2.0;  // ball radii: largest gap between two lines of one run
+constexpr double kBeyond = 2.0;     // flat step-overs: overrun before the first line and after the last
+constexpr double kLook = 0.5;       // ball radii: between tested places of a line
+constexpr double kThin = 0.02;      // flat step-overs: how far the pass may be off the rim in plan
 
-// What a pass touches, at every vertex and often enough between them, when all of it is an open border that
-// it rolls over; else nothing. A straight line over a sheet has its ends on the border, and nothing between
-// them.
+// Returns the points that a path touches, at every vertex and often enough between them, if all of the path
+// rolls over an open edge; else nothing. A straight line over a sheet has only its ends on the edge.
 std::vector<Vec3> RolledOver(const CutterPath& path, const Surface& surface, const SheetBorder& border,
                              double radius) {
   std::vector<Vec3> touched;
@@ -54,20 +53,20 @@ std::vector<Vec3> RolledOver(const CutterPath& path, const Surface& surface, con
   return touched;
 }
 
-// Of one border: the places, and the lines that cross it.
+// The places of one border, and the lines that cross it.
 struct Rim {
   std::vector<Vec3> places;
   bool closed = false;
-  // Place and line, of everything that lines touch there.
+  // Place and line, for every point that lines touch there.
   std::vector<std::pair<std::size_t, std::size_t>> crossings;
 };
 
-// The rims that lines touch, with what they touch of them.
+// Returns the borders, each with the points that lines touch on it.
 absl::StatusOr<std::vector<Rim>> RimsTouched(const Locator& locator, const std::vector<BorderCurve>& borders,
                                              const std::vector<CutterPath>& paths, double spacing,
                                              const RunContext& run) {
   const SheetBorder border(locator.surface());
-  std::vector<std::pair<Vec3, std::size_t>> touched;  // place, line
+  std::vector<std::pair<Vec3, std::size_t>> touched;  // point, line
   for (std::size_t i = 0; i < paths.size(); ++i) {
     PM_RETURN_IF_ERROR(run.Check());
     for (const Vec3& p : RolledOver(paths[i], locator.surface(), border, locator.radius()))
@@ -76,7 +75,7 @@ absl::StatusOr<std::vector<Rim>> RimsTouched(const Locator& locator, const std::
   std::vector<Rim> rims;
   if (touched.empty()) return rims;
   std::vector<Vec3> places;
-  std::vector<std::pair<std::size_t, std::size_t>> origin;  // of each: rim, place of it
+  std::vector<std::pair<std::size_t, std::size_t>> origin;  // for each place: its rim and its number there
   for (const BorderCurve& curve : borders) {
     std::vector<Vec3> own = PlacesOn(curve, spacing);
     if (own.size() < 3) continue;
@@ -102,23 +101,23 @@ absl::StatusOr<std::vector<Rim>> RimsTouched(const Locator& locator, const std::
   return rims;
 }
 
-// Lines that follow each other along a rim: from one of its crossings to another, which may lie before it
-// on a closed one.
+// Lines that follow each other along a rim: from one of its crossings to another, which may lie before it on
+// a closed rim.
 struct Run {
-  std::size_t first = 0, count = 0;  // of its crossings
+  std::size_t first = 0, count = 0;  // crossings of the rim
   bool around = false;
 };
 
-// `apart`: places between two lines of one run at most.
+// Returns the runs of a rim. `apart` is the largest number of places between two lines of one run.
 std::vector<Run> RunsOf(const Rim& rim, std::size_t apart) {
   const std::size_t n = rim.crossings.size(), all = rim.places.size() - 1;
-  // Whether the way from crossing i to the next one is short.
+  // Is the way from crossing i to the next one short?
   const auto joined = [&](std::size_t i) {
     const std::size_t here = rim.crossings[i].first, next = rim.crossings[(i + 1) % n].first;
     if (i + 1 < n) return next - here <= apart;
     return rim.closed && next + all - here <= apart;
   };
-  std::size_t start = 0;  // after a long way
+  std::size_t start = 0;  // the crossing after a long way
   while (start < n && joined((start + n - 1) % n)) ++start;
   if (start == n) return {{0, n, true}};
   std::vector<Run> runs;
@@ -130,7 +129,8 @@ std::vector<Run> RunsOf(const Rim& rim, std::size_t apart) {
   return runs;
 }
 
-// In plan, from `beyond` places before the first crossing to as many after the last, or all around.
+// Returns the way in plan from `beyond` places before the first crossing to as many after the last, or all
+// around.
 std::vector<Vec2> WayAlong(const Rim& rim, const Run& run, std::size_t beyond) {
   const std::size_t all = rim.places.size() - 1;  // the last place of a closed rim is the first
   const std::size_t first = rim.crossings[run.first].first,

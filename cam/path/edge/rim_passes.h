@@ -1,4 +1,4 @@
-// Passes around rims instead of across them.
+// Replaces short lines across rims by passes along the rims.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,15 @@
 
 namespace patchmill {
 
-// Where walls end in an open rim lines that do nothing but roll over it, from one side to the other, are as
-// short as the ball is wide and lie a few millimetres apart: each needs a way in and out. Those that follow
-// each other along one of `borders`, two or more, no more than two ball radii apart, are taken out of
-// `paths`, and a pass above the rim itself, from a little before the first to a little after the last or all
-// around, is returned for them. Between it and a pass that rolls on to 45 degrees from the vertical nothing
-// stays of a layer on the rim that is thinner than the ball's radius. Lines that touch the surface in its own
-// normal anywhere stay. With params.roll nothing is done: that rule asks for more than to stand above a rim.
-// Certified to params.chord_tolerance. Deterministic. Cost: a closest point for every half ball radius of
-// lines that begin in a roll. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// Where walls end in an open rim, lines that only roll over it from one side to the other are as short as the
+// ball is wide and lie a few millimetres apart. Each needs an approach and a retract. If two or more of them
+// follow each other along one of `borders`, at most two ball radii apart, they are taken out of `paths`. For
+// them a pass above the rim is returned, from a little before the first to a little after the last, or all
+// around. Together with a pass that rolls on to 45 degrees from the vertical it leaves nothing of a layer on
+// the rim that is thinner than the ball's radius. Lines that touch the surface in its own normal anywhere
+// stay. With params.roll nothing is done: that rule requires more than a pass above the rim. Passes are
+// certified to params.chord_tolerance. Deterministic. Cost: a closest point for every half ball radius of
+// lines that begin in a roll. Errors: CANCELLED or DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<CutterPath>> RimPasses(const Locator& locator,
                                                   const std::vector<BorderCurve>& borders,
                                                   const PassParams& params, const RunContext& run,

@@ -9,14 +9,15 @@
 namespace patchmill {
 namespace {
 
-constexpr double kOnSide = 1e-9;         // piece parameters: contacts on a border are clamped onto it
-constexpr double kSameDirection = 1e-5;  // rad
-constexpr double kRimFall = 0.01;        // sine of the fall away from the border that makes it a rim
+constexpr double kOnSide = 1e-9;         // piece parameters: contacts on an open edge are clamped onto it
+constexpr double kSameDirection = 1e-5;  // rad: smaller angles count as none
+constexpr double kRimFall = 0.01;        // sine of the fall away from an open edge that makes it a rim
 constexpr double kUpright = 0.05;  // horizontal part of the inward tangent below which a rim tops a wall
 
-// The patch edge along which both parameters lie, if any.
+// Returns the patch edge along which both parameters lie, if any.
 std::optional<int> EdgeThrough(bool triangle, const Vec2& a, const Vec2& b) {
   const auto both = [&](auto on) { return on(a) && on(b); };
+  // Native parameters.
   constexpr double kEps = 1e-12;
   if (both([](const Vec2& p) { return std::abs(p.y()) < kEps; })) return 0;
   if (triangle) {
@@ -30,7 +31,7 @@ std::optional<int> EdgeThrough(bool triangle, const Vec2& a, const Vec2& b) {
   return std::nullopt;
 }
 
-// Corners of a piece (0,0) (1,0) (0,1) (1,1) at the ends of each side.
+// Corners (0,0) (1,0) (0,1) (1,1) of a piece at the ends of each side.
 constexpr int kSideCorner[4][2] = {{0, 1}, {1, 3}, {2, 3}, {0, 2}};
 constexpr double kCornerU[4] = {0, 1, 0, 1}, kCornerV[4] = {0, 0, 1, 1};
 
@@ -47,7 +48,7 @@ bool OnSide(const SurfacePoint& c, int side) {
   }
 }
 
-// Unit tangent of the surface that leaves the side inwards, square to it; zero where degenerate.
+// Returns the unit tangent of the surface that leaves the side inwards, square to it; zero where degenerate.
 Vec3 Inward(const SurfaceJet& jet, int side) {
   const Vec3 along = side % 2 == 0 ? jet.du : jet.dv;
   Vec3 in = side % 2 == 0 ? jet.dv : jet.du;
@@ -115,7 +116,7 @@ SheetBorder::Sides SheetBorder::SidesAt(const SurfacePoint& contact) const {
     ++sides;
     at.open |= open_[contact.piece.index()][static_cast<std::size_t>(side)];
   }
-  // A corner between closed sides may still be an end of the sheet's border (the middle patch of a fan).
+  // A corner between closed sides may still lie on an open edge of the sheet (the middle patch of a fan).
   at.fan_corner = !at.open && sides == 2 && AtOpenVertex(contact.p);
   return at;
 }
@@ -135,9 +136,9 @@ bool SheetBorder::Allowed(const SurfacePoint& contact, const Vec3& normal) const
     if (!OnSide(contact, side)) continue;
     if (!fan_corner && !open_[contact.piece.index()][static_cast<std::size_t>(side)]) continue;
     const Vec3 in = Inward(jet, side);
-    if (in.dot(normal) >= -kSameDirection) continue;  // not rolled over this side
+    if (in.dot(normal) >= -kSameDirection) continue;  // the ball is not rolled over this side
     if (in.z() > -kRimFall) return false;
-    // Right above the edge: in the upright plane through it.
+    // The limit is right above the edge: in the vertical plane through it.
     const Vec2 edge = Xy(side % 2 == 0 ? jet.du : jet.dv);
     Vec2 out = -Xy(in);
     if (edge.squaredNorm() > 0) out -= out.dot(edge) / edge.squaredNorm() * edge;

@@ -8,24 +8,24 @@
 
 namespace patchmill {
 
-// Which sides of the pieces are open edges of the network (no neighbour, not collapsed, not a T-junction).
-// Immutable; keeps a reference to the surface. Cost of the constructor O(pieces), of a question O(log open
-// vertices).
+// Knows which sides of the pieces are open edges of the network (no neighbour, not collapsed, not a
+// T-junction). Immutable; keeps a reference to the surface. Cost of the constructor O(pieces), of a query
+// O(log open vertices).
 class SheetBorder {
  public:
-  // `roll`: the ball may roll over every border, as far as it touches it.
+  // With `roll` the ball may roll over every open edge, as far as it touches it.
   explicit SheetBorder(const Surface& surface, bool roll = false);
 
-  // True where the ball touching `contact` in the direction `normal` ((centre - contact)/R) belongs to a
-  // pass: inside the sheet, over creases, up to the surface normal at an outer border. A border from which
-  // the surface descends is a rim: there the ball may roll on until it stands right above it, on both sides
-  // of a wall.
+  // True where the ball that touches `contact` in the direction `normal` ((centre - contact)/R) belongs to a
+  // pass: inside the sheet, over creases, and at an open edge up to the surface normal. An open edge from
+  // which the surface descends is a rim. There the ball may roll on until it stands right above the rim, on
+  // both sides of a wall.
   bool Allowed(const SurfacePoint& contact, const Vec3& normal) const;
 
-  // True at an open border, its vertices included.
+  // True at an open edge, its vertices included.
   bool On(const SurfacePoint& contact) const;
 
-  // True where the direction is that of the surface itself, not that of a ball rolling over an edge or a
+  // True where the direction is that of the surface itself, not that of a ball that rolls over an edge or a
   // crease. Tolerance 1e-5 rad.
   bool OnSurfaceNormal(const SurfacePoint& contact, const Vec3& normal) const;
 
@@ -44,7 +44,8 @@ class SheetBorder {
   double same_point_ = 0.0;
 };
 
-// Unit normal of the surface at the point with z >= 0; at a degenerate corner that of a point just inside.
+// Returns the unit normal of the surface at the point, with z >= 0. At a degenerate corner it is that of a
+// point just inside.
 Vec3 UpwardNormalNear(const Surface& surface, const SurfacePoint& at);
 
 }  // namespace patchmill

@@ -6,7 +6,7 @@
 namespace patchmill {
 namespace {
 
-// Flat steps beyond once around: more than a line runs on past what is wanted.
+// Flat step-overs looked at beyond one full turn: more than a line overruns what is wanted.
 constexpr double kOverlap = 6.0;
 constexpr double kWhole = 1e-9;  // mm: a turn is whole up to this
 
@@ -35,7 +35,8 @@ std::vector<Interval> RemoveOverlapTurn(const std::vector<Interval>& keep, const
     if (i.end - i.begin >= once) return {{0.0, once}};
     if (i.begin >= looked.end - once && i.begin < looked.end) rest.push_back(i);
   }
-  // The two sights of a beginning differ a little: where they lie on both sides of a limit, both are there.
+  // A beginning is found twice, at places that differ a little. If these lie on both sides of a limit, both
+  // are in the list.
   while (rest.size() > 1 && rest.back().end - once >= rest.front().end) rest.erase(rest.begin());
   return rest;
 }

@@ -1,4 +1,4 @@
-// Round lines begin again where they end: what is found along more than one turn, once.
+// Circular lines return to their start. A stretch that is found along more than one turn counts once.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,23 @@
 
 namespace patchmill {
 
-// Where round lines are looked for: `margin` (mm) beyond what is wanted, and a little more than once around,
-// from t = 0 on, so that no stretch is cut off where t begins again. `flat`: the flat step, mm.
+// Returns where circular lines are looked for: `margin` (mm) beyond what is wanted, and a little more than
+// one full turn from t = 0 on, so that no stretch is cut off where t begins again. `flat`: the flat
+// step-over, mm.
 FrameExtent ExtentOfCircles(const CircularLines& around, double margin, double flat);
 
-// Stretches of a round line that was looked at over `looked` (`once` or more), each once, cut where `looked`
-// is no longer than `once`; all of the line is one that begins at 0 and ends at `once`.
+// Returns each stretch of a circular line once. The line was looked at over `looked`, which is `once` (a full
+// turn) or more. Stretches are cut where `looked` is no longer than `once`. If all of the line is kept, the
+// result is one stretch from 0 to `once`.
 std::vector<Interval> RemoveOverlapTurn(const std::vector<Interval>& keep, const Interval& looked,
                                         double once);
 
-// Places in plan along the circle of distance `y` from the frame's place, as many as keep chords within
-// `sagitta` (mm) of it. The last one is the first one, to the bit, after a whole turn.
+// Returns places in plan along the circle of radius `y` around the frame's centre, as many as keep chords
+// within `sagitta` (mm) of the circle. After a whole turn the last place equals the first to the bit.
 std::vector<Vec2> ArcPlaces(const LineFrame& frame, double y, const Interval& t, double sagitta);
 
-// Runs of a whole turn: those that meet where it begins and ends become one. True where one is all there is
-// and closes; its last point is dropped then.
+// Joins the runs of a whole turn that meet where it begins and ends. Returns true if there is only one run
+// and it closes; its last point is dropped then.
 bool CloseAround(double certificate_gap, std::vector<ScanRun>& runs);
 
 }  // namespace patchmill

@@ -15,14 +15,14 @@
 namespace patchmill {
 namespace {
 
-constexpr double kRowStep = 1.5;                // flat steps
-constexpr double kMaxBentRatio = 0.96;          // of the straight lines' length, as the lattice tells it,
-constexpr double kMeasured = 0.99;              // and as the lines and what fills their gaps have it
-constexpr std::size_t kFew = 64, kLooked = 24;  // gaps of a family: all of a few, so many of more
-constexpr double kRun = 0.5;   // ball radii: what one run more costs, most of them joined to the next
-constexpr double kWall = 2.0;  // flat steps from station to station: a wall, which splits lines
+constexpr double kRowStep = 1.5;                // flat step-overs between rows of the lattice
+constexpr double kMaxBentRatio = 0.96;          // of the straight lines' length, as the lattice estimates it
+constexpr double kMeasured = 0.99;              // of their length, measured with all that fills the gaps
+constexpr std::size_t kFew = 64, kLooked = 24;  // gaps of a family: up to kFew all are measured, else kLooked
+constexpr double kRun = 0.5;   // ball radii: cost of one more run; most are joined to the next
+constexpr double kWall = 2.0;  // flat step-overs between stations: more is a wall, which splits lines
 
-// Lines per mm of the straight lines at y.
+// Returns the density, lines per mm, of the straight lines at y.
 double StraightDensity(const LineBand& band, double y) {
   const std::vector<double>& p = band.positions;
   const auto above = std::upper_bound(p.begin() + 1, p.end() - 1, y);
@@ -34,7 +34,7 @@ struct Family {
   std::vector<std::vector<double>> density;  // of lines, at the lattice's rows and knots
 };
 
-// How many lines lie below each row at a knot, counted from the band's lower limit.
+// Returns how many lines lie below each row at a knot, counted from the band's lower limit.
 std::vector<double> CountsAt(const LineLattice& lattice, const std::vector<std::vector<double>>& density,
                              std::size_t k) {
   std::vector<double> counts = {0.0};
@@ -45,7 +45,8 @@ std::vector<double> CountsAt(const LineLattice& lattice, const std::vector<std::
   return counts;
 }
 
-// y at a knot at which the count, linear between rows, reaches `count`; the limits beyond them.
+// Returns the y at a knot at which the count, linear between rows, reaches `count`; beyond the rows the
+// limit.
 double HeightOf(const LineLattice& lattice, const std::vector<double>& counts, std::size_t k, double count) {
   const auto above = std::upper_bound(counts.begin(), counts.end(), count);
   if (above == counts.begin()) return lattice.RowAt(0, k);
@@ -55,7 +56,7 @@ double HeightOf(const LineLattice& lattice, const std::vector<double>& counts, s
   return low + (high - low) * (count - counts[r - 1]) / (counts[r] - counts[r - 1]);
 }
 
-// The stretches of a line that lies on one of the limits before and behind them.
+// Returns the stretches of a line, without those between two knots that lie on one limit.
 std::vector<Interval> OffLimits(const LineShape& line, const Interval& limits) {
   std::vector<Interval> where;
   for (std::size_t k = 0; k + 1 < line.y.size(); ++k) {
@@ -73,9 +74,9 @@ std::vector<Interval> OffLimits(const LineShape& line, const Interval& limits) {
   return where;
 }
 
-// Lines as dense as the lattice asks, mixed with straight ones as dense as the densest place of their row.
-// They bend as little as can be from knot to knot on average, end where they meet the band's limits, and both
-// limits are lines themselves.
+// Returns lines as dense as the lattice requires, mixed with straight lines as dense as the densest place of
+// their row; `straight` is the share of the latter. Lines bend as little as possible from knot to knot on
+// average, and end where they meet the band's limits. Both limits are lines themselves.
 Family ShareWay(const LineLattice& lattice, const LineBand& band, double straight) {
   const std::size_t rows = lattice.rows.size(), knots = lattice.knots();
   Family family;
@@ -115,7 +116,7 @@ Family ShareWay(const LineLattice& lattice, const LineBand& band, double straigh
   return family;
 }
 
-// The largest |dy/dt| of the lines next to anything wanted.
+// Returns the largest |dy/dt| of the lines next to anything wanted.
 double SteepestBend(const LineLattice& lattice, const Family& family) {
   double steepest = 0.0;
   std::vector<std::size_t> row(lattice.knots(), 0);  // the lattice's row next to the line, per knot
@@ -134,7 +135,8 @@ double SteepestBend(const LineLattice& lattice, const Family& family) {
   return steepest;
 }
 
-// mm of full and partial lines where something is wanted; density(row, sample): lines per mm of y.
+// Returns the length (mm) of full and partial lines where something is wanted. density(row, sample) is in
+// lines per mm of y.
 template <class Density>
 double LengthOf(const LineLattice& lattice, double min_step, const Density& density) {
   double sum = 0.0;
@@ -163,8 +165,8 @@ double LengthOf(const LineLattice& lattice, double min_step, const Family& famil
   });
 }
 
-// mm along the centres, station by station, with ways in and out; up and down upright walls there are no
-// passes.
+// Returns the length (mm) along the centres, station by station, with the cost of the runs. Up and down
+// vertical faces there are no passes.
 double LengthOf(const LineProber& prober, const ClippedLine& line) {
   double length = kRun * prober.radius() * static_cast<double>(line.keep.size());
   auto t = line.keep.begin();
@@ -180,8 +182,8 @@ double LengthOf(const LineProber& prober, const ClippedLine& line) {
   return length;
 }
 
-// mm: what these lines and all that fills their gaps come to, with the ways in and out. Of more than
-// kFew gaps kLooked tell, spread evenly.
+// Returns the length (mm) of these lines with all that fills their gaps, and the cost of the runs. Of more
+// than kFew gaps only kLooked are measured, spread evenly.
 absl::StatusOr<double> LengthWithGaps(const LineProber& prober, const std::vector<BentLine>& lines,
                                       const Interval& range, double min_step, const RunContext& run) {
   const std::size_t gaps = lines.size() - 1, looked = gaps <= kFew ? gaps : kLooked;
@@ -232,7 +234,7 @@ absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const 
                       SampleLattice(prober, range, std::move(rows), min_step, run));
   if (lattice.rows.empty()) return straight;
 
-  // As little of the straight lines as the bend allows.
+  // Take as little of the straight lines as the bend allows.
   constexpr int kHalvings = 5;
   double low = 0.0, high = 1.0;
   Family family = ShareWay(lattice, band, low);
@@ -253,14 +255,14 @@ absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const 
       kRunCost * prober.radius() * (static_cast<double>(runs) - static_cast<double>(straight.size()));
   if (high == 1.0 || LengthOf(lattice, min_step, family) + ways > kMaxBentRatio * least) return straight;
 
-  // Again along the lines themselves: needs change with the direction.
+  // Sample again along the lines themselves: needs change with the direction.
   PM_ASSIGN_OR_RETURN(const LineLattice bent,
                       SampleLattice(prober, range, EveryOther(family.lines), min_step, run));
   if (bent.rows.empty()) return straight;
   Family again = ShareWay(bent, band, high);
   if (SteepestBend(bent, again) <= std::tan(max_bend)) family = std::move(again);
-  // Where steps are wide beside what the ground changes over, needs at the lattice's places tell too little
-  // of what lies between two lines.
+  // Where steps are wide compared with the features of the surface, the needs at the lattice's places say too
+  // little of what lies between two lines. So the lengths are measured.
   PM_ASSIGN_OR_RETURN(const double as_bent, LengthWithGaps(prober, family.lines, range, min_step, run));
   PM_ASSIGN_OR_RETURN(const double as_straight, LengthWithGaps(prober, straight, range, min_step, run));
   return as_bent <= kMeasured * as_straight ? std::move(family.lines) : straight;

@@ -6,9 +6,9 @@
 namespace patchmill {
 namespace {
 
-constexpr double kSolved = 1e-9;     // mm
-constexpr double kAtSide = 1e-9;     // of a piece's parameters
-constexpr double kNarrowest = 0.02;  // of the flat step: ground between edges that is looked for
+constexpr double kSolved = 1e-9;     // mm: accuracy of ends
+constexpr double kAtSide = 1e-9;     // of a piece's parameters: a contact this near to a side lies on it
+constexpr double kNarrowest = 0.02;  // flat step-overs: narrower faces between edges are not looked for
 
 class Clipper {
  public:
@@ -55,7 +55,7 @@ std::vector<LineProbe> Clipper::Stations(const Interval& range) const {
   return out;
 }
 
-// Dilation across the line: the window begins within half a step beside this place.
+// Dilates across the line: does the window begin within half a step beside this place?
 bool Clipper::WantedBeside(const LineProbe& s) const {
   for (int side : {-1, 1}) {
     const LineProbe beside = prober_.Probe(s.t, line_.At(s.t) + side * s.lateral, line_.SlopeAt(s.t),
@@ -72,7 +72,7 @@ bool OnOneSide(const SurfacePoint& a, const SurfacePoint& b) {
   return a.piece.value == b.piece.value && (both(a.u, b.u) || both(a.v, b.v));
 }
 
-// Between places over different edges there may be ground narrower than what lies between the places.
+// Between places over different edges there may be a face narrower than the distance of the places.
 bool Clipper::FaceBetween(const LineProbe& a, const LineProbe& b) const {
   if (!a.contact || !b.contact || OnOneSide(*a.contact, *b.contact)) return false;
   if (b.t - a.t < kNarrowest * flat_ || prober_.Cancelled()) return false;
@@ -87,20 +87,20 @@ bool Clipper::FaceBetween(const std::vector<LineProbe>& stations, std::size_t fi
   return false;
 }
 
-// The last place, going from `yes` to `no`, where the predicate holds.
+// Returns the last place, going from `yes` to `no`, where the predicate holds.
 template <class Predicate>
 LineProbe Clipper::Limit(LineProbe yes, LineProbe no, Predicate holds) const {
   while (std::abs(no.t - yes.t) > kSolved) {
     const double mid = 0.5 * (yes.t + no.t);
-    if (mid == yes.t || mid == no.t) break;  // no number between them any more
+    if (mid == yes.t || mid == no.t) break;  // no number lies between them any more
     const LineProbe m = Probe(mid, yes);
     (holds(m) ? yes : no) = m;
   }
   return yes;
 }
 
-// From `from` on through allowed places until half a step of centre curve is used up; `next` indexes the
-// first station beyond. Stops at borders, gaps and drops, solved.
+// Goes from `from` through allowed places until half a step of the centre curve is used up. `next` is the
+// first station beyond `from`. Stops at open edges, gaps and drops, which are solved.
 double Clipper::Extend(const std::vector<LineProbe>& stations, std::size_t next, const LineProbe& from,
                        int direction) const {
   double left = std::max(0.5 * flat_, from.half_step) * 1.01;
@@ -123,7 +123,7 @@ double Clipper::Extend(const std::vector<LineProbe>& stations, std::size_t next,
     }
     left -= d;
     at = to;
-    if (to.t != stations[i].t) return at.t;  // a border, or used up
+    if (to.t != stations[i].t) return at.t;  // an open edge, or the length is used up
   }
   return at.t;
 }
@@ -146,7 +146,7 @@ std::vector<Interval> Clipper::Keep(const std::vector<LineProbe>& stations) cons
     }
     std::size_t last = i;
     while (last + 1 < n && stations[last + 1].wanted) ++last;
-    // All of it over an edge: nothing is finished there.
+    // If all of the stretch lies over an edge, nothing is finished there.
     const std::size_t first = i;
     i = last;
     const auto at = [&](std::size_t k) { return stations.begin() + static_cast<std::ptrdiff_t>(k); };

@@ -1,5 +1,5 @@
-// Which parts of a zig-zag line are passes: contacts in the slope window, dilated by half a step along the
-// line and beside it, cut at borders.
+// Finds which parts of a zig-zag line are passes: contacts in the slope window, dilated by half a step along
+// the line and across it, cut at open edges.
 #pragma once
 
 #include <vector>
@@ -14,19 +14,19 @@ struct Interval {
 
 struct ClippedLine {
   LineShape line;
-  double rank = 0.0;           // rises from line to line, the same for parts of one line
-  std::vector<Interval> keep;  // of t, disjoint, rising; ends on window or border limits solved to 1e-9 mm
-  std::vector<LineProbe>
-      probes;  // the stations looked at, rising t; their needs tell whether a neighbour is near
+  double rank = 0.0;              // rises from line to line, the same for parts of one line
+  std::vector<Interval> keep;     // of t, disjoint, rising; ends on window or edge limits solved to 1e-9 mm
+  std::vector<LineProbe> probes;  // the stations, rising in t; their needs decide whether a neighbour is near
 };
 
-// Stations are at most about 0.6 flat steps apart in plan and 1.2 in space (where the curve is continuous).
+// Stations are at most about 0.6 flat step-overs apart in plan and 1.2 in space (where the curve is
+// continuous).
 ClippedLine ClipLine(const LineProber& prober, const LineShape& line, double rank, const Interval& range);
 
-// Sorted union; intervals closer than `gap` are joined.
+// Returns the sorted union. Intervals closer than `gap` are joined.
 std::vector<Interval> Union(std::vector<Interval> intervals, double gap);
 
-// What lies in both; both sorted and disjoint.
+// Returns what lies in both. Both must be sorted and disjoint.
 std::vector<Interval> Common(const std::vector<Interval>& a, const std::vector<Interval>& b);
 
 }  // namespace patchmill

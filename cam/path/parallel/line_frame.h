@@ -5,7 +5,7 @@
 
 namespace patchmill {
 
-// Lines in circles around a place in plan, where something is wanted between two distances from it.
+// Circular lines: circles around a place in plan, where something is wanted between two distances from it.
 struct CircularLines {
   Vec2 center = Vec2::Zero();
   double inner = 0.0, outer = 0.0;  // mm, 0 <= inner < outer
@@ -13,12 +13,12 @@ struct CircularLines {
   bool operator==(const CircularLines&) const = default;
 };
 
-// Flat steps: how near to circles the chords are that they are cut along.
+// Flat step-overs: largest distance between a circle and the chords along which it is cut.
 inline constexpr double kCircleSagitta = 0.01;
 
-// Straight: parallel lines, y to the left of them. Round: y is the distance from a place, and t the way
-// around it, counter-clockwise from +x, in mm at the distance `at`; both repeat after period(). In either,
-// two lines of constant y are as far apart in plan as their y.
+// Straight: lines are parallel, and y is to their left. Round: y is the distance from a place, and t the way
+// around it, counter-clockwise from +x, in mm at the distance `at`; both repeat after period(). In either
+// case two lines of constant y are as far apart in plan as their y.
 class LineFrame {
  public:
   static LineFrame At(double angle);
@@ -28,7 +28,7 @@ class LineFrame {
   double period() const { return round() ? 2.0 * kPi * at_ : kInfinity; }  // of t
 
   Vec2 At(double t, double y) const;
-  // Unit vectors in plan in which t and y rise.
+  // Unit vectors in plan along which t and y rise.
   Vec2 Along(double t) const;
   Vec2 Across(double t) const;
   // mm in plan per mm of t.

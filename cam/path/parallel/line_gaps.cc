@@ -10,15 +10,15 @@
 namespace patchmill {
 namespace {
 
-constexpr double kShortest = 4.0;  // flat steps: a stretch of lines shorter than this joins its neighbour
+constexpr double kShortest = 4.0;  // flat step-overs: a shorter stretch of lines joins its neighbour
 
-// A stretch of the gap between two lines that has to be cut into so many parts.
+// A stretch of the gap between two lines that must be divided into `parts`.
 struct Stretch {
   Interval t;
   int parts = 2;
 };
 
-// What lies in `within` beyond the parts of `less`, both rising and disjoint.
+// Returns `within` without `less`. Both must be rising and disjoint.
 std::vector<Interval> Without(const std::vector<Interval>& within, const std::vector<Interval>& less) {
   std::vector<Interval> rest;
   std::size_t k = 0;
@@ -33,9 +33,10 @@ std::vector<Interval> Without(const std::vector<Interval>& within, const std::ve
   return rest;
 }
 
-// Into how many parts the gap between a place of one line and another line has to be cut. Where one of them
-// needs less than the gap, the place half way is asked, which counts most (Simpson's rule: the surface bulges
-// between two places by its curvature in the mean, with weights that rise towards the middle).
+// Returns the number of parts into which the gap between a place of one line and another line must be
+// divided. Where one of the two lines needs less than the gap, the place half way is probed too, and counts
+// most by Simpson's rule: the surface rises between two places by its mean curvature, with weights that rise
+// towards the middle.
 int PartsTowards(const LineProber& prober, const LineProbe& p, const ClippedLine& line,
                  const ClippedLine& other, double min_step) {
   const double y = line.line.At(p.t), across = other.line.At(p.t) - y;
@@ -53,7 +54,7 @@ int PartsTowards(const LineProber& prober, const LineProbe& p, const ClippedLine
   return parts(tells(middle) ? 6.0 / (ends + 4.0 / middle.need) : 2.0 / ends);
 }
 
-// Where two lines need a neighbour nearer than the other one, and into how many parts that cuts their gap.
+// Returns where two lines need a neighbour nearer than the other line, and the number of parts needed there.
 std::vector<Stretch> NarrowStretches(const LineProber& prober, const ClippedLine& a, const ClippedLine& b,
                                      const Interval& within, double min_step) {
   const double flat = prober.flat_step();
@@ -66,8 +67,8 @@ std::vector<Stretch> NarrowStretches(const LineProber& prober, const ClippedLine
         spots[parts].push_back({std::max(within.begin, p.t - flat), std::min(within.end, p.t + flat)});
     }
   }
-  // Nested, from the fewest parts up: what needs more lies within what needs fewer, and takes its ends over
-  // where they are near.
+  // Stretches are nested, from the fewest parts up. A stretch that needs more parts lies within one that
+  // needs fewer, and takes over its ends where they are near.
   std::vector<Stretch> stretches;
   std::vector<Interval> all = {within};
   for (auto from = spots.begin(); from != spots.end(); ++from) {

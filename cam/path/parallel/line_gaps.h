@@ -1,4 +1,4 @@
-// What lies between two zig-zag lines whose gap is too wide for the ground somewhere.
+// Fills the space between two zig-zag lines whose gap is too wide for the surface somewhere.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace patchmill {
 
-// Cuts the gap between two lines into as many parts as it needs within these t, stretch by stretch; the new
-// lines may find that they need more. Appends them to `out`; means nothing once the prober is cancelled.
+// Divides the gap between two lines within this range of t, stretch by stretch, into as many parts as it
+// needs. The new lines may need more. Appends them to `out`. The result is meaningless once the prober is
+// cancelled.
 void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& b, const Interval& within,
              double min_step, std::vector<ClippedLine>& out);
 

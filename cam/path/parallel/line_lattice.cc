@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kKnotSpacing = 1.0;  // ball radii
 
-// Where nothing is wanted the density runs on between the places of the row where something is.
+// Where nothing is wanted the density is interpolated between the wanted places of the row. Returns whether
+// there are any.
 bool FillRow(const std::vector<char>& wanted, std::vector<double>& density) {
   std::optional<std::size_t> last;
   for (std::size_t k = 0; k < density.size(); ++k) {
@@ -44,7 +45,7 @@ absl::StatusOr<LineLattice> SampleLattice(const LineProber& prober, const Interv
   lattice.wanted.assign(count, std::vector<char>(knots, 0));
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, count, [&](std::size_t r) {
     const auto row = prober.ProbeRow(range.begin, range.end, stretches * kSamplesPerKnot, lattice.rows[r]);
-    // Balls on rims and corners need no neighbour, and say nothing of how dense lines should be.
+    // Balls on rims and corners need no neighbour, and do not show how dense lines should be.
     for (const LineProbe& p : row) {
       const bool tells = p.wanted && p.need < kInfinity;
       lattice.needs[r].push_back(tells ? std::clamp(p.need, min_step, 4.0 * flat) : 0.0);
@@ -64,7 +65,7 @@ absl::StatusOr<LineLattice> SampleLattice(const LineProber& prober, const Interv
       lattice.wanted[r][k] = weights > 0.0;
     }
   }));
-  // A row that saw nothing takes over what the next one below it, or above, has.
+  // A row without wanted places takes over the density of the next one below it, or else above it.
   std::optional<std::size_t> filled;
   for (std::size_t r = 0; r < count; ++r) {
     if (FillRow(lattice.wanted[r], lattice.density[r])) {
@@ -74,7 +75,7 @@ absl::StatusOr<LineLattice> SampleLattice(const LineProber& prober, const Interv
       lattice.density[r] = lattice.density[*filled];
     }
   }
-  if (!filled) lattice.rows.clear();  // nothing at all
+  if (!filled) lattice.rows.clear();  // nothing is wanted anywhere
   return lattice;
 }
 

@@ -1,4 +1,4 @@
-// What density of zig-zag lines the ground asks for, on a lattice across a band of lines.
+// The density of zig-zag lines that the surface needs, on a lattice across a band of lines.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace patchmill {
 
-// Rows of samples across a band, and what density of lines they ask for at the knots.
+// Rows of samples across a band, and the density of lines that they need at the knots.
 struct LineLattice {
-  double begin = 0.0, spacing = 1.0;         // of knots
+  double begin = 0.0, spacing = 1.0;         // mm, of the knots
   std::vector<LineShape> rows;               // rising
   std::vector<std::vector<double>> needs;    // mm, by row and sample; 0 where nothing is wanted
   std::vector<std::vector<double>> density;  // 1/mm, by row and knot, also where nothing is wanted
@@ -23,11 +23,13 @@ struct LineLattice {
   double RowAt(std::size_t r, std::size_t k) const { return rows[r].At(KnotAt(k)); }
 };
 
+// Samples per distance of two knots.
 inline constexpr int kSamplesPerKnot = 3;
 
-// Knots lie a ball radius apart along the rows, which run over `range` of t, samples a third of that; the
-// density at a knot is the mean of the samples around it. Clamped to steps from min_step to four flat ones.
-// Without rows when nothing is wanted anywhere. CANCELLED, DEADLINE_EXCEEDED from `run`.
+// Samples a lattice. Its knots lie a ball radius apart along the rows, which run over `range` of t; samples
+// lie a third of that apart. The density at a knot is the mean of the samples around it, clamped to steps
+// from min_step to four flat step-overs. The result has no rows if nothing is wanted anywhere. Errors:
+// CANCELLED or DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<LineLattice> SampleLattice(const LineProber& prober, const Interval& range,
                                           std::vector<LineShape> rows, double min_step,
                                           const RunContext& run);

@@ -13,15 +13,16 @@
 namespace patchmill {
 namespace {
 
-constexpr double kSteady = 1.03;   // steps of neighbouring rows that differ by more want a row between them,
-constexpr double kNearest = 0.15;  // but none nearer than this many flat steps
-constexpr double kInsetShare = 0.98;  // of a step: the passes beside it bend between the places asked
+constexpr double kSteady = 1.03;      // rows whose steps differ by more get a row between them,
+constexpr double kNearest = 0.15;     // but none nearer than this many flat step-overs
+constexpr double kInsetShare = 0.98;  // of a step: the passes beside a band bend between the sampled places
 
 struct Row {
   double y = 0.0;
-  std::vector<StepNeed> needs;  // of every wanted sample, in their order, half a sample's way each
-  std::vector<char> first;      // of each: nothing is wanted before it
-  double step = 0.0;            // CheapestStep of a wanted row
+  std::vector<StepNeed> needs;  // two for every wanted sample, in order; each for half the way between
+                                // samples
+  std::vector<char> first;      // for each need: nothing is wanted before it
+  double step = 0.0;            // CheapestStep of the needs, if any
   bool wanted() const { return !needs.empty(); }
 };
 
@@ -32,7 +33,7 @@ Row SampleRow(const LineProber& prober, const Interval& range, double spacing, d
       prober.ProbeRow(range.begin, range.end, count, LineShape::Straight(y));
   for (std::size_t i = 0; i < probes.size(); ++i) {
     if (!probes[i].wanted) continue;
-    // Partial lines begin a flat step before the spot that needs them: half way from sample to sample.
+    // Partial lines begin a flat step-over before the spot that needs them, half way from sample to sample.
     for (const std::size_t k : {i > 0 ? i - 1 : i, i + 1 < probes.size() ? i + 1 : i}) {
       row.first.push_back(k < i && !probes[k].wanted);
       row.needs.push_back({probes[k].wanted ? std::min(probes[i].need, probes[k].need) : probes[i].need});
@@ -41,7 +42,7 @@ Row SampleRow(const LineProber& prober, const Interval& range, double spacing, d
   return row;
 }
 
-// The last row with something wanted between two rows of which only one has something.
+// Returns the last row with something wanted between two rows of which only one has something.
 Row WantedLimit(const LineProber& prober, const Interval& range, double spacing, Row with, double without) {
   while (std::abs(with.y - without) > 1e-3 * prober.flat_step() && !prober.Cancelled()) {
     Row mid = SampleRow(prober, range, spacing, 0.5 * (with.y + without));
@@ -54,9 +55,9 @@ Row WantedLimit(const LineProber& prober, const Interval& range, double spacing,
   return with;
 }
 
-// Of a limit along which round lines run, whose ground is not exactly round: the row of the limit itself sees
-// little of it, and would leave it to rest passes. The last place before it with nine tenths of what `inside`
-// has, if that is near.
+// Adjusts a limit along which circular lines run. If the surface there is not exactly round, the row of the
+// limit itself sees little of it and would leave it to rest passes. Returns the last row before the limit
+// with nine tenths of the needs of `inside`, if that row is near.
 Row AlongLimit(const LineProber& prober, const Interval& range, double spacing, const Row& inside,
                Row limit) {
   const auto sees = [&](const Row& row) { return 10 * row.needs.size() >= 9 * inside.needs.size(); };
@@ -73,14 +74,14 @@ Row AlongLimit(const LineProber& prober, const Interval& range, double spacing, 
       without = mid.y;
     }
   }
-  // Circles are cut along chords.
+  // Circles are cut along chords, so the row keeps clear by as much.
   const double chords = std::min(2.0 * kCircleSagitta * prober.flat_step(), std::abs(inside.y - along.y));
   Row clear = SampleRow(prober, range, spacing, along.y + std::copysign(chords, way));
   return clear.wanted() ? clear : along;
 }
 
-// How far (in y) a line at this limit of a band may move inwards: as long as no place of it is farther from
-// the passes beside it than its own step. Half way between the two, that is the ground of the limit.
+// Returns how far (in y) a line at this limit of a band may move inwards without any of its places being
+// farther from the passes beside it than its own step. Half way between them lies the surface of the limit.
 double InsetOf(const LineProber& prober, const Interval& range, double spacing, double y,
                const SegmentTree& beside) {
   const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
@@ -97,7 +98,7 @@ double InsetOf(const LineProber& prober, const Interval& range, double spacing, 
   return inset < kInfinity ? inset : 0.0;
 }
 
-// Moves the ends of a band inwards, each up to the band's middle; leaves none of it where they stay.
+// Moves the ends of a band inwards, each at most to the band's middle. Clears the band if neither end moves.
 absl::Status MoveInwards(const LineProber& prober, const Interval& range, double spacing,
                          const SegmentTree& beside, std::vector<Row>& band, const RunContext& run) {
   const double low = band.front().y, high = band.back().y, middle = 0.5 * (low + high);
@@ -120,13 +121,13 @@ bool Steady(const Row& a, const Row& b) {
   return std::max(a.step, b.step) <= kSteady * std::min(a.step, b.step);
 }
 
-// Lines per mm between two rows.
+// Returns the density, lines per mm, between two rows.
 double Density(const Row& a, const Row& b) {
   return Steady(a, b) ? 0.5 / a.step + 0.5 / b.step : 1.0 / std::min(a.step, b.step);
 }
 
-// Full lines and the partial ones between them where gaps of this width run along a row, in samples' halves;
-// `way`: what one run more costs.
+// Returns the length of full lines, and of the partial ones between them, where gaps of this width run along
+// a row. The unit is half the way between samples. `way` is the cost of one more run.
 double LinesAlong(const Row& row, double gap, double way, double least) {
   double length = 0.0;
   int last = 0;
@@ -143,17 +144,18 @@ double LinesAlong(const Row& row, double gap, double way, double least) {
   return length;
 }
 
-// How many gaps, and what full and partial lines come to, in samples' halves.
+// Number of gaps, and length of full and partial lines in units of half the way between samples.
 struct Count {
   int gaps = 1;
   double length = 0.0;
 };
 
-// How many gaps a band gets, `total` or more: with the fewest every gap is shortened a little, and where
-// partial lines cut a gap into parts those end up far below what they may be. A few gaps more can need fewer
-// parts. Once the prober is cancelled the answer means nothing.
+// Chooses the number of gaps of a band, at least `total`. The fewest gaps shorten every gap a little; where
+// partial lines divide a gap, its parts end up far below what they may be. A few gaps more can need fewer
+// parts. The result is meaningless once the prober is cancelled.
 Count CheapestCount(const LineProber& prober, const std::vector<Row>& band,
                     const std::vector<double>& density, double total, double way, double least) {
+  // Numbers of gaps tried beyond the fewest.
   constexpr int kCandidates = 24;
   const int fewest = std::max(1, static_cast<int>(std::ceil(total - 1e-9)));
   const int stride = 1 + fewest / kCandidates;
@@ -183,14 +185,14 @@ Count CheapestCount(const LineProber& prober, const std::vector<Row>& band,
   return {best, best_length};
 }
 
-// Reads off the step of a row.
+// Sets the step of a row from its needs.
 void Judge(Row& row, double min_step, double flat) {
   if (!row.wanted()) return;
   std::vector<StepNeed> sorted = row.needs;
   row.step = CheapestStep(sorted, min_step, 4.0 * flat);
 }
 
-// Rows at their y, side by side.
+// Samples the rows at their y, in parallel.
 absl::Status SampleRows(const LineProber& prober, const Interval& range, double spacing, double min_step,
                         const char* what, std::vector<Row>& rows, const RunContext& run) {
   return ParallelFor(run, what, rows.size(), [&](std::size_t i) {
@@ -201,10 +203,10 @@ absl::Status SampleRows(const LineProber& prober, const Interval& range, double 
 
 struct DividedBand {
   LineBand lines;
-  double length = 0.0;  // of Count
+  double length = 0.0;  // length of Count
 };
 
-// The lines of a band from its first row to its last, both among them.
+// Returns the lines of a band from its first row to its last, both included.
 absl::StatusOr<DividedBand> Divide(const LineProber& prober, const Interval& range, double spacing,
                                    double min_step, std::vector<Row> band, const RunContext& run) {
   const double flat = prober.flat_step();
@@ -226,13 +228,13 @@ absl::StatusOr<DividedBand> Divide(const LineProber& prober, const Interval& ran
   const double end = band.back().y;
   DividedBand divided{{{band.front().y, end}, {}}, 0.0};
   std::vector<double>& positions = divided.lines.positions;
-  // Density 1/step, constant between rows, is integrated and cut into equal parts.
+  // The density 1/step, constant between rows, is integrated and divided into equal parts.
   std::vector<double> edges{band.front().y}, density;
   for (std::size_t k = 0; k + 1 < band.size(); ++k) {
     edges.push_back(band[k + 1].y);
     density.push_back(Density(band[k], band[k + 1]));
   }
-  if (density.empty()) {  // one row has all
+  if (density.empty()) {  // one row holds everything
     positions.push_back(end);
     return divided;
   }
@@ -297,7 +299,7 @@ absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, co
     std::size_t last = i;
     while (last + 1 < rows.size() && rows[last + 1].wanted()) ++last;
     PM_RETURN_IF_ERROR(run.Check());
-    // The rows of a band, from the first to the last place where something is wanted.
+    // Take the rows of a band, from the first to the last place where something is wanted.
     std::vector<Row> band(rows.begin() + static_cast<std::ptrdiff_t>(i),
                           rows.begin() + static_cast<std::ptrdiff_t>(last) + 1);
     const auto limit = [&](const Row& inside, double outside) {

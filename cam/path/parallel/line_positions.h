@@ -1,5 +1,5 @@
-// Where the zig-zag lines lie: as far apart as the scallop allows, the first and the last at the limits of
-// what is wanted.
+// Where the zig-zag lines lie: as far apart as the scallop allows, with the first and the last at the limits
+// of what is wanted.
 #pragma once
 
 #include <vector>
@@ -12,25 +12,27 @@
 
 namespace patchmill {
 
-// Where lines are looked for, in their frame.
+// The range in which lines are looked for, in their frame.
 struct FrameExtent {
   Interval t, y;
 };
-// Of everything that straight lines can touch: bounds of the leaves plus the margin (a ball radius).
+// Returns the extent of everything that straight lines can touch: the leaves' bounds plus `margin` (a ball
+// radius).
 FrameExtent ExtentOfParallels(const Surface& surface, double angle, double margin);
 
-// Full lines over a stretch of y in which every row has something wanted.
+// A band: full lines over a range of y in which every row has something wanted.
 struct LineBand {
-  Interval y;                     // limits of what is wanted, less what passes beside it take
+  Interval y;                     // limits of what is wanted, less the part that passes beside it finish
   std::vector<double> positions;  // rising, the first and the last at the limits
 };
 
-// Bands, rising. Rows 1.5 flat steps apart, and between those whose steps differ by more than 3 % down to
-// 0.15, are sampled every 2 flat steps; at each the step is the one that makes lines plus the partial lines
-// at narrow spots shortest (CheapestStep); of the whole numbers of gaps that are as narrow, the one that
-// does. The limits of bands are found to 1e-3 of the flat step at the sampling's resolution along the lines.
-// Where passes of `beside` (null: none) run along a limit of round lines, nearer to all of it than the step
-// needed there, the line at the limit moves away from them up to that step, if that saves a line.
+// Returns the bands, rising. Rows lie 1.5 flat step-overs apart; between rows whose steps differ by more than
+// 3 % there are more, down to 0.15. Rows are sampled every 2 flat step-overs. The step of each is the one
+// that makes lines and the partial lines at narrow spots shortest together (CheapestStep). Among the numbers
+// of gaps that keep these steps the one with the least length is taken. The limits of bands are found to 1e-3
+// of the flat step-over, at the sampling's resolution along the lines. `beside` (null: none) holds passes
+// beside the area. Where they run along a limit of circular lines, nearer to all of it than the step needed
+// there, the line at the limit moves away from them up to that step, if that saves a line.
 absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, const FrameExtent& extent,
                                                     double min_step, const SegmentTree* beside,
                                                     const RunContext& run);

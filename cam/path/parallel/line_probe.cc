@@ -35,6 +35,7 @@ std::vector<LineProbe> LineProber::ProbeRow(double t0, double t1, int count, con
     places.push_back(frame_.At(at.back(), line.At(at.back())));
   }
   std::vector<std::optional<CenterPoint>> heights(places.size());
+  // Places.
   constexpr std::size_t kBetweenPolls = 1024;
   for (std::size_t i = 0; i < places.size() && !Cancelled(); i += kBetweenPolls) {
     const std::size_t n = std::min(kBetweenPolls, places.size() - i);
@@ -72,8 +73,8 @@ LineProbe LineProber::Judge(double t, double y, double slope, const std::optiona
                  steepness <= params_.window.max + kSlack && (part_ == nullptr || part_->Wants(h->contact)) &&
                  (where_ == nullptr || where_->Has(h->contact.piece, h->contact.u, h->contact.v));
 
-  // Across the feed on the centre surface: square to the feed in the common tangent plane. Its part in plan
-  // across the line is sqrt(1 - n_y^2), and longer in y where the line slants.
+  // Across the feed on the centre surface is the direction square to the feed in the common tangent plane.
+  // Its share in plan across the line is sqrt(1 - n_y^2); in y it is longer where the line slants.
   const double rise = slope / frame_.Stretch(y), slant = std::hypot(1.0, rise);
   const Vec2 feed = (frame_.Along(t) + rise * frame_.Across(t)) / slant;
   const Vec2 beside(-feed.y(), feed.x());

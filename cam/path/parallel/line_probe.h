@@ -1,5 +1,4 @@
-// What a zig-zag line needs to know about one place: does the ball belong there, and how far may the next
-// line be?
+// What a zig-zag line needs to know about one place: may the ball be there, and how far may the next line be?
 #pragma once
 
 #include <optional>
@@ -20,28 +19,30 @@ struct LineProbe {
   double t = 0.0;
   Vec3 center = Vec3::Zero();
   std::optional<SurfacePoint> contact;  // absent: h does not exist here, or the floor carries the ball
-  bool allowed = false;                 // exists and is not rolled off a border
-  bool wanted = false;                  // allowed, touched, and its slope lies in the window, in the part
-  bool finishes = false;                // wanted, and more than a ball rolling over an edge of the ground
+  bool allowed = false;                 // h exists, and the ball does not roll off an open edge
+  bool wanted = false;                  // allowed and touching, with the slope in the window and the contact
+                                        // in the part
+  bool finishes = false;                // wanted, and the ball does more than roll over an edge
   double need = kInfinity;              // mm: largest distance in y to the next line that keeps the scallop
   double half_step = 0.0;               // mm on the centre surface, half the step across the line
-  double lateral = 0.0;                 // the same in y
+  double lateral = 0.0;                 // mm, the same in y
 
   bool exists() const { return half_step > 0.0; }
 };
 
-// Probes along and beside lines of one frame; only what `part` wants and `where` has is wanted, null: all.
-// Once `run` is cancelled, rows end early and mean nothing. Thread-safe.
+// Probes places along and beside lines of one frame. Only contacts that `part` wants and `where` holds are
+// wanted (null: no limit). Once `run` is cancelled rows end early and are meaningless. Thread-safe.
 class LineProber {
  public:
   LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
              const PassParams& params, const OperationLimits* part, const SurfaceMask* where,
              const RunContext& run);
 
-  // Of a line that runs at `slope` (dy/dt) through the place. Cost: one exact height and one surface
-  // evaluation. `hint`: a contact nearby.
+  // Probes a line that runs at `slope` (dy/dt) through the place. Cost: one exact height and one surface
+  // evaluation. `hint` is a contact nearby.
   LineProbe Probe(double t, double y, double slope, const SurfacePoint* hint = nullptr) const;
-  // Of count + 1 places of one line, evenly spaced from t0 to t1, both included; heights in vector lanes.
+  // Probes count + 1 places of one line, evenly spaced from t0 to t1, both included. Heights are computed in
+  // vector lanes.
   std::vector<LineProbe> ProbeRow(double t0, double t1, int count, const LineShape& line) const;
 
   bool Cancelled() const { return run_.Cancelled(); }

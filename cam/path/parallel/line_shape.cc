@@ -8,7 +8,8 @@
 namespace patchmill {
 namespace {
 
-// The stretch that t lies in, 0 the first between two knots; -1 before it, the last knot's beyond.
+// Returns the index of the stretch in which t lies: 0 is the first between two knots, -1 lies before it, and
+// the last knot's index stands for all beyond it.
 int StretchOf(const LineShape& line, double t) {
   const double k = std::floor((t - line.begin) / line.spacing);
   return static_cast<int>(std::clamp(k, -1.0, static_cast<double>(line.y.size() - 1)));
@@ -41,6 +42,7 @@ LineShape Between(const LineShape& a, const LineShape& b, double share) {
 }
 
 std::vector<double> CornersOf(const LineShape& line, double t0, double t1) {
+  // dy/dt: smaller turns are no corners.
   constexpr double kTurn = 1e-6;
   std::vector<double> corners = {t0};
   for (std::size_t k = 0; !line.straight() && k < line.y.size(); ++k) {

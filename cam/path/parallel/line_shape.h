@@ -1,12 +1,12 @@
-// How a zig-zag line runs in plan: y over t, in the frame of the lines.
+// The shape of a zig-zag line in plan: y over t, in the frame of the lines.
 #pragma once
 
 #include <vector>
 
 namespace patchmill {
 
-// Straight between knots `spacing` apart from t = begin on, level before the first and beyond the last; one
-// knot alone: straight throughout. Lines of one family share their knots.
+// The line is straight between knots, which lie `spacing` apart from t = begin on. It is level before the
+// first and beyond the last one; with one knot it is straight. Lines of one family share their knots.
 struct LineShape {
   double begin = 0.0, spacing = 1.0;  // mm
   std::vector<double> y = {0.0};      // mm, at the knots
@@ -18,10 +18,11 @@ struct LineShape {
   double SlopeAt(double t) const;  // dy/dt; at a knot that of the stretch behind it
 };
 
-// The line that divides the way from a to b: 0 is a, 1 is b. Their knots are the same, or one is straight.
+// Returns the line that divides the way from a to b: share 0 is a, 1 is b. Their knots are the same, or one
+// of them is straight.
 LineShape Between(const LineShape& a, const LineShape& b, double share);
 
-// t0, t1 (t0 < t1) and the knots between them at which the line turns by more than 1e-6.
+// Returns t0, t1 (t0 < t1) and the knots between them at which the slope changes by more than 1e-6.
 std::vector<double> CornersOf(const LineShape& line, double t0, double t1);
 
 }  // namespace patchmill

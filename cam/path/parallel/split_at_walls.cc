@@ -7,7 +7,7 @@
 namespace patchmill {
 namespace {
 
-constexpr double kUpright = 1e-9;  // mm, in plan
+constexpr double kUpright = 1e-9;  // mm, in plan: a move no longer than this is vertical
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Lines that go up and down upright walls, in parts.
+// Splits lines that go up and down vertical faces.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,10 @@
 
 namespace patchmill {
 
-// The parts of a path between its upright moves longer than `height` (mm), in order, of two points
-// or more; the same path where it has none. A closed one is cut into open parts. Such a move finishes nothing
-// that contours do not, plunges beside a wall, and takes as long as the wall is high at every line.
+// Returns the parts of a path between its vertical moves longer than `height` (mm), in order, each of two
+// points or more; the path itself if it has no such move. A closed path is cut into open parts. Such a move
+// finishes nothing that contours do not, plunges beside a wall, and takes as long as the wall is high at
+// every line.
 std::vector<CutterPath> SplitAtWalls(CutterPath path, double height);
 
 }  // namespace patchmill

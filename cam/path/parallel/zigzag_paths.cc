@@ -19,10 +19,12 @@
 namespace patchmill {
 namespace {
 
-constexpr double kHighWall = 2.0;            // flat steps: lines do not go up and down upright walls of more
-constexpr double kWallsToo = Radians(85.0);  // unless walls are theirs to finish
+constexpr double kHighWall = 2.0;            // flat step-overs: lines do not go up and down vertical faces
+                                             // higher than this,
+constexpr double kWallsToo = Radians(85.0);  // unless the slope window reaches so far that walls are theirs
+                                             // to finish
 
-// The line's places in plan from t0 to t1, corners included.
+// Returns the line's places in plan from t0 to t1, corners included.
 std::vector<Vec2> PlacesOf(const LineFrame& frame, const LineShape& line, const Interval& t) {
   std::vector<Vec2> places;
   for (const double corner : CornersOf(line, t.begin, t.end))

@@ -1,5 +1,5 @@
-// Zig-zag passes over the gentle ground: scan lines side by side, spaced for the scallop by the centre
-// formula, straight, bent a little (BendLines), or round.
+// Zig-zag passes over gentle areas: scan lines side by side, spaced for the scallop by the centre formula.
+// They are straight, bent a little (BendLines), or circular.
 #pragma once
 
 #include <optional>
@@ -18,20 +18,20 @@ namespace patchmill {
 struct ZigzagParams : PassParams {
   double angle = 0.0;     // rad, direction of the lines in plan, from +x
   double max_bend = 0.0;  // rad, how far lines may turn from it to keep their steps even; 0: straight
-  const OperationLimits* part = nullptr;  // lines only where the contact is wanted; null: everywhere
-  const SurfaceMask* where = nullptr;     // and only where this has it
-  std::optional<CircularLines> around;    // circles in place of lines at an angle, none bent
-  const SegmentTree* beside = nullptr;    // passes that are there already, whose step circles keep from them
+  const OperationLimits* part = nullptr;  // lines run only where it wants the contact; null: everywhere
+  const SurfaceMask* where = nullptr;     // and only where it holds the contact; null: everywhere
+  std::optional<CircularLines> around;    // circles instead of lines at an angle; they do not bend
+  const SegmentTree* beside = nullptr;    // passes that exist already; circles keep a step away from them
 };
 
-// Lines cover every contact of the part whose slope lies in the window, each clipped to the window dilated by
-// half a step along the centre curve; lines end at a sheet's outer border and roll over rims and creases that
-// are locally highest ([machining M12]), and end above and below upright walls of more than two flat steps
-// unless the window reaches them. Local narrow spots get partial lines; what needs steps below
-// min_step_fraction of the flat one gets those. Ordered by line, then along the line; every path runs in
-// +angle direction, up to its bend (linking turns them). Round lines: from the innermost outwards,
-// counter-clockwise, their places in plan within the chord tolerance of the circle; closed where all of one
-// is wanted. Deterministic; parallel over lines.
+// Lines cover every contact of the part whose slope lies in the window. Each is clipped to the window dilated
+// by half a step along the centre curve. Lines end at open edges of a sheet, roll over rims and creases that
+// are locally highest ([machining M12]), and end above and below vertical faces of more than two flat
+// step-overs unless the window reaches these. Narrow spots get partial lines. Where less than
+// min_step_fraction of the flat step-over is needed, lines keep that fraction. Paths are ordered by line,
+// then along the line; each runs in +angle direction, up to its bend (linking turns them). Circular lines run
+// from the innermost outwards, counter-clockwise. Their places in plan are within the chord tolerance of the
+// circle, and they are closed where all of a circle is wanted. Deterministic; parallel over lines.
 absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, const ZigzagParams& params,
                                                     const RunContext& run);
 

@@ -11,7 +11,7 @@
 namespace patchmill {
 namespace {
 
-constexpr double kMostTurn = 0.7;  // of normals from the middle one
+constexpr double kMostTurn = 0.7;  // rad, about: largest turn of a normal from the middle one
 
 }  // namespace
 
@@ -46,6 +46,7 @@ double BendOver(const std::array<Vec3, 9>& f) {
 }
 
 bool TooBent(const std::array<Vec3, 9>& f, double size) {
+  // Part of the extent.
   constexpr double kMostBend = 0.25;
   const double extent = std::max({size, (f[3] - f[0]).norm(), (f[2] - f[1]).norm()});
   return BendOver(f) > kMostBend * extent;
@@ -66,7 +67,7 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
       lowest_normal = std::min(lowest_normal, sign * at.n[k].z());
       highest_center = std::max(highest_center, c[k].z());
     }
-    // Looks down, or but for a strip of this share of the diameter.
+    // The side looks down, or does so but for a strip of this share of the diameter.
     const double up = highest_normal + turn + at.upright;
     if (up < 0.0 || up * size < params.narrow * (highest_normal - lowest_normal)) continue;
     if (up <= 2.0 * at.upright && sign * at.air_side < 0.0) continue;  // the back of a wall
@@ -80,7 +81,7 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
     };
     std::optional<SurfacePoint>& known = blockers[side];
     if (known && farthest(*known) < limit) continue;
-    // The farther apart the centres, the less exactly the deepest point need be known.
+    // The farther apart the centres lie, the less exactly the deepest point need be known.
     const double exact = std::clamp(0.05 * size, 1e-5, 0.02 * params.radius);
     const auto blocked = [&](double tolerance) {
       const auto deepest = ClosestToUpwardRay(surface, c[8], limit, tolerance);

@@ -13,7 +13,7 @@ namespace patchmill {
 namespace {
 
 struct AcrossPasses {
-  double seen = 0.0;   // of a step on the centre surface, by the spacing of the passes
+  double seen = 0.0;   // share of a step on the centre surface that the spacing of the passes sees
   double kappa = 0.0;  // 1/mm, across the feed
 };
 
@@ -78,8 +78,8 @@ bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const 
       step[k] = Vec3(NeededStep(forced, jets[k], n, radius, scallop), 0.0, 0.0);
       most = std::max(most, step[k].x());
     }
-    if (highest_normal + turn < -jets.back().upright) continue;  // looks down
-    // The back of a wall.
+    if (highest_normal + turn < -jets.back().upright) continue;  // the side looks down
+    // This side is the back of a wall.
     if (highest_normal + turn <= jets.back().upright && sign * jets.back().air_side < 0.0) continue;
     if (most + BendOver(step) >= fraction) return false;
   }

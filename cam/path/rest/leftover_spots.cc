@@ -16,8 +16,8 @@
 namespace patchmill {
 namespace {
 
-// What was found near a rectangle, to start the search of its parts from: a move by tree and index, and
-// surface points in the ball's way.
+// What was found near a rectangle: a move, by tree and index, and surface points in the ball's way. The
+// search of the rectangle's parts starts from it.
 struct NearMove {
   std::size_t tree = 0;
   std::int32_t segment = -1;
@@ -28,24 +28,23 @@ struct Nearby {
   Blockers blockers;
 };
 
-// Of the flat step.
-constexpr double kCoarse = 0.25;   // larger rectangles are not looked at by their middles
-constexpr double kPair = 1.0;      // larger ones lie over more than two moves
-constexpr double kFinest = 0.002;  // smaller ones are left, and narrower strips beside silhouettes
-constexpr double kLimit = 0.05;  // the same at a limit of params.operation_limits, when a move is this near:
+// Sizes of rectangles, and distances, in flat step-overs.
+constexpr double kCoarse = 0.25;   // larger rectangles are not judged by their middles
+constexpr double kPair = 1.0;      // larger rectangles lie over more than two moves
+constexpr double kFinest = 0.002;  // smaller rectangles are left, and narrower strips beside silhouettes
+constexpr double kLimit = 0.05;    // smallest rectangle at a limit of the operation, if a move is at hand
 constexpr double kFarFromMoves =
-    1.0;  // farther from all there may be room for the ball in no more than a chink
+    1.0;  // a move is at hand up to this distance; beyond it the ball may have room only in a narrow gap
 
-// Of ReachTolerance: what is so near to its limit is not called out of reach. The verifier knows reach to
-// 0.02 of
-// it.
+// Share of ReachTolerance: a place this near to the limit of reach is not called out of reach. The verifier
+// knows reach to 0.02 of it.
 constexpr double kProofOfReach = 0.5 * kReachMargin;
 
-// Of what lies between the two margins: where a ball that all but fits stands in a hollow that is all but
-// round, what is in its way is as near everywhere.
+// Share of the interval between the two margins, used where a ball that almost fits stands in a hollow that
+// is almost round. There all obstacles are equally near.
 constexpr double kProofBetween = 0.2;
 
-// Ground that needs steps up to this much above the shortest may be left to forced passes or not.
+// Surface that needs steps up to this factor above the shortest may be left to forced passes or not.
 constexpr double kForcedMargin = 1.05;
 
 class SpotFinder {
@@ -102,8 +101,8 @@ class SpotFinder {
   const RunContext& run_;
   const double radius_;
   const double flat_;
-  const double covered_, covered2_;  // mm, from a move: and the square
-  const double lowest_center_;       // mm: that counts as reached
+  const double covered_, covered2_;  // mm from a move, and its square
+  const double lowest_center_;       // mm: lowest centre that counts as reached
   CellReachParams cell_reach_, near_reach_;
 };
 
@@ -118,8 +117,8 @@ NearMove SpotFinder::NearestTo(const Vec3& p, double limit, const NearMove& hint
   return best;
 }
 
-// mm, to the nearest of the moves that were taken away, infinity where none finished anything within `size`
-// of p; 0 where all ground counts.
+// Returns the distance (mm) to the nearest of the moves that were removed. It is infinity where none of these
+// finished anything within `size` of p, and 0 where the whole surface counts.
 double SpotFinder::RemovedDistance(const Vec3& p, double size) const {
   if (params_.removed == nullptr) return 0.0;
   const SegmentTree::Nearest nearest = params_.removed->FindNearest(p, covered_ + size);
@@ -132,7 +131,7 @@ bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) cons
   return std::all_of(hull, hull + count, [&](const Vec3& p) { return to_move.Distance2(p) <= covered2_; });
 }
 
-// The crest between two passes: that move and the one nearest to the ball over the point farthest from it.
+// Tests the crest between two passes: `move`, and the one nearest to the ball over the farthest point.
 bool SpotFinder::CoveredByTwo(const Vec3* hull, int count, const Vec3& e, const NearMove& move) const {
   if (move.segment < 0) return false;
   const PathSegment one = trees_[move.tree]->segment(move.segment);
@@ -149,7 +148,7 @@ bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
   return NeededStepOfSides(params_.forced, jet, e, radius_, params_.scallop) >= params_.min_step_fraction;
 }
 
-// The normal of the side from which the point can be finished.
+// Returns the normal of the side from which the point can be finished.
 std::optional<Vec3> SpotFinder::ReachableSide(const SurfaceJet& jet, const Vec3& e) const {
   const int sides = HasTwoSides(jet, e) ? 2 : 1;
   for (int side = 0; side < sides; ++side) {
@@ -161,7 +160,7 @@ std::optional<Vec3> SpotFinder::ReachableSide(const SurfaceJet& jet, const Vec3&
   return std::nullopt;
 }
 
-// Of a place, where nothing is nearer than `nearest`.
+// Returns the spot at a place, if it is one. No move is nearer to the place than `nearest`.
 std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const SurfaceJet& jet,
                                                const SurfacePoint& at, const Vec3& e,
                                                const NearMove& nearest) const {
@@ -175,7 +174,7 @@ std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const Su
   return LeftoverSpot{at, *side, center, leftover, rect};
 }
 
-// A spot at a corner, if there is one.
+// Adds a spot at a corner of the rectangle, if there is one.
 void SpotFinder::AddCorner(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const {
   for (const double u : {rect.u0, rect.u1}) {
     for (const double v : {rect.v0, rect.v1}) {
@@ -191,7 +190,8 @@ void SpotFinder::AddCorner(const SurfaceRect& rect, std::vector<LeftoverSpot>& o
   }
 }
 
-// The sides that look down, or where the limits of the operation forbid every centre over the rectangle.
+// Returns the sides that look down, or on which the limits of the operation forbid every centre over the
+// rectangle.
 SidesRuledOut SpotFinder::ForbiddenSides(const RectPlaces& places) const {
   SidesRuledOut ruled_out{};
   if (params_.operation_limits == nullptr || params_.operation_limits->AllowsAll()) return ruled_out;
@@ -217,8 +217,8 @@ SidesRuledOut SpotFinder::ForbiddenSides(const RectPlaces& places) const {
   return ruled_out;
 }
 
-// Where the centres bend too much for OutOfReach: whether it is along u that they bend the most. A tight
-// fillet is cut along itself into strips, not into crumbs.
+// Returns, where the centres bend too much for OutOfReach, whether they bend the most along u. So a tight
+// fillet is cut along itself into strips, not into small pieces.
 std::optional<bool> SpotFinder::BendsAlongU(const RectPlaces& places, double size) const {
   double along_u = 0.0, along_v = 0.0;
   bool bent = false;
@@ -236,11 +236,12 @@ std::optional<bool> SpotFinder::BendsAlongU(const RectPlaces& places, double siz
   return along_u >= along_v;
 }
 
-// Cuts where the farthest point of the hull is out of the move's reach: across the move, or along it past its
-// end.
+// Chooses the direction in which the farthest point of the hull leaves the move's reach: across the move, or
+// along it past its end.
 bool SpotFinder::SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
                              const NearMove& near) const {
   const double lu = du.norm(), lv = dv.norm();
+  // Ratio of the sides beyond which the longer one is halved.
   constexpr double kSlender = 6.0;
   if (near.segment < 0 || lu > kSlender * lv || lv > kSlender * lu) return lu >= lv;
   const PathSegment s = trees_[near.tree]->segment(near.segment);
@@ -269,7 +270,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   const SurfacePoint at{rect.piece, u, v, p};
   const auto regular = UpwardNormal(jet);
   const Vec3 e = regular ? *regular : UpwardNormalNear(surface_, at);
-  double size = 0.0;  // everything lies this close to p
+  double size = 0.0;  // all of the rectangle lies within this distance of p
   for (int i = 0; i < count; ++i) size = std::max(size, (hull[static_cast<std::size_t>(i)] - p).norm());
 
   if (RemovedDistance(p, size) == kInfinity) return;
@@ -277,7 +278,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
       params_.operation_limits->WantsNothing(rect.piece, rect.u0, rect.u1, rect.v0, rect.v1, p, size)) {
     return;
   }
-  // The move that covers most of the rectangle passes near the centre that finishes p; only small rectangles
+  // The move that covers most of the rectangle passes near the centre that finishes p. Only small rectangles
   // deserve the costlier search around p itself, which is also right where the normal turns quickly.
   Nearby found{{}, hint.blockers};
   NearMove& near = found.move;
@@ -299,17 +300,18 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
       return;
     }
   }
+  // Most halvings of a rectangle.
   constexpr int kDeepest = 60;
   const bool limited = params_.operation_limits != nullptr &&
                        !(Wanted(at) && params_.operation_limits->Allows(p + radius_ * e));
   const bool at_hand = near.segment >= 0 && near.distance < radius_ + kFarFromMoves * flat_;
-  // Nobody asks for what is within ReachTolerance of a limit across the ground ([regions, section 6]): of the
-  // sharpest corner the rest shows at the corners of rectangles of this size.
+  // The verifier ignores places within ReachTolerance of a limit, measured along the surface
+  // ([regions, section 6]). Of the sharpest corner the rest shows at the corners of rectangles of this size.
   const double finest =
       limited && at_hand ? std::min(kLimit * flat_, ReachTolerance(params_.tolerance)) : kFinest * flat_;
   if (size < finest || depth >= kDeepest) {
-    // What is reached may be narrower than this: the floor of a slot that barely lets the ball in, along its
-    // middle; a sharp corner between two limits.
+    // The reachable part may be narrower than this: the floor of a slot that barely admits the ball, along
+    // its middle, or a sharp corner between two limits.
     if (limited || near.segment < 0) AddCorner(rect, out);
     return;
   }
@@ -317,7 +319,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
                                               kForcedMargin * params_.min_step_fraction)) {
     return;
   }
-  // Larger rectangles with a pass nearby have reachable ground.
+  // Larger rectangles with a pass nearby have reachable surface.
   std::optional<bool> bends;
   if (size < (near.segment < 0 ? 8.0 : kCoarse) * flat_) {
     const auto places = PlacesOn(surface_, rect);
@@ -365,6 +367,7 @@ absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, cons
                                                     const std::vector<SurfaceRect>& rects,
                                                     const RestPassParams& params, const RunContext& run) {
   const SpotFinder finder(locator, reach, trees, params, run);
+  // Rectangles per task.
   constexpr std::size_t kChunk = 32;
   const std::size_t chunks = (rects.size() + kChunk - 1) / kChunk;
   std::vector<std::vector<LeftoverSpot>> found(chunks);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kSmallestAngle = 0.1;  // rad between the two contact directions
 constexpr double kSteepest = 0.05;  // n_z of a contact direction below which a branch is too steep to follow
-constexpr double kThirdBranch = 1e-6;  // mm by which another branch must rise above
+constexpr double kThirdBranch = 1e-6;  // mm by which another branch must rise above the crease to take over
+// Most stations of one run.
 constexpr std::size_t kMostStations = 20000;
 
 class PencilTracer {
@@ -23,7 +24,7 @@ class PencilTracer {
         tolerance_(params.chord_tolerance - CertificateGap(params)),
         floor_center_(params.floor_z + locator.radius()) {}
 
-  // The crease point on the line q + s m nearest to s = 0, from contacts near it.
+  // Returns the crease point on the line q + s m nearest to s = 0, found from contacts near it.
   std::optional<PencilPoint> Correct(const Vec2& q, const Vec2& m, const PencilPoint& near,
                                      double reach) const;
   bool Valid(const PencilPoint& p) const;
@@ -32,7 +33,7 @@ class PencilTracer {
   bool ChordIsGood(const PencilPoint& a, const PencilPoint& b) const;
   struct Run {
     std::vector<PencilPoint> points;
-    bool ring = false;  // came back to the seed
+    bool ring = false;  // the run came back to the seed
   };
   Run Follow(const PencilPoint& seed, double sign, double patience,
              const std::function<bool(const Vec3&)>& wanted) const;
@@ -41,7 +42,7 @@ class PencilTracer {
   Vec3 DirectionTo(const PencilPoint& p, const SurfacePoint& contact) const {
     return (p.center - contact.p) / radius_;
   }
-  // Gradient in plan of the branch's centre height.
+  // Returns the gradient in plan of the branch's centre height.
   Vec2 Gradient(const Vec3& center, const SurfacePoint& contact) const {
     const Vec3 n = center - contact.p;
     return -Xy(n) / n.z();
@@ -121,7 +122,7 @@ PencilTracer::Run PencilTracer::Follow(const PencilPoint& seed, double sign, dou
   std::size_t keep = 0;
   double unwanted = 0.0, step = full;
   while (out.size() < kMostStations && unwanted <= patience) {
-    // The seed lies ahead within a step: the chord to it closes the ring, if need be after a shorter step.
+    // If the seed lies ahead within a step, the chord to it closes the ring, if need be after a shorter step.
     const Vec3 back = seed.center - at.center;
     const bool round = out.size() > 4 && back.norm() <= step && Xy(back).dot(heading) > 0.0;
     if (round && ChordIsGood(at, seed)) {
@@ -156,7 +157,7 @@ std::optional<PencilPoint> FindPencilPoint(const Locator& locator, const Vec2& q
                                            const PassParams& params, const RunContext& run) {
   std::optional<PencilPoint> best;
   double best_distance = reach;
-  // Two directions that are unlikely to be those of a part's own edges.
+  // rad: two directions in plan that are unlikely to be those of a part's own edges.
   constexpr double kHeading = 0.4;
   for (double heading : {kHeading, kHeading + kPi / 2}) {
     const Vec2 d(std::cos(heading), std::sin(heading));

@@ -1,4 +1,4 @@
-// The curve of two contacts along a re-entrant crease ([spacing, section 7]).
+// Traces the curve of two contacts along a re-entrant crease ([spacing, section 7]).
 #pragma once
 
 #include <functional>
@@ -17,17 +17,18 @@ struct PencilPoint {
   SurfacePoint first, second;
 };
 
-// The kink of h nearest to q within `reach` (mm), looked for along two crossing lines through q; nothing
-// where the directions of its contacts differ by less than 0.1 rad, or once `run` is cancelled.
+// Returns the kink of h nearest to q within `reach` (mm). It is looked for along two crossing lines through
+// q. Returns nothing where the directions of its contacts differ by less than 0.1 rad, or once `run` is
+// cancelled.
 std::optional<PencilPoint> FindPencilPoint(const Locator& locator, const Vec2& q, double reach,
                                            const PassParams& params, const RunContext& run);
 
-// Follows the crease from `seed` both ways (predictor along the curve of equal heights, Newton back onto it)
-// as long as `wanted` says so of the centres, through at most `patience` mm where it does not. Ends where a
-// third contact takes over, the two contacts merge, the curve turns upright or the sheet ends. Stations are
-// on the crease to 1e-9 mm in plan and joined by chords within the tolerance ([location T2, T3]); unwanted
-// tails are cut off. May hold one station only. A crease that runs back to the seed is followed once: the
-// last station is the first.
+// Follows the crease from `seed` both ways, with a predictor along the curve of equal heights and Newton
+// steps back onto it. It continues while `wanted` holds for the centres, and through at most `patience` mm
+// where it does not. It ends where a third contact takes over, the two contacts merge, the curve turns
+// vertical or the sheet ends. Stations are on the crease to 1e-9 mm in plan and joined by chords within the
+// tolerance ([location T2, T3]). Unwanted tails are cut off, and only one station may remain. A crease that
+// runs back to the seed is followed once; its last station is the first.
 std::vector<TraceStation> TracePencil(const Locator& locator, const SheetBorder& border,
                                       const PencilPoint& seed, const PassParams& params, double patience,
                                       const std::function<bool(const Vec3&)>& wanted);

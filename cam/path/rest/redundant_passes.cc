@@ -17,15 +17,15 @@
 namespace patchmill {
 namespace {
 
-constexpr double kCoarse = 2.0, kFine = 0.25;  // flat steps: between the places of a pass that are looked at
-constexpr double kBesideDistance = 0.2;        // of the flat step: another pass so near may do for both
-constexpr double kWider = 1.022;  // than the step may others lie apart; its square is kRedundantLimit
-constexpr int kPlaces = 4;        // on either side of a chord: where others are looked for
-constexpr double kWidest = 4.0;   // flat steps: passes farther away are not looked for
-constexpr double kProof = 0.01;   // of the scallop: what FindSpots may take longer to tell
-constexpr double kRemovedMarginShare =
-    0.05;                              // of the tolerance: by this what was taken has to have left less
-constexpr double kMinRemainder = 1.0;  // ball radii: nothing shorter is left of a pass beside what is taken
+constexpr double kCoarse = 2.0, kFine = 0.25;  // flat step-overs between the tested places of a pass
+constexpr double kBesideDistance = 0.2;        // flat step-overs: another pass this near may replace it
+constexpr double kWider = 1.022;               // times the step: how far others may lie apart; its square is
+                                               // kRedundantLimit
+constexpr int kPlaces = 4;       // on either side of a chord: places at which others are looked for
+constexpr double kWidest = 4.0;  // flat step-overs: passes farther away are not looked for
+constexpr double kProof = 0.01;  // of the scallop: margin within which FindSpots need not decide
+constexpr double kRemovedMarginShare = 0.05;  // of the tolerance: removed passes must have left less by this
+constexpr double kMinRemainder = 1.0;  // ball radii: no shorter part of a pass is left between removed ones
 
 // A move of a pass.
 struct Chord {
@@ -33,11 +33,11 @@ struct Chord {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();  // ball centres
   Vec3 across = Vec3::Zero();               // along the surface, unit
   double step = 0.0;                        // mm: passes on both sides may be this far apart
-  bool removed = false;                     // it is needless
+  bool removed = false;                     // the chord is redundant
   double Length() const { return (b - a).norm(); }
 };
 
-// Chords [first, last) of a pass, counted on past its end where it is closed.
+// Chords [first, last) of a pass. On a closed pass the count continues past its end.
 struct Stretch {
   std::size_t first = 0, last = 0;
   double length = 0.0;  // mm
@@ -58,10 +58,10 @@ class RedundantPassRemover {
     for (const CutterPath& path : paths) first_.push_back(first_.back() + ChordCount(path));
   }
 
-  // Marks what seems needless.
+  // Marks the chords that seem redundant as removed.
   absl::Status Take(const RunContext& run);
-  // Gives back what left least of each spot, and what is not worth its gap then. Returns what that is.
-  // `taken`: a tree of Removed().
+  // Restores the chord that left least at each spot, and then what is not worth its gap any more. Returns
+  // what was restored. `removed` is a tree of Removed().
   std::vector<PathSegment> Restore(const std::vector<LeftoverSpot>& spots, const SegmentTree& removed);
   std::vector<PathSegment> Removed() const {
     return Segments([](const Chord& c) { return c.removed; });
@@ -101,11 +101,12 @@ class RedundantPassRemover {
   const std::vector<CutterPath>& paths_;
   const double scallop_, flat_, least_;  // mm
   std::vector<Chord> chords_;            // path by path
-  std::vector<std::size_t> first_;       // of each path, and the end
-  const SegmentTree tree_;               // of all of them, in their numbers
+  std::vector<std::size_t> first_;       // first chord of each path, and the end
+  const SegmentTree tree_;               // of all chords, by their numbers
 };
 
-// The step where it is shortest of both ends; where nothing is touched, as on level ground.
+// Sets `across`, and `step` to the shorter one of both ends. Where nothing is touched the step is the flat
+// step-over.
 void RedundantPassRemover::Measure(Chord& chord, const CutterPoint& from, const CutterPoint& to) const {
   const double radius = locator_.radius();
   const Vec3 d = chord.b - chord.a;
@@ -120,7 +121,7 @@ void RedundantPassRemover::Measure(Chord& chord, const CutterPoint& from, const 
       const auto normal = UpwardNormal(jet);
       if (normal && across.norm() > 1e-6 * d.norm()) {
         chord.across = across;
-        // The side that the ball is on.
+        // Take the normal of the side on which the ball is.
         const Vec3 n = normal->dot(up) < 0.0 ? Vec3(-*normal) : *normal;
         const Vec3 tangent = across.normalized();
         step = CenterStep(radius, scallop_, NormalCurvature(Forms(jet, n), jet, tangent));
@@ -131,16 +132,18 @@ void RedundantPassRemover::Measure(Chord& chord, const CutterPoint& from, const 
   chord.across.normalize();
 }
 
-// Of passes that are not taken, at places of the chord no farther apart than `spacing`.
+// Do other passes finish what the chord finishes? Only passes that are not removed count. They are looked for
+// at places of the chord at most `spacing` (mm) apart.
 bool RedundantPassRemover::SeemsRedundant(const Chord& chord, double spacing, std::vector<int>& found) const {
   const Vec3 d = chord.b - chord.a;
   const double length = d.norm();
-  if (!(length > 0.0)) return true;  // goes with its neighbours
+  if (!(length > 0.0)) return true;  // a chord of no length goes with its neighbours
   const int count = static_cast<int>(std::ceil(length / spacing));
   const double reach = 0.5 * kWider * chord.step, beside = kBesideDistance * flat_;
   for (int k = 0; k < count; ++k) {
     const Vec3 c = chord.a + (k + 0.5) / count * d;
-    std::array<double, 2 * kPlaces + 1> off2;  // mm^2, of the nearest, at places across the chord
+    std::array<double, 2 * kPlaces + 1> off2;  // mm^2, distances of the nearest passes at places across the
+                                               // chord
     off2.fill(kInfinity);
     tree_.FindWithin(c, reach + 0.5 * chord.step, found);
     for (const int i : found) {
@@ -178,7 +181,7 @@ std::vector<Stretch> RedundantPassRemover::StretchesWorthRemoving(std::size_t pa
     if (s.last > s.first && s.length >= worth) stretches.push_back(s);
     k = s.last + 1;
   }
-  // Crumbs between two of them cost more than they save: the shorter one stays.
+  // A short remainder between two stretches costs more than it saves: the shorter stretch stays.
   for (std::size_t i = 0; i < stretches.size();) {
     const std::size_t next = (i + 1) % stretches.size();
     if (next == 0 && !closed) break;
@@ -191,7 +194,7 @@ std::vector<Stretch> RedundantPassRemover::StretchesWorthRemoving(std::size_t pa
     }
     const std::size_t shorter = stretches[i].length < stretches[next].length ? i : next;
     stretches.erase(stretches.begin() + static_cast<std::ptrdiff_t>(shorter));
-    if (shorter < i) --i;  // the first one, beside the last
+    if (shorter < i) --i;  // the first stretch was removed, next to the last one
   }
   return stretches;
 }
@@ -199,7 +202,7 @@ std::vector<Stretch> RedundantPassRemover::StretchesWorthRemoving(std::size_t pa
 absl::Status RedundantPassRemover::Take(const RunContext& run) {
   std::vector<char> possible(paths_.size(), 0);
   std::vector<std::vector<char>> seems(paths_.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, "needless passes", paths_.size(), [&](std::size_t k) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "redundant passes", paths_.size(), [&](std::size_t k) {
     if (paths_[k].spiral || paths_[k].points.size() < 2) return;
     std::vector<int> found;
     for (std::size_t i = first_[k]; i < first_[k + 1] && !run.Cancelled(); ++i) {
@@ -225,7 +228,7 @@ absl::Status RedundantPassRemover::Take(const RunContext& run) {
     const std::size_t k = order[n];
     if (throttle.Due()) {
       throttle.Report();
-      run.Progress("needless passes", static_cast<double>(n) / static_cast<double>(order.size()));
+      run.Progress("redundant passes", static_cast<double>(n) / static_cast<double>(order.size()));
     }
     for (std::size_t i = 0; i < seems[k].size() && !run.Cancelled(); ++i)
       seems[k][i] = seems[k][i] && SeemsRedundant(chords_[first_[k] + i], kFine * flat_, found);
@@ -274,7 +277,7 @@ std::vector<CutterPath> RedundantPassRemover::Passes() const {
     const CutterPath& path = paths_[k];
     const std::size_t n = first_[k + 1] - first_[k];
     const auto removed = [&](std::size_t i) { return chords_[first_[k] + i % n].removed; };
-    std::size_t start = 0;  // the first one taken
+    std::size_t start = 0;  // the first chord that is removed
     while (start < n && !removed(start)) ++start;
     if (start == n) {
       passes.push_back(path);
@@ -322,7 +325,7 @@ absl::StatusOr<std::vector<CutterPath>> RemoveRedundantPasses(const Locator& loc
   for (const SurfaceLeaf& leaf : locator.surface().leaves)
     whole.push_back({leaf.piece, leaf.u0, leaf.u1, leaf.v0, leaf.v1});
   for (const RestPassParams& part : parts) {
-    // The finish first; then the limit, which is proven wherever it was kept before.
+    // Check the finish first; then the limit, which is proven wherever it was kept before.
     for (const bool finish : {true, false}) {
       RestPassParams params = part;
       if (finish) {
@@ -332,7 +335,7 @@ absl::StatusOr<std::vector<CutterPath>> RemoveRedundantPasses(const Locator& loc
         params.removed_margin = std::min(kProof * part.scallop, kRemovedMarginShare * part.tolerance);
         params.coarse_where_both_exceed = true;
       } else {
-        // Together what RestPaths may add to the limit.
+        // Together the margins are what RestPaths may add to the limit.
         params.margin = (kProofMargin - kRemovedMarginShare) * part.tolerance;
         params.removed_margin = kRemovedMarginShare * part.tolerance;
       }
@@ -342,7 +345,7 @@ absl::StatusOr<std::vector<CutterPath>> RemoveRedundantPasses(const Locator& loc
         params.removed = &removed;
         PM_ASSIGN_OR_RETURN(const std::vector<LeftoverSpot> spots,
                             FindSpots(locator, reach, trees, rects, params, run));
-        // What is given back uncovers nothing: only the rectangles of the spots need another look.
+        // A restored chord uncovers nothing: only the rectangles of the spots need another look.
         rects.clear();
         for (const LeftoverSpot& spot : spots) rects.push_back(spot.rect);
         if (!spots.empty()) grow(remover.Restore(spots, removed));

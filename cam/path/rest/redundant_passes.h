@@ -1,5 +1,5 @@
-// Passes, and stretches of them, whose ground others finish: where contours, lines, circles and creases of
-// neighbouring regions meet, each of them knows of its own kind only.
+// Removes redundant passes, and stretches of passes, whose surface others finish. They occur where contours,
+// lines, circles and pencil passes of neighbouring regions meet: each kind is planned without the others.
 #pragma once
 
 #include <vector>
@@ -13,22 +13,23 @@
 
 namespace patchmill {
 
-// What a finish that is asked for may exceed the scallop by where passes are taken away, as a share of it: as
-// much as two neighbouring passes leave anywhere (pass_params.h).
+// Multiple of the scallop that the requested finish may leave where passes are removed. Two neighbouring
+// passes leave as much anywhere (pass_params.h).
 inline constexpr double kRedundantLimit = 1.045;
-// Stretches that are worth taking away, in ball radii: at the end of an open pass, and of others, which need
-// a way over the gap.
+// Ball radii: shortest stretch that is worth removing at the end of an open pass, and elsewhere, where a link
+// has to cross the gap.
 inline constexpr double kMinRemovedAtEnd = 2.0, kMinRemovedBetween = 8.0;
 
-// The passes without what is needless, in their order; a pass that loses a stretch becomes one or two others.
-// Needless seems what has others within half a step for the scallop there all the way across to where its
-// neighbours would do, or another right beside it; of two that make each other needless the shorter goes.
-// What finished a place that would exceed kRedundantLimit scallops without it stays (FindSpots of the ground
-// near it, with RestPassParams.taken), and so does what is needed for the limit of `parts`, which is kept as
-// near as RestPaths keeps it. Those are as for RestPaths, one for all wanted ground or more; needless is what
-// seems so by the finest scallop of all. `reach`: ReachLocator of their tolerance. Spirals stay whole. Cost
-// about one query per chord and per two flat steps of pass, eight times as many on what may be needless, and
-// FindSpots near what is taken.
+// Returns the passes without the redundant parts, in their order. A pass that loses a stretch becomes one or
+// two others. A stretch is a candidate if, at every point across it to where its neighbours would finish,
+// another pass lies within half the step for the scallop there, or if another pass runs close beside it. Of
+// two that make each other redundant the shorter is removed. A pass stays that finished a place which would
+// exceed kRedundantLimit scallops without it; FindSpots, with RestPassParams.removed, checks the surface near
+// it. A pass also stays that is needed for the limit of `parts`, which is kept as well as RestPaths keeps it.
+// `parts` are as for RestPaths, one for the whole selected surface or more; candidates are judged by the
+// finest scallop of all. `reach` is the ReachLocator of their tolerance. Spirals stay whole. Cost: about one
+// query per chord and per two flat step-overs of pass, eight times as many on candidates, and FindSpots near
+// what is removed.
 absl::StatusOr<std::vector<CutterPath>> RemoveRedundantPasses(const Locator& locator, const Locator& reach,
                                                               std::vector<CutterPath> paths,
                                                               const std::vector<RestPassParams>& parts,

@@ -19,13 +19,14 @@
 namespace patchmill {
 namespace {
 
-// Of what chords may take: what centres between walls that leave no room may take of them.
+// Part of the chord tolerance by which centres between walls that leave no room may gouge.
 constexpr double kWedgeGougeShare = 0.1;
-// And where no other pass serves: in slots and holes narrower than the ball by some of the tolerance, which
-// lets it in. What certificates may take is theirs too, for these passes are proven by themselves.
+// Parts of the chord tolerance for centres and chords where no other pass serves: in slots and holes narrower
+// than the ball by some of the tolerance, which admits it. The certificates' share is included, since these
+// passes are proven by themselves.
 constexpr double kWedge = 1.15, kWedgedChord = 1.2;
-constexpr double kSamePlace = 1e-6;             // mm
-const double kSteep = std::cos(Radians(60.0));  // walls: scan lines over them would climb at every turn
+constexpr double kSamePlace = 1e-6;             // mm: centres this near to each other count as one
+const double kSteep = std::cos(Radians(60.0));  // of walls: scan lines over them would climb at every turn
 
 std::vector<Vec3> CentersOf(const std::vector<LeftoverSpot>& spots) {
   std::vector<Vec3> centers;
@@ -84,10 +85,10 @@ class RestPassMaker {
   const double flat_;
   const SheetBorder border_;
   const PointCells cells_;       // of the spots' centres
-  std::vector<bool> open_;       // not mended yet
+  std::vector<bool> open_;       // not finished yet
   double highest_ = -kInfinity;  // of the spots' centres
   const double wedge_gouge_;
-  std::vector<bool> asked_, wedge_asked_;           // FreeNear, WedgedNear
+  std::vector<bool> asked_, wedge_asked_;           // by FreeNear, WedgedNear
   std::vector<std::optional<Vec3>> free_, wedged_;  // their answers
   std::optional<LevelContext> levels_;
   int level_count_ = 0;
@@ -103,10 +104,10 @@ bool RestPassMaker::Needed(const Vec3& c, double reach) const {
 std::vector<CutterPath> RestPassMaker::Allowed(CutterPath pass) const {
   if (params_.operation_limits == nullptr) return {std::move(pass)};
   auto parts = ClipToLimits(locator_, *params_.operation_limits, {std::move(pass)}, flat_, run_);
-  return parts.ok() ? *std::move(parts) : std::vector<CutterPath>();  // only cancelled ones are not
+  return parts.ok() ? *std::move(parts) : std::vector<CutterPath>();  // only a cancelled clip fails
 }
 
-// Keeps what of the pass is allowed and mends something, and closes what it mends.
+// Keeps the allowed parts of the pass that finish an open spot, and closes the spots that they finish.
 bool RestPassMaker::Add(PassKind kind, std::vector<CutterPoint> points) {
   if (points.size() < 2) return false;
   bool any = false;
@@ -116,7 +117,7 @@ bool RestPassMaker::Add(PassKind kind, std::vector<CutterPoint> points) {
     for (std::size_t k = 0; k + 1 < part.points.size(); ++k) {
       const Vec3 &a = part.points[k].center, &b = part.points[k + 1].center;
       const double length = (b - a).norm();
-      // A ball that finishes p stands near p's own centre; that is where to look.
+      // A ball that finishes p stands near p's own centre. Look there.
       cells_.Near(0.5 * (a + b), 0.5 * length + flat_, [&](std::size_t i) {
         if (open_[i] && SegmentDistance(spots_[i].at.p, a, b) <= limit) {
           open_[i] = false;
@@ -143,11 +144,11 @@ bool RestPassMaker::AlongPencil(std::size_t i) {
   return !open_[i];
 }
 
-// The open spot one step on in this direction that leaves most; spots_.size() when there is none.
+// Returns the open spot one step on in this direction that leaves most; spots_.size() if there is none.
 std::size_t RestPassMaker::NextOnRidge(const Vec3& from, const Vec3& heading, bool gentle,
                                        const std::vector<bool>& used) const {
-  // Scan lines may also cross a few steps of covered ground, as between the ends of lines at a slanting
-  // border: longer than needed, but one pass instead of many.
+  // Scan lines may also cross a few steps of covered surface, as between the ends of lines at a slanting
+  // border. The pass is longer than needed, but it is one instead of many.
   const double reach = (gentle ? 6.0 : 1.6) * flat_;
   std::size_t best = spots_.size();
   double best_score = -kInfinity;
@@ -172,12 +173,13 @@ Vec2 RestPassMaker::Level(std::size_t i) const {
   return n.norm() > 1e-3 ? Vec2(Vec2(-n.y(), n.x()).normalized()) : Vec2(Vec2::UnitX());
 }
 
-// Spots along the ridge through i, both ways; on walls level ones first.
+// Returns the spots along the ridge through i, both ways. On walls it looks along the level first.
 std::vector<std::size_t> RestPassMaker::Chain(std::size_t i, bool gentle) const {
   const Vec2 level = Level(i);
   std::vector<bool> used(spots_.size(), false);
   used[i] = true;
   std::vector<std::size_t> chain{i};
+  // Most spots of one chain.
   constexpr std::size_t kLongest = 2000;
   for (int end = 0; end < 2; ++end) {
     Vec3 heading = gentle ? Vec3(Vec3::Zero()) : Lift(end == 0 ? level : Vec2(-level), 0.0);
@@ -191,7 +193,7 @@ std::vector<std::size_t> RestPassMaker::Chain(std::size_t i, bool gentle) const 
       if (next == spots_.size()) break;
       heading = (spots_[next].center - from).normalized();
       used[next] = true;
-      // What lies beside the step is served by it.
+      // The step serves the spots beside it.
       const Vec3 to = spots_[next].center;
       cells_.Near(0.5 * (to + from), 0.5 * (to - from).norm() + 0.4 * flat_, [&](std::size_t k) {
         if (SegmentDistance(spots_[k].center, from, to) < 0.4 * flat_) used[k] = true;
@@ -207,7 +209,7 @@ bool RestPassMaker::AlongRidge(std::size_t i) {
   const std::vector<std::size_t> chain = Chain(i, true);
   std::vector<Vec2> corners;
   for (std::size_t k : chain) corners.push_back(Xy(spots_[k].center));
-  // Half a step more at both ends, so that what lies between the samples is covered too.
+  // Add half a step at both ends, so that what lies between the samples is covered too.
   const Vec2 level = Level(i);
   const auto beyond = [&](const Vec2& end, const Vec2& before) -> Vec2 {
     const Vec2 d = end - before;
@@ -222,7 +224,7 @@ bool RestPassMaker::AlongRidge(std::size_t i) {
   return added && !open_[i];
 }
 
-// The parts of the level through a wall spot that run past open spots.
+// Adds the parts of the level through a wall spot that pass open spots.
 bool RestPassMaker::AlongLevel(std::size_t i) {
   if (!levels_) levels_.emplace(locator_, run_);
   ContourParams contour;
@@ -233,7 +235,7 @@ bool RestPassMaker::AlongLevel(std::size_t i) {
     const std::size_t n = loop.points.size();
     if (n < 2) continue;
     const std::size_t moves = loop.closed ? n : n - 1;
-    // Chords cut short, so that a part is not much longer than what it is for.
+    // Cut the chords short, so that a part is not much longer than its purpose requires.
     std::vector<CutterPoint> fine;
     for (std::size_t k = 0; k < moves; ++k) {
       const CutterPoint &a = loop.points[k], &b = loop.points[(k + 1) % n];
@@ -257,7 +259,7 @@ bool RestPassMaker::AlongLevel(std::size_t i) {
       all &= wanted[k];
     }
     if (!any) continue;
-    std::size_t start = 0;  // of a closed loop: where nothing is wanted
+    std::size_t start = 0;  // of a closed loop: a place where nothing is wanted
     if (loop.closed && !all) {
       while (wanted[start]) ++start;
     }
@@ -277,7 +279,7 @@ bool RestPassMaker::AlongLevel(std::size_t i) {
   return !open_[i];
 }
 
-// A centre that leaves less of the spot than the passes so far.
+// Returns a centre that leaves less at the spot than the passes so far.
 const std::optional<Vec3>& RestPassMaker::FreeNear(std::size_t i) {
   if (!asked_[i]) {
     asked_[i] = true;
@@ -288,7 +290,7 @@ const std::optional<Vec3>& RestPassMaker::FreeNear(std::size_t i) {
   return free_[i];
 }
 
-// Or, where there is none, one that gives as much as it may.
+// Returns, where there is none, a centre that gouges as much as it may.
 const std::optional<Vec3>& RestPassMaker::WedgedNear(std::size_t i) {
   if (FreeNear(i)) return free_[i];
   if (!wedge_asked_[i]) {
@@ -300,10 +302,10 @@ const std::optional<Vec3>& RestPassMaker::WedgedNear(std::size_t i) {
   return wedged_[i];
 }
 
-// Has the ball no room there? Then the free centres are a line or a point: no height or level finds them.
+// Has the ball no room there? Then free centres are a line or a point, which no height or level finds.
 bool RestPassMaker::Tight(std::size_t i) { return FreeNear(i) && !locator_.Free(*FreeNear(i)); }
 
-// From spot to spot, every chord proven by the swept query; the pass ends where one is not.
+// Goes from spot to spot. The swept query proves every chord; the pass ends where it does not.
 bool RestPassMaker::AlongCenters(std::size_t i, bool wedged) {
   const auto near = [&](std::size_t k) -> const std::optional<Vec3>& {
     return wedged ? WedgedNear(k) : FreeNear(k);
@@ -332,8 +334,8 @@ bool RestPassMaker::AlongCenters(std::size_t i, bool wedged) {
   return !open_[i];
 }
 
-// A plunge, through all that is open above: upward of a free place everything is free. In a hole as wide as
-// the ball it is the only pass there is.
+// Adds a plunge through all that is open above: upward of a free place everything is free. In a hole as wide
+// as the ball it is the only possible pass.
 void RestPassMaker::FromAbove(std::size_t i) {
   if (const std::optional<Vec3>& c = WedgedNear(i)) {
     const SurfacePoint& at = spots_[i].at;
@@ -344,7 +346,7 @@ void RestPassMaker::FromAbove(std::size_t i) {
   open_[i] = false;
 }
 
-// Many open wall spots at this height around here: a stretch of level is missing, not a spot.
+// Are there many open wall spots at this height nearby? Then a stretch of level is missing, not a spot.
 bool RestPassMaker::LevelIsMissing(std::size_t i) const {
   const Vec3& c = spots_[i].center;
   std::size_t count = 0;

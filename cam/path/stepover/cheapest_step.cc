@@ -8,6 +8,7 @@
 namespace patchmill {
 
 double CheapestStep(std::vector<StepNeed>& needs, double least, double most) {
+  // Number of quantiles tried, less one.
   constexpr int kShares = 16;
   std::sort(needs.begin(), needs.end(), [](const StepNeed& a, const StepNeed& b) {
     return a.step < b.step || (a.step == b.step && a.weight < b.weight);

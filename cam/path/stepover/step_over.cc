@@ -23,7 +23,7 @@ double CenterStep(double radius, double scallop, double kappa) {
   const double b = 1.0 - kappa * scallop;
   const double m = std::sqrt(scallop * (2.0 * radius - scallop));
   const double x = 0.5 * std::abs(kappa) * m / std::sqrt(a * b);
-  // x > 1: a bore so tight that no two centres in it leave as much; half way round is the most there is.
+  // x > 1: in so tight a bore no two centres leave that much. The largest step is half way round.
   if (x >= 1.0) return 2.0 * kPi * a / std::abs(kappa);
   return 2.0 * m * std::sqrt(a / b) * AsinRatio(x);
 }
@@ -42,14 +42,14 @@ double ScallopOfStep(double radius, double center_step, double kappa) {
 }
 
 int PartsOfGap(double gap, double need, double least) {
-  constexpr double kSlack = 1e-9;  // of a part: a gap that was made to fit does fit
+  constexpr double kSlack = 1e-9;  // of a part: a gap that was made to fit does fit despite rounding
   const double parts = need >= least ? std::ceil(gap / need - kSlack) : std::floor(gap / least + kSlack);
   return static_cast<int>(std::max(1.0, parts));
 }
 
 double WideGap(double scallop, double chord_tolerance) {
   return std::min(kWideGap,
-                  std::sqrt(1.0 + 0.5 * chord_tolerance / scallop));  // leftovers grow by its square
+                  std::sqrt(1.0 + 0.5 * chord_tolerance / scallop));  // leftover grows with its square
 }
 
 }  // namespace patchmill

@@ -6,10 +6,10 @@
 namespace patchmill {
 namespace {
 
-// mm per mm of coordinate: what rounding may take from a box of centres.
+// mm per mm of coordinate: margin for the rounding of a box of centres.
 constexpr double kBoxSlack = 1e-12;
-// Of its length in the parameters: narrower parts are cut across, wherever corners and middles lie in plan,
-// so that no shape is sliced without end.
+// Part of its length in the parameters: a narrower part is cut across, wherever corners and middles lie in
+// plan. So no shape is sliced without end.
 constexpr double kSliver = 1e-4;
 
 }  // namespace
@@ -55,7 +55,7 @@ void ContactCandidates::SetMiddle(Candidate& item, const Vec3& p) const {
   item.middle_rho = square > 0.0 ? std::sqrt(square) : -1.0;
 }
 
-// Keeps what of a smooth part can be touched at this level.
+// Adds the sides of a smooth part that can be touched at this level.
 void ContactCandidates::AddFace(Candidate item, const RectBounds& part) {
   if (!SetLevel(item, part.box)) return;
   item.below = part.box.max.z() <= z_;
@@ -88,7 +88,7 @@ void ContactCandidates::AddFace(Candidate item, const RectBounds& part) {
     item.x1 = centers.box.max.x() + rounding;
     item.y0 = centers.box.min.y() - rounding;
     item.y1 = centers.box.max.y() + rounding;
-    // Heights of p + R e: that of the level or, under the shank, of the part.
+    // Heights of p + R e: that of the level or, where the shank touches, those of the part.
     const double bottom = centers.shank ? std::max(z_, part.box.min.z()) : z_;
     const double high = centers.shank ? std::max(z_, part.box.max.z()) : z_;
     for (int k = 0; k < 3; ++k) {
@@ -108,7 +108,7 @@ std::pair<std::int32_t, std::int32_t> ContactCandidates::OfLeaf(std::int32_t nod
     const Candidate& rest = candidates_[static_cast<std::size_t>(first_of_leaf_[index])];
     return {rest.first, rest.last};
   }
-  // An item that is never a candidate itself holds the range.
+  // A candidate that is never used itself holds the range.
   const auto holder = static_cast<std::int32_t>(candidates_.size());
   first_of_leaf_[index] = holder;
   candidates_.emplace_back();
@@ -153,7 +153,7 @@ void ContactCandidates::AddRect(const Candidate& parent, double u0, double u1, d
   if (!net.rational) {
     NormalCone own = BoundNormals(net);
     own.angle += slack;
-    // The same side of the part keeps its name.
+    // The normals keep the sign of the parent's, so that `side` keeps its meaning.
     if (own.axis.dot(parent.normals.axis) < 0.0) own.axis = -own.axis;
     if (own.angle < parent.normals.angle) item.normals = own;
   }
@@ -198,12 +198,12 @@ void ContactCandidates::Open(std::int32_t index) {
     AddCurve(PieceId(item.piece), item.side, t, item.u1);
   } else {
     const Piece& piece = surface_.pieces[static_cast<std::size_t>(item.piece)];
-    // What is above the centre counts by its plan: of an upright wall up there only the length is cut.
+    // Surface above the centre counts by its plan: of a vertical wall up there only the length is cut.
     const auto corner = [&](double u, double v) {
       const Vec3 p = Position(piece, u, v);
       return Lift(Xy(p), std::min(p.z(), z_));
     };
-    // By way of the middles: the ends of a bulging rim may lie over each other.
+    // Distances run through the middles, since the ends of a convex rim may lie over each other.
     const double u = 0.5 * (item.u0 + item.u1), v = 0.5 * (item.v0 + item.v1);
     const auto way = [&](double u0, double v0, double u1, double v1) {
       const Vec3 m = corner(0.5 * (u0 + u1), 0.5 * (v0 + v1));

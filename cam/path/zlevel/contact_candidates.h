@@ -1,10 +1,10 @@
 // The parts of the surface that can carry a contact of one level of h, as a tree that is opened on demand.
 //
 // At centre height c a surface point p forbids the disc |q - p_xy| < rho(p), rho = sqrt(R^2 - max(0, c -
-// p_z)^2). A point q of the contour touches some p with |q - p_xy| = rho(p) ([contours T8b]). On smooth
-// ground the contact rule of level_bounds.h holds there and (q, c) lies in the box of the part's centres; on
-// an open edge or a crease p lies on that curve, and only the distance counts, as it does where a ball may
-// touch with its equator.
+// p_z)^2). A point q of the contour touches some p with |q - p_xy| = rho(p) ([contours T8b]). On a smooth
+// surface the contact rule of level_bounds.h holds there, and (q, c) lies in the box of the part's centres.
+// On an open edge or a crease p lies on that curve, and only the distance counts. The same holds where a ball
+// may touch with its equator.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace patchmill {
 
-// An axis-parallel rectangle in plan: a cell, or an edge of one (one half side zero).
+// An axis-parallel rectangle in plan: a cell, or an edge of one (then one half side is zero).
 struct XyRect {
   Vec2 mid = Vec2::Zero();
   Vec2 half = Vec2::Zero();
@@ -28,47 +28,49 @@ struct XyRect {
 
 class ContactCandidates {
  public:
-  // All references are kept.
+  // Keeps all references.
   ContactCandidates(const Locator& locator, const PieceSides& sides, const LevelBounds& bounds, double z);
 
-  // Candidates are items, or nodes of the surface not looked into yet (negative).
+  // A candidate is the index of a part, or (negative) a node of the surface that is not opened yet.
   static constexpr std::int32_t kRoot = -1;
 
   // Appends the parts of `candidates` that may be touched from the cell, opened until they are small enough
   // for a cell of `width` ([contours (3)]).
   void Collect(const std::vector<std::int32_t>& candidates, const XyRect& cell, double width,
                std::vector<std::int32_t>& out);
-  // Is the cell covered by the disc of the candidate's middle point?
+  // Does the disc of the candidate's middle point cover the cell?
   bool Covers(std::int32_t candidate, const XyRect& cell) const;
-  // Can a contact on the candidate be part of a pass: not above the centre, its slope in the window?
+  // Can a contact on the candidate be part of a pass, that is, lie not above the centre and have its slope in
+  // the window?
   bool Wanted(std::int32_t candidate, const SlopeWindow& window) const;
-  // Directions from contacts on the candidates to points of the cell.
-  // `closely`: the directions from the parts' boxes count too; dearer.
+  // Returns the directions from contacts on the candidates to points of the cell. With `closely` the
+  // directions from the parts' boxes count too, which costs more.
   DirectionCone Directions(const std::vector<std::int32_t>& candidates, const XyRect& cell,
                            bool closely) const;
 
  private:
   enum class Kind : std::int8_t { kRect, kCurve };
   struct Candidate {
-    // What the test of a cell needs. Oriented: the slice of the centres' box at this level, |ax x + ay y -
-    // mid| <= half thrice, inside the plan box of centres. Else the plan box of the part widened by rho.
+    // These members serve the test of a cell. If `oriented`, the candidate is the slice of the centres' box
+    // at this level, |ax x + ay y - mid| <= half for each of three axes, inside the plan box of the centres.
+    // Otherwise it is the plan box of the part widened by rho.
     double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
     std::array<double, 3> ax{}, ay{}, mid{}, half{};
     bool oriented = false;
     bool directed = false;
-    // The part lies below the centre: the ball must also reach its box, |ax x + ay y - own_mid| <= own_half
-    // thrice (exact where the centres of a round hollow meet).
+    // True: the part lies below the centre. Then the ball must also reach the part's own box, |ax x + ay y -
+    // own_mid| <= own_half for each of three axes. That is exact where the centres of a round hollow meet.
     bool below = false;
     Kind kind = Kind::kRect;
     bool opened = false;
-    std::int32_t first = 0, last = 0;  // children, when opened
-    double rho2 = 0, rho = 0;          // largest disc
+    std::int32_t first = 0, last = 0;  // children, if opened
+    double rho2 = 0, rho = 0;          // of the largest disc
     std::array<double, 3> own_mid{}, own_half{};
     Vec2 right = Vec2::Zero(), left = Vec2::Zero();
     double px0 = 0, px1 = 0, py0 = 0, py1 = 0;  // plan box of the part
     double size = 0;                            // its larger side
     std::int32_t piece = 0;
-    int side = 0;  // kCurve: of its piece; kRect: 1 or -1 as in level_bounds.h, 0: both
+    int side = 0;  // kCurve: side of its piece; kRect: 1 or -1 as in level_bounds.h, 0: both
     double u0 = 0, u1 = 1, v0 = 0, v1 = 1;
     NormalCone normals;
     double z_min = -kInfinity, z_max = kInfinity;
@@ -82,7 +84,7 @@ class ContactCandidates {
   DirectionCone DirectionsFrom(const Candidate& item, const XyRect& cell, bool closely) const;
   bool NeedsOpening(const Candidate& item, double width) const;
   void Open(std::int32_t index);
-  // The items of a leaf, made when first asked for.
+  // Returns the range of a leaf's candidates. They are made at the first call.
   std::pair<std::int32_t, std::int32_t> OfLeaf(std::int32_t node);
   bool SetLevel(Candidate& item, const Box3& box) const;  // false: out of reach
   void AddFace(Candidate item, const RectBounds& part);

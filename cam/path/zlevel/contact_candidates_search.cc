@@ -7,11 +7,11 @@
 namespace patchmill {
 namespace {
 
-// Items are never cut below this parameter width: their boxes cannot shrink much further in doubles.
+// Parameter width: candidates are not cut below it. Their boxes cannot shrink much further in doubles.
 constexpr double kSmallestPart = 1e-7;
-// mm: contacts this much above the centre still count as at its height.
+// mm: contacts at most this far above the centre still count as at its height.
 constexpr double kShankSlack = 1e-6;
-// rad: slopes of contacts are compared with this slack, far above the rounding of acos near a flat.
+// rad: slack for comparing slopes of contacts, far above the rounding of acos near a flat.
 constexpr double kSlopeSlack = 1e-6;
 
 }  // namespace
@@ -124,7 +124,7 @@ DirectionCone ContactCandidates::DirectionsFrom(const Candidate& item, const XyR
                                                 bool closely) const {
   DirectionCone cone;
   if (item.oriented && (item.directed || !closely)) {
-    cone.valid = item.directed;  // else a flat spot inside: any direction
+    cone.valid = item.directed;  // else a flat spot lies inside: any direction
     cone.empty = false;
     cone.right = item.right;
     cone.left = item.left;
@@ -140,7 +140,7 @@ DirectionCone ContactCandidates::DirectionsFrom(const Candidate& item, const XyR
   place.valid = true;
   for (const Vec2& e : {Vec2(x0, y0), Vec2(x1, y0), Vec2(x0, y1), Vec2(x1, y1)}) place.Add(e);
   if (!cone.valid) return place;
-  // Both hold: the common part, or nothing where they have none.
+  // Both cones hold the directions, so their common part does. If they have none, the first cone stays.
   if (Cross(cone.right, place.right) > 0.0 && Cross(place.right, cone.left) > 0.0) cone.right = place.right;
   if (Cross(cone.right, place.left) > 0.0 && Cross(place.left, cone.left) > 0.0) cone.left = place.left;
   return cone;

@@ -5,9 +5,9 @@
 
 namespace patchmill {
 
-// Open cone of plan directions, narrower than pi, as its two extreme unit-free directions.
+// An open cone of directions in plan, narrower than pi, as its two extreme directions, of any length.
 struct DirectionCone {
-  bool valid = false;  // false: half turn or more
+  bool valid = false;  // false: half a turn or more
   bool empty = true;
   Vec2 right = Vec2::Zero(), left = Vec2::Zero();  // counter-clockwise from right to left
   double Angle() const;                            // rad

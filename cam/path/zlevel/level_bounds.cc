@@ -9,20 +9,20 @@ namespace patchmill {
 namespace {
 
 constexpr std::size_t kBlock = 256;  // leaves per task
-// rad: normals closer to the horizon than this may be touched sideways.
+// rad: a normal nearer to the horizon than this may be touched sideways.
 constexpr double kHorizon = 1e-6;
-// rad: a stored cone is wider by this than the one computed: its axis is rounded to floats.
+// rad: a stored cone is wider by this than the computed one, since its axis is rounded to floats.
 constexpr double kStoredSlack = 2e-7;
-// Of the samples that find a joint's turn and step (piece_sides.h).
+// Factor on a joint's turn and step, which are found at samples only (piece_sides.h).
 constexpr double kJointMargin = 1.5;
 
-// Angles by their cosine and sine.
+// An angle by its cosine and sine.
 struct Turn {
   double cos, sin;
 };
 
-// Range of e . t over the unit vectors e within `turn` of an axis whose dot product with the unit vector t is
-// `cosine`.
+// Range of e . t over the unit vectors e within `turn` of an axis. `cosine` is the dot product of the axis
+// with the unit vector t.
 struct Span {
   double lo, hi;
 };
@@ -43,7 +43,7 @@ LevelBounds::NodeBox Outward(const Box3& box) {
   return out;
 }
 
-// Centres that touch anything in the box, from any side but below.
+// Box of the centres of balls that touch anything in the part's box, from any side but below.
 Box3 Around(const Box3& part, double radius) {
   Box3 box = part;
   box.min -= Vec3(radius, radius, kInfinity);
@@ -57,7 +57,7 @@ CenterBounds BoundCenters(const RectBounds& part, const NormalCone& normals, int
   CenterBounds bounds;
   const Vec3 e = side * normals.axis;
   const Turn turn{std::cos(normals.angle), std::sin(normals.angle)};
-  const double level = std::hypot(e.x(), e.y());  // sine of the axis' slope, e.z() its cosine
+  const double level = std::hypot(e.x(), e.y());  // sine of the axis' slope; e.z() is its cosine
   bounds.possible = e.z() * turn.cos + level * turn.sin > -kHorizon;
   if (!bounds.possible) return bounds;
   bounds.shank = e.z() * turn.cos - level * turn.sin < kHorizon;
@@ -110,7 +110,7 @@ double JointSlack(const SurfaceLeaf& leaf, const PieceSides& sides, double radiu
 
 namespace {
 
-// Contacts with creases and open sides follow no normals.
+// Does the leaf have creases or open sides? Contacts with these follow no normals.
 bool HasCurves(const SurfaceLeaf& leaf, const PieceSides& sides) {
   for (int side = 0; side < 4; ++side) {
     if (OnSide(leaf, side) && sides.At(leaf.piece, side).kind != SideKind::kSmooth) return true;

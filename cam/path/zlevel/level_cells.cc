@@ -6,11 +6,12 @@
 namespace patchmill {
 namespace {
 
+// Marks a free slot.
 constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
-// Cells are never taken as graphs with a wider cone of directions than this (half a turn less a margin).
+// rad: a cell is a graph only if its cone of directions is narrower than this: half a turn less a margin.
 constexpr double kWidestCone = kPi - 0.05;
-// The grid is shifted against the model by odd parts of the smallest cell, so that faces and symmetry planes
-// of a model, which lie on round numbers, do not run along cell edges.
+// Parts of the smallest cell by which the grid is shifted against the model. Faces and symmetry planes of a
+// model lie on round numbers; so they do not run along cell edges.
 constexpr double kShiftX = 0.3819660112501051, kShiftY = 0.7236067977499789;
 
 std::uint64_t Mix(std::uint64_t k) {
@@ -37,7 +38,7 @@ class Search {
  private:
   bool Stopped() const { return out_.overflow || out_.exhausted || out_.cancelled; }
 
-  // Is the whole cell inside the disc of the deepest point found below its middle?
+  // Does the disc of the deepest point found below the cell's middle hold the whole cell?
   bool MiddleCovers(const XyRect& cell) {
     if (cell.half.norm() >= oracle_.radius()) return false;
     constexpr double kMargin = 1e-9;  // mm

@@ -1,4 +1,4 @@
-// Cells of one level that the contour may cross, each with the directions it can have there
+// Cells of one level that the contour may cross, each with the directions that the contour can have in it
 // ([contours T8a, T8b, T8c]).
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace patchmill {
 
-// Plan positions as integers on the finest grid.
+// Places in plan as integers on the finest grid.
 struct LevelGrid {
   Vec2 origin = Vec2::Zero();
   double unit = 1.0;  // mm, side of the smallest cell
@@ -24,11 +24,11 @@ inline std::uint64_t GridKey(std::int32_t x, std::int32_t y) {
   return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) | static_cast<std::uint32_t>(y);
 }
 
-// Keys to int32, open addressing. Never iterated, so its order does not matter.
+// A map from keys to int32 with open addressing. It is never iterated, so its order does not matter.
 class GridMap {
  public:
   GridMap();
-  // The slot of a key, new ones hold -1. Valid until the next call.
+  // Returns the slot of a key; a new slot holds -1. Valid until the next call.
   std::int32_t& operator[](std::uint64_t key);
   bool Contains(std::uint64_t key) const;
 
@@ -43,7 +43,7 @@ class GridMap {
 struct LevelCell {
   std::int32_t x = 0, y = 0;  // lower left corner
   std::int32_t side = 1;      // units
-  bool ambiguous = false;     // no cone found at the smallest size
+  bool ambiguous = false;     // no cone was found at the smallest size
   Vec2 free = Vec2::Zero();   // unit direction in which h falls through c, where the cell is not ambiguous
   std::int32_t first_candidate = 0, last_candidate = 0;  // into LevelCells::items
 };
@@ -51,10 +51,10 @@ struct LevelCell {
 struct LevelCells {
   LevelGrid grid;
   std::vector<LevelCell> cells;     // only those that can hold a part of the contour
-  std::vector<std::int32_t> items;  // candidates, slices by cell
+  std::vector<std::int32_t> items;  // candidates of ContactCandidates, in slices by cell
   GridMap vertices;                 // corners of all cells ever looked at (T-junctions)
   int ambiguous = 0;
-  // More ambiguous cells than allowed, more cells looked at than allowed: nothing here is usable.
+  // Too many ambiguous cells; too many cells looked at. In both cases nothing in this struct is usable.
   bool overflow = false, exhausted = false;
   bool cancelled = false;
 };
@@ -62,19 +62,19 @@ struct LevelCells {
 struct LevelCellLimits {
   double smallest = 0.0125;  // mm, side of the finest cells
   int max_ambiguous = 4'000;
-  int max_cells = 1'000'000;  // looked at, five for each that is kept: 150 m of contour at R = 3 mm
+  int max_cells = 1'000'000;  // cells looked at, about five for each cell kept: 150 m of contour at R = 3 mm
 };
 
-// What of a level is looked at.
+// The part of a level that is looked at.
 struct WantedLevel {
   SlopeWindow window;
   const NearSpotsMask* where = nullptr;  // null: everywhere
 };
 
-// The quadtree over the plan box of the surface widened by R. Every loop or hole of the level that is not in
-// the cells returned is smaller than `smallest`. Polls run.Cancelled().
-// With `wanted`, cells outside of its places and those whose every contact is outside of that slope window,
-// or on the shank, are left out too: the contour then comes in pieces that end at such cells.
+// Searches the quadtree over the plan box of the surface widened by R. Every loop or hole of the level that
+// is not in the cells returned is smaller than `smallest`. Polls run.Cancelled(). With `wanted`, cells
+// outside of its places are left out too, and cells whose every contact is outside of its slope window or on
+// the shank. The contour then comes in pieces that end at such cells.
 LevelCells FindCells(ContactCandidates& items, const Surface& surface, const LevelOracle& oracle,
                      const LevelCellLimits& limits, const RunContext& run,
                      const WantedLevel* wanted = nullptr);

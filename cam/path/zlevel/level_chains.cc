@@ -47,8 +47,8 @@ class Builder {
     b.previous = from.crossing;
   }
 
-  // With the forbidden side on the right, a stretch starts where the rim (counter-clockwise) goes into
-  // forbidden ground and ends where it comes out.
+  // Joins the crossings in their order along the contour. With the forbidden side on the right, a stretch
+  // starts where the rim (counter-clockwise) enters forbidden places and ends where it leaves them.
   bool JoinInOrder(const LevelCell& cell) {
     if (rim_.size() % 2 != 0) return false;
     const Vec2 way(cell.free.y(), -cell.free.x());
@@ -85,8 +85,8 @@ class Builder {
     return chain;
   }
 
-  // Rounding may set a sign on the rim of a cell that was decided as a whole: then a stretch ends there. Its
-  // end goes on at the nearest beginning.
+  // Rounding may set a sign on the rim of a cell that was decided as a whole. A stretch ends there; it is
+  // joined to the nearest beginning.
   void CloseOpenEnds() {
     for (std::size_t i = 0; i < crossings_.size(); ++i) {
       Crossing& end = crossings_[i];

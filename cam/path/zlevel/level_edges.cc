@@ -7,13 +7,13 @@
 namespace patchmill {
 namespace {
 
-// mm: edges are not searched for pairs of crossings closer than this ([contours, section 7]).
+// mm: pairs of crossings closer to each other than this are not searched for ([contours, section 7]).
 constexpr double kFinestEdge = 2e-4;
-// Items of the surface looked at for one edge. Where folds lie within microns of each other they are tens of
-// thousands for every stretch; such an edge is searched as coarsely as undecided cells are.
+// Most candidates looked at for one edge. Where folds lie within microns of each other every stretch has tens
+// of thousands of them. Such an edge is searched as coarsely as undecided cells are.
 constexpr std::size_t kMostItems = 2'000'000;
 
-// mm: a point this far inside of a known disc is forbidden without asking h.
+// mm: a point this far inside of a known disc is forbidden without an evaluation of h.
 constexpr double kClearlyInside = 1e-7;
 
 struct Vertex {
@@ -31,7 +31,7 @@ struct Edge {
 
 struct EdgeOfRim {
   std::int32_t edge = 0;
-  bool backward = false;  // the rim runs against it
+  bool backward = false;  // the rim runs against the edge
 };
 
 class Search {
@@ -65,8 +65,8 @@ class Search {
   }
 
  private:
-  // One side of the cell, cut at the vertices of finer neighbours. The rim is counter-clockwise: the cell
-  // lies to the left of what it runs along.
+  // Adds one side of the cell, cut at the vertices of finer neighbours. The rim is counter-clockwise: the
+  // cell lies to its left.
   void Side(const Edge& side, bool backward) {
     const std::int32_t h = side.length / 2;
     Edge low = side, high = side;
@@ -82,7 +82,7 @@ class Search {
       slot = static_cast<std::int32_t>(edges_.size());
       edges_.push_back(side);
     }
-    // Below a top side (backward) and left of a right side (forward) lies the cell.
+    // The cell lies below a top side (backward) and to the left of a right side (forward).
     edges_[static_cast<std::size_t>(slot)].cell[side.horizontal == backward ? 0 : 1] = cell_;
     rims_.push_back({slot, backward});
   }
@@ -138,13 +138,13 @@ class Search {
     edge.last = static_cast<std::int32_t>(out_.crossings.size());
   }
 
-  // Crossings between two points of the edge, in order.
+  // Finds the crossings between two points of the edge, in order.
   void Roots(const Vec2& a, const Vertex& va, const Vec2& b, const Vertex& vb, std::size_t depth) {
     const double length = (b - a).norm();
     const Vec2 along = (b - a) / length;
     if (va.forbidden && vb.forbidden &&
         oracle_.ExitLength(a, va.contact.p, along) + oracle_.ExitLength(b, vb.contact.p, -along) > length) {
-      return;  // the two discs cover it
+      return;  // the two discs cover the stretch
     }
     if (!SignsDecide(a, b, along, depth) && length > floor_ && depth + 2 < pool_.size()) {
       const Vec2 m = 0.5 * (a + b);
@@ -161,7 +161,8 @@ class Search {
     leaves_.push_back(va.forbidden);
   }
 
-  // By the candidates known, else by finer ones, which stay for the halves.
+  // Do the signs at the ends decide the stretch? Tries the known candidates first, then finer ones, which
+  // stay for the halves.
   bool SignsDecide(const Vec2& a, const Vec2& b, const Vec2& along, std::size_t depth) {
     const double length = (b - a).norm();
     const Candidates& known = pool_[depth];
@@ -178,7 +179,7 @@ class Search {
 
   using Candidates = std::array<std::vector<std::int32_t>, 2>;  // of the cells on both sides
 
-  // What lies within half the length of a stretch on one of its sides.
+  // Returns the rectangle of the places within half the length of a stretch, on one of its sides.
   XyRect Beside(const Vec2& a, const Vec2& b, std::size_t side) const {
     const double quarter = 0.25 * (b - a).norm(), to = side == 0 ? -quarter : quarter;
     XyRect box{0.5 * (a + b), 0.5 * (b - a)};
@@ -188,7 +189,8 @@ class Search {
     return box;
   }
 
-  // Every zero on the stretch is known to the cells of both sides alike.
+  // Do all directions go one way along the stretch? The cells of both sides know every zero on it alike, so
+  // the shorter list serves.
   bool OneWay(const Vec2& a, const Vec2& b, const Vec2& along, const Candidates& candidates) const {
     const std::size_t k =
         edge_->cell[0] < 0 || (edge_->cell[1] >= 0 && candidates[1].size() < candidates[0].size());
@@ -222,7 +224,7 @@ class Search {
   std::vector<Edge> edges_;
   std::vector<EdgeOfRim> rims_;
   std::vector<char> leaves_;  // by crossing: forbidden before it along the edge, free after
-  std::int32_t cell_ = 0;     // whose sides are walked
+  std::int32_t cell_ = 0;     // the cell whose sides are walked
   const Edge* edge_ = nullptr;
   std::array<Candidates, 40> pool_;  // by depth of halving
   double floor_ = kFinestEdge;

@@ -6,18 +6,18 @@
 namespace patchmill {
 namespace {
 
-// mm: exits shorter than this do not count; the place is known to about the square of the contact's last
-// step.
+// mm: shorter exits, and shorter steps of the contact, do not count. A place is known to about the square of
+// the contact's last step.
 constexpr double kMinExitLength = 1e-10;
 constexpr double kMinContactStep = 1e-6;
-// mm: h may pass c by this much at a border point (rounding of the contact, not of the method).
+// mm: h may exceed c by this much at a border point (rounding of the contact, not of the method).
 constexpr double kHeightSlack = 1e-9;
-// mm: how far a border point may be moved out of a disc's rim at a vertical wall, where h jumps, or at one so
-// steep (cosine of its slope) that rounding in plan moves h.
+// mm: largest move of a border point out of a disc's rim at a vertical wall, where h jumps. kVertical is the
+// cosine of the slope from which on a wall counts as vertical: there rounding in plan moves h.
 constexpr double kLargestNudge = 8e-10;
 constexpr double kVertical = 1e-4;
 constexpr int kMostSlides = 60;     // steps on one branch
-constexpr int kMostCrossings = 16;  // of sides on one branch
+constexpr int kMostCrossings = 16;  // of sides, on one branch
 constexpr int kMostBranches = 60;   // along one straight way
 
 }  // namespace
@@ -92,7 +92,7 @@ LevelPoint LevelOracle::Exit(const Vec2& start, const SurfacePoint& contact, con
     at = LeaveBranch(way, at, reach);
     if (way.gone >= reach) return {start + reach * direction, at, std::nullopt};
     if (nudge == kMinExitLength && z_ - at.p.z() < kVertical * radius_) {
-      // Rounding must not decide on which side the point lies.
+      // The step makes sure that rounding does not decide on which side the point lies.
       way.gone += nudge;
       nudge *= 2.0;
     }
@@ -108,15 +108,16 @@ LevelPoint LevelOracle::Exit(const Vec2& start, const SurfacePoint& contact, con
     way.gone += nudge;
     nudge *= 2.0;
   }
-  // No end in sight: as good as out, or else the far end, which is free.
+  // The walk found no end. The place it reached is taken if it is free within the slack, else the far end,
+  // which is free.
   if (!locator_.Free(Center(way.At()), kHeightSlack)) way.gone = reach;
   return {way.At(), at, std::nullopt};
 }
 
 std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& direction, const SurfacePoint& a,
                                                   const SurfacePoint& b, const Stretch& stretch) const {
-  // Inside a disc of the two: outward from m. Else from the first rim behind m; the walk passes m again if it
-  // lies in some third disc.
+  // Inside a disc of one of the two contacts the walk goes outward from m. Else it starts at the first rim
+  // behind m; it passes m again if m lies in some third disc.
   double back = kInfinity;
   const SurfacePoint* hit = nullptr;
   for (const SurfacePoint* k : {&a, &b}) {
@@ -151,7 +152,7 @@ std::optional<LevelPoint> LevelOracle::RootOnLine(const Vec2& m, const Vec2& dir
   const double reach = back + stretch.front;
   const Vec2 from = m - back * direction;
   LevelPoint root = Exit(from, start, direction, reach);
-  // Stopped at the end of the stretch: nothing there says that it is free.
+  // The walk stopped at the end of the stretch, and nothing shows that this place is free.
   if ((root.q - from).norm() >= reach - kMinExitLength) return std::nullopt;
   return root;
 }
@@ -179,7 +180,8 @@ std::optional<LevelPoint> LevelOracle::Corner(const LevelPoint& a, const LevelPo
   }
   if ((ka.p - kb.p).norm() < 1e-6 * radius_) return std::nullopt;
   if (!locator_.Free(Center(q), kHeightSlack)) {
-    // A third contact, or the rim of a vertical wall (where h jumps): then a hair outward is free.
+    // A third contact covers the corner, or it is the rim of a vertical wall (where h jumps). At a wall a
+    // place a hair outward is free.
     const Vec2 out = ((q - Xy(ka.p)).normalized() + (q - Xy(kb.p)).normalized());
     if (out.norm() < 0.1) return std::nullopt;
     const Vec2 free = q + (4.0 * kMinExitLength / out.norm()) * out;

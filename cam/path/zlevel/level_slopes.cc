@@ -14,8 +14,8 @@ struct Cone {
 // rad: acos of a cosine near 1 is exact to this.
 constexpr double kAcosError = 3e-8;
 
-// Smallest cone about the mean direction that holds all vectors; vectors that vanish have no direction.
-// Normalises `vectors` in place.
+// Returns the smallest cone about the mean direction that holds all vectors. Vectors that vanish have no
+// direction. Normalises `vectors` in place.
 Cone ConeOf(std::vector<Vec3>& vectors) {
   double longest = 0.0;
   for (const Vec3& v : vectors) longest = std::max(longest, v.squaredNorm());
@@ -42,7 +42,7 @@ double Binomial(int n, int k) {
   return b;
 }
 
-// Control vectors of a positive multiple of S_u (or S_v), into `out`.
+// Writes the control vectors of a positive multiple of S_u (or S_v) into `out`.
 void Hodograph(const BernsteinNet& net, bool along_u, std::vector<Vec3>& out) {
   const int nu = net.degree_u, nv = net.degree_v, row = nv + 1;
   const int du = along_u ? nu - 1 : nu, dv = along_u ? nv : nv - 1;
@@ -59,7 +59,7 @@ void Hodograph(const BernsteinNet& net, bool along_u, std::vector<Vec3>& out) {
     }
     return;
   }
-  // Product of Bernstein forms; the binomials of the result's own degree are a positive factor per
+  // This is a product of Bernstein forms. The binomials of the result's own degree are a positive factor per
   // coefficient and do not change its direction.
   const int rows = nu + du + 1, columns = nv + dv + 1;
   out.assign(static_cast<std::size_t>(rows * columns), Vec3::Zero());

@@ -1,4 +1,4 @@
-// Which normals and slopes a piece of surface can have, from its Bernstein net.
+// Bounds of the normals and slopes of a piece of surface, from its Bernstein net.
 #pragma once
 
 #include <vector>
@@ -13,19 +13,19 @@ struct SlopeRange {
   double max = kPi / 2.0;
 };
 
-// Holds every unit normal of a part, up to one sign that they share.
+// A cone that holds every unit normal of a part, up to one sign that they share.
 struct NormalCone {
   Vec3 axis = Vec3::UnitZ();
   double angle = kPi;  // rad; kPi: nothing is proven
 };
 
-// Holds every normal of the net's surface; nothing tighter than everything where nothing is proven
-// (degenerate parametrisation, strongly bent nets). Directions of S_u and S_v lie in the cones of their
-// control vectors (for rational nets those of N_u w - N w_u), the cross product's cone follows [references:
-// sederberg1988]. Cost O(points) for polynomial nets, O(points^2) for rational ones.
+// Returns a cone that holds every normal of the net's surface. Where nothing is proven (degenerate
+// parametrisation, strongly bent nets) it holds all directions. Directions of S_u and S_v lie in the cones of
+// their control vectors (for rational nets those of N_u w - N w_u); the cone of the cross product follows
+// [references: sederberg1988]. Cost O(points) for polynomial nets, O(points^2) for rational ones.
 NormalCone BoundNormals(const BernsteinNet& net);
 
-// The slopes of a cone's normals.
+// Range of the slopes of a cone's normals.
 SlopeRange SlopesOf(const NormalCone& normals);
 
 inline SlopeRange BoundSlopes(const BernsteinNet& net) { return SlopesOf(BoundNormals(net)); }

@@ -10,8 +10,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kShift = 1e-3;  // mm upward, away from a flat at the level
-// rad: ground this far outside of the window is still traced, for the overlap at the ends of passes.
+constexpr double kShift = 1e-3;  // mm: step by which a level moves up, away from a flat at its height
+// rad: surface this far outside of the window is still traced, for the overlap at the ends of passes.
 constexpr double kWindowMargin = Radians(15.0);
 constexpr int kMostShifts = 1;  // then the finest cells grow instead: the ball may have no room there
 

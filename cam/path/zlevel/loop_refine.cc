@@ -9,11 +9,12 @@
 namespace patchmill {
 namespace {
 
+// Most halvings of a chord.
 constexpr int kMaxDepth = 30;
 constexpr double kSamePoint = 1e-9;  // mm: points closer than this are one
 
-// Does the chord leave no more than `limit`, by the ground between the contacts of its ends? Only asked where
-// they are on one piece.
+// Does the chord leave no more than `limit`, judged by the surface between the contacts of its ends? Only
+// contacts on one piece can be judged so.
 bool ExcessBetween(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b, double limit) {
   if (a.contact.piece.value != b.contact.piece.value) return false;
   const double radius = oracle.radius();
@@ -31,19 +32,20 @@ class Refiner {
         longest_(LongestChord(oracle.radius(), tolerance.gouge)),
         out_(out) {}
 
-  // Appends the points after a up to b.
+  // Appends the points after a, up to and including b.
   void Way(const LevelPoint& a, const LevelPoint& b, const ChainCell& cell, int depth) {
     const double length = (b.q - a.q).norm();
     const double excess = ChordExcess(oracle_, a, b);
-    // Between two points that touch no chord leaves more than half its length: a shorter one that seems to
-    // has a contact known to no better than the tolerance, and would be divided without end.
+    // A chord between two points that touch the surface leaves at most half its length. If a shorter chord
+    // seems to leave more, its contact is known no better than the tolerance: it would be divided without
+    // end.
     const bool fine = excess <= tolerance_.excess || length <= 2.0 * tolerance_.excess ||
                       (length <= longest_ && ExcessBetween(oracle_, a, b, tolerance_.excess));
     if ((length <= longest_ && fine) || depth >= kMaxDepth || length < kSamePoint || cell.fixed) {
       out_.push_back(b);
       return;
     }
-    // Beyond a corner each side has its own contact.
+    // Try a corner: beyond it each side has its own contact.
     const double reach = 1.5 * length;
     if (!fine && !OneBranch(a, b)) {
       const std::optional<LevelPoint> corner = oracle_.Corner(a, b, reach);
@@ -58,12 +60,12 @@ class Refiner {
         return;
       }
     }
-    // As many parts as the longest chord asks for, not always halves.
+    // Divide into as many parts as the longest chord requires, not always into halves.
     const double parts = std::max(2.0, std::ceil(length / longest_));
     const Vec2 m = a.q + (std::floor(0.5 * parts) / parts) * (b.q - a.q);
     const Vec2 across(Vec2(a.q.y() - b.q.y(), b.q.x() - a.q.x()) / length);
-    // Along a free direction a line crosses the graph in the cell, or in one of its bumps beyond an edge:
-    // these reach no farther than half the edge ([contours T8c]).
+    // Along a free direction a line crosses the graph in the cell, or in one of its bumps beyond an edge.
+    // These reach no farther than half the edge ([contours T8c]).
     for (int attempt = cell.Ambiguous() ? 2 : 0; attempt < 3; ++attempt) {
       const Vec2& direction = attempt < 2 ? cell.free : across;
       const double margin = attempt == 1 ? cell.bounds.half.x() : 0.0;
@@ -75,7 +77,7 @@ class Refiner {
       Way(*root, b, cell, depth + 1);
       return;
     }
-    // No border point found beside the chord (a cell without a cone): its ends are free, so it stays.
+    // No border point was found near the chord (in a cell without a cone). Its ends are free, so it stays.
     out_.push_back(b);
   }
 
@@ -85,7 +87,8 @@ class Refiner {
     return (oracle_.Deepest(a.contact, b.q).p - b.contact.p).norm() < 1e-4 * oracle_.radius();
   }
 
-  // In the cell and not at an end; where it has a cone on the one graph that joins the ends ([contours T8a]).
+  // Does q lie in the cell and not at an end of the chord? In a cell with a cone it must also lie on the one
+  // graph that joins the ends ([contours T8a]).
   static bool Between(const Vec2& q, const Vec2& a, const Vec2& b, const ChainCell& cell) {
     const Vec2 off = (q - cell.bounds.mid).cwiseAbs() - cell.bounds.half;
     if (!((q - a).norm() > kSamePoint && (q - b).norm() > kSamePoint && off.maxCoeff() <= kSamePoint))
@@ -93,7 +96,7 @@ class Refiner {
     return cell.Ambiguous() || Cross(q - a, cell.free) * Cross(b - q, cell.free) > 0.0;
   }
 
-  // The part of a line through m within `margin` of a cell.
+  // Returns the part of a line through m within `margin` of a cell.
   static LevelOracle::Stretch Inside(const XyRect& cell, double margin, const Vec2& m,
                                      const Vec2& direction) {
     LevelOracle::Stretch part{kInfinity, kInfinity};
@@ -113,10 +116,11 @@ class Refiner {
   std::vector<LevelPoint>& out_;
 };
 
-// Leaves out points where one chord serves: it is short enough for [location T2], and the ground below the
+// Leaves out points where one chord serves: it is short enough for [location T2], and the surface below the
 // points passed over and between them bounds the excess.
 std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelPoint>& points, bool closed,
                              const LoopTolerance& tolerance) {
+  // Most points that one chord passes over.
   constexpr std::size_t kMostSkipped = 24;
   const std::size_t n = points.size();
   if (n < 4) return points;
@@ -134,8 +138,7 @@ std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelP
       if ((end.q - points[i].q).norm() > longest) break;
       LevelPoint start = points[i];
       if (start.other) start.contact = *start.other;
-      // Stretch by stretch between the places where the chord passes the points left out, by the ground
-      // there.
+      // Judge each stretch between the places where the chord passes points left out, by the surface there.
       const Vec2 way = end.q - start.q;
       bool good = way.squaredNorm() > 0.0;
       double from = 0.0;
@@ -143,7 +146,7 @@ std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelP
       for (std::size_t s = i + 1; good && s <= k; ++s) {
         const LevelPoint& right = points[s % n];
         const double to = s < k ? (right.q - start.q).dot(way) / way.squaredNorm() : 1.0;
-        // Neither may the polyline move away from the points it passes over in plan.
+        // The polyline must not move away in plan from the points it passes over either.
         good = to > from && to <= 1.0;
         LevelPoint x = left, y = right;
         x.q = start.q + from * way;
@@ -157,7 +160,7 @@ std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelP
     }
     i = best;
   }
-  // A loop as small as the tolerance keeps its shape.
+  // A loop with fewer points than this is as small as the tolerance and keeps its shape.
   constexpr std::size_t kFewest = 6;
   if (closed) return kept.size() < kFewest ? points : kept;
   kept.push_back(points[last]);
@@ -167,7 +170,7 @@ std::vector<LevelPoint> Thin(const LevelOracle& oracle, const std::vector<LevelP
 }  // namespace
 
 double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b) {
-  // Squared distances to the two contacts differ by a linear function along the chord: the caps cross once.
+  // Squared distances to the contacts differ by a linear function along the chord: the caps cross once.
   const double z = oracle.z();
   const auto square = [&](const Vec2& q, const Vec3& k) {
     const double below = std::max(0.0, z - k.z());

@@ -1,4 +1,4 @@
-// From the crossings of a contour to certified chords.
+// Refines the crossings of a contour to certified chords.
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@ struct LoopTolerance {
   double excess = 0.005;  // mm, normal to the surface (two discs, as [location T3])
 };
 
-// What a straight move a b leaves at most above the contacts of its ends: min over the split of the larger
-// end cap ([location T3]), closed form.
+// What a straight move a b leaves at most (mm) above the contacts of its ends: the smallest, over all splits,
+// of the larger of the two caps at the ends ([location T3]). Closed form.
 double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b);
 
-// Polyline of border points (closed when the chain is), forbidden side on the right, every chord within
-// tolerance; corners between two contacts are vertices with both contacts. Points that the tolerance does not
-// need are left out. Empty when the run is cancelled meanwhile.
+// Returns a polyline of border points (closed when the chain is), with the forbidden side on the right and
+// every chord within tolerance. Corners between two contacts are vertices with both contacts. Points that the
+// tolerance does not need are left out. The result is empty if the run is cancelled meanwhile.
 std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain,
                                    const LoopTolerance& tolerance, const RunContext& run);
 

@@ -6,8 +6,9 @@
 namespace patchmill {
 namespace {
 
+// Most squares: beyond it squares grow.
 constexpr double kMostSquares = 1e6;
-constexpr int kPerReach = 4;  // squares
+constexpr int kPerReach = 4;  // squares per `reach`
 
 }  // namespace
 
@@ -16,7 +17,8 @@ NearSpotsMask::NearSpotsMask(std::span<const Vec3> points, double reach) : side_
   for (const Vec3& p : points) box.Add(p);
   if (box.Empty()) return;
   const Vec2 size = Xy(box.max - box.min);
-  constexpr int kEdge = kPerReach + 1;  // squares beside the points, which may be narrower than a quarter
+  constexpr int kEdge = kPerReach + 1;  // squares added on each side of the points: one more than `reach`,
+                                        // which may end inside a square
   const auto squares = [&](double extent) { return extent / side_ + 2.0 * kEdge + 1.0; };
   while (squares(size.x()) * squares(size.y()) > kMostSquares) side_ *= 2.0;
   origin_ = Xy(box.min) - Vec2::Constant(kEdge * side_);

@@ -8,10 +8,11 @@
 namespace patchmill {
 namespace {
 
+// Native parameters: places this near to each other are one.
 constexpr double kNativeTolerance = 1e-9;
 
-// Parameter of a native point on an edge of its patch (EdgeParameters' inverse); nullopt when it is not on
-// it.
+// Returns the parameter of a native point on an edge of its patch (the inverse of EdgeParameters); nullopt
+// when the point is not on the edge.
 std::optional<double> OnPatchEdge(bool triangle, int edge, const Vec2& uv) {
   const auto on = [](double x) { return std::abs(x) < kNativeTolerance; };
   if (triangle) {
@@ -94,7 +95,7 @@ PieceSides::PieceSides(const Surface& surface, const RunContext& run) : surface_
     junctions_[link.part].push_back(link);
     junctions_[link.whole].push_back(link);
   }
-  // A cancel leaves the rest open; whoever asked finds out from the run itself.
+  // A cancel leaves the remaining sides open. The caller finds out from the run itself.
   (void)ParallelFor(run, nullptr, sides_.size(), [&](std::size_t i) {
     for (int side = 0; side < 4; ++side)
       sides_[i][static_cast<std::size_t>(side)] = Classify(PieceId(i), side);
@@ -102,13 +103,14 @@ PieceSides::PieceSides(const Surface& surface, const RunContext& run) : surface_
 }
 
 PieceSides::Place PieceSides::MiddleOf(PieceId id, int side) const {
+  // Units per native parameter in which middles are compared.
   constexpr double kUnits = 1e9;
   const Piece& piece = surface_->piece(id);
   const Vec2 middle = 0.5 * (SideStart(piece, side) + SideEnd(piece, side));
   return {piece.patch.value, std::llround(middle.x() * kUnits), std::llround(middle.y() * kUnits)};
 }
 
-// A point of an edge of a patch at parameter t, as a point of the piece that holds it.
+// Returns a point of an edge of a patch at parameter t, as a point of the piece that holds it.
 std::optional<PieceSides::SidePoint> PieceSides::OnEdge(PatchEdge edge, double t) const {
   const auto found = edges_.find(edge);
   if (found == edges_.end()) return std::nullopt;
@@ -120,13 +122,13 @@ std::optional<PieceSides::SidePoint> PieceSides::OnEdge(PatchEdge edge, double t
   return SidePoint{AtSide(*surface_, part->piece, part->side, std::clamp(s, 0.0, 1.0)), part->side};
 }
 
-// From an edge to the longer one it lies along, or to the one that lies along it there.
+// Goes from an edge to the longer edge along which it lies, or to the shorter edge that lies along it there.
 std::optional<PieceSides::SidePoint> PieceSides::AcrossJunction(PatchEdge edge, double t) const {
   const auto found = junctions_.find(edge);
   if (found == junctions_.end()) return std::nullopt;
   for (const PartLink& link : found->second) {
     if (link.part == edge) return OnEdge(link.whole, link.from + t * (link.to - link.from));
-    // Places between two parts are known to rounding.
+    // Places between two parts are known only to rounding.
     const double s = (t - link.from) / (link.to - link.from), clamped = std::clamp(s, 0.0, 1.0);
     if (std::abs(s - clamped) <= kNativeTolerance) return OnEdge(link.part, clamped);
   }
@@ -159,7 +161,7 @@ std::optional<SurfacePoint> PieceSides::Across(PieceId id, int side, double t) c
   return beyond ? std::optional(beyond->at) : std::nullopt;
 }
 
-// The angle by which the surface turns at the point t of a side, 0 < t < 1, and its step there.
+// Returns the angle by which the surface turns at the point t of a side, 0 < t < 1, and its step there.
 std::optional<PieceSide> PieceSides::TurnAt(PieceId piece, int side, double t) const {
   const auto beyond = Beyond(piece, side, t);
   if (!beyond) return std::nullopt;
@@ -174,6 +176,7 @@ std::optional<PieceSide> PieceSides::TurnAt(PieceId piece, int side, double t) c
 }
 
 PieceSide PieceSides::Classify(PieceId piece, int side) const {
+  // Places on the side that are sampled.
   constexpr double kAt[5] = {0.02, 0.27, 0.5, 0.73, 0.98};
   PieceSide result;
   int found = 0;

@@ -1,7 +1,7 @@
 // How the four sides of every piece of a surface continue: smoothly, over a crease, or not at all.
 //
-// Contacts on a side that is not smooth are contacts with a curve, not with a tangent plane; both the search
-// for contours and the question which part of a contour is a pass need to know.
+// A contact on a side that is not smooth is a contact with a curve, not with a tangent plane. The search for
+// contours needs to know this, and so does the question which part of a contour is a pass.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@
 
 namespace patchmill {
 
-// Sides of a piece, in its own parameters: 0: v=0, 1: u=1, 2: v=1, 3: u=0; 0 and 2 run along u, 1 and 3 along
-// v.
+// Sides of a piece, in its own parameters: 0: v=0, 1: u=1, 2: v=1, 3: u=0. Sides 0 and 2 run along u, 1 and 3
+// along v.
 enum class SideKind { kSmooth, kCrease, kOpen };
 
 struct PieceSide {
@@ -27,21 +27,21 @@ struct PieceSide {
   double step = 0.0;   // mm, kSmooth: largest gap to the neighbour found along it
 };
 
-// A side counts as smooth when the surface goes on across it within this angle (rad), sampled.
+// rad: a side counts as smooth if the surface continues across it within this angle, at the samples.
 inline constexpr double kSmoothSideAngle = 0.03;
 
-// Sides of all pieces: joints between patches come from the network, T-junctions included, joints between the
-// pieces of one patch from their common corners. Collapsed sides are kOpen (they are points).
+// The sides of all pieces. Joints between patches come from the network, T-junctions included; joints between
+// the pieces of one patch come from their common corners. Collapsed sides are kOpen (they are points).
 class PieceSides {
  public:
-  // Keeps a reference. Cost O(n log n), parallel; unusable when the run was cancelled meanwhile.
+  // Keeps a reference. Cost O(n log n), in parallel. Unusable if the run was cancelled meanwhile.
   PieceSides(const Surface& surface, const RunContext& run);
 
   const PieceSide& At(PieceId piece, int side) const {
     return sides_[piece.index()][static_cast<std::size_t>(side)];
   }
-  // The same place on the piece across side `side` at parameter t in [0,1] of that side; nullopt at open
-  // sides.
+  // Returns the same place on the piece across side `side`, at parameter t in [0,1] of that side; nullopt at
+  // open sides.
   std::optional<SurfacePoint> Across(PieceId piece, int side, double t) const;
 
  private:
@@ -50,7 +50,8 @@ class PieceSides {
     int side = 0;
     double t0 = 0.0, t1 = 1.0;
   };
-  using Place = std::tuple<std::int32_t, std::int64_t, std::int64_t>;  // patch, native middle of a side
+  using Place = std::tuple<std::int32_t, std::int64_t, std::int64_t>;  // patch, middle of a side in native
+                                                                       // parameters
   Place MiddleOf(PieceId piece, int side) const;
   struct SidePoint {
     SurfacePoint at;
@@ -58,13 +59,13 @@ class PieceSides {
   };
   std::optional<SidePoint> OnEdge(PatchEdge edge, double t) const;
   std::optional<SidePoint> AcrossJunction(PatchEdge edge, double t) const;
-  std::optional<SidePoint> Beyond(PieceId piece, int side, double t) const;  // Across, and the side there
+  std::optional<SidePoint> Beyond(PieceId piece, int side, double t) const;  // as Across, with the side there
   std::optional<PieceSide> TurnAt(PieceId piece, int side, double t) const;
   PieceSide Classify(PieceId piece, int side) const;
 
   const Surface* surface_;
   std::map<PatchEdge, std::vector<EdgePart>> edges_;
-  std::map<PatchEdge, std::vector<PartLink>> junctions_;  // of both edges of a part
+  std::map<PatchEdge, std::vector<PartLink>> junctions_;  // under both edges of a part
   std::map<Place, std::vector<std::pair<PieceId, int>>> inner_;
   std::vector<std::array<PieceSide, 4>> sides_;
 };
@@ -72,8 +73,8 @@ class PieceSides {
 // Parameters (u,v) of the point t of a side.
 Vec2 SideParameters(int side, double t);
 
-// Unit vector in the tangent plane at a point of the side, square to it and pointing out of the piece;
-// nullopt where the parametrisation is degenerate.
+// Returns the unit vector in the tangent plane at a point of the side that is square to the side and points
+// out of the piece; nullopt where the parametrisation is degenerate.
 std::optional<Vec3> OutwardTangent(const Surface& surface, PieceId piece, int side, double t);
 
 }  // namespace patchmill

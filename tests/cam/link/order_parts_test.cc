@@ -35,7 +35,7 @@ Order Ordered(const RegionMap& map, const std::vector<JobPart>& parts) {
 TEST(OrderParts, NothingOfNothing) { EXPECT_TRUE(Ordered({}, {}).empty()); }
 
 TEST(OrderParts, AHillFromTheTop) {
-  // Ground, flank, cap.
+  // Plain, flank, cap.
   const RegionMap map = Map(3, {{0, 1}, {1, 2}});
   EXPECT_EQ(Ordered(map, {{{0}, 3}, {{1}, 7}, {{2}, 12}}), (Order{2, 1, 0}));
 }
@@ -46,7 +46,7 @@ TEST(OrderParts, APitFromTheRim) {
 }
 
 TEST(OrderParts, OneHillAfterTheOtherAndGroundAfterBoth) {
-  // 0 ground; 1, 2 flank and cap of a hill; 3, 4 those of a lower one; 5, 6 wall and floor of a pit.
+  // 0 plain; 1, 2 flank and cap of a hill; 3, 4 those of a lower hill; 5, 6 wall and floor of a pit.
   const RegionMap map = Map(7, {{0, 1}, {1, 2}, {0, 3}, {3, 4}, {0, 5}, {5, 6}});
   const std::vector<JobPart> parts{{{1}, 7}, {{3}, 6}, {{5}, 0}, {{0}, 2}, {{2}, 12}, {{4}, 10}, {{6}, -4}};
   EXPECT_EQ(Ordered(map, parts), (Order{4, 0, 5, 1, 3, 2, 6}));
@@ -60,7 +60,7 @@ TEST(OrderParts, ANeighbourGoesBeforeWhatIsHigherButFarAway) {
 }
 
 TEST(OrderParts, GroundAroundAFootThatNoBallGetsIntoWaits) {
-  // 0 ground, 1 flank of a boss, 2 and 3 its foot, unreachable for two reasons; 4 a hill beside the ground.
+  // 0 plain; 1 flank of a boss; 2, 3 its foot, unreachable for two reasons; 4 a hill beside the plain.
   RegionMap map = Map(5, {{0, 2}, {2, 3}, {3, 1}, {0, 4}});
   const std::vector<JobPart> parts{{{0}, 2}, {{1}, 6}, {{4}, 8}};
   EXPECT_EQ(Ordered(map, parts), (Order{2, 0, 1}));  // as long as passes may lie there

@@ -122,7 +122,7 @@ TEST(OrderPasses, PitsBelowOneRimAreCutOneAfterTheOther) {
   }
   const auto out = Ordered(loops, {});
   ASSERT_EQ(out.size(), 14u);
-  // Which of the four each belongs to, in order: rim, pit, pit, or the mountain before or after these.
+  // The group of each pass, in order: rim, pit, pit, and the mountain before or after these.
   std::vector<int> parts;
   for (const CutterPath& path : out) {
     const double x = 0.5 * (path.points[0].center.x() + path.points[1].center.x());

@@ -13,7 +13,8 @@ namespace {
 
 using testing::Random;
 
-// Never below the ground near the rectangle, and not above what stands within two squares more.
+// The bound is never below the surface over the rectangle, and not above the surface within two squares of
+// it.
 TEST(SurfaceHeights, BoundTheGroundOverRectangles) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const Surface surface = testing::SurfaceOf(testing::RandomBspline(seed));
@@ -50,7 +51,7 @@ TEST(SurfaceHeights, BoundTheGroundOverRectangles) {
         continue;
       }
       EXPECT_GE(got, highest(beside));
-      EXPECT_LE(got, highest(beside + 2.0 * square + 2.0 * leaf) + 0.5);  // 0.5: what samples and boxes miss
+      EXPECT_LE(got, highest(beside + 2.0 * square + 2.0 * leaf) + 0.5);  // 0.5: error of samples and boxes
     }
   }
 }

@@ -1,4 +1,5 @@
-// Upright walls: told from others, and what lies beside them in plan, against exact circles and brute force.
+// Upright walls: which patches are upright, and what lies beside them in plan, against exact circles and
+// brute force.
 #include "cam/location/upright_sheet.h"
 
 #include <algorithm>

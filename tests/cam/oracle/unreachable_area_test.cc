@@ -1,5 +1,5 @@
-// The area that no ball gets to, as the planner's regions, its table of radii and the verifier's report have
-// it, against a count by brute force: within 1 %.
+// The unreachable area according to the regions of the planner, its table of radii and the report of the
+// verifier, against a count by brute force: within 1 %.
 #include <numeric>
 
 #include <gtest/gtest.h>

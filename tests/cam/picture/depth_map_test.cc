@@ -1,4 +1,4 @@
-// What hides what on shapes where it is known.
+// Hidden lines on shapes for which they are known.
 #include "cam/picture/depth_map.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Where lines become circles, and that whole jobs with them keep what every job does.
+// Which lines become circles; whole jobs with circular lines keep all promises.
 #include "cam/plan/circular_lines_choice.h"
 
 #include <cmath>
@@ -169,8 +169,8 @@ TEST(CircularLines, OfTwoRimsEachItsOwn) {
   EXPECT_EQ(found.size(), 4u);
 }
 
-// More rims than there may be regions: those alike are one region, and yet each has circles of its own; a
-// plate that goes with them keeps straight lines.
+// There are more rims than regions allowed. Equal rims are one region, and each still has its own circular
+// lines. A plate in the same region keeps straight lines.
 TEST(CircularLines, OfManyRimsInOneRegionEachItsOwn) {
   PatchModel rims;
   std::vector<Vec2> places;
@@ -211,7 +211,7 @@ TEST(CircularLines, OfManyRimsInOneRegionEachItsOwn) {
   const JobResult straight = Mill(surface, job);
   EXPECT_LE(round.report.verify.cut_length, 1.25 * round.report.least_cut_length);
   EXPECT_LE(round.report.verify.cut_length, 0.9 * straight.report.verify.cut_length);
-  // Straight lines have fewer ways too since each rim is cut by itself (OrderParts).
+  // Straight lines have fewer links, too, since each rim is cut by itself (OrderParts).
   EXPECT_LE(3 * round.report.motion.retract_count, 2 * straight.report.motion.retract_count);
 }
 
@@ -268,8 +268,8 @@ TEST(CircularLines, NeedNoAngle) {
   EXPECT_EQ(chosen.program, Mill(surface, job).program);
 }
 
-// A rim beside gentle ground of another kind: straight lines there, circles here, and nothing between them is
-// left.
+// A rim beside a gentle area of another kind. That area has straight lines, the rim has circles, and no
+// material is left between them.
 TEST(CircularLines, BesideStraightOnes) {
   const Surface surface = PlacedSurface(
       Join({Torus({-20, 0, 0}, 14, 5, Half::kUpper),

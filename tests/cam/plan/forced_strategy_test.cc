@@ -1,5 +1,5 @@
-// Ground that forced passes do not finish is a region apart: its area by closed forms, what stays there by
-// the scallop of the least step, and what an override makes of it.
+// An area that forced passes do not finish is a region of its own. Its area is compared with closed forms,
+// its leftover with the scallop of the shortest step, and an override changes how it is cut.
 #include "cam/plan/forced_strategy.h"
 
 #include <cmath>
@@ -75,8 +75,8 @@ TEST(ForcedGround, ContoursLeaveTheCapOfASphere) {
     EXPECT_EQ(region.slope, SlopeClass::kGentle);
     EXPECT_GT(region.inside.z(), rho * cosine);
     EXPECT_GT(region.step_min, 0.0);
-    // At the summit no step will do: the nearest finished ground is the circle around it, seen in cells of
-    // 0.12 mm, every second each way.
+    // At the summit no step is short enough. The nearest finished surface is the circle around it, sampled
+    // in every second cell of 0.12 mm each way.
     const double away = std::hypot(rho - (rho + kRadius) * cosine, (rho + kRadius) * sine) - kRadius;
     EXPECT_GE(region.deepest_leftover, away - 0.25);
     EXPECT_LE(region.deepest_leftover, away + 0.25);
@@ -84,8 +84,8 @@ TEST(ForcedGround, ContoursLeaveTheCapOfASphere) {
   EXPECT_EQ(caps, 1);
 }
 
-// Of a cylinder along y, lines along y leave what is steep across them; lines along x leave nothing, for they
-// run around it.
+// Of a cylinder along y, lines along y leave what is steep across them; lines along x leave nothing, for
+// they run around it.
 TEST(ForcedGround, LinesLeaveTheSidesOfACylinder) {
   const double rho = 12.0, half = 15.0;
   const Surface surface = PlacedSurface(Cylinder(Vec3::Zero(), rho, half, Half::kUpper));
@@ -162,7 +162,7 @@ TEST(ForcedGround, WhatStaysOnAPlane) {
   }
 }
 
-// Level ground, walls along the lines: what has no step at all.
+// Flats under contours and walls along the lines have no step at all.
 TEST(ForcedGround, LeftByStepIsInfiniteWhereNoStepWillDo) {
   SurfaceJet jet;
   jet.du = Vec3::UnitX();

@@ -1,4 +1,4 @@
-// What the picture of a job shows of ground that is not to be cut.
+// How the picture of a job shows areas that are not cut.
 #include "cam/plan/job_preview.h"
 
 #include <gmock/gmock.h>
@@ -49,8 +49,8 @@ TEST_F(RegionPicture, ShowsTheNarrowestRegions) {
   EXPECT_THAT(Draw(), AllOf(HasSubstr("0 neutral, "), HasSubstr("1 neutral, "), HasSubstr("2 neutral, ")));
 }
 
-// Of more regions than the legend has rows it names the largest: unreachable ground comes last, however
-// large.
+// If there are more regions than the legend has rows, it names the largest ones. Unreachable areas come
+// last, however large they are.
 TEST_F(RegionPicture, NamesTheLargest) {
   model_ = Transformed(Plane(20), Eigen::Affine3d(Eigen::Translation3d(0, 0, -30)));
   for (int i = 0; i < 30; ++i) {

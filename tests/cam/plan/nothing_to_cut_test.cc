@@ -77,7 +77,7 @@ TEST(NothingToCut, LessThanASquareOfTheStepOver) {
   EXPECT_GE(cut, 2);
 }
 
-// A finer scallop has a smaller step: the same ground is worth its passes.
+// A finer scallop has a smaller step-over, so that the same area is cut.
 TEST(NothingToCut, GoesByTheScallop) {
   const Surface surface = PlacedSurface(Plane(0.2));
   ExpectNothing(Mill(surface, JobOf(6.0, 0.01)));  // 0.16 of 0.24 mm2

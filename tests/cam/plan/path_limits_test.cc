@@ -12,7 +12,7 @@ namespace {
 using namespace testing;  // NOLINT: the support folder's
 using ::testing::HasSubstr;
 
-// A hill with lines on its gentle ground and contours on its steep one.
+// A hill with lines on its gentle area and contours on its steep area.
 PatchModel Hill() { return Paraboloid(-0.05, 14); }
 
 absl::StatusOr<JobResult> RunWith(const Surface& surface, const Job& job, int threads) {
@@ -41,8 +41,8 @@ TEST(PathLimits, AreThoseOfTheProgram) {
     const double length = free.report.motion.cut_length + free.report.motion.link_length;
     const double points = free.report.point_count;
 
-    // Passes are counted as they are made: contours hold more points before they are thinned, and what others
-    // finish is taken away later.
+    // Passes are counted as they are made: contours hold more points before they are thinned, and what
+    // others finish is taken away later.
     job.path_limits = {1.1 * length, 10.0 * points};
     const JobResult within = Mill(surface, job);
     EXPECT_EQ(within.program, free.program);
@@ -59,8 +59,8 @@ TEST(PathLimits, AreThoseOfTheProgram) {
   }
 }
 
-// The least feed counts surface that lies on the same surface again. Its passes are made once, and only they
-// count.
+// The least cut length counts a surface twice that lies on itself again. Its passes are made once, and only
+// they count for the limit.
 TEST(PathLimits, AnEstimateRefusesNothing) {
   const Surface once = PlacedSurface(Hill());
   const Surface thrice = PlacedSurface(Join({Hill(), Hill(), Hill()}));

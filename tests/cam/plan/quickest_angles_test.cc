@@ -43,7 +43,7 @@ double Apart(double a, double b) {
   return std::min(d, 180.0 - d);
 }
 
-// Plans that come to more than they may are no choice; where all do the caller's own plan says so.
+// Plans that exceed a limit are not chosen. If all exceed it, the plan of the caller reports the error.
 TEST(QuickestAngles, PlansBeyondALimitAreNoChoice) {
   const auto angles = [](double from, double to) {
     return QuickestAngles(MapOf({SlopeClass::kGentle}), OpenChoices(1), NoCircles(1),
@@ -66,7 +66,7 @@ TEST(QuickestAngles, PlansBeyondALimitAreNoChoice) {
 }
 
 TEST(QuickestAngles, EachRegionTakesItsOwn) {
-  // What two regions like, degrees; the third has a fixed angle, the fourth is cut by contours.
+  // Best angles of two regions, degrees. The third region has a fixed angle, the fourth is cut by contours.
   for (const auto& [first, second] : {std::pair{60.0, 120.0}, {53.0, 118.0}, {178.0, 20.0}, {7.0, 16.0}}) {
     std::vector<RegionChoice> choices = OpenChoices(4);
     choices[2].angle_open = false;
@@ -209,7 +209,7 @@ TEST(QuickestAngles, AlongARidgeAcrossAHollow) {
     EXPECT_NEAR(Degrees(result.report.choices.front().zigzag_angle), ridge ? 90.0 : 0.0, 1e-9);
     Random random(5);
     CheckProgram(surface, job, result, random, 1000);
-    // No angle asked for is quicker.
+    // No given angle is quicker.
     job.operation.angle_auto = false;
     for (int k = 0; k < 6; ++k) {
       job.operation.zigzag_angle = k * kPi / 6.0;

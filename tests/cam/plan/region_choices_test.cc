@@ -1,5 +1,5 @@
-// Regions that are switched off or cut in a way of their own, through the whole chain: what is cut judged by
-// plain geometry, what is judged by the verifier against what it says of the same program without the choice.
+// Regions that are switched off or cut differently, through the whole chain. The cut areas are compared with
+// plain geometry, and the verifier's result with its result for the same program without the choice.
 #include "cam/plan/region_choices.h"
 
 #include <cmath>
@@ -296,7 +296,7 @@ TEST(RegionParts, UnreachableGroundGoesWithWhatSurroundsIt) {
   EXPECT_TRUE(parts[0].where->Has(PieceId(0), 0.5, 1.0));
 }
 
-// Switching off what no cell belongs to would do nothing: that is said.
+// Switching off a region without any cell would have no effect. The error says so.
 TEST(RegionParts, ARegionWithoutACellIsRefused) {
   const Surface surface = SurfaceOf(Plane(5));
   RegionMap map;

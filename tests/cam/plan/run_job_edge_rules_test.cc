@@ -96,8 +96,8 @@ TEST(EdgeRules, RollLeavesNoFin) {
     EXPECT_GE(FarthestCut(result, axis), kHalf + reach - 1e-3);
     EXPECT_LE(FarthestCut(result, axis), kHalf + kRadius);
   }
-  // Between lines that end with a contact at 45 degrees, seen at 90: the scallop over the cosine, in steps of
-  // 0.05.
+  // Between lines that end with a contact at 45 degrees, seen at 90: the scallop over the cosine, in steps
+  // of 0.05.
   EXPECT_LE(Fin(result, job.setup.allowance), job.operation.scallop / std::cos(Radians(45.0)) + 0.05);
   const JobResult stopped = Mill(surface, EdgeJob(EdgeRule::kStop));
   EXPECT_GT(Fin(stopped, job.setup.allowance), 0.3) << "else this test shows nothing";
@@ -113,8 +113,9 @@ TEST(EdgeRules, RollIsHeldByTheFloor) {
   EXPECT_GE(result.report.verify.tip_z_min, -1e-4);
 }
 
-// The rim of a cup is gone around, not crossed in crumbs with a way in and out each: and still nothing stays
-// of the layer on it, from right above to where the wall's own contours touch it.
+// Passes run around the rim of a cup. They do not cross it in short passes with an approach and a retract
+// each. Still nothing stays of the layer on the rim, from its top to the place that the contours of the wall
+// touch.
 TEST(EdgeRules, RimOfACupIsGoneAround) {
   const double rim = 12.6, high = 12.0;
   const Surface surface = PlacedSurface(

@@ -1,5 +1,5 @@
-// Forced strategies finish all ground where their steps are not clamped, whatever the part, and say what they
-// leave.
+// Forced strategies finish the whole area in which their steps are not clamped, whatever the part, and
+// report what they leave.
 #include <gtest/gtest.h>
 
 #include "tests/support/files.h"
@@ -79,9 +79,9 @@ INSTANTIATE_TEST_SUITE_P(Parts, ForcedStrategies,
                                             ::testing::Values(Strategy::kContour, Strategy::kZigzag)),
                          CaseName);
 
-// The step contours need on a plane is sin(slope) of the flat one, and they may not go below a quarter of it:
-// a plane of 16 degrees is theirs (sin = 0.276), one of 8 degrees (0.139) is not: steps of a quarter leave
-// 3.2 times the scallop there.
+// The step contours need on a plane is sin(slope) of the flat one, and they may not go below a quarter of
+// it: a plane of 16 degrees is theirs (sin = 0.276), one of 8 degrees (0.139) is not: steps of a quarter
+// leave 3.2 times the scallop there.
 TEST(ForcedStrategies, ContoursAnswerForPlanesFromAQuarterOfTheStepOn) {
   Job job = BallJob(3.0);
   job.operation.scallop = 0.02;
@@ -96,8 +96,8 @@ TEST(ForcedStrategies, ContoursAnswerForPlanesFromAQuarterOfTheStepOn) {
   EXPECT_GT(excused.report.verify.unreachable_area[kStrategy], 20.0) << Describe(excused);
 }
 
-// Lines across an upright wall climb it at their full spacing: it is theirs to finish. A wall along the lines
-// is not.
+// Lines across an upright wall climb it at their full spacing: it is theirs to finish. A wall along the
+// lines is not.
 TEST(ForcedStrategies, LinesAnswerForWallsAcrossThem) {
   Job job = BallJob(2.0);
   job.operation.scallop = 0.02;

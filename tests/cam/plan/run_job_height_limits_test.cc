@@ -1,5 +1,5 @@
-// Flats and fillets next to the lowest and the highest tip: what counts as reached, what is cut, and in how
-// much time.
+// Flats and fillets next to the lowest and the highest tip: which areas count as reachable, which are cut,
+// and the time that this takes.
 #include <cmath>
 #include <string>
 
@@ -28,7 +28,7 @@ constexpr double kHighArea = 82.0 * kLength;
 
 double CutLength(const JobResult& result) { return result.report.motion.cut_length; }
 
-// However little a flat lies above the highest tip, it is not cut, and known at once not to be.
+// A flat is not cut however little it lies above the highest tip. This is found quickly.
 TEST(HeightLimits, FlatsAboveTheHighestTip) {
   const Surface surface = PlacedSurface(Ramp());
   Job job = BallJob(3.0);
@@ -50,7 +50,7 @@ TEST(HeightLimits, FlatsAboveTheHighestTip) {
   }
 }
 
-// By how much a program is above the highest tip, not by how much of the ball touches the surface there.
+// The finding states the height above the highest tip, not how much of the ball touches the surface there.
 TEST(HeightLimits, TheVerdictSaysByHowMuch) {
   const Surface surface = PlacedSurface(Plane(8));
   const Job job = BallJob(3.0);
@@ -78,7 +78,8 @@ TEST(HeightLimits, NothingIsCutWhereAllIsAboveTheHighestTip) {
   EXPECT_TRUE(result.program.empty());
 }
 
-// A flat below the lowest tip by more than the give is left for it, at once; by less it is cut at the floor.
+// A flat below the lowest tip by more than the reach tolerance is left, and found quickly. By less, it is cut
+// at the floor.
 TEST(HeightLimits, FlatsBelowTheFloor) {
   const Surface surface = PlacedSurface(Ramp());
   Job job = BallJob(3.0);
@@ -88,8 +89,8 @@ TEST(HeightLimits, FlatsBelowTheFloor) {
     SCOPED_TRACE(above);
     job.operation.floor_z = above;
     const JobResult result = MillChecked(surface, job);
-    // What the ball cannot touch for the other side of the corner, `blocked` on each, is CONCAVE; of the ramp
-    // the floor takes as much as it is higher. Between two reasons areas are sampled coarsely.
+    // The other side of the corner keeps the ball off a strip, `blocked` wide on each side, which is CONCAVE.
+    // On the ramp the floor adds as much as it is higher. Between two reasons areas are sampled coarsely.
     const double slope = std::atan2(kHigh, 3.0),
                  blocked = (3.0 * (1.0 - std::cos(slope)) - reach_tolerance) / std::sin(slope);
     const double left = 15.0 - blocked + above / std::sin(slope);
@@ -99,8 +100,8 @@ TEST(HeightLimits, FlatsBelowTheFloor) {
   }
 }
 
-// A boss on its base, which is the lowest point: a fillet smaller than the ball by less than the give is
-// finished, whatever the floor; beside sharper corners nothing is left for the floor.
+// A boss on its base, which is the lowest point. A fillet smaller than the ball by less than the reach
+// tolerance is finished, whatever the floor. Beside sharper corners no area has the reason FLOOR.
 TEST(HeightLimits, FilletsOnTheFloor) {
   for (const double radius : {2.9, 2.997, 2.9999, 3.0}) {
     if (kSanitized && radius != 2.997) continue;

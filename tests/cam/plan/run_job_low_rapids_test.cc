@@ -73,7 +73,7 @@ TEST(LowRapids, ClearTheStockOverTheRectangleOnRandomParts) {
   EXPECT_LT(lower, at_clearance);
 }
 
-// Two plateaus' worth of ground on either side of a ridge, a tower far away: over the ridge, not over the
+// A plateau on either side of a ridge, and a tower far away. Rapids go as high as the ridge, not as the
 // tower.
 TEST(LowRapids, AreAsHighAsTheGroundBetween) {
   const Surface surface = PlacedSurface(Join(

@@ -1,5 +1,5 @@
-// Where limits of an operation meet, or run beside walls: sharp corners, ground without a width, walls that
-// are free on one side and allowed on the other.
+// Limits of an operation that meet or run beside walls: sharp corners, areas without a width, walls that are
+// free on one side and allowed on the other.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-// On the wall y = 10 of a block a ball outside is not allowed, and one inside is not free: nobody reaches it,
-// though it is free on one side and allowed on the other.
+// On the wall y = 10 of a block a ball outside is not allowed, and one inside is not free: nobody reaches
+// it, though it is free on one side and allowed on the other.
 TEST(MeetingLimits, UprightWallsAreReachedFromASideThatIsFreeAndAllowed) {
   const Surface surface = PlacedSurface(Block(10, 10, 30));
   Job job = LimitedJob();
@@ -73,7 +73,7 @@ TEST(MeetingLimits, SharpCornersOfWhatIsAllowedAreFinished) {
   EXPECT_GT(cut, kSanitized ? 5 : 55);
 }
 
-// A boundary that touches the sheet, or itself, from outside: ground without a width is not asked for.
+// A boundary that touches the sheet, or itself, from outside. An area without a width need not be finished.
 TEST(MeetingLimits, WhereLimitsTouchNothingIsAskedFor) {
   const Surface surface = PlacedSurface(Plane(20));
   Job job = LimitedJob();
@@ -92,8 +92,8 @@ TEST(MeetingLimits, WhereLimitsTouchNothingIsAskedFor) {
   }
 }
 
-// The boundary a radius beside the walls, as it is drawn for them: every centre lies on it. They are cut, and
-// the judge misses one that is not.
+// The boundary runs a radius beside the walls, as users draw it, so that every centre lies on it. The walls
+// are cut, and the verifier reports one that is not.
 TEST(MeetingLimits, WallsWithTheBoundaryARadiusBesideThemAreAskedFor) {
   const Surface surface = PlacedSurface(Block(10, 10, 30));
   const double beside = 10 + kLimitedRadius;

@@ -15,8 +15,8 @@ double OverLeast(const JobResult& result) {
   return result.report.verify.cut_length / result.report.least_cut_length;
 }
 
-// A plane at the very angle that divides steep from gentle is cut in one of the two ways, not in both, nor by
-// the rounding of its normals.
+// A plane at the very angle that divides steep from gentle is cut in one of the two ways, not in both, nor
+// by the rounding of its normals.
 TEST(DrawnParts, PlanesAtTheSteepAngle) {
   for (const double degrees : {45.0, 30.0}) {
     Job job = BallJob(3.0);
@@ -24,7 +24,8 @@ TEST(DrawnParts, PlanesAtTheSteepAngle) {
     const double high = 6.0 * std::tan(Radians(degrees));
     const JobResult roof =
         MillChecked(PlacedSurface(Drawn({Line({0, 0}, {6, high}), Line({6, high}, {12, 0})}, 25.0)), job);
-    // Overlap at the ridge and ways in and out of 12 mm wide ground; both ways are 2.2 and more.
+    // Overlap at the ridge, and approaches and retracts on an area 12 mm wide. Lines in both directions are
+    // at 2.2 and more.
     EXPECT_LT(OverLeast(roof), 1.5) << degrees;
     for (const Region& region : roof.report.regions) {
       if (region.kind == RegionKind::kUnreachable) continue;

@@ -84,7 +84,7 @@ TEST(Reasons, FloorBesideATallWallIsConcave) {
   const Job job = BallJob(3.0);
   const auto area = FromRegions(surface, job);
   const double radius = 3.0, reach_tolerance = ReachTolerance(job.operation.tolerance);
-  // On the floor: nearer to the footprint than R - give. On the walls: lower than that.
+  // On the floor: nearer to the footprint than R - g (the reach tolerance). On the walls: lower than that.
   const double reach = radius - reach_tolerance;
   const double strip = 4 * 16 * reach + kPi * reach * reach, walls = 4 * 16 * reach;
   EXPECT_EQ(area[kUndercut], 0.0);
@@ -168,7 +168,8 @@ TEST(Reasons, Teacup) {
   ExpectAgreement(LoadModel("tests/models/teacup.bpt"), job);
 }
 
-// Along the limit of ground that only the shank cannot get to the ball alone fits: no strip of it is CONCAVE.
+// Along the limit of an area that only the shank blocks, the ball alone fits. No strip of the area is
+// CONCAVE.
 TEST(Reasons, BesideOverhangsNothingIsConcave) {
   Job job = BallJob(3.0, /*deep=*/false);
   job.setup.placement.scale = 50.0;

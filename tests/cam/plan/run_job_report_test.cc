@@ -1,4 +1,4 @@
-// What a job says about itself: assumptions, warnings, outcomes, and that it stops when told.
+// What a job reports: assumptions, warnings, outcomes. Also that it obeys a cancel.
 #include <atomic>
 #include <chrono>
 #include <set>
@@ -88,7 +88,7 @@ TEST(Report, WarnsOfAConcaveRadiusBelowTheBall) {
   const JobResult wide = Mill(PlacedSurface(ParabolicValley(0.1, 8)), QuickJob());  // radius 5
   EXPECT_EQ(Find(wide.report.diagnostics, "CONCAVE_RADIUS_BELOW_TOOL"), nullptr);
   EXPECT_NEAR(wide.report.min_concave_radius, 5.0, 1e-3);
-  // The ball's own radius, but for rounding and less than the give: nothing is left there.
+  // The radius is that of the ball, up to rounding and less than the reach tolerance: nothing is left there.
   for (const double radius : {3.0, 2.997}) {
     const JobResult own = Mill(PlacedSurface(ParabolicValley(0.5 / radius, 8)), QuickJob());
     EXPECT_EQ(Find(own.report.diagnostics, "CONCAVE_RADIUS_BELOW_TOOL"), nullptr) << radius;

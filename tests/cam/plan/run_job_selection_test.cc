@@ -88,7 +88,8 @@ TEST(SelectedGround, LinksAreLiftedOverOtherGround) {
       const JobResult result = Mill(surface, job);
       EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
       EXPECT_GT(result.report.motion.cut_length, 500.0);
-      // Lines along the strips come in two lots; those across them end at other ground, beside the next.
+      // Lines along the strips come in two groups. Lines across the strips end at other areas, beside the
+      // next line.
       EXPECT_LE(result.report.motion.retract_count, 4) << Describe(result);
       AlongFeeds(result, [&](const Vec3& c, bool) {
         if (c.x() < 10.0 + 1.3 * step || c.x() > 18.0 - 1.3 * step) return;

@@ -72,7 +72,8 @@ TEST(Spirals, TakeTheMarksAway) {
   EXPECT_LT(wound.report.verify.cut_length, 1.15 * levels.report.verify.cut_length);
 }
 
-// Contours that limits cut open have as few points as without spirals, and spirals that cannot be are told.
+// Contours that limits cut open have as few points as without spirals. A finding reports spirals that are
+// not possible.
 TEST(Spirals, CutOpenAreAsPlain) {
   const Surface surface = PlacedSurface(Join({Block(12, 10, 30), Plane(30)}));
   Job job = SpiralJob();

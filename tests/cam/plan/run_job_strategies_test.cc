@@ -1,4 +1,4 @@
-// What else can be asked of a job: forced strategies, stock to leave, a floor.
+// Other settings of a job: forced strategies, stock to leave, a floor.
 #include <gtest/gtest.h>
 
 #include "core/surface/closest.h"
@@ -134,7 +134,7 @@ TEST(Strategies, ContoursTurnAsAsked) {
   }
 }
 
-// A pass that mends what the highest level below a limit leaves goes along the wall as the levels do.
+// A rest pass below a limit, above the highest level, runs along the wall in the direction of the levels.
 TEST(Strategies, RestPassesAlongWallsClimbToo) {
   const Surface surface = PlacedSurface(Sphere(Vec3::Zero(), 20, Half::kUpper));
   Job job = BallJob(4.0, false);

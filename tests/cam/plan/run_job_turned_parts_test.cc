@@ -40,7 +40,7 @@ TEST(RoundParts, LeastFeedInAHole) {
   EXPECT_GT(result.report.verify.cut_length, least);
 }
 
-// Beside the wall of a hole a thousandth wider than the ball every question about it is hard.
+// The hole is a thousandth wider than the ball. Every query beside its wall is a hard one.
 TEST(RoundParts, HoleThatTheBallJustFits) {
   const double hole = 3.001, deep = 10.0;
   const Surface surface = PlacedSurface(
@@ -50,7 +50,7 @@ TEST(RoundParts, HoleThatTheBallJustFits) {
   EXPECT_GT(result.report.verify.cut_length, result.report.least_cut_length);
 }
 
-// The centre goes around in rings shorter than a step: they are the wall's contours, not crumbs of a level
+// The centre runs in rings shorter than a step. They are contours of the wall, not short passes of a level
 // that barely touches something.
 TEST(RoundParts, RingsInACloseHoleAreItsContours) {
   const double hole = 3.06, deep = 20.0;
@@ -85,7 +85,8 @@ TEST(RoundParts, HoleOfTheBallsOwnSize) {
   EXPECT_LE(result.report.motion.retract_count, 10);
 }
 
-// Narrower than the ball by less than half of the tolerance on each side: it goes in, and gives in on both.
+// The hole is narrower than the ball by less than half the tolerance on each side. The ball enters and cuts
+// into both sides by that.
 TEST(RoundParts, HolesAndSlotsBarelyNarrowerThanTheBall) {
   for (const double half : {2.9995, 2.998, 2.995}) {
     const Surface hole = PlacedSurface(
@@ -99,8 +100,8 @@ TEST(RoundParts, HolesAndSlotsBarelyNarrowerThanTheBall) {
   }
 }
 
-// Narrower by more than that, and by less than all of the tolerance: what the ball cannot enter is out of
-// reach, and the rest is cut.
+// The hole is narrower by more than that and by less than the whole tolerance. The part that the ball cannot
+// enter is unreachable, and the rest is cut.
 TEST(RoundParts, HolesAndSlotsThatTheToleranceAloneLetsTheBallInto) {
   for (const double half : {2.9945, 2.9905}) {
     SCOPED_TRACE(half);
@@ -123,7 +124,8 @@ TEST(RoundParts, HolesAndSlotsThatTheToleranceAloneLetsTheBallInto) {
   }
 }
 
-// In a groove that bends the chords between centres that give, and the links between passes, give too.
+// In a groove that bends, chords and links between centres within the reach tolerance may use the tolerance,
+// too.
 TEST(RoundParts, RingGroovesBarelyNarrowerThanTheBall) {
   for (const double gap : {5.9955, 5.99495}) {
     SCOPED_TRACE(gap);
@@ -134,8 +136,8 @@ TEST(RoundParts, RingGroovesBarelyNarrowerThanTheBall) {
   }
 }
 
-// Caps of a sphere a little smaller than the ball: near its limit the bottom is reached or not by how much
-// the rim gives.
+// Caps of a sphere a little smaller than the ball. Near the limit it depends on the tolerance at the rim
+// whether the bottom is reachable.
 TEST(RoundParts, DimplesBarelySmallerThanTheBall) {
   for (const auto& [half_angle, radius] :
        {std::pair(70.0, 2.9985), {70.0, 2.993}, {70.0, 2.986}, {88.0, 2.996}}) {
@@ -252,8 +254,9 @@ TEST(RoundParts, PinOnAPlate) {
   EXPECT_EQ(result.report.outcome, Outcome::kComplete);
 }
 
-// A drilled hole with a round bottom, 3 um narrower than the ball all around: as near to it everywhere as the
-// ball may give. Whether it is reached must be known without looking at every micron of it.
+// A drilled hole with a round bottom, 3 um narrower than the ball all around: everywhere about as near to the
+// limit as the reach tolerance allows. Whether it is reachable must be found without looking at every micron
+// of it.
 TEST(RoundParts, ABlindHoleALittleTooNarrow) {
   const double radius = 2.997;
   MillChecked(PlacedSurface(Turned({Line({9, 0}, {radius, 0}), Line({radius, 0}, {radius, -4}),

@@ -150,8 +150,8 @@ TEST(WideShank, KeepsTheMarginOfAvoidedPatches) {
   EXPECT_NEAR(result.report.verify.unreachable_area[kShankArea], 2.0 * 40.0 * (shank - ball), 2.0);
 }
 
-// A margin wider than what the flutes rise over the wall, and than the ball: the shank's counts all the same,
-// on low rapids too.
+// A margin wider than what the flutes rise over the wall, and than the ball: the shank's counts all the
+// same, on low rapids too.
 TEST(WideShank, KeepsAMarginAboveItsFlutes) {
   const auto job_of = [](double flutes, double margin) {
     Job job = ShankJob(4.0, flutes, 2.0);
@@ -172,7 +172,7 @@ TEST(WideShank, KeepsAMarginAboveItsFlutes) {
   EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
 }
 
-// A shank that ends a few microns below the top of a block, all along flat ground around it.
+// A shank that ends a few microns below the top of a block, over the whole flat around it.
 TEST(WideShank, FlatGroundAlongItsLimitCostsLittle) {
   const Surface surface = PlacedSurface(Block(6, 16, 14));
   for (const double below : {0.0005, 0.0055, 0.0065}) {

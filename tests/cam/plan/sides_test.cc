@@ -1,4 +1,4 @@
-// Walls have one side, and nothing is milled outside the part unless it is asked for.
+// Walls have one side, and nothing is milled outside the part without mill_outside.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -73,7 +73,7 @@ TEST(Sides, ABoxIsMilledInsideAlone) {
     job.operation.selection.mill_outside = outside;
     const JobResult result = Mill(surface, job);
     ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
-    // The back of a wall is material, whatever is asked for.
+    // The back of a wall is material, whatever the request says.
     EXPECT_GE(LowestTipBeyond(result.program, kX, kY, 0.0), kZ - 0.02);
     EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0);
     EXPECT_FALSE(Warns(result, "TOOL_BESIDE_PART"));
@@ -227,7 +227,7 @@ TEST(Outside, ABossOnAPlateKeepsItsFinish) {
   EXPECT_EQ(plain.program, Mill(surface, job).program);
 }
 
-// A drafted core leans: the tool goes down beside it, and the machinist is told.
+// A drafted core leans. The tool goes down beside it, and a finding says so.
 TEST(Outside, ADraftedCoreKeepsItsFinishAndSaysHowDeep) {
   const double draft = Radians(5.0), wide = 10.0, high = 10.0, foot = wide + high * std::tan(draft);
   const auto side = [&](int k) {

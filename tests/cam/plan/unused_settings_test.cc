@@ -1,4 +1,4 @@
-// Settings that change nothing are told, and change nothing.
+// Settings without effect are reported, and have none.
 #include "cam/plan/unused_settings.h"
 
 #include <algorithm>

@@ -182,8 +182,8 @@ TEST(RegionClosedForms, HemisphereOnAPlane) {
     if (region.kind == RegionKind::kUnreachable) unreachable += region.area;
   }
   ExpectArea(total, 4 * half * half + 2 * kPi * r * r);
-  // Plane: within the circle where a ball of R - give that stands R high touches the sphere. Sphere: below
-  // the circle where a ball that touches it comes down to R - give.
+  // Plane: within the circle where a ball of R - g that stands R high touches the sphere. Sphere: below
+  // the circle where a ball that touches it comes down to R - g.
   const double reach = radius - ReachTolerance(tolerance);
   const double disc = kPi * ((r + reach) * (r + reach) - radius * radius);
   const double band = 2 * kPi * r * r * reach / (r + radius);

@@ -154,8 +154,8 @@ TEST(SplitRegions, HemisphereOnAPlaneLeavesWhatTheBallCannotTouch) {
   params.tolerance = 2.0 * reach_tolerance;
   const RegionMap map = Split(surface, params);
   EXPECT_NEAR(Total(map), 1600 + 2 * kPi * r * r, 0.05);
-  // Plane: everything nearer to the axis than a ball of R - give that stands R high and touches the sphere.
-  // Sphere: everything lower than where a ball that touches it comes down to R - give.
+  // Plane: everything nearer to the axis than a ball of R - g that stands R high and touches the sphere.
+  // Sphere: everything lower than where a ball that touches it comes down to R - g.
   const double ring = kPi * ((r + R - reach_tolerance) * (r + R - reach_tolerance) - R * R);
   const double band = 2 * kPi * r * (R - reach_tolerance) * r / (r + R);
   EXPECT_NEAR(Area(map, RegionKind::kUnreachable), ring + band, 0.005 * (ring + band));
@@ -169,8 +169,8 @@ TEST(SplitRegions, FloorTakesWhatLiesTooDeep) {
   params.floor_z = 0.0;
   params.tolerance = 0.01;
   const RegionMap map = Split(surface, params);
-  // Tip = p_z + R e_z - R with p_z = 10 e_z: below the floor by more than the give for e_z < (R - give) / (10
-  // + R).
+  // Tip = p_z + R e_z - R with p_z = 10 e_z: below the floor by more than the reach tolerance g for e_z < (R
+  // - g) / (10 + R).
   const double lowest = (3.0 - ReachTolerance(params.tolerance)) / 13.0;
   EXPECT_NEAR(Area(map, UnreachableReason::kFloor), 2 * kPi * 100 * lowest, 0.05);
 }
@@ -214,7 +214,7 @@ double AreaByQuadrature(const Surface& surface, int parts = 8) {
   return area;
 }
 
-// Whatever the ground, and however finely it is divided.
+// This holds for any surface and any detail.
 TEST(SplitRegions, OfAnyPartAreLargeClosedAndTileIt) {
   std::vector<std::pair<std::string, PatchModel>> parts;
   if (!testing::kSanitized) parts.emplace_back("bumpy", testing::Bumpy());  // minutes otherwise
@@ -261,8 +261,8 @@ TEST(SplitRegions, OfAnyPartAreLargeClosedAndTileIt) {
     }
     EXPECT_LE(counted, 20);  // 40 times the detail
 
-    // Merging only groups: most of the ground keeps what the split says it is, and what no ball reaches is
-    // the same, but for single cells that specks of the raw split got.
+    // Merging only groups. Most of the surface keeps the label of the split, and the unreachable area is the
+    // same except for single cells that belong to specks of the raw split.
     ASSERT_EQ(map.cells, raw.cells);
     int cells = 0, relabelled = 0, turned = 0;
     for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
@@ -293,7 +293,7 @@ TEST(SplitRegions, TileTheModelsAtHand) {
   }
 }
 
-// Equal features are one region, of which each hangs together by itself; borders know of what.
+// Equal features are one region with one component for each of them. Borders know their components.
 TEST(SplitRegions, RegionsFallIntoComponents) {
   constexpr int kCount = 24;
   PatchModel model;
@@ -318,7 +318,7 @@ TEST(SplitRegions, RegionsFallIntoComponents) {
   bool all_in_one = false;
   for (const Region& region : map.regions) {
     if (region.kind == RegionKind::kUnreachable) continue;
-    // Its steep ground outside and inside, or its crest.
+    // The steep area outside and inside it, or its crest.
     const double each =
         region.area / static_cast<double>(components[static_cast<std::size_t>(region.id)].size());
     EXPECT_LT(each, 1000.0);

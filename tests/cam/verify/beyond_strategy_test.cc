@@ -1,5 +1,5 @@
-// Where the verifier excuses forced passes: no less ground than the planner leaves to them, and no more than
-// by the margin that both headers tell.
+// The area in which the verifier excuses forced passes. It contains the area that the planner leaves, and
+// exceeds it by no more than the margin that both headers state.
 #include "cam/verify/beyond_strategy.h"
 
 #include <cmath>

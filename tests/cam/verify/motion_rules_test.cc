@@ -163,7 +163,7 @@ TEST(VerifyMotion, NoFeedIntoStockWithTheSpindleStopped) {
   EXPECT_NE(Find(back, "SPINDLE_REVERSED"), nullptr);
   // High above the stock nothing is cut.
   EXPECT_TRUE(Judged(surface, Ball(3), start + "G0 X0 Y0\nZ50\nG1 X4 F100\n" + kEnd, Params(1.0)).motion_ok);
-  // What is left to the control is remarked, and judged as it is taken.
+  // Settings that are left to the control are reported, and the verifier uses the assumed values.
   const VerifyReport open = Judged(surface, Ball(3), "G53 G0 Z0\nM3 S9\n" + cut + kEnd, Params(1.0));
   EXPECT_TRUE(open.motion_ok);
   EXPECT_NE(Find(open, "UNITS_ASSUMED"), nullptr);
@@ -266,7 +266,7 @@ TEST(VerifyMotion, DescentsCutIntoSmallStepsAreStillSteep) {
   const Surface surface = SurfaceOf(Plane(5.0));
   Tool tool = Ball(3.0);
   tool.plunge_feed = 100;
-  // From Z1 down by steps of `dz`, `dx` to the side each, to and fro.
+  // From Z1 down in steps of `dz`, each `dx` to the side, back and forth.
   const auto judged = [&](double dx, double dz, int feed) {
     std::string text = fmt::format("G21 G90\nG53 G0 Z0 S9 M3\nG0 X0 Y0\nZ1\nF{}\n", feed);
     for (int i = 1; i * dz <= 1.0; ++i) text += fmt::format("G1 X{:.4f} Z{:.4f}\n", i % 2 * dx, 1.0 - i * dz);
@@ -306,7 +306,7 @@ TEST(VerifyMotion, SmoothingOfRapidsCounts) {
   EXPECT_EQ(Find(judged(0.8, "G64 P0.2 Q0"), "RAPID_IN_STOCK"), nullptr);
 }
 
-// What the wider shank and the stock around the surface are judged by is as exact as the ball.
+// Gouges of a wider shank and rapids in stock are measured as exactly as gouges of the ball.
 TEST(VerifyMotion, ShankAndStockAreKnownToTheCertainty) {
   const Surface surface = SurfaceOf(Block(5.0, 20.0, 30.0));
   Tool tool = Ball(3.0);

@@ -1,4 +1,4 @@
-// What the verifier demands on upright ground, and why it says that a place cannot be reached.
+// What the verifier demands of vertical faces, and the reasons it reports for unreachable places.
 #include "cam/verify/reach.h"
 
 #include <array>

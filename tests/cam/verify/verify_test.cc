@@ -192,7 +192,7 @@ TEST(Verify, UndersideIsUndercut) {
   text.Pass({{0, 0, big}, {0.1, 0, big}});
   const VerifyReport report = Judged(SurfaceOf(Sphere(Vec3::Zero(), big)), Ball(r), text.End(), Params(11.0));
   const double half = 2 * kPi * big * big;
-  // What balls may give lets them reach a little below the equator: R - give against the wall above it.
+  // The reach tolerance g lets balls reach a little below the equator: R - g against the wall above it.
   EXPECT_NEAR(report.unreachable_area[0], half, 0.03 * half);
   EXPECT_NEAR(report.reachable_area, half, 0.03 * half);
   EXPECT_FALSE(report.finish_ok);
@@ -207,7 +207,7 @@ TEST(Verify, ValleyOfTwoPlanesIsConcave) {
     text.Pass({{0, -half, r / std::cos(a) - r}, {0, half, r / std::cos(a) - r}});
     VerifyParams params = Params(15.0);
     const VerifyReport report = Judged(SurfaceOf(TwoPlanes(a, half)), Ball(r), text.End(), params);
-    // p at s from the crease: dist(p + R n1, plane 2) = s sin 2a + R cos 2a >= R - give.
+    // p at s from the crease: dist(p + R n1, plane 2) = s sin 2a + R cos 2a >= R - g.
     const double s = (r * (1 - std::cos(2 * a)) - ReachTolerance(params.tolerance)) / std::sin(2 * a);
     const double truth = 2 * s * 2 * half;
     EXPECT_NEAR(report.unreachable_area[1], truth, 0.01 * truth);
@@ -285,7 +285,7 @@ TEST(Verify, BothSidesOfAVerticalWallCount) {
   text.Pass({{0, 0, 8}, {0.1, 0, 8}});
   const VerifyParams params = Params(9.0);
   const VerifyReport report = Judged(surface, Ball(2.0), text.End(), params);
-  // The ball touches a wall down to R - give above the floor, and the floor from where it is R - give off the
+  // The ball touches a wall down to R - g above the floor, and the floor from where it is R - g off the
   // wall on. The inner side of a wall is never free, but it is not the reason.
   const double r = 2.0 - ReachTolerance(params.tolerance);
   const double truth = 2 * 4 * 10.0 * r + kPi * r * r;

@@ -1,5 +1,5 @@
-// Which options of a job are set by none of some requests: an option that joins the contract needs a golden
-// job.
+// Finds options of a job that no request of a set uses. An option that is added to the contract needs a
+// golden job.
 #pragma once
 
 #include <set>
@@ -15,9 +15,9 @@ class CoveredFields {
   // Notes every field that is set anywhere in the message, and every value of an enumeration in it.
   void Add(const google::protobuf::Message& message);
 
-  // "Operation.low_rapids", "EdgeRule.EDGE_RULE_ROLL": what a GenerateProgramRequest could have and none had;
-  // without what the service does not have yet, what changes neither motion, regions nor report, and what
-  // models are made of.
+  // Fields and values that a GenerateProgramRequest can have and none had, such as "Operation.low_rapids" or
+  // "EdgeRule.EDGE_RULE_ROLL". Left out are fields that are not available yet, those that change neither
+  // motion, regions nor report, and those of models.
   std::vector<std::string> Missing() const;
 
  private:

@@ -1,4 +1,4 @@
-// What a golden job is answered with, and what is pinned of it.
+// The answer to a golden job, and the part of it that is pinned.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ struct GoldenAnswer {
 // "-" for what the answer does not have.
 std::map<std::string, std::string> Hashes(const GoldenAnswer& answer);
 
-// What an engineer reads first, one cell each.
+// The figures that an engineer reads first, one cell each.
 std::vector<std::string> FigureColumns();
 std::vector<std::string> Figures(const GoldenAnswer& answer);
 

@@ -1,4 +1,4 @@
-// The jobs of tests/golden/jobs: one file each, a request as JSON and what it is there for.
+// The jobs of tests/golden/jobs. Each file has a request as JSON and states its purpose.
 #pragma once
 
 #include <ostream>

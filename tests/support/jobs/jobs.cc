@@ -20,9 +20,10 @@
 namespace patchmill::testing {
 namespace {
 
-// What rounding to four decimals may move, and what the closest-point searches may be off.
+// Effect of rounding to four decimals, and error of the closest-point searches.
 constexpr double kRounding = 1e-4, kSearch = 1e-5;  // mm
-// Of the flat step: forced passes answer for ground that needs more (0.25 and the margin of the report).
+// Share of the flat step-over. Forced passes must finish areas that need longer steps (0.25 and the margin
+// of the report).
 constexpr double kLeast = 0.275;
 
 struct Centers {
@@ -144,7 +145,7 @@ class ProgramJudge {
     return c;
   }
 
-  // For sure: nothing near the ball that the tolerance of the searches could hide.
+  // True only if nothing is so near to the ball that the tolerance of the searches could hide it.
   bool Reachable(const Vec3& p, const Vec3& e) const {
     const Vec3 c = p + kept_ * e;
     const double tip = c.z() - radius_, reach_tolerance = ReachTolerance(job_.operation.tolerance);

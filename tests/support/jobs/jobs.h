@@ -1,5 +1,6 @@
-// Jobs for tests of the whole chain, and what every program must keep, judged without cam/verify: from the
-// program's text, by closest points and by the plain distance to the cutting moves.
+// Jobs for tests of the whole chain, and checks that every program must pass. The checks do not use
+// cam/verify: they read the text of the program and use closest points and plain distances to the cutting
+// moves.
 #pragma once
 
 #include <string>
@@ -41,8 +42,8 @@ std::string Describe(const JobResult& result);
 void CheckProgram(const Surface& surface, const Job& job, const JobResult& result, Random& random,
                   int samples);
 
-// Mill and CheckProgram at a thousand places, of a job that must be verified: with no point lifted by its
-// certificate (nothing onto a wall), in a minute of processor time (nothing looked at without end).
+// Mill and CheckProgram at a thousand places, for a job that must be verified. No point may be raised by its
+// certificate, and the job may take one minute of processor time.
 JobResult MillChecked(const Surface& surface, const Job& job = BallJob(3.0));
 
 }  // namespace patchmill::testing

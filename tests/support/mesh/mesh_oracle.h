@@ -1,6 +1,6 @@
-// h by triangles, as other software has it, to judge cam/location by: a fine tessellation in CGAL's AABB
-// tree, and a ball that comes down on it. Shares no code with cam/location: patches in their native form, no
-// pieces, no bounds, no derivatives.
+// h by triangles, as other software finds it, to check cam/location. A ball comes down on a fine tessellation
+// in the AABB tree of CGAL. It shares no code with cam/location: patches in their native form, no pieces, no
+// bounds, no derivatives.
 #pragma once
 
 #include <cstddef>

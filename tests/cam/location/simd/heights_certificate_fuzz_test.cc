@@ -1,6 +1,6 @@
-// Certificates against the lanes on random parts: no certificate ever improves a height that was given, in
-// lanes or one by one, nor a ball that counted as free. PATCHMILL_FUZZ_QUERIES sets how many heights are
-// asked for, PATCHMILL_FUZZ_SEED the number of the first part.
+// Certificates against the lanes on random parts. No certificate may improve a height that was returned, in
+// lanes or one by one, and none may refute a ball that counted as free. PATCHMILL_FUZZ_QUERIES sets the
+// number of heights, PATCHMILL_FUZZ_SEED the number of the first part.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -101,7 +101,7 @@ Tally Judge(std::uint64_t seed) {
   }
   std::vector<std::optional<CenterPoint>> heights(places.size());
   Heights(locator, places, heights);
-  // Balls on both sides of the heights, asked for together below.
+  // Balls on both sides of the heights; they are queried together below.
   std::vector<Vec3> over, under;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto c = locator.CertifiedHeight(places[i], kEps);
@@ -194,8 +194,8 @@ TEST(CertificateFuzz, BordersThatLetGo) { EXPECT_EQ(Faults(Judge(20186)), ""); }
 // once taken for all of it within what a proof allows itself.
 TEST(CertificateFuzz, MaximaBesideBorders) { EXPECT_EQ(Faults(Judge(984)), ""); }
 
-// Two maxima 0.13 R below the centre in one unproven leaf, the higher one 5e-4 mm above the one on the leaf's
-// border that every start ended at.
+// Two maxima 0.13 R below the centre in one unproven leaf, the higher one 5e-4 mm above the one on the
+// leaf's border that every start ended at.
 TEST(CertificateFuzz, SteepGround) { EXPECT_EQ(Faults(Judge(50061)), ""); }
 
 // Searches that ended in a singular corner, the contact 0.04 mm higher on the border beside it, 0.65 R below
@@ -206,11 +206,12 @@ TEST(CertificateFuzz, BesideASingularCorner) { EXPECT_EQ(Faults(Judge(50568)), "
 // higher beyond it.
 TEST(CertificateFuzz, AHollowThatNearlyFits) { EXPECT_EQ(Faults(Judge(60013)), ""); }
 
-// Hollow ground 1e-4 mm inside a ball: no part of it is outside, and no part convex, so that the budget ended
-// before anything was found there.
+// A concave surface 1e-4 mm inside a ball. No part of it is outside the ball and no part is convex. The
+// budget once ended before a point of it was found.
 TEST(CertificateFuzz, HollowGroundBesideABorder) { EXPECT_EQ(Faults(Judge(84578)), ""); }
 
-// A ball that rests on a singular corner of a part of 107 m: only division closes the gap there, 70 halvings.
+// A ball that rests on a singular corner of a part of 107 m: only division closes the gap there, 70
+// halvings.
 TEST(CertificateFuzz, SingularCornerOfAHugePart) { EXPECT_EQ(Faults(Judge(20778)), ""); }
 
 }  // namespace

@@ -87,8 +87,8 @@ void AddBorderPlaces(const Surface& surface, double radius, int count, std::vect
   }
 }
 
-// Where the ball touches given points of the surface along their normals: tangency, also of steep and
-// overhanging ground; runs of neighbours along u.
+// Places at which the ball touches given points of the surface along their normals, on steep areas and
+// overhangs, too. They are runs of neighbours along u.
 void AddRestingPlaces(const Surface& surface, double radius, int count, std::vector<Vec2>& places) {
   Random random(6);
   for (int k = 0; k < count; k += 10) {

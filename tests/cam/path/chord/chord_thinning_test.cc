@@ -49,11 +49,11 @@ std::size_t PointsOf(const std::vector<CutterPath>& paths) {
 struct Chords {
   int probes = 0, gouges = 0, excesses = 0;
   double longest = 0.0;
-  int buried = 0;  // chords that are in the ground all along
+  int buried = 0;  // chords that lie below the surface all along
 };
 
-// Every chord, judged densely: a ball smaller by what it may take is free, one larger by what it may leave is
-// not; and somewhere one smaller by twice that is free.
+// Every chord, judged densely: a ball smaller by what it may take is free, one larger by what it may leave
+// is not; and somewhere one smaller by twice that is free.
 Chords Judge(const Thinned& t, const std::vector<CutterPath>& paths, int per_chord = 9) {
   const double gouge = t.params.chord_tolerance, excess = ExcessTolerance(t.params);
   const Locator smaller(t.surface, kR - gouge - 1e-7), larger(t.surface, kR + excess + 1e-7);

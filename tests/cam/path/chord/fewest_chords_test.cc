@@ -1,4 +1,4 @@
-// The funnel by itself: stations made by hand, over ground that is known.
+// The funnel by itself, with stations made by hand over a known surface.
 #include "cam/path/chord/fewest_chords.h"
 
 #include <chrono>
@@ -68,8 +68,8 @@ TEST(FewestChords, KeptStationsAndLongestChordsAreObeyed) {
   EXPECT_LT(vertices.size(), 20u);
 }
 
-// Corners of contours: the next station lies in the very direction in which the ball leaves the ground, but
-// for rounding. Such a chord has no slope, and ends at the next station.
+// Corners of contours: up to rounding, the next station lies exactly in the direction in which the ball
+// leaves the surface. Such a chord has no slope, and ends at the next station.
 TEST(FewestChords, StationsStraightOutOfTheGround) {
   Row row(200, 0.05);
   for (std::size_t k = 50; k < 60; ++k) row.stations[k].away = Vec3(std::cos(1e-9), std::sin(1e-9), 0);
@@ -80,7 +80,8 @@ TEST(FewestChords, StationsStraightOutOfTheGround) {
   for (std::size_t k = 1; k < vertices.size(); ++k) EXPECT_GT(vertices[k].station, vertices[k - 1].station);
 }
 
-// Centres that are higher than the stations told: chords from and to them go from station to station.
+// Centres that were raised above what their stations state. Chords from and to them go from station to
+// station.
 TEST(FewestChords, NothingIsAssumedOfRaisedCenters) {
   const Row row(100, 0.05);
   const auto raised = [&](std::size_t k) {
@@ -91,7 +92,7 @@ TEST(FewestChords, NothingIsAssumedOfRaisedCenters) {
   EXPECT_EQ(vertices[vertices.size() - 2].station, 98u);
 }
 
-// Ground that asks for a vertex at every station: time grows as their number does.
+// A surface that needs a vertex at every station: time grows in proportion to the number of stations.
 TEST(FewestChords, LongRunsTakeTimeInProportion) {
   const auto seconds = [](std::size_t count) {
     Row row(count, 0.01);

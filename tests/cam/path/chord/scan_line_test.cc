@@ -20,9 +20,9 @@ std::size_t CountPoints(const std::vector<ScanRun>& runs) {
   return n;
 }
 
-// Everything a run promises, measured densely against the exact heights of slightly smaller and larger balls:
-// the gouge is below the tolerance iff the ball of R - tolerance is free, the excess iff the ball of R +
-// tolerance is not. Vertices are free where chords may leave as much as they take.
+// Everything a run promises, measured densely against the exact heights of slightly smaller and larger
+// balls: the gouge is below the tolerance iff the ball of R - tolerance is free, the excess iff the ball of
+// R + tolerance is not. Vertices are free where chords may leave as much as they take.
 void ExpectCertified(const Surface& surface, double radius, const std::vector<ScanRun>& runs,
                      const PassParams& params, int probes_per_chord = 7) {
   const double slack = 1e-7;
@@ -145,8 +145,8 @@ PatchModel Boss(const Vec2& axis, double radius, double height, bool lid) {
   return boss;
 }
 
-// Where the ball leaves a round wall it falls from the wall's upper rim, just beside it, to the plane. A tube
-// is a wall on its inside as well.
+// Where the ball leaves a round wall it falls from the wall's upper rim, just beside it, to the plane. A
+// tube is a wall on its inside as well.
 TEST(ScanLine, RoundWallIsADropInItsPlaceAtAnyHeading) {
   const double radius = 3.0, boss = 5.0, height = 10.0;
   const Vec2 axis(1.3, -0.7);
@@ -296,7 +296,8 @@ TEST(ScanLine, RandomSplinesHoldBothTolerances) {
   }
 }
 
-// The least that a chord keeps away from the ground (negative: all of it is below), the most of all chords.
+// For each chord the smallest distance to the surface (negative: all of it is below); the largest of these
+// values.
 double DeepestChord(const Locator& locator, const std::vector<ScanRun>& runs) {
   double deepest = 0.0;
   for (const auto& run : runs) {
@@ -327,8 +328,8 @@ PassParams Fine(double scallop) {
 }
 
 // In a bowl of radius 12 the ball of 3 goes along a circle of radius 9. Chords between places on it would
-// leave what they may with 1 / sqrt(0.1 / 0.6) times as many points as chords whose ends are below it by half
-// of what they may take.
+// leave what they may with 1 / sqrt(0.1 / 0.6) times as many points as chords whose ends are below it by
+// half of what they may take.
 TEST(ScanLine, FineChordsGoDownIntoABowl) {
   const double bowl = 12.0, radius = 3.0;
   const Surface surface = SurfaceOf(Bowl(bowl));

@@ -169,7 +169,7 @@ TEST(LineSwitches, AreTheSameHoweverThePartIsCut) {
   EXPECT_GT(count, 70u);
 }
 
-// Ground that the ball follows everywhere: joints of patches that it crosses are no switches.
+// Surfaces that the ball follows everywhere. Joints of patches that it crosses are no contact switches.
 class NoneOnSmoothGround {
  public:
   explicit NoneOnSmoothGround(PatchModel model) : surface_(SurfaceOf(std::move(model))) {}

@@ -1,4 +1,4 @@
-// Contours that touch edges: those that finish ground stay.
+// Contours that touch edges. Those that finish some surface stay.
 #include <cmath>
 #include <set>
 
@@ -18,7 +18,7 @@ struct Found {
   std::size_t planned = 0;
 };
 
-// Levels that have contours; every level is planned for ground, so that all of them should.
+// Levels that have contours. All should, because every level is planned for some surface.
 Found LevelsOf(const Surface& surface, double radius, double scallop, double tolerance) {
   const Locator locator(surface, radius);
   ContourParams params;

@@ -34,8 +34,8 @@ struct Job {
     Check(result->paths);
     return result->paths;
   }
-  // What holds for every job: free, level, ordered from the top of each ground, above the floor, contacts in
-  // the window or within half a step of it.
+  // What holds for every job: contours are free and level, ordered from the top of each group of levels, and
+  // above the floor. Their contacts are in the window or within half a step of it.
   void Check(const std::vector<CutterPath>& paths) const {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const CutterPath& path = paths[i];
@@ -46,7 +46,7 @@ struct Job {
       if (i > 0) {
         EXPECT_LE(paths[i - 1].order_key, path.order_key);
         const double before = paths[i - 1].points.front().center.z();
-        // Beyond the few levels of one ground that may be without a pass another begins.
+        // In one group of levels only a few may be without a pass. Beyond them another group begins.
         const int farther = path.order_key - paths[i - 1].order_key;
         EXPECT_TRUE(farther == 0 ? before == z : before > z || farther > 4);
       }

@@ -1,4 +1,4 @@
-// Where ground parts upwards, against walls with towers.
+// Areas that branch upwards, on walls with towers.
 #include "cam/path/contour/level_branches.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Ground that hangs together has contours of its own, the same that it would have alone.
+// Each connected area has its own contours, the same as if it were alone.
 #include "cam/path/contour/level_groups.h"
 
 #include <algorithm>
@@ -135,7 +135,7 @@ LevelGroups::ContoursAt ContoursForkedAt(double fork) {
 TEST(LevelGroups, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
   ContourArea contour_area = Forked(0.8 * kFlat);
   contour_area.lower_ends.push_back({Vec3(60, -3, 12), 1.0});
-  for (const double fork : {10.0, 13.0}) {  // between them the ground may rise gently, without samples
+  for (const double fork : {10.0, 13.0}) {  // the surface between may rise gently, without samples
     const auto groups = LevelGroups::Make(contour_area, kParams, ContoursForkedAt(fork), RunContext(1));
     ASSERT_TRUE(groups.ok());
     ASSERT_EQ(groups->size(), 2u);
@@ -236,7 +236,8 @@ TEST(LevelGroups, ALongPatchIsOne) {
   EXPECT_EQ(groups->size(), 1u);
 }
 
-// An upright sheet has contours on both sides, whichever is called the upper one, and whatever stands beside.
+// An upright sheet has contours on both sides, whichever is called the upper one, and whatever stands
+// beside.
 TEST(LevelGroups, BothSidesOfASheet) {
   for (const bool turned : {false, true}) {
     const PatchModel sheet = turned ? Quad({0, 0, 12}, {60, 0, 12}, {60, 0, 0}, {0, 0, 0})
@@ -299,8 +300,8 @@ Runs RunsOver(const PatchModel& model, double from_x, double to_x) {
   return runs;
 }
 
-// Three bosses whose walls want different steps and whose tops and feet lie at different heights: each is cut
-// as if it stood alone.
+// Three bosses whose walls want different steps and whose tops and feet lie at different heights: each is
+// cut as if it stood alone.
 TEST(LevelGroups, BossesAreCutAsIfTheyStoodAlone) {
   const auto boss = [](double x, double base_level, double height, double draft) {
     const double top = 4.0, bottom = top + height * std::tan(draft);

@@ -1,4 +1,4 @@
-// Heights of full levels: how many, and whose needs rule, against what other heights would take.
+// Heights of full levels: their number and the needs that decide, against the cost of other heights.
 #include "cam/path/contour/level_heights.h"
 
 #include <algorithm>
@@ -49,8 +49,8 @@ TEST(LevelHeights, OfOneNeedAreThatFarApartAndHalfOfItFromTheEnds) {
     AddWall(0.0, 40.0, 0.0, height, 0.5, 0.0, contour_area);
     const std::vector<double> heights = HeightsOf(contour_area);
     ASSERT_FALSE(heights.empty());
-    const double to = (std::floor(height / 0.0625 + 1e-9) + 1.0) * 0.0625;  // ground is seen in eighths
-    // As few as gaps that are wider by no more than a pass is added for allow.
+    const double to = (std::floor(height / 0.0625 + 1e-9) + 1.0) * 0.0625;  // the samples are in eighths
+    // The smallest number of levels whose gaps are too wide by no more than what a partial pass is added for.
     const double count = std::ceil(to / (0.5 * kParams.wide) - 1e-9);
     ASSERT_EQ(static_cast<double>(heights.size()), count) << height;
     for (std::size_t i = 0; i < heights.size(); ++i)
@@ -86,7 +86,8 @@ TEST(LevelHeights, LieAtCommonLowerEnds) {
   EXPECT_LE(WidestGap(heights), kParams.wide * 0.5 + 1e-9);
 }
 
-// A wall of which some needs less: full levels for all of it, or partial ones besides, whatever is shorter.
+// A part of a wall needs a smaller step. It gets full levels for the whole wall, or partial levels, whichever
+// is shorter.
 TEST(LevelHeights, FollowTheNarrowGroundWhereThatIsShorter) {
   const double wide = 0.5, narrow = 0.4, height = 20.0, length = 200.0;
   for (const double share : {0.05, 0.4, 0.6}) {
@@ -100,7 +101,7 @@ TEST(LevelHeights, FollowTheNarrowGroundWhereThatIsShorter) {
   }
 }
 
-// Ground at one height that needs little, and elsewhere none that does.
+// Only the surface at one height needs a small step.
 TEST(LevelHeights, AreNearerOnlyWhereTheGroundAsksForIt) {
   ContourArea contour_area;
   AddWall(0.0, 50.0, 0.0, 10.0, 0.5, 0.0, contour_area);

@@ -75,8 +75,8 @@ TEST(BorderPasses, FinishTheEdgeThatLinesRunAlong) {
   }
   std::vector<Vec3> centers;
   for (double x = -kHalf; x <= kHalf; x += 0.01) centers.emplace_back(x, kHalf, kRadius);
-  // Bare are the steps between the ends of lines, a flat step's rise at 3 degrees long, less what half a step
-  // on either side finishes.
+  // The steps between the ends of lines are unfinished. Each is as long as the rise of a flat step-over at 3
+  // degrees, less what half a step on either side finishes.
   const double before = LongestBare(centers, found.lines, {}, 0.6 * kFlat);
   EXPECT_GT(before, 4.0 * kFlat);
   EXPECT_LT(LongestBare(centers, found.lines, found.borders, 0.6 * kFlat), 4.0 * kFlat);

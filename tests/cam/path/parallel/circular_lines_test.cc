@@ -36,7 +36,7 @@ TEST(RemoveOverlapTurn, OfOneTurnWhatIsThere) {
   EXPECT_EQ(Once({{0, 100}}, kOnce), (Stretches{{0, 100}}));
 }
 
-// Random stretches on the circle, seen from 0 to the end: what comes back covers the same ground once.
+// Random stretches on the circle, from 0 to the end. The result covers the same part of the circle once.
 TEST(RemoveOverlapTurn, CoversWhatWasSeen) {
   Random random(5);
   for (int k = 0; k < 2000; ++k) {

@@ -89,7 +89,7 @@ TEST(LineBends, AreShorterByWhatTheyAreAskedFor) {
   }
 }
 
-// Where the ground changes over a few steps, the lattice of needs promises what the lines do not keep.
+// Where the surface changes over a few steps, the lattice promises a saving that the lines do not reach.
 TEST(LineBends, AreNotLongerThanStraightOnBusyGround) {
   double bent = 0.0, straight = 0.0;
   int straighter = 0;

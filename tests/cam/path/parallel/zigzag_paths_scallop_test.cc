@@ -1,4 +1,4 @@
-// One finish number: what neighbouring lines leave between them is the scallop, on convex and concave ground.
+// Neighbouring lines leave the scallop between them, on convex and concave surfaces.
 #include <algorithm>
 #include <cmath>
 

@@ -240,8 +240,8 @@ TEST(ZigzagPaths, NothingButAnEdgeIsNoPass) {
   EXPECT_GT(lines_over(44.0, 0.0).size(), 20u);
 }
 
-// The top of a rib a tenth of a millimetre wide, between two edges: ground, however few probes fall on it.
-// All lines that cross it have a piece there.
+// The top of a rib between two edges is a tenth of a millimetre wide. It counts as surface, however few
+// probes fall on it: all lines that cross it have a piece there.
 TEST(ZigzagPaths, GroundBetweenTwoEdgesKeepsItsLines) {
   const std::vector<Vec2> profile = {{-1.05, 0}, {-0.05, 2}, {0.05, 2}, {1.05, 0}};
   PatchModel rib;
@@ -267,7 +267,7 @@ TEST(ZigzagPaths, GroundBetweenTwoEdgesKeepsItsLines) {
 }
 
 TEST(ZigzagPaths, NarrowSpotsGetPartialLines) {
-  // A tilted gutter among flat ground: the step across the flat is too wide on the gutter's flanks only.
+  // A tilted gutter in a flat: only on the flanks of the gutter the step of the flat is too wide.
   const auto height = [](double x, double y) {
     return -4.0 * std::exp(-((x - 15) * (x - 15) + (y - 15) * (y - 15)) / 18);
   };
@@ -376,7 +376,7 @@ TEST(ZigzagPaths, RoundLinesLieOnARimAtTheStepItNeeds) {
   EXPECT_GE(left.worst, 0.8 * scallop);
 }
 
-// Passes that run beside both limits of the rim take the ground up to half a step of it.
+// Passes that run beside both limits of the rim finish the surface up to half a step from the limit.
 TEST(ZigzagPaths, RoundLinesKeepAStepFromPassesBesideThem) {
   const double radius = 3.0, scallop = 0.01, tube = kTube + radius;
   const Surface surface = JoinedSurface(Torus(kAxis, kRim, kTube, Half::kUpper));

@@ -39,7 +39,7 @@ std::vector<CutterPath> Without(const Locator& locator, std::vector<CutterPath> 
   return std::move(*kept);
 }
 
-// Over level ground at z = 0, with a vertex every kVertexStep or, in one chord, at the ends alone.
+// A pass over a flat at z = 0, with a vertex every kVertexStep or, in one chord, at the ends alone.
 CutterPath Row(double y, double from, double to, bool one_chord = false) {
   const int count = one_chord ? 1 : static_cast<int>(std::lround((to - from) / kVertexStep));
   CutterPath path;
@@ -117,8 +117,8 @@ TEST(RemoveRedundantPasses, ADoubledVertexIsNoPass) {
   ExpectSame(Without(locator, more), rows);
 }
 
-// A finer finish than the tolerance: what was taken must have left less by a share of the scallop, not of the
-// tolerance. Rows too far apart, with others beside them that make up for it.
+// A finer finish than the tolerance: what was taken must have left less by a share of the scallop, not of
+// the tolerance. Rows too far apart, with others beside them that make up for it.
 TEST(RemoveRedundantPasses, AFineFinishAtALooseToleranceIsKept) {
   const Surface surface = JoinedSurface(Plane(10.0));
   const Locator locator(surface, kRadius);
@@ -183,8 +183,8 @@ TEST(RemoveRedundantPasses, LongMiddlesAndArcsOfLoopsGo) {
   ExpectSame(Without(locator, more), more);
 }
 
-// Lines over contours, and both over creases: half of it is needless, and nowhere does more remain than two
-// neighbours may leave, or than was left before.
+// Lines over contours, and both over creases: half of the passes are redundant. After their removal no place
+// has more left than two neighbours may leave, or than it had before.
 TEST(RemoveRedundantPasses, NowhereDoesMoreRemain) {
   const std::vector<PatchModel> models = {Sphere(Vec3::Zero(), 9.0, Half::kUpper),
                                           TwoPlanes(Radians(40), 8.0), Saddle(0.04, 0.05, 8.0),

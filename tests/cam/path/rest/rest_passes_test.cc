@@ -99,8 +99,8 @@ int Gouges(const Surface& surface, double radius, const std::vector<CutterPath>&
   return bad;
 }
 
-// A valley of 30 degrees on both sides, under lines at every angle to it: plain passes leave up to 4 scallops
-// beside the crease when they run along it.
+// A valley of 30 degrees on both sides, under lines at every angle to it: plain passes leave up to 4
+// scallops beside the crease when they run along it.
 TEST(RestPaths, ValleyAtEveryAngleToTheFeed) {
   const double radius = 3.0, slope = Radians(30);
   const Surface surface = JoinedSurface(TwoPlanes(slope, 8));
@@ -117,8 +117,7 @@ TEST(RestPaths, ValleyAtEveryAngleToTheFeed) {
     EXPECT_EQ(Gouges(surface, radius, rest), 0) << degrees;
     double length = 0;
     for (const auto& p : rest) length += Length(p);
-    EXPECT_LT(length, 100.0)
-        << degrees;  // one pass along the crease and mends at the borders, not a second zig-zag
+    EXPECT_LT(length, 100.0) << degrees;  // one pencil pass and rest passes at the borders, no second zig-zag
   }
   EXPECT_TRUE(plain_failed);
 }
@@ -150,7 +149,7 @@ TEST(RestPaths, CreasePassIsTheExactTwoContactLine) {
   EXPECT_NEAR(crease_length, 20.0, 1.0);
 }
 
-// Around the foot of a hemisphere the crease is a ring: once around.
+// The crease around the foot of a hemisphere is a ring. The pass makes one full turn.
 void ExpectOneRing(double r) {
   const double radius = 3.0, half = r + 8.0;
   const Surface surface = JoinedSurface(Join({Plane(half), Sphere(Vec3::Zero(), r, Half::kUpper)}));

@@ -1,5 +1,5 @@
-// One finish number on double-curved ground: what every two neighbouring lines or levels leave between them
-// is the scallop, convex and hollow, from a radius of 1.25 R upward.
+// Every two neighbouring lines or levels leave the scallop between them on double-curved surfaces, convex
+// and concave, from a radius of 1.25 R upward.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -84,8 +84,8 @@ double LeastOfShared(const std::vector<CutterPath>& paths) {
   return 0.95 * std::pow(1.0 - 1.0 / static_cast<double>(lines.size() - 1), 2.0);
 }
 
-// kSomeAreParted: partial passes, or needs that differ much from pair to pair: the worst pair alone is judged
-// from below.
+// kSomeAreParted: partial passes, or needs that differ much from pair to pair: the worst pair alone is
+// judged from below.
 enum class Pairs { kAllShareTheWay, kSomeAreParted };
 
 struct LineGround {
@@ -223,8 +223,9 @@ INSTANTIATE_TEST_SUITE_P(
                       LevelGround{"long dome", LongDome, 1.0, 0.5, kInfinity, Pairs::kSomeAreParted},
                       LevelGround{"long bowl", LongDome, -1.0, 0.5, kInfinity, Pairs::kSomeAreParted}));
 
-// The example's hills, hollow and convex along and across. So that there are pairs at all: half
-// the lines at the flat step, and more than a few levels on the steep band of the larger hill.
+// The hills of the example, concave and convex along and across. To make sure that pairs are measured at
+// all, at least half of the lines at the flat step-over must be there, and several levels on the steep band
+// of the larger hill.
 TEST(TwoHillsUnderAWideTolerance, LeaveNoMoreThanFivePercentOnTop) {
   const Surface surface = JoinedSurface(TwoHills());
   const Locator locator(surface, kR);

@@ -51,7 +51,7 @@ TEST(Spacing, SmoothAcrossFlat) {
   }
 }
 
-// [spacing (3)], r = 3, cusp 5 um: allowed step / flat step on the surface, and the cusp the flat step
+// [spacing (3)], r = 3, cusp 5 um: allowed step-over / flat step-over, and the cusp that the flat step-over
 // leaves.
 TEST(Spacing, TableOfPeers) {
   const double radius = 3.0, s = 0.005, flat = CenterStep(radius, s, 0.0);

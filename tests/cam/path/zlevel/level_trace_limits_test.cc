@@ -20,13 +20,14 @@ double RectangleDistance(const Vec2& q, double a, double b) {
   return std::hypot(std::max(0.0, std::abs(q.x()) - a), std::max(0.0, std::abs(q.y()) - b));
 }
 
-// A level plate's open border runs along the grid of cells; levels at which the contour itself lies on a grid
-// line, or a hair to either side of it.
+// A level plate's open border runs along the grid of cells; levels at which the contour itself lies on a
+// grid line, or a hair to either side of it.
 TEST(ContourLimits, StraightBordersAlongTheGrid) {
   const double a = 10.0;
   const Level plate(testing::Plane(a));
   const double unit = plate.params.resolution / 8.0;
-  // The grid starts at -a - R - 4 units - 0.38... units (level_cells.cc): all of that, and x = a + rho whole.
+  // The grid starts at -a - R - 4 units - 0.38... units (level_cells.cc): all of that, and x = a + rho
+  // whole.
   const double origin = -a - kR - (4.0 + 0.3819660112501051) * unit;
   for (const double rho_near : {2.0, 0.5, 2.99}) {
     const double line = origin + std::ceil((a + rho_near - origin) / unit) * unit;
@@ -254,7 +255,7 @@ TEST(ContourLimits, ALostResolutionIsSaid) {
   EXPECT_NE(ambiguous.message.find(" cells of up to 0.0250 mm"), std::string::npos) << ambiguous.message;
 }
 
-// The worst of all levels is told, with the place of its own, in whatever order they come.
+// One finding reports the worst of all levels with its place, whatever the order of the levels.
 TEST(ContourLimits, FindingsAreOneForAllLevels) {
   const auto level = [](double z, double cell, int ambiguous, const Vec3& at) {
     return LevelContours{z, {}, cell, ambiguous, at};
@@ -290,7 +291,8 @@ TEST(ContourLimits, FindingsAreOneForAllLevels) {
   }
 }
 
-// Large flats with open borders and a small tool: what is looked at grows with the border, not with the flat.
+// Large flats with open borders and a small tool: what is looked at grows with the border, not with the
+// flat.
 TEST(ContourLimits, LargePlatesKeepTheResolution) {
   const double a = 150.0, radius = 0.3, rho = 0.2;
   const Level plate(testing::Plane(a), radius);

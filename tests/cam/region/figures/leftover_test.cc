@@ -1,4 +1,5 @@
-// What stays where no ball gets to, against closed forms: from the places that matter, not from above them.
+// Leftover of unreachable places, against closed forms. It is the distance to the nearest free centre, which
+// need not be above the place.
 #include "cam/region/figures/leftover.h"
 
 #include <cmath>
@@ -102,8 +103,8 @@ TEST(Leftover, InASteepGroove) {
   }
 }
 
-// A mushroom: a cap on a stem. At the stem's foot, right beside the cap is nearest, wherever the columns that
-// are looked at lie.
+// A mushroom: a cap on a stem. At the stem's foot, right beside the cap is nearest, wherever the columns
+// that are looked at lie.
 TEST(Leftover, BesideACap) {
   for (const double cap : {8.0, 9.3, 11.0, 12.0}) {
     for (const double under : {4.0, 10.0}) {
@@ -204,7 +205,7 @@ TEST(Leftover, WhereNothingIsAllowedIsAllThereIs) {
       surface.box.Diagonal());
 }
 
-// In a hole hardly wider than the ball its centre has a thread of room, which no column beside it tells of.
+// In a hole hardly wider than the ball, the free centres form a thread. No column beside it shows them.
 TEST(Leftover, InAHoleThatTheBallJustFits) {
   const double deep = 10.0;
   for (const double play : {0.01, 0.001}) {
@@ -228,7 +229,8 @@ TEST(Leftover, InAHoleThatTheBallJustFits) {
 }
 
 TEST(Leftover, IsAsBruteForceFindsIt) {
-  // Columns all over the disk that could hold a nearer centre, on rough parts with folds: never much farther.
+  // Columns all over the disk that could hold a nearer centre, on rough parts with folds: never much
+  // farther.
   int deep = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const Surface surface = SurfaceOf(RandomBspline(seed, {.size = 20.0, .amplitude = 8.0, .folds = true}));
@@ -282,7 +284,7 @@ TEST(Leftover, OfTrianglesIsProvenAndThatOfTheirDeepestPlace) {
   EXPECT_TRUE(found.proven);
   EXPECT_LE(found.leftover, stays + kNear);
   EXPECT_GE(found.leftover, stays / 1.05 - 0.002 * kR);
-  // Over no ground nothing stays.
+  // Without any surface there is no leftover.
   EXPECT_EQ(LeftoverSearch(locator, {}).Find(RunContext()).leftover, 0.0);
 }
 

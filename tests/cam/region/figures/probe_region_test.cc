@@ -1,5 +1,5 @@
-// What a region says of itself: the tool that would reach it and what stays, against closed forms and grids
-// of places.
+// Figures of unreachable regions: the tool that would reach a region and its deepest leftover, against closed
+// forms and grids of places.
 #include <algorithm>
 #include <cmath>
 
@@ -61,7 +61,7 @@ double TotalArea(const RegionMap& map) {
   return area;
 }
 
-// What is said is kept somewhere, and nowhere more than a twentieth more.
+// The stated leftover occurs at some place, and no place has a twentieth more.
 void ExpectDeepest(const Region& r, double stays) {
   EXPECT_LE(r.deepest_leftover, stays + 0.01 * kR);
   EXPECT_GE(r.deepest_leftover, stays / 1.05 - 0.002 * kR - ReachTolerance(Params().tolerance));

@@ -25,8 +25,8 @@ ReachTableResult Table(const Surface& surface, const ReachTableParams& params) {
 }
 
 TEST(ReachTable, ValleyOfTwoPlanes) {
-  // A ball in a V of slope a touches each plane R tan(a) from the bottom; one of R - give that stands as if
-  // it had R may come nearer by give / sin(2 a).
+  // A ball in a V of slope a touches each plane R tan(a) from the bottom. The reach tolerance g lets it come
+  // nearer by g / sin(2 a): the ball of R - g that stands as if it had the radius R must be free.
   const double a = Radians(30), half = 12;
   ReachTableParams params;
   params.radii = {0.5, 1.0, 2.0, 4.0};

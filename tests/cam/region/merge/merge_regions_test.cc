@@ -164,8 +164,9 @@ TEST(MergeRegions, PartsOfOneWholeGetOneLabel) {
   EXPECT_EQ(merged.label[static_cast<std::size_t>(merged.group[1])].curvature, -1);
 }
 
-// Domes on a plane that do not touch it in the split, in whatever order: those of one kind together, not one
-// of them with the plane and three without. Crumbs are no region.
+// Domes on a plane that have no border with it in the split, in any order. The domes of one label are one
+// region; it never happens that one of them joins the plane and the other three do not. Tiny parts are no
+// region.
 TEST(MergeRegions, IslandsOfOneLabelAreOneRegion) {
   SplitLabel level, dome, pit;
   dome.curvature = -1;
@@ -242,7 +243,7 @@ TEST(MergeRegions, HoweverManySteepGroundNeverGoesWithGentle) {
 }
 
 TEST(MergeRegions, CrumbsTakeNoPlaceOfLargerRegions) {
-  // Ten crumbs in ground out of reach, and a chain of five regions: five are allowed.
+  // Ten tiny parts in an unreachable area, and a chain of five regions. Five are allowed.
   MergeParams params;
   params.max_regions = 5;
   params.border_turn = params.border_slope = 0;

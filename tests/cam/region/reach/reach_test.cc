@@ -226,7 +226,7 @@ TEST(LimitFollower, SeesWhatElseIsInTheWay) {
   }
 }
 
-// Two limits side by side, a strip of free ground between them: each chord finds its own.
+// Two limits side by side with a strip of reachable surface between them. Each chord finds its own limit.
 TEST(LimitFollower, DoesNotGoOverToALimitBeside) {
   const double limit = Bosses(20, 5, {0.0}).limit;
   int found = 0;
@@ -244,7 +244,7 @@ TEST(LimitFollower, DoesNotGoOverToALimitBeside) {
         const ZeroSegment between{end(-1.0), end(1.0)};
         const Vec2 way = between.to - between.from, across(-way.y(), way.x());
         const auto share = follower.Find(between, across, -1.0, 1.0);
-        if (!share) continue;  // asked for otherwise
+        if (!share) continue;  // queried in another way
         ++found;
         const Vec2 q = 0.5 * (between.from + between.to) + *share * across;
         EXPECT_NEAR(bosses.InMm(q).x(), side * 0.5 * strip, kExact) << strip << " " << chord;

@@ -1,5 +1,6 @@
-// Limits of reach under what hangs over the ground: where they lie, the areas they bound, and the nodes where
-// other lines end on them, in closed form; and on ground without one, by balls on both sides.
+// Limits of reach under overhangs: their places, the areas that they bound, and the nodes at which other
+// lines end on them, against closed forms. On surfaces without a closed form they are checked by balls on
+// both sides.
 #include <cmath>
 #include <map>
 
@@ -40,7 +41,7 @@ RegionMap Split(const PatchModel& model) {
   return *std::move(map);
 }
 
-// A level slab of half sizes `hx` and `hy`, high above the ground.
+// A level slab of half sizes `hx` and `hy`, high above the plate.
 PatchModel Slab(const Vec2& middle, double hx, double hy) {
   const auto at = [&](double x, double y) { return Vec3(middle.x() + x, middle.y() + y, kHigh); };
   return Single(Bilinear(at(-hx, -hy), at(hx, -hy), at(-hx, hy), at(hx, hy)));
@@ -162,11 +163,8 @@ TEST(ReachBorders, OfTwoBossesSideBySideAreTwoCircles) {
   }
 }
 
-// Where nothing has a closed form: of the limits drawn on ground that bends tighter than the ball nearly
-// everywhere, all but a few hundredths lie where balls begin to be free. Those that do not are corners where
-// one thing in the way takes over from another within a cell.
-// A cap on a plate: beside the crease the plate is CONCAVE, under the cap UNDERCUT; how large the plate's
-// patch is, and with it the cells it is looked at by, does not matter.
+// A cap on a plate. Beside the crease the plate is CONCAVE, under the cap UNDERCUT. The size of the plate's
+// patch, and with it the size of the cells, does not matter.
 TEST(ReachBorders, ReasonsBesideACreaseAreTheSameOnPlatesOfAnySize) {
   const double cap = 30.0, low = 20.0;
   const double outer2 = std::pow(cap + kKept, 2) - std::pow(kR + low, 2);  // where the ball begins to be free
@@ -192,6 +190,9 @@ TEST(ReachBorders, ReasonsBesideACreaseAreTheSameOnPlatesOfAnySize) {
   }
 }
 
+// Surfaces without a closed form that bend tighter than the ball nearly everywhere. All but a few hundredths
+// of the limits drawn lie where balls begin to be free. The rest are corners at which one obstacle takes
+// over from another within a cell.
 TEST(ReachBorders, OfAnyGroundAreWhereBallsBeginToBeFree) {
   if (kSanitized) GTEST_SKIP() << "minutes otherwise";
   const Surface surface = SurfaceOf(Bumpy());
@@ -218,8 +219,8 @@ TEST(ReachBorders, OfAnyGroundAreWhereBallsBeginToBeFree) {
   EXPECT_LT(off, 0.015 * length);
 }
 
-// Where lines of slope or curvature end at limits of reach, both balls that are free and balls that are not
-// touch the ground close by.
+// Lines of slope or curvature end at limits of reach. Close to such a node, balls that are free touch the
+// surface, and balls that are not.
 TEST(ReachBorders, NodesOfAnyGroundAreOnThem) {
   if (kSanitized) GTEST_SKIP() << "minutes otherwise";
   const Surface surface = SurfaceOf(Bumpy());
