@@ -21,7 +21,7 @@ const CutterPoint& EndOf(const CutterPath& pass) {
 bool IsShort(const CutterPath& pass, double longest) {
   const bool mends =
       pass.kind == PassKind::kBorder || pass.kind == PassKind::kPencil || pass.kind == PassKind::kRest;
-  return mends && !pass.closed && !pass.one_way && !pass.directed && !pass.spiral && Length(pass) <= longest;
+  return mends && !pass.closed && pass.traversal == Traversal::kAny && Length(pass) <= longest;
 }
 
 // The gap between the pass `after` and the next one.
@@ -39,7 +39,8 @@ std::vector<Gap> GapsFor(const std::vector<CutterPath>& passes, std::size_t whic
   for (std::size_t i = 0; i + 1 < passes.size(); ++i) {
     if (i == which || i + 1 == which) continue;
     const CutterPath &a = passes[i], &b = passes[i + 1];
-    if (a.kind == PassKind::kContour || b.kind == PassKind::kContour || b.one_way) continue;
+    if (a.kind == PassKind::kContour || b.kind == PassKind::kContour || b.traversal == Traversal::kOneWay)
+      continue;
     const Vec3 &from = EndOf(a).center, &to = StartOf(b).center;
     const double straight = (to - from).norm();
     for (const bool reversed : {false, true}) {

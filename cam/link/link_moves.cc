@@ -275,7 +275,7 @@ double TimeOf(const Vec3& from, const std::vector<Move>& moves) {
 std::vector<Move> LinkTo(const LinkMaker& maker, const CutterPoint& end, const CutterPath& next) {
   const CutterPoint& start = next.points.front();
   std::optional<std::vector<Move>> down;
-  if (!next.one_way) down = maker.StayDown(end, start);
+  if (next.traversal != Traversal::kOneWay) down = maker.StayDown(end, start);
   // A straight link no longer than the way out of the stock and back is shorter than any way over the top.
   const bool near = (start.center - end.center).norm() <= 2.0 * maker.stock_depth();
   if (down && down->size() <= 1 && near) return *std::move(down);

@@ -61,7 +61,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
   std::erase_if(paths, [](const CutterPath& p) { return p.points.empty(); });
   if (params.contour_direction == CutDirection::kConventional) {
     for (CutterPath& path : paths) {
-      if (path.kind == PassKind::kContour && !path.spiral) Reverse(path);
+      if (path.kind == PassKind::kContour && path.traversal != Traversal::kSpiral) Reverse(path);
     }
   }
   std::optional<SurfaceHeights> heights;

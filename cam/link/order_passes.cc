@@ -110,7 +110,7 @@ void Take(CutterPath& pass, const End& end, Vec3& at, std::vector<CutterPath>& o
 }
 
 End EndOf(const CutterPath& pass, const Vec3& from, bool reversible) {
-  return NearestEnd(pass, from, reversible && !pass.one_way && !pass.directed && !pass.spiral);
+  return NearestEnd(pass, from, reversible && pass.traversal == Traversal::kAny);
 }
 
 // Adds the passes of a cluster, each time the nearest one. Stops when cancelled.

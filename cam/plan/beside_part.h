@@ -1,5 +1,4 @@
-// Where the tool may not go beside a part: on the backs of walls, and outside the part unless it is asked
-// for.
+// Where the tool may not go beside a part: behind walls, and outside the part unless the job says so.
 //
 // Seen from above, the surface covers an area. What lies beyond the outer border of that area is outside;
 // holes are not. Where an upright wall stands on that border, the vice, the clamps or more stock may stand

@@ -62,7 +62,7 @@ std::optional<Vec2> CenterOf(const std::vector<Tangent>& tangents, double near) 
   return center;
 }
 
-// A point of gentle ground.
+// A point of a gentle area.
 struct GentlePoint {
   std::size_t component = 0;
   SurfaceJet jet;
@@ -122,8 +122,8 @@ const Region& RegionOf(const RegionMap& map, std::size_t component) {
   return map.regions[static_cast<std::size_t>(map.component_region[component])];
 }
 
-// The gentle ground of a component, to tell which of its borders are that ground's: all in a gentle region;
-// in a steep one those that lie in the plane of a point nearby.
+// The gentle area of a component. It tells which borders of the component are its own: all of them in a
+// gentle region; in a steep one those that lie in the plane of a point nearby.
 class GentleArea {
  public:
   void Add(const GentlePoint& point, double way) {
@@ -162,9 +162,9 @@ class GentleArea {
 };
 
 // Calls visit(from, to), in plan, for the stretches from point to point of the borders of a component's
-// gentle ground.
+// gentle area.
 template <class Visit>
-void VisitBorders(const RegionMap& map, std::size_t component, const GentleArea& ground, const Visit& visit) {
+void VisitBorders(const RegionMap& map, std::size_t component, const GentleArea& area, const Visit& visit) {
   const int own = static_cast<int>(component);
   const bool all = RegionOf(map, component).slope == SlopeClass::kGentle;
   for (const BorderLine& line : map.border_lines) {
@@ -172,12 +172,12 @@ void VisitBorders(const RegionMap& map, std::size_t component, const GentleArea&
     const std::size_t n = line.points.size();
     for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
       const Vec3 &from = line.points[i], &to = line.points[(i + 1) % n];
-      if (all || ground.Beside(0.5 * (from + to))) visit(Xy(from), Xy(to));
+      if (all || area.Beside(0.5 * (from + to))) visit(Xy(from), Xy(to));
     }
   }
 }
 
-// Lines in one way over a component's gentle ground, and what they come to.
+// Lines in one direction over the gentle area of a component, and their total length.
 struct Family {
   std::optional<CircularLines> around;  // else they are straight
   double angle = 0.0;                   // rad
@@ -207,7 +207,7 @@ struct Family {
   double Sum(double radius, double step) const { return passes + 0.5 * kRunCost * radius * ends / step; }
 };
 
-// How ground lies around a place.
+// How an area lies around a place.
 struct Extent {
   static constexpr int kSectors = 24;
   double nearest = kInfinity, farthest = 0.0;  // mm
@@ -237,31 +237,33 @@ struct Candidate {
   }
 };
 
-Candidate CandidateOf(const RegionChoice& choice, const Vec2& center) {
+Candidate CandidateOf(double angle, bool angle_open, const Vec2& center) {
   Candidate candidate;
   candidate.round.around = CircularLines{center, 0.0, 0.0};
-  const int angles = choice.angle_open ? kAngles : 1;
-  for (int k = 0; k < angles; ++k)
-    candidate.straight.emplace_back().angle = choice.zigzag_angle + k * kPi / angles;
+  const int angles = angle_open ? kAngles : 1;
+  for (int k = 0; k < angles; ++k) candidate.straight.emplace_back().angle = angle + k * kPi / angles;
   return candidate;
 }
 
 }  // namespace
 
-absl::StatusOr<std::vector<CircularTrial>> ChooseCircularLines(const Surface& surface, const RegionMap& map,
-                                                               const Resolved& resolved,
-                                                               const RunContext& run,
-                                                               std::vector<RegionChoice>& choices) {
+absl::StatusOr<CircularChoices> ChooseCircularLines(const JobContext& context, const RegionMap& map,
+                                                    RegionChoices chosen) {
+  const Surface& surface = context.surface;
+  const Resolved& resolved = context.resolved;
+  const RunContext& run = context.run;
+  std::vector<RegionChoice>& choices = chosen.choices;
   const double radius = resolved.plan_radius;
   std::vector<CircularTrial> to_try(choices.size());
   std::vector<bool> open(choices.size());
   for (std::size_t id = 0; id < choices.size(); ++id) {
     const RegionChoice& choice = choices[id];
-    open[id] = choice.circles_open && !choice.skip && !choice.one_way && choice.strategy == Strategy::kAuto &&
-               map.regions[id].kind != RegionKind::kUnreachable;
-    choices[id].circles_open = false;
+    open[id] = chosen.open[id].circles && !choice.skip && !choice.one_way &&
+               choice.strategy == Strategy::kAuto && map.regions[id].kind != RegionKind::kUnreachable;
+    chosen.open[id].circles = false;
   }
-  if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) return to_try;
+  if (std::none_of(open.begin(), open.end(), [](bool o) { return o; }))
+    return CircularChoices{std::move(chosen), std::move(to_try)};
 
   const int stride = std::min(2 * StrideOf(map), map.cells);
   std::vector<std::vector<GentlePoint>> pieces(surface.pieces.size());
@@ -272,8 +274,11 @@ absl::StatusOr<std::vector<CircularTrial>> ChooseCircularLines(const Surface& su
   const auto choice_of = [&](std::size_t component) -> RegionChoice& {
     return choices[static_cast<std::size_t>(map.component_region[component])];
   };
+  const auto angle_open = [&](std::size_t component) {
+    return chosen.open[static_cast<std::size_t>(map.component_region[component])].angle;
+  };
   std::vector<std::vector<Tangent>> tangents(count);
-  std::vector<GentleArea> grounds(count);
+  std::vector<GentleArea> gentle(count);
   std::vector<double> area(count, 0.0);  // mm2 of centers
   const double way = std::sqrt(ShareOfPoint(map, stride));
   for (const std::vector<GentlePoint>& piece : pieces) {
@@ -281,23 +286,22 @@ absl::StatusOr<std::vector<CircularTrial>> ChooseCircularLines(const Surface& su
       area[point.component] += point.centers;
       tangents[point.component].push_back(
           {Xy(point.jet.p), {-point.normal.y(), point.normal.x()}, point.centers});
-      if (RegionOf(map, point.component).slope == SlopeClass::kSteep)
-        grounds[point.component].Add(point, way);
+      if (RegionOf(map, point.component).slope == SlopeClass::kSteep) gentle[point.component].Add(point, way);
     }
   }
-  for (GentleArea& ground : grounds) ground.Sort();
+  for (GentleArea& own : gentle) own.Sort();
   std::vector<std::optional<Candidate>> candidates(count);
   for (std::size_t k = 0; k < count; ++k) {
     if (!open[static_cast<std::size_t>(map.component_region[k])]) continue;
     const double flat = CenterStep(radius, choice_of(k).scallop, 0.0);
-    VisitBorders(map, k, grounds[k], [&](const Vec2& from, const Vec2& to) {
+    VisitBorders(map, k, gentle[k], [&](const Vec2& from, const Vec2& to) {
       const double length = (to - from).norm();
       if (length > 0.0) tangents[k].push_back({0.5 * (from + to), (to - from) / length, flat * length});
     });
     const auto center = CenterOf(tangents[k], radius);
     if (!center) continue;
-    candidates[k] = CandidateOf(choice_of(k), *center);
-    VisitBorders(map, k, grounds[k], [&](const Vec2& from, const Vec2& to) {
+    candidates[k] = CandidateOf(choice_of(k).zigzag_angle, angle_open(k), *center);
+    VisitBorders(map, k, gentle[k], [&](const Vec2& from, const Vec2& to) {
       candidates[k]->VisitFamilies([&](Family& family) { family.AddBorder(from, to); });
     });
   }
@@ -324,8 +328,8 @@ absl::StatusOr<std::vector<CircularTrial>> ChooseCircularLines(const Surface& su
     for (const Family& family : candidates[k]->straight) least = std::min(least, family.Sum(radius, flat));
     if (!candidates[k]->round.AlongBorders()) continue;
     const double length = candidates[k]->round.Sum(radius, flat);
-    const bool angle_open = choices[id].angle_open;
-    if (!(length < (angle_open ? kTryByTimingRatio : kUseRatio) * least)) continue;
+    const bool to_time = angle_open(k);
+    if (!(length < (to_time ? kTryByTimingRatio : kUseRatio) * least)) continue;
     if (rounds++ >= kMostMasked / surface.pieces.size()) continue;
     CircularComponent round{static_cast<int>(k), *candidates[k]->round.around};
     // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are
@@ -334,7 +338,7 @@ absl::StatusOr<std::vector<CircularTrial>> ChooseCircularLines(const Surface& su
     round.lines.inner = radius * std::floor(std::max(0.0, extent.nearest - more) / radius);
     round.lines.outer = radius * std::ceil((extent.farthest + more) / radius);
     straight[id] -= area[k] > kMinComponentRadii2 * radius * radius;
-    if (angle_open && length >= kUseWithoutTimingRatio * least) {
+    if (to_time && length >= kUseWithoutTimingRatio * least) {
       to_try[id].more.push_back(round);
     } else {
       choices[id].around.push_back(round);
@@ -345,9 +349,9 @@ absl::StatusOr<std::vector<CircularTrial>> ChooseCircularLines(const Surface& su
     to_try[id].all = all;
     if (!all || !to_try[id].more.empty()) continue;
     choices[id].all_circular = true;
-    choices[id].angle_open = false;
+    chosen.open[id].angle = false;
   }
-  return to_try;
+  return CircularChoices{std::move(chosen), std::move(to_try)};
 }
 
 }  // namespace patchmill

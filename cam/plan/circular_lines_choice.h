@@ -1,34 +1,46 @@
-// Which regions have their lines in circles: rims, shoulders, whatever gentle ground lies around an axis.
+// Which regions have circular lines: rims, shoulders, any gentle area around an axis.
 #pragma once
 
 #include <vector>
 
 #include <absl/status/statusor.h>
 
-#include "cam/plan/job.h"
-#include "cam/plan/resolve.h"
+#include "cam/plan/job_context.h"
+#include "cam/plan/region_choices.h"
 
 namespace patchmill {
 
-// Gives `around` to the choices whose circles_open is set (which is cleared) where it pays: of reachable
-// regions cut in the way that suits them (strategy AUTO), both ways; each component of a region by itself, so
-// that every one of many rims has circles of its own (up to 5 million over the number of pieces). What counts
-// is their gentle ground that is wanted, all of a gentle region, and of a steep one what merging left in it.
-// The circles' place c is where normals point to and borders run around: the least sum of squares of m . (p -
-// c), over points p, by area, of their horizontal direction m square to the normal (as long as the slope's
-// sine), and over the borders of gentle ground of their direction m, by length times a flat step; what misses
-// c by more than a ball radius counts less. Circles pay where their length, the way to each run included, is
-// a tenth shorter than that of straight lines at their angle, both estimated from the steps needed at the
-// points of FillSteps (one in four of them) and from how many lines end at borders and at the split angle.
-// Only for ground that goes around the place, three quarters of the way at least, and that keeps a ball
-// radius and a step away from it; what merging left in steep regions also has borders that run along the
-// circles, but for an angle of 0.2 on average. Where the angle is open they are compared with the best of
-// six: circles a fifth shorter need no angle, and where all lines of the region are such angle_open is
-// cleared; such as are less than a fifth longer are told, by region, to be tried (QuickestAngles), for the
-// estimate may err by that. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<CircularTrial>> ChooseCircularLines(const Surface& surface, const RegionMap& map,
-                                                               const Resolved& resolved,
-                                                               const RunContext& run,
-                                                               std::vector<RegionChoice>& choices);
+struct CircularChoices {
+  RegionChoices regions;              // with the circles that pay; nothing is open about circles any more
+  std::vector<CircularTrial> trials;  // by id
+};
+
+// Gives circles (RegionChoice::around) to the components of regions that are open about them, where circles
+// pay.
+//
+// Candidates are reachable regions with the strategy AUTO whose lines run both ways. Each component of a
+// region is a candidate by itself, so that each of many rims has circles of its own; there are at most 5
+// million divided by the number of pieces. Only the selected gentle area of a component counts: all of a
+// gentle region, and in a steep region the gentle area that merging left in it.
+//
+// The common centre c of the circles minimises the weighted sum of squares of m . (p - c). One set of terms
+// has points p spread over the area, with m the horizontal direction square to the normal, as long as the
+// sine of the slope. The other has points on the borders of the gentle area, with m the direction of the
+// border, weighted by length times one flat step-over. Terms that miss c by more than a ball radius count
+// less.
+//
+// Circles pay where their length, with the links to each run, is a tenth shorter than that of straight lines
+// at their angle. Both lengths are estimates: from the steps needed at the points of MeasureRegions (one in
+// four of them) and from the number of lines that end at borders and at the split angle. The area has to
+// surround c for three quarters of a turn at least, and to keep a ball radius and a step away from it. In a
+// steep region the borders of the gentle area also have to run along the circles, within an angle of 0.2 rad
+// on average.
+//
+// Where the angle is open, circles are compared with the best of six angles. Circles a fifth shorter are
+// taken at once; where all lines of a region are such circles its angle is no longer open. Circles that are
+// less than a fifth longer become trials of their region (QuickestAngles), because the estimate may be wrong
+// by that. CANCELLED, DEADLINE_EXCEEDED from the run.
+absl::StatusOr<CircularChoices> ChooseCircularLines(const JobContext& context, const RegionMap& map,
+                                                    RegionChoices chosen);
 
 }  // namespace patchmill

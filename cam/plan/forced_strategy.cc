@@ -29,13 +29,15 @@ struct Seen {
   std::vector<Vec3> centers;        // mm, of balls that touch what is
 };
 
-absl::StatusOr<Seen> Look(const Surface& surface, const std::vector<RegionChoice>& choices, double radius,
-                          const RunContext& run, const RegionMap& map) {
+absl::StatusOr<Seen> Look(const JobContext& context, const RegionMap& map,
+                          const std::vector<RegionChoice>& choices) {
+  const Surface& surface = context.surface;
+  const double radius = context.resolved.plan_radius;
   const auto reached = [&](std::size_t id) {
     return map.regions[id].kind != RegionKind::kUnreachable && !choices[id].skip;
   };
   std::vector<Seen> pieces(surface.pieces.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
     VisitPiece(
         surface, i, map, StrideOf(map), reached,
         [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
@@ -67,38 +69,40 @@ std::function<double(const SurfaceJet&)> FinishedByForced(const Operation& op, d
   };
 }
 
-absl::Status MarkUnfinishedByStrategy(const Surface& surface, const Operation& op,
-                                      const std::vector<RegionChoice>& choices, double radius,
-                                      const RunContext& run, RegionMap& map) {
+absl::StatusOr<RegionMap> MarkUnfinishedByStrategy(const JobContext& context, RegionMap map,
+                                                   const RegionChoices& chosen) {
+  const Operation& op = context.job.operation;
+  const double radius = context.resolved.plan_radius;
   bool any = false;
   for (Region& region : map.regions) {
     if (region.reason != UnreachableReason::kStrategy) continue;
-    const RegionChoice& choice = choices[static_cast<std::size_t>(region.id)];
+    const auto id = static_cast<std::size_t>(region.id);
+    const RegionChoice& choice = chosen.choices[id];
     const bool otherwise =
         choice.strategy != op.strategy || (choice.strategy == Strategy::kZigzag &&
-                                           (choice.angle_open || choice.zigzag_angle != op.zigzag_angle));
+                                           (chosen.open[id].angle || choice.zigzag_angle != op.zigzag_angle));
     if (otherwise) region.reason = UnreachableReason::kNone;
     any = any || !otherwise;
   }
-  if (!any) return absl::OkStatus();
-  PM_ASSIGN_OR_RETURN(Seen seen, Look(surface, choices, radius, run, map));
+  if (!any) return map;
+  PM_ASSIGN_OR_RETURN(Seen seen, Look(context, map, chosen.choices));
   std::vector<std::size_t> places(map.regions.size(), 0), met = places;
   for (const ForcedPlace& place : seen.beyond) ++places[place.region];
   std::erase_if(seen.beyond, [&](const ForcedPlace& place) {
     return met[place.region]++ % (1 + places[place.region] / kMostPlaces) != 0;
   });
   const PointCells finished(seen.centers, radius);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, seen.beyond.size(), [&](std::size_t k) {
+  PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, seen.beyond.size(), [&](std::size_t k) {
     ForcedPlace& place = seen.beyond[k];
     const auto nearest = finished.Nearest(place.p);
-    const double away = nearest ? (seen.centers[*nearest] - place.p).norm() : surface.box.Diagonal();
+    const double away = nearest ? (seen.centers[*nearest] - place.p).norm() : context.surface.box.Diagonal();
     place.left = std::min(place.left, away - radius);
   }));
   for (const ForcedPlace& place : seen.beyond) {
     Region& region = map.regions[place.region];
     region.deepest_leftover = std::max(region.deepest_leftover, place.left);
   }
-  return absl::OkStatus();
+  return map;
 }
 
 }  // namespace patchmill

@@ -1,13 +1,11 @@
-// Ground that passes of one kind do not finish when they are forced upon the whole surface (kStrategy).
+// Areas that passes of one kind do not finish when they are forced upon the whole surface (kStrategy).
 #pragma once
 
 #include <functional>
-#include <vector>
 
-#include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
-#include "cam/plan/job.h"
-#include "core/base/run_context.h"
+#include "cam/plan/job_context.h"
 
 namespace patchmill {
 
@@ -16,12 +14,12 @@ namespace patchmill {
 // Empty when nothing is forced. `radius`, mm: of ball and stock to leave.
 std::function<double(const SurfaceJet&)> FinishedByForced(const Operation& op, double radius);
 
-// Takes the reason kStrategy from regions that are cut otherwise than the operation says, or in a direction
-// that is still open, and fills deepest_leftover of those that keep it: at up to 500 places of each, what the
-// least step leaves (LeftByStep), or the distance to a ball that touches ground which is finished, if that is
-// less. An estimate: passes may come nearer. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::Status MarkUnfinishedByStrategy(const Surface& surface, const Operation& op,
-                                      const std::vector<RegionChoice>& choices, double radius,
-                                      const RunContext& run, RegionMap& map);
+// The same map, but for two figures of the regions with the reason kStrategy. A region that is cut otherwise
+// than the operation says, or in a direction that is still open, has no reason. The others have their
+// deepest_leftover: at up to 500 places of each, what the least step leaves (LeftByStep), or the distance to
+// a ball that touches finished surface if that is less. This is an estimate: passes may come nearer.
+// CANCELLED, DEADLINE_EXCEEDED from the run.
+absl::StatusOr<RegionMap> MarkUnfinishedByStrategy(const JobContext& context, RegionMap map,
+                                                   const RegionChoices& chosen);
 
 }  // namespace patchmill

@@ -1,5 +1,4 @@
-// One job as values: what is asked, and what is answered. The wire's Job, resolved (server/convert does the
-// conversion).
+// One job as values: the request and the result. server/convert makes them from the messages of the wire.
 #pragma once
 
 #include <optional>
@@ -23,7 +22,7 @@ inline constexpr double kDefaultClearanceAbove = 5.0;  // mm, above the highest 
 enum class Strategy { kAuto, kContour, kZigzag };
 enum class EdgeRule { kStop, kRoll, kExtend };
 
-// A clamp, a vice, anything the tool keeps off; PROGRAM frame.
+// A clamp, a vice, anything that the tool has to avoid; PROGRAM frame.
 struct ObstacleOutline {
   std::string id;
   Ring outline;
@@ -65,19 +64,35 @@ struct RegionChoice {
   bool skip = false;  // not at all
   Strategy strategy = Strategy::kAuto;
   double zigzag_angle = 0.0;  // rad
-  bool angle_open = false;    // zigzag_angle is yet to be chosen (QuickestAngles)
-  bool circles_open = false;  // and whether its lines are circles (ChooseCircularLines)
   bool one_way = false;       // all its lines run along zigzag_angle, none back
   double scallop = 0.01;      // mm
-  // Components whose lines are circles, whatever zigzag_angle says, rising; and whether that is all ground
-  // that has lines, crumbs apart (ChooseCircularLines).
+  // Components whose lines are circles, whatever zigzag_angle says, in rising order.
   std::vector<CircularComponent> around;
-  bool all_circular = false;
+  bool all_circular = false;  // the other components are too small for lines of their own
   bool operator==(const RegionChoice&) const = default;
 };
 
-// A change to one region, which is named by its id in the map of Operation::regions_sha256 or by a point of
-// it.
+// What the choice of one region leaves to the planner.
+struct OpenChoice {
+  bool angle = false;    // QuickestAngles finds zigzag_angle
+  bool circles = false;  // ChooseCircularLines finds the components whose lines are circles
+};
+
+// How all regions of a map are cut, by id.
+struct RegionChoices {
+  std::vector<RegionChoice> choices;
+  std::vector<OpenChoice> open;
+};
+
+// What is measured of one region once its choice is known (MeasureRegions).
+struct RegionFigures {
+  double step_min = 0.0, step_max = 0.0;  // mm, distances between neighbouring ball centres for the scallop
+  double selected_share = 1.0;            // share of the area that the operation selects, 0 to 1
+  double otherwise_share = 0.0;           // share of the area that the passes of the other slope cut
+};
+
+// A change to one region. The region is named by its id in the map of Operation::regions_sha256, or by a
+// point on it.
 struct RegionOverride {
   int region = -1;         // unless `at` is given
   std::optional<Vec3> at;  // PROGRAM frame, within kPickReach of the surface
@@ -148,7 +163,8 @@ struct JobReport {
   int point_count = 0;
   std::uint64_t certificate_defects = 0;  // Locator::defect_count of the passes
   std::vector<Region> regions;
-  std::vector<RegionChoice> choices;  // of each region
+  std::vector<RegionChoice> choices;   // of each region
+  std::vector<RegionFigures> figures;  // of each region
   Diagnostics diagnostics;
   std::vector<StageTime> stages;
 };

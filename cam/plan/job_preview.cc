@@ -46,7 +46,7 @@ std::string Color(const Region& region, int nth) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-// Which ground is to be finished: what is selected, less the regions that are skipped.
+// The part of the surface that is to be finished: the selection without the skipped regions.
 class WantedCells {
  public:
   WantedCells(const Surface& surface, const RegionMap& map, const std::vector<RegionChoice>& choices,
@@ -66,7 +66,7 @@ class WantedCells {
   std::vector<PlanPart> parts_;
 };
 
-// Which regions have wanted ground, looked for in up to about 2,000 cells of each: even the smallest is met.
+// Which regions have a selected place, among up to about 2,000 cells of each: even the smallest is met.
 std::vector<bool> SeenRegions(const Surface& surface, const RegionMap& map, const WantedCells& wanted) {
   constexpr std::size_t kMostCells = 2000;
   std::vector<std::size_t> cells(map.regions.size(), 0);
@@ -187,7 +187,7 @@ const char* Name(Outcome outcome) {
 
 std::string DrawRegions(const Surface& surface, const ChosenRegions& regions, const Resolved& resolved,
                         double steep_angle, const std::string& title) {
-  PreviewInput input = BaseInput(surface, regions.map, regions.choices, resolved, title);
+  PreviewInput input = BaseInput(surface, regions.map, regions.chosen.choices, resolved, title);
   input.shadings = true;
   input.scales = {steep_angle, resolved.plan_radius};
   return DrawPreview(input);

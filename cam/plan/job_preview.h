@@ -10,9 +10,9 @@
 
 namespace patchmill {
 
-// Ground that is not selected, or whose region is skipped, is grey; regions without other ground have no
-// legend. Borders are drawn by kind. A region map also has their nodes, and views by slope, whose colours
-// change at `steep_angle` (rad), and by the curvature of contours.
+// Places that are not selected, or whose region is skipped, are grey. Regions that are grey all over have no
+// legend. Borders are drawn by kind. A region map has the nodes of borders, too, and two more views: by
+// slope, whose colours change at `steep_angle` (rad), and by the curvature of contours.
 std::string DrawJob(const Surface& surface, const JobResult& result, const Resolved& resolved,
                     const std::string& title);
 std::string DrawRegions(const Surface& surface, const ChosenRegions& regions, const Resolved& resolved,

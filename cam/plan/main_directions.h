@@ -13,9 +13,9 @@ double AsDirection(double angle);  // of any angle, rad
 // rad, in [0, pi/2]; of two directions.
 double DirectionsApart(double a, double b);
 
-// In which directions most of a way runs that consists of these steps, the one of most first, `count` at
-// most: those that a tenth of its length keeps to within 3.75 degrees, 15 degrees apart or more. Each is the
-// mean of what keeps to it. None for a circle. Cost O(n count).
+// The main directions of a polyline that consists of these steps, at most `count`, the most frequent first.
+// At least a tenth of the length runs within 3.75 degrees of each, and they are 15 degrees or more apart.
+// Each is the mean direction of that length. A circle has none. Cost O(n count).
 std::vector<double> MainDirections(std::span<const Vec2> steps, int count);
 
 }  // namespace patchmill

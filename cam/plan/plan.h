@@ -17,7 +17,7 @@ absl::StatusOr<PatchNetwork> BuildPlacedNetwork(PatchModel model, const Setup& s
 absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup, const RunContext& run);
 
 // Model findings of CheckModel: network, curvature against the tool, size warnings. A concave radius counts
-// as below the ball's when it is smaller by more than `give`, mm (ReachTolerance).
+// as below the ball's when it is smaller by more than `reach_tolerance`, mm (ReachTolerance).
 struct ModelCheck {
   Diagnostics findings;
   Box3 box;                               // placed
@@ -37,8 +37,8 @@ absl::Status ValidateJob(const Job& job);
 // The regions of a job and how each is cut. Errors as ValidateJob, ChooseRegions.
 absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job, const RunContext& run);
 
-// The parts that a program of this job is judged by (MakeVerifyParams); none when no region is chosen. Errors
-// as ChooseRegions.
+// The parts by which a program of this job is verified (MakeVerifyParams); none without region overrides.
+// Errors as ChooseRegions.
 absl::StatusOr<std::vector<PlanPart>> VerifiedParts(const Surface& surface, const Job& job,
                                                     const Resolved& resolved, const RunContext& run);
 

@@ -60,20 +60,23 @@ void NumberAfter(const std::vector<CutterPath>& before, std::vector<CutterPath>&
   for (CutterPath& path : paths) path.order_key += last + kGap;
 }
 
-// Contours shorter than `step` (mm) where a level barely touches a crest or a crease: ground that needs them
-// gets rest passes. Not where other levels have such ones beside them, as in a hole that the ball just fits.
-void DropCrumbs(double step, std::vector<CutterPath>& contours) {
-  const auto is_crumb = [&](const CutterPath& path) { return !path.spiral && Length(path) < step; };
+// Drops contours shorter than `step` (mm), where a level barely touches a crest or a crease: rest passes
+// finish such places. A short contour stays where another level has one next to it, as in a hole that the
+// ball just fits.
+void DropShortContours(double step, std::vector<CutterPath>& contours) {
+  const auto is_short = [&](const CutterPath& path) {
+    return path.traversal != Traversal::kSpiral && Length(path) < step;
+  };
   std::vector<Vec3> places;
   std::vector<int> lines;
   for (const CutterPath& path : contours) {
-    if (!is_crumb(path)) continue;
+    if (!is_short(path)) continue;
     places.push_back(Lift(Xy(path.points.front().center), 0.0));
     lines.push_back(path.order_key);
   }
   const PointCells cells(places, step);
   std::erase_if(contours, [&](const CutterPath& path) {
-    if (!is_crumb(path)) return false;
+    if (!is_short(path)) return false;
     bool alone = true;
     cells.Near(Lift(Xy(path.points.front().center), 0.0), step,
                [&](std::size_t k) { alone = alone && lines[k] == path.order_key; });
@@ -83,27 +86,32 @@ void DropCrumbs(double step, std::vector<CutterPath>& contours) {
 
 class PassMaker {
  public:
-  PassMaker(const Locator& locator, const Job& job, const Resolved& resolved, const RunContext& run)
+  PassMaker(const JobContext& context, const Locator& locator)
       : locator_(locator),
-        op_(job.operation),
-        split_angle_(resolved.split_angle),
-        base_(MakePassParams(job, resolved)),
-        run_(run) {}
+        op_(context.job.operation),
+        split_angle_(context.resolved.split_angle),
+        base_(MakePassParams(context.job, context.resolved)),
+        run_(context.run) {}
 
-  // What has been added so far counts against the limits of what is made next.
-  absl::Status AddStrategies(const PlanPart& part, const std::vector<BorderCurve>& rims,
-                             const OperationLimits* operation_limits, PlannedPasses& planned) {
+  // Contours and lines of a part. `limits`: of the part; null: there are none. `rims`: where the surface
+  // ends. `before`: the passes of the parts before it, which count against the limits of what is made here.
+  absl::StatusOr<PlannedPasses> StrategyPasses(const PlanPart& part, const OperationLimits* limits,
+                                               const std::vector<BorderCurve>& rims,
+                                               const std::vector<CutterPath>& before) {
     const RegionChoice& choice = part.choice;
-    std::vector<CutterPath> paths;
+    const PathAmount made = AmountOf(before);
+    PlannedPasses planned;
+    std::vector<CutterPath>& paths = planned.paths;
     const auto clip = [&](std::vector<CutterPath> of) -> absl::StatusOr<std::vector<CutterPath>> {
-      if (operation_limits == nullptr) return of;
+      if (limits == nullptr) return of;
       const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
-      return ClipToLimits(locator_, *operation_limits, std::move(of), reach, run_);
+      return ClipToLimits(locator_, *limits, std::move(of), reach, run_);
     };
-    base_.budget.made = AmountOf(planned.paths);
     if (choice.strategy != Strategy::kZigzag) {
-      PM_ASSIGN_OR_RETURN(paths, Contours(choice, operation_limits != nullptr, planned.findings));
-      if (op_.spirals && operation_limits != nullptr) {
+      PM_ASSIGN_OR_RETURN(ContourResult contours, Contours(choice, limits != nullptr, made));
+      paths = std::move(contours.paths);
+      planned.findings = std::move(contours.findings);
+      if (op_.spirals && limits != nullptr) {
         PM_ASSIGN_OR_RETURN(paths, ClipUnthinned(choice, std::move(paths), clip));
       } else {
         PM_ASSIGN_OR_RETURN(paths, clip(std::move(paths)));
@@ -111,15 +119,17 @@ class PassMaker {
     }
     if (choice.strategy != Strategy::kContour) {
       ZigzagParams params;
-      SetFinePass(choice, params);
-      params.budget.made += AmountOf(paths);
-      params.window.max = choice.strategy == Strategy::kAuto ? split_angle_ : kPi / 2.0;
+      params.pass = FinePassOf(choice, made);
+      params.pass.budget.made += AmountOf(paths);
+      params.pass.window.max = choice.strategy == Strategy::kAuto ? split_angle_ : kPi / 2.0;
       params.angle = choice.zigzag_angle;
       params.max_bend = op_.zigzag_bend;
-      if (operation_limits != nullptr && operation_limits->HasPart()) params.part = operation_limits;
+      if (limits != nullptr && limits->HasPart()) params.part = limits;
       params.where = part.straight.get();
       PM_ASSIGN_OR_RETURN(std::vector<CutterPath> lines, ZigzagPaths(locator_, params, run_));
-      for (CutterPath& line : lines) line.one_way = choice.one_way;
+      if (choice.one_way) {
+        for (CutterPath& line : lines) line.traversal = Traversal::kOneWay;
+      }
       std::optional<SegmentTree> contours;
       if (!part.round.empty()) contours.emplace(MovesOf(paths), Metric::kPath, locator_.radius(), run_);
       for (const PlanPart::Round& round : part.round) {
@@ -127,34 +137,36 @@ class PassMaker {
         params.where = round.where.get();
         params.around = round.around;
         PM_ASSIGN_OR_RETURN(std::vector<CutterPath> circles, ZigzagPaths(locator_, params, run_));
-        params.budget.made += AmountOf(circles);
+        params.pass.budget.made += AmountOf(circles);
         NumberAfter(lines, circles);
         Append(lines, std::move(circles));
       }
-      PM_ASSIGN_OR_RETURN(std::vector<CutterPath> above, RimPasses(locator_, rims, params, run_, lines));
+      PM_ASSIGN_OR_RETURN(std::vector<CutterPath> above, RimPasses(locator_, rims, params.pass, run_, lines));
       TurnOneWay(choice, above);
       Append(lines, std::move(above));
       PM_ASSIGN_OR_RETURN(lines, clip(std::move(lines)));
       Append(paths, std::move(lines));
     }
     if (op_.spirals) {
-      PassParams params;
-      SetFinePass(choice, params);
+      const PassParams params = FinePassOf(choice, made);
       const bool backwards = op_.contour_direction == CutDirection::kConventional;
       PM_ASSIGN_OR_RETURN(paths, SpiralPaths(locator_, std::move(paths), params, backwards, run_));
       PM_RETURN_IF_ERROR(ThinContours(locator_, params, MaySpiral, run_, paths));
     }
-    NumberAfter(planned.paths, paths);
-    Append(planned.paths, std::move(paths));
-    return CheckAmount(base_.budget.limits, AmountOf(planned.paths), "with lines and contours");
+    NumberAfter(before, paths);
+    PathAmount all = made;
+    all += AmountOf(paths);
+    PM_RETURN_IF_ERROR(CheckAmount(base_.budget.limits, all, "with lines and contours"));
+    return planned;
   }
 
-  // Along the borders that end the lines of this choice: the edge of the surface, the floor, and ground that
-  // is cut in another way or not at all. Limits of the operation and of the ball's own shape are none: the
-  // ball cannot stand on them.
-  absl::Status AddBorders(const RegionMap& regions, const std::vector<RegionChoice>& choices,
-                          const RegionChoice& choice, const OperationLimits* operation_limits,
-                          PlannedPasses& planned) const {
+  // Passes along the borders at which the lines of this choice end: the edge of the surface, the floor, and
+  // areas that are cut in another way or not at all. Limits of the operation and of the ball's own shape are
+  // no such borders: the ball cannot stand on them.
+  absl::StatusOr<std::vector<CutterPath>> BordersOf(const RegionMap& regions, const JobParts& job,
+                                                    const RegionChoice& choice, const OperationLimits* limits,
+                                                    const std::vector<CutterPath>& before) const {
+    const std::vector<RegionChoice>& choices = job.choices;
     const auto region = [&](int id) -> const Region& {
       return regions.regions[static_cast<std::size_t>(id)];
     };
@@ -175,47 +187,43 @@ class PassMaker {
       if (ends(line.region, line.other) || (line.other >= 0 && ends(line.other, line.region)))
         borders.push_back({line.points, line.closed});
     }
-    if (borders.empty()) return absl::OkStatus();
-    PassParams params;
-    SetFinePass(choice, params);
+    if (borders.empty()) return std::vector<CutterPath>();
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> passes,
-                        BorderPasses(locator_, borders, planned.paths, params, run_));
-    if (operation_limits != nullptr) {
+                        BorderPasses(locator_, borders, before, FinePassOf(choice, {}), run_));
+    if (limits != nullptr) {
       const double reach = CenterStep(locator_.radius(), choice.scallop, 0.0);
-      PM_ASSIGN_OR_RETURN(passes, ClipToLimits(locator_, *operation_limits, std::move(passes), reach, run_));
+      PM_ASSIGN_OR_RETURN(passes, ClipToLimits(locator_, *limits, std::move(passes), reach, run_));
       std::erase_if(passes, [&](const CutterPath& pass) { return Length(pass) < 4.0 * reach; });
     }
     TurnOneWay(choice, passes);
-    Append(planned.paths, std::move(passes));
-    return absl::OkStatus();
+    return passes;
   }
 
-  RestPassParams CoverageOf(const RegionChoice& choice, const OperationLimits* operation_limits) const {
+  RestPassParams CoverageOf(const RegionChoice& choice, const OperationLimits* limits) const {
     RestPassParams params;
-    SetPass(choice, params);
+    params.pass = PassOf(choice, {});
     params.limit = choice.scallop + kCoverageShare * op_.tolerance;
     params.tolerance = op_.tolerance;
-    // Forced passes answer for the ground where their steps are not clamped; the rest is reported as
-    // STRATEGY.
+    // Forced passes answer for places where their steps are not clamped; the rest is reported as STRATEGY.
     params.forced = ForcedOf(choice);
-    params.operation_limits = operation_limits;
+    params.operation_limits = limits;
     return params;
   }
 
-  absl::Status AddRest(const RegionChoice& choice, const Locator& reach, const RestPassParams& params,
-                       PlannedPasses& planned) const {
+  // Where the passes `before` leave more than `params` allows.
+  absl::StatusOr<std::vector<CutterPath>> RestOf(const RegionChoice& choice, const Locator& reach,
+                                                 const RestPassParams& params,
+                                                 const std::vector<CutterPath>& before) const {
     RestPassParams counted = params;
-    counted.budget.made = AmountOf(planned.paths);
-    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest,
-                        RestPaths(locator_, reach, planned.paths, counted, run_));
+    counted.pass.budget.made = AmountOf(before);
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest, RestPaths(locator_, reach, before, counted, run_));
     TurnAlongWalls(choice, rest);
     TurnOneWay(choice, rest);
-    Append(planned.paths, std::move(rest));
-    return absl::OkStatus();
+    return rest;
   }
 
  private:
-  // What mends lines that run one way runs that way too, but for what runs across it.
+  // Rest passes between lines that run one way run that way, too, unless they run across it.
   static void TurnOneWay(const RegionChoice& choice, std::vector<CutterPath>& paths) {
     if (!choice.one_way || choice.strategy == Strategy::kContour) return;
     const Vec2 way(std::cos(choice.zigzag_angle), std::sin(choice.zigzag_angle));
@@ -225,11 +233,11 @@ class PassMaker {
       const double along = way.dot(Xy(d));
       if (std::abs(along) < kAcross * d.norm()) continue;
       if (along < 0.0) Reverse(path);
-      path.one_way = true;
+      path.traversal = Traversal::kOneWay;
     }
   }
 
-  // What runs along walls for more than a spot's length runs as contours do, material on the right for climb.
+  // Long passes along walls run as contours do: for climb milling the material is on their right.
   void TurnAlongWalls(const RegionChoice& choice, std::vector<CutterPath>& paths) const {
     if (choice.strategy == Strategy::kZigzag || op_.contour_direction == CutDirection::kEither) return;
     const double side = op_.contour_direction == CutDirection::kClimb ? 1.0 : -1.0;
@@ -247,15 +255,17 @@ class PassMaker {
       }
       if (std::abs(on_right) < kAlongWall * length) continue;
       if (side * on_right < 0.0) Reverse(path);
-      path.directed = true;
+      path.traversal = Traversal::kDirected;
     }
   }
 
-  // What no limit has cut.
-  static bool MaySpiral(const CutterPath& path) { return path.closed || path.spiral; }
+  // Contours that no limit has cut.
+  static bool MaySpiral(const CutterPath& path) {
+    return path.closed || path.traversal == Traversal::kSpiral;
+  }
 
-  // Spirals are wound of contours as they were traced, all others lose the points that their chords can do
-  // without before limits cut them: ends on chords are of another kind.
+  // Spirals are wound from contours as they were traced. All other contours lose their superfluous points
+  // before limits cut them, because an end on a chord is not one of the points that were traced.
   template <class Clip>
   absl::StatusOr<std::vector<CutterPath>> ClipUnthinned(const RegionChoice& choice,
                                                         std::vector<CutterPath> paths,
@@ -271,9 +281,7 @@ class PassMaker {
     for (const CutterPath& path : clipped) whole[static_cast<std::size_t>(path.order_key)] = 1;
     std::erase_if(
         paths, [&](const CutterPath& path) { return whole[static_cast<std::size_t>(path.order_key)] != 0; });
-    PassParams params;
-    SetFinePass(choice, params);
-    PM_RETURN_IF_ERROR(ThinContours(locator_, params, MaySpiral, run_, paths));
+    PM_RETURN_IF_ERROR(ThinContours(locator_, FinePassOf(choice, {}), MaySpiral, run_, paths));
     PM_ASSIGN_OR_RETURN(paths, clip(std::move(paths)));
     Append(clipped, std::move(paths));
     std::stable_sort(clipped.begin(), clipped.end(),
@@ -282,36 +290,37 @@ class PassMaker {
     return clipped;
   }
 
-  // Over all ground that is steep enough; parts that differ in their lines alone share them. When limits cut
-  // them off afterwards their length does not count yet; their points do, for they are held.
-  absl::StatusOr<std::vector<CutterPath>> Contours(const RegionChoice& choice, bool cut_off,
-                                                   Diagnostics& findings) {
+  // Contours over the whole steep area. Parts that differ in their lines alone share them; the first part has
+  // the findings. With `cut_off` limits clip them afterwards: their length does not count yet, but their
+  // points do, because they are in memory.
+  absl::StatusOr<ContourResult> Contours(const RegionChoice& choice, bool cut_off, const PathAmount& made) {
     const bool all = choice.strategy == Strategy::kContour;
     if (const auto known = contours_.find({all, choice.scallop}); known != contours_.end()) {
-      return known->second;
+      return ContourResult{known->second, {}};
     }
     ContourParams params;
-    SetFinePass(choice, params);
-    params.window.min = all ? 0.0 : split_angle_;
-    if (cut_off) params.budget.limits.length = kInfinity;
+    params.pass = FinePassOf(choice, made);
+    params.pass.window.min = all ? 0.0 : split_angle_;
+    if (cut_off) params.pass.budget.limits.length = kInfinity;
     PM_ASSIGN_OR_RETURN(ContourResult contours, ContourPaths(locator_, params, run_));
-    DropCrumbs(CenterStep(locator_.radius(), choice.scallop, 0.0), contours.paths);
+    DropShortContours(CenterStep(locator_.radius(), choice.scallop, 0.0), contours.paths);
     // Spirals are made of contours as they are.
     const auto now = [&](const CutterPath& path) { return !(op_.spirals && MaySpiral(path)); };
-    PM_RETURN_IF_ERROR(ThinContours(locator_, params, now, run_, contours.paths));
-    findings.insert(findings.end(), contours.findings.begin(), contours.findings.end());
-    return contours_[{all, choice.scallop}] = std::move(contours.paths);
+    PM_RETURN_IF_ERROR(ThinContours(locator_, params.pass, now, run_, contours.paths));
+    contours_[{all, choice.scallop}] = contours.paths;
+    return contours;
   }
 
-  void SetPass(const RegionChoice& choice, PassParams& params) const {
-    params = base_;
+  PassParams PassOf(const RegionChoice& choice, const PathAmount& made) const {
+    PassParams params = base_;
     params.scallop = choice.scallop;
+    params.budget.made = made;
+    return params;
   }
 
   // Of passes that lie side by side.
-  void SetFinePass(const RegionChoice& choice, PassParams& params) const {
-    SetPass(choice, params);
-    params = WithFineChords(params);
+  PassParams FinePassOf(const RegionChoice& choice, const PathAmount& made) const {
+    return WithFineChords(PassOf(choice, made));
   }
 
   const Locator& locator_;
@@ -336,48 +345,65 @@ PassParams MakePassParams(const Job& job, const Resolved& resolved) {
   return p;
 }
 
-absl::StatusOr<PlannedPasses> PlanPasses(const Locator& locator, const RegionMap& regions,
-                                         const std::vector<RegionChoice>& choices,
-                                         const std::vector<PlanPart>& parts, const Job& job,
-                                         const Resolved& resolved, const OperationLimits* operation_limits,
-                                         const RunContext& run) {
-  PlannedPasses planned;
-  PassMaker maker(locator, job, resolved, run);
+JobParts PartsOfJob(const JobContext& context, const RegionMap& map, std::vector<RegionChoice> choices) {
+  JobParts job;
+  job.parts = PartsOf(map, choices);
+  job.choices = std::move(choices);
+  const bool whole = job.parts.size() == 1 && job.parts.front().where == nullptr;
+  if (!whole || !context.limits.WantsAll() || !context.limits.AllowsAll()) job.limits = &context.limits;
+  return job;
+}
+
+absl::StatusOr<PlannedPasses> PlanPasses(const JobContext& context, const Locator& locator,
+                                         const RegionMap& regions, const JobParts& job) {
+  const Operation& op = context.job.operation;
+  const std::vector<PlanPart>& parts = job.parts;
   std::vector<std::optional<OperationLimits>> own(parts.size());
-  const auto limits = [&](std::size_t k) { return own[k] ? &*own[k] : operation_limits; };
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts[k].where == nullptr) continue;
+    PM_CHECK(job.limits != nullptr);
+    PM_ASSIGN_OR_RETURN(OperationLimits within, job.limits->Within(parts[k].where, context.run));
+    own[k].emplace(std::move(within));
+  }
+  const auto limits = [&](std::size_t k) { return own[k] ? &*own[k] : job.limits; };
+
+  PlannedPasses planned;
+  PassMaker maker(context, locator);
   std::vector<BorderCurve> rims;  // where the surface ends
-  if (job.operation.border_passes) {
+  if (op.border_passes) {
     for (const BorderLine& line : regions.border_lines)
       if (line.other < 0) rims.push_back({line.points, line.closed});
   }
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (parts[k].where != nullptr) {
-      PM_CHECK(operation_limits != nullptr);
-      PM_ASSIGN_OR_RETURN(OperationLimits within, operation_limits->Within(parts[k].where, run));
-      own[k].emplace(std::move(within));
-    }
-    PM_RETURN_IF_ERROR(maker.AddStrategies(parts[k], rims, limits(k), planned));
+    PM_ASSIGN_OR_RETURN(PlannedPasses more, maker.StrategyPasses(parts[k], limits(k), rims, planned.paths));
+    Append(planned.paths, std::move(more.paths));
+    planned.findings.insert(planned.findings.end(), more.findings.begin(), more.findings.end());
   }
-  if (job.operation.border_passes) {
+  if (op.border_passes) {
     for (std::size_t k = 0; k < parts.size(); ++k) {
-      PM_RETURN_IF_ERROR(maker.AddBorders(regions, choices, parts[k].choice, limits(k), planned));
+      PM_ASSIGN_OR_RETURN(std::vector<CutterPath> more,
+                          maker.BordersOf(regions, job, parts[k].choice, limits(k), planned.paths));
+      Append(planned.paths, std::move(more));
     }
   }
-  // After all of them: along a border the passes of one part finish some of the next.
+  // After all parts: along a border the passes of one part finish places of the next.
   RestPassParams any;
-  any.tolerance = job.operation.tolerance;
-  PM_ASSIGN_OR_RETURN(const Locator reach, ReachLocator(locator, any, run));
+  any.tolerance = op.tolerance;
+  PM_ASSIGN_OR_RETURN(const Locator reach, ReachLocator(locator, any, context.run));
   std::vector<RestPassParams> coverage;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     coverage.push_back(maker.CoverageOf(parts[k].choice, limits(k)));
-    PM_RETURN_IF_ERROR(maker.AddRest(parts[k].choice, reach, coverage.back(), planned));
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> rest,
+                        maker.RestOf(parts[k].choice, reach, coverage.back(), planned.paths));
+    Append(planned.paths, std::move(rest));
   }
   PM_ASSIGN_OR_RETURN(planned.paths,
-                      RemoveRedundantPasses(locator, reach, std::move(planned.paths), coverage, run));
+                      RemoveRedundantPasses(locator, reach, std::move(planned.paths), coverage, context.run));
   LabelRegions(regions, planned.paths);
-  if (job.operation.edge_rule == EdgeRule::kExtend) {
-    PM_ASSIGN_OR_RETURN(planned.paths, ExtendPasses(locator, std::move(planned.paths), locator.radius(),
-                                                    MakePassParams(job, resolved), operation_limits, run));
+  if (op.edge_rule == EdgeRule::kExtend) {
+    PM_ASSIGN_OR_RETURN(planned.paths,
+                        ExtendPasses(locator, std::move(planned.paths), locator.radius(),
+                                     MakePassParams(context.job, context.resolved), job.limits, context.run));
   }
   return planned;
 }

@@ -56,10 +56,11 @@ RegionTimes TimesOf(const LinkResult& motion, std::size_t regions) {
   return times;
 }
 
-absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
-                                                         std::vector<RegionChoice> choices,
-                                                         const std::vector<CircularTrial>& circles,
+absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map, const RegionChoices& chosen,
+                                                         const std::vector<CircularTrial>& trials,
                                                          const TimePlan& plan) {
+  const std::vector<RegionChoice>& choices = chosen.choices;
+  const auto is_open = [&](std::size_t id) { return chosen.open[id].angle; };
   // How a region's lines run.
   struct Way {
     double angle = 0.0;
@@ -73,17 +74,16 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
   const auto with = [&](const std::vector<Way>& ways) {
     std::vector<RegionChoice> filled = choices;
     for (std::size_t id = 0; id < filled.size(); ++id) {
-      if (!filled[id].angle_open) continue;
-      filled[id].angle_open = false;
-      const bool round = ways[id].round && !circles[id].more.empty();
+      if (!is_open(id)) continue;
+      const bool round = ways[id].round && !trials[id].more.empty();
       if (round) {
         std::vector<CircularComponent>& around = filled[id].around;
-        around.insert(around.end(), circles[id].more.begin(), circles[id].more.end());
+        around.insert(around.end(), trials[id].more.begin(), trials[id].more.end());
         std::sort(around.begin(), around.end(), [](const CircularComponent& a, const CircularComponent& b) {
           return a.component < b.component;
         });
       }
-      if (round && circles[id].all) {
+      if (round && trials[id].all) {
         filled[id].all_circular = true;
       } else {
         filled[id].zigzag_angle = ways[id].angle;
@@ -110,7 +110,7 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
     }
     std::vector<Way> mixed = best->ways;
     for (std::size_t id = 0; id < mixed.size(); ++id) {
-      if (by_contours(id) && circles[id].more.empty()) continue;
+      if (by_contours(id) && trials[id].more.empty()) continue;
       double least = kInfinity;
       for (const Tried& tried : plans) {
         if (tried.times[id] >= least) continue;
@@ -130,12 +130,12 @@ absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
   bool any_lines = false, any_circles = false;
   for (std::size_t id = 0; id < map.regions.size(); ++id) {
     const Region& region = map.regions[id];
-    any_circles = any_circles || (choices[id].angle_open && !circles[id].more.empty());
-    if (!choices[id].angle_open || by_contours(id) || region.kind == RegionKind::kUnreachable) continue;
+    any_circles = any_circles || (is_open(id) && !trials[id].more.empty());
+    if (!is_open(id) || by_contours(id) || region.kind == RegionKind::kUnreachable) continue;
     any_lines = true;
     for (const std::vector<Vec3>& loop : region.border) AddStrides(loop, border);
   }
-  if (std::none_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.angle_open; }))
+  if (std::none_of(chosen.open.begin(), chosen.open.end(), [](const OpenChoice& o) { return o.angle; }))
     return choices;  // every region has its angle, or circles
   std::vector<double> angles;
   for (int k = 0; k < kAngles; ++k) angles.push_back(k * kPi / kAngles);

@@ -22,18 +22,18 @@ using TimePlan = std::function<absl::StatusOr<RegionTimes>(const std::vector<Reg
 
 inline constexpr int kQuickestAnglePlans = 20;  // at most
 
-// The choices with zigzag_angle filled in, in [0, pi), wherever angle_open is set (which is cleared), or
-// more `around` from `circles`, which has what to try for each region (ChooseCircularLines). First all
-// regions are planned at 0, 30, ... 150 degrees and along the two directions in which most of the borders of
-// lines run (MainDirections), for there the time falls off within a few degrees. Each region takes the angle
-// at which its own motion is quickest (steep ones that contours cut that of the quickest plan), and that
-// mixture is planned too. Then the quickest plan's angles are turned by 15 degrees to either side, by 7.5 and
-// by 3.75, and each region takes the one of the three that its own motion is quickest at; at last circles
-// take the place of lines wherever they are to be tried, and where they are quicker they stay. The quickest
-// of all these plans is the answer. kQuickestAnglePlans times the cost of `plan` at most; its errors.
-absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map,
-                                                         std::vector<RegionChoice> choices,
-                                                         const std::vector<CircularTrial>& circles,
+// The choices with zigzag_angle filled in, in [0, pi), wherever it is open, or with more `around` from
+// `trials`, which has the circles to try for each region (ChooseCircularLines).
+//
+// First all regions are planned at 0, 30, ... 150 degrees and along the two main directions of the borders at
+// which lines end (MainDirections), because near these the time falls within a few degrees. Each region takes
+// the angle at which its own motion is quickest; steep regions that contours cut take that of the quickest
+// plan. That mixture is planned, too. Then the angles of the quickest plan are turned by 15 degrees to either
+// side, by 7.5 and by 3.75, and each region takes the quickest of the three. At last circles replace lines
+// wherever there are trials, and stay where they are quicker. The answer is the quickest of all these plans.
+// Cost: kQuickestAnglePlans times that of `plan` at most. Errors: those of `plan`.
+absl::StatusOr<std::vector<RegionChoice>> QuickestAngles(const RegionMap& map, const RegionChoices& chosen,
+                                                         const std::vector<CircularTrial>& trials,
                                                          const TimePlan& plan);
 
 }  // namespace patchmill

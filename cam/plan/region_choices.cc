@@ -77,9 +77,9 @@ std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
   return leader;
 }
 
-// The cells of a piece that are the component's, or at most kCellsBesideCircles steps from cell to cell
-// away: its
-// border runs through cells, and what is left of them would be cut by short ends of other lines.
+// The cells of a piece that belong to the component or are at most kCellsBesideCircles steps from cell to
+// cell away. Its border runs through cells: without these, short ends of other lines would cut their
+// remainders.
 std::vector<bool> CellsOf(const RegionMap& map, std::size_t piece, int component) {
   const int n = map.cells;
   const std::vector<int>& labels = map.components.empty() ? map.labels[piece] : map.components[piece];
@@ -120,8 +120,8 @@ std::map<int, std::vector<std::size_t>> PiecesOfComponents(const RegionMap& map)
   return pieces;
 }
 
-// mm: circles around places this near to each other are one family. That is right at any distance, for what
-// steps are needed is looked for along the circles as they lie; farther apart it would cost length.
+// mm: circles around centres this near to each other are one family. Any distance would be safe, because
+// steps are measured along the circles as they lie; a larger one would make passes longer.
 constexpr double kSamePlace = 0.05;
 
 std::vector<PlanPart> WithCircularLines(const RegionMap& map, const std::vector<RegionChoice>& choices,
@@ -182,7 +182,6 @@ bool CutTogether(const RegionChoice& a, const RegionChoice& b) {
   c.around = a.around;
   if (a.all_circular || b.all_circular) {
     c.zigzag_angle = a.zigzag_angle;
-    c.angle_open = a.angle_open;
     c.all_circular = a.all_circular;
   }
   return a == c;
@@ -192,11 +191,13 @@ RegionChoice ChoiceOf(const Operation& op) {
   RegionChoice choice;
   choice.strategy = op.strategy;
   choice.zigzag_angle = op.zigzag_angle;
-  choice.angle_open = op.angle_auto && op.strategy != Strategy::kContour;
-  choice.circles_open = op.round_lines;
   choice.one_way = op.one_way;
   choice.scallop = op.scallop;
   return choice;
+}
+
+OpenChoice OpenOf(const Operation& op) {
+  return {.angle = op.angle_auto && op.strategy != Strategy::kContour, .circles = op.round_lines};
 }
 
 ForcedSteps ForcedOf(const RegionChoice& choice) {
@@ -207,8 +208,8 @@ ForcedSteps ForcedOf(const RegionChoice& choice) {
   return forced;
 }
 
-absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, const RegionMap& map,
-                                                        const Operation& op, const Vec3& program_zero) {
+absl::StatusOr<RegionChoices> ChooseRegions(const Surface& surface, const RegionMap& map, const Operation& op,
+                                            const Vec3& program_zero) {
   if (!op.regions_sha256.empty()) {
     if (const std::string now = RegionsDigest(map); now != op.regions_sha256) {
       return absl::FailedPreconditionError(fmt::format(
@@ -218,9 +219,10 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
           Hex(op.regions_sha256), Hex(now)));
     }
   }
-  std::vector<RegionChoice> choices(map.regions.size(), ChoiceOf(op));
-  if (op.overrides.empty()) return choices;
-  std::vector<bool> named(choices.size(), false);
+  RegionChoices chosen{std::vector<RegionChoice>(map.regions.size(), ChoiceOf(op)),
+                       std::vector<OpenChoice>(map.regions.size(), OpenOf(op))};
+  if (op.overrides.empty()) return chosen;
+  std::vector<bool> named(map.regions.size(), false);
   const std::vector<bool> with_cells = WithCells(map);
   for (std::size_t k = 0; k < op.overrides.size(); ++k) {
     const RegionOverride& change = op.overrides[k];
@@ -241,16 +243,17 @@ absl::StatusOr<std::vector<RegionChoice>> ChooseRegions(const Surface& surface, 
                       "around it (regions are told apart on {} x {} cells of each patch)",
                       region, map.regions[id].area, map.cells, map.cells));
     }
-    RegionChoice& choice = choices[id];
+    RegionChoice& choice = chosen.choices[id];
+    OpenChoice& open = chosen.open[id];
     choice.skip = change.skip;
     choice.strategy = change.strategy.value_or(choice.strategy);
     choice.zigzag_angle = change.zigzag_angle.value_or(choice.zigzag_angle);
-    choice.angle_open = op.angle_auto && !change.zigzag_angle && choice.strategy != Strategy::kContour;
-    choice.circles_open = choice.circles_open && !change.zigzag_angle;
+    open.angle = op.angle_auto && !change.zigzag_angle && choice.strategy != Strategy::kContour;
+    open.circles = open.circles && !change.zigzag_angle;
     choice.one_way = change.one_way.value_or(choice.one_way);
     choice.scallop = change.scallop.value_or(choice.scallop);
   }
-  return choices;
+  return chosen;
 }
 
 std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoice>& choices) {
@@ -280,7 +283,7 @@ std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoi
     const std::vector<int> leader = Leaders(map, map.labels[piece], choices);
     for (Cells& cells : marked) cells[piece].resize(leader.size(), false);
     for (std::size_t k = 0; k < leader.size(); ++k) {
-      // Pieces without reachable ground are judged with the first part: somewhere they must be.
+      // Pieces that the ball does not reach belong to the first part: each has to belong to one.
       const int part = leader[k] < 0 ? 0 : part_of[static_cast<std::size_t>(leader[k])];
       if (part >= 0) marked[static_cast<std::size_t>(part)][piece][k] = true;
     }

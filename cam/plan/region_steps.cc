@@ -31,7 +31,7 @@ struct Range {
   }
 };
 
-// mm of passes per mm2 of ground, for a ball on the side of the normal e; 0 where it does not fit.
+// mm of passes per mm2 of surface, for a ball on the side of the normal e; 0 where it does not fit.
 double PassesPerArea(const SurfaceJet& jet, const Vec3& e, double radius, double scallop) {
   const PrincipalCurvatures k = Principal(Forms(jet, e));
   const double step = CenterStep(radius, scallop, k.k_min);
@@ -39,8 +39,8 @@ double PassesPerArea(const SurfaceJet& jet, const Vec3& e, double radius, double
   return (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius) / step;
 }
 
-// Upright ground of one region on one piece: passes (mm) for a ball on each side of it, and on which there is
-// room for one anywhere; the sides are those of du x dv.
+// The vertical faces of one region on one piece: passes (mm) for a ball on each side, and on which sides
+// there is room for a ball anywhere. The sides are those of du x dv.
 class VerticalFaces {
  public:
   void Add(const Locator& locator, const SurfaceJet& jet, double scallop) {
@@ -52,7 +52,8 @@ class VerticalFaces {
     over_ += over;
     under_ += under;
     least_ += std::min(over, under);
-    // Few are asked, ever fewer: next to a hole that the ball just fits into an answer takes a millisecond.
+    // Only points whose number is a power of two look for room: next to a hole that the ball just fits one
+    // look takes a millisecond.
     if (over == under || !std::has_single_bit(++points_)) return;
     room_over_ = room_over_ || HasRoom(locator, jet.p, e);
     room_under_ = room_under_ || HasRoom(locator, jet.p, -e);
@@ -60,7 +61,7 @@ class VerticalFaces {
   double Passes() const { return room_over_ == room_under_ ? least_ : room_over_ ? over_ : under_; }
 
  private:
-  // Off the ground by more than rounding.
+  // A little off the surface, by more than rounding.
   static bool HasRoom(const Locator& locator, const Vec3& p, const Vec3& e) {
     constexpr double kOff = 1e-6;  // mm
     return locator.Free(p + (locator.radius() + kOff) * e);
@@ -73,8 +74,46 @@ class VerticalFaces {
 
 }  // namespace
 
-absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& choices,
-                       const Resolved& resolved, const RunContext& run, RegionMap& map) {
+namespace {
+
+// By id.
+absl::StatusOr<std::vector<double>> SelectedShares(const JobContext& context, const RegionMap& map) {
+  const Surface& surface = context.surface;
+  const Containment& containment = context.resolved.containment;
+  std::vector<double> shares(map.regions.size(), 1.0);
+  if (containment.WantsAll()) return shares;
+  struct Areas {
+    double all = 0.0, wanted = 0.0;
+  };
+  std::vector<std::vector<Areas>> pieces(surface.pieces.size());
+  PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
+    pieces[i].resize(map.regions.size());
+    VisitPiece(
+        surface, i, map, StrideOf(map), [](std::size_t) { return true; },
+        [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3&) {
+          const double area = jet.du.cross(jet.dv).norm();
+          pieces[i][id].all += area;
+          if (IsWanted(containment, surface.pieces[i].patch, jet.p)) pieces[i][id].wanted += area;
+        });
+  }));
+  for (std::size_t id = 0; id < map.regions.size(); ++id) {
+    Areas sum;
+    for (const std::vector<Areas>& piece : pieces) {
+      sum.all += piece[id].all;
+      sum.wanted += piece[id].wanted;
+    }
+    if (sum.all > 0.0) shares[id] = sum.wanted / sum.all;
+  }
+  return shares;
+}
+
+}  // namespace
+
+absl::StatusOr<std::vector<RegionFigures>> MeasureRegions(const JobContext& context, const RegionMap& map,
+                                                          const std::vector<RegionChoice>& choices) {
+  const Surface& surface = context.surface;
+  const Resolved& resolved = context.resolved;
+  PM_ASSIGN_OR_RETURN(const std::vector<double> selected, SelectedShares(context, map));
   const int stride = StrideOf(map);
   const auto reachable = [&](std::size_t id) { return map.regions[id].kind != RegionKind::kUnreachable; };
   struct Seen {
@@ -83,7 +122,7 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
   };
   const double split = std::cos(resolved.split_angle);
   std::vector<std::vector<Seen>> pieces(surface.pieces.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
     pieces[i].resize(map.regions.size());
     VisitPiece(surface, i, map, stride, reachable,
                [&](std::size_t id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
@@ -103,29 +142,32 @@ absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& 
                  if (step > 0.0) seen.steps.Add(step);
                });
   }));
-  for (Region& region : map.regions) {
+  std::vector<RegionFigures> figures(map.regions.size());
+  for (std::size_t id = 0; id < figures.size(); ++id) {
     Seen all;
     for (const auto& piece : pieces) {
-      const Seen& seen = piece[static_cast<std::size_t>(region.id)];
+      const Seen& seen = piece[id];
       all.steps.Add(seen.steps);
       all.area += seen.area;
       all.otherwise += seen.otherwise;
     }
-    region.step_min = all.steps.max > 0.0 ? all.steps.min : 0.0;
-    region.step_max = all.steps.max;
-    region.otherwise_share = all.area > 0.0 ? all.otherwise / all.area : 0.0;
+    figures[id].step_min = all.steps.max > 0.0 ? all.steps.min : 0.0;
+    figures[id].step_max = all.steps.max;
+    figures[id].otherwise_share = all.area > 0.0 ? all.otherwise / all.area : 0.0;
+    figures[id].selected_share = selected[id];
   }
-  return absl::OkStatus();
+  return figures;
 }
 
-absl::StatusOr<double> LeastCutLength(const Locator& locator, const std::vector<RegionChoice>& choices,
-                                      const Resolved& resolved, const RunContext& run, const RegionMap& map) {
-  const Surface& surface = locator.surface();
+absl::StatusOr<double> LeastCutLength(const JobContext& context, const Locator& locator, const RegionMap& map,
+                                      const std::vector<RegionChoice>& choices) {
+  const Surface& surface = context.surface;
+  const Resolved& resolved = context.resolved;
   const int stride = StrideOf(map);
   const auto reachable = [&](std::size_t id) { return map.regions[id].kind != RegionKind::kUnreachable; };
   const double radius = resolved.plan_radius;
   std::vector<double> pieces(surface.pieces.size(), 0.0);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
     std::map<std::size_t, VerticalFaces> upright;  // by region
     VisitPiece(surface, i, map, stride, reachable,
                [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
@@ -142,39 +184,11 @@ absl::StatusOr<double> LeastCutLength(const Locator& locator, const std::vector<
                    pieces[i] += jet.du.cross(jet.dv).norm() * PassesPerArea(jet, e, radius, choice.scallop);
                  }
                });
-    for (const auto& [id, ground] : upright) pieces[i] += ground.Passes();
+    for (const auto& [id, faces] : upright) pieces[i] += faces.Passes();
   }));
   double sum = 0.0;
   for (const double piece : pieces) sum += piece;
   return sum * ShareOfPoint(map, stride);
-}
-
-absl::Status FillWantedShares(const Surface& surface, const Containment& containment, const RunContext& run,
-                              RegionMap& map) {
-  if (containment.WantsAll()) return absl::OkStatus();
-  struct Areas {
-    double all = 0.0, wanted = 0.0;
-  };
-  std::vector<std::vector<Areas>> pieces(surface.pieces.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
-    pieces[i].resize(map.regions.size());
-    VisitPiece(
-        surface, i, map, StrideOf(map), [](std::size_t) { return true; },
-        [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3&) {
-          const double area = jet.du.cross(jet.dv).norm();
-          pieces[i][id].all += area;
-          if (IsWanted(containment, surface.pieces[i].patch, jet.p)) pieces[i][id].wanted += area;
-        });
-  }));
-  for (std::size_t id = 0; id < map.regions.size(); ++id) {
-    Areas sum;
-    for (const std::vector<Areas>& piece : pieces) {
-      sum.all += piece[id].all;
-      sum.wanted += piece[id].wanted;
-    }
-    map.regions[id].wanted_share = sum.all > 0.0 ? sum.wanted / sum.all : 1.0;
-  }
-  return absl::OkStatus();
 }
 
 }  // namespace patchmill

@@ -4,32 +4,29 @@
 #include <vector>
 
 #include "cam/location/locator.h"
-#include "cam/plan/job.h"
-#include "cam/plan/resolve.h"
+#include "cam/plan/job_context.h"
 
 namespace patchmill {
 
-// Fills step_min and step_max of every reachable region: the smallest and the largest distance between
-// neighbouring ball centres, measured on the centre surface across the feed of the region's strategy, that
-// leaves exactly its scallop (CenterStep). And otherwise_share: how much of its area is steep in a gentle
-// region or gentle in a steep one, left in it by merging, where its strategy is kAuto. Taken at up to about
-// 200,000 points spread over the regions in patch parameters; points where the ball does not fit (kappa R >=
-// 1) do not count, and both stay 0 when no other is seen. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::Status FillSteps(const Surface& surface, const std::vector<RegionChoice>& choices,
-                       const Resolved& resolved, const RunContext& run, RegionMap& map);
+// The figures of every region, by id. step_min and step_max of a reachable region: the smallest and the
+// largest distance between neighbouring ball centres, measured on the centre surface across the feed of the
+// region's strategy, that leaves exactly its scallop (CenterStep). otherwise_share: the share of the area
+// that is steep in a gentle region or gentle in a steep one, where merging left it in the region and its
+// strategy is kAuto. selected_share: the share of the area that the operation selects (IsWanted). All are
+// taken at up to about 200,000 points, spread over the regions in patch parameters. Points where the ball
+// does not fit (kappa R >= 1) do not count for the steps. A region without points has steps of 0 and is
+// selected as a whole. CANCELLED, DEADLINE_EXCEEDED from the run.
+absl::StatusOr<std::vector<RegionFigures>> MeasureRegions(const JobContext& context, const RegionMap& map,
+                                                          const std::vector<RegionChoice>& choices);
 
-// mm: the integral of the centre surface's area over the widest step at each place, which is CenterStep
-// across the most convex direction, over the reachable ground that is selected and not skipped, less what
-// forced passes leave as STRATEGY. No passes that leave the scallop everywhere can be shorter: a mm of pass
-// takes care of no more than the widest step beside it. Upright ground counts from the side where the ball
-// finds room, by a few places of each piece in a region; the shorter of two. The same points as FillSteps.
-// `locator`: of resolved.plan_radius. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<double> LeastCutLength(const Locator& locator, const std::vector<RegionChoice>& choices,
-                                      const Resolved& resolved, const RunContext& run, const RegionMap& map);
-
-// Fills wanted_share: how much of the area of every region is selected (IsWanted), 0 to 1, by the same
-// points; 1 where none of them is seen. CANCELLED, DEADLINE_EXCEEDED from `run`.
-absl::Status FillWantedShares(const Surface& surface, const Containment& containment, const RunContext& run,
-                              RegionMap& map);
+// mm: no passes of this finish are shorter together. The integral of the area of the centre surface over the
+// widest step at each place, which is CenterStep across the most convex direction. It runs over the reachable
+// surface that is selected and not skipped, without places that forced passes leave as STRATEGY. A millimetre
+// of a pass finishes no more than the widest step beside it, hence the bound. A vertical face counts from the
+// side on which the ball finds room, found at a few places of each piece in a region; else from the side with
+// the shorter passes. The same points as MeasureRegions. `locator`: of resolved.plan_radius. CANCELLED,
+// DEADLINE_EXCEEDED from the run.
+absl::StatusOr<double> LeastCutLength(const JobContext& context, const Locator& locator, const RegionMap& map,
+                                      const std::vector<RegionChoice>& choices);
 
 }  // namespace patchmill

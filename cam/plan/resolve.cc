@@ -152,10 +152,10 @@ Finish FinishOf(const RegionChoice& choice) {
 
 VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved, const std::vector<PlanPart>& parts) {
   VerifyParams p;
-  static_cast<Finish&>(p) = FinishOf(ChoiceOf(job.operation));
+  p.finish = FinishOf(ChoiceOf(job.operation));
   for (const PlanPart& part : parts) {
     FinishPart& to = p.parts.emplace_back();
-    static_cast<Finish&>(to) = FinishOf(part.choice);
+    to.finish = FinishOf(part.choice);
     to.where = part.where;
   }
   p.tolerance = job.operation.tolerance;

@@ -26,8 +26,8 @@ struct Resolved {
   double clearance_z = 0.0;  // tip
   double radius = 0.0;       // ball
   double plan_radius = 0.0;  // ball + stock to leave: what is planned with
-  // Rad: ground this steep is cut by contours. Just below the steep angle, so that a plane or a cone of that
-  // very angle is steep all over and not by its rounding, or cut in both ways.
+  // Rad: contours cut what is this steep. It lies just below the steep angle: a plane or a cone of that very
+  // angle is then steep all over, whatever its rounding.
   double split_angle = 0.0;
   Budget budget;
   Containment containment;
@@ -37,8 +37,8 @@ struct Resolved {
 // below the model), and for patches that the model does not have. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const RunContext& run);
 
-// By what a program of this job is judged; `parts` as PartsOf gives them (cam/plan/region_choices.h), empty:
-// one.
+// How a program of this job is verified. `parts`: as PartsOf gives them (cam/plan/region_choices.h); empty:
+// the whole surface is one part.
 VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved,
                               const std::vector<PlanPart>& parts = {});
 

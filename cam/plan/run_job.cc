@@ -73,19 +73,18 @@ RegionParams MakeRegionParams(const Job& job, const Resolved& resolved,
   return p;
 }
 
-absl::StatusOr<ChosenRegions> MakeRegions(const Surface& surface, const Job& job, const Resolved& resolved,
-                                          const OperationLimits& operation_limits, const RunContext& run) {
-  ChosenRegions regions;
-  const RegionParams params =
-      MakeRegionParams(job, resolved, IsLimited(operation_limits) ? &operation_limits : nullptr);
-  PM_ASSIGN_OR_RETURN(regions.map, SplitRegions(surface, params, run));
-  PM_ASSIGN_OR_RETURN(regions.choices,
-                      ChooseRegions(surface, regions.map, job.operation, resolved.program_zero));
-  PM_ASSIGN_OR_RETURN(regions.circles,
-                      ChooseCircularLines(surface, regions.map, resolved, run, regions.choices));
-  PM_RETURN_IF_ERROR(FillSteps(surface, regions.choices, resolved, run, regions.map));
-  PM_RETURN_IF_ERROR(FillWantedShares(surface, resolved.containment, run, regions.map));
-  return regions;
+absl::StatusOr<ChosenRegions> MakeRegions(const JobContext& context) {
+  const auto& [surface, job, resolved, limits, run] = context;
+  PM_ASSIGN_OR_RETURN(
+      RegionMap map,
+      SplitRegions(surface, MakeRegionParams(job, resolved, IsLimited(limits) ? &limits : nullptr), run));
+  PM_ASSIGN_OR_RETURN(RegionChoices chosen,
+                      ChooseRegions(surface, map, job.operation, resolved.program_zero));
+  PM_ASSIGN_OR_RETURN(CircularChoices circular, ChooseCircularLines(context, map, std::move(chosen)));
+  PM_ASSIGN_OR_RETURN(std::vector<RegionFigures> figures,
+                      MeasureRegions(context, map, circular.regions.choices));
+  return ChosenRegions{std::move(map), std::move(circular.regions), std::move(circular.trials),
+                       std::move(figures)};
 }
 
 LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const OperationLimits* operation_limits) {
@@ -94,7 +93,7 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const Operat
   p.clearance_z = resolved.clearance_z;
   p.stock_top_z = resolved.stock_top_z;
   p.allowance = job.setup.allowance;
-  // Whatever is asked for, rapids stay clear by more than rounding and the control's smoothing.
+  // Whatever the operation says, rapids stay clear by more than rounding and the control's smoothing.
   p.approach_gap = std::max(job.operation.approach_gap, job.operation.tolerance);
   p.low_rapids = job.operation.low_rapids;
   p.tool_radius = WidestRadius(job.operation.tool);
@@ -189,23 +188,37 @@ std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnos
   return lines;
 }
 
-// Linked in their order, within `limits`; null: anywhere.
-absl::StatusOr<LinkResult> Link(const Locator& locator, const RegionMap& map,
-                                const std::vector<RegionChoice>& choices, const std::vector<PlanPart>& parts,
-                                const Job& job, const Resolved& resolved, const OperationLimits* limits,
-                                std::vector<CutterPath> paths, const RunContext& run) {
+// The passes in their order, linked where the parts are cut.
+absl::StatusOr<LinkResult> Link(const JobContext& context, const Locator& locator, const RegionMap& map,
+                                const JobParts& parts, std::vector<CutterPath> paths) {
   std::optional<OperationLimits> within;
-  if (limits != nullptr) {
-    if (auto ground = CutCells(map, choices, parts)) {
-      PM_ASSIGN_OR_RETURN(within, limits->Within(std::move(ground), run));
+  if (parts.limits != nullptr) {
+    if (auto cells = CutCells(map, parts.choices, parts.parts)) {
+      PM_ASSIGN_OR_RETURN(within, parts.limits->Within(std::move(cells), context.run));
     }
   }
-  return LinkPaths(locator, map, std::move(paths), MakeLinkParams(job, resolved, within ? &*within : limits),
-                   run);
+  const LinkParams params = MakeLinkParams(context.job, context.resolved, within ? &*within : parts.limits);
+  return LinkPaths(locator, map, std::move(paths), params, context.run);
 }
 
-// Ends a job that is far above the limit before its passes are made: what they are made from would fill the
-// memory. LeastCutLength counts surface that lies on itself each time, and that is milled once; hence far.
+// The choices with the quickest angles where they are open. Each of up to kQuickestAnglePlans plans costs as
+// much as the whole job.
+absl::StatusOr<std::vector<RegionChoice>> WithQuickestAngles(const JobContext& context,
+                                                             const Locator& locator,
+                                                             const ChosenRegions& regions) {
+  const RegionMap& map = regions.map;
+  const auto time = [&](const std::vector<RegionChoice>& choices) -> absl::StatusOr<RegionTimes> {
+    const JobParts tried = PartsOfJob(context, map, choices);
+    PM_ASSIGN_OR_RETURN(PlannedPasses passes, PlanPasses(context, locator, map, tried));
+    PM_ASSIGN_OR_RETURN(const LinkResult motion, Link(context, locator, map, tried, std::move(passes.paths)));
+    return TimesOf(motion, map.regions.size());
+  };
+  return QuickestAngles(map, regions.chosen, regions.trials, time);
+}
+
+// Ends a job that is far above the limit before its passes are made: the lines and levels that they are made
+// from would fill the memory. LeastCutLength counts patches that coincide once each, although they are milled
+// once; hence far above.
 absl::Status CheckLeastFeed(const PathLimits& limits, double least_cut_length) {
   constexpr double kFarAbove = 10.0;
   if (!(least_cut_length > kFarAbove * limits.length)) return absl::OkStatus();
@@ -225,14 +238,13 @@ absl::Status CheckMotion(const PathLimits& limits, const LinkResult& linked) {
 
 // Names what forbids most of what is wanted, and what to look at first.
 // `reached`: mm2, too little to be cut (VerifyReport::NothingToFinish); 0: there are no passes at all.
-Diagnostic NothingToCut(std::span<const Region> regions, std::span<const RegionChoice> choices,
-                        const Resolved& resolved, bool limited, double reached) {
+Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool limited, double reached) {
   double all = 0.0, off = 0.0, on = 0.0, avoided = 0.0, shank = 0.0;
-  for (const Region& region : regions) {
-    const double wanted = region.wanted_share * region.area;
+  for (const Region& region : report.regions) {
+    const auto id = static_cast<std::size_t>(region.id);
+    const double wanted = report.figures[id].selected_share * region.area;
     all += wanted;
-    if (region.kind != RegionKind::kUnreachable)
-      (choices[static_cast<std::size_t>(region.id)].skip ? off : on) += wanted;
+    if (region.kind != RegionKind::kUnreachable) (report.choices[id].skip ? off : on) += wanted;
     if (region.reason == UnreachableReason::kAvoided) avoided += wanted;
     if (region.reason == UnreachableReason::kShank) shank += wanted;
   }
@@ -277,9 +289,9 @@ absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
   PM_ASSIGN_OR_RETURN(const OperationLimits operation_limits,
                       MakeOperationLimits(surface, job, resolved, run));
-  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, operation_limits, run));
-  PM_RETURN_IF_ERROR(MarkUnfinishedByStrategy(surface, job.operation, regions.choices, resolved.plan_radius,
-                                              run, regions.map));
+  const JobContext context{surface, job, resolved, operation_limits, run};
+  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(context));
+  PM_ASSIGN_OR_RETURN(regions.map, MarkUnfinishedByStrategy(context, std::move(regions.map), regions.chosen));
   return regions;
 }
 
@@ -289,8 +301,8 @@ absl::StatusOr<std::vector<PlanPart>> VerifiedParts(const Surface& surface, cons
   PM_ASSIGN_OR_RETURN(const OperationLimits operation_limits,
                       MakeOperationLimits(surface, job, resolved, run));
   PM_ASSIGN_OR_RETURN(const ChosenRegions regions,
-                      MakeRegions(surface, job, resolved, operation_limits, run));
-  return PartsOf(regions.map, regions.choices);
+                      MakeRegions({surface, job, resolved, operation_limits, run}));
+  return PartsOf(regions.map, regions.chosen.choices);
 }
 
 absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
@@ -322,45 +334,31 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
 
   PM_ASSIGN_OR_RETURN(const OperationLimits operation_limits,
                       MakeOperationLimits(surface, job, resolved, run));
-  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(surface, job, resolved, operation_limits, run));
-  result.regions = std::move(regions.map);
-  report.choices = std::move(regions.choices);
-  const auto limits_of = [&](const std::vector<PlanPart>& of) {
-    const bool whole = of.size() == 1 && of.front().where == nullptr;
-    return whole && !IsLimited(operation_limits) ? nullptr : &operation_limits;
-  };
+  const JobContext context{surface, job, resolved, operation_limits, run};
+  PM_ASSIGN_OR_RETURN(ChosenRegions regions, MakeRegions(context));
   clock.Done("regions");
 
   PM_ASSIGN_OR_RETURN(const Locator locator, Locator::Make(surface, resolved.plan_radius, run));
   PM_ASSIGN_OR_RETURN(report.least_cut_length,
-                      LeastCutLength(locator, report.choices, resolved, run, result.regions));
+                      LeastCutLength(context, locator, regions.map, regions.chosen.choices));
   PM_RETURN_IF_ERROR(CheckLeastFeed(job.path_limits, report.least_cut_length));
   if (job.operation.angle_auto) {
-    const auto time = [&](const std::vector<RegionChoice>& choices) -> absl::StatusOr<RegionTimes> {
-      const std::vector<PlanPart> tried = PartsOf(result.regions, choices);
-      const OperationLimits* within = limits_of(tried);
-      PM_ASSIGN_OR_RETURN(PlannedPasses passes,
-                          PlanPasses(locator, result.regions, choices, tried, job, resolved, within, run));
-      PM_ASSIGN_OR_RETURN(const LinkResult motion, Link(locator, result.regions, choices, tried, job,
-                                                        resolved, within, std::move(passes.paths), run));
-      return TimesOf(motion, result.regions.regions.size());
-    };
-    PM_ASSIGN_OR_RETURN(report.choices,
-                        QuickestAngles(result.regions, std::move(report.choices), regions.circles, time));
-    PM_RETURN_IF_ERROR(FillSteps(surface, report.choices, resolved, run, result.regions));
+    PM_ASSIGN_OR_RETURN(std::vector<RegionChoice> quickest, WithQuickestAngles(context, locator, regions));
+    PM_ASSIGN_OR_RETURN(regions.figures, MeasureRegions(context, regions.map, quickest));
+    regions.chosen = {std::move(quickest), std::vector<OpenChoice>(regions.map.regions.size())};
     clock.Done("angles");
   }
-  PM_RETURN_IF_ERROR(MarkUnfinishedByStrategy(surface, job.operation, report.choices, resolved.plan_radius,
-                                              run, result.regions));
+  report.choices = regions.chosen.choices;
+  report.figures = regions.figures;
+  PM_ASSIGN_OR_RETURN(result.regions,
+                      MarkUnfinishedByStrategy(context, std::move(regions.map), regions.chosen));
   report.regions = result.regions.regions;
-  const std::vector<PlanPart> parts = PartsOf(result.regions, report.choices);
-  const OperationLimits* limits = limits_of(parts);
-  PM_ASSIGN_OR_RETURN(PlannedPasses planned,
-                      PlanPasses(locator, result.regions, report.choices, parts, job, resolved, limits, run));
+  const JobParts parts = PartsOfJob(context, result.regions, report.choices);
+  PM_ASSIGN_OR_RETURN(PlannedPasses planned, PlanPasses(context, locator, result.regions, parts));
   report.diagnostics.insert(report.diagnostics.end(), planned.findings.begin(), planned.findings.end());
-  const bool told = std::any_of(idle.begin(), idle.end(),
-                                [](const Diagnostic& d) { return d.where.field == "contour_spirals"; });
-  if (!told) {
+  const bool reported = std::any_of(idle.begin(), idle.end(),
+                                    [](const Diagnostic& d) { return d.where.field == "contour_spirals"; });
+  if (!reported) {
     const Diagnostics more = UnusedSpirals(job.operation, planned.paths);
     report.diagnostics.insert(report.diagnostics.end(), more.begin(), more.end());
   }
@@ -368,8 +366,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   clock.Done("passes");
   const auto nothing = [&](double reached) -> JobResult&& {
     report.outcome = Outcome::kNothingToCut;
-    report.diagnostics.push_back(
-        NothingToCut(report.regions, report.choices, resolved, limits != nullptr, reached));
+    report.diagnostics.push_back(NothingToCut(report, resolved, parts.limits != nullptr, reached));
     report.motion = {};
     report.point_count = 0;
     result.motion = {};
@@ -377,8 +374,7 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   };
   if (planned.paths.empty()) return nothing(0.0);
 
-  PM_ASSIGN_OR_RETURN(result.motion, Link(locator, result.regions, report.choices, parts, job, resolved,
-                                          limits, std::move(planned.paths), run));
+  PM_ASSIGN_OR_RETURN(result.motion, Link(context, locator, result.regions, parts, std::move(planned.paths)));
   PM_RETURN_IF_ERROR(CheckMotion(job.path_limits, result.motion));
   report.motion = result.motion.stats;
   report.point_count = static_cast<int>(result.motion.toolpath.moves.size());
@@ -402,8 +398,8 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   // As many moves as were written: CheckMotion has bounded them.
   const std::size_t most_moves = std::max(ReaderParams().max_moves, 2 * result.motion.toolpath.moves.size());
   PM_ASSIGN_OR_RETURN(const ProgramMotion read, ReadProgram(program, {.max_moves = most_moves, .run = &run}));
-  PM_ASSIGN_OR_RETURN(report.verify,
-                      Verify(surface, job.operation.tool, read, MakeVerifyParams(job, resolved, parts), run));
+  PM_ASSIGN_OR_RETURN(report.verify, Verify(surface, job.operation.tool, read,
+                                            MakeVerifyParams(job, resolved, parts.parts), run));
   clock.Done("verify");
   if (report.verify.NothingToFinish()) return nothing(report.verify.reachable_area);
   const std::optional<double>& stickout = job.operation.tool.stickout;

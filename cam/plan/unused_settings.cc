@@ -42,7 +42,7 @@ Diagnostics UnusedSettings(const Operation& op) {
     if (op.one_way) idle.push_back(Unused("one_way_lines", "one way", kAllContours));
     if (op.zigzag_bend != Operation().zigzag_bend)
       idle.push_back(Unused("zigzag_bend_deg", "a bend of lines", kAllContours));
-    if (!op.round_lines) idle.push_back(Unused("round_lines", "no round lines", kAllContours));
+    if (!op.round_lines) idle.push_back(Unused("round_lines", "no circular lines", kAllContours));
     if (!op.border_passes) idle.push_back(Unused("border_passes", "no border passes", kAllContours));
   }
   if (all(Strategy::kZigzag)) {
@@ -64,8 +64,8 @@ Diagnostics UnusedSettings(const Operation& op) {
 }
 
 Diagnostics UnusedSpirals(const Operation& op, const std::vector<CutterPath>& passes) {
-  const bool wound =
-      std::any_of(passes.begin(), passes.end(), [](const CutterPath& pass) { return pass.spiral; });
+  const bool wound = std::any_of(passes.begin(), passes.end(),
+                                 [](const CutterPath& pass) { return pass.traversal == Traversal::kSpiral; });
   if (!op.spirals || wound) return {};
   return {Unused("contour_spirals", "spirals", "no closed contour runs all around beside the next one")};
 }

@@ -15,6 +15,14 @@ namespace patchmill {
 enum class PassKind { kZigzag, kContour, kBorder, kPencil, kRest };
 constexpr PassKind LastOf(PassKind) { return PassKind::kRest; }
 
+// In which direction a pass may be cut. A closed pass that is kAny may start at any of its points.
+enum class Traversal {
+  kAny,
+  kDirected,  // from the first point to the last; linked like any pass
+  kOneWay,    // from the first point to the last; the ball approaches the first point from above
+  kSpiral,  // a helical pass: winds down from the first point to the last, whatever the direction of contours
+};
+
 // A ball centre and its contacts. The ball is free, or penetrates the surface by less than its chords may
 // (fewest_chords.h).
 struct CutterPoint {
@@ -28,13 +36,7 @@ struct CutterPoint {
 struct CutterPath {
   PassKind kind = PassKind::kZigzag;
   bool closed = false;  // the last point joins the first, which is not repeated
-  // Cut from the first point to the last only. The ball approaches the first point from above.
-  bool one_way = false;
-  // Cut from the first point to the last only. Otherwise it is linked like any pass.
-  bool directed = false;
-  // A helical pass: it winds down from the first point to the last and is cut that way only, whatever the
-  // direction of contours.
-  bool spiral = false;
+  Traversal traversal = Traversal::kAny;
   int region = -1;    // RegionMap id of most of its length; -1: none
   int order_key = 0;  // index of the scan line or level it came from; orders passes within a region
   std::vector<CutterPoint> points;

@@ -22,10 +22,10 @@ double WidestStep(double r, double s, double kappa) {
 // BeyondStrategy for the side with the normal e.
 bool BeyondStrategyOn(const SurfaceJet& jet, const Vec3& e, const LeftoverParams& params) {
   constexpr double kMargin = 1.1;  // ratio to the planner's limit, so that borderline places are excused
-  const double r = params.reach.radius, s = *params.scallop;
+  const double r = params.reach.radius, s = *params.finish.scallop;
   // Directions along the feed and across it, in the surface.
-  const Vec2 d(std::cos(params.zigzag_angle), std::sin(params.zigzag_angle));
-  const bool contours = params.strategy == ForcedStrategy::kContour;
+  const Vec2 d(std::cos(params.finish.zigzag_angle), std::sin(params.finish.zigzag_angle));
+  const bool contours = params.finish.strategy == ForcedStrategy::kContour;
   const Vec3 feed = contours ? Vec3(e.y(), -e.x(), 0.0) : Lift(d * e.z(), -d.dot(Xy(e)));
   const double length = feed.norm();
   if (!(length > 1e-12)) return true;  // contours have no step on a horizontal surface
@@ -39,7 +39,7 @@ bool BeyondStrategyOn(const SurfaceJet& jet, const Vec3& e, const LeftoverParams
 }  // namespace
 
 bool BeyondStrategy(const SurfaceJet& jet, const Facing& facing, const LeftoverParams& params) {
-  if (params.strategy == ForcedStrategy::kNone || !params.scallop) return false;
+  if (params.finish.strategy == ForcedStrategy::kNone || !params.finish.scallop) return false;
   return BeyondStrategyOn(jet, facing.e, params) &&
          (!facing.both || BeyondStrategyOn(jet, -facing.e, params));
 }

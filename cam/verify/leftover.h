@@ -9,7 +9,8 @@
 
 namespace patchmill {
 
-struct LeftoverParams : Finish {
+struct LeftoverParams {
+  Finish finish;
   ReachParams reach;
   double chord_error = 0.0;            // mm, error of the segments
   double certainty = 1e-3;             // mm

@@ -44,7 +44,7 @@ absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::
       const double left = nearest.distance - params.reach.radius;
       if (left > params.limit && BeyondStrategy(jet, *facing, params)) continue;
       std::size_t k = 0;
-      while (k < kLeftoverEdges.size() && left > kLeftoverEdges[k] * *params.scallop) ++k;
+      while (k < kLeftoverEdges.size() && left > kLeftoverEdges[k] * *params.finish.scallop) ++k;
       parts[chunk][k] += (cell.u1 - cell.u0) * (cell.v1 - cell.v0) * jet.du.cross(jet.dv).norm();
     }
   }));

@@ -22,9 +22,9 @@ absl::Status ValidateVerifyInput(const Surface& surface, const Tool& tool, const
   const auto sound = [&](const Finish& finish) {
     return !finish.scallop || (*finish.scallop > 0.0 && *finish.scallop < radius);
   };
-  if (!sound(params)) return bad("scallop", *params.scallop, "in (0, ball radius)");
+  if (!sound(params.finish)) return bad("scallop", *params.finish.scallop, "in (0, ball radius)");
   for (const FinishPart& part : params.parts) {
-    if (!sound(part)) return bad("parts.scallop", *part.scallop, "in (0, ball radius)");
+    if (!sound(part.finish)) return bad("parts.scallop", *part.finish.scallop, "in (0, ball radius)");
     if (part.where != nullptr && part.where->pieces() != surface.pieces.size()) {
       return absl::InvalidArgumentError("parts.where: pieces of another surface");
     }

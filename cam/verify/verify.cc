@@ -220,7 +220,7 @@ class Verifier {
     report_.finish_ok = true;
     if (params_.parts.empty()) {
       FinishPart all;
-      static_cast<Finish&>(all) = params_;
+      all.finish = params_.finish;
       return JudgePart(tree, all);
     }
     for (const FinishPart& part : params_.parts) PM_RETURN_IF_ERROR(JudgePart(tree, part));
@@ -229,12 +229,12 @@ class Verifier {
 
   absl::Status JudgePart(const SegmentTree& tree, const FinishPart& part) {
     LeftoverParams p;
-    static_cast<Finish&>(p) = part;
+    p.finish = part.finish;
     p.reach = {radius_, ReachTolerance(params_.tolerance), params_.floor_z + ball_, limits_->centers()};
     p.chord_error = chord_error_;
     p.certainty = params_.certainty;
     p.where = part.where.get();
-    if (part.scallop) p.limit = *part.scallop + params_.tolerance;
+    if (part.finish.scallop) p.limit = *part.finish.scallop + params_.tolerance;
     p.min_step_fraction = params_.min_step_fraction;
     p.most = surface_.box.Diagonal();
     std::vector<CellRect> cells = wanted_;
@@ -244,8 +244,8 @@ class Verifier {
     }
     PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, cells, tree, p, run_));
     TakeAreas(areas);
-    if (part.scallop) {
-      const double square = 4.0 * *part.scallop * (2.0 * radius_ - *part.scallop);
+    if (part.finish.scallop) {
+      const double square = 4.0 * *part.finish.scallop * (2.0 * radius_ - *part.finish.scallop);
       report_.reachable_squares = report_.reachable_squares.value_or(0.0) + ReachableOf(areas) / square;
       PM_ASSIGN_OR_RETURN(const LeftoverSpread spread, MeasureSpread(surface_, cells, tree, p, run_));
       for (std::size_t k = 0; k < kLeftoverClasses; ++k) report_.leftover_area[k] += spread[k];
@@ -258,7 +258,7 @@ class Verifier {
       report_.max_leftover = left.worst.value;
       report_.max_leftover_at = Place(left.worst);
     }
-    if (part.scallop && left.worst.value > p.limit) {
+    if (part.finish.scallop && left.worst.value > p.limit) {
       report_.finish_ok = false;
       std::vector<Extreme> places = left.violations;
       places.insert(places.begin(), left.worst);

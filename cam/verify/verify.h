@@ -38,11 +38,13 @@ struct Finish {
 };
 
 // The requested finish of a part of the surface.
-struct FinishPart : Finish {
+struct FinishPart {
+  Finish finish;
   std::shared_ptr<const SurfaceMask> where;  // null: the whole surface
 };
 
-struct VerifyParams : Finish {
+struct VerifyParams {
+  Finish finish;
   double tolerance = 0.01;           // mm, [verification P1, P2]
   double leave = 0.0;                // mm, stock to leave; the program is judged against the offset surface
   double certainty = 1e-3;           // mm; how exactly maxima are known

@@ -40,7 +40,9 @@ void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Rep
   const auto skipped = [&](const Region& region) {
     return from.choices[static_cast<std::size_t>(region.id)].skip;
   };
-  const auto area = [](const Region& region) { return Number(region.area * region.wanted_share); };
+  const auto area = [&](const Region& region) {
+    return Number(region.area * from.figures[static_cast<std::size_t>(region.id)].selected_share);
+  };
   double unreachable = 0.0, reachable = 0.0;
   for (const UnreachableReason reason : kReasons) {
     v1::UnreachablePart part;
@@ -143,12 +145,13 @@ void AddPoints(const std::vector<Vec3>& points, const Vec3& zero,
   }
 }
 
-v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3& zero, Detail detail) {
+v1::Region ToProto(const Region& region, const RegionChoice& choice, const RegionFigures& figures,
+                   const Vec3& zero, Detail detail) {
   v1::Region proto;
   proto.set_id(region.id);
   proto.set_kind(ToProto(region.kind));
   proto.set_area_mm2(Number(region.area));
-  proto.set_selected_area_mm2(Number(region.area * region.wanted_share));
+  proto.set_selected_area_mm2(Number(region.area * figures.selected_share));
   *proto.mutable_inside_point() = ToProto(Vec3(region.inside - zero));
   proto.set_min_z_mm(Number(region.z_min - zero.z()));
   proto.set_max_z_mm(Number(region.z_max - zero.z()));
@@ -159,11 +162,11 @@ v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3&
   }
   if (region.kind != RegionKind::kUnreachable) {
     proto.set_slope(ToProto(region.slope));
-    proto.set_step_min_mm(Number(region.step_min));
-    proto.set_step_max_mm(Number(region.step_max));
+    proto.set_step_min_mm(Number(figures.step_min));
+    proto.set_step_max_mm(Number(figures.step_max));
     if (!choice.skip) {
       SetChoice(choice, region.slope, zero, proto);
-      proto.set_cut_otherwise_area_mm2(Number(region.area * region.otherwise_share));
+      proto.set_cut_otherwise_area_mm2(Number(region.area * figures.otherwise_share));
     }
   }
   proto.set_skipped(choice.skip);
@@ -182,11 +185,12 @@ google::protobuf::RepeatedPtrField<std::string> PatchIds(const PatchModel& model
   return ids;
 }
 
-v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& choices, const Vec3& zero) {
+v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& choices,
+                      const std::vector<RegionFigures>& figures, const Vec3& zero) {
   v1::RegionMap proto;
   proto.set_regions_sha256(RegionsDigest(map));
   for (std::size_t id = 0; id < map.regions.size(); ++id) {
-    *proto.add_regions() = ToProto(map.regions[id], choices[id], zero, Detail::kAll);
+    *proto.add_regions() = ToProto(map.regions[id], choices[id], figures[id], zero, Detail::kAll);
   }
   for (const BorderLine& line : map.border_lines) {
     v1::BorderLine& border = *proto.add_border_lines();
@@ -287,7 +291,8 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   report.set_retract_count(from.motion.retract_count);
   report.set_certificate_defect_count(static_cast<int>(from.certificate_defects));
   for (std::size_t id = 0; id < from.regions.size(); ++id) {
-    *report.add_regions() = ToProto(from.regions[id], from.choices[id], zero, Detail::kFigures);
+    *report.add_regions() =
+        ToProto(from.regions[id], from.choices[id], from.figures[id], zero, Detail::kFigures);
   }
   AddDiagnostics(from.diagnostics, zero, report.mutable_diagnostics());
   for (const StageTime& stage : from.stages) {

@@ -23,13 +23,15 @@ void AddDiagnostics(const Diagnostics& from, const Vec3& zero,
 v1::Box ToProto(const Box3& box, const Vec3& zero);
 
 enum class Detail { kAll, kFigures };  // kFigures leaves out borders and patches
-v1::Region ToProto(const Region& region, const RegionChoice& choice, const Vec3& zero, Detail detail);
+v1::Region ToProto(const Region& region, const RegionChoice& choice, const RegionFigures& figures,
+                   const Vec3& zero, Detail detail);
 
 // The client's own id of each patch, in the order of the model. Empty if no patch has an id.
 google::protobuf::RepeatedPtrField<std::string> PatchIds(const PatchModel& model);
 
-// `choices` has one element for each region.
-v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& choices, const Vec3& zero);
+// `choices` and `figures` have one element for each region.
+v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& choices,
+                      const std::vector<RegionFigures>& figures, const Vec3& zero);
 
 v1::SetupSheet ToProto(const Resolved& resolved, const Job& job);
 

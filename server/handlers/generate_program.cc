@@ -119,7 +119,8 @@ bool SendResult(const PreparedJob& prepared, const Made& made, const Outputs& ou
   const bool verified = !result.program.empty();
   if (outputs.contains(v1::OUTPUT_REGIONS)) {
     Response response;
-    *response.mutable_regions() = ToProto(result.regions, result.report.choices, made.resolved.program_zero);
+    *response.mutable_regions() =
+        ToProto(result.regions, result.report.choices, result.report.figures, made.resolved.program_zero);
     if (!sink(response)) return false;
   }
   if (outputs.contains(v1::OUTPUT_PATHS) && verified && !SendPaths(result, sink)) return false;

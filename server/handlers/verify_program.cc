@@ -121,8 +121,8 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
   PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, VerifiedParts(surface, job, resolved, run));
   VerifyParams params = MakeVerifyParams(job, resolved, parts);
   if (!request.has_scallop_mm()) {
-    params.scallop.reset();
-    for (FinishPart& part : params.parts) part.scallop.reset();
+    params.finish.scallop.reset();
+    for (FinishPart& part : params.parts) part.finish.scallop.reset();
   }
   PM_ASSIGN_OR_RETURN(const VerifyReport verify, Verify(surface, job.operation.tool, *motion, params, run));
   FillFromVerifier(verify, resolved.program_zero, request.has_scallop_mm(), report);

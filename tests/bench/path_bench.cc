@@ -138,7 +138,7 @@ absl::StatusOr<std::vector<LevelContours>> TraceLevels(const Locator& locator, c
 void ContourLevels(benchmark::State& state, Part part) {
   const Locator locator(SurfaceOf(part), kRadius);
   ContourParams params;
-  params.chord_tolerance = 0.01;
+  params.pass.chord_tolerance = 0.01;
   params.resolution = 0.1;
   absl::StatusOr<std::vector<LevelContours>> levels;
   for (auto _ : state) {

@@ -156,8 +156,8 @@ TEST(Cancel, Zigzag) {
   const Surface surface = PlacedSurface(LongPart());
   const Locator locator(surface, 2.0);
   ZigzagParams params;
-  params.scallop = 0.1;
-  params.chord_tolerance = 0.02;
+  params.pass.scallop = 0.1;
+  params.pass.chord_tolerance = 0.02;
   ExpectStops([&](const RunContext& run) { return ZigzagPaths(locator, params, run).status(); });
 }
 
@@ -165,14 +165,14 @@ TEST(Cancel, Contours) {
   const Surface surface = PlacedSurface(RandomPart(7, 12, 50.0));
   const Locator locator(surface, 2.0);
   ContourParams params;
-  params.scallop = 0.1;
-  params.chord_tolerance = 0.02;
+  params.pass.scallop = 0.1;
+  params.pass.chord_tolerance = 0.02;
   ExpectStops([&](const RunContext& run) { return ContourPaths(locator, params, run).status(); });
 }
 
 RestPassParams CoarseCoverage() {
   RestPassParams params;
-  params.scallop = 0.05;
+  params.pass.scallop = 0.05;
   params.limit = 0.06;
   return params;
 }
@@ -185,13 +185,13 @@ TEST(Cancel, RestPasses) {
   ExpectStops([&](const RunContext& run) { return RestPaths(locator, reach, {}, params, run).status(); });
 }
 
-TEST(Cancel, NeedlessPasses) {
+TEST(Cancel, RedundantPasses) {
   const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
   const Locator locator(surface, 2.0);
   const RestPassParams params = CoarseCoverage();
   const Locator reach = *ReachLocator(locator, params, RunContext());
   ZigzagParams lines;
-  lines.scallop = params.scallop;
+  lines.pass.scallop = params.pass.scallop;
   std::vector<CutterPath> paths = *ZigzagPaths(locator, lines, RunContext());
   lines.angle = 1.0;
   const std::vector<CutterPath> across = *ZigzagPaths(locator, lines, RunContext());

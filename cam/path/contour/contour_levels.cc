@@ -11,11 +11,11 @@
 namespace patchmill {
 
 HeightParams HeightParamsOf(const ContourParams& params, double radius) {
-  const double flat = CenterStep(radius, params.scallop, 0.0);
+  const double flat = CenterStep(radius, params.pass.scallop, 0.0);
   return {.radius = radius,
           .flat = flat,
-          .smallest = std::max(1e-6, params.min_step_fraction * flat),
-          .wide = WideGap(params.scallop, params.chord_tolerance)};
+          .smallest = std::max(1e-6, params.pass.min_step_fraction * flat),
+          .wide = WideGap(params.pass.scallop, params.pass.chord_tolerance)};
 }
 
 absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourArea& contour_area,
@@ -29,7 +29,7 @@ absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourArea& contour_
   const double flat = height_params.flat, smallest = height_params.smallest;
   PM_ASSIGN_OR_RETURN(LevelPlan plan, LevelHeights(contour_area, height_params, run));
   std::vector<double>& heights = plan.heights;
-  const double floor = params.floor_z + radius;
+  const double floor = params.pass.floor_z + radius;
   for (double& z : heights) z = std::max(z, floor);
   std::sort(heights.begin(), heights.end(), std::greater<>());
   heights.erase(std::unique(heights.begin(), heights.end(),

@@ -115,9 +115,9 @@ class PassTracer {
     const LevelFamily& family = families_[at.family];
     const PlannedLevel& planned = family.levels[at.level];
     ClipParams clip;
-    clip.window = params_.window;
-    clip.roll = params_.roll;
-    clip.overlap = 0.5 * CenterStep(context_.locator.radius(), params_.scallop, 0.0);
+    clip.window = params_.pass.window;
+    clip.roll = params_.pass.roll;
+    clip.overlap = 0.5 * CenterStep(context_.locator.radius(), params_.pass.scallop, 0.0);
     std::optional<NearSpotsMask> near_spots;
     if (planned.partial) {
       clip.spots = planned.spots;
@@ -131,7 +131,7 @@ class PassTracer {
       if (run_.Cancelled()) break;
       for (CutterPath& part : ClipLoop(context_, loop, clip)) {
         if (families_.size() > 1 && groups_.FamilyUnder(part, family_of_) != at.family) continue;
-        CertifyCenters(context_.locator, CertificateGap(params_), part);
+        CertifyCenters(context_.locator, CertificateGap(params_.pass), part);
         part.order_key = at.line;
         passes.paths.push_back(std::move(part));
       }
@@ -185,7 +185,7 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
   }
   const PassTracer tracer(context, groups, planned, params, run);
   std::vector<LevelPasses> passes(levels.size());
-  PM_RETURN_IF_ERROR(CountedFor(run, "contours", levels.size(), params.budget, [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(CountedFor(run, "contours", levels.size(), params.pass.budget, [&](std::size_t i) {
     passes[i] = tracer.At(levels[i]);
     return AmountOf(passes[i].paths);
   }));

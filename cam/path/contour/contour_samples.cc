@@ -142,9 +142,9 @@ class PieceSampler {
     double rise = way.z();
     extent.top = std::max(extent.top, 0.5 * rise);
     extent.bottom = std::max(extent.bottom, -0.5 * rise);
-    if (slope < params_.window.min || slope > params_.window.max + kAtLimit) {
+    if (slope < params_.pass.window.min || slope > params_.pass.window.max + kAtLimit) {
       // Count only the part up to where the slope leaves the window.
-      const double limit = slope < n.slope ? params_.window.min : params_.window.max;
+      const double limit = slope < n.slope ? params_.pass.window.min : params_.pass.window.max;
       rise *= 2.0 * std::clamp((n.slope - limit) / (n.slope - slope), 0.0, 1.0);
     }
     extent.up = std::max(extent.up, 0.5 * rise);
@@ -167,8 +167,8 @@ class PieceSampler {
   }
 
   bool Free(const Vec3& center) const {
-    return center.z() >= params_.floor_z + context_.locator.radius() - kFreeSlack &&
-           context_.locator.Free(center, kFreeSlack, CertificateGap(params_));
+    return center.z() >= params_.pass.floor_z + context_.locator.radius() - kFreeSlack &&
+           context_.locator.Free(center, kFreeSlack, CertificateGap(params_.pass));
   }
 
   Node MakeNode(const Vec2& uv) const {
@@ -183,7 +183,7 @@ class PieceSampler {
     node.turn = n->dot(jet.du.cross(jet.dv)) < 0.0 ? -1.0 : 1.0;
     node.center = jet.p + radius * *n;
     node.regular = true;
-    if (node.slope < params_.window.min || node.slope > params_.window.max + kAtLimit) return node;
+    if (node.slope < params_.pass.window.min || node.slope > params_.pass.window.max + kAtLimit) return node;
     node.steep = true;
     node.reachable = Free(node.center);
     const bool beyond = HasTwoSides(jet, *n) && Free(jet.p - radius * *n);
@@ -197,7 +197,8 @@ class PieceSampler {
       Vec3 steepest = Vec3::UnitZ() - e.z() * e;
       if (steepest.norm() < 1e-9) steepest = jet.du;
       const double kappa = NormalCurvature(Forms(jet, e), jet, steepest);
-      return CenterStep(radius, params_.scallop, std::isfinite(kappa) ? kappa : 0.0) * std::sin(node.slope);
+      return CenterStep(radius, params_.pass.scallop, std::isfinite(kappa) ? kappa : 0.0) *
+             std::sin(node.slope);
     };
     if (node.reachable && beyond) node.other_step = step(-node.normal);
     node.reachable = node.reachable || beyond;

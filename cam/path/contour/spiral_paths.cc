@@ -299,7 +299,7 @@ absl::StatusOr<std::vector<CutterPath>> SpiralPaths(const Locator& locator, std:
         points.insert(points.end(), loop.points().begin() + 1, loop.points().end());
         points.push_back(loop.points().front());
         spiral.closed = false;
-        spiral.spiral = true;
+        spiral.traversal = Traversal::kSpiral;
         spiral.points = std::move(points);
         CertifyCenters(locator, CertificateGap(params), spiral);
         points.clear();

@@ -37,16 +37,16 @@ std::vector<Vec2> PlacesOf(const LineFrame& frame, const LineShape& line, const 
 absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, const ZigzagParams& params,
                                                     const RunContext& run) {
   const Surface& surface = locator.surface();
-  const SheetBorder border(surface, params.roll);
-  const double flat = CenterStep(locator.radius(), params.scallop, 0.0);
+  const SheetBorder border(surface, params.pass.roll);
+  const double flat = CenterStep(locator.radius(), params.pass.scallop, 0.0);
   const FrameExtent extent = params.around ? ExtentOfCircles(*params.around, locator.radius(), flat)
                                            : ExtentOfParallels(surface, params.angle, locator.radius());
   const LineFrame frame =
       params.around ? LineFrame::Around(params.around->center, extent.y.end) : LineFrame::At(params.angle);
-  const LineProber prober(locator, border, frame, params, params.part, params.where, run);
-  const double min_step = params.min_step_fraction * flat, once = frame.period();
+  const LineProber prober(locator, border, frame, params.pass, params.part, params.where, run);
+  const double min_step = params.pass.min_step_fraction * flat, once = frame.period();
   const Interval once_over = frame.round() ? Interval{extent.t.end - once, extent.t.end} : extent.t;
-  const double sagitta = std::min(params.chord_tolerance, kCircleSagitta * flat);
+  const double sagitta = std::min(params.pass.chord_tolerance, kCircleSagitta * flat);
   const double max_bend = frame.round() ? 0.0 : params.max_bend;
   PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands,
                       LinePositions(prober, extent, min_step, params.beside, run));
@@ -95,13 +95,13 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
 
   std::vector<std::vector<ScanRun>> runs(parts.size());
   std::vector<char> closed(parts.size(), 0);
-  PM_RETURN_IF_ERROR(CountedFor(run, "zigzag", parts.size(), params.budget, [&](std::size_t i) {
+  PM_RETURN_IF_ERROR(CountedFor(run, "zigzag", parts.size(), params.pass.budget, [&](std::size_t i) {
     const Part& part = parts[i];
     const LineShape& line = part.line->line;
     const std::vector<Vec2> places = frame.round() ? ArcPlaces(frame, line.At(part.t.begin), part.t, sagitta)
                                                    : PlacesOf(frame, line, part.t);
-    runs[i] = ScanPolyline(locator, places, params, &run);
-    if (places.front() == places.back()) closed[i] = CloseAround(CertificateGap(params), runs[i]);
+    runs[i] = ScanPolyline(locator, places, params.pass, &run);
+    if (places.front() == places.back()) closed[i] = CloseAround(CertificateGap(params.pass), runs[i]);
     PathAmount made;
     for (const ScanRun& r : runs[i]) made += AmountOf(r.points);
     return made;
@@ -114,7 +114,7 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
                       .closed = closed[i] != 0,
                       .order_key = parts[i].index,
                       .points = std::move(r.points)};
-      if (params.window.max >= kWallsToo) {
+      if (params.pass.window.max >= kWallsToo) {
         paths.push_back(std::move(path));
         continue;
       }

@@ -15,7 +15,8 @@
 
 namespace patchmill {
 
-struct ZigzagParams : PassParams {
+struct ZigzagParams {
+  PassParams pass;
   double angle = 0.0;     // rad, direction of the lines in plan, from +x
   double max_bend = 0.0;  // rad, how far lines may turn from it to keep their steps even; 0: straight
   const OperationLimits* part = nullptr;  // lines run only where it wants the contact; null: everywhere

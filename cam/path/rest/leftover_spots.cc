@@ -57,13 +57,14 @@ class SpotFinder {
         params_(params),
         run_(run),
         radius_(locator.radius()),
-        flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
+        flat_(CenterStep(locator.radius(), params.pass.scallop, 0.0)),
         covered_(radius_ + params.limit + params.margin.value_or(kProofMargin * params.tolerance)),
         covered2_(covered_ * covered_),
-        lowest_center_(params.floor_z + radius_ - (1.0 + kReachMargin) * ReachTolerance(params.tolerance)),
+        lowest_center_(params.pass.floor_z + radius_ -
+                       (1.0 + kReachMargin) * ReachTolerance(params.tolerance)),
         cell_reach_{.radius = radius_,
                     .reach_tolerance = (1.0 + kProofOfReach) * ReachTolerance(params.tolerance),
-                    .floor_z = params.floor_z + radius_,
+                    .floor_z = params.pass.floor_z + radius_,
                     .narrow = kFinest * flat_},
         near_reach_(cell_reach_) {
     near_reach_.proof = kProofBetween * (kReachMargin - kProofOfReach) * ReachTolerance(params.tolerance);
@@ -145,7 +146,8 @@ bool SpotFinder::CoveredByTwo(const Vec3* hull, int count, const Vec3& e, const 
 }
 
 bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
-  return NeededStepOfSides(params_.forced, jet, e, radius_, params_.scallop) >= params_.min_step_fraction;
+  return NeededStepOfSides(params_.forced, jet, e, radius_, params_.pass.scallop) >=
+         params_.pass.min_step_fraction;
 }
 
 // Returns the normal of the side from which the point can be finished.
@@ -170,7 +172,7 @@ std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const Su
   const auto side = ReachableSide(jet, e);
   if (!side) return std::nullopt;
   Vec3 center = at.p + radius_ * *side;
-  center.z() = std::max(center.z(), params_.floor_z + radius_);
+  center.z() = std::max(center.z(), params_.pass.floor_z + radius_);
   return LeftoverSpot{at, *side, center, leftover, rect};
 }
 
@@ -315,8 +317,8 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
     if (limited || near.segment < 0) AddCorner(rect, out);
     return;
   }
-  if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, radius_, params_.scallop,
-                                              kForcedMargin * params_.min_step_fraction)) {
+  if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, radius_, params_.pass.scallop,
+                                              kForcedMargin * params_.pass.min_step_fraction)) {
     return;
   }
   // Larger rectangles with a pass nearby have reachable surface.

@@ -203,7 +203,7 @@ absl::Status RedundantPassRemover::Take(const RunContext& run) {
   std::vector<char> possible(paths_.size(), 0);
   std::vector<std::vector<char>> seems(paths_.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "redundant passes", paths_.size(), [&](std::size_t k) {
-    if (paths_[k].spiral || paths_[k].points.size() < 2) return;
+    if (paths_[k].traversal == Traversal::kSpiral || paths_[k].points.size() < 2) return;
     std::vector<int> found;
     for (std::size_t i = first_[k]; i < first_[k + 1] && !run.Cancelled(); ++i) {
       const std::size_t at = i - first_[k];
@@ -308,9 +308,10 @@ absl::StatusOr<std::vector<CutterPath>> RemoveRedundantPasses(const Locator& loc
                                                               const std::vector<RestPassParams>& parts,
                                                               const RunContext& run) {
   if (paths.empty() || parts.empty()) return paths;
-  const PassParams& finest = *std::min_element(
-      parts.begin(), parts.end(),
-      [](const RestPassParams& a, const RestPassParams& b) { return a.scallop < b.scallop; });
+  const PassParams& finest =
+      std::min_element(parts.begin(), parts.end(), [](const RestPassParams& a, const RestPassParams& b) {
+        return a.pass.scallop < b.pass.scallop;
+      })->pass;
   RedundantPassRemover remover(locator, paths, finest, run);
   PM_RETURN_IF_ERROR(remover.Take(run));
   if (remover.Removed().empty()) return paths;
@@ -330,9 +331,9 @@ absl::StatusOr<std::vector<CutterPath>> RemoveRedundantPasses(const Locator& loc
       RestPassParams params = part;
       if (finish) {
         params.forced = {};
-        params.limit = std::min(part.limit, kRedundantLimit * part.scallop);
-        params.margin = kProof * part.scallop;
-        params.removed_margin = std::min(kProof * part.scallop, kRemovedMarginShare * part.tolerance);
+        params.limit = std::min(part.limit, kRedundantLimit * part.pass.scallop);
+        params.margin = kProof * part.pass.scallop;
+        params.removed_margin = std::min(kProof * part.pass.scallop, kRemovedMarginShare * part.tolerance);
         params.coarse_where_both_exceed = true;
       } else {
         // Together the margins are what RestPaths may add to the limit.

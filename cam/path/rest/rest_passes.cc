@@ -41,10 +41,10 @@ absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator, const 
       continue;
     }
     grow(mended);
-    PathAmount made = params.budget.made;
+    PathAmount made = params.pass.budget.made;
     made += AmountOf(added);
     made += AmountOf(mended);
-    PM_RETURN_IF_ERROR(CheckAmount(params.budget.limits, made, "with rest passes"));
+    PM_RETURN_IF_ERROR(CheckAmount(params.pass.budget.limits, made, "with rest passes"));
     for (CutterPath& p : mended) {
       p.order_key = static_cast<int>(added.size());
       added.push_back(std::move(p));

@@ -17,7 +17,8 @@
 
 namespace patchmill {
 
-struct RestPassParams : PassParams {
+struct RestPassParams {
+  PassParams pass;
   double limit = 0.02;      // mm: a reachable point with more leftover than this is a spot to finish
   double tolerance = 0.01;  // mm: the whole budget; cam/limits/reach_tolerance.h says what is reachable
   // mm: a place called covered may exceed the limit by this; absent: kProofMargin of the tolerance.

@@ -44,11 +44,11 @@ class RestPassMaker {
         params_(params),
         run_(run),
         radius_(locator.radius()),
-        flat_(CenterStep(locator.radius(), params.scallop, 0.0)),
-        border_(locator.surface(), params.roll),
+        flat_(CenterStep(locator.radius(), params.pass.scallop, 0.0)),
+        border_(locator.surface(), params.pass.roll),
         cells_(CentersOf(spots), flat_),
         open_(spots.size(), true),
-        wedge_gouge_(kWedgeGougeShare * params.chord_tolerance),
+        wedge_gouge_(kWedgeGougeShare * params.pass.chord_tolerance),
         asked_(spots.size(), false),
         wedge_asked_(spots.size(), false),
         free_(spots.size()),
@@ -134,13 +134,13 @@ bool RestPassMaker::Add(PassKind kind, std::vector<CutterPoint> points) {
 }
 
 bool RestPassMaker::AlongPencil(std::size_t i) {
-  const auto seed = FindPencilPoint(locator_, Xy(spots_[i].center), 0.75 * flat_, params_, run_);
+  const auto seed = FindPencilPoint(locator_, Xy(spots_[i].center), 0.75 * flat_, params_.pass, run_);
   if (!seed || (seed->center - spots_[i].center).norm() > flat_) return false;
-  const auto stations = TracePencil(locator_, border_, *seed, params_, 3.0 * flat_, [&](const Vec3& c) {
+  const auto stations = TracePencil(locator_, border_, *seed, params_.pass, 3.0 * flat_, [&](const Vec3& c) {
     return !run_.Cancelled() && Needed(c, 0.75 * flat_);
   });
   if (stations.size() < 2) return false;
-  Add(PassKind::kPencil, ThinStations(locator_, stations, params_, &run_));
+  Add(PassKind::kPencil, ThinStations(locator_, stations, params_.pass, &run_));
   return !open_[i];
 }
 
@@ -219,7 +219,7 @@ bool RestPassMaker::AlongRidge(std::size_t i) {
                  beyond(corners.front(), corners.size() > 1 ? corners[1] : Vec2(corners[0] + level)));
   corners.push_back(beyond(corners.back(), corners[corners.size() - 2]));
   bool added = false;
-  for (ScanRun& run : ScanPolyline(locator_, corners, params_, &run_))
+  for (ScanRun& run : ScanPolyline(locator_, corners, params_.pass, &run_))
     added |= Add(PassKind::kRest, std::move(run.points));
   return added && !open_[i];
 }
@@ -228,7 +228,7 @@ bool RestPassMaker::AlongRidge(std::size_t i) {
 bool RestPassMaker::AlongLevel(std::size_t i) {
   if (!levels_) levels_.emplace(locator_, run_);
   ContourParams contour;
-  static_cast<PassParams&>(contour) = params_;
+  contour.pass = params_.pass;
   const LevelContours level = TraceLevel(*levels_, spots_[i].center.z(), contour, run_);
   const double reach = 0.75 * flat_;
   for (const CutterPath& loop : level.loops) {
@@ -284,7 +284,7 @@ const std::optional<Vec3>& RestPassMaker::FreeNear(std::size_t i) {
   if (!asked_[i]) {
     asked_[i] = true;
     const LeftoverSpot& spot = spots_[i];
-    free_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover,
+    free_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.pass.floor_z + radius_, spot.leftover,
                               wedge_gouge_);
   }
   return free_[i];
@@ -296,8 +296,8 @@ const std::optional<Vec3>& RestPassMaker::WedgedNear(std::size_t i) {
   if (!wedge_asked_[i]) {
     wedge_asked_[i] = true;
     const LeftoverSpot& spot = spots_[i];
-    wedged_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.floor_z + radius_, spot.leftover,
-                                kWedge * params_.chord_tolerance, true);
+    wedged_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.pass.floor_z + radius_,
+                                spot.leftover, kWedge * params_.pass.chord_tolerance, true);
   }
   return wedged_[i];
 }
@@ -311,7 +311,7 @@ bool RestPassMaker::AlongCenters(std::size_t i, bool wedged) {
     return wedged ? WedgedNear(k) : FreeNear(k);
   };
   if (!near(i)) return false;
-  const double limit = (wedged ? kWedgedChord : 1.0) * params_.chord_tolerance;
+  const double limit = (wedged ? kWedgedChord : 1.0) * params_.pass.chord_tolerance;
   std::vector<CutterPoint> points;
   for (std::size_t k : Chain(i, Gentle(i))) {
     if (run_.Cancelled()) return false;
@@ -322,7 +322,7 @@ bool RestPassMaker::AlongCenters(std::size_t i, bool wedged) {
       if ((*c - last).norm() < kSamePlace) continue;
       const bool proven =
           (!wedged && ChordGouge(radius_ - wedge_gouge_, (*c - last).norm()) + wedge_gouge_ <= limit) ||
-          locator_.GougeWithin(last, *c, limit, (wedged ? 0.02 : 0.1) * params_.chord_tolerance);
+          locator_.GougeWithin(last, *c, limit, (wedged ? 0.02 : 0.1) * params_.pass.chord_tolerance);
       if (!proven) {
         Add(PassKind::kRest, std::move(points));
         points.clear();

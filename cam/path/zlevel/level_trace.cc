@@ -42,9 +42,9 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
       limits.smallest *= 2.0;
       continue;
     }
-    const LoopTolerance tolerance{
-        std::max(params.chord_tolerance - params.certificate_gap, 0.5 * params.chord_tolerance),
-        ExcessTolerance(params)};
+    const LoopTolerance tolerance{std::max(params.pass.chord_tolerance - params.pass.certificate_gap,
+                                           0.5 * params.pass.chord_tolerance),
+                                  ExcessTolerance(params.pass)};
     level.cell = cells.grid.unit;
     level.ambiguous_cells = cells.ambiguous;
     const auto first = std::find_if(cells.cells.begin(), cells.cells.end(),
@@ -88,7 +88,7 @@ LevelContours TraceLevel(const Locator& locator, double z, const ContourParams& 
 
 LevelContours TracePasses(const LevelContext& context, double z, const NearSpotsMask* where,
                           const ContourParams& params, const RunContext& run) {
-  WantedLevel wanted{params.window, where};
+  WantedLevel wanted{params.pass.window, where};
   wanted.window.min -= kWindowMargin;
   wanted.window.max += kWindowMargin;
   return Trace(context, z, params, &wanted, run);

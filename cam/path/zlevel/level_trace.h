@@ -10,7 +10,8 @@
 
 namespace patchmill {
 
-struct ContourParams : PassParams {
+struct ContourParams {
+  PassParams pass;
   double resolution = 0.1;  // mm: every loop or hole that holds a disc of this diameter is found
 };
 

@@ -78,9 +78,6 @@ struct Region {
   double area = 0.0;           // mm^2 on the surface
   Vec3 inside = Vec3::Zero();  // a point of the region
   double z_min = 0.0, z_max = 0.0;
-  double step_min = 0.0, step_max = 0.0;  // mm between passes for the scallop; cam/plan fills it, else 0
-  double wanted_share = 1.0;              // selected share of its area; cam/plan fills it
-  double otherwise_share = 0.0;           // share of its area that is cut as the other slope; from cam/plan
   double deepest_leftover = 0.0;          // mm, if it has a reason: deepest material left (leftover.h)
   double largest_tool_diameter = 0.0;     // mm, if CONCAVE: largest ball that reaches all of it; 0 if none
   std::vector<std::vector<Vec3>> border;  // closed polylines on the surface

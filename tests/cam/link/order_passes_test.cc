@@ -201,13 +201,13 @@ TEST(OrderPasses, NeighboursStayTogether) {
 
 TEST(OrderPasses, SpiralsAreNeverTurned) {
   CutterPath spiral = Path(PassKind::kContour, 0, {{0, 0, 5}, {9, 0, 4}, {30, 0, 3}});
-  spiral.spiral = true;
+  spiral.traversal = Traversal::kSpiral;
   // The tool comes from the far end, and contours may be cut either way.
   const auto out = Ordered({Path(PassKind::kContour, 0, {{60, 0, 9}, {31, 0, 9}}), spiral},
                            {.neighbor_distance = 3.0, .reversible_contours = true});
   ASSERT_EQ(out.size(), 2u);
   for (const CutterPath& path : out) {
-    if (!path.spiral) continue;
+    if (path.traversal != Traversal::kSpiral) continue;
     EXPECT_GT(path.points.front().center.z(), path.points.back().center.z());
   }
 }

@@ -51,13 +51,13 @@ class OrderOfParts : public ::testing::Test {
             testing::Single(testing::InterpolatedHeights(Ground, 0.0, 84.0, 0.0, 84.0, 40, 40)))),
         locator_(surface_, kRadius) {
     ContourParams steep;
-    steep.scallop = 0.02;
-    steep.window.min = Radians(25);
+    steep.pass.scallop = 0.02;
+    steep.pass.window.min = Radians(25);
     const auto contours = ContourPaths(locator_, steep, RunContext());
     EXPECT_TRUE(contours.ok()) << contours.status();
     ZigzagParams gentle;
-    gentle.scallop = 0.05;
-    gentle.window.max = Radians(25);
+    gentle.pass.scallop = 0.05;
+    gentle.pass.window.max = Radians(25);
     const auto lines = ZigzagPaths(locator_, gentle, RunContext());
     EXPECT_TRUE(lines.ok()) << lines.status();
     auto map = SplitRegions(surface_, {.radius = kRadius, .steep_angle = Radians(25)}, RunContext());
@@ -175,12 +175,12 @@ TEST(OrderOfEqualParts, OneDomeAfterTheOther) {
   const Surface surface = testing::JoinedSurface(model);
   const Locator locator(surface, kRadius);
   ContourParams steep;
-  steep.scallop = 0.05;
-  steep.window.min = Radians(45);
+  steep.pass.scallop = 0.05;
+  steep.pass.window.min = Radians(45);
   std::vector<CutterPath> all = ContourPaths(locator, steep, RunContext())->paths;
   ZigzagParams gentle;
-  gentle.scallop = 0.05;
-  gentle.window.max = Radians(45);
+  gentle.pass.scallop = 0.05;
+  gentle.pass.window.max = Radians(45);
   const std::vector<CutterPath> lines = *ZigzagPaths(locator, gentle, RunContext());
   all.insert(all.end(), lines.begin(), lines.end());
   const RegionMap map = *SplitRegions(surface, {.radius = kRadius}, RunContext());

@@ -28,8 +28,9 @@ ChosenRegions Regions(const PatchModel& model, const Job& job) {
 
 std::vector<CircularLines> RoundOnes(const PatchModel& model, const Job& job) {
   std::vector<CircularLines> found;
-  for (const RegionChoice& choice : Regions(model, job).choices) {
-    EXPECT_FALSE(choice.circles_open);
+  const RegionChoices chosen = Regions(model, job).chosen;
+  for (const OpenChoice& open : chosen.open) EXPECT_FALSE(open.circles);
+  for (const RegionChoice& choice : chosen.choices) {
     for (const CircularComponent& round : choice.around) found.push_back(round.lines);
   }
   return found;
@@ -53,7 +54,7 @@ TEST(CircularLines, AWideRimHasThemAroundItsAxis) {
 // One part, one family of circles, over cells of both regions.
 TEST(CircularLines, RegionsAroundOneAxisShareThem) {
   const ChosenRegions regions = Regions(Torus(kAxis, 20, 8, Half::kUpper), BallJob(3.0));
-  const std::vector<PlanPart> parts = PartsOf(regions.map, regions.choices);
+  const std::vector<PlanPart> parts = PartsOf(regions.map, regions.chosen.choices);
   ASSERT_EQ(parts.size(), 1u);
   EXPECT_EQ(parts[0].where, nullptr);
   EXPECT_TRUE(parts[0].choice.around.empty());
@@ -66,7 +67,7 @@ TEST(CircularLines, RegionsAroundOneAxisShareThem) {
         const PieceId id(static_cast<int>(piece));
         const int region = regions.map.labels[piece][static_cast<std::size_t>(i * regions.map.cells + j)];
         ASSERT_NE(round.HasCell(id, i, j), straight.HasCell(id, i, j));
-        if (region >= 0 && !regions.choices[static_cast<std::size_t>(region)].around.empty()) {
+        if (region >= 0 && !regions.chosen.choices[static_cast<std::size_t>(region)].around.empty()) {
           ASSERT_TRUE(round.HasCell(id, i, j));
         }
       }
@@ -78,10 +79,10 @@ TEST(CircularLines, ANarrowRimOfASteepRegionHasThemToo) {
   const PatchModel bead = Torus(kAxis, 15, 0.8, Half::kUpper);
   const ChosenRegions regions = Regions(bead, BallJob(3.0));
   int round = 0;
-  for (std::size_t id = 0; id < regions.choices.size(); ++id) {
-    if (regions.choices[id].around.empty()) continue;
+  for (std::size_t id = 0; id < regions.chosen.choices.size(); ++id) {
+    if (regions.chosen.choices[id].around.empty()) continue;
     ++round;
-    EXPECT_NEAR((regions.choices[id].around.front().lines.center - Xy(kAxis)).norm(), 0.0, 1e-6);
+    EXPECT_NEAR((regions.chosen.choices[id].around.front().lines.center - Xy(kAxis)).norm(), 0.0, 1e-6);
   }
   EXPECT_GT(round, 0);
 }
@@ -184,8 +185,8 @@ TEST(CircularLines, OfManyRimsInOneRegionEachItsOwn) {
     const ChosenRegions regions = Regions(*model, BallJob(3.0));
     std::vector<int> found(places.size(), 0);
     bool plate = false;
-    for (std::size_t id = 0; id < regions.choices.size(); ++id) {
-      const RegionChoice& choice = regions.choices[id];
+    for (std::size_t id = 0; id < regions.chosen.choices.size(); ++id) {
+      const RegionChoice& choice = regions.chosen.choices[id];
       for (const auto& [component, around] : choice.around) {
         EXPECT_EQ(regions.map.component_region[static_cast<std::size_t>(component)], static_cast<int>(id));
         for (std::size_t k = 0; k < places.size(); ++k)
@@ -200,7 +201,7 @@ TEST(CircularLines, OfManyRimsInOneRegionEachItsOwn) {
     EXPECT_EQ(found, std::vector<int>(places.size(), 1));
     EXPECT_EQ(plate, model == &with_plate);
     std::size_t families = 0;
-    for (const PlanPart& part : PartsOf(regions.map, regions.choices)) families += part.round.size();
+    for (const PlanPart& part : PartsOf(regions.map, regions.chosen.choices)) families += part.round.size();
     EXPECT_EQ(families, places.size());
   }
   Job job = BallJob(3.0);
@@ -225,7 +226,7 @@ TEST(CircularLines, TheirCellsLieWhereTheyAreLookedFor) {
     const auto regions = PlanRegions(surface, BallJob(3.0), RunContext());
     ASSERT_TRUE(regions.ok()) << regions.status();
     int families = 0;
-    for (const PlanPart& part : PartsOf(regions->map, regions->choices)) {
+    for (const PlanPart& part : PartsOf(regions->map, regions->chosen.choices)) {
       for (const PlanPart::Round& round : part.round) {
         ++families;
         const int n = regions->map.cells;
@@ -316,7 +317,7 @@ TEST(CircularLines, OblongFramesHaveStraightLines) {
       Regions(Join({AroundRectangle(profiles, 12, 7),
                     Single(Bilinear({-12, -7, 10}, {12, -7, 10}, {-12, 7, 10}, {12, 7, 10}))}),
               BallJob(3.0));
-  for (const RegionChoice& choice : regions.choices) EXPECT_TRUE(choice.around.empty());
+  for (const RegionChoice& choice : regions.chosen.choices) EXPECT_TRUE(choice.around.empty());
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ double BorderLength(const RegionMap& map, BorderKind kind) {
 TEST(ForcedGround, ContoursLeaveTheCapOfASphere) {
   const double rho = 20.0, sine = kLeast / ConvexStep(rho), cosine = std::sqrt(1.0 - sine * sine);
   const Surface surface = PlacedSurface(Sphere(Vec3::Zero(), rho, Half::kUpper));
-  const RegionMap map = Regions(surface, ForcedJob(Strategy::kContour)).map;
+  const ChosenRegions regions = Regions(surface, ForcedJob(Strategy::kContour));
+  const RegionMap& map = regions.map;
   const double cap = 2.0 * kPi * rho * rho * (1.0 - cosine);
   EXPECT_NEAR(StrategyArea(map), cap, 1e-6 * cap);
   EXPECT_NEAR(BorderLength(map, BorderKind::kStrategy), 2.0 * kPi * rho * sine, 0.01);
@@ -74,7 +75,7 @@ TEST(ForcedGround, ContoursLeaveTheCapOfASphere) {
     EXPECT_EQ(region.kind, RegionKind::kMountain);
     EXPECT_EQ(region.slope, SlopeClass::kGentle);
     EXPECT_GT(region.inside.z(), rho * cosine);
-    EXPECT_GT(region.step_min, 0.0);
+    EXPECT_GT(regions.figures[static_cast<std::size_t>(region.id)].step_min, 0.0);
     // At the summit no step is short enough. The nearest finished surface is the circle around it, sampled
     // in every second cell of 0.12 mm each way.
     const double away = std::hypot(rho - (rho + kRadius) * cosine, (rho + kRadius) * sine) - kRadius;

@@ -29,10 +29,8 @@ RegionMap MapOf(std::vector<SlopeClass> slopes) {
   return map;
 }
 
-std::vector<RegionChoice> OpenChoices(std::size_t n) {
-  RegionChoice open;
-  open.angle_open = true;
-  return std::vector<RegionChoice>(n, open);
+RegionChoices OpenChoices(std::size_t n) {
+  return {std::vector<RegionChoice>(n), std::vector<OpenChoice>(n, {.angle = true})};
 }
 
 std::vector<CircularTrial> NoCircles(std::size_t n) { return std::vector<CircularTrial>(n); }
@@ -68,14 +66,13 @@ TEST(QuickestAngles, PlansBeyondALimitAreNoChoice) {
 TEST(QuickestAngles, EachRegionTakesItsOwn) {
   // Best angles of two regions, degrees. The third region has a fixed angle, the fourth is cut by contours.
   for (const auto& [first, second] : {std::pair{60.0, 120.0}, {53.0, 118.0}, {178.0, 20.0}, {7.0, 16.0}}) {
-    std::vector<RegionChoice> choices = OpenChoices(4);
-    choices[2].angle_open = false;
-    choices[2].zigzag_angle = Radians(17);
+    RegionChoices choices = OpenChoices(4);
+    choices.open[2].angle = false;
+    choices.choices[2].zigzag_angle = Radians(17);
     int plans = 0;
     const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
       ++plans;
       for (const RegionChoice& c : with) {
-        EXPECT_FALSE(c.angle_open);
         EXPECT_GE(c.zigzag_angle, 0.0);
         EXPECT_LT(c.zigzag_angle, kPi);
       }
@@ -90,7 +87,7 @@ TEST(QuickestAngles, EachRegionTakesItsOwn) {
     EXPECT_LE(plans, kQuickestAnglePlans);
     EXPECT_LE(Apart((*chosen)[0].zigzag_angle, first), 0.5 * 3.75 + 1e-9) << first;
     EXPECT_LE(Apart((*chosen)[1].zigzag_angle, second), 0.5 * 3.75 + 1e-9) << second;
-    EXPECT_EQ((*chosen)[2], choices[2]);
+    EXPECT_EQ((*chosen)[2], choices.choices[2]);
   }
 }
 
@@ -111,18 +108,16 @@ TEST(QuickestAngles, AMixtureThatCostsMoreIsNotTaken) {
 TEST(QuickestAngles, CirclesOnAPartOfARegion) {
   const CircularComponent first{1, {Vec2(1, 2), 3.0, 12.0}}, second{2, {Vec2(40, 2), 3.0, 9.0}},
       third{5, {Vec2(80, 2), 3.0, 9.0}};
-  std::vector<RegionChoice> choices = OpenChoices(1);
-  choices[0].around = {first, third};
+  RegionChoices choices = OpenChoices(1);
+  choices.choices[0].around = {first, third};
   const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
     EXPECT_FALSE(with[0].all_circular);
     return RegionTimes{(with[0].around.size() == 3 ? 9.0 : 10.0) + Apart(with[0].zigzag_angle, 90.0) / 10.0};
   };
-  const auto chosen =
-      QuickestAngles(MapOf({SlopeClass::kGentle}), std::move(choices), {{{second}, false}}, plan);
+  const auto chosen = QuickestAngles(MapOf({SlopeClass::kGentle}), choices, {{{second}, false}}, plan);
   ASSERT_TRUE(chosen.ok()) << chosen.status();
   EXPECT_EQ((*chosen)[0].around, (std::vector<CircularComponent>{first, second, third}));
   EXPECT_NEAR(Degrees((*chosen)[0].zigzag_angle), 90.0, 1e-9);
-  EXPECT_FALSE((*chosen)[0].angle_open);
 }
 
 TEST(QuickestAngles, AnErrorEndsIt) {
@@ -157,7 +152,6 @@ TEST(QuickestAngles, CirclesWhereTheyAreQuicker) {
   EXPECT_TRUE((*chosen)[1].around.empty());
   EXPECT_LE(Apart((*chosen)[1].zigzag_angle, 48.0), 0.5 * 3.75 + 1e-9);
   EXPECT_LE(Apart((*chosen)[2].zigzag_angle, 7.0), 0.5 * 3.75 + 1e-9);
-  for (const RegionChoice& c : *chosen) EXPECT_FALSE(c.angle_open);
 }
 
 // A ridge that lies askew: none of the angles that are tried first.

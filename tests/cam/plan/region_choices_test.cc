@@ -70,7 +70,7 @@ double Leftover(const Vec3& p, const JobResult& result) {
 
 Vec3 OnDome(double r, double angle) { return {r * std::cos(angle), r * std::sin(angle), -kBend * r * r}; }
 
-class RegionChoices : public ::testing::Test {
+class ChoosingRegions : public ::testing::Test {
  protected:
   // The gentle cap is the larger one, region 0; the steep ring is region 1.
   void SetUp() override {
@@ -91,7 +91,7 @@ class RegionChoices : public ::testing::Test {
   int gentle_ = -1, steep_ = -1;
 };
 
-TEST_F(RegionChoices, ASkippedRegionIsNeitherCutNorDemanded) {
+TEST_F(ChoosingRegions, ASkippedRegionIsNeitherCutNorDemanded) {
   Job job = DomeJob();
   job.operation.overrides = {Skip(steep_)};
   const JobResult result = Mill(surface_, job);
@@ -118,13 +118,13 @@ TEST_F(RegionChoices, ASkippedRegionIsNeitherCutNorDemanded) {
   EXPECT_TRUE(judged->gouge_ok);
 }
 
-TEST_F(RegionChoices, AGougeInASkippedRegionIsFound) {
+TEST_F(ChoosingRegions, AGougeInASkippedRegionIsFound) {
   Job job = DomeJob();
   job.operation.overrides = {Skip(gentle_)};
   const auto resolved = Resolve(surface_, job, RunContext());
   const auto choices = ChooseRegions(surface_, map_, job.operation, Vec3::Zero());
   ASSERT_TRUE(resolved.ok() && choices.ok());
-  const auto parts = PartsOf(map_, *choices);
+  const auto parts = PartsOf(map_, choices->choices);
   ASSERT_EQ(parts.size(), 1u);
   const std::string program =
       "G21 G90 G17 G64 P0.001\nG0 Z20\nM3 S1000\nG0 X0 Y0\nG1 Z-0.5 F100\nG0 Z20\nM5\nM2\n";
@@ -135,7 +135,7 @@ TEST_F(RegionChoices, AGougeInASkippedRegionIsFound) {
   EXPECT_NEAR(judged->max_gouge, 0.5, 0.01);
 }
 
-TEST_F(RegionChoices, ARegionHasItsOwnScallop) {
+TEST_F(ChoosingRegions, ARegionHasItsOwnScallop) {
   Job job = DomeJob();
   RegionOverride change = Change(gentle_);
   change.scallop = 0.08;
@@ -162,12 +162,12 @@ TEST_F(RegionChoices, ARegionHasItsOwnScallop) {
   }
   EXPECT_LE(most, 0.08 + tolerance);
   EXPECT_GT(most, 0.05) << "the wider scallop is not used";
-  EXPECT_NEAR(result.report.regions[static_cast<std::size_t>(gentle_)].step_max /
-                  plain.report.regions[static_cast<std::size_t>(gentle_)].step_max,
+  EXPECT_NEAR(result.report.figures[static_cast<std::size_t>(gentle_)].step_max /
+                  plain.report.figures[static_cast<std::size_t>(gentle_)].step_max,
               2.0, 0.02);  // steps grow with the root of the scallop
 }
 
-TEST_F(RegionChoices, ARegionHasItsOwnAngleAndStrategy) {
+TEST_F(ChoosingRegions, ARegionHasItsOwnAngleAndStrategy) {
   Job job = DomeJob();
   RegionOverride turned = Change(gentle_), lines = Change(steep_);
   turned.zigzag_angle = Radians(60.0);
@@ -198,7 +198,7 @@ TEST_F(RegionChoices, ARegionHasItsOwnAngleAndStrategy) {
   EXPECT_GT(outside, 100);
 }
 
-TEST_F(RegionChoices, APointNamesItsRegion) {
+TEST_F(ChoosingRegions, APointNamesItsRegion) {
   for (const double r : {3.0, kCap + 2.0}) {
     RegionOverride change = Skip(-1);
     change.at = OnDome(r, 0.3) + Vec3(0, 0, 0.4);
@@ -206,17 +206,17 @@ TEST_F(RegionChoices, APointNamesItsRegion) {
     op.overrides = {change};
     const auto choices = ChooseRegions(surface_, map_, op, Vec3::Zero());
     ASSERT_TRUE(choices.ok()) << choices.status();
-    EXPECT_EQ((*choices)[static_cast<std::size_t>(gentle_)].skip, r < kCap);
-    EXPECT_EQ((*choices)[static_cast<std::size_t>(steep_)].skip, r > kCap);
+    EXPECT_EQ(choices->choices[static_cast<std::size_t>(gentle_)].skip, r < kCap);
+    EXPECT_EQ(choices->choices[static_cast<std::size_t>(steep_)].skip, r > kCap);
     // Points are in the program's frame.
     op.overrides[0].at = *change.at - Vec3(100, 0, 0);
     const auto shifted = ChooseRegions(surface_, map_, op, Vec3(100, 0, 0));
     ASSERT_TRUE(shifted.ok()) << shifted.status();
-    EXPECT_EQ(*shifted, *choices);
+    EXPECT_EQ(shifted->choices, choices->choices);
   }
 }
 
-TEST_F(RegionChoices, WhatIsNotThereIsRefused) {
+TEST_F(ChoosingRegions, WhatIsNotThereIsRefused) {
   EXPECT_THAT(std::string(StatusOf(Skip(7)).message()),
               HasSubstr("region_overrides[0].region_id = 7; must be in [0, 1]"));
   RegionOverride off = Skip(-1);
@@ -239,7 +239,7 @@ TEST_F(RegionChoices, WhatIsNotThereIsRefused) {
 }
 
 // The map an override is made for depends on nothing that the overrides say.
-TEST_F(RegionChoices, OverridesLeaveTheMapAsItIs) {
+TEST_F(ChoosingRegions, OverridesLeaveTheMapAsItIs) {
   Job job = DomeJob();
   job.operation.overrides = {Skip(steep_)};
   job.operation.scallop = 0.05;
@@ -248,7 +248,7 @@ TEST_F(RegionChoices, OverridesLeaveTheMapAsItIs) {
   EXPECT_EQ(RegionsDigest(regions->map), RegionsDigest(map_));
 }
 
-TEST_F(RegionChoices, AllSkippedIsNothingToCut) {
+TEST_F(ChoosingRegions, AllSkippedIsNothingToCut) {
   Job job = DomeJob();
   job.operation.overrides = {Skip(0), Skip(1)};
   const JobResult result = Mill(surface_, job);
@@ -257,7 +257,7 @@ TEST_F(RegionChoices, AllSkippedIsNothingToCut) {
   EXPECT_NE(result.report.diagnostics.back().message.find("switched off"), std::string::npos);
 }
 
-TEST_F(RegionChoices, SameBytesForAnyThreadCount) {
+TEST_F(ChoosingRegions, SameBytesForAnyThreadCount) {
   Job job = DomeJob();
   RegionOverride change = Change(steep_);
   change.scallop = 0.04;

@@ -24,13 +24,14 @@ void ExpectSteps(const PatchModel& model, const Job& job, double step) {
   ASSERT_TRUE(regions.ok()) << regions.status();
   int reachable = 0;
   for (const Region& region : regions->map.regions) {
+    const RegionFigures& figures = regions->figures[static_cast<std::size_t>(region.id)];
     if (region.kind == RegionKind::kUnreachable) {
-      EXPECT_EQ(region.step_max, 0.0);
+      EXPECT_EQ(figures.step_max, 0.0);
       continue;
     }
     ++reachable;
-    EXPECT_NEAR(region.step_min, step, 1e-9) << region.id;
-    EXPECT_NEAR(region.step_max, step, 1e-9) << region.id;
+    EXPECT_NEAR(figures.step_min, step, 1e-9) << region.id;
+    EXPECT_NEAR(figures.step_max, step, 1e-9) << region.id;
   }
   EXPECT_GT(reachable, 0);
 }
@@ -67,8 +68,9 @@ TEST(RegionSteps, WhatMergingLeftIsCutOtherwise) {
     double area = 0.0;
     std::size_t reachable = 0;
     for (const Region& region : planned->map.regions) {
+      const RegionFigures& figures = planned->figures[static_cast<std::size_t>(region.id)];
       reachable += region.kind != RegionKind::kUnreachable;
-      area += region.area * region.otherwise_share;
+      area += region.area * figures.otherwise_share;
     }
     EXPECT_EQ(reachable, regions);
     return area;
@@ -90,11 +92,12 @@ TEST(RegionSteps, NoneWhereTheBallDoesNotFit) {
   const double flat = 2.0 * std::sqrt(6.0 * job.operation.scallop);
   bool seen = false;
   for (const Region& region : regions->map.regions) {
+    const RegionFigures& figures = regions->figures[static_cast<std::size_t>(region.id)];
     if (region.kind == RegionKind::kUnreachable) continue;
     seen = true;
-    EXPECT_GT(region.step_min, 0.0);
-    EXPECT_LE(region.step_min, region.step_max);
-    EXPECT_LT(region.step_max, flat);
+    EXPECT_GT(figures.step_min, 0.0);
+    EXPECT_LE(figures.step_min, figures.step_max);
+    EXPECT_LT(figures.step_max, flat);
   }
   EXPECT_TRUE(seen);
 }
@@ -164,7 +167,7 @@ TEST(WantedShare, IsWhatIsSelectedOfARegion) {
     const auto regions = PlanRegions(surface, job, RunContext());
     EXPECT_TRUE(regions.ok()) << regions.status();
     EXPECT_EQ(regions->map.regions.size(), 1u);
-    return regions->map.regions[0].wanted_share;
+    return regions->figures[0].selected_share;
   };
   EXPECT_EQ(shares([](Selection&) {}), 1.0);
   EXPECT_EQ(shares([](Selection& s) { s.avoid = {"#0"}; }), 0.0);

@@ -289,7 +289,7 @@ TEST(Containment, TheJudgeSeesWhatThePlannerWasNotTold) {
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kComplete);
   VerifyParams params;
-  params.scallop = job.operation.scallop;
+  params.finish.scallop = job.operation.scallop;
   params.floor_z = -1000.0;
   params.stock_top_z = 0.5;
   const auto codes = [&](const VerifyParams& p) {
@@ -371,7 +371,7 @@ TEST(Containment, NothingToCutCountsWhatIsSelected) {
   ASSERT_EQ(result.report.outcome, Outcome::kNothingToCut);
   ASSERT_EQ(result.report.regions.size(), 1u);
   ASSERT_EQ(result.report.regions.size(), 1u);
-  EXPECT_NEAR(result.report.regions[0].wanted_share * result.report.regions[0].area, 12 * 8, 1.0);
+  EXPECT_NEAR(result.report.figures[0].selected_share * result.report.regions[0].area, 12 * 8, 1.0);
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(MeetingLimits, WallsWithTheBoundaryARadiusBesideThemAreAskedFor) {
   const JobResult flat = Mill(surface, top);
   ASSERT_TRUE(flat.report.verify.ok()) << Describe(flat);
   VerifyParams params;
-  params.scallop = job.operation.scallop;
+  params.finish.scallop = job.operation.scallop;
   params.floor_z = -1000.0;
   params.stock_top_z = 10.5;
   params.containment.boundary = {Outline(job.operation.selection.boundary), BoundaryMode::kCenter, 0.0};

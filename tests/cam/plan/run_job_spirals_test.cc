@@ -19,7 +19,7 @@ Job SpiralJob(Strategy strategy = Strategy::kAuto) {
 
 std::size_t SpiralsOf(const JobResult& result) {
   std::size_t n = 0;
-  for (const CutterPath& pass : result.motion.passes) n += pass.spiral;
+  for (const CutterPath& pass : result.motion.passes) n += pass.traversal == Traversal::kSpiral;
   return n;
 }
 
@@ -39,7 +39,7 @@ TEST(Spirals, DomeOnAPlane) {
   ExpectKept(surface, conventional, 1);
   const JobResult result = Mill(surface, conventional);
   for (const CutterPath& pass : result.motion.passes) {
-    if (!pass.spiral) continue;
+    if (pass.traversal != Traversal::kSpiral) continue;
     EXPECT_GT(pass.points.front().center.z(), pass.points.back().center.z()) << "cut from the top";
     EXPECT_GT(Cross(Xy(pass.points[0].center), Xy(pass.points[1].center)), 0.0);
   }

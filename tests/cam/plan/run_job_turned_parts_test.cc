@@ -67,7 +67,7 @@ TEST(RoundParts, RingsInACloseHoleAreItsContours) {
   job.operation.spirals = true;
   const JobResult wound = MillChecked(surface, job);
   EXPECT_TRUE(std::any_of(wound.motion.passes.begin(), wound.motion.passes.end(),
-                          [](const CutterPath& p) { return p.spiral; }));
+                          [](const CutterPath& p) { return p.traversal == Traversal::kSpiral; }));
 }
 
 // A hole as wide as the ball: it goes straight down. Where it is free there is one point to a level, and no

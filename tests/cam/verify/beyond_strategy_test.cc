@@ -29,9 +29,9 @@ Asked Ask(bool contours, double angle, double scallop) {
   asked.forced.passes = contours ? ForcedPasses::kContours : ForcedPasses::kLines;
   asked.forced.angle = angle;
   asked.judged.reach.radius = kRadius;
-  asked.judged.scallop = scallop;
-  asked.judged.strategy = contours ? ForcedStrategy::kContour : ForcedStrategy::kZigzag;
-  asked.judged.zigzag_angle = angle;
+  asked.judged.finish.scallop = scallop;
+  asked.judged.finish.strategy = contours ? ForcedStrategy::kContour : ForcedStrategy::kZigzag;
+  asked.judged.finish.zigzag_angle = angle;
   asked.judged.min_step_fraction = kFraction;
   return asked;
 }
@@ -53,10 +53,10 @@ TEST(BeyondStrategy, IsGroundThatNeedsLessThanTheNarrowestStep) {
       if (!facing) continue;
       const Asked asked = Ask(i % 2 == 0, random.Uniform(0.0, kPi), kRadius * random.Uniform(1e-4, 0.33));
       const double step =
-          NeededStepOfSides(asked.forced, jet, facing->e, kRadius, *asked.judged.scallop) / kFraction;
+          NeededStepOfSides(asked.forced, jet, facing->e, kRadius, *asked.judged.finish.scallop) / kFraction;
       if (std::abs(step - kMargin) < 1e-4) continue;
       EXPECT_EQ(BeyondStrategy(jet, *facing, asked.judged), step < kMargin)
-          << step << " at " << jet.p.transpose() << ", scallop " << *asked.judged.scallop;
+          << step << " at " << jet.p.transpose() << ", scallop " << *asked.judged.finish.scallop;
       ++(step < kMargin ? beyond : within);
     }
   }

@@ -20,7 +20,7 @@ inline constexpr double kCertainty = 1e-3;  // mm
 inline VerifyParams Params(double top) {
   VerifyParams p;
   p.tolerance = 0.01;
-  p.scallop = 0.02;
+  p.finish.scallop = 0.02;
   p.stock_top_z = top;
   p.certainty = kCertainty;
   return p;

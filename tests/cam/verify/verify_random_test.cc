@@ -101,7 +101,7 @@ TEST(VerifyRandom, SameReportForOneAndTwoThreads) {
   const Surface surface = SurfaceOf(RandomBspline(3, {.spans = 4, .size = 12.0, .amplitude = 1.5}));
   const std::string program = RandomProgram(random, 12.0, surface.box.max.z());
   VerifyParams params;
-  params.scallop = 0.02;
+  params.finish.scallop = 0.02;
   params.stock_top_z = surface.box.max.z() + 1.0;
   const VerifyReport one = Judged(surface, Ball(1.5), program, params, 1);
   const VerifyReport two = Judged(surface, Ball(1.5), program, params, 2);

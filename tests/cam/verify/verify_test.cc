@@ -64,7 +64,7 @@ TEST(Verify, TheSpreadOfLeftoverIsTheClosedForm) {
     params.tolerance = 0.03;
     const VerifyReport report =
         Judged(SurfaceOf(Plane(half)), Ball(r), OverPlane(half, 0.0, r, step).program, params);
-    const double scallop = *params.scallop, area = 4.0 * half * half;
+    const double scallop = *params.finish.scallop, area = 4.0 * half * half;
     double below = 0.0, sum = 0.0;
     for (std::size_t k = 0; k < kLeftoverClasses; ++k) {
       sum += report.leftover_area[k];
@@ -371,7 +371,7 @@ TEST(Verify, ForcedContoursAreExcusedOnLevelGround) {
   text.Pass({{0, 0, 0}, {0.1, 0, 0}});
   VerifyParams params = Params(1.0);
   EXPECT_FALSE(Judged(SurfaceOf(Plane(8.0)), Ball(3.0), text.End(), params).finish_ok);
-  params.strategy = ForcedStrategy::kContour;
+  params.finish.strategy = ForcedStrategy::kContour;
   const VerifyReport report = Judged(SurfaceOf(Plane(8.0)), Ball(3.0), text.End(), params);
   EXPECT_TRUE(report.finish_ok) << Findings(report);
   EXPECT_NEAR(report.unreachable_area[4], 256.0, 1.0);
@@ -379,14 +379,14 @@ TEST(Verify, ForcedContoursAreExcusedOnLevelGround) {
   // Not on a wall of 60 degrees, where contours are at home.
   EXPECT_FALSE(Judged(SurfaceOf(Plane(8.0, 0, std::sqrt(3.0), 0)), Ball(3.0), text.End(), params).finish_ok);
   // Lines along y cannot finish a wall that falls along x at 85 degrees, lines along x can.
-  params.strategy = ForcedStrategy::kZigzag;
-  params.zigzag_angle = kPi / 2;
+  params.finish.strategy = ForcedStrategy::kZigzag;
+  params.finish.zigzag_angle = kPi / 2;
   const Surface wall = SurfaceOf(Plane(2.0, 0, std::tan(Radians(85.0)), 0));
   ProgramText above(60.0);
   above.Pass({{0, 0, 40}, {0.1, 0, 40}});
   params.stock_top_z = 30.0;
   EXPECT_TRUE(Judged(wall, Ball(3.0), above.End(), params).finish_ok);
-  params.zigzag_angle = 0.0;
+  params.finish.zigzag_angle = 0.0;
   EXPECT_FALSE(Judged(wall, Ball(3.0), above.End(), params).finish_ok);
 }
 
@@ -398,7 +398,7 @@ TEST(Verify, RefusesNonsense) {
   EXPECT_FALSE(Verify(surface, Ball(std::nan("")), motion, Params(1), run).ok());
   EXPECT_FALSE(Verify(surface, Ball(3.0), ProgramMotion{}, Params(1), run).ok());
   VerifyParams params = Params(1);
-  params.scallop = 3.5;
+  params.finish.scallop = 3.5;
   EXPECT_FALSE(Verify(surface, Ball(3.0), motion, params, run).ok());
   params = Params(1);
   params.tolerance = 0.0;

@@ -23,16 +23,16 @@ const ThinWhich kAll = [](const CutterPath&) { return true; };
 struct Thinned {
   Thinned(PatchModel model, double scallop, SlopeWindow window = {Radians(45), Radians(90)})
       : surface(MakeSurface(std::move(model))), locator(surface, kR) {
-    params.scallop = params.chord_tolerance = scallop;
-    static_cast<PassParams&>(params) = WithFineChords(params);
-    params.window = window;
+    params.pass.scallop = params.pass.chord_tolerance = scallop;
+    params.pass = WithFineChords(params.pass);
+    params.pass.window = window;
     auto contours = ContourPaths(locator, params, RunContext(2));
     if (!contours.ok()) {
       ADD_FAILURE() << contours.status();
       return;
     }
     before = after = std::move(contours->paths);
-    EXPECT_TRUE(ThinContours(locator, params, kAll, RunContext(2), after).ok());
+    EXPECT_TRUE(ThinContours(locator, params.pass, kAll, RunContext(2), after).ok());
   }
   ContourParams params;
   Surface surface;
@@ -55,7 +55,7 @@ struct Chords {
 // Every chord, judged densely: a ball smaller by what it may take is free, one larger by what it may leave
 // is not; and somewhere one smaller by twice that is free.
 Chords Judge(const Thinned& t, const std::vector<CutterPath>& paths, int per_chord = 9) {
-  const double gouge = t.params.chord_tolerance, excess = ExcessTolerance(t.params);
+  const double gouge = t.params.pass.chord_tolerance, excess = ExcessTolerance(t.params.pass);
   const Locator smaller(t.surface, kR - gouge - 1e-7), larger(t.surface, kR + excess + 1e-7);
   const Locator touching(t.surface, kR - 2.0 * excess);
   Chords all;
@@ -139,7 +139,7 @@ TEST(ThinContours, CirclesTakeAboutTheFewestChords) {
     for (const CutterPath& path : t.after) {
       if (!path.closed) continue;
       const double r = Length(path) / (2.0 * kPi);
-      const double gouge = t.params.chord_tolerance, excess = ExcessTolerance(t.params);
+      const double gouge = t.params.pass.chord_tolerance, excess = ExcessTolerance(t.params.pass);
       const bool in = r < radius;
       (in ? inside : outside) = true;
       const double share = in ? 0.5 * gouge + excess : 0.9 * gouge;
@@ -170,11 +170,12 @@ TEST(ThinContours, SpiralsKeepThePromises) {
   const Eigen::Affine3d over(Eigen::AngleAxisd(kPi, Vec3::UnitX()));
   for (const double radius : {8.0, 14.0}) {
     Thinned t(Transformed(Sphere(Vec3::Zero(), radius, Half::kUpper), over), 0.03, {0.0, Radians(90)});
-    auto spirals = SpiralPaths(t.locator, t.before, t.params, false, RunContext(2));
+    auto spirals = SpiralPaths(t.locator, t.before, t.params.pass, false, RunContext(2));
     ASSERT_TRUE(spirals.ok()) << spirals.status();
     t.before = t.after = *std::move(spirals);
-    ASSERT_TRUE(ThinContours(t.locator, t.params, kAll, RunContext(2), t.after).ok());
-    EXPECT_TRUE(std::any_of(t.after.begin(), t.after.end(), [](const CutterPath& p) { return p.spiral; }));
+    ASSERT_TRUE(ThinContours(t.locator, t.params.pass, kAll, RunContext(2), t.after).ok());
+    EXPECT_TRUE(std::any_of(t.after.begin(), t.after.end(),
+                            [](const CutterPath& p) { return p.traversal == Traversal::kSpiral; }));
     EXPECT_LT(PointsOf(t.after), PointsOf(t.before));
     const Chords chords = Judge(t, t.after);
     EXPECT_EQ(chords.gouges, 0) << "of " << chords.probes;
@@ -187,11 +188,11 @@ TEST(ThinContours, LeavesOtherPassesAndIsCancelled) {
   Thinned t(TwoPlanes(Radians(60), 20), 0.01);
   std::vector<CutterPath> lines = t.before;
   for (CutterPath& path : lines) path.kind = PassKind::kZigzag;
-  ASSERT_TRUE(ThinContours(t.locator, t.params, kAll, RunContext(1), lines).ok());
+  ASSERT_TRUE(ThinContours(t.locator, t.params.pass, kAll, RunContext(1), lines).ok());
   EXPECT_EQ(PointsOf(lines), PointsOf(t.before));
   RunContext run(1);
   run.Cancel();
-  EXPECT_EQ(ThinContours(t.locator, t.params, kAll, run, t.before).code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(ThinContours(t.locator, t.params.pass, kAll, run, t.before).code(), absl::StatusCode::kCancelled);
 }
 
 }  // namespace

@@ -22,10 +22,10 @@ struct Found {
 Found LevelsOf(const Surface& surface, double radius, double scallop, double tolerance) {
   const Locator locator(surface, radius);
   ContourParams params;
-  params.scallop = scallop;
-  params.chord_tolerance = 0.5 * tolerance;
-  params.window.min = Radians(45.0);
-  params.floor_z = 0.0;
+  params.pass.scallop = scallop;
+  params.pass.chord_tolerance = 0.5 * tolerance;
+  params.pass.window.min = Radians(45.0);
+  params.pass.floor_z = 0.0;
   const auto contours = ContourPaths(locator, params, RunContext(1));
   EXPECT_TRUE(contours.ok());
   Found found;

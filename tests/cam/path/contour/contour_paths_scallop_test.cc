@@ -21,9 +21,9 @@ constexpr double kRadius = 3.0, kScallop = 0.02;
 
 ContourParams WallParams() {
   ContourParams params;
-  params.scallop = kScallop;
-  params.chord_tolerance = 5e-4;
-  params.window = {Radians(40), Radians(90)};
+  params.pass.scallop = kScallop;
+  params.pass.chord_tolerance = 5e-4;
+  params.pass.window = {Radians(40), Radians(90)};
   return params;
 }
 

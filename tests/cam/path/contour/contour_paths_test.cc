@@ -22,7 +22,7 @@ constexpr double kSteep = Radians(45.0);
 
 struct Job {
   explicit Job(PatchModel model) : surface(MakeSurface(std::move(model))), locator(surface, kR) {
-    params.window.min = kSteep;
+    params.pass.window.min = kSteep;
   }
   std::vector<CutterPath> Paths(int threads = 2) const {
     const RunContext run(threads);
@@ -42,7 +42,7 @@ struct Job {
       ASSERT_GE(path.points.size(), 2u);
       EXPECT_EQ(path.kind, PassKind::kContour);
       const double z = path.points.front().center.z();
-      EXPECT_GE(z, params.floor_z + kR - 1e-9);
+      EXPECT_GE(z, params.pass.floor_z + kR - 1e-9);
       if (i > 0) {
         EXPECT_LE(paths[i - 1].order_key, path.order_key);
         const double before = paths[i - 1].points.front().center.z();
@@ -115,9 +115,9 @@ Coverage Cover(const Job& job, const std::vector<CutterPath>& paths, int n, doub
     for (int k = 0; k < n * n; ++k) {
       const SurfaceJet jet = Evaluate(job.surface, PieceId(i), (k / n + 0.5) / n, (k % n + 0.5) / n);
       const auto normal = UpwardNormal(jet);
-      if (!normal || std::acos(normal->z()) < job.params.window.min) continue;
+      if (!normal || std::acos(normal->z()) < job.params.pass.window.min) continue;
       const Vec3 c = jet.p + kR * *normal;
-      if (c.z() < job.params.floor_z + kR || !job.locator.Free(c, 1e-9)) continue;
+      if (c.z() < job.params.pass.floor_z + kR || !job.locator.Free(c, 1e-9)) continue;
       const double e = leftover.At(jet.p, c);
       ++cover.points;
       cover.above += e > limit;
@@ -139,7 +139,7 @@ PatchModel DomeOnAPlane() {
 
 TEST(ContourPaths, DomeOnAPlane) {
   Job job(DomeOnAPlane());
-  job.params.floor_z = 0.0;
+  job.params.pass.floor_z = 0.0;
   const std::vector<CutterPath> paths = job.Paths();
   ASSERT_FALSE(paths.empty());
   for (const CutterPath& path : paths) {
@@ -151,20 +151,20 @@ TEST(ContourPaths, DomeOnAPlane) {
   // The lowest one touches plane and dome.
   EXPECT_GE(Bottom(paths), 3.0);
   EXPECT_LE(Bottom(paths), 3.00001);
-  const Coverage cover = Cover(job, paths, 40, job.params.scallop + 0.0075);
+  const Coverage cover = Cover(job, paths, 40, job.params.pass.scallop + 0.0075);
   EXPECT_GT(cover.points, 500);
   EXPECT_EQ(cover.above, 0) << cover.worst;
 }
 
 TEST(ContourPaths, VerticalWallsDownToTheFloor) {
   Job job(testing::Block(8.0, 5.0, 20.0));
-  job.params.floor_z = 0.0;
+  job.params.pass.floor_z = 0.0;
   const std::vector<CutterPath> paths = job.Paths();
   ASSERT_FALSE(paths.empty());
   for (const CutterPath& path : paths) EXPECT_TRUE(path.closed);
   EXPECT_GE(Bottom(paths), 3.0);
   EXPECT_LE(Bottom(paths), 3.00001);
-  const Coverage cover = Cover(job, paths, 40, job.params.scallop + 0.0075);
+  const Coverage cover = Cover(job, paths, 40, job.params.pass.scallop + 0.0075);
   EXPECT_GT(cover.points, 500);
   EXPECT_EQ(cover.above, 0) << cover.worst;
 }
@@ -188,7 +188,7 @@ TEST(ContourPaths, PassesStopAtTheBordersOfASheet) {
     // Material on the right: uphill is +x, so the motion runs towards +y.
     EXPECT_LT(path.points.front().center.y(), path.points.back().center.y());
   }
-  const Coverage cover = Cover(job, paths, 40, job.params.scallop + 0.0075);
+  const Coverage cover = Cover(job, paths, 40, job.params.pass.scallop + 0.0075);
   EXPECT_EQ(cover.above, 0) << cover.worst;
   EXPECT_EQ(cover.points, 1600);
 }
@@ -217,7 +217,7 @@ TEST(ContourPaths, ClippedToTheWindow) {
     for (const CutterPoint& p : path.points) length = Slope(p) >= kSteep - 1e-6 ? -1.0 : length;
     EXPECT_LT(length, 0.0) << "a pass that never enters the window";
   }
-  const Coverage cover = Cover(job, paths, 12, job.params.scallop + 0.0075);
+  const Coverage cover = Cover(job, paths, 12, job.params.pass.scallop + 0.0075);
   EXPECT_GT(cover.points, 100);
   EXPECT_LE(cover.above, cover.points / 200) << cover.worst;  // creases are the rest passes' work
 }
@@ -225,7 +225,7 @@ TEST(ContourPaths, ClippedToTheWindow) {
 TEST(ContourPaths, TorusInsideAndOutside) {
   const Job job(testing::Torus(Vec3::Zero(), 20.0, 6.0));
   const std::vector<CutterPath> paths = job.Paths();
-  const Coverage cover = Cover(job, paths, 20, job.params.scallop + 0.0075);
+  const Coverage cover = Cover(job, paths, 20, job.params.pass.scallop + 0.0075);
   EXPECT_GT(cover.points, 500);
   EXPECT_EQ(cover.above, 0) << cover.worst;
 }
@@ -237,7 +237,7 @@ TEST(ContourPaths, UprightRoundWallsAreNoWorkAndNothingIsLifted) {
   up.translate(Vec3(1.0, 2.0, 5.0)).rotate(Eigen::AngleAxisd(0.5 * kPi, Vec3::UnitX()));
   const PatchModel tube = testing::Transformed(testing::Cylinder(Vec3::Zero(), 9.0, 5.0), up);
   Job job(testing::Join({testing::Plane(25), tube}));
-  static_cast<PassParams&>(job.params) = WithFineChords(job.params);
+  job.params.pass = WithFineChords(job.params.pass);
   const auto start = std::chrono::steady_clock::now();
   const std::vector<CutterPath> paths = job.Paths();
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
@@ -250,13 +250,13 @@ TEST(ContourPaths, UprightRoundWallsAreNoWorkAndNothingIsLifted) {
 
 TEST(ContourPaths, ForcedContoursKeepWholeLoops) {
   Job job(testing::Torus(Vec3::Zero(), 20.0, 6.0, testing::Half::kUpper));
-  job.params.window.min = 0.0;
+  job.params.pass.window.min = 0.0;
   for (const CutterPath& path : job.Paths()) EXPECT_TRUE(path.closed);
 }
 
 TEST(ContourPaths, FloorHoldsTheTip) {
   Job job(testing::Sphere(Vec3::Zero(), 10.0));
-  job.params.floor_z = 1.5;
+  job.params.pass.floor_z = 1.5;
   const std::vector<CutterPath> paths = job.Paths();
   ASSERT_FALSE(paths.empty());
   EXPECT_NEAR(Bottom(paths), 4.5, 1e-5);  // exactly at the floor

@@ -209,9 +209,9 @@ PatchModel Quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 
 ContourParams SteepParams(double scallop = 0.01) {
   ContourParams params;
-  params.scallop = scallop;
-  params.window.min = Radians(45.0);
-  params.floor_z = 0.0;
+  params.pass.scallop = scallop;
+  params.pass.window.min = Radians(45.0);
+  params.pass.floor_z = 0.0;
   return params;
 }
 

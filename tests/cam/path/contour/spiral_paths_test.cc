@@ -23,19 +23,19 @@ constexpr double kR = 3.0;
 struct Wound {
   explicit Wound(PatchModel model, bool backwards = false, double steep = Radians(45.0), int threads = 2)
       : surface(MakeSurface(std::move(model))), locator(surface, kR) {
-    params.window.min = steep;
-    params.floor_z = 0.0;
+    params.pass.window.min = steep;
+    params.pass.floor_z = 0.0;
     const RunContext run(threads);
     const auto contours = ContourPaths(locator, params, run);
     EXPECT_TRUE(contours.ok()) << contours.status();
     levels = contours->paths;
-    const auto spirals = SpiralPaths(locator, levels, params, backwards, run);
+    const auto spirals = SpiralPaths(locator, levels, params.pass, backwards, run);
     EXPECT_TRUE(spirals.ok()) << spirals.status();
     paths = *spirals;
   }
   int Spirals() const {
     int n = 0;
-    for (const CutterPath& p : paths) n += p.spiral;
+    for (const CutterPath& p : paths) n += p.traversal == Traversal::kSpiral;
     return n;
   }
 
@@ -62,7 +62,7 @@ void CheckShape(const Wound& wound, const CutterPath& spiral) {
     const Vec3 move = p.center - spiral.points[i - 1].center;
     EXPECT_LE(move.z(), 1e-12) << "rises at vertex " << i;
     const double half = 0.5 * move.norm();
-    EXPECT_LE(kR - std::sqrt(kR * kR - half * half), wound.params.chord_tolerance);
+    EXPECT_LE(kR - std::sqrt(kR * kR - half * half), wound.params.pass.chord_tolerance);
   }
   EXPECT_GT(whole_top, 6u);
   EXPECT_GT(whole_bottom, 6u);
@@ -101,7 +101,7 @@ TEST(SpiralPaths, OnePassDownADome) {
   ASSERT_GT(wound.levels.size(), 5u);
   ASSERT_EQ(wound.paths.size(), 1u);
   const CutterPath& spiral = wound.paths.front();
-  ASSERT_TRUE(spiral.spiral);
+  ASSERT_EQ(spiral.traversal, Traversal::kSpiral);
   CheckShape(wound, spiral);
   double turned = 0.0;
   for (std::size_t i = 0; i < spiral.points.size(); ++i) {
@@ -111,16 +111,16 @@ TEST(SpiralPaths, OnePassDownADome) {
     turned += std::atan2(Cross(a, b), a.dot(b));
     // Both sides of every chord: its middle is nowhere farther from the dome than the tolerance.
     const Vec3 middle = 0.5 * (spiral.points[i - 1].center + spiral.points[i].center);
-    EXPECT_LE(std::abs(middle.norm() - 13.0), wound.params.chord_tolerance);
+    EXPECT_LE(std::abs(middle.norm() - 13.0), wound.params.pass.chord_tolerance);
   }
   // One turn between two levels, and both end levels whole; clockwise is climb.
   EXPECT_NEAR(turned / (-2.0 * kPi), static_cast<double>(wound.levels.size()) + 1.0, 0.05);
   EXPECT_EQ(spiral.points.front().center.z(), wound.levels.front().points.front().center.z());
   EXPECT_NEAR(spiral.points.back().center.z(), wound.levels.back().points.front().center.z(), 1e-12);
-  const Extremes e = Measure(wound, 60, wound.params.window.min);
+  const Extremes e = Measure(wound, 60, wound.params.pass.window.min);
   EXPECT_GT(e.points, 1000);
-  EXPECT_LE(e.leftover, wound.params.scallop + 0.0075);
-  EXPECT_LE(e.gouge, wound.params.chord_tolerance);
+  EXPECT_LE(e.leftover, wound.params.pass.scallop + 0.0075);
+  EXPECT_LE(e.gouge, wound.params.pass.chord_tolerance);
 }
 
 TEST(SpiralPaths, BackwardsFallsToo) {
@@ -137,21 +137,21 @@ TEST(SpiralPaths, DownIntoABowl) {
   const Wound wound(testing::Transformed(testing::Sphere(Vec3::Zero(), 12.0, Half::kUpper), over));
   ASSERT_EQ(wound.Spirals(), 1);
   for (const CutterPath& path : wound.paths) {
-    if (!path.spiral) continue;
+    if (path.traversal != Traversal::kSpiral) continue;
     CheckShape(wound, path);
     for (const CutterPoint& p : path.points) EXPECT_NEAR((p.center - Vec3(0, 0, 12)).norm(), 9.0, 1e-8);
   }
-  const Extremes e = Measure(wound, 60, wound.params.window.min);
+  const Extremes e = Measure(wound, 60, wound.params.pass.window.min);
   EXPECT_GT(e.points, 500);
-  EXPECT_LE(e.leftover, wound.params.scallop + 0.0075);
-  EXPECT_LE(e.gouge, wound.params.chord_tolerance);
+  EXPECT_LE(e.leftover, wound.params.pass.scallop + 0.0075);
+  EXPECT_LE(e.gouge, wound.params.pass.chord_tolerance);
 }
 
 TEST(SpiralPaths, AroundABlocksVerticalWalls) {
   const Wound wound(testing::Block(8.0, 5.0, 20.0));
   ASSERT_EQ(wound.Spirals(), 1);
   for (const CutterPath& path : wound.paths) {
-    if (!path.spiral) continue;
+    if (path.traversal != Traversal::kSpiral) continue;
     CheckShape(wound, path);
     // The offset of the square, rounded at its corners.
     for (const CutterPoint& p : path.points) {
@@ -160,7 +160,7 @@ TEST(SpiralPaths, AroundABlocksVerticalWalls) {
       EXPECT_NEAR(out.cwiseMax(0.0).norm(), kR, 1e-6);
     }
   }
-  EXPECT_LE(Measure(wound, 60, Radians(80.0)).leftover, wound.params.scallop + 0.0075);
+  EXPECT_LE(Measure(wound, 60, Radians(80.0)).leftover, wound.params.pass.scallop + 0.0075);
 }
 
 TEST(SpiralPaths, CornersBetweenTwoDomesAreKept) {
@@ -172,7 +172,7 @@ TEST(SpiralPaths, CornersBetweenTwoDomesAreKept) {
   EXPECT_LT(wound.paths.size(), wound.levels.size());
   EXPECT_GT(whole, 10u);
   for (const CutterPath& path : wound.paths) {
-    if (!path.spiral) continue;
+    if (path.traversal != Traversal::kSpiral) continue;
     CheckShape(wound, path);
     for (const CutterPoint& p : path.points) {
       const double left = (p.center - Vec3(-6, 0, 0)).norm(), right = (p.center - Vec3(6, 0, 0)).norm();
@@ -180,8 +180,8 @@ TEST(SpiralPaths, CornersBetweenTwoDomesAreKept) {
     }
   }
   const Extremes e = Measure(wound, 60, Radians(50.0));
-  EXPECT_LE(e.leftover, wound.params.scallop + 0.0075);
-  EXPECT_LE(e.gouge, wound.params.chord_tolerance);
+  EXPECT_LE(e.leftover, wound.params.pass.scallop + 0.0075);
+  EXPECT_LE(e.gouge, wound.params.pass.chord_tolerance);
 }
 
 TEST(SpiralPaths, OpenContoursStay) {

@@ -20,9 +20,9 @@ constexpr double kRadius = 3.0, kScallop = 0.01;
 
 ZigzagParams Params(double angle, double max_slope = kPi / 2) {
   ZigzagParams params;
-  params.scallop = kScallop;
+  params.pass.scallop = kScallop;
   params.angle = angle;
-  params.window.max = max_slope;
+  params.pass.window.max = max_slope;
   return params;
 }
 
@@ -36,7 +36,7 @@ Passes PassesOn(const Locator& locator, const ZigzagParams& params, const std::v
                 int threads = 1) {
   const auto lines = ZigzagPaths(locator, params, RunContext(threads));
   EXPECT_TRUE(lines.ok()) << lines.status();
-  const auto passes = BorderPasses(locator, borders, *lines, params, RunContext(threads));
+  const auto passes = BorderPasses(locator, borders, *lines, params.pass, RunContext(threads));
   EXPECT_TRUE(passes.ok()) << passes.status();
   return {*lines, *passes};
 }
@@ -173,7 +173,7 @@ TEST(BorderPasses, TouchABorderInAHollow) {
     }
   }
   const BorderCurve border{{Vec3(x, -kHalf, z), Vec3(x, kHalf, z)}, false};
-  const auto passes = BorderPasses(locator, {border}, ended, params, RunContext(1));
+  const auto passes = BorderPasses(locator, {border}, ended, params.pass, RunContext(1));
   ASSERT_TRUE(passes.ok()) << passes.status();
   ASSERT_FALSE(passes->empty());
   for (const CutterPath& pass : *passes) {

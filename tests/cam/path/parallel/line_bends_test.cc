@@ -20,9 +20,9 @@ using namespace testing;  // NOLINT: the support folder's
 
 ZigzagParams BendParams(double bend_degrees, double angle = 0.0) {
   ZigzagParams params;
-  params.scallop = 0.02;
-  params.chord_tolerance = 0.005;
-  params.window.max = Radians(60);
+  params.pass.scallop = 0.02;
+  params.pass.chord_tolerance = 0.005;
+  params.pass.window.max = Radians(60);
   params.angle = angle;
   params.max_bend = Radians(bend_degrees);
   return params;
@@ -84,7 +84,7 @@ TEST(LineBends, AreShorterByWhatTheyAreAskedFor) {
   const Locator locator(surface, 3.0);
   for (const double scallop : {0.01, 0.03, 0.1, 0.2}) {
     ZigzagParams straight = BendParams(0.0), bent = BendParams(20.0);
-    straight.scallop = bent.scallop = scallop;
+    straight.pass.scallop = bent.pass.scallop = scallop;
     EXPECT_LT(TotalLength(Lines(locator, bent)), 0.96 * TotalLength(Lines(locator, straight))) << scallop;
   }
 }
@@ -98,7 +98,7 @@ TEST(LineBends, AreNotLongerThanStraightOnBusyGround) {
     const Locator locator(surface, 3.0);
     for (const double scallop : {0.02, 0.1}) {
       ZigzagParams params = BendParams(0.0);
-      params.scallop = scallop;
+      params.pass.scallop = scallop;
       const double plain = TotalLength(Lines(locator, params));
       params.max_bend = Radians(20.0);
       const double bending = TotalLength(Lines(locator, params));

@@ -23,10 +23,10 @@ std::vector<double> PairLeftovers(double rho, bool convex) {
   const Surface surface = JoinedSurface(Transformed(Cylinder(Vec3::Zero(), rho, 4.0, Half::kUpper), turn));
   const Locator locator(surface, kR);
   ZigzagParams params;
-  params.scallop = kScallop;
-  params.chord_tolerance = 1e-4;
+  params.pass.scallop = kScallop;
+  params.pass.chord_tolerance = 1e-4;
   params.angle = kPi / 2.0;
-  params.window.max = Radians(45);
+  params.pass.window.max = Radians(45);
   const auto paths = ZigzagPaths(locator, params, RunContext(2));
   EXPECT_TRUE(paths.ok()) << paths.status();
   const double circle = convex ? rho + kR : rho - kR;

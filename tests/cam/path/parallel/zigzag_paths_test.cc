@@ -26,9 +26,9 @@ std::vector<CutterPath> Zigzag(const Locator& locator, const ZigzagParams& param
 
 ZigzagParams Params(double scallop, double max_slope_degrees, double angle = 0.0) {
   ZigzagParams params;
-  params.scallop = scallop;
-  params.chord_tolerance = 0.002;
-  params.window = {0.0, Radians(max_slope_degrees)};
+  params.pass.scallop = scallop;
+  params.pass.chord_tolerance = 0.002;
+  params.pass.window = {0.0, Radians(max_slope_degrees)};
   params.angle = angle;
   return params;
 }
@@ -283,12 +283,12 @@ TEST(ZigzagPaths, NarrowSpotsGetPartialLines) {
     for (std::size_t k = 0; k < i; ++k) {  // those beside it, of other lines
       const Vec3 &a = paths[k].points.front().center, &b = paths[k].points.back().center;
       if (paths[k].order_key == paths[i].order_key || a.x() >= to.x() || b.x() <= from.x()) continue;
-      EXPECT_GE(from.y() - a.y(), 0.999 * params.min_step_fraction * flat);
+      EXPECT_GE(from.y() - a.y(), 0.999 * params.pass.min_step_fraction * flat);
     }
   }
   EXPECT_GT(full, 20u);
   EXPECT_GT(partial, 5u);
-  const Leftover left = Measure(surface, locator, paths, params.window, 30000);
+  const Leftover left = Measure(surface, locator, paths, params.pass.window, 30000);
   EXPECT_LE(left.worst, 0.005 * 1.3 + 0.002) << left.where.transpose();
 }
 
@@ -296,7 +296,7 @@ TEST(ZigzagPaths, FloorHeldPlacesAreNoPasses) {
   const Surface surface = JoinedSurface(Sphere(Vec3::Zero(), 10, Half::kUpper));
   const Locator locator(surface, 3.0);
   ZigzagParams params = Params(0.01, 90);
-  params.floor_z = 4.0;
+  params.pass.floor_z = 4.0;
   for (const auto& path : Zigzag(locator, params)) {
     for (const auto& p : path.points) {
       EXPECT_GE(p.center.z(), 7.0);
@@ -328,7 +328,7 @@ TEST(ZigzagPaths, CancelIsObeyedAndEmptyWindowsGiveNothing) {
   run.Cancel();
   EXPECT_EQ(ZigzagPaths(locator, Params(0.01, 45), run).status().code(), absl::StatusCode::kCancelled);
   ZigzagParams steep = Params(0.01, 90);
-  steep.window.min = Radians(45);
+  steep.pass.window.min = Radians(45);
   EXPECT_TRUE(Zigzag(locator, steep).empty());
 }
 

@@ -20,9 +20,9 @@ constexpr double kTolerance = 0.01, kGive = ReachTolerance(kTolerance);
 
 RestPassParams Coverage() {
   RestPassParams params;
-  params.scallop = 0.02;
+  params.pass.scallop = 0.02;
   params.tolerance = kTolerance;
-  params.limit = params.scallop + 0.75 * kTolerance;
+  params.limit = params.pass.scallop + 0.75 * kTolerance;
   return params;
 }
 

@@ -25,8 +25,8 @@ const double kStep = CenterStep(kRadius, kScallop, 0.0);
 
 RestPassParams Coverage() {
   RestPassParams params;
-  params.scallop = kScallop;
-  params.chord_tolerance = 0.1 * kScallop;
+  params.pass.scallop = kScallop;
+  params.pass.chord_tolerance = 0.1 * kScallop;
   params.tolerance = kTolerance;
   params.limit = kScallop + 0.75 * kTolerance;
   return params;
@@ -123,10 +123,10 @@ TEST(RemoveRedundantPasses, AFineFinishAtALooseToleranceIsKept) {
   const Surface surface = JoinedSurface(Plane(10.0));
   const Locator locator(surface, kRadius);
   RestPassParams params = Coverage();
-  params.scallop = 0.002;
+  params.pass.scallop = 0.002;
   params.tolerance = 0.05;
-  params.limit = params.scallop + 0.75 * params.tolerance;
-  const double step = CenterStep(kRadius, params.scallop, 0.0);
+  params.limit = params.pass.scallop + 0.75 * params.tolerance;
+  const double step = CenterStep(kRadius, params.pass.scallop, 0.0);
   std::vector<CutterPath> rows;
   for (double y = -10.0; y < 10.0; y += 1.19 * step) {
     rows.push_back(Row(y, -10.0, 10.0));
@@ -139,7 +139,7 @@ TEST(RemoveRedundantPasses, AFineFinishAtALooseToleranceIsKept) {
   Random random(7);
   for (int k = 0; k < 20000; ++k) {
     const Vec3 p(random.Uniform(-9.0, 9.0), random.Uniform(-9.0, 9.0), 0.0);
-    EXPECT_LE(after.At(p, kRadius + 1.0) - kRadius, 1.07 * params.scallop) << p.transpose();
+    EXPECT_LE(after.At(p, kRadius + 1.0) - kRadius, 1.07 * params.pass.scallop) << p.transpose();
   }
 }
 
@@ -179,7 +179,7 @@ TEST(RemoveRedundantPasses, LongMiddlesAndArcsOfLoopsGo) {
   for (const CutterPoint& p : kept.back().points) EXPECT_GT(p.center.x(), -2.0 * kVertexStep);
   // A spiral keeps its way down.
   more.back().closed = false;
-  more.back().spiral = true;
+  more.back().traversal = Traversal::kSpiral;
   ExpectSame(Without(locator, more), more);
 }
 
@@ -195,17 +195,17 @@ TEST(RemoveRedundantPasses, NowhereDoesMoreRemain) {
     const Locator reach = *ReachLocator(locator, Coverage(), RunContext());
     ZigzagParams lines;
     ContourParams contours;
-    for (PassParams* params : {static_cast<PassParams*>(&lines), static_cast<PassParams*>(&contours)}) {
+    for (PassParams* params : {&lines.pass, &contours.pass}) {
       params->scallop = kScallop;
       params->chord_tolerance = 0.1 * kScallop;
     }
     lines.angle = 0.3;
-    lines.window.max = Radians(45);
-    contours.window.min = Radians(35);
+    lines.pass.window.max = Radians(45);
+    contours.pass.window.min = Radians(35);
     std::vector<CutterPath> paths = *ZigzagPaths(locator, lines, RunContext());
     Append(paths, ContourPaths(locator, contours, RunContext())->paths);
     lines.angle = 1.6;
-    lines.window.max = Radians(10);
+    lines.pass.window.max = Radians(10);
     Append(paths, *ZigzagPaths(locator, lines, RunContext()));
     Append(paths, *RestPaths(locator, reach, paths, Coverage(), RunContext()));
     const std::vector<CutterPath> kept = Without(locator, paths);

@@ -24,8 +24,8 @@ constexpr double kScallop = 0.01, kTolerance = 0.01;
 
 RestPassParams Coverage() {
   RestPassParams params;
-  params.scallop = kScallop;
-  params.chord_tolerance = 0.4 * kTolerance;
+  params.pass.scallop = kScallop;
+  params.pass.chord_tolerance = 0.4 * kTolerance;
   params.tolerance = kTolerance;
   params.limit = kScallop + 0.5 * kTolerance;
   return params;
@@ -33,10 +33,10 @@ RestPassParams Coverage() {
 
 std::vector<CutterPath> Zigzag(const Locator& locator, double angle, double max_slope = kPi / 2) {
   ZigzagParams params;
-  params.scallop = kScallop;
-  params.chord_tolerance = 0.4 * kTolerance;
+  params.pass.scallop = kScallop;
+  params.pass.chord_tolerance = 0.4 * kTolerance;
   params.angle = angle;
-  params.window.max = max_slope;
+  params.pass.window.max = max_slope;
   auto paths = ZigzagPaths(locator, params, RunContext(1));
   EXPECT_TRUE(paths.ok()) << paths.status();
   return std::move(*paths);
@@ -242,8 +242,8 @@ TEST(RestPaths, FloorAndWindowLimitWhatIsMended) {
   const Surface surface = JoinedSurface(Sphere(Vec3::Zero(), 8, Half::kUpper));
   const Locator locator(surface, radius);
   RestPassParams params = Coverage();
-  params.floor_z = 3.0;
-  params.window.max = Radians(60);
+  params.pass.floor_z = 3.0;
+  params.pass.window.max = Radians(60);
   const auto plain = Zigzag(locator, 0.0, Radians(30));
   const Locator reach = *ReachLocator(locator, params, RunContext());
   auto rest = RestPaths(locator, reach, plain, params, RunContext(1));

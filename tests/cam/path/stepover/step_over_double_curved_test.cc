@@ -25,9 +25,9 @@ constexpr double kR = 3.0, kScallop = 0.005;
 // As jobs set it, here under a tolerance as wide as the scallop.
 template <typename Params>
 void SetFinish(Params& params, double scallop) {
-  params.scallop = scallop;
-  params.chord_tolerance = 0.5 * scallop;
-  static_cast<PassParams&>(params) = WithFineChords(params);
+  params.pass.scallop = scallop;
+  params.pass.chord_tolerance = 0.5 * scallop;
+  params.pass = WithFineChords(params.pass);
 }
 
 PatchModel Moved(PatchModel model, const Eigen::Affine3d& motion) {
@@ -113,7 +113,7 @@ TEST_P(LinesOn, LeaveTheScallop) {
   ZigzagParams params;
   SetFinish(params, kScallop);
   params.angle = Radians(ground.angle);
-  params.window.max = Radians(45);
+  params.pass.window.max = Radians(45);
   params.part = &*operation_limits;
   const auto paths = ZigzagPaths(locator, params, RunContext(2));
   ASSERT_TRUE(paths.ok()) << paths.status();
@@ -161,19 +161,19 @@ TEST(LinesBetweenRims, AreAsFarApartAsTheyMayBe) {
   const Surface surface = JoinedSurface(Valley(4.0));
   const Locator locator(surface, kR);
   ZigzagParams params;
-  params.scallop = 0.01;
-  params.chord_tolerance = 1e-4;
-  params.window.max = Radians(45);
+  params.pass.scallop = 0.01;
+  params.pass.chord_tolerance = 1e-4;
+  params.pass.window.max = Radians(45);
   const auto paths = ZigzagPaths(locator, params, RunContext(2));
   ASSERT_TRUE(paths.ok()) << paths.status();
-  const double flat = CenterStep(kR, params.scallop, 0.0);
+  const double flat = CenterStep(kR, params.pass.scallop, 0.0);
   const auto pairs =
       CrestsOfPairs(surface, *paths, kR, 0.5, flat / 6.0, 1.5 * flat,
                     [](const Vec3& p, const Vec3&) { return Xy(p).cwiseAbs().maxCoeff() < 7.0; });
   EXPECT_GT(pairs.size(), 25u);
   for (const PairOfPasses& pair : pairs) {
-    EXPECT_LE(pair.worst.leftover, 1.05 * params.scallop);
-    EXPECT_GE(pair.worst.leftover, 0.95 * params.scallop);
+    EXPECT_LE(pair.worst.leftover, 1.05 * params.pass.scallop);
+    EXPECT_GE(pair.worst.leftover, 0.95 * params.pass.scallop);
   }
 }
 
@@ -195,12 +195,13 @@ TEST_P(LevelsOn, LeaveTheScallop) {
   const Locator locator(surface, kR);
   ContourParams params;
   SetFinish(params, kScallop);
-  params.window = {Radians(45), Radians(90)};
+  params.pass.window = {Radians(45), Radians(90)};
   auto contours = ContourPaths(locator, params, RunContext(2));
   ASSERT_TRUE(contours.ok()) << contours.status();
-  ASSERT_TRUE(ThinContours(
-                  locator, params, [](const CutterPath&) { return true; }, RunContext(2), contours->paths)
-                  .ok());
+  ASSERT_TRUE(
+      ThinContours(
+          locator, params.pass, [](const CutterPath&) { return true; }, RunContext(2), contours->paths)
+          .ok());
   // Where levels cross the window's limit they end there, and border passes have the last word.
   const Measured all = Measure(surface, contours->paths, ground.apart, [&](const Vec3& p, const Vec3& e) {
     return e.z() < std::cos(Radians(49)) && e.z() > 1e-3 && Xy(p).cwiseAbs().maxCoeff() < ground.within;
@@ -232,12 +233,12 @@ TEST(TwoHillsUnderAWideTolerance, LeaveNoMoreThanFivePercentOnTop) {
   const double scallop = 0.01, flat = CenterStep(kR, scallop, 0.0), split = Radians(30);
   ZigzagParams gentle;
   SetFinish(gentle, scallop);
-  gentle.window.max = split;
+  gentle.pass.window.max = split;
   const auto lines = ZigzagPaths(locator, gentle, RunContext(2));
   ASSERT_TRUE(lines.ok()) << lines.status();
   ContourParams steep;
   SetFinish(steep, scallop);
-  steep.window = {split, Radians(90)};
+  steep.pass.window = {split, Radians(90)};
   const auto contours = ContourPaths(locator, steep, RunContext(2));
   ASSERT_TRUE(contours.ok()) << contours.status();
   for (const bool level : {false, true}) {
@@ -266,7 +267,7 @@ TEST(LevelsBesideARod, AreAsNearAsHollowGroundNeeds) {
   const Locator locator(surface, kR);
   ContourParams params;
   SetFinish(params, kScallop);
-  params.window = {Radians(45), Radians(90)};
+  params.pass.window = {Radians(45), Radians(90)};
   const auto contours = ContourPaths(locator, params, RunContext(2));
   ASSERT_TRUE(contours.ok()) << contours.status();
   const Measured all = Measure(surface, contours->paths, 0.25, [&](const Vec3& p, const Vec3& e) {

@@ -120,11 +120,11 @@ struct Level {
       : surface(MakeSurface(std::move(model))), locator(surface, radius) {}
   // `excess`: what probes may find left over; in cells below the resolution it is half their diagonal
   // ([contours T8d]).
-  LevelContours At(double z, double excess = ContourParams{}.chord_tolerance) const {
+  LevelContours At(double z, double excess = ContourParams{}.pass.chord_tolerance) const {
     const RunContext run;
     LevelContours level = TraceLevel(locator, z, params, run);
     CheckVertices(locator, level);
-    const double tol = params.chord_tolerance;
+    const double tol = params.pass.chord_tolerance;
     const ProbeCount count = ProbeChords(surface, locator.radius(), level, 1.001 * tol, 1.001 * excess, 3);
     EXPECT_EQ(count.gouges, 0) << "of " << count.probes;
     EXPECT_EQ(count.excesses, 0) << "of " << count.probes;

@@ -119,8 +119,8 @@ int CrossingChords(const LevelContours& level, Vec3* first) {
 class Judge {
  public:
   Judge(const Surface& surface, const ContourParams& params)
-      : smaller_(surface, kR - 1.001 * params.chord_tolerance),
-        larger_(surface, kR + 1.001 * params.chord_tolerance) {}
+      : smaller_(surface, kR - 1.001 * params.pass.chord_tolerance),
+        larger_(surface, kR + 1.001 * params.pass.chord_tolerance) {}
 
   // Outside of the loops though h > c.
   bool MayCount(const Vec3& forbidden) const { return smaller_.Free(forbidden); }
@@ -162,7 +162,7 @@ class Check {
     EXPECT_GT(all.nodes, 500000);
     // Chords leave the contour by the tolerance at most: no more nodes are excused by it than lie in a band
     // half as wide along one side of the loops.
-    const double in_band = 0.5 * Length() * params_.chord_tolerance / (kStep * kRowStep);
+    const double in_band = 0.5 * Length() * params_.pass.chord_tolerance / (kStep * kRowStep);
     EXPECT_LE(static_cast<double>(all.excused), in_band);
     EXPECT_EQ(all.gouges, 0) << "outside of the loops but forbidden, the first at " << all.first.transpose();
     EXPECT_EQ(all.blocked, 0) << "inside of the loops but free, the first at " << all.first.transpose();

@@ -202,7 +202,7 @@ TEST(ContourLimits, WhatCannotBeDecidedCountsAsMaterial) {
 // Passes between `bottom` and the rims of the sheets.
 absl::StatusOr<ContourResult> PassesOf(const Level& part) {
   ContourParams params = part.params;
-  params.scallop = 0.1;
+  params.pass.scallop = 0.1;
   return ContourPaths(part.locator, params, RunContext());
 }
 
@@ -219,7 +219,7 @@ TEST(ContourLimits, FindingsTellWhatWasNotDecided) {
   ASSERT_TRUE(finding.where.point.has_value());
   EXPECT_NEAR(finding.where.point->x(), 0.0, 0.0125);
   EXPECT_LE(std::abs(finding.where.point->y()), 5.1);
-  const Locator smaller(gap.surface, kR - 1.001 * gap.params.chord_tolerance);
+  const Locator smaller(gap.surface, kR - 1.001 * gap.params.pass.chord_tolerance);
   for (const CutterPath& path : result->paths) {
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
       const Vec3 &a = path.points[i].center, &b = path.points[i + 1].center;
