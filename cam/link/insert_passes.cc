@@ -19,9 +19,9 @@ const CutterPoint& EndOf(const CutterPath& pass) {
 }
 
 bool IsShort(const CutterPath& pass, double longest) {
-  const bool mends =
+  const bool is_rest_pass =
       pass.kind == PassKind::kBorder || pass.kind == PassKind::kPencil || pass.kind == PassKind::kRest;
-  return mends && !pass.closed && pass.traversal == Traversal::kAny && Length(pass) <= longest;
+  return is_rest_pass && !pass.closed && pass.traversal == Traversal::kAny && Length(pass) <= longest;
 }
 
 // The gap between the pass `after` and the next one.

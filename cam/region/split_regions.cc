@@ -281,7 +281,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   std::stable_sort(probed.begin(), probed.end(), [&](std::size_t a, std::size_t b) {
     return unreachable[a].size() > unreachable[b].size();
   });
-  absl::Status told[3];
+  absl::Status statuses[3];
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions: figures", 3 + probed.size(), [&](std::size_t k) {
     if (k >= 3) {
       const std::size_t id = probed[k - 3];
@@ -289,19 +289,19 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
     } else if (k == 0) {
       auto found = FindBorderLines(surface, meshes, adjacency, arcs, points, numbered.component_of,
                                    numbered.component_region, regions, run);
-      told[k] = found.status();
+      statuses[k] = found.status();
       if (found.ok()) net = *std::move(found);
     } else if (k == 1) {
       auto found = RegionBorders(surface, adjacency, arcs, points, region_of, regions.size(),
                                  params.border_tolerance, run);
-      told[k] = found.status();
+      statuses[k] = found.status();
       if (found.ok()) borders = *std::move(found);
     } else {
-      told[k] = FillLabels(meshes, region_of, numbered.component_of, regions.size(), run, map);
+      statuses[k] = FillLabels(meshes, region_of, numbered.component_of, regions.size(), run, map);
     }
   }));
   ListPatches(surface, region_of, regions);
-  for (const absl::Status& status : told) PM_RETURN_IF_ERROR(status);
+  for (const absl::Status& status : statuses) PM_RETURN_IF_ERROR(status);
   PlaceRegions(surface, meshes, region_of, map, regions);
   map.border_lines = std::move(net.lines);
   map.nodes = std::move(net.nodes);

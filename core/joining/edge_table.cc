@@ -135,8 +135,8 @@ class CornerSets {
   }
 
   // Numbers the groups. Reports NON_MANIFOLD_VERTEX where fans touch, unless an earlier finding explains it
-  // (`told`).
-  void Write(const NetworkWriter& findings, bool told, EdgeTable& table) {
+  // (`reported`).
+  void Write(const NetworkWriter& findings, bool reported, EdgeTable& table) {
     std::map<std::size_t, int> number;
     std::map<int, std::size_t> fan_of_vertex;
     std::set<int> split;
@@ -148,7 +148,7 @@ class CornerSets {
             number.emplace(groups_.Find(At(4 * f + s)), static_cast<int>(number.size())).first->second;
         const std::size_t fan = fans_.Find(At(4 * f + s));
         const int v = loop[At(s)];
-        if (fan_of_vertex.emplace(v, fan).first->second != fan && !told && split.insert(v).second) {
+        if (fan_of_vertex.emplace(v, fan).first->second != fan && !reported && split.insert(v).second) {
           findings.Error("NON_MANIFOLD_VERTEX", findings.AtVertex(v),
                          "joins fans of faces that share no edge there; give one vertex to each");
         }

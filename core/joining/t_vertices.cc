@@ -55,7 +55,7 @@ std::vector<const TVertex*> ByVertex(const CurveNetwork& network, const EdgeTabl
 
 bool CheckLeaders(const CurveNetwork& network, const NetworkWriter& findings, const EdgeTable& table) {
   bool sound = true;
-  std::set<int> told;
+  std::set<int> reported;
   const auto error = [&](int vertex, std::string_view text) {
     sound = false;
     findings.Error(kCode, findings.AtVertex(vertex), text);
@@ -63,7 +63,7 @@ bool CheckLeaders(const CurveNetwork& network, const NetworkWriter& findings, co
   for (const TVertex& t : table.t_vertices) {
     const TableEdge& whole = table.edges[At(t.edge)];
     if (whole.faces.size() != 1) {
-      if (!told.insert(t.edge).second) continue;
+      if (!reported.insert(t.edge).second) continue;
       error(t.vertex,
             fmt::format("lies on the edge from vertex {} to {}, which is a side of {} faces; must be "
                         "one, the others have sides along its parts",

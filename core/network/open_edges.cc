@@ -118,13 +118,13 @@ void Search::FindTJunctions(OpenEdgeReport& report) {
     const bool suspect = suspects[At(e)] || touched[At(ends_[At(e)].start)] || touched[At(ends_[At(e)].end)];
     if (suspect && !Stop()) Cover(e, report, along);
   }
-  std::vector<bool> told(At(curves_.count()));  // a junction with short edges reports this edge
+  std::vector<bool> reported(At(curves_.count()));  // a junction with short edges reports this edge
   for (const int e : open_) {
-    for (const int f : along[At(e)]) told[At(f)] = true;
-    if (!along[At(e)].empty()) told[At(e)] = true;
+    for (const int f : along[At(e)]) reported[At(f)] = true;
+    if (!along[At(e)].empty()) reported[At(e)] = true;
   }
   for (const int e : open_) {
-    if (along[At(e)].empty() && (told[At(e)] || !report.covered[At(e)])) continue;
+    if (along[At(e)].empty() && (reported[At(e)] || !report.covered[At(e)])) continue;
     report.t_junctions.push_back({e, std::move(along[At(e)])});
   }
 }

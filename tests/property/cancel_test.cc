@@ -73,7 +73,7 @@ void ExpectStops(const std::function<absl::Status(const RunContext&)>& work, int
   for (int k = 0; k < count; ++k) {
     const double after_seconds = (k + 0.5) / count * all;
     const testing::CancelLatency latency = testing::CancelAfter(after_seconds, work);
-    EXPECT_LE(latency.seconds, kLatency) << "told " << after_seconds << " s after the start, of " << all;
+    EXPECT_LE(latency.seconds, kLatency) << "cancelled " << after_seconds << " s after the start, of " << all;
     if (latency.status.code() == absl::StatusCode::kCancelled) ++stopped;
     longest = std::max(longest, latency.seconds);
   }

@@ -59,7 +59,7 @@ TEST_P(RandomRims, KeepThePromises) {
   for (const RegionChoice& choice : result.report.choices) round = round || !choice.around.empty();
   ++jobs_;
   round_ += round ? 1 : 0;
-  SCOPED_TRACE(drawn.text + (round ? ", round lines" : ""));
+  SCOPED_TRACE(drawn.text + (round ? ", circular lines" : ""));
   CheckProgram(surface, drawn.job, result, random, kSanitized ? 50 : 500);
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomRims, JobSeeds(7000, kSanitized ? 3 : 12));

@@ -316,17 +316,17 @@ TEST_F(VerifyProgram, AGougeIsFoundWithItsLine) {
 
 // Without a scallop; with one it is judged.
 TEST_F(VerifyProgram, ThatTheFinishIsNotJudgedIsSaid) {
-  const auto told = [&] {
+  const auto logged = [&] {
     const auto& all = last_.report().diagnostics();
     return std::any_of(all.begin(), all.end(),
                        [](const v1::Diagnostic& d) { return d.code() == "FINISH_NOT_CHECKED"; });
   };
   ASSERT_TRUE(Verify().ok());
-  EXPECT_TRUE(told());
+  EXPECT_TRUE(logged());
   EXPECT_EQ(last_.report().finish_check(), v1::CHECK_STATE_NOT_CHECKED);
   request_.set_scallop_mm(0.05);
   ASSERT_TRUE(Verify().ok());
-  EXPECT_FALSE(told());
+  EXPECT_FALSE(logged());
   EXPECT_NE(last_.report().finish_check(), v1::CHECK_STATE_NOT_CHECKED);
 }
 

@@ -92,7 +92,7 @@ struct PairOfPasses {
   int crests = 0;
 };
 
-using GroundFilter = std::function<bool(const Vec3& p, const Vec3& normal)>;
+using PlaceFilter = std::function<bool(const Vec3& p, const Vec3& normal)>;
 
 // Follows lines of constant u and constant v over every patch, `apart` mm from each other, in steps of
 // `step` mm. Where the nearest path changes to one of another line, it halves the step until the crest
@@ -100,10 +100,10 @@ using GroundFilter = std::function<bool(const Vec3& p, const Vec3& normal)>;
 // pair.
 inline std::vector<PairOfPasses> CrestsOfPairs(const Surface& surface, const std::vector<CutterPath>& paths,
                                                double radius, double apart, double step, double cell,
-                                               const GroundFilter& counts) {
+                                               const PlaceFilter& counts) {
   const NearestPath nearest(paths, cell);
   struct Place {
-    Crest ground;
+    Crest crest;
     std::optional<NearestPath::Found> near;
   };
   std::map<std::pair<std::size_t, std::size_t>, PairOfPasses> pairs;
@@ -114,9 +114,9 @@ inline std::vector<PairOfPasses> CrestsOfPairs(const Surface& surface, const std
         Place place{{jet.p, Vec3::UnitZ(), 0.0}, {}};
         const auto e = UpwardNormal(jet);
         if (!e || !counts(jet.p, *e)) return place;
-        place.ground.normal = *e;
+        place.crest.normal = *e;
         place.near = nearest.At(jet.p, jet.p + radius * *e);
-        if (place.near) place.ground.leftover = place.near->distance - radius;
+        if (place.near) place.crest.leftover = place.near->distance - radius;
         return place;
       };
       const auto extent = [&](bool along) {  // mm, of the longest of three lines
@@ -125,7 +125,7 @@ inline std::vector<PairOfPasses> CrestsOfPairs(const Surface& surface, const std
           double length = 0.0;
           Vec3 last = Vec3::Zero();
           for (int k = 0; k <= 16; ++k) {
-            const Vec3 p = (along ? at(k / 16.0, other) : at(other, k / 16.0)).ground.p;
+            const Vec3 p = (along ? at(k / 16.0, other) : at(other, k / 16.0)).crest.p;
             if (k > 0) length += (p - last).norm();
             last = p;
           }
@@ -152,7 +152,7 @@ inline std::vector<PairOfPasses> CrestsOfPairs(const Surface& surface, const std
               (here ? from : to) = t;
               (here ? low : high) = middle;
             }
-            const Crest& crest = std::max(low.ground, high.ground, [](const Crest& x, const Crest& y) {
+            const Crest& crest = std::max(low.crest, high.crest, [](const Crest& x, const Crest& y) {
               return x.leftover < y.leftover;
             });
             const auto key = std::minmax(low.near->path, high.near->path);

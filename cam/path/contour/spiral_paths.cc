@@ -163,7 +163,7 @@ class Turn {
   // Finds the feet of the upper contour's vertices on the lower one. They never go back.
   void Match() {
     const std::size_t n = upper_.points().size(), m = lower_.points().size();
-    feet_.assign(n + 1, 0.0);
+    lower_places_.assign(n + 1, 0.0);
     for (std::size_t i = 1; i < n; ++i) {
       // A foot must lie at the same share of the way, to within a quarter of the length. So it does not lie
       // on the far side of a narrow neck.
@@ -173,9 +173,9 @@ class Turn {
       };
       const Loop::Foot foot =
           lower_.Nearest(upper_.Place(i), segment(share - 0.25), std::min(m, segment(share + 0.25) + 1));
-      feet_[i] = std::max(feet_[i - 1], foot.s);
+      lower_places_[i] = std::max(lower_places_[i - 1], foot.s);
     }
-    feet_[n] = lower_.length();
+    lower_places_[n] = lower_.length();
   }
 
   // Returns the point at length s of the upper contour, lowered by its share of the fall.
@@ -185,7 +185,7 @@ class Turn {
     const double part = span > 0.0 ? std::clamp((s - upper_.At(i)) / span, 0.0, 1.0) : 0.0;
     const Vec2 base = upper_.PlaceAt(s);
     const CutterPoint& vertex = upper_.points()[i];
-    Vec2 way = lower_.PlaceAt(feet_[i] + part * (feet_[i + 1] - feet_[i])) - base;
+    Vec2 way = lower_.PlaceAt(lower_places_[i] + part * (lower_places_[i + 1] - lower_places_[i])) - base;
     const Vec2 outward = OutwardOf(vertex);
     if (way.norm() < kNoWay || way.dot(outward) < 0.0) way = outward;
     if (way.norm() < kNoWay) return std::nullopt;
@@ -216,7 +216,7 @@ class Turn {
   const Loop lower_;
   const LoopTolerance tolerance_;
   const double radius_;
-  std::vector<double> feet_;
+  std::vector<double> lower_places_;
   std::vector<CutterPoint> points_;
 };
 

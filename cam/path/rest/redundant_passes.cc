@@ -95,7 +95,7 @@ class RedundantPassRemover {
   }
   void Measure(Chord& chord, const CutterPoint& from, const CutterPoint& to) const;
   bool SeemsRedundant(const Chord& chord, double spacing, std::vector<int>& found) const;
-  std::vector<Stretch> StretchesWorthRemoving(std::size_t path, const std::vector<char>& needless) const;
+  std::vector<Stretch> StretchesWorthRemoving(std::size_t path, const std::vector<char>& removable) const;
 
   const Locator& locator_;
   const std::vector<CutterPath>& paths_;
@@ -163,18 +163,18 @@ bool RedundantPassRemover::SeemsRedundant(const Chord& chord, double spacing, st
 }
 
 std::vector<Stretch> RedundantPassRemover::StretchesWorthRemoving(std::size_t path,
-                                                                  const std::vector<char>& needless) const {
-  const std::size_t n = needless.size();
+                                                                  const std::vector<char>& removable) const {
+  const std::size_t n = removable.size();
   const bool closed = paths_[path].closed;
   std::size_t start = 0;
   if (closed) {
-    while (start < n && needless[start]) ++start;
+    while (start < n && removable[start]) ++start;
     start %= n;
   }
   std::vector<Stretch> stretches;
   for (std::size_t k = start; k < start + n;) {
     Stretch s{k, k, 0.0};
-    for (; s.last < start + n && needless[s.last % n]; ++s.last)
+    for (; s.last < start + n && removable[s.last % n]; ++s.last)
       s.length += chords_[first_[path] + s.last % n].Length();
     const bool whole = s.last - s.first == n, at_end = !closed && (s.first == 0 || s.last == n);
     const double worth = locator_.radius() * (whole ? 0.0 : at_end ? kMinRemovedAtEnd : kMinRemovedBetween);

@@ -31,21 +31,21 @@ absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator, const 
     PM_ASSIGN_OR_RETURN(const std::vector<LeftoverSpot> spots,
                         FindSpots(locator, reach, trees, rects, params, run));
     if (spots.empty()) break;
-    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> mended, RestPassesAt(locator, spots, params, method, run));
+    PM_ASSIGN_OR_RETURN(std::vector<CutterPath> found, RestPassesAt(locator, spots, params, method, run));
     // A pass never uncovers anything: only the rectangles of the spots need another look.
     rects.clear();
     for (const LeftoverSpot& s : spots) rects.push_back(s.rect);
-    if (mended.empty()) {
+    if (found.empty()) {
       if (method == RestMethod::kCentersOnly) break;
       method = RestMethod::kCentersOnly;
       continue;
     }
-    grow(mended);
+    grow(found);
     PathAmount made = params.pass.budget.made;
     made += AmountOf(added);
-    made += AmountOf(mended);
+    made += AmountOf(found);
     PM_RETURN_IF_ERROR(CheckAmount(params.pass.budget.limits, made, "with rest passes"));
-    for (CutterPath& p : mended) {
+    for (CutterPath& p : found) {
       p.order_key = static_cast<int>(added.size());
       added.push_back(std::move(p));
     }

@@ -10,7 +10,7 @@ void PlaceRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
                   std::vector<Region>& regions) {
   struct Inside {
     TriangleRef triangle;
-    bool told = false;
+    bool labelled = false;
     double area = -1.0;
   };
   std::vector<Inside> inside(regions.size());
@@ -29,10 +29,11 @@ void PlaceRegions(const Surface& surface, const std::vector<SplitMesh>& meshes,
       }
       Inside& best = inside[id];
       const double area = mesh.triangles[t].area;
-      if (best.told && area <= best.area) continue;
+      if (best.labelled && area <= best.area) continue;
       const Vec2 q = MiddleOf(mesh, t);
-      const bool told = map.At({PieceId(piece), q.x(), q.y(), Vec3::Zero()}) == static_cast<int>(id);
-      if (told > best.told || (told == best.told && area > best.area)) best = {{piece, t}, told, area};
+      const bool labelled = map.At({PieceId(piece), q.x(), q.y(), Vec3::Zero()}) == static_cast<int>(id);
+      if (labelled > best.labelled || (labelled == best.labelled && area > best.area))
+        best = {{piece, t}, labelled, area};
     }
   }
   for (std::size_t id = 0; id < regions.size(); ++id) {

@@ -96,10 +96,10 @@ Column NearestCenter::Descend(Column at) const {
     const Column next = At(Xy(at.center) + step, at);
     const bool nearer = next.distance < at.distance;
     if (nearer) at = next;
-    const bool told = learn(next);
+    const bool learned = learn(next);
     misses = nearer ? 0 : misses + 1;
     if (nearer) share = std::min(1.0, 2.0 * share);
-    if (misses > 0 && (!told || misses > kMisses)) share *= 0.5;
+    if (misses > 0 && (!learned || misses > kMisses)) share *= 0.5;
   }
   return at;
 }

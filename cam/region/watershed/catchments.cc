@@ -44,10 +44,10 @@ class Forest {
   explicit Forest(std::vector<int> top_of)
       : sets_(top_of.size()), top_of_(std::move(top_of)), best_(top_of_.size(), kOutside) {}
 
-  // Joins over these links as far as their order is known: a set whose first link leads outside waits. Leaves
-  // in `links` those that may still join sets and do not lead outside. Several threads may call it at the
-  // same time if their links have no triangle in common.
-  void ResizePolling(std::vector<Link>& links) {
+  // Joins sets over these links as far as their order is known: a set whose first link leads outside waits.
+  // Leaves in `links` those that may still join sets and do not lead outside. Several threads may call it at
+  // the same time if their links have no triangle in common.
+  void MergeAlong(std::vector<Link>& links) {
     for (bool grown = true; grown;) {
       std::size_t kept = 0;
       for (Link link : links) {
@@ -154,7 +154,7 @@ absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<Split
       const Link over = link(i, a);
       own.inner.push_back({over.below, over.side, over.b, kOutside});
     }
-    forest.ResizePolling(own.inner);
+    forest.MergeAlong(own.inner);
   }));
   std::vector<Link> links, lines;
   for (Rest& of : rest) {
@@ -163,9 +163,9 @@ absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<Split
     lines.insert(lines.end(), of.lines.begin(), of.lines.end());
     of = {};
   }
-  forest.ResizePolling(links);
+  forest.MergeAlong(links);
   PM_RETURN_IF_ERROR(run.Check());
-  forest.ResizePolling(lines);
+  forest.MergeAlong(lines);
   for (std::size_t piece = 0; piece < found.size(); ++piece) {
     for (std::size_t t = 0; t < found[piece].size(); ++t)
       found[piece][t] = forest.TopOf(adjacency.first[piece] + t);

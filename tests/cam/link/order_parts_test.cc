@@ -45,7 +45,7 @@ TEST(OrderParts, APitFromTheRim) {
   EXPECT_EQ(Ordered(map, {{{0}, -7}, {{1}, -3}, {{2}, 2}}), (Order{2, 1, 0}));
 }
 
-TEST(OrderParts, OneHillAfterTheOtherAndGroundAfterBoth) {
+TEST(OrderParts, OneHillAfterTheOtherAndSurfaceAfterBoth) {
   // 0 plain; 1, 2 flank and cap of a hill; 3, 4 those of a lower hill; 5, 6 wall and floor of a pit.
   const RegionMap map = Map(7, {{0, 1}, {1, 2}, {0, 3}, {3, 4}, {0, 5}, {5, 6}});
   const std::vector<JobPart> parts{{{1}, 7}, {{3}, 6}, {{5}, 0}, {{0}, 2}, {{2}, 12}, {{4}, 10}, {{6}, -4}};
@@ -59,7 +59,7 @@ TEST(OrderParts, ANeighbourGoesBeforeWhatIsHigherButFarAway) {
   EXPECT_EQ(Ordered(Map(4, {}), {{{0}, 10}, {{1}, 5}, {{2}, 9}, {{3}, 4}}), (Order{0, 2, 1, 3}));
 }
 
-TEST(OrderParts, GroundAroundAFootThatNoBallGetsIntoWaits) {
+TEST(OrderParts, SurfaceAroundAFootThatNoBallGetsIntoWaits) {
   // 0 plain; 1 flank of a boss; 2, 3 its foot, unreachable for two reasons; 4 a hill beside the plain.
   RegionMap map = Map(5, {{0, 2}, {2, 3}, {3, 1}, {0, 4}});
   const std::vector<JobPart> parts{{{0}, 2}, {{1}, 6}, {{4}, 8}};
@@ -114,7 +114,7 @@ TEST(OrderParts, OfOneRegionTheHighestFirst) {
   EXPECT_EQ(Ordered(Map(1, {}), {{{0}, 1}, {{0}, 5}, {{0}, 2}, {{0}, 8}}), (Order{3, 1, 2, 0}));
 }
 
-TEST(OrderParts, LevelGroundKeepsItsOrder) {
+TEST(OrderParts, FlatSurfaceKeepsItsOrder) {
   EXPECT_EQ(Ordered(Map(1, {}), {{{0}, 5.0}, {{0}, 5.001}, {{0}, 4.999}}), (Order{0, 1, 2}));
 }
 

@@ -27,7 +27,7 @@ constexpr double kWide = 7.0;
 const std::array<Feature, 4> kFeatures{
     {{{20, 20}, 12.0}, {{60, 24}, 9.0}, {{24, 60}, -10.0}, {{60, 62}, 11.0}}};
 
-double Ground(double x, double y) {
+double HeightAt(double x, double y) {
   double z = 0.0;
   for (const Feature& f : kFeatures)
     z += f.height * std::exp(-(Vec2(x, y) - f.at).squaredNorm() / (2.0 * kWide * kWide));
@@ -48,7 +48,7 @@ class OrderOfParts : public ::testing::Test {
  protected:
   OrderOfParts()
       : surface_(testing::JoinedSurface(
-            testing::Single(testing::InterpolatedHeights(Ground, 0.0, 84.0, 0.0, 84.0, 40, 40)))),
+            testing::Single(testing::InterpolatedHeights(HeightAt, 0.0, 84.0, 0.0, 84.0, 40, 40)))),
         locator_(surface_, kRadius) {
     ContourParams steep;
     steep.pass.scallop = 0.02;
@@ -122,7 +122,7 @@ TEST_F(OrderOfParts, EachFromTheTop) {
   }
 }
 
-TEST_F(OrderOfParts, CapThenFlankThenGroundThenWallThenFloor) {
+TEST_F(OrderOfParts, CapThenFlankThenSurfaceThenWallThenFloor) {
   // Of each feature: the place in the order of its first and last contour, and of the lines on its cap or
   // floor.
   struct Span {

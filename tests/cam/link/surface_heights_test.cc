@@ -15,11 +15,11 @@ using testing::Random;
 
 // The bound is never below the surface over the rectangle, and not above the surface within two squares of
 // it.
-TEST(SurfaceHeights, BoundTheGroundOverRectangles) {
+TEST(SurfaceHeights, BoundTheSurfaceOverRectangles) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const Surface surface = testing::SurfaceOf(testing::RandomBspline(seed));
     const double beside = 2.0;
-    const SurfaceHeights ground(surface, beside);
+    const SurfaceHeights heights(surface, beside);
     std::vector<Vec3> points;
     Random random(seed);
     for (int i = 0; i < 20000; ++i) {
@@ -44,7 +44,7 @@ TEST(SurfaceHeights, BoundTheGroundOverRectangles) {
         }
         return z;
       };
-      const double got = ground.HighestOver(a, b);
+      const double got = heights.HighestOver(a, b);
       // Points outside of the grid count for its outermost squares.
       if ((high.array() < surface.box.min.head<2>().array() - beside).any() ||
           (low.array() > surface.box.max.head<2>().array() + beside).any()) {
@@ -60,10 +60,10 @@ TEST(SurfaceHeights, NothingStandsBesideThePart) {
   const Surface surface = testing::SurfaceOf(testing::Join(
       {testing::Plane(5),
        testing::Transformed(testing::Plane(5, 2), Eigen::Affine3d(Eigen::Translation3d(90, 0, 0)))}));
-  const SurfaceHeights ground(surface, 1.0);
-  EXPECT_EQ(ground.HighestOver({30, -1}, {60, 1}), -kInfinity);
-  EXPECT_EQ(ground.HighestOver({-2, -1}, {2, 1}), 0.0);
-  EXPECT_EQ(ground.HighestOver({-2, -1}, {90, 1}), 2.0);
+  const SurfaceHeights heights(surface, 1.0);
+  EXPECT_EQ(heights.HighestOver({30, -1}, {60, 1}), -kInfinity);
+  EXPECT_EQ(heights.HighestOver({-2, -1}, {2, 1}), 0.0);
+  EXPECT_EQ(heights.HighestOver({-2, -1}, {90, 1}), 2.0);
 }
 
 }  // namespace

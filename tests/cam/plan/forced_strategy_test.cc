@@ -59,7 +59,7 @@ double BorderLength(const RegionMap& map, BorderKind kind) {
   return length;
 }
 
-TEST(ForcedGround, ContoursLeaveTheCapOfASphere) {
+TEST(ForcedArea, ContoursLeaveTheCapOfASphere) {
   const double rho = 20.0, sine = kLeast / ConvexStep(rho), cosine = std::sqrt(1.0 - sine * sine);
   const Surface surface = PlacedSurface(Sphere(Vec3::Zero(), rho, Half::kUpper));
   const ChosenRegions regions = Regions(surface, ForcedJob(Strategy::kContour));
@@ -87,7 +87,7 @@ TEST(ForcedGround, ContoursLeaveTheCapOfASphere) {
 
 // Of a cylinder along y, lines along y leave what is steep across them; lines along x leave nothing, for
 // they run around it.
-TEST(ForcedGround, LinesLeaveTheSidesOfACylinder) {
+TEST(ForcedArea, LinesLeaveTheSidesOfACylinder) {
   const double rho = 12.0, half = 15.0;
   const Surface surface = PlacedSurface(Cylinder(Vec3::Zero(), rho, half, Half::kUpper));
   const RegionMap along = Regions(surface, ForcedJob(Strategy::kZigzag, kPi / 2.0)).map;
@@ -106,7 +106,7 @@ TEST(ForcedGround, LinesLeaveTheSidesOfACylinder) {
 
 // Directions that are open are judged once they are chosen; the map is the same before, after, and for the
 // verifier.
-TEST(ForcedGround, OpenAngles) {
+TEST(ForcedArea, OpenAngles) {
   const Surface surface = PlacedSurface(Cylinder(Vec3::Zero(), 12.0, 8.0, Half::kUpper));
   Job job = ForcedJob(Strategy::kZigzag, kPi / 2.0);
   const RegionMap given = Regions(surface, job).map;
@@ -127,7 +127,7 @@ TEST(ForcedGround, OpenAngles) {
 }
 
 // Scallops, of all or of one region, change no region.
-TEST(ForcedGround, TheScallopChangesNoRegion) {
+TEST(ForcedArea, TheScallopChangesNoRegion) {
   const Surface surface = PlacedSurface(Sphere(Vec3::Zero(), 20.0, Half::kUpper));
   Job job = ForcedJob(Strategy::kContour);
   const std::string digest = RegionsDigest(Regions(surface, job).map);
@@ -138,7 +138,7 @@ TEST(ForcedGround, TheScallopChangesNoRegion) {
 }
 
 // A plane below the least slope: all of it, and what stays is the scallop of the step that is taken.
-TEST(ForcedGround, WhatStaysOnAPlane) {
+TEST(ForcedArea, WhatStaysOnAPlane) {
   for (const double degrees : {8.0, 12.0, 16.0}) {
     const double sine = std::sin(Radians(degrees));
     const Surface surface = PlacedSurface(Plane(10.0, 0.0, std::tan(Radians(degrees))));
@@ -164,7 +164,7 @@ TEST(ForcedGround, WhatStaysOnAPlane) {
 }
 
 // Flats under contours and walls along the lines have no step at all.
-TEST(ForcedGround, LeftByStepIsInfiniteWhereNoStepWillDo) {
+TEST(ForcedArea, LeftByStepIsInfiniteWhereNoStepWillDo) {
   SurfaceJet jet;
   jet.du = Vec3::UnitX();
   jet.dv = Vec3::UnitY();
@@ -180,7 +180,7 @@ TEST(ForcedGround, LeftByStepIsInfiniteWhereNoStepWillDo) {
 }
 
 // The remedy: that region by contours. It is cut, named so no longer, and the sum of the map is what it was.
-TEST(ForcedGround, AnOverrideFinishesIt) {
+TEST(ForcedArea, AnOverrideFinishesIt) {
   const double rho = 12.0;
   const Surface surface = PlacedSurface(Cylinder(Vec3::Zero(), rho, 15.0, Half::kUpper));
   Job job = ForcedJob(Strategy::kZigzag, kPi / 2.0);
@@ -197,11 +197,11 @@ TEST(ForcedGround, AnOverrideFinishesIt) {
     job.operation.overrides.push_back(change);
   }
   ASSERT_EQ(job.operation.overrides.size(), 2u);
-  const JobResult mended = Mill(surface, job);
-  EXPECT_EQ(mended.report.outcome, Outcome::kComplete) << Describe(mended);
-  EXPECT_EQ(mended.report.verify.unreachable_area[kStrategyArea], 0.0) << Describe(mended);
-  EXPECT_EQ(RegionsDigest(mended.regions), RegionsDigest(before.map));
-  EXPECT_EQ(StrategyArea(mended.regions), 0.0);
+  const JobResult after = Mill(surface, job);
+  EXPECT_EQ(after.report.outcome, Outcome::kComplete) << Describe(after);
+  EXPECT_EQ(after.report.verify.unreachable_area[kStrategyArea], 0.0) << Describe(after);
+  EXPECT_EQ(RegionsDigest(after.regions), RegionsDigest(before.map));
+  EXPECT_EQ(StrategyArea(after.regions), 0.0);
   // A scallop alone does not: its walls are as far beyond the lines as before.
   for (RegionOverride& change : job.operation.overrides) {
     change.strategy.reset();

@@ -45,7 +45,7 @@ void ExpectNothing(const JobResult& result) {
 }
 
 // A ball that rolls over the rims of the box and touches nothing else, and one that fits between the walls.
-TEST(NothingToCut, RimsAloneAreNoGround) {
+TEST(NothingToCut, RimsAloneAreNoSurface) {
   const Surface surface = PlacedSurface(Box());
   const JobResult large = Mill(surface, JobOf(100.0));
   ExpectNothing(large);

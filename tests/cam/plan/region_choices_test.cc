@@ -268,7 +268,7 @@ TEST_F(ChoosingRegions, SameBytesForAnyThreadCount) {
 }
 
 // A pit too narrow for the ball in the middle of a skipped plain: no pass runs around it.
-TEST(RegionParts, UnreachableGroundGoesWithWhatSurroundsIt) {
+TEST(RegionParts, UnreachableSurfaceGoesWithWhatSurroundsIt) {
   RegionMap map;
   map.cells = 8;
   map.regions.resize(3);

@@ -75,7 +75,7 @@ TEST(LowRapids, ClearTheStockOverTheRectangleOnRandomParts) {
 
 // A plateau on either side of a ridge, and a tower far away. Rapids go as high as the ridge, not as the
 // tower.
-TEST(LowRapids, AreAsHighAsTheGroundBetween) {
+TEST(LowRapids, AreAsHighAsTheSurfaceBetween) {
   const Surface surface = PlacedSurface(Join(
       {Plane(40), Cylinder(Vec3::Zero(), 6, 40, Half::kUpper), Sphere(Vec3(30, 30, 20), 5, Half::kAll)}));
   Job job = LimitedJob();

@@ -41,7 +41,7 @@ PatchModel FloorAndWall(double foot, double draft, double height) {
                Single(Bilinear({0, foot, 0}, {30, foot, 0}, {0, back, height}, {30, back, height}))});
 }
 
-TEST(SelectedGround, FloorsAreFinishedToTheFootOfWalls) {
+TEST(SelectedArea, FloorsAreFinishedToTheFootOfWalls) {
   for (const double draft : {3.0, 10.0}) {
     for (const double radius : {1.5, 3.0}) {
       for (const double foot : {20.0, 20.2, 20.37}) {
@@ -61,7 +61,7 @@ TEST(SelectedGround, FloorsAreFinishedToTheFootOfWalls) {
   }
 }
 
-TEST(SelectedGround, ContactBoundariesAreReachedAtTheFootOfWalls) {
+TEST(SelectedArea, ContactBoundariesAreReachedAtTheFootOfWalls) {
   for (const double line : {17.6, 19.0, 19.8}) {
     const Surface surface = PlacedSurface(FloorAndWall(20.0, Radians(3.0), 4.0));
     Job job = SelectedJob(3.0, 0.01, {});
@@ -73,7 +73,7 @@ TEST(SelectedGround, ContactBoundariesAreReachedAtTheFootOfWalls) {
 }
 
 // Three strips of a plate; the ball is lifted over the one between, which a link would groove.
-TEST(SelectedGround, LinksAreLiftedOverOtherGround) {
+TEST(SelectedArea, LinksAreLiftedOverOtherSurface) {
   const auto strip = [](double x0, double x1) {
     return Single(Bilinear({x0, 0, 0}, {x1, 0, 0}, {x0, 20, 0}, {x1, 20, 0}));
   };
@@ -100,7 +100,7 @@ TEST(SelectedGround, LinksAreLiftedOverOtherGround) {
 }
 
 // The same where a region between two others is switched off: a ridge between two levels.
-TEST(SelectedGround, LinksAreLiftedOverRegionsThatAreOff) {
+TEST(SelectedArea, LinksAreLiftedOverRegionsThatAreOff) {
   const double side = 12.0, run = 1.2, height = run * std::tan(Radians(60.0)), end = 2.0 * (side + run);
   const auto strip = [](double x0, double z0, double x1, double z1) {
     return Single(Bilinear({x0, 0, z0}, {x1, 0, z1}, {x0, 20, z0}, {x1, 20, z1}));
@@ -131,7 +131,7 @@ TEST(SelectedGround, LinksAreLiftedOverRegionsThatAreOff) {
   });
 }
 
-TEST(SelectedGround, LinksDoNotCutAboveTheHighestTip) {
+TEST(SelectedArea, LinksDoNotCutAboveTheHighestTip) {
   const auto wave = [](double x, double y) { return 1.5 * std::sin(x / 3.0) + 0.5 * std::sin(y / 4.0); };
   const Surface surface = PlacedSurface(Single(InterpolatedHeights(wave, 0, 40, 0, 20, 30, 16)));
   for (const double top : {0.0, 1.0}) {
@@ -154,7 +154,7 @@ TEST(SelectedGround, LinksDoNotCutAboveTheHighestTip) {
 
 // An upright wall is touched all along its height, its upper edge too: that does not make it a part of the
 // top.
-TEST(SelectedGround, TheTopOfABossIsNotItsWalls) {
+TEST(SelectedArea, TheTopOfABossIsNotItsWalls) {
   for (const double radius : {1.5, 3.0}) {
     const double height = 6.0;
     const Surface surface = PlacedSurface(Block(8.0, height, 20.0));
@@ -175,7 +175,7 @@ TEST(SelectedGround, TheTopOfABossIsNotItsWalls) {
 }
 
 // What is selected of a line stays one chord.
-TEST(SelectedGround, LinesStayWhole) {
+TEST(SelectedArea, LinesStayWhole) {
   const PatchModel part = Plane(10.0);
   const PatchModel other = Single(Bilinear({40, 0, 0}, {50, 0, 0}, {40, 10, 0}, {50, 10, 0}));
   Job all = SelectedJob(3.0, 0.01, {}), first = SelectedJob(3.0, 0.01, {"#0"});

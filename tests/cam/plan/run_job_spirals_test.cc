@@ -78,7 +78,7 @@ TEST(Spirals, CutOpenAreAsPlain) {
   const Surface surface = PlacedSurface(Join({Block(12, 10, 30), Plane(30)}));
   Job job = SpiralJob();
   job.operation.selection.boundary = {{{-30, 0}, {30, 0}, {30, 30}, {-30, 30}}};
-  const auto told = [](const JobResult& result) {
+  const auto findings = [](const JobResult& result) {
     return std::count_if(result.report.diagnostics.begin(), result.report.diagnostics.end(),
                          [](const Diagnostic& d) { return d.where.field == "contour_spirals"; });
   };
@@ -88,8 +88,8 @@ TEST(Spirals, CutOpenAreAsPlain) {
   ASSERT_TRUE(wound.report.verify.ok()) << Describe(wound);
   EXPECT_EQ(SpiralsOf(wound), 0u);
   EXPECT_EQ(wound.report.point_count, plain.report.point_count);
-  EXPECT_EQ(told(wound), 1);
-  EXPECT_EQ(told(plain), 0);
+  EXPECT_EQ(findings(wound), 1);
+  EXPECT_EQ(findings(plain), 0);
 }
 
 // Half of the domes is cut open, one is whole.

@@ -173,7 +173,7 @@ TEST(WideShank, KeepsAMarginAboveItsFlutes) {
 }
 
 // A shank that ends a few microns below the top of a block, over the whole flat around it.
-TEST(WideShank, FlatGroundAlongItsLimitCostsLittle) {
+TEST(WideShank, FlatSurfaceAlongItsLimitCostsLittle) {
   const Surface surface = PlacedSurface(Block(6, 16, 14));
   for (const double below : {0.0005, 0.0055, 0.0065}) {
     SCOPED_TRACE(below);

@@ -38,7 +38,7 @@ Asked Ask(bool contours, double angle, double scallop) {
 
 // Two implementations of the step: tight edges (a tenth of the ball) under scallops of up to a third of the
 // ball, where the arc is far from a parabola, bowls and saddles.
-TEST(BeyondStrategy, IsGroundThatNeedsLessThanTheNarrowestStep) {
+TEST(BeyondStrategy, IsSurfaceThatNeedsLessThanTheNarrowestStep) {
   const std::vector<PatchModel> models = {
       Sphere(Vec3::Zero(), 0.3, Half::kUpper), Torus(Vec3::Zero(), 8.0, 0.5), Torus(Vec3::Zero(), 9.0, 3.5),
       Saddle(0.05, 0.03, 15.0), Cylinder(Vec3::Zero(), 5.0, 20.0, Half::kAll)};
@@ -66,7 +66,7 @@ TEST(BeyondStrategy, IsGroundThatNeedsLessThanTheNarrowestStep) {
 
 // The inside of a torus' rim needs narrower lines than its outside: an upright place counts as its easier
 // side, whichever way its normal happens to look.
-TEST(BeyondStrategy, UprightGroundCountsAsTheEasierOfItsSides) {
+TEST(BeyondStrategy, VerticalFaceCountsAsTheEasierOfItsSides) {
   const Surface surface = SurfaceOf(Torus(Vec3::Zero(), 2.0, 1.2));
   int upright = 0;
   for (const Piece& piece : surface.pieces) {

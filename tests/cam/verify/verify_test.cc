@@ -366,7 +366,7 @@ TEST(Verify, LeaveAndProgramZero) {
               std::hypot(r + leave, 0.3) - r, kCertainty);
 }
 
-TEST(Verify, ForcedContoursAreExcusedOnLevelGround) {
+TEST(Verify, ForcedContoursAreExcusedOnLevelSurface) {
   ProgramText text(20.0);
   text.Pass({{0, 0, 0}, {0.1, 0, 0}});
   VerifyParams params = Params(1.0);

@@ -101,13 +101,13 @@ TEST(ParallelFor, ReportsProgressUpToTheEnd) {
 template <typename Work>
 int TimesToldOfSlowWork(const Work& work) {
   RunContext run(1);
-  int told = 0;
+  int reports = 0;
   run.set_progress([&](std::string_view, double fraction) {
-    ++told;
+    ++reports;
     EXPECT_LT(fraction, 1.0 / 64.0);
   });
   work(run, [] { std::this_thread::sleep_for(std::chrono::milliseconds(30)); });
-  return told;
+  return reports;
 }
 
 TEST(ParallelFor, TellsSlowWorkBeforeSilenceIsTooLong) {

@@ -20,15 +20,15 @@ TEST(ResizePolling, IsAsResize) {
 }
 
 TEST(ResizePolling, StopsBetweenSteps) {
-  static RunContext told;
+  static RunContext cancelled;
   static int made = 0;
   struct Tells {
     Tells() {
-      if (++made == 20'000) told.Cancel();
+      if (++made == 20'000) cancelled.Cancel();
     }
   };
   std::vector<Tells> v;
-  EXPECT_EQ(ResizePolling(v, 100'000, told).code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(ResizePolling(v, 100'000, cancelled).code(), absl::StatusCode::kCancelled);
   EXPECT_GE(v.size(), 20'000U);
   EXPECT_LT(v.size(), 50'000U);
 }

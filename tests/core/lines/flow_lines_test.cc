@@ -176,7 +176,7 @@ TEST(FlowLines, OfATorusAndTheTeapotHaveNoLoops) {
   }
 }
 
-TEST(FlowLines, NothingOnLevelGroundAndBadSpacingIsRefused) {
+TEST(FlowLines, NothingOnFlatSurfaceAndBadSpacingIsRefused) {
   EXPECT_TRUE(Trace(SurfaceOf(Plane(5, 2)), {}).empty());
   EXPECT_FALSE(TraceFlowLines(SurfaceOf(Plane(5)), {.spacing = 0.0}, RunContext()).ok());
   RunContext run;

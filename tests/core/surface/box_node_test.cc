@@ -141,15 +141,15 @@ TEST(BoxNodes, StopWhenCancelled) {
   Random random(7);
   const Tree tree = MakeTree(200'000, random);
   const std::vector<SurfaceNode> binary = BuildLeafTree(tree.boxes, RunContext());
-  RunContext told;
-  told.Cancel();
+  RunContext cancelled;
+  cancelled.Cancel();
   const auto seconds = [&](const RunContext& run, absl::StatusCode code) {
     const double start = testing::ClockSeconds(CLOCK_THREAD_CPUTIME_ID);
     EXPECT_EQ(Collapse(binary, run).status().code(), code);
     return testing::ClockSeconds(CLOCK_THREAD_CPUTIME_ID) - start;
   };
   double stopped = kInfinity;
-  for (int i = 0; i < 5; ++i) stopped = std::min(stopped, seconds(told, absl::StatusCode::kCancelled));
+  for (int i = 0; i < 5; ++i) stopped = std::min(stopped, seconds(cancelled, absl::StatusCode::kCancelled));
   EXPECT_LT(stopped, 0.2 * seconds(RunContext(), absl::StatusCode::kOk));
 }
 

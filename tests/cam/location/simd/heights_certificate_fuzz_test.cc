@@ -182,7 +182,7 @@ TEST(CertificateFuzz, NoCertificateImprovesAHeight) {
 
 // Upright leaves that were too hollow for the ball on one side only, or touched on their rim, or near the
 // equator: maxima once missed.
-TEST(CertificateFuzz, UprightGround) {
+TEST(CertificateFuzz, VerticalFace) {
   for (const std::uint64_t seed : {457, 816, 916}) EXPECT_EQ(Faults(Judge(seed)), "") << seed;
 }
 
@@ -196,7 +196,7 @@ TEST(CertificateFuzz, MaximaBesideBorders) { EXPECT_EQ(Faults(Judge(984)), ""); 
 
 // Two maxima 0.13 R below the centre in one unproven leaf, the higher one 5e-4 mm above the one on the
 // leaf's border that every start ended at.
-TEST(CertificateFuzz, SteepGround) { EXPECT_EQ(Faults(Judge(50061)), ""); }
+TEST(CertificateFuzz, SteepArea) { EXPECT_EQ(Faults(Judge(50061)), ""); }
 
 // Searches that ended in a singular corner, the contact 0.04 mm higher on the border beside it, 0.65 R below
 // the centre: only division finds it.
@@ -208,7 +208,7 @@ TEST(CertificateFuzz, AHollowThatNearlyFits) { EXPECT_EQ(Faults(Judge(60013)), "
 
 // A concave surface 1e-4 mm inside a ball. No part of it is outside the ball and no part is convex. The
 // budget once ended before a point of it was found.
-TEST(CertificateFuzz, HollowGroundBesideABorder) { EXPECT_EQ(Faults(Judge(84578)), ""); }
+TEST(CertificateFuzz, HollowSurfaceBesideABorder) { EXPECT_EQ(Faults(Judge(84578)), ""); }
 
 // A ball that rests on a singular corner of a part of 107 m: only division closes the gap there, 70
 // halvings.

@@ -151,7 +151,7 @@ TEST(ThinContours, CirclesTakeAboutTheFewestChords) {
   }
 }
 
-TEST(ThinContours, CurvedGroundKeepsThePromises) {
+TEST(ThinContours, CurvedSurfaceKeepsThePromises) {
   ExpectPromises(Thinned(Sphere(Vec3::Zero(), 8.0, Half::kUpper), 0.01));
   ExpectPromises(Thinned(Torus(Vec3::Zero(), 12.0, 5.0, Half::kUpper), 0.01));
   ExpectPromises(Thinned(TwoHills(), 0.01, {Radians(20), Radians(90)}));

@@ -70,7 +70,7 @@ TEST(FewestChords, KeptStationsAndLongestChordsAreObeyed) {
 
 // Corners of contours: up to rounding, the next station lies exactly in the direction in which the ball
 // leaves the surface. Such a chord has no slope, and ends at the next station.
-TEST(FewestChords, StationsStraightOutOfTheGround) {
+TEST(FewestChords, StationsStraightOutOfTheSurface) {
   Row row(200, 0.05);
   for (std::size_t k = 50; k < 60; ++k) row.stations[k].away = Vec3(std::cos(1e-9), std::sin(1e-9), 0);
   ChordLimits limits = kFine;

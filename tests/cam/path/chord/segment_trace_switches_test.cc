@@ -170,9 +170,9 @@ TEST(LineSwitches, AreTheSameHoweverThePartIsCut) {
 }
 
 // Surfaces that the ball follows everywhere. Joints of patches that it crosses are no contact switches.
-class NoneOnSmoothGround {
+class NoneOnSmoothSheet {
  public:
-  explicit NoneOnSmoothGround(PatchModel model) : surface_(SurfaceOf(std::move(model))) {}
+  explicit NoneOnSmoothSheet(PatchModel model) : surface_(SurfaceOf(std::move(model))) {}
 
   // Lines within `middle` +- `reach`, each way.
   void Cross(const Vec2& middle, double reach, int lines, std::uint64_t seed) {
@@ -209,12 +209,12 @@ class NoneOnSmoothGround {
   int joints_ = 0;
 };
 
-TEST(LineSwitches, NoneOnSmoothGroundCutIntoAThousandPatches) {
+TEST(LineSwitches, NoneOnSmoothSheetCutIntoAThousandPatches) {
   const PatchModel model = testing::AsBezierPatches(testing::TwoHills());
   ASSERT_GT(model.patches.size(), 1000u);
-  NoneOnSmoothGround ground(model);
-  ground.Cross({50, 50}, 50, 20, 5);
-  EXPECT_GT(ground.joints(), 200);
+  NoneOnSmoothSheet sheet(model);
+  sheet.Cross({50, 50}, 50, 20, 5);
+  EXPECT_GT(sheet.joints(), 200);
 }
 
 // A gentle sheet of 8 x 8 fields joined with equal tangent planes: Gregory quads, and where `triangles` says
@@ -261,9 +261,9 @@ TEST(LineSwitches, NoneOnJoinedQuadsAndTriangles) {
        {std::tuple(kGregory, kGregoryTriangle, 1000), std::tuple(kGregory, kGregoryTriangle, 2),
         std::tuple(kBrown, kLoftTriangle, 3), std::tuple(kGregory, kGregoryTriangle, 1)}) {
     SCOPED_TRACE(::testing::Message() << "one in " << every << " as triangles");
-    NoneOnSmoothGround ground(GentleSheet(quads, triangles, every));
-    ground.Cross({24, 24}, 22, 20, 6);
-    EXPECT_GT(ground.joints(), 80);
+    NoneOnSmoothSheet sheet(GentleSheet(quads, triangles, every));
+    sheet.Cross({24, 24}, 22, 20, 6);
+    EXPECT_GT(sheet.joints(), 80);
   }
 }
 
@@ -272,14 +272,14 @@ TEST(LineSwitches, NoneOnGregoryPatchesOfSubdivisionSurfaces) {
   Placement placement;
   placement.up = UpAxis::kY;
   placement.scale = 40.0;  // the top of the ring, up to its nearest corners
-  NoneOnSmoothGround ring(Place(placement, testing::LoadModel("tests/models/toroidal_tet.patches")));
+  NoneOnSmoothSheet ring(Place(placement, testing::LoadModel("tests/models/toroidal_tet.patches")));
   ring.Cross({0, 0}, 7, 40, 7);
   EXPECT_GT(ring.joints(), 30);
   placement.scale = 60.0;  // a ball of triangles
-  NoneOnSmoothGround ball(Place(placement, testing::LoadModel("tests/models/icosahedron.patches")));
+  NoneOnSmoothSheet ball(Place(placement, testing::LoadModel("tests/models/icosahedron.patches")));
   ball.Cross({0, 0}, 42, 30, 8);
   EXPECT_GT(ball.joints(), 100);
-  NoneOnSmoothGround saddle(Place(placement, testing::LoadModel("tests/models/saddle.patches")));
+  NoneOnSmoothSheet saddle(Place(placement, testing::LoadModel("tests/models/saddle.patches")));
   saddle.Cross({0, 0}, 60, 30, 9);
   EXPECT_GT(saddle.joints(), 30);
 }

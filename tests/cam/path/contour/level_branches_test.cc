@@ -113,7 +113,7 @@ TEST(LevelBranches, GrowOnNoOtherSet) {
   EXPECT_TRUE(apart->empty());
 }
 
-TEST(LevelBranches, OfNoGround) { EXPECT_TRUE(BranchesOf({}).empty()); }
+TEST(LevelBranches, OfNoSurface) { EXPECT_TRUE(BranchesOf({}).empty()); }
 
 TEST(LevelBranches, CancelIsObeyed) {
   ContourArea contour_area;

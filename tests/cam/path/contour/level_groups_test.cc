@@ -41,7 +41,7 @@ void AddWall(const Vec2& a, const Vec2& b, double height, const Vec2& off, Conto
   contour_area.spacing = kSpacing;
 }
 
-LevelGroups GroundsOf(const ContourArea& contour_area) {
+LevelGroups GroupsOf(const ContourArea& contour_area) {
   auto groups = LevelGroups::Make(contour_area, kParams, nullptr, RunContext(1));
   EXPECT_TRUE(groups.ok());
   return *std::move(groups);
@@ -58,11 +58,11 @@ TEST(LevelGroups, WallsAroundACornerAreOne) {
   // Around an outer corner the contacts meet, though the balls stand apart.
   AddWall({0, 0}, {20, 0}, 10, {0, -3}, outer);
   AddWall({20, 0}, {20, 20}, 10, {3, 0}, outer);
-  EXPECT_EQ(GroundsOf(outer).size(), 1u);
+  EXPECT_EQ(GroupsOf(outer).size(), 1u);
   // In a slot hardly wider than the ball the balls meet, though the walls do not.
   AddWall({0, 0}, {20, 0}, 10, {0, 3}, inner);
   AddWall({0, 6.5}, {20, 6.5}, 10, {0, -3}, inner);
-  EXPECT_EQ(GroundsOf(inner).size(), 1u);
+  EXPECT_EQ(GroupsOf(inner).size(), 1u);
 }
 
 TEST(LevelGroups, WallsApartAreTwo) {
@@ -72,7 +72,7 @@ TEST(LevelGroups, WallsApartAreTwo) {
   contour_area.lower_ends.push_back({Vec3(5, 3, 0), 1.0});
   contour_area.lower_ends.push_back({Vec3(9, 9, 0), 1.0});
   contour_area.lower_ends.push_back({Vec3(30, 9, 0), 1.0});
-  const LevelGroups groups = GroundsOf(contour_area);
+  const LevelGroups groups = GroupsOf(contour_area);
   ASSERT_EQ(groups.size(), 2u);
   // The larger one first, 280 and 200 mm2; every sample and every end in one of them.
   EXPECT_EQ(groups[0].samples.size() + groups[1].samples.size(), contour_area.samples.size());
@@ -89,9 +89,9 @@ TEST(LevelGroups, ScrapsGoWithTheLargest) {
   ContourArea contour_area;
   AddWall({0, 0}, {20, 0}, 10, {0, 3}, contour_area);
   AddWall({0, 12}, {40, 12}, 1.9 * kFlat, {0, -3}, contour_area);
-  EXPECT_EQ(GroundsOf(contour_area).size(), 1u);
+  EXPECT_EQ(GroupsOf(contour_area).size(), 1u);
   AddWall({0, 30}, {40, 30}, 2.1 * kFlat, {0, -3}, contour_area);
-  EXPECT_EQ(GroundsOf(contour_area).size(), 2u);
+  EXPECT_EQ(GroupsOf(contour_area).size(), 2u);
 }
 
 // A plate full of dimples: the levels of most are for all of them.
@@ -101,7 +101,7 @@ TEST(LevelGroups, AreNotMoreThanWhatIsWorthIt) {
     const Vec2 from(20.0 * (k % 20), 20.0 * (k / 20.0));
     AddWall(from, from + Vec2(2.0 + 0.01 * k, 0.0), 4, {0, 3}, contour_area);
   }
-  const LevelGroups groups = GroundsOf(contour_area);
+  const LevelGroups groups = GroupsOf(contour_area);
   EXPECT_EQ(groups.size(), 256u);
   std::size_t all = 0;
   for (std::size_t k = 0; k < groups.size(); ++k) all += groups[k].samples.size();
@@ -177,7 +177,7 @@ TEST(LevelGroups, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
   }
 }
 
-TEST(LevelGroups, ABranchStandsOnTheNextLevelThatGroundLeadsTo) {
+TEST(LevelGroups, ABranchStandsOnTheNextLevelThatSurfaceLeadsTo) {
   const std::vector<double> heights = {1.0, 2.0, 3.0};
   EXPECT_EQ(LevelBelow(heights, 2.5, kFlat), 2.0);
   EXPECT_EQ(LevelBelow(heights, 3.0, kFlat), 3.0);
@@ -198,7 +198,7 @@ TEST(LevelGroups, NothingBranchesOffWithoutNeed) {
   EXPECT_EQ(size(Forked(0.8 * kFlat), nullptr), 1u);
 }
 
-TEST(LevelGroups, OfNoGround) { EXPECT_EQ(GroundsOf({}).size(), 0u); }
+TEST(LevelGroups, OfNoSurface) { EXPECT_EQ(GroupsOf({}).size(), 0u); }
 
 PatchModel Quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   BezierPatch patch;

@@ -88,7 +88,7 @@ TEST(LevelHeights, LieAtCommonLowerEnds) {
 
 // A part of a wall needs a smaller step. It gets full levels for the whole wall, or partial levels, whichever
 // is shorter.
-TEST(LevelHeights, FollowTheNarrowGroundWhereThatIsShorter) {
+TEST(LevelHeights, FollowTheNarrowSurfaceWhereThatIsShorter) {
   const double wide = 0.5, narrow = 0.4, height = 20.0, length = 200.0;
   for (const double share : {0.05, 0.4, 0.6}) {
     ContourArea contour_area;
@@ -102,7 +102,7 @@ TEST(LevelHeights, FollowTheNarrowGroundWhereThatIsShorter) {
 }
 
 // Only the surface at one height needs a small step.
-TEST(LevelHeights, AreNearerOnlyWhereTheGroundAsksForIt) {
+TEST(LevelHeights, AreNearerOnlyWhereTheSurfaceAsksForIt) {
   ContourArea contour_area;
   AddWall(0.0, 50.0, 0.0, 10.0, 0.5, 0.0, contour_area);
   AddWall(0.0, 50.0, 10.0, 14.0, 0.25, 0.0, contour_area);
@@ -129,7 +129,7 @@ TEST(LevelHeights, DoNotDependOnTheOrderOfSamples) {
 }
 
 // Rounded tops allow steps of three times that on a plane; what stands beside them does not.
-TEST(LevelHeights, AreNeverSoFarApartThatTheyWouldTakeTheGroundForNone) {
+TEST(LevelHeights, AreNeverSoFarApartThatTheyWouldTakeTheSurfaceForNone) {
   for (const double share : {0.0, 0.02, 0.1, 0.3}) {
     ContourArea contour_area;
     AddWall(0.0, 100.0 * (1.0 - share), 0.0, 20.0, 3.0 * kParams.flat, 0.0, contour_area);
@@ -164,7 +164,7 @@ TEST(LevelHeights, AreRefusedWhereThereAreTooMany) {
             absl::StatusCode::kResourceExhausted);
 }
 
-TEST(LevelHeights, AreNoneWithoutGround) { EXPECT_TRUE(HeightsOf({}).empty()); }
+TEST(LevelHeights, AreNoneWithoutSurface) { EXPECT_TRUE(HeightsOf({}).empty()); }
 
 }  // namespace
 }  // namespace patchmill

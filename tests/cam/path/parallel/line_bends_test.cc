@@ -90,7 +90,7 @@ TEST(LineBends, AreShorterByWhatTheyAreAskedFor) {
 }
 
 // Where the surface changes over a few steps, the lattice promises a saving that the lines do not reach.
-TEST(LineBends, AreNotLongerThanStraightOnBusyGround) {
+TEST(LineBends, AreNotLongerThanStraightOnBusySurface) {
   double bent = 0.0, straight = 0.0;
   int straighter = 0;
   for (std::uint64_t seed = 0; seed < 6; ++seed) {

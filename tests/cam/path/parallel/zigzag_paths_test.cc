@@ -156,7 +156,7 @@ TEST(ZigzagPaths, EveryPathRunsAlongTheAngleInOrderOfLines) {
   }
 }
 
-TEST(ZigzagPaths, CurvedGroundKeepsTheScallop) {
+TEST(ZigzagPaths, CurvedSurfaceKeepsTheScallop) {
   const double scallop = 0.02;
   struct Case {
     const char* name;
@@ -242,7 +242,7 @@ TEST(ZigzagPaths, NothingButAnEdgeIsNoPass) {
 
 // The top of a rib between two edges is a tenth of a millimetre wide. It counts as surface, however few
 // probes fall on it: all lines that cross it have a piece there.
-TEST(ZigzagPaths, GroundBetweenTwoEdgesKeepsItsLines) {
+TEST(ZigzagPaths, SurfaceBetweenTwoEdgesKeepsItsLines) {
   const std::vector<Vec2> profile = {{-1.05, 0}, {-0.05, 2}, {0.05, 2}, {1.05, 0}};
   PatchModel rib;
   for (std::size_t k = 0; k + 1 < profile.size(); ++k) {

@@ -16,7 +16,7 @@ namespace {
 
 using namespace patchmill::testing;
 
-constexpr double kTolerance = 0.01, kGive = ReachTolerance(kTolerance);
+constexpr double kTolerance = 0.01, kReachTolerance = ReachTolerance(kTolerance);
 
 RestPassParams Coverage() {
   RestPassParams params;
@@ -65,18 +65,18 @@ std::vector<LeftoverSpot> SpotsAlongBottom(double depth) {
 
 // Only the bottom's widest place can be reached: an island of a thousandth of a square millimetre.
 TEST(FindSpots, FindsSmallIslandsOfReach) {
-  const std::vector<LeftoverSpot> spots = SpotsAlongBottom(0.9999 * kGive);
+  const std::vector<LeftoverSpot> spots = SpotsAlongBottom(0.9999 * kReachTolerance);
   ASSERT_FALSE(spots.empty());
   for (const LeftoverSpot& s : spots) EXPECT_LT(std::abs(s.at.p.y()), 0.3);
 }
 
 TEST(FindSpots, FindsNothingInAStripWithoutReach) {
-  EXPECT_TRUE(SpotsAlongBottom((1.0 + 1.1 * kReachMargin) * kGive).empty());
+  EXPECT_TRUE(SpotsAlongBottom((1.0 + 1.1 * kReachMargin) * kReachTolerance).empty());
 }
 
 // What is said to be out of reach has no free ball anywhere.
 void ExpectNoFreeBall(const Surface& surface, double radius, int rects, int least) {
-  const CellReachParams params{radius, kGive, -kInfinity};
+  const CellReachParams params{radius, kReachTolerance, -kInfinity};
   Random random(7);
   int out_of_reach = 0;
   for (int i = 0; i < rects; ++i) {
@@ -95,7 +95,7 @@ void ExpectNoFreeBall(const Surface& surface, double radius, int rects, int leas
       const SurfaceJet jet = Evaluate(surface, piece, u + w * random.Unit(), v + w * random.Unit());
       const auto e = UpwardNormal(jet);
       if (!e) continue;
-      EXPECT_TRUE(AnythingNearUpwardRay(surface, jet.p + radius * *e, radius - kGive, 1e-9))
+      EXPECT_TRUE(AnythingNearUpwardRay(surface, jet.p + radius * *e, radius - kReachTolerance, 1e-9))
           << "a ball is free over " << jet.p.transpose();
     }
   }

@@ -65,7 +65,7 @@ struct Measured {
 
 // Pairs with crests in a few places only are the ends of partial passes.
 Measured Measure(const Surface& surface, const std::vector<CutterPath>& paths, double apart,
-                 const GroundFilter& counts) {
+                 const PlaceFilter& counts) {
   const double flat = CenterStep(kR, kScallop, 0.0);
   Measured all;
   for (const PairOfPasses& pair : CrestsOfPairs(surface, paths, kR, apart, flat / 6.0, 1.5 * flat, counts)) {
@@ -88,7 +88,7 @@ double LeastOfShared(const std::vector<CutterPath>& paths) {
 // judged from below.
 enum class Pairs { kAllShareTheWay, kSomeAreParted };
 
-struct LineGround {
+struct LineShape {
   const char* name;
   PatchModel (*model)(double);
   double size;
@@ -96,15 +96,15 @@ struct LineGround {
   Vec2 middle, half;  // the part to finish, in plan: no rims
   Pairs pairs = Pairs::kAllShareTheWay;
 };
-void PrintTo(const LineGround& g, std::ostream* out) { *out << g.name << " " << g.size << " " << g.angle; }
+void PrintTo(const LineShape& g, std::ostream* out) { *out << g.name << " " << g.size << " " << g.angle; }
 
-class LinesOn : public ::testing::TestWithParam<LineGround> {};
+class LinesOn : public ::testing::TestWithParam<LineShape> {};
 
 TEST_P(LinesOn, LeaveTheScallop) {
-  const LineGround& ground = GetParam();
-  const Surface surface = JoinedSurface(ground.model(ground.size));
+  const LineShape& shape = GetParam();
+  const Surface surface = JoinedSurface(shape.model(shape.size));
   const Locator locator(surface, kR);
-  const Vec2 a = ground.middle - ground.half, b = ground.middle + ground.half;
+  const Vec2 a = shape.middle - shape.half, b = shape.middle + shape.half;
   Containment containment;
   containment.boundary = Boundary{Outline({{a, {b.x(), a.y()}, b, {a.x(), b.y()}}}), BoundaryMode::kContact};
   const auto operation_limits =
@@ -112,21 +112,21 @@ TEST_P(LinesOn, LeaveTheScallop) {
   ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
   ZigzagParams params;
   SetFinish(params, kScallop);
-  params.angle = Radians(ground.angle);
+  params.angle = Radians(shape.angle);
   params.pass.window.max = Radians(45);
   params.part = &*operation_limits;
   const auto paths = ZigzagPaths(locator, params, RunContext(2));
   ASSERT_TRUE(paths.ok()) << paths.status();
   // Next to the part's border lines end, and border passes have the last word.
-  const Vec2 inner = ground.half - Vec2(0.35, 0.35);
+  const Vec2 inner = shape.half - Vec2(0.35, 0.35);
   const Measured all = Measure(surface, *paths, 0.25, [&](const Vec3& p, const Vec3& e) {
-    return e.z() > std::cos(Radians(44)) && ((Xy(p) - ground.middle).cwiseAbs() - inner).maxCoeff() < 0.0;
+    return e.z() > std::cos(Radians(44)) && ((Xy(p) - shape.middle).cwiseAbs() - inner).maxCoeff() < 0.0;
   });
   const double least = LeastOfShared(*paths);
   EXPECT_GE(all.pairs, 4);
   EXPECT_LE(all.worst, 1.05);
   EXPECT_GE(all.worst, least);
-  if (ground.pairs == Pairs::kAllShareTheWay) {
+  if (shape.pairs == Pairs::kAllShareTheWay) {
     EXPECT_GE(all.least, least - 0.5 * kGougeOfScallop);
   }
 }
@@ -134,26 +134,26 @@ TEST_P(LinesOn, LeaveTheScallop) {
 const Vec2 kHere(0, 0);
 
 INSTANTIATE_TEST_SUITE_P(
-    Grounds, LinesOn,
-    ::testing::Values(LineGround{"dome", Dome, 1.25, 0, kHere, {1.8, 1.8}},
-                      LineGround{"dome", Dome, 4.0, 0, kHere, {5.5, 5.5}},
-                      LineGround{"bowl", Bowl, 1.25, 0, kHere, {1.8, 1.8}},
-                      LineGround{"bowl", Bowl, 1.5, 0, kHere, {2.1, 2.1}, Pairs::kSomeAreParted},
-                      LineGround{"bowl", Bowl, 4.0, 0, kHere, {5.5, 5.5}},
-                      LineGround{"ring", Ring, 1.25, 0, {11.25, 0}, {2.4, 3.7}},
-                      LineGround{"ring", Ring, 1.25, 90, {11.25, 0}, {2.4, 3.7}},
-                      LineGround{"trench", Trench, 1.5, 0, {13.5, 0}, {2.9, 4.5}},
-                      LineGround{"trench", Trench, 1.5, 30, {13.5, 0}, {2.9, 4.5}, Pairs::kSomeAreParted},
-                      LineGround{"trench", Trench, 1.3, 15, {11.7, 0}, {2.5, 3.9}, Pairs::kSomeAreParted},
-                      LineGround{"trench", Trench, 1.25, 90, {11.25, 0}, {2.4, 3.7}, Pairs::kSomeAreParted},
-                      LineGround{"saddle", Pass, 1.25, 0, kHere, {1.8, 1.8}},
-                      LineGround{"saddle", Pass, 1.25, 90, kHere, {1.8, 1.8}, Pairs::kSomeAreParted},
-                      LineGround{"saddle", Pass, 4.0, 30, kHere, {6.0, 6.0}},
-                      LineGround{"valley", Valley, 1.25, 0, kHere, {1.8, 1.8}},
-                      LineGround{"valley", Valley, 1.5, 30, kHere, {2.2, 2.2}},
-                      LineGround{"valley", Valley, 4.0, 90, kHere, {6.0, 6.0}},
-                      LineGround{"lens", Lens, 1.0, 30, kHere, {6.0, 5.0}},
-                      LineGround{"hollow lens", Lens, -1.0, 30, kHere, {6.0, 5.0}}));
+    Shapes, LinesOn,
+    ::testing::Values(LineShape{"dome", Dome, 1.25, 0, kHere, {1.8, 1.8}},
+                      LineShape{"dome", Dome, 4.0, 0, kHere, {5.5, 5.5}},
+                      LineShape{"bowl", Bowl, 1.25, 0, kHere, {1.8, 1.8}},
+                      LineShape{"bowl", Bowl, 1.5, 0, kHere, {2.1, 2.1}, Pairs::kSomeAreParted},
+                      LineShape{"bowl", Bowl, 4.0, 0, kHere, {5.5, 5.5}},
+                      LineShape{"ring", Ring, 1.25, 0, {11.25, 0}, {2.4, 3.7}},
+                      LineShape{"ring", Ring, 1.25, 90, {11.25, 0}, {2.4, 3.7}},
+                      LineShape{"trench", Trench, 1.5, 0, {13.5, 0}, {2.9, 4.5}},
+                      LineShape{"trench", Trench, 1.5, 30, {13.5, 0}, {2.9, 4.5}, Pairs::kSomeAreParted},
+                      LineShape{"trench", Trench, 1.3, 15, {11.7, 0}, {2.5, 3.9}, Pairs::kSomeAreParted},
+                      LineShape{"trench", Trench, 1.25, 90, {11.25, 0}, {2.4, 3.7}, Pairs::kSomeAreParted},
+                      LineShape{"saddle", Pass, 1.25, 0, kHere, {1.8, 1.8}},
+                      LineShape{"saddle", Pass, 1.25, 90, kHere, {1.8, 1.8}, Pairs::kSomeAreParted},
+                      LineShape{"saddle", Pass, 4.0, 30, kHere, {6.0, 6.0}},
+                      LineShape{"valley", Valley, 1.25, 0, kHere, {1.8, 1.8}},
+                      LineShape{"valley", Valley, 1.5, 30, kHere, {2.2, 2.2}},
+                      LineShape{"valley", Valley, 4.0, 90, kHere, {6.0, 6.0}},
+                      LineShape{"lens", Lens, 1.0, 30, kHere, {6.0, 5.0}},
+                      LineShape{"hollow lens", Lens, -1.0, 30, kHere, {6.0, 5.0}}));
 
 // Over its rims lines may lie far apart, in the valley they are cut into parts: as few as they can be, not
 // four to each gap of a few gaps too narrow.
@@ -177,7 +177,7 @@ TEST(LinesBetweenRims, AreAsFarApartAsTheyMayBe) {
   }
 }
 
-struct LevelGround {
+struct LevelShape {
   const char* name;
   PatchModel (*model)(double);
   double size;
@@ -185,13 +185,13 @@ struct LevelGround {
   double within = kInfinity;  // mm, in x and y: beyond it the sheet's border is near
   Pairs pairs = Pairs::kAllShareTheWay;
 };
-void PrintTo(const LevelGround& g, std::ostream* out) { *out << g.name << " " << g.size; }
+void PrintTo(const LevelShape& g, std::ostream* out) { *out << g.name << " " << g.size; }
 
-class LevelsOn : public ::testing::TestWithParam<LevelGround> {};
+class LevelsOn : public ::testing::TestWithParam<LevelShape> {};
 
 TEST_P(LevelsOn, LeaveTheScallop) {
-  const LevelGround& ground = GetParam();
-  const Surface surface = JoinedSurface(ground.model(ground.size));
+  const LevelShape& shape = GetParam();
+  const Surface surface = JoinedSurface(shape.model(shape.size));
   const Locator locator(surface, kR);
   ContourParams params;
   SetFinish(params, kScallop);
@@ -203,26 +203,26 @@ TEST_P(LevelsOn, LeaveTheScallop) {
           locator, params.pass, [](const CutterPath&) { return true; }, RunContext(2), contours->paths)
           .ok());
   // Where levels cross the window's limit they end there, and border passes have the last word.
-  const Measured all = Measure(surface, contours->paths, ground.apart, [&](const Vec3& p, const Vec3& e) {
-    return e.z() < std::cos(Radians(49)) && e.z() > 1e-3 && Xy(p).cwiseAbs().maxCoeff() < ground.within;
+  const Measured all = Measure(surface, contours->paths, shape.apart, [&](const Vec3& p, const Vec3& e) {
+    return e.z() < std::cos(Radians(49)) && e.z() > 1e-3 && Xy(p).cwiseAbs().maxCoeff() < shape.within;
   });
   const double least = LeastOfShared(contours->paths);
   EXPECT_GE(all.pairs, 3);
   EXPECT_LE(all.worst, 1.05);
   EXPECT_GE(all.worst, least);
-  if (ground.pairs == Pairs::kAllShareTheWay) {
+  if (shape.pairs == Pairs::kAllShareTheWay) {
     EXPECT_GE(all.least, least - 0.5 * kGougeOfScallop);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Grounds, LevelsOn,
-    ::testing::Values(LevelGround{"dome", Dome, 1.25, 0.5}, LevelGround{"dome", Dome, 4.0, 1.5},
-                      LevelGround{"bowl", Bowl, 1.25, 0.5}, LevelGround{"bowl", Bowl, 4.0, 1.5},
-                      LevelGround{"ring", Ring, 1.25, 2.0}, LevelGround{"trench", Trench, 1.25, 2.0},
-                      LevelGround{"saddle", Pass, 1.25, 0.3, 7.3, Pairs::kSomeAreParted},
-                      LevelGround{"long dome", LongDome, 1.0, 0.5, kInfinity, Pairs::kSomeAreParted},
-                      LevelGround{"long bowl", LongDome, -1.0, 0.5, kInfinity, Pairs::kSomeAreParted}));
+    Shapes, LevelsOn,
+    ::testing::Values(LevelShape{"dome", Dome, 1.25, 0.5}, LevelShape{"dome", Dome, 4.0, 1.5},
+                      LevelShape{"bowl", Bowl, 1.25, 0.5}, LevelShape{"bowl", Bowl, 4.0, 1.5},
+                      LevelShape{"ring", Ring, 1.25, 2.0}, LevelShape{"trench", Trench, 1.25, 2.0},
+                      LevelShape{"saddle", Pass, 1.25, 0.3, 7.3, Pairs::kSomeAreParted},
+                      LevelShape{"long dome", LongDome, 1.0, 0.5, kInfinity, Pairs::kSomeAreParted},
+                      LevelShape{"long bowl", LongDome, -1.0, 0.5, kInfinity, Pairs::kSomeAreParted}));
 
 // The hills of the example, concave and convex along and across. To make sure that pairs are measured at
 // all, at least half of the lines at the flat step-over must be there, and several levels on the steep band
@@ -258,7 +258,7 @@ TEST(TwoHillsUnderAWideTolerance, LeaveNoMoreThanFivePercentOnTop) {
 }
 
 // A rod of a small radius lets levels lie far apart; a trough at the same height needs five to each gap.
-TEST(LevelsBesideARod, AreAsNearAsHollowGroundNeeds) {
+TEST(LevelsBesideARod, AreAsNearAsHollowSurfaceNeeds) {
   Eigen::Affine3d place(Eigen::Translation3d(15, 0, 2.4));
   place.rotate(Eigen::AngleAxisd(kPi, Vec3::UnitY()));
   const PatchModel trough = Moved(Cylinder(Vec3::Zero(), 1.25 * kR, 1.5, Half::kUpper), place);

@@ -273,21 +273,21 @@ TEST(ContourLimits, FindingsAreOneForAllLevels) {
       << one.Findings()[0].message;
   for (const LevelContours& l : {fine, few, coarse, twice}) all.Take(l);
   for (const LevelContours& l : {twice, coarse, few, fine}) back.Take(l);
-  const Diagnostics told = all.Findings(), same = back.Findings();
-  ASSERT_EQ(told.size(), 2u);
-  EXPECT_EQ(
-      told[0].message.find("2 contours at centre heights from 3.0000 to 7.0000 mm: a resolution of 0.1 mm"),
-      0u)
-      << told[0].message;
-  EXPECT_NE(told[0].message.find(" 0.4 mm is held"), std::string::npos) << told[0].message;
-  EXPECT_EQ(told[1].message.find(
+  const Diagnostics findings = all.Findings(), same = back.Findings();
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].message.find(
+                "2 contours at centre heights from 3.0000 to 7.0000 mm: a resolution of 0.1 mm"),
+            0u)
+      << findings[0].message;
+  EXPECT_NE(findings[0].message.find(" 0.4 mm is held"), std::string::npos) << findings[0].message;
+  EXPECT_EQ(findings[1].message.find(
                 "3 contours at centre heights from 3.0000 to 7.0000 mm: 543 cells of up to 0.0500 mm"),
             0u)
-      << told[1].message;
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    EXPECT_EQ(told[i].where.point, Vec3(2.0, 0.0, 0.0));
-    EXPECT_EQ(told[i].message, same[i].message);
-    EXPECT_EQ(told[i].where.point, same[i].where.point);
+      << findings[1].message;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    EXPECT_EQ(findings[i].where.point, Vec3(2.0, 0.0, 0.0));
+    EXPECT_EQ(findings[i].message, same[i].message);
+    EXPECT_EQ(findings[i].where.point, same[i].where.point);
   }
 }
 

@@ -215,7 +215,7 @@ TEST(MergeRegions, NoMoreThanAskedForAndTheLargestStay) {
   EXPECT_GE(merged.label.size(), 2u);
 }
 
-TEST(MergeRegions, HoweverManySteepGroundNeverGoesWithGentle) {
+TEST(MergeRegions, HoweverManySteepAreaNeverGoesWithGentle) {
   // Twelve bosses apart, each a wall and a top: two labels, two regions, and each has all of its label.
   MergeParams params;
   params.max_regions = 20;

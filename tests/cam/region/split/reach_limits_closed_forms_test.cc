@@ -193,7 +193,7 @@ TEST(ReachBorders, ReasonsBesideACreaseAreTheSameOnPlatesOfAnySize) {
 // Surfaces without a closed form that bend tighter than the ball nearly everywhere. All but a few hundredths
 // of the limits drawn lie where balls begin to be free. The rest are corners at which one obstacle takes
 // over from another within a cell.
-TEST(ReachBorders, OfAnyGroundAreWhereBallsBeginToBeFree) {
+TEST(ReachBorders, OfAnySurfaceAreWhereBallsBeginToBeFree) {
   if (kSanitized) GTEST_SKIP() << "minutes otherwise";
   const Surface surface = SurfaceOf(Bumpy());
   const RegionParams params;
@@ -221,7 +221,7 @@ TEST(ReachBorders, OfAnyGroundAreWhereBallsBeginToBeFree) {
 
 // Lines of slope or curvature end at limits of reach. Close to such a node, balls that are free touch the
 // surface, and balls that are not.
-TEST(ReachBorders, NodesOfAnyGroundAreOnThem) {
+TEST(ReachBorders, NodesOfAnySurfaceAreOnThem) {
   if (kSanitized) GTEST_SKIP() << "minutes otherwise";
   const Surface surface = SurfaceOf(Bumpy());
   RegionParams params;
