@@ -105,7 +105,7 @@ class SmallCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::B
   }
 
   void OnWriteDone(bool ok) override {
-    late_.Cancel();
+    late_.reset();
     const std::lock_guard<std::mutex> lock(mutex_);
     writing_ = false;
     out_.Clear();
@@ -180,7 +180,7 @@ class SmallCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::B
   void SetLate() {
     const std::weak_ptr<SmallCall> weak = weak_from_this();
     const auto limit = std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * shared_.write_seconds));
-    late_.Set(std::chrono::system_clock::now() + limit, [weak](bool is_late) {
+    late_.emplace().Set(std::chrono::system_clock::now() + limit, [weak](bool is_late) {
       const auto call = is_late ? weak.lock() : nullptr;
       if (!call) return;
       const std::lock_guard<std::mutex> lock(call->mutex_);
@@ -200,7 +200,7 @@ class SmallCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::B
   std::shared_ptr<SmallCall> self_;
   InFlight::Id expected_ = 0;
   grpc::ByteBuffer in_, out_;
-  grpc::Alarm late_;
+  std::optional<grpc::Alarm> late_;  // one for each write: an alarm must not be set again before it has fired
   std::mutex mutex_;
   std::optional<std::string> request_;
   std::string last_;
