@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs one of the long tests of docs/long_tests.md, each in less than an hour, and writes its row of that page.
 #   scripts/long_tests.sh NAME
-# NAME: soak, asan, tsan, random, certificates, fuzz, container, coverage.
+# NAME: soak, whole, asan, tsan, random, certificates, fuzz, container, coverage.
 # SEED: of soak, random and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -24,6 +24,10 @@ build() {  # build PRESET [targets]
 soak() {
   build release patchmill patchmilld
   tests/service/soak.sh build/release/bin "$minutes" "$seed"
+}
+whole() {  # the tests of CI with every value of their lists
+  build release
+  PATCHMILL_LONG=1 ctest --preset release -j "$(nproc)"
 }
 asan() { scripts/test.sh asan; }
 tsan() { scripts/test.sh tsan; }
@@ -74,7 +78,7 @@ coverage() {  # lines of core, cam, server and clients that the tests reach, tho
 case "$name" in
   soak) command="MINUTES=$minutes SEED=$seed scripts/long_tests.sh soak" ;;
   random | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
-  asan | tsan | fuzz | container | coverage) command="scripts/long_tests.sh $name" ;;
+  whole | asan | tsan | fuzz | container | coverage) command="scripts/long_tests.sh $name" ;;
   *)
     sed -n '2,5s/^# \?//p' "$0" >&2
     exit 2

@@ -16,6 +16,13 @@ inline int FromEnvironment(const char* name, int usual) {
   return asked != nullptr ? std::max(0, std::atoi(asked)) : usual;
 }
 
+// PATCHMILL_LONG=1 (scripts/long_tests.sh whole): tests take every value of their lists, and all of their
+// random parts. CI takes some.
+inline bool LongTests() { return FromEnvironment("PATCHMILL_LONG", 0) != 0; }
+
+// How many: `in_ci` of `all`.
+inline int CountOf(int in_ci, int all) { return LongTests() ? all : in_ci; }
+
 // Seeds of random jobs: `usual` of them from `first` on. PATCHMILL_FUZZ_JOBS sets how many,
 // PATCHMILL_FUZZ_SEED how far from `first` they begin.
 inline auto JobSeeds(int first, int usual) {

@@ -8,6 +8,7 @@
 #include "cam/location/locator.h"
 #include "cam/location/simd/heights.h"
 #include "tests/support/files.h"
+#include "tests/support/fuzz.h"
 #include "tests/support/mesh/mesh_oracle.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
@@ -117,6 +118,10 @@ struct Place2 {
 void CompareAt(const PatchModel& model, double scale, double radius, std::initializer_list<Place2> places) {
   std::uint64_t seed = 200;
   for (const Place2& place : places) {
+    if (seed % 2 != 0 && !testing::LongTests()) {
+      ++seed;
+      continue;
+    }
     SCOPED_TRACE(place.what);
     Judge(model, radius, kFine, WindowAt(scale * place.at)).Compare(500, seed++);
   }
@@ -162,6 +167,7 @@ TEST(MeshHeight, GregoryPatchesInWindows) {
 }
 TEST(MeshHeight, FoldedSplines) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    if (seed == 2 && !testing::LongTests()) continue;
     testing::RandomBsplineParams params;
     params.folds = true;
     params.rational = seed % 2 == 1;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "cam/location/locator.h"
+#include "tests/support/fuzz.h"
 #include "tests/support/jobs/limited_job.h"
 #include "tests/support/random_part.h"
 #include "tests/support/shapes.h"
@@ -49,7 +50,7 @@ TEST(LowRapids, ClearTheStockOverTheRectangleOnRandomParts) {
   Random random(77);
   int low = 0;
   double at_clearance = 0.0, lower = 0.0;
-  for (int i = 0; i < (kSanitized ? 2 : 12); ++i) {
+  for (int i = 0; i < (kSanitized ? 2 : CountOf(3, 12)); ++i) {
     SCOPED_TRACE(i);
     const RandomPart part = DrawPart(random);
     const Surface surface = PlacedSurface(part.model);
@@ -69,7 +70,7 @@ TEST(LowRapids, ClearTheStockOverTheRectangleOnRandomParts) {
       ++low;
     }
   }
-  EXPECT_GT(low, 20);
+  EXPECT_GT(low, CountOf(5, 20));
   EXPECT_LT(lower, at_clearance);
 }
 

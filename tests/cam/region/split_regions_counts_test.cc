@@ -14,6 +14,7 @@
 #include "cam/region/split_regions.h"
 #include "core/base/error_details.h"
 #include "core/network/control_points.h"
+#include "tests/support/fuzz.h"
 #include "tests/support/model_table.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
@@ -107,7 +108,7 @@ TEST(RegionCounts, AreThoseOfTheTableWithAndWithoutNoise) {
     EXPECT_LE(row.count, 20);
     EXPECT_EQ(CountOf(*found), row.count);
     for (const std::uint64_t seed : {7, 8, 9}) {
-      if (testing::kSanitized && seed > 7) break;
+      if (seed > 7 && !testing::LongTests()) break;
       PatchModel model = *found;
       Shake(0.005, seed, model);
       EXPECT_LE(std::abs(CountOf(model) - row.count), 2) << "with noise " << seed;

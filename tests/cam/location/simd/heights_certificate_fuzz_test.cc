@@ -23,7 +23,7 @@ namespace {
 using testing::Random;
 using testing::SurfaceOf;
 
-constexpr long kQueries = testing::kSanitized ? 6'000 : 300'000;
+constexpr long kQueries = testing::kSanitized ? 6'000 : 100'000;
 constexpr std::size_t kRows = 250;  // of eight places, on each part
 constexpr double kFree = 1e-6;      // mm: what Free and FindObstacles may overlook
 constexpr double kEps = 5e-7;       // finer than heights are divided to
