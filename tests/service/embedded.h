@@ -8,6 +8,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include "core/base/status.h"
 #include "patchmill/v1/analysis_service.grpc.pb.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
@@ -61,5 +62,16 @@ struct Embedded {
     return model->CheckModel(&context, request, response);
   }
 };
+
+// On a free port of loopback, for what the in-process transport lacks: connections, drains, compression.
+inline Embedded EmbeddedOnAPort() {
+  ServerOptions options;
+  options.listen = "127.0.0.1:0";
+  options.log_requests = false;
+  auto started = StartServer(options);
+  PM_CHECK(started.ok());
+  const std::string target = "127.0.0.1:" + std::to_string((*started)->port());
+  return Embedded(*std::move(started), target);
+}
 
 }  // namespace patchmill::testing

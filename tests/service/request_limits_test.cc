@@ -95,15 +95,7 @@ TEST(RequestLimits, BytesThatAreNoRequestAreUnreadable) {
 
 // 1 GiB of zeros is 1 MiB on the wire.
 TEST(RequestLimits, PackedRequestsAreRefusedBeforeTheyAreUnpacked) {
-  Embedded over_port = [] {
-    ServerOptions options;
-    options.listen = "127.0.0.1:0";
-    options.log_requests = false;
-    auto started = StartServer(options);
-    EXPECT_TRUE(started.ok()) << started.status();
-    const std::string target = "127.0.0.1:" + std::to_string((*started)->port());
-    return Embedded(*std::move(started), target);
-  }();
+  Embedded over_port = testing::EmbeddedOnAPort();
   testing::RawCallOptions options;
   for (const auto algorithm : {GRPC_COMPRESS_GZIP, GRPC_COMPRESS_DEFLATE}) {
     options.compression = algorithm;

@@ -468,13 +468,7 @@ TEST(Limits, JobsAtOnceAreCountedAndOneEndedMakesRoom) {
 
 // Over a port: the in-process transport knows no gentle end.
 TEST(Drain, LetsARunningCallEndAndRefusesNewOnes) {
-  ServerOptions options;
-  options.listen = "127.0.0.1:0";
-  options.log_requests = false;
-  auto started = StartServer(options);
-  ASSERT_TRUE(started.ok()) << started.status();
-  const std::string target = "127.0.0.1:" + std::to_string((*started)->port());
-  const Embedded embedded(*std::move(started), target);
+  const Embedded embedded = testing::EmbeddedOnAPort();
   grpc::ClientContext context;
   const auto reader = embedded.toolpath->GenerateProgram(&context, testing::LongRequest());
   v1::GenerateProgramResponse event;

@@ -28,16 +28,6 @@ using testing::RawStream;
 
 const std::string kServing = "\x08\x01", kNotServing = "\x08\x02", kServiceUnknown = "\x08\x03";
 
-std::unique_ptr<Embedded> OnAPort() {
-  ServerOptions options;
-  options.listen = "127.0.0.1:0";
-  options.log_requests = false;
-  auto started = StartServer(options);
-  EXPECT_TRUE(started.ok()) << started.status();
-  const std::string target = "127.0.0.1:" + std::to_string((*started)->port());
-  return std::make_unique<Embedded>(*std::move(started), target);
-}
-
 TEST(SmallService, ALongRequestIsRefusedWithTheLimit) {
   const Embedded embedded;
   for (const char* method : {kHealthCheck, kHealthWatch, kReflection}) {
@@ -56,13 +46,13 @@ TEST(SmallService, ARequestThatIsNoMessageIsRefused) {
 }
 
 TEST(HealthWatch, TellsOfTheDrain) {
-  const auto embedded = OnAPort();
-  RawStream all(embedded->channel, kHealthWatch), unknown(embedded->channel, kHealthWatch);
+  const Embedded embedded = testing::EmbeddedOnAPort();
+  RawStream all(embedded.channel, kHealthWatch), unknown(embedded.channel, kHealthWatch);
   ASSERT_TRUE(all.Write(""));
   EXPECT_EQ(all.Read(), kServing);
   ASSERT_TRUE(unknown.Write(LengthDelimited(1, "no.such.Service")));
   EXPECT_EQ(unknown.Read(), kServiceUnknown);
-  embedded->server->Drain(0.2);
+  embedded.server->Drain(0.2);
   EXPECT_EQ(all.Read(), kNotServing);
   EXPECT_EQ(all.Read(), std::nullopt);
   EXPECT_EQ(unknown.Read(), std::nullopt);
