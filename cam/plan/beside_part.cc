@@ -20,6 +20,8 @@ namespace {
 constexpr double kCells = 400.0;     // of the grid, along the longer side of the part
 constexpr int kBorderCells = 4;      // free around the part
 constexpr double kLookBeside = 2.0;  // cells: so far beside a wall the part must have ended
+constexpr double kPlaceStep = 4.0;   // cells: distance of the places of a wall that are looked at
+constexpr int kMostPlaces = 256;     // of a stretch
 // Ball radii: how far areas reach, and the least of it where something else of the part is near.
 constexpr double kDeep = 4.0, kLeastDeep = 1.1;
 constexpr int kMostStretches = 64;    // of a curved wall, each way
@@ -64,14 +66,25 @@ class Footprint {
 
   double cell() const { return cell_; }
   bool IsOutside(const Vec2& q) const {
-    const int x = Cell(q.x() - low_.x()), y = Cell(q.y() - low_.y());
-    return x < 0 || y < 0 || x >= nx_ || y >= ny_ || outside_[Index(x, y)] != 0;
+    const auto cell = At(q);
+    return !cell || outside_[*cell] != 0;
+  }
+  // True outside and in holes: the surface is nowhere above or below q.
+  bool IsBare(const Vec2& q) const {
+    const auto cell = At(q);
+    return !cell || covered_[*cell] == 0;
   }
 
  private:
   static constexpr int kMostMeshCells = 256;
 
   int Cell(double d) const { return static_cast<int>(std::floor(d / cell_)); }
+  // nullopt beyond the grid.
+  std::optional<std::size_t> At(const Vec2& q) const {
+    const int x = Cell(q.x() - low_.x()), y = Cell(q.y() - low_.y());
+    if (x < 0 || y < 0 || x >= nx_ || y >= ny_) return std::nullopt;
+    return Index(x, y);
+  }
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
   }
@@ -138,6 +151,7 @@ struct Stretch {
 struct UprightGrid {
   int nu = 1, nv = 1;
   std::vector<Vec3> points;    // (nu + 1) (nv + 1), v fastest
+  std::vector<Vec2> middles;   // in plan, the point of the wall in the middle of each cell
   std::vector<Vec2> air_side;  // unit normal in plan on the side of du x dv, of each cell
   int side = 0;  // the air side: Piece::air_side, or the upper side where all of it leans that way
   const Vec3& At(int i, int j) const { return points[static_cast<std::size_t>(i * (nv + 1) + j)]; }
@@ -160,7 +174,9 @@ std::optional<UprightGrid> GridOn(const Piece& piece, double tolerance, int nu, 
   }
   for (int i = 0; i < nu; ++i) {
     for (int j = 0; j < nv; ++j) {
-      const auto normal = UnitNormal(Evaluate(piece, (i + 0.5) / nu, (j + 0.5) / nv));
+      const SurfaceJet jet = Evaluate(piece, (i + 0.5) / nu, (j + 0.5) / nv);
+      const auto normal = UnitNormal(jet);
+      grid.middles.push_back(Xy(jet.p));
       if (!normal) {
         grid.air_side.push_back(Vec2::Zero());
         continue;
@@ -232,31 +248,76 @@ class StretchFinder {
         std::minmax_element(corners.begin(), corners.end(),
                             [&](const Vec2& p, const Vec2& q) { return along.dot(p) < along.dot(q); });
     if ((*last - *first).norm() < params_.tolerance) return;
-    const Vec2 middle = 0.5 * (*first + *last);
-    const auto outside = [&](double side) {
-      return footprint_.IsOutside(middle + side * kLookBeside * footprint_.cell() * normal);
-    };
-    const bool over = outside(1.0), under = outside(-1.0);
-    if (!over && !under) return;
-    if (grid.side == 0 && over && under) return;  // stands alone: it is milled on both sides
     double lowest = kInfinity;
     for (const auto& [a, b] : {std::array{i, j}, {i + 1, j}, {i, j + 1}, {i + 1, j + 1}})
       lowest = std::min(lowest, grid.At(a, b).z());
-    const double top = TopOver(*first, *last);
-    if (!(top > lowest + params_.tolerance)) return;
-    for (const double side : {1.0, -1.0}) {
-      if (!(side > 0.0 ? over : under)) continue;
-      Stretch stretch;
-      stretch.kind = grid.side != 0 && grid.side * side < 0.0 ? StripKind::kMaterial : StripKind::kOutside;
-      if (stretch.kind == StripKind::kOutside && (params_.mill_outside || named)) continue;
-      // Outside lies on the right of a b.
-      stretch.a = side > 0.0 ? *last : *first;
-      stretch.b = side > 0.0 ? *first : *last;
-      stretch.top_z = top;
-      if (stretch.Out().dot(side * normal) < 0.0) std::swap(stretch.a, stretch.b);
-      stretch.deep = DeepBeside(stretch);
-      found.push_back(stretch);
+    const Vec2 bend = grid.middles[static_cast<std::size_t>(i * grid.nv + j)] - 0.5 * (*first + *last);
+    const Chord chord{*first, *last, normal, bend.dot(normal), grid.side};
+    for (const auto& [from, to, over, under] : BareParts(chord)) {
+      if (!over && !under) continue;
+      if (grid.side == 0 && over && under) continue;  // stands alone: it is milled on both sides
+      const double top = TopOver(from, to);
+      if (!(top > lowest + params_.tolerance)) continue;
+      for (const double side : {1.0, -1.0}) {
+        if (!(side > 0.0 ? over : under)) continue;
+        Stretch stretch;
+        stretch.kind = LooksAway(grid.side, side) ? StripKind::kMaterial : StripKind::kOutside;
+        if (stretch.kind == StripKind::kOutside && (params_.mill_outside || named)) continue;
+        // Outside lies on the right of a b.
+        stretch.a = side > 0.0 ? to : from;
+        stretch.b = side > 0.0 ? from : to;
+        stretch.top_z = top;
+        if (stretch.Out().dot(side * normal) < 0.0) std::swap(stretch.a, stretch.b);
+        stretch.deep = DeepBeside(stretch);
+        found.push_back(stretch);
+      }
     }
+  }
+
+  // A chord of a wall from above. The wall is up to `bend` (mm) beside it, positive on the side of `normal`.
+  struct Chord {
+    Vec2 first, last, normal;
+    double bend = 0.0;
+    int air_side = 0;  // UprightGrid::side
+  };
+
+  // A part of a chord. `over`, `under`: nothing of the part lies on the side of the normal, on the other.
+  struct BarePart {
+    Vec2 from, to;
+    bool over = false, under = false;
+  };
+
+  // True if the air side of a wall is known and is the other one: this side is material.
+  static bool LooksAway(int air_side, double side) { return air_side != 0 && air_side * side < 0.0; }
+
+  // Behind a wall there is material, in a hole of the model too. Before it holes are for the tool.
+  bool IsBare(StripKind kind, const Vec2& q) const {
+    return kind == StripKind::kMaterial ? footprint_.IsBare(q) : footprint_.IsOutside(q);
+  }
+
+  // The parts of a chord with the same bare sides. Another part of the model may touch the wall anywhere, so
+  // places all along the chord are looked at.
+  std::vector<BarePart> BareParts(const Chord& chord) const {
+    const double cell = footprint_.cell(), length = (chord.last - chord.first).norm();
+    const int places = std::clamp(static_cast<int>(length / (kPlaceStep * cell)), 1, kMostPlaces);
+    const auto at = [&](double place) -> Vec2 {
+      return chord.first + place / places * (chord.last - chord.first);
+    };
+    const auto bare = [&](int place, double side) {
+      const double off = kLookBeside * cell + std::max(0.0, side * chord.bend);
+      const StripKind kind = LooksAway(chord.air_side, side) ? StripKind::kMaterial : StripKind::kOutside;
+      return IsBare(kind, at(place + 0.5) + side * off * chord.normal);
+    };
+    std::vector<BarePart> parts;
+    for (int k = 0; k < places; ++k) {
+      const BarePart part{at(k), at(k + 1), bare(k, 1.0), bare(k, -1.0)};
+      if (k > 0 && parts.back().over == part.over && parts.back().under == part.under) {
+        parts.back().to = part.to;
+      } else {
+        parts.push_back(part);
+      }
+    }
+    return parts;
   }
 
   // Up to what else the part has there.
@@ -268,7 +329,7 @@ class StretchFinder {
     for (int k = 0; k <= places; ++k) {
       const Vec2 from = stretch.a + double(k) / places * along;
       double here = kLookBeside * step;
-      while (here < deep && footprint_.IsOutside(from + here * out)) here += step;
+      while (here < deep && IsBare(stretch.kind, from + here * out)) here += step;
       if (here < deep) deep = here - kLookBeside * step;
     }
     return std::max(deep, least);

@@ -22,14 +22,19 @@ struct BesidePartParams {
   std::vector<bool> selected = {};  // per patch; walls that are named are milled from outside too
 };
 
-// One area for each stretch of a wall beyond which nothing of the part lies: up to four ball radii deep, less
-// where more of the part follows, but 1.1 at least; and the corners between two such areas. It begins where a
-// ball that rolls over a sharp upper edge is half the tolerance lower than that edge. The tip stays above the
-// wall's upper edge there. Of a wall whose air side looks away from the outside the area is material
-// (StripKind::kMaterial), and no option lifts it. A wall of two sides (Surface::two_sided_walls) has one only
-// if the part lies on its other side. Curved walls are followed by chords that stay outside of them. Outer
-// border and holes are told apart on a grid of 400 cells along the longer side of the part: narrower gaps
-// count as part of it. Deterministic. Cost some microseconds a stretch; nothing where nothing is upright.
+// Returns one area for each stretch of a wall beyond which nothing of the part lies, and the corners between
+// two such areas. An area is up to four ball radii deep, less where more of the part follows, but 1.1 at
+// least. It begins where a ball that rolls over a sharp upper edge is half the tolerance lower than that
+// edge. The tip stays above the wall's upper edge there.
+//
+// If the air side of a wall is the other one, the area is material (StripKind::kMaterial), in a hole of the
+// model too, and no option lifts it. A wall of two sides (Surface::two_sided_walls) has an area only if the
+// part lies on its other side. Chords stand for curved walls. They leave the wall by at most half the
+// distance at which areas begin. Outer border and holes are found on a grid of 400 cells along the longer
+// side of the part: narrower gaps count as part of it. Walls are looked at every four cells.
+//
+// Deterministic. Cost: some microseconds per place; nothing if no piece is upright. CANCELLED and
+// DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<BesideStrip>> FindBesideStrips(const Surface& surface,
                                                           const BesidePartParams& params,
                                                           const RunContext& run);

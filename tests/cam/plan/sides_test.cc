@@ -11,6 +11,7 @@
 #include "cam/region/figures/reach_table.h"
 #include "core/base/status.h"
 #include "tests/support/jobs/limited_job.h"
+#include "tests/support/profiles.h"
 #include "tests/support/walls.h"
 
 namespace patchmill {
@@ -312,6 +313,64 @@ TEST(BesideStrips, LeaveHolesAlone) {
   EXPECT_TRUE(Covers(strips, {23, 0}));
   EXPECT_FALSE(Covers(strips, {0, 0}));
   EXPECT_FALSE(Covers(strips, {4, 0}));
+}
+
+// A closed cylinder, small against the grid that tells its outside: its chords lie inside of it.
+TEST(BesideStrips, SurroundSmallCylinders) {
+  for (const double radius : {2.0, 5.0, 15.0, 40.0}) {
+    SCOPED_TRACE(radius);
+    const double high = 6.0;
+    const auto strips = StripsOf(Turned(
+        {Line({0, high}, {radius, high}), Line({radius, high}, {radius, 0}), Line({radius, 0}, {0, 0})}));
+    for (int k = 0; k < 720; ++k) {
+      const double angle = Radians(0.5 * k);
+      const Vec2 way(std::cos(angle), std::sin(angle));
+      EXPECT_TRUE(Covers(strips, (radius + kBall) * way)) << k;
+      EXPECT_TRUE(Covers(strips, (radius + 0.3) * way)) << k;
+      EXPECT_FALSE(Covers(strips, (radius - 0.01) * way)) << k;
+    }
+  }
+}
+
+TEST(Outside, ASmallCylinderIsMilledOnItsTop) {
+  const double radius = 15.0, high = 12.0;
+  const JobResult result =
+      Mill(PlacedSurface(Turned({Line({0, high}, {radius, high}), Line({radius, high}, {radius, 0}),
+                                 Line({radius, 0}, {0, 0})})),
+           BoxJob());
+  ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+  EXPECT_GE(LowestTipBeyond(result.program, radius, radius, 0.0), high - 0.02);
+  EXPECT_FALSE(Warns(result, "TOOL_BESIDE_PART"));
+  const double wall = 2.0 * kPi * radius * high;
+  EXPECT_NEAR(AreaFor(result, UnreachableReason::kOutside), wall, 0.03 * wall);
+}
+
+// A step in the middle of a wall that is one patch: the wall's other parts are on the outer border.
+TEST(BesideStrips, StandBesideAWallThatAStepTouches) {
+  const auto strips =
+      StripsOf(Join({ClosedBlock(kX, kY, kZ), Level(-5, -25, 5, -kY, 5), Wall({-5, -25}, {5, -25}, 0, 5),
+                     Wall({5, -25}, {5, -kY}, 0, 5), Wall({-5, -kY}, {-5, -25}, 0, 5)}));
+  for (const double x : {-19.0, -12.0, -8.0, 8.0, 12.0, 19.0})
+    EXPECT_TRUE(Covers(strips, {x, -kY - 1.0})) << x;
+  EXPECT_FALSE(Covers(strips, {0.0, -kY - 1.0}));
+  EXPECT_FALSE(Covers(strips, {0.0, -20.0}));
+}
+
+// A channel around a core that the model does not have: behind its inner wall there is material, though it
+// is a hole as seen from above.
+TEST(BesideStrips, AreMaterialInsideAChannel) {
+  for (const bool outside : {false, true}) {
+    const auto strips =
+        StripsOf(Turned({Line({15, 8}, {15, 0}), Line({15, 0}, {30, 0}), Line({30, 0}, {30, 8})}), outside);
+    for (int k = 0; k < 720; ++k) {
+      const double angle = Radians(0.5 * k);
+      const Vec2 way(std::cos(angle), std::sin(angle));
+      for (const double r : {15.0 - kBall, 30.0 + kBall})
+        EXPECT_TRUE(Covers(strips, r * way)) << r << " " << k;
+      for (const double r : {15.0 + kBall, 30.0 - kBall})
+        EXPECT_FALSE(Covers(strips, r * way)) << r << " " << k;
+    }
+  }
 }
 
 }  // namespace
