@@ -1,19 +1,15 @@
 // Our reading of units and feeds against LinuxCNC's own interpreter (rs274, scripts/setup.sh installs it).
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "cam/post/program_reader.h"
+#include "tests/support/rs274.h"
 
 namespace patchmill {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Feed {
   Vec3 to = Vec3::Zero();  // mm
@@ -22,16 +18,13 @@ struct Feed {
 
 // The feed moves that the interpreter makes of a program. Its calls are in the unit in force at each.
 std::vector<Feed> InterpretedFeeds(const std::string& text) {
-  std::string folder = (fs::temp_directory_path() / "rs274.XXXXXX").string();
-  if (mkdtemp(folder.data()) == nullptr) return {};
-  std::ofstream(folder + "/a.ngc") << text;
-  std::ofstream(folder + "/tool.tbl") << "T1 P1 D0.2 Z0.0\n";
-  std::ofstream(folder + "/a.var") << "5161\t0.0\n5220\t1.0\n5221\t0.0\n5222\t0.0\n5223\t0.0\n";
-  const std::string command = "cd " + folder + " && rs274 -g -t tool.tbl -v a.var a.ngc > calls 2> errors";
-  EXPECT_EQ(std::system(command.c_str()), 0) << text;
+  const testing::Rs274Answer answer =
+      testing::RunRs274(text, {.tool_table = "T1 P1 D0.2 Z0.0\n",
+                               .variables = "5161\t0.0\n5220\t1.0\n5221\t0.0\n5222\t0.0\n5223\t0.0\n"});
+  EXPECT_EQ(answer.status, 0) << text << answer.calls;
   std::vector<Feed> feeds;
   double unit = 1.0, feed = 0.0;
-  std::ifstream calls(folder + "/calls");
+  std::istringstream calls(answer.calls);
   for (std::string line; std::getline(calls, line);) {
     Vec3 to;
     double rate = 0.0;
@@ -47,7 +40,6 @@ std::vector<Feed> InterpretedFeeds(const std::string& text) {
         at && std::sscanf(at, "STRAIGHT_FEED(%lf, %lf, %lf", &to[0], &to[1], &to[2]) == 3)
       feeds.push_back({unit * to, feed});
   }
-  fs::remove_all(folder);
   return feeds;
 }
 
@@ -69,7 +61,7 @@ void ExpectTheSame(const std::string& text) {
 
 // Words of a line in any order, units changed on lines of their own and on lines with feeds and moves.
 TEST(LinuxCnc, FeedsAndPlacesAreTheSame) {
-  if (std::system("command -v rs274 > /dev/null") != 0) GTEST_SKIP() << "rs274 is not installed";
+  if (!testing::HasRs274()) GTEST_SKIP() << "rs274 is not installed";
   std::mt19937 random(20261128);
   const auto one_in = [&](unsigned n) { return random() % n == 0; };
   for (int program = 0; program < 20; ++program) {

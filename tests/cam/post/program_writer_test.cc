@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "cam/post/program_reader.h"
+#include "tests/support/rs274.h"
 
 namespace patchmill {
 namespace {
@@ -230,22 +231,9 @@ TEST(ProgramWriter, RoundTrip) {
   }
 }
 
-std::string RunCommand(const std::string& command, int* status) {
-  std::string out;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return out;
-  char buffer[4096];
-  while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) out += buffer;
-  *status = pclose(pipe);
-  return out;
-}
-
 // The real interpreter (linuxcnc-uspace; scripts/setup.sh installs it).
 TEST(ProgramWriter, Rs274AcceptsTheProgram) {
-  ASSERT_EQ(std::system("command -v rs274 > /dev/null"), 0) << "rs274 is missing; run scripts/setup.sh";
-  std::string pattern = (fs::temp_directory_path() / "rs274_XXXXXX").string();
-  ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-  const fs::path folder = pattern;
+  ASSERT_TRUE(testing::HasRs274()) << "rs274 is missing; run scripts/setup.sh";
   for (const bool moved : {false, true}) {
     Tool tool = BallTool();
     PostParams params = Params();
@@ -257,17 +245,13 @@ TEST(ProgramWriter, Rs274AcceptsTheProgram) {
     }
     const auto program = WriteProgram(SmallPath(), tool, params);
     ASSERT_TRUE(program.ok());
-    std::ofstream(folder / "in.ngc") << *program;
-    std::ofstream(folder / "tool.tbl") << "T3 P3 D0.23622 Z0 ;ball, inches\n";
     // Work offsets put program zero 100 inches below machine zero: G54 5221.., G58 5301..
-    std::ofstream vars(folder / "rs274.var");
+    std::ostringstream variables;
     for (int base = 5221; base <= 5381; base += 20) {
-      for (int k = 0; k < 10; ++k) vars << base + k << '\t' << (k == 2 ? -100.0 : 0.0) << '\n';
+      for (int k = 0; k < 10; ++k) variables << base + k << '\t' << (k == 2 ? -100.0 : 0.0) << '\n';
     }
-    vars.close();
-    int status = -1;
-    const std::string out =
-        RunCommand("cd " + folder.string() + " && rs274 -g -t tool.tbl -v rs274.var in.ngc", &status);
+    const auto [status, out] = testing::RunRs274(
+        *program, {.tool_table = "T3 P3 D0.23622 Z0 ;ball, inches\n", .variables = variables.str()});
     EXPECT_EQ(status, 0) << out;
     EXPECT_THAT(out, HasSubstr("PROGRAM_END()"));
     EXPECT_THAT(out, HasSubstr("STRAIGHT_TRAVERSE(1.0000, 2.0000, 2540.0000"));
@@ -277,7 +261,6 @@ TEST(ProgramWriter, Rs274AcceptsTheProgram) {
     EXPECT_LT(out.find("STRAIGHT_TRAVERSE(1.0000, 2.0000, 2540.0000"),
               out.find("STRAIGHT_TRAVERSE(1.0000, 2.0000, 20.0000"));
   }
-  fs::remove_all(folder);
 }
 
 }  // namespace
