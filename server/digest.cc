@@ -112,7 +112,7 @@ void AddLimits(const Job& job, Canonical& out) {
   if (job.operation.detail != Operation().detail) out.Add("detail").Add(job.operation.detail);
   if (!job.operation.regions_sha256.empty()) out.Add("regions").Add(job.operation.regions_sha256);
   for (const RegionOverride& change : job.operation.overrides) {
-    out.Add("override").Add(std::int64_t{change.region}).Add(std::int64_t{change.skip});
+    out.Add("override").Add(std::int64_t{change.region.value}).Add(std::int64_t{change.skip});
     AddPoint(change.at.value_or(Vec3::Zero()), out);
     out.Add(change.strategy ? static_cast<std::int64_t>(*change.strategy) : -1);
     AddOptional(change.zigzag_angle, out);

@@ -27,9 +27,8 @@ Places Neighbours(const RegionMap& map) {
   Places beside(map.component_region.size() + 1);
   for (std::size_t i = 0; i < beside.size(); ++i) beside[i].push_back(i);
   for (const BorderLine& line : map.border_lines) {
-    if (line.component < 0 || line.other_component < 0) continue;
-    const auto a = static_cast<std::size_t>(line.component),
-               b = static_cast<std::size_t>(line.other_component);
+    if (line.component == kNoComponent || line.other_component == kNoComponent) continue;
+    const std::size_t a = line.component.index(), b = line.other_component.index();
     beside[a].push_back(b);
     beside[b].push_back(a);
   }
@@ -41,8 +40,7 @@ Places Neighbours(const RegionMap& map) {
 Places AroundUnreachable(const RegionMap& map, const Places& beside) {
   const auto reached = [&](std::size_t i) {
     if (i >= map.component_region.size()) return true;
-    const auto region = static_cast<std::size_t>(map.component_region[i]);
-    return map.regions[region].kind != RegionKind::kUnreachable;
+    return map.regions[map.component_region[i].index()].kind != RegionKind::kUnreachable;
   };
   UnionFind sets(beside.size());
   for (std::size_t i = 0; i < beside.size(); ++i) {
@@ -71,7 +69,7 @@ std::vector<std::size_t> OrderParts(const RegionMap& map, const std::vector<JobP
   std::vector<long long> level(n);
   for (std::size_t i = 0; i < n; ++i) {
     level[i] = std::llround(parts[i].height / kLevel);
-    for (const int component : parts[i].components) places[i].push_back(static_cast<std::size_t>(component));
+    for (const ComponentId component : parts[i].components) places[i].push_back(component.index());
     if (places[i].empty()) places[i].push_back(nowhere);
   }
   // [component]: its parts, the next one last. The others wait for this one.

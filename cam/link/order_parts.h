@@ -12,8 +12,8 @@ namespace patchmill {
 
 // Passes that are cut in one go: the contours of a mountain or basin, or the lines of a region.
 struct JobPart {
-  std::vector<int> components;  // components of regions that the passes lie in, rising; empty if unknown
-  double height = 0.0;          // mm, halfway between their lowest and highest centre
+  std::vector<ComponentId> components;  // those that the passes lie in, rising; empty if unknown
+  double height = 0.0;                  // mm, halfway between their lowest and highest centre
 };
 
 // Returns the indices of the parts in the order of cutting. No part comes before a higher part beside it. A

@@ -301,7 +301,7 @@ std::vector<Cluster> Clusters(std::vector<CutterPath> group, const OrderParams& 
 constexpr double kTouchedOnly = 0.1;
 
 JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
-  std::map<int, double> lengths;
+  std::map<ComponentId, double> lengths;
   double most = 0.0, low = kInfinity, high = -kInfinity;
   for (const CutterPath& pass : cluster.passes) {
     for (const CutterPoint& p : pass.points) {
@@ -309,7 +309,7 @@ JobPart PartOf(const Cluster& cluster, const RegionMap& regions) {
       high = std::max(high, p.center.z());
     }
     for (const auto& [component, length] : LengthInComponents(pass, regions)) {
-      if (component >= 0) most = std::max(most, lengths[component] += length);
+      if (component != kNoComponent) most = std::max(most, lengths[component] += length);
     }
   }
   JobPart part{.components = {}, .height = 0.5 * (low + high)};
@@ -325,14 +325,14 @@ absl::StatusOr<std::vector<CutterPath>> OrderPasses(const RegionMap& regions, st
                                                     const OrderParams& params, const RunContext& run) {
   // The contours of a mountain may change their region on the way down, and their levels decide. So all
   // contours form one group. The lines of each region form a group. Border, pencil and rest passes come last.
-  using Key = std::tuple<int, double, int>;
+  using Key = std::tuple<int, double, RegionId>;
   std::map<Key, std::vector<CutterPath>> groups;
   for (CutterPath& path : paths) {
     if (path.points.empty()) continue;
-    const bool known = path.region >= 0 && static_cast<std::size_t>(path.region) < regions.regions.size();
-    const double top = known ? regions.regions[static_cast<std::size_t>(path.region)].z_max : -kInfinity;
+    const bool known = path.region != kNoRegion && path.region.index() < regions.regions.size();
+    const double top = known ? regions.regions[path.region.index()].z_max : -kInfinity;
     const bool by_region = path.kind == PassKind::kZigzag && known;
-    groups[{KindRank(path.kind), by_region ? -top : 0.0, by_region ? path.region : -1}].push_back(
+    groups[{KindRank(path.kind), by_region ? -top : 0.0, by_region ? path.region : kNoRegion}].push_back(
         std::move(path));
   }
   std::vector<Cluster> clusters;  // of contours and lines

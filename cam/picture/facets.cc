@@ -10,7 +10,7 @@ constexpr std::size_t kMaxFacets = 14000;  // in a view by region, before any ar
 constexpr std::size_t kMaxShaded = 10000;  // in a view by slope or curvature
 constexpr double kFine = 4.0;              // px; facets at borders are divided to about this size
 constexpr int kFinest = 4;                 // parts along each side of a facet, at most
-constexpr const char* kNoRegion = "#d8d8d8";
+constexpr const char* kWithoutRegion = "#d8d8d8";
 
 int PerSide(const Surface& surface, std::size_t facets, int most) {
   const double per_piece =
@@ -33,9 +33,10 @@ class FacetMaker {
     const SurfaceJet jet = Evaluate(piece_, u + 0.5 * side, v + 0.5 * side);
     f.region = paint_ == Paint::kRegions ? RegionAt(u + 0.5 * side, v + 0.5 * side, mid) : -1;
     const bool known = f.region >= 0 && static_cast<std::size_t>(f.region) < input_.regions.size();
-    f.color = paint_ != Paint::kRegions
-                  ? PaintedColor(paint_, jet, input_.scales)
-                  : Lit(known ? input_.regions[static_cast<std::size_t>(f.region)].color : kNoRegion, jet);
+    f.color =
+        paint_ != Paint::kRegions
+            ? PaintedColor(paint_, jet, input_.scales)
+            : Lit(known ? input_.regions[static_cast<std::size_t>(f.region)].color : kWithoutRegion, jet);
     return f;
   }
   bool Uniform(double u, double v, double side, const Facet& f) const {

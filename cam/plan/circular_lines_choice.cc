@@ -64,7 +64,7 @@ std::optional<Vec2> CenterOf(const std::vector<Tangent>& tangents, double near) 
 
 // A point of a gentle area.
 struct GentlePoint {
-  std::size_t component = 0;
+  ComponentId component;
   SurfaceJet jet;
   Vec3 normal = Vec3::UnitZ();
   double centers = 0.0;                                       // mm2 of the centre surface that it stands for
@@ -75,15 +75,15 @@ struct GentlePoint {
 std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece, const RegionMap& map,
                                       int stride, const Resolved& resolved, const std::vector<bool>& open) {
   const double radius = resolved.plan_radius;
-  std::vector<int> steep(map.labels[piece].size(), -1);    // the component of cells that are
-  std::vector<std::pair<std::size_t, GentlePoint>> found;  // cell, point
+  std::vector<ComponentId> steep(map.labels[piece].size(), kNoComponent);  // the component of cells that are
+  std::vector<std::pair<std::size_t, GentlePoint>> found;                  // cell, point
   const double share = ShareOfPoint(map, stride), way = std::sqrt(share),
                limit = std::cos(resolved.split_angle);
   VisitPiece(
-      surface, piece, map, stride, [&](std::size_t id) { return open[id]; },
-      [&](std::size_t, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
-        const int component = map.ComponentAt(piece, cell);
-        if (component < 0) return;
+      surface, piece, map, stride, [&](RegionId id) { return open[id.index()]; },
+      [&](RegionId, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
+        const ComponentId component = map.ComponentAt(piece, cell);
+        if (component == kNoComponent) return;
         if (e.z() < limit) {
           steep[cell] = component;
           return;
@@ -92,13 +92,7 @@ std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece,
         if (!(k.k_max * radius < 1.0) || !IsWanted(resolved.containment, surface.pieces[piece].patch, jet.p))
           return;
         const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
-        found.push_back({cell,
-                         {static_cast<std::size_t>(component),
-                          jet,
-                          e,
-                          share * centers * jet.du.cross(jet.dv).norm(),
-                          {},
-                          {}}});
+        found.push_back({cell, {component, jet, e, share * centers * jet.du.cross(jet.dv).norm(), {}, {}}});
       });
   const int n = map.cells;
   std::vector<GentlePoint> points;
@@ -107,7 +101,7 @@ std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece,
     const int i = static_cast<int>(cell) / n, j = static_cast<int>(cell) % n;
     const auto is_steep = [&](int a, int b) {
       return a >= 0 && b >= 0 && a < n && b < n &&
-             steep[static_cast<std::size_t>(a * n + b)] == static_cast<int>(point.component);
+             steep[static_cast<std::size_t>(a * n + b)] == point.component;
     };
     const int u = is_steep(i - stride, j) + is_steep(i + stride, j);
     const int v = is_steep(i, j - stride) + is_steep(i, j + stride);
@@ -118,8 +112,8 @@ std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece,
   return points;
 }
 
-const Region& RegionOf(const RegionMap& map, std::size_t component) {
-  return map.regions[static_cast<std::size_t>(map.component_region[component])];
+const Region& RegionOf(const RegionMap& map, ComponentId component) {
+  return map.regions[map.component_region[component.index()].index()];
 }
 
 // The gentle area of a component. It tells which borders of the component are its own: all of them in a
@@ -164,11 +158,10 @@ class GentleArea {
 // Calls visit(from, to), in plan, for the stretches from point to point of the borders of a component's
 // gentle area.
 template <class Visit>
-void VisitBorders(const RegionMap& map, std::size_t component, const GentleArea& area, const Visit& visit) {
-  const int own = static_cast<int>(component);
+void VisitBorders(const RegionMap& map, ComponentId component, const GentleArea& area, const Visit& visit) {
   const bool all = RegionOf(map, component).slope == SlopeClass::kGentle;
   for (const BorderLine& line : map.border_lines) {
-    if (line.component != own && line.other_component != own) continue;
+    if (line.component != component && line.other_component != component) continue;
     const std::size_t n = line.points.size();
     for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
       const Vec3 &from = line.points[i], &to = line.points[(i + 1) % n];
@@ -271,11 +264,11 @@ absl::StatusOr<CircularChoices> ChooseCircularLines(const JobContext& context, c
     pieces[i] = GentlePoints(surface, i, map, stride, resolved, open);
   }));
   const std::size_t count = map.component_region.size();
-  const auto choice_of = [&](std::size_t component) -> RegionChoice& {
-    return choices[static_cast<std::size_t>(map.component_region[component])];
+  const auto choice_of = [&](ComponentId component) -> RegionChoice& {
+    return choices[map.component_region[component.index()].index()];
   };
-  const auto angle_open = [&](std::size_t component) {
-    return chosen.open[static_cast<std::size_t>(map.component_region[component])].angle;
+  const auto angle_open = [&](ComponentId component) {
+    return chosen.open[map.component_region[component.index()].index()].angle;
   };
   std::vector<std::vector<Tangent>> tangents(count);
   std::vector<GentleArea> gentle(count);
@@ -283,32 +276,34 @@ absl::StatusOr<CircularChoices> ChooseCircularLines(const JobContext& context, c
   const double way = std::sqrt(ShareOfPoint(map, stride));
   for (const std::vector<GentlePoint>& piece : pieces) {
     for (const GentlePoint& point : piece) {
-      area[point.component] += point.centers;
-      tangents[point.component].push_back(
+      area[point.component.index()] += point.centers;
+      tangents[point.component.index()].push_back(
           {Xy(point.jet.p), {-point.normal.y(), point.normal.x()}, point.centers});
-      if (RegionOf(map, point.component).slope == SlopeClass::kSteep) gentle[point.component].Add(point, way);
+      if (RegionOf(map, point.component).slope == SlopeClass::kSteep)
+        gentle[point.component.index()].Add(point, way);
     }
   }
   for (GentleArea& own : gentle) own.Sort();
   std::vector<std::optional<Candidate>> candidates(count);
   for (std::size_t k = 0; k < count; ++k) {
-    if (!open[static_cast<std::size_t>(map.component_region[k])]) continue;
-    const double flat = CenterStep(radius, choice_of(k).scallop, 0.0);
-    VisitBorders(map, k, gentle[k], [&](const Vec2& from, const Vec2& to) {
+    if (!open[map.component_region[k].index()]) continue;
+    const ComponentId component(k);
+    const double flat = CenterStep(radius, choice_of(component).scallop, 0.0);
+    VisitBorders(map, component, gentle[k], [&](const Vec2& from, const Vec2& to) {
       const double length = (to - from).norm();
       if (length > 0.0) tangents[k].push_back({0.5 * (from + to), (to - from) / length, flat * length});
     });
     const auto center = CenterOf(tangents[k], radius);
     if (!center) continue;
-    candidates[k] = CandidateOf(choice_of(k).zigzag_angle, angle_open(k), *center);
-    VisitBorders(map, k, gentle[k], [&](const Vec2& from, const Vec2& to) {
+    candidates[k] = CandidateOf(choice_of(component).zigzag_angle, angle_open(component), *center);
+    VisitBorders(map, component, gentle[k], [&](const Vec2& from, const Vec2& to) {
       candidates[k]->VisitFamilies([&](Family& family) { family.AddBorder(from, to); });
     });
   }
   for (const std::vector<GentlePoint>& piece : pieces) {
     for (const GentlePoint& point : piece) {
-      if (!candidates[point.component]) continue;
-      Candidate& candidate = *candidates[point.component];
+      if (!candidates[point.component.index()]) continue;
+      Candidate& candidate = *candidates[point.component.index()];
       const double scallop = choice_of(point.component).scallop;
       candidate.VisitFamilies([&](Family& family) { family.Add(point, radius, scallop); });
       const double cell = std::max(Xy(point.jet.du).norm(), Xy(point.jet.dv).norm()) / map.cells;
@@ -318,7 +313,7 @@ absl::StatusOr<CircularChoices> ChooseCircularLines(const JobContext& context, c
   std::size_t rounds = 0;
   std::vector<std::size_t> straight(choices.size(), 0);  // components that are not round
   for (std::size_t k = 0; k < count; ++k) {
-    const auto id = static_cast<std::size_t>(map.component_region[k]);
+    const std::size_t id = map.component_region[k].index();
     straight[id] += area[k] > kMinComponentRadii2 * radius * radius;
     if (!candidates[k]) continue;
     const double flat = CenterStep(radius, choices[id].scallop, 0.0);
@@ -328,10 +323,10 @@ absl::StatusOr<CircularChoices> ChooseCircularLines(const JobContext& context, c
     for (const Family& family : candidates[k]->straight) least = std::min(least, family.Sum(radius, flat));
     if (!candidates[k]->round.AlongBorders()) continue;
     const double length = candidates[k]->round.Sum(radius, flat);
-    const bool to_time = angle_open(k);
+    const bool to_time = angle_open(ComponentId(k));
     if (!(length < (to_time ? kTryByTimingRatio : kUseRatio) * least)) continue;
     if (rounds++ >= kMostMasked / surface.pieces.size()) continue;
-    CircularComponent round{static_cast<int>(k), *candidates[k]->round.around};
+    CircularComponent round{ComponentId(k), *candidates[k]->round.around};
     // All of its cells, and those that are cut with them; outwards to whole ball radii: where lines are
     // looked for is not to hang on which points were visited.
     const double more = (stride + kCellsBesideCircles) * extent.cell;

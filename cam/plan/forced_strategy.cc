@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostPlaces = 500;  // of a region
 
 struct ForcedPlace {
-  std::size_t region = 0;
+  RegionId region;
   Vec3 p = Vec3::Zero();
   double left = 0.0;  // mm, by the least step
 };
@@ -33,22 +33,22 @@ absl::StatusOr<Seen> Look(const JobContext& context, const RegionMap& map,
                           const std::vector<RegionChoice>& choices) {
   const Surface& surface = context.surface;
   const double radius = context.resolved.plan_radius;
-  const auto reached = [&](std::size_t id) {
-    return map.regions[id].kind != RegionKind::kUnreachable && !choices[id].skip;
+  const auto reached = [&](RegionId id) {
+    return map.regions[id.index()].kind != RegionKind::kUnreachable && !choices[id.index()].skip;
   };
   std::vector<Seen> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
-    VisitPiece(
-        surface, i, map, StrideOf(map), reached,
-        [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
-          if (map.regions[id].reason == UnreachableReason::kNone) {
-            pieces[i].centers.push_back(jet.p + radius * e);
-            return;
-          }
-          pieces[i].beyond.push_back({id, jet.p,
-                                      LeftByStep(ForcedOf(choices[id]), jet, e, radius, choices[id].scallop,
-                                                 PassParams().min_step_fraction)});
-        });
+    VisitPiece(surface, i, map, StrideOf(map), reached,
+               [&](RegionId id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
+                 if (map.regions[id.index()].reason == UnreachableReason::kNone) {
+                   pieces[i].centers.push_back(jet.p + radius * e);
+                   return;
+                 }
+                 const RegionChoice& choice = choices[id.index()];
+                 pieces[i].beyond.push_back({id, jet.p,
+                                             LeftByStep(ForcedOf(choice), jet, e, radius, choice.scallop,
+                                                        PassParams().min_step_fraction)});
+               });
   }));
   Seen all;
   for (Seen& seen : pieces) {
@@ -76,7 +76,7 @@ absl::StatusOr<RegionMap> MarkUnfinishedByStrategy(const JobContext& context, Re
   bool any = false;
   for (Region& region : map.regions) {
     if (region.reason != UnreachableReason::kStrategy) continue;
-    const auto id = static_cast<std::size_t>(region.id);
+    const std::size_t id = region.id.index();
     const RegionChoice& choice = chosen.choices[id];
     const bool otherwise =
         choice.strategy != op.strategy || (choice.strategy == Strategy::kZigzag &&
@@ -87,9 +87,10 @@ absl::StatusOr<RegionMap> MarkUnfinishedByStrategy(const JobContext& context, Re
   if (!any) return map;
   PM_ASSIGN_OR_RETURN(Seen seen, Look(context, map, chosen.choices));
   std::vector<std::size_t> places(map.regions.size(), 0), met = places;
-  for (const ForcedPlace& place : seen.beyond) ++places[place.region];
+  for (const ForcedPlace& place : seen.beyond) ++places[place.region.index()];
   std::erase_if(seen.beyond, [&](const ForcedPlace& place) {
-    return met[place.region]++ % (1 + places[place.region] / kMostPlaces) != 0;
+    const std::size_t id = place.region.index();
+    return met[id]++ % (1 + places[id] / kMostPlaces) != 0;
   });
   const PointCells finished(seen.centers, radius);
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, seen.beyond.size(), [&](std::size_t k) {
@@ -99,7 +100,7 @@ absl::StatusOr<RegionMap> MarkUnfinishedByStrategy(const JobContext& context, Re
     place.left = std::min(place.left, away - radius);
   }));
   for (const ForcedPlace& place : seen.beyond) {
-    Region& region = map.regions[place.region];
+    Region& region = map.regions[place.region.index()];
     region.deepest_leftover = std::max(region.deepest_leftover, place.left);
   }
   return map;

@@ -54,7 +54,7 @@ struct Selection {
 
 // A component of a region whose lines are circles.
 struct CircularComponent {
-  int component = -1;  // RegionMap::ComponentAt
+  ComponentId component = kNoComponent;  // RegionMap::ComponentAt
   CircularLines lines;
   bool operator==(const CircularComponent&) const = default;
 };
@@ -94,8 +94,8 @@ struct RegionFigures {
 // A change to one region. The region is named by its id in the map of Operation::regions_sha256, or by a
 // point on it.
 struct RegionOverride {
-  int region = -1;         // unless `at` is given
-  std::optional<Vec3> at;  // PROGRAM frame, within kPickReach of the surface
+  RegionId region = kNoRegion;  // unless `at` is given
+  std::optional<Vec3> at;       // PROGRAM frame, within kPickReach of the surface
   bool skip = false;
   std::optional<Strategy> strategy;
   std::optional<double> zigzag_angle, scallop;  // absent: as the operation

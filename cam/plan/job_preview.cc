@@ -71,17 +71,17 @@ std::vector<bool> SeenRegions(const Surface& surface, const RegionMap& map, cons
   constexpr std::size_t kMostCells = 2000;
   std::vector<std::size_t> cells(map.regions.size(), 0);
   std::vector<std::size_t> met(map.regions.size(), 0);
-  for (const std::vector<int>& labels : map.labels) {
-    for (const int id : labels) {
-      if (id >= 0) ++cells[static_cast<std::size_t>(id)];
+  for (const std::vector<RegionId>& labels : map.labels) {
+    for (const RegionId id : labels) {
+      if (id != kNoRegion) ++cells[id.index()];
     }
   }
   std::vector<bool> seen(map.regions.size(), false);
   for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
     for (int k = 0; k < map.cells * map.cells; ++k) {
-      const int label = map.labels[piece][static_cast<std::size_t>(k)];
-      if (label < 0) continue;
-      const auto id = static_cast<std::size_t>(label);
+      const RegionId label = map.labels[piece][static_cast<std::size_t>(k)];
+      if (label == kNoRegion) continue;
+      const std::size_t id = label.index();
       if (met[id]++ % (1 + cells[id] / kMostCells) != 0 || seen[id]) continue;
       const double u = (k / map.cells + 0.5) / map.cells, v = (k % map.cells + 0.5) / map.cells;
       const PieceId at(piece);
@@ -113,7 +113,7 @@ double Length(const BorderLine& line) {
 // The borders of what is seen, by kind, also between two reasons, and the nodes on them. Open edges of the
 // sheet are drawn anyway.
 void AddBorders(const RegionMap& map, const std::vector<bool>& seen, PreviewInput& input) {
-  const auto shown = [&](int id) { return id >= 0 && seen[static_cast<std::size_t>(id)]; };
+  const auto shown = [&](RegionId id) { return id != kNoRegion && seen[id.index()]; };
   std::vector<char> met(map.nodes.size(), 0);
   for (const BorderStyle& style : kBorderStyles) {
     PreviewLines drawn;
@@ -147,24 +147,24 @@ PreviewInput BaseInput(const Surface& surface, const RegionMap& map, const std::
   const std::vector<bool> seen = SeenRegions(surface, map, *wanted);
   std::vector<int> index(map.regions.size(), -1);
   for (const Region& region : map.regions) {
-    const auto id = static_cast<std::size_t>(region.id);
+    const std::size_t id = region.id.index();
     if (!seen[id]) continue;
     PreviewRegion r;
     const bool unreachable = region.reason != UnreachableReason::kNone;
-    r.color = Color(region, region.id);
+    r.color = Color(region, region.id.value);
     r.area = region.area;
-    r.label = fmt::format("{}", region.id);
-    r.name = unreachable ? fmt::format("{} {}: {:.1f} mm2, {:.2f} mm stays", region.id, Name(region.reason),
-                                       region.area, region.deepest_leftover)
-                         : fmt::format("{} {}, {}: {:.1f} mm2", region.id, Name(region.kind),
+    r.label = fmt::format("{}", region.id.value);
+    r.name = unreachable ? fmt::format("{} {}: {:.1f} mm2, {:.2f} mm stays", region.id.value,
+                                       Name(region.reason), region.area, region.deepest_leftover)
+                         : fmt::format("{} {}, {}: {:.1f} mm2", region.id.value, Name(region.kind),
                                        Name(region.slope), region.area);
     index[id] = static_cast<int>(input.regions.size());
     input.regions.push_back(std::move(r));
   }
   AddBorders(map, seen, input);
   input.region_of = [&map, wanted, index](const SurfacePoint& p) {
-    const int id = map.At(p);
-    return id >= 0 && wanted->Has(p) ? index[static_cast<std::size_t>(id)] : -1;
+    const RegionId id = map.At(p);
+    return id != kNoRegion && wanted->Has(p) ? index[id.index()] : -1;
   };
   return input;
 }

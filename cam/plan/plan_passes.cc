@@ -39,7 +39,7 @@ void LabelRegions(const RegionMap& regions, std::vector<CutterPath>& paths) {
   for (CutterPath& path : paths) {
     double most = 0.0;
     for (const auto& [region, length] : LengthInRegions(path, regions)) {
-      if (region >= 0 && length > most) {
+      if (region != kNoRegion && length > most) {
         most = length;
         path.region = region;
       }
@@ -167,24 +167,21 @@ class PassMaker {
                                                     const RegionChoice& choice, const OperationLimits* limits,
                                                     const std::vector<CutterPath>& before) const {
     const std::vector<RegionChoice>& choices = job.choices;
-    const auto region = [&](int id) -> const Region& {
-      return regions.regions[static_cast<std::size_t>(id)];
-    };
-    const auto has_lines = [&](int id) {
-      if (id < 0 || region(id).kind == RegionKind::kUnreachable) return false;
-      const RegionChoice& own = choices[static_cast<std::size_t>(id)];
+    const auto region = [&](RegionId id) -> const Region& { return regions.regions[id.index()]; };
+    const auto has_lines = [&](RegionId id) {
+      if (id == kNoRegion || region(id).kind == RegionKind::kUnreachable) return false;
+      const RegionChoice& own = choices[id.index()];
       return !own.skip && (own.strategy == Strategy::kZigzag ||
                            (own.strategy == Strategy::kAuto && region(id).slope == SlopeClass::kGentle));
     };
-    const auto ends = [&](int id, int other) {
-      if (!has_lines(id) || !CutTogether(choices[static_cast<std::size_t>(id)], choice) || has_lines(other))
-        return false;
-      return other < 0 || region(other).kind != RegionKind::kUnreachable ||
+    const auto ends = [&](RegionId id, RegionId other) {
+      if (!has_lines(id) || !CutTogether(choices[id.index()], choice) || has_lines(other)) return false;
+      return other == kNoRegion || region(other).kind != RegionKind::kUnreachable ||
              region(other).reason == UnreachableReason::kFloor;
     };
     std::vector<BorderCurve> borders;
     for (const BorderLine& line : regions.border_lines) {
-      if (ends(line.region, line.other) || (line.other >= 0 && ends(line.other, line.region)))
+      if (ends(line.region, line.other) || (line.other != kNoRegion && ends(line.other, line.region)))
         borders.push_back({line.points, line.closed});
     }
     if (borders.empty()) return std::vector<CutterPath>();
@@ -372,7 +369,7 @@ absl::StatusOr<PlannedPasses> PlanPasses(const JobContext& context, const Locato
   std::vector<BorderCurve> rims;  // where the surface ends
   if (op.border_passes) {
     for (const BorderLine& line : regions.border_lines)
-      if (line.other < 0) rims.push_back({line.points, line.closed});
+      if (line.other == kNoRegion) rims.push_back({line.points, line.closed});
   }
   for (std::size_t k = 0; k < parts.size(); ++k) {
     PM_ASSIGN_OR_RETURN(PlannedPasses more, maker.StrategyPasses(parts[k], limits(k), rims, planned.paths));

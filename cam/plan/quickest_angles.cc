@@ -46,9 +46,9 @@ RegionTimes TimesOf(const LinkResult& motion, std::size_t regions) {
   const std::vector<Move>& moves = motion.toolpath.moves;
   for (std::size_t i = 1; i < moves.size(); ++i) {
     waiting += EstimatedTime(moves[i], (moves[i].to - moves[i - 1].to).norm());
-    const int region = moves[i].region;
-    if (region < 0 || static_cast<std::size_t>(region) >= regions) continue;
-    last = static_cast<std::size_t>(region);
+    const RegionId region = moves[i].region;
+    if (region == kNoRegion || region.index() >= regions) continue;
+    last = region.index();
     times[last] += waiting;
     waiting = 0.0;
   }

@@ -20,17 +20,17 @@ constexpr double kPickProof = 1e-4;  // mm: how exactly the nearest place is kno
 
 std::string Path(std::size_t k) { return fmt::format("region_overrides[{}]", k); }
 
-absl::StatusOr<int> FindRegion(const Surface& surface, const RegionMap& map, const RegionOverride& change,
-                               const std::string& path, const Vec3& zero) {
+absl::StatusOr<RegionId> FindRegion(const Surface& surface, const RegionMap& map,
+                                    const RegionOverride& change, const std::string& path, const Vec3& zero) {
   const int count = static_cast<int>(map.regions.size());
   if (!change.at) {
-    if (change.region >= 0 && change.region < count) return change.region;
-    return FieldError(path + ".region_id",
-                      fmt::format("= {}; must be in [0, {}], a region of the map", change.region, count - 1));
+    if (change.region.value >= 0 && change.region.value < count) return change.region;
+    return FieldError(path + ".region_id", fmt::format("= {}; must be in [0, {}], a region of the map",
+                                                       change.region.value, count - 1));
   }
   const auto nearest = ClosestToPoint(surface, *change.at + zero, kPickReach, kPickProof);
-  const int id = nearest ? map.At(nearest->at) : -1;
-  if (id >= 0) return id;
+  const RegionId id = nearest ? map.At(nearest->at) : kNoRegion;
+  if (id != kNoRegion) return id;
   return FieldError(path + ".at", fmt::format("= {:.4f} {:.4f} {:.4f}; must lie within {} mm of a region",
                                               change.at->x(), change.at->y(), change.at->z(), kPickReach));
 }
@@ -38,22 +38,22 @@ absl::StatusOr<int> FindRegion(const Surface& surface, const RegionMap& map, con
 // By id: whether a cell of the map is the region's.
 std::vector<bool> WithCells(const RegionMap& map) {
   std::vector<bool> with(map.regions.size(), false);
-  for (const std::vector<int>& labels : map.labels)
-    for (const int id : labels)
-      if (id >= 0) with[static_cast<std::size_t>(id)] = true;
+  for (const std::vector<RegionId>& labels : map.labels)
+    for (const RegionId id : labels)
+      if (id != kNoRegion) with[id.index()] = true;
   return with;
 }
 
 // Which region each cell of a piece follows: its own when that is reachable or skipped, else the reachable
-// one that the fewest steps from cell to cell lead to; -1 where there is none.
-std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
-                         const std::vector<RegionChoice>& choices) {
+// one that the fewest steps from cell to cell lead to; kNoRegion where there is none.
+std::vector<RegionId> Leaders(const RegionMap& map, const std::vector<RegionId>& labels,
+                              const std::vector<RegionChoice>& choices) {
   const int n = map.cells;
-  std::vector<int> leader(labels.size(), -1);
+  std::vector<RegionId> leader(labels.size(), kNoRegion);
   std::deque<int> queue;
   for (std::size_t k = 0; k < labels.size(); ++k) {
-    if (labels[k] < 0) continue;
-    const auto id = static_cast<std::size_t>(labels[k]);
+    if (labels[k] == kNoRegion) continue;
+    const std::size_t id = labels[k].index();
     const bool reachable = map.regions[id].kind != RegionKind::kUnreachable;
     if (!reachable && !choices[id].skip) continue;
     leader[k] = labels[k];
@@ -64,8 +64,8 @@ std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
     queue.pop_front();
     const auto step = [&](int a, int b) {
       if (a < 0 || b < 0 || a >= n || b >= n) return;
-      int& to = leader[static_cast<std::size_t>(a * n + b)];
-      if (to >= 0) return;
+      RegionId& to = leader[static_cast<std::size_t>(a * n + b)];
+      if (to != kNoRegion) return;
       to = leader[static_cast<std::size_t>(k)];
       queue.push_back(a * n + b);
     };
@@ -80,13 +80,12 @@ std::vector<int> Leaders(const RegionMap& map, const std::vector<int>& labels,
 // The cells of a piece that belong to the component or are at most kCellsBesideCircles steps from cell to
 // cell away. Its border runs through cells: without these, short ends of other lines would cut their
 // remainders.
-std::vector<bool> CellsOf(const RegionMap& map, std::size_t piece, int component) {
+std::vector<bool> CellsOf(const RegionMap& map, std::size_t piece, ComponentId component) {
   const int n = map.cells;
-  const std::vector<int>& labels = map.components.empty() ? map.labels[piece] : map.components[piece];
-  std::vector<bool> own(labels.size());
+  std::vector<bool> own(map.labels[piece].size());
   std::vector<int> edge;
-  for (std::size_t k = 0; k < labels.size(); ++k) {
-    own[k] = labels[k] == component;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    own[k] = map.ComponentAt(piece, k) == component;
     if (own[k]) edge.push_back(static_cast<int>(k));
   }
   for (int step = 0; step < kCellsBesideCircles; ++step) {
@@ -105,12 +104,12 @@ std::vector<bool> CellsOf(const RegionMap& map, std::size_t piece, int component
 }
 
 // Which pieces have cells of each component.
-std::map<int, std::vector<std::size_t>> PiecesOfComponents(const RegionMap& map) {
-  std::map<int, std::vector<std::size_t>> pieces;
+std::map<ComponentId, std::vector<std::size_t>> PiecesOfComponents(const RegionMap& map) {
+  std::map<ComponentId, std::vector<std::size_t>> pieces;
   for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
-    int last = -1;
+    ComponentId last = kNoComponent;
     for (std::size_t cell = 0; cell < map.labels[piece].size(); ++cell) {
-      const int component = map.ComponentAt(piece, cell);
+      const ComponentId component = map.ComponentAt(piece, cell);
       if (component == last) continue;
       last = component;
       std::vector<std::size_t>& own = pieces[component];
@@ -129,7 +128,7 @@ std::vector<PlanPart> WithCircularLines(const RegionMap& map, const std::vector<
   using Cells = std::vector<std::vector<bool>>;
   if (std::all_of(choices.begin(), choices.end(), [](const RegionChoice& c) { return c.around.empty(); }))
     return parts;
-  std::map<int, std::vector<std::size_t>> pieces_of = PiecesOfComponents(map);
+  std::map<ComponentId, std::vector<std::size_t>> pieces_of = PiecesOfComponents(map);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     std::vector<CircularLines> families;
     std::vector<Cells> cells;
@@ -226,22 +225,22 @@ absl::StatusOr<RegionChoices> ChooseRegions(const Surface& surface, const Region
   const std::vector<bool> with_cells = WithCells(map);
   for (std::size_t k = 0; k < op.overrides.size(); ++k) {
     const RegionOverride& change = op.overrides[k];
-    PM_ASSIGN_OR_RETURN(const int region, FindRegion(surface, map, change, Path(k), program_zero));
-    const auto id = static_cast<std::size_t>(region);
+    PM_ASSIGN_OR_RETURN(const RegionId region, FindRegion(surface, map, change, Path(k), program_zero));
+    const std::size_t id = region.index();
     if (named[id]) {
-      return FieldError(Path(k), fmt::format("names region {} a second time", region));
+      return FieldError(Path(k), fmt::format("names region {} a second time", region.value));
     }
     named[id] = true;
     if (map.regions[id].kind == RegionKind::kUnreachable && !change.skip) {
-      return FieldError(Path(k),
-                        fmt::format("names region {}, which is unreachable; it can only be skipped", region));
+      return FieldError(Path(k), fmt::format("names region {}, which is unreachable; it can only be skipped",
+                                             region.value));
     }
     if (!with_cells[id]) {
       return FieldError(
           Path(k),
           fmt::format("names region {} of {:.3g} mm2, which is too small to be cut apart from what is "
                       "around it (regions are told apart on {} x {} cells of each patch)",
-                      region, map.regions[id].area, map.cells, map.cells));
+                      region.value, map.regions[id].area, map.cells, map.cells));
     }
     RegionChoice& choice = chosen.choices[id];
     OpenChoice& open = chosen.open[id];
@@ -280,11 +279,11 @@ std::vector<PlanPart> PartsOf(const RegionMap& map, const std::vector<RegionChoi
   using Cells = std::vector<std::vector<bool>>;
   std::vector<Cells> marked(parts.size(), Cells(map.labels.size()));
   for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
-    const std::vector<int> leader = Leaders(map, map.labels[piece], choices);
+    const std::vector<RegionId> leader = Leaders(map, map.labels[piece], choices);
     for (Cells& cells : marked) cells[piece].resize(leader.size(), false);
     for (std::size_t k = 0; k < leader.size(); ++k) {
       // Pieces that the ball does not reach belong to the first part: each has to belong to one.
-      const int part = leader[k] < 0 ? 0 : part_of[static_cast<std::size_t>(leader[k])];
+      const int part = leader[k] == kNoRegion ? 0 : part_of[leader[k].index()];
       if (part >= 0) marked[static_cast<std::size_t>(part)][piece][k] = true;
     }
   }

@@ -25,10 +25,10 @@ inline Vec2 CircleTangentAt(const CircularLines& around, const Vec2& p) {
 }
 
 // At p of a component of the region.
-inline Vec2 LineAt(const RegionChoice& choice, int component, const Vec3& p) {
+inline Vec2 LineAt(const RegionChoice& choice, ComponentId component, const Vec3& p) {
   const auto circles =
       std::lower_bound(choice.around.begin(), choice.around.end(), component,
-                       [](const CircularComponent& round, int of) { return round.component < of; });
+                       [](const CircularComponent& round, ComponentId of) { return round.component < of; });
   if (circles == choice.around.end() || circles->component != component)
     return StraightLine(choice.zigzag_angle);
   return CircleTangentAt(circles->lines, Xy(p));
@@ -54,10 +54,10 @@ void VisitPiece(const Surface& surface, std::size_t piece, const RegionMap& map,
   for (int i = stride / 2; i < map.cells; i += stride) {
     for (int j = stride / 2; j < map.cells; j += stride) {
       const auto cell = static_cast<std::size_t>(i * map.cells + j);
-      const int id = map.labels[piece][cell];
-      if (id < 0 || !wanted(static_cast<std::size_t>(id))) continue;
+      const RegionId id = map.labels[piece][cell];
+      if (id == kNoRegion || !wanted(id)) continue;
       const SurfaceJet jet = Evaluate(surface.pieces[piece], (i + 0.5) / map.cells, (j + 0.5) / map.cells);
-      if (const auto e = UpwardNormal(jet)) visit(static_cast<std::size_t>(id), cell, jet, *e);
+      if (const auto e = UpwardNormal(jet)) visit(id, cell, jet, *e);
     }
   }
 }

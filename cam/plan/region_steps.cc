@@ -89,11 +89,12 @@ absl::StatusOr<std::vector<double>> SelectedShares(const JobContext& context, co
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
     pieces[i].resize(map.regions.size());
     VisitPiece(
-        surface, i, map, StrideOf(map), [](std::size_t) { return true; },
-        [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3&) {
+        surface, i, map, StrideOf(map), [](RegionId) { return true; },
+        [&](RegionId id, std::size_t, const SurfaceJet& jet, const Vec3&) {
           const double area = jet.du.cross(jet.dv).norm();
-          pieces[i][id].all += area;
-          if (IsWanted(containment, surface.pieces[i].patch, jet.p)) pieces[i][id].wanted += area;
+          Areas& areas = pieces[i][id.index()];
+          areas.all += area;
+          if (IsWanted(containment, surface.pieces[i].patch, jet.p)) areas.wanted += area;
         });
   }));
   for (std::size_t id = 0; id < map.regions.size(); ++id) {
@@ -115,7 +116,9 @@ absl::StatusOr<std::vector<RegionFigures>> MeasureRegions(const JobContext& cont
   const Resolved& resolved = context.resolved;
   PM_ASSIGN_OR_RETURN(const std::vector<double> selected, SelectedShares(context, map));
   const int stride = StrideOf(map);
-  const auto reachable = [&](std::size_t id) { return map.regions[id].kind != RegionKind::kUnreachable; };
+  const auto reachable = [&](RegionId id) {
+    return map.regions[id.index()].kind != RegionKind::kUnreachable;
+  };
   struct Seen {
     Range steps;
     double area = 0.0, otherwise = 0.0;
@@ -125,10 +128,10 @@ absl::StatusOr<std::vector<RegionFigures>> MeasureRegions(const JobContext& cont
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
     pieces[i].resize(map.regions.size());
     VisitPiece(surface, i, map, stride, reachable,
-               [&](std::size_t id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
-                 Seen& seen = pieces[i][id];
-                 const RegionChoice& choice = choices[id];
-                 const bool contours = ByContours(choice, map.regions[id]);
+               [&](RegionId id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
+                 Seen& seen = pieces[i][id.index()];
+                 const RegionChoice& choice = choices[id.index()];
+                 const bool contours = ByContours(choice, map.regions[id.index()]);
                  const double area = jet.du.cross(jet.dv).norm();
                  seen.area += area;
                  if (choice.strategy == Strategy::kAuto && contours != (e.z() <= split))
@@ -164,16 +167,17 @@ absl::StatusOr<double> LeastCutLength(const JobContext& context, const Locator& 
   const Surface& surface = context.surface;
   const Resolved& resolved = context.resolved;
   const int stride = StrideOf(map);
-  const auto reachable = [&](std::size_t id) { return map.regions[id].kind != RegionKind::kUnreachable; };
+  const auto reachable = [&](RegionId id) {
+    return map.regions[id.index()].kind != RegionKind::kUnreachable;
+  };
   const double radius = resolved.plan_radius;
   std::vector<double> pieces(surface.pieces.size(), 0.0);
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
-    std::map<std::size_t, VerticalFaces> upright;  // by region
+    std::map<RegionId, VerticalFaces> upright;
     VisitPiece(surface, i, map, stride, reachable,
-               [&](std::size_t id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
-                 if (choices[id].skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p))
-                   return;
-                 const RegionChoice& choice = choices[id];
+               [&](RegionId id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
+                 const RegionChoice& choice = choices[id.index()];
+                 if (choice.skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p)) return;
                  // Forced passes leave that as STRATEGY.
                  if (NeededStepOfSides(ForcedOf(choice), jet, e, radius, choice.scallop) <
                      PassParams().min_step_fraction)

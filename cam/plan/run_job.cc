@@ -241,7 +241,7 @@ absl::Status CheckMotion(const PathLimits& limits, const LinkResult& linked) {
 Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool limited, double reached) {
   double all = 0.0, off = 0.0, on = 0.0, avoided = 0.0, shank = 0.0;
   for (const Region& region : report.regions) {
-    const auto id = static_cast<std::size_t>(region.id);
+    const auto id = region.id.index();
     const double wanted = report.figures[id].selected_share * region.area;
     all += wanted;
     if (region.kind != RegionKind::kUnreachable) (report.choices[id].skip ? off : on) += wanted;

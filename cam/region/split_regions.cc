@@ -137,14 +137,15 @@ Region FromLabel(const SplitLabel& label) {
 // The groups of merged regions as regions in their final order. Their borders follow the true curves.
 struct Numbered {
   std::vector<Region> regions;
-  std::vector<std::vector<int>> region_of, component_of;  // [piece][triangle]
-  std::vector<int> component_region;
+  std::vector<std::vector<RegionId>> region_of;        // [piece][triangle]
+  std::vector<std::vector<ComponentId>> component_of;  // [piece][triangle]
+  std::vector<RegionId> component_region;              // [component], rising
   BorderArcs arcs;
 };
 
 // Numbers the connected components of each region, by region and then by their first raw region. An
 // unreachable region is one component even if it is not connected, because nothing is cut there.
-void NumberComponents(const RawRegions& raw, const std::vector<int>& id_of_raw, Numbered& numbered) {
+void NumberComponents(const RawRegions& raw, const std::vector<RegionId>& id_of_raw, Numbered& numbered) {
   UnionFind sets(raw.regions.size());
   for (const RawContact& contact : raw.contacts) {
     const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
@@ -152,7 +153,7 @@ void NumberComponents(const RawRegions& raw, const std::vector<int>& id_of_raw, 
   }
   std::vector<int> first(numbered.regions.size(), -1);
   for (std::size_t i = 0; i < id_of_raw.size(); ++i) {
-    const auto id = static_cast<std::size_t>(id_of_raw[i]);
+    const std::size_t id = id_of_raw[i].index();
     if (numbered.regions[id].kind != RegionKind::kUnreachable) continue;
     if (first[id] < 0) first[id] = static_cast<int>(i);
     sets.Join(static_cast<std::size_t>(first[id]), i);
@@ -161,15 +162,16 @@ void NumberComponents(const RawRegions& raw, const std::vector<int>& id_of_raw, 
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return id_of_raw[a] < id_of_raw[b]; });
-  std::vector<int> component(raw.regions.size(), -1);
+  std::vector<ComponentId> component(raw.regions.size(), kNoComponent);
   for (const std::size_t i : order) {
     if (sets.Find(i) != i) continue;  // the root of a set is its smallest member
-    component[i] = static_cast<int>(numbered.component_region.size());
+    component[i] = ComponentId(numbered.component_region.size());
     numbered.component_region.push_back(id_of_raw[i]);
   }
-  numbered.component_of = raw.of;
-  for (std::vector<int>& piece : numbered.component_of) {
-    for (int& id : piece) id = component[sets.Find(static_cast<std::size_t>(id))];
+  for (const std::vector<int>& piece : raw.of) {
+    std::vector<ComponentId>& of = numbered.component_of.emplace_back();
+    of.reserve(piece.size());
+    for (const int region : piece) of.push_back(component[sets.Find(static_cast<std::size_t>(region))]);
   }
 }
 
@@ -178,9 +180,11 @@ absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitM
                                 const MergedRegions& merged, std::span<const ZeroField> fields,
                                 const RegionParams& params, const RunContext& run) {
   Numbered numbered;
-  numbered.region_of = raw.of;
-  for (std::vector<int>& piece : numbered.region_of) {
-    for (int& id : piece) id = merged.group[static_cast<std::size_t>(id)];
+  // Until the areas along the true borders are known, regions have the numbers of their groups.
+  for (const std::vector<int>& piece : raw.of) {
+    std::vector<RegionId>& of = numbered.region_of.emplace_back();
+    of.reserve(piece.size());
+    for (const int region : piece) of.push_back(RegionId(merged.group[static_cast<std::size_t>(region)]));
   }
   PM_ASSIGN_OR_RETURN(numbered.arcs, FindBorderArcs(surface, meshes, adjacency, numbered.region_of, fields,
                                                     params.border_tolerance, run));
@@ -212,29 +216,29 @@ absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitM
                ub = groups[b].kind == RegionKind::kUnreachable;
     return ua != ub ? ub : groups[a].area > groups[b].area;
   });
-  std::vector<int> id_of(groups.size());
+  std::vector<RegionId> id_of(groups.size());
   for (const std::size_t group : order) {
-    const int id = static_cast<int>(numbered.regions.size());
+    const RegionId id(numbered.regions.size());
     id_of[group] = id;
     numbered.regions.push_back(groups[group]);
     numbered.regions.back().id = id;
   }
-  for (std::vector<int>& piece : numbered.region_of) {
-    for (int& id : piece) id = id_of[static_cast<std::size_t>(id)];
+  for (std::vector<RegionId>& piece : numbered.region_of) {
+    for (RegionId& id : piece) id = id_of[id.index()];
   }
-  std::vector<int> id_of_raw;
+  std::vector<RegionId> id_of_raw;
   for (const int group : merged.group) id_of_raw.push_back(id_of[static_cast<std::size_t>(group)]);
   NumberComponents(raw, id_of_raw, numbered);
   return numbered;
 }
 
 // The patches of a region come in rising order, because pieces are sorted by patch.
-void ListPatches(const Surface& surface, const std::vector<std::vector<int>>& region_of,
+void ListPatches(const Surface& surface, const std::vector<std::vector<RegionId>>& region_of,
                  std::vector<Region>& regions) {
   for (std::size_t piece = 0; piece < region_of.size(); ++piece) {
     const PatchId patch = surface.pieces[piece].patch;
-    for (const int id : region_of[piece]) {
-      std::vector<PatchId>& patches = regions[static_cast<std::size_t>(id)].patches;
+    for (const RegionId id : region_of[piece]) {
+      std::vector<PatchId>& patches = regions[id.index()].patches;
       if (patches.empty() || patches.back() != patch) patches.push_back(patch);
     }
   }
@@ -268,7 +272,7 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   BorderNet net;
   std::vector<std::vector<std::vector<Vec3>>> borders;
   std::vector<Region>& regions = numbered.regions;
-  const std::vector<std::vector<int>>& region_of = numbered.region_of;
+  const std::vector<std::vector<RegionId>>& region_of = numbered.region_of;
   const BorderArcs& arcs = numbered.arcs;
   PM_ASSIGN_OR_RETURN(const BorderPoints points,
                       FindBorderPoints(surface, meshes, adjacency, arcs, params.border_tolerance, run));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cam/toolpath/segment_metric.h"
+#include "core/base/typed_id.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
@@ -37,8 +38,8 @@ struct CutterPath {
   PassKind kind = PassKind::kZigzag;
   bool closed = false;  // the last point joins the first, which is not repeated
   Traversal traversal = Traversal::kAny;
-  int region = -1;    // RegionMap id of most of its length; -1: none
-  int order_key = 0;  // index of the scan line or level it came from; orders passes within a region
+  RegionId region = kNoRegion;  // region of most of its length
+  int order_key = 0;            // index of the scan line or level it came from; orders passes within a region
   std::vector<CutterPoint> points;
 };
 

@@ -23,9 +23,9 @@ struct MoveContact {
 struct Move {
   MoveKind kind = MoveKind::kRapid;
   Vec3 to = Vec3::Zero();
-  double feed = 0.0;  // mm/min; ignored for kRapid
-  int region = -1;
-  int pass = -1;  // index of the pass in the linked order; -1 between passes
+  double feed = 0.0;            // mm/min; ignored for kRapid
+  RegionId region = kNoRegion;  // region of the pass; none between passes
+  int pass = -1;                // index of the pass in the linked order; -1 between passes
   std::optional<MoveContact> contact = std::nullopt;  // at `to`
 };
 

@@ -1,4 +1,5 @@
-// Typed indices: a PatchId is not a PieceId. An absent id is an empty std::optional, never a special value.
+// Typed indices: a PatchId is not a PieceId. An absent id is an empty std::optional. Regions and components
+// are the exception: grids hold millions of their ids, so "none" is a value of the same four bytes.
 #pragma once
 
 #include <compare>
@@ -17,8 +18,14 @@ struct TypedId {
   constexpr auto operator<=>(const TypedId&) const = default;
 };
 
-using PatchId = TypedId<struct PatchTag>;  // a patch as given, in the order of the model
-using PieceId = TypedId<struct PieceTag>;  // a rational Bernstein rectangle of a Surface
-using RegionId = TypedId<struct RegionTag>;
+using PatchId = TypedId<struct PatchTag>;          // a patch as given, in the order of the model
+using PieceId = TypedId<struct PieceTag>;          // a rational Bernstein rectangle of a Surface
+using RegionId = TypedId<struct RegionTag>;        // a region of a RegionMap
+using ComponentId = TypedId<struct ComponentTag>;  // a connected component of a region of a RegionMap
+
+// No region and no component. They come before all others in order, and have no index. Everything outside
+// the program (the wire, digests) sees them as -1.
+inline constexpr RegionId kNoRegion{std::int32_t{-1}};
+inline constexpr ComponentId kNoComponent{std::int32_t{-1}};
 
 }  // namespace patchmill

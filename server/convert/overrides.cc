@@ -15,9 +15,9 @@ namespace {
 RegionOverride ReadOverride(const v1::RegionOverride& proto, const std::string& at, double radius,
                             FieldErrors& errors) {
   RegionOverride change;
-  change.region = proto.region_id();
+  change.region = RegionId(proto.region_id());
   if (proto.has_at()) {
-    change.region = -1;
+    change.region = kNoRegion;
     change.at = ReadPoint(proto.at(), At(at, "at"), errors);
     if (proto.region_id() != 0) errors.Add(At(at, "region_id"), "is set together with at; set one of them");
   } else if (proto.region_id() < 0) {
@@ -77,7 +77,7 @@ v1::RegionOverride ToProto(const RegionOverride& change) {
   if (change.at) {
     *proto.mutable_at() = ToProto(*change.at);
   } else {
-    proto.set_region_id(change.region);
+    proto.set_region_id(change.region.value);
   }
   if (change.skip) proto.set_skip(true);
   if (change.strategy) proto.set_strategy(ToProto(*change.strategy));

@@ -37,11 +37,9 @@ constexpr UnreachableReason kReasons[] = {UnreachableReason::kUndercut, Unreacha
 // Without a program nothing was verified. The unreachable areas then come from the regions.
 void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Report* report) {
   const std::vector<Region>& regions = from.regions;
-  const auto skipped = [&](const Region& region) {
-    return from.choices[static_cast<std::size_t>(region.id)].skip;
-  };
+  const auto skipped = [&](const Region& region) { return from.choices[region.id.index()].skip; };
   const auto area = [&](const Region& region) {
-    return Number(region.area * from.figures[static_cast<std::size_t>(region.id)].selected_share);
+    return Number(region.area * from.figures[region.id.index()].selected_share);
   };
   double unreachable = 0.0, reachable = 0.0;
   for (const UnreachableReason reason : kReasons) {
@@ -148,7 +146,7 @@ void AddPoints(const std::vector<Vec3>& points, const Vec3& zero,
 v1::Region ToProto(const Region& region, const RegionChoice& choice, const RegionFigures& figures,
                    const Vec3& zero, Detail detail) {
   v1::Region proto;
-  proto.set_id(region.id);
+  proto.set_id(region.id.value);
   proto.set_kind(ToProto(region.kind));
   proto.set_area_mm2(Number(region.area));
   proto.set_selected_area_mm2(Number(region.area * figures.selected_share));
@@ -195,8 +193,8 @@ v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& cho
   for (const BorderLine& line : map.border_lines) {
     v1::BorderLine& border = *proto.add_border_lines();
     border.set_kind(ToProto(line.kind));
-    border.set_region_id(line.region);
-    border.set_other_region_id(line.other);
+    border.set_region_id(line.region.value);
+    border.set_other_region_id(line.other.value);
     border.set_closed(line.closed);
     if (!line.closed) {
       border.set_from_node(line.from);
@@ -323,7 +321,7 @@ bool EmitPaths(const Toolpath& toolpath, const Vec3& zero, const std::function<b
     if (!same) {
       if (!flush()) return false;
       first = &move;
-      chunk.set_region_id(move.region);
+      chunk.set_region_id(move.region.value);
       chunk.set_pass_index(move.pass);
       chunk.set_kind(ToProto(move.kind));
       chunk.set_feed_mm_per_min(move.kind == MoveKind::kRapid ? 0.0 : move.feed);

@@ -37,12 +37,14 @@ EnumArray<PassKind, double> LengthsByKind(const LinkResult& motion) {
 double FeedInItsDirections(const Surface& surface, const Job& job, const JobResult& result, double radius) {
   const RegionMap& map = result.regions;
   const int stride = StrideOf(map);
-  const auto reachable = [&](std::size_t id) { return map.regions[id].kind != RegionKind::kUnreachable; };
+  const auto reachable = [&](RegionId id) {
+    return map.regions[id.index()].kind != RegionKind::kUnreachable;
+  };
   double sum = 0.0;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
     VisitPiece(surface, i, map, stride, reachable,
-               [&](std::size_t id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
-                 const RegionChoice& choice = result.report.choices[id];
+               [&](RegionId id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
+                 const RegionChoice& choice = result.report.choices[id.index()];
                  const auto across = e.z() < std::cos(job.operation.steep_angle)
                                          ? AcrossContours(e)
                                          : AcrossLines(e, LineAt(choice, map.ComponentAt(i, cell), jet.p));

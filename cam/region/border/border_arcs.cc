@@ -39,7 +39,7 @@ std::vector<Vec2> LineAlong(const SplitMesh& mesh, const TriangleSide& side) {
   return a < b ? places : std::vector<Vec2>(places.rbegin(), places.rend());
 }
 
-int RegionOf(const std::vector<std::vector<int>>& region_of, int piece, int triangle) {
+RegionId RegionOf(const std::vector<std::vector<RegionId>>& region_of, int piece, int triangle) {
   return region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
 }
 
@@ -49,7 +49,7 @@ struct PieceBorders {
   std::vector<std::size_t> sides, first;
 };
 PieceBorders BordersOf(const SplitMesh& mesh, const AdjacencyList& adjacency, std::size_t piece,
-                       const std::vector<std::vector<int>>& region_of) {
+                       const std::vector<std::vector<RegionId>>& region_of) {
   struct Edge {
     int low, high;
     std::size_t place;
@@ -138,7 +138,7 @@ double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSid
 
 absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency,
-                                          const std::vector<std::vector<int>>& region_of,
+                                          const std::vector<std::vector<RegionId>>& region_of,
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run) {
   std::vector<PieceBorders> pieces(meshes.size());
@@ -177,7 +177,7 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
 
 absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                               const AdjacencyList& adjacency,
-                                              const std::vector<std::vector<int>>& region_of,
+                                              const std::vector<std::vector<RegionId>>& region_of,
                                               const std::vector<double>& flat, const RunContext& run,
                                               BorderArcs& arcs) {
   constexpr double kLeast = 0.01;  // of the area of the triangles; if less is left, the arcs cross each other
@@ -192,8 +192,8 @@ absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std:
     if (arcs.places[k].empty()) continue;
     const Adjacency a = adjacency[arcs.sides[k]];
     if (a.other_piece != a.side.piece) continue;
-    lenses.push_back({a.side, static_cast<std::size_t>(RegionOf(region_of, a.side.piece, a.side.triangle)),
-                      static_cast<std::size_t>(RegionOf(region_of, a.other_piece, a.other_triangle)), k});
+    lenses.push_back({a.side, RegionOf(region_of, a.side.piece, a.side.triangle).index(),
+                      RegionOf(region_of, a.other_piece, a.other_triangle).index(), k});
   }
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions: areas", lenses.size(), [&](std::size_t k) {
     Lens& lens = lenses[k];

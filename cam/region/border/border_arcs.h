@@ -24,7 +24,7 @@ struct BorderArcs {
 // DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency,
-                                          const std::vector<std::vector<int>>& region_of,
+                                          const std::vector<std::vector<RegionId>>& region_of,
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run);
 
@@ -34,7 +34,7 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
 // from `arcs`. So no area falls below 0. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                               const AdjacencyList& adjacency,
-                                              const std::vector<std::vector<int>>& region_of,
+                                              const std::vector<std::vector<RegionId>>& region_of,
                                               const std::vector<double>& flat, const RunContext& run,
                                               BorderArcs& arcs);
 

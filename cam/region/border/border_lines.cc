@@ -15,8 +15,8 @@ namespace {
 // One side of a triangle that is a border.
 struct Strand {
   BorderKind kind = BorderKind::kSlope;
-  int region = -1, other = -1;
-  int component = -1, other_component = -1;
+  RegionId region = kNoRegion, other = kNoRegion;
+  ComponentId component = kNoComponent, other_component = kNoComponent;
   std::vector<Vec3> points;
   std::size_t ends[2] = {0, 0};  // numbers of the places of its first and last point
 
@@ -27,9 +27,8 @@ struct Strand {
 
 BorderKind KindOf(const std::vector<SplitMesh>& meshes, const std::vector<Region>& regions,
                   const Adjacency& a, const Strand& strand) {
-  if (strand.other < 0) return BorderKind::kOpenEdge;
-  const Region &own = regions[static_cast<std::size_t>(strand.region)],
-               &other = regions[static_cast<std::size_t>(strand.other)];
+  if (strand.other == kNoRegion) return BorderKind::kOpenEdge;
+  const Region &own = regions[strand.region.index()], &other = regions[strand.other.index()];
   if (own.reason != other.reason) {
     const bool reached = own.kind != RegionKind::kUnreachable && other.kind != RegionKind::kUnreachable;
     return reached ? BorderKind::kStrategy : BorderKind::kReach;
@@ -286,19 +285,22 @@ double LongestSeamSide(const std::vector<SplitMesh>& meshes, const AdjacencyList
 absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency, const BorderArcs& arcs,
                                           const BorderPoints& points,
-                                          const std::vector<std::vector<int>>& component_of,
-                                          const std::vector<int>& component_region,
+                                          const std::vector<std::vector<ComponentId>>& component_of,
+                                          const std::vector<RegionId>& component_region,
                                           const std::vector<Region>& regions, const RunContext& run) {
   const auto component = [&](int piece, int triangle) {
-    return piece < 0 ? -1 : component_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
+    return piece < 0 ? kNoComponent
+                     : component_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
-  const auto region = [&](int of) { return of < 0 ? -1 : component_region[static_cast<std::size_t>(of)]; };
+  const auto region = [&](ComponentId of) {
+    return of == kNoComponent ? kNoRegion : component_region[of.index()];
+  };
   std::vector<Strand> strands;
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     const Adjacency a = adjacency[arcs.sides[k]];
-    const int own = component(a.side.piece, a.side.triangle),
-              other = component(a.other_piece, a.other_triangle);
-    if (other >= 0 && other < own) continue;  // the side of the other triangle stands for both
+    const ComponentId own = component(a.side.piece, a.side.triangle),
+                      other = component(a.other_piece, a.other_triangle);
+    if (other != kNoComponent && other < own) continue;  // the side of the other triangle stands for both
     strands.push_back({BorderKind::kOpenEdge, region(own), region(other), own, other, points[k], {}});
     strands.back().kind = KindOf(meshes, regions, a, strands.back());
   }

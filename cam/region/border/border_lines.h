@@ -17,8 +17,8 @@ struct BorderNet {
 };
 
 // Joins all border sides, each once, along the `points` of the `arcs` of the split.
-// component_of[piece][triangle] is a component or -1; component_region[component] is its region, rising.
-// Kind, slope and reason of the `regions` are read. The kind of a line follows from the field on whose zero
+// component_of[piece][triangle] is a component; component_region[component] is its region, rising. Kind,
+// slope and reason of the `regions` are read. The kind of a line follows from the field on whose zero
 // curve or limit it lies; a field that differs across the line is preferred.
 //
 // Ends nearer to each other than twice the join tolerance are one place. Where a seam is cut differently on
@@ -28,8 +28,8 @@ struct BorderNet {
 absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                           const AdjacencyList& adjacency, const BorderArcs& arcs,
                                           const BorderPoints& points,
-                                          const std::vector<std::vector<int>>& component_of,
-                                          const std::vector<int>& component_region,
+                                          const std::vector<std::vector<ComponentId>>& component_of,
+                                          const std::vector<RegionId>& component_region,
                                           const std::vector<Region>& regions, const RunContext& run);
 
 }  // namespace patchmill

@@ -102,15 +102,15 @@ std::vector<std::vector<Vec3>> Chain(const Surface& surface, std::vector<std::ve
 
 absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Surface& surface, const AdjacencyList& adjacency, const BorderArcs& arcs,
-    const BorderPoints& points, const std::vector<std::vector<int>>& region_of, std::size_t region_count,
+    const BorderPoints& points, const std::vector<std::vector<RegionId>>& region_of, std::size_t region_count,
     double tolerance, const RunContext& run) {
   std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     const Adjacency a = adjacency[arcs.sides[k]];
-    const int own =
+    const RegionId own =
         region_of[static_cast<std::size_t>(a.side.piece)][static_cast<std::size_t>(a.side.triangle)];
     if (points[k].size() > 2 || points[k].front() != points[k].back())
-      strands[static_cast<std::size_t>(own)].push_back(points[k]);
+      strands[own.index()].push_back(points[k]);
   }
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
   std::vector<std::vector<std::vector<Vec3>>> borders(region_count);

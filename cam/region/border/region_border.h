@@ -17,7 +17,7 @@ namespace patchmill {
 // DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
     const Surface& surface, const AdjacencyList& adjacency, const BorderArcs& arcs,
-    const BorderPoints& points, const std::vector<std::vector<int>>& region_of, std::size_t region_count,
+    const BorderPoints& points, const std::vector<std::vector<RegionId>>& region_of, std::size_t region_count,
     double tolerance, const RunContext& run);
 
 }  // namespace patchmill

@@ -60,13 +60,13 @@ absl::StatusOr<Areas> MeasureReach(const Surface& surface, const RegionParams& p
     progress.Add(0);
   }));
   PM_ASSIGN_OR_RETURN(const AdjacencyList adjacency, FindAdjacency(surface, meshes, run));
-  std::vector<std::vector<int>> region_of;  // 0 is reachable, 1 is not
+  std::vector<std::vector<RegionId>> region_of;  // 0 is reachable, 1 is not
   std::vector<double> flat(2, 0.0);
   for (const SplitMesh& mesh : meshes) {
-    std::vector<int>& of = region_of.emplace_back();
+    std::vector<RegionId>& of = region_of.emplace_back();
     for (const SplitTriangle& t : mesh.triangles) {
-      of.push_back(t.label.reason == UnreachableReason::kNone ? 0 : 1);
-      flat[static_cast<std::size_t>(of.back())] += t.area;
+      of.push_back(RegionId(t.label.reason == UnreachableReason::kNone ? 0 : 1));
+      flat[of.back().index()] += t.area;
     }
   }
   PM_ASSIGN_OR_RETURN(BorderArcs arcs, FindBorderArcs(surface, meshes, adjacency, region_of, fields,

@@ -9,14 +9,15 @@
 namespace patchmill {
 namespace {
 
-// Each cell whose centre lies in a triangle gets that triangle's region. Triangles tile the piece. n is a
-// power of two, so that products with 1 / n are exact.
-std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& region_of, int n) {
+// Each cell whose centre lies in a triangle gets that triangle's label: a region or a component. Other cells
+// get `none`. Triangles tile the piece. n is a power of two, so that products with 1 / n are exact.
+template <class Id>
+std::vector<Id> PieceLabels(const SplitMesh& mesh, const std::vector<Id>& label_of, int n, Id none) {
   const auto size = static_cast<std::size_t>(n * n);
-  if (!region_of.empty() &&
-      std::all_of(region_of.begin(), region_of.end(), [&](int id) { return id == region_of.front(); }))
-    return std::vector<int>(size, region_of.front());
-  std::vector<int> labels(size, -1);
+  if (!label_of.empty() &&
+      std::all_of(label_of.begin(), label_of.end(), [&](Id id) { return id == label_of.front(); }))
+    return std::vector<Id>(size, label_of.front());
+  std::vector<Id> labels(size, none);
   const double cell = 1.0 / n;
   const auto cell_at = [&](double x) { return std::clamp(static_cast<int>(x * n), 0, n - 1); };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -36,7 +37,7 @@ std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& regi
       for (int j = first; j <= last; ++j) {
         const double v = (j + 0.5) * cell;
         const auto left = [&](int k) { return side[k].x() * (v - q[k].y()) - across[k] >= -1e-12; };
-        if (left(0) && left(1) && left(2)) labels[static_cast<std::size_t>(i * n + j)] = region_of[t];
+        if (left(0) && left(1) && left(2)) labels[static_cast<std::size_t>(i * n + j)] = label_of[t];
       }
     }
   }
@@ -44,33 +45,34 @@ std::vector<int> PieceLabels(const SplitMesh& mesh, const std::vector<int>& regi
 }
 
 // Takes a cell for each region that has none.
-void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
+void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<RegionId>>& region_of,
                std::size_t regions, RegionMap& map) {
   std::vector<std::size_t> cells_of(regions, 0);
-  for (const std::vector<int>& labels : map.labels)
-    for (const int id : labels)
-      if (id >= 0) ++cells_of[static_cast<std::size_t>(id)];
+  for (const std::vector<RegionId>& labels : map.labels)
+    for (const RegionId id : labels)
+      if (id != kNoRegion) ++cells_of[id.index()];
   if (std::none_of(cells_of.begin(), cells_of.end(), [](std::size_t count) { return count == 0; })) return;
   for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
     for (std::size_t t = 0; t < region_of[piece].size(); ++t) {
-      const int id = region_of[piece][t];
-      if (id < 0 || cells_of[static_cast<std::size_t>(id)] > 0) continue;
+      const RegionId id = region_of[piece][t];
+      if (id == kNoRegion || cells_of[id.index()] > 0) continue;
       const Vec2 at = map.cells * MiddleOf(meshes[piece], t);
       const auto i = std::min(static_cast<int>(at.x()), map.cells - 1);
       const auto j = std::min(static_cast<int>(at.y()), map.cells - 1);
-      int& label = map.labels[piece][static_cast<std::size_t>(i * map.cells + j)];
-      if (label >= 0 && cells_of[static_cast<std::size_t>(label)] == 1) continue;
-      if (label >= 0) --cells_of[static_cast<std::size_t>(label)];
+      RegionId& label = map.labels[piece][static_cast<std::size_t>(i * map.cells + j)];
+      if (label != kNoRegion && cells_of[label.index()] == 1) continue;
+      if (label != kNoRegion) --cells_of[label.index()];
       label = id;
-      cells_of[static_cast<std::size_t>(id)] = 1;
+      cells_of[id.index()] = 1;
     }
   }
 }
 
 }  // namespace
 
-absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
-                        const std::vector<std::vector<int>>& component_of, std::size_t regions,
+absl::Status FillLabels(const std::vector<SplitMesh>& meshes,
+                        const std::vector<std::vector<RegionId>>& region_of,
+                        const std::vector<std::vector<ComponentId>>& component_of, std::size_t regions,
                         const RunContext& run, RegionMap& map) {
   constexpr double kMaxLabels = 8e6;  // of all pieces together
   constexpr int kMaxCells = 256;      // along each side of a piece
@@ -82,18 +84,21 @@ absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<
   const bool fall_apart = map.component_region.size() > regions;
   if (fall_apart) map.components.resize(meshes.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
-    map.labels[piece] = PieceLabels(meshes[piece], region_of[piece], map.cells);
-    if (fall_apart) map.components[piece] = PieceLabels(meshes[piece], component_of[piece], map.cells);
+    map.labels[piece] = PieceLabels(meshes[piece], region_of[piece], map.cells, kNoRegion);
+    if (fall_apart)
+      map.components[piece] = PieceLabels(meshes[piece], component_of[piece], map.cells, kNoComponent);
   }));
   GiveCells(meshes, region_of, regions, map);
   for (std::size_t piece = 0; piece < map.components.size(); ++piece) {
     for (std::size_t cell = 0; cell < map.labels[piece].size(); ++cell) {
-      int& component = map.components[piece][cell];
-      const int label = map.labels[piece][cell];
-      if (component >= 0 && map.component_region[static_cast<std::size_t>(component)] == label) continue;
+      ComponentId& component = map.components[piece][cell];
+      const RegionId label = map.labels[piece][cell];
+      if (component != kNoComponent && map.component_region[component.index()] == label) continue;
       // A cell that a region took counts for the first component of that region.
       const auto first = std::lower_bound(map.component_region.begin(), map.component_region.end(), label);
-      component = label < 0 ? -1 : static_cast<int>(first - map.component_region.begin());
+      component = label == kNoRegion
+                      ? kNoComponent
+                      : ComponentId(static_cast<std::size_t>(first - map.component_region.begin()));
     }
   }
   return absl::OkStatus();

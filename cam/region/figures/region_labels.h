@@ -16,8 +16,9 @@ namespace patchmill {
 // Fills map.components in the same way from `component_of` if map.component_region has more components than
 // there are `regions`. A cell that a region took counts for the first component of that region. CANCELLED and
 // DEADLINE_EXCEEDED from `run`.
-absl::Status FillLabels(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<int>>& region_of,
-                        const std::vector<std::vector<int>>& component_of, std::size_t regions,
+absl::Status FillLabels(const std::vector<SplitMesh>& meshes,
+                        const std::vector<std::vector<RegionId>>& region_of,
+                        const std::vector<std::vector<ComponentId>>& component_of, std::size_t regions,
                         const RunContext& run, RegionMap& map);
 
 }  // namespace patchmill

@@ -11,9 +11,9 @@ constexpr int kStretches = 8;
 constexpr double kPoint = 1e-9;  // mm; length that the first point of a pass counts as
 
 // id_at(p) is the id of the region or component at the surface point p.
-template <class IdAt>
-std::map<int, double> LengthIn(const CutterPath& pass, const IdAt& id_at) {
-  std::map<int, double> lengths;
+template <class Id, class IdAt>
+std::map<Id, double> LengthIn(const CutterPath& pass, const IdAt& id_at) {
+  std::map<Id, double> lengths;
   if (pass.points.empty()) return lengths;
   const auto add = [&](const std::optional<SurfacePoint>& at, double length) {
     if (at) lengths[id_at(*at)] += length;
@@ -40,14 +40,14 @@ std::map<int, double> LengthIn(const CutterPath& pass, const IdAt& id_at) {
 
 }  // namespace
 
-std::map<int, double> LengthInRegions(const CutterPath& pass, const RegionMap& map) {
+std::map<RegionId, double> LengthInRegions(const CutterPath& pass, const RegionMap& map) {
   if (map.regions.empty()) return {};
-  return LengthIn(pass, [&](const SurfacePoint& at) { return map.At(at); });
+  return LengthIn<RegionId>(pass, [&](const SurfacePoint& at) { return map.At(at); });
 }
 
-std::map<int, double> LengthInComponents(const CutterPath& pass, const RegionMap& map) {
+std::map<ComponentId, double> LengthInComponents(const CutterPath& pass, const RegionMap& map) {
   if (map.regions.empty()) return {};
-  return LengthIn(pass, [&](const SurfacePoint& at) { return map.ComponentAt(at); });
+  return LengthIn<ComponentId>(pass, [&](const SurfacePoint& at) { return map.ComponentAt(at); });
 }
 
 }  // namespace patchmill

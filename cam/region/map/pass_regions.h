@@ -8,12 +8,12 @@
 
 namespace patchmill {
 
-// Length of the pass in mm over each region. The key -1 stands for places where the map has no region. A move
-// along one piece counts for the regions that it leads over. Any other move counts half for the contact at
-// either end. The first point counts 1e-9 mm, so that a pass of one point has a region. Points on the floor
-// have no contact and count nothing. The map may be empty.
-std::map<int, double> LengthInRegions(const CutterPath& pass, const RegionMap& map);
+// Length of the pass in mm over each region. The key kNoRegion stands for places where the map has no region.
+// A move along one piece counts for the regions that it leads over. Any other move counts half for the
+// contact at either end. The first point counts 1e-9 mm, so that a pass of one point has a region. Points on
+// the floor have no contact and count nothing. The map may be empty.
+std::map<RegionId, double> LengthInRegions(const CutterPath& pass, const RegionMap& map);
 // The same for components of regions.
-std::map<int, double> LengthInComponents(const CutterPath& pass, const RegionMap& map);
+std::map<ComponentId, double> LengthInComponents(const CutterPath& pass, const RegionMap& map);
 
 }  // namespace patchmill

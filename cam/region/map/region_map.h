@@ -12,6 +12,7 @@
 #include "cam/location/limits/operation_limits.h"
 #include "cam/location/locator.h"
 #include "core/base/run_context.h"
+#include "core/base/typed_id.h"
 
 namespace patchmill {
 
@@ -71,7 +72,7 @@ struct RegionParams {
 // An area that forced passes do not finish (kStrategy) is a region of its own. It has the kind and slope that
 // prevail in it, and it is reachable and cut like any other. With any other reason the kind is kUnreachable.
 struct Region {
-  int id = 0;
+  RegionId id;
   RegionKind kind = RegionKind::kNeutral;
   SlopeClass slope = SlopeClass::kGentle;
   UnreachableReason reason = UnreachableReason::kNone;
@@ -87,10 +88,12 @@ struct Region {
 // A line on the surface between two regions, or where one region ends.
 struct BorderLine {
   BorderKind kind = BorderKind::kSlope;
-  int region = -1, other = -1;               // ids, the lower one first; other = -1 if the surface ends
-  int component = -1, other_component = -1;  // components of these regions on the two sides
-  bool closed = false;                       // the last point is joined to the first, which is not repeated
-  int from = -1, to = -1;                    // nodes of the map at its ends; -1 if it is closed
+  // The regions on the two sides, the lower id first, and their components there. If the surface ends, the
+  // other side has none.
+  RegionId region = kNoRegion, other = kNoRegion;
+  ComponentId component = kNoComponent, other_component = kNoComponent;
+  bool closed = false;     // the last point is joined to the first, which is not repeated
+  int from = -1, to = -1;  // nodes of the map at its ends; -1 if it is closed
   std::vector<Vec3> points;
 };
 
@@ -99,21 +102,21 @@ struct RegionMap {
       regions;  // index = id; reachable regions first, then unreachable ones, each by falling area
   std::vector<BorderLine> border_lines;  // each once
   std::vector<Vec3> nodes;  // where lines end: three or more lines meet, or two of different kinds
-  // Labels for lookup. Each piece has a grid of cells x cells. The label of a cell is the id of the region at
-  // the cell's centre, or -1.
+  // Labels for lookup. Each piece has a grid of cells x cells. The label of a cell is the region at its
+  // centre, or kNoRegion.
   int cells = 0;
-  std::vector<std::vector<int>> labels;  // [piece][i * cells + j], i along u
+  std::vector<std::vector<RegionId>> labels;  // [piece][i * cells + j], i along u
   // A region may consist of several connected components.
-  std::vector<int> component_region;         // [component]: its region, rising
-  std::vector<std::vector<int>> components;  // like `labels`; empty if every region is one component
+  std::vector<RegionId> component_region;            // [component]: its region, rising
+  std::vector<std::vector<ComponentId>> components;  // like `labels`; empty if every region is one component
 
-  // The component or region at a cell or surface point; -1 if there is none.
-  int ComponentAt(std::size_t piece, std::size_t cell) const {
-    return (components.empty() ? labels : components)[piece][cell];
+  // The component or region at a cell or surface point; kNoComponent or kNoRegion if there is none.
+  ComponentId ComponentAt(std::size_t piece, std::size_t cell) const {
+    return components.empty() ? ComponentId(labels[piece][cell].value) : components[piece][cell];
   }
 
-  int ComponentAt(const SurfacePoint& p) const { return ComponentAt(p.piece.index(), CellOf(p)); }
-  int At(const SurfacePoint& p) const { return labels[p.piece.index()][CellOf(p)]; }
+  ComponentId ComponentAt(const SurfacePoint& p) const { return ComponentAt(p.piece.index(), CellOf(p)); }
+  RegionId At(const SurfacePoint& p) const { return labels[p.piece.index()][CellOf(p)]; }
 
  private:
   std::size_t CellOf(const SurfacePoint& p) const {

@@ -6,7 +6,7 @@ std::string RegionsDigest(const RegionMap& map) {
   Canonical out;
   out.Add("patchmill regions 1").Add(static_cast<std::int64_t>(map.regions.size()));
   for (const Region& region : map.regions) {
-    out.Add(std::int64_t{region.id}).Add(static_cast<std::int64_t>(region.kind));
+    out.Add(std::int64_t{region.id.value}).Add(static_cast<std::int64_t>(region.kind));
     // An override of a region removes its kStrategy; the digest must stay the same.
     const bool forced = region.reason == UnreachableReason::kStrategy;
     out.Add(static_cast<std::int64_t>(region.slope));

@@ -92,37 +92,47 @@ std::size_t SideFacing(const std::vector<BorderSide>& border, const BoxGrid& gri
   return found;
 }
 
-int RegionOf(const std::vector<std::vector<int>>& region_of, int piece, int triangle) {
-  return region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
+template <class Id>
+Id IdOf(const std::vector<std::vector<Id>>& id_of, int piece, int triangle) {
+  return id_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
 }
 
-bool IsBorder(const Adjacency& a, const std::vector<std::vector<int>>& region_of) {
-  return a.other_piece < 0 || RegionOf(region_of, a.side.piece, a.side.triangle) !=
-                                  RegionOf(region_of, a.other_piece, a.other_triangle);
+template <class Id>
+bool IsBorder(const Adjacency& a, const std::vector<std::vector<Id>>& id_of) {
+  return a.other_piece < 0 ||
+         IdOf(id_of, a.side.piece, a.side.triangle) != IdOf(id_of, a.other_piece, a.other_triangle);
 }
 
 }  // namespace
 
+template <class Id>
 std::vector<std::size_t> BorderSides(const AdjacencyList& adjacency, std::size_t piece,
-                                     const std::vector<std::vector<int>>& region_of) {
+                                     const std::vector<std::vector<Id>>& id_of) {
   std::vector<std::size_t> sides;
   adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {
-    if (IsBorder(a, region_of)) sides.push_back(i);
+    if (IsBorder(a, id_of)) sides.push_back(i);
   });
   return sides;
 }
 
+template <class Id>
 absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList& adjacency,
-                                                     const std::vector<std::vector<int>>& region_of,
+                                                     const std::vector<std::vector<Id>>& id_of,
                                                      const RunContext& run) {
-  std::vector<std::vector<std::size_t>> pieces(region_of.size());
+  std::vector<std::vector<std::size_t>> pieces(id_of.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t piece) {
-    pieces[piece] = BorderSides(adjacency, piece, region_of);
+    pieces[piece] = BorderSides(adjacency, piece, id_of);
   }));
   std::vector<std::size_t> sides;
   for (const std::vector<std::size_t>& own : pieces) sides.insert(sides.end(), own.begin(), own.end());
   return sides;
 }
+
+template std::vector<std::size_t> BorderSides(const AdjacencyList&, std::size_t,
+                                              const std::vector<std::vector<RegionId>>&);
+template absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList&,
+                                                              const std::vector<std::vector<int>>&,
+                                                              const RunContext&);
 
 Adjacency AdjacencyList::operator[](std::size_t side) const {
   const std::size_t n = side / 3;

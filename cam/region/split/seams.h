@@ -87,14 +87,16 @@ struct AdjacencyList {
 absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                             const RunContext& run);
 
-// The sides of one piece that lie between different regions (`region_of[piece][triangle]`) or on an open
-// edge, rising.
+// The sides of one piece that lie between different regions or raw regions (`id_of[piece][triangle]`) or on an
+// open edge, rising.
+template <class Id>
 std::vector<std::size_t> BorderSides(const AdjacencyList& adjacency, std::size_t piece,
-                                     const std::vector<std::vector<int>>& region_of);
+                                     const std::vector<std::vector<Id>>& id_of);
 
 // The same for all pieces. CANCELLED and DEADLINE_EXCEEDED from `run`.
+template <class Id>
 absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList& adjacency,
-                                                     const std::vector<std::vector<int>>& region_of,
+                                                     const std::vector<std::vector<Id>>& id_of,
                                                      const RunContext& run);
 
 }  // namespace patchmill

@@ -65,9 +65,10 @@ TEST(CircularLines, RegionsAroundOneAxisShareThem) {
     for (int i = 0; i < regions.map.cells; ++i) {
       for (int j = 0; j < regions.map.cells; ++j) {
         const PieceId id(static_cast<int>(piece));
-        const int region = regions.map.labels[piece][static_cast<std::size_t>(i * regions.map.cells + j)];
+        const RegionId region =
+            regions.map.labels[piece][static_cast<std::size_t>(i * regions.map.cells + j)];
         ASSERT_NE(round.HasCell(id, i, j), straight.HasCell(id, i, j));
-        if (region >= 0 && !regions.chosen.choices[static_cast<std::size_t>(region)].around.empty()) {
+        if (region != kNoRegion && !regions.chosen.choices[region.index()].around.empty()) {
           ASSERT_TRUE(round.HasCell(id, i, j));
         }
       }
@@ -188,7 +189,7 @@ TEST(CircularLines, OfManyRimsInOneRegionEachItsOwn) {
     for (std::size_t id = 0; id < regions.chosen.choices.size(); ++id) {
       const RegionChoice& choice = regions.chosen.choices[id];
       for (const auto& [component, around] : choice.around) {
-        EXPECT_EQ(regions.map.component_region[static_cast<std::size_t>(component)], static_cast<int>(id));
+        EXPECT_EQ(regions.map.component_region[component.index()], RegionId(id));
         for (std::size_t k = 0; k < places.size(); ++k)
           found[k] += (around.center - places[k]).norm() < 1e-6 && around.outer < 24.0;
       }

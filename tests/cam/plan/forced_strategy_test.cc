@@ -75,7 +75,7 @@ TEST(ForcedArea, ContoursLeaveTheCapOfASphere) {
     EXPECT_EQ(region.kind, RegionKind::kMountain);
     EXPECT_EQ(region.slope, SlopeClass::kGentle);
     EXPECT_GT(region.inside.z(), rho * cosine);
-    EXPECT_GT(regions.figures[static_cast<std::size_t>(region.id)].step_min, 0.0);
+    EXPECT_GT(regions.figures[region.id.index()].step_min, 0.0);
     // At the summit no step is short enough. The nearest finished surface is the circle around it, sampled
     // in every second cell of 0.12 mm each way.
     const double away = std::hypot(rho - (rho + kRadius) * cosine, (rho + kRadius) * sine) - kRadius;
@@ -118,9 +118,8 @@ TEST(ForcedArea, OpenAngles) {
   const JobResult result = Mill(surface, job);
   EXPECT_EQ(RegionsDigest(result.regions), RegionsDigest(given));
   for (const Region& region : result.report.regions) {
-    const bool kept = result.report.choices[static_cast<std::size_t>(region.id)].zigzag_angle == kPi / 2.0;
-    const bool beyond =
-        given.regions[static_cast<std::size_t>(region.id)].reason == UnreachableReason::kStrategy;
+    const bool kept = result.report.choices[region.id.index()].zigzag_angle == kPi / 2.0;
+    const bool beyond = given.regions[region.id.index()].reason == UnreachableReason::kStrategy;
     EXPECT_EQ(region.reason == UnreachableReason::kStrategy, kept && beyond);
   }
   EXPECT_EQ(result.report.verify.unreachable_area[kStrategyArea] > 0.0, StrategyArea(result.regions) > 0.0);

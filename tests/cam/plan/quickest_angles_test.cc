@@ -23,7 +23,7 @@ RegionMap MapOf(std::vector<SlopeClass> slopes) {
   RegionMap map;
   for (const SlopeClass slope : slopes) {
     Region& region = map.regions.emplace_back();
-    region.id = static_cast<int>(map.regions.size()) - 1;
+    region.id = RegionId(map.regions.size() - 1);
     region.slope = slope;
   }
   return map;
@@ -106,8 +106,8 @@ TEST(QuickestAngles, AMixtureThatCostsMoreIsNotTaken) {
 // Components that have circles anyhow, one more that may have them, and one with lines whatever is tried: it
 // takes its best angle, and the others stand in their order.
 TEST(QuickestAngles, CirclesOnAPartOfARegion) {
-  const CircularComponent first{1, {Vec2(1, 2), 3.0, 12.0}}, second{2, {Vec2(40, 2), 3.0, 9.0}},
-      third{5, {Vec2(80, 2), 3.0, 9.0}};
+  const CircularComponent first{ComponentId(1), {Vec2(1, 2), 3.0, 12.0}},
+      second{ComponentId(2), {Vec2(40, 2), 3.0, 9.0}}, third{ComponentId(5), {Vec2(80, 2), 3.0, 9.0}};
   RegionChoices choices = OpenChoices(1);
   choices.choices[0].around = {first, third};
   const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
@@ -132,8 +132,8 @@ TEST(QuickestAngles, AnErrorEndsIt) {
 // try.
 TEST(QuickestAngles, CirclesWhereTheyAreQuicker) {
   std::vector<CircularTrial> circles = NoCircles(3);
-  circles[0] = {{{0, {Vec2(1, 2), 3.0, 12.0}}}, true};
-  circles[1] = {{{1, {Vec2(40, 2), 3.0, 9.0}}}, true};
+  circles[0] = {{{ComponentId(0), {Vec2(1, 2), 3.0, 12.0}}}, true};
+  circles[1] = {{{ComponentId(1), {Vec2(40, 2), 3.0, 9.0}}}, true};
   int plans = 0;
   const auto plan = [&](const std::vector<RegionChoice>& with) -> absl::StatusOr<RegionTimes> {
     ++plans;

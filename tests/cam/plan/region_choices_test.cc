@@ -37,7 +37,7 @@ Job DomeJob() {
 
 RegionOverride Change(int region) {
   RegionOverride change;
-  change.region = region;
+  change.region = RegionId(region);
   return change;
 }
 
@@ -78,7 +78,7 @@ class ChoosingRegions : public ::testing::Test {
     ASSERT_TRUE(regions.ok()) << regions.status();
     map_ = regions->map;
     ASSERT_EQ(map_.regions.size(), 2u);
-    for (const Region& r : map_.regions) (r.slope == SlopeClass::kSteep ? steep_ : gentle_) = r.id;
+    for (const Region& r : map_.regions) (r.slope == SlopeClass::kSteep ? steep_ : gentle_) = r.id.value;
   }
   absl::Status StatusOf(const RegionOverride& change, const std::string& digest = "") {
     Job job = DomeJob();
@@ -272,14 +272,14 @@ TEST(RegionParts, UnreachableSurfaceGoesWithWhatSurroundsIt) {
   RegionMap map;
   map.cells = 8;
   map.regions.resize(3);
-  for (int id = 0; id < 3; ++id) map.regions[static_cast<std::size_t>(id)].id = id;
+  for (int id = 0; id < 3; ++id) map.regions[static_cast<std::size_t>(id)].id = RegionId(id);
   map.regions[2].kind = RegionKind::kUnreachable;
   // Columns i < 4 are region 0, the others region 1; a pit (2) in each half.
-  std::vector<int> labels(64);
+  std::vector<RegionId> labels(64);
   for (int i = 0; i < 8; ++i) {
     for (int j = 0; j < 8; ++j) {
       const bool pit = (i == 1 || i == 6) && j >= 3 && j <= 4;
-      labels[static_cast<std::size_t>(8 * i + j)] = pit ? 2 : i < 4 ? 0 : 1;
+      labels[static_cast<std::size_t>(8 * i + j)] = RegionId(pit ? 2 : i < 4 ? 0 : 1);
     }
   }
   map.labels = {labels};
@@ -302,18 +302,18 @@ TEST(RegionParts, ARegionWithoutACellIsRefused) {
   RegionMap map;
   map.cells = 2;
   map.regions.resize(2);
-  for (int id = 0; id < 2; ++id) map.regions[static_cast<std::size_t>(id)].id = id;
-  map.labels.assign(surface.pieces.size(), std::vector<int>(4, 0));
+  for (int id = 0; id < 2; ++id) map.regions[static_cast<std::size_t>(id)].id = RegionId(id);
+  map.labels.assign(surface.pieces.size(), std::vector<RegionId>(4, RegionId(0)));
   Operation op;
   RegionOverride change;
-  change.region = 1;
+  change.region = RegionId(1);
   change.skip = true;
   op.overrides = {change};
   const auto choices = ChooseRegions(surface, map, op, Vec3::Zero());
   ASSERT_EQ(choices.status().code(), absl::StatusCode::kInvalidArgument) << choices.status();
   EXPECT_NE(choices.status().message().find("region_overrides[0] names region 1"), std::string::npos)
       << choices.status();
-  op.overrides[0].region = 0;
+  op.overrides[0].region = RegionId(0);
   EXPECT_TRUE(ChooseRegions(surface, map, op, Vec3::Zero()).ok());
 }
 

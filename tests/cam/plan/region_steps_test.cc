@@ -24,14 +24,14 @@ void ExpectSteps(const PatchModel& model, const Job& job, double step) {
   ASSERT_TRUE(regions.ok()) << regions.status();
   int reachable = 0;
   for (const Region& region : regions->map.regions) {
-    const RegionFigures& figures = regions->figures[static_cast<std::size_t>(region.id)];
+    const RegionFigures& figures = regions->figures[region.id.index()];
     if (region.kind == RegionKind::kUnreachable) {
       EXPECT_EQ(figures.step_max, 0.0);
       continue;
     }
     ++reachable;
-    EXPECT_NEAR(figures.step_min, step, 1e-9) << region.id;
-    EXPECT_NEAR(figures.step_max, step, 1e-9) << region.id;
+    EXPECT_NEAR(figures.step_min, step, 1e-9) << region.id.value;
+    EXPECT_NEAR(figures.step_max, step, 1e-9) << region.id.value;
   }
   EXPECT_GT(reachable, 0);
 }
@@ -68,7 +68,7 @@ TEST(RegionSteps, WhatMergingLeftIsCutOtherwise) {
     double area = 0.0;
     std::size_t reachable = 0;
     for (const Region& region : planned->map.regions) {
-      const RegionFigures& figures = planned->figures[static_cast<std::size_t>(region.id)];
+      const RegionFigures& figures = planned->figures[region.id.index()];
       reachable += region.kind != RegionKind::kUnreachable;
       area += region.area * figures.otherwise_share;
     }
@@ -92,7 +92,7 @@ TEST(RegionSteps, NoneWhereTheBallDoesNotFit) {
   const double flat = 2.0 * std::sqrt(6.0 * job.operation.scallop);
   bool seen = false;
   for (const Region& region : regions->map.regions) {
-    const RegionFigures& figures = regions->figures[static_cast<std::size_t>(region.id)];
+    const RegionFigures& figures = regions->figures[region.id.index()];
     if (region.kind == RegionKind::kUnreachable) continue;
     seen = true;
     EXPECT_GT(figures.step_min, 0.0);

@@ -60,7 +60,7 @@ TEST(RegionClosedForms, TorusBands) {
   ExpectArea(Area(map, RegionKind::kBasin, SlopeClass::kGentle), band(Radians(90), Radians(135)));
   ExpectArea(Area(map, RegionKind::kBasin, SlopeClass::kSteep), band(Radians(135), Radians(180)));
   for (const Region& r : map.regions) {
-    EXPECT_EQ(r.border.size(), 2u) << r.id;
+    EXPECT_EQ(r.border.size(), 2u) << r.id.value;
     for (const auto& loop : r.border) {
       for (const Vec3& p : loop) {
         // Every border is a circle: equators, 45 degrees, crest.
@@ -127,7 +127,7 @@ TEST(RegionClosedForms, SaddleSectorsMeetInTheNode) {
       node = node || p.norm() < 1e-9;
       EXPECT_TRUE(outer || std::abs(std::abs(p.y()) - k * std::abs(p.x())) < 1e-6) << p.transpose();
     }
-    EXPECT_TRUE(node) << r.id;
+    EXPECT_TRUE(node) << r.id.value;
   }
 }
 

@@ -68,7 +68,7 @@ TEST(SplitRegions, TorusHasAnOuterMountainAndAnInnerBasin) {
   EXPECT_EQ(Area(map, RegionKind::kUnreachable), 0.0);
   // Mountain and basin, each steep below and gentle above: four bands.
   EXPECT_EQ(map.regions.size(), 4u);
-  for (const Region& r : map.regions) EXPECT_GE(r.border.size(), 1u) << r.id;
+  for (const Region& r : map.regions) EXPECT_GE(r.border.size(), 1u) << r.id.value;
 }
 
 // A roof of a gentle and a steep plane: each region knows its patch.
@@ -234,19 +234,19 @@ TEST(SplitRegions, OfAnyPartAreLargeClosedAndTileIt) {
 
     // Regions that have a reachable neighbour are no smaller than a turn of the ball.
     std::vector<bool> has_neighbour(map.regions.size(), false);
-    const auto reached = [&](int id) {
-      return id >= 0 && map.regions[static_cast<std::size_t>(id)].kind != RegionKind::kUnreachable;
+    const auto reached = [&](RegionId id) {
+      return id != kNoRegion && map.regions[id.index()].kind != RegionKind::kUnreachable;
     };
     for (const BorderLine& line : map.border_lines) {
       if (!reached(line.region) || !reached(line.other)) continue;
-      has_neighbour[static_cast<std::size_t>(line.region)] = true;
-      has_neighbour[static_cast<std::size_t>(line.other)] = true;
+      has_neighbour[line.region.index()] = true;
+      has_neighbour[line.other.index()] = true;
     }
     int counted = 0;
     for (const Region& r : map.regions) {
       EXPECT_GT(r.area, 0.0);
-      counted += has_neighbour[static_cast<std::size_t>(r.id)];
-      EXPECT_GE(r.area, has_neighbour[static_cast<std::size_t>(r.id)] ? 2 * kPi * 9 : 0.0) << r.id;
+      counted += has_neighbour[r.id.index()];
+      EXPECT_GE(r.area, has_neighbour[r.id.index()] ? 2 * kPi * 9 : 0.0) << r.id.value;
       ASSERT_FALSE(r.border.empty());
       for (const auto& loop : r.border) {
         ASSERT_GE(loop.size(), 3u);
@@ -257,7 +257,7 @@ TEST(SplitRegions, OfAnyPartAreLargeClosedAndTileIt) {
           const auto at = ClosestToPoint(surface, middle, 1.0, 1e-4);
           farthest = std::max(farthest, at ? at->distance : 1.0);
         }
-        EXPECT_LE(farthest, 2.0 * params.border_tolerance) << r.id;
+        EXPECT_LE(farthest, 2.0 * params.border_tolerance) << r.id.value;
       }
     }
     EXPECT_LE(counted, 20);  // 40 times the detail
@@ -268,10 +268,9 @@ TEST(SplitRegions, OfAnyPartAreLargeClosedAndTileIt) {
     int cells = 0, relabelled = 0, turned = 0;
     for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
       for (std::size_t k = 0; k < map.labels[piece].size(); ++k) {
-        const int label = map.labels[piece][k], was = raw.labels[piece][k];
-        ASSERT_TRUE(label >= 0 && label < static_cast<int>(map.regions.size()));
-        const Region &now = map.regions[static_cast<std::size_t>(label)],
-                     &then = raw.regions[static_cast<std::size_t>(was)];
+        const RegionId label = map.labels[piece][k], was = raw.labels[piece][k];
+        ASSERT_LT(label.index(), map.regions.size());  // kNoRegion has no index below
+        const Region &now = map.regions[label.index()], &then = raw.regions[was.index()];
         turned += (now.kind == RegionKind::kUnreachable) != (then.kind == RegionKind::kUnreachable);
         ++cells;
         relabelled += now.kind != then.kind || now.slope != then.slope;
@@ -309,36 +308,35 @@ TEST(SplitRegions, RegionsFallIntoComponents) {
   EXPECT_TRUE(std::is_sorted(map.component_region.begin(), map.component_region.end()));
   const std::size_t pieces = surface.pieces.size() / kCount;  // of each torus
   std::vector<std::set<std::size_t>> tori(map.component_region.size());
-  std::vector<std::set<int>> components(map.regions.size());
+  std::vector<std::set<ComponentId>> components(map.regions.size());
   for (std::size_t piece = 0; piece < map.labels.size(); ++piece) {
     for (std::size_t cell = 0; cell < map.labels[piece].size(); ++cell) {
-      const int component = map.ComponentAt(piece, cell), label = map.labels[piece][cell];
-      ASSERT_GE(component, 0);
-      ASSERT_EQ(map.component_region[static_cast<std::size_t>(component)], label);
-      tori[static_cast<std::size_t>(component)].insert(piece / pieces);
-      components[static_cast<std::size_t>(label)].insert(component);
+      const ComponentId component = map.ComponentAt(piece, cell);
+      const RegionId label = map.labels[piece][cell];
+      ASSERT_NE(component, kNoComponent);
+      ASSERT_EQ(map.component_region[component.index()], label);
+      tori[component.index()].insert(piece / pieces);
+      components[label.index()].insert(component);
     }
   }
   bool all_in_one = false;
   for (const Region& region : map.regions) {
     if (region.kind == RegionKind::kUnreachable) continue;
     // The steep area outside and inside it, or its crest.
-    const double each =
-        region.area / static_cast<double>(components[static_cast<std::size_t>(region.id)].size());
+    const double each = region.area / static_cast<double>(components[region.id.index()].size());
     EXPECT_LT(each, 1000.0);
-    all_in_one = all_in_one || components[static_cast<std::size_t>(region.id)].size() >= kCount;
-    for (const int component : components[static_cast<std::size_t>(region.id)])
-      EXPECT_EQ(tori[static_cast<std::size_t>(component)].size(), 1u);
+    all_in_one = all_in_one || components[region.id.index()].size() >= kCount;
+    for (const ComponentId component : components[region.id.index()])
+      EXPECT_EQ(tori[component.index()].size(), 1u);
   }
   EXPECT_TRUE(all_in_one);
   for (const BorderLine& line : map.border_lines) {
-    EXPECT_EQ(map.component_region[static_cast<std::size_t>(line.component)], line.region);
-    if (line.other >= 0) {
-      EXPECT_EQ(map.component_region[static_cast<std::size_t>(line.other_component)], line.other);
-      EXPECT_EQ(tori[static_cast<std::size_t>(line.component)],
-                tori[static_cast<std::size_t>(line.other_component)]);
+    EXPECT_EQ(map.component_region[line.component.index()], line.region);
+    if (line.other != kNoRegion) {
+      EXPECT_EQ(map.component_region[line.other_component.index()], line.other);
+      EXPECT_EQ(tori[line.component.index()], tori[line.other_component.index()]);
     } else {
-      EXPECT_EQ(line.other_component, -1);
+      EXPECT_EQ(line.other_component, kNoComponent);
     }
   }
 }

@@ -196,11 +196,11 @@ TEST(BorderLines, OfAnyModelAreTheBordersOfItsRegions) {
     std::vector<bool> ended(map.nodes.size(), false);
     for (const BorderLine& line : map.border_lines) {
       ASSERT_GE(line.points.size(), 2u);
-      ASSERT_GE(line.region, 0);
+      ASSERT_NE(line.region, kNoRegion);
       EXPECT_NE(line.region, line.other);
-      EXPECT_EQ(line.other < 0, line.kind == BorderKind::kOpenEdge);
-      for (const int id : {line.region, line.other}) {
-        if (id >= 0) length[static_cast<std::size_t>(id)] += Length(line.points, line.closed);
+      EXPECT_EQ(line.other == kNoRegion, line.kind == BorderKind::kOpenEdge);
+      for (const RegionId id : {line.region, line.other}) {
+        if (id != kNoRegion) length[id.index()] += Length(line.points, line.closed);
       }
       if (line.closed) {
         EXPECT_TRUE(line.from < 0 && line.to < 0);
@@ -222,7 +222,7 @@ TEST(BorderLines, OfAnyModelAreTheBordersOfItsRegions) {
       // two reasons that part along a seam, some of it may be a line and in no loop: 0.8 mm of 46 where the
       // teacup's handle ends.
       const double share = region.kind == RegionKind::kUnreachable ? 0.02 : 0.01;
-      EXPECT_NEAR(length[static_cast<std::size_t>(region.id)], loops, share * loops + 0.01) << region.id;
+      EXPECT_NEAR(length[region.id.index()], loops, share * loops + 0.01) << region.id.value;
     }
   }
 }

@@ -114,7 +114,7 @@ TEST(RegionFigures, TheToolForARegionReachesAllOfIt) {
     for (int k = 0; k < kGrid * kGrid; ++k) {
       const double u = (k / kGrid + 0.5) / kGrid, v = (k % kGrid + 0.5) / kGrid;
       const SurfaceJet jet = Evaluate(surface.pieces[i], u, v);
-      const auto id = static_cast<std::size_t>(map.At({PieceId(i), u, v, jet.p}));
+      const std::size_t id = map.At({PieceId(i), u, v, jet.p}).index();
       const auto e = FacingAt(jet);
       if (!e || map.regions[id].kind != RegionKind::kUnreachable ||
           map.regions[id].reason != UnreachableReason::kConcave) {
@@ -184,15 +184,15 @@ TEST(RegionFigures, NoPlaceOfARegionKeepsMoreThanIsSaid) {
       for (int k = 0; k < kGrid * kGrid; ++k) {
         const double u = (k / kGrid + 0.5) / kGrid, v = (k % kGrid + 0.5) / kGrid;
         const SurfaceJet jet = Evaluate(surface.pieces[i], u, v);
-        Places& of = places[static_cast<std::size_t>(map.At({PieceId(i), u, v, jet.p}))];
+        Places& of = places[map.At({PieceId(i), u, v, jet.p}).index()];
         of.points.push_back(jet.p);
         of.normals.push_back(UpwardNormal(jet).value_or(Vec3::Zero()));
       }
     }
     for (const Region& r : map.regions) {
       if (r.kind != RegionKind::kUnreachable) continue;
-      SCOPED_TRACE(r.id);
-      const Places& of = places[static_cast<std::size_t>(r.id)];
+      SCOPED_TRACE(r.id.value);
+      const Places& of = places[r.id.index()];
       LeftoverParams leftover;
       leftover.floor_z = params.floor_z;
       const Deepest found = DeepestLeftover(free_ball, leftover, of.points, RunContext(), of.normals);
@@ -255,13 +255,13 @@ TEST(RegionFigures, UnmergedRegionsHaveAreasAndPointsOfTheirOwn) {
     const RegionMap map = Split(surface, params);
     EXPECT_NEAR(TotalArea(map), all, 1e-6 * all);
     std::vector<bool> has_cells(map.regions.size(), false);
-    for (const std::vector<int>& labels : map.labels)
-      for (const int id : labels) has_cells[static_cast<std::size_t>(id)] = true;
+    for (const std::vector<RegionId>& labels : map.labels)
+      for (const RegionId id : labels) has_cells[id.index()] = true;
     int without = 0;
     for (const Region& r : map.regions) {
-      SCOPED_TRACE(r.id);
+      SCOPED_TRACE(r.id.value);
       EXPECT_GT(r.area, 0.0);
-      const auto id = static_cast<std::size_t>(r.id);
+      const std::size_t id = r.id.index();
       without += !has_cells[id];
       const auto found = ClosestToPoint(surface, r.inside, 1.0, 1e-6);
       ASSERT_TRUE(found);

@@ -11,7 +11,7 @@ namespace {
 // The square in three: below the line v = 0.5, above it, and a speck in the middle of a cell's side.
 struct Specks {
   std::vector<SplitMesh> meshes{1};
-  std::vector<std::vector<int>> region_of{1};
+  std::vector<std::vector<RegionId>> region_of{1};
 
   void Add(const Vec2& a, const Vec2& b, const Vec2& c, int region) {
     SplitMesh& mesh = meshes[0];
@@ -25,7 +25,7 @@ struct Specks {
       mesh.vertices.push_back(vertex);
     }
     mesh.triangles.push_back(triangle);
-    region_of[0].push_back(region);
+    region_of[0].push_back(RegionId(region));
   }
 };
 
@@ -36,7 +36,7 @@ RegionMap Filled(const Specks& specks, std::size_t regions) {
 }
 
 std::size_t CellsOf(const RegionMap& map, int id) {
-  return static_cast<std::size_t>(std::count(map.labels[0].begin(), map.labels[0].end(), id));
+  return static_cast<std::size_t>(std::count(map.labels[0].begin(), map.labels[0].end(), RegionId(id)));
 }
 
 Specks Halves() {
@@ -53,7 +53,7 @@ TEST(RegionLabels, FollowTheTriangles) {
   ASSERT_EQ(map.cells, 256);
   for (int i = 0; i < 256; ++i)
     for (int j = 0; j < 256; ++j)
-      ASSERT_EQ(map.labels[0][static_cast<std::size_t>(256 * i + j)], j < 128 ? 0 : 1) << i << " " << j;
+      ASSERT_EQ(map.labels[0][static_cast<std::size_t>(256 * i + j)].value, j < 128 ? 0 : 1) << i << " " << j;
 }
 
 TEST(RegionLabels, GiveACellToWhatHoldsNoCellsCentre) {
@@ -63,7 +63,7 @@ TEST(RegionLabels, GiveACellToWhatHoldsNoCellsCentre) {
              {x + 0.1 * cell, y + 0.3 * cell}, 2);
   const RegionMap map = Filled(specks, 3);
   EXPECT_EQ(CellsOf(map, 2), 1u);
-  EXPECT_EQ(map.labels[0][256 * 100 + 40], 2);
+  EXPECT_EQ(map.labels[0][256 * 100 + 40], RegionId(2));
   EXPECT_EQ(CellsOf(map, 0), 128u * 256 - 1);
 }
 

@@ -12,11 +12,11 @@ RegionMap Map() {
   RegionMap map;
   map.regions.resize(3);
   map.cells = 4;
-  std::vector<int> striped;
+  std::vector<RegionId> striped;
   for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < 4; ++j) striped.push_back(i == 1 || i == 2 ? 1 : 0);
+    for (int j = 0; j < 4; ++j) striped.push_back(RegionId(i == 1 || i == 2 ? 1 : 0));
   }
-  map.labels = {striped, std::vector<int>(16, 2)};
+  map.labels = {striped, std::vector<RegionId>(16, RegionId(2))};
   return map;
 }
 
@@ -32,31 +32,31 @@ CutterPath Pass(std::vector<CutterPoint> points) {
   return pass;
 }
 
-using Lengths = std::map<int, double>;
+using Lengths = std::map<RegionId, double>;
 
 TEST(LengthInRegions, AMoveCountsForWhatItLeadsOverNotForItsEnds) {
   const Lengths lengths = LengthInRegions(Pass({At(0, 0.0), At(0, 1.0)}), Map());
   ASSERT_EQ(lengths.size(), 2u);
-  EXPECT_NEAR(lengths.at(0), 4.0, 1e-8);
-  EXPECT_NEAR(lengths.at(1), 4.0, 1e-8);
+  EXPECT_NEAR(lengths.at(RegionId(0)), 4.0, 1e-8);
+  EXPECT_NEAR(lengths.at(RegionId(1)), 4.0, 1e-8);
 }
 
 TEST(LengthInRegions, BetweenPiecesItIsHalfAndHalf) {
   const Lengths lengths = LengthInRegions(Pass({At(0, 0.9), At(1, 0.4)}), Map());
   ASSERT_EQ(lengths.size(), 2u);
-  EXPECT_NEAR(lengths.at(0), 2.0, 1e-8);
-  EXPECT_NEAR(lengths.at(2), 2.0, 1e-8);
+  EXPECT_NEAR(lengths.at(RegionId(0)), 2.0, 1e-8);
+  EXPECT_NEAR(lengths.at(RegionId(2)), 2.0, 1e-8);
 }
 
 TEST(LengthInRegions, BeyondACornerItIsTheSecondContactsPiece) {
   CutterPoint corner = At(0, 1.0);
   corner.other_contact = At(1, 0.0).contact;
   const Lengths lengths = LengthInRegions(Pass({corner, At(1, 0.5)}), Map());
-  EXPECT_NEAR(lengths.at(2), 4.0, 1e-8);
+  EXPECT_NEAR(lengths.at(RegionId(2)), 4.0, 1e-8);
 }
 
 TEST(LengthInRegions, APointAloneHasARegionAndTheFloorHasNone) {
-  EXPECT_GT(LengthInRegions(Pass({At(0, 0.5)}), Map()).at(1), 0.0);
+  EXPECT_GT(LengthInRegions(Pass({At(0, 0.5)}), Map()).at(RegionId(1)), 0.0);
   CutterPoint floor = At(0, 0.5);
   floor.contact.reset();
   EXPECT_TRUE(LengthInRegions(Pass({floor, floor}), Map()).empty());

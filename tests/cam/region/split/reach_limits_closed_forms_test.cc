@@ -65,8 +65,8 @@ TEST(ReachBorders, UnderASlabIsARoundedRectangle) {
   double length = 0.0;
   for (const BorderLine& line : map.border_lines) {
     if (line.kind != BorderKind::kReach) continue;
-    const auto reachable = [&](int id) {
-      return map.regions[static_cast<std::size_t>(id)].kind != RegionKind::kUnreachable;
+    const auto reachable = [&](RegionId id) {
+      return map.regions[id.index()].kind != RegionKind::kUnreachable;
     };
     // Lines between two reasons lie within.
     const bool limit = reachable(line.region) || reachable(line.other);

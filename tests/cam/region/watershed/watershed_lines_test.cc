@@ -114,7 +114,7 @@ TEST(Watershed, ACraterRimOfTwoSummitsIsCutAtBothPasses) {
         high = std::max(high, p.x());
       }
     }
-    EXPECT_LT(std::min(-low, high), 0.5) << r.id;
+    EXPECT_LT(std::min(-low, high), 0.5) << r.id.value;
   }
 }
 
