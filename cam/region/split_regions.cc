@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "cam/limits/reach_tolerance.h"
 #include "cam/region/border/border_arcs.h"
@@ -15,6 +16,7 @@
 #include "cam/region/figures/region_labels.h"
 #include "cam/region/merge/merge_regions.h"
 #include "cam/region/merge/raw_regions.h"
+#include "cam/region/merge/triangle_regions.h"
 #include "cam/region/watershed/catchments.h"
 #include "cam/region/watershed/watershed_lines.h"
 #include "core/base/parallel.h"
@@ -54,11 +56,16 @@ std::size_t MostRegions(const RegionParams& params) {
                                static_cast<std::size_t>(kMostRegions * std::max(params.detail, kCoarsest)));
 }
 
+// A split along the watersheds, and what each of its triangles belongs to.
+struct Divided {
+  SplitSurface split;
+  Watersheds watersheds;
+};
+
 // Divides the meshes along the watersheds of the summits that persist, then along those of the pits. Does not
-// divide the raw split.
-absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& params,
-                                  std::span<const ZeroField> fields, double max_cell, const RunContext& run,
-                                  std::vector<SplitMesh>& meshes, AdjacencyList& adjacency) {
+// divide the raw split. `max_cell` is the largest cell of the split, mm.
+absl::StatusOr<Divided> Divide(SplitSurface split, const RegionParams& params,
+                               std::span<const ZeroField> fields, double max_cell, const RunContext& run) {
   const double persistence =
       std::max({2.0 * params.tolerance, kPersistence * params.radius, kPersistence * max_cell}) *
       std::max(1.0, Coarseness(params));
@@ -70,27 +77,22 @@ absl::StatusOr<Watersheds> Divide(const Surface& surface, const RegionParams& pa
   constexpr double kSigns[] = {1.0, -1.0};
   HeightExtrema tops[2];
   if (params.detail < 1.0) {
-    PM_ASSIGN_OR_RETURN(const HeightGraph graph, HeightGraph::Make(meshes, adjacency, run));
+    PM_ASSIGN_OR_RETURN(const HeightGraph graph, HeightGraph::Make(split, run));
     absl::StatusOr<HeightExtrema> heights[2];
     PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
       heights[k] = graph.Find(kSigns[k], persistence, MostRegions(params), run);
     }));
     PM_ASSIGN_OR_RETURN(tops[0], std::move(heights[0]));
     PM_ASSIGN_OR_RETURN(tops[1], std::move(heights[1]));
-    PM_ASSIGN_OR_RETURN(const bool cut,
-                        CutWatersheds(surface, {tops[0].passes, tops[1].passes}, line, run, meshes));
-    if (cut) {
-      PM_ASSIGN_OR_RETURN(adjacency, FindAdjacency(surface, meshes, run));
-    }
+    PM_ASSIGN_OR_RETURN(split, CutWatersheds(std::move(split), {tops[0].passes, tops[1].passes}, line, run));
   }
-  absl::StatusOr<std::vector<std::vector<int>>> found[2];
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, 2, [&](std::size_t k) {
-    found[k] = Catchments(meshes, adjacency, tops[k].tops, kSigns[k], run);
-  }));
+  absl::StatusOr<PerTriangle<int>> found[2];
+  PM_RETURN_IF_ERROR(ParallelFor(
+      run, nullptr, 2, [&](std::size_t k) { found[k] = Catchments(split, tops[k].tops, kSigns[k], run); }));
   Watersheds watersheds;
   PM_ASSIGN_OR_RETURN(watersheds.summit, std::move(found[0]));
   PM_ASSIGN_OR_RETURN(watersheds.pit, std::move(found[1]));
-  return watersheds;
+  return Divided{std::move(split), std::move(watersheds)};
 }
 
 // Mean contour curvature that counts as flat, 1/mm: its sagitta over the ball's diameter is the tolerance.
@@ -134,27 +136,39 @@ Region FromLabel(const SplitLabel& label) {
   return region;
 }
 
+// What each triangle belongs to; id_of_raw[raw region] is known.
+template <class Id>
+PerTriangle<Id> Labelled(const RawRegions& raw, const std::vector<Id>& id_of_raw) {
+  PerTriangle<Id> id_of;
+  for (const std::vector<int>& piece : raw.of) {
+    std::vector<Id>& own = id_of.emplace_back();
+    own.reserve(piece.size());
+    for (const int region : piece) own.push_back(id_of_raw[static_cast<std::size_t>(region)]);
+  }
+  return id_of;
+}
+
 // The groups of merged regions as regions in their final order. Their borders follow the true curves.
 struct Numbered {
   std::vector<Region> regions;
-  std::vector<std::vector<RegionId>> region_of;        // [piece][triangle]
-  std::vector<std::vector<ComponentId>> component_of;  // [piece][triangle]
-  std::vector<RegionId> component_region;              // [component], rising
+  TriangleRegions triangles;
   BorderArcs arcs;
 };
 
 // Numbers the connected components of each region, by region and then by their first raw region. An
 // unreachable region is one component even if it is not connected, because nothing is cut there.
-void NumberComponents(const RawRegions& raw, const std::vector<RegionId>& id_of_raw, Numbered& numbered) {
+// id_of_raw[raw region] is its region.
+TriangleRegions WithComponents(const RawRegions& raw, const std::vector<RegionId>& id_of_raw,
+                               const std::vector<Region>& regions) {
   UnionFind sets(raw.regions.size());
   for (const RawContact& contact : raw.contacts) {
     const auto a = static_cast<std::size_t>(contact.a), b = static_cast<std::size_t>(contact.b);
     if (id_of_raw[a] == id_of_raw[b]) sets.Join(a, b);
   }
-  std::vector<int> first(numbered.regions.size(), -1);
+  std::vector<int> first(regions.size(), -1);
   for (std::size_t i = 0; i < id_of_raw.size(); ++i) {
     const std::size_t id = id_of_raw[i].index();
-    if (numbered.regions[id].kind != RegionKind::kUnreachable) continue;
+    if (regions[id].kind != RegionKind::kUnreachable) continue;
     if (first[id] < 0) first[id] = static_cast<int>(i);
     sets.Join(static_cast<std::size_t>(first[id]), i);
   }
@@ -162,52 +176,49 @@ void NumberComponents(const RawRegions& raw, const std::vector<RegionId>& id_of_
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return id_of_raw[a] < id_of_raw[b]; });
+  TriangleRegions triangles;
+  triangles.region_count = regions.size();
   std::vector<ComponentId> component(raw.regions.size(), kNoComponent);
   for (const std::size_t i : order) {
     if (sets.Find(i) != i) continue;  // the root of a set is its smallest member
-    component[i] = ComponentId(numbered.component_region.size());
-    numbered.component_region.push_back(id_of_raw[i]);
+    component[i] = ComponentId(triangles.component_region.size());
+    triangles.component_region.push_back(id_of_raw[i]);
   }
-  for (const std::vector<int>& piece : raw.of) {
-    std::vector<ComponentId>& of = numbered.component_of.emplace_back();
-    of.reserve(piece.size());
-    for (const int region : piece) of.push_back(component[sets.Find(static_cast<std::size_t>(region))]);
-  }
+  for (std::size_t i = 0; i < component.size(); ++i) component[i] = component[sets.Find(i)];
+  triangles.region_of = Labelled(raw, id_of_raw);
+  triangles.component_of = Labelled(raw, component);
+  return triangles;
 }
 
-absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                const AdjacencyList& adjacency, const RawRegions& raw,
-                                const MergedRegions& merged, std::span<const ZeroField> fields,
-                                const RegionParams& params, const RunContext& run) {
-  Numbered numbered;
-  // Until the areas along the true borders are known, regions have the numbers of their groups.
-  for (const std::vector<int>& piece : raw.of) {
-    std::vector<RegionId>& of = numbered.region_of.emplace_back();
-    of.reserve(piece.size());
-    for (const int region : piece) of.push_back(RegionId(merged.group[static_cast<std::size_t>(region)]));
-  }
-  PM_ASSIGN_OR_RETURN(numbered.arcs, FindBorderArcs(surface, meshes, adjacency, numbered.region_of, fields,
-                                                    params.border_tolerance, run));
+absl::StatusOr<Numbered> Number(const SplitSurface& split, const RawRegions& raw,
+                                std::span<const ZeroField> fields, const RegionParams& params,
+                                const RunContext& run) {
+  const MergedRegions merged = Merge(raw, params);
+  // The order of the regions depends on their areas along the true borders. Until these are known, regions
+  // have the numbers of their groups.
+  std::vector<RegionId> group_of_raw;
+  for (const int group : merged.group) group_of_raw.push_back(RegionId(group));
+  const PerTriangle<RegionId> group_of = Labelled(raw, group_of_raw);
+  PM_ASSIGN_OR_RETURN(BorderArcs arcs, FindBorderArcs(split, group_of, fields, params.border_tolerance, run));
   std::vector<double> flat(merged.label.size(), 0.0), curvature = flat, steepness = flat;
   for (std::size_t i = 0; i < raw.regions.size(); ++i) {
-    const auto group = static_cast<std::size_t>(merged.group[i]);
+    const std::size_t group = group_of_raw[i].index();
     flat[group] += raw.regions[i].area;
     curvature[group] += raw.regions[i].curvature;
     steepness[group] += raw.regions[i].steepness;
   }
-  PM_ASSIGN_OR_RETURN(const std::vector<double> gained,
-                      BendAreas(surface, meshes, adjacency, numbered.region_of, flat, run, numbered.arcs));
+  PM_ASSIGN_OR_RETURN(BentBorders bent, BendAreas(split, group_of, flat, std::move(arcs), run));
   std::vector<Region> groups;
   for (std::size_t k = 0; k < merged.label.size(); ++k) {
     SplitLabel label = merged.label[k];
     if (label.reason == UnreachableReason::kStrategy) {
-      const bool bent =
+      const bool bends =
           std::abs(curvature[k]) >= std::max(kMinCurvature * params.radius, FlatBend(params) * flat[k]);
-      label.curvature = static_cast<std::int8_t>(!bent ? 0 : curvature[k] < 0.0 ? -1 : 1);
+      label.curvature = static_cast<std::int8_t>(!bends ? 0 : curvature[k] < 0.0 ? -1 : 1);
       label.steep = steepness[k] > 0.0;
     }
     groups.push_back(FromLabel(label));
-    groups.back().area = flat[k] + gained[k];
+    groups.back().area = flat[k] + bent.gained[k];
   }
   std::vector<std::size_t> order(groups.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -216,6 +227,7 @@ absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitM
                ub = groups[b].kind == RegionKind::kUnreachable;
     return ua != ub ? ub : groups[a].area > groups[b].area;
   });
+  Numbered numbered;
   std::vector<RegionId> id_of(groups.size());
   for (const std::size_t group : order) {
     const RegionId id(numbered.regions.size());
@@ -223,25 +235,11 @@ absl::StatusOr<Numbered> Number(const Surface& surface, const std::vector<SplitM
     numbered.regions.push_back(groups[group]);
     numbered.regions.back().id = id;
   }
-  for (std::vector<RegionId>& piece : numbered.region_of) {
-    for (RegionId& id : piece) id = id_of[id.index()];
-  }
   std::vector<RegionId> id_of_raw;
-  for (const int group : merged.group) id_of_raw.push_back(id_of[static_cast<std::size_t>(group)]);
-  NumberComponents(raw, id_of_raw, numbered);
+  for (const RegionId group : group_of_raw) id_of_raw.push_back(id_of[group.index()]);
+  numbered.triangles = WithComponents(raw, id_of_raw, numbered.regions);
+  numbered.arcs = std::move(bent.arcs);
   return numbered;
-}
-
-// The patches of a region come in rising order, because pieces are sorted by patch.
-void ListPatches(const Surface& surface, const std::vector<std::vector<RegionId>>& region_of,
-                 std::vector<Region>& regions) {
-  for (std::size_t piece = 0; piece < region_of.size(); ++piece) {
-    const PatchId patch = surface.pieces[piece].patch;
-    for (const RegionId id : region_of[piece]) {
-      std::vector<PatchId>& patches = regions[id.index()].patches;
-      if (patches.empty() || patches.back() != patch) patches.push_back(patch);
-    }
-  }
 }
 
 }  // namespace
@@ -260,57 +258,63 @@ absl::StatusOr<RegionMap> SplitRegions(const Surface& surface, const RegionParam
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions", meshes.size(), [&](std::size_t i) {
     meshes[i] = BuildSplitMesh(surface.pieces[i], fields, params.steep_angle, mesh_params);
   }));
-  PM_ASSIGN_OR_RETURN(AdjacencyList adjacency, FindAdjacency(surface, meshes, run));
-  PM_ASSIGN_OR_RETURN(const Watersheds watersheds,
-                      Divide(surface, params, fields, mesh_params.max_cell, run, meshes, adjacency));
-  PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(meshes, adjacency, watersheds, run));
-  PM_ASSIGN_OR_RETURN(Numbered numbered,
-                      Number(surface, meshes, adjacency, raw, Merge(raw, params), fields, params, run));
-  // The figures of the regions do not depend on each other and are computed in parallel.
-  RegionMap map;
-  map.component_region = numbered.component_region;
-  BorderNet net;
-  std::vector<std::vector<std::vector<Vec3>>> borders;
-  std::vector<Region>& regions = numbered.regions;
-  const std::vector<std::vector<RegionId>>& region_of = numbered.region_of;
-  const BorderArcs& arcs = numbered.arcs;
-  PM_ASSIGN_OR_RETURN(const BorderPoints points,
-                      FindBorderPoints(surface, meshes, adjacency, arcs, params.border_tolerance, run));
-  const auto unreachable = UnreachableTriangles(meshes, region_of, regions);
+  PM_ASSIGN_OR_RETURN(SplitSurface whole, JoinMeshes(surface, std::move(meshes), run));
+  PM_ASSIGN_OR_RETURN(const Divided divided,
+                      Divide(std::move(whole), params, fields, mesh_params.max_cell, run));
+  const SplitSurface& split = divided.split;
+  PM_ASSIGN_OR_RETURN(const RawRegions raw, FindRawRegions(split, divided.watersheds, run));
+  PM_ASSIGN_OR_RETURN(const Numbered numbered, Number(split, raw, fields, params, run));
+  const TriangleRegions& triangles = numbered.triangles;
+  PM_ASSIGN_OR_RETURN(const BorderPoints border,
+                      FindBorderPoints(split, numbered.arcs, params.border_tolerance, run));
+  const auto unreachable = UnreachableTriangles(triangles, numbered.regions);
   // The largest regions come first, so that no thread is left with one of them at the end.
   std::vector<std::size_t> probed;
-  for (std::size_t id = 0; id < regions.size(); ++id) {
+  for (std::size_t id = 0; id < unreachable.size(); ++id) {
     if (!unreachable[id].empty()) probed.push_back(id);
   }
   std::stable_sort(probed.begin(), probed.end(), [&](std::size_t a, std::size_t b) {
     return unreachable[a].size() > unreachable[b].size();
   });
-  absl::Status statuses[3];
+  // The figures of the regions do not depend on each other and are computed in parallel.
+  std::vector<RegionProbe> probes(unreachable.size());  // [region]
+  absl::StatusOr<BorderNet> net;
+  absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> borders;
+  absl::StatusOr<RegionLabels> grid;
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions: figures", 3 + probed.size(), [&](std::size_t k) {
     if (k >= 3) {
       const std::size_t id = probed[k - 3];
-      ProbeRegion(surface, meshes, reach, params, unreachable[id], run, regions[id]);
+      probes[id] = ProbeRegion(split, reach, params, {numbered.regions[id].reason, unreachable[id]}, run);
     } else if (k == 0) {
-      auto found = FindBorderLines(surface, meshes, adjacency, arcs, points, numbered.component_of,
-                                   numbered.component_region, regions, run);
-      statuses[k] = found.status();
-      if (found.ok()) net = *std::move(found);
+      net = FindBorderLines(split, triangles, border, numbered.regions, run);
     } else if (k == 1) {
-      auto found = RegionBorders(surface, adjacency, arcs, points, region_of, regions.size(),
-                                 params.border_tolerance, run);
-      statuses[k] = found.status();
-      if (found.ok()) borders = *std::move(found);
+      borders = RegionBorders(split, triangles, border, params.border_tolerance, run);
     } else {
-      statuses[k] = FillLabels(meshes, region_of, numbered.component_of, regions.size(), run, map);
+      grid = LabelCells(split.meshes, triangles, run);
     }
   }));
-  ListPatches(surface, region_of, regions);
-  for (const absl::Status& status : statuses) PM_RETURN_IF_ERROR(status);
-  PlaceRegions(surface, meshes, region_of, map, regions);
-  map.border_lines = std::move(net.lines);
-  map.nodes = std::move(net.nodes);
-  map.regions = std::move(regions);
-  for (std::size_t i = 0; i < map.regions.size(); ++i) map.regions[i].border = std::move(borders[i]);
+  for (const absl::Status& status : {net.status(), borders.status(), grid.status()})
+    PM_RETURN_IF_ERROR(status);
+  RegionMap map;
+  map.regions = numbered.regions;
+  map.border_lines = std::move(net->lines);
+  map.nodes = std::move(net->nodes);
+  map.cells = grid->cells;
+  map.labels = std::move(grid->labels);
+  map.component_region = triangles.component_region;
+  map.components = std::move(grid->components);
+  const std::vector<RegionPlace> places = PlaceRegions(split, triangles, map);
+  std::vector<std::vector<PatchId>> patches = PatchesOfRegions(surface, triangles);
+  for (std::size_t id = 0; id < map.regions.size(); ++id) {
+    Region& region = map.regions[id];
+    region.inside = places[id].inside;
+    region.z_min = places[id].z_min;
+    region.z_max = places[id].z_max;
+    region.deepest_leftover = probes[id].deepest_leftover;
+    region.largest_tool_diameter = probes[id].largest_tool_diameter;
+    region.border = std::move((*borders)[id]);
+    region.patches = std::move(patches[id]);
+  }
   return map;
 }
 

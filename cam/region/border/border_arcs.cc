@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/base/segment.h"
@@ -39,7 +40,7 @@ std::vector<Vec2> LineAlong(const SplitMesh& mesh, const TriangleSide& side) {
   return a < b ? places : std::vector<Vec2>(places.rbegin(), places.rend());
 }
 
-RegionId RegionOf(const std::vector<std::vector<RegionId>>& region_of, int piece, int triangle) {
+RegionId RegionOf(const PerTriangle<RegionId>& region_of, int piece, int triangle) {
   return region_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
 }
 
@@ -49,7 +50,7 @@ struct PieceBorders {
   std::vector<std::size_t> sides, first;
 };
 PieceBorders BordersOf(const SplitMesh& mesh, const AdjacencyList& adjacency, std::size_t piece,
-                       const std::vector<std::vector<RegionId>>& region_of) {
+                       const PerTriangle<RegionId>& region_of) {
   struct Edge {
     int low, high;
     std::size_t place;
@@ -72,19 +73,22 @@ PieceBorders BordersOf(const SplitMesh& mesh, const AdjacencyList& adjacency, st
   return borders;
 }
 
-// Finds the arcs of some borders (places in `arcs`) of one piece. Borders of one field are refined together.
-void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
-                 std::size_t index, const std::vector<std::size_t>& borders,
-                 std::span<const ZeroField> fields, double tolerance, BorderArcs& arcs) {
-  std::vector<std::vector<std::size_t>> along(fields.size());  // [field]: borders along it
+// Finds the arcs of some sides of one piece, in the order of the sides. Sides of one field are refined
+// together. The arc of a straight side has no places.
+std::vector<std::vector<Vec2>> ArcsAlong(const SplitSurface& split, std::span<const TriangleSide> sides,
+                                         std::span<const ZeroField> fields, double tolerance) {
+  std::vector<std::vector<Vec2>> arcs(sides.size());
+  if (sides.empty()) return arcs;
+  const auto index = static_cast<std::size_t>(sides.front().piece);
+  const SplitMesh& mesh = split.meshes[index];
+  std::vector<std::vector<std::size_t>> along(fields.size());  // [field]: sides along it
   std::vector<std::vector<ZeroSegment>> chords(fields.size());
-  for (const std::size_t i : borders) {
-    const TriangleSide side = adjacency[arcs.sides[i]].side;
-    const ZeroVertex &a = EndOf(meshes[index], side, 0), &b = EndOf(meshes[index], side, 1);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const ZeroVertex &a = EndOf(mesh, sides[i], 0), &b = EndOf(mesh, sides[i], 1);
     const ZeroField* field = CommonField(a, b, fields);
     if (field == nullptr) {
-      arcs.places[i] = LineAlong(meshes[index], side);
-      if (arcs.places[i].empty()) field = FieldWithoutSign(a, b, fields);
+      arcs[i] = LineAlong(mesh, sides[i]);
+      if (arcs[i].empty()) field = FieldWithoutSign(a, b, fields);
     }
     if (field == nullptr) continue;
     const auto f = static_cast<std::size_t>(field - fields.data());
@@ -92,31 +96,46 @@ void RefineSides(const Surface& surface, const std::vector<SplitMesh>& meshes, c
     chords[f].push_back({{a.u, a.v}, {b.u, b.v}});
   }
   for (std::size_t f = 0; f < fields.size(); ++f) {
-    auto refined = RefineZeroArcs(surface.pieces[index], fields[f], chords[f], tolerance);
-    for (std::size_t k = 0; k < refined.size(); ++k) arcs.places[along[f][k]] = std::move(refined[k]);
+    auto refined = RefineZeroArcs(split.surface->pieces[index], fields[f], chords[f], tolerance);
+    for (std::size_t k = 0; k < refined.size(); ++k) arcs[along[f][k]] = std::move(refined[k]);
   }
+  return arcs;
 }
 
 constexpr int kMostHalvings = 12;  // of one line that is straight in the parameters
 
-// Adds points of the surface along a line that is straight in the parameters, between a and b.
-void AddBetween(const Piece& piece, const Vec2& a, const Vec3& at_a, const Vec2& b, const Vec3& at_b,
-                double tolerance, int halvings, std::vector<Vec3>& out) {
-  if (halvings == 0 || (at_b - at_a).norm() <= tolerance) return;
-  const auto at = [&](double t) {
-    const Vec2 q = (1.0 - t) * a + t * b;
-    return Position(piece, q.x(), q.y());
-  };
-  const Vec3 mid = at(0.5);
-  const auto near = [&](const Vec3& p) { return SegmentDistance(p, at_a, at_b) <= tolerance; };
-  // The first chord is checked at three places, because a line with two bends may cross it in the middle.
-  const bool first = halvings == kMostHalvings;
-  if (near(mid) && (!first || (near(at(0.25)) && near(at(0.75))))) return;
-  const Vec2 middle = 0.5 * (a + b);
-  AddBetween(piece, a, at_a, middle, mid, tolerance, halvings - 1, out);
-  out.push_back(mid);
-  AddBetween(piece, middle, mid, b, at_b, tolerance, halvings - 1, out);
-}
+// A point of the surface with its parameters.
+struct BorderPlace {
+  Vec2 uv;
+  Vec3 p;
+};
+
+// Adds points of the surface along a line that is straight in the parameters, between a and b. Chords deviate
+// by at most `tolerance` (mm).
+class PointsBetween {
+ public:
+  PointsBetween(const Piece& piece, double tolerance) : piece_(piece), tolerance_(tolerance) {}
+
+  void Add(const BorderPlace& a, const BorderPlace& b, int halvings, std::vector<Vec3>& out) const {
+    if (halvings == 0 || (b.p - a.p).norm() <= tolerance_) return;
+    const auto at = [&](double t) {
+      const Vec2 q = (1.0 - t) * a.uv + t * b.uv;
+      return Position(piece_, q.x(), q.y());
+    };
+    const BorderPlace middle{0.5 * (a.uv + b.uv), at(0.5)};
+    const auto near = [&](const Vec3& p) { return SegmentDistance(p, a.p, b.p) <= tolerance_; };
+    // The first chord is checked at three places, because a line with two bends may cross it in the middle.
+    const bool first = halvings == kMostHalvings;
+    if (near(middle.p) && (!first || (near(at(0.25)) && near(at(0.75))))) return;
+    Add(a, middle, halvings - 1, out);
+    out.push_back(middle.p);
+    Add(middle, b, halvings - 1, out);
+  }
+
+ private:
+  const Piece& piece_;
+  const double tolerance_;
+};
 
 // Area between the chord of a side and its arc, mm^2. It is positive if the arc bulges out of the side's own
 // triangle.
@@ -136,37 +155,39 @@ double LensArea(const Surface& surface, const SplitMesh& mesh, const TriangleSid
 
 }  // namespace
 
-absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                          const AdjacencyList& adjacency,
-                                          const std::vector<std::vector<RegionId>>& region_of,
+absl::StatusOr<BorderArcs> FindBorderArcs(const SplitSurface& split, const PerTriangle<RegionId>& region_of,
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run) {
+  const std::vector<SplitMesh>& meshes = split.meshes;
   std::vector<PieceBorders> pieces(meshes.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
-    pieces[piece] = BordersOf(meshes[piece], adjacency, piece, region_of);
+    pieces[piece] = BordersOf(meshes[piece], split.adjacency, piece, region_of);
   }));
   // A stretch of the borders of one piece. A cancel is looked at between two of them.
-  struct Run {
-    std::size_t piece, begin, end;
+  struct Stretch {
+    std::size_t begin, end;
   };
   constexpr std::size_t kLongest = 256;  // borders in one stretch
-  std::vector<Run> runs;
+  std::vector<Stretch> stretches;
   BorderArcs arcs;
   std::vector<std::size_t> first;
   for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
     const std::size_t begin = arcs.sides.size(), end = begin + pieces[piece].sides.size();
     arcs.sides.insert(arcs.sides.end(), pieces[piece].sides.begin(), pieces[piece].sides.end());
     for (const std::size_t k : pieces[piece].first) first.push_back(begin + k);
-    for (std::size_t k = begin; k < end; k += kLongest)
-      runs.push_back({piece, k, std::min(end, k + kLongest)});
+    for (std::size_t k = begin; k < end; k += kLongest) stretches.push_back({k, std::min(end, k + kLongest)});
   }
   arcs.places.resize(arcs.sides.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: borders", runs.size(), [&](std::size_t r) {
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: borders", stretches.size(), [&](std::size_t r) {
     std::vector<std::size_t> own;
-    for (std::size_t k = runs[r].begin; k < runs[r].end; ++k) {
-      if (first[k] == k) own.push_back(k);
+    std::vector<TriangleSide> sides;
+    for (std::size_t k = stretches[r].begin; k < stretches[r].end; ++k) {
+      if (first[k] != k) continue;
+      own.push_back(k);
+      sides.push_back(split.adjacency[arcs.sides[k]].side);
     }
-    RefineSides(surface, meshes, adjacency, runs[r].piece, own, fields, tolerance, arcs);
+    std::vector<std::vector<Vec2>> found = ArcsAlong(split, sides, fields, tolerance);
+    for (std::size_t i = 0; i < own.size(); ++i) arcs.places[own[i]] = std::move(found[i]);
   }));
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     const std::vector<Vec2>& arc = arcs.places[first[k]];
@@ -175,11 +196,9 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vec
   return arcs;
 }
 
-absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                              const AdjacencyList& adjacency,
-                                              const std::vector<std::vector<RegionId>>& region_of,
-                                              const std::vector<double>& flat, const RunContext& run,
-                                              BorderArcs& arcs) {
+absl::StatusOr<BentBorders> BendAreas(const SplitSurface& split, const PerTriangle<RegionId>& region_of,
+                                      const std::vector<double>& flat, BorderArcs arcs,
+                                      const RunContext& run) {
   constexpr double kLeast = 0.01;  // of the area of the triangles; if less is left, the arcs cross each other
   struct Lens {
     TriangleSide side;
@@ -190,7 +209,7 @@ absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std:
   std::vector<Lens> lenses;  // each twice, once from either side
   for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
     if (arcs.places[k].empty()) continue;
-    const Adjacency a = adjacency[arcs.sides[k]];
+    const Adjacency a = split.adjacency[arcs.sides[k]];
     if (a.other_piece != a.side.piece) continue;
     lenses.push_back({a.side, RegionOf(region_of, a.side.piece, a.side.triangle).index(),
                       RegionOf(region_of, a.other_piece, a.other_triangle).index(), k});
@@ -198,7 +217,7 @@ absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std:
   PM_RETURN_IF_ERROR(ParallelFor(run, "regions: areas", lenses.size(), [&](std::size_t k) {
     Lens& lens = lenses[k];
     if (lens.own > lens.other) return;
-    lens.area = LensArea(surface, meshes[static_cast<std::size_t>(lens.side.piece)], lens.side,
+    lens.area = LensArea(*split.surface, split.meshes[static_cast<std::size_t>(lens.side.piece)], lens.side,
                          arcs.places[lens.arc]);
   }));
   std::vector<double> gained;
@@ -220,36 +239,33 @@ absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std:
   for (const Lens& lens : lenses) {
     if (straight[lens.own] || straight[lens.other]) arcs.places[lens.arc].clear();
   }
-  return gained;
+  return BentBorders{std::move(arcs), std::move(gained)};
 }
 
-absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                              const AdjacencyList& adjacency, const BorderArcs& arcs,
+absl::StatusOr<BorderPoints> FindBorderPoints(const SplitSurface& split, const BorderArcs& arcs,
                                               double tolerance, const RunContext& run) {
-  BorderPoints points(arcs.sides.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: border points", points.size(), [&](std::size_t k) {
-    const Adjacency a = adjacency[arcs.sides[k]];
-    const auto index = static_cast<std::size_t>(a.side.piece);
-    const Piece& piece = surface.pieces[index];
-    const ZeroVertex &from = EndOf(meshes[index], a.side, 0), &to = EndOf(meshes[index], a.side, 1);
+  BorderPoints border{arcs.sides, std::vector<std::vector<Vec3>>(arcs.sides.size())};
+  PM_RETURN_IF_ERROR(ParallelFor(run, "regions: border points", arcs.sides.size(), [&](std::size_t k) {
+    const TriangleSide side = split.adjacency[arcs.sides[k]].side;
+    const auto index = static_cast<std::size_t>(side.piece);
+    const Piece& piece = split.surface->pieces[index];
+    const ZeroVertex &from = EndOf(split.meshes[index], side, 0), &to = EndOf(split.meshes[index], side, 1);
     const std::vector<Vec2>& arc = arcs.places[k];
-    Vec2 last(from.u, from.v);
-    points[k].push_back(from.p);
+    const PointsBetween between(piece, tolerance);
+    std::vector<Vec3>& points = border.points[k];
+    BorderPlace last{{from.u, from.v}, from.p};
+    points.push_back(from.p);
     // If no curve was found, the line that is straight in the parameters follows the surface at least.
     const int halvings = arc.empty() ? kMostHalvings : kMostHalvings - 1;
-    const auto go_on = [&](const Vec2& q, const Vec3& p) {
-      AddBetween(piece, last, Vec3(points[k].back()), q, p, tolerance, halvings, points[k]);
-      last = q;
+    const auto go_on = [&](const BorderPlace& next) {
+      between.Add(last, next, halvings, points);
+      points.push_back(next.p);
+      last = next;
     };
-    for (const Vec2& q : arc) {
-      const Vec3 p = Position(piece, q.x(), q.y());
-      go_on(q, p);
-      points[k].push_back(p);
-    }
-    go_on({to.u, to.v}, to.p);
-    points[k].push_back(to.p);
+    for (const Vec2& q : arc) go_on({q, Position(piece, q.x(), q.y())});
+    go_on({{to.u, to.v}, to.p});
   }));
-  return points;
+  return border;
 }
 
 }  // namespace patchmill

@@ -9,6 +9,7 @@
 
 #include "cam/region/split/seams.h"
 #include "core/base/run_context.h"
+#include "core/base/typed_id.h"
 
 namespace patchmill {
 
@@ -19,33 +20,37 @@ struct BorderArcs {
   std::vector<std::vector<Vec2>> places;
 };
 
-// Finds all sides between different regions (`region_of[piece][triangle]`) and all open sides. A side on the
-// zero curve or limit of a field is refined to `tolerance` (mm), once for both triangles. CANCELLED and
-// DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<BorderArcs> FindBorderArcs(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                          const AdjacencyList& adjacency,
-                                          const std::vector<std::vector<RegionId>>& region_of,
+// Finds all sides between different regions and all open sides. A side on the zero curve or limit of one of
+// the `fields` of the split is refined to `tolerance` (mm), once for both triangles. The ids in `region_of`
+// need not be final: only equal ones are the same region. CANCELLED and DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<BorderArcs> FindBorderArcs(const SplitSurface& split, const PerTriangle<RegionId>& region_of,
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run);
 
-// How much area each region gains when its borders bend from chords to arcs, mm^2. `flat` holds the areas of
-// the regions' triangles, mm^2. The gains add up to 0. A sliver along a limit or a seam may be thinner than
-// the error of its arcs, which would turn it inside out. Such a region keeps its chords: its arcs are removed
-// from `arcs`. So no area falls below 0. CANCELLED and DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<double>> BendAreas(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                              const AdjacencyList& adjacency,
-                                              const std::vector<std::vector<RegionId>>& region_of,
-                                              const std::vector<double>& flat, const RunContext& run,
-                                              BorderArcs& arcs);
+// Borders that keep all areas above 0, and what they change in the areas.
+struct BentBorders {
+  BorderArcs arcs;
+  std::vector<double> gained;  // [region]: mm^2 that it gains as its borders bend from chords to arcs
+};
 
-// Points on the surface along each border side, its ends included. Same index as BorderArcs::sides.
-using BorderPoints = std::vector<std::vector<Vec3>>;
+// Measures how the arcs change the areas of the regions. `flat` holds the areas of the regions' triangles,
+// mm^2. The gains add up to 0. A sliver along a limit or a seam may be thinner than the error of its arcs,
+// which would turn it inside out. Such a region keeps its chords: the result has none of its arcs. So no area
+// falls below 0. CANCELLED and DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<BentBorders> BendAreas(const SplitSurface& split, const PerTriangle<RegionId>& region_of,
+                                      const std::vector<double>& flat, BorderArcs arcs,
+                                      const RunContext& run);
+
+// The borders of a split as points on the surface.
+struct BorderPoints {
+  std::vector<std::size_t> sides;         // those of the arcs
+  std::vector<std::vector<Vec3>> points;  // [side]: along it, its ends included
+};
 
 // Puts points along the arcs. Between two of their places the border is straight in the parameters; there it
 // gets so many points that chords deviate by at most `tolerance` (mm). CANCELLED and DEADLINE_EXCEEDED from
 // `run`.
-absl::StatusOr<BorderPoints> FindBorderPoints(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                              const AdjacencyList& adjacency, const BorderArcs& arcs,
+absl::StatusOr<BorderPoints> FindBorderPoints(const SplitSurface& split, const BorderArcs& arcs,
                                               double tolerance, const RunContext& run);
 
 }  // namespace patchmill

@@ -270,11 +270,11 @@ class Chainer {
 };
 
 // Largest distance between the ends of a side on a seam, mm.
-double LongestSeamSide(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency) {
+double LongestSeamSide(const SplitSurface& split) {
   double longest = 0.0;
-  for (const AdjacencyList::Seam& seam : adjacency.seams) {
-    const TriangleSide side = adjacency[seam.side].side;
-    const SplitMesh& mesh = meshes[static_cast<std::size_t>(side.piece)];
+  for (const AdjacencyList::Seam& seam : split.adjacency.seams) {
+    const TriangleSide side = split.adjacency[seam.side].side;
+    const SplitMesh& mesh = split.meshes[static_cast<std::size_t>(side.piece)];
     longest = std::max(longest, (EndOf(mesh, side, 1).p - EndOf(mesh, side, 0).p).norm());
   }
   return longest;
@@ -282,30 +282,27 @@ double LongestSeamSide(const std::vector<SplitMesh>& meshes, const AdjacencyList
 
 }  // namespace
 
-absl::StatusOr<BorderNet> FindBorderLines(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                          const AdjacencyList& adjacency, const BorderArcs& arcs,
-                                          const BorderPoints& points,
-                                          const std::vector<std::vector<ComponentId>>& component_of,
-                                          const std::vector<RegionId>& component_region,
-                                          const std::vector<Region>& regions, const RunContext& run) {
+absl::StatusOr<BorderNet> FindBorderLines(const SplitSurface& split, const TriangleRegions& triangles,
+                                          const BorderPoints& border, const std::vector<Region>& regions,
+                                          const RunContext& run) {
   const auto component = [&](int piece, int triangle) {
-    return piece < 0 ? kNoComponent
-                     : component_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
+    if (piece < 0) return kNoComponent;
+    return triangles.component_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
   };
   const auto region = [&](ComponentId of) {
-    return of == kNoComponent ? kNoRegion : component_region[of.index()];
+    return of == kNoComponent ? kNoRegion : triangles.component_region[of.index()];
   };
   std::vector<Strand> strands;
-  for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
-    const Adjacency a = adjacency[arcs.sides[k]];
+  for (std::size_t k = 0; k < border.sides.size(); ++k) {
+    const Adjacency a = split.adjacency[border.sides[k]];
     const ComponentId own = component(a.side.piece, a.side.triangle),
                       other = component(a.other_piece, a.other_triangle);
     if (other != kNoComponent && other < own) continue;  // the side of the other triangle stands for both
-    strands.push_back({BorderKind::kOpenEdge, region(own), region(other), own, other, points[k], {}});
-    strands.back().kind = KindOf(meshes, regions, a, strands.back());
+    strands.push_back({BorderKind::kOpenEdge, region(own), region(other), own, other, border.points[k], {}});
+    strands.back().kind = KindOf(split.meshes, regions, a, strands.back());
   }
-  const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
-  EndPlaces places(weld, LongestSeamSide(meshes, adjacency), strands);
+  const double weld = std::max(2.0 * split.surface->network.join_tolerance, 1e-7);
+  EndPlaces places(weld, LongestSeamSide(split), strands);
   places.JoinLoose();
   PM_RETURN_IF_ERROR(run.Check());
   const auto [number, count] = places.Number();

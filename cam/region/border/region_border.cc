@@ -11,19 +11,30 @@ namespace {
 
 constexpr int kMostHalvings = 8;  // of one gap
 
-// Adds points of the surface between a and b, so dense that chords deviate by at most `tolerance` (mm). Adds
-// none where the surface has a gap between a and b.
-void AddBetween(const Surface& surface, const Vec3& a, const Vec3& b, double tolerance, int halvings,
-                std::vector<Vec3>& out) {
-  const double length = (b - a).norm();
-  if (halvings == 0 || length <= tolerance) return;
-  const auto mid = ClosestToPoint(surface, 0.5 * (a + b), 0.4 * length, 0.1 * tolerance);
-  if (!mid || mid->distance <= tolerance) return;
-  const Vec3 p = mid->at.p;
-  AddBetween(surface, a, p, tolerance, halvings - 1, out);
-  out.push_back(p);
-  AddBetween(surface, p, b, tolerance, halvings - 1, out);
-}
+// Adds points of the surface between two points of it.
+class GapPoints {
+ public:
+  // The points are so dense that chords deviate by at most `tolerance` (mm).
+  GapPoints(const Surface& surface, double tolerance) : surface_(surface), tolerance_(tolerance) {}
+
+  // Adds none where the surface has a gap between a and b.
+  void Add(const Vec3& a, const Vec3& b, std::vector<Vec3>& out) const { Add(a, b, kMostHalvings, out); }
+
+ private:
+  void Add(const Vec3& a, const Vec3& b, int halvings, std::vector<Vec3>& out) const {
+    const double length = (b - a).norm();
+    if (halvings == 0 || length <= tolerance_) return;
+    const auto mid = ClosestToPoint(surface_, 0.5 * (a + b), 0.4 * length, 0.1 * tolerance_);
+    if (!mid || mid->distance <= tolerance_) return;
+    const Vec3 p = mid->at.p;
+    Add(a, p, halvings - 1, out);
+    out.push_back(p);
+    Add(p, b, halvings - 1, out);
+  }
+
+  const Surface& surface_;
+  const double tolerance_;
+};
 
 // Joins the directed strands of one region's outline to closed loops. First an end is matched with a start
 // within `weld`. Then the open ends that remain are joined to the nearest start, along the surface: where a
@@ -69,6 +80,7 @@ std::vector<std::vector<Vec3>> Chain(const Surface& surface, std::vector<std::ve
       open.push_back(std::move(loop));
     }
   }
+  const GapPoints gap(surface, tolerance);
   // Joins each open end to the nearest open start until the loop's own start is nearest.
   std::vector<bool> taken(open.size(), false);
   for (std::size_t i = 0; i < open.size(); ++i) {
@@ -88,11 +100,11 @@ std::vector<std::vector<Vec3>> Chain(const Surface& surface, std::vector<std::ve
       if (best == open.size()) break;
       taken[best] = true;
       const Vec3 end = loop.back();
-      AddBetween(surface, end, open[best].front(), tolerance, kMostHalvings, loop);
+      gap.Add(end, open[best].front(), loop);
       loop.insert(loop.end(), open[best].begin(), open[best].end());
     }
     const Vec3 start = loop.front(), end = loop.back();
-    AddBetween(surface, end, start, tolerance, kMostHalvings, loop);
+    gap.Add(end, start, loop);
     if (loop.size() > 2) loops.push_back(std::move(loop));
   }
   return loops;
@@ -100,22 +112,23 @@ std::vector<std::vector<Vec3>> Chain(const Surface& surface, std::vector<std::ve
 
 }  // namespace
 
-absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
-    const Surface& surface, const AdjacencyList& adjacency, const BorderArcs& arcs,
-    const BorderPoints& points, const std::vector<std::vector<RegionId>>& region_of, std::size_t region_count,
-    double tolerance, const RunContext& run) {
-  std::vector<std::vector<std::vector<Vec3>>> strands(region_count);
-  for (std::size_t k = 0; k < arcs.sides.size(); ++k) {
-    const Adjacency a = adjacency[arcs.sides[k]];
+absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(const SplitSurface& split,
+                                                                          const TriangleRegions& triangles,
+                                                                          const BorderPoints& border,
+                                                                          double tolerance,
+                                                                          const RunContext& run) {
+  std::vector<std::vector<std::vector<Vec3>>> strands(triangles.region_count);
+  for (std::size_t k = 0; k < border.sides.size(); ++k) {
+    const TriangleSide side = split.adjacency[border.sides[k]].side;
     const RegionId own =
-        region_of[static_cast<std::size_t>(a.side.piece)][static_cast<std::size_t>(a.side.triangle)];
-    if (points[k].size() > 2 || points[k].front() != points[k].back())
-      strands[own.index()].push_back(points[k]);
+        triangles.region_of[static_cast<std::size_t>(side.piece)][static_cast<std::size_t>(side.triangle)];
+    const std::vector<Vec3>& points = border.points[k];
+    if (points.size() > 2 || points.front() != points.back()) strands[own.index()].push_back(points);
   }
-  const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);
-  std::vector<std::vector<std::vector<Vec3>>> borders(region_count);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, region_count, [&](std::size_t i) {
-    borders[i] = Chain(surface, std::move(strands[i]), weld, tolerance);
+  const double weld = std::max(2.0 * split.surface->network.join_tolerance, 1e-7);
+  std::vector<std::vector<std::vector<Vec3>>> borders(strands.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, borders.size(), [&](std::size_t i) {
+    borders[i] = Chain(*split.surface, std::move(strands[i]), weld, tolerance);
   }));
   return borders;
 }

@@ -6,18 +6,19 @@
 #include <absl/status/statusor.h>
 
 #include "cam/region/border/border_arcs.h"
+#include "cam/region/merge/triangle_regions.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
 
-// Returns closed polylines on the surface: [region][loop][point], along the `points` of the `arcs` of the
-// split. region_of[piece][triangle] is a region. The region lies on the left of its outline, as each triangle
-// lies on the left of its sides. Where a seam is cut differently on its two sides, parts of an outline do not
-// meet. They are joined to the nearest open end, along the surface, to `tolerance` (mm). CANCELLED and
-// DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(
-    const Surface& surface, const AdjacencyList& adjacency, const BorderArcs& arcs,
-    const BorderPoints& points, const std::vector<std::vector<RegionId>>& region_of, std::size_t region_count,
-    double tolerance, const RunContext& run);
+// Returns closed polylines on the surface: [region][loop][point], along the points of the border sides. The
+// region lies on the left of its outline, as each triangle lies on the left of its sides. Where a seam is cut
+// differently on its two sides, parts of an outline do not meet. They are joined to the nearest open end,
+// along the surface, to `tolerance` (mm). CANCELLED and DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<std::vector<std::vector<std::vector<Vec3>>>> RegionBorders(const SplitSurface& split,
+                                                                          const TriangleRegions& triangles,
+                                                                          const BorderPoints& border,
+                                                                          double tolerance,
+                                                                          const RunContext& run);
 
 }  // namespace patchmill

@@ -126,17 +126,15 @@ Column NearestCenter::FromAround(Column known) const {
     const Vec2 way(std::cos(angle), std::sin(angle));
     Column& best = ring[static_cast<std::size_t>(i)];
     // No centre of a column is nearer to p than the column's radius.
-    Column inner;
-    double at = 0.0;  // radius of `inner`; 0 if there is none
+    RingColumn inner;  // its radius is 0 if there is none
     for (auto radius = radii.rbegin(); radius != radii.rend() && *radius < best.distance; ++radius) {
-      Column column = At(Xy(p_) + *radius * way, inner);
-      const bool drops = at > 0.0 && column.distance < inner.distance;
-      if (drops) column = AlongRay(column);
-      if (column.distance < best.distance) best = column;
-      if (at > 0.0) Between(way, at, inner, *radius, column, kMostBetween, best);
+      RingColumn outer{*radius, At(Xy(p_) + *radius * way, inner.column)};
+      const bool drops = inner.radius > 0.0 && outer.column.distance < inner.column.distance;
+      if (drops) outer.column = AlongRay(outer.column);
+      if (outer.column.distance < best.distance) best = outer.column;
+      if (inner.radius > 0.0) best = Between(way, inner, outer, kMostBetween, best);
       if (best.distance <= enough_) return best;
-      inner = column;
-      at = *radius;
+      inner = outer;
     }
   }
   for (std::size_t i = 0; i < kRing; ++i) {
@@ -170,19 +168,22 @@ Column NearestCenter::Settle(Column at) const {
   return at;
 }
 
-// Looks for a nearer centre between two columns in one direction from p. Right beside an overhang the ball
-// drops, and no slope shows where. It assumes that no column in between is lower than the lower of the two.
-void NearestCenter::Between(const Vec2& way, double low, const Column& inner, double high,
-                            const Column& outer, int halvings, Column& best) const {
-  if (halvings == 0 || inner.distance == kInfinity || outer.distance == kInfinity) return;
-  if (best.distance <= enough_) return;
-  const double height = std::min(inner.center.z(), outer.center.z()) - p_.z();
-  if (std::hypot(low, height) >= (1.0 - kMinDistanceGain) * best.distance) return;
-  const double radius = 0.5 * (low + high);
-  const Column middle = At(Xy(p_) + radius * way, inner);
-  if (middle.distance < best.distance) best = middle;
-  Between(way, low, inner, radius, middle, halvings - 1, best);
-  Between(way, radius, middle, high, outer, halvings - 1, best);
+// Looks for a centre nearer than `best` between two columns in one direction from p, and returns the nearest.
+// Right beside an overhang the ball drops, and no slope shows where. It assumes that no column in between is
+// lower than the lower of the two.
+Column NearestCenter::Between(const Vec2& way, const RingColumn& inner, const RingColumn& outer, int halvings,
+                              Column best) const {
+  const Column &a = inner.column, &b = outer.column;
+  if (halvings == 0 || a.distance == kInfinity || b.distance == kInfinity) return best;
+  if (best.distance <= enough_) return best;
+  const double height = std::min(a.center.z(), b.center.z()) - p_.z();
+  if (std::hypot(inner.radius, height) >= (1.0 - kMinDistanceGain) * best.distance) return best;
+  RingColumn middle;
+  middle.radius = 0.5 * (inner.radius + outer.radius);
+  middle.column = At(Xy(p_) + middle.radius * way, a);
+  if (middle.column.distance < best.distance) best = middle.column;
+  best = Between(way, inner, middle, halvings - 1, best);
+  return Between(way, middle, outer, halvings - 1, best);
 }
 
 // Turns the centre around p and descends again. This finds nearer centres along the foot of a vertical wall,

@@ -49,8 +49,13 @@ class NearestCenter {
   Column Settle(Column at) const;
 
  private:
-  void Between(const Vec2& way, double low, const Column& inner, double high, const Column& outer,
-               int halvings, Column& best) const;
+  // A column at the distance `radius` (mm) from p, in a direction of FromAround.
+  struct RingColumn {
+    double radius = 0.0;
+    Column column;
+  };
+  Column Between(const Vec2& way, const RingColumn& inner, const RingColumn& outer, int halvings,
+                 Column best) const;
   Column Polish(Column at) const;
   Column AlongRay(Column at) const;
   // The column over q. `near` is a column nearby and only makes it faster. The height is exact to R / 1000,

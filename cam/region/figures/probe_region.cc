@@ -68,10 +68,10 @@ double BallForAll(const Surface& surface, const std::vector<RegionSample>& spots
 
 }  // namespace
 
-void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
-                 const RegionParams& params, std::span<const TriangleRef> triangles, const RunContext& run,
-                 Region& region) {
-  RegionSamples places(surface, meshes, triangles);
+RegionProbe ProbeRegion(const SplitSurface& split, const ReachTest& reach, const RegionParams& params,
+                        const UnreachableRegion& region, const RunContext& run) {
+  const Surface& surface = *split.surface;
+  RegionSamples places(surface, split.meshes, region.triangles);
   std::vector<RegionSample> spots = places.Spread(kLooked);
   LeftoverSearch search(reach.free_ball(),
                         {params.floor_z, params.operation_limits, 0.25 * params.tolerance});
@@ -80,16 +80,17 @@ void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, c
     search.AddPoint(jet.p, FacingAt(jet));
   }
   search.Find(run);  // its centres show at once that most triangles are no deeper
-  for (const TriangleRef& t : triangles) {
-    const SplitMesh& mesh = meshes[t.piece];
+  for (const TriangleRef& t : region.triangles) {
+    const SplitMesh& mesh = split.meshes[t.piece];
     search.AddTriangle(t.piece, {CornerOf(mesh, t.triangle, 0), CornerOf(mesh, t.triangle, 1),
                                  CornerOf(mesh, t.triangle, 2)});
   }
-  region.deepest_leftover = search.Find(run).leftover;
-  if (run.Cancelled()) return;
-  if (region.reason != UnreachableReason::kConcave) return;
+  RegionProbe probe;
+  probe.deepest_leftover = search.Find(run).leftover;
+  if (run.Cancelled() || region.reason != UnreachableReason::kConcave) return probe;
   SortByBend(surface, spots);
-  region.largest_tool_diameter = 2.0 * BallForAll(surface, spots, params, run, places);
+  probe.largest_tool_diameter = 2.0 * BallForAll(surface, spots, params, run, places);
+  return probe;
 }
 
 }  // namespace patchmill

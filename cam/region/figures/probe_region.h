@@ -2,20 +2,29 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "cam/region/reach/reach.h"
-#include "cam/region/split/split_mesh.h"
+#include "cam/region/split/seams.h"
 #include "core/base/run_context.h"
 
 namespace patchmill {
 
-// Fills deepest_leftover and, if the reason is CONCAVE, largest_tool_diameter of an unreachable region that
-// consists of these triangles (at least one) [regions, section 9]. The tool follows from some 200 places
-// spread over the region and from others ever closer around the worst of them. Meaningless once `run` is
-// cancelled. Different regions may be probed in parallel. Cost: milliseconds.
-void ProbeRegion(const Surface& surface, const std::vector<SplitMesh>& meshes, const ReachTest& reach,
-                 const RegionParams& params, std::span<const TriangleRef> triangles, const RunContext& run,
-                 Region& region);
+// An unreachable region: why, and its triangles (at least one).
+struct UnreachableRegion {
+  UnreachableReason reason = UnreachableReason::kNone;
+  std::span<const TriangleRef> triangles;
+};
+
+// What would help there; the figures of Region of the same names.
+struct RegionProbe {
+  double deepest_leftover = 0.0;       // mm
+  double largest_tool_diameter = 0.0;  // mm; 0 unless the reason is CONCAVE
+};
+
+// Measures the region [regions, section 9]. The tool follows from some 200 places spread over the region and
+// from others ever closer around the worst of them. Meaningless once `run` is cancelled. Different regions
+// may be probed in parallel. Cost: milliseconds.
+RegionProbe ProbeRegion(const SplitSurface& split, const ReachTest& reach, const RegionParams& params,
+                        const UnreachableRegion& region, const RunContext& run);
 
 }  // namespace patchmill

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -59,21 +60,20 @@ absl::StatusOr<Areas> MeasureReach(const Surface& surface, const RegionParams& p
     meshes[i] = BuildSplitMesh(surface.pieces[i], fields, params.steep_angle, mesh_params);
     progress.Add(0);
   }));
-  PM_ASSIGN_OR_RETURN(const AdjacencyList adjacency, FindAdjacency(surface, meshes, run));
-  std::vector<std::vector<RegionId>> region_of;  // 0 is reachable, 1 is not
+  PM_ASSIGN_OR_RETURN(const SplitSurface split, JoinMeshes(surface, std::move(meshes), run));
+  PerTriangle<RegionId> region_of;  // 0 is reachable, 1 is not
   std::vector<double> flat(2, 0.0);
-  for (const SplitMesh& mesh : meshes) {
+  for (const SplitMesh& mesh : split.meshes) {
     std::vector<RegionId>& of = region_of.emplace_back();
     for (const SplitTriangle& t : mesh.triangles) {
       of.push_back(RegionId(t.label.reason == UnreachableReason::kNone ? 0 : 1));
       flat[of.back().index()] += t.area;
     }
   }
-  PM_ASSIGN_OR_RETURN(BorderArcs arcs, FindBorderArcs(surface, meshes, adjacency, region_of, fields,
-                                                      params.border_tolerance, run));
-  PM_ASSIGN_OR_RETURN(const std::vector<double> gained,
-                      BendAreas(surface, meshes, adjacency, region_of, flat, run, arcs));
-  return Areas{flat[0] + flat[1], flat[1] + gained[1]};
+  PM_ASSIGN_OR_RETURN(BorderArcs arcs,
+                      FindBorderArcs(split, region_of, fields, params.border_tolerance, run));
+  PM_ASSIGN_OR_RETURN(const BentBorders bent, BendAreas(split, region_of, flat, std::move(arcs), run));
+  return Areas{flat[0] + flat[1], flat[1] + bent.gained[1]};
 }
 
 }  // namespace

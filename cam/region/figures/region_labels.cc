@@ -45,21 +45,21 @@ std::vector<Id> PieceLabels(const SplitMesh& mesh, const std::vector<Id>& label_
 }
 
 // Takes a cell for each region that has none.
-void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vector<RegionId>>& region_of,
-               std::size_t regions, RegionMap& map) {
-  std::vector<std::size_t> cells_of(regions, 0);
-  for (const std::vector<RegionId>& labels : map.labels)
+void GiveCells(const std::vector<SplitMesh>& meshes, const TriangleRegions& triangles, RegionLabels& grid) {
+  std::vector<std::size_t> cells_of(triangles.region_count, 0);
+  for (const std::vector<RegionId>& labels : grid.labels)
     for (const RegionId id : labels)
       if (id != kNoRegion) ++cells_of[id.index()];
   if (std::none_of(cells_of.begin(), cells_of.end(), [](std::size_t count) { return count == 0; })) return;
   for (std::size_t piece = 0; piece < meshes.size(); ++piece) {
-    for (std::size_t t = 0; t < region_of[piece].size(); ++t) {
-      const RegionId id = region_of[piece][t];
-      if (id == kNoRegion || cells_of[id.index()] > 0) continue;
-      const Vec2 at = map.cells * MiddleOf(meshes[piece], t);
-      const auto i = std::min(static_cast<int>(at.x()), map.cells - 1);
-      const auto j = std::min(static_cast<int>(at.y()), map.cells - 1);
-      RegionId& label = map.labels[piece][static_cast<std::size_t>(i * map.cells + j)];
+    const std::vector<RegionId>& region_of = triangles.region_of[piece];
+    for (std::size_t t = 0; t < region_of.size(); ++t) {
+      const RegionId id = region_of[t];
+      if (cells_of[id.index()] > 0) continue;
+      const Vec2 at = grid.cells * MiddleOf(meshes[piece], t);
+      const auto i = std::min(static_cast<int>(at.x()), grid.cells - 1);
+      const auto j = std::min(static_cast<int>(at.y()), grid.cells - 1);
+      RegionId& label = grid.labels[piece][static_cast<std::size_t>(i * grid.cells + j)];
       if (label != kNoRegion && cells_of[label.index()] == 1) continue;
       if (label != kNoRegion) --cells_of[label.index()];
       label = id;
@@ -70,38 +70,39 @@ void GiveCells(const std::vector<SplitMesh>& meshes, const std::vector<std::vect
 
 }  // namespace
 
-absl::Status FillLabels(const std::vector<SplitMesh>& meshes,
-                        const std::vector<std::vector<RegionId>>& region_of,
-                        const std::vector<std::vector<ComponentId>>& component_of, std::size_t regions,
-                        const RunContext& run, RegionMap& map) {
+absl::StatusOr<RegionLabels> LabelCells(const std::vector<SplitMesh>& meshes,
+                                        const TriangleRegions& triangles, const RunContext& run) {
   constexpr double kMaxLabels = 8e6;  // of all pieces together
   constexpr int kMaxCells = 256;      // along each side of a piece
   const auto pieces = static_cast<double>(std::max<std::size_t>(1, meshes.size()));
+  RegionLabels grid;
   // A power of two, so that pieces that are halved again and again still end at borders of cells.
-  map.cells = 1;
-  while (map.cells < kMaxCells && 4.0 * map.cells * map.cells * pieces <= kMaxLabels) map.cells *= 2;
-  map.labels.resize(meshes.size());
-  const bool fall_apart = map.component_region.size() > regions;
-  if (fall_apart) map.components.resize(meshes.size());
+  grid.cells = 1;
+  while (grid.cells < kMaxCells && 4.0 * grid.cells * grid.cells * pieces <= kMaxLabels) grid.cells *= 2;
+  grid.labels.resize(meshes.size());
+  const std::vector<RegionId>& region_of_component = triangles.component_region;
+  const bool fall_apart = region_of_component.size() > triangles.region_count;
+  if (fall_apart) grid.components.resize(meshes.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t piece) {
-    map.labels[piece] = PieceLabels(meshes[piece], region_of[piece], map.cells, kNoRegion);
+    const SplitMesh& mesh = meshes[piece];
+    grid.labels[piece] = PieceLabels(mesh, triangles.region_of[piece], grid.cells, kNoRegion);
     if (fall_apart)
-      map.components[piece] = PieceLabels(meshes[piece], component_of[piece], map.cells, kNoComponent);
+      grid.components[piece] = PieceLabels(mesh, triangles.component_of[piece], grid.cells, kNoComponent);
   }));
-  GiveCells(meshes, region_of, regions, map);
-  for (std::size_t piece = 0; piece < map.components.size(); ++piece) {
-    for (std::size_t cell = 0; cell < map.labels[piece].size(); ++cell) {
-      ComponentId& component = map.components[piece][cell];
-      const RegionId label = map.labels[piece][cell];
-      if (component != kNoComponent && map.component_region[component.index()] == label) continue;
+  GiveCells(meshes, triangles, grid);
+  for (std::size_t piece = 0; piece < grid.components.size(); ++piece) {
+    for (std::size_t cell = 0; cell < grid.labels[piece].size(); ++cell) {
+      ComponentId& component = grid.components[piece][cell];
+      const RegionId label = grid.labels[piece][cell];
+      if (component != kNoComponent && region_of_component[component.index()] == label) continue;
       // A cell that a region took counts for the first component of that region.
-      const auto first = std::lower_bound(map.component_region.begin(), map.component_region.end(), label);
+      const auto first = std::lower_bound(region_of_component.begin(), region_of_component.end(), label);
       component = label == kNoRegion
                       ? kNoComponent
-                      : ComponentId(static_cast<std::size_t>(first - map.component_region.begin()));
+                      : ComponentId(static_cast<std::size_t>(first - region_of_component.begin()));
     }
   }
-  return absl::OkStatus();
+  return grid;
 }
 
 }  // namespace patchmill

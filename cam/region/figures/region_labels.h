@@ -1,24 +1,30 @@
-// Fills the label grids behind RegionMap::At and RegionMap::ComponentAt.
+// Makes the grids of labels behind RegionMap::At and RegionMap::ComponentAt.
 #pragma once
 
 #include <vector>
 
-#include "cam/region/map/region_map.h"
-#include "cam/region/split/split_mesh.h"
+#include <absl/status/statusor.h>
+
+#include "cam/region/merge/triangle_regions.h"
+#include "core/base/run_context.h"
 
 namespace patchmill {
 
-// Fills map.cells and map.labels from region_of[piece][triangle], which holds ids below `regions`. There are
-// at most 8 million labels, and at most 256 x 256 for a piece. A region that contains no cell's centre takes
-// the cell of one of its triangles from a region that has others, so that it can be picked and switched off,
-// too. Regions that share single cells may stay without one.
+// The fields of RegionMap of the same names.
+struct RegionLabels {
+  int cells = 0;
+  std::vector<std::vector<RegionId>> labels;
+  std::vector<std::vector<ComponentId>> components;
+};
+
+// Looks up the region of each cell's centre. There are at most 8 million labels, and at most 256 x 256 for a
+// piece. A region that contains no cell's centre takes the cell of one of its triangles from a region that
+// has others, so that it can be picked and switched off, too. Regions that share single cells may stay
+// without one.
 //
-// Fills map.components in the same way from `component_of` if map.component_region has more components than
-// there are `regions`. A cell that a region took counts for the first component of that region. CANCELLED and
-// DEADLINE_EXCEEDED from `run`.
-absl::Status FillLabels(const std::vector<SplitMesh>& meshes,
-                        const std::vector<std::vector<RegionId>>& region_of,
-                        const std::vector<std::vector<ComponentId>>& component_of, std::size_t regions,
-                        const RunContext& run, RegionMap& map);
+// The components of the cells follow in the same way if there are more components than regions. A cell that a
+// region took counts for the first component of that region. CANCELLED and DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<RegionLabels> LabelCells(const std::vector<SplitMesh>& meshes,
+                                        const TriangleRegions& triangles, const RunContext& run);
 
 }  // namespace patchmill

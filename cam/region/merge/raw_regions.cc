@@ -18,14 +18,16 @@ int RawOf(const RawRegions& raw, int piece, int triangle) {
   return raw.of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
 }
 
-absl::Status Connect(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
-                     const Watersheds& watersheds, const RunContext& run, RawRegions& raw) {
+absl::Status Connect(const SplitSurface& split, const Watersheds& watersheds, const RunContext& run,
+                     RawRegions& raw) {
+  const std::vector<SplitMesh>& meshes = split.meshes;
+  const AdjacencyList& adjacency = split.adjacency;
   const auto alike = [&](const Adjacency& a) {
     return Triangle(meshes, a.side.piece, a.side.triangle).label ==
            Triangle(meshes, a.other_piece, a.other_triangle).label;
   };
   // Both triangles belong to the same summit or pit. Only reachable areas are divided by them.
-  const auto same = [](const std::vector<std::vector<int>>& top, const Adjacency& a) {
+  const auto same = [](const PerTriangle<int>& top, const Adjacency& a) {
     return top[static_cast<std::size_t>(a.side.piece)][static_cast<std::size_t>(a.side.triangle)] ==
            top[static_cast<std::size_t>(a.other_piece)][static_cast<std::size_t>(a.other_triangle)];
   };
@@ -62,13 +64,17 @@ absl::Status Connect(const std::vector<SplitMesh>& meshes, const AdjacencyList& 
 }
 
 // Measures the borders between regions (each side of a border adds half of its length) and open borders.
-absl::Status MeasureBorders(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjacency,
-                            const RunContext& run, RawRegions& raw) {
-  PM_ASSIGN_OR_RETURN(const std::vector<std::size_t> sides, BorderSides(adjacency, raw.of, run));
+absl::Status MeasureBorders(const SplitSurface& split, const RunContext& run, RawRegions& raw) {
+  std::vector<std::vector<std::size_t>> pieces(raw.of.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t piece) {
+    pieces[piece] = BorderSides(split.adjacency, piece, raw.of);
+  }));
+  std::vector<std::size_t> sides;
+  for (const std::vector<std::size_t>& own : pieces) sides.insert(sides.end(), own.begin(), own.end());
   std::unordered_map<std::uint64_t, std::size_t> contact_of;  // for lookup only: its order is not fixed
   for (const std::size_t i : sides) {
-    const Adjacency a = adjacency[i];
-    const SplitMesh& mesh = meshes[static_cast<std::size_t>(a.side.piece)];
+    const Adjacency a = split.adjacency[i];
+    const SplitMesh& mesh = split.meshes[static_cast<std::size_t>(a.side.piece)];
     const double length = (EndOf(mesh, a.side, 1).p - EndOf(mesh, a.side, 0).p).norm();
     const int own = RawOf(raw, a.side.piece, a.side.triangle);
     if (a.other_piece < 0) {
@@ -86,12 +92,11 @@ absl::Status MeasureBorders(const std::vector<SplitMesh>& meshes, const Adjacenc
 
 }  // namespace
 
-absl::StatusOr<RawRegions> FindRawRegions(const std::vector<SplitMesh>& meshes,
-                                          const AdjacencyList& adjacency, const Watersheds& watersheds,
+absl::StatusOr<RawRegions> FindRawRegions(const SplitSurface& split, const Watersheds& watersheds,
                                           const RunContext& run) {
   RawRegions raw;
-  PM_RETURN_IF_ERROR(Connect(meshes, adjacency, watersheds, run, raw));
-  PM_RETURN_IF_ERROR(MeasureBorders(meshes, adjacency, run, raw));
+  PM_RETURN_IF_ERROR(Connect(split, watersheds, run, raw));
+  PM_RETURN_IF_ERROR(MeasureBorders(split, run, raw));
   return raw;
 }
 

@@ -11,13 +11,13 @@
 
 namespace patchmill {
 
-// The summit and the pit that each triangle belongs to: [piece][triangle].
+// The summit and the pit that each triangle belongs to (Catchments).
 struct Watersheds {
-  std::vector<std::vector<int>> summit, pit;
+  PerTriangle<int> summit, pit;
 };
 
 struct RawRegions {
-  std::vector<std::vector<int>> of;  // [piece][triangle]: its raw region, numbered by their first triangles
+  PerTriangle<int> of;  // its raw region, numbered by their first triangles
   std::vector<RawRegion> regions;
   std::vector<RawContact> contacts;  // one for each two regions with a common border
 };
@@ -25,8 +25,7 @@ struct RawRegions {
 // A reachable area of one label is divided where its summit or pit changes. Borders are still chords here,
 // and areas end at the chords, because merging removes most borders. CANCELLED and DEADLINE_EXCEEDED from
 // `run`.
-absl::StatusOr<RawRegions> FindRawRegions(const std::vector<SplitMesh>& meshes,
-                                          const AdjacencyList& adjacency, const Watersheds& watersheds,
+absl::StatusOr<RawRegions> FindRawRegions(const SplitSurface& split, const Watersheds& watersheds,
                                           const RunContext& run);
 
 }  // namespace patchmill

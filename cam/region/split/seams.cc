@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/base/segment.h"
@@ -92,54 +93,6 @@ std::size_t SideFacing(const std::vector<BorderSide>& border, const BoxGrid& gri
   return found;
 }
 
-template <class Id>
-Id IdOf(const std::vector<std::vector<Id>>& id_of, int piece, int triangle) {
-  return id_of[static_cast<std::size_t>(piece)][static_cast<std::size_t>(triangle)];
-}
-
-template <class Id>
-bool IsBorder(const Adjacency& a, const std::vector<std::vector<Id>>& id_of) {
-  return a.other_piece < 0 ||
-         IdOf(id_of, a.side.piece, a.side.triangle) != IdOf(id_of, a.other_piece, a.other_triangle);
-}
-
-}  // namespace
-
-template <class Id>
-std::vector<std::size_t> BorderSides(const AdjacencyList& adjacency, std::size_t piece,
-                                     const std::vector<std::vector<Id>>& id_of) {
-  std::vector<std::size_t> sides;
-  adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {
-    if (IsBorder(a, id_of)) sides.push_back(i);
-  });
-  return sides;
-}
-
-template <class Id>
-absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList& adjacency,
-                                                     const std::vector<std::vector<Id>>& id_of,
-                                                     const RunContext& run) {
-  std::vector<std::vector<std::size_t>> pieces(id_of.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t piece) {
-    pieces[piece] = BorderSides(adjacency, piece, id_of);
-  }));
-  std::vector<std::size_t> sides;
-  for (const std::vector<std::size_t>& own : pieces) sides.insert(sides.end(), own.begin(), own.end());
-  return sides;
-}
-
-template std::vector<std::size_t> BorderSides(const AdjacencyList&, std::size_t,
-                                              const std::vector<std::vector<RegionId>>&);
-template absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList&,
-                                                              const std::vector<std::vector<int>>&,
-                                                              const RunContext&);
-
-Adjacency AdjacencyList::operator[](std::size_t side) const {
-  const std::size_t n = side / 3;
-  const auto piece = std::upper_bound(first.begin(), first.end(), n) - first.begin() - 1;
-  return Of(static_cast<std::size_t>(piece), n, static_cast<int>(side % 3));
-}
-
 absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::vector<SplitMesh>& meshes,
                                             const RunContext& run) {
   AdjacencyList list;
@@ -178,6 +131,20 @@ absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::v
   for (const AdjacencyList::Seam& seam : list.seams)
     list.into[static_cast<std::size_t>(seam.other_piece)].push_back(seam.side);
   return list;
+}
+
+}  // namespace
+
+Adjacency AdjacencyList::operator[](std::size_t side) const {
+  const std::size_t n = side / 3;
+  const auto piece = std::upper_bound(first.begin(), first.end(), n) - first.begin() - 1;
+  return Of(static_cast<std::size_t>(piece), n, static_cast<int>(side % 3));
+}
+
+absl::StatusOr<SplitSurface> JoinMeshes(const Surface& surface, std::vector<SplitMesh> meshes,
+                                        const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(AdjacencyList adjacency, FindAdjacency(surface, meshes, run));
+  return SplitSurface{&surface, std::move(meshes), std::move(adjacency)};
 }
 
 }  // namespace patchmill

@@ -81,22 +81,37 @@ struct AdjacencyList {
   }
 };
 
+// A surface split into triangles, as it goes from stage to stage. A stage that changes the meshes takes the
+// value over and returns another.
+struct SplitSurface {
+  const Surface* surface = nullptr;  // must live as long; never null after JoinMeshes
+  std::vector<SplitMesh> meshes;     // [piece]
+  AdjacencyList adjacency;           // of the sides of the meshes
+};
+
+// Finds the neighbours of all triangles. meshes[piece] covers that piece of the surface.
+//
 // Sides on the border of a piece are matched by their place. The neighbour is the border side that passes
 // nearest to the middle of this one, within the network's join tolerance and twice both sagittas. It may
 // belong to the same piece if the piece is closed. CANCELLED and DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<AdjacencyList> FindAdjacency(const Surface& surface, const std::vector<SplitMesh>& meshes,
-                                            const RunContext& run);
+absl::StatusOr<SplitSurface> JoinMeshes(const Surface& surface, std::vector<SplitMesh> meshes,
+                                        const RunContext& run);
 
-// The sides of one piece that lie between different regions or raw regions (`id_of[piece][triangle]`) or on an
+// The sides of one piece that lie between triangles of different labels (regions or raw regions) or on an
 // open edge, rising.
-template <class Id>
+template <class Label>
 std::vector<std::size_t> BorderSides(const AdjacencyList& adjacency, std::size_t piece,
-                                     const std::vector<std::vector<Id>>& id_of);
-
-// The same for all pieces. CANCELLED and DEADLINE_EXCEEDED from `run`.
-template <class Id>
-absl::StatusOr<std::vector<std::size_t>> BorderSides(const AdjacencyList& adjacency,
-                                                     const std::vector<std::vector<Id>>& id_of,
-                                                     const RunContext& run);
+                                     const PerTriangle<Label>& label_of) {
+  const auto label = [&](int of, int triangle) {
+    return label_of[static_cast<std::size_t>(of)][static_cast<std::size_t>(triangle)];
+  };
+  std::vector<std::size_t> sides;
+  adjacency.VisitPiece(piece, [&](std::size_t i, const Adjacency& a) {
+    if (a.other_piece < 0 || label(a.side.piece, a.side.triangle) != label(a.other_piece, a.other_triangle)) {
+      sides.push_back(i);
+    }
+  });
+  return sides;
+}
 
 }  // namespace patchmill

@@ -60,12 +60,13 @@ struct PointMeasures {
   double element = 0.0, bend = 0.0, steeper = 0.0;
 };
 
-// Integrates over the triangle a b c. It is quartered `halvings` times, and up to `more` times again where
+// Integrates over a triangle. It is quartered `halvings` times, and up to `more` times again where
 // the area element is not nearly quadratic. at(q, whole) computes all integrands only if `whole` is true, in
 // the middle of each part. Curvature and steepness need no better rule: they only decide which regions are
 // merged.
 template <class MeasuresAt>
-Measures Integral(const MeasuresAt& at, const Vec2& a, const Vec2& b, const Vec2& c, int halvings, int more) {
+Measures Integral(const MeasuresAt& at, const std::array<Vec2, 3>& triangle, int halvings, int more) {
+  const auto& [a, b, c] = triangle;
   Measures sum;
   if (halvings == 0) {
     std::array<double, 7> element{};
@@ -85,10 +86,10 @@ Measures Integral(const MeasuresAt& at, const Vec2& a, const Vec2& b, const Vec2
     --more;
   }
   const Vec2 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-  sum.Add(Integral(at, a, ab, ca, halvings - 1, more));
-  sum.Add(Integral(at, ab, b, bc, halvings - 1, more));
-  sum.Add(Integral(at, ca, bc, c, halvings - 1, more));
-  sum.Add(Integral(at, ab, bc, ca, halvings - 1, more));
+  sum.Add(Integral(at, {a, ab, ca}, halvings - 1, more));
+  sum.Add(Integral(at, {ab, b, bc}, halvings - 1, more));
+  sum.Add(Integral(at, {ca, bc, c}, halvings - 1, more));
+  sum.Add(Integral(at, {ab, bc, ca}, halvings - 1, more));
   return sum;
 }
 
@@ -125,7 +126,7 @@ Measures Integral(const MeasuresAt& at, const std::array<Vec2, 3>& q,
   }
   int halvings = 0;
   for (double turn = of_sides(Turn); turn > kMaxTurn && halvings < kMaxHalvings; turn *= 0.5) ++halvings;
-  return Integral(at, q[0], q[1], q[2], halvings, kMaxHalvings - halvings);
+  return Integral(at, q, halvings, kMaxHalvings - halvings);
 }
 
 // The corners at the vertices of a mesh. Each is evaluated once, when a triangle needs it.

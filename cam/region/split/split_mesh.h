@@ -42,6 +42,10 @@ struct TriangleRef {
   bool operator==(const TriangleRef&) const = default;
 };
 
+// A value for each triangle of the meshes of all pieces: [piece][triangle].
+template <class T>
+using PerTriangle = std::vector<std::vector<T>>;
+
 // Parameters of corner k (0, 1, 2) of a triangle, and of its middle.
 inline Vec2 CornerOf(const SplitMesh& mesh, std::size_t triangle, std::size_t k) {
   const ZeroVertex& vertex = mesh.vertices[static_cast<std::size_t>(mesh.triangles[triangle].vertex[k])];

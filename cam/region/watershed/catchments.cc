@@ -107,11 +107,11 @@ bool OnWatershed(const std::vector<SplitMesh>& meshes, const Adjacency& a, doubl
   return false;
 }
 
-absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<SplitMesh>& meshes,
-                                                         const AdjacencyList& adjacency,
-                                                         const std::vector<MeshVertex>& tops, double sign,
-                                                         const RunContext& run) {
-  std::vector<std::vector<int>> found;
+absl::StatusOr<PerTriangle<int>> Catchments(const SplitSurface& split, const std::vector<MeshVertex>& tops,
+                                            double sign, const RunContext& run) {
+  const std::vector<SplitMesh>& meshes = split.meshes;
+  const AdjacencyList& adjacency = split.adjacency;
+  PerTriangle<int> found;
   for (const SplitMesh& mesh : meshes) found.emplace_back(mesh.triangles.size(), -1);
   if (tops.empty()) return found;
   std::vector<int> top_of(adjacency.beside.size(), -1);

@@ -10,16 +10,14 @@
 
 namespace patchmill {
 
-// Returns [piece][triangle]: index into `tops`, or -1 if no top is connected with the triangle. The surface
+// Returns for each triangle an index into `tops`, or -1 if no top is connected with the triangle. The surface
 // is flooded from the summits down (for `sign` -1 from the pits up), over the highest sides of triangles
 // first (a spanning forest, [references: cousty2009]). It is flooded across the watershed lines of the meshes
 // (SplitMesh::lines) last, where nothing else leads. So these lines are the borders where they divide the
 // surface; elsewhere sides of triangles are. Deterministic. Cost: n log n in the worst case. CANCELLED and
 // DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<std::vector<std::vector<int>>> Catchments(const std::vector<SplitMesh>& meshes,
-                                                         const AdjacencyList& adjacency,
-                                                         const std::vector<MeshVertex>& tops, double sign,
-                                                         const RunContext& run);
+absl::StatusOr<PerTriangle<int>> Catchments(const SplitSurface& split, const std::vector<MeshVertex>& tops,
+                                            double sign, const RunContext& run);
 
 // True if the side runs along a watershed line between summits (`sign` 1), between pits (-1) or of either
 // kind (0), or if the facing side across a seam does.

@@ -55,8 +55,9 @@ void VisitEdges(const std::vector<SplitMesh>& meshes, const AdjacencyList& adjac
 
 }  // namespace
 
-absl::StatusOr<HeightGraph> HeightGraph::Make(const std::vector<SplitMesh>& meshes,
-                                              const AdjacencyList& adjacency, const RunContext& run) {
+absl::StatusOr<HeightGraph> HeightGraph::Make(const SplitSurface& split, const RunContext& run) {
+  const std::vector<SplitMesh>& meshes = split.meshes;
+  const AdjacencyList& adjacency = split.adjacency;
   HeightGraph graph;
   for (const SplitMesh& mesh : meshes) graph.first_.push_back(graph.first_.back() + mesh.vertices.size());
   const std::size_t count = graph.first_.back();

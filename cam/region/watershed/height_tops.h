@@ -25,8 +25,7 @@ struct HeightExtrema {
 class HeightGraph {
  public:
   // CANCELLED and DEADLINE_EXCEEDED from `run`, here and below.
-  static absl::StatusOr<HeightGraph> Make(const std::vector<SplitMesh>& meshes,
-                                          const AdjacencyList& adjacency, const RunContext& run);
+  static absl::StatusOr<HeightGraph> Make(const SplitSurface& split, const RunContext& run);
 
   // Finds summits for `sign` +1, pits for -1. A summit persists if every way from it to a higher one leads
   // down by at least `persistence` mm [references: edelsbrunner2002]; for pits up and down are exchanged.

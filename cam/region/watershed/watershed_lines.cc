@@ -20,18 +20,21 @@ constexpr int kMostStuck = 100;           // sides of triangles that one line fo
 constexpr int kMostBorders = 10;          // of pieces, met in a row; after more the line counts as stuck
 constexpr std::size_t kMostPlaces = 500;  // in the triangles around one vertex; with more it is stuck, too
 
+// Cuts the meshes of a split along lines of one kind. The adjacency of the split is not valid afterwards.
 class Cutter {
  public:
-  Cutter(const Surface& surface, const WatershedParams& params, const FlowParams& flow, double sign,
-         const RunContext& run, std::vector<SplitMesh>& meshes)
-      : surface_(surface),
+  // `sign` is 1 for lines between summits, -1 for lines between pits. Keeps references.
+  Cutter(const WatershedParams& params, const FlowParams& flow, double sign, const RunContext& run,
+         SplitSurface& split)
+      : surface_(*split.surface),
         params_(params),
         flow_(flow),
         sign_(sign),
         run_(run),
-        meshes_(meshes),
-        join_(std::max(2.0 * surface.network.join_tolerance, 1e-7)) {}
+        meshes_(split.meshes),
+        join_(std::max(2.0 * surface_.network.join_tolerance, 1e-7)) {}
 
+  // Returns true if any mesh was cut.
   absl::StatusOr<bool> Run(std::vector<std::vector<WatershedStart>>& lines) {
     for (std::vector<WatershedStart>& starts : lines) {
       PM_RETURN_IF_ERROR(run_.Check());
@@ -173,15 +176,14 @@ class Cutter {
 
 }  // namespace
 
-absl::StatusOr<bool> CutWatersheds(const Surface& surface, const WatershedPasses& passes,
-                                   const WatershedParams& params, const RunContext& run,
-                                   std::vector<SplitMesh>& meshes) {
+absl::StatusOr<SplitSurface> CutWatersheds(SplitSurface split, const WatershedPasses& passes,
+                                           const WatershedParams& params, const RunContext& run) {
   FlowParams flow;
   flow.spacing = params.spacing;
   flow.tolerance = params.tolerance;
-  std::vector<Box3> boxes(meshes.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, meshes.size(), [&](std::size_t k) {
-    for (const ZeroVertex& v : meshes[k].vertices) boxes[k].Add(v.p);
+  std::vector<Box3> boxes(split.meshes.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, boxes.size(), [&](std::size_t k) {
+    for (const ZeroVertex& v : split.meshes[k].vertices) boxes[k].Add(v.p);
   }));
   // Flows do not depend on each other and are followed in parallel. Lines end where they meet, so they are
   // cut one after the other.
@@ -190,13 +192,14 @@ absl::StatusOr<bool> CutWatersheds(const Surface& surface, const WatershedPasses
   PM_RETURN_IF_ERROR(
       ParallelFor(run, "regions: watersheds", falls.size() + climbs.size(), [&](std::size_t k) {
         std::vector<WatershedStart>& starts = k < down ? falls[k] : climbs[k - down];
-        starts = FindStarts(surface, flow, k < down ? 1.0 : -1.0, meshes, boxes,
+        starts = FindStarts(split, boxes, flow, k < down ? 1.0 : -1.0,
                             k < down ? passes.summits[k] : passes.pits[k - down]);
         for (WatershedStart& start : starts) start.track.GoAhead(run);
       }));
-  PM_ASSIGN_OR_RETURN(const bool summits, Cutter(surface, params, flow, 1.0, run, meshes).Run(falls));
-  PM_ASSIGN_OR_RETURN(const bool pits, Cutter(surface, params, flow, -1.0, run, meshes).Run(climbs));
-  return summits || pits;
+  PM_ASSIGN_OR_RETURN(const bool summits, Cutter(params, flow, 1.0, run, split).Run(falls));
+  PM_ASSIGN_OR_RETURN(const bool pits, Cutter(params, flow, -1.0, run, split).Run(climbs));
+  if (!summits && !pits) return split;
+  return JoinMeshes(*split.surface, std::move(split.meshes), run);
 }
 
 }  // namespace patchmill

@@ -26,10 +26,9 @@ struct WatershedPasses {
 
 // Lines leave the saddle of the surface next to each pass, or the pass itself if there is no saddle, to both
 // sides. A line ends at the border of the surface, at another line of its kind, or in a pit (on a summit).
-// Where the flow has no direction, as along creases, it follows the steepest sides of triangles. Returns true
-// if any mesh was cut; then the adjacency is no longer valid. CANCELLED and DEADLINE_EXCEEDED from `run`.
-absl::StatusOr<bool> CutWatersheds(const Surface& surface, const WatershedPasses& passes,
-                                   const WatershedParams& params, const RunContext& run,
-                                   std::vector<SplitMesh>& meshes);
+// Where the flow has no direction, as along creases, it follows the steepest sides of triangles. CANCELLED
+// and DEADLINE_EXCEEDED from `run`.
+absl::StatusOr<SplitSurface> CutWatersheds(SplitSurface split, const WatershedPasses& passes,
+                                           const WatershedParams& params, const RunContext& run);
 
 }  // namespace patchmill

@@ -19,9 +19,8 @@ constexpr std::size_t kAhead = 64;   // steps of a flow that are computed in adv
 // Finds where the lines from passes begin, on meshes before they are cut.
 class StartFinder {
  public:
-  StartFinder(const Surface& surface, const FlowParams& flow, double sign,
-              const std::vector<SplitMesh>& meshes, const std::vector<Box3>& boxes)
-      : surface_(surface), flow_(flow), sign_(sign), meshes_(meshes), boxes_(boxes) {}
+  StartFinder(const SplitSurface& split, const std::vector<Box3>& boxes, const FlowParams& flow, double sign)
+      : surface_(*split.surface), flow_(flow), sign_(sign), meshes_(split.meshes), boxes_(boxes) {}
 
   std::vector<WatershedStart> At(const MeshVertex& pass) const {
     std::vector<WatershedStart> starts;
@@ -167,10 +166,9 @@ void FlowTrack::Extend() {
   steps_.push_back(std::move(step));
 }
 
-std::vector<WatershedStart> FindStarts(const Surface& surface, const FlowParams& flow, double sign,
-                                       const std::vector<SplitMesh>& meshes, const std::vector<Box3>& boxes,
-                                       const MeshVertex& pass) {
-  return StartFinder(surface, flow, sign, meshes, boxes).At(pass);
+std::vector<WatershedStart> FindStarts(const SplitSurface& split, const std::vector<Box3>& boxes,
+                                       const FlowParams& flow, double sign, const MeshVertex& pass) {
+  return StartFinder(split, boxes, flow, sign).At(pass);
 }
 
 }  // namespace patchmill

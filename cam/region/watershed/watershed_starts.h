@@ -51,9 +51,9 @@ struct WatershedStart {
 
 // The starts of the lines from a pass between summits (`sign` 1; lines run down) or pits (-1; lines run up).
 // Lines leave the saddle of the surface next to the pass, or the pass itself if there is no saddle, to both
-// sides. boxes[piece] is the box of the piece's vertices.
-std::vector<WatershedStart> FindStarts(const Surface& surface, const FlowParams& flow, double sign,
-                                       const std::vector<SplitMesh>& meshes, const std::vector<Box3>& boxes,
-                                       const MeshVertex& pass);
+// sides. boxes[piece] is the box of the piece's vertices. The tracks keep references to the surface of the
+// split and to `flow`.
+std::vector<WatershedStart> FindStarts(const SplitSurface& split, const std::vector<Box3>& boxes,
+                                       const FlowParams& flow, double sign, const MeshVertex& pass);
 
 }  // namespace patchmill

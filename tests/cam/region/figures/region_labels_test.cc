@@ -11,7 +11,7 @@ namespace {
 // The square in three: below the line v = 0.5, above it, and a speck in the middle of a cell's side.
 struct Specks {
   std::vector<SplitMesh> meshes{1};
-  std::vector<std::vector<RegionId>> region_of{1};
+  PerTriangle<RegionId> region_of{1};
 
   void Add(const Vec2& a, const Vec2& b, const Vec2& c, int region) {
     SplitMesh& mesh = meshes[0];
@@ -29,13 +29,16 @@ struct Specks {
   }
 };
 
-RegionMap Filled(const Specks& specks, std::size_t regions) {
-  RegionMap map;
-  EXPECT_TRUE(FillLabels(specks.meshes, specks.region_of, {}, regions, RunContext(), map).ok());
-  return map;
+RegionLabels Labelled(const Specks& specks, std::size_t regions) {
+  TriangleRegions triangles;
+  triangles.region_count = regions;
+  triangles.region_of = specks.region_of;
+  const auto labels = LabelCells(specks.meshes, triangles, RunContext());
+  EXPECT_TRUE(labels.ok()) << labels.status();
+  return labels.value_or(RegionLabels());
 }
 
-std::size_t CellsOf(const RegionMap& map, int id) {
+std::size_t CellsOf(const RegionLabels& map, int id) {
   return static_cast<std::size_t>(std::count(map.labels[0].begin(), map.labels[0].end(), RegionId(id)));
 }
 
@@ -49,7 +52,7 @@ Specks Halves() {
 }
 
 TEST(RegionLabels, FollowTheTriangles) {
-  const RegionMap map = Filled(Halves(), 2);
+  const RegionLabels map = Labelled(Halves(), 2);
   ASSERT_EQ(map.cells, 256);
   for (int i = 0; i < 256; ++i)
     for (int j = 0; j < 256; ++j)
@@ -61,7 +64,7 @@ TEST(RegionLabels, GiveACellToWhatHoldsNoCellsCentre) {
   const double cell = 1.0 / 256, x = 100 * cell, y = 40 * cell;
   specks.Add({x + 0.1 * cell, y + 0.1 * cell}, {x + 0.3 * cell, y + 0.1 * cell},
              {x + 0.1 * cell, y + 0.3 * cell}, 2);
-  const RegionMap map = Filled(specks, 3);
+  const RegionLabels map = Labelled(specks, 3);
   EXPECT_EQ(CellsOf(map, 2), 1u);
   EXPECT_EQ(map.labels[0][256 * 100 + 40], RegionId(2));
   EXPECT_EQ(CellsOf(map, 0), 128u * 256 - 1);
@@ -75,12 +78,12 @@ TEST(RegionLabels, TakeNoRegionsOnlyCell) {
     specks.Add({x + at * cell, y + 0.1 * cell}, {x + (at + 0.2) * cell, y + 0.1 * cell},
                {x + at * cell, y + 0.3 * cell}, id);
   }
-  const RegionMap crowded = Filled(specks, 4);
+  const RegionLabels crowded = Labelled(specks, 4);
   EXPECT_EQ(CellsOf(crowded, 2), 1u);
   EXPECT_EQ(CellsOf(crowded, 3), 0u);
   // Unless another of its triangles is elsewhere.
   specks.Add({x + 1.1 * cell, y}, {x + 1.3 * cell, y}, {x + 1.1 * cell, y + 0.3 * cell}, 3);
-  const RegionMap both = Filled(specks, 4);
+  const RegionLabels both = Labelled(specks, 4);
   EXPECT_EQ(CellsOf(both, 2), 1u);
   EXPECT_EQ(CellsOf(both, 3), 1u);
 }
