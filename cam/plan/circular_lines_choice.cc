@@ -72,27 +72,31 @@ struct GentlePoint {
 };
 
 // The gentle points of a piece that are wanted, of regions with an `open` choice.
-std::vector<GentlePoint> GentlePoints(const Surface& surface, std::size_t piece, const RegionMap& map,
-                                      int stride, const Resolved& resolved, const std::vector<bool>& open) {
+std::vector<GentlePoint> GentlePoints(const RegionPoints& all, std::size_t piece, const Resolved& resolved,
+                                      const std::vector<bool>& open) {
+  const RegionMap& map = all.map();
+  const int stride = all.stride();
   const double radius = resolved.plan_radius;
   std::vector<ComponentId> steep(map.labels[piece].size(), kNoComponent);  // the component of cells that are
   std::vector<std::pair<std::size_t, GentlePoint>> found;                  // cell, point
-  const double share = ShareOfPoint(map, stride), way = std::sqrt(share),
-               limit = std::cos(resolved.split_angle);
-  VisitPiece(
-      surface, piece, map, stride, [&](RegionId id) { return open[id.index()]; },
-      [&](RegionId, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
-        const ComponentId component = map.ComponentAt(piece, cell);
+  const double share = all.Share(), way = std::sqrt(share), limit = std::cos(resolved.split_angle);
+  const PatchId patch = all.surface().pieces[piece].patch;
+  all.VisitPiece(
+      piece, [&](RegionId id) { return open[id.index()]; },
+      [&](const RegionPoint& at) {
+        const SurfaceJet& jet = at.jet;
+        const Vec3& e = at.normal;
+        const ComponentId component = map.ComponentAt(piece, at.cell);
         if (component == kNoComponent) return;
         if (e.z() < limit) {
-          steep[cell] = component;
+          steep[at.cell] = component;
           return;
         }
         const PrincipalCurvatures k = Principal(Forms(jet, e));
-        if (!(k.k_max * radius < 1.0) || !IsWanted(resolved.containment, surface.pieces[piece].patch, jet.p))
-          return;
+        if (!(k.k_max * radius < 1.0) || !IsWanted(resolved.containment, patch, jet.p)) return;
         const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
-        found.push_back({cell, {component, jet, e, share * centers * jet.du.cross(jet.dv).norm(), {}, {}}});
+        found.push_back(
+            {at.cell, {component, jet, e, share * centers * jet.du.cross(jet.dv).norm(), {}, {}}});
       });
   const int n = map.cells;
   std::vector<GentlePoint> points;
@@ -259,9 +263,10 @@ absl::StatusOr<CircularChoices> ChooseCircularLines(const JobContext& context, c
     return CircularChoices{std::move(chosen), std::move(to_try)};
 
   const int stride = std::min(2 * StrideOf(map), map.cells);
+  const RegionPoints points(surface, map, stride);
   std::vector<std::vector<GentlePoint>> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, pieces.size(), [&](std::size_t i) {
-    pieces[i] = GentlePoints(surface, i, map, stride, resolved, open);
+    pieces[i] = GentlePoints(points, i, resolved, open);
   }));
   const std::size_t count = map.component_region.size();
   const auto choice_of = [&](ComponentId component) -> RegionChoice& {
@@ -273,7 +278,7 @@ absl::StatusOr<CircularChoices> ChooseCircularLines(const JobContext& context, c
   std::vector<std::vector<Tangent>> tangents(count);
   std::vector<GentleArea> gentle(count);
   std::vector<double> area(count, 0.0);  // mm2 of centers
-  const double way = std::sqrt(ShareOfPoint(map, stride));
+  const double way = std::sqrt(points.Share());
   for (const std::vector<GentlePoint>& piece : pieces) {
     for (const GentlePoint& point : piece) {
       area[point.component.index()] += point.centers;

@@ -36,19 +36,19 @@ absl::StatusOr<Seen> Look(const JobContext& context, const RegionMap& map,
   const auto reached = [&](RegionId id) {
     return map.regions[id.index()].kind != RegionKind::kUnreachable && !choices[id.index()].skip;
   };
+  const RegionPoints points(surface, map);
   std::vector<Seen> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
-    VisitPiece(surface, i, map, StrideOf(map), reached,
-               [&](RegionId id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
-                 if (map.regions[id.index()].reason == UnreachableReason::kNone) {
-                   pieces[i].centers.push_back(jet.p + radius * e);
-                   return;
-                 }
-                 const RegionChoice& choice = choices[id.index()];
-                 pieces[i].beyond.push_back({id, jet.p,
-                                             LeftByStep(ForcedOf(choice), jet, e, radius, choice.scallop,
-                                                        PassParams().min_step_fraction)});
-               });
+    points.VisitPiece(i, reached, [&](const RegionPoint& at) {
+      if (map.regions[at.region.index()].reason == UnreachableReason::kNone) {
+        pieces[i].centers.push_back(at.jet.p + radius * at.normal);
+        return;
+      }
+      const RegionChoice& choice = choices[at.region.index()];
+      pieces[i].beyond.push_back({at.region, at.jet.p,
+                                  LeftByStep(ForcedOf(choice), at.jet, at.normal, radius, choice.scallop,
+                                             PassParams().min_step_fraction)});
+    });
   }));
   Seen all;
   for (Seen& seen : pieces) {

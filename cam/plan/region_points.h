@@ -41,25 +41,53 @@ inline int StrideOf(const RegionMap& map) {
                     std::max(1, map.cells));
 }
 
-// Strides need not divide the cells: every point stands for an equal share of its piece.
-inline double ShareOfPoint(const RegionMap& map, int stride) {
-  const int points = (map.cells - stride / 2 + stride - 1) / stride;
-  return 1.0 / (static_cast<double>(points) * points);
-}
+// A point of a region.
+struct RegionPoint {
+  RegionId region;
+  std::size_t cell = 0;  // of the map, in its piece
+  SurfaceJet jet;
+  Vec3 normal = Vec3::UnitZ();  // unit, upward
+};
 
-// Calls visit(region id, cell, jet, upward unit normal) at the points of a piece that `wanted(region id)`.
-template <class Wanted, class Visit>
-void VisitPiece(const Surface& surface, std::size_t piece, const RegionMap& map, int stride,
-                const Wanted& wanted, const Visit& visit) {
-  for (int i = stride / 2; i < map.cells; i += stride) {
-    for (int j = stride / 2; j < map.cells; j += stride) {
-      const auto cell = static_cast<std::size_t>(i * map.cells + j);
-      const RegionId id = map.labels[piece][cell];
-      if (id == kNoRegion || !wanted(id)) continue;
-      const SurfaceJet jet = Evaluate(surface.pieces[piece], (i + 0.5) / map.cells, (j + 0.5) / map.cells);
-      if (const auto e = UpwardNormal(jet)) visit(id, cell, jet, *e);
+// The points in the middle of every so many cells of a map, each way. Keeps references to surface and map.
+class RegionPoints {
+ public:
+  RegionPoints(const Surface& surface, const RegionMap& map) : RegionPoints(surface, map, StrideOf(map)) {}
+  // `stride` is a number of cells, at least 1.
+  RegionPoints(const Surface& surface, const RegionMap& map, int stride)
+      : surface_(surface), map_(map), stride_(stride) {}
+
+  const Surface& surface() const { return surface_; }
+  const RegionMap& map() const { return map_; }
+  int stride() const { return stride_; }
+
+  // The share of its piece's parameters that a point stands for. Strides need not divide the cells: every
+  // point stands for an equal share.
+  double Share() const {
+    const int points = (map_.cells - stride_ / 2 + stride_ - 1) / stride_;
+    return 1.0 / (static_cast<double>(points) * points);
+  }
+
+  // Calls visit(point) at the points of a piece in regions for which wanted(region id) is true. Points
+  // without a normal are left out.
+  template <class Wanted, class Visit>
+  void VisitPiece(std::size_t piece, const Wanted& wanted, const Visit& visit) const {
+    const int n = map_.cells;
+    for (int i = stride_ / 2; i < n; i += stride_) {
+      for (int j = stride_ / 2; j < n; j += stride_) {
+        const auto cell = static_cast<std::size_t>(i * n + j);
+        const RegionId id = map_.labels[piece][cell];
+        if (id == kNoRegion || !wanted(id)) continue;
+        const SurfaceJet jet = Evaluate(surface_.pieces[piece], (i + 0.5) / n, (j + 0.5) / n);
+        if (const auto e = UpwardNormal(jet)) visit(RegionPoint{id, cell, jet, *e});
+      }
     }
   }
-}
+
+ private:
+  const Surface& surface_;
+  const RegionMap& map_;
+  const int stride_;
+};
 
 }  // namespace patchmill

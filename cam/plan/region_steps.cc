@@ -82,19 +82,20 @@ absl::StatusOr<std::vector<double>> SelectedShares(const JobContext& context, co
   const Containment& containment = context.resolved.containment;
   std::vector<double> shares(map.regions.size(), 1.0);
   if (containment.WantsAll()) return shares;
+  const RegionPoints points(surface, map);
   struct Areas {
     double all = 0.0, wanted = 0.0;
   };
   std::vector<std::vector<Areas>> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
     pieces[i].resize(map.regions.size());
-    VisitPiece(
-        surface, i, map, StrideOf(map), [](RegionId) { return true; },
-        [&](RegionId id, std::size_t, const SurfaceJet& jet, const Vec3&) {
-          const double area = jet.du.cross(jet.dv).norm();
-          Areas& areas = pieces[i][id.index()];
+    points.VisitPiece(
+        i, [](RegionId) { return true; },
+        [&](const RegionPoint& at) {
+          const double area = at.jet.du.cross(at.jet.dv).norm();
+          Areas& areas = pieces[i][at.region.index()];
           areas.all += area;
-          if (IsWanted(containment, surface.pieces[i].patch, jet.p)) areas.wanted += area;
+          if (IsWanted(containment, surface.pieces[i].patch, at.jet.p)) areas.wanted += area;
         });
   }));
   for (std::size_t id = 0; id < map.regions.size(); ++id) {
@@ -115,7 +116,7 @@ absl::StatusOr<std::vector<RegionFigures>> MeasureRegions(const JobContext& cont
   const Surface& surface = context.surface;
   const Resolved& resolved = context.resolved;
   PM_ASSIGN_OR_RETURN(const std::vector<double> selected, SelectedShares(context, map));
-  const int stride = StrideOf(map);
+  const RegionPoints points(surface, map);
   const auto reachable = [&](RegionId id) {
     return map.regions[id.index()].kind != RegionKind::kUnreachable;
   };
@@ -127,23 +128,23 @@ absl::StatusOr<std::vector<RegionFigures>> MeasureRegions(const JobContext& cont
   std::vector<std::vector<Seen>> pieces(surface.pieces.size());
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
     pieces[i].resize(map.regions.size());
-    VisitPiece(surface, i, map, stride, reachable,
-               [&](RegionId id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
-                 Seen& seen = pieces[i][id.index()];
-                 const RegionChoice& choice = choices[id.index()];
-                 const bool contours = ByContours(choice, map.regions[id.index()]);
-                 const double area = jet.du.cross(jet.dv).norm();
-                 seen.area += area;
-                 if (choice.strategy == Strategy::kAuto && contours != (e.z() <= split))
-                   seen.otherwise += area;
-                 const auto across = contours
-                                         ? AcrossContours(e)
-                                         : AcrossLines(e, LineAt(choice, map.ComponentAt(i, cell), jet.p));
-                 if (!across) return;
-                 const double step = CenterStep(resolved.plan_radius, choice.scallop,
-                                                NormalCurvature(Forms(jet, e), jet, *across));
-                 if (step > 0.0) seen.steps.Add(step);
-               });
+    points.VisitPiece(i, reachable, [&](const RegionPoint& at) {
+      const std::size_t id = at.region.index();
+      const SurfaceJet& jet = at.jet;
+      const Vec3& e = at.normal;
+      Seen& seen = pieces[i][id];
+      const RegionChoice& choice = choices[id];
+      const bool contours = ByContours(choice, map.regions[id]);
+      const double area = jet.du.cross(jet.dv).norm();
+      seen.area += area;
+      if (choice.strategy == Strategy::kAuto && contours != (e.z() <= split)) seen.otherwise += area;
+      const auto across =
+          contours ? AcrossContours(e) : AcrossLines(e, LineAt(choice, map.ComponentAt(i, at.cell), jet.p));
+      if (!across) return;
+      const double step =
+          CenterStep(resolved.plan_radius, choice.scallop, NormalCurvature(Forms(jet, e), jet, *across));
+      if (step > 0.0) seen.steps.Add(step);
+    });
   }));
   std::vector<RegionFigures> figures(map.regions.size());
   for (std::size_t id = 0; id < figures.size(); ++id) {
@@ -166,7 +167,7 @@ absl::StatusOr<double> LeastCutLength(const JobContext& context, const Locator& 
                                       const std::vector<RegionChoice>& choices) {
   const Surface& surface = context.surface;
   const Resolved& resolved = context.resolved;
-  const int stride = StrideOf(map);
+  const RegionPoints points(surface, map);
   const auto reachable = [&](RegionId id) {
     return map.regions[id.index()].kind != RegionKind::kUnreachable;
   };
@@ -174,25 +175,26 @@ absl::StatusOr<double> LeastCutLength(const JobContext& context, const Locator& 
   std::vector<double> pieces(surface.pieces.size(), 0.0);
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
     std::map<RegionId, VerticalFaces> upright;
-    VisitPiece(surface, i, map, stride, reachable,
-               [&](RegionId id, std::size_t, const SurfaceJet& jet, const Vec3& e) {
-                 const RegionChoice& choice = choices[id.index()];
-                 if (choice.skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p)) return;
-                 // Forced passes leave that as STRATEGY.
-                 if (NeededStepOfSides(ForcedOf(choice), jet, e, radius, choice.scallop) <
-                     PassParams().min_step_fraction)
-                   return;
-                 if (HasTwoSides(jet, e)) {
-                   upright[id].Add(locator, jet, choice.scallop);
-                 } else {
-                   pieces[i] += jet.du.cross(jet.dv).norm() * PassesPerArea(jet, e, radius, choice.scallop);
-                 }
-               });
+    points.VisitPiece(i, reachable, [&](const RegionPoint& at) {
+      const SurfaceJet& jet = at.jet;
+      const Vec3& e = at.normal;
+      const RegionChoice& choice = choices[at.region.index()];
+      if (choice.skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p)) return;
+      // Forced passes leave that as STRATEGY.
+      if (NeededStepOfSides(ForcedOf(choice), jet, e, radius, choice.scallop) <
+          PassParams().min_step_fraction)
+        return;
+      if (HasTwoSides(jet, e)) {
+        upright[at.region].Add(locator, jet, choice.scallop);
+      } else {
+        pieces[i] += jet.du.cross(jet.dv).norm() * PassesPerArea(jet, e, radius, choice.scallop);
+      }
+    });
     for (const auto& [id, faces] : upright) pieces[i] += faces.Passes();
   }));
   double sum = 0.0;
   for (const double piece : pieces) sum += piece;
-  return sum * ShareOfPoint(map, stride);
+  return sum * points.Share();
 }
 
 }  // namespace patchmill

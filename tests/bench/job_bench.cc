@@ -36,27 +36,28 @@ EnumArray<PassKind, double> LengthsByKind(const LinkResult& motion) {
 // than necessary, and for links.
 double FeedInItsDirections(const Surface& surface, const Job& job, const JobResult& result, double radius) {
   const RegionMap& map = result.regions;
-  const int stride = StrideOf(map);
+  const RegionPoints points(surface, map);
   const auto reachable = [&](RegionId id) {
     return map.regions[id.index()].kind != RegionKind::kUnreachable;
   };
   double sum = 0.0;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
-    VisitPiece(surface, i, map, stride, reachable,
-               [&](RegionId id, std::size_t cell, const SurfaceJet& jet, const Vec3& e) {
-                 const RegionChoice& choice = result.report.choices[id.index()];
-                 const auto across = e.z() < std::cos(job.operation.steep_angle)
-                                         ? AcrossContours(e)
-                                         : AcrossLines(e, LineAt(choice, map.ComponentAt(i, cell), jet.p));
-                 const FundamentalForms forms = Forms(jet, e);
-                 const PrincipalCurvatures k = Principal(forms);
-                 if (!across || !(k.k_max * radius < 1.0)) return;
-                 const double step = CenterStep(radius, choice.scallop, NormalCurvature(forms, jet, *across));
-                 const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
-                 if (step > 0.0) sum += jet.du.cross(jet.dv).norm() * centers / step;
-               });
+    points.VisitPiece(i, reachable, [&](const RegionPoint& at) {
+      const SurfaceJet& jet = at.jet;
+      const Vec3& e = at.normal;
+      const RegionChoice& choice = result.report.choices[at.region.index()];
+      const auto across = e.z() < std::cos(job.operation.steep_angle)
+                              ? AcrossContours(e)
+                              : AcrossLines(e, LineAt(choice, map.ComponentAt(i, at.cell), jet.p));
+      const FundamentalForms forms = Forms(jet, e);
+      const PrincipalCurvatures k = Principal(forms);
+      if (!across || !(k.k_max * radius < 1.0)) return;
+      const double step = CenterStep(radius, choice.scallop, NormalCurvature(forms, jet, *across));
+      const double centers = (1.0 - k.k_min * radius) * (1.0 - k.k_max * radius);
+      if (step > 0.0) sum += jet.du.cross(jet.dv).norm() * centers / step;
+    });
   }
-  return sum * ShareOfPoint(map, stride);
+  return sum * points.Share();
 }
 
 absl::StatusOr<JobResult> RunFromModel(const PatchModel& model, const Job& job) {
