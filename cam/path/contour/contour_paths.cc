@@ -48,8 +48,8 @@ bool SameLevels(const std::vector<PlannedLevel>& a, const std::vector<PlannedLev
 }
 
 struct LevelFamilies {
-  std::vector<LevelFamily> families;
-  std::vector<std::size_t> of_group;
+  std::vector<LevelFamily> families;    // [family]
+  std::vector<LevelFamilyId> of_group;  // [group]
   std::size_t levels = 0;
 };
 
@@ -67,15 +67,19 @@ absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGroups& groups, const Cont
   std::vector<LevelFamily>& families = planned.families;
   const double flat = HeightParamsOf(params, radius).flat;
   for (std::size_t k = 0; k < groups.size(); ++k) {
+    const LevelGroupId group(k);
     std::optional<double> base_level;
-    if (const auto& on = groups.base_level(k))
-      base_level = LevelBelow(FullLevels(families[planned.of_group[on->group]]), on->below, flat);
+    if (const auto& on = groups.base_level(group)) {
+      const LevelFamilyId below = planned.of_group[on->group.index()];
+      base_level = LevelBelow(FullLevels(families[below.index()]), on->below, flat);
+    }
     PM_ASSIGN_OR_RETURN(std::vector<PlannedLevel> levels,
-                        PlanLevels(groups[k], params, radius, base_level, run));
+                        PlanLevels(groups[group], params, radius, base_level, run));
     const auto same = std::find_if(families.begin(), families.end(), [&](const LevelFamily& family) {
       return SameLevels(family.levels, levels);
     });
-    planned.of_group.push_back(static_cast<std::size_t>(same - families.begin()));
+    const LevelFamilyId id(static_cast<std::size_t>(same - families.begin()));
+    planned.of_group.push_back(id);
     if (same == families.end()) {
       planned.levels += levels.size();
       families.push_back({std::move(levels), {}, std::nullopt});
@@ -85,8 +89,8 @@ absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGroups& groups, const Cont
         spots.insert(spots.end(), levels[i].spots.begin(), levels[i].spots.end());
       }
     }
-    for (const ContourSample& sample : groups[k].samples)
-      families[planned.of_group.back()].centers.push_back(sample.center);
+    for (const ContourSample& sample : groups[group].samples)
+      families[id.index()].centers.push_back(sample.center);
   }
   if (families.size() > 1) {
     for (LevelFamily& family : families) family.where.emplace(family.centers, kBesideSamples * radius);
@@ -96,7 +100,8 @@ absl::StatusOr<LevelFamilies> PlanFamilies(const LevelGroups& groups, const Cont
 
 // A level of a family, with its order key.
 struct FamilyLevel {
-  std::size_t family = 0, level = 0;
+  LevelFamilyId family;
+  std::size_t level = 0;  // of the family
   int line = 0;
 };
 
@@ -112,7 +117,7 @@ class PassTracer {
         run_(run) {}
 
   LevelPasses At(const FamilyLevel& at) const {
-    const LevelFamily& family = families_[at.family];
+    const LevelFamily& family = families_[at.family.index()];
     const PlannedLevel& planned = family.levels[at.level];
     ClipParams clip;
     clip.window = params_.pass.window;
@@ -121,7 +126,7 @@ class PassTracer {
     std::optional<NearSpotsMask> near_spots;
     if (planned.partial) {
       clip.spots = planned.spots;
-      clip.near = ReachOfSpot(groups_[0].spacing, planned.gap);
+      clip.near = ReachOfSpot(groups_[LevelGroupId(0)].spacing, planned.gap);
       near_spots.emplace(planned.spots, clip.near + 2.0 * clip.overlap);
     }
     const std::optional<NearSpotsMask>& where = near_spots ? near_spots : family.where;
@@ -143,7 +148,7 @@ class PassTracer {
   const LevelContext& context_;
   const LevelGroups& groups_;
   const std::vector<LevelFamily>& families_;
-  const std::vector<std::size_t>& family_of_;
+  const std::vector<LevelFamilyId>& family_of_;  // [group]
   const ContourParams& params_;
   const RunContext& run_;
 };
@@ -180,7 +185,8 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
   std::vector<FamilyLevel> levels;
   int line = 0;
   for (std::size_t k = 0; k < families.size(); ++k) {
-    for (std::size_t i = 0; i < families[k].levels.size(); ++i) levels.push_back({k, i, line++});
+    for (std::size_t i = 0; i < families[k].levels.size(); ++i)
+      levels.push_back({LevelFamilyId(k), i, line++});
     line += kBetweenFamilies;
   }
   const PassTracer tracer(context, groups, planned, params, run);

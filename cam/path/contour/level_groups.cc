@@ -66,7 +66,7 @@ class LevelGroups::Builder {
       for (const std::size_t i : branches[k].samples) part_of_[i] = sets + k;
     }
     for (const LevelBranch& branch : branches)
-      parts_.push_back({.on = BaseLevel{part_of_[branch.from], branch.base_level}});
+      parts_.push_back({.on = Trunk{part_of_[branch.from], branch.base_level}});
     for (std::size_t i = 0; i < part_of_.size(); ++i) parts_[part_of_[i]].samples.push_back(i);
     for (const LowerEnd& end : area_.lower_ends)
       parts_[part_of_[*centers_.Nearest(end.center)]].ends.push_back(end);
@@ -84,29 +84,35 @@ class LevelGroups::Builder {
 
   // Puts the groups in order. A group comes after the one it stands on.
   void Put(LevelGroups& made) {
-    std::vector<std::size_t> number(parts_.size(), 0);
+    std::vector<LevelGroupId> number(parts_.size());
     for (std::size_t left = 1; left > 0;) {
       left = 0;
       for (std::size_t k = 0; k < parts_.size(); ++k) {
         Part& part = parts_[k];
         if (part.samples.empty()) continue;
-        if (part.on && !parts_[part.on->group].samples.empty()) {  // the group it stands on comes first
+        if (part.on && !parts_[part.on->part].samples.empty()) {  // the part it stands on comes first
           ++left;
           continue;
         }
-        number[k] = made.groups_.size();
-        if (part.on) part.on->group = number[part.on->group];
-        made.base_levels_.push_back(part.on);
+        number[k] = LevelGroupId(made.groups_.size());
+        std::optional<BaseLevel>& base_level = made.base_levels_.emplace_back();
+        if (part.on) base_level = BaseLevel{number[part.on->part], part.on->below};
         made.groups_.push_back(AreaOf(part));
-        for (const std::size_t i : std::exchange(part.samples, {})) part_of_[i] = number[k];
+        part.samples.clear();
       }
     }
-    made.of_sample_ = std::move(part_of_);
+    made.of_sample_.reserve(part_of_.size());
+    for (const std::size_t part : part_of_) made.of_sample_.push_back(number[part]);
   }
 
  private:
+  // The part on which a branch stands, and the height below which the level for it lies.
+  struct Trunk {
+    std::size_t part = 0;
+    double below = 0.0;  // mm, of the centre
+  };
   struct Part {  // becomes a group; without samples once it is joined
-    std::optional<BaseLevel> on = std::nullopt;
+    std::optional<Trunk> on = std::nullopt;
     std::vector<std::size_t> samples = {};
     std::vector<LowerEnd> ends = {};
     std::optional<LevelPlan> plan = std::nullopt;  // without a base level
@@ -129,7 +135,7 @@ class LevelGroups::Builder {
 
   // Returns part k together with the part it stands on.
   Part Both(std::size_t k) const {
-    Part both = parts_[parts_[k].on->group];
+    Part both = parts_[parts_[k].on->part];
     const Part& branch = parts_[k];
     both.samples.insert(both.samples.end(), branch.samples.begin(), branch.samples.end());
     std::sort(both.samples.begin(), both.samples.end());
@@ -140,12 +146,12 @@ class LevelGroups::Builder {
 
   // Joins part k to the part it stands on. `both` is Both(k).
   void Join(std::size_t k, Part both) {
-    const std::size_t on = parts_[k].on->group;
+    const std::size_t on = parts_[k].on->part;
     for (const std::size_t i : parts_[k].samples) part_of_[i] = on;
     parts_[on] = std::move(both);
     parts_[k] = {};
     for (Part& part : parts_) {
-      if (part.on && part.on->group == k) part.on->group = on;
+      if (part.on && part.on->part == k) part.on->part = on;
     }
   }
 
@@ -178,7 +184,7 @@ class LevelGroups::Builder {
   // Can a branch and the part it stands on share their levels? The steps they need decide.
   bool SameNeeds(std::size_t k) const {
     const double low = parts_[k].on->below, high = TopOf(parts_[k]);
-    const double own = NeedOf(parts_[k], low, high), beside = NeedOf(parts_[parts_[k].on->group], low, high);
+    const double own = NeedOf(parts_[k], low, high), beside = NeedOf(parts_[parts_[k].on->part], low, high);
     return std::abs(own - beside) < kSameNeeds * std::max(own, beside);
   }
 
@@ -202,7 +208,7 @@ class LevelGroups::Builder {
   // height at least kRise below the top, or no contour may be traced any more.
   bool LiftBaseLevel(std::size_t k) {
     const double top = TopOf(parts_[k]);
-    const std::size_t on = parts_[k].on->group;
+    const std::size_t on = parts_[k].on->part;
     double z = parts_[k].on->below + params_.flat;
     for (double step = params_.flat;; step *= kLift) {
       if (z > top - kRise * params_.flat || contours_left_ == 0) return false;
@@ -226,13 +232,13 @@ class LevelGroups::Builder {
     std::sort(trunk.samples.begin(), trunk.samples.end());
     trunk.plan.reset();
     for (Part& part : parts_) {
-      if (part.on && part.on->group == k && part.on->below <= z) part.on->group = on;
+      if (part.on && part.on->part == k && part.on->below <= z) part.on->part = on;
     }
     return true;
   }
 
   absl::Status JoinUnlessShorter(std::size_t k) {
-    Part& trunk = parts_[parts_[k].on->group];
+    Part& trunk = parts_[parts_[k].on->part];
     if (!trunk.plan) {
       PM_ASSIGN_OR_RETURN(trunk.plan, LevelPlanOf(trunk, std::nullopt));
     }
@@ -309,18 +315,19 @@ absl::StatusOr<LevelGroups> LevelGroups::Make(const ContourArea& contour_area, c
   return made;
 }
 
-std::size_t LevelGroups::FamilyUnder(const CutterPath& pass, std::span<const std::size_t> family_of) const {
+LevelFamilyId LevelGroups::FamilyUnder(const CutterPath& pass,
+                                       std::span<const LevelFamilyId> family_of) const {
   if (groups_.size() == 1) return family_of[0];
-  std::map<std::size_t, double> lengths;
+  std::map<LevelFamilyId, double> lengths;
   const std::size_t n = pass.points.size();
   for (std::size_t i = 0; i + (pass.closed ? 0 : 1) < n; ++i) {
     const Vec3 &a = pass.points[i].center, &b = pass.points[(i + 1) % n].center;
     const auto nearest = centers_.Nearest(0.5 * (a + b));
-    if (nearest) lengths[family_of[of_sample_[*nearest]]] += (b - a).norm();
+    if (nearest) lengths[family_of[of_sample_[*nearest].index()]] += (b - a).norm();
   }
   const auto longest = std::max_element(lengths.begin(), lengths.end(),
                                         [](const auto& a, const auto& b) { return a.second < b.second; });
-  return longest == lengths.end() ? 0 : longest->first;
+  return longest == lengths.end() ? LevelFamilyId(0) : longest->first;
 }
 
 }  // namespace patchmill

@@ -10,9 +10,13 @@
 #include "cam/path/contour/contour_samples.h"
 #include "cam/path/contour/level_heights.h"
 #include "cam/toolpath/cutter_path.h"
+#include "core/base/typed_id.h"
 #include "core/spatial/point_cells.h"
 
 namespace patchmill {
+
+using LevelGroupId = TypedId<struct LevelGroupTag>;    // a group of a LevelGroups
+using LevelFamilyId = TypedId<struct LevelFamilyTag>;  // groups that have the same levels
 
 // Returns the highest of `heights` at or below `height`, or nothing if the gap is so long (kMostGap) that no
 // surface lies in it. `flat` is the step over a plane, mm.
@@ -38,23 +42,23 @@ class LevelGroups {
   explicit LevelGroups(ContourArea all);
 
   std::size_t size() const { return groups_.size(); }
-  const ContourArea& operator[](std::size_t i) const { return groups_[i]; }
+  const ContourArea& operator[](LevelGroupId id) const { return groups_[id.index()]; }
   // The level on which a branch stands: the highest one of that group at or below a height.
   struct BaseLevel {
-    std::size_t group = 0;
+    LevelGroupId group;
     double below = 0.0;  // mm, of the centre
   };
-  const std::optional<BaseLevel>& base_level(std::size_t i) const { return base_levels_[i]; }
+  const std::optional<BaseLevel>& base_level(LevelGroupId id) const { return base_levels_[id.index()]; }
   // Returns the family over whose area most of this pass lies, by the samples that are nearest to it.
-  // `family_of` holds the family of each group.
-  std::size_t FamilyUnder(const CutterPath& pass, std::span<const std::size_t> family_of) const;
+  // family_of[group] is the family of that group.
+  LevelFamilyId FamilyUnder(const CutterPath& pass, std::span<const LevelFamilyId> family_of) const;
 
  private:
   LevelGroups() = default;
   class Builder;
   std::vector<ContourArea> groups_;
   std::vector<std::optional<BaseLevel>> base_levels_;  // of each group
-  std::vector<std::size_t> of_sample_;                 // group of each sample, in the order of `centers_`
+  std::vector<LevelGroupId> of_sample_;                // group of each sample, in the order of `centers_`
   PointCells centers_;
 };
 

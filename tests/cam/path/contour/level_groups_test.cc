@@ -75,14 +75,15 @@ TEST(LevelGroups, WallsApartAreTwo) {
   const LevelGroups groups = GroupsOf(contour_area);
   ASSERT_EQ(groups.size(), 2u);
   // The larger one first, 280 and 200 mm2; every sample and every end in one of them.
-  EXPECT_EQ(groups[0].samples.size() + groups[1].samples.size(), contour_area.samples.size());
-  EXPECT_EQ(groups[0].lower_ends.size(), 2u);
-  EXPECT_EQ(groups[1].lower_ends.size(), 1u);
-  for (const ContourSample& sample : groups[0].samples) EXPECT_EQ(sample.contact.y(), 12.0);
-  for (const ContourSample& sample : groups[1].samples) EXPECT_EQ(sample.contact.y(), 0.0);
+  EXPECT_EQ(groups[LevelGroupId(0)].samples.size() + groups[LevelGroupId(1)].samples.size(),
+            contour_area.samples.size());
+  EXPECT_EQ(groups[LevelGroupId(0)].lower_ends.size(), 2u);
+  EXPECT_EQ(groups[LevelGroupId(1)].lower_ends.size(), 1u);
+  for (const ContourSample& sample : groups[LevelGroupId(0)].samples) EXPECT_EQ(sample.contact.y(), 12.0);
+  for (const ContourSample& sample : groups[LevelGroupId(1)].samples) EXPECT_EQ(sample.contact.y(), 0.0);
   const CutterPath small = PathOf({Vec3(0, 3, 5), Vec3(20, 3, 5), Vec3(20, 9, 5)});
-  EXPECT_EQ(groups.FamilyUnder(small, std::array<std::size_t, 2>{0, 1}), 1u);
-  EXPECT_EQ(groups.FamilyUnder(small, std::array<std::size_t, 2>{7, 5}), 5u);
+  EXPECT_EQ(groups.FamilyUnder(small, std::array{LevelFamilyId(0), LevelFamilyId(1)}), LevelFamilyId(1));
+  EXPECT_EQ(groups.FamilyUnder(small, std::array{LevelFamilyId(7), LevelFamilyId(5)}), LevelFamilyId(5));
 }
 
 TEST(LevelGroups, ScrapsGoWithTheLargest) {
@@ -104,9 +105,9 @@ TEST(LevelGroups, AreNotMoreThanWhatIsWorthIt) {
   const LevelGroups groups = GroupsOf(contour_area);
   EXPECT_EQ(groups.size(), 256u);
   std::size_t all = 0;
-  for (std::size_t k = 0; k < groups.size(); ++k) all += groups[k].samples.size();
+  for (std::size_t k = 0; k < groups.size(); ++k) all += groups[LevelGroupId(k)].samples.size();
   EXPECT_EQ(all, contour_area.samples.size());
-  EXPECT_GT(groups[0].samples.size(), 44 * groups[255].samples.size());
+  EXPECT_GT(groups[LevelGroupId(0)].samples.size(), 44 * groups[LevelGroupId(255)].samples.size());
 }
 
 // A wall from z = 0 to 20, beside it one that needs `step` above z = 10, where the two part.
@@ -139,25 +140,26 @@ TEST(LevelGroups, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
     const auto groups = LevelGroups::Make(contour_area, kParams, ContoursForkedAt(fork), RunContext(1));
     ASSERT_TRUE(groups.ok());
     ASSERT_EQ(groups->size(), 2u);
-    EXPECT_FALSE(groups->base_level(0));
-    ASSERT_TRUE(groups->base_level(1));
-    EXPECT_EQ(groups->base_level(1)->group, 0u);
-    const double base_level = groups->base_level(1)->below;
+    EXPECT_FALSE(groups->base_level(LevelGroupId(0)));
+    ASSERT_TRUE(groups->base_level(LevelGroupId(1)));
+    EXPECT_EQ(groups->base_level(LevelGroupId(1))->group, LevelGroupId(0));
+    const double base_level = groups->base_level(LevelGroupId(1))->below;
     EXPECT_GE(base_level, fork);
     EXPECT_LE(base_level, fork + 3.0 * kFlat);
-    EXPECT_EQ((*groups)[0].samples.size() + (*groups)[1].samples.size(), contour_area.samples.size());
-    EXPECT_EQ((*groups)[base_level < 12.0 ? 1 : 0].lower_ends.size(), 1u);
-    for (const ContourSample& sample : (*groups)[1].samples) {
+    EXPECT_EQ((*groups)[LevelGroupId(0)].samples.size() + (*groups)[LevelGroupId(1)].samples.size(),
+              contour_area.samples.size());
+    EXPECT_EQ((*groups)[LevelGroupId(base_level < 12.0 ? 1 : 0)].lower_ends.size(), 1u);
+    for (const ContourSample& sample : (*groups)[LevelGroupId(1)].samples) {
       EXPECT_GT(sample.center.z(), base_level);
       EXPECT_GE(sample.contact.x(), 50.0);
     }
-    for (const ContourSample& sample : (*groups)[0].samples)
+    for (const ContourSample& sample : (*groups)[LevelGroupId(0)].samples)
       EXPECT_TRUE(sample.contact.x() <= 40.0 || sample.center.z() <= base_level);
     const CutterPath high = PathOf({Vec3(50, -3, 18), Vec3(80, -3, 18)});
-    EXPECT_EQ(groups->FamilyUnder(high, std::array<std::size_t, 2>{0, 1}), 1u);
+    EXPECT_EQ(groups->FamilyUnder(high, std::array{LevelFamilyId(0), LevelFamilyId(1)}), LevelFamilyId(1));
 
     // Its levels stand on one of the wall's, each no farther from the next than it needs.
-    const auto wall = LevelHeights((*groups)[0], kParams, RunContext(1));
+    const auto wall = LevelHeights((*groups)[LevelGroupId(0)], kParams, RunContext(1));
     ASSERT_TRUE(wall.ok());
     HeightParams on_wall = kParams;
     for (const double z : wall->heights) {
@@ -165,7 +167,7 @@ TEST(LevelGroups, ABranchHasLevelsOfItsOwnWhereTheyAreShorter) {
     }
     ASSERT_TRUE(on_wall.base_level);
     EXPECT_GT(*on_wall.base_level, base_level - 1.1 * kFlat);
-    const auto branch = LevelHeights((*groups)[1], on_wall, RunContext(1));
+    const auto branch = LevelHeights((*groups)[LevelGroupId(1)], on_wall, RunContext(1));
     ASSERT_TRUE(branch.ok());
     ASSERT_GT(branch->heights.size(), 10u);
     EXPECT_EQ(branch->heights.front(), *on_wall.base_level);
