@@ -39,9 +39,16 @@ void Lower(const Room& room, double floor, const Vec3& a, const Vec3& b, Least& 
   Lower(room, floor, middle, b, least);
 }
 
-// The same over the rectangle with corners a and b and sides along x and y, at height z.
-void LowerOver(const Room& room, double floor, const Vec2& a, const Vec2& b, double z, Least& least) {
+// A level rectangle with corners a and b and sides along x and y.
+struct LevelRect {
+  Vec2 a, b;
+  double z = 0.0;
+};
+
+// The same over a level rectangle.
+void LowerOver(const Room& room, double floor, const LevelRect& rect, Least& least) {
   if (floor >= least.room - kCertainty) return;
+  const auto& [a, b, z] = rect;
   const Vec2 middle = 0.5 * (a + b);
   const double here = room(Lift(middle, z)), half = 0.5 * (b - a).norm();
   if (here < least.room) {
@@ -50,8 +57,8 @@ void LowerOver(const Room& room, double floor, const Vec2& a, const Vec2& b, dou
   }
   if (half < kCertainty || here - half >= least.room - kCertainty) return;
   const bool x_longer = std::abs(b.x() - a.x()) >= std::abs(b.y() - a.y());
-  LowerOver(room, floor, a, x_longer ? Vec2(middle.x(), b.y()) : Vec2(b.x(), middle.y()), z, least);
-  LowerOver(room, floor, x_longer ? Vec2(middle.x(), a.y()) : Vec2(a.x(), middle.y()), b, z, least);
+  LowerOver(room, floor, {a, x_longer ? Vec2(middle.x(), b.y()) : Vec2(b.x(), middle.y()), z}, least);
+  LowerOver(room, floor, {x_longer ? Vec2(middle.x(), a.y()) : Vec2(a.x(), middle.y()), b, z}, least);
 }
 
 class Report {
@@ -132,8 +139,11 @@ std::vector<PathSegment> OutsideOfMaterial(const CenterLimits& limits, std::vect
   return out;
 }
 
-Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const CenterLimits& limits,
-                         double radius, const Vec3& offset, double slack, const RunContext& run) {
+Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const LimitCheck& check,
+                         const RunContext& run) {
+  const CenterLimits& limits = check.limits;
+  const Vec3& offset = check.offset;
+  const double slack = check.slack;
   Diagnostics found;
   if (limits.containment == nullptr) return found;
   const Containment& c = *limits.containment;
@@ -156,7 +166,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
     for (const PathSegment& s : dog_legs) {
       if (run.Cancelled()) break;
       Least least{-slack, Vec3::Zero(), -1};
-      LowerOver(room, over_top(s), Xy(s.a), Xy(s.b), std::min(s.a.z(), s.b.z()), least);
+      LowerOver(room, over_top(s), {Xy(s.a), Xy(s.b), std::min(s.a.z(), s.b.z())}, least);
       if (least.room >= -slack) continue;
       least.move = s.move;
       beside.push_back(least);
@@ -184,7 +194,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
   }
   if (c.top_z) {
     // A ball touches the surface if it is within `slack` of it. Broken allows another `slack`.
-    const double touching = radius + 2.0 * slack;
+    const double touching = check.radius + 2.0 * slack;
     const Room room = [&](const Vec3& center) {
       const double below = TopRoom(c, center.z() - limits.ball);
       if (below >= 0.0) return below;

@@ -10,18 +10,25 @@
 
 namespace patchmill {
 
-// Reports moves that go more than `slack` (mm) beyond a limit, to 1e-3 mm:
+// The limits that a program is checked against.
+struct LimitCheck {
+  const CenterLimits& limits;
+  double radius = 0.0;         // mm, of the ball plus the stock to leave
+  Vec3 offset = Vec3::Zero();  // that of CollectMoves; messages give places in the program frame
+  double slack = 0.0;          // mm; moves may go this far beyond a limit
+};
+
+// Reports moves that go more than check.slack beyond a limit, to 1e-3 mm:
 // - OBSTACLE_HIT: all moves, and for rapids all places to which a control may go that drives one axis before
 //   the other;
 // - BESIDE_PART: all moves;
 // - OUTSIDE_BOUNDARY: feed moves;
 // - ABOVE_TOP: feed moves that touch the surface while the tip is above the highest one allowed. Moves
 //   straight up or down do not count.
-// Of each code at most 20 findings are reported, one for each program line, the deepest first. `radius` is
-// that of the ball plus the stock to leave, mm. `offset` is that of CollectMoves; messages give places in the
-// program frame. Meaningless once `run` is cancelled.
-Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const CenterLimits& limits,
-                         double radius, const Vec3& offset, double slack, const RunContext& run);
+// Of each code at most 20 findings are reported, one for each program line, the deepest first. The
+// result is meaningless once `run` is cancelled.
+Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const LimitCheck& check,
+                         const RunContext& run);
 
 // The parts of feed moves that count as cutting. A ball on the back of a wall (StripKind::kMaterial) finishes
 // nothing: on a thin wall it would be as near to the other side. Moves are divided down to 0.01 mm.

@@ -7,18 +7,17 @@
 
 namespace patchmill {
 
-absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const Extreme& known, double limit,
-                                     double certainty, const MakeRootSearch& make, const RunContext& run,
-                                     const char* stage) {
+absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const SearchStart& start,
+                                     const MakeRootSearch& make, const RunContext& run, const char* stage) {
   // Every kFirst-th root is searched in the first round; kChunk roots form one task.
   constexpr std::size_t kFirst = 8, kChunk = 32;
   std::vector<std::size_t> first, second;
   for (std::size_t i = 0; i < roots.size(); ++i) (i % kFirst == 0 ? first : second).push_back(i);
   std::vector<Extreme> found(roots.size());
   Extremes result;
-  result.worst = known;
+  result.worst = start.known;
   for (const std::vector<std::size_t>* round : {&first, &second}) {
-    const Threshold threshold{result.worst.value, limit, certainty};
+    const Threshold threshold{result.worst.value, start.limit, start.certainty};
     const std::size_t chunks = (round->size() + kChunk - 1) / kChunk;
     PM_RETURN_IF_ERROR(ParallelFor(run, round == &second ? stage : nullptr, chunks, [&](std::size_t chunk) {
       const RootSearch search = make();
@@ -35,7 +34,7 @@ absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const E
     }
   }
   for (const Extreme& e : found) {
-    if (e.value > limit) result.violations.push_back(e);
+    if (e.value > start.limit) result.violations.push_back(e);
   }
   std::stable_sort(result.violations.begin(), result.violations.end(),
                    [](const Extreme& a, const Extreme& b) { return a.value > b.value; });

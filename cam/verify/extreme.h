@@ -46,10 +46,16 @@ struct Threshold {
 using RootSearch = std::function<Extreme(const CellRect& root, const Threshold& threshold)>;
 using MakeRootSearch = std::function<RootSearch()>;
 
+// What a search knows at its start, and what it is to find.
+struct SearchStart {
+  Extreme known;             // a value that was found before
+  double limit = kInfinity;  // mm; a larger value is a violation
+  double certainty = 0.0;    // mm; the largest value may exceed the one found by this
+};
+
 // Searches every eighth root first, then the others with the value found by these. Within a chunk each root
-// starts with the values of the roots before it. `known` is a value that was found before.
-absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const Extreme& known, double limit,
-                                     double certainty, const MakeRootSearch& make, const RunContext& run,
-                                     const char* stage);
+// starts with the values of the roots before it. `stage` names the progress.
+absl::StatusOr<Extremes> SearchRoots(const std::vector<CellRect>& roots, const SearchStart& start,
+                                     const MakeRootSearch& make, const RunContext& run, const char* stage);
 
 }  // namespace patchmill

@@ -61,16 +61,15 @@ class GougeSearch {
 
 }  // namespace
 
-absl::StatusOr<Extremes> FindGouge(const Surface& surface, const std::vector<CellRect>& roots,
-                                   const SegmentTree& tree, const GougeParams& params, const RunContext& run,
-                                   const char* stage) {
+absl::StatusOr<Extremes> FindGouge(const RootedSurface& rooted, const SegmentTree& tree,
+                                   const GougeParams& params, const RunContext& run, const char* stage) {
   if (tree.empty()) return Extremes{};
   const MakeRootSearch make = [&]() -> RootSearch {
-    auto search = std::make_shared<GougeSearch>(surface, tree, params, run);
+    auto search = std::make_shared<GougeSearch>(rooted.surface, tree, params, run);
     return
         [search](const CellRect& root, const Threshold& threshold) { return search->Run(root, threshold); };
   };
-  return SearchRoots(roots, Extreme{}, params.limit, params.certainty, make, run, stage);
+  return SearchRoots(rooted.roots, {Extreme{}, params.limit, params.certainty}, make, run, stage);
 }
 
 }  // namespace patchmill

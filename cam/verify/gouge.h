@@ -18,9 +18,8 @@ struct GougeParams {
 // metric, which is not Metric::kPath [verification, section 4]. The distance to one move is convex in p. So
 // over a cell's hull it is nowhere below the smallest value that the tangent plane at the cell's middle takes
 // at the control points [verification T9]. Cells are halved until no move can be deeper than the value found
-// by more than `certainty`. `roots` must cover the surface; `stage` names the progress.
-absl::StatusOr<Extremes> FindGouge(const Surface& surface, const std::vector<CellRect>& roots,
-                                   const SegmentTree& tree, const GougeParams& params, const RunContext& run,
-                                   const char* stage);
+// by more than `certainty`. The roots must cover the surface; `stage` names the progress.
+absl::StatusOr<Extremes> FindGouge(const RootedSurface& rooted, const SegmentTree& tree,
+                                   const GougeParams& params, const RunContext& run, const char* stage);
 
 }  // namespace patchmill

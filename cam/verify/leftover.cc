@@ -132,7 +132,7 @@ class LeftoverSearch {
 
   bool IsAsked(const SurfaceCell& cell) {
     const CellRect& r = cell.rect;
-    if (!IsWantedAt(surface_, params_, r.piece, r.u(), r.v(), cell.middle)) return false;
+    if (!IsWantedAt(surface_, params_, {r.piece, r.u(), r.v(), cell.middle})) return false;
     const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
     const auto facing = FacingAt(jet);
     return facing && IsAskedOn(surface_, {r.piece, r.u(), r.v(), jet.p}, *facing, params_.reach, obstacles_);
@@ -203,15 +203,15 @@ class LeftoverSearch {
 
 }  // namespace
 
-absl::StatusOr<Extremes> FindLeftover(const Surface& surface, const std::vector<CellRect>& roots,
-                                      const SegmentTree& tree, const LeftoverParams& params,
-                                      const Extreme& known, const RunContext& run) {
+absl::StatusOr<Extremes> FindLeftover(const RootedSurface& rooted, const SegmentTree& tree,
+                                      const LeftoverParams& params, const Extreme& known,
+                                      const RunContext& run) {
   const MakeRootSearch make = [&]() -> RootSearch {
-    auto search = std::make_shared<LeftoverSearch>(surface, tree, params, run);
+    auto search = std::make_shared<LeftoverSearch>(rooted.surface, tree, params, run);
     return
         [search](const CellRect& root, const Threshold& threshold) { return search->Run(root, threshold); };
   };
-  return SearchRoots(roots, known, params.limit, params.certainty, make, run, "verify: leftover");
+  return SearchRoots(rooted.roots, {known, params.limit, params.certainty}, make, run, "verify: leftover");
 }
 
 }  // namespace patchmill

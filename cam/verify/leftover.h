@@ -1,11 +1,10 @@
 // Measures what the feed moves leave at reachable points [verification P2], and how much area is reachable.
 #pragma once
 
-#include <array>
-
 #include "cam/toolpath/segment_tree.h"
 #include "cam/verify/extreme.h"
 #include "cam/verify/reach.h"
+#include "core/base/enum_array.h"
 
 namespace patchmill {
 
@@ -34,13 +33,13 @@ enum class FinishClass {
   kOutside,
   kUnwanted
 };
-inline constexpr std::size_t kFinishClasses = 10;
+constexpr FinishClass LastOf(FinishClass) { return FinishClass::kUnwanted; }
 
 struct AreaReport {
-  std::array<double, kFinishClasses> area{};    // mm^2
-  std::array<Extreme, kFinishClasses> deepest;  // largest leftover among the samples of each class
-  double lowest_center = kInfinity;             // mm, lowest centre height that only the floor forbids
-  double highest_rise = -kInfinity;             // mm, largest RiseNeeded of places that only the shank blocks
+  EnumArray<FinishClass, double> area{};    // mm^2
+  EnumArray<FinishClass, Extreme> deepest;  // largest leftover among the samples of each class
+  double lowest_center = kInfinity;         // mm, lowest centre height that only the floor forbids
+  double highest_rise = -kInfinity;         // mm, largest RiseNeeded of places that only the shank blocks
 };
 
 // Measures areas by samples at the middle and the corners of each root cell. A cell whose samples differ is
@@ -48,9 +47,8 @@ struct AreaReport {
 // the border of the reachable set. From the lowest sample that only the floor forbids, a search in its piece
 // finds the lowest place; in the same way it finds the place that needs the highest shank. `tree` has
 // Metric::kPath and holds the feed moves.
-absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vector<CellRect>& roots,
-                                        const SegmentTree& tree, const LeftoverParams& params,
-                                        const RunContext& run);
+absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const SegmentTree& tree,
+                                        const LeftoverParams& params, const RunContext& run);
 
 // Largest distance(p, feed moves) + chord_error - R over the reachable points. The distance to one segment is
 // convex in p, and so is every mean of two such distances. So over a cell's hull it is nowhere above its
@@ -59,12 +57,11 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
 // is. It is abandoned as unreachable if no centre over it can be free. At the border of the reachable set
 // this goes down to cells of 2.5 % of the radius, or 0.5 % where the leftover may still rise steeply. `known`
 // is a value that was found before (by MeasureAreas).
-absl::StatusOr<Extremes> FindLeftover(const Surface& surface, const std::vector<CellRect>& roots,
-                                      const SegmentTree& tree, const LeftoverParams& params,
-                                      const Extreme& known, const RunContext& run);
+absl::StatusOr<Extremes> FindLeftover(const RootedSurface& rooted, const SegmentTree& tree,
+                                      const LeftoverParams& params, const Extreme& known,
+                                      const RunContext& run);
 
-// True if the point p at (u,v) is to be finished: it lies in params.where and in the selection.
-bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId piece, double u, double v,
-                const Vec3& p);
+// True if the point is to be finished: it lies in params.where and in the selection.
+bool IsWantedAt(const Surface& surface, const LeftoverParams& params, const SurfacePoint& at);
 
 }  // namespace patchmill

@@ -37,9 +37,20 @@ struct Sums {
   CellRect lowest, highest;
 };
 
+// A place on a piece. Cells share corners. Halving is exact, so equal places have equal parameters.
+struct PiecePlace {
+  PieceId piece;
+  double u, v;
+  bool operator==(const PiecePlace&) const = default;
+};
+
+SurfaceJet EvaluateAt(const Surface& surface, const PiecePlace& at) {
+  return Evaluate(surface, at.piece, at.u, at.v);
+}
+
 // Height of the centre over a point that only the floor makes unreachable, mm; infinity for other points.
-double CenterBelowFloor(const Surface& surface, PieceId piece, double u, double v, const ReachParams& reach) {
-  const SurfaceJet jet = Evaluate(surface, piece, u, v);
+double CenterBelowFloor(const Surface& surface, const PiecePlace& at, const ReachParams& reach) {
+  const SurfaceJet jet = EvaluateAt(surface, at);
   const auto facing = FacingAt(jet);
   if (!facing || ReachAt(surface, jet.p, *facing, reach) != ReachClass::kFloor) return kInfinity;
   ReachParams lower = reach;
@@ -49,15 +60,14 @@ double CenterBelowFloor(const Surface& surface, PieceId piece, double u, double 
 }
 
 // RiseNeeded of a place; `known` if there is no normal.
-double RiseAt(const Surface& surface, PieceId piece, double u, double v, const ReachParams& reach,
-              double known) {
-  const SurfaceJet jet = Evaluate(surface, piece, u, v);
+double RiseAt(const Surface& surface, const PiecePlace& at, const ReachParams& reach, double known) {
+  const SurfaceJet jet = EvaluateAt(surface, at);
   const auto facing = FacingAt(jet);
   return facing ? RiseNeeded(surface, jet.p, *facing, reach, known) : known;
 }
 
 // The smallest value that a pattern search finds in the piece around a place with the value `best`.
-// value(piece, u, v, best) may return anything >= best if the value is not smaller.
+// value(place, best) may return anything >= best if the value is not smaller.
 template <class Value>
 double LeastAround(const CellRect& place, double best, const Value& value) {
   double u = place.u0, v = place.v0;
@@ -67,7 +77,7 @@ double LeastAround(const CellRect& place, double best, const Value& value) {
     for (int k = 0; k < 9 && left > 0; ++k, --left) {
       const double x = std::clamp(u + (k / 3 - 1) * step, 0.0, 1.0);
       const double y = std::clamp(v + (k % 3 - 1) * step, 0.0, 1.0);
-      const double z = value(place.piece, x, y, best);
+      const double z = value({place.piece, x, y}, best);
       if (z >= best - 1e-9) continue;
       best = z;
       u = x;
@@ -86,16 +96,10 @@ struct Limits {
   bool finish = false;   // some of these are not finished
 };
 
-// A place on a piece. Cells share corners. Halving is exact, so equal places have equal parameters.
-struct Key {
-  int piece;
-  double u, v;
-  bool operator==(const Key&) const = default;
-};
-struct KeyHash {
-  std::size_t operator()(const Key& k) const {
-    auto h = static_cast<std::uint64_t>(k.piece);
-    for (const double x : {k.u, k.v}) h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
+struct PlaceHash {
+  std::size_t operator()(const PiecePlace& at) const {
+    auto h = static_cast<std::uint64_t>(at.piece.value);
+    for (const double x : {at.u, at.v}) h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
     return static_cast<std::size_t>(h ^ (h >> 32));
   }
 };
@@ -135,9 +139,9 @@ class AreaSampler {
     // exact for a cubic area element.
     constexpr double kMiddleWeight = 2.0 / 3.0, kCornerWeight = 1.0 / 12.0;
     const std::array<const Sample*, 5> samples = {
-        &At(cell.piece, cell.u0, cell.v0, sums), &At(cell.piece, cell.u0, cell.v1, sums),
-        &At(cell.piece, cell.u1, cell.v0, sums), &At(cell.piece, cell.u1, cell.v1, sums),
-        &At(cell.piece, cell.u(), cell.v(), sums)};
+        &At({cell.piece, cell.u0, cell.v0}, sums), &At({cell.piece, cell.u0, cell.v1}, sums),
+        &At({cell.piece, cell.u1, cell.v0}, sums), &At({cell.piece, cell.u1, cell.v1}, sums),
+        &At({cell.piece, cell.u(), cell.v()}, sums)};
     const std::optional<FinishClass> middle = samples[4]->kind;
     Limits limits;
     for (const Sample* sample : samples) {
@@ -161,27 +165,28 @@ class AreaSampler {
     const double size = (cell.u1 - cell.u0) * (cell.v1 - cell.v0);
     for (std::size_t k = 0; k < 5; ++k) {
       if (!samples[k]->kind) continue;
-      sums.report.area[static_cast<std::size_t>(*samples[k]->kind)] +=
+      sums.report.area[*samples[k]->kind] +=
           size * (k == 4 ? kMiddleWeight : kCornerWeight) * samples[k]->element;
     }
     return limits;
   }
 
  private:
-  const Sample& At(PieceId piece, double u, double v, Sums& sums) {
-    const auto [at, added] = samples_.try_emplace(Key{piece.value, u, v});
+  const Sample& At(const PiecePlace& place, Sums& sums) {
+    const auto [at, added] = samples_.try_emplace(place);
     if (added) {
-      const SurfaceJet jet = Evaluate(surface_, piece, u, v);
-      at->second = {Classify(jet, piece, u, v, sums), jet.du.cross(jet.dv).norm()};
+      const SurfaceJet jet = EvaluateAt(surface_, place);
+      at->second = {Classify(jet, place, sums), jet.du.cross(jet.dv).norm()};
+      const auto& [piece, u, v] = place;
       if (at->second.kind == FinishClass::kFloor) {
-        const double z = CenterBelowFloor(surface_, piece, u, v, params_.reach);
+        const double z = CenterBelowFloor(surface_, place, params_.reach);
         if (z < sums.report.lowest_center) {
           sums.report.lowest_center = z;
           sums.lowest = {piece, u, u, v, v};
         }
       }
       if (at->second.kind == FinishClass::kShank) {
-        const double rise = RiseAt(surface_, piece, u, v, params_.reach, sums.report.highest_rise);
+        const double rise = RiseAt(surface_, place, params_.reach, sums.report.highest_rise);
         if (rise > sums.report.highest_rise) {
           sums.report.highest_rise = rise;
           sums.highest = {piece, u, u, v, v};
@@ -191,12 +196,13 @@ class AreaSampler {
     return at->second;
   }
 
-  std::optional<FinishClass> Classify(const SurfaceJet& jet, PieceId piece, double u, double v, Sums& sums) {
+  std::optional<FinishClass> Classify(const SurfaceJet& jet, const PiecePlace& place, Sums& sums) {
     const auto facing = FacingAt(jet);
     if (!facing) return std::nullopt;
-    if (!IsWantedAt(surface_, params_, piece, u, v, jet.p)) return FinishClass::kUnwanted;
+    const SurfacePoint at{place.piece, place.u, place.v, jet.p};
+    if (!IsWantedAt(surface_, params_, at)) return FinishClass::kUnwanted;
     FinishClass kind = FinishClass::kDone;
-    switch (ReachOn(surface_, {piece, u, v, jet.p}, *facing, params_.reach, obstacles_)) {
+    switch (ReachOn(surface_, at, *facing, params_.reach, obstacles_)) {
       case ReachClass::kReachable:
         break;
       case ReachClass::kUndercut:
@@ -218,7 +224,7 @@ class AreaSampler {
         kind = FinishClass::kOutside;
         break;
     }
-    Extreme& known = sums.report.deepest[static_cast<std::size_t>(kind)];
+    Extreme& known = sums.report.deepest[kind];
     if (hint_ >= 0) {
       // Any move is an upper bound for the distance, so most points need no search.
       const double most = tree_.Distance(hint_, jet.p) + params_.chord_error - params_.reach.radius;
@@ -234,9 +240,9 @@ class AreaSampler {
     if (kind == FinishClass::kDone && left > params_.limit) {
       kind = BeyondStrategy(jet, *facing, params_) ? FinishClass::kStrategy : FinishClass::kAboveLimit;
     }
-    Extreme& deepest = sums.report.deepest[static_cast<std::size_t>(kind)];
+    Extreme& deepest = sums.report.deepest[kind];
     if (left > deepest.value) {
-      deepest = {left, jet.p, piece, nearest.segment < 0 ? -1 : tree_.segment(nearest.segment).move};
+      deepest = {left, jet.p, place.piece, nearest.segment < 0 ? -1 : tree_.segment(nearest.segment).move};
     }
     return kind;
   }
@@ -247,21 +253,21 @@ class AreaSampler {
   int border_, reasons_;
   Obstacles obstacles_;
   int hint_ = -1;
-  std::unordered_map<Key, Sample, KeyHash> samples_;
+  std::unordered_map<PiecePlace, Sample, PlaceHash> samples_;
 };
 
 }  // namespace
 
-bool IsWantedAt(const Surface& surface, const LeftoverParams& params, PieceId piece, double u, double v,
-                const Vec3& p) {
-  if (params.where != nullptr && !params.where->Has(piece, u, v)) return false;
+bool IsWantedAt(const Surface& surface, const LeftoverParams& params, const SurfacePoint& at) {
+  if (params.where != nullptr && !params.where->Has(at.piece, at.u, at.v)) return false;
   const Containment* containment = params.reach.limits.containment;
-  return containment == nullptr || IsWanted(*containment, surface.piece(piece).patch, p);
+  return containment == nullptr || IsWanted(*containment, surface.piece(at.piece).patch, at.p);
 }
 
-absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vector<CellRect>& roots,
-                                        const SegmentTree& tree, const LeftoverParams& params,
-                                        const RunContext& run) {
+absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const SegmentTree& tree,
+                                        const LeftoverParams& params, const RunContext& run) {
+  const Surface& surface = rooted.surface;
+  const std::vector<CellRect>& roots = rooted.roots;
   constexpr std::size_t kChunk = 64;  // roots in one task
   const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
   std::vector<Sums> parts(chunks);
@@ -271,10 +277,10 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
   // number of these roots allows.
   PM_RETURN_IF_ERROR(ParallelFor(run, "verify: reach", chunks, [&](std::size_t chunk) {
     AreaSampler sampler(surface, tree, params, 0, 0);
-    std::array<double, kFinishClasses>& area = parts[chunk].report.area;
+    EnumArray<FinishClass, double>& area = parts[chunk].report.area;
     const std::size_t end = std::min(roots.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end && !run.Cancelled(); ++i) {
-      const std::array<double, kFinishClasses> before = area;
+      const EnumArray<FinishClass, double> before = area;
       limits[i] = sampler.Add(roots[i], 0, 0, parts[chunk]);
       again[i] = limits[i].border || limits[i].reasons;
       if (again[i]) area = before;
@@ -298,17 +304,18 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
       if (!again[i]) {
         Sums known;
         sampler.Add(roots[i], 0, 0, known);
-        for (std::size_t k = 0; k < kFinishClasses; ++k) parts[chunk].report.area[k] -= known.report.area[k];
+        for (const FinishClass kind : Enumerators<FinishClass>())
+          parts[chunk].report.area[kind] -= known.report.area[kind];
       }
       sampler.Add(roots[i], 0, all, parts[chunk]);
     }
   }));
   Sums sums;
   for (const Sums& part : parts) {
-    for (std::size_t k = 0; k < kFinishClasses; ++k) {
-      sums.report.area[k] += part.report.area[k];
-      if (part.report.deepest[k].value > sums.report.deepest[k].value) {
-        sums.report.deepest[k] = part.report.deepest[k];
+    for (const FinishClass kind : Enumerators<FinishClass>()) {
+      sums.report.area[kind] += part.report.area[kind];
+      if (part.report.deepest[kind].value > sums.report.deepest[kind].value) {
+        sums.report.deepest[kind] = part.report.deepest[kind];
       }
     }
     if (part.report.lowest_center < sums.report.lowest_center) {
@@ -321,13 +328,11 @@ absl::StatusOr<AreaReport> MeasureAreas(const Surface& surface, const std::vecto
     }
   }
   sums.report.lowest_center =
-      LeastAround(sums.lowest, sums.report.lowest_center, [&](PieceId piece, double u, double v, double) {
-        return CenterBelowFloor(surface, piece, u, v, params.reach);
-      });
-  sums.report.highest_rise = -LeastAround(sums.highest, -sums.report.highest_rise,
-                                          [&](PieceId piece, double u, double v, double best) {
-                                            return -RiseAt(surface, piece, u, v, params.reach, -best);
-                                          });
+      LeastAround(sums.lowest, sums.report.lowest_center,
+                  [&](const PiecePlace& at, double) { return CenterBelowFloor(surface, at, params.reach); });
+  sums.report.highest_rise = -LeastAround(
+      sums.highest, -sums.report.highest_rise,
+      [&](const PiecePlace& at, double best) { return -RiseAt(surface, at, params.reach, -best); });
   return sums.report;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "cam/verify/beyond_strategy.h"
 #include "core/base/parallel.h"
@@ -20,9 +21,10 @@ double Draw(std::uint64_t n) {
 
 }  // namespace
 
-absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::vector<CellRect>& roots,
-                                             const SegmentTree& tree, const LeftoverParams& params,
-                                             const RunContext& run) {
+absl::StatusOr<LeftoverSpread> MeasureSpread(const RootedSurface& rooted, const SegmentTree& tree,
+                                             const LeftoverParams& params, const RunContext& run) {
+  const Surface& surface = rooted.surface;
+  const std::vector<CellRect>& roots = rooted.roots;
   constexpr std::size_t kChunk = 64;  // roots in one task
   const std::size_t chunks = (roots.size() + kChunk - 1) / kChunk;
   std::vector<LeftoverSpread> parts(chunks, LeftoverSpread{});
@@ -36,8 +38,8 @@ absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::
       const double v = cell.v0 + (cell.v1 - cell.v0) * Draw(2 * i + 2);
       const SurfaceJet jet = Evaluate(surface, cell.piece, u, v);
       const auto facing = FacingAt(jet);
-      if (!facing || !IsWantedAt(surface, params, cell.piece, u, v, jet.p)) continue;
       const SurfacePoint at{cell.piece, u, v, jet.p};
+      if (!facing || !IsWantedAt(surface, params, at)) continue;
       if (ReachOn(surface, at, *facing, params.reach, obstacles) != ReachClass::kReachable) continue;
       const auto nearest = tree.FindNearest(jet.p, kInfinity, hint);
       hint = nearest.segment;

@@ -2,7 +2,7 @@
 // needs.
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "cam/verify/leftover.h"
 
@@ -16,8 +16,7 @@ using LeftoverSpread = std::array<double, kLeftoverClasses>;
 // Takes one random point in each root cell, so that no grid of points coincides with a grid of passes. Shares
 // are good to 1 % on a part with passes all over it. params.scallop must be set. `tree` is that of
 // MeasureAreas.
-absl::StatusOr<LeftoverSpread> MeasureSpread(const Surface& surface, const std::vector<CellRect>& roots,
-                                             const SegmentTree& tree, const LeftoverParams& params,
-                                             const RunContext& run);
+absl::StatusOr<LeftoverSpread> MeasureSpread(const RootedSurface& rooted, const SegmentTree& tree,
+                                             const LeftoverParams& params, const RunContext& run);
 
 }  // namespace patchmill

@@ -38,9 +38,9 @@ class HeightGrid {
     const double squares = std::min(std::ceil(radius / step_), static_cast<double>(std::max(nx_, ny_)));
     const int reach = static_cast<int>(squares) + 1;
     const std::vector<double> before = height_;
-    Slide(before, height_, nx_, ny_, 1, nx_, reach);
+    Slide(before, height_, {nx_, ny_, 1, nx_}, reach);
     const std::vector<double> rows = height_;
-    Slide(rows, height_, ny_, nx_, nx_, 1, reach);
+    Slide(rows, height_, {ny_, nx_, nx_, 1}, reach);
   }
   // The largest height in the rectangle with corners a and b and sides along x and y. If the rectangle lies
   // outside of the grid, but within `radius` of it, the outermost squares count.
@@ -93,15 +93,20 @@ class HeightGrid {
       for (int i = i0; i <= i1; ++i) f(height_[static_cast<std::size_t>(j * nx_ + i)]);
     }
   }
-  // Sets each value of `out` to the largest value of `in` within +- reach places. Runs along `lines` lines of
-  // n values each; the values are `stride` apart and the lines `line_stride`.
-  static void Slide(const std::vector<double>& in, std::vector<double>& out, int n, int lines, int stride,
-                    int line_stride, int reach) {
-    for (int line = 0; line < lines; ++line) {
-      const auto at = [&](int i) { return static_cast<std::size_t>(line * line_stride + i * stride); };
-      for (int i = 0; i < n; ++i) {
+  // How the rows or the columns lie in memory: `lines` lines of n values each. The values are `stride` apart
+  // and the lines `line_stride`.
+  struct Lines {
+    int n, lines, stride, line_stride;
+  };
+  // Sets each value of `out` to the largest value of `in` within +- reach places along its line.
+  static void Slide(const std::vector<double>& in, std::vector<double>& out, const Lines& along, int reach) {
+    for (int line = 0; line < along.lines; ++line) {
+      const auto at = [&](int i) {
+        return static_cast<std::size_t>(line * along.line_stride + i * along.stride);
+      };
+      for (int i = 0; i < along.n; ++i) {
         double most = -kInfinity;
-        for (int k = std::max(0, i - reach); k <= std::min(n - 1, i + reach); ++k)
+        for (int k = std::max(0, i - reach); k <= std::min(along.n - 1, i + reach); ++k)
           most = std::max(most, in[at(k)]);
         out[at(i)] = most;
       }

@@ -44,15 +44,6 @@ bool NearAvoided(const CenterLimits& limits, const Vec3& c, double proof) {
          AnythingNearUpwardRay(*limits.avoided, c, limits.avoid_distance + limits.within, proof);
 }
 
-// True if the surface stands, to `proof`, in a shank that is enlarged by `keep`, for each centre within
-// `beside` of c in plan that is no higher than c.
-bool InShank(const Surface& surface, const CenterLimits& limits, const Vec3& c, double keep, double beside,
-             double proof) {
-  const Vec2 q = Xy(c);
-  const Column column{q, q, limits.shank->radius + keep - beside};
-  return AnyInColumn(surface, column, c.z() + limits.shank->rise - keep, proof);
-}
-
 // True if all limits but those beside the part allow the centre.
 bool AllowsBesidePart(const Surface& surface, const Vec3& c, const ReachParams& params) {
   const double proof = kProof * params.reach_tolerance;
@@ -290,9 +281,15 @@ double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, c
 bool ShankHitsAll(const Surface& surface, const CenterLimits& limits, const Vec3& center, double beside,
                   double proof) {
   if (!limits.shank) return false;
-  if (InShank(surface, limits, center, limits.shank_keep + limits.within, beside, proof)) return true;
+  // Whether a surface stands in the shank, enlarged by `keep`.
+  const auto in_shank = [&](const Surface& obstacle, double keep) {
+    const Vec2 q = Xy(center);
+    const Column column{q, q, limits.shank->radius + keep - beside};
+    return AnyInColumn(obstacle, column, center.z() + limits.shank->rise - keep, proof);
+  };
+  if (in_shank(surface, limits.shank_keep + limits.within)) return true;
   const double margin = limits.avoid_distance - limits.ball + limits.within;
-  return limits.avoided != nullptr && InShank(*limits.avoided, limits, center, margin, beside, proof);
+  return limits.avoided != nullptr && in_shank(*limits.avoided, margin);
 }
 
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,

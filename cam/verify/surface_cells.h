@@ -19,6 +19,12 @@ struct CellRect {
   double v() const { return 0.5 * (v0 + v1); }
 };
 
+// A surface with the root cells of what is judged on it. It refers to both.
+struct RootedSurface {
+  const Surface& surface;
+  const std::vector<CellRect>& roots;
+};
+
 // One cell as a visitor gets it. The surface over the rectangle lies in the convex hull of
 // hull[0..hull_count).
 struct SurfaceCell {

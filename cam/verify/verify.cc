@@ -134,7 +134,8 @@ class Verifier {
   absl::Status JudgeAvoidedBy(const SegmentTree& tree, const GougeParams& p, const char* text) {
     const Surface& avoided = *limits_->centers().avoided;
     const std::vector<CellRect> roots = RootCells(avoided, radius_, run_);
-    PM_ASSIGN_OR_RETURN(Extremes found, FindGouge(avoided, roots, tree, p, run_, "verify: avoided patches"));
+    PM_ASSIGN_OR_RETURN(Extremes found,
+                        FindGouge({avoided, roots}, tree, p, run_, "verify: avoided patches"));
     if (!found.violations.empty()) report_.motion_ok = false;
     for (Extreme& e : found.violations) e.piece = limits_->PieceOfWhole(e.piece);
     ReportPlaces("AVOID_MARGIN", found.violations, text);
@@ -150,7 +151,7 @@ class Verifier {
     const double smoothing = motion_.controller_tolerance;
     p.limit = std::max(0.0, params_.tolerance - smoothing);
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
-    PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge(surface_, roots_, tree, p, run_, "verify: gouge"));
+    PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge({surface_, roots_}, tree, p, run_, "verify: gouge"));
     report_.max_gouge = gouge.worst.value;
     report_.max_gouge_at = Place(gouge.worst);
     ReportPlaces("GOUGE", gouge.violations, "the ball or the shank above it cuts into the surface");
@@ -183,7 +184,7 @@ class Verifier {
     p.limit = params_.tolerance;
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSweptRapids, offset_), Metric::kSwept, radius_,
                            run_);
-    PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge(surface_, roots_, tree, p, run_, "verify: rapids"));
+    PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge({surface_, roots_}, tree, p, run_, "verify: rapids"));
     if (gouge.worst.value > params_.tolerance) report_.gouge_ok = false;
     ReportPlaces("CONTROL_SMOOTHING", gouge.violations,
                  "a rapid, smoothed by the control, cuts into the surface");
@@ -197,7 +198,7 @@ class Verifier {
     p.radius = shank->radius + params_.leave;
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
                            run_, shank->radius);
-    PM_ASSIGN_OR_RETURN(const Extremes found, FindGouge(surface_, roots_, tree, p, run_, "verify: shank"));
+    PM_ASSIGN_OR_RETURN(const Extremes found, FindGouge({surface_, roots_}, tree, p, run_, "verify: shank"));
     if (found.worst.value > report_.max_gouge) {
       report_.max_gouge = found.worst.value;
       report_.max_gouge_at = Place(found.worst);
@@ -205,7 +206,8 @@ class Verifier {
     ReportPlaces("SHANK_GOUGE", found.violations, "the shank stands in the surface");
     const SegmentTree boxes(OtherDogLegs(found, offset_ + up), Metric::kShankBox, radius_, run_,
                             shank->radius);
-    PM_ASSIGN_OR_RETURN(const Extremes beside, FindGouge(surface_, roots_, boxes, p, run_, "verify: shank"));
+    PM_ASSIGN_OR_RETURN(const Extremes beside,
+                        FindGouge({surface_, roots_}, boxes, p, run_, "verify: shank"));
     if (!beside.violations.empty()) shank_may_hit_ = true;
     ReportPlaces("RAPID_DOG_LEG", beside.violations,
                  "a control that does not drive all axes together may take the shank of a rapid into the "
@@ -242,17 +244,17 @@ class Verifier {
       std::erase_if(cells,
                     [&](const CellRect& c) { return !p.where->HasAny(c.piece, c.u0, c.u1, c.v0, c.v1); });
     }
-    PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas(surface_, cells, tree, p, run_));
+    PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas({surface_, cells}, tree, p, run_));
     TakeAreas(areas);
     if (part.finish.scallop) {
       const double square = 4.0 * *part.finish.scallop * (2.0 * radius_ - *part.finish.scallop);
       report_.reachable_squares = report_.reachable_squares.value_or(0.0) + ReachableOf(areas) / square;
-      PM_ASSIGN_OR_RETURN(const LeftoverSpread spread, MeasureSpread(surface_, cells, tree, p, run_));
+      PM_ASSIGN_OR_RETURN(const LeftoverSpread spread, MeasureSpread({surface_, cells}, tree, p, run_));
       for (std::size_t k = 0; k < kLeftoverClasses; ++k) report_.leftover_area[k] += spread[k];
     }
-    const Extreme& done = DeepestOf(areas, FinishClass::kDone);
-    const Extreme& above = DeepestOf(areas, FinishClass::kAboveLimit);
-    PM_ASSIGN_OR_RETURN(const Extremes left, FindLeftover(surface_, cells, tree, p,
+    const Extreme& done = areas.deepest[FinishClass::kDone];
+    const Extreme& above = areas.deepest[FinishClass::kAboveLimit];
+    PM_ASSIGN_OR_RETURN(const Extremes left, FindLeftover({surface_, cells}, tree, p,
                                                           above.value > done.value ? above : done, run_));
     if (left.worst.value > report_.max_leftover) {
       report_.max_leftover = left.worst.value;
@@ -268,31 +270,25 @@ class Verifier {
     return absl::OkStatus();
   }
 
-  static const Extreme& DeepestOf(const AreaReport& areas, FinishClass kind) {
-    return areas.deepest[static_cast<std::size_t>(kind)];
-  }
-
   static double ReachableOf(const AreaReport& areas) {
-    return areas.area[static_cast<std::size_t>(FinishClass::kDone)] +
-           areas.area[static_cast<std::size_t>(FinishClass::kAboveLimit)];
+    return areas.area[FinishClass::kDone] + areas.area[FinishClass::kAboveLimit];
   }
 
   void TakeAreas(const AreaReport& areas) {
-    const auto at = [](FinishClass kind) { return static_cast<std::size_t>(kind); };
-    const auto take = [&](FinishClass kind, std::size_t reason) {
-      report_.unreachable_area[reason] += areas.area[at(kind)];
-      const Extreme& deepest = DeepestOf(areas, kind);
+    const auto take = [&](FinishClass kind, UncutReason reason) {
+      report_.unreachable_area[reason] += areas.area[kind];
+      const Extreme& deepest = areas.deepest[kind];
       if (deepest.value <= report_.deepest_unreachable[reason]) return;
       report_.deepest_unreachable[reason] = deepest.value;
       report_.deepest_unreachable_at[reason] = Place(deepest);
     };
-    take(FinishClass::kUndercut, 0);
-    take(FinishClass::kConcave, 1);
-    take(FinishClass::kFloor, 2);
-    take(FinishClass::kAvoided, 3);
-    take(FinishClass::kStrategy, 4);
-    take(FinishClass::kShank, 5);
-    take(FinishClass::kOutside, 6);
+    take(FinishClass::kUndercut, UncutReason::kUndercut);
+    take(FinishClass::kConcave, UncutReason::kConcave);
+    take(FinishClass::kFloor, UncutReason::kFloor);
+    take(FinishClass::kAvoided, UncutReason::kAvoided);
+    take(FinishClass::kStrategy, UncutReason::kStrategy);
+    take(FinishClass::kShank, UncutReason::kShank);
+    take(FinishClass::kOutside, UncutReason::kOutside);
     if (std::isfinite(areas.lowest_center)) {
       const double floor_z = std::floor((areas.lowest_center - ball_) * 1e3) / 1e3;
       report_.finishing_floor_z = std::min(report_.finishing_floor_z.value_or(kInfinity), floor_z);
@@ -303,9 +299,11 @@ class Verifier {
       const double flutes = std::ceil(std::max(needed, *tool_.flute_length) * 1e3) / 1e3;
       report_.finishing_flute_length = std::max(report_.finishing_flute_length.value_or(0.0), flutes);
     }
-    for (std::size_t k = 0; k < at(FinishClass::kUnwanted); ++k) report_.total_area += areas.area[k];
+    for (const FinishClass kind : Enumerators<FinishClass>()) {
+      if (kind != FinishClass::kUnwanted) report_.total_area += areas.area[kind];
+    }
     report_.reachable_area += ReachableOf(areas);
-    report_.leftover_above_limit_area += areas.area[at(FinishClass::kAboveLimit)];
+    report_.leftover_above_limit_area += areas.area[FinishClass::kAboveLimit];
   }
 
   absl::Status JudgeMotion() {
@@ -322,7 +320,7 @@ class Verifier {
     Diagnostics broken = BrokenMotionRules(motion_, tool_, params_, figures);
     const double slack = std::max(0.0, params_.tolerance - motion_.controller_tolerance);
     const Diagnostics beyond =
-        BrokenLimits(surface_, motion_, limits_->centers(), radius_, offset_, slack, run_);
+        BrokenLimits(surface_, motion_, {limits_->centers(), radius_, offset_, slack}, run_);
     PM_RETURN_IF_ERROR(run_.Check());
     broken.insert(broken.end(), beyond.begin(), beyond.end());
     if (!broken.empty()) report_.motion_ok = false;
@@ -357,10 +355,11 @@ class Verifier {
     const double clear_z = params_.stock_top_z + ball_ - kRapidSlack;
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kRapid, offset_, clear_z), Metric::kSwept,
                            radius_, run_);
-    PM_ASSIGN_OR_RETURN(Extremes found, FindGouge(surface_, roots_, tree, p, run_, "verify: rapids"));
+    PM_ASSIGN_OR_RETURN(Extremes found, FindGouge({surface_, roots_}, tree, p, run_, "verify: rapids"));
     ReportPlaces("RAPID_IN_STOCK", found.violations, "a rapid enters the stock");
     const SegmentTree boxes(OtherDogLegs(found, offset_, clear_z), Metric::kSweptBox, radius_, run_);
-    PM_ASSIGN_OR_RETURN(const Extremes beside, FindGouge(surface_, roots_, boxes, p, run_, "verify: rapids"));
+    PM_ASSIGN_OR_RETURN(const Extremes beside,
+                        FindGouge({surface_, roots_}, boxes, p, run_, "verify: rapids"));
     ReportPlaces("RAPID_DOG_LEG", beside.violations,
                  "a control that does not drive all axes together may take a rapid into the stock");
     if (!found.violations.empty() || !beside.violations.empty()) report_.motion_ok = false;

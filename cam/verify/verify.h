@@ -22,6 +22,7 @@
 #include "cam/tool/tool.h"
 #include "cam/toolpath/toolpath.h"
 #include "core/base/diagnostic.h"
+#include "core/base/enum_array.h"
 #include "core/base/run_context.h"
 #include "core/surface/surface.h"
 
@@ -70,7 +71,10 @@ struct VerifyPlace {
 inline constexpr std::array kLeftoverEdges = {0.25, 0.5, 0.75, 1.0};
 inline constexpr std::size_t kLeftoverClasses = kLeftoverEdges.size() + 1;
 
-// Index of the arrays by reason: UNDERCUT, CONCAVE, FLOOR, AVOIDED, STRATEGY, SHANK, OUTSIDE.
+// Why material stays uncut at a place.
+enum class UncutReason { kUndercut, kConcave, kFloor, kAvoided, kStrategy, kShank, kOutside };
+constexpr UncutReason LastOf(UncutReason) { return UncutReason::kOutside; }
+
 struct VerifyReport {
   bool gouge_ok = false, finish_ok = false, motion_ok = false;  // [verification P1, P2, P3]
   double max_gouge = 0.0;                                       // mm
@@ -80,9 +84,9 @@ struct VerifyReport {
   double reachable_area = 0.0, total_area = 0.0;  // mm^2
   // The reachable area in squares whose side is the flat step-over of its scallop; absent without a scallop.
   std::optional<double> reachable_squares;
-  std::array<double, 7> unreachable_area{};     // mm^2, by reason
-  std::array<double, 7> deepest_unreachable{};  // mm, deepest leftover by reason
-  std::array<VerifyPlace, 7> deepest_unreachable_at;
+  EnumArray<UncutReason, double> unreachable_area{};     // mm^2
+  EnumArray<UncutReason, double> deepest_unreachable{};  // mm, deepest leftover
+  EnumArray<UncutReason, VerifyPlace> deepest_unreachable_at;
   // The floor with which (almost) nothing would be unreachable for FLOOR: lowest tip, placed frame, mm. It is
   // found to about 0.001 mm and rounded down to 0.001. Absent if nothing is unreachable for FLOOR.
   std::optional<double> finishing_floor_z;

@@ -39,7 +39,7 @@ struct EnumArray {
   constexpr auto end() { return values.end(); }
   constexpr auto begin() const { return values.begin(); }
   constexpr auto end() const { return values.end(); }
-  constexpr bool operator==(const EnumArray&) const = default;
+  friend constexpr bool operator==(const EnumArray& a, const EnumArray& b) { return a.values == b.values; }
 };
 
 }  // namespace patchmill

@@ -312,6 +312,26 @@ v1::UnreachableReason ToProto(UnreachableReason value) {
   return v1::UNREACHABLE_REASON_UNSPECIFIED;
 }
 
+v1::UnreachableReason ToProto(UncutReason value) {
+  switch (value) {
+    case UncutReason::kUndercut:
+      return v1::UNREACHABLE_REASON_UNDERCUT;
+    case UncutReason::kConcave:
+      return v1::UNREACHABLE_REASON_CONCAVE;
+    case UncutReason::kFloor:
+      return v1::UNREACHABLE_REASON_FLOOR;
+    case UncutReason::kAvoided:
+      return v1::UNREACHABLE_REASON_AVOIDED;
+    case UncutReason::kStrategy:
+      return v1::UNREACHABLE_REASON_STRATEGY;
+    case UncutReason::kShank:
+      return v1::UNREACHABLE_REASON_SHANK;
+    case UncutReason::kOutside:
+      return v1::UNREACHABLE_REASON_OUTSIDE;
+  }
+  return v1::UNREACHABLE_REASON_UNSPECIFIED;
+}
+
 v1::Severity ToProto(Severity value) {
   switch (value) {
     case Severity::kInfo:

@@ -36,6 +36,7 @@ v1::BorderKind ToProto(BorderKind value);
 v1::RegionKind ToProto(RegionKind value);
 v1::Slope ToProto(SlopeClass value);
 v1::UnreachableReason ToProto(UnreachableReason value);
+v1::UnreachableReason ToProto(UncutReason value);
 v1::Severity ToProto(Severity value);
 v1::Outcome ToProto(Outcome value);
 

@@ -241,20 +241,20 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
   report->set_reachable_area_mm2(Number(verify.reachable_area));
   report->set_total_area_mm2(Number(verify.total_area));
   double unreachable = 0.0;
-  for (std::size_t i = 0; i < verify.unreachable_area.size(); ++i) {
-    const double area = Number(verify.unreachable_area[i]);
+  for (const UncutReason reason : Enumerators<UncutReason>()) {
+    const double area = Number(verify.unreachable_area[reason]);
     if (area <= 0.0) continue;
     unreachable += area;
     v1::UnreachablePart& part = *report->add_unreachable();
-    part.set_reason(ToProto(kReasons[i]));
+    part.set_reason(ToProto(reason));
     part.set_area_mm2(area);
-    part.set_deepest_leftover_mm(Number(verify.deepest_unreachable[i]));
-    *part.mutable_deepest_at() = PlaceToProto(verify.deepest_unreachable_at[i], zero);
-    if (kReasons[i] == UnreachableReason::kFloor && verify.finishing_floor_z) {
+    part.set_deepest_leftover_mm(Number(verify.deepest_unreachable[reason]));
+    *part.mutable_deepest_at() = PlaceToProto(verify.deepest_unreachable_at[reason], zero);
+    if (reason == UncutReason::kFloor && verify.finishing_floor_z) {
       // Rounded down again: program zero may lie between thousandths.
       part.set_finishing_floor_z_mm(std::floor((*verify.finishing_floor_z - zero.z()) * 1e3) / 1e3);
     }
-    if (kReasons[i] == UnreachableReason::kShank && verify.finishing_flute_length) {
+    if (reason == UncutReason::kShank && verify.finishing_flute_length) {
       part.set_finishing_flute_length_mm(*verify.finishing_flute_length);
     }
   }

@@ -49,12 +49,13 @@ double OfReport(const Surface& surface, const ReachQuestion& question) {
   params.reach = {question.radius, ReachTolerance(question.tolerance), question.floor_z + question.radius};
   params.most = surface.box.Diagonal();
   const RunContext run;
-  const auto areas = MeasureAreas(surface, RootCells(surface, 0.3 * question.radius, run),
-                                  SegmentTree({}, Metric::kPath, question.radius, run), params, run);
+  const std::vector<CellRect> roots = RootCells(surface, 0.3 * question.radius, run);
+  const auto areas =
+      MeasureAreas({surface, roots}, SegmentTree({}, Metric::kPath, question.radius, run), params, run);
   EXPECT_TRUE(areas.ok()) << areas.status();
   double sum = 0.0;
   for (const FinishClass c : {FinishClass::kUndercut, FinishClass::kConcave, FinishClass::kFloor})
-    sum += areas->area[static_cast<std::size_t>(c)];
+    sum += areas->area[c];
   return sum;
 }
 

@@ -17,8 +17,7 @@ namespace {
 using namespace testing;  // NOLINT: the support folder's
 
 constexpr double kRadius = 3.0, kScallop = 0.02;
-constexpr double kLeast = 0.25;           // PassParams::min_step_fraction
-constexpr std::size_t kStrategyArea = 4;  // VerifyReport::unreachable_area
+constexpr double kLeast = 0.25;  // PassParams::min_step_fraction
 
 double FlatStep() { return 2.0 * std::sqrt(kScallop * (2.0 * kRadius - kScallop)); }
 
@@ -122,7 +121,8 @@ TEST(ForcedArea, OpenAngles) {
     const bool beyond = given.regions[region.id.index()].reason == UnreachableReason::kStrategy;
     EXPECT_EQ(region.reason == UnreachableReason::kStrategy, kept && beyond);
   }
-  EXPECT_EQ(result.report.verify.unreachable_area[kStrategyArea] > 0.0, StrategyArea(result.regions) > 0.0);
+  EXPECT_EQ(result.report.verify.unreachable_area[UncutReason::kStrategy] > 0.0,
+            StrategyArea(result.regions) > 0.0);
 }
 
 // Scallops, of all or of one region, change no region.
@@ -156,9 +156,10 @@ TEST(ForcedArea, WhatStaysOnAPlane) {
     const double left = kRadius - std::sqrt(kRadius * kRadius - 0.25 * step * step);
     EXPECT_NEAR(region.deepest_leftover, left, 1e-9);
     const JobResult result = Mill(surface, ForcedJob(Strategy::kContour));
-    EXPECT_GT(result.report.verify.unreachable_area[kStrategyArea], 0.0) << Describe(result);
-    EXPECT_LE(result.report.verify.unreachable_area[kStrategyArea], region.area) << Describe(result);
-    EXPECT_NEAR(result.report.verify.deepest_unreachable[kStrategyArea], left, 0.02) << Describe(result);
+    EXPECT_GT(result.report.verify.unreachable_area[UncutReason::kStrategy], 0.0) << Describe(result);
+    EXPECT_LE(result.report.verify.unreachable_area[UncutReason::kStrategy], region.area) << Describe(result);
+    EXPECT_NEAR(result.report.verify.deepest_unreachable[UncutReason::kStrategy], left, 0.02)
+        << Describe(result);
   }
 }
 
@@ -185,8 +186,8 @@ TEST(ForcedArea, AnOverrideFinishesIt) {
   Job job = ForcedJob(Strategy::kZigzag, kPi / 2.0);
   const ChosenRegions before = Regions(surface, job);
   const JobResult forced = Mill(surface, job);
-  EXPECT_GT(forced.report.verify.unreachable_area[kStrategyArea], 0.0) << Describe(forced);
-  EXPECT_LE(forced.report.verify.unreachable_area[kStrategyArea], 1.2 * StrategyArea(before.map));
+  EXPECT_GT(forced.report.verify.unreachable_area[UncutReason::kStrategy], 0.0) << Describe(forced);
+  EXPECT_LE(forced.report.verify.unreachable_area[UncutReason::kStrategy], 1.2 * StrategyArea(before.map));
   job.operation.regions_sha256 = RegionsDigest(before.map);
   for (const Region& region : before.map.regions) {
     if (region.reason != UnreachableReason::kStrategy) continue;
@@ -198,7 +199,7 @@ TEST(ForcedArea, AnOverrideFinishesIt) {
   ASSERT_EQ(job.operation.overrides.size(), 2u);
   const JobResult after = Mill(surface, job);
   EXPECT_EQ(after.report.outcome, Outcome::kComplete) << Describe(after);
-  EXPECT_EQ(after.report.verify.unreachable_area[kStrategyArea], 0.0) << Describe(after);
+  EXPECT_EQ(after.report.verify.unreachable_area[UncutReason::kStrategy], 0.0) << Describe(after);
   EXPECT_EQ(RegionsDigest(after.regions), RegionsDigest(before.map));
   EXPECT_EQ(StrategyArea(after.regions), 0.0);
   // A scallop alone does not: its walls are as far beyond the lines as before.

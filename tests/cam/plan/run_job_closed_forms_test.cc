@@ -10,8 +10,6 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-enum Reason { kUndercut, kConcave, kFloor, kAvoided, kStrategy };
-
 struct Judged {
   Surface surface;
   JobResult result;
@@ -78,7 +76,8 @@ TEST(ClosedForms, FloorStripOfATiltedPlane) {
   const double width = height / std::sin(angle), slack = job.operation.tolerance / std::sin(angle);
   const double area = width * 2.0 * half;
   ExpectUnreachable(result, area, 2.0 * slack * 2.0 * half + 0.01 * area);
-  EXPECT_NEAR(result.report.verify.unreachable_area[kFloor], area, 2.0 * slack * 2.0 * half + 0.01 * area);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kFloor], area,
+              2.0 * slack * 2.0 * half + 0.01 * area);
 }
 
 TEST(ClosedForms, SaddleWiderThanTheBall) {

@@ -57,7 +57,7 @@ TEST(Containment, CenterBoundaryIsCutToTheLineAndNotBeyond) {
   });
   const double area = 16.0 * 8.0 + 0.5 * 8.0 * 8.0;
   EXPECT_NEAR(result.report.verify.reachable_area, area, 0.01 * area);
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], 900.0 - area, 0.01 * area);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kAvoided], 900.0 - area, 0.01 * area);
   double map = 0.0;
   for (const Region& r : result.report.regions) {
     if (r.reason == UnreachableReason::kAvoided) map += r.area;
@@ -163,7 +163,7 @@ TEST(Containment, AvoidedPatchKeepsItsMargin) {
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
   // The ball that touches at x = -d comes within the margin of x = 0 where d^2 + R^2 < (R + margin)^2.
   const double d = std::sqrt(margin * (2 * kLimitedRadius + margin));
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], 16 * d, 0.01 * 16 * 12);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kAvoided], 16 * d, 0.01 * 16 * 12);
   EXPECT_NEAR(result.report.verify.reachable_area, 16 * (12 - d), 0.01 * 16 * 12);
   AlongMoves(
       result, [](const Move&) { return true; },
@@ -190,7 +190,7 @@ TEST(Containment, ObstacleIsGoneAroundAndOver) {
                     FromBox(Xy(c), Vec2(-4, -25), Vec2(4, 2)) >= keep - 0.01);
       });
   const double area = (8 + 2 * keep) * 22 + 8 * keep + 0.5 * kPi * keep * keep;
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], area, 0.01 * area);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kAvoided], area, 0.01 * area);
   // What ends below the tip is in nobody's way.
   job.setup.obstacles[0].top_z = -margin - 0.1;
   EXPECT_EQ(Mill(surface, job).report.outcome, Outcome::kComplete);
@@ -222,7 +222,7 @@ TEST(Containment, ObstacleIsKeptOffByTheShank) {
       });
   EXPECT_NEAR(least, keep, 0.02);
   const double area = (8 + 2 * keep) * 27 + 8 * keep + 0.5 * kPi * keep * keep;
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], area, 0.01 * area);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kAvoided], area, 0.01 * area);
 }
 
 // From line to line beside a round clamp the straight way would cut its corner: the link goes a little
@@ -248,7 +248,7 @@ TEST(Containment, TopLimitsTheTip) {
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
   const double cosine = (top + kLimitedRadius) / (r + kLimitedRadius);
   const double cap = 2 * kPi * r * r * (1 - cosine);
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], cap, 0.01 * cap);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kAvoided], cap, 0.01 * cap);
   AlongMoves(
       result, [](const Move& m) { return m.kind == MoveKind::kCut; },
       [&](const Vec3& c) { EXPECT_LE(c.z() - kLimitedRadius, top + 0.01); });

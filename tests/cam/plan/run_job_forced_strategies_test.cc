@@ -11,8 +11,6 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-constexpr std::size_t kStrategy = 4;  // VerifyReport::unreachable_area
-
 struct ForcedCase {
   std::string name;
   std::function<PatchModel()> model;
@@ -89,11 +87,11 @@ TEST(ForcedStrategies, ContoursAnswerForPlanesFromAQuarterOfTheStepOn) {
   const Surface theirs = PlacedSurface(Plane(10.0, 0.0, std::tan(Radians(16.0))));
   const JobResult finished = Mill(theirs, job);
   EXPECT_TRUE(finished.report.verify.ok()) << Describe(finished);
-  EXPECT_EQ(finished.report.verify.unreachable_area[kStrategy], 0.0) << Describe(finished);
+  EXPECT_EQ(finished.report.verify.unreachable_area[UncutReason::kStrategy], 0.0) << Describe(finished);
   const Surface flat = PlacedSurface(Plane(10.0, 0.0, std::tan(Radians(8.0))));
   const JobResult excused = Mill(flat, job);
   EXPECT_TRUE(excused.report.verify.ok()) << Describe(excused);
-  EXPECT_GT(excused.report.verify.unreachable_area[kStrategy], 20.0) << Describe(excused);
+  EXPECT_GT(excused.report.verify.unreachable_area[UncutReason::kStrategy], 20.0) << Describe(excused);
 }
 
 // Lines across an upright wall climb it at their full spacing: it is theirs to finish. A wall along the
@@ -108,7 +106,8 @@ TEST(ForcedStrategies, LinesAnswerForWallsAcrossThem) {
     const JobResult result = Mill(surface, job);
     EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
     // Two walls of 12 x 8 mm at most.
-    EXPECT_LE(result.report.verify.unreachable_area[kStrategy], angle == Radians(35.0) ? 0.0 : 192.0)
+    EXPECT_LE(result.report.verify.unreachable_area[UncutReason::kStrategy],
+              angle == Radians(35.0) ? 0.0 : 192.0)
         << Describe(result);
   }
 }

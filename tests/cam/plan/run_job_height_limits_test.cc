@@ -17,8 +17,6 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-enum Reason { kUndercut, kConcave, kFloor, kAvoided };
-
 constexpr double kLength = 60.0, kHigh = 2.0;
 
 // Level at z = 0 up to x = 15, a ramp, level at z = 2 from x = 18 on: 82 mm of it.
@@ -35,13 +33,13 @@ TEST(HeightLimits, FlatsAboveTheHighestTip) {
   Job job = BallJob(3.0);
   job.operation.top_z = kHigh;
   const JobResult all = MillChecked(surface, job);
-  EXPECT_EQ(all.report.verify.unreachable_area[kAvoided], 0.0);
+  EXPECT_EQ(all.report.verify.unreachable_area[UncutReason::kAvoided], 0.0);
   for (const double below : {1e-5, 0.001, 0.006, 0.03, 0.3}) {
     SCOPED_TRACE(below);
     job.operation.top_z = kHigh - below;
     const JobResult result = MillChecked(surface, job);
     // And of the ramp what a tip at that height does not reach.
-    EXPECT_NEAR(result.report.verify.unreachable_area[kAvoided], kHighArea, 0.02 * kHighArea);
+    EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kAvoided], kHighArea, 0.02 * kHighArea);
     EXPECT_LT(CutLength(result), 0.3 * CutLength(all));
     for (const Move& move : result.motion.toolpath.moves) {
       if (move.kind == MoveKind::kCut) {
@@ -95,8 +93,8 @@ TEST(HeightLimits, FlatsBelowTheFloor) {
     const double slope = std::atan2(kHigh, 3.0),
                  blocked = (3.0 * (1.0 - std::cos(slope)) - reach_tolerance) / std::sin(slope);
     const double left = 15.0 - blocked + above / std::sin(slope);
-    EXPECT_NEAR(result.report.verify.unreachable_area[kFloor], above > reach_tolerance ? left * kLength : 0.0,
-                0.15 * kLength);
+    EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kFloor],
+                above > reach_tolerance ? left * kLength : 0.0, 0.15 * kLength);
     for (const Move& move : result.motion.toolpath.moves) ASSERT_GE(move.to.z() - 3.0, above - 1e-6);
   }
 }
@@ -112,8 +110,8 @@ TEST(HeightLimits, FilletsOnTheFloor) {
         Turned({Line({0.5, 6}, {10, 6}), Line({10, 6}, {10, radius}),
                 Round({10, radius}, {10, 0}, {10 + radius, 0}), Line({10 + radius, 0}, {18, 0})});
     const JobResult result = MillChecked(PlacedSurface(boss), BallJob(3.0, /*deep=*/false));
-    EXPECT_EQ(result.report.verify.unreachable_area[kFloor], 0.0);
-    EXPECT_EQ(result.report.verify.unreachable_area[kConcave] > 0.0, radius < 2.99);
+    EXPECT_EQ(result.report.verify.unreachable_area[UncutReason::kFloor], 0.0);
+    EXPECT_EQ(result.report.verify.unreachable_area[UncutReason::kConcave] > 0.0, radius < 2.99);
     EXPECT_EQ(result.report.outcome == Outcome::kComplete, radius > 2.99) << Describe(result);
   }
 }

@@ -33,7 +33,7 @@ TEST(MeetingLimits, UprightWallsAreReachedFromASideThatIsFreeAndAllowed) {
       (3 * 20 * kLimitedRadius + 0.5 * kPi * kLimitedRadius * kLimitedRadius + 20 + corner);
   const double wall = 20 * (10 - kLimitedRadius);
   const double avoided = 60 * 60 - 20 * 20 - beside - allowed + wall;
-  EXPECT_NEAR(result.report.verify.unreachable_area[kAvoidedArea], avoided, 2.0);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kAvoided], avoided, 2.0);
   double map = 0.0;
   for (const Region& r : result.report.regions) {
     if (r.reason == UnreachableReason::kAvoided) map += r.area;

@@ -49,8 +49,8 @@ std::array<double, kReasons> FromVerifier(const Surface& surface, const Job& job
                                         "G0 X0 Y0\nG0 Z900\nM9\nM5\nG53 G0 Z0\nM2\n",
                                         MakeVerifyParams(job, *resolved), RunContext());
   EXPECT_TRUE(report.ok()) << report.status();
-  return {report->unreachable_area[kUndercut], report->unreachable_area[kConcave],
-          report->unreachable_area[kFloor]};
+  return {report->unreachable_area[UncutReason::kUndercut], report->unreachable_area[UncutReason::kConcave],
+          report->unreachable_area[UncutReason::kFloor]};
 }
 
 void ExpectAgreement(const PatchModel& model, const Job& job) {

@@ -11,9 +11,6 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-constexpr std::size_t kFloor = 2,
-                      kStrategy = 4;  // VerifyReport::unreachable_area
-
 int CountPasses(const JobResult& result, PassKind kind) {
   int count = 0;
   for (const CutterPath& path : result.motion.passes) count += path.kind == kind;
@@ -50,7 +47,7 @@ TEST(Strategies, ForcedContoursLeaveTheFlatTopAndSaySo) {
   EXPECT_EQ(CountPasses(result, PassKind::kZigzag), 0);
   EXPECT_GT(CountPasses(result, PassKind::kContour), 0);
   EXPECT_TRUE(result.report.verify.gouge_ok);
-  EXPECT_GT(result.report.verify.unreachable_area[kStrategy], 1.0) << Describe(result);
+  EXPECT_GT(result.report.verify.unreachable_area[UncutReason::kStrategy], 1.0) << Describe(result);
   EXPECT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable);
 }
 
@@ -106,7 +103,8 @@ TEST(Strategies, WhatTheFloorLeavesIsReported) {
   // The tip is at (r + R) sin(phi) - R for a contact at latitude phi: zones
   // have the area 2 pi r dz.
   const double lowest = r * (2.0 + radius) / (r + radius), area = 2.0 * kPi * r * lowest;
-  EXPECT_NEAR(result.report.verify.unreachable_area[kFloor], area, 0.02 * area) << Describe(result);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kFloor], area, 0.02 * area)
+      << Describe(result);
   for (const Move& move : result.motion.toolpath.moves) EXPECT_GE(move.to.z() - radius, 2.0 - 1e-9);
 }
 

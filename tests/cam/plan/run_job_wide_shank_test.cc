@@ -14,8 +14,6 @@ namespace {
 
 using namespace testing;  // NOLINT: the support folder's
 
-constexpr std::size_t kShankArea = 5;  // of VerifyReport::unreachable_area
-
 Job ShankJob(double shank_radius, double flutes, double ball = kLimitedRadius) {
   Job job = LimitedJob();
   job.operation.tool.cutter = BallEnd{ball};
@@ -75,7 +73,8 @@ TEST(WideShank, KeepsOffABlock) {
   const double wall = 8.0 * half * (top - (flutes - ball) - ball);
   // Lower down the corner between wall and plate keeps the ball itself off.
   const double corner = 8.0 * half * ball;
-  EXPECT_NEAR(result.report.verify.unreachable_area[kShankArea], plate + wall, 0.01 * (plate + wall));
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kShank], plate + wall,
+              0.01 * (plate + wall));
   EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), plate + wall, 0.01 * (plate + wall));
   // The tip on the plate, the shank over the block.
   ASSERT_TRUE(result.report.verify.finishing_flute_length);
@@ -84,7 +83,7 @@ TEST(WideShank, KeepsOffABlock) {
   EXPECT_LE(named, top + 0.0071);
   const JobResult longer = Mill(surface, ShankJob(shank, named, ball));
   ASSERT_EQ(longer.report.outcome, Outcome::kCompleteWhereReachable) << Describe(longer);
-  EXPECT_EQ(longer.report.verify.unreachable_area[kShankArea], 0.0);
+  EXPECT_EQ(longer.report.verify.unreachable_area[UncutReason::kShank], 0.0);
   EXPECT_FALSE(longer.report.verify.finishing_flute_length);
   EXPECT_NEAR(AreaFor(UnreachableReason::kConcave, result), corner + 8.0 * half * ball + kPi * ball * ball,
               0.02 * 2.0 * corner);
@@ -121,7 +120,7 @@ TEST(WideShank, KeepsOffTheFootOfADome) {
   const Job job = ShankJob(shank, flutes, ball);
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
-  EXPECT_NEAR(result.report.verify.unreachable_area[kShankArea], foot, 0.01 * foot);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kShank], foot, 0.01 * foot);
   EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), foot, 0.002 * foot);
   // The tip of the ball that touches the foot is a ball below it; the shank ends on the dome.
   const double over = r + ball - shank;
@@ -147,7 +146,7 @@ TEST(WideShank, KeepsTheMarginOfAvoidedPatches) {
       least = std::min(least, std::abs(move.to.x() - 5.0));
   }
   EXPECT_NEAR(least, shank + margin, 0.02);
-  EXPECT_NEAR(result.report.verify.unreachable_area[kShankArea], 2.0 * 40.0 * (shank - ball), 2.0);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kShank], 2.0 * 40.0 * (shank - ball), 2.0);
 }
 
 // A margin wider than what the flutes rise over the wall, and than the ball: the shank's counts all the
@@ -180,7 +179,7 @@ TEST(WideShank, FlatSurfaceAlongItsLimitCostsLittle) {
     const double before = ClockSeconds(CLOCK_PROCESS_CPUTIME_ID);
     const JobResult result = Mill(surface, ShankJob(4.0, 16.0 - below, 2.0));
     EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
-    const double area = result.report.verify.unreachable_area[kShankArea];
+    const double area = result.report.verify.unreachable_area[UncutReason::kShank];
     // On the walls it is a strip thinner than the tolerance: the map gives it to CONCAVE beside it, and the
     // report sees it in cells.
     EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), area, 0.02 * area);
@@ -203,7 +202,7 @@ TEST(WideShank, RandomSheets) {
     const JobResult result = Mill(surface, job);
     ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
     EXPECT_LE(DeepestInShank(surface, job, result), 0.011);
-    const double area = result.report.verify.unreachable_area[kShankArea];
+    const double area = result.report.verify.unreachable_area[UncutReason::kShank];
     EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), area, 0.01 * area + 1.0);
     limited += area > 1.0;
   }

@@ -20,7 +20,6 @@ namespace {
 using namespace testing;  // NOLINT: the support folder's
 
 constexpr double kBall = kLimitedRadius;
-constexpr std::size_t kOutsideArea = 6;  // of VerifyReport::unreachable_area
 constexpr double kX = 20.0, kY = 15.0, kZ = 12.0;
 // Of the open box: all of it, and what lies a ball radius or more from its lower and its upright edges.
 constexpr double kAll = 4.0 * kX * kY + 4.0 * (kX + kY) * kZ;
@@ -79,7 +78,7 @@ TEST(Sides, ABoxIsMilledInsideAlone) {
     EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0);
     EXPECT_FALSE(Warns(result, "TOOL_BESIDE_PART"));
     EXPECT_NEAR(result.report.verify.reachable_area, kReached, 0.01 * kReached);
-    EXPECT_NEAR(result.report.verify.unreachable_area[1], kAll - kReached, 0.01 * kAll);
+    EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kConcave], kAll - kReached, 0.01 * kAll);
   }
 }
 
@@ -148,7 +147,7 @@ TEST(Sides, TheBackOfAWallFinishesNothing) {
   ASSERT_TRUE(report.ok());
   EXPECT_FALSE(report->finish_ok);
   EXPECT_GT(report->max_leftover, 1.0);
-  EXPECT_GE(report->deepest_unreachable[1], 0.97 * kCorner);
+  EXPECT_GE(report->deepest_unreachable[UncutReason::kConcave], 0.97 * kCorner);
   EXPECT_TRUE(std::any_of(report->findings.begin(), report->findings.end(),
                           [](const Diagnostic& d) { return d.code == "BESIDE_PART"; }));
 }
@@ -176,7 +175,7 @@ TEST(Outside, AClosedBlockIsMilledOnItsTop) {
   EXPECT_GE(LowestTipBeyond(result.program, kX, kY, 0.0), kZ - 0.02);
   const double walls = 4.0 * (kX + kY) * kZ;
   EXPECT_NEAR(AreaFor(result, UnreachableReason::kOutside), walls, 0.01 * walls);
-  EXPECT_NEAR(result.report.verify.unreachable_area[kOutsideArea], walls, 0.01 * walls);
+  EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kOutside], walls, 0.01 * walls);
   EXPECT_NEAR(result.report.verify.reachable_area, 4.0 * kX * kY, 0.01 * 4.0 * kX * kY);
 }
 

@@ -193,11 +193,11 @@ TEST(Verify, UndersideIsUndercut) {
   const VerifyReport report = Judged(SurfaceOf(Sphere(Vec3::Zero(), big)), Ball(r), text.End(), Params(11.0));
   const double half = 2 * kPi * big * big;
   // The reach tolerance g lets balls reach a little below the equator: R - g against the wall above it.
-  EXPECT_NEAR(report.unreachable_area[0], half, 0.03 * half);
+  EXPECT_NEAR(report.unreachable_area[UncutReason::kUndercut], half, 0.03 * half);
   EXPECT_NEAR(report.reachable_area, half, 0.03 * half);
   EXPECT_FALSE(report.finish_ok);
-  EXPECT_GT(report.deepest_unreachable[0], 10.0);
-  EXPECT_LT(report.deepest_unreachable_at[0].point.z(), 0.0);
+  EXPECT_GT(report.deepest_unreachable[UncutReason::kUndercut], 10.0);
+  EXPECT_LT(report.deepest_unreachable_at[UncutReason::kUndercut].point.z(), 0.0);
 }
 
 TEST(Verify, ValleyOfTwoPlanesIsConcave) {
@@ -210,9 +210,9 @@ TEST(Verify, ValleyOfTwoPlanesIsConcave) {
     // p at s from the crease: dist(p + R n1, plane 2) = s sin 2a + R cos 2a >= R - g.
     const double s = (r * (1 - std::cos(2 * a)) - ReachTolerance(params.tolerance)) / std::sin(2 * a);
     const double truth = 2 * s * 2 * half;
-    EXPECT_NEAR(report.unreachable_area[1], truth, 0.01 * truth);
-    EXPECT_NEAR(report.deepest_unreachable[1], r / std::cos(a) - r, 0.05);
-    EXPECT_NEAR(report.deepest_unreachable_at[1].point.x(), 0.0, 0.1);
+    EXPECT_NEAR(report.unreachable_area[UncutReason::kConcave], truth, 0.01 * truth);
+    EXPECT_NEAR(report.deepest_unreachable[UncutReason::kConcave], r / std::cos(a) - r, 0.05);
+    EXPECT_NEAR(report.deepest_unreachable_at[UncutReason::kConcave].point.x(), 0.0, 0.1);
     EXPECT_TRUE(report.gouge_ok) << Findings(report);
   }
 }
@@ -225,7 +225,7 @@ TEST(Verify, FloorKeepsTheTipUp) {
       Judged(SurfaceOf(Plane(half, 0, 1.0, 0)), Ball(r), OverPlane(half, 1.0, r, 0.6).program, params);
   // A tip lies R (1 - cos 45) lower than its contact.
   const double strip = r * (1 - std::sqrt(0.5));
-  EXPECT_NEAR(report.unreachable_area[2], strip * std::sqrt(2.0) * 2 * half, 0.3);
+  EXPECT_NEAR(report.unreachable_area[UncutReason::kFloor], strip * std::sqrt(2.0) * 2 * half, 0.3);
   EXPECT_FALSE(report.motion_ok) << "these passes go below the floor";
   EXPECT_NE(Find(report, "BELOW_FLOOR"), nullptr);
   EXPECT_TRUE(report.finish_ok);
@@ -236,7 +236,7 @@ TEST(Verify, FloorKeepsTheTipUp) {
   params.floor_z = *report.finishing_floor_z;
   const VerifyReport lower =
       Judged(SurfaceOf(Plane(half, 0, 1.0, 0)), Ball(r), OverPlane(half, 1.0, r, 0.6).program, params);
-  EXPECT_EQ(lower.unreachable_area[2], 0.0);
+  EXPECT_EQ(lower.unreachable_area[UncutReason::kFloor], 0.0);
   EXPECT_FALSE(lower.finishing_floor_z);
 }
 
@@ -289,8 +289,8 @@ TEST(Verify, BothSidesOfAVerticalWallCount) {
   // wall on. The inner side of a wall is never free, but it is not the reason.
   const double r = 2.0 - ReachTolerance(params.tolerance);
   const double truth = 2 * 4 * 10.0 * r + kPi * r * r;
-  EXPECT_NEAR(report.unreachable_area[1], truth, 0.01 * truth);
-  EXPECT_EQ(report.unreachable_area[0], 0.0);
+  EXPECT_NEAR(report.unreachable_area[UncutReason::kConcave], truth, 0.01 * truth);
+  EXPECT_EQ(report.unreachable_area[UncutReason::kUndercut], 0.0);
   EXPECT_NEAR(report.total_area, 30.0 * 30.0 + 4 * 10.0 * 8.0, 1e-6);
 }
 
@@ -374,8 +374,8 @@ TEST(Verify, ForcedContoursAreExcusedOnLevelSurface) {
   params.finish.strategy = ForcedStrategy::kContour;
   const VerifyReport report = Judged(SurfaceOf(Plane(8.0)), Ball(3.0), text.End(), params);
   EXPECT_TRUE(report.finish_ok) << Findings(report);
-  EXPECT_NEAR(report.unreachable_area[4], 256.0, 1.0);
-  EXPECT_NEAR(report.unreachable_area[4] + report.reachable_area, 256.0, 1e-6);
+  EXPECT_NEAR(report.unreachable_area[UncutReason::kStrategy], 256.0, 1.0);
+  EXPECT_NEAR(report.unreachable_area[UncutReason::kStrategy] + report.reachable_area, 256.0, 1e-6);
   // Not on a wall of 60 degrees, where contours are at home.
   EXPECT_FALSE(Judged(SurfaceOf(Plane(8.0, 0, std::sqrt(3.0), 0)), Ball(3.0), text.End(), params).finish_ok);
   // Lines along y cannot finish a wall that falls along x at 85 degrees, lines along x can.

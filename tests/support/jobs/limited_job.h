@@ -5,8 +5,7 @@
 
 namespace patchmill::testing {
 
-inline constexpr double kLimitedRadius = 3.0;   // mm, of LimitedJob's ball
-inline constexpr std::size_t kAvoidedArea = 3;  // of VerifyReport::unreachable_area
+inline constexpr double kLimitedRadius = 3.0;  // mm, of LimitedJob's ball
 
 inline Job LimitedJob() {
   Job job = BallJob(kLimitedRadius);
