@@ -113,11 +113,15 @@ PM_LANE_INLINE void BoundReach(const Grid& grid, const ModelVectors& m, BicubicB
   out.reach_vv = Largest(vv);
 }
 
+// The largest deviations of the derivatives along the rows of a grid, as in BicubicBounds.
+struct RowBounds {
+  double first2, first_a, first_b, second2;
+};
+
 // Bounds first and second derivatives along the rows of the grid.
 template <class Lanes>
-PM_LANE_INLINE void BoundAlong(const Grid& grid, const ModelVectors& m, const double* first,
-                               const double* second, double& first2, double& first_a, double& first_b,
-                               double& second2) {
+PM_LANE_INLINE RowBounds BoundAlong(const Grid& grid, const ModelVectors& m, const double* first,
+                                    const double* second) {
   Lanes all{}, a{}, b{}, bend{};
   Differences<Lanes>(
       grid, 1, first, [&](const Vectors<Lanes>& d) __attribute__((always_inline)) {
@@ -128,10 +132,7 @@ PM_LANE_INLINE void BoundAlong(const Grid& grid, const ModelVectors& m, const do
   Differences<Lanes>(
       grid, 2,
       second, [&](const Vectors<Lanes>& d) __attribute__((always_inline)) { RaiseTo(bend, Squared(d)); });
-  first2 = Largest(all);
-  first_a = Largest(a);
-  first_b = Largest(b);
-  second2 = Largest(bend);
+  return {Largest(all), Largest(a), Largest(b), Largest(bend)};
 }
 
 template <class Lanes>
@@ -159,8 +160,9 @@ PM_LANE_INLINE BicubicBounds Bound(const double* points, const ModelVectors& m) 
   Sort(points, true, along_u);
   BicubicBounds out;
   BoundReach<Lanes>(along_v, m, out);
-  BoundAlong<Lanes>(along_v, m, m.a, m.uu, out.du2, out.du_a, out.du_b, out.uu2);
-  BoundAlong<Lanes>(along_u, m, m.b, m.vv, out.dv2, out.dv_a, out.dv_b, out.vv2);
+  const RowBounds u = BoundAlong<Lanes>(along_v, m, m.a, m.uu), v = BoundAlong<Lanes>(along_u, m, m.b, m.vv);
+  out.du2 = u.first2, out.du_a = u.first_a, out.du_b = u.first_b, out.uu2 = u.second2;
+  out.dv2 = v.first2, out.dv_a = v.first_a, out.dv_b = v.first_b, out.vv2 = v.second2;
   BoundMixed<Lanes>(along_v, m, out.uv2);
   return out;
 }

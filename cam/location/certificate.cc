@@ -101,7 +101,8 @@ struct Prover {
     }
 
     const double mu = 0.5 * (rect.u0 + rect.u1), mv = 0.5 * (rect.v0 + rect.v1);
-    const LeafModel model = internal::MakeLeafModel(piece, points, hull.data(), hull_count, rect);
+    const LeafModel model =
+        internal::MakeLeafModel(piece, points, {hull.data(), static_cast<std::size_t>(hull_count)}, rect);
     LowerModel low = internal::BoundBelow(model, Lift(ball.q, best.z));
     if (Excluded(model, low, best.z)) return;
     // A concave part well inside the ball is not searched. It would be searched at each of its many divisions
@@ -109,9 +110,10 @@ struct Prover {
     if (low.convex || level <= 2 || Touches(model.s)) {
       const Vec3 c = Lift(ball.q, best.z);
       const BoxMinimum guess = internal::GuessMinimum(model, c);
-      const internal::SearchResult found = internal::RaiseOnPiece(
-          piece, piece_index, rect, mu + guess.x * (rect.u1 - rect.u0), mv + guess.y * (rect.v1 - rect.v0),
-          ball, {.model = &model, .lower = &low}, best);
+      const internal::SearchResult found =
+          internal::RaiseOnPiece({piece, piece_index, rect},
+                                 {mu + guess.x * (rect.u1 - rect.u0), mv + guess.y * (rect.v1 - rect.v0)},
+                                 ball, {.model = &model, .lower = &low}, best);
       done = any && found.improved && impl.Raised(start, best);
       if (done) return;
       if (found.improved) low = internal::BoundBelow(model, Lift(ball.q, best.z));
@@ -169,23 +171,23 @@ double Locator::Impl::Certify(const Ball& ball, std::span<const std::int32_t> op
     const LeafModel model = leaf.Model(tree.grid);
     const LowerModel low = internal::BoundBelow(model, Lift(ball.q, best.z));
     if (prover.Excluded(model, low, best.z)) continue;
-    if (IsOnlyContact(best, leaf.piece(), rect, model, low, ball)) {
+    const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece())];
+    if (IsOnlyContact(best, {piece, leaf.piece(), rect}, model, low, ball)) {
       prover.top = std::max(prover.top, best.z);
       continue;
     }
     const double above = best.z + prover.eps;
     if (prover.Excluded(model, internal::BoundBelow(model, Lift(ball.q, above)), above)) continue;
-    const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece())];
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
     std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
-    RestrictNet(shape, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
+    RestrictNet(shape, points.data(), rect);
     prover.Prove(piece, leaf.piece(), rect, points.data(), 0);
   }
   // The contact was found on a part of a leaf whose neighbours the gap excluded. So the maximum may lie
   // beyond its border.
   if (!prover.any && best.z > prover.start) {
-    internal::RaiseOnPiece(surface.pieces[static_cast<std::size_t>(best.piece)], best.piece, Rect{}, best.u,
-                           best.v, ball, {}, best);
+    const Piece& piece = surface.pieces[static_cast<std::size_t>(best.piece)];
+    internal::RaiseOnPiece({piece, best.piece, Rect{}}, {best.u, best.v}, ball, {}, best);
   }
   return std::max(0.0, prover.top - best.z) + slack;
 }

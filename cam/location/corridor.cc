@@ -50,19 +50,28 @@ void Halve(NetShape shape, const Vec4* points, const Rect& r, Halves& out) {
   (along_u ? out.high_rect.u0 : out.high_rect.v0) = along_u ? mu : mv;
 }
 
-// Finds the largest value of a quantity over the surface. It lies between `lower` (attained, or all that
-// matters) and the returned upper bound, which is at most lower + gap unless the budget is used up. Stops as
-// soon as more than `enough` is attained.
-//   box(b): upper bound of the quantity over a box; oriented(center, axis, half): the same over an oriented
-//   box as in RectBounds; at(p): its value at a surface point.
-// If `among` is not null, its leaves of a search tree are searched in place of the whole surface.
 struct LeafSet {
   const internal::SearchTree& tree;
   const std::vector<std::int32_t>& leaves;
 };
-template <class BoxBound, class OrientedBound, class Value>
-double Maximize(const Surface& surface, const LeafSet* among, double lower, double gap, double enough,
-                const BoxBound& box, const OrientedBound& oriented, const Value& at) {
+
+// How exactly a largest value is wanted: smaller values than `lower` do not matter, `gap` may remain open, and
+// no value above `enough` need be found.
+struct Sought {
+  double lower, gap, enough;
+};
+
+// Finds the largest value of a quantity over the surface. It lies between `lower` (attained, or all that
+// matters) and the returned upper bound, which is at most lower + gap unless the budget is used up. Stops as
+// soon as more than `enough` is attained.
+//   quantity.Over(box): upper bound of the quantity over a box; quantity.Over(center, axis, half): the same
+//   over an oriented box as in RectBounds; quantity.At(p): its value at a surface point.
+// If `among` is not null, its leaves of a search tree are searched in place of the whole surface.
+template <class Quantity>
+double Maximize(const Surface& surface, const LeafSet* among, const Sought& sought,
+                const Quantity& quantity) {
+  double lower = sought.lower;
+  const double gap = sought.gap, enough = sought.enough;
   thread_local std::vector<Part> heap;
   thread_local std::vector<Vec4> arena;
   thread_local Halves halves;
@@ -76,10 +85,10 @@ double Maximize(const Surface& surface, const LeafSet* among, double lower, doub
   };
   const auto push_node = [&](std::int32_t index) {
     const SurfaceNode& node = surface.nodes[static_cast<std::size_t>(index)];
-    Part part{box(node.box), index, -1, {}, 0};
+    Part part{quantity.Over(node.box), index, -1, {}, 0};
     if (node.leaf >= 0 && part.bound > lower) {
       const SurfaceLeaf& leaf = surface.leaves[static_cast<std::size_t>(node.leaf)];
-      part.bound = std::min(part.bound, oriented(leaf.center(), leaf.axis(), leaf.half()));
+      part.bound = std::min(part.bound, quantity.Over(leaf.center(), leaf.axis(), leaf.half()));
     }
     push(part);
   };
@@ -87,9 +96,11 @@ double Maximize(const Surface& surface, const LeafSet* among, double lower, doub
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
     std::array<Vec3, kMaxNetPoints> hull;
     const RectBounds b = BoundPoints(shape, points, hull.data(), HullPoints(shape, points, hull.data()));
-    const double bound = std::min({parent.bound, box(b.box), oriented(b.center, b.axis, b.half)});
+    const double bound =
+        std::min({parent.bound, quantity.Over(b.box), quantity.Over(b.center, b.axis, b.half)});
     if (!(bound > lower)) return;
-    lower = std::max(lower, at(Position(piece, 0.5 * (rect.u0 + rect.u1), 0.5 * (rect.v0 + rect.v1))));
+    lower =
+        std::max(lower, quantity.At(Position(piece, 0.5 * (rect.u0 + rect.u1), 0.5 * (rect.v0 + rect.v1))));
     const Part part{bound, -1, parent.piece, rect, arena.size()};
     arena.insert(arena.end(), points, points + shape.count());
     push(part);
@@ -105,7 +116,7 @@ double Maximize(const Surface& surface, const LeafSet* among, double lower, doub
       std::array<Vec4, kMaxNetPoints> points;
       std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
       const NetShape shape{piece.net.degree_u, piece.net.degree_v};
-      RestrictNet(shape, points.data(), r.u0, r.u1, r.v0, r.v1);
+      RestrictNet(shape, points.data(), r);
       push_rect(piece, {.bound = kInfinity, .piece = leaf.piece(), .rect = r}, r, points.data());
     }
   }
@@ -127,10 +138,10 @@ double Maximize(const Surface& surface, const LeafSet* among, double lower, doub
       top.piece = leaf.piece.value;
       top.rect = {leaf.u0, leaf.u1, leaf.v0, leaf.v1};
       const Rect& r = top.rect;
-      lower = std::max(lower, at(Position(piece, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1))));
+      lower = std::max(lower, quantity.At(Position(piece, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1))));
       if (top.bound <= lower + gap) return top.bound;
       std::copy(piece.net.points.begin(), piece.net.points.end(), points.begin());
-      RestrictNet({piece.net.degree_u, piece.net.degree_v}, points.data(), r.u0, r.u1, r.v0, r.v1);
+      RestrictNet({piece.net.degree_u, piece.net.degree_v}, points.data(), r);
     } else {
       const auto& net = surface.pieces[static_cast<std::size_t>(top.piece)].net;
       std::copy_n(arena.begin() + static_cast<std::ptrdiff_t>(top.net), net.points.size(), points.begin());
@@ -143,45 +154,49 @@ double Maximize(const Surface& surface, const LeafSet* among, double lower, doub
   return lower;
 }
 
+// The height of the centre of a ball over a rectangle in plan, widened by `half_width`, that touches a point.
+struct HeightOverRect {
+  Vec2 min, max;
+  double half_width, radius2;
+
+  // Distance in plan from another rectangle.
+  double Off(const Vec2& low, const Vec2& high) const {
+    return (low - max).cwiseMax(min - high).cwiseMax(0.0).norm();
+  }
+  double Height(double z, double distance) const {
+    const double d = std::max(0.0, distance - half_width);
+    return d * d <= radius2 ? z + std::sqrt(radius2 - d * d) : -kInfinity;
+  }
+  double Over(const Box3& x) const { return Height(x.max.z(), Off(Xy(x.min), Xy(x.max))); }
+  double Over(const Vec3&, const Eigen::Matrix3d&, const Vec3&) const { return kInfinity; }
+  double At(const Vec3& p) const { return Height(p.z(), Off(Xy(p), Xy(p))); }
+};
+
+// How deep a point lies in a swept ball.
+struct SweptDepth {
+  double radius;
+  SweptBall swept;
+
+  double Over(const Box3& x) const {
+    return radius - swept.DistanceBelow(x.Center(), Eigen::Matrix3d::Identity(), 0.5 * (x.max - x.min));
+  }
+  double Over(const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half) const {
+    return radius - swept.DistanceBelow(center, axis, half);
+  }
+  double At(const Vec3& p) const { return radius - swept.Distance(p); }
+};
+
 }  // namespace
 
 double Locator::MaxHeight(const Vec2& a, const Vec2& b, double half_width, double slack) const {
-  const double r2 = impl_->radius * impl_->radius;
-  const Vec2 min = a.cwiseMin(b), max = a.cwiseMax(b);
-  const auto off = [&](const Vec2& low, const Vec2& high) {  // distance in plan from another rectangle
-    return (low - max).cwiseMax(min - high).cwiseMax(0.0).norm();
-  };
-  const auto height = [&](double z, double distance) {
-    const double d = std::max(0.0, distance - half_width);
-    return d * d <= r2 ? z + std::sqrt(r2 - d * d) : -kInfinity;
-  };
-  const auto box = [&](const Box3& x) { return height(x.max.z(), off(Xy(x.min), Xy(x.max))); };
-  const auto oriented = [](const Vec3&, const Eigen::Matrix3d&, const Vec3&) { return kInfinity; };
-  const auto at = [&](const Vec3& p) { return height(p.z(), off(Xy(p), Xy(p))); };
-  return Maximize(impl_->surface, nullptr, -kInfinity, std::max(slack, 1e-9), kInfinity, box, oriented, at) +
-         impl_->slack;
+  const HeightOverRect height{a.cwiseMin(b), a.cwiseMax(b), half_width, impl_->radius * impl_->radius};
+  const Sought sought{-kInfinity, std::max(slack, 1e-9), kInfinity};
+  return Maximize(impl_->surface, nullptr, sought, height) + impl_->slack;
 }
-
-namespace {
-
-// The largest gouge above `lower`, exact to `gap`.
-double LargestGouge(const Surface& surface, const LeafSet* among, double radius, const SweptBall& swept,
-                    double lower, double gap, double enough) {
-  const auto box = [&](const Box3& x) {
-    return radius - swept.DistanceBelow(x.Center(), Eigen::Matrix3d::Identity(), 0.5 * (x.max - x.min));
-  };
-  const auto oriented = [&](const Vec3& center, const Eigen::Matrix3d& axis, const Vec3& half) {
-    return radius - swept.DistanceBelow(center, axis, half);
-  };
-  const auto at = [&](const Vec3& p) { return radius - swept.Distance(p); };
-  return Maximize(surface, among, lower, gap, enough, box, oriented, at);
-}
-
-}  // namespace
 
 double Locator::SweptGouge(const Vec3& a, const Vec3& b, double eps) const {
-  return LargestGouge(impl_->surface, nullptr, impl_->radius, SweptBall(a, b), 0.0, std::max(eps, 1e-9),
-                      kInfinity);
+  const SweptDepth depth{impl_->radius, SweptBall(a, b)};
+  return Maximize(impl_->surface, nullptr, {0.0, std::max(eps, 1e-9), kInfinity}, depth);
 }
 
 bool Locator::GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps) const {
@@ -192,11 +207,12 @@ bool Locator::GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps
   // A chord of two free centres is at most as deep as [location T2] says. So a margin of a 64th of the limit
   // loses little.
   const double spare = std::max({limit, eps, 1e-4 * radius}) / 64.0;
-  if (!internal::CollectSweptLeaves(*impl_, a, b, radius - limit + impl_->slack, spare, open)) return false;
+  if (!internal::CollectSweptLeaves(*impl_, {a, b, radius - limit + impl_->slack, spare}, open)) return false;
   if (open.empty()) return true;
   const double gap = std::max(eps, 1e-9);
   const LeafSet among{impl_->tree, open};
-  return LargestGouge(impl_->surface, &among, radius, SweptBall(a, b), limit - gap, gap, limit) <= limit;
+  const SweptDepth depth{radius, SweptBall(a, b)};
+  return Maximize(impl_->surface, &among, {limit - gap, gap, limit}, depth) <= limit;
 }
 
 }  // namespace patchmill

@@ -26,11 +26,11 @@ struct Spot {
   bool OnBorder() const { return u <= 0.0 || u >= 1.0 || v <= 0.0 || v >= 1.0; }
 };
 
-// The parameters on `rect` nearest to p from a start near by: Gauss-Newton with the exact box step. Steps
+// The parameters on `rect` nearest to p from the parameters of a start near by: Gauss-Newton with the exact box step. Steps
 // that do not help are halved.
-Spot Nearest(const Piece& piece, int index, const Rect& rect, double u, double v, const Vec3& p) {
-  Spot at{index, u, v, Vec3::Zero()};
-  SurfaceJet jet = Evaluate(piece, u, v);
+Spot Nearest(const Piece& piece, const Rect& rect, const Spot& start, const Vec3& p) {
+  Spot at = start;
+  SurfaceJet jet = Evaluate(piece, at.u, at.v);
   at.p = jet.p;
   for (int k = 0; k < 20; ++k) {
     const Vec3 d = jet.p - p;
@@ -45,7 +45,7 @@ Spot Nearest(const Piece& piece, int index, const Rect& rect, double u, double v
       const double nv = std::clamp(at.v + t * step.y, rect.v0, rect.v1);
       const SurfaceJet next = Evaluate(piece, nu, nv);
       if ((next.p - p).squaredNorm() < d.squaredNorm()) {
-        at = {index, nu, nv, next.p};
+        at = {start.piece, nu, nv, next.p};
         jet = next;
         closer = true;
       }
@@ -75,8 +75,8 @@ std::optional<CenterPoint> Locator::Follow(const SurfacePoint& from, const Vec2&
     Walk w;
     w.best = floor;
     const SearchResult found =
-        internal::RaiseOnPiece(surface.pieces[static_cast<std::size_t>(start.piece)], start.piece, Rect{},
-                               start.u, start.v, ball, options, w.best);
+        internal::RaiseOnPiece({surface.pieces[static_cast<std::size_t>(start.piece)], start.piece, Rect{}},
+                               {start.u, start.v}, ball, options, w.best);
     w.at = {start.piece, found.u, found.v, found.p};
     w.f = found.f;
     return w;
@@ -108,9 +108,10 @@ std::optional<CenterPoint> Locator::Follow(const SurfacePoint& from, const Vec2&
       const internal::SearchLeaf& leaf = impl_->tree.leaves[~id];
       const Rect r = leaf.rect();
       const BoxMinimum guess = internal::GuessMinimum(leaf.Model(impl_->tree.grid), now.at.p);
+      const Spot guessed{leaf.piece(), r.u0 + (0.5 + guess.x) * (r.u1 - r.u0),
+                         r.v0 + (0.5 + guess.y) * (r.v1 - r.v0), Vec3::Zero()};
       const Spot start =
-          Nearest(surface.pieces[static_cast<std::size_t>(leaf.piece())], leaf.piece(), r,
-                  r.u0 + (0.5 + guess.x) * (r.u1 - r.u0), r.v0 + (0.5 + guess.y) * (r.v1 - r.v0), now.at.p);
+          Nearest(surface.pieces[static_cast<std::size_t>(leaf.piece())], r, guessed, now.at.p);
       if (!((start.p - now.at.p).norm() <= tolerance)) continue;
       if (start.piece == now.at.piece && start.u == now.at.u && start.v == now.at.v) continue;
       const Walk trial = walk(start, now.best);

@@ -43,8 +43,9 @@ Vec3 NearestIn(const std::vector<HalfSpace>& all, const Vec3& p) {
 
 }  // namespace
 
-std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const Vec3& n, double lowest_z,
-                                   double most, double gouge, bool wedged) {
+std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const Vec3& n,
+                                   const FreeCenterLimits& limits) {
+  const auto& [lowest_z, most, gouge, wedged] = limits;
   const double radius = locator.radius(), pushed = wedged ? radius - kWedged * gouge : radius + 2.0 * kClear;
   std::vector<HalfSpace> allowed = {{n, n.dot(p) + radius + kClear}};
   if (lowest_z > -kInfinity) allowed.push_back({Vec3::UnitZ(), lowest_z});

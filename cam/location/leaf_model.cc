@@ -86,56 +86,16 @@ WeightBounds BoundWeights(const Net& net) {
       {0.5 * (lo + hi), 0.5 * (hi - lo)}, range(1, 0), range(0, 1), range(2, 0), range(1, 1), range(0, 2)};
 }
 
-// Bounds |S_i - first| for one direction i.
-Deviation BoundFirst(const Net& net, int ou, const Vec3& first, const LeafModel& m, const WeightBounds& w,
-                     double reach_a, double reach_b, double reach_all) {
-  Deviation d;
-  ForEachDifference(net, ou, 1 - ou,
-                    [&](const Vec4& x) { d.Add(x.head<3>() - x.w() * m.s - w.w.middle * first, m.a, m.b); });
-  if (w.constant()) return d;
-  const double rate = (ou == 1 ? w.u : w.v).Largest();
-  const double length = (d.Length() + w.w.spread * first.norm() + rate * reach_all) / w.min();
-  d.length = length * length;
-  d.along_a = (d.along_a + w.w.spread * std::abs(first.dot(m.a)) + rate * reach_a) / w.min();
-  d.along_b = (d.along_b + w.w.spread * std::abs(first.dot(m.b)) + rate * reach_b) / w.min();
-  return d;
-}
-
-// Bounds |S_ij - second|. The middle terms of the product rule are w_1 S_2 + w_2 S_1, once each, also if
-// i = j.
-struct Slope {
-  const Range& weight;
-  const Vec3& first;
-  double drift;
-};
-double BoundSecond(const Net& net, int ou, int ov, const Vec3& second, const LeafModel& m,
-                   const WeightBounds& w, const Slope& s1, const Slope& s2, const Range& rate,
-                   double reach_all) {
-  const Vec3 middle = w.w.middle * second + s1.weight.middle * s2.first + s2.weight.middle * s1.first;
-  double d = 0.0;
-  ForEachDifference(net, ou, ov, [&](const Vec4& x) {
-    d = std::max(d, (x.head<3>() - x.w() * m.s - middle).squaredNorm());
-  });
-  d = std::sqrt(d);
-  if (w.constant()) return d;
-  const auto mixed = [](const Range& weight, const Slope& s) {
-    return weight.spread * s.first.norm() + weight.Largest() * s.drift;
-  };
-  return (d + mixed(s1.weight, s2) + mixed(s2.weight, s1) + rate.Largest() * reach_all +
-          w.w.spread * second.norm()) /
-         w.min();
-}
-
 // The largest S - s over the hull: its length (squared), and its products with the model's vectors.
 struct HullReach {
   double all2 = 0.0, a = 0.0, b = 0.0, uu = 0.0, uv = 0.0, vv = 0.0;
   double z_max = -kInfinity;
 };
-HullReach ReachOf(const Vec3* hull, int count, const LeafModel& m) {
+HullReach ReachOf(std::span<const Vec3> hull, const LeafModel& m) {
   HullReach r;
-  for (int k = 0; k < count; ++k) {
-    const Vec3 d = hull[k] - m.s;
-    r.z_max = std::max(r.z_max, hull[k].z());
+  for (const Vec3& p : hull) {
+    const Vec3 d = p - m.s;
+    r.z_max = std::max(r.z_max, p.z());
     r.all2 = std::max(r.all2, d.squaredNorm());
     r.a = std::max(r.a, std::abs(d.dot(m.a)));
     r.b = std::max(r.b, std::abs(d.dot(m.b)));
@@ -145,6 +105,66 @@ HullReach ReachOf(const Vec3* hull, int count, const LeafModel& m) {
   }
   return r;
 }
+
+// A derivative of a net: how often by u and by v.
+struct Order {
+  int u, v;
+};
+
+// A first derivative of the model, with the bound of its weight's and of its deviation.
+struct Slope {
+  const Range& weight;
+  const Vec3& first;
+  double drift;
+};
+
+// Bounds how far the derivatives of a net deviate from those of its model.
+class NetDeviation {
+ public:
+  NetDeviation(const Net& net, const WeightBounds& weights, const HullReach& reach, const LeafModel& model)
+      : net_(net), w_(weights), reach_(reach), reach_all_(std::sqrt(reach.all2)), m_(model) {}
+
+  // Bounds |S_i - first| for one direction i.
+  Deviation First(const Order& order, const Vec3& first) const {
+    Deviation d;
+    ForEachDifference(net_, order.u, order.v, [&](const Vec4& x) {
+      d.Add(x.head<3>() - x.w() * m_.s - w_.w.middle * first, m_.a, m_.b);
+    });
+    if (w_.constant()) return d;
+    const double rate = (order.u == 1 ? w_.u : w_.v).Largest();
+    const double length = (d.Length() + w_.w.spread * first.norm() + rate * reach_all_) / w_.min();
+    d.length = length * length;
+    d.along_a = (d.along_a + w_.w.spread * std::abs(first.dot(m_.a)) + rate * reach_.a) / w_.min();
+    d.along_b = (d.along_b + w_.w.spread * std::abs(first.dot(m_.b)) + rate * reach_.b) / w_.min();
+    return d;
+  }
+
+  // Bounds |S_ij - second|. The middle terms of the product rule are w_1 S_2 + w_2 S_1, once each, also if
+  // i = j. `rate` is the range of w_ij.
+  double Second(const Order& order, const Vec3& second, const Slope& s1, const Slope& s2,
+                const Range& rate) const {
+    const Vec3 middle = w_.w.middle * second + s1.weight.middle * s2.first + s2.weight.middle * s1.first;
+    double d = 0.0;
+    ForEachDifference(net_, order.u, order.v, [&](const Vec4& x) {
+      d = std::max(d, (x.head<3>() - x.w() * m_.s - middle).squaredNorm());
+    });
+    d = std::sqrt(d);
+    if (w_.constant()) return d;
+    const auto mixed = [](const Range& weight, const Slope& s) {
+      return weight.spread * s.first.norm() + weight.Largest() * s.drift;
+    };
+    return (d + mixed(s1.weight, s2) + mixed(s2.weight, s1) + rate.Largest() * reach_all_ +
+            w_.w.spread * second.norm()) /
+           w_.min();
+  }
+
+ private:
+  const Net& net_;
+  const WeightBounds& w_;
+  const HullReach& reach_;
+  const double reach_all_;
+  const LeafModel& m_;
+};
 
 // How far derivatives deviate from those of the model.
 struct Derivatives {
@@ -157,14 +177,14 @@ std::optional<Derivatives> BoundNetDerivatives(const Net& net, bool rational, co
                                                const LeafModel& m) {
   const WeightBounds w = rational ? BoundWeights(net) : WeightBounds{};
   if (!(w.min() > 1e-3 * w.w.middle)) return std::nullopt;
+  const NetDeviation deviation(net, w, reach, m);
   Derivatives d;
-  const double reach_all = std::sqrt(reach.all2);
-  d.du = BoundFirst(net, 1, m.a, m, w, reach.a, reach.b, reach_all);
-  d.dv = BoundFirst(net, 0, m.b, m, w, reach.a, reach.b, reach_all);
+  d.du = deviation.First({1, 0}, m.a);
+  d.dv = deviation.First({0, 1}, m.b);
   const Slope su{w.u, m.a, d.du.Length()}, sv{w.v, m.b, d.dv.Length()};
-  d.uu = BoundSecond(net, 2, 0, m.uu, m, w, su, su, w.uu, reach_all);
-  d.uv = BoundSecond(net, 1, 1, m.uv, m, w, su, sv, w.uv, reach_all);
-  d.vv = BoundSecond(net, 0, 2, m.vv, m, w, sv, sv, w.vv, reach_all);
+  d.uu = deviation.Second({2, 0}, m.uu, su, su, w.uu);
+  d.uv = deviation.Second({1, 1}, m.uv, su, sv, w.uv);
+  d.vv = deviation.Second({0, 2}, m.vv, sv, sv, w.vv);
   return d;
 }
 
@@ -172,7 +192,7 @@ std::optional<Derivatives> BoundNetDerivatives(const Net& net, bool rational, co
 // middle - sum k_c D_c, and each term by the spread of its range.
 std::optional<Derivatives> BoundGregory(const GregoryPatch& patch, const Rect& rect, const LeafModel& m) {
   std::array<Vec4, 16> points = BicubicPart(patch);
-  RestrictNet({3, 3}, points.data(), rect.u0, rect.u1, rect.v0, rect.v1);
+  RestrictNet({3, 3}, points.data(), rect);
   const Net net{{3, 3}, points.data()};
   const std::array<BlendedTerm, 4> terms = BoundBlend(patch, rect);
   const auto bound = [&](int ou, int ov, const Vec3& middle, Interval BlendedTerm::*range) {
@@ -238,27 +258,26 @@ void SetErrorsOfBicubic(const double* points, LeafModel& m) {
 
 }  // namespace
 
-LeafModel MakeLeafModel(NetShape shape, const Vec4* points, bool rational, const Vec3* hull, int hull_count,
-                        const SurfaceJet& middle, const Rect& rect) {
+LeafModel MakeLeafModel(const PartNet& net, const SurfaceJet& middle, const Rect& rect) {
   LeafModel m = MiddleModel(middle, rect);
-  if (!rational && shape.degree_u == 3 && shape.degree_v == 3) {
-    SetErrorsOfBicubic(points->data(), m);
+  if (!net.rational && net.shape.degree_u == 3 && net.shape.degree_v == 3) {
+    SetErrorsOfBicubic(net.points->data(), m);
     return m;
   }
-  const HullReach reach = ReachOf(hull, hull_count, m);
-  SetErrors(reach, BoundNetDerivatives({shape, points}, rational, reach, m), m);
+  const HullReach reach = ReachOf(net.hull, m);
+  SetErrors(reach, BoundNetDerivatives({net.shape, net.points}, net.rational, reach, m), m);
   return m;
 }
 
-LeafModel MakeLeafModel(const Piece& piece, const Vec4* points, const Vec3* hull, int hull_count,
+LeafModel MakeLeafModel(const Piece& piece, const Vec4* points, std::span<const Vec3> hull,
                         const Rect& rect) {
   const SurfaceJet middle = Evaluate(piece, 0.5 * (rect.u0 + rect.u1), 0.5 * (rect.v0 + rect.v1));
   if (!piece.gregory) {
     const NetShape shape{piece.net.degree_u, piece.net.degree_v};
-    return MakeLeafModel(shape, points, piece.net.rational, hull, hull_count, middle, rect);
+    return MakeLeafModel({shape, points, piece.net.rational, hull}, middle, rect);
   }
   LeafModel m = MiddleModel(middle, rect);
-  const HullReach reach = ReachOf(hull, hull_count, m);
+  const HullReach reach = ReachOf(hull, m);
   SetErrors(reach, BoundGregory(*piece.gregory, rect, m), m);
   return m;
 }

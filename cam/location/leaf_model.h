@@ -7,6 +7,8 @@
 // differs from its middle value by at most e_ij = gram_ij + (|s - c| + reach) drift_ij.
 #pragma once
 
+#include <span>
+
 #include "cam/location/leaf_errors.h"
 #include "core/base/round_outward.h"
 #include "core/math/box_qp.h"
@@ -14,23 +16,27 @@
 
 namespace patchmill::internal {
 
-struct Rect {
-  double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
-};
+using Rect = ParameterBox;
 
 struct LeafModel : LeafErrors {
   Vec3 s, a, b, uu, uv, vv;
 };
 
-// Makes the model of the part `rect` of a piece. `points` is the piece's net, already restricted to `rect`;
-// `hull` is as from HullPoints; `middle` is the piece's jet at the middle of `rect`, in the piece's own
-// parameters. Cost O(points).
-LeafModel MakeLeafModel(NetShape shape, const Vec4* points, bool rational, const Vec3* hull, int hull_count,
-                        const SurfaceJet& middle, const Rect& rect);
+// The net of a part of a piece, already restricted to the part, and its points as from HullPoints. It refers
+// to both.
+struct PartNet {
+  NetShape shape;
+  const Vec4* points;
+  bool rational;
+  std::span<const Vec3> hull;
+};
+
+// Makes the model of the part `rect` of a piece. `middle` is the piece's jet at the middle of `rect`, in the
+// piece's own parameters. Cost O(points).
+LeafModel MakeLeafModel(const PartNet& net, const SurfaceJet& middle, const Rect& rect);
 // The same. The derivatives of a Gregory quad are bounded from its own form (gregory_bounds.h), not from the
 // net.
-LeafModel MakeLeafModel(const Piece& piece, const Vec4* points, const Vec3* hull, int hull_count,
-                        const Rect& rect);
+LeafModel MakeLeafModel(const Piece& piece, const Vec4* points, std::span<const Vec3> hull, const Rect& rect);
 
 // A quadratic with value f0 at the middle. Everywhere on the rectangle its Hessian is below that of
 // f = 1/2 dist^2(S, upward ray from c).

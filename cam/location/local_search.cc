@@ -71,10 +71,14 @@ void MakeDefinite(double e, double f, double g, double tiny, Quadratic2& m) {
   m.c = l21 * (l21 * na + 2.0 * l22 * nb) + l22 * l22 * nc;
 }
 
-// A step along one parameter line. The other variable is held by its bound.
-double LineStep(double curvature, double metric, double slope, double lo, double hi, double& used) {
-  used = std::max(std::abs(curvature), 1e-3 * metric + 1e-300);
-  return std::clamp(-slope / used, lo, hi);
+// A step along one parameter line, and the value of the model there. The other variable is held by its bound.
+struct LineStep {
+  double length, value;
+};
+LineStep StepOnLine(double curvature, double metric, double slope, double lo, double hi) {
+  const double used = std::max(std::abs(curvature), 1e-3 * metric + 1e-300);
+  const double step = std::clamp(-slope / used, lo, hi);
+  return {step, step * (slope + 0.5 * used * step)};
 }
 
 // If the ball touches a steep wall near its own equator, the model of f = 1/2 dist^2 makes little progress: f
@@ -126,15 +130,16 @@ Step NewtonStep(const State& s, const Box2& box, bool definite) {
   const bool holds_u = PushesBack(m.gx, box.x0, box.x1), holds_v = PushesBack(m.gy, box.y0, box.y1);
   if (holds_u && holds_v) return step;
   if (definite && (holds_u || holds_v)) {
-    double used = 0.0;
     if (holds_u) {
       step.exact = m.c > 1e-2 * g;
-      step.to.y = LineStep(m.c, g, m.gy, box.y0, box.y1, used);
-      step.to.value = step.to.y * (m.gy + 0.5 * used * step.to.y);
+      const LineStep along = StepOnLine(m.c, g, m.gy, box.y0, box.y1);
+      step.to.y = along.length;
+      step.to.value = along.value;
     } else {
       step.exact = m.a > 1e-2 * e;
-      step.to.x = LineStep(m.a, e, m.gx, box.x0, box.x1, used);
-      step.to.value = step.to.x * (m.gx + 0.5 * used * step.to.x);
+      const LineStep along = StepOnLine(m.a, e, m.gx, box.x0, box.x1);
+      step.to.x = along.length;
+      step.to.value = along.value;
     }
     if (holds_u ? PushesBack(m.gx + m.b * step.to.y, box.x0, box.x1)
                 : PushesBack(m.gy + m.b * step.to.x, box.y0, box.y1)) {
@@ -178,14 +183,16 @@ double LinearMinimum(double f, const Vec2& slope, const Rect& rect, double u, do
   return f - slope.x() * x - slope.y() * y;
 }
 
-SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect, double u, double v,
-                          const Ball& ball, const SearchOptions& options, Contact& best) {
+SearchResult RaiseOnPiece(const PiecePart& part, const Vec2& start, const Ball& ball,
+                          const SearchOptions& options, Contact& best) {
+  const Piece& piece = part.piece;
+  const Rect& rect = part.rect;
   SearchResult result;
-  State s{std::clamp(u, rect.u0, rect.u1), std::clamp(v, rect.v0, rect.v1), {}, {}, 0.0};
+  State s{std::clamp(start.x(), rect.u0, rect.u1), std::clamp(start.y(), rect.v0, rect.v1), {}, {}, 0.0};
   const auto touch = [&](const Vec3& p, double at_u, double at_v) {
     const double g = TouchingHeight(p, ball);
     if (!(g > best.z)) return false;
-    best = {g, piece_index, at_u, at_v, p, Vec2::Constant(kNotKnown)};
+    best = {g, part.index, at_u, at_v, p, Vec2::Constant(kNotKnown)};
     result.improved = true;
     return true;
   };

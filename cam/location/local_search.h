@@ -43,13 +43,20 @@ struct SearchResult {
   Vec2 slope = Vec2::Zero();  // derivative of -f there; NaN if the search was cut short
 };
 
-// Minimises f(u,v) = 1/2 dist^2(S, upward ray from (q, best.z)) on `rect`, starting at (u,v). Whenever the
+// A part of a piece.
+struct PiecePart {
+  const Piece& piece;
+  int index;  // of the piece
+  Rect rect;
+};
+
+// Minimises f(u,v) = 1/2 dist^2(S, upward ray from (q, best.z)) on part.rect, starting at `start`. Whenever the
 // surface comes closer than R, the ball is raised to touch it (best.z = g) and the search continues. It ends
 // at a local maximum of g, or if nothing within reach lies in the way. It uses the exact Hessian, the exact
 // quadratic step on the box and a line search. best.z must be finite. The g of a contact is exact to about
 // 1e-12 mm.
-SearchResult RaiseOnPiece(const Piece& piece, int piece_index, const Rect& rect, double u, double v,
-                          const Ball& ball, const SearchOptions& options, Contact& best);
+SearchResult RaiseOnPiece(const PiecePart& part, const Vec2& start, const Ball& ball,
+                          const SearchOptions& options, Contact& best);
 
 // f at a place of `rect`, in local parameters. d is the vector from the place to the ray, `slope` is S_u.d,
 // S_v.d.

@@ -42,7 +42,7 @@ void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Co
   if (hint.piece.value < 0 || piece >= surface.pieces.size()) return;
   const Vec2 d = Xy(hint.p) - ball.q;
   if (!(d.squaredNorm() < 4.0 * radius * radius)) return;  // too far to help
-  internal::RaiseOnPiece(surface.pieces[piece], hint.piece.value, Rect{}, hint.u, hint.v, ball, {}, best);
+  internal::RaiseOnPiece({surface.pieces[piece], hint.piece.value, Rect{}}, {hint.u, hint.v}, ball, {}, best);
 }
 
 // A box is out of the ball's way iff plan distance^2 + max(0, z - max_z)^2 >= R^2, for the current centre
@@ -51,7 +51,7 @@ void Locator::Impl::StartFromHint(const Ball& ball, const SurfacePoint& hint, Co
 void Locator::Impl::Search(const Ball& ball, double enough, Aim aim, Contact& best, OpenLeaves& open) const {
   const auto x = static_cast<float>(ball.q.x()), y = static_cast<float>(ball.q.y());
   internal::WalkTree(
-      tree, {x, x, y, y}, Limits(), [&] { return static_cast<float>(best.z); },
+      tree, {{x, x, y, y}, Limits()}, [&] { return static_cast<float>(best.z); },
       [&](std::int32_t leaf) {
         VisitLeaf(leaf, ball, aim, best, open);
         return best.z <= enough;
@@ -89,10 +89,11 @@ bool Locator::Impl::Raised(double before, const Contact& c) const {
   return c.z > before + 1e-9 + std::sqrt(below * below + 8.0 * radius * rounding) - below;
 }
 
-bool Locator::Impl::IsOnlyContact(const Contact& best, std::int32_t piece, const Rect& rect,
+bool Locator::Impl::IsOnlyContact(const Contact& best, const internal::PiecePart& part,
                                   const internal::LeafModel& model, const LowerModel& low,
                                   const Ball& ball) const {
-  if (best.piece != piece || !Holds(rect, best.u, best.v)) return false;
+  const Rect& rect = part.rect;
+  if (best.piece != part.index || !Holds(rect, best.u, best.v)) return false;
   if (low.convex && IsKkt(best, rect)) return true;
   const Vec3 c = Lift(ball.q, best.z), d = internal::ToRay(best.p, c);
   return internal::LeastFrom(model, low, c, internal::LocalJetAt(rect, best.u, best.v, d, best.slope)) >=
@@ -108,11 +109,12 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Aim aim, Con
 
   const internal::LeafModel model = leaf.Model(tree.grid);
   const LowerModel lower = internal::BoundBelow(model, c);
-  const Rect rect = leaf.rect();
-  if (IsOnlyContact(best, leaf.piece(), rect, model, lower, ball)) return;
+  const internal::PiecePart part{surface.pieces[static_cast<std::size_t>(leaf.piece())], leaf.piece(),
+                                 leaf.rect()};
+  const Rect& rect = part.rect;
+  if (IsOnlyContact(best, part, model, lower, ball)) return;
   if (internal::LeastOn(model, lower, c) >= free_f) return;
 
-  const Piece& piece = surface.pieces[static_cast<std::size_t>(leaf.piece())];
   const auto at = [&](double x, double y) {
     return Vec2(rect.u0 + (0.5 + x) * (rect.u1 - rect.u0), rect.v0 + (0.5 + y) * (rect.v1 - rect.v0));
   };
@@ -120,9 +122,7 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Aim aim, Con
   SearchOptions options;
   options.model = &model;
   options.lower = &lower;
-  const Vec2 start = at(guess.x, guess.y);
-  const SearchResult found =
-      internal::RaiseOnPiece(piece, leaf.piece(), rect, start.x(), start.y(), ball, options, best);
+  const SearchResult found = internal::RaiseOnPiece(part, at(guess.x, guess.y), ball, options, best);
   if (found.out || (aim == Aim::kAny && found.improved)) return;
   // If f is proven convex, there is one maximum, and the search has found it.
   const LowerModel raised = found.improved ? internal::BoundBelow(model, Lift(ball.q, best.z)) : lower;
@@ -130,7 +130,7 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Aim aim, Con
     if (found.convex_minimum < ProofF()) open.push_back(index);
     return;
   }
-  if (found.improved && IsOnlyContact(best, leaf.piece(), rect, model, raised, ball)) return;
+  if (found.improved && IsOnlyContact(best, part, model, raised, ball)) return;
   // Start again from the corners of the quarters that may hold more.
   const Vec3 now = Lift(ball.q, best.z);
   const internal::LocalJet ended =
@@ -139,9 +139,7 @@ void Locator::Impl::VisitLeaf(std::int32_t index, const Ball& ball, Aim aim, Con
     for (const double y : {-0.5, 0.5}) {
       const Box2 quarter{std::min(x, 0.0), std::max(x, 0.0), std::min(y, 0.0), std::max(y, 0.0)};
       if (internal::LeastFrom(model, raised, now, ended, quarter) >= free_f) continue;
-      const Vec2 corner = at(x, y);
-      const bool better =
-          internal::RaiseOnPiece(piece, leaf.piece(), rect, corner.x(), corner.y(), ball, {}, best).improved;
+      const bool better = internal::RaiseOnPiece(part, at(x, y), ball, {}, best).improved;
       if (aim == Aim::kAny && better) return;
     }
   }

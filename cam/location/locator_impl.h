@@ -54,7 +54,7 @@ struct Locator::Impl {
   bool Raised(double before, const internal::Contact& c) const;
   // True if the best contact lies on this part of a piece and is proven to be the only contact of the part
   // with a ball at best.z. `low` is BoundBelow for that ball.
-  bool IsOnlyContact(const internal::Contact& best, std::int32_t piece, const internal::Rect& rect,
+  bool IsOnlyContact(const internal::Contact& best, const internal::PiecePart& part,
                      const internal::LeafModel& model, const internal::LowerModel& low,
                      const internal::Ball& ball) const;
   void VisitLeaf(std::int32_t leaf, const internal::Ball& ball, Aim aim, internal::Contact& best,

@@ -45,10 +45,10 @@ LeafGrid::LeafGrid(const Box3& box) : origin(box.Center()) {
 }
 
 SearchLeaf::SearchLeaf(const LeafGrid& grid, std::int32_t piece, const Rect& rect, const LeafModel& model,
-                       const Eigen::Matrix3d& axis, const Vec3* hull, int hull_count)
+                       const FramedHull& hull)
     : piece_(piece), u_(CodeOf(rect.u0, rect.u1)), v_(CodeOf(rect.v0, rect.v1)) {
   RoundModel(grid, model);
-  RoundBox(grid, axis, hull, hull_count);
+  RoundBox(grid, hull);
 }
 
 // Let s', a', ... be the stored values, ds, da, ... their distances from s, a, ..., and S the surface. Then
@@ -104,19 +104,18 @@ void SearchLeaf::RoundModel(const LeafGrid& grid, const LeafModel& m) {
 }
 
 // The axes are stored first. Then the hull is measured along the stored axes.
-void SearchLeaf::RoundBox(const LeafGrid& grid, const Eigen::Matrix3d& axis, const Vec3* hull,
-                          int hull_count) {
-  const Vec3 turn = TurnOf(axis);
+void SearchLeaf::RoundBox(const LeafGrid& grid, const FramedHull& hull) {
+  const Vec3 turn = TurnOf(hull.axis);
   for (int k = 0; k < 3; ++k) turn_[k] = static_cast<float>(turn[k]);
   const Eigen::Matrix3d to = Axis();
   const Vec3 s = Place(grid);
   Vec3 low = Vec3::Constant(kInfinity), high = Vec3::Constant(-kInfinity);
   double coordinate = s.cwiseAbs().maxCoeff();
-  for (int i = 0; i < hull_count; ++i) {
-    const Vec3 y = to.transpose() * (hull[i] - s);
+  for (const Vec3& p : hull.points) {
+    const Vec3 y = to.transpose() * (p - s);
     low = low.cwiseMin(y);
     high = high.cwiseMax(y);
-    coordinate = std::max(coordinate, hull[i].cwiseAbs().maxCoeff());
+    coordinate = std::max(coordinate, p.cwiseAbs().maxCoeff());
   }
   const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * coordinate;
   for (int k = 0; k < 3; ++k) {

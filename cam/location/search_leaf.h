@@ -9,6 +9,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "cam/location/leaf_model.h"
 #include "cam/location/ray_distance.h"
@@ -43,12 +44,17 @@ struct LeafBox {
   Vec3 half;
 };
 
+// The points in whose convex hull a leaf lies, and the frame of its box. It refers to both.
+struct FramedHull {
+  const Eigen::Matrix3d& axis;
+  std::span<const Vec3> points;
+};
+
 class SearchLeaf {
  public:
-  // `model` and `hull` belong to the dyadic part `rect` of a piece. The leaf lies in the convex hull of the
-  // points `hull`.
+  // `model` and `hull` belong to the dyadic part `rect` of a piece.
   SearchLeaf(const LeafGrid& grid, std::int32_t piece, const Rect& rect, const LeafModel& model,
-             const Eigen::Matrix3d& axis, const Vec3* hull, int hull_count);
+             const FramedHull& hull);
 
   static constexpr double kShiftUnit = 1.0 / 32768.0;  // in half sides
 
@@ -77,7 +83,7 @@ class SearchLeaf {
   }
   Eigen::Matrix3d Axis() const;
   void RoundModel(const LeafGrid& grid, const LeafModel& m);
-  void RoundBox(const LeafGrid& grid, const Eigen::Matrix3d& axis, const Vec3* hull, int hull_count);
+  void RoundBox(const LeafGrid& grid, const FramedHull& hull);
 
   std::int32_t piece_;
   std::uint32_t u_, v_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <span>
 
 #include "cam/location/half_spaces.h"
 #include "core/base/parallel.h"
@@ -32,10 +33,15 @@ struct PieceLeaves {
 
 enum class Proof { kConvex, kHollow, kOpen };
 
-// True if the matrix a, b, c is positive definite for all errors of its entries up to e_uu, e_uv, e_vv.
-bool SurelyPositive(double a, double b, double c, double e_uu, double e_uv, double e_vv) {
-  const double low_a = a - e_uu - e_uv, low_c = c - e_vv - e_uv;
-  return low_a > 0.0 && low_c > 0.0 && low_a * low_c > b * b;
+// The entries of a symmetric matrix, or their errors.
+struct Entries {
+  double uu, uv, vv;
+};
+
+// True if the matrix is positive definite for all errors of its entries up to these.
+bool SurelyPositive(const Entries& m, const Entries& errors) {
+  const double low_a = m.uu - errors.uu - errors.uv, low_c = m.vv - errors.vv - errors.uv;
+  return low_a > 0.0 && low_c > 0.0 && low_a * low_c > m.uv * m.uv;
 }
 
 // Says whether the distance to a centre that rests on this side of the leaf (n: unit normal) is proven
@@ -48,7 +54,7 @@ Proof ProofOf(const LeafModel& m, const Vec3& n, double radius) {
   const double a = m.a.squaredNorm() - radius * n.dot(m.uu), b = m.a.dot(m.b) - radius * n.dot(m.uv),
                c = m.b.squaredNorm() - radius * n.dot(m.vv);
   // All of it is too concave for the ball: there is no contact inside, and other tests exclude it.
-  if (!SurelyPositive(a + 2.0 * (e_uu + e_uv), b, c + 2.0 * (e_vv + e_uv), e_uu, e_uv, e_vv)) {
+  if (!SurelyPositive({a + 2.0 * (e_uu + e_uv), b, c + 2.0 * (e_vv + e_uv)}, {e_uu, e_uv, e_vv})) {
     return Proof::kHollow;
   }
   const auto offset = [&](const Vec3& second) {
@@ -58,7 +64,7 @@ Proof ProofOf(const LeafModel& m, const Vec3& n, double radius) {
   e_uu += offset(m.uu);
   e_uv += offset(m.uv);
   e_vv += offset(m.vv);
-  if (!SurelyPositive(a, b, c, e_uu, e_uv, e_vv)) return Proof::kOpen;
+  if (!SurelyPositive({a, b, c}, {e_uu, e_uv, e_vv})) return Proof::kOpen;
   const double rise = m.z_max - m.s.z();
   if (radius * n.z() > 2.0 * rise) return Proof::kConvex;
   // A ball may rest on it with its centre below the leaf's top, see BoundBelow.
@@ -71,8 +77,9 @@ Proof ProofOf(const LeafModel& m, const Vec3& n, double radius) {
                       2.0 * rise * m.drift_uv + reach * std::abs(m.uv.z());
   const auto plan = [](const Vec3& x, const Vec3& y) { return x.x() * y.x() + x.y() * y.y(); };
   const bool flat_enough =
-      SurelyPositive(plan(m.a, m.a) - radius * plan(n, m.uu), plan(m.a, m.b) - radius * plan(n, m.uv),
-                     plan(m.b, m.b) - radius * plan(n, m.vv), h_uu, h_uv, h_vv);
+      SurelyPositive({plan(m.a, m.a) - radius * plan(n, m.uu), plan(m.a, m.b) - radius * plan(n, m.uv),
+                      plan(m.b, m.b) - radius * plan(n, m.vv)},
+                     {h_uu, h_uv, h_vv});
   return flat_enough ? Proof::kConvex : Proof::kOpen;
 }
 
@@ -90,16 +97,21 @@ Proof ProofOf(const LeafModel& m, double radius) {
   return down == Proof::kOpen || down == up ? down : Proof::kHollow;
 }
 
+std::size_t MostLeavesPerPiece(const Surface& surface) {
+  return std::max(kMinLeavesPerPiece, kMaxLeaves / surface.pieces.size());
+}
+
 class PieceSplitter {
  public:
-  PieceSplitter(const Piece& piece, int piece_index, const LeafGrid& grid, double radius,
-                std::size_t max_leaves, const RunContext& run)
-      : piece_(piece),
-        piece_index_(piece_index),
+  // Splits the piece with this index.
+  PieceSplitter(const Surface& surface, std::size_t piece, const LeafGrid& grid, double radius,
+                const RunContext& run)
+      : piece_(surface.pieces[piece]),
+        piece_index_(static_cast<int>(piece)),
         grid_(grid),
-        shape_{piece.net.degree_u, piece.net.degree_v},
+        shape_{piece_.net.degree_u, piece_.net.degree_v},
         radius_(radius),
-        max_leaves_(max_leaves),
+        max_leaves_(MostLeavesPerPiece(surface)),
         run_(run),
         buffer_(static_cast<std::size_t>(2 * kMaxLevel * shape_.count())) {}
 
@@ -132,13 +144,14 @@ class PieceSplitter {
     if (out_.leaves.size() > max_leaves_ || stopped_) return;
     std::array<Vec3, kMaxNetPoints> hull;
     const int hull_count = HullPoints(shape_, points, hull.data());
-    const LeafModel model = MakeLeafModel(piece_, points, hull.data(), hull_count, rect);
+    const std::span<const Vec3> hull_points(hull.data(), static_cast<std::size_t>(hull_count));
+    const LeafModel model = MakeLeafModel(piece_, points, hull_points, rect);
     const double thickness = level == kMaxLevel ? kInfinity : MostThickness(model, rect);
     if (thickness >= 0.0) {
       const RectBounds bounds = BoundPoints(shape_, points, hull.data(), hull_count);
       if (!(bounds.half.z() > thickness)) {
         out_.boxes.push_back(bounds.box);
-        out_.leaves.emplace_back(grid_, piece_index_, rect, model, bounds.axis, hull.data(), hull_count);
+        out_.leaves.emplace_back(grid_, piece_index_, rect, model, FramedHull{bounds.axis, hull_points});
         stopped_ = out_.leaves.size() % 256 == 0 && run_.Cancelled();
         return;
       }
@@ -187,7 +200,6 @@ absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius
     if (n % (count / 64 + 1) == 0)
       run.Progress("location", static_cast<double>(n) / static_cast<double>(count));
   };
-  const std::size_t max_leaves = std::max(kMinLeavesPerPiece, kMaxLeaves / count);
   SearchTree tree{{}, LeafGrid(surface.box), {}};
   std::vector<Box3> boxes;
   // Pieces are handled in batches, so that little memory is held twice.
@@ -196,8 +208,7 @@ absl::StatusOr<SearchTree> BuildSearchTree(const Surface& surface, double radius
     const std::size_t end = std::min(count, begin + kBatch);
     PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, end - begin, [&](std::size_t k) {
       const std::size_t i = begin + k;
-      parts[k] =
-          PieceSplitter(surface.pieces[i], static_cast<int>(i), tree.grid, radius, max_leaves, run).Take();
+      parts[k] = PieceSplitter(surface, i, tree.grid, radius, run).Take();
       report();
     }));
     for (std::size_t k = 0; k < end - begin; ++k) {

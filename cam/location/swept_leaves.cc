@@ -20,16 +20,16 @@ constexpr int kNewtonSteps = 4;
 class LeafProof {
  public:
   LeafProof(const SearchLeaf& leaf, const LeafGrid& grid, const LeafBox& box, const Piece& piece,
-            const Vec3& a, const Vec3& b, double distance, double spare)
+            const SweptMove& move)
       : leaf_(leaf),
         box_(box),
         grid_(grid),
         piece_(piece),
-        a_(a),
-        b_(b),
-        length_((b - a).norm()),
-        distance2_(distance * distance),
-        spare2_(2.0 * distance * spare) {}
+        a_(move.a),
+        b_(move.b),
+        length_((move.b - move.a).norm()),
+        distance2_(move.distance * move.distance),
+        spare2_(2.0 * move.distance * move.spare) {}
 
   // The costly bounds are used only if [location T2a] cannot decide with the cheaper bounds of both ends.
   bool Out() {
@@ -114,15 +114,15 @@ class LeafProof {
 
 // A node is out of the way if one of three holds: its boxes are (in plan, from the move's box or across the
 // move, and below it); [location T2a] proves it from both ends; or its half-space lies below both ends.
-bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b, double distance,
-                        double spare, std::vector<std::int32_t>& open) {
-  const double radius = impl.radius;
+bool CollectSweptLeaves(const Locator::Impl& impl, const SweptMove& move, std::vector<std::int32_t>& open) {
+  const Vec3 &a = move.a, &b = move.b;
+  const double radius = impl.radius, distance = move.distance;
   const auto limit =
       static_cast<float>(distance * distance + 1e-6 * radius * radius + 4e-6 * radius * impl.reach);
-  const Vec2 move = Xy(b) - Xy(a);
-  const double plan_length = move.norm();
+  const Vec2 plan = Xy(b) - Xy(a);
+  const double plan_length = plan.norm();
   const Vec2 across =
-      plan_length > 0.0 ? Vec2(-move.y() / plan_length, move.x() / plan_length) : Vec2(Vec2::Zero());
+      plan_length > 0.0 ? Vec2(-plan.y() / plan_length, plan.x() / plan_length) : Vec2(Vec2::Zero());
   const Float4 qx0 = Splat(static_cast<float>(std::min(a.x(), b.x())));
   const Float4 qx1 = Splat(static_cast<float>(std::max(a.x(), b.x())));
   const Float4 qy0 = Splat(static_cast<float>(std::min(a.y(), b.y())));
@@ -161,7 +161,7 @@ bool CollectSweptLeaves(const Locator::Impl& impl, const Vec3& a, const Vec3& b,
       const LeafBox box = leaf.Box(impl.tree.grid);
       if (is_long && swept.DistanceBelow(box.center, box.axis, box.half) >= distance) continue;
       LeafProof proof(leaf, impl.tree.grid, box, impl.surface.pieces[static_cast<std::size_t>(leaf.piece())],
-                      a, b, distance, spare);
+                      move);
       if (!proof.Out()) {
         if (proof.met()) return false;
         open.push_back(~id);

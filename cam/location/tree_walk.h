@@ -23,14 +23,22 @@ struct WalkLimits {
   float radius;  // for the height above half-spaces
 };
 
-// Calls visit(leaf), until it returns false, for every leaf that may be in the way of a ball over `at` (and
+// The balls of a walk.
+struct WalkedBalls {
+  XyBox at;
+  WalkLimits limits;
+};
+
+// Calls visit(leaf), until it returns false, for every leaf that may be in the way of a ball over balls.at (and
 // everything above it) at height lowest(). The test for boxes is plan distance^2 + max(0, lowest - max_z)^2 <
 // limits.square. Box and half-space of the leaf and of all nodes above it must reach into the way. `lowest`
 // may rise from call to call. meets(node, k) says whether child k of the node, which passed these tests, is
 // wanted.
 template <class Lowest, class Meets, class Visit>
-void WalkTree(const SearchTree& tree, const XyBox& at, const WalkLimits& limits, const Lowest& lowest,
-              const Meets& meets, const Visit& visit) {
+void WalkTree(const SearchTree& tree, const WalkedBalls& balls, const Lowest& lowest, const Meets& meets,
+              const Visit& visit) {
+  const XyBox& at = balls.at;
+  const WalkLimits& limits = balls.limits;
   const float limit = limits.square;
   // A node or leaf still to be visited, its squared distance in plan and the height that it reaches.
   struct Pending {
@@ -78,10 +86,9 @@ void WalkTree(const SearchTree& tree, const XyBox& at, const WalkLimits& limits,
 }
 
 template <class Lowest, class Visit>
-void WalkTree(const SearchTree& tree, const XyBox& at, const WalkLimits& limits, const Lowest& lowest,
-              const Visit& visit) {
+void WalkTree(const SearchTree& tree, const WalkedBalls& balls, const Lowest& lowest, const Visit& visit) {
   WalkTree(
-      tree, at, limits, lowest, [](const SearchNode&, int) { return true; }, visit);
+      tree, balls, lowest, [](const SearchNode&, int) { return true; }, visit);
 }
 
 }  // namespace patchmill::internal

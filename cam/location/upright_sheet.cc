@@ -12,9 +12,13 @@ namespace {
 constexpr int kMostParts = 400;
 constexpr double kSameWeight = 4.0 * std::numeric_limits<double>::epsilon();
 
-// Rows along z: `along` rows of `across` points each, `stride` and `step` apart.
-std::optional<XyCurve> Swept(const Vec4* points, int along, int stride, int across, int step,
-                             double rounding) {
+// Rows along z: `along` rows of `across` points each, `stride` and `step` apart in memory.
+struct UprightRows {
+  int along, stride, across, step;
+};
+
+std::optional<XyCurve> Swept(const Vec4* points, const UprightRows& rows, double rounding) {
+  const auto& [along, stride, across, step] = rows;
   XyCurve curve;
   curve.degree = along - 1;
   for (int i = 0; i < along; ++i) {
@@ -37,8 +41,8 @@ std::optional<XyCurve> Swept(const Vec4* points, int along, int stride, int acro
 
 std::optional<XyCurve> XyCurveOf(NetShape shape, const Vec4* points, double rounding) {
   const int rows = shape.degree_u + 1, columns = shape.degree_v + 1;
-  if (auto curve = Swept(points, rows, columns, columns, 1, rounding)) return curve;
-  return Swept(points, columns, 1, rows, columns, rounding);
+  if (auto curve = Swept(points, {rows, columns, columns, 1}, rounding)) return curve;
+  return Swept(points, {columns, 1, rows, columns}, rounding);
 }
 
 bool OutsideInXy(const XyCurve& curve, const Vec2& q, double radius) {

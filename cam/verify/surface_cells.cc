@@ -42,7 +42,7 @@ void CellWalker::Load(const CellRect& root) {
   if (nets_[0].size() < 2 * count) nets_[0].resize(2 * count);
   std::copy(net.points.begin(), net.points.end(), nets_[0].begin());
   if (root.u0 > 0.0 || root.u1 < 1.0 || root.v0 > 0.0 || root.v1 < 1.0) {
-    RestrictNet(shape_, nets_[0].data(), root.u0, root.u1, root.v0, root.v1);
+    RestrictNet(shape_, nets_[0].data(), {root.u0, root.u1, root.v0, root.v1});
   }
   in_use_[0] = nets_[0].data();
 }

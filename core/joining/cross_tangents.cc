@@ -17,10 +17,10 @@ bool IsHosaka(const JoinFrame& frame, const FaceSide& s) {
   return frame.network.faces[At(s.face)].scheme == PatchScheme::kHosaka;
 }
 
-// Sets w0 and w1 to the twists that a face wants along one of its edges: given ones replace them, pushes add
-// to them.
-void Wish(const JoinFrame& frame, const FaceSide& s, const HermiteCurve& edge, const Vec3& b0, const Vec3& b1,
-          Vec3& w0, Vec3& w1) {
+// The twists that a face wants along one of its edges, with the cross tangents `across`: given ones replace
+// `wished`, pushes add to them.
+EndVectors Wish(const JoinFrame& frame, const FaceSide& s, const HermiteCurve& edge, const EndVectors& across,
+                EndVectors wished) {
   const NetworkFace& face = frame.network.faces[At(s.face)];
   const TableEdge& ends = frame.table.edges[At(frame.table.face_edges[At(s.face)][At(s.side)])];
   for (const SideTwists& twists : face.twists) {
@@ -28,15 +28,19 @@ void Wish(const JoinFrame& frame, const FaceSide& s, const HermiteCurve& edge, c
     if (!forward && !(twists.start == ends.end && twists.end == ends.start)) continue;
     const auto &first = forward ? twists.at_start : twists.at_end,
                &last = forward ? twists.at_end : twists.at_start;
-    if (first) w0 = *first;
-    if (last) w1 = *last;
+    if (first) wished.start = *first;
+    if (last) wished.end = *last;
   }
   const bool forward = frame.table.Forward(s, frame.network);  // then the face lies to the left of its edge
   for (const FacePush& push : face.pushes) {
     EdgePlace place = PlaceBeside(push, SideCount(face), s.side);
     if (!forward) place.along = 1.0 - place.along;
-    PushTwists(edge.d0, edge.d1, b0, b1, place, forward ? -push.amount : push.amount, w0, w1);
+    const EndVectors pushed =
+        PushTwists({edge.d0, edge.d1}, across, place, forward ? -push.amount : push.amount);
+    wished.start += pushed.start;
+    wished.end += pushed.end;
   }
+  return wished;
 }
 
 // The factors of an edge. If it has none, the reason is reported.
@@ -154,8 +158,9 @@ void Join(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, JoinedEd
     return JoinHosaka(frame, edges, t, *factors, edge);
   const HermiteCurve cubic = HermiteOf(edge.curve);
   EdgeTwists twists = WishedTwists(t);
-  Wish(frame, sides[0], cubic, t.a0, t.a1, twists.a0, twists.a1);
-  Wish(frame, sides[1], cubic, t.b0, t.b1, twists.b0, twists.b1);
+  const EndVectors a = Wish(frame, sides[0], cubic, {t.a0, t.a1}, {twists.a0, twists.a1});
+  const EndVectors b = Wish(frame, sides[1], cubic, {t.b0, t.b1}, {twists.b0, twists.b1});
+  twists = {a.start, a.end, b.start, b.end};
   twists = NearestTwists(cubic, t, *factors, twists);
   const BezierChain correction = CorrectionFor(edge.curve, *factors);
   for (const bool a : {true, false}) {
@@ -223,9 +228,9 @@ BezierChain LoneTangent(const JoinFrame& frame, const std::vector<JoinedEdge>& e
   const JoinedEdge& edge = edges[At(frame.table.face_edges[At(side.face)][At(side.side)])];
   if (IsHosaka(frame, side)) return HosakaTangent(edge, edges, a0, a1);
   if (!CubicAcross(frame.network.faces[At(side.face)])) return AsChain({{a0, a1}});
-  EdgeTwists twists = WishedTwists({a0, a1, a0, a1});
-  Wish(frame, side, HermiteOf(edge.curve), a0, a1, twists.a0, twists.a1);
-  return AsChain(CrossBoundaryTangent(a0, twists.a0, a1, twists.a1));
+  const EdgeTwists twists = WishedTwists({a0, a1, a0, a1});
+  const EndVectors wished = Wish(frame, side, HermiteOf(edge.curve), {a0, a1}, {twists.a0, twists.a1});
+  return AsChain(CrossBoundaryTangent(a0, wished.start, a1, wished.end));
 }
 
 void AddCrossTangents(const JoinFrame& frame, std::vector<JoinedEdge>& edges, const RunContext& run) {

@@ -27,12 +27,12 @@ EdgePlace PlaceBeside(const FacePush& push, int sides, int side) {
   }
 }
 
-void PushTwists(const Vec3& start, const Vec3& end, const Vec3& b0, const Vec3& b1, const EdgePlace& place,
-                double amount, Vec3& w0, Vec3& w1) {
+EndVectors PushTwists(const EndVectors& along, const EndVectors& across, const EdgePlace& place,
+                      double amount) {
   const double u = place.along, share = (1.0 - place.away) * amount;
-  const Vec3 normal = (1.0 - u) * b0.cross(start) + u * b1.cross(end);  // [editing (1)]
-  w0 += (1.0 - u) * share * normal;
-  w1 += u * share * normal;
+  const Vec3 normal =
+      (1.0 - u) * across.start.cross(along.start) + u * across.end.cross(along.end);  // [editing (1)]
+  return {(1.0 - u) * share * normal, u * share * normal};
 }
 
 void CheckTwists(const CurveNetwork& network, const NetworkWriter& findings) {

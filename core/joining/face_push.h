@@ -14,11 +14,16 @@ struct EdgePlace {
 // The place of the push relative to side `side` of a face of 3 or 4 sides; `along` runs as the face does.
 EdgePlace PlaceBeside(const FacePush& push, int sides, int side);
 
-// Adds [editing (2)] to the wished twists w0, w1 of a patch with cross tangents b0, b1 at the ends of an edge
-// with the true end derivatives `start`, `end`. amount > 0 pushes along b x C'. Its unit is 1/length, because
-// b x C' is a length squared.
-void PushTwists(const Vec3& start, const Vec3& end, const Vec3& b0, const Vec3& b1, const EdgePlace& place,
-                double amount, Vec3& w0, Vec3& w1);
+// Vectors at the ends of an edge.
+struct EndVectors {
+  Vec3 start, end;
+};
+
+// Returns what [editing (2)] adds to the wished twists of a patch with the cross tangents `across` at the
+// ends of an edge, whose true end derivatives are `along`. amount > 0 pushes along b x C'. Its unit is
+// 1/length, because b x C' is a length squared.
+EndVectors PushTwists(const EndVectors& along, const EndVectors& across, const EdgePlace& place,
+                      double amount);
 
 // INVALID_TWIST: twists of no side of the face, two of one side, or a number that is not finite.
 void CheckTwists(const CurveNetwork& network, const NetworkWriter& findings);

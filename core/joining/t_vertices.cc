@@ -17,9 +17,16 @@ struct Place {
   int vertex = 0;
 };
 
-// Cuts one edge at its places, which are in ascending order.
-void AddParts(const NetworkWriter& findings, int index, const std::vector<Place>& places,
-              const EdgeByEnds& by_ends, const TableEdge& whole, DividedEdges& divided) {
+// An edge with the places at which it is cut, in ascending order.
+struct CutEdge {
+  int index = 0;
+  const TableEdge& whole;
+  const std::vector<Place>& places;
+};
+
+void AddParts(const NetworkWriter& findings, const CutEdge& edge, const EdgeByEnds& by_ends,
+              DividedEdges& divided) {
+  const auto& [index, whole, places] = edge;
   std::vector<Place> all = {{0.0, whole.start}};
   all.insert(all.end(), places.begin(), places.end());
   all.push_back({1.0, whole.end});
@@ -160,7 +167,7 @@ DividedEdges DivideEdges(const CurveNetwork& network, const NetworkWriter& findi
   DividedEdges divided;
   for (auto& [edge, list] : places) {
     std::ranges::stable_sort(list, {}, &Place::at);
-    AddParts(findings, edge, list, by_ends, table.edges[At(edge)], divided);
+    AddParts(findings, {edge, table.edges[At(edge)], list}, by_ends, divided);
   }
   return divided;
 }

@@ -98,7 +98,7 @@ class FlowTracer {
   }
 
   void Begin(const SurfacePoint& seed) {
-    const auto start = PlaceOn(surface_, params_, seed.piece, seed.u, seed.v, 1.0);
+    const auto start = PlaceOn({surface_, params_, 1.0}, seed.piece, seed.u, seed.v);
     if (!start || neighbors_.Any(start->at.p, start->normal, params_.spacing)) return;
     std::vector<FlowPlace> up = Follow(*start, 1.0);
     FlowPlace back = *start;
@@ -144,7 +144,7 @@ class FlowTracer {
     int borders = 0;  // borders met one after the other
     const double longest = kLongest * surface_.box.Diagonal();
     while (length < longest && line.size() <= params_.max_points && !run_.Cancelled()) {
-      const auto next = Advance(surface_, params_, at, sign, &step);
+      const auto next = Advance({surface_, params_, sign}, at, &step);
       if (!next) break;
       length += (next->place.at.p - at.at.p).norm();
       if (neighbors_.Any(next->place.at.p, next->place.normal, kNear * params_.spacing)) break;
@@ -153,7 +153,7 @@ class FlowTracer {
       borders = next->at_border ? borders + 1 : 0;
       if (!next->at_border) continue;
       if (borders > kMostBorders) break;
-      const auto beyond = CrossBorder(surface_, params_, at, sign);
+      const auto beyond = CrossBorder({surface_, params_, sign}, at);
       if (!beyond) break;
       at = *beyond;
       line.push_back(at);

@@ -22,13 +22,14 @@ SurfaceJet JetFor(const Surface& surface, const FlowParams& params, PieceId piec
 }
 
 // The velocity in parameters for unit speed in space. Zero where the flow has no direction.
-Vec2 Velocity(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q, double sign) {
-  const SurfaceJet jet = JetFor(surface, params, piece, q);
+Vec2 Velocity(const Flow& flow, PieceId piece, const Vec2& q) {
+  const FlowParams& params = flow.params;
+  const SurfaceJet jet = JetFor(flow.surface, params, piece, q);
   const Vec3 g = FlowGradient(jet, params);
   const double flat = params.kind == FlowKind::kAlongHeight ? kFlat : kFlat / params.spacing;
   const double size = g.norm();
   if (!(size > flat)) return Vec2::Zero();
-  const Vec3 t = (sign / size) * g;
+  const Vec3 t = (flow.sign / size) * g;
   const double e = jet.du.squaredNorm(), f = jet.du.dot(jet.dv), h = jet.dv.squaredNorm();
   const double w = e * h - f * f, a = t.dot(jet.du), b = t.dot(jet.dv);
   return {(a * h - b * f) / w, (b * e - a * f) / w};
@@ -38,9 +39,8 @@ Vec2 Clamped(const Vec2& q) { return q.cwiseMax(0.0).cwiseMin(1.0); }
 
 // The classical Runge-Kutta step of length h. nullopt if the flow has no direction on the way. Stages may lie
 // a little beyond the piece; they are moved to its border.
-std::optional<Vec2> RungeKutta(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q,
-                               double h, double sign) {
-  const auto slope = [&](const Vec2& x) { return Velocity(surface, params, piece, Clamped(x), sign); };
+std::optional<Vec2> RungeKutta(const Flow& flow, PieceId piece, const Vec2& q, double h) {
+  const auto slope = [&](const Vec2& x) { return Velocity(flow, piece, Clamped(x)); };
   const Vec2 k1 = slope(q);
   const Vec2 k2 = slope(q + 0.5 * h * k1), k3 = slope(q + 0.5 * h * k2), k4 = slope(q + h * k3);
   for (const Vec2& k : {k1, k2, k3, k4}) {
@@ -53,12 +53,11 @@ std::optional<Vec2> RungeKutta(const Surface& surface, const FlowParams& params,
 bool Inside(const Vec2& q) { return q.minCoeff() >= -kStray && q.maxCoeff() <= 1.0 + kStray; }
 
 // The longest step that stays inside, found by halving.
-double StepToBorder(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q, double h,
-                    double sign) {
+double StepToBorder(const Flow& flow, PieceId piece, const Vec2& q, double h) {
   double low = 0.0, high = h;
   for (int i = 0; i < 50 && high - low > 1e-13 * h; ++i) {
     const double middle = 0.5 * (low + high);
-    const auto there = RungeKutta(surface, params, piece, q, middle, sign);
+    const auto there = RungeKutta(flow, piece, q, middle);
     (there && Inside(*there) ? low : high) = middle;
   }
   return low;
@@ -82,11 +81,11 @@ Vec3 FlowGradient(const SurfaceJet& jet, const FlowParams& params) {
   return ((fu * f.G - fv * f.F) * jet.du + (fv * f.E - fu * f.F) * jet.dv) / w;
 }
 
-std::optional<FlowPlace> PlaceOn(const Surface& surface, const FlowParams& params, PieceId piece, double u,
-                                 double v, double sign) {
-  const SurfaceJet jet = JetFor(surface, params, piece, {u, v});
+std::optional<FlowPlace> PlaceOn(const Flow& flow, PieceId piece, double u, double v) {
+  const FlowParams& params = flow.params;
+  const SurfaceJet jet = JetFor(flow.surface, params, piece, {u, v});
   const auto normal = UnitNormal(jet);
-  const Vec2 velocity = Velocity(surface, params, piece, {u, v}, sign);
+  const Vec2 velocity = Velocity(flow, piece, {u, v});
   if (!normal || velocity.isZero()) return std::nullopt;
   FlowPlace place;
   place.at = {piece, u, v, jet.p};
@@ -98,25 +97,25 @@ std::optional<FlowPlace> PlaceOn(const Surface& surface, const FlowParams& param
   return place;
 }
 
-std::optional<FlowStep> Advance(const Surface& surface, const FlowParams& params, const FlowPlace& from,
-                                double sign, double* length) {
+std::optional<FlowStep> Advance(const Flow& flow, const FlowPlace& from, double* length) {
+  const FlowParams& params = flow.params;
   const PieceId piece = from.at.piece;
   const Vec2 q(from.at.u, from.at.v);
   const double shortest = 1e-4 * params.spacing;
   double h = *length;
   for (;; h *= 0.5) {
     if (h < shortest) return std::nullopt;
-    const auto whole = RungeKutta(surface, params, piece, q, h, sign);
+    const auto whole = RungeKutta(flow, piece, q, h);
     if (!whole) continue;
     FlowStep step;
     Vec2 end = Clamped(*whole);
     if (!Inside(*whole)) {
-      h = StepToBorder(surface, params, piece, q, h, sign);
-      const auto cut = RungeKutta(surface, params, piece, q, h, sign);
+      h = StepToBorder(flow, piece, q, h);
+      const auto cut = RungeKutta(flow, piece, q, h);
       end = Clamped(cut ? *cut : q);
       step.at_border = true;
     }
-    const auto place = PlaceOn(surface, params, piece, end.x(), end.y(), sign);
+    const auto place = PlaceOn(flow, piece, end.x(), end.y());
     if (!place) {
       if (step.at_border) return std::nullopt;
       continue;
@@ -124,15 +123,15 @@ std::optional<FlowStep> Advance(const Surface& surface, const FlowParams& params
     // Two half steps show the error of the whole step. The turn shows how far the chord lies beside the line.
     const double turn = (place->tangent - from.tangent).norm();
     double error = h * turn / 8.0;
-    if (const auto half = RungeKutta(surface, params, piece, q, 0.5 * h, sign)) {
-      if (const auto two = RungeKutta(surface, params, piece, *half, 0.5 * h, sign)) {
+    if (const auto half = RungeKutta(flow, piece, q, 0.5 * h)) {
+      if (const auto two = RungeKutta(flow, piece, *half, 0.5 * h)) {
         const Vec2 there = Clamped(*two);
-        error = std::max(error,
-                         10.0 * (Position(surface.piece(piece), there.x(), there.y()) - place->at.p).norm());
+        error = std::max(
+            error, 10.0 * (Position(flow.surface.piece(piece), there.x(), there.y()) - place->at.p).norm());
       }
     }
     // Around a summit or a pit, long steps would jump back and forth.
-    const double grown = sign * (place->value - from.value);
+    const double grown = flow.sign * (place->value - from.value);
     const bool sound = error <= params.tolerance && grown > kLeastGrowth * h * from.gradient;
     if (!sound && h > shortest) {
       step.at_border = false;
@@ -146,17 +145,17 @@ std::optional<FlowStep> Advance(const Surface& surface, const FlowParams& params
   }
 }
 
-std::optional<FlowPlace> CrossBorder(const Surface& surface, const FlowParams& params, const FlowPlace& from,
-                                     double sign) {
+std::optional<FlowPlace> CrossBorder(const Flow& flow, const FlowPlace& from) {
+  const Surface& surface = flow.surface;
   // Finds the surface a little beyond the border, if there is any.
-  const double beyond = std::max(1e-3 * params.spacing, 2.0 * surface.network.join_tolerance);
+  const double beyond = std::max(1e-3 * flow.params.spacing, 2.0 * surface.network.join_tolerance);
   const auto enter = [&](const Vec3& p) -> std::optional<FlowPlace> {
     const auto next = ClosestToPoint(surface, p, 0.1 * beyond, 0.01 * beyond);
     if (!next) return std::nullopt;
-    const auto place = PlaceOn(surface, params, next->at.piece, next->at.u, next->at.v, sign);
+    const auto place = PlaceOn(flow, next->at.piece, next->at.u, next->at.v);
     if (!place || place->tangent.dot(from.tangent) <= 0.0) return std::nullopt;
     // The point lies on a border again, and the flow leaves there: the surface ends here, at a slant.
-    const Vec2 q(next->at.u, next->at.v), to = Velocity(surface, params, next->at.piece, q, sign);
+    const Vec2 q(next->at.u, next->at.v), to = Velocity(flow, next->at.piece, q);
     for (int k = 0; k < 2; ++k) {
       if ((q[k] <= kOnBorder && to[k] < 0.0) || (q[k] >= 1.0 - kOnBorder && to[k] > 0.0)) return std::nullopt;
     }

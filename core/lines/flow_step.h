@@ -16,9 +16,15 @@ struct FlowPlace {
   double gradient = 0.0;  // length of its gradient
 };
 
-// `sign` +1 follows the flow, -1 runs against it. nullopt at a singular point.
-std::optional<FlowPlace> PlaceOn(const Surface& surface, const FlowParams& params, PieceId piece, double u,
-                                 double v, double sign);
+// A flow on a surface and the way along it. It refers to both.
+struct Flow {
+  const Surface& surface;
+  const FlowParams& params;
+  double sign = 1.0;  // +1 follows the flow, -1 runs against it
+};
+
+// nullopt at a singular point.
+std::optional<FlowPlace> PlaceOn(const Flow& flow, PieceId piece, double u, double v);
 
 struct FlowStep {
   FlowPlace place;
@@ -26,12 +32,10 @@ struct FlowStep {
 };
 // A Runge-Kutta step of at most `length` mm (in). It is shortened until it meets the tolerance or ends at the
 // border of the piece. `length` (out) is the length to try next. nullopt where the flow ends.
-std::optional<FlowStep> Advance(const Surface& surface, const FlowParams& params, const FlowPlace& from,
-                                double sign, double* length);
+std::optional<FlowStep> Advance(const Flow& flow, const FlowPlace& from, double* length);
 
 // The place where a line continues after it has reached its piece's border. nullopt at the border of the
 // surface.
-std::optional<FlowPlace> CrossBorder(const Surface& surface, const FlowParams& params, const FlowPlace& from,
-                                     double sign);
+std::optional<FlowPlace> CrossBorder(const Flow& flow, const FlowPlace& from);
 
 }  // namespace patchmill

@@ -10,6 +10,13 @@ namespace {
 
 constexpr int kMostHalvings = 12;
 
+// A chord between two places of a piece, and its ends in space.
+struct Chord {
+  Vec2 from, to;
+  Vec3 a, b;
+  double length() const { return (b - a).norm(); }
+};
+
 class Refiner {
  public:
   Refiner(const Piece& piece, const ZeroField& field, double tolerance)
@@ -17,25 +24,24 @@ class Refiner {
     if (field.follow) follow_ = field.follow(piece);
   }
 
-  // Two places beside the point `at` of the chord a b, one on each side and within the tolerance of the
+  // Two places beside the point `at` of the chord, one on each side and within the tolerance of the
   // chord. If the curve is straight there, it passes between them.
-  std::optional<std::array<Vec2, 2>> Beside(const Vec2& from, const Vec2& to, double at, const Vec3& a,
-                                            const Vec3& b) const {
-    const Vec2 mid = from + at * (to - from);
-    const Vec2 across = 0.7 * tolerance_ * Across(mid, to - from, (b - a).norm());
+  std::optional<std::array<Vec2, 2>> Beside(const Chord& chord, double at) const {
+    const Vec2 along = chord.to - chord.from, mid = chord.from + at * along;
+    const Vec2 across = 0.7 * tolerance_ * Across(mid, along, chord.length());
     const Vec2 one = mid + Inside(mid, across) * across, other = mid - Inside(mid, -across) * across;
-    if (!Near(one, a, b) || !Near(other, a, b)) return std::nullopt;
+    if (!Near(one, chord) || !Near(other, chord)) return std::nullopt;
     return std::array{one, other};
   }
   Vec3 At(const Vec2& q) const { return Position(piece_, q.x(), q.y()); }
 
   // The first chord is tested in three places, because an arc with two bends may cross it in the middle.
   void AddFirst(const Vec2& from, const Vec2& to, std::vector<Vec2>& out) const {
-    const Vec3 a = At(from), b = At(to);
-    if ((b - a).norm() <= tolerance_) return;
+    const Chord chord{from, to, At(from), At(to)};
+    if (chord.length() <= tolerance_) return;
     double at_mid = 0.0;
-    if (Straight(from, to, 0.5, a, b, &at_mid) &&
-        (!field_.smooth || (Straight(from, to, 0.25, a, b) && Straight(from, to, 0.75, a, b)))) {
+    if (Straight(chord, 0.5, &at_mid) &&
+        (!field_.smooth || (Straight(chord, 0.25) && Straight(chord, 0.75)))) {
       return;
     }
     AddBent(from, to, at_mid, out);
@@ -52,8 +58,8 @@ class Refiner {
   }
 
  private:
-  bool Near(const Vec2& q, const Vec3& a, const Vec3& b) const {
-    return SegmentDistance(At(q), a, b) <= tolerance_;
+  bool Near(const Vec2& q, const Chord& chord) const {
+    return SegmentDistance(At(q), chord.a, chord.b) <= tolerance_;
   }
   // A step of 1 mm on the surface, at right angles to the direction `along`. A right angle in the parameters
   // would be another direction and another length.
@@ -64,12 +70,11 @@ class Refiner {
     const double millimetres = (across.x() * jet.du + across.y() * jet.dv).norm();
     return millimetres > 0.0 ? Vec2(across / millimetres) : Vec2(Vec2(-along.y(), along.x()) / length);
   }
-  // The cheap test: true if the curve passes within the tolerance of the point `at` of the chord a b. If not,
+  // The cheap test: true if the curve passes within the tolerance of the point `at` of the chord. If not,
   // the point lies on the same side of a limit as the two places beside it, and `value` is the value at one
   // of them.
-  bool Straight(const Vec2& from, const Vec2& to, double at, const Vec3& a, const Vec3& b,
-                double* value = nullptr) const {
-    const auto beside = Beside(from, to, at, a, b);
+  bool Straight(const Chord& chord, double at, double* value = nullptr) const {
+    const auto beside = Beside(chord, at);
     if (!beside) return false;
     const double one = Value(field_, piece_, (*beside)[0]), other = Value(field_, piece_, (*beside)[1]);
     if (value != nullptr && !field_.smooth && one * other > 0.0) *value = one;
@@ -77,15 +82,15 @@ class Refiner {
   }
 
   void Add(const Vec2& from, const Vec2& to, int depth, std::vector<Vec2>& out) const {
-    const Vec3 a = At(from), b = At(to);
-    if (depth == 0 || (b - a).norm() <= tolerance_) return;
+    const Chord chord{from, to, At(from), At(to)};
+    if (depth == 0 || chord.length() <= tolerance_) return;
     std::optional<Vec2> root = Followed(from, to);
     if (!root) {
       double at_mid = 0.0;
-      if (Straight(from, to, 0.5, a, b, &at_mid)) return;
-      root = OnPerpendicular(from, to, (b - a).norm(), at_mid);
+      if (Straight(chord, 0.5, &at_mid)) return;
+      root = OnPerpendicular(from, to, chord.length(), at_mid);
     }
-    if (!root || Near(*root, a, b)) return;
+    if (!root || Near(*root, chord)) return;
     Add(from, *root, depth - 1, out);
     out.push_back(*root);
     Add(*root, to, depth - 1, out);
@@ -121,7 +126,7 @@ class Refiner {
           return Vec2(segment.from + share * (segment.to - segment.from));
         }
         const double stop = EnoughFor(field_, length * reach);
-        return Vec2(mid + ZeroBetween(field_, piece_, mid, q, at_mid, at_q, stop) * (q - mid));
+        return Vec2(mid + ZeroBetween(field_, piece_, {mid, q, at_mid, at_q}, stop) * (q - mid));
       }
     }
     return std::nullopt;
@@ -165,9 +170,9 @@ std::vector<std::vector<Vec2>> RefineZeroArcs(const Piece& piece, const ZeroFiel
   std::vector<std::pair<std::size_t, double>> bent;  // with the value at the chord's middle
   std::vector<SurfaceJet> jets;
   for (std::size_t k = 0; k < chords.size(); ++k) {
-    const Vec3 a = refiner.At(chords[k].from), b = refiner.At(chords[k].to);
-    if ((b - a).norm() <= tolerance) continue;
-    const auto beside = refiner.Beside(chords[k].from, chords[k].to, 0.5, a, b);
+    const Chord chord{chords[k].from, chords[k].to, refiner.At(chords[k].from), refiner.At(chords[k].to)};
+    if (chord.length() <= tolerance) continue;
+    const auto beside = refiner.Beside(chord, 0.5);
     if (!beside) {
       bent.emplace_back(k, 0.0);
       continue;

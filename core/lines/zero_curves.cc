@@ -22,12 +22,12 @@ SurfacePoint At(PieceId id, const Piece& piece, const Vec2& q) {
 // The arcs of one piece, joined end to end where exactly two arcs meet.
 class PieceCurves {
  public:
+  // `params` has its run.
   PieceCurves(PieceId id, const Piece& piece, const ZeroField& field, const ZeroMeshParams& params,
-              double tolerance, const RunContext& run)
-      : id_(id), piece_(piece), field_(field), tolerance_(tolerance), run_(run) {
+              double tolerance)
+      : id_(id), piece_(piece), field_(field), tolerance_(tolerance), run_(*params.run) {
     ZeroMeshParams drawn = params;
     drawn.curves_only = true;
-    drawn.run = &run;
     mesh_ = BuildZeroMesh(piece, {&field, 1}, drawn);
   }
 
@@ -190,10 +190,12 @@ absl::StatusOr<std::vector<std::vector<ZeroCurve>>> TraceZeroCurves(const Surfac
                                                                     const ZeroMeshParams& params,
                                                                     double tolerance, const RunContext& run) {
   const std::size_t pieces = surface.pieces.size();
+  ZeroMeshParams drawn = params;
+  drawn.run = &run;
   std::vector<std::vector<ZeroCurve>> parts(pieces * fields.size());  // [field][piece]
   PM_RETURN_IF_ERROR(ParallelFor(run, "curves", parts.size(), [&](std::size_t k) {
     const std::size_t i = k % pieces;
-    parts[k] = PieceCurves(PieceId(i), surface.pieces[i], fields[k / pieces], params, tolerance, run).Trace();
+    parts[k] = PieceCurves(PieceId(i), surface.pieces[i], fields[k / pieces], drawn, tolerance).Trace();
   }));
   std::vector<std::vector<ZeroCurve>> traced(fields.size());
   const double weld = std::max(2.0 * surface.network.join_tolerance, 1e-7);

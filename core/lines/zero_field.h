@@ -12,11 +12,6 @@
 
 namespace patchmill {
 
-// The part [u0,u1] x [v0,v1] of a piece's parameters.
-struct ParameterBox {
-  double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
-};
-
 // A straight segment in the parameters of a piece. The field is negative at `from` and positive at `to`.
 struct ZeroSegment {
   Vec2 from, to;

@@ -32,8 +32,8 @@ double EnoughFor(const ZeroField& field, double length) {
   return field.smooth ? kExact : std::max(field.resolution / std::max(length, kLeastLength), kExact);
 }
 
-double ZeroBetween(const ZeroField& field, const Piece& piece, const Vec2& from, const Vec2& to,
-                   double at_from, double at_to, double enough) {
+double ZeroBetween(const ZeroField& field, const Piece& piece, const ZeroInterval& interval, double enough) {
+  const auto& [from, to, at_from, at_to] = interval;
   ZeroBracket bracket(at_from, at_to, enough, !field.smooth);
   while (bracket.Open()) bracket.Put(Value(field, piece, from + bracket.Next() * (to - from)));
   return bracket.Middle();

@@ -32,11 +32,16 @@ class ZeroBracket {
   int waited_ = 0, side_ = 0, steps_ = 0;
 };
 
-// The parameter t in [0,1] of a sign change between `from` and `to`, whose values differ in sign (zero counts
-// as negative). Smooth fields are solved to 1e-13, in about 8 steps, others to `enough` (a share of the
-// segment).
-double ZeroBetween(const ZeroField& field, const Piece& piece, const Vec2& from, const Vec2& to,
-                   double at_from, double at_to, double enough);
+// A straight segment in the parameters of a piece, with the values of a field at its ends. They differ in
+// sign (zero counts as negative).
+struct ZeroInterval {
+  Vec2 from, to;
+  double at_from = 0.0, at_to = 0.0;
+};
+
+// The parameter t in [0,1] of a sign change on the interval. Smooth fields are solved to 1e-13, in about 8
+// steps, others to `enough` (a share of the segment).
+double ZeroBetween(const ZeroField& field, const Piece& piece, const ZeroInterval& interval, double enough);
 // The value of `enough` for a segment of this length (mm).
 double EnoughFor(const ZeroField& field, double length);
 

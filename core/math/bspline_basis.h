@@ -25,7 +25,8 @@ void BsplineBasisJet(std::span<const double> knots, int degree, int k, double t,
 
 // Bezier point `j` (0..p) of span k by blossoming: the polar form at (a,..,a,b,..,b) with p-j times a =
 // knots[k] and j times b = knots[k+1]. The p+1 control points k-p .. k are d[0], d[stride], .. The result is
-// that of inserting both knots p times (Boehm). Every step is a convex combination.
+// that of inserting both knots p times (Boehm). Every step is a convex combination. It is a kernel for the
+// rows and the columns of any net, so degree, span and stride are parameters of their own.
 template <class Point>
 Point BezierPointOfSpan(std::span<const double> knots, int p, int k, int j, const Point* d,
                         std::ptrdiff_t stride) {

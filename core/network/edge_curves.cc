@@ -75,17 +75,23 @@ double PolylineFoot(std::span<const Vec3> samples, const Vec3& p) {
   return best_t;
 }
 
-// Largest distance from a sample of a to b. Distances of points of equal parameter up to `enough` are taken
-// as they are.
-double OneSidedDistance(const EdgeCurves& curves, int a, int b, bool reversed, double limit, double enough) {
-  const std::span<const Vec3> from = curves.samples(a);
-  const std::span<const Vec3> onto = curves.samples(b);
+// Two edges, and whether their parameters run against each other.
+struct EdgePair {
+  int from, onto;
+  bool reversed;
+};
+
+// Largest distance from a sample of one edge to the other. Distances of points of equal parameter up to
+// `enough` are taken as they are.
+double OneSidedDistance(const EdgeCurves& curves, const EdgePair& pair, double limit, double enough) {
+  const std::span<const Vec3> from = curves.samples(pair.from);
+  const std::span<const Vec3> onto = curves.samples(pair.onto);
   const bool aligned = from.size() == onto.size();
   double worst = 0.0;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const std::size_t j = reversed ? from.size() - 1 - i : i;
+    const std::size_t j = pair.reversed ? from.size() - 1 - i : i;
     double d = aligned ? (from[i] - onto[j]).norm() : kInfinity;
-    if (!(d <= enough)) d = std::min(d, ClosestOnEdge(curves, b, from[i]).distance);
+    if (!(d <= enough)) d = std::min(d, ClosestOnEdge(curves, pair.onto, from[i]).distance);
     worst = std::max(worst, d);
     if (worst > limit) break;
   }
@@ -203,14 +209,14 @@ EdgeFoot ClosestOnEdge(const EdgeCurves& curves, int e, const Vec3& p) {
 }
 
 bool EdgesAgree(const EdgeCurves& curves, int a, int b, bool reversed, double tolerance) {
-  return OneSidedDistance(curves, a, b, reversed, tolerance, tolerance) <= tolerance &&
-         OneSidedDistance(curves, b, a, reversed, tolerance, tolerance) <= tolerance;
+  return OneSidedDistance(curves, {a, b, reversed}, tolerance, tolerance) <= tolerance &&
+         OneSidedDistance(curves, {b, a, reversed}, tolerance, tolerance) <= tolerance;
 }
 
 double EdgeDistance(const EdgeCurves& curves, int a, int b, bool reversed, double limit) {
-  const double there = OneSidedDistance(curves, a, b, reversed, limit, 0.1 * limit);
+  const double there = OneSidedDistance(curves, {a, b, reversed}, limit, 0.1 * limit);
   if (there > limit) return there;
-  return std::max(there, OneSidedDistance(curves, b, a, reversed, limit, 0.1 * limit));
+  return std::max(there, OneSidedDistance(curves, {b, a, reversed}, limit, 0.1 * limit));
 }
 
 }  // namespace patchmill

@@ -40,16 +40,6 @@ bool SameInside(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double t
   });
 }
 
-void Link(const EdgeCurves& curves, const EdgeClusters& clusters, int from, int to, double tolerance,
-          std::vector<EdgeLink>& links) {
-  EdgeLink& link = links[At(from)];
-  link.neighbor = curves.edge(to);
-  link.reversed = clusters.reversed[At(from)] != clusters.reversed[At(to)];
-  const EdgeLink& back = links[At(to)];
-  const bool known = back.neighbor && *back.neighbor == link.self;
-  link.gap = known ? back.gap : EdgeDistance(curves, from, to, link.reversed, tolerance);
-}
-
 }  // namespace
 
 std::vector<EdgeEnds> EdgeEndVertices(const EdgeCurves& curves, const CornerVertices& corners) {
@@ -139,6 +129,14 @@ std::vector<EdgeLink> LinkEdges(const EdgeCurves& curves, const EdgeClusters& cl
                                 const std::vector<std::optional<PatchId>>& duplicate_of, double tolerance,
                                 const RunContext& run) {
   std::vector<EdgeLink> links(At(curves.count()));
+  const auto connect = [&](int from, int to) {
+    EdgeLink& link = links[At(from)];
+    link.neighbor = curves.edge(to);
+    link.reversed = clusters.reversed[At(from)] != clusters.reversed[At(to)];
+    const EdgeLink& back = links[At(to)];
+    const bool known = back.neighbor && *back.neighbor == link.self;
+    link.gap = known ? back.gap : EdgeDistance(curves, from, to, link.reversed, tolerance);
+  };
   for (int e = 0; e < curves.count(); ++e) {
     links[At(e)].self = curves.edge(e);
     links[At(e)].collapsed = clusters.cluster_of[At(e)] < 0;
@@ -149,13 +147,13 @@ std::vector<EdgeLink> LinkEdges(const EdgeCurves& curves, const EdgeClusters& cl
     for (const int e : members) (duplicate_of[curves.edge(e).patch.index()] ? copies : own).push_back(e);
     if (own.empty()) continue;  // not possible: the original of a copy lies in the same cluster
     for (std::size_t i = 1; i < own.size(); ++i) {
-      if (i == 1) Link(curves, clusters, own[0], own[1], tolerance, links);
-      Link(curves, clusters, own[i], own[0], tolerance, links);
+      if (i == 1) connect(own[0], own[1]);
+      connect(own[i], own[0]);
     }
     for (const int e : copies) {
       const PatchId original = *duplicate_of[curves.edge(e).patch.index()];
       const bool other_side = own.size() > 1 && curves.edge(own[0]).patch == original;
-      Link(curves, clusters, e, own[other_side ? 1 : 0], tolerance, links);
+      connect(e, own[other_side ? 1 : 0]);
     }
   }
   return links;

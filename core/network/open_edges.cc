@@ -157,13 +157,13 @@ void Search::FindGaps(double gap_limit, OpenEdgeReport& report) {
 }  // namespace
 
 OpenEdgeReport InspectOpenEdges(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
-                                const std::vector<int>& open, double tolerance, double gap_limit,
+                                const std::vector<int>& open, const MeetingLimits& limits,
                                 const RunContext& run) {
   OpenEdgeReport report;
   report.covered.assign(At(curves.count()), false);
-  Search search(curves, ends, open, tolerance, run);
+  Search search(curves, ends, open, limits.tolerance, run);
   search.FindTJunctions(report);
-  search.FindGaps(gap_limit, report);
+  search.FindGaps(limits.gap, report);
   report.limited = search.exhausted();
   return report;
 }

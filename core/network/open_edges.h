@@ -24,12 +24,17 @@ struct OpenEdgeReport {
   bool limited = false;                // the search budget ran out
 };
 
-// `open`: edges without neighbour that are neither collapsed nor nearly so. `gap_limit` (mm): two edges
-// farther apart are not meant to meet; nor are edges farther apart than a tenth of the shorter one. Cost O(n
-// log n) for models whose open edges do not pile up. After a budget of some seconds the search gives up
-// (`limited`).
+struct MeetingLimits {
+  double tolerance = 0.0;  // mm, > 0: the join tolerance
+  // mm, >= 0: two edges farther apart are not meant to meet; nor are edges farther apart than a tenth of the
+  // shorter one.
+  double gap = 0.0;
+};
+
+// `open`: edges without neighbour that are neither collapsed nor nearly so. Cost O(n log n) for models whose
+// open edges do not pile up. After a budget of some seconds the search gives up (`limited`).
 OpenEdgeReport InspectOpenEdges(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
-                                const std::vector<int>& open, double tolerance, double gap_limit,
+                                const std::vector<int>& open, const MeetingLimits& limits,
                                 const RunContext& run);
 
 }  // namespace patchmill

@@ -57,19 +57,26 @@ void Join(const EdgeCurves& curves, const EdgeGap& match, std::vector<EdgeLink>&
 
 // Nearly collapsed edges are not reported as open, but lines cross them. So they count where anything lies
 // along another edge.
-std::vector<PartLink> LinkParts(const EdgeCurves& curves, const std::vector<EdgeEnds>& ends,
-                                const std::vector<bool>& nearly, const OpenEdgeReport& meetings,
-                                double tolerance, const std::vector<EdgeLink>& links, const RunContext& run) {
+struct LinkedEdges {
+  const EdgeCurves& curves;
+  const std::vector<EdgeEnds>& ends;
+  const std::vector<bool>& nearly_collapsed;
+  const std::vector<EdgeLink>& links;
+};
+std::vector<PartLink> LinkParts(const LinkedEdges& edges, const OpenEdgeReport& meetings, double tolerance,
+                                const RunContext& run) {
+  const EdgeCurves& curves = edges.curves;
+  const std::vector<EdgeLink>& links = edges.links;
   if (std::ranges::none_of(links, &EdgeLink::on_t_junction)) return {};
   std::vector<int> open;
   bool more = false;
   for (int e = 0; e < curves.count(); ++e) {
     if (links[At(e)].neighbor || links[At(e)].collapsed) continue;
     open.push_back(e);
-    more = more || nearly[At(e)];
+    more = more || edges.nearly_collapsed[At(e)];
   }
   if (!more) return FindPartLinks(curves, links, meetings.t_junctions, run);
-  const OpenEdgeReport all = InspectOpenEdges(curves, ends, open, tolerance, 0.0, run);
+  const OpenEdgeReport all = InspectOpenEdges(curves, edges.ends, open, {tolerance, 0.0}, run);
   return FindPartLinks(curves, links, all.t_junctions, run);
 }
 
@@ -233,7 +240,7 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
     if (!link.neighbor && !link.collapsed && !nearly[At(e)]) open.push_back(e);
   }
   const double gap_limit = std::max(10.0 * tolerance, kGapOfModel * diagonal);
-  const OpenEdgeReport meetings = InspectOpenEdges(curves, ends, open, tolerance, gap_limit, run);
+  const OpenEdgeReport meetings = InspectOpenEdges(curves, ends, open, {tolerance, gap_limit}, run);
   PM_RETURN_IF_ERROR(done(0.7));
   for (const int e : open) network.edges[At(e)].on_t_junction = meetings.covered[At(e)];
   for (const EdgeGap& gap : meetings.gaps) {
@@ -243,7 +250,7 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
       network.edges[At(gap.edge)].gap = network.edges[At(gap.other)].gap = gap.distance;
     }
   }
-  network.part_links = LinkParts(curves, ends, nearly, meetings, tolerance, network.edges, run);
+  network.part_links = LinkParts({curves, ends, nearly, network.edges}, meetings, tolerance, run);
   PM_RETURN_IF_ERROR(done(0.75));
   MeasureAngles(curves, run, network.edges);
   PM_RETURN_IF_ERROR(done(0.8));

@@ -163,7 +163,8 @@ std::vector<double> BreakParameters(const std::vector<HosakaPatch::Break>& a,
 }
 
 // The Bernstein net of the patch on one rectangle between breaks.
-BernsteinNet NetOf(const HosakaPatch& patch, const Edges& e, double u0, double u1, double v0, double v1) {
+BernsteinNet NetOf(const HosakaPatch& patch, const Edges& e, const ParameterBox& box) {
+  const double u0 = box.u0, u1 = box.u1, v0 = box.v0, v1 = box.v1;
   const auto blend = [&](bool along_u, const std::vector<HosakaPatch::Break>* breaks) {
     const double t0 = along_u ? u0 : v0, t1 = along_u ? u1 : v1;
     if (patch.blend == HosakaPatch::Blend::kLinear) return Along<double>(along_u, {t0, t1}, 0.0);
@@ -235,7 +236,7 @@ std::vector<Piece> ShapePieces(const HosakaPatch& patch) {
   for (std::size_t i = 0; i + 1 < us.size(); ++i) {
     for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
       Piece piece;
-      piece.net = NetOf(patch, e, us[i], us[i + 1], vs[j], vs[j + 1]);
+      piece.net = NetOf(patch, e, {us[i], us[i + 1], vs[j], vs[j + 1]});
       piece.native = NativeRectangle(us[i], us[i + 1], vs[j], vs[j + 1]);
       pieces.push_back(std::move(piece));
     }

@@ -69,8 +69,14 @@ Parts PartsOf(const LoftTriangle& patch) {
   return parts;
 }
 
+// Second derivatives with respect to the parameters u_e and u_f.
+struct SideHessian {
+  double ee, ef, ff;
+};
+
 // Sets the second derivatives of phi to those of h_ee u_e^2/2 + h_ef u_e u_f + h_ff u_f^2/2.
-void SetHessian(double ee, double ef, double ff, const Jet2& e, const Jet2& f, Jet2& phi) {
+void SetHessian(const SideHessian& h, const Jet2& e, const Jet2& f, Jet2& phi) {
+  const auto& [ee, ef, ff] = h;
   phi.uu = ee * e.u * e.u + 2.0 * ef * e.u * f.u + ff * f.u * f.u;
   phi.uv = ee * e.u * e.v + ef * (e.u * f.v + e.v * f.u) + ff * f.u * f.v;
   phi.vv = ee * e.v * e.v + 2.0 * ef * e.v * f.v + ff * f.v * f.v;
@@ -111,9 +117,9 @@ SurfaceJet EvaluateShape(const LoftTriangle& patch, double s, double t) {
     const bool at_a = vertex == e, at_b = vertex == (e + 1) % 3;
     const auto add = [&](Jet2 phi, double twist_a, double twist_b, double curve, const Vec3& d) {
       if (at_a) {
-        SetHessian(0, twist_a, curve, o, b, phi);
+        SetHessian({0, twist_a, curve}, o, b, phi);
       } else if (at_b) {
-        SetHessian(0, twist_b, curve, o, a, phi);
+        SetHessian({0, twist_b, curve}, o, a, phi);
       } else if (vertex >= 0) {
         phi.uu = phi.uv = phi.vv = 0.0;
       }

@@ -34,6 +34,11 @@ struct BernsteinNet {
   std::vector<Vec4> points;
 };
 
+// The part [u0,u1] x [v0,v1] of the parameters of a patch or piece, all in [0, 1].
+struct ParameterBox {
+  double u0 = 0.0, u1 = 1.0, v0 = 0.0, v1 = 1.0;
+};
+
 // The part u in [u0,u1], v in [v0,v1] of a net, by de Casteljau on homogeneous points. Cost O(degree^3).
 BernsteinNet SubNet(const BernsteinNet& net, double u0, double u1, double v0, double v1);
 

@@ -79,6 +79,7 @@ void Multiply(NetShape shape, const Vec4* points, double radius, DistanceForm& f
   }
 }
 
+// Chooses the loop for the flags of MakeDistanceForm. It has all parameters of that function.
 template <int kM>
 void MultiplyKind(NetShape shape, const Vec4* points, bool rational, bool horizontal, double radius,
                   DistanceForm& form) {

@@ -28,7 +28,8 @@ struct DistanceForm {
   int count() const { return (degree_u + 1) * (degree_v + 1); }
 };
 
-// `radius` must be >= 0. Cost: (number of net points)^2 / 2 products.
+// `radius` must be >= 0. Cost: (number of net points)^2 / 2 products. `form` is filled in place, because it
+// is large and the searches reuse it. The flags choose one of several loops and belong to no common type.
 void MakeDistanceForm(NetShape shape, const Vec4* points, bool rational, bool horizontal, double radius,
                       DistanceForm& form);
 

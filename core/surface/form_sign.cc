@@ -33,7 +33,8 @@ struct Halver {
   }
 
   // De Casteljau's algorithm at the middle, for `count` rows of coefficients. Coefficients of a row are
-  // `step` apart, rows are `stride` apart.
+  // `step` apart, rows are `stride` apart. This is the innermost loop of the proof, so sizes and strides are
+  // parameters of their own.
   static void Halve(const double* c, double* low, double* high, int size, int count, int step, int stride) {
     std::copy_n(c, size, high);
     const int along = size / count;

@@ -22,7 +22,7 @@ NetCell LeafCell(const BernsteinNet& net, const SurfaceLeaf& leaf, const Vec3& o
     points[i] = net.points[static_cast<std::size_t>(i)];
     points[i].head<3>() -= points[i].w() * origin;
   }
-  RestrictNet(shape, points, leaf.u0, leaf.u1, leaf.v0, leaf.v1);
+  RestrictNet(shape, points, {leaf.u0, leaf.u1, leaf.v0, leaf.v1});
   return {points, leaf.u0, leaf.u1, leaf.v0, leaf.v1, 0};
 }
 

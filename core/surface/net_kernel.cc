@@ -84,8 +84,13 @@ struct LineBend {
   double normal = 0.0, length = 0.0, curl = 0.0;
 };
 
-LineBend MeasureLines(int lines, int line_stride, int n, int stride, const Vec4* points, const Vec3& normal,
-                      double tiny) {
+// How the rows or the columns of a net lie in memory: lines of degree n, whose points are `stride` apart.
+struct NetLines {
+  int lines, line_stride, n, stride;
+};
+
+LineBend MeasureLines(const NetLines& net, const Vec4* points, const Vec3& normal, double tiny) {
+  const auto& [lines, line_stride, n, stride] = net;
   LineBend bend;
   for (int l = 0; l < lines; ++l) {
     std::array<Vec3, kMaxDegree + 1> q;
@@ -124,7 +129,8 @@ void HalveNet(NetShape shape, const Vec4* points, bool along_u, Vec4* low, Vec4*
   }
 }
 
-void RestrictNet(NetShape shape, Vec4* points, double u0, double u1, double v0, double v1) {
+void RestrictNet(NetShape shape, Vec4* points, const ParameterBox& part) {
+  const double u0 = part.u0, u1 = part.u1, v0 = part.v0, v1 = part.v1;
   const int row = shape.degree_v + 1;
   if (u0 > 0.0 || u1 < 1.0) {
     for (int j = 0; j <= shape.degree_v; ++j) RestrictLine(shape.degree_u, row, points + j, u0, u1);
@@ -175,8 +181,8 @@ RectBounds BoundNet(const BernsteinNet& net) {
 
 NetBend MeasureBend(NetShape shape, const Vec4* points, const Vec3& normal, double tiny) {
   const int row = shape.degree_v + 1;
-  const LineBend u = MeasureLines(row, 1, shape.degree_u, row, points, normal, tiny);
-  const LineBend v = MeasureLines(shape.degree_u + 1, row, shape.degree_v, 1, points, normal, tiny);
+  const LineBend u = MeasureLines({row, 1, shape.degree_u, row}, points, normal, tiny);
+  const LineBend v = MeasureLines({shape.degree_u + 1, row, shape.degree_v, 1}, points, normal, tiny);
   return {u.normal, v.normal, u.length, v.length, u.curl, v.curl};
 }
 

@@ -20,8 +20,8 @@ inline constexpr int kMaxNetPoints = (kMaxDegree + 1) * (kMaxDegree + 1);
 // The halves [0,1/2] and [1/2,1] of a net along u or v. `low`, `high` and `points` do not overlap.
 void HalveNet(NetShape shape, const Vec4* points, bool along_u, Vec4* low, Vec4* high);
 
-// Replaces a net by its part [u0,u1] x [v0,v1].
-void RestrictNet(NetShape shape, Vec4* points, double u0, double u1, double v0, double v1);
+// Replaces a net by its part.
+void RestrictNet(NetShape shape, Vec4* points, const ParameterBox& part);
 
 // Writes the Cartesian points of the net to `hull` and returns their number. Points without weight
 // ([location T10]) are left out.

@@ -81,10 +81,11 @@ bool OperationLimits::WantsNothingNear(const Vec3& c, double distance) const {
   return selected_ != nullptr && !ClosestToPoint(*selected_, c, 1.01 * distance, 0.01 * distance);
 }
 
-bool OperationLimits::WantsNothing(PieceId piece, double u0, double u1, double v0, double v1, const Vec3& p,
+bool OperationLimits::WantsNothing(const SurfacePoint& middle, const ParameterBox& part,
                                    double radius) const {
-  if (part_ != nullptr && !part_->HasAny(piece, u0, u1, v0, v1)) return true;
-  return !IsWanted(*containment_, surface_->piece(piece).patch, p, -radius);
+  const auto& [u0, u1, v0, v1] = part;
+  if (part_ != nullptr && !part_->HasAny(middle.piece, u0, u1, v0, v1)) return true;
+  return !IsWanted(*containment_, surface_->piece(middle.piece).patch, middle.p, -radius);
 }
 
 double OperationLimits::OutlineRoom(const Vec3& c) const {

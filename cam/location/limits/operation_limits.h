@@ -57,10 +57,9 @@ class OperationLimits {
   // True proves that nothing to be finished lies within `distance` (mm) of the place c; false proves nothing.
   // Fast if few patches are selected.
   bool WantsNothingNear(const Vec3& c, double distance) const;
-  // True if no point of a piece's parameters [u0, u1] x [v0, v1] is to be finished. All these points must lie
-  // within `radius` (mm) of p.
-  bool WantsNothing(PieceId piece, double u0, double u1, double v0, double v1, const Vec3& p,
-                    double radius) const;
+  // True if no point of this part of middle.piece is to be finished. All these points must lie within
+  // `radius` (mm) of middle.p.
+  bool WantsNothing(const SurfacePoint& middle, const ParameterBox& part, double radius) const;
 
   // True if a finishing ball may not be centred at this height or higher, because its tip would be above
   // top_z by more than rounding.

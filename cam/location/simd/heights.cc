@@ -122,7 +122,7 @@ void PacketSearch::Walk(const Meets& meets, const OnLeaf& on_leaf) {
   const internal::XyBox at{static_cast<float>(*x0), static_cast<float>(*x1), static_cast<float>(*y0),
                            static_cast<float>(*y1)};
   internal::WalkTree(
-      impl_.tree, at, limits,
+      impl_.tree, {at, limits},
       [&] { return static_cast<float>(*std::min_element(packet_.z, packet_.z + kLanes)); },
       [&](const internal::SearchNode& node, int k) { return meets(node, k, limits); },
       [&](std::int32_t leaf) {

@@ -70,7 +70,8 @@ PM_LANE_INLINE void MakeCubicBasis(D t, Basis& out) {
   out.dd[3] = 6.0 * t;
 }
 
-// point(i, j) returns const double* to x y z. Loops over constant degrees are unrolled.
+// point(i, j) returns const double* to x y z. Loops over constant degrees are unrolled. The degrees are
+// parameters of their own, because the compiler unrolls only over what it sees as constants.
 template <class PointSource>
 PM_LANE_INLINE void PolynomialJet(int degree_u, int degree_v, const Basis& bu, const Basis& bv,
                                   const PointSource& point, Jet& jet) {
@@ -92,7 +93,8 @@ PM_LANE_INLINE void PolynomialJet(int degree_u, int degree_v, const Basis& bu, c
   }
 }
 
-// Divides a homogeneous jet by that of its weight (quotient rule).
+// Divides a homogeneous jet by that of its weight (quotient rule). The parameters are those of PolynomialJet,
+// for the same reason.
 PM_LANE_INLINE void DivideByWeight(int degree_u, int degree_v, const Basis& bu, const Basis& bv,
                                    const double* points, Jet& jet) {
   D w{}, wu{}, wv{}, wuu{}, wuv{}, wvv{};

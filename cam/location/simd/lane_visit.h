@@ -51,7 +51,8 @@ PM_LANE_INLINE D LinearMinimumLanes(D f, D slope_u, D slope_v, const Box& box) {
   return f - slope_u * x - slope_v * y;
 }
 
-// Writes a better contact into the lanes of `where` that touch higher than before.
+// Writes a better contact into the lanes of `where` that touch higher than before. Its parameters are single
+// vectors of lanes, because a struct of them would be built in memory in the innermost loop.
 PM_LANE_INLINE M RaiseTo(const LaneLeaf& leaf, M where, const Touch& t, const V3& p, D u, D v, Group& g) {
   const M better = where & t.under & (t.z > g.z);
   const D not_known = Splat(__builtin_nan(""));
@@ -84,6 +85,8 @@ PM_LANE_INLINE void Restore(M where, const Group& before, Group& g) {
   g.piece = where ? before.piece : g.piece;
 }
 
+// The value at (x, y) of a second-order expansion of one coordinate. Its parameters are single vectors of
+// lanes, because the jet holds the coordinates in structs of their own.
 PM_LANE_INLINE D Taylor(D x, D y, D p, D pu, D pv, D puu, D puv, D pvv) {
   return p + x * (pu + 0.5 * x * puu + y * puv) + y * (pv + 0.5 * y * pvv);
 }
@@ -94,7 +97,8 @@ struct Ended {
   M arrived, out;
 };
 
-// Newton's method from (u, v) on the lanes of `run`, within the rectangle of `leaf`.
+// Newton's method from (u, v) on the lanes of `run`, within the rectangle of `leaf`. Place and lanes are
+// parameters of their own, because each is a vector of lanes that stays in registers.
 PM_LANE_INLINE Ended RaiseLanes(const LaneLeaf& leaf, const LaneLimits& limits, D u, D v, M run, Group& g) {
   const D u0 = Splat(leaf.u0), u1 = Splat(leaf.u1), v0 = Splat(leaf.v0), v1 = Splat(leaf.v1);
   M improved{}, out{}, arrived{};

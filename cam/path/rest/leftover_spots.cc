@@ -277,7 +277,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
 
   if (RemovedDistance(p, size) == kInfinity) return;
   if (params_.operation_limits != nullptr &&
-      params_.operation_limits->WantsNothing(rect.piece, rect.u0, rect.u1, rect.v0, rect.v1, p, size)) {
+      params_.operation_limits->WantsNothing(at, {rect.u0, rect.u1, rect.v0, rect.v1}, size)) {
     return;
   }
   // The move that covers most of the rectangle passes near the centre that finishes p. Only small rectangles
@@ -352,7 +352,7 @@ void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out)
   const NetShape shape{given.degree_u, given.degree_v};
   std::array<Vec4, kMaxNetPoints> net;
   std::copy(given.points.begin(), given.points.end(), net.begin());
-  RestrictNet(shape, net.data(), rect.u0, rect.u1, rect.v0, rect.v1);
+  RestrictNet(shape, net.data(), {rect.u0, rect.u1, rect.v0, rect.v1});
   Visit(rect, shape, net.data(), 0, {}, out);
 }
 

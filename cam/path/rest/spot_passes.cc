@@ -284,8 +284,9 @@ const std::optional<Vec3>& RestPassMaker::FreeNear(std::size_t i) {
   if (!asked_[i]) {
     asked_[i] = true;
     const LeftoverSpot& spot = spots_[i];
-    free_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.pass.floor_z + radius_, spot.leftover,
-                              wedge_gouge_);
+    free_[i] = FreeCenterNear(
+        locator_, spot.at.p, spot.normal,
+        {.lowest_z = params_.pass.floor_z + radius_, .most = spot.leftover, .gouge = wedge_gouge_});
   }
   return free_[i];
 }
@@ -296,8 +297,11 @@ const std::optional<Vec3>& RestPassMaker::WedgedNear(std::size_t i) {
   if (!wedge_asked_[i]) {
     wedge_asked_[i] = true;
     const LeftoverSpot& spot = spots_[i];
-    wedged_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal, params_.pass.floor_z + radius_,
-                                spot.leftover, kWedge * params_.pass.chord_tolerance, true);
+    wedged_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal,
+                                {.lowest_z = params_.pass.floor_z + radius_,
+                                 .most = spot.leftover,
+                                 .gouge = kWedge * params_.pass.chord_tolerance,
+                                 .wedged = true});
   }
   return wedged_[i];
 }

@@ -106,8 +106,9 @@ Column NearestCenter::Descend(Column at) const {
 
 Column NearestCenter::Beside(const Vec3& normal, Column known) const {
   const double radius = locator_.radius();
-  const auto center = FreeCenterNear(locator_, p_, normal, params_.floor_z + radius,
-                                     std::min(known.distance, 33.0 * radius) - radius);
+  const auto center = FreeCenterNear(
+      locator_, p_, normal,
+      {.lowest_z = params_.floor_z + radius, .most = std::min(known.distance, 33.0 * radius) - radius});
   if (!center || (params_.operation_limits != nullptr && !params_.operation_limits->Allows(*center)))
     return known;
   const double distance = (*center - p_).norm();

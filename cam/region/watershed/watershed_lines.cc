@@ -89,10 +89,10 @@ class Cutter {
       if (met) return;
       const ZeroVertex& v =
           meshes_[static_cast<std::size_t>(here.piece)].vertices[static_cast<std::size_t>(here.vertex)];
-      track =
-          FlowTrack(surface_, flow_, -sign_,
-                    PlaceOn(surface_, flow_, PieceId(static_cast<std::size_t>(here.piece)), v.u, v.v, -sign_),
-                    kStart * params_.spacing);
+      track = FlowTrack(
+          surface_, flow_, -sign_,
+          PlaceOn({surface_, flow_, -sign_}, PieceId(static_cast<std::size_t>(here.piece)), v.u, v.v),
+          kStart * params_.spacing);
     }
   }
 

@@ -33,7 +33,7 @@ class StartFinder {
       starts.push_back(
           {from, first->at.piece,
            FlowTrack(surface_, flow_, -sign_,
-                     PlaceOn(surface_, flow_, first->at.piece, first->at.u, first->at.v, -sign_), start)});
+                     PlaceOn({surface_, flow_, -sign_}, first->at.piece, first->at.u, first->at.v), start)});
     }
     return starts;
   }
@@ -155,12 +155,12 @@ void FlowTrack::Extend() {
   const FlowPlace& from = steps_.empty()            ? *start_
                           : steps_.back().at_border ? *steps_.back().beyond
                                                     : steps_.back().place;
-  const auto flow = Advance(*surface_, *params_, from, sign_, &length_);
+  const auto flow = Advance({*surface_, *params_, sign_}, from, &length_);
   ended_ = !flow;
   if (!flow) return;
   Step step{flow->place, flow->at_border};
   if (flow->at_border) {
-    step.beyond = CrossBorder(*surface_, *params_, flow->place, sign_);
+    step.beyond = CrossBorder({*surface_, *params_, sign_}, flow->place);
     ended_ = !step.beyond;
   }
   steps_.push_back(std::move(step));

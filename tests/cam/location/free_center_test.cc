@@ -30,7 +30,7 @@ TEST(FreeCenterNear, GivesWaySidewaysInACrease) {
     const double t = (kRadius - deep - kRadius * left.dot(right)) / left.dot(up_right);
     const Vec3 p = t * up_right;
     EXPECT_FALSE(locator.Free(p + kRadius * right));
-    const auto c = FreeCenterNear(locator, p, right, -kInfinity, kRadius);
+    const auto c = FreeCenterNear(locator, p, right, {.most = kRadius});
     ASSERT_TRUE(c.has_value()) << degrees;
     EXPECT_TRUE(locator.Free(*c));
     // The point of both half-spaces that is nearest to p: beside p's own centre on its plane, or on both.
@@ -42,10 +42,12 @@ TEST(FreeCenterNear, GivesWaySidewaysInACrease) {
 TEST(FreeCenterNear, KeepsAboveTheFloorAndGivesUpWhereItLeavesTooMuch) {
   const Surface surface = SurfaceOf(Plane(20.0));
   const Locator locator(surface, kRadius);
-  const auto over = FreeCenterNear(locator, Vec3::Zero(), Vec3::UnitZ(), kRadius + 0.5, 1.0);
+  const auto over =
+      FreeCenterNear(locator, Vec3::Zero(), Vec3::UnitZ(), {.lowest_z = kRadius + 0.5, .most = 1.0});
   ASSERT_TRUE(over.has_value());
   EXPECT_NEAR(over->z(), kRadius + 0.5, 1e-6);
-  EXPECT_FALSE(FreeCenterNear(locator, Vec3::Zero(), Vec3::UnitZ(), kRadius + 0.5, 0.4).has_value());
+  EXPECT_FALSE(FreeCenterNear(locator, Vec3::Zero(), Vec3::UnitZ(), {.lowest_z = kRadius + 0.5, .most = 0.4})
+                   .has_value());
 }
 
 // Between two walls as far apart as the ball is wide nothing is free but for rounding; a little gouge finds
@@ -57,8 +59,8 @@ TEST(FreeCenterNear, BetweenWallsThatLeaveNoRoom) {
     const Surface surface = SurfaceOf(Drawn({Line({0, 0}, {0, 10}), Line({width, 0}, {width, 10})}, 20.0));
     const Locator locator(surface, kRadius);
     const Vec3 p(0, 8, 5);
-    EXPECT_FALSE(FreeCenterNear(locator, p, Vec3::UnitX(), -kInfinity, 0.5));
-    const auto c = FreeCenterNear(locator, p, Vec3::UnitX(), -kInfinity, 0.5, kGouge);
+    EXPECT_FALSE(FreeCenterNear(locator, p, Vec3::UnitX(), {.most = 0.5}));
+    const auto c = FreeCenterNear(locator, p, Vec3::UnitX(), {.most = 0.5, .gouge = kGouge});
     EXPECT_EQ(c.has_value(), less < 2.0 * kGouge) << less;
     if (!c) continue;
     EXPECT_GE(std::min(c->x(), width - c->x()), kRadius - kGouge);
@@ -83,7 +85,7 @@ TEST(FreeCenterNear, LeavesNoMoreThanAlongTheNormal) {
       ++pushed;
       double along = 1e-7;
       while (along < 0.2 && !whole.Free(center + along * *n)) along += 0.002;
-      const auto c = FreeCenterNear(whole, jet.p, *n, -kInfinity, 0.2);
+      const auto c = FreeCenterNear(whole, jet.p, *n, {.most = 0.2});
       if (along >= 0.2) continue;
       ASSERT_TRUE(c.has_value());
       EXPECT_TRUE(whole.Free(*c));

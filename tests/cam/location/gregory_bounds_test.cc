@@ -73,7 +73,8 @@ TEST(GregoryBounds, ModelsAreBelowAndConvexMeansConvexUpToTheCorners) {
     const BernsteinNet net = SubNet(piece.net, r.u0, r.u1, r.v0, r.v1);
     std::array<Vec3, kMaxNetPoints> hull;
     const int count = HullPoints({net.degree_u, net.degree_v}, net.points.data(), hull.data());
-    const LeafModel m = MakeLeafModel(piece, net.points.data(), hull.data(), count, r);
+    const LeafModel m =
+        internal::MakeLeafModel(piece, net.points.data(), {hull.data(), hull.data() + count}, r);
     ASSERT_LT(m.gram_uu, 1e30);  // no corner without a model
     const Vec3 c = m.s + random.Point(-4, 4);
     const LowerModel low = BoundBelow(m, c);

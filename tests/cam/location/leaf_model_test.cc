@@ -71,7 +71,7 @@ Part PartOf(const Piece& piece, const Rect& r) {
   const NetShape shape{net.degree_u, net.degree_v};
   std::array<Vec3, kMaxNetPoints> hull;
   const int count = HullPoints(shape, net.points.data(), hull.data());
-  part.model = MakeLeafModel(shape, net.points.data(), net.rational, hull.data(), count,
+  part.model = MakeLeafModel({shape, net.points.data(), net.rational, {hull.data(), hull.data() + count}},
                              Evaluate(piece, 0.5 * (r.u0 + r.u1), 0.5 * (r.v0 + r.v1)), r);
   part.bounds = BoundNet(net);
   part.hull.assign(hull.begin(), hull.begin() + count);
@@ -188,8 +188,7 @@ TEST(SearchLeaf, ClaimsHoldAfterRounding) {
     const double size = 10.0 * std::pow(10.0, random.Uniform(0.0, 7.0));
     const Vec3 corner = part.model.s - size * random.Point(0, 1);
     const LeafGrid grid(Box3{corner, corner + Vec3::Constant(size)});
-    const SearchLeaf leaf(grid, 17, part.rect, part.model, part.bounds.axis, part.hull.data(),
-                          static_cast<int>(part.hull.size()));
+    const SearchLeaf leaf(grid, 17, part.rect, part.model, {part.bounds.axis, part.hull});
     EXPECT_EQ(leaf.piece(), 17);
     const Rect r = leaf.rect();
     ASSERT_TRUE(r.u0 == part.rect.u0 && r.u1 == part.rect.u1 && r.v0 == part.rect.v0 && r.v1 == part.rect.v1);
@@ -229,8 +228,9 @@ TEST(LeafModel, SmallPartsOfSmoothPatchesAreProvenConvexUnderARestingBall) {
       const NetShape shape{net.degree_u, net.degree_v};
       std::array<Vec3, kMaxNetPoints> hull;
       const int count = HullPoints(shape, net.points.data(), hull.data());
-      const LeafModel m = MakeLeafModel(shape, net.points.data(), net.rational, hull.data(), count,
-                                        Evaluate(piece, 0.53125, 0.53125), r);
+      const LeafModel m =
+          MakeLeafModel({shape, net.points.data(), net.rational, {hull.data(), hull.data() + count}},
+                        Evaluate(piece, 0.53125, 0.53125), r);
       EXPECT_TRUE(BoundBelow(m, 1.3 * m.s).convex);
     }
   }

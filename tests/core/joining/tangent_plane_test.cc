@@ -96,8 +96,10 @@ TEST(TangentPlane, Vector) {
 
   const Json edited = LoadJson(VECTORS "twist_modification.json");
   EdgeTwists pushed = wished;
-  PushTwists(in.edge.d0, in.edge.d1, in.tangents.b0, in.tangents.b1,
-             {edited["u"].Number(), edited["v"].Number()}, edited["r"].Number(), pushed.b0, pushed.b1);
+  const EndVectors added = PushTwists({in.edge.d0, in.edge.d1}, {in.tangents.b0, in.tangents.b1},
+                                      {edited["u"].Number(), edited["v"].Number()}, edited["r"].Number());
+  pushed.b0 += added.start;
+  pushed.b1 += added.end;
   ExpectTwists(pushed, TwistsOf(edited["Wstar"]));
   EXPECT_LE((pushed.b0 - wished.b0).normalized().cross(edited["N"].Vector()).norm(), 1e-12);
   ExpectTwists(NearestTwists(in.edge, in.tangents, factors, pushed), TwistsOf(edited["W"]));

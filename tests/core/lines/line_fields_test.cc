@@ -209,8 +209,9 @@ TEST_F(SlopeLinesVector, FormsAndFields) {
 TEST_F(SlopeLinesVector, PointsOfLines) {
   const auto root = [&](const ZeroField& field, double u, double v) {
     const Vec2 a(u - 0.01, v), b(u + 0.01, v);
-    return a.x() + (b.x() - a.x()) * ZeroBetween(field, piece_, a, b, Value(field, piece_, a),
-                                                 Value(field, piece_, b), 1e-15);
+    return a.x() + (b.x() - a.x()) * ZeroBetween(field, piece_,
+                                                 {a, b, Value(field, piece_, a), Value(field, piece_, b)},
+                                                 1e-15);
   };
   for (const Json& at : data_["slope_extremum_points"].Items())
     EXPECT_NEAR(root(SlopeExtremumField(axis_), at[0].Number(), at[1].Number()), at[0].Number(), 1e-12);

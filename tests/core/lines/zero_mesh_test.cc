@@ -203,7 +203,7 @@ TEST(RefineZeroArc, KeepsToTheChordTolerance) {
   const auto on_side = [&](double u) {
     const Vec2 from(u, 0), to(u, 0.999);
     const double t =
-        ZeroBetween(field, piece, from, to, Value(field, piece, from), Value(field, piece, to), 1e-13);
+        ZeroBetween(field, piece, {from, to, Value(field, piece, from), Value(field, piece, to)}, 1e-13);
     return Vec2(from + t * (to - from));
   };
   const Vec2 a = on_side(0), b = on_side(1);

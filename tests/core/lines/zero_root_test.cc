@@ -17,7 +17,7 @@ double Root(const std::function<double(double)>& f) {
   const Surface surface = SurfaceOf(Plane(1));  // x = 2 u - 1
   ZeroField field;
   field.value = [&](const SurfaceJet& jet) { return f(0.5 * (jet.p.x() + 1.0)); };
-  return ZeroBetween(field, surface.pieces[0], {0, 0.5}, {1, 0.5}, f(0.0), f(1.0), 1e-13);
+  return ZeroBetween(field, surface.pieces[0], {{0, 0.5}, {1, 0.5}, f(0.0), f(1.0)}, 1e-13);
 }
 
 TEST(ZeroRoot, SmoothFields) {

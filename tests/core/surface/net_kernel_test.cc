@@ -37,7 +37,7 @@ TEST_P(NetKernel, RestrictingIsTheSubNet) {
       if (u0 > u1) std::swap(u0, u1);
       if (v0 > v1) std::swap(v0, v1);
       std::vector<Vec4> points = net.points;
-      RestrictNet(shape, points.data(), u0, u1, v0, v1);
+      RestrictNet(shape, points.data(), {u0, u1, v0, v1});
       EXPECT_LT(LargestDifference(points.data(), SubNet(net, u0, u1, v0, v1).points), 1e-12);
     }
   }
