@@ -5,13 +5,12 @@
 
 namespace patchmill {
 
-DepthMap::DepthMap(const Surface& surface, const View& view, const Vec2& corner, double width, double height,
-                   double dot, int cells)
+DepthMap::DepthMap(const Surface& surface, const View& view, const DepthFrame& frame, int cells)
     : view_(view),
-      corner_(corner),
-      dot_(dot),
-      columns_(1 + static_cast<int>(width / dot)),
-      rows_(1 + static_cast<int>(height / dot)),
+      corner_(frame.corner),
+      dot_(frame.dot),
+      columns_(1 + static_cast<int>(frame.width / frame.dot)),
+      rows_(1 + static_cast<int>(frame.height / frame.dot)),
       near_(static_cast<std::size_t>(columns_ * rows_), -kInfinity) {
   std::vector<Vec3> grid(static_cast<std::size_t>((cells + 1) * (cells + 1)));
   const auto at = [&](int i, int j) -> Vec3& { return grid[static_cast<std::size_t>(i * (cells + 1) + j)]; };

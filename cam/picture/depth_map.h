@@ -8,12 +8,17 @@
 
 namespace patchmill {
 
+// The part of the picture that a depth map covers, in px.
+struct DepthFrame {
+  Vec2 corner = Vec2::Zero();
+  double width = 0.0, height = 0.0;
+  double dot = 1.0;  // > 0, side of a dot
+};
+
 class DepthMap {
  public:
-  // Covers `width` x `height` px from `corner` with dots of `dot` px. The surface is approximated by
-  // `cells` x `cells` facets per piece.
-  DepthMap(const Surface& surface, const View& view, const Vec2& corner, double width, double height,
-           double dot, int cells);
+  // Covers the frame with dots. The surface is approximated by `cells` x `cells` facets per piece.
+  DepthMap(const Surface& surface, const View& view, const DepthFrame& frame, int cells);
 
   // True if no part of the surface is nearer to the eye than p by more than `slack` (mm), except for the
   // depth that changes within about a dot around p.

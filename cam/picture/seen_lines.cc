@@ -12,7 +12,7 @@ constexpr double kApart = 0.6;  // px; closer vertices are dropped
 SeenLines::SeenLines(const Surface& surface, const View& view, const Vec2& corner, const Vec2& size,
                      int cells)
     : view_(view),
-      depth_(surface, view, corner, size.x(), size.y(), kDot, cells),
+      depth_(surface, view, {corner, size.x(), size.y(), kDot}, cells),
       slack_(kSlack * kDot / view.scale) {}
 
 bool SeenLines::Sees(const Vec3& p) const { return depth_.Visible(p, slack_); }

@@ -19,7 +19,7 @@ TEST(DepthMap, TheNearHalfOfASphereIsSeen) {
   const Surface surface = SurfaceOf(Sphere(Vec3(3, -2, 1), 10));
   for (const View& raw : {TopView(), IsometricView()}) {
     const View view = FitView(raw, surface.box, {0, 0}, 600, 600);
-    const DepthMap depth(surface, view, {0, 0}, 600, 600, 1.5, 24);
+    const DepthMap depth(surface, view, {{0, 0}, 600, 600, 1.5}, 24);
     for (int i = 0; i < 40; ++i) {
       for (int j = 0; j < 40; ++j) {
         const double h = -0.95 + 1.9 * i / 39, a = 2 * kPi * j / 40, r = std::sqrt(1 - h * h);
@@ -34,7 +34,7 @@ TEST(DepthMap, TheNearHalfOfASphereIsSeen) {
 TEST(DepthMap, NothingIsHiddenByASheetItLiesOn) {
   const Surface surface = SurfaceOf(Saddle(0.02, 0.03, 20));
   const View view = FitView(TopView(), surface.box, {10, 20}, 400, 300);
-  const DepthMap depth(surface, view, {10, 20}, 400, 300, 1.5, 24);
+  const DepthMap depth(surface, view, {{10, 20}, 400, 300, 1.5}, 24);
   for (int i = 0; i <= 50; ++i) {
     for (int j = 0; j <= 50; ++j) {
       const double x = -20 + 0.8 * i, y = -20 + 0.8 * j, z = 0.02 * x * x - 0.03 * y * y;
