@@ -55,8 +55,8 @@ struct LeafSet {
   const std::vector<std::int32_t>& leaves;
 };
 
-// How exactly a largest value is wanted: smaller values than `lower` do not matter, `gap` may remain open, and
-// no value above `enough` need be found.
+// How exactly a largest value is wanted: smaller values than `lower` do not matter, `gap` may remain open,
+// and no value above `enough` need be found.
 struct Sought {
   double lower, gap, enough;
 };

@@ -26,8 +26,8 @@ struct Spot {
   bool OnBorder() const { return u <= 0.0 || u >= 1.0 || v <= 0.0 || v >= 1.0; }
 };
 
-// The parameters on `rect` nearest to p from the parameters of a start near by: Gauss-Newton with the exact box step. Steps
-// that do not help are halved.
+// The parameters on `rect` nearest to p from the parameters of a start near by: Gauss-Newton with the
+// exact box step. Steps that do not help are halved.
 Spot Nearest(const Piece& piece, const Rect& rect, const Spot& start, const Vec3& p) {
   Spot at = start;
   SurfaceJet jet = Evaluate(piece, at.u, at.v);

@@ -19,10 +19,10 @@ struct FreeCenterLimits {
 };
 
 // The free centre nearest to the surface point p, on the side of the unit normal n there. Free means: the
-// whole radius, nothing above it, not below limits.lowest_z. It is exact where planes are in the way, otherwise close to
-// it. Where obstacles push the centre along n and sideways, it moves sideways, which leaves only the square
-// of the shift at p. Returns nullopt if the centre would leave more than limits.most at p, or if none is
-// found. Cost: some ten microseconds for each of the few obstacles met.
+// whole radius, nothing above it, not below limits.lowest_z. It is exact where planes are in the way,
+// otherwise close to it. Where obstacles push the centre along n and sideways, it moves sideways, which
+// leaves only the square of the shift at p. Returns nullopt if the centre would leave more than
+// limits.most at p, or if none is found. Cost: some ten microseconds for each of the few obstacles met.
 std::optional<Vec3> FreeCenterNear(const Locator& locator, const Vec3& p, const Vec3& n,
                                    const FreeCenterLimits& limits);
 

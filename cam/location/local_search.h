@@ -50,11 +50,11 @@ struct PiecePart {
   Rect rect;
 };
 
-// Minimises f(u,v) = 1/2 dist^2(S, upward ray from (q, best.z)) on part.rect, starting at `start`. Whenever the
-// surface comes closer than R, the ball is raised to touch it (best.z = g) and the search continues. It ends
-// at a local maximum of g, or if nothing within reach lies in the way. It uses the exact Hessian, the exact
-// quadratic step on the box and a line search. best.z must be finite. The g of a contact is exact to about
-// 1e-12 mm.
+// Minimises f(u,v) = 1/2 dist^2(S, upward ray from (q, best.z)) on part.rect, starting at `start`.
+// Whenever the surface comes closer than R, the ball is raised to touch it (best.z = g) and the search
+// continues. It ends at a local maximum of g, or if nothing within reach lies in the way. It uses the
+// exact Hessian, the exact quadratic step on the box and a line search. best.z must be finite. The g of a
+// contact is exact to about 1e-12 mm.
 SearchResult RaiseOnPiece(const PiecePart& part, const Vec2& start, const Ball& ball,
                           const SearchOptions& options, Contact& best);
 

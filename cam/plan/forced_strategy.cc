@@ -46,7 +46,7 @@ absl::StatusOr<Seen> Look(const JobContext& context, const RegionMap& map,
       }
       const RegionChoice& choice = choices[at.region.index()];
       pieces[i].beyond.push_back({at.region, at.jet.p,
-                                  LeftByStep(ForcedOf(choice), at.jet, at.normal, radius, choice.scallop,
+                                  LeftByStep(ForcedOf(choice), at.jet, at.normal, {radius, choice.scallop},
                                              PassParams().min_step_fraction)});
     });
   }));

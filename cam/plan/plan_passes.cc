@@ -398,9 +398,10 @@ absl::StatusOr<PlannedPasses> PlanPasses(const JobContext& context, const Locato
                       RemoveRedundantPasses(locator, reach, std::move(planned.paths), coverage, context.run));
   LabelRegions(regions, planned.paths);
   if (op.edge_rule == EdgeRule::kExtend) {
-    PM_ASSIGN_OR_RETURN(planned.paths,
-                        ExtendPasses(locator, std::move(planned.paths), locator.radius(),
-                                     MakePassParams(context.job, context.resolved), job.limits, context.run));
+    PM_ASSIGN_OR_RETURN(planned.paths, ExtendPasses(locator, std::move(planned.paths),
+                                                    {MakePassParams(context.job, context.resolved),
+                                                     locator.radius(), job.limits},
+                                                    context.run));
   }
   return planned;
 }

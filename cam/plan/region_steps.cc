@@ -181,7 +181,7 @@ absl::StatusOr<double> LeastCutLength(const JobContext& context, const Locator& 
       const RegionChoice& choice = choices[at.region.index()];
       if (choice.skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p)) return;
       // Forced passes leave that as STRATEGY.
-      if (NeededStepOfSides(ForcedOf(choice), jet, e, radius, choice.scallop) <
+      if (NeededStepOfSides(ForcedOf(choice), jet, e, {radius, choice.scallop}) <
           PassParams().min_step_fraction)
         return;
       if (HasTwoSides(jet, e)) {

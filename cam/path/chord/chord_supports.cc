@@ -24,8 +24,8 @@ std::vector<Support> SupportsBetween(const Surface& surface, const SurfacePoint&
   return between;
 }
 
-bool ExcessWithin(double radius, const Vec3& a, const Vec3& b, const Support& at_a,
-                  std::span<const Support> between, const Support& at_b, double limit) {
+bool ExcessWithin(double radius, const SupportedChord& chord, double limit) {
+  const auto& [a, b, at_a, at_b, between] = chord;
   const std::size_t parts = between.size() + 1;
   Vec3 x = a;
   for (std::size_t i = 0; i < parts; ++i) {

@@ -19,9 +19,16 @@ int SupportParts(double radius, double length, double excess);
 std::vector<Support> SupportsBetween(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b,
                                      int parts, double floor_center);
 
+// A chord from a to b, with what the ball touches at its ends and between them. `between` refers to supports
+// that must outlive it.
+struct SupportedChord {
+  Vec3 a, b;
+  Support at_a, at_b;
+  std::span<const Support> between;
+};
+
 // Applies [location T3] over many supports. Each serves, with the next one, an equal stretch of the chord.
 // Returns whether the excess stays within `limit` (mm).
-bool ExcessWithin(double radius, const Vec3& a, const Vec3& b, const Support& at_a,
-                  std::span<const Support> between, const Support& at_b, double limit);
+bool ExcessWithin(double radius, const SupportedChord& chord, double limit);
 
 }  // namespace patchmill

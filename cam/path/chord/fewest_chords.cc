@@ -227,7 +227,7 @@ bool Funnel::Fits(const ChordVertex& from, const ChordVertex& to) {
     highest = std::max({highest, over_left, over_right});
     const std::vector<Support>& between = SupportsAfter(k);
     if (std::any_of(between.begin(), between.end(), gouges)) return false;
-    if (!ExcessWithin(radius_, x, y, left, between, right, limits_.excess)) return false;
+    if (!ExcessWithin(radius_, {x, y, left, right, between}, limits_.excess)) return false;
     x = y;
   }
   return from.below == 0.0 || to.below == 0.0 || highest >= -limits_.excess;

@@ -157,10 +157,9 @@ bool SegmentTracer::ChordIsGood(const TraceStation& a, const TraceStation& b) co
   const Support left = SupportOf(a.right), right = SupportOf(b.left);
   if (ChordExcess(radius_, ca, cb, left, right) <= limit) return true;
   if (!a.right || !b.left || a.right->piece.value != b.left->piece.value) return false;
-  return ExcessWithin(radius_, ca, cb, left,
-                      SupportsBetween(locator_.surface(), *a.right, *b.left,
-                                      SupportParts(radius_, length, limit), params_.floor_center),
-                      right, limit);
+  const std::vector<Support> between = SupportsBetween(
+      locator_.surface(), *a.right, *b.left, SupportParts(radius_, length, limit), params_.floor_center);
+  return ExcessWithin(radius_, {ca, cb, left, right, between}, limit);
 }
 
 void SegmentTracer::Emit(const TraceStation& s) {

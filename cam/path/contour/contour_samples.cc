@@ -96,13 +96,13 @@ class PieceSampler {
         Extent here, beyond;
         for (const auto& [di, dj] : {std::pair{1, 0}, std::pair{0, 1}, std::pair{-1, 0}, std::pair{0, -1}}) {
           if (i + di < 0 || i + di > nu || j + dj < 0 || j + dj > nv) {
-            BorderEnd(n, i, j, di, dj, nu, nv, contour_area.lower_ends);
+            BorderEnd(n, uv, {di, dj}, contour_area.lower_ends);
             continue;
           }
           const Node& m = nodes[index(i + di, j + dj)];
           if (!m.regular) continue;
-          const double rise = Add(n, m, 1.0, di, dj, here);
-          if (n.other_step > 0.0) Add(n, m, -1.0, di, dj, beyond);
+          const double rise = Add(n, m, 1.0, {di, dj}, here);
+          if (n.other_step > 0.0) Add(n, m, -1.0, {di, dj}, beyond);
           if (m.steep && !m.reachable && rise < 0.0)
             ends_.push_back({uv, Vec2(double(i + di) / nu, double(j + dj) / nv), n.center, m.center.z()});
           if (m.reachable && di + dj < 0) {  // m has its sample already
@@ -130,15 +130,20 @@ class PieceSampler {
     Vec3 along[2] = {Vec3::Zero(), Vec3::Zero()};  // from side to side, of the centres
   };
 
+  // From a node to one of its neighbours on the grid: one of the two is 1 or -1, the other 0.
+  struct GridStep {
+    int i = 0, j = 0;
+  };
+
   // Adds neighbour m of n, with the ball on the node's side or (`side` -1) on the other. Returns by how much
   // the centre over m is higher.
-  double Add(const Node& n, const Node& m, double side, int di, int dj, Extent& extent) const {
+  double Add(const Node& n, const Node& m, double side, const GridStep& to, Extent& extent) const {
     const double radius = context_.locator.radius();
     // The ball stays on its side of the surface, which may fall back under the ball.
     const Vec3 normal_n = side * n.normal, normal_m = side * n.turn * m.turn * m.normal;
     const Vec3 way = (m.p + radius * normal_m) - (n.p + radius * normal_n);
     const double slope = normal_m.z() < 0.0 ? kPi - m.slope : m.slope;
-    extent.along[dj != 0] += 0.5 * (di + dj) * way;
+    extent.along[to.j != 0] += 0.5 * (to.i + to.j) * way;
     double rise = way.z();
     extent.top = std::max(extent.top, 0.5 * rise);
     extent.bottom = std::max(extent.bottom, -0.5 * rise);
@@ -246,12 +251,12 @@ class PieceSampler {
     }
   }
 
-  // Adds a lower end at a reachable node on an open side if the face ends there downward.
-  void BorderEnd(const Node& n, int i, int j, int di, int dj, int nu, int nv,
-                 std::vector<LowerEnd>& ends) const {
-    const int side = dj < 0 ? 0 : di > 0 ? 1 : dj > 0 ? 2 : 3;
+  // Adds a lower end at a reachable node on an open side if the face ends there downward. The step leads
+  // from the node, at `uv`, over that side.
+  void BorderEnd(const Node& n, const Vec2& uv, const GridStep& over, std::vector<LowerEnd>& ends) const {
+    const int side = over.j < 0 ? 0 : over.i > 0 ? 1 : over.j > 0 ? 2 : 3;
     if (context_.sides.At(piece_, side).kind != SideKind::kOpen) return;
-    const double t = side % 2 == 0 ? double(i) / nu : double(j) / nv;
+    const double t = side % 2 == 0 ? uv.x() : uv.y();
     const std::optional<Vec3> out = OutwardTangent(context_.locator.surface(), piece_, side, t);
     if (out && out->z() < -1e-3) ends.push_back({n.center, spacing_});
   }

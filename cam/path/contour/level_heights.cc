@@ -225,13 +225,18 @@ double PartialLength(std::span<const Vec2> places, double near, double radius) {
   return 0.25 * kPi * near * static_cast<double>(squares.size()) + runs * kRunCost * radius;
 }
 
-// Returns the length (mm) of these levels, which rise, with the partial ones between them. `contour_area`
-// holds the samples from one stop to the other, rising too. Beyond the last level before a stop without a
-// level the gap continues as far again as the surface does. The result is meaningless once the run is
-// cancelled.
-double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
-                std::span<const ContourSample> contour_area, double spacing, const HeightParams& params,
-                const RunContext& run) {
+// The surface between two stops, with its samples, which rise.
+struct BetweenStops {
+  Stop low, high;
+  std::span<const ContourSample> samples;
+};
+
+// Returns the length (mm) of these levels, which rise, with the partial ones between them. Beyond the last
+// level before a stop without a level the gap continues as far again as the surface does. The result is
+// meaningless once the run is cancelled.
+double LengthOf(std::vector<double> heights, const BetweenStops& between, double spacing,
+                const HeightParams& params, const RunContext& run) {
+  const auto& [low, high, samples] = between;
   if (!high.level) heights.push_back(2.0 * high.z - heights.back());
   if (!low.level) heights.insert(heights.begin(), 2.0 * low.z - heights.front());
   double length = 0.0;
@@ -239,8 +244,8 @@ double LengthOf(std::vector<double> heights, const Stop& low, const Stop& high,
     const bool last = k + 2 == heights.size();
     const double gap = heights[k + 1] - heights[k];
     std::map<int, std::vector<Vec2>> spots;  // by the number of parts that they need
-    for (; next < contour_area.size() && (last || contour_area[next].center.z() < heights[k + 1]); ++next) {
-      const ContourSample& s = contour_area[next];
+    for (; next < samples.size() && (last || samples[next].center.z() < heights[k + 1]); ++next) {
+      const ContourSample& s = samples[next];
       if (next % kBetweenPolls == 0 && run.Cancelled()) return length;
       const double own = s.width * (s.up + s.down) / gap;
       const int parts = PartsOfGap(gap, kWideGap * s.step, params.smallest);
@@ -311,8 +316,8 @@ absl::StatusOr<LevelPlan> LevelHeights(const ContourArea& contour_area, const He
   std::vector<double> lengths(trials.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "contours: levels", trials.size(), [&](std::size_t k) {
     const Stop &low = stops[trials[k].stop], &high = stops[trials[k].stop + 1];
-    lengths[k] = LengthOf(heights_of(trials[k]), low, high, {from(low.z), from(high.z)}, contour_area.spacing,
-                          params, run);
+    lengths[k] = LengthOf(heights_of(trials[k]), {low, high, {from(low.z), from(high.z)}},
+                          contour_area.spacing, params, run);
   }));
   LevelPlan plan;
   std::vector<double>& heights = plan.heights;

@@ -229,33 +229,39 @@ class Clipper {
   static SurfacePoint After(const CutterPoint& p) { return p.other_contact ? *p.other_contact : *p.contact; }
 
   void AddSegment(const CutterPoint& a, const CutterPoint& b) {
-    const Verdict ga = Judge(Xy(a.center), After(a)), gb = Judge(Xy(b.center), *b.contact);
-    Split(a, After(a), ga, b, gb, 0);
+    Split({a, After(a), Judge(Xy(a.center), After(a))}, {b, *b.contact, Judge(Xy(b.center), *b.contact)}, 0);
   }
 
+  // An end of a chord, with its contact on the chord's side and its verdict.
+  struct JudgedEnd {
+    CutterPoint point;
+    SurfacePoint contact;
+    Verdict verdict;
+  };
+
   // Cuts a chord where the verdict changes between its ends.
-  void Split(const CutterPoint& a, const SurfacePoint& contact_a, Verdict ga, const CutterPoint& b,
-             Verdict gb, int depth) {
-    const double length = (b.center - a.center).norm();
-    if (ga == gb) {
-      pieces_.push_back({a, b, ga});
+  void Split(const JudgedEnd& a, const JudgedEnd& b, int depth) {
+    const double length = (b.point.center - a.point.center).norm();
+    if (a.verdict == b.verdict) {
+      pieces_.push_back({a.point, b.point, a.verdict});
       return;
     }
-    const Vec2 qa = Xy(a.center), qb = Xy(b.center);
+    const Vec2 qa = Xy(a.point.center), qb = Xy(b.point.center);
     if (length > kEndPlace && depth < 40) {
       const Vec2 left = Vec2(qa.y() - qb.y(), qb.x() - qa.x()) / length;
       const std::optional<LevelPoint> root =
-          oracle_.RootOnLine(0.5 * (qa + qb), left, contact_a, *b.contact, {length, length});
+          oracle_.RootOnLine(0.5 * (qa + qb), left, a.contact, b.contact, {length, length});
       if (root && (root->q - qa).norm() < 0.9 * length && (root->q - qb).norm() < 0.9 * length) {
-        const CutterPoint m{oracle_.Center(root->q), root->contact, root->other};
-        const Verdict gm = Judge(root->q, root->contact);
-        Split(a, contact_a, ga, m, gm, depth + 1);
-        Split(m, root->contact, gm, b, gb, depth + 1);
+        const JudgedEnd middle{{oracle_.Center(root->q), root->contact, root->other},
+                               root->contact,
+                               Judge(root->q, root->contact)};
+        Split(a, middle, depth + 1);
+        Split(middle, b, depth + 1);
         return;
       }
     }
     // The chord is too short to cut. It goes with its better end.
-    pieces_.push_back({a, b, std::max(ga, gb)});
+    pieces_.push_back({a.point, b.point, std::max(a.verdict, b.verdict)});
   }
 
   std::vector<CutterPath> Parts() {

@@ -56,9 +56,8 @@ bool Proven(const CutterPoint& a, const CutterPoint& b, const Locator& locator,
   if (ChordExcess(radius, a.center, b.center, left, right) <= tolerance.excess) return true;
   if (from.piece.value != to.piece.value) return false;
   const int parts = SupportParts(radius, length, tolerance.excess);
-  return ExcessWithin(radius, a.center, b.center, left,
-                      SupportsBetween(locator.surface(), from, to, parts, -kInfinity), right,
-                      tolerance.excess);
+  const std::vector<Support> between = SupportsBetween(locator.surface(), from, to, parts, -kInfinity);
+  return ExcessWithin(radius, {a.center, b.center, left, right, between}, tolerance.excess);
 }
 
 // A closed contour, parametrised by its length in plan.

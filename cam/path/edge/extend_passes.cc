@@ -17,14 +17,13 @@ constexpr int kLooks = 4;  // places looked at along a move
 }  // namespace
 
 absl::StatusOr<std::vector<CutterPath>> ExtendPasses(const Locator& locator, std::vector<CutterPath> paths,
-                                                     double length, const PassParams& params,
-                                                     const OperationLimits* operation_limits,
-                                                     const RunContext& run) {
+                                                     const ExtendParams& params, const RunContext& run) {
+  const OperationLimits* operation_limits = params.operation_limits;
   const SheetBorder border(locator.surface());
-  const double floor_center = params.floor_z + locator.radius();
+  const double floor_center = params.pass.floor_z + locator.radius();
   // Passes end a step beyond the selected surface (ClipToLimits). A pass that ends on the border there may
   // run along it.
-  const double overrun = kOverrun * CenterStep(locator.radius(), params.scallop, 0.0);
+  const double overrun = kOverrun * CenterStep(locator.radius(), params.pass.scallop, 0.0);
   const auto leaves_unwanted = [&](const Vec3& from, const Vec3& to) {
     if (operation_limits == nullptr || operation_limits->WantsAll()) return true;
     for (int k = 1; k <= kLooks; ++k) {
@@ -38,12 +37,12 @@ absl::StatusOr<std::vector<CutterPath>> ExtendPasses(const Locator& locator, std
     const Vec3 way = end.center - before.center;
     if (!end.contact || !border.On(*end.contact) || !(way.norm() > 0.0)) return std::nullopt;
     for (const double part : {1.0, 0.5, 0.25}) {
-      const Vec3 to = end.center + part * length * way.normalized();
+      const Vec3 to = end.center + part * params.length * way.normalized();
       if (to.z() < floor_center) continue;
       if (operation_limits != nullptr &&
           !(operation_limits->AllowsMove(end.center, to, true) && leaves_unwanted(end.center, to)))
         continue;
-      if (locator.GougeWithin(end.center, to, params.chord_tolerance, 0.1 * params.chord_tolerance))
+      if (locator.GougeWithin(end.center, to, params.pass.chord_tolerance, 0.1 * params.pass.chord_tolerance))
         return CutterPoint{to, std::nullopt, std::nullopt};
     }
     return std::nullopt;

@@ -185,7 +185,7 @@ double LengthOf(const LineProber& prober, const ClippedLine& line) {
 // Returns the length (mm) of these lines with all that fills their gaps, and the cost of the runs. Of more
 // than kFew gaps only kLooked are measured, spread evenly.
 absl::StatusOr<double> LengthWithGaps(const LineProber& prober, const std::vector<BentLine>& lines,
-                                      const Interval& range, double min_step, const RunContext& run) {
+                                      const Interval& range, const RunContext& run) {
   const std::size_t gaps = lines.size() - 1, looked = gaps <= kFew ? gaps : kLooked;
   const auto clipped = [&](std::size_t i) {
     ClippedLine line = ClipLine(prober, lines[i].line, static_cast<double>(i), range);
@@ -197,7 +197,7 @@ absl::StatusOr<double> LengthWithGaps(const LineProber& prober, const std::vecto
     const std::size_t i = (2 * k + 1) * gaps / (2 * looked);
     const ClippedLine a = clipped(i), b = clipped(i + 1);
     std::vector<ClippedLine> between;
-    FillGap(prober, a, b, range, min_step, between);
+    FillGap(prober, a, b, range, between);
     length[k] = 0.5 * (LengthOf(prober, a) + LengthOf(prober, b));
     for (const ClippedLine& line : between) length[k] += LengthOf(prober, line);
   }));
@@ -216,8 +216,9 @@ std::vector<LineShape> EveryOther(const std::vector<BentLine>& lines) {
 }  // namespace
 
 absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const Interval& range,
-                                                const LineBand& band, double min_step, double max_bend,
+                                                const LineBand& band, double max_bend,
                                                 const RunContext& run) {
+  const double min_step = prober.min_step();
   std::vector<BentLine> straight;
   for (const double y : band.positions)
     straight.push_back({LineShape::Straight(y), {{-kInfinity, kInfinity}}});
@@ -230,8 +231,7 @@ absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const 
     const double share = static_cast<double>(r) / static_cast<double>(count - 1);
     rows.push_back(LineShape::Straight(band.y.begin + (band.y.end - band.y.begin) * share));
   }
-  PM_ASSIGN_OR_RETURN(const LineLattice lattice,
-                      SampleLattice(prober, range, std::move(rows), min_step, run));
+  PM_ASSIGN_OR_RETURN(const LineLattice lattice, SampleLattice(prober, range, std::move(rows), run));
   if (lattice.rows.empty()) return straight;
 
   // Take as little of the straight lines as the bend allows.
@@ -256,15 +256,14 @@ absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const 
   if (high == 1.0 || LengthOf(lattice, min_step, family) + ways > kMaxBentRatio * least) return straight;
 
   // Sample again along the lines themselves: needs change with the direction.
-  PM_ASSIGN_OR_RETURN(const LineLattice bent,
-                      SampleLattice(prober, range, EveryOther(family.lines), min_step, run));
+  PM_ASSIGN_OR_RETURN(const LineLattice bent, SampleLattice(prober, range, EveryOther(family.lines), run));
   if (bent.rows.empty()) return straight;
   Family again = ShareWay(bent, band, high);
   if (SteepestBend(bent, again) <= std::tan(max_bend)) family = std::move(again);
   // Where steps are wide compared with the features of the surface, the needs at the lattice's places say too
   // little of what lies between two lines. So the lengths are measured.
-  PM_ASSIGN_OR_RETURN(const double as_bent, LengthWithGaps(prober, family.lines, range, min_step, run));
-  PM_ASSIGN_OR_RETURN(const double as_straight, LengthWithGaps(prober, straight, range, min_step, run));
+  PM_ASSIGN_OR_RETURN(const double as_bent, LengthWithGaps(prober, family.lines, range, run));
+  PM_ASSIGN_OR_RETURN(const double as_straight, LengthWithGaps(prober, straight, range, run));
   return as_bent <= kMeasured * as_straight ? std::move(family.lines) : straight;
 }
 

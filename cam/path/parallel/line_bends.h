@@ -26,7 +26,6 @@ struct BentLine {
 // densely, first along straight rows, then along the bent lines. Needs that neighbours still do not meet are
 // left to partial lines.
 absl::StatusOr<std::vector<BentLine>> BendLines(const LineProber& prober, const Interval& range,
-                                                const LineBand& band, double min_step, double max_bend,
-                                                const RunContext& run);
+                                                const LineBand& band, double max_bend, const RunContext& run);
 
 }  // namespace patchmill

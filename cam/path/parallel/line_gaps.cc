@@ -38,9 +38,11 @@ std::vector<Interval> Without(const std::vector<Interval>& within, const std::ve
 // most by Simpson's rule: the surface rises between two places by its mean curvature, with weights that rise
 // towards the middle.
 int PartsTowards(const LineProber& prober, const LineProbe& p, const ClippedLine& line,
-                 const ClippedLine& other, double min_step) {
+                 const ClippedLine& other) {
   const double y = line.line.At(p.t), across = other.line.At(p.t) - y;
-  const auto parts = [&](double need) { return PartsOfGap(std::abs(across), kWideGap * need, min_step); };
+  const auto parts = [&](double need) {
+    return PartsOfGap(std::abs(across), kWideGap * need, prober.min_step());
+  };
   const auto tells = [](const LineProbe& q) { return q.wanted && q.need < kInfinity; };
   const std::vector<LineProbe>& probes = other.probes;
   auto at = std::lower_bound(probes.begin(), probes.end(), p.t,
@@ -56,13 +58,13 @@ int PartsTowards(const LineProber& prober, const LineProbe& p, const ClippedLine
 
 // Returns where two lines need a neighbour nearer than the other line, and the number of parts needed there.
 std::vector<Stretch> NarrowStretches(const LineProber& prober, const ClippedLine& a, const ClippedLine& b,
-                                     const Interval& within, double min_step) {
+                                     const Interval& within) {
   const double flat = prober.flat_step();
   std::map<int, std::vector<Interval>> spots;
   for (const ClippedLine* line : {&a, &b}) {
     for (const LineProbe& p : line->probes) {
       if (!p.wanted || p.t < within.begin || p.t > within.end) continue;
-      const int parts = PartsTowards(prober, p, *line, line == &a ? b : a, min_step);
+      const int parts = PartsTowards(prober, p, *line, line == &a ? b : a);
       if (parts > 1)
         spots[parts].push_back({std::max(within.begin, p.t - flat), std::min(within.end, p.t + flat)});
     }
@@ -96,19 +98,19 @@ std::vector<Stretch> NarrowStretches(const LineProber& prober, const ClippedLine
 }  // namespace
 
 void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& b, const Interval& within,
-             double min_step, std::vector<ClippedLine>& out) {
+             std::vector<ClippedLine>& out) {
   if (prober.Cancelled()) return;
-  for (const Stretch& stretch : NarrowStretches(prober, a, b, within, min_step)) {
+  for (const Stretch& stretch : NarrowStretches(prober, a, b, within)) {
     ClippedLine last = a;
     for (int k = 1; k < stretch.parts; ++k) {
       const double share = static_cast<double>(k) / stretch.parts;
       ClippedLine line =
           ClipLine(prober, Between(a.line, b.line, share), a.rank + (b.rank - a.rank) * share, stretch.t);
-      FillGap(prober, last, line, stretch.t, min_step, out);
+      FillGap(prober, last, line, stretch.t, out);
       out.push_back(line);
       last = std::move(line);
     }
-    FillGap(prober, last, b, stretch.t, min_step, out);
+    FillGap(prober, last, b, stretch.t, out);
   }
 }
 

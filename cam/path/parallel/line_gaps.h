@@ -11,6 +11,6 @@ namespace patchmill {
 // needs. The new lines may need more. Appends them to `out`. The result is meaningless once the prober is
 // cancelled.
 void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& b, const Interval& within,
-             double min_step, std::vector<ClippedLine>& out);
+             std::vector<ClippedLine>& out);
 
 }  // namespace patchmill

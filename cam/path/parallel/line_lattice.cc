@@ -33,8 +33,7 @@ bool FillRow(const std::vector<char>& wanted, std::vector<double>& density) {
 }  // namespace
 
 absl::StatusOr<LineLattice> SampleLattice(const LineProber& prober, const Interval& range,
-                                          std::vector<LineShape> rows, double min_step,
-                                          const RunContext& run) {
+                                          std::vector<LineShape> rows, const RunContext& run) {
   const double flat = prober.flat_step();
   const int stretches =
       std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / (kKnotSpacing * prober.radius()))));
@@ -48,7 +47,7 @@ absl::StatusOr<LineLattice> SampleLattice(const LineProber& prober, const Interv
     // Balls on rims and corners need no neighbour, and do not show how dense lines should be.
     for (const LineProbe& p : row) {
       const bool tells = p.wanted && p.need < kInfinity;
-      lattice.needs[r].push_back(tells ? std::clamp(p.need, min_step, 4.0 * flat) : 0.0);
+      lattice.needs[r].push_back(tells ? std::clamp(p.need, prober.min_step(), 4.0 * flat) : 0.0);
     }
     for (std::size_t k = 0; k < knots; ++k) {
       double sum = 0.0, weights = 0.0;

@@ -26,12 +26,11 @@ struct LineLattice {
 // Samples per distance of two knots.
 inline constexpr int kSamplesPerKnot = 3;
 
-// Samples a lattice. Its knots lie a ball radius apart along the rows, which run over `range` of t; samples
-// lie a third of that apart. The density at a knot is the mean of the samples around it, clamped to steps
-// from min_step to four flat step-overs. The result has no rows if nothing is wanted anywhere. Errors:
-// CANCELLED or DEADLINE_EXCEEDED from `run`.
+// Samples a lattice. Its knots lie a ball radius apart along the rows, which run over `range` of t;
+// samples lie a third of that apart. The density at a knot is the mean of the samples around it, clamped
+// to steps from prober.min_step() to four flat step-overs. The result has no rows if nothing is wanted
+// anywhere. Errors: CANCELLED or DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<LineLattice> SampleLattice(const LineProber& prober, const Interval& range,
-                                          std::vector<LineShape> rows, double min_step,
-                                          const RunContext& run);
+                                          std::vector<LineShape> rows, const RunContext& run);
 
 }  // namespace patchmill

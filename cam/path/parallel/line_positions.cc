@@ -26,7 +26,17 @@ struct Row {
   bool wanted() const { return !needs.empty(); }
 };
 
-Row SampleRow(const LineProber& prober, const Interval& range, double spacing, double y) {
+// How rows are sampled: from end to end of `range`, `spacing` (mm) apart. Once `run` is cancelled rows are
+// meaningless.
+struct RowSampling {
+  const LineProber& prober;
+  Interval range;
+  double spacing = 0.0;
+  const RunContext& run;
+};
+
+Row SampleRow(const RowSampling& sampling, double y) {
+  const auto& [prober, range, spacing, run] = sampling;
   Row row{y, {}, {}, 0.0};
   const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
   const std::vector<LineProbe> probes =
@@ -43,9 +53,10 @@ Row SampleRow(const LineProber& prober, const Interval& range, double spacing, d
 }
 
 // Returns the last row with something wanted between two rows of which only one has something.
-Row WantedLimit(const LineProber& prober, const Interval& range, double spacing, Row with, double without) {
+Row WantedLimit(const RowSampling& sampling, Row with, double without) {
+  const LineProber& prober = sampling.prober;
   while (std::abs(with.y - without) > 1e-3 * prober.flat_step() && !prober.Cancelled()) {
-    Row mid = SampleRow(prober, range, spacing, 0.5 * (with.y + without));
+    Row mid = SampleRow(sampling, 0.5 * (with.y + without));
     if (mid.wanted()) {
       with = std::move(mid);
     } else {
@@ -58,16 +69,16 @@ Row WantedLimit(const LineProber& prober, const Interval& range, double spacing,
 // Adjusts a limit along which circular lines run. If the surface there is not exactly round, the row of the
 // limit itself sees little of it and would leave it to rest passes. Returns the last row before the limit
 // with nine tenths of the needs of `inside`, if that row is near.
-Row AlongLimit(const LineProber& prober, const Interval& range, double spacing, const Row& inside,
-               Row limit) {
+Row AlongLimit(const RowSampling& sampling, const Row& inside, Row limit) {
+  const LineProber& prober = sampling.prober;
   const auto sees = [&](const Row& row) { return 10 * row.needs.size() >= 9 * inside.needs.size(); };
   if (!prober.frame().round() || sees(limit)) return limit;
   const double near = kNearest * prober.flat_step(), way = inside.y - limit.y;
-  Row along = SampleRow(prober, range, spacing, limit.y + std::copysign(std::min(near, std::abs(way)), way));
+  Row along = SampleRow(sampling, limit.y + std::copysign(std::min(near, std::abs(way)), way));
   if (!sees(along)) return limit;
   double without = limit.y;
   while (std::abs(along.y - without) > 1e-3 * prober.flat_step() && !prober.Cancelled()) {
-    Row mid = SampleRow(prober, range, spacing, 0.5 * (along.y + without));
+    Row mid = SampleRow(sampling, 0.5 * (along.y + without));
     if (sees(mid)) {
       along = std::move(mid);
     } else {
@@ -76,14 +87,14 @@ Row AlongLimit(const LineProber& prober, const Interval& range, double spacing, 
   }
   // Circles are cut along chords, so the row keeps clear by as much.
   const double chords = std::min(2.0 * kCircleSagitta * prober.flat_step(), std::abs(inside.y - along.y));
-  Row clear = SampleRow(prober, range, spacing, along.y + std::copysign(chords, way));
+  Row clear = SampleRow(sampling, along.y + std::copysign(chords, way));
   return clear.wanted() ? clear : along;
 }
 
 // Returns how far (in y) a line at this limit of a band may move inwards without any of its places being
 // farther from the passes beside it than its own step. Half way between them lies the surface of the limit.
-double InsetOf(const LineProber& prober, const Interval& range, double spacing, double y,
-               const SegmentTree& beside) {
+double InsetOf(const RowSampling& sampling, double y, const SegmentTree& beside) {
+  const auto& [prober, range, spacing, run] = sampling;
   const int count = std::max(1, static_cast<int>(std::ceil((range.end - range.begin) / spacing)));
   double inset = kInfinity;
   int hint = -1;
@@ -99,13 +110,13 @@ double InsetOf(const LineProber& prober, const Interval& range, double spacing, 
 }
 
 // Moves the ends of a band inwards, each at most to the band's middle. Clears the band if neither end moves.
-absl::Status MoveInwards(const LineProber& prober, const Interval& range, double spacing,
-                         const SegmentTree& beside, std::vector<Row>& band, const RunContext& run) {
+absl::Status MoveInwards(const RowSampling& sampling, const SegmentTree& beside, std::vector<Row>& band) {
+  const RunContext& run = sampling.run;
   const double low = band.front().y, high = band.back().y, middle = 0.5 * (low + high);
-  const double from = std::min(middle, low + InsetOf(prober, range, spacing, low, beside));
-  const double to = std::max(middle, high - InsetOf(prober, range, spacing, high, beside));
+  const double from = std::min(middle, low + InsetOf(sampling, low, beside));
+  const double to = std::max(middle, high - InsetOf(sampling, high, beside));
   PM_RETURN_IF_ERROR(run.Check());
-  Row first = SampleRow(prober, range, spacing, from), last = SampleRow(prober, range, spacing, to);
+  Row first = SampleRow(sampling, from), last = SampleRow(sampling, to);
   PM_RETURN_IF_ERROR(run.Check());
   if ((from == low && to == high) || !first.wanted() || !last.wanted()) {
     band.clear();
@@ -153,8 +164,10 @@ struct Count {
 // Chooses the number of gaps of a band, at least `total`. The fewest gaps shorten every gap a little; where
 // partial lines divide a gap, its parts end up far below what they may be. A few gaps more can need fewer
 // parts. The result is meaningless once the prober is cancelled.
-Count CheapestCount(const LineProber& prober, const std::vector<Row>& band,
-                    const std::vector<double>& density, double total, double way, double least) {
+Count CheapestCount(const RowSampling& sampling, const std::vector<Row>& band,
+                    const std::vector<double>& density, double total) {
+  const LineProber& prober = sampling.prober;
+  const double way = kRunCost * prober.radius() / (0.5 * sampling.spacing), least = prober.min_step();
   // Numbers of gaps tried beyond the fewest.
   constexpr int kCandidates = 24;
   const int fewest = std::max(1, static_cast<int>(std::ceil(total - 1e-9)));
@@ -186,18 +199,17 @@ Count CheapestCount(const LineProber& prober, const std::vector<Row>& band,
 }
 
 // Sets the step of a row from its needs.
-void Judge(Row& row, double min_step, double flat) {
+void Judge(Row& row, const LineProber& prober) {
   if (!row.wanted()) return;
   std::vector<StepNeed> sorted = row.needs;
-  row.step = CheapestStep(sorted, min_step, 4.0 * flat);
+  row.step = CheapestStep(sorted, prober.min_step(), 4.0 * prober.flat_step());
 }
 
 // Samples the rows at their y, in parallel.
-absl::Status SampleRows(const LineProber& prober, const Interval& range, double spacing, double min_step,
-                        const char* what, std::vector<Row>& rows, const RunContext& run) {
-  return ParallelFor(run, what, rows.size(), [&](std::size_t i) {
-    rows[i] = SampleRow(prober, range, spacing, rows[i].y);
-    Judge(rows[i], min_step, prober.flat_step());
+absl::Status SampleRows(const RowSampling& sampling, const char* what, std::vector<Row>& rows) {
+  return ParallelFor(sampling.run, what, rows.size(), [&](std::size_t i) {
+    rows[i] = SampleRow(sampling, rows[i].y);
+    Judge(rows[i], sampling.prober);
   });
 }
 
@@ -207,11 +219,10 @@ struct DividedBand {
 };
 
 // Returns the lines of a band from its first row to its last, both included.
-absl::StatusOr<DividedBand> Divide(const LineProber& prober, const Interval& range, double spacing,
-                                   double min_step, std::vector<Row> band, const RunContext& run) {
-  const double flat = prober.flat_step();
-  Judge(band.front(), min_step, flat);
-  Judge(band.back(), min_step, flat);
+absl::StatusOr<DividedBand> Divide(const RowSampling& sampling, std::vector<Row> band) {
+  const double flat = sampling.prober.flat_step();
+  Judge(band.front(), sampling.prober);
+  Judge(band.back(), sampling.prober);
   for (;;) {
     std::vector<Row> between;
     for (std::size_t k = 0; k + 1 < band.size(); ++k) {
@@ -219,7 +230,7 @@ absl::StatusOr<DividedBand> Divide(const LineProber& prober, const Interval& ran
         between.push_back({0.5 * (band[k].y + band[k + 1].y), {}, {}, 0.0});
     }
     if (between.empty()) break;
-    PM_RETURN_IF_ERROR(SampleRows(prober, range, spacing, min_step, nullptr, between, run));
+    PM_RETURN_IF_ERROR(SampleRows(sampling, nullptr, between));
     std::erase_if(between, [](const Row& row) { return !row.wanted(); });
     if (between.empty()) break;
     band.insert(band.end(), std::make_move_iterator(between.begin()), std::make_move_iterator(between.end()));
@@ -240,9 +251,8 @@ absl::StatusOr<DividedBand> Divide(const LineProber& prober, const Interval& ran
   }
   double total = 0.0;
   for (std::size_t k = 0; k < density.size(); ++k) total += density[k] * (edges[k + 1] - edges[k]);
-  const Count count =
-      CheapestCount(prober, band, density, total, kRunCost * prober.radius() / (0.5 * spacing), min_step);
-  PM_RETURN_IF_ERROR(run.Check());
+  const Count count = CheapestCount(sampling, band, density, total);
+  PM_RETURN_IF_ERROR(sampling.run.Check());
   std::size_t k = 0;
   double passed = 0.0;
   for (int g = 0; g < count.gaps; ++g) {
@@ -281,17 +291,16 @@ FrameExtent ExtentOfParallels(const Surface& surface, double angle, double margi
 }
 
 absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, const FrameExtent& extent,
-                                                    double min_step, const SegmentTree* beside,
-                                                    const RunContext& run) {
-  const double flat = prober.flat_step();
-  const double row_step = 1.5 * flat, spacing = 2.0 * flat;
+                                                    const SegmentTree* beside, const RunContext& run) {
+  const double flat = prober.flat_step(), row_step = 1.5 * flat;
+  const RowSampling sampling{prober, extent.t, 2.0 * flat, run};
   const double height = extent.y.end - extent.y.begin;
   if (!(height > 0.0)) return std::vector<LineBand>{};
   const auto count = static_cast<std::size_t>(std::ceil(height / row_step)) + 1;
   std::vector<Row> rows(count);
   for (std::size_t i = 0; i < count; ++i)
     rows[i].y = extent.y.begin + height * static_cast<double>(i) / static_cast<double>(count - 1);
-  PM_RETURN_IF_ERROR(SampleRows(prober, extent.t, spacing, min_step, "zigzag: positions", rows, run));
+  PM_RETURN_IF_ERROR(SampleRows(sampling, "zigzag: positions", rows));
 
   std::vector<LineBand> bands;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -303,8 +312,7 @@ absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, co
     std::vector<Row> band(rows.begin() + static_cast<std::ptrdiff_t>(i),
                           rows.begin() + static_cast<std::ptrdiff_t>(last) + 1);
     const auto limit = [&](const Row& inside, double outside) {
-      return AlongLimit(prober, extent.t, spacing, inside,
-                        WantedLimit(prober, extent.t, spacing, inside, outside));
+      return AlongLimit(sampling, inside, WantedLimit(sampling, inside, outside));
     };
     if (i > 0) band.insert(band.begin(), limit(rows[i], rows[i - 1].y));
     if (last + 1 < rows.size()) band.push_back(limit(rows[last], rows[last + 1].y));
@@ -312,12 +320,11 @@ absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, co
     std::vector<Row> inner;
     if (prober.frame().round() && beside != nullptr && !beside->empty()) {
       inner = band;
-      PM_RETURN_IF_ERROR(MoveInwards(prober, extent.t, spacing, *beside, inner, run));
+      PM_RETURN_IF_ERROR(MoveInwards(sampling, *beside, inner));
     }
-    PM_ASSIGN_OR_RETURN(DividedBand lines, Divide(prober, extent.t, spacing, min_step, std::move(band), run));
+    PM_ASSIGN_OR_RETURN(DividedBand lines, Divide(sampling, std::move(band)));
     if (!inner.empty()) {
-      PM_ASSIGN_OR_RETURN(DividedBand fewer,
-                          Divide(prober, extent.t, spacing, min_step, std::move(inner), run));
+      PM_ASSIGN_OR_RETURN(DividedBand fewer, Divide(sampling, std::move(inner)));
       if (fewer.lines.positions.size() < lines.lines.positions.size() && fewer.length < lines.length)
         lines = std::move(fewer);
     }

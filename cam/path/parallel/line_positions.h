@@ -34,7 +34,6 @@ struct LineBand {
 // beside the area. Where they run along a limit of circular lines, nearer to all of it than the step needed
 // there, the line at the limit moves away from them up to that step, if that saves a line.
 absl::StatusOr<std::vector<LineBand>> LinePositions(const LineProber& prober, const FrameExtent& extent,
-                                                    double min_step, const SegmentTree* beside,
-                                                    const RunContext& run);
+                                                    const SegmentTree* beside, const RunContext& run);
 
 }  // namespace patchmill

@@ -12,16 +12,15 @@
 namespace patchmill {
 
 LineProber::LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-                       const PassParams& params, const OperationLimits* part, const SurfaceMask* where,
-                       const RunContext& run)
+                       const LineProbeParams& params, const RunContext& run)
     : locator_(locator),
       border_(border),
       frame_(frame),
-      params_(params),
-      part_(part),
-      where_(where),
+      params_(params.pass),
+      part_(params.part),
+      where_(params.where),
       run_(run),
-      flat_step_(CenterStep(locator.radius(), params.scallop, 0.0)) {}
+      flat_step_(CenterStep(locator.radius(), params.pass.scallop, 0.0)) {}
 
 LineProbe LineProber::Probe(double t, double y, double slope, const SurfacePoint* hint) const {
   return Judge(t, y, slope, locator_.Height(frame_.At(t, y), hint, CertificateGap(params_)));
@@ -91,8 +90,7 @@ LineProbe LineProber::Judge(double t, double y, double slope, const std::optiona
             ? Vec3(Lift((-nt * ny / in_plane) * feed + in_plane * beside, -ny * normal.z() / in_plane))
             : Vec3(Vec3::UnitZ());
     const double kappa = NormalCurvature(Forms(jet, *surface_normal), jet, across);
-    const double step = std::clamp(CenterStep(radius, params_.scallop, kappa),
-                                   params_.min_step_fraction * flat_step_, 4.0 * flat_step_);
+    const double step = std::clamp(CenterStep(radius, params_.scallop, kappa), min_step(), 4.0 * flat_step_);
     probe.need = step * cosine * slant;
     probe.half_step = 0.5 * step;
   }

@@ -30,13 +30,18 @@ struct LineProbe {
   bool exists() const { return half_step > 0.0; }
 };
 
-// Probes places along and beside lines of one frame. Only contacts that `part` wants and `where` holds are
-// wanted (null: no limit). Once `run` is cancelled rows end early and are meaningless. Thread-safe.
+struct LineProbeParams {
+  PassParams pass;
+  const OperationLimits* part = nullptr;  // a contact is wanted only where it wants it; null: everywhere
+  const SurfaceMask* where = nullptr;     // and only where it holds it; null: everywhere
+};
+
+// Probes places along and beside lines of one frame. Once `run` is cancelled rows end early and are
+// meaningless. Thread-safe.
 class LineProber {
  public:
   LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
-             const PassParams& params, const OperationLimits* part, const SurfaceMask* where,
-             const RunContext& run);
+             const LineProbeParams& params, const RunContext& run);
 
   // Probes a line that runs at `slope` (dy/dt) through the place. Cost: one exact height and one surface
   // evaluation. `hint` is a contact nearby.
@@ -48,6 +53,8 @@ class LineProber {
   bool Cancelled() const { return run_.Cancelled(); }
   double radius() const { return locator_.radius(); }
   double flat_step() const { return flat_step_; }
+  // mm: lines come no nearer to each other, whatever the scallop needs.
+  double min_step() const { return params_.min_step_fraction * flat_step_; }
   const LineFrame& frame() const { return frame_; }
 
  private:

@@ -43,18 +43,16 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
                                            : ExtentOfParallels(surface, params.angle, locator.radius());
   const LineFrame frame =
       params.around ? LineFrame::Around(params.around->center, extent.y.end) : LineFrame::At(params.angle);
-  const LineProber prober(locator, border, frame, params.pass, params.part, params.where, run);
-  const double min_step = params.pass.min_step_fraction * flat, once = frame.period();
+  const LineProber prober(locator, border, frame, {params.pass, params.part, params.where}, run);
+  const double once = frame.period();
   const Interval once_over = frame.round() ? Interval{extent.t.end - once, extent.t.end} : extent.t;
   const double sagitta = std::min(params.pass.chord_tolerance, kCircleSagitta * flat);
   const double max_bend = frame.round() ? 0.0 : params.max_bend;
-  PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands,
-                      LinePositions(prober, extent, min_step, params.beside, run));
+  PM_ASSIGN_OR_RETURN(const std::vector<LineBand> bands, LinePositions(prober, extent, params.beside, run));
   std::vector<BentLine> bent;
   std::vector<char> last_of_band;
   for (const LineBand& band : bands) {
-    PM_ASSIGN_OR_RETURN(const std::vector<BentLine> more,
-                        BendLines(prober, extent.t, band, min_step, max_bend, run));
+    PM_ASSIGN_OR_RETURN(const std::vector<BentLine> more, BendLines(prober, extent.t, band, max_bend, run));
     bent.insert(bent.end(), more.begin(), more.end());
     last_of_band.resize(bent.size(), 0);
     last_of_band.back() = 1;
@@ -67,7 +65,7 @@ absl::StatusOr<std::vector<CutterPath>> ZigzagPaths(const Locator& locator, cons
   }));
   std::vector<std::vector<ClippedLine>> between(lines.empty() ? 0 : lines.size() - 1);
   PM_RETURN_IF_ERROR(ParallelFor(run, "zigzag: gaps", between.size(), [&](std::size_t i) {
-    if (!last_of_band[i]) FillGap(prober, lines[i], lines[i + 1], once_over, min_step, between[i]);
+    if (!last_of_band[i]) FillGap(prober, lines[i], lines[i + 1], once_over, between[i]);
   }));
 
   struct Part {

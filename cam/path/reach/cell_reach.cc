@@ -21,9 +21,10 @@ std::array<Vec2, 9> NineParameters(const SurfaceRect& rect) {
            Vec2(um, rect.v0), Vec2(um, rect.v1), Vec2(rect.u0, vm), Vec2(rect.u1, vm), Vec2(um, vm)}};
 }
 
-std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& rect) {
+std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& rect, double size) {
   const auto uv = NineParameters(rect);
   RectPlaces at;
+  at.size = size;
   for (std::size_t k = 9; k-- > 0;) {
     const SurfaceJet jet = Evaluate(surface, rect.piece, uv[k].x(), uv[k].y());
     const auto normal = UnitNormal(jet);
@@ -52,7 +53,7 @@ bool TooBent(const std::array<Vec3, 9>& f, double size) {
   return BendOver(f) > kMostBend * extent;
 }
 
-bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const CellReachParams& params,
+bool OutOfReach(const Surface& surface, const RectPlaces& at, const CellReachParams& params,
                 Blockers& blockers, const SidesRuledOut& ruled_out) {
   const double limit = params.radius - params.reach_tolerance;
   const double turn = BendOver(at.n);
@@ -69,10 +70,10 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
     }
     // The side looks down, or does so but for a strip of this share of the diameter.
     const double up = highest_normal + turn + at.upright;
-    if (up < 0.0 || up * size < params.narrow * (highest_normal - lowest_normal)) continue;
+    if (up < 0.0 || up * at.size < params.narrow * (highest_normal - lowest_normal)) continue;
     if (up <= 2.0 * at.upright && sign * at.air_side < 0.0) continue;  // the back of a wall
     const double bend = BendOver(c);
-    if (TooBent(c, size)) return false;
+    if (TooBent(c, at.size)) return false;
     if (highest_center + bend < params.floor_z - params.reach_tolerance) continue;
     const auto farthest = [&](const SurfacePoint& q) {
       double most = 0.0;
@@ -82,7 +83,7 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const
     std::optional<SurfacePoint>& known = blockers[side];
     if (known && farthest(*known) < limit) continue;
     // The farther apart the centres lie, the less exactly the deepest point need be known.
-    const double exact = std::clamp(0.05 * size, 1e-5, 0.02 * params.radius);
+    const double exact = std::clamp(0.05 * at.size, 1e-5, 0.02 * params.radius);
     const auto blocked = [&](double tolerance) {
       const auto deepest = ClosestToUpwardRay(surface, c[8], limit, tolerance);
       if (deepest) known = deepest->at;

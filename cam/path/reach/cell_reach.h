@@ -21,11 +21,13 @@ std::array<Vec2, 9> NineParameters(const SurfaceRect& rect);
 // The surface at the nine places. Normals are unit vectors, all on one side of the surface.
 struct RectPlaces {
   std::array<Vec3, 9> p, n;
+  double size = 0.0;              // mm, diameter of the rectangle
   int air_side = 0;               // at vertical places: 1 the side of n, -1 the other, 0 unknown (SurfaceJet)
   double upright = kUprightFace;  // SurfaceJet::upright
 };
-// Returns nullopt where the normals turn by more than 0.7 rad, or have no direction.
-std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& rect);
+// `size` is that of the rectangle, or an upper bound. Returns nullopt where the normals turn by more than 0.7
+// rad, or have no direction.
+std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& rect, double size);
 
 // Returns twice the largest distance of the values at the nine places from a bilinear function. Added to the
 // values at the corners it bounds a function of small third derivatives over the rectangle.
@@ -58,8 +60,8 @@ using SidesRuledOut = std::array<bool, 2>;
 // `params.reach_tolerance` in all the balls (by distance to the upward ray, so that the shank counts). The
 // distance of a surface point to the upward ray is convex in the centre, hence largest at the corners of what
 // the centres span. How far centres leave that span is estimated from the nine places (second order, twice).
-// `size` is the diameter of the rectangle, mm. `blockers` are tried first and replaced by the deepest points.
-bool OutOfReach(const Surface& surface, const RectPlaces& at, double size, const CellReachParams& params,
+// `blockers` are tried first and replaced by the deepest points.
+bool OutOfReach(const Surface& surface, const RectPlaces& at, const CellReachParams& params,
                 Blockers& blockers, const SidesRuledOut& ruled_out = {});
 
 }  // namespace patchmill

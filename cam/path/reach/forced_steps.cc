@@ -28,8 +28,8 @@ std::optional<AcrossPasses> Across(const ForcedSteps& forced, const SurfaceJet& 
 
 }  // namespace
 
-double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
-                  double scallop) {
+double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, const BallFinish& ball) {
+  const auto& [radius, scallop] = ball;
   if (forced.passes == ForcedPasses::kNone) return 1.0;
   const auto across = Across(forced, jet, e);
   if (!across) return 0.0;
@@ -45,8 +45,9 @@ double NeededFineStep(const ForcedSteps& forced, const SurfaceJet& jet, const Ve
   return HasTwoSides(jet, e) ? std::max(needed(e), needed(-e)) : needed(e);
 }
 
-double LeftByStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
-                  double scallop, double fraction) {
+double LeftByStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, const BallFinish& ball,
+                  double fraction) {
+  const double radius = ball.radius, scallop = ball.scallop;
   if (forced.passes == ForcedPasses::kNone) return scallop;
   const auto left = [&](const Vec3& side) {
     const auto across = Across(forced, jet, side);
@@ -58,7 +59,7 @@ double LeftByStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& 
 }
 
 bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const SurfaceRect& rect,
-                       double radius, double scallop, double fraction) {
+                       const BallFinish& ball, double fraction) {
   if (forced.passes == ForcedPasses::kNone) return false;
   std::array<SurfaceJet, 9> jets;
   std::array<Vec3, 9> normals, step;
@@ -75,7 +76,7 @@ bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const 
     for (std::size_t k = 0; k < 9; ++k) {
       const Vec3 n = sign * normals[k];
       highest_normal = std::max(highest_normal, n.z());
-      step[k] = Vec3(NeededStep(forced, jets[k], n, radius, scallop), 0.0, 0.0);
+      step[k] = Vec3(NeededStep(forced, jets[k], n, ball), 0.0, 0.0);
       most = std::max(most, step[k].x());
     }
     if (highest_normal + turn < -jets.back().upright) continue;  // the side looks down
@@ -86,10 +87,10 @@ bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const 
   return true;
 }
 
-double NeededStepOfSides(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius,
-                         double scallop) {
-  const double step = NeededStep(forced, jet, e, radius, scallop);
-  return HasTwoSides(jet, e) ? std::max(step, NeededStep(forced, jet, -e, radius, scallop)) : step;
+double NeededStepOfSides(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e,
+                         const BallFinish& ball) {
+  const double step = NeededStep(forced, jet, e, ball);
+  return HasTwoSides(jet, e) ? std::max(step, NeededStep(forced, jet, -e, ball)) : step;
 }
 
 }  // namespace patchmill

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "cam/limits/reach_tolerance.h"
 #include "cam/path/chord/chord_bounds.h"
@@ -28,6 +29,17 @@ struct Nearby {
   Blockers blockers;
 };
 
+// A rectangle with its net, made by `depth` halvings.
+struct Part {
+  SurfaceRect rect;
+  NetShape shape;
+  const Vec4* net = nullptr;
+  int depth = 0;
+};
+
+// Control points of a rectangle, in whose convex hull it lies.
+using Hull = std::span<const Vec3>;
+
 // Sizes of rectangles, and distances, in flat step-overs.
 constexpr double kCoarse = 0.25;   // larger rectangles are not judged by their middles
 constexpr double kPair = 1.0;      // larger rectangles lie over more than two moves
@@ -49,15 +61,15 @@ constexpr double kForcedMargin = 1.05;
 
 class SpotFinder {
  public:
-  SpotFinder(const Locator& locator, const Locator& reach, const std::vector<const SegmentTree*>& trees,
+  SpotFinder(const RestLocators& locators, const std::vector<const SegmentTree*>& trees,
              const RestPassParams& params, const RunContext& run)
-      : surface_(locator.surface()),
-        reach_(reach),
+      : surface_(locators.ball.surface()),
+        reach_(locators.reach),
         trees_(trees),
         params_(params),
         run_(run),
-        radius_(locator.radius()),
-        flat_(CenterStep(locator.radius(), params.pass.scallop, 0.0)),
+        radius_(locators.ball.radius()),
+        flat_(CenterStep(locators.ball.radius(), params.pass.scallop, 0.0)),
         covered_(radius_ + params.limit + params.margin.value_or(kProofMargin * params.tolerance)),
         covered2_(covered_ * covered_),
         lowest_center_(params.pass.floor_z + radius_ -
@@ -73,18 +85,16 @@ class SpotFinder {
   void Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const;
 
  private:
-  void Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth, const Nearby& hint,
-             std::vector<LeftoverSpot>& out) const;
+  void Visit(const Part& part, const Nearby& hint, std::vector<LeftoverSpot>& out) const;
   NearMove NearestTo(const Vec3& p, double limit, const NearMove& hint) const;
   double RemovedDistance(const Vec3& p, double size) const;
   bool RemovedLeftLess(const Vec3& p, const NearMove& nearest) const {
     return RemovedDistance(p, 0.0) < nearest.distance - params_.removed_margin;
   }
-  std::optional<bool> BendsAlongU(const RectPlaces& places, double size) const;
-  bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
-                   const NearMove& near) const;
-  bool Covered(const Vec3* hull, int count, const NearMove& move) const;
-  bool CoveredByTwo(const Vec3* hull, int count, const Vec3& e, const NearMove& move) const;
+  std::optional<bool> BendsAlongU(const RectPlaces& places) const;
+  bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, Hull hull, const NearMove& near) const;
+  bool Covered(Hull hull, const NearMove& move) const;
+  bool CoveredByTwo(Hull hull, const Vec3& e, const NearMove& move) const;
   bool Asked(const SurfaceJet& jet, const Vec3& e) const;
   std::optional<Vec3> ReachableSide(const SurfaceJet& jet, const Vec3& e) const;
   bool Wanted(const SurfacePoint& at) const {
@@ -126,27 +136,29 @@ double SpotFinder::RemovedDistance(const Vec3& p, double size) const {
   return nearest.segment < 0 ? kInfinity : nearest.distance;
 }
 
-bool SpotFinder::Covered(const Vec3* hull, int count, const NearMove& move) const {
+bool SpotFinder::Covered(Hull hull, const NearMove& move) const {
   if (move.segment < 0) return false;
   const PathRuler to_move(trees_[move.tree]->segment(move.segment));
-  return std::all_of(hull, hull + count, [&](const Vec3& p) { return to_move.Distance2(p) <= covered2_; });
+  return std::all_of(hull.begin(), hull.end(),
+                     [&](const Vec3& p) { return to_move.Distance2(p) <= covered2_; });
 }
 
 // Tests the crest between two passes: `move`, and the one nearest to the ball over the farthest point.
-bool SpotFinder::CoveredByTwo(const Vec3* hull, int count, const Vec3& e, const NearMove& move) const {
+bool SpotFinder::CoveredByTwo(Hull hull, const Vec3& e, const NearMove& move) const {
   if (move.segment < 0) return false;
   const PathSegment one = trees_[move.tree]->segment(move.segment);
   const PathRuler to_move(one);
-  const Vec3* farthest = std::max_element(hull, hull + count, [&](const Vec3& p, const Vec3& q) {
+  const auto farthest = std::max_element(hull.begin(), hull.end(), [&](const Vec3& p, const Vec3& q) {
     return to_move.Distance2(p) < to_move.Distance2(q);
   });
   const NearMove other = NearestTo(*farthest + radius_ * e, flat_, {});
   if (other.segment < 0 || (other.tree == move.tree && other.segment == move.segment)) return false;
-  return DistanceToEither(one, trees_[other.tree]->segment(other.segment), hull, count, covered_) <= covered_;
+  return DistanceToEither(one, trees_[other.tree]->segment(other.segment), hull.data(),
+                          static_cast<int>(hull.size()), covered_) <= covered_;
 }
 
 bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
-  return NeededStepOfSides(params_.forced, jet, e, radius_, params_.pass.scallop) >=
+  return NeededStepOfSides(params_.forced, jet, e, {radius_, params_.pass.scallop}) >=
          params_.pass.min_step_fraction;
 }
 
@@ -221,7 +233,7 @@ SidesRuledOut SpotFinder::ForbiddenSides(const RectPlaces& places) const {
 
 // Returns, where the centres bend too much for OutOfReach, whether they bend the most along u. So a tight
 // fillet is cut along itself into strips, not into small pieces.
-std::optional<bool> SpotFinder::BendsAlongU(const RectPlaces& places, double size) const {
+std::optional<bool> SpotFinder::BendsAlongU(const RectPlaces& places) const {
   double along_u = 0.0, along_v = 0.0;
   bool bent = false;
   for (const double sign : {1.0, -1.0}) {
@@ -230,7 +242,7 @@ std::optional<bool> SpotFinder::BendsAlongU(const RectPlaces& places, double siz
     const auto off = [&](std::size_t middle, std::size_t a, std::size_t b) {
       return (c[middle] - 0.5 * (c[a] + c[b])).norm();
     };
-    bent = bent || TooBent(c, size);
+    bent = bent || TooBent(c, places.size);
     along_u = std::max({along_u, off(4, 0, 1), off(5, 2, 3), off(8, 6, 7)});
     along_v = std::max({along_v, off(6, 0, 2), off(7, 1, 3), off(8, 4, 5)});
   }
@@ -240,7 +252,7 @@ std::optional<bool> SpotFinder::BendsAlongU(const RectPlaces& places, double siz
 
 // Chooses the direction in which the farthest point of the hull leaves the move's reach: across the move, or
 // along it past its end.
-bool SpotFinder::SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, const Vec3* hull, int count,
+bool SpotFinder::SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, Hull hull,
                              const NearMove& near) const {
   const double lu = du.norm(), lv = dv.norm();
   // Ratio of the sides beyond which the longer one is halved.
@@ -253,19 +265,19 @@ bool SpotFinder::SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, cons
     return x - s.a - (l2 > 0.0 ? std::clamp((x - s.a).dot(d) / l2, 0.0, 1.0) : 0.0) * d;
   };
   Vec3 worst = off(p);
-  for (int i = 0; i < count; ++i) {
-    const Vec3 o = off(hull[i]);
+  for (const Vec3& x : hull) {
+    const Vec3 o = off(x);
     if (o.squaredNorm() > worst.squaredNorm()) worst = o;
   }
   const Vec3 grows = worst - off(p);
   return std::abs(du.dot(grows)) >= std::abs(dv.dot(grows));
 }
 
-void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net, int depth,
-                       const Nearby& hint, std::vector<LeftoverSpot>& out) const {
+void SpotFinder::Visit(const Part& part, const Nearby& hint, std::vector<LeftoverSpot>& out) const {
   if (run_.Cancelled()) return;
-  std::array<Vec3, kMaxNetPoints> hull;
-  const int count = HullPoints(shape, net, hull.data());
+  const SurfaceRect& rect = part.rect;
+  std::array<Vec3, kMaxNetPoints> points;
+  const Hull hull(points.data(), static_cast<std::size_t>(HullPoints(part.shape, part.net, points.data())));
   const double u = 0.5 * (rect.u0 + rect.u1), v = 0.5 * (rect.v0 + rect.v1);
   const SurfaceJet jet = Evaluate(surface_.piece(rect.piece), u, v);
   const Vec3& p = jet.p;
@@ -273,7 +285,7 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   const auto regular = UpwardNormal(jet);
   const Vec3 e = regular ? *regular : UpwardNormalNear(surface_, at);
   double size = 0.0;  // all of the rectangle lies within this distance of p
-  for (int i = 0; i < count; ++i) size = std::max(size, (hull[static_cast<std::size_t>(i)] - p).norm());
+  for (const Vec3& x : hull) size = std::max(size, (x - p).norm());
 
   if (RemovedDistance(p, size) == kInfinity) return;
   if (params_.operation_limits != nullptr &&
@@ -286,12 +298,12 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   NearMove& near = found.move;
   if (size < 4.0 * flat_) {
     near = NearestTo(p + radius_ * e, flat_, hint.move);
-    if (Covered(hull.data(), count, near)) return;
-    if (size < kPair * flat_ && CoveredByTwo(hull.data(), count, e, near)) return;
+    if (Covered(hull, near)) return;
+    if (size < kPair * flat_ && CoveredByTwo(hull, e, near)) return;
   }
   if (size < kCoarse * flat_) {
     const NearMove nearest = NearestTo(p, 2.0 * radius_, near);
-    if (Covered(hull.data(), count, nearest)) return;
+    if (Covered(hull, nearest)) return;
     if (auto spot = SpotAt(rect, jet, at, e, nearest)) {
       out.push_back(*std::move(spot));
       return;
@@ -311,40 +323,39 @@ void SpotFinder::Visit(const SurfaceRect& rect, NetShape shape, const Vec4* net,
   // ([regions, section 6]). Of the sharpest corner the rest shows at the corners of rectangles of this size.
   const double finest =
       limited && at_hand ? std::min(kLimit * flat_, ReachTolerance(params_.tolerance)) : kFinest * flat_;
-  if (size < finest || depth >= kDeepest) {
+  if (size < finest || part.depth >= kDeepest) {
     // The reachable part may be narrower than this: the floor of a slot that barely admits the ball, along
     // its middle, or a sharp corner between two limits.
     if (limited || near.segment < 0) AddCorner(rect, out);
     return;
   }
-  if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, radius_, params_.pass.scallop,
+  if (size < 8.0 * flat_ && NeedsShorterSteps(params_.forced, surface_, rect, {radius_, params_.pass.scallop},
                                               kForcedMargin * params_.pass.min_step_fraction)) {
     return;
   }
   // Larger rectangles with a pass nearby have reachable surface.
   std::optional<bool> bends;
   if (size < (near.segment < 0 ? 8.0 : kCoarse) * flat_) {
-    const auto places = PlacesOn(surface_, rect);
-    if (places && OutOfReach(surface_, *places, size, size < kCoarse * flat_ ? near_reach_ : cell_reach_,
+    const auto places = PlacesOn(surface_, rect, size);
+    if (places && OutOfReach(surface_, *places, size < kCoarse * flat_ ? near_reach_ : cell_reach_,
                              found.blockers, ForbiddenSides(*places))) {
       return;
     }
-    if (places && near.segment < 0) bends = BendsAlongU(*places, size);
+    if (places && near.segment < 0) bends = BendsAlongU(*places);
   }
 
-  const bool along_u = bends ? *bends
-                             : SplitAlongU(jet.du * (rect.u1 - rect.u0), jet.dv * (rect.v1 - rect.v0), p,
-                                           hull.data(), count, near);
+  const bool along_u =
+      bends ? *bends : SplitAlongU(jet.du * (rect.u1 - rect.u0), jet.dv * (rect.v1 - rect.v0), p, hull, near);
   std::array<Vec4, kMaxNetPoints> low, high;
-  HalveNet(shape, net, along_u, low.data(), high.data());
+  HalveNet(part.shape, part.net, along_u, low.data(), high.data());
   SurfaceRect a = rect, b = rect;
   if (along_u) {
     a.u1 = b.u0 = u;
   } else {
     a.v1 = b.v0 = v;
   }
-  Visit(a, shape, low.data(), depth + 1, found, out);
-  Visit(b, shape, high.data(), depth + 1, found, out);
+  Visit({a, part.shape, low.data(), part.depth + 1}, found, out);
+  Visit({b, part.shape, high.data(), part.depth + 1}, found, out);
 }
 
 void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out) const {
@@ -353,7 +364,7 @@ void SpotFinder::Search(const SurfaceRect& rect, std::vector<LeftoverSpot>& out)
   std::array<Vec4, kMaxNetPoints> net;
   std::copy(given.points.begin(), given.points.end(), net.begin());
   RestrictNet(shape, net.data(), {rect.u0, rect.u1, rect.v0, rect.v1});
-  Visit(rect, shape, net.data(), 0, {}, out);
+  Visit({rect, shape, net.data(), 0}, {}, out);
 }
 
 }  // namespace
@@ -364,11 +375,11 @@ absl::StatusOr<Locator> ReachLocator(const Locator& locator, const RestPassParam
   return Locator::Make(locator.surface(), std::max(radius, 0.5 * locator.radius()), run);
 }
 
-absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,
+absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const RestLocators& locators,
                                                     const std::vector<const SegmentTree*>& trees,
                                                     const std::vector<SurfaceRect>& rects,
                                                     const RestPassParams& params, const RunContext& run) {
-  const SpotFinder finder(locator, reach, trees, params, run);
+  const SpotFinder finder(locators, trees, params, run);
   // Rectangles per task.
   constexpr std::size_t kChunk = 32;
   const std::size_t chunks = (rects.size() + kChunk - 1) / kChunk;

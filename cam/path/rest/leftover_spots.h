@@ -30,6 +30,12 @@ inline constexpr double kReachMargin = 0.05;
 absl::StatusOr<Locator> ReachLocator(const Locator& locator, const RestPassParams& params,
                                      const RunContext& run);
 
+// The locator of the ball, and the ReachLocator of the same ball and tolerance. It refers to both.
+struct RestLocators {
+  const Locator& ball;
+  const Locator& reach;
+};
+
 // Halves the given rectangles until each is proven covered (up to the limit and params.margin), is proven out
 // of reach (OutOfReach), or stands for a spot. At a spot the middle exceeds the limit, and a ball of radius -
 // (1 + kReachMargin) ReachTolerance is free at p + R e, with the tip not below the floor ([regions (6)]). One
@@ -41,7 +47,7 @@ absl::StatusOr<Locator> ReachLocator(const Locator& locator, const RestPassParam
 //   Covered: the distance of a hull to a segment is largest at its vertices, so a rectangle is covered when
 //   all its control points lie within R + limit of one move (for zero-weight points see [location T10]).
 // Deterministic, parallel. `trees`: all passes, in any number of trees.
-absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const Locator& locator, const Locator& reach,
+absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const RestLocators& locators,
                                                     const std::vector<const SegmentTree*>& trees,
                                                     const std::vector<SurfaceRect>& rects,
                                                     const RestPassParams& params, const RunContext& run);

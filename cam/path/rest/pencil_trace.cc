@@ -35,8 +35,7 @@ class PencilTracer {
     std::vector<PencilPoint> points;
     bool ring = false;  // the run came back to the seed
   };
-  Run Follow(const PencilPoint& seed, double sign, double patience,
-             const std::function<bool(const Vec3&)>& wanted) const;
+  Run Follow(const PencilPoint& seed, double sign, const PencilWanted& wanted) const;
 
  private:
   Vec3 DirectionTo(const PencilPoint& p, const SurfacePoint& contact) const {
@@ -110,8 +109,8 @@ bool PencilTracer::ChordIsGood(const PencilPoint& a, const PencilPoint& b) const
   return std::min(excess(a.first, b.first), excess(a.second, b.second)) <= tolerance_;
 }
 
-PencilTracer::Run PencilTracer::Follow(const PencilPoint& seed, double sign, double patience,
-                                       const std::function<bool(const Vec3&)>& wanted) const {
+PencilTracer::Run PencilTracer::Follow(const PencilPoint& seed, double sign,
+                                       const PencilWanted& wanted) const {
   Run run;
   std::vector<PencilPoint>& out = run.points;
   const auto start = Direction(seed);
@@ -121,7 +120,7 @@ PencilTracer::Run PencilTracer::Follow(const PencilPoint& seed, double sign, dou
   PencilPoint at = seed;
   std::size_t keep = 0;
   double unwanted = 0.0, step = full;
-  while (out.size() < kMostStations && unwanted <= patience) {
+  while (out.size() < kMostStations && unwanted <= wanted.patience) {
     // If the seed lies ahead within a step, the chord to it closes the ring, if need be after a shorter step.
     const Vec3 back = seed.center - at.center;
     const bool round = out.size() > 4 && back.norm() <= step && Xy(back).dot(heading) > 0.0;
@@ -137,7 +136,7 @@ PencilTracer::Run PencilTracer::Follow(const PencilPoint& seed, double sign, dou
     }
     unwanted += (next->center - at.center).norm();
     out.push_back(*next);
-    if (wanted(next->center)) {
+    if (wanted.center(next->center)) {
       unwanted = 0.0;
       keep = out.size();
     }
@@ -183,13 +182,13 @@ std::optional<PencilPoint> FindPencilPoint(const Locator& locator, const Vec2& q
 }
 
 std::vector<TraceStation> TracePencil(const Locator& locator, const SheetBorder& border,
-                                      const PencilPoint& seed, const PassParams& params, double patience,
-                                      const std::function<bool(const Vec3&)>& wanted) {
+                                      const PencilPoint& seed, const PassParams& params,
+                                      const PencilWanted& wanted) {
   const PencilTracer tracer(locator, border, params);
-  PencilTracer::Run onward = tracer.Follow(seed, 1.0, patience, wanted);
+  PencilTracer::Run onward = tracer.Follow(seed, 1.0, wanted);
   std::vector<PencilPoint> points;
   if (!onward.ring) {
-    points = tracer.Follow(seed, -1.0, patience, wanted).points;
+    points = tracer.Follow(seed, -1.0, wanted).points;
     std::reverse(points.begin(), points.end());
   }
   points.push_back(seed);

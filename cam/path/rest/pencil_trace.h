@@ -23,14 +23,21 @@ struct PencilPoint {
 std::optional<PencilPoint> FindPencilPoint(const Locator& locator, const Vec2& q, double reach,
                                            const PassParams& params, const RunContext& run);
 
+// How far a crease is followed: while `center` holds for the centres, and through at most `patience` (mm)
+// where it does not.
+struct PencilWanted {
+  std::function<bool(const Vec3&)> center;
+  double patience = 0.0;
+};
+
 // Follows the crease from `seed` both ways, with a predictor along the curve of equal heights and Newton
-// steps back onto it. It continues while `wanted` holds for the centres, and through at most `patience` mm
-// where it does not. It ends where a third contact takes over, the two contacts merge, the curve turns
-// vertical or the sheet ends. Stations are on the crease to 1e-9 mm in plan and joined by chords within the
-// tolerance ([location T2, T3]). Unwanted tails are cut off, and only one station may remain. A crease that
-// runs back to the seed is followed once; its last station is the first.
+// steps back onto it. It continues as far as `wanted` says. It ends where a third contact takes over, the
+// two contacts merge, the curve turns vertical or the sheet ends. Stations are on the crease to 1e-9 mm in
+// plan and joined by chords within the tolerance ([location T2, T3]). Unwanted tails are cut off, and only
+// one station may remain. A crease that runs back to the seed is followed once; its last station is the
+// first.
 std::vector<TraceStation> TracePencil(const Locator& locator, const SheetBorder& border,
-                                      const PencilPoint& seed, const PassParams& params, double patience,
-                                      const std::function<bool(const Vec3&)>& wanted);
+                                      const PencilPoint& seed, const PassParams& params,
+                                      const PencilWanted& wanted);
 
 }  // namespace patchmill

@@ -345,7 +345,7 @@ absl::StatusOr<std::vector<CutterPath>> RemoveRedundantPasses(const Locator& loc
         const SegmentTree removed(remover.Removed(), Metric::kPath, kInfinity, run);
         params.removed = &removed;
         PM_ASSIGN_OR_RETURN(const std::vector<LeftoverSpot> spots,
-                            FindSpots(locator, reach, trees, rects, params, run));
+                            FindSpots({locator, reach}, trees, rects, params, run));
         // A restored chord uncovers nothing: only the rectangles of the spots need another look.
         rects.clear();
         for (const LeftoverSpot& spot : spots) rects.push_back(spot.rect);

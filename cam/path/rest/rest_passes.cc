@@ -29,7 +29,7 @@ absl::StatusOr<std::vector<CutterPath>> RestPaths(const Locator& locator, const 
   for (int round = 0; round < params.max_rounds; ++round) {
     run.Progress("coverage", static_cast<double>(round) / params.max_rounds);
     PM_ASSIGN_OR_RETURN(const std::vector<LeftoverSpot> spots,
-                        FindSpots(locator, reach, trees, rects, params, run));
+                        FindSpots({locator, reach}, trees, rects, params, run));
     if (spots.empty()) break;
     PM_ASSIGN_OR_RETURN(std::vector<CutterPath> found, RestPassesAt(locator, spots, params, method, run));
     // A pass never uncovers anything: only the rectangles of the spots need another look.

@@ -136,9 +136,9 @@ bool RestPassMaker::Add(PassKind kind, std::vector<CutterPoint> points) {
 bool RestPassMaker::AlongPencil(std::size_t i) {
   const auto seed = FindPencilPoint(locator_, Xy(spots_[i].center), 0.75 * flat_, params_.pass, run_);
   if (!seed || (seed->center - spots_[i].center).norm() > flat_) return false;
-  const auto stations = TracePencil(locator_, border_, *seed, params_.pass, 3.0 * flat_, [&](const Vec3& c) {
-    return !run_.Cancelled() && Needed(c, 0.75 * flat_);
-  });
+  const PencilWanted wanted{[&](const Vec3& c) { return !run_.Cancelled() && Needed(c, 0.75 * flat_); },
+                            3.0 * flat_};
+  const auto stations = TracePencil(locator_, border_, *seed, params_.pass, wanted);
   if (stations.size() < 2) return false;
   Add(PassKind::kPencil, ThinStations(locator_, stations, params_.pass, &run_));
   return !open_[i];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace patchmill {
 namespace {
@@ -25,14 +26,17 @@ std::uint64_t Mix(std::uint64_t k) {
 class Search {
  public:
   Search(ContactCandidates& items, const LevelOracle& oracle, const LevelCellLimits& limits,
-         const RunContext& run, const WantedLevel* wanted, LevelCells& out)
-      : items_(items), oracle_(oracle), limits_(limits), run_(run), wanted_(wanted), out_(out) {}
+         const RunContext& run, const WantedLevel* wanted)
+      : items_(items), oracle_(oracle), limits_(limits), run_(run), wanted_(wanted) {}
 
-  void Root() {
+  // Fills `out`, of which the grid is known.
+  LevelCells Root(LevelCells out) {
+    out_ = std::move(out);
     const std::int32_t side = std::int32_t{1} << out_.grid.levels;
     pool_.resize(static_cast<std::size_t>(out_.grid.levels) + 2);
     pool_[0] = {ContactCandidates::kRoot};
     Visit(0, 0, side, 0);
+    return std::move(out_);
   }
 
  private:
@@ -116,7 +120,7 @@ class Search {
   const LevelCellLimits& limits_;
   const RunContext& run_;
   const WantedLevel* wanted_;
-  LevelCells& out_;
+  LevelCells out_;
   std::vector<std::vector<std::int32_t>> pool_;  // candidates by depth
   std::optional<SurfacePoint> hint_;
   RecentDiscs recent_;
@@ -166,10 +170,10 @@ XyRect XyRectOf(const LevelGrid& grid, const LevelCell& cell) {
   return {grid.At(cell.x, cell.y) + Vec2(half, half), Vec2(half, half)};
 }
 
-LevelCells FindCells(ContactCandidates& items, const Surface& surface, const LevelOracle& oracle,
-                     const LevelCellLimits& limits, const RunContext& run, const WantedLevel* wanted) {
+LevelCells FindCells(ContactCandidates& items, const LevelOracle& oracle, const LevelCellLimits& limits,
+                     const RunContext& run, const WantedLevel* wanted) {
   LevelCells out;
-  const Box3& box = surface.box;
+  const Box3& box = oracle.surface().box;
   out.grid.unit = limits.smallest;
   if (box.Empty()) return out;
   const double margin = oracle.radius() + 4.0 * limits.smallest;
@@ -178,8 +182,7 @@ LevelCells FindCells(ContactCandidates& items, const Surface& surface, const Lev
     ++out.grid.levels;
   out.grid.unit = std::max(out.grid.unit, extent / (std::int32_t{1} << out.grid.levels));
   out.grid.origin = Xy(box.min) - Vec2(margin + kShiftX * out.grid.unit, margin + kShiftY * out.grid.unit);
-  Search(items, oracle, limits, run, wanted, out).Root();
-  return out;
+  return Search(items, oracle, limits, run, wanted).Root(std::move(out));
 }
 
 }  // namespace patchmill

@@ -75,9 +75,8 @@ struct WantedLevel {
 // is not in the cells returned is smaller than `smallest`. Polls run.Cancelled(). With `wanted`, cells
 // outside of its places are left out too, and cells whose every contact is outside of its slope window or on
 // the shank. The contour then comes in pieces that end at such cells.
-LevelCells FindCells(ContactCandidates& items, const Surface& surface, const LevelOracle& oracle,
-                     const LevelCellLimits& limits, const RunContext& run,
-                     const WantedLevel* wanted = nullptr);
+LevelCells FindCells(ContactCandidates& items, const LevelOracle& oracle, const LevelCellLimits& limits,
+                     const RunContext& run, const WantedLevel* wanted = nullptr);
 
 XyRect XyRectOf(const LevelGrid& grid, const LevelCell& cell);
 

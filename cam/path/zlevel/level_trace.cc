@@ -31,7 +31,7 @@ LevelContours Trace(const LevelContext& context, double z, const ContourParams& 
   for (int shifts = 0; !run.Cancelled();) {
     ContactCandidates items(context.locator, context.sides, context.bounds, level.z);
     const LevelOracle oracle(context.locator, context.sides, level.z);
-    LevelCells cells = FindCells(items, context.locator.surface(), oracle, limits, run, wanted);
+    LevelCells cells = FindCells(items, oracle, limits, run, wanted);
     if (cells.cancelled) return level;
     if (cells.overflow && shifts < kMostShifts) {
       level.z += kShift;

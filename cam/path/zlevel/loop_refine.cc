@@ -19,9 +19,12 @@ bool ExcessBetween(const LevelOracle& oracle, const LevelPoint& a, const LevelPo
   if (a.contact.piece.value != b.contact.piece.value) return false;
   const double radius = oracle.radius();
   const int parts = SupportParts(radius, (b.q - a.q).norm(), limit);
-  return ExcessWithin(radius, oracle.Center(a.q), oracle.Center(b.q), {a.contact.p, -kInfinity},
-                      SupportsBetween(oracle.surface(), a.contact, b.contact, parts, -kInfinity),
-                      {b.contact.p, -kInfinity}, limit);
+  const std::vector<Support> between =
+      SupportsBetween(oracle.surface(), a.contact, b.contact, parts, -kInfinity);
+  return ExcessWithin(
+      radius,
+      {oracle.Center(a.q), oracle.Center(b.q), {a.contact.p, -kInfinity}, {b.contact.p, -kInfinity}, between},
+      limit);
 }
 
 class Refiner {

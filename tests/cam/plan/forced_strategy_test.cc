@@ -169,13 +169,13 @@ TEST(ForcedArea, LeftByStepIsInfiniteWhereNoStepWillDo) {
   jet.du = Vec3::UnitX();
   jet.dv = Vec3::UnitY();
   const ForcedSteps contours{ForcedPasses::kContours, 0.0}, lines{ForcedPasses::kLines, 0.0};
-  EXPECT_EQ(LeftByStep(contours, jet, Vec3::UnitZ(), kRadius, kScallop, kLeast), kInfinity);
-  EXPECT_NEAR(LeftByStep(lines, jet, Vec3::UnitZ(), kRadius, kScallop, 1.0), kScallop, 1e-12);
-  EXPECT_EQ(LeftByStep(lines, jet, Vec3::UnitZ(), kRadius, kScallop, kLeast), kScallop);
-  EXPECT_EQ(LeftByStep({}, jet, Vec3::UnitZ(), kRadius, kScallop, kLeast), kScallop);
+  EXPECT_EQ(LeftByStep(contours, jet, Vec3::UnitZ(), {kRadius, kScallop}, kLeast), kInfinity);
+  EXPECT_NEAR(LeftByStep(lines, jet, Vec3::UnitZ(), {kRadius, kScallop}, 1.0), kScallop, 1e-12);
+  EXPECT_EQ(LeftByStep(lines, jet, Vec3::UnitZ(), {kRadius, kScallop}, kLeast), kScallop);
+  EXPECT_EQ(LeftByStep({}, jet, Vec3::UnitZ(), {kRadius, kScallop}, kLeast), kScallop);
   jet.dv = Vec3::UnitZ();  // upright, normal -y
-  EXPECT_EQ(LeftByStep(lines, jet, -Vec3::UnitY(), kRadius, kScallop, kLeast), kInfinity);
-  EXPECT_NEAR(LeftByStep({ForcedPasses::kLines, kPi / 2.0}, jet, -Vec3::UnitY(), kRadius, kScallop, 1.0),
+  EXPECT_EQ(LeftByStep(lines, jet, -Vec3::UnitY(), {kRadius, kScallop}, kLeast), kInfinity);
+  EXPECT_NEAR(LeftByStep({ForcedPasses::kLines, kPi / 2.0}, jet, -Vec3::UnitY(), {kRadius, kScallop}, 1.0),
               kScallop, 1e-12);
 }
 

@@ -53,7 +53,8 @@ TEST(BeyondStrategy, IsSurfaceThatNeedsLessThanTheNarrowestStep) {
       if (!facing) continue;
       const Asked asked = Ask(i % 2 == 0, random.Uniform(0.0, kPi), kRadius * random.Uniform(1e-4, 0.33));
       const double step =
-          NeededStepOfSides(asked.forced, jet, facing->e, kRadius, *asked.judged.finish.scallop) / kFraction;
+          NeededStepOfSides(asked.forced, jet, facing->e, {kRadius, *asked.judged.finish.scallop}) /
+          kFraction;
       if (std::abs(step - kMargin) < 1e-4) continue;
       EXPECT_EQ(BeyondStrategy(jet, *facing, asked.judged), step < kMargin)
           << step << " at " << jet.p.transpose() << ", scallop " << *asked.judged.finish.scallop;
@@ -77,12 +78,12 @@ TEST(BeyondStrategy, VerticalFaceCountsAsTheEasierOfItsSides) {
     const Vec3 e = normal->dot(jet.p) > 0.0 ? *normal : -*normal;
     // Lines that climb the rim here.
     const Asked asked = Ask(false, std::atan2(jet.p.y(), jet.p.x()), 0.02);
-    const double outer = NeededStep(asked.forced, jet, e, kRadius, 0.02);
-    const double inner = NeededStep(asked.forced, jet, -e, kRadius, 0.02);
+    const double outer = NeededStep(asked.forced, jet, e, {kRadius, 0.02});
+    const double inner = NeededStep(asked.forced, jet, -e, {kRadius, 0.02});
     EXPECT_GT(outer, 1.0);
     EXPECT_LT(inner, kFraction * kMargin);
-    EXPECT_EQ(NeededStepOfSides(asked.forced, jet, e, kRadius, 0.02), outer);
-    EXPECT_EQ(NeededStepOfSides(asked.forced, jet, -e, kRadius, 0.02), outer);
+    EXPECT_EQ(NeededStepOfSides(asked.forced, jet, e, {kRadius, 0.02}), outer);
+    EXPECT_EQ(NeededStepOfSides(asked.forced, jet, -e, {kRadius, 0.02}), outer);
     EXPECT_FALSE(BeyondStrategy(jet, {e, true}, asked.judged));
     EXPECT_FALSE(BeyondStrategy(jet, {-e, true}, asked.judged));
     EXPECT_TRUE(BeyondStrategy(jet, {-e, false}, asked.judged));

@@ -125,7 +125,7 @@ class ProgramJudge {
       const double u = random.Unit(), v = random.Unit();
       const SurfaceJet jet = Evaluate(surface_.pieces[piece], u, v);
       const auto e = UpwardNormal(jet);
-      if (!e || !Reachable(jet.p, *e) || NeededStep(forced, jet, *e, kept_, op.scallop) < kLeast) continue;
+      if (!e || !Reachable(jet.p, *e) || NeededStep(forced, jet, *e, {kept_, op.scallop}) < kLeast) continue;
       EXPECT_LT(distance.At(jet.p, limit + 0.5), limit)
           << "left standing at " << jet.p.transpose() << ", piece " << piece << ", u " << u << ", v " << v;
     }

@@ -53,10 +53,10 @@ TEST(ExcessWithin, AChordOnAPlaneLeavesNothing) {
   std::vector<Support> between;
   const int parts = SupportParts(kR, 0.5, limit);
   for (int i = 1; i < parts; ++i) between.push_back({Vec3(0.5 * i / parts, 0, 0), -kInfinity});
-  EXPECT_TRUE(ExcessWithin(kR, a, b, left, between, right, limit));
+  EXPECT_TRUE(ExcessWithin(kR, {a, b, left, right, between}, limit));
   // Raised it leaves what it is raised by.
   const Vec3 up(0, 0, limit);
-  EXPECT_FALSE(ExcessWithin(kR, a + up, b + up, left, between, right, limit));
+  EXPECT_FALSE(ExcessWithin(kR, {a + up, b + up, left, right, between}, limit));
 }
 
 // Whatever it lets through leaves no more than the limit anywhere, against the distance to dense points; and
@@ -78,7 +78,7 @@ TEST(ExcessWithin, AgreesWithDenseDistances) {
       const double limit = std::pow(10.0, random.Uniform(-4, -2.5));
       const std::vector<Support> between =
           SupportsBetween(surface, p, q, SupportParts(kR, (b - a).norm(), limit), -kInfinity);
-      const bool within = ExcessWithin(kR, a, b, {p.p, -kInfinity}, between, {q.p, -kInfinity}, limit);
+      const bool within = ExcessWithin(kR, {a, b, {p.p, -kInfinity}, {q.p, -kInfinity}, between}, limit);
       double worst = 0.0;
       for (int i = 0; i <= 40; ++i) {
         const Vec3 x = a + i / 40.0 * (b - a);

@@ -58,7 +58,8 @@ std::vector<LeftoverSpot> SpotsAlongBottom(double depth) {
   const RestPassParams params = Coverage();
   const Locator reach = *ReachLocator(locator, params, RunContext());
   // A strip along the bottom, 0.02 mm wide, and nothing cut yet.
-  auto spots = FindSpots(locator, reach, {}, {{PieceId(0), 0.4975, 0.5025, 0.0, 1.0}}, params, RunContext(1));
+  auto spots =
+      FindSpots({locator, reach}, {}, {{PieceId(0), 0.4975, 0.5025, 0.0, 1.0}}, params, RunContext(1));
   EXPECT_TRUE(spots.ok()) << spots.status();
   return std::move(*spots);
 }
@@ -84,12 +85,11 @@ void ExpectNoFreeBall(const Surface& surface, double radius, int rects, int leas
     const double w = 0.5 * std::exp(random.Uniform(-6.0, 0.0));
     const double u = random.Uniform(0.0, 1.0 - w), v = random.Uniform(0.0, 1.0 - w);
     const SurfaceRect rect{piece, u, u + w, v, v + w};
-    const auto places = PlacesOn(surface, rect);
+    auto places = PlacesOn(surface, rect, 0.0);
     if (!places) continue;
-    double size = 0.0;
-    for (const Vec3& p : places->p) size = std::max(size, (p - places->p[8]).norm());
+    for (const Vec3& p : places->p) places->size = std::max(places->size, (p - places->p[8]).norm());
     Blockers blockers;
-    if (!OutOfReach(surface, *places, size, params, blockers)) continue;
+    if (!OutOfReach(surface, *places, params, blockers)) continue;
     ++out_of_reach;
     for (int k = 0; k < 100; ++k) {
       const SurfaceJet jet = Evaluate(surface, piece, u + w * random.Unit(), v + w * random.Unit());
