@@ -23,9 +23,8 @@ struct ModelCheck {
   Box3 box;                               // placed
   double min_concave_radius = kInfinity;  // mm, upward side
 };
-// WALL_WITHOUT_SIDE for each wall that may be milled on both sides (Surface::two_sided_walls). CheckModel
-// has them,
-// too.
+// WALL_WITHOUT_SIDE for each wall that may be milled on both sides (Surface::two_sided_walls). CheckModel has
+// them, too.
 Diagnostics WallsWithoutSide(const Surface& surface);
 
 absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optional<Tool>& tool,

@@ -1,6 +1,5 @@
 // How many regions a machinist is shown: tests/cam/region/split_regions_counts.txt, and no other number when
-// the
-// shape moves by what nobody can see. Networks: tests/service/regions_test.cc.
+// the shape moves by what nobody can see. Networks: tests/service/regions_test.cc.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
