@@ -158,9 +158,9 @@ void Join(const JoinFrame& frame, const std::vector<JoinedEdge>& edges, JoinedEd
     return JoinHosaka(frame, edges, t, *factors, edge);
   const HermiteCurve cubic = HermiteOf(edge.curve);
   EdgeTwists twists = WishedTwists(t);
-  const EndVectors a = Wish(frame, sides[0], cubic, {t.a0, t.a1}, {twists.a0, twists.a1});
-  const EndVectors b = Wish(frame, sides[1], cubic, {t.b0, t.b1}, {twists.b0, twists.b1});
-  twists = {a.start, a.end, b.start, b.end};
+  const EndVectors first = Wish(frame, sides[0], cubic, {t.a0, t.a1}, {twists.a0, twists.a1});
+  const EndVectors second = Wish(frame, sides[1], cubic, {t.b0, t.b1}, {twists.b0, twists.b1});
+  twists = {first.start, first.end, second.start, second.end};
   twists = NearestTwists(cubic, t, *factors, twists);
   const BezierChain correction = CorrectionFor(edge.curve, *factors);
   for (const bool a : {true, false}) {

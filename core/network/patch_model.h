@@ -42,7 +42,6 @@ PatchModel Place(const Placement& placement, PatchModel model);
 // Finds everything that makes a single patch unusable: sizes, degrees, knots, weights, finite numbers,
 // magnitude. There is one error diagnostic per kind of fault and patch, with patch index, field path and
 // reason (the first bad point of a patch stands for all of them), at most 1000. It is empty if the model is
-// sound. Cost O(points). point of a patch stands for all of them), at most 1000; empty when the model is
 // sound. Cost O(points). Codes: PATCH_COUNT, POINT_COUNT, WEIGHT_COUNT, INVALID_DEGREE, INVALID_KNOTS,
 // INVALID_WEIGHT, NOT_FINITE, TOO_LARGE, ZERO_EXTENT, DUPLICATE_ID, INVALID_JOIN_TOLERANCE, INVALID_BREAKS.
 Diagnostics ValidateModel(const PatchModel& model);
