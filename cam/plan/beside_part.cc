@@ -21,7 +21,7 @@ constexpr double kCells = 400.0;     // of the grid, along the longer side of th
 constexpr int kBorderCells = 4;      // free around the part
 constexpr double kLookBeside = 2.0;  // cells: so far beside a wall the part must have ended
 constexpr double kPlaceStep = 4.0;   // cells: distance of the places of a wall that are looked at
-constexpr int kMostPlaces = 256;     // of a stretch
+constexpr int kMostPlacesOfAStretch = 256;
 // Ball radii: how far areas reach, and the least of it where something else of the part is near.
 constexpr double kDeep = 4.0, kLeastDeep = 1.1;
 constexpr int kMostStretches = 64;    // of a curved wall, each way
@@ -299,7 +299,7 @@ class StretchFinder {
   // places all along the chord are looked at.
   std::vector<BarePart> BareParts(const Chord& chord) const {
     const double cell = footprint_.cell(), length = (chord.last - chord.first).norm();
-    const int places = std::clamp(static_cast<int>(length / (kPlaceStep * cell)), 1, kMostPlaces);
+    const int places = std::clamp(static_cast<int>(length / (kPlaceStep * cell)), 1, kMostPlacesOfAStretch);
     const auto at = [&](double place) -> Vec2 {
       return chord.first + place / places * (chord.last - chord.first);
     };
