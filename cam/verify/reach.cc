@@ -11,13 +11,13 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kBesideRadii = 0.02;  // in R: distance of the places beside a place
-constexpr double kProof = 0.02;        // of the reach tolerance: error of distances that decide "free"
-constexpr double kCoarse = 0.02;       // in R: error of a blocked depth
-constexpr double kShankMargin = 0.02;  // in R: T < B - kShankMargin R of [regions, section 6]
-constexpr double kAboveSmallestBall =
-    0.5;                              // in radii of the smallest ball: what is above comes nearer to its axis
-constexpr double kLimitSlack = 1e-6;  // mm; rounding of limits that run along the surface
+constexpr double kBesideRadii = 0.02;     // in R: distance of the places beside a place
+constexpr double kProof = 0.02;           // of the reach tolerance: error of distances that decide "free"
+constexpr double kCoarse = 0.02;          // in R: error of a blocked depth
+constexpr double kOverhangMargin = 0.02;  // in R: T must be below B by this much [regions U1]
+// In radii of the smallest ball: an overhang above it counts if it is nearer to its axis [regions (7)].
+constexpr double kAboveSmallestBall = 0.5;
+constexpr double kLimitSlack = 1e-6;    // mm; rounding of limits that run along the surface
 constexpr double kReasonProof = 0.001;  // in R: error of T and B
 
 // Up to four places of the piece about kBesideRadii away in both parameters. Near its sides there are fewer.
@@ -83,14 +83,15 @@ bool NothingNear(const Surface& surface, const Vec3& c, double limit, double pro
   return !found;
 }
 
-// True if something above the centre comes nearer to the axis than anything comes to the centre, by
-// kShankMargin [regions, section 6], and nearer than `limit`. The ball touches the surface at `radius`. Near
-// the threshold known obstacles may decide.
-bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double limit, Obstacles& obstacles) {
-  const double proof = kReasonProof * radius, nearer = kShankMargin * radius;
+// [regions U1] for a ball of `radius` (mm) that touches the surface: true if an overhang (surface above the
+// centre c) is nearer to the axis than `limit` (mm), and nearer than any surface is to c by kOverhangMargin.
+// Within the error of the distances a known obstacle may decide.
+bool OverhangIsNearer(const Surface& surface, const Vec3& c, double radius, double limit,
+                      Obstacles& obstacles) {
+  const double proof = kReasonProof * radius, nearer = kOverhangMargin * radius;
   limit = std::min(limit, obstacles.DistanceTo(c, radius) - nearer + proof);
   if (!(limit > 0.0)) return false;
-  // Any such point above is enough, because the point nearest to the ray then fulfils the rule, too.
+  // Any overhang that fulfils the rule is enough: then the point nearest to the ray fulfils it, too.
   const auto above = obstacles.NearestAbove(c, limit);
   if (above && NothingNear(surface, c, above->distance + nearer, proof, obstacles)) return true;
   const auto nearest = NearestToRay(surface, c, limit, proof, obstacles);
@@ -98,22 +99,22 @@ bool ShankIsNearer(const Surface& surface, const Vec3& c, double radius, double 
          NothingNear(surface, c, nearest->distance + nearer, proof, obstacles);
 }
 
-// For a tool's ball that is not free: true if something above it blocks it, or if the ball without its upward
-// sweep would be free.
+// [regions U1, U2] for the tool's ball, which is not free.
 bool BlockedAbove(const Surface& surface, const Vec3& c, const ReachParams& params, Obstacles& obstacles) {
   const double limit = params.radius - params.reach_tolerance;
-  return ShankIsNearer(surface, c, params.radius, limit, obstacles) ||
+  return OverhangIsNearer(surface, c, params.radius, limit, obstacles) ||
          NothingNear(surface, c, params.radius - 0.5 * params.reach_tolerance,
                      kProof * params.reach_tolerance, obstacles);
 }
 
-bool StandsAboveLeast(const Surface& surface, const Vec3& c, double least, Obstacles& obstacles) {
+// [regions U3] for the smallest ball; `least` is its radius, mm.
+bool HasOverhangOverSmallest(const Surface& surface, const Vec3& c, double least, Obstacles& obstacles) {
   return MayRiseAbove(surface, c, kAboveSmallestBall * least) &&
-         ShankIsNearer(surface, c, least, kAboveSmallestBall * least, obstacles);
+         OverhangIsNearer(surface, c, least, kAboveSmallestBall * least, obstacles);
 }
 
-// For a ball that is free on no side: true for UNDERCUT. Something blocks it above, or something stands above
-// the smallest ball. On a vertical face either must hold on both sides.
+// For a place where the ball is free on no side: true for UNDERCUT. On a vertical face U1 or U2 must hold on
+// both sides, or U3 on both sides.
 bool Undercut(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
               Obstacles& obstacles) {
   const auto centers = Centers(p, facing, params.radius);
@@ -123,8 +124,8 @@ bool Undercut(const Surface& surface, const Vec3& p, const Facing& facing, const
   }
   const double least = SmallestBallRadius(params.reach_tolerance);
   const auto beside = Centers(p, facing, least);
-  return least < params.radius && StandsAboveLeast(surface, beside[0], least, obstacles) &&
-         (!facing.upright || StandsAboveLeast(surface, beside[1], least, obstacles));
+  return least < params.radius && HasOverhangOverSmallest(surface, beside[0], least, obstacles) &&
+         (!facing.upright || HasOverhangOverSmallest(surface, beside[1], least, obstacles));
 }
 
 }  // namespace

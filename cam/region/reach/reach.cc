@@ -15,9 +15,8 @@ namespace patchmill {
 
 namespace {
 
-// The constants of [regions, section 6].
-constexpr double kAboveSmallestBall =
-    0.5;  // in radii of the smallest ball: something stands above it if it comes nearer to its axis
+// In radii of the smallest ball: an overhang above it counts if it is nearer to its axis [regions (7)].
+constexpr double kAboveSmallestBall = 0.5;
 
 constexpr int kMostSlides = 12;  // Newton steps of an obstacle; fewer if a step is shorter than kSlid
 constexpr double kSlid = 1e-4;   // in R: after such a step the error is about the square of it
@@ -81,34 +80,35 @@ double ReachTest::Slide(RaySlide& obstacle, const SurfaceJet& jet) const {
   return FromSet<Reach::kUpwardRay>(obstacle.at().p - center).norm() - free_ball_.radius();
 }
 
-ReachTest::Shanks ReachTest::MakeShanks() const {
-  const double least = SmallestBallRadius(ReachTolerance(params_.tolerance));
-  return {ShankFinder(surface(), cloud_, free_ball_.radius(), params_.radius),
-          ShankFinder(surface(), cloud_, kAboveSmallestBall * least, least)};
+ReachTest::OverhangFinders ReachTest::MakeOverhangFinders() const {
+  const double smallest = SmallestBallRadius(ReachTolerance(params_.tolerance));
+  return {OverhangFinder(surface(), cloud_, free_ball_.radius(), params_.radius),
+          OverhangFinder(surface(), cloud_, kAboveSmallestBall * smallest, smallest)};
 }
 
-bool ReachTest::BlockedAbove(const Vec3& p, const Facing& facing, Shanks& shanks) const {
-  const double least = SmallestBallRadius(ReachTolerance(params_.tolerance));
-  // On a vertical face each ball must be blocked on both sides: a ball that is too large for a slot lies
-  // under the slot's top beyond the other wall.
+bool ReachTest::BlockedAbove(const Vec3& p, const Facing& facing, OverhangFinders& finders) const {
+  const double smallest = SmallestBallRadius(ReachTolerance(params_.tolerance));
+  // On a vertical face the condition must hold on both sides. On one side it may hold although the place is
+  // not UNDERCUT: a ball that is too large for a slot reaches through the other wall, and the material around
+  // the slot then stands above its centre.
   const auto on_all_sides = [&](const auto& blocked) {
     return blocked(facing.e) && (!facing.upright || blocked(-facing.e));
   };
-  return on_all_sides([&](const Vec3& e) { return shanks.ball.Blocked(p + params_.radius * e); }) ||
-         (least < params_.radius &&
-          on_all_sides([&](const Vec3& e) { return shanks.least.StandsAbove(p + least * e); }));
+  return on_all_sides([&](const Vec3& e) { return finders.ball.IsUndercut(p + params_.radius * e); }) ||
+         (smallest < params_.radius &&
+          on_all_sides([&](const Vec3& e) { return finders.smallest.HasOverhang(p + smallest * e); }));
 }
 
 bool ReachTest::BlockedAbove(const Vec3& p, const Facing& facing) const {
-  Shanks shanks = MakeShanks();
-  return BlockedAbove(p, facing, shanks);
+  OverhangFinders finders = MakeOverhangFinders();
+  return BlockedAbove(p, facing, finders);
 }
 
 void ReachTest::BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<double> signs) const {
-  Shanks shanks = MakeShanks();
+  OverhangFinders finders = MakeOverhangFinders();
   for (std::size_t i = 0; i < jets.size(); ++i) {
     const auto facing = FacingAt(jets[i]);
-    signs[i] = !facing ? 0.0 : BlockedAbove(jets[i].p, *facing, shanks) ? -1.0 : 1.0;
+    signs[i] = !facing ? 0.0 : BlockedAbove(jets[i].p, *facing, finders) ? -1.0 : 1.0;
   }
 }
 

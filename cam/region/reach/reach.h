@@ -9,7 +9,7 @@
 #include "cam/location/ray_slide.h"
 #include "cam/region/map/region_map.h"
 #include "cam/region/reach/obstacle_cloud.h"
-#include "cam/region/reach/shank_finder.h"
+#include "cam/region/reach/overhang_finder.h"
 #include "core/diffgeo/forms.h"
 
 namespace patchmill {
@@ -20,12 +20,12 @@ class ReachTest {
   // to it and to `params`. Its answers are meaningless if `run` was cancelled.
   ReachTest(const Locator& free_ball, const RegionParams& params, const RunContext& run);
 
-  // True if the ball that touches p on the side of `facing` is free; the floor does not count. If p has two
-  // sides, one free ball is enough.
+  // True if the ball that touches p on the side of `facing` is free (glossary: free ball). The floor does not
+  // count. If p has two sides, one free ball is enough.
   bool Free(const Vec3& p, const Facing& facing) const;
   // The same at many places near each other, faster. signs[i] is 1 if the ball is free, -1 if not, 0 if there
-  // is no normal. `obstacles` is empty or as long as jets. obstacles[i] becomes something in the way of the
-  // ball, or nullopt if there is nothing or if p has two sides.
+  // is no normal. `obstacles` is empty or as long as jets. obstacles[i] becomes a surface point in the way of
+  // the ball; nullopt if there is none, or if p has two sides.
   void FreeAt(std::span<const SurfaceJet> jets, std::span<double> signs,
               std::span<std::optional<SurfacePoint>> obstacles = {}) const;
   // Distance of the point `obstacle` from the ball that touches the surface at `jet` and from its upward
@@ -34,19 +34,20 @@ class ReachTest {
   // The same for the deepest place of the obstacle's branch of the surface. `obstacle` slides to that place.
   double Slide(RaySlide& obstacle, const SurfaceJet& jet) const;
   const Surface& surface() const { return free_ball_.surface(); }
-  // For a place where the ball is not free: true for UNDERCUT, false for CONCAVE. Cost: some microseconds.
+  // For a place where the ball is not free: true for UNDERCUT [regions U1, U2, U3], false for CONCAVE. Cost:
+  // some microseconds.
   bool BlockedAbove(const Vec3& p, const Facing& facing) const;
-  // The same at many places near each other, faster. signs[i] is -1 if blocked above, 1 if not, 0 if there is
-  // no normal.
+  // The same at many places near each other, faster. signs[i] is -1 for UNDERCUT, 1 for CONCAVE, 0 if there
+  // is no normal.
   void BlockedAboveAt(std::span<const SurfaceJet> jets, std::span<double> signs) const;
   // Height of the ball's tip over floor_z less the reach tolerance, mm. Below 0 the place is FLOOR.
   double OverFloor(const Vec3& p, const Vec3& normal) const;
   // For a place where the ball is free: true if params.operation_limits allows its centre. If p has two
   // sides, the centre must be allowed on a side on which the ball is free.
   bool Allowed(const Vec3& p, const Facing& facing) const;
-  // For a place that is not Allowed: true if it would be if nothing were forbidden beside the part.
+  // For a place that is not Allowed: true if only an area beside the part forbids its centre (OUTSIDE).
   bool ForbiddenBesidePart(const Vec3& p, const Facing& facing) const;
-  // For a place that is not Allowed: true if it would be if the shank were no wider than the ball.
+  // For a place that is not Allowed: true if a shank no wider than the ball would make it Allowed (SHANK).
   bool BlockedByShank(const Vec3& p, const Facing& facing) const;
 
   const Locator& free_ball() const { return free_ball_; }
@@ -55,11 +56,12 @@ class ReachTest {
   bool FreeCenter(const Vec3& center) const;
   template <class Allows>
   bool AllowedOnASide(const Vec3& p, const Facing& facing, const Allows& allows) const;
-  struct Shanks {
-    ShankFinder ball, least;
+  // For the tool's ball, and for the smallest ball (SmallestBallRadius).
+  struct OverhangFinders {
+    OverhangFinder ball, smallest;
   };
-  Shanks MakeShanks() const;
-  bool BlockedAbove(const Vec3& p, const Facing& facing, Shanks& shanks) const;
+  OverhangFinders MakeOverhangFinders() const;
+  bool BlockedAbove(const Vec3& p, const Facing& facing, OverhangFinders& finders) const;
   const Locator& free_ball_;
   const RegionParams& params_;
   ObstacleCloud cloud_;

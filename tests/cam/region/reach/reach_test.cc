@@ -86,8 +86,8 @@ TEST(ReachTest, AgreesWithTheDefinition) {
       for (int k = 0; k < 8; ++k)
         jets.push_back(Evaluate(surface.pieces[piece], u + 0.1 * random.Unit(), v + 0.1 * random.Unit()));
     }
-    std::vector<double> signs(jets.size()), shank(jets.size());
-    reach.BlockedAboveAt(jets, shank);
+    std::vector<double> signs(jets.size()), undercut(jets.size());
+    reach.BlockedAboveAt(jets, undercut);
     std::vector<std::optional<SurfacePoint>> obstacles(jets.size());
     reach.FreeAt(jets, signs, obstacles);
     for (std::size_t i = 0; i < jets.size(); ++i) {
@@ -109,7 +109,7 @@ TEST(ReachTest, AgreesWithTheDefinition) {
       if (!by || by == Blocked::kNot) continue;
       const bool is_above = by == Blocked::kAbove;
       EXPECT_EQ(reach.BlockedAbove(jets[i].p, *facing), is_above);
-      EXPECT_EQ(shank[i], is_above ? -1.0 : 1.0);
+      EXPECT_EQ(undercut[i], is_above ? -1.0 : 1.0);
       above += is_above;
       not_above += !is_above;
     }
