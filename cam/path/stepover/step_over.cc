@@ -14,16 +14,16 @@ double SinRatio(double x) { return x < 1e-4 ? 1.0 - x * x / 6.0 : std::sin(x) / 
 
 }  // namespace
 
-// With A = 1 - kappa R, B = 1 - kappa s, m^2 = 2 R s - s^2 the two-circle formula becomes
-//   sin^2(alpha / 2) = kappa^2 m^2 / (4 A B),   alpha half the angle between the centres,
-// for both signs of kappa, and w_c = 2 alpha A / |kappa| = 2 m sqrt(A / B) asin(x) / x.
+// Here A = a, B = b, s = scallop, R = radius. Let 2 alpha be the angle between two neighbouring centres on
+// the centres' circle, whose radius is A / |kappa|. Then x = sin(alpha / 2) by [spacing (2)], and w_c is the
+// arc 2 alpha A / |kappa|.
 double CenterStep(double radius, double scallop, double kappa) {
   const double a = 1.0 - kappa * radius;
   if (!(a > 0.0)) return 0.0;
   const double b = 1.0 - kappa * scallop;
   const double m = std::sqrt(scallop * (2.0 * radius - scallop));
   const double x = 0.5 * std::abs(kappa) * m / std::sqrt(a * b);
-  // x > 1: in so tight a bore no two centres leave that much. The largest step is half way round.
+  // A narrow bore: one pass leaves no more than the scallop all around. The step is the whole circumference.
   if (x >= 1.0) return 2.0 * kPi * a / std::abs(kappa);
   return 2.0 * m * std::sqrt(a / b) * AsinRatio(x);
 }
@@ -34,7 +34,8 @@ double ScallopOfStep(double radius, double center_step, double kappa) {
   const double half_alpha = std::min(0.25 * std::abs(kappa) * center_step / a, 0.5 * kPi);
   const double half_chord = half_alpha < 0.5 * kPi || kappa == 0.0 ? 0.5 * center_step * SinRatio(half_alpha)
                                                                    : 2.0 * a / std::abs(kappa);
-  const double t = half_chord * half_chord / a;  // s^2 - (2 R + t kappa) s + t = 0, the smaller root
+  // The smaller root s of s^2 - (2 R + t kappa) s + t = 0 [spacing (5)].
+  const double t = half_chord * half_chord / a;
   const double p = 2.0 * radius + t * kappa;
   const double discriminant = p * p - 4.0 * t;
   if (discriminant < 0.0 || p < 0.0) return kInfinity;

@@ -3,16 +3,23 @@
 
 namespace patchmill {
 
-// Distance between neighbouring CENTRES, measured on the centre surface across the feed, that leaves exactly
-// `scallop` (mm) between two passes of a ball of `radius` (mm) on a surface of normal curvature `kappa`
-// across the feed (1/mm, > 0 concave towards the tool).
-//   cos(w kappa / 2) = [(rho +- R)^2 + (rho +- s)^2 - R^2] / [2 (rho +- R)(rho +- s)],
-//   w_c = w |rho +- R| / rho
-// kappa -> 0: 2 sqrt(2 R s - s^2). kappa >= 1/R (the ball does not fit): 0. 0 < scallop < radius.
+// Returns the centre step w_c (mm): the distance between the CENTRES of neighbouring passes, measured on the
+// centre surface across the feed, that leaves exactly the scallop s = `scallop` between them. R = `radius` is
+// that of the ball plus the stock to leave; 0 < s < R, both in mm. `kappa` is the normal curvature of the
+// surface across the feed, in 1/mm, > 0 where it is concave towards the tool. The surface is taken for a
+// circle of radius 1 / |kappa|. Then [spacing (1)-(3)]
+//   A = 1 - kappa R,  B = 1 - kappa s,  m = sqrt(2 R s - s^2),  x = |kappa| m / (2 sqrt(A B)),
+//   w_c = 2 m sqrt(A / B) asin(x) / x
+// The step-over along the surface, between contacts, is w_c / A. Special cases:
+// - a plane, kappa = 0: 2 m, the flat step-over;
+// - kappa >= 1 / R, the ball does not fit: 0;
+// - x >= 1, a bore so narrow that one pass along it leaves no more than s all around: the whole circumference
+//   2 pi A / kappa of the centres' circle.
 double CenterStep(double radius, double scallop, double kappa);
 
-// The scallop that a given centre step leaves: the inverse of CenterStep. Infinity where the two balls do not
-// meet (or meet only beyond the ball's own height).
+// Returns the scallop (mm) that passes leave whose centres are `center_step` (mm) apart: the inverse of
+// CenterStep [spacing (5)]. Infinity where the balls of two neighbouring passes do not meet, or meet only
+// beyond the ball's own height.
 double ScallopOfStep(double radius, double center_step, double kappa);
 
 // Number of parts into which a gap between two passes is divided so that no part is wider than `need`; 1
@@ -20,12 +27,13 @@ double ScallopOfStep(double radius, double center_step, double kappa);
 // be without being narrower than `least`. All in mm, gap and least > 0.
 int PartsOfGap(double gap, double need, double least);
 
-// A gap that exceeds its need by less than this factor leaves at most 3.5 % more than the scallop. No pass is
-// added for that.
+// A gap between two passes may exceed the step that the surface needs by this factor, and no pass is added.
+// The crest is then at most 3.5 % higher than the scallop.
 inline constexpr double kWideGap = 1.0175;
 
-// Factor by which gaps may exceed their needs throughout: kWideGap, or less where kWideGap would leave more
-// than half the chord tolerance (mm) above the scallop and so begin to cost rest passes.
+// Returns the factor by which all gaps of an area may exceed their needs. It is kWideGap, or less if kWideGap
+// would raise the crest by more than half of `chord_tolerance` (mm) above the scallop (mm), since rest passes
+// would then be needed.
 double WideGap(double scallop, double chord_tolerance);
 
 }  // namespace patchmill
