@@ -165,7 +165,7 @@ absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const Contour
   const auto contours = [&](double z) -> std::vector<CutterPath> {
     std::vector<Vec3> here;  // elsewhere this height has no passes, and none that are connected
     for (const ContourSample& s : contour_area.samples) {
-      if (z > s.center.z() - s.down - heights.flat && z < s.center.z() + s.up + heights.flat)
+      if (z > s.center.z() - s.below - heights.flat && z < s.center.z() + s.above + heights.flat)
         here.push_back(s.center);
     }
     if (here.empty()) return {};

@@ -123,11 +123,14 @@ class PieceSampler {
   }
 
  private:
-  // How far the surface continues around a node, half way to its neighbours.
+  // The heights that the sample of a node stands for: half way to the centres over its neighbours, mm in z,
+  // from the centre over the node.
   struct Extent {
-    double up = 0.0, down = 0.0;
-    double top = 0.0, bottom = 0.0;                // the same, not limited to the window
-    Vec3 along[2] = {Vec3::Zero(), Vec3::Zero()};  // from side to side, of the centres
+    double above = 0.0, below = 0.0;
+    double all_above = 0.0, all_below = 0.0;  // the same, outside of the slope window too
+    // Along u and along v: the way of the centre from half way to the neighbour before to half way to the
+    // next.
+    Vec3 along[2] = {Vec3::Zero(), Vec3::Zero()};
   };
 
   // From a node to one of its neighbours on the grid: one of the two is 1 or -1, the other 0.
@@ -135,34 +138,35 @@ class PieceSampler {
     int i = 0, j = 0;
   };
 
-  // Adds neighbour m of n, with the ball on the node's side or (`side` -1) on the other. Returns by how much
-  // the centre over m is higher.
+  // Extends the extent of node n towards its neighbour m. The ball is on the node's side of the surface
+  // (`side` 1) or on the other one (-1). Returns by how much (mm) the centre over m is higher than that over
+  // n.
   double Add(const Node& n, const Node& m, double side, const GridStep& to, Extent& extent) const {
     const double radius = context_.locator.radius();
-    // The ball stays on its side of the surface, which may fall back under the ball.
+    // The ball stays on the same side of the surface at m, even if that side looks down there.
     const Vec3 normal_n = side * n.normal, normal_m = side * n.turn * m.turn * m.normal;
     const Vec3 way = (m.p + radius * normal_m) - (n.p + radius * normal_n);
     const double slope = normal_m.z() < 0.0 ? kPi - m.slope : m.slope;
     extent.along[to.j != 0] += 0.5 * (to.i + to.j) * way;
     double rise = way.z();
-    extent.top = std::max(extent.top, 0.5 * rise);
-    extent.bottom = std::max(extent.bottom, -0.5 * rise);
+    extent.all_above = std::max(extent.all_above, 0.5 * rise);
+    extent.all_below = std::max(extent.all_below, -0.5 * rise);
     if (slope < params_.pass.window.min || slope > params_.pass.window.max + kAtLimit) {
       // Count only the part up to where the slope leaves the window.
       const double limit = slope < n.slope ? params_.pass.window.min : params_.pass.window.max;
       rise *= 2.0 * std::clamp((n.slope - limit) / (n.slope - slope), 0.0, 1.0);
     }
-    extent.up = std::max(extent.up, 0.5 * rise);
-    extent.down = std::max(extent.down, -0.5 * rise);
+    extent.above = std::max(extent.above, 0.5 * rise);
+    extent.below = std::max(extent.below, -0.5 * rise);
     return way.z();
   }
 
   ContourSample SampleOf(const Node& n, const Extent& extent, const Vec3& center, double step) const {
     const double most = 2.0 * spacing_;
-    // The total length of the levels through a stretch of surface is its area times the sine of its slope.
+    // Levels a height dz apart have on an area the total length area sin(slope) / dz. Here dz = high.
     const double size = extent.along[0].cross(extent.along[1]).norm() * std::sin(n.slope);
-    const double high = extent.top + extent.bottom;
-    return {center, std::min(extent.up, most),      std::min(extent.down, most),
+    const double high = extent.all_above + extent.all_below;
+    return {center, std::min(extent.above, most),   std::min(extent.below, most),
             step,   high > 0.0 ? size / high : 0.0, n.p};
   }
 
@@ -218,7 +222,7 @@ class PieceSampler {
     double bad_z = 0.0;
   };
 
-  // Solves where along the edge the ball stops being free, until the height is known to `place` (mm).
+  // Halves the grid edge until the height of the last free centre on it is known to `place` (mm).
   void Solve(EndEdge& edge, double place) const {
     for (int k = 0; k < 40 && std::abs(edge.good_center.z() - edge.bad_z) > place; ++k) {
       const Vec2 middle = 0.5 * (edge.good + edge.bad);
@@ -232,7 +236,8 @@ class PieceSampler {
     }
   }
 
-  // Solves the ends. Only those that share their height with others need it exactly: a level can lie there.
+  // Solves the lower ends: first roughly, then exactly those that lie at the same height as others, since a
+  // level can lie there.
   void SolveEnds(const RunContext& run, std::vector<LowerEnd>& ends) {
     for (EndEdge& edge : ends_) {
       if (run.Cancelled()) return;
@@ -251,8 +256,8 @@ class PieceSampler {
     }
   }
 
-  // Adds a lower end at a reachable node on an open side if the face ends there downward. The step leads
-  // from the node, at `uv`, over that side.
+  // Adds a lower end at a reachable node on a side of the piece, if that side is open and the face descends
+  // towards it. The node is at `uv`; the grid step `over` leads from it out of the piece.
   void BorderEnd(const Node& n, const Vec2& uv, const GridStep& over, std::vector<LowerEnd>& ends) const {
     const int side = over.j < 0 ? 0 : over.i > 0 ? 1 : over.j > 0 ? 2 : 3;
     if (context_.sides.At(piece_, side).kind != SideKind::kOpen) return;

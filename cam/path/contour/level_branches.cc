@@ -159,7 +159,7 @@ absl::StatusOr<std::vector<LevelBranch>> FindBranches(const ContourArea& contour
     const bool new_center = !sweep.Seen(center), new_contact = !sweep.Seen(contact);
     if (new_center) sweep.See(center, z);
     if (new_contact) sweep.See(contact, z);
-    sweep.Add(center, i, samples[i].width * (samples[i].up + samples[i].down));
+    sweep.Add(center, i, samples[i].width * (samples[i].above + samples[i].below));
     sweep.Join(center, contact, z);
     const auto join = [&](std::span<const std::size_t> others, std::size_t first, std::size_t to) {
       for (const std::size_t other : others) {

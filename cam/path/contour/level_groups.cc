@@ -287,9 +287,9 @@ absl::StatusOr<LevelGroups> LevelGroups::Make(const ContourArea& contour_area, c
   for (std::size_t i = 0; i < count; ++i) {
     const ContourSample& sample = contour_area.samples[i];
     Set& set = found[sets.Find(i)];
-    set.low = std::min(set.low, sample.center.z() - sample.down);
-    set.high = std::max(set.high, sample.center.z() + sample.up);
-    set.area += sample.width * (sample.up + sample.down);
+    set.low = std::min(set.low, sample.center.z() - sample.below);
+    set.high = std::max(set.high, sample.center.z() + sample.above);
+    set.area += sample.width * (sample.above + sample.below);
   }
   std::vector<Set*> order;
   for (auto& [first, set] : found) order.push_back(&set);

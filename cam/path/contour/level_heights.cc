@@ -89,8 +89,8 @@ absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourArea& c
   Bins bins;
   double lo = kInfinity, hi = -kInfinity;
   for (const ContourSample& s : contour_area.samples) {
-    lo = std::min(lo, s.center.z() - s.down);
-    hi = std::max(hi, s.center.z() + s.up);
+    lo = std::min(lo, s.center.z() - s.below);
+    hi = std::max(hi, s.center.z() + s.above);
   }
   if (params.base_level) lo = std::min(lo, *params.base_level);
   bins.width = std::max(params.flat / kBinsPerStep, (hi - lo) / kMostBins);
@@ -100,7 +100,7 @@ absl::StatusOr<std::array<Bins, kRules.size()>> RulingSteps(const ContourArea& c
   for (std::size_t i = 0; i < contour_area.samples.size(); ++i) {
     if (i % kBetweenPolls == 0) PM_RETURN_IF_ERROR(run.Check());
     const ContourSample& s = contour_area.samples[i];
-    for (int b = bins.Of(s.center.z() - s.down); b <= bins.Of(s.center.z() + s.up); ++b)
+    for (int b = bins.Of(s.center.z() - s.below); b <= bins.Of(s.center.z() + s.above); ++b)
       needs[static_cast<std::size_t>(b)].push_back({s.step, s.width});
   }
   std::array<Bins, kRules.size()> all;
@@ -247,7 +247,7 @@ double LengthOf(std::vector<double> heights, const BetweenStops& between, double
     for (; next < samples.size() && (last || samples[next].center.z() < heights[k + 1]); ++next) {
       const ContourSample& s = samples[next];
       if (next % kBetweenPolls == 0 && run.Cancelled()) return length;
-      const double own = s.width * (s.up + s.down) / gap;
+      const double own = s.width * (s.above + s.below) / gap;
       const int parts = PartsOfGap(gap, kWideGap * s.step, params.smallest);
       // No level is added there, but the work that rest passes may have there counts.
       const bool too_wide = parts == 1 && gap > params.wide * s.step && s.step >= params.smallest;

@@ -12,14 +12,16 @@ namespace {
 
 constexpr double kOnSide = 1e-6;     // parameter distance at which a contact lies on a side of its piece
 constexpr double kEndPlace = 1e-6;   // mm: accuracy of the ends of a part
-constexpr double kWallPlace = 1e-6;  // mm: how far a wall may be from vertical below its shank contact
-constexpr double kAtLimit = 1e-5;    // rad: a rim contact this near to the face's normal is the face's own
-constexpr double kOnFace = 1e-4;     // sine: a contact direction at least this near to the normal lies on the
-                                     // face
-constexpr double kRimRise = 0.05;    // sine: a face that rises at least this much towards an open edge makes
-                                     // it a rim
+constexpr double kWallPlace = 1e-6;  // mm: how far a wall may be from vertical below a contact with the shank
+// A ball at an edge touches the face, and does not roll over the edge, if the direction from the contact to
+// the centre is the face's normal within these angles: at an open edge (rad), and at a crease (sine).
+constexpr double kAtLimit = 1e-5, kOnFace = 1e-4;
+// Sine of the angle by which a face must rise towards an open edge, so that the edge is a rim.
+constexpr double kRimRise = 0.05;
 
-enum class Verdict { kNone, kAllowed, kWanted };  // no pass; a pass outside the window; in the window
+// Of a place of the loop: kNone if it cannot be part of a pass; kAllowed if it can, but its slope lies
+// outside of the window or it is not near a spot; kWanted if it is part of a pass.
+enum class Verdict { kNone, kAllowed, kWanted };
 
 class Clipper {
  public:
@@ -43,25 +45,28 @@ class Clipper {
   }
 
  private:
-  // A stretch of the loop with one verdict throughout.
+  // A stretch of the loop, all of which has one verdict.
   struct Piece {
     CutterPoint from, to;
     Verdict verdict;
   };
 
-  // Returns the point that carries the ball over q. If `contact` touches the shank it is the point of the
-  // wall below it at the centre's height, or nothing where the wall does not go down so far.
+  // Returns the surface point on which the ball itself rests, not its shank. This is the contact, if the
+  // contact is no higher than the centre. A contact above the centre touches the shank. If it belongs to a
+  // vertical wall that goes down to the height of the centre, the ball touches the wall there, and that point
+  // is returned. nullopt if the wall ends above the centre.
   std::optional<SurfacePoint> RestsOn(const SurfacePoint& contact) const {
     const double z = oracle_.z();
     if (z - contact.p.z() >= -1e-9 * oracle_.radius()) return contact;
     return WallAt(contact, Lift(Xy(contact.p), z));
   }
-  // Returns the unit vector from the contact towards the centre over q.
+  // Returns the unit vector from the contact to the ball's axis over q, to the centre or, if the contact is
+  // higher, to the point of the axis at its height.
   Vec3 OffContact(const Vec2& q, const SurfacePoint& contact) const {
     return Lift(Vec2(q - Xy(contact.p)), std::max(0.0, oracle_.z() - contact.p.z())).normalized();
   }
 
-  // Judges one contact of the ball whose centre is over q.
+  // Returns the verdict on the place q of the level, for one of the contacts of the ball there.
   Verdict Judge(const Vec2& q, const SurfacePoint& contact) const {
     const std::optional<SurfacePoint> at = RestsOn(contact);
     const Vec3 off = OffContact(q, contact);
@@ -98,7 +103,8 @@ class Clipper {
     return {at.v<kOnSide, at.u> 1.0 - kOnSide, at.v > 1.0 - kOnSide, at.u < kOnSide};
   }
 
-  // Descends by Gauss-Newton towards `place` over the wall and its joints.
+  // Walks by Gauss-Newton steps over the surface from `from` towards `place`, across joints of pieces too.
+  // nullopt if the surface does not come within kWallPlace of the place.
   std::optional<SurfacePoint> Descend(SurfacePoint from, const Vec3& place) const {
     // Most Gauss-Newton steps.
     constexpr int kSteps = 60;
@@ -110,7 +116,7 @@ class Clipper {
       const double e = jet.du.squaredNorm(), f = jet.du.dot(jet.dv), g = jet.dv.squaredNorm();
       const double a = gap.dot(jet.du), b = gap.dot(jet.dv), determinant = e * g - f * f;
       if (!(determinant > 1e-18 * e * g)) return std::nullopt;
-      // The step stays inside the piece, or runs along the side that holds the point back.
+      // The step stays inside the piece. At a side that it would cross it runs along the side.
       Vec2 way((g * a - f * b) / determinant, (e * b - f * a) / determinant);
       const bool held_u = (from.u <= 0.0 && way.x() < 0.0) || (from.u >= 1.0 && way.x() > 0.0);
       const bool held_v = (from.v <= 0.0 && way.y() < 0.0) || (from.v >= 1.0 && way.y() > 0.0);
@@ -135,13 +141,16 @@ class Clipper {
     return std::nullopt;
   }
 
-  // Does the ball, in direction e, stand on the side of a wall that is not the air side?
+  // True if the ball stands behind a vertical wall: on the material side, not on the air side. `e` is the
+  // unit vector from the contact `at` to the ball's axis. False if the air side is unknown.
   bool BehindWall(const SurfacePoint& at, const Vec3& e) const {
     const std::optional<Facing> facing = FacingAt(Evaluate(surface_, at.piece, at.u, at.v));
     return facing && !facing->both && facing->upright && facing->e.dot(e) < 0.0;
   }
 
-  // May the ball rest on this surface point from direction e?
+  // True if the edge rule lets a pass touch the surface at `at` with a ball in the direction `e` (as for
+  // BehindWall). Only contacts on open edges can be refused: the ball must touch the face in its normal
+  // there, or roll over a rim.
   bool Holds(const SurfacePoint& at, const Vec3& e) const {
     if (params_.roll) return true;
     const std::array<bool, 4> on = {at.v<kOnSide, at.u> 1.0 - kOnSide, at.v > 1.0 - kOnSide, at.u < kOnSide};
@@ -160,8 +169,9 @@ class Clipper {
     return true;
   }
 
-  // Does the ball touch a face there? If it rolls over an edge, a face within half a step counts too; an open
-  // edge of a sheet counts always, since the ball rolls over it on purpose.
+  // True if the ball over q finishes a face: if it touches one at the contact, or rolls over a crease beside
+  // a face so near that the pass finishes it, within the overlap. An open edge always counts, since the ball
+  // rolls over it on purpose.
   bool OnFace(const Vec2& q, const SurfacePoint& contact) const {
     const std::optional<SurfacePoint> at = RestsOn(contact);
     if (!at) return false;
@@ -187,7 +197,8 @@ class Clipper {
     const Vec2 q = Xy(p.center);
     return OnFace(q, *p.contact) || (p.other_contact && OnFace(q, *p.other_contact));
   }
-  // The same between two points, at places as far apart as a face beside an edge counts.
+  // OnFace for places between two points of the loop. They are as far apart as the overlap, within which a
+  // face beside a crease counts.
   bool OnFaceBetween(const CutterPoint& a, const CutterPoint& b) const {
     const Vec2 qa = Xy(a.center), way = Xy(b.center) - qa;
     const double length = way.norm();
@@ -203,7 +214,7 @@ class Clipper {
     }
     return false;
   }
-  // Does all of the part roll over edges? Then it finishes nothing.
+  // True if the part rolls over creases along all of its length. Such a part finishes nothing.
   bool OverEdgesAlone(const CutterPath& part) const {
     const std::size_t n = part.points.size();
     if (std::any_of(part.points.begin(), part.points.end(),
@@ -226,20 +237,23 @@ class Clipper {
     return false;
   }
 
+  // The contact of a loop's vertex along the chord that starts at the vertex.
   static SurfacePoint After(const CutterPoint& p) { return p.other_contact ? *p.other_contact : *p.contact; }
 
   void AddSegment(const CutterPoint& a, const CutterPoint& b) {
     Split({a, After(a), Judge(Xy(a.center), After(a))}, {b, *b.contact, Judge(Xy(b.center), *b.contact)}, 0);
   }
 
-  // An end of a chord, with its contact on the chord's side and its verdict.
+  // An end of a chord with its verdict. At a corner of the loop, which has two contacts, `contact` is the one
+  // that the ball has along this chord.
   struct JudgedEnd {
     CutterPoint point;
     SurfacePoint contact;
     Verdict verdict;
   };
 
-  // Cuts a chord where the verdict changes between its ends.
+  // Cuts a chord where the verdict changes, by halving: the chord's middle is moved onto the loop and gets a
+  // verdict of its own.
   void Split(const JudgedEnd& a, const JudgedEnd& b, int depth) {
     const double length = (b.point.center - a.point.center).norm();
     if (a.verdict == b.verdict) {
@@ -260,7 +274,7 @@ class Clipper {
         return;
       }
     }
-    // The chord is too short to cut. It goes with its better end.
+    // The chord is too short to cut. It takes the better verdict of its ends.
     pieces_.push_back({a.point, b.point, std::max(a.verdict, b.verdict)});
   }
 
@@ -297,7 +311,7 @@ class Clipper {
     return parts;
   }
 
-  // Extends the kept stretches by the overlap from every wanted end, both ways, where a pass is allowed.
+  // Extends every wanted stretch by the overlap at both ends, as far as the places are allowed.
   void Dilate(std::vector<char>& keep) {
     const std::size_t n = pieces_.size();
     const std::vector<char> wanted = keep;

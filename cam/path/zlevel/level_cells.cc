@@ -49,7 +49,7 @@ class Search {
     if (recent_.Holding(cell.mid, cell.half, kMargin) != nullptr) return true;
     const std::optional<SurfacePoint> obstacle = oracle_.Obstacle(cell.mid, hint_ ? &*hint_ : nullptr);
     if (!obstacle) return false;
-    hint_ = oracle_.Deepest(*obstacle, cell.mid);
+    hint_ = oracle_.DeepestOnBranch(*obstacle, cell.mid);
     RecentDiscs found;
     found.Add(*hint_, oracle_.ForbiddenRadius(hint_->p));
     recent_.Add(*hint_, oracle_.ForbiddenRadius(hint_->p));

@@ -43,7 +43,7 @@ double LevelOracle::ExitLength(const Vec2& q, const Vec3& contact, const Vec2& d
 
 std::optional<SurfacePoint> LevelOracle::Obstacle(const Vec2& q, const SurfacePoint* hint) const {
   if (hint != nullptr) {
-    const SurfacePoint near = Deepest(*hint, q);
+    const SurfacePoint near = DeepestOnBranch(*hint, q);
     if (Excess(q, near.p) < -kMinExitLength) return near;
   }
   if (locator_.Free(Center(q))) return std::nullopt;
@@ -58,7 +58,7 @@ std::optional<SurfacePoint> LevelOracle::Beyond(const RaySlide& slide) const {
   return sides_.Across(slide.at().piece, side, side % 2 == 0 ? slide.at().u : slide.at().v);
 }
 
-SurfacePoint LevelOracle::Deepest(const SurfacePoint& from, const Vec2& q) const {
+SurfacePoint LevelOracle::DeepestOnBranch(const SurfacePoint& from, const Vec2& q) const {
   Way way{q, Vec2::Zero()};
   return LeaveBranch(way, from, kInfinity);
 }
@@ -175,8 +175,8 @@ std::optional<LevelPoint> LevelOracle::Corner(const LevelPoint& a, const LevelPo
     q = next;
     if ((q - middle).norm() > reach) return std::nullopt;
     if (step > 0 && moved < 1e-12 * (1.0 + radius_)) break;
-    ka = Deepest(ka, q);
-    kb = Deepest(kb, q);
+    ka = DeepestOnBranch(ka, q);
+    kb = DeepestOnBranch(kb, q);
   }
   if ((ka.p - kb.p).norm() < 1e-6 * radius_) return std::nullopt;
   if (!locator_.Free(Center(q), kHeightSlack)) {

@@ -87,7 +87,7 @@ class Refiner {
  private:
   // Do both contacts belong to one smooth branch? Then following one to the other's place arrives there.
   bool OneBranch(const LevelPoint& a, const LevelPoint& b) const {
-    return (oracle_.Deepest(a.contact, b.q).p - b.contact.p).norm() < 1e-4 * oracle_.radius();
+    return (oracle_.DeepestOnBranch(a.contact, b.q).p - b.contact.p).norm() < 1e-4 * oracle_.radius();
   }
 
   // Does q lie in the cell and not at an end of the chord? In a cell with a cone it must also lie on the one

@@ -21,7 +21,7 @@ void AddWall(double x0, double x1, double z0, double z1, ContourArea& contour_ar
       ContourSample sample;
       sample.contact = Vec3(x0 + (i + 0.5) * kSpacing, 0.0, z0 + (k + 0.5) * kSpacing);
       sample.center = sample.contact - 3.0 * Vec3::UnitY();
-      sample.up = sample.down = 0.5 * kSpacing;
+      sample.above = sample.below = 0.5 * kSpacing;
       sample.width = kSpacing;
       contour_area.samples.push_back(sample);
     }

@@ -32,7 +32,7 @@ void AddWall(const Vec2& a, const Vec2& b, double height, const Vec2& off, Conto
       ContourSample sample;
       sample.contact = Lift(q, (2 * k + 1) * half);
       sample.center = Lift(Vec2(q + off), sample.contact.z());
-      sample.up = sample.down = half;
+      sample.above = sample.below = half;
       sample.step = kFlat;
       sample.width = kSpacing;
       contour_area.samples.push_back(sample);
