@@ -36,7 +36,8 @@ struct FileMessage {
   v1::PatchModel model;
 };
 
-// Counts the message before it is parsed, and holds what it will take; `copied`: with its bytes.
+// Counts the message in `wire` before it is parsed, and holds the memory that it will take. `copied`: also the
+// memory of a copy of `wire`.
 absl::StatusOr<InFlight::Hold> HoldModelWire(const std::string& wire, bool copied, InFlight* in_flight) {
   google::protobuf::io::ArrayInputStream bytes(wire.data(), static_cast<int>(wire.size()));
   PM_ASSIGN_OR_RETURN(const WireCount count, CountWire(bytes, wire.size(), *v1::PatchModel::descriptor(),
@@ -97,10 +98,10 @@ absl::StatusOr<FileMessage> ParseBinary(const std::string& content, std::string_
     return ModelUnreadableError(parsed ? "model file: a binary PatchModel without patches or network"
                                        : "model file: not a binary PatchModel, or truncated");
   }
-  return ModelUnreadableError(
-      fmt::format("model file: neither JSON nor a binary PatchModel; the client states a text format ({}), "
-                  "by the file's ending",
-                  fmt::join(kTextFormats, ", ")));
+  return ModelUnreadableError(fmt::format(
+      "model file: the content is neither JSON nor a binary PatchModel; if it is a text format, say "
+      "which one by the file's ending (.{}), in a request by ModelFile.format",
+      fmt::join(kTextFormats, ", .")));
 }
 
 absl::StatusOr<LoadedModel> LoadMessage(const v1::PatchModel& model, const std::string& at,

@@ -120,7 +120,9 @@ TEST(LoadModel, WrongKindsSayWhatTheyAreNot) {
   const std::string bpt = testing::ReadRepositoryFile("examples/teapot.bpt");
   EXPECT_THAT(LoadStatus(File("json", bpt)), StatusIs(kInvalid, HasSubstr("JSON")));
   EXPECT_THAT(LoadStatus(File("pb", bpt)), StatusIs(kInvalid, HasSubstr("binary PatchModel")));
-  EXPECT_THAT(LoadStatus(File("", bpt)), StatusIs(kInvalid, HasSubstr("by the file's ending")));
+  EXPECT_THAT(
+      LoadStatus(File("", bpt)),
+      StatusIs(kInvalid, HasSubstr("say which one by the file's ending (.bpt, .bv, .bez, .patches)")));
   EXPECT_THAT(LoadStatus(File("", std::string(1000, '\0'))), StatusIs(kInvalid, _));
   EXPECT_THAT(LoadStatus(File("bpt", JsonOf(Bump()))), StatusIs(kInvalid, HasSubstr("line 1")));
   EXPECT_THAT(LoadStatus(File("bv", Bump().SerializeAsString())), StatusIs(kInvalid, HasSubstr("line ")));
