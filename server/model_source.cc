@@ -36,8 +36,8 @@ struct FileMessage {
   v1::PatchModel model;
 };
 
-// Counts the message in `wire` before it is parsed, and holds the memory that it will take. `copied`: also the
-// memory of a copy of `wire`.
+// Counts the message in `wire` before it is parsed, and holds the memory that it will take. `copied`: also
+// the memory of a copy of `wire`.
 absl::StatusOr<InFlight::Hold> HoldModelWire(const std::string& wire, bool copied, InFlight* in_flight) {
   google::protobuf::io::ArrayInputStream bytes(wire.data(), static_cast<int>(wire.size()));
   PM_ASSIGN_OR_RETURN(const WireCount count, CountWire(bytes, wire.size(), *v1::PatchModel::descriptor(),

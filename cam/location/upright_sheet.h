@@ -1,6 +1,7 @@
-// Vertical walls, each a curve in plan that is swept along z. A ball beside such a wall touches it along a
-// whole line, however far it is lifted. Models in two parameters would be divided along that line without
-// end. In plan the line is one point of a curve.
+// Proves balls free of vertical walls. A vertical wall is a curve in plan that is swept along z. A ball
+// beside such a wall touches it with its shank along a vertical line, however far the ball is lifted. A proof
+// that divides the wall in both parameters would divide it along that line without end. In plan the line is
+// one point of a curve, so here the proof is made for the curve.
 #pragma once
 
 #include <array>
@@ -14,17 +15,17 @@ namespace patchmill::internal {
 struct XyCurve {
   int degree = 0;
   std::array<Vec4, kMaxDegree + 1> points{};
-  double spread = 0.0;  // mm, largest distance in plan of a point of the sheet from the curve
+  double spread = 0.0;  // mm: no point of the wall is farther from the curve in plan
 };
 
-// The curve in plan of a net whose rows or columns are vertical, to `rounding` (mm). nullopt for any other
-// net, or if a point has no weight.
+// Returns the curve in plan of a net whose rows (or whose columns) are vertical lines to within `rounding`
+// (mm). nullopt for any other net, or if a control point has no weight.
 std::optional<XyCurve> XyCurveOf(NetShape shape, const Vec4* points, double rounding);
 
-// True is proven: no point of the curve is nearer to q than `radius` (mm). The distance form of the curve
-// (core/surface) is divided into halves, and no coefficient of any part is negative by more than rounding.
-// (Convergence is quadratic; about 40 parts where a circle touches.) False: some point is nearer, or nothing
-// could be proven.
+// Returns true if it proves that no point of the curve is nearer to q than `radius` (mm). False: some point
+// is nearer, or the proof failed. The proof halves the distance form of the curve
+// (core/surface/distance_form.h) until no coefficient of any part is negative by more than rounding.
+// Convergence is quadratic; a circle that touches the curve takes about 40 parts.
 bool OutsideInXy(const XyCurve& curve, const Vec2& q, double radius);
 
 }  // namespace patchmill::internal

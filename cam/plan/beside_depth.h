@@ -16,9 +16,10 @@ struct BesideDepth {
   double below_top = 0.0;   // mm: how far that is below the highest point of the part
 };
 
-// Beside the part is where the axis passes a tenth of the ball's radius or more outside of the surface as
-// seen from above, in holes too. None where no such tip is lower than the part's top by more than the ball's
-// radius. `top_z`: mm, of the part. Cost: some microseconds for each end of a move that is lower than the
+// Returns the lowest tip beside the part at the end of a move. Here the tool is beside the part if its axis
+// is at least a tenth of the ball's radius outside of the area that the surface covers as seen from above;
+// holes count, too. nullopt if no such tip is lower than the part's top by more than the ball's radius.
+// `top_z` (mm) is the top of the part. Cost: some microseconds for each end of a move that is lower than the
 // answer.
 absl::StatusOr<std::optional<BesideDepth>> DeepestBeside(const Surface& surface, const Toolpath& toolpath,
                                                          double top_z, const RunContext& run);

@@ -147,7 +147,7 @@ struct Stretch {
   }
 };
 
-// Corners of cells on a piece that stands upright all over.
+// Corners of cells on a piece that counts as a vertical face all over.
 struct UprightGrid {
   int nu = 1, nv = 1;
   std::vector<Vec3> points;    // (nu + 1) (nv + 1), v fastest

@@ -1,7 +1,8 @@
-// Where the tool may not go beside a part: behind walls, and outside the part unless the job says so.
+// Finds the areas beside a part that are closed to the tool: behind walls, and outside the part unless the
+// job opens them.
 //
-// Seen from above, the surface covers an area. What lies beyond the outer border of that area is outside;
-// holes are not. Where an upright wall stands on that border, the vice, the clamps or more stock may stand
+// Seen from above, the surface covers an area. The plane beyond the outer border of that area is outside;
+// holes are not. Where a vertical wall stands on that border, the vice, the clamps or more stock may stand
 // beside it.
 #pragma once
 
@@ -16,25 +17,28 @@
 namespace patchmill {
 
 struct BesidePartParams {
-  double radius = 3.0;        // mm, the ball's
-  double tolerance = 0.01;    // mm: a wall that leans by less than half of it over its height is upright
-  bool mill_outside = false;  // walls on the outer border are milled from outside
+  double radius = 3.0;  // mm, the ball's
+  double tolerance =
+      0.01;  // mm: a wall that leans by less than half of it over its height counts as vertical
+  bool mill_outside = false;        // walls on the outer border are milled from outside
   std::vector<bool> selected = {};  // per patch; walls that are named are milled from outside too
 };
 
-// Returns one area for each stretch of a wall beyond which nothing of the part lies, and the corners between
-// two such areas. An area is up to four ball radii deep, less where more of the part follows, but 1.1 at
-// least. It begins where a ball that rolls over a sharp upper edge is half the tolerance lower than that
-// edge. The tip stays above the wall's upper edge there.
+// Returns one area for each stretch of a wall beyond which no part of the surface lies, and the corners
+// between two such areas. An area reaches up to four ball radii from the wall, or up to the next part of the
+// surface if that is nearer, but 1.1 ball radii at least. It begins where a ball that rolls over a sharp
+// upper edge is half the tolerance lower than that edge. Over the area the tip must stay above the wall's
+// upper edge.
 //
-// If the air side of a wall is the other one, the area is material (StripKind::kMaterial), in a hole of the
-// model too, and no option lifts it. A wall of two sides (Surface::two_sided_walls) has an area only if the
-// part lies on its other side. Chords stand for curved walls. They leave the wall by at most half the
-// distance at which areas begin. Outer border and holes are found on a grid of 400 cells along the longer
-// side of the part: narrower gaps count as part of it. Walls are looked at every four cells.
+// An area on the material side of a wall, opposite to the air side, has StripKind::kMaterial. There may be
+// one in a hole of the model, too. No option opens it. A wall with two sides (Surface::two_sided_walls) has
+// an area only if the part lies on its other side. Curved walls are replaced by chords, which deviate from
+// the wall by at most half of the distance at which areas begin. Outer border and holes are found on a grid
+// of 400 cells along the longer side of the part; gaps narrower than a cell count as part. Walls are sampled
+// every four cells.
 //
-// Deterministic. Cost: some microseconds per place; nothing if no piece is upright. CANCELLED and
-// DEADLINE_EXCEEDED from `run`.
+// Deterministic. Cost: some microseconds per sample of a wall; nothing if there is no vertical piece.
+// CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<BesideStrip>> FindBesideStrips(const Surface& surface,
                                                           const BesidePartParams& params,
                                                           const RunContext& run);

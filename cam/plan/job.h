@@ -49,7 +49,7 @@ struct Selection {
   std::vector<Ring> boundary;  // PROGRAM frame; empty: none
   BoundaryMode boundary_mode = BoundaryMode::kCenter;
   double boundary_offset = 0.0;  // mm, > 0 widens
-  bool mill_outside = false;     // upright walls on the outer border from outside (cam/plan/beside_part.h)
+  bool mill_outside = false;     // vertical walls on the outer border from outside (cam/plan/beside_part.h)
 };
 
 // A component of a region whose lines are circles.

@@ -12,15 +12,15 @@ namespace patchmill {
 // parametrisation is degenerate: the tangents are parallel or, at a pole, one of them is rounding noise.
 std::optional<Vec3> UnitNormal(const SurfaceJet& jet);
 
-// UnitNormal, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On an upright face
-// (SurfaceJet::upright) it points to the air side if that is known; else it may point either way.
+// UnitNormal, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On a vertical face
+// (|e_z| <= SurfaceJet::upright) it points to the air side if that is known; else it may point either way.
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet);
 
 // The side from which a tool reaches a point of the surface.
 struct Facing {
   Vec3 e = Vec3::UnitZ();  // UpwardNormal
-  bool both = false;       // an upright face whose air side is unknown: the tool may stand at -e as well
-  bool upright = false;    // of an upright face (SurfaceJet::upright)
+  bool both = false;  // a vertical face whose air side is unknown: the tool may stand on the side of -e, too
+  bool upright = false;  // the place counts as a vertical face: |e_z| <= SurfaceJet::upright
 };
 std::optional<Facing> FacingAt(const SurfaceJet& jet);
 

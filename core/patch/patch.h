@@ -239,7 +239,7 @@ struct Patch {
   PatchShape shape;
 };
 
-// |e_z| of the unit normal up to which a place stands upright, so that neither of its sides is the upper one.
+// Largest |e_z| of the unit normal of a vertical face. Neither of its sides is the upper one.
 inline constexpr double kUprightFace = 1e-6;
 
 // Position and derivatives with respect to the two parameters.
@@ -250,8 +250,9 @@ struct SurfaceJet {
   // The air side of a vertical face: 1 the side of du x dv, -1 the other side, 0 unknown
   // (core/surface/air_sides.h).
   int air_side = 0;
-  double upright =
-      kUprightFace;  // |e_z| up to which this place stands upright; more on a wall that leans a little
+  // Largest |e_z| with which this place counts as a vertical face. It is larger than kUprightFace on a wall
+  // that leans a little (UprightOf).
+  double upright = kUprightFace;
 };
 
 // Analytic evaluation in the native form of each kind. Error about 1e-15 of the patch's size. Corners of

@@ -101,12 +101,12 @@ bool HasUpright(const Piece& piece) {
   return false;
 }
 
-// Files round coordinates: a wall of four decimals leans by some 1e-4 mm, and says nothing of its sides by
-// that. A piece that leans by no more than this over its height, and by a hundredth of its height, is upright
-// all over.
+// Files round coordinates: a wall whose coordinates have four decimals leans by some 1e-4 mm, which says
+// nothing about its sides. A piece that leans by no more than kMostLean over its height, and by no more than
+// kMostLeanShare of its height, counts as a vertical face all over.
 constexpr double kMostLean = 5e-3;  // mm, half of the default tolerance
 constexpr double kMostLeanShare = 0.01;
-constexpr double kLeanMargin = 1.5;  // between the places that are looked at a wall may lean a little more
+constexpr double kLeanMargin = 1.5;  // factor: between the sampled places a wall may lean a little more
 
 bool IsOpenToTheSky(const Surface& surface, const Vec3& p) {
   const double size = surface.box.Diagonal();

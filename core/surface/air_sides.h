@@ -21,15 +21,17 @@ struct AirSides {
   std::vector<PatchId> undecided;
 };
 
-// Piece::upright: kUprightFace, or more for a piece that leans by at most 5 um over its height, and by a
-// hundredth of that height. Cost: 25 normals.
+// Returns Piece::upright, the largest |e_z| with which a place of the piece counts as a vertical face. It is
+// kUprightFace. On a piece that leans by at most 5 um over its height, and by at most a hundredth of that
+// height, it is so much that all of the piece counts as vertical. Cost: 25 normals.
 double UprightOf(const Piece& piece);
 
-// `surface` must have its pieces (with `upright`), leaves and trees. The share of a component's surface that
-// is open to the sky is measured in plan at up to 2,000 places. A side decides if it has nine tenths of it.
-// Where neither side does, a patch takes the side on which all its open neighbours agree. Deterministic.
-// Cost: nine normals per piece, and some microseconds per place for components with vertical faces. CANCELLED
-// and DEADLINE_EXCEEDED from `run`.
+// `surface` must have its pieces (with `upright`), leaves and trees. Up to 2,000 places of a component tell
+// how much of its area, as seen from above, is open to the sky, and from which side. A side that has nine
+// tenths of the open area is the air side of the component. If neither side has so much, a vertical patch
+// takes the side on which all its neighbours that are open to the sky agree. Deterministic. Cost: nine
+// normals per piece, and some microseconds per place for components with vertical faces. CANCELLED and
+// DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<AirSides> FindAirSides(const Surface& surface, const RunContext& run);
 
 // Writes the air side of each piece, in the piece's own parameters.

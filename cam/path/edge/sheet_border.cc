@@ -12,7 +12,8 @@ namespace {
 constexpr double kOnSide = 1e-9;         // piece parameters: contacts on an open edge are clamped onto it
 constexpr double kSameDirection = 1e-5;  // rad: smaller angles count as none
 constexpr double kRimFall = 0.01;        // sine of the fall away from an open edge that makes it a rim
-constexpr double kUpright = 0.05;  // horizontal part of the inward tangent below which a rim tops a wall
+// A rim is the top of a wall if the horizontal part of its inward unit tangent is smaller than this.
+constexpr double kUpright = 0.05;
 
 // Returns the patch edge along which both parameters lie, if any.
 std::optional<int> EdgeThrough(bool triangle, const Vec2& a, const Vec2& b) {
