@@ -16,16 +16,17 @@ struct PlannedLevel {
   std::vector<Vec3> spots;  // centres of samples that the full levels alone would leave too far apart
 };
 
-// Returns the levels from the top down: the full ones (LevelHeights), and partial levels where the surface
-// needs less than their gap. Partial levels divide the gap into as many parts as each spot needs. Where less
-// than min_step_fraction of the flat step-over is needed, levels keep that fraction. No level lies below
-// floor_z + radius. `base_level` is a level of the group below on which these levels stand; it counts as the
-// lowest one and is not in the result. Cost O(n log n), and LevelHeights.
+// Returns the levels from the top down: the full levels (LevelHeights), and partial levels between two full
+// ones where samples need a smaller z-step than the gap. Partial levels divide the gap there into as many
+// equal parts as the sample needs (PartsOfGap). No z-step is smaller than min_step_fraction of the flat
+// step-over, whatever a sample needs. No level lies below floor_z + radius. `base_level` (mm, height of the
+// centre) is the level of the group below on which a branch stands; it serves as the lowest level and is not
+// in the result. Cost: O(n log n) for n samples, and LevelHeights.
 absl::StatusOr<std::vector<PlannedLevel>> PlanLevels(const ContourArea& contour_area,
                                                      const ContourParams& params, double radius,
                                                      std::optional<double> base_level, const RunContext& run);
 
-// Returns the parameters from which heights follow, for a ball of `radius` (mm).
+// Returns the parameters of LevelHeights for a ball of `radius` (mm).
 HeightParams HeightParamsOf(const ContourParams& params, double radius);
 
 }  // namespace patchmill

@@ -12,19 +12,18 @@
 namespace patchmill {
 
 struct ContourResult {
-  // Clipped to the parts that are passes (see below). `order_key` counts the levels from the highest down.
-  // The levels of one group (level_groups.h), or of several with the same heights, come after those of
-  // another.
+  // The parts of the waterlines that are passes. Passes of one level have the same `order_key`. Keys count
+  // the levels of a family from the highest down, family after family. A family is a group of levels
+  // (level_groups.h), or several groups with the same levels.
   std::vector<CutterPath> paths;
   // CONTOUR_COARSE and CONTOUR_AMBIGUOUS: at most one of each for all levels (contour_findings.h).
   Diagnostics findings;
 };
-// Each group of levels is planned on its own. Levels are spaced so that dz = CenterStep sin(slope) holds on
-// all contacts in the window. Partial levels lie where only a spot needs them. One level lies exactly at each
-// flat, silhouette bottom and lower end. A part of a loop is a pass where its contact lies in the slope
-// window (dilated by half a step along the loop), has z <= c, and is interior or lies on an edge or vertex
-// with (c - p)/R inside the normal cone there. The rest is clipped off, with the clip points solved
-// ([contours, section 6]). Every centre is certified (CertifyCenters).
+// Plans the levels of each group on its own (PlanLevels), traces them (TracePasses) and clips their loops to
+// the passes (ClipLoop, [contours, section 6]). Neighbouring levels are so close that the z-step w_c
+// sin(slope) [spacing (7)] holds at all contacts in the slope window. Where only some of the surface needs
+// it, there are partial levels. A level lies exactly at the height of each flat and of each lower end of
+// faces that is long enough (LevelHeights). Every centre is certified (CertifyCenters).
 absl::StatusOr<ContourResult> ContourPaths(const Locator& locator, const ContourParams& params,
                                            const RunContext& run);
 

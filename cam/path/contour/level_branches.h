@@ -11,16 +11,17 @@
 
 namespace patchmill {
 
-// A branch rises from `from`, a sample of the surface that it joins at the height `base_level` (mm, of
-// centres). Above that height the two are not connected.
+// A branch of a connected steep area. At the height `base_level` (mm, of the centre) it joins the rest of the
+// area, to which the sample `from` belongs. Above that height the two are not connected.
 struct LevelBranch {
   std::size_t from = 0;
   double base_level = 0.0;
-  double area = 0.0;                 // mm2, with the branches that stand on it
-  std::vector<std::size_t> samples;  // without those of the branches that stand on it
+  double area = 0.0;                 // mm2, including the branches that stand on this one
+  std::vector<std::size_t> samples;  // without the samples of branches that stand on this one
 };
 
-// `reach`: samples this near to each other are connected. `rise`: least height of both sides of a fork.
+// `reach`: samples this near to each other are connected. `rise`: both sides of a fork rise at least so much
+// above it.
 struct BranchParams {
   double reach = 1.0, rise = 3.0;  // mm
 };

@@ -18,23 +18,27 @@ namespace patchmill {
 using LevelGroupId = TypedId<struct LevelGroupTag>;    // a group of a LevelGroups
 using LevelFamilyId = TypedId<struct LevelFamilyTag>;  // groups that have the same levels
 
-// Returns the highest of `heights` at or below `height`, or nothing if the gap is so long (kMostGap) that no
-// surface lies in it. `flat` is the step over a plane, mm.
+// Returns the highest of `heights` at or below `height` (mm). nullopt if there is none within kMostGap flat
+// step-overs, since no surface of the group lies in so long a gap. `flat` is the flat step-over, mm.
 std::optional<double> LevelBelow(std::span<const double> heights, double height, double flat);
 
-// Two samples belong to one group if they lie next to each other on a piece, or if their contacts or centres
-// lie within three spacings of each other (or as far as neighbours are apart on long pieces). This joins a
-// wall with the ones around its corners, and the two walls of a slot as wide as the ball. Each group may have
-// levels of its own, since no contour runs from one to another. Where a group parts upwards (LevelBranch), a
-// branch becomes a group if contours go around it alone above its base level and levels of its own are
-// shorter in all. It stands on a level of the group from which it branches off. Areas lower than two flat
-// step-overs, mostly scraps, join the largest group, and so do all but the 256 largest. The largest group
-// comes first, branches come after the groups they stand on. Without samples there are no groups.
+// Divides the samples of the steep area into groups. Each group may have levels of its own, since no
+// waterline runs from one group to another.
+//
+// Two samples belong to one group if they are neighbours on a piece, or if their contacts or their centres
+// lie within three spacings of each other (or within the largest distance of neighbours, if that is more). So
+// a wall is in one group with the walls around its corners, and so are the two walls of a slot as wide as the
+// ball. Where a group forks upwards, a branch (LevelBranch) becomes a group of its own if two things hold:
+// waterlines above its base level go around the branch alone, and levels of its own make the total length
+// smaller. The base level is a level of the group from which it branches off. Areas lower than two flat
+// step-overs join the largest group; so do all but the 256 largest groups. The largest group comes first, and
+// branches come after the groups on which they stand. Without samples there are no groups.
 class LevelGroups {
  public:
-  // Returns the contours of a height. Null: no group is parted.
+  // Returns the waterlines at a height z (mm, of the centre). Null: branches stay in their groups.
   using ContoursAt = std::function<std::vector<CutterPath>(double z)>;
-  // Cost O(n log n), at most two dozen contours, and two LevelHeights for each of at most a dozen branches.
+  // Cost: O(n log n) for n samples, at most 24 calls of `contours`, and two calls of LevelHeights for each of
+  // at most 12 branches.
   // Errors: CANCELLED or DEADLINE_EXCEEDED from `run`.
   static absl::StatusOr<LevelGroups> Make(const ContourArea& contour_area, const HeightParams& params,
                                           const ContoursAt& contours, const RunContext& run);
@@ -43,14 +47,14 @@ class LevelGroups {
 
   std::size_t size() const { return groups_.size(); }
   const ContourArea& operator[](LevelGroupId id) const { return groups_[id.index()]; }
-  // The level on which a branch stands: the highest one of that group at or below a height.
+  // Where a branch stands: on the highest level of `group` at or below the height `below`.
   struct BaseLevel {
     LevelGroupId group;
-    double below = 0.0;  // mm, of the centre
+    double below = 0.0;  // mm, height of the centre
   };
   const std::optional<BaseLevel>& base_level(LevelGroupId id) const { return base_levels_[id.index()]; }
-  // Returns the family over whose area most of this pass lies, by the samples that are nearest to it.
-  // family_of[group] is the family of that group.
+  // Returns the family to which most of the pass belongs: each of its points belongs to the group of the
+  // nearest sample. family_of[group] is the family of a group.
   LevelFamilyId FamilyUnder(const CutterPath& pass, std::span<const LevelFamilyId> family_of) const;
 
  private:

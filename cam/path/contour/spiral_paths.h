@@ -12,16 +12,17 @@
 
 namespace patchmill {
 
-// Closed contours of consecutive levels (ContourPaths) that run beside each other all the way round become
-// one open path with `spiral` set. It keeps the highest contour as it is, falls turn by turn from there, and
-// keeps the lowest as it is. Turn k falls from level k to level k + 1 evenly with its length, so that two
-// turns are nowhere farther apart than the levels above and below them. Every vertex lies on the contour of
-// its own height, solved as contours are (LevelOracle::Exit). Every chord keeps params.chord_tolerance on
-// both sides ([location T2]; T3 on the contacts of its ends). Where contours part, join or end, or a chord
-// cannot be proven, they stay as they are. The other paths come back unchanged, in their order; a spiral
-// takes the place of its highest contour, with its order key. `backwards` winds against the direction of the
-// contours. Deterministic. Cost: one exit a vertex, parallel over the chains of turns. Errors: CANCELLED or
-// DEADLINE_EXCEEDED from `run`.
+// Replaces closed contours of consecutive levels (ContourPaths) that run beside each other all the way round
+// by one open path with `spiral` set, a helical pass. The path consists of the highest contour, one turn for
+// each gap between two levels, and the lowest contour. Turn k falls from level k to level k + 1 evenly with
+// its length, so two turns are nowhere farther apart than the levels above and below them. Every vertex lies
+// on the waterline of its own height and is solved like one of a contour (LevelOracle::Exit). Every chord
+// keeps params.chord_tolerance: its gouge by [location T2], its excess by [location T3] with the contacts of
+// its ends. Contours that part, join or end stay contours, and so do those for which a chord cannot be
+// proven. Other paths come back unchanged, in their order. A spiral takes the place and the order key of its
+// highest contour. `backwards`: the spiral runs against the direction of the contours. Deterministic. Cost:
+// one LevelOracle::Exit for each vertex; spirals are made in parallel. Errors: CANCELLED or DEADLINE_EXCEEDED
+// from `run`.
 absl::StatusOr<std::vector<CutterPath>> SpiralPaths(const Locator& locator, std::vector<CutterPath> contours,
                                                     const PassParams& params, bool backwards,
                                                     const RunContext& run);

@@ -1,10 +1,12 @@
-// The parts of the surface that can carry a contact of one level of h, as a tree that is opened on demand.
+// The parts of the surface that a ball may touch while its centre is at one level, as a tree that is opened
+// on demand.
 //
-// At centre height c a surface point p forbids the disc |q - p_xy| < rho(p), rho = sqrt(R^2 - max(0, c -
-// p_z)^2). A point q of the contour touches some p with |q - p_xy| = rho(p) ([contours T8b]). On a smooth
-// surface the contact rule of level_bounds.h holds there, and (q, c) lies in the box of the part's centres.
-// On an open edge or a crease p lies on that curve, and only the distance counts. The same holds where a ball
-// may touch with its equator.
+// Here c is the level (height of the centre, mm), q a place in plan and R the radius of the ball. A surface
+// point p forbids the disc |q - p_xy| < rho(p) with rho = sqrt(R^2 - max(0, c - p_z)^2) [contours (1)]. At a
+// place q of the waterline the ball touches a point p with |q - p_xy| = rho(p) [contours T8b]. If the surface
+// is smooth at p, the contact rule of level_bounds.h holds, and (q, c) lies in the box of the part's centres.
+// On an open edge or a crease, and where the ball may touch with its equator, only the distance from q to p
+// counts.
 #pragma once
 
 #include <array>
@@ -38,10 +40,10 @@ class ContactCandidates {
   // for a cell of `width` ([contours (3)]).
   void Collect(const std::vector<std::int32_t>& candidates, const XyRect& cell, double width,
                std::vector<std::int32_t>& out);
-  // Does the disc of the candidate's middle point cover the cell?
+  // True if the disc of the candidate's middle point covers the cell, so that all of the cell is forbidden.
   bool Covers(std::int32_t candidate, const XyRect& cell) const;
-  // Can a contact on the candidate be part of a pass, that is, lie not above the centre and have its slope in
-  // the window?
+  // True if a contact on the candidate may be part of a pass: if it may lie no higher than the centre and
+  // have its slope in the window.
   bool Wanted(std::int32_t candidate, const SlopeWindow& window) const;
   // Returns the directions from contacts on the candidates to points of the cell. With `closely` the
   // directions from the parts' boxes count too, which costs more.
@@ -51,9 +53,10 @@ class ContactCandidates {
  private:
   enum class Kind : std::int8_t { kRect, kCurve };
   struct Candidate {
-    // These members serve the test of a cell. If `oriented`, the candidate is the slice of the centres' box
-    // at this level, |ax x + ay y - mid| <= half for each of three axes, inside the plan box of the centres.
-    // Otherwise it is the plan box of the part widened by rho.
+    // Where in plan the centres lie that touch the part, for the test of a cell. All of them lie in the box
+    // x0..x1, y0..y1. If `oriented`, this is the box of the part's centres, cut at the level, and |ax x + ay
+    // y - mid| <= half holds for each of three axes, too. Otherwise it is the box of the part, widened by
+    // rho.
     double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
     std::array<double, 3> ax{}, ay{}, mid{}, half{};
     bool oriented = false;
@@ -66,6 +69,7 @@ class ContactCandidates {
     std::int32_t first = 0, last = 0;  // children, if opened
     double rho2 = 0, rho = 0;          // of the largest disc
     std::array<double, 3> own_mid{}, own_half{};
+    // `directed`: directions from contacts to centres, as in CenterBounds.
     Vec2 right = Vec2::Zero(), left = Vec2::Zero();
     double px0 = 0, px1 = 0, py0 = 0, py1 = 0;  // plan box of the part
     double size = 0;                            // its larger side

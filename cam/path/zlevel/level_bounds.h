@@ -1,10 +1,11 @@
-// Where the ball's centre can be while it touches a part of the surface.
+// Bounds the places of the ball's centre while it touches a part of the surface.
 //
-// On a smooth surface a contact p obeys the contact rule. Either c = p + R e with e = +-n, n the unit normal
-// there, and e_z >= 0; or p is above the centre, the shank touches it, and c_xy = p_xy + R e_xy with e_z = 0.
-// The centres of a small part therefore lie in a box hardly larger than the part. The box is thin along the
-// normal and spans only few heights. It decides which parts a cell of a level has to look at; the mere reach
-// of the ball would admit far more.
+// Here c is a centre, R the radius of the ball, p a contact and n the unit normal of the surface at p. On a
+// smooth surface a contact obeys the *contact rule* [contours T8b]. Either the ball touches p: c = p + R e
+// with e = +-n, e_z >= 0. Or the shank touches p, which is above the centre: c_xy = p_xy + R e_xy with e_z =
+// 0. So the centres of balls that touch a small part lie in a box that is hardly larger than the part, thin
+// along the normal, and spans few heights. The boxes tell which parts of the surface matter for a cell of a
+// level. The distance between part and cell alone would let far more parts pass.
 #pragma once
 
 #include <array>
@@ -17,17 +18,18 @@
 
 namespace patchmill {
 
-// Bounds for one side of a part: e lies in the cone about the axis of its normals, or about the opposite one.
+// Bounds for balls on one side of a part. Their directions e lie in the cone of the part's normals, or in the
+// opposite cone.
 struct CenterBounds {
-  bool possible = true;  // false: the side faces down and nothing can touch it
+  bool possible = true;  // false: the side looks down everywhere, so no ball touches it
   // For every contact off the creases and open sides: |(p + R e - center) . axis.col(k)| <= half[k].
   Vec3 center = Vec3::Zero();
   Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();
   Vec3 half = Vec3::Zero();
   Box3 box;            // of centres; reaches down to -infinity where the shank may touch
-  bool shank = false;  // the normals reach the horizon
-  // Directions of e in plan, counter-clockwise from right to left, less than half a turn. They are set only
-  // where no e is vertical.
+  bool shank = false;  // a normal may be horizontal, so the shank may touch
+  // `directed`: no e is vertical, and the directions of e in plan run counter-clockwise from `right` to
+  // `left`, by less than half a turn. Otherwise `right` and `left` are not set.
   bool directed = false;
   Vec2 right = Vec2::Zero(), left = Vec2::Zero();
 };
@@ -36,7 +38,7 @@ struct CenterBounds {
 // and include JointSlack. `side` is 1 or -1.
 CenterBounds BoundCenters(const RectBounds& part, const NormalCone& normals, int side, double radius);
 
-// rad: cones at least this wide bound nothing better than the reach of the ball does.
+// rad: wider cones of normals are not used. Their boxes would be no smaller than the part's box widened by R.
 inline constexpr double kWidestNormals = 1.2;
 
 // The bounds of all leaves of a surface and of the nodes above them. References are not kept.
@@ -65,11 +67,12 @@ class LevelBounds {
   std::vector<Cone> cones_;
 };
 
-// Angle (rad) by which a contact on one of the smooth joints among the sides of a leaf may leave the leaf's
-// own normals. It is the joint's turn, plus what the step between patches that do not meet exactly allows.
+// Returns the angle (rad) by which the direction of a contact on a smooth side of the leaf may differ from
+// the leaf's own normals. It is the angle between the tangent planes of both sides, plus the angle by which a
+// ball may lean over a step between patches that do not meet exactly.
 double JointSlack(const SurfaceLeaf& leaf, const PieceSides& sides, double radius);
 
-// Does the leaf reach this side of its piece?
+// True if the leaf ends at this side of its piece.
 bool OnSide(const SurfaceLeaf& leaf, int side);
 
 }  // namespace patchmill

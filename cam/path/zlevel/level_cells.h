@@ -1,5 +1,5 @@
-// Cells of one level that the contour may cross, each with the directions that the contour can have in it
-// ([contours T8a, T8b, T8c]).
+// Finds the cells of the plan that the waterline of one level may cross, each with a bound for its directions
+// there ([contours T8a, T8b, T8c]). h, c, free and forbidden: level_oracle.h.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +43,10 @@ class GridMap {
 struct LevelCell {
   std::int32_t x = 0, y = 0;  // lower left corner
   std::int32_t side = 1;      // units
-  bool ambiguous = false;     // no cone was found at the smallest size
-  Vec2 free = Vec2::Zero();   // unit direction in which h falls through c, where the cell is not ambiguous
+  // Undecided: the waterline may have too many directions, even in the smallest cell [contours, section 2].
+  bool ambiguous = false;
+  // Unit direction from every stretch of the waterline in the cell to its free side; not set if ambiguous.
+  Vec2 free = Vec2::Zero();
   std::int32_t first_candidate = 0, last_candidate = 0;  // into LevelCells::items
 };
 
@@ -52,9 +54,9 @@ struct LevelCells {
   LevelGrid grid;
   std::vector<LevelCell> cells;     // only those that can hold a part of the contour
   std::vector<std::int32_t> items;  // candidates of ContactCandidates, in slices by cell
-  GridMap vertices;                 // corners of all cells ever looked at (T-junctions)
+  GridMap vertices;                 // corners of all cells ever tested; on a longer edge they are T-junctions
   int ambiguous = 0;
-  // Too many ambiguous cells; too many cells looked at. In both cases nothing in this struct is usable.
+  // Too many ambiguous cells, or too many cells tested. In either case nothing else in this struct is usable.
   bool overflow = false, exhausted = false;
   bool cancelled = false;
 };
@@ -62,19 +64,21 @@ struct LevelCells {
 struct LevelCellLimits {
   double smallest = 0.0125;  // mm, side of the finest cells
   int max_ambiguous = 4'000;
-  int max_cells = 1'000'000;  // cells looked at, about five for each cell kept: 150 m of contour at R = 3 mm
+  // Cells tested, about five for each cell in the result. This is enough for 150 m of waterline at R = 3 mm.
+  int max_cells = 1'000'000;
 };
 
-// The part of a level that is looked at.
+// The part of a level in which passes are wanted.
 struct WantedLevel {
   SlopeWindow window;
   const NearSpotsMask* where = nullptr;  // null: everywhere
 };
 
-// Searches the quadtree over the plan box of the surface widened by R. Every loop or hole of the level that
-// is not in the cells returned is smaller than `smallest`. Polls run.Cancelled(). With `wanted`, cells
-// outside of its places are left out too, and cells whose every contact is outside of its slope window or on
-// the shank. The contour then comes in pieces that end at such cells.
+// Searches a quadtree over the box of the surface in plan, widened by R. A loop or hole of the level that is
+// in none of the cells returned is smaller than `smallest`. Polls run.Cancelled(). With `wanted`, two kinds
+// of cells are left out, too: cells outside of wanted->where, and cells in which every contact is on the
+// shank or has its slope outside of the window. The waterline then consists of open pieces that end at such
+// cells.
 LevelCells FindCells(ContactCandidates& items, const LevelOracle& oracle, const LevelCellLimits& limits,
                      const RunContext& run, const WantedLevel* wanted = nullptr);
 

@@ -1,4 +1,4 @@
-// Joins the crossings of the contour with the edges of its cells into loops.
+// Joins the crossings of the waterline with the edges of its cells into loops.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,14 @@
 
 namespace patchmill {
 
-// The cell through which the contour runs from one crossing to the next. The contour stays inside it.
+// The cell through which the waterline runs from one crossing to the next. It stays inside this cell.
 struct ChainCell {
   XyRect bounds;
-  Vec2 free = Vec2::Zero();  // unit direction across which the contour is a graph in the cell; zero: no cone
-  bool fixed = true;         // no cone and more than one stretch: each stays straight, clear of the others
+  // LevelCell::free: each line in this direction meets the stretch once. Zero if the cell is ambiguous.
+  Vec2 free = Vec2::Zero();
+  // The cell is ambiguous and has more than one stretch. Each stays a straight chord, so that none meets
+  // another.
+  bool fixed = true;
   bool Ambiguous() const { return free == Vec2::Zero(); }
 };
 struct ChainPoint {
@@ -23,9 +26,10 @@ struct Chain {
   bool closed = true;
 };
 
-// Inside a cell with a cone the crossings are joined in their order along the contour ([contours T8a]). In an
-// ambiguous cell each free stretch of the rim is cut off on its own, which is the safe side. Loops always
-// close, unless the cells are those of passes only (`open`). Cost O(crossings).
+// Joins the crossings on the rim of each cell in pairs. In a cell that is not ambiguous the pairs follow from
+// the order along the waterline [contours T8a]. In an ambiguous cell a chord cuts off each free stretch of
+// the rim, so that all else counts as forbidden, which is safe. Loops always close. With `open` they need
+// not: the cells are then those of passes only (WantedLevel). Cost O(crossings).
 std::vector<Chain> BuildChains(const LevelCells& cells, const LevelEdges& edges, bool open = false);
 
 }  // namespace patchmill

@@ -1,15 +1,20 @@
-// Where the contour crosses the edges of its cells. Every crossing is found once and shared by both cells.
+// Finds where the waterline crosses the edges of its cells. Every crossing is found once and shared by both
+// cells.
 //
-// An edge is cut at all vertices on it. On each remaining stretch, of length l, the signs of h - c at the
-// ends decide how often the contour crosses in two cases ([contours T8c]):
-//  - The contour's directions at the zeros on the stretch are all one way along it: it crosses at most once.
-//  - Its directions at the zeros within l/2 of the stretch, on both sides, span less than a quarter turn.
-//    If the signs at the ends hide a pair of crossings, the contour between these has all its tangents
-//    within a quarter turn of the stretch. It stays in the right-angled triangle over the pair, of height
-//    <= l/2. No vertex and no other edge reaches in there (both cells are at least l wide). So the pair can
-//    be removed by moving the contour there, and the rest keeps its topology (proof: [contours T8c]).
-// Otherwise the stretch is halved, down to 2e-4 mm. The limit is a quarter of the finest cell where
-// only ambiguous cells are beside it, or too much of the surface would have to be looked at.
+// An edge is cut at all vertices on it into stretches. Let l be the length of a stretch. A *direction* of the
+// waterline at a place is that from a contact to the place [contours, section 1]; h - c is negative on the
+// free side. In two cases the signs of h - c at the ends of the stretch tell how often the waterline crosses
+// it [contours T8c]:
+// - All directions at places of the waterline on the stretch point the same way along the stretch. Then it
+//   crosses at most once.
+// - The directions at places of the waterline within l/2 of the stretch span less than a quarter turn. The
+//   waterline may then cross more often than the signs tell, but only in pairs of crossings that can be
+//   removed: the waterline between the two can be moved to the other side of the stretch without meeting a
+//   vertex or another edge. The loops stay the same except for this motion, by at most l/2.
+//
+// In all other cases the stretch is halved, down to 2e-4 mm. It is halved only down to a quarter of the
+// finest cell if both cells beside it are ambiguous, or if too many parts of the surface would have to be
+// tested.
 #pragma once
 
 #include <vector>
@@ -19,7 +24,7 @@
 
 namespace patchmill {
 
-// A crossing as one cell meets it on the way round its rim, counter-clockwise.
+// A crossing on the rim of one cell, as met on the way counter-clockwise around the rim.
 struct RimCrossing {
   std::int32_t crossing = 0;
   bool to_free = false;  // forbidden before the crossing, free after it

@@ -1,4 +1,4 @@
-// Traces all loops of one level from data that levels share.
+// Traces all loops of the waterline of one level. LevelContext holds what all levels share.
 #pragma once
 
 #include "cam/location/locator.h"
@@ -15,18 +15,22 @@ struct ContourParams {
   double resolution = 0.1;  // mm: every loop or hole that holds a disc of this diameter is found
 };
 
-// One level c of h: the border between {h > c} (forbidden) and {h <= c}, as closed loops. The material
-// (forbidden side) is on the RIGHT of the motion, which is climb with M3. Vertices lie on the border to 1e-9
-// mm, corners between two contacts are exact, chords are certified ([location T2] / two discs) to the chord
-// tolerance on both sides. Nothing is clipped yet.
+// The waterline at the centre height z: the border between the places in plan where the centre height h is
+// above z (forbidden) and the others (free), as loops. The material, on the forbidden side, is on the RIGHT
+// of the motion, which is climb milling with M3. Vertices lie on the waterline to 1e-9 mm. Corners, where the
+// contact changes, are vertices. Each chord gouges no more than the chord tolerance [location T2] and leaves
+// no more than the excess tolerance (loop_refine.h). Loops are not yet clipped to what is a pass.
 struct LevelContours {
-  double z = 0.0;  // centre height used (a level at a flat moves up by 1e-3 mm)
+  double z =
+      0.0;  // mm, height of the centre; 1e-3 mm above the requested one if that is the height of a flat
   std::vector<CutterPath> loops;
   // mm, side of the finest cells: an eighth of the requested resolution. It is larger where that would have
   // taken too many cells. Loops and holes are then found if they hold a disc of eight times this diameter.
   double cell = 0.0;
-  int ambiguous_cells = 0;           // undecided cells below the resolution; they are closed on the safe side
-  Vec3 ambiguous_at = Vec3::Zero();  // the first of them
+  // Cells that stayed undecided at the finest size. What is in doubt in them counts as forbidden [contours
+  // T8d].
+  int ambiguous_cells = 0;
+  Vec3 ambiguous_at = Vec3::Zero();  // place of the first of them
 };
 LevelContours TraceLevel(const Locator& locator, double z, const ContourParams& params,
                          const RunContext& run);
@@ -51,8 +55,9 @@ struct LevelContext {
 LevelContours TraceLevel(const LevelContext& context, double z, const ContourParams& params,
                          const RunContext& run);
 
-// The same, without stretches outside of `where` (null: nothing is outside) and without those whose contacts
-// are all on the shank or far outside of params.window. Loops that lose a stretch come as open paths.
+// Traces only what may be a pass: without stretches outside of `where` (null: nothing is outside), and
+// without stretches whose contacts are all on the shank or far outside of the slope window. A loop that loses
+// a stretch becomes open paths.
 LevelContours TracePasses(const LevelContext& context, double z, const NearSpotsMask* where,
                           const ContourParams& params, const RunContext& run);
 

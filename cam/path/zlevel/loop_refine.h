@@ -9,17 +9,17 @@
 namespace patchmill {
 
 struct LoopTolerance {
-  double gouge = 0.005;   // mm, of every chord ([location T2])
-  double excess = 0.005;  // mm, normal to the surface (two discs, as [location T3])
+  double gouge = 0.005;   // mm: how deep a chord may cut [location T2]
+  double excess = 0.005;  // mm along the normal: how much a chord may leave (ChordExcess)
 };
 
-// What a straight move a b leaves at most (mm) above the contacts of its ends: the smallest, over all splits,
-// of the larger of the two caps at the ends ([location T3]). Closed form.
+// Returns an upper bound (mm) for what the chord a b leaves: [location T3] with the contacts of a and b as
+// supports, with the best split. Distances to the contacts are those of LevelOracle::Excess. Closed form.
 double ChordExcess(const LevelOracle& oracle, const LevelPoint& a, const LevelPoint& b);
 
-// Returns a polyline of border points (closed when the chain is), with the forbidden side on the right and
-// every chord within tolerance. Corners between two contacts are vertices with both contacts. Points that the
-// tolerance does not need are left out. The result is empty if the run is cancelled meanwhile.
+// Returns a polyline of points of the waterline, closed if the chain is, with the forbidden side on the right
+// and every chord within tolerance. At a corner it has a vertex with both contacts. It has no more vertices
+// than the tolerance needs, except in very short loops. Empty if the run is cancelled meanwhile.
 std::vector<LevelPoint> RefineLoop(const LevelOracle& oracle, const Chain& chain,
                                    const LoopTolerance& tolerance, const RunContext& run);
 

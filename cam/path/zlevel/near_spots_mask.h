@@ -1,4 +1,4 @@
-// Places in plan near some points. A level has to be looked at only there.
+// The places in plan near some points. A level needs to be traced only there.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,23 @@ namespace patchmill {
 
 class NearSpotsMask {
  public:
-  // Holds all places within `reach` (mm, > 0) of one of the points, in x and in y, and some farther ones, up
-  // to 1.5 times as far. Its squares measure a quarter of `reach`. They are larger, and hold places farther
-  // away, where more than a million would be needed. Cost O(points + squares), 4 bytes a square.
+  // Marks squares of a grid so that all places within `reach` (mm, > 0) of a point, in x and in y, are
+  // marked. Places up to 1.5 times as far may be marked, too. The side of a square is a quarter of `reach`,
+  // or more if the grid would have more than a million squares; then places still farther away may be marked.
+  // Cost O(points + squares), 4 bytes a square.
   NearSpotsMask(std::span<const Vec3> points, double reach);
 
-  // Does the cell contain such a place? O(1).
+  // True if the cell meets a marked square. O(1).
   bool Meets(const XyRect& cell) const;
 
  private:
-  bool Holds(int x0, int x1, int y0, int y1) const;  // does one of these squares count? ends included
+  bool Holds(int x0, int x1, int y0, int y1) const;  // is one of these squares marked? ends included
   std::int32_t Before(int i, int j) const { return sums_[static_cast<std::size_t>(i * (ny_ + 1) + j)]; }
 
   Vec2 origin_ = Vec2::Zero();
   double side_ = 1.0;  // mm, of a square
   int nx_ = 0, ny_ = 0;
-  std::vector<std::int32_t> sums_;  // number of squares that count before each corner, both ways
+  std::vector<std::int32_t> sums_;  // [corner]: number of marked squares with smaller indices both ways
 };
 
 }  // namespace patchmill
