@@ -14,20 +14,21 @@ namespace patchmill {
 // much. Returns `radius` when length >= 2 radius: nothing is known there.
 double ChordGouge(double radius, double length);
 
-// [location T2b]: the largest gouge of the straight move a b when the balls at all of `free` (and everything
-// above them) are free. `free` holds at least one centre, in the order of the move; the first lies at or
-// below a, the last at or below b. Sharp for two. Proof: a point x of the move at a free centre, or above
-// one, is at least R from every surface point (and from what hangs below it); any other x is at least R - |x
-// - centre| from it. Between two such places [location T2a] holds (ChordDistance2).
+// [location T2b]: returns an upper bound (mm) for the gouge of the straight move a b, given free centres near
+// it. `free` holds one or more centres at which the ball is free with its upward sweep, in the order of the
+// move. The first lies at or right below a, the last at or right below b. With two centres the bound is
+// sharp. Proof: a point x of the move that is at or right above a free centre is at least R from every
+// surface point and from all places below surface points. A point x at the distance r from a free centre is
+// at least R - r from them. Between two such points [location T2a] holds (ChordDistance2).
 double ChordGouge(double radius, const Vec3& a, const Vec3& b, std::span<const Vec3> free);
 
 // The longest chord with ChordGouge <= tolerance. `tolerance` is clamped to [0, radius].
 double LongestChord(double radius, double tolerance);
 
-// What a resting ball touches: a surface point, or (no `contact`) the floor plane that carries its centre.
+// What a ball rests on: a surface point, or, without a `contact`, the floor plane (PassParams::floor_z).
 struct Support {
   std::optional<Vec3> contact;
-  double floor_center = -kInfinity;  // centre height on the floor, used when `contact` is absent
+  double floor_center = -kInfinity;  // mm: centre height of a ball on the floor, used if there is no contact
 
   // Distance (mm) of a ball centred at x from this support; negative where it enters the support.
   double Clearance(const Vec3& x, double radius) const {
@@ -35,10 +36,11 @@ struct Support {
   }
 };
 
-// [location T3] in space: every point x of the chord a b is within the returned distance (mm) of touching one
-// of the two supports, whatever lies between them. The bound is exact for this pair up to the choice of one
-// split point: both clearances are convex along the chord, so their values at the ends and at the split bound
-// them. It may be negative.
+// [location T3]: returns an upper bound (mm) for the excess of the chord a b, whatever surface lies between
+// the supports of its ends. The chord is split at one point; the first part is compared with at_a, the second
+// with at_b. On each part the clearance from the support is convex, so it is largest at an end of the part.
+// The split is the one that makes the bound smallest. The bound may be negative: then every ball on the chord
+// enters a support.
 double ChordExcess(double radius, const Vec3& a, const Vec3& b, const Support& at_a, const Support& at_b);
 
 }  // namespace patchmill

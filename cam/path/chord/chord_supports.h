@@ -1,5 +1,6 @@
-// Points of the surface between two contacts. With enough of them [location T3] finds the true excess of a
-// chord ([location (10)]). The two contacts alone count L^2 / 8 R for a chord of length L even on a plane.
+// Points of the surface between the contacts of a chord's ends, as further supports for [location T3]. With
+// the two contacts alone T3 counts an excess of L^2 / (8 R) for a chord of length L even on a plane, where
+// there is none. With enough points in between it comes near the true excess [location (10)].
 #pragma once
 
 #include <span>
@@ -27,8 +28,9 @@ struct SupportedChord {
   std::span<const Support> between;
 };
 
-// Applies [location T3] over many supports. Each serves, with the next one, an equal stretch of the chord.
-// Returns whether the excess stays within `limit` (mm).
+// Returns true if the excess of the chord is proven to be at most `limit` (mm). The supports, at_a and at_b
+// included, divide the chord into equal stretches; [location T3] is applied to each stretch with the supports
+// of its ends.
 bool ExcessWithin(double radius, const SupportedChord& chord, double limit);
 
 }  // namespace patchmill

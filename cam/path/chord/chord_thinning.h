@@ -1,4 +1,4 @@
-// Reduces dense stations to as few certified vertices as the chord tolerance allows.
+// Reduces the dense stations of a trace to the few certified vertices that the chord tolerance needs.
 #pragma once
 
 #include <functional>
@@ -25,11 +25,12 @@ std::vector<CutterPoint> ThinStations(const Locator& locator, const std::vector<
 
 using ThinWhich = std::function<bool(const CutterPath&)>;
 
-// Leaves out the points that chords can do without, of the contours and spirals that `which` selects. Chords
-// may be as long as the ball's radius, so that closed contours can begin about anywhere. All centres of those
-// paths must be proven to CertificateGap(params), as ContourPaths and SpiralPaths make them; points that
-// clipping put on chords are not allowed. Chords stay within the same tolerances. On a concave surface
-// vertices move sideways into it. Runs in parallel. Errors: CANCELLED and DEADLINE_EXCEEDED.
+// Removes vertices from the contours and spirals in `paths` that `which` selects, as long as the chords stay
+// within the tolerances of `params`. No chord becomes longer than the ball's radius, so that closed contours
+// can later begin nearly anywhere. Every centre of a selected path must be proven free to
+// CertificateGap(params), as ContourPaths and SpiralPaths return them. So ClipToLimits must not have cut the
+// path before: it puts points on chords. On a concave surface vertices move sideways into the surface
+// (fewest_chords.h). Runs in parallel. Errors: CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::Status ThinContours(const Locator& locator, const PassParams& params, const ThinWhich& which,
                           const RunContext& run, std::vector<CutterPath>& paths);
 

@@ -1,9 +1,10 @@
-// The fewest chords along centres on the centre surface or on a contour. A funnel of directions is narrowed
-// from station to station.
+// Replaces dense stations by few long chords [location, section 11]. From a vertex a funnel of directions is
+// narrowed from station to station, until no chord fits through it.
 //
-// Where the surface is concave along the way, chords between free centres lie above it and may leave far less
-// than they may gouge. There vertices go down into the surface by as much as chords may gouge, so that chords
-// become as long as on a convex surface.
+// Where the surface is concave along the path, a chord between two free centres lies above the surface. It
+// gouges nothing and leaves material, which the tolerances allow far less than gouging. There vertices are
+// lowered into the surface, by at most half of the allowed gouge (DeepestVertex). Then chords become as long
+// as on a convex surface.
 #pragma once
 
 #include <functional>
@@ -18,20 +19,22 @@ namespace patchmill {
 // A centre that touches the surface.
 struct ChordStation {
   Vec3 center = Vec3::Zero();
-  Vec3 away = Vec3::UnitZ();            // unit: away from the surface; vertices go down against it
-  const SurfacePoint* left = nullptr;   // what the centre touches, towards the station before
-  const SurfacePoint* right = nullptr;  // what it touches, towards the station after; null: the floor
-  bool keep = false;                    // there must be a vertex exactly here
-  bool proven = false;                  // the centre is proven free, to the certificate gap
+  Vec3 away = Vec3::UnitZ();  // unit vector away from the surface; vertices are lowered against it
+  // What the centre touches on the chord from the station before, and on the chord to the next station. They
+  // differ at a contact switch. Null: the floor.
+  const SurfacePoint* left = nullptr;
+  const SurfacePoint* right = nullptr;
+  bool keep = false;    // there must be a vertex exactly here
+  bool proven = false;  // the centre is proven free, to the certificate gap
 };
 
 struct ChordLimits {
   double gouge = 0.005;        // mm, of every chord
   double excess = 0.005;       // mm, of every chord
-  double deepest = 0.0;        // mm: how far into the surface vertices may go, < gouge
-  double longest = kInfinity;  // mm, of a chord that passes over stations
+  double deepest = 0.0;        // mm: how far vertices may be lowered into the surface, < gouge
+  double longest = kInfinity;  // mm: longest chord that leaves out a station
   double floor_center = -kInfinity;
-  double certificate_gap = 0.0;  // mm: most proven centres lie at most this far above their stations
+  double certificate_gap = 0.0;  // mm: a proven centre usually lies at most this far above its station
 };
 
 // A vertex over station `station`: `below` (mm, >= 0) from its proven centre, against `away`.

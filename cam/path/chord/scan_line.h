@@ -1,5 +1,5 @@
-// One certified scan line of h ([location, section 11]): the gouge-free curve of centres above a straight
-// segment in plan.
+// One certified scan line: the centres at the centre height h(q) [location (1)] over the places q of a
+// straight segment in plan, as a polyline of certified chords [location, section 11].
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace patchmill {
 
-// A maximal run without a gap (the line breaks where h does not exist). A vertical drop is two points over
-// one xy.
+// A stretch of a scan line without a gap. There is a gap where h does not exist: no surface lies within R of
+// the place in plan. A vertical drop is two points over the same place.
 struct ScanRun {
   std::vector<CutterPoint> points;  // from a to b
 };

@@ -1,6 +1,6 @@
-// The curve of h above a straight segment in plan, as stations so dense that no feature hides between two of
-// them ([location, section 11]). Contact switches that no chord may pass over and vertical drops are solved,
-// the rest is sampled.
+// Traces the centre height h over a straight segment in plan, as stations so dense that chords between them
+// keep the tolerances [location, section 11]. Contact switches that no chord may pass over, and vertical
+// drops, are solved exactly. Everything else is sampled.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,20 @@
 
 namespace patchmill {
 
-// A centre on the curve. Left and right support differ at a switch. An absent support means that the floor
-// carries the ball.
+// A centre of the trace. `left` and `right` are what the ball touches on the chord before and after; they
+// differ at a contact switch. An absent one means that the floor carries the ball.
 struct TraceStation {
-  double t = 0.0;              // mm along the segment, or any curve in plan, by arc length
+  double t = 0.0;              // mm: arc length in plan along the segment (or along another curve in plan)
   Vec2 q = Vec2::Zero();       // the place in plan
-  double z = 0.0;              // centre height
-  double ceiling = kInfinity;  // proven upper bound of h at `at`; infinite: not certified
-  Vec2 at = Vec2::Zero();      // where z is h: q, but for the top of a drop just inside the wall
+  double z = 0.0;              // mm, centre height
+  double ceiling = kInfinity;  // mm: proven upper bound of h at `at`; infinite: not certified
+  // The place where z is the value of h. It is q, except at the top of a drop, where it is just inside the
+  // wall.
+  Vec2 at = Vec2::Zero();
   std::optional<SurfacePoint> left, right;
-  std::optional<SurfacePoint> hint;  // contact with the surface itself, set also where the floor carries
-  bool keep = false;                 // true at ends, switches and both ends of a drop
+  std::optional<SurfacePoint>
+      hint;           // contact with the surface of a ball at h, also where the floor is higher
+  bool keep = false;  // true at ends, switches and both ends of a drop
 };
 
 struct SegmentTraceParams {

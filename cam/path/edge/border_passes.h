@@ -1,5 +1,5 @@
-// Passes along borders. Where lines run along the border of their area they end one after the other. A pass
-// along the border finishes the steps between their ends in one go.
+// Passes along borders. Where lines run nearly parallel to the border of their area, they end there one after
+// the other, and steps stay between their ends. One pass along the border finishes these steps.
 #pragma once
 
 #include <vector>
@@ -17,12 +17,12 @@ namespace patchmill {
 // rad, in plan: lines within this angle of a border run along it.
 inline constexpr double kAlongBorder = 0.35;
 
-// Returns passes that touch stretches of `borders` which lines leave unfinished. Of `paths` only lines count.
-// On such a stretch the nearest line, at most two flat step-overs away, runs along the border, and somewhere
-// the nearest pass is more than 0.55 flat step-overs away. Stretches shorter than four flat step-overs get no
-// pass, nor do places where the ball cannot touch the border (creases, undercuts). Passes are certified to
-// params.chord_tolerance, as lines are. They come in the order of the borders. Deterministic, parallel over
-// the borders.
+// Returns passes along those stretches of `borders` that zig-zag lines leave unfinished. Other passes in
+// `paths` are ignored. A stretch is unfinished if the nearest line, at most two flat step-overs away, runs
+// along the border (kAlongBorder), and if somewhere on the stretch no line is within 0.55 flat step-overs.
+// Stretches shorter than four flat step-overs get no pass; neither do places at which the ball cannot touch
+// the border (creases, undercuts). Passes are certified to params.chord_tolerance, as lines are. They come in
+// the order of the borders. Deterministic, parallel over the borders.
 absl::StatusOr<std::vector<CutterPath>> BorderPasses(const Locator& locator,
                                                      const std::vector<BorderCurve>& borders,
                                                      const std::vector<CutterPath>& paths,

@@ -19,11 +19,12 @@ struct ExtendParams {
   const OperationLimits* operation_limits = nullptr;  // what is wanted and allowed; null: everything
 };
 
-// Adds a straight move to each end of an open pass whose contact lies on an open edge. The move has the
-// direction of the pass there and params.length, or a half or a quarter of it. The longest one is taken that
-// gouges nothing by more than the chord tolerance (swept ball, with what hangs above it), stays above the
-// floor, stays where the operation's limits allow, and runs over surface that is not selected by at most a
-// step. The end of the move touches nothing. Deterministic, parallel over passes.
+// Adds a straight move to each end of an open pass at which the contact lies on an open edge. The move
+// continues the pass in its direction there. Its length is params.length, or half or a quarter of it: the
+// longest with which the move gouges nothing by more than the chord tolerance (upward sweep included), stays
+// above the floor and within the operation's limits, and touches no surface farther than kOverrun flat
+// step-overs beyond the selected one. The end of the move has no contact. Deterministic, parallel over
+// passes.
 absl::StatusOr<std::vector<CutterPath>> ExtendPasses(const Locator& locator, std::vector<CutterPath> paths,
                                                      const ExtendParams& params, const RunContext& run);
 

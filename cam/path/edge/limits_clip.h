@@ -1,4 +1,4 @@
-// The parts of passes that an operation wants and allows.
+// Clips passes to what an operation wants and allows.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,16 @@
 
 namespace patchmill {
 
-// Flat step-overs: how far beyond the selected surface the tool may touch. Passes are clipped at one step;
-// links and extensions add to their ends.
+// Flat step-overs: how far beyond the selected surface the tool may touch the part. Passes are clipped at one
+// step beyond it; the rest is for links and extensions at their ends.
 inline constexpr double kOverrun = 1.25;
 
-// Keeps the parts of passes that are allowed all the way (OperationLimits::AllowsMove; ends within 1e-3 mm of
-// the limit) and touch the surface within `reach` (mm) of a point to be finished. The latter is tested every
-// half `reach` along the pass, and ends are placed to a thirtieth of it. A ball that touches surface that is
-// not selected is tangent to it, so an overrun of `reach` leaves no ridge at the seam and removes nothing
-// that must stay. Order and direction stay; a closed path that stays whole stays closed. Parallel over paths,
+// Returns the parts of `paths` that fulfil two conditions. Every move is allowed
+// (OperationLimits::AllowsMove); a part ends within 1e-3 mm of the limit. And the ball touches the surface
+// within `reach` (mm) of a point to be finished; this is tested every half `reach` along the pass, and a part
+// ends within a thirtieth of `reach` of where it fails. So passes overrun the selected surface by `reach`,
+// and no ridge stays at its border. The overrun gouges nothing, since the ball is tangent to the surface
+// there, too. Order and direction stay. A closed path that is kept whole stays closed. Parallel over paths,
 // deterministic.
 absl::StatusOr<std::vector<CutterPath>> ClipToLimits(const Locator& locator,
                                                      const OperationLimits& operation_limits,

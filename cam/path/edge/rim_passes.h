@@ -13,15 +13,18 @@
 
 namespace patchmill {
 
-// Where walls end in an open rim, lines that only roll over it from one side to the other are as short as the
-// ball is wide and lie a few millimetres apart. Each needs an approach and a retract. If two or more of them
-// follow each other along one of `borders`, at most two ball radii apart, they are taken out of `paths`. For
-// them a pass above the rim is returned, from a little before the first to a little after the last, or all
-// around. Together with a pass that rolls on to 45 degrees from the vertical it leaves nothing of a layer on
-// the rim that is thinner than the ball's radius. Lines that touch the surface in its own normal anywhere
-// stay. With params.roll nothing is done: that rule requires more than a pass above the rim. Passes are
-// certified to params.chord_tolerance. Deterministic. Cost: a closest point for every half ball radius of
-// lines that begin in a roll. Errors: CANCELLED or DEADLINE_EXCEEDED from `run`.
+// A wall that ends at the top in an open rim is crossed by lines that only roll over the rim, from one side
+// to the other. Such lines are as short as the ball is wide, lie a few millimetres apart, and each needs an
+// approach and a retract. Where two or more of them follow each other along one of `borders`, at most two
+// ball radii apart, they are removed from `paths`, and one pass above the rim is returned instead. It runs
+// from a little before the first line to a little after the last, or all around the border. Material on the
+// rim that is thinner than the ball's radius is removed by it, together with the passes beside it that roll
+// on to 45 degrees from the vertical.
+//
+// A line that touches a face in its normal anywhere stays. With params.roll nothing is done, since that rule
+// requires more than a pass above the rim. Passes are certified to params.chord_tolerance. Deterministic.
+// Cost: one closest point for every half ball radius of the lines that begin on a rim. Errors: CANCELLED or
+// DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<std::vector<CutterPath>> RimPasses(const Locator& locator,
                                                   const std::vector<BorderCurve>& borders,
                                                   const PassParams& params, const RunContext& run,

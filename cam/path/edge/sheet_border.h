@@ -1,4 +1,4 @@
-// Where a ball may go at the open edges of a sheet ([machining M12]).
+// Decides where a pass may touch the open edges of a sheet ([machining M12]).
 #pragma once
 
 #include <array>
@@ -16,17 +16,17 @@ class SheetBorder {
   // With `roll` the ball may roll over every open edge, as far as it touches it.
   explicit SheetBorder(const Surface& surface, bool roll = false);
 
-  // True where the ball that touches `contact` in the direction `normal` ((centre - contact)/R) belongs to a
-  // pass: inside the sheet, over creases, and at an open edge up to the surface normal. An open edge from
-  // which the surface descends is a rim. There the ball may roll on until it stands right above the rim, on
-  // both sides of a wall.
+  // True if a ball that touches the surface at `contact` may belong to a pass. `normal` is (centre -
+  // contact)/R. It may inside of a face and on a crease. On an open edge it may if `normal` is the normal of
+  // the surface there. An open edge from which the surface descends inward is a rim; over a rim the ball may
+  // also roll on until its centre is right above the rim.
   bool Allowed(const SurfacePoint& contact, const Vec3& normal) const;
 
   // True at an open edge, its vertices included.
   bool On(const SurfacePoint& contact) const;
 
-  // True where the direction is that of the surface itself, not that of a ball that rolls over an edge or a
-  // crease. Tolerance 1e-5 rad.
+  // True if `normal` is the normal of the surface at the contact, to 1e-5 rad. False where the ball rolls
+  // over an edge or a crease.
   bool OnSurfaceNormal(const SurfacePoint& contact, const Vec3& normal) const;
 
  private:
@@ -40,8 +40,8 @@ class SheetBorder {
   const bool roll_;
   // [piece][side]; sides 0: v=0, 1: u=1, 2: v=1, 3: u=0.
   std::vector<std::array<bool, 4>> open_;
-  std::vector<Vec3> open_vertices_;  // ends of open edges, by x
-  double same_point_ = 0.0;
+  std::vector<Vec3> open_vertices_;  // ends of open edges, sorted by x
+  double same_point_ = 0.0;          // mm: points this near to each other are one
 };
 
 // Returns the unit normal of the surface at the point, with z >= 0. At a degenerate corner it is that of a

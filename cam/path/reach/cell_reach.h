@@ -1,4 +1,5 @@
-// Finds which parts of the surface no ball can finish. Whole rectangles are judged by nine places on them.
+// Finds rectangles of the surface that this ball can finish nowhere. A rectangle is judged by nine places on
+// it.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ std::array<Vec2, 9> NineParameters(const SurfaceRect& rect);
 // The surface at the nine places. Normals are unit vectors, all on one side of the surface.
 struct RectPlaces {
   std::array<Vec3, 9> p, n;
-  double size = 0.0;              // mm, diameter of the rectangle
-  int air_side = 0;               // at vertical places: 1 the side of n, -1 the other, 0 unknown (SurfaceJet)
+  double size = 0.0;  // mm, diameter of the rectangle
+  int air_side = 0;   // on a vertical face: 1 the side of n, -1 the other side, 0 unknown (SurfaceJet)
   double upright = kUprightFace;  // SurfaceJet::upright
 };
 // `size` is that of the rectangle, or an upper bound. Returns nullopt where the normals turn by more than 0.7
@@ -38,29 +39,31 @@ bool TooBent(const std::array<Vec3, 9>& f, double size);
 
 struct CellReachParams {
   double radius = 0.0;  // mm: centres lie at p + radius n
-  double reach_tolerance =
-      0.0;  // mm: how deep the surface may lie inside the ball, and centres below the floor
+  // mm: so deep may the surface lie inside a ball that counts as free, and the floor above the lowest centre.
+  double reach_tolerance = 0.0;
   double floor_z = -kInfinity;  // mm: lowest centre height
-  // mm: if the deepest point is not known well enough to decide, it is located again to this accuracy; 0: it
-  // is not. This is for places that are known not to be free.
+  // mm: if the point that is deepest in the balls is not known exactly enough to decide, it is located once
+  // more to this accuracy. 0: it is not. Use it if the balls are known not to be free.
   double proof = 0.0;
-  // mm: at a silhouette, where a side that looks down turns up on no more than a strip this wide, the strip
-  // does not count.
+  // mm, for rectangles on a silhouette: if one side of the surface looks up only on a strip that is no wider
+  // than this, the side counts as one that looks down.
   double narrow = 0.0;
 };
 
-// Surface points in the ball's way, for either side of the surface. A rectangle's serve its parts too.
+// For each side of the surface: a surface point that is in the way of all balls over a rectangle, if one is
+// known. It is in the way over all parts of the rectangle, too.
 using Blockers = std::array<std::optional<SurfacePoint>, 2>;
 
-// For either side of the surface: true if no ball there counts, as the caller knows.
+// For each side of the surface: true if the caller knows that balls on it need not be examined.
 using SidesRuledOut = std::array<bool, 2>;
 
-// Returns true if no ball centred over the rectangle is free. On each side of the surface one of these holds:
-// the side looks down, all centres are below the floor, or one surface point lies deeper than
-// `params.reach_tolerance` in all the balls (by distance to the upward ray, so that the shank counts). The
-// distance of a surface point to the upward ray is convex in the centre, hence largest at the corners of what
-// the centres span. How far centres leave that span is estimated from the nine places (second order, twice).
-// `blockers` are tried first and replaced by the deepest points.
+// Returns true if no ball that touches the rectangle is free. On each side of the surface one of three
+// conditions must hold: the side looks down; all centres are below the floor; one surface point is deeper
+// than `params.reach_tolerance` in every ball or its upward sweep. The third is decided by [regions T15]: the
+// distance of a surface point from the upward ray is convex in the centre, so over the hull of the four
+// corners' centres it is largest at a corner. How far the other centres leave this hull is estimated from the
+// nine places, as twice the second-order term (BendOver). `blockers` are tried first, and are replaced by the
+// points found.
 bool OutOfReach(const Surface& surface, const RectPlaces& at, const CellReachParams& params,
                 Blockers& blockers, const SidesRuledOut& ruled_out = {});
 

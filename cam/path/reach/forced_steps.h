@@ -19,11 +19,11 @@ struct BallFinish {
   double scallop = 0.0;  // mm, (0, radius)
 };
 
-// Returns the step these passes need at a surface point, measured as they are spaced (level heights, or
-// offsets of lines in plan), as a fraction of the flat step-over. It is CenterStep across the feed times what
-// the spacing sees of it ([spacing (7), (8)]: sin(slope) for levels, cos(phi) for lines). `e` is the unit
-// normal, e_z >= 0. The result is 1 when nothing is forced, and 0 where no step will do (horizontal surface
-// under contours, surface as concave as the ball).
+// Returns the spacing that these passes need at a surface point, in flat step-overs. The spacing of levels is
+// measured in height, that of lines in plan: it is CenterStep across the feed times sin(slope) for levels
+// [spacing (7)], times cos(phi) for lines [spacing (8)], phi being the angle of the surface across the feed.
+// `e` is the unit normal, e_z >= 0. The result is 1 if nothing is forced. It is 0 where no spacing is small
+// enough: on a horizontal surface under contours, and where the surface is as concave as the ball.
 double NeededStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, const BallFinish& ball);
 
 // Returns the wider of the steps that the two sides of a vertical face need; elsewhere NeededStep.
@@ -33,15 +33,16 @@ double NeededStepOfSides(const ForcedSteps& forced, const SurfaceJet& jet, const
 // ([regions (8)]). Its relative error is some scallop / radius.
 double NeededFineStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, double radius);
 
-// Returns what passes leave (mm) whose step, measured as they are spaced, is `fraction` of the flat
-// step-over, on the better side of a vertical face. It is `scallop` where that step suffices and more where a
-// shorter one is needed; infinity where no step will do.
+// Returns what passes leave (mm) whose spacing, measured as in NeededStep, is `fraction` flat step-overs. It
+// is ball.scallop where that spacing suffices, more where a smaller one is needed, and infinity where none is
+// small enough. On a vertical face it is the better value of the two sides.
 double LeftByStep(const ForcedSteps& forced, const SurfaceJet& jet, const Vec3& e, const BallFinish& ball,
                   double fraction);
 
-// Returns true if the needed step is below `fraction` all over the rectangle, on every side of it that looks
-// up somewhere, judged by nine places (second order, twice). Each side is judged by itself: where a
-// silhouette crosses the rectangle the needed step jumps from the curvature of one side to that of the other.
+// Returns true if NeededStep is below `fraction` all over the rectangle, on each side of the surface that
+// looks up somewhere in it. This is judged by nine places, with twice the second-order term as margin
+// (BendOver). Each side is judged by itself, because at a silhouette the needed step jumps from the curvature
+// of one side to that of the other.
 bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const SurfaceRect& rect,
                        const BallFinish& ball, double fraction);
 
