@@ -17,12 +17,12 @@ namespace patchmill {
 // rad, in plan: lines within this angle of a border run along it.
 inline constexpr double kAlongBorder = 0.35;
 
-// Returns passes along those stretches of `borders` that zig-zag lines leave unfinished. Other passes in
-// `paths` are ignored. A stretch is unfinished if the nearest line, at most two flat step-overs away, runs
-// along the border (kAlongBorder), and if somewhere on the stretch no line is within 0.55 flat step-overs.
-// Stretches shorter than four flat step-overs get no pass; neither do places at which the ball cannot touch
-// the border (creases, undercuts). Passes are certified to params.chord_tolerance, as lines are. They come in
-// the order of the borders. Deterministic, parallel over the borders.
+// Returns passes along those stretches of `borders` that `paths` leave unfinished beside zig-zag lines. On
+// such a stretch the nearest zig-zag line is at most two flat step-overs away and runs along the border
+// (kAlongBorder), and somewhere no pass of any kind is within 0.55 flat step-overs. Stretches shorter than
+// four flat step-overs get no pass; neither do places at which the ball cannot touch the border (creases,
+// undercuts). Passes are certified to params.chord_tolerance, as lines are. They come in the order of the
+// borders. Deterministic, parallel over the borders.
 absl::StatusOr<std::vector<CutterPath>> BorderPasses(const Locator& locator,
                                                      const std::vector<BorderCurve>& borders,
                                                      const std::vector<CutterPath>& paths,

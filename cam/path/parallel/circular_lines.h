@@ -1,4 +1,5 @@
-// Circular lines return to their start. A stretch that is found along more than one turn counts once.
+// Circular lines return to their start. They are sampled over more than one turn, and what is found twice is
+// removed.
 #pragma once
 
 #include <vector>
@@ -9,14 +10,15 @@
 
 namespace patchmill {
 
-// Returns where circular lines are looked for: `margin` (mm) beyond what is wanted, and a little more than
-// one full turn from t = 0 on, so that no stretch is cut off where t begins again. `flat`: the flat
-// step-over, mm.
+// Returns the range of y and t in which circular lines are sampled. y reaches `margin` (mm) beyond the radii
+// of `around`. t runs from 0 over a little more than one full turn, so that a stretch across t = 0 is found
+// in one piece. `flat`: the flat step-over, mm.
 FrameExtent ExtentOfCircles(const CircularLines& around, double margin, double flat);
 
-// Returns each stretch of a circular line once. The line was looked at over `looked`, which is `once` (a full
-// turn) or more. Stretches are cut where `looked` is no longer than `once`. If all of the line is kept, the
-// result is one stretch from 0 to `once`.
+// Returns the stretches `keep` of a circular line without those that were found twice. The line was sampled
+// over the interval `looked` of t; `once` is the length of a full turn in t. If `looked` is no longer than
+// `once`, stretches stay cut at its ends. If the whole circle is kept, the result is one stretch from 0 to
+// `once`.
 std::vector<Interval> RemoveOverlapTurn(const std::vector<Interval>& keep, const Interval& looked,
                                         double once);
 
@@ -24,8 +26,8 @@ std::vector<Interval> RemoveOverlapTurn(const std::vector<Interval>& keep, const
 // within `sagitta` (mm) of the circle. After a whole turn the last place equals the first to the bit.
 std::vector<Vec2> ArcPlaces(const LineFrame& frame, double y, const Interval& t, double sagitta);
 
-// Joins the runs of a whole turn that meet where it begins and ends. Returns true if there is only one run
-// and it closes; its last point is dropped then.
+// For the runs of a full turn: joins the last run to the first one if they meet at the start of the turn.
+// Returns true if there is only one run and it closes; then its last point, which is its first, is dropped.
 bool CloseAround(double certificate_gap, std::vector<ScanRun>& runs);
 
 }  // namespace patchmill

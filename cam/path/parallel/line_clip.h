@@ -1,5 +1,5 @@
-// Finds which parts of a zig-zag line are passes: contacts in the slope window, dilated by half a step along
-// the line and across it, cut at open edges.
+// Finds which parts of a zig-zag line are passes: those with a wanted contact (LineProbe::wanted), or with a
+// wanted place within half a step along the line or across it. They end at open edges.
 #pragma once
 
 #include <vector>
@@ -14,9 +14,9 @@ struct Interval {
 
 struct ClippedLine {
   LineShape line;
-  double rank = 0.0;              // rises from line to line, the same for parts of one line
+  double rank = 0.0;              // order of the lines: rises with y; parts of one line have the same rank
   std::vector<Interval> keep;     // of t, disjoint, rising; ends on window or edge limits solved to 1e-9 mm
-  std::vector<LineProbe> probes;  // the stations, rising in t; their needs decide whether a neighbour is near
+  std::vector<LineProbe> probes;  // the stations, rising in t; FillGap reads their needs
 };
 
 // Stations are at most about 0.6 flat step-overs apart in plan and 1.2 in space (where the curve is

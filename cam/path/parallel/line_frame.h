@@ -5,7 +5,7 @@
 
 namespace patchmill {
 
-// Circular lines: circles around a place in plan, where something is wanted between two distances from it.
+// The circles around a place in plan with radii from `inner` to `outer`, along which an area is cut.
 struct CircularLines {
   Vec2 center = Vec2::Zero();
   double inner = 0.0, outer = 0.0;  // mm, 0 <= inner < outer
@@ -16,9 +16,10 @@ struct CircularLines {
 // Flat step-overs: largest distance between a circle and the chords along which it is cut.
 inline constexpr double kCircleSagitta = 0.01;
 
-// Straight: lines are parallel, and y is to their left. Round: y is the distance from a place, and t the way
-// around it, counter-clockwise from +x, in mm at the distance `at`; both repeat after period(). In either
-// case two lines of constant y are as far apart in plan as their y.
+// A line is given by y over t, both in mm. In a straight frame lines of constant y are parallel; t runs along
+// them and y to their left. In a round frame (CircularLines) they are circles: y is the radius, and t is the
+// angle, counter-clockwise from +x, times the fixed radius `at`; t repeats after period(). In either frame
+// the distance in plan between two lines of constant y is the difference of their y.
 class LineFrame {
  public:
   static LineFrame At(double angle);
@@ -36,7 +37,7 @@ class LineFrame {
 
  private:
   Vec2 along_ = Vec2::UnitX(), center_ = Vec2::Zero();
-  double at_ = 0.0;  // mm; 0: straight
+  double at_ = 0.0;  // mm: radius at which t is measured; 0: straight frame
 };
 
 }  // namespace patchmill

@@ -7,9 +7,9 @@
 
 namespace patchmill {
 
-// Divides the gap between two lines within this range of t, stretch by stretch, into as many parts as it
-// needs. The new lines may need more. Appends them to `out`. The result is meaningless once the prober is
-// cancelled.
+// Appends to `out` the partial lines between two neighbouring lines, within this range of t. Each stretch of
+// the gap is divided into as many parts as the surface needs there. Gaps beside the new lines are divided
+// again where they are still too wide. The result is meaningless once the prober is cancelled.
 void FillGap(const LineProber& prober, const ClippedLine& a, const ClippedLine& b, const Interval& within,
              std::vector<ClippedLine>& out);
 

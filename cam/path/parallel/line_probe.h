@@ -1,4 +1,4 @@
-// What a zig-zag line needs to know about one place: may the ball be there, and how far may the next line be?
+// Examines a place of a zig-zag line: may the ball be there, and how far away may the next line be?
 #pragma once
 
 #include <optional>
@@ -19,32 +19,32 @@ struct LineProbe {
   double t = 0.0;
   Vec3 center = Vec3::Zero();
   std::optional<SurfacePoint> contact;  // absent: h does not exist here, or the floor carries the ball
-  bool allowed = false;                 // h exists, and the ball does not roll off an open edge
-  bool wanted = false;                  // allowed and touching, with the slope in the window and the contact
-                                        // in the part
-  bool finishes = false;                // wanted, and the ball does more than roll over an edge
-  double need = kInfinity;              // mm: largest distance in y to the next line that keeps the scallop
-  double half_step = 0.0;               // mm on the centre surface, half the step across the line
-  double lateral = 0.0;                 // mm, the same in y
+  bool allowed = false;  // h exists, and the edge rule allows the contact (SheetBorder::Allowed)
+  // Allowed, the ball touches the surface, the slope is in the window and the contact in the part.
+  bool wanted = false;
+  bool finishes = false;    // wanted, and the ball touches a face or an open edge, not only a crease
+  double need = kInfinity;  // mm in y: largest distance to the next line that keeps the scallop
+  double half_step = 0.0;   // mm on the centre surface: half of the centre step across the line
+  double lateral = 0.0;     // mm in y: half_step as the distance between lines
 
   bool exists() const { return half_step > 0.0; }
 };
 
 struct LineProbeParams {
   PassParams pass;
-  const OperationLimits* part = nullptr;  // a contact is wanted only where it wants it; null: everywhere
-  const SurfaceMask* where = nullptr;     // and only where it holds it; null: everywhere
+  const OperationLimits* part = nullptr;  // only contacts that it wants are wanted; null: all
+  const SurfaceMask* where = nullptr;     // and only contacts on it; null: all
 };
 
-// Probes places along and beside lines of one frame. Once `run` is cancelled rows end early and are
-// meaningless. Thread-safe.
+// Probes places of lines of one frame. Once `run` is cancelled rows end early and are meaningless.
+// Thread-safe.
 class LineProber {
  public:
   LineProber(const Locator& locator, const SheetBorder& border, const LineFrame& frame,
              const LineProbeParams& params, const RunContext& run);
 
-  // Probes a line that runs at `slope` (dy/dt) through the place. Cost: one exact height and one surface
-  // evaluation. `hint` is a contact nearby.
+  // Probes the place (t, y) of a line that has the slope dy/dt = `slope` there. Cost: one exact height and
+  // one surface evaluation. `hint` is a contact nearby, which saves time.
   LineProbe Probe(double t, double y, double slope, const SurfacePoint* hint = nullptr) const;
   // Probes count + 1 places of one line, evenly spaced from t0 to t1, both included. Heights are computed in
   // vector lanes.
@@ -53,7 +53,7 @@ class LineProber {
   bool Cancelled() const { return run_.Cancelled(); }
   double radius() const { return locator_.radius(); }
   double flat_step() const { return flat_step_; }
-  // mm: lines come no nearer to each other, whatever the scallop needs.
+  // mm: no lines lie closer together than this, whatever the scallop needs.
   double min_step() const { return params_.min_step_fraction * flat_step_; }
   const LineFrame& frame() const { return frame_; }
 

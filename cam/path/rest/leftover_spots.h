@@ -17,16 +17,18 @@ struct LeftoverSpot {
   Vec3 normal = Vec3::UnitZ();  // towards the ball that finishes it
   Vec3 center = Vec3::Zero();   // at.p + R normal, or straight above it on the floor
   double leftover = 0.0;        // mm, at most the ball radius
-  SurfaceRect rect;             // the rectangle it stands for, at most half a flat step-over wide
+  SurfaceRect rect;  // the part of the surface that the spot represents, at most half a flat step-over wide
 };
 
-// Shares of params.tolerance and of ReachTolerance by which the search exceeds its task, so that it ends. A
-// place called covered may exceed the limit by the first, a spot may be out of reach by the second.
+// Margins of the search, without which it would not end. A place that is called covered may have more
+// leftover than the limit, by kProofMargin of params.tolerance. A place that is called a spot may be out of
+// reach, by kReachMargin of the reach tolerance.
 inline constexpr double kProofMargin = 0.1;
 inline constexpr double kReachMargin = 0.05;
 
-// Returns a locator for the smaller ball that is free wherever a point counts as reachable, or nearly so.
-// FindSpots uses it.
+// Returns a locator of the ball with which FindSpots tests reach: smaller than the tool's ball by (1 +
+// kReachMargin) ReachTolerance(params.tolerance). Where it is free the point counts as reachable, up to that
+// margin.
 absl::StatusOr<Locator> ReachLocator(const Locator& locator, const RestPassParams& params,
                                      const RunContext& run);
 
@@ -36,17 +38,20 @@ struct RestLocators {
   const Locator& reach;
 };
 
-// Halves the given rectangles until each is proven covered (up to the limit and params.margin), is proven out
-// of reach (OutOfReach), or stands for a spot. At a spot the middle exceeds the limit, and a ball of radius -
-// (1 + kReachMargin) ReachTolerance is free at p + R e, with the tip not below the floor ([regions (6)]). One
-// of the two margins always decides a small rectangle. The search ends at 0.2 % of the flat step-over. Where
-// no pass is near, the corners of such a rectangle are tested too, so that reachable islands narrower than
-// that are found if they lie along one. With params.removed only places count that those moves finished up to
-// the limit and left less of. With params.operation_limits only wanted points at allowed centres are spots;
-// along its limits the search ends at 5 % of the flat step-over.
-//   Covered: the distance of a hull to a segment is largest at its vertices, so a rectangle is covered when
-//   all its control points lie within R + limit of one move (for zero-weight points see [location T10]).
-// Deterministic, parallel. `trees`: all passes, in any number of trees.
+// Finds the spots on the given rectangles. Each rectangle is halved until one of three is true of each part:
+// - Covered: the leftover is proven to be at most the limit plus params.margin. All control points lie within
+//   R + limit of one move; the distance of a convex hull from a segment is largest at a vertex of the hull
+//   (points of weight zero: [location T10]).
+// - Out of reach, as proven by OutOfReach.
+// - A spot: at its middle p the leftover exceeds the limit, and the ball of ReachLocator is free at p + R e
+//   with its tip not below the floor [regions (6)].
+//
+// Because of the margins of covered and of reach a small rectangle is always decided. The search ends at
+// rectangles of 0.2 % of the flat step-over. If no pass is near such a rectangle its corners are tested, too;
+// so a narrower reachable island is found if it contains a corner. With params.removed a place is a spot only
+// if the removed moves had finished it up to the limit and left less of it. With params.operation_limits only
+// wanted points whose centres are allowed are spots; along those limits the search ends at 5 % of the flat
+// step-over. `trees` hold all passes, in any number of trees. Deterministic, parallel.
 absl::StatusOr<std::vector<LeftoverSpot>> FindSpots(const RestLocators& locators,
                                                     const std::vector<const SegmentTree*>& trees,
                                                     const std::vector<SurfaceRect>& rects,

@@ -17,14 +17,14 @@ struct PencilPoint {
   SurfacePoint first, second;
 };
 
-// Returns the kink of h nearest to q within `reach` (mm). It is looked for along two crossing lines through
-// q. Returns nothing where the directions of its contacts differ by less than 0.1 rad, or once `run` is
-// cancelled.
+// Returns the centre nearest to q, within `reach` (mm) in plan, at which the ball touches both sides of a
+// crease: a kink of the centre height h. It is searched along two crossing lines through q. nullopt if there
+// is none, if the directions to the two contacts differ by less than 0.1 rad, or once `run` is cancelled.
 std::optional<PencilPoint> FindPencilPoint(const Locator& locator, const Vec2& q, double reach,
                                            const PassParams& params, const RunContext& run);
 
-// How far a crease is followed: while `center` holds for the centres, and through at most `patience` (mm)
-// where it does not.
+// How far a crease is followed: as long as `center` is true of the centres, and past stretches of at most
+// `patience` (mm) on which it is false.
 struct PencilWanted {
   std::function<bool(const Vec3&)> center;
   double patience = 0.0;

@@ -13,23 +13,25 @@
 
 namespace patchmill {
 
-// Multiple of the scallop that the requested finish may leave where passes are removed. Two neighbouring
-// passes leave as much anywhere (pass_params.h).
+// Scallops: removal may raise the leftover up to this. Two neighbouring passes may leave as much anywhere
+// (pass_params.h).
 inline constexpr double kRedundantLimit = 1.045;
-// Ball radii: shortest stretch that is worth removing at the end of an open pass, and elsewhere, where a link
-// has to cross the gap.
+// Ball radii: the shortest stretch that is removed at an end of an open pass, and in its middle, where a link
+// must then cross the gap.
 inline constexpr double kMinRemovedAtEnd = 2.0, kMinRemovedBetween = 8.0;
 
-// Returns the passes without the redundant parts, in their order. A pass that loses a stretch becomes one or
-// two others. A stretch is a candidate if, at every point across it to where its neighbours would finish,
-// another pass lies within half the step for the scallop there, or if another pass runs close beside it. Of
-// two that make each other redundant the shorter is removed. A pass stays that finished a place which would
-// exceed kRedundantLimit scallops without it; FindSpots, with RestPassParams.removed, checks the surface near
-// it. A pass also stays that is needed for the limit of `parts`, which is kept as well as RestPaths keeps it.
-// `parts` are as for RestPaths, one for the whole selected surface or more; candidates are judged by the
-// finest scallop of all. `reach` is the ReachLocator of their tolerance. Spirals stay whole. Cost: about one
-// query per chord and per two flat step-overs of pass, eight times as many on candidates, and FindSpots near
-// what is removed.
+// Returns the passes without their redundant parts, in their order [spacing, section 8]. A pass that loses a
+// stretch becomes one or two passes. A stretch is a candidate in two cases: if every point beside it, as far
+// as its neighbours would finish, has another pass within half the step for the scallop; or if another pass
+// runs close beside the stretch. If two stretches make each other redundant, the shorter one is removed.
+//
+// Two conditions are checked with FindSpots (RestPassParams::removed) near what was removed, and passes that
+// they need are restored. No place that a removed pass had finished may now have more than kRedundantLimit
+// scallops left. And the limit of `parts` holds wherever it held before, as RestPaths keeps it. `parts` are
+// those of RestPaths: one for the whole selected surface, or several; the finest scallop of all decides what
+// is a candidate. `reach` is the ReachLocator of their tolerance. Spirals stay whole. Cost: about one query
+// for each chord and for every two flat step-overs of pass, eight times as many on candidates, and FindSpots
+// near what is removed.
 absl::StatusOr<std::vector<CutterPath>> RemoveRedundantPasses(const Locator& locator, const Locator& reach,
                                                               std::vector<CutterPath> paths,
                                                               const std::vector<RestPassParams>& parts,

@@ -1,5 +1,5 @@
-// Rest passes close the loop on [verification P2] while planning. They finish the places where passes would
-// leave more than the scallop.
+// Makes rest passes, which finish the places where the other passes leave more than the scallop. So the
+// planner keeps [verification P2] before the verifier measures it.
 #pragma once
 
 #include <optional>
@@ -20,19 +20,20 @@ namespace patchmill {
 struct RestPassParams {
   PassParams pass;
   double limit = 0.02;      // mm: a reachable point with more leftover than this is a spot to finish
-  double tolerance = 0.01;  // mm: the whole budget; cam/limits/reach_tolerance.h says what is reachable
-  // mm: a place called covered may exceed the limit by this; absent: kProofMargin of the tolerance.
+  double tolerance = 0.01;  // mm: the whole error budget; ReachTolerance of it decides what is reachable
+  // mm: the leftover of a place that is called covered may exceed the limit by this. Absent: kProofMargin of
+  // the tolerance.
   std::optional<double> margin;
-  ForcedSteps forced;  // surface that needs shorter steps than min_step_fraction of these is left
+  ForcedSteps forced;  // surface that needs steps below min_step_fraction of these passes gets no rest passes
   int max_rounds = 6;
   const OperationLimits* operation_limits = nullptr;  // what is wanted and allowed; null: everything
-  // For FindSpots only (RemoveRedundantPasses). These are moves that are not passes any more. Only places
-  // count that they finished, and of which they left less by more than `removed_margin` (mm). Null: all
-  // places count.
+  // For FindSpots when called by RemoveRedundantPasses: the moves that were removed. Only places that they
+  // had finished count as spots, and only if they had left at least `removed_margin` (mm) less than the other
+  // passes leave. Null: all places count.
   const SegmentTree* removed = nullptr;
   double removed_margin = 0.0;
-  // Where both leave too much, only the middles and corners of rectangles of a quarter of the flat step-over
-  // are tested.
+  // For the same call: where removed and remaining moves both leave more than the limit, test only the
+  // middles and corners of rectangles of a quarter of the flat step-over.
   bool coarse_where_both_exceed = false;
 };
 

@@ -9,18 +9,23 @@
 
 namespace patchmill {
 
-// The kinds of passes. kCentersOnly is for spots where the limits of the operation leave none of the other
-// kinds, which run beside the centres of the spots themselves (say, along a forbidden crease).
+// Which kinds of passes are tried. kPencilRidgeLevel: all kinds, in the order below. kCentersOnly: only
+// passes from free centre to free centre, and plunges. Use it for spots at which the limits of the operation
+// left nothing of the other kinds, for example beside a crease that is forbidden.
 enum class RestMethod { kPencilRidgeLevel, kCentersOnly };
 
-// Makes one pass after the other, from the worst spot on. A pass runs along the crease at which the spot
-// lies; else, on gentle slopes, along the ridge of spots around it (scan lines between their centres); else,
-// on walls, along the level through it; else from free centre to free centre of the spots around it. A spot
-// that none of these reaches gets a plunge from above, from where the open spots over it end. Where the ball
-// has no room (slots, holes of its own size) only free centres and plunges are left; they may gouge by a
-// tenth of params.chord_tolerance. Only the parts of a pass that params.operation_limits allows are kept
-// (ClipToLimits) and count. Spots that a pass finishes on its way need no pass of their own. Every pass is
-// certified to params.chord_tolerance.
+// Returns passes that finish the spots, from the worst spot on. For each spot these kinds are tried in this
+// order:
+// - a pencil pass, if the spot lies at a re-entrant crease;
+// - on gentle slopes, scan lines along the ridge of spots around it, from centre to centre;
+// - on walls, the waterline through it;
+// - a pass from free centre to free centre of the spots around it;
+// - a plunge from above. It starts above the open spots that lie over the spot.
+//
+// Where the ball has no room (slots, holes of its own size) only the last two kinds can reach the spot; they
+// may gouge by a tenth of params.chord_tolerance. Passes are clipped to params.operation_limits
+// (ClipToLimits). A spot that an earlier pass finishes gets no pass of its own. Every pass is certified to
+// params.chord_tolerance.
 absl::StatusOr<std::vector<CutterPath>> RestPassesAt(const Locator& locator,
                                                      const std::vector<LeftoverSpot>& spots,
                                                      const RestPassParams& params, RestMethod method,
