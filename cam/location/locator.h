@@ -84,37 +84,39 @@ class Locator {
   std::optional<CertifiedCenter> CertifiedHeight(const Vec2& q, double eps,
                                                  const SurfacePoint* hint = nullptr) const;
 
-  // The local maximum of g over the neighbourhood of `from` (same smooth branch, across patch borders): the
-  // place to which the contact moves when the tool moves to q. nullopt if the branch ends (the contact leaves
-  // the disc |p_xy - q| <= R).
+  // Returns the place to which the contact `from` moves when the tool moves to q: the local maximum of g_p(q)
+  // = p_z + sqrt(R^2 - |p_xy - q|^2) over the surface points p of the same branch of the surface, across
+  // borders of patches. nullopt if the branch ends, because the contact leaves the disc |p_xy - q| <= R.
   std::optional<CenterPoint> Follow(const SurfacePoint& from, const Vec2& q) const;
 
-  // True iff a ball (and everything above it) centred at c is free: h(c_xy) <= c_z + slack. Ends early, so
-  // cheaper than Height. Proven like Height: to `gap` and to what rounding explains, except for the rare
-  // place where 20,000 parts do not suffice.
+  // True iff the ball at the centre c is free with its upward sweep: h(c_xy) <= c_z + slack (mm). It ends at
+  // the first contact, so it costs less than Height. Proven like Height: up to `gap` (mm) and rounding,
+  // except for the rare place where 20,000 parts do not suffice.
   bool Free(const Vec3& c, double slack = 0.0, double gap = kProofGap) const;
 
-  // The same with proof. Returns a lift (mm) after which the ball is proven free: at most eps as for
-  // CertifiedHeight, or what is left. nullopt if the ball is not free.
+  // The same with proof. Returns the height (mm) by which the ball must be lifted to be proven free. It is at
+  // most `eps` as for CertifiedHeight; if 20,000 parts do not suffice, it is larger. nullopt if the ball is
+  // not free.
   std::optional<double> CertifiedFree(const Vec3& c, double eps) const;
 
-  // An upper bound of h over the places within `half_width` (>= 0) of the rectangle with corners a and b and
-  // sides along x and y. It is within about `slack` of the true maximum, and -infinity if there is no
-  // surface. At this height a control may go from a to b one axis before the other.
+  // Returns an upper bound (mm) of h over a rectangle in plan with opposite corners a and b and sides along x
+  // and y, widened by `half_width` (mm, >= 0). It exceeds the true maximum by about `slack` (mm) at most.
+  // -infinity if there is no surface. At this height of the centre a control may move from a to b one axis
+  // after the other.
   double MaxHeight(const Vec2& a, const Vec2& b, double half_width, double slack = 0.1) const;
 
-  // Largest penetration of the surface into the ball of radius R that moves straight from a to b, swept
-  // upward: the maximum over surface points p of R - distance(p, swept set), positive part. A certified upper
-  // bound, exact to `eps`. Used to merge flat stretches.
+  // Returns the gouge (mm) of the straight move from a to b: the largest value, over the surface points p, of
+  // R - distance(p, K), positive part, where K is the segment a b with everything above it. A proven upper
+  // bound, exact to `eps` (mm).
   double SweptGouge(const Vec3& a, const Vec3& b, double eps) const;
 
-  // True if that gouge is proven to be at most `limit`, false if it is above limit - eps. Much cheaper than
-  // the value, because parts well below the limit are never divided.
+  // True proves that SweptGouge is at most `limit` (mm); false means that it is above limit - eps. Much
+  // cheaper than SweptGouge, because parts of the surface that stay well below the limit are never divided.
   bool GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps) const;
 
-  // The certificate of a centre that was found in another way, along a contour. nullopt if it is free as it
-  // is, proven to `gap` (CertifiedFree) and to the 1e-9 mm to which such centres are known. Otherwise the
-  // height that it should have had, which is above it. This counts as a defect.
+  // Checks a centre c that was found without this class, along a contour. nullopt if c is proven free to
+  // `gap` (CertifiedFree) and to 1e-9 mm, the accuracy of such centres. Otherwise returns the certified
+  // height over c_xy, which is above c_z, and counts a defect.
   std::optional<CertifiedCenter> Correction(const Vec3& c, double gap,
                                             const SurfacePoint* hint = nullptr) const;
   // The number of centres that Correction had to raise. Tests demand 0.

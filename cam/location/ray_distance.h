@@ -1,5 +1,5 @@
-// The ball with everything above it, seen from the surface. A point p lies in its way iff the distance from p
-// to the upward ray {c + s e_z, s >= 0} is less than R ([location T1]).
+// Distances from surface points and boxes to the upward ray {c + s e_z, s >= 0} of a centre c. A point is in
+// the way of ball or upward sweep iff its distance from the ray is less than R ([location T1]).
 #pragma once
 
 #include <algorithm>

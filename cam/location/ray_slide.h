@@ -1,10 +1,8 @@
-// A surface point that slides over its piece towards an upward ray. It finds the deepest point of one branch
-// under a ball with everything above it.
-//
-// Where a wall is steep, h says little about how far the ball is in the way: its contact, the highest one,
-// lies far up, and the disc of the contact ends at once. The point nearest to the upward ray
-// {c + s e_z, s >= 0} is the deepest one. Its distance is well conditioned for every slope ([location T1],
-// [location, section 10]).
+// A surface point that slides over its piece towards the upward ray {c + s e_z, s >= 0} of a centre c. So it
+// finds the point of one branch of the surface that is deepest in the ball or its upward sweep: the point
+// nearest to the ray. Its distance from the ray is well conditioned for every slope ([location T1],
+// [location, section 10]). The contact at the centre height h is not: on a steep wall it lies far up, and a
+// small sideways move of the ball changes it much.
 #pragma once
 
 #include "core/surface/surface.h"

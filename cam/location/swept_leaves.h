@@ -1,4 +1,5 @@
-// Finds the leaves that may lie in the way of a straight move: the proof of GougeWithin, leaf by leaf.
+// The proof of Locator::GougeWithin, leaf by leaf: finds the leaves of the surface that may be in the way of
+// a straight move.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,8 @@ namespace patchmill::internal {
 struct SweptMove {
   const Vec3 &a, &b;
   double distance;  // mm, > 0
-  double spare;     // mm, what [location T2a] may lose of the distance
+  double
+      spare;  // mm: accuracy; intervals of the move are not halved once [location T2a] loses less than this
 };
 
 // Collects in `open` the leaves that are not proven to stay at least move.distance away from the move with

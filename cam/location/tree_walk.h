@@ -29,11 +29,12 @@ struct WalkedBalls {
   WalkLimits limits;
 };
 
-// Calls visit(leaf), until it returns false, for every leaf that may be in the way of a ball over balls.at
-// (and everything above it) at height lowest(). The test for boxes is plan distance^2 + max(0, lowest -
-// max_z)^2 < limits.square. Box and half-space of the leaf and of all nodes above it must reach into the
-// way. `lowest` may rise from call to call. meets(node, k) says whether child k of the node, which passed
-// these tests, is wanted.
+// Calls visit(leaf), until it returns false, for every leaf that may be in the way of a ball or its upward
+// sweep. The centres of the balls lie over balls.at, at heights of lowest() (mm) or more; lowest() may rise
+// from call to call. A leaf is visited if box and half-space of the leaf and of all nodes above it pass two
+// tests. The box: (distance in plan)^2 + max(0, lowest - max_z)^2 < limits.square. The half-space: some
+// centre over balls.at at the height lowest() is no higher above its plane than limits.radius. Of the
+// children that pass, only those for which meets(node, k) is true (child k of the node) are followed.
 template <class Lowest, class Meets, class Visit>
 void WalkTree(const SearchTree& tree, const WalkedBalls& balls, const Lowest& lowest, const Meets& meets,
               const Visit& visit) {

@@ -1,4 +1,4 @@
-// How near a part of the surface is. Used for passes that overrun its border.
+// Tells whether a place is near a part of the surface, for passes that overrun the border of the part.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,17 @@
 
 namespace patchmill {
 
-// Balls around the cells along the border of a mask, in a tree. The sides of a piece count as border.
-// Thread-safe.
+// Keeps balls around the cells along the border of a mask, in a tree. Cells at the sides of a piece count as
+// border cells. Thread-safe.
 class MaskProximity {
  public:
   // Cost: nine surface points per cell of the border. CANCELLED and DEADLINE_EXCEEDED from `run`.
   static absl::StatusOr<MaskProximity> Make(const Surface& surface, const SurfaceMask& mask,
                                             const RunContext& run);
 
-  // Whether some point of these cells may lie within `distance` (mm) of p. True is exact up to the size of a
-  // cell. False assumes that no cell reaches beyond nine of its points by more than a tenth of their span.
+  // True if a point of the mask's border cells may lie within `distance` (mm) of p. It may be true although
+  // the border is farther away, by the size of a cell at most. False relies on an assumption: no cell reaches
+  // beyond its nine sample points by more than a tenth of their span.
   bool Within(const Vec3& p, double distance) const;
 
  private:

@@ -45,7 +45,7 @@ class OperationLimits {
   bool HasPart() const { return part_ != nullptr; }
   bool WantsAll() const { return part_ == nullptr && containment_->WantsAll(); }
   bool AllowsAll() const { return containment_->AllowsAll() && shanks_.empty(); }
-  // True if something is forbidden beside the part.
+  // True if there are areas beside the part that are closed to the tool.
   bool HasBeside() const { return !containment_->beside.empty(); }
   // True if a shank wider than the ball may touch the surface from some centre.
   bool HasShank() const { return !shanks_.empty(); }
@@ -66,7 +66,7 @@ class OperationLimits {
   bool TooHigh(double center_z) const;
   // True if a finishing ball may be centred at c.
   bool Allows(const Vec3& c) const { return AllowsBall(c) && ShankClears(c, c, 0.0); }
-  // True if a finishing ball could be centred at c if nothing were forbidden beside the part.
+  // As Allows, but without the limits beside the part.
   bool AllowsBesidePart(const Vec3& c) const {
     return OutlineRoom(c) >= 0.0 && !TooHigh(c.z()) && ClearOfAvoided(c, c) && ShankClears(c, c, 0.0);
   }
@@ -80,9 +80,10 @@ class OperationLimits {
   // than c. On a flat surface a shank forbids large areas even if it is only slightly in the way.
   bool Forbids(const Vec3& c, double radius, double above) const;
   bool Forbids(const Vec3& c, double radius) const { return Forbids(c, radius, radius); }
-  // The centre height from which on the tool may be anywhere over the rectangle with corners a and b and
-  // sides along x and y. It considers obstacles, avoided patches and what lies beside the part, and is some
-  // mm higher where obstacles have hollows. -infinity means any height.
+  // Returns the height of the centre (mm) from which on the tool may be anywhere over a rectangle in plan
+  // with opposite corners a and b and sides along x and y. Obstacles, avoided patches and the areas beside
+  // the part count. It may be some mm too high where the outline of an obstacle is hollow. -infinity: any
+  // height is allowed.
   double ClearHeight(const Vec2& a, const Vec2& b) const;
   // True if the centre may feed straight from a to b: every place of the move is allowed, up to half the
   // tolerance. With `finishing`, top_z holds, too.
@@ -91,10 +92,12 @@ class OperationLimits {
  private:
   OperationLimits() = default;
   Vec3 Tip(const Vec3& c) const { return c - Vec3(0.0, 0.0, params_.ball_radius); }
-  double OutlineRoom(const Vec3& c) const;           // of boundary and obstacles
-  double MoveRoom(const Vec3& c) const;              // of what lies beside the part, too
-  double Room(const Vec3& c) const;                  // of top_z, too
-  bool HasRoom(const Vec3& a, const Vec3& b) const;  // by MoveRoom
+  // Room (containment.h, mm) of the centre c inside boundary and obstacles. MoveRoom: the areas beside the
+  // part, too. Room: top_z, too.
+  double OutlineRoom(const Vec3& c) const;
+  double MoveRoom(const Vec3& c) const;
+  double Room(const Vec3& c) const;
+  bool HasRoom(const Vec3& a, const Vec3& b) const;  // all along the move a b, by MoveRoom
   bool ClearOfAvoided(const Vec3& a, const Vec3& b) const;
   bool ShankClears(const Vec3& a, const Vec3& b, double allowed_penetration) const;
   double LimitTolerance() const { return 0.5 * params_.tolerance; }

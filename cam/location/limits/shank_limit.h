@@ -1,4 +1,4 @@
-// Where a shank that is wider than the ball is clear of a surface. This is a limit of the ball's centre.
+// The limit that a shank wider than the ball sets to the centre: the shank must stay clear of a surface.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,14 @@
 
 namespace patchmill {
 
-// The depth of the shank over a centre c in the surface is that of the deepest point p. A point at the
-// distance d from the axis in plan has the depth min(radius - d, p_z - c_z - rise). If c moves by some mm,
-// the depth changes by no more.
+// With the centre at c, a surface point p at the distance d from the axis in plan lies in the shank by
+// min(radius - d, p_z - c_z - rise) [regions (9)]. The depth of the shank in the surface is the largest such
+// value. It changes by no more than c moves.
 class ShankLimit {
  public:
-  // Keeps `keep` (mm) off `surface`, which must outlive this object: the cylinder is that much wider and
-  // begins that much lower. Answers are exact to `proof` (mm), for moves that climb or fall to `slope` (mm).
+  // The shank keeps the distance `keep` (mm) from `surface`, which must outlive this object: the cylinder is
+  // widened by `keep` and begins lower by `keep`. Answers are exact to `proof` (mm). For a move that climbs
+  // or falls they are exact to `slope` (mm), since such a move is divided into steps of this height.
   ShankLimit(const Surface& surface, const WideShank& shank, double keep, double proof, double slope)
       : surface_(&surface),
         radius_(shank.radius + keep),
@@ -22,11 +23,12 @@ class ShankLimit {
         proof_(proof),
         slope_(slope) {}
 
-  // Whether the highest point of `surface` may be in the shank while the centre is no lower than this.
+  // True if the highest point of `surface` may be in the shank of some centre that is no lower than
+  // `lowest_center` (mm).
   bool MayTouch(double lowest_center) const { return surface_->box.max.z() > lowest_center + rise_; }
-  // True if the shank is nowhere deeper than `allowed_penetration` (mm) along the whole straight move of the
-  // centre. Cost: some microseconds. A move along the limit costs this once for every `slope` of its change
-  // of height. A column as wide as a bore costs milliseconds.
+  // True if the depth of the shank stays at most `allowed_penetration` (mm) all along the straight move of
+  // the centre from a to b. Cost: some microseconds, for a move close to the limit once for every `slope` mm
+  // of its change in height. In a bore as wide as the shank it costs milliseconds.
   bool Clears(const Vec3& a, const Vec3& b, double allowed_penetration) const;
   // True if the surface is in the shank wherever the centre is within `beside` of c in plan and at most
   // `above` higher (mm, >= 0).
