@@ -27,16 +27,16 @@ absl::StatusOr<BorderArcs> FindBorderArcs(const SplitSurface& split, const PerTr
                                           std::span<const ZeroField> fields, double tolerance,
                                           const RunContext& run);
 
-// Borders that keep all areas above 0, and what they change in the areas.
+// The arcs of the borders, less those that would make an area negative, and what they change in the areas.
 struct BentBorders {
   BorderArcs arcs;
   std::vector<double> gained;  // [region]: mm^2 that it gains as its borders bend from chords to arcs
 };
 
-// Measures how the arcs change the areas of the regions. `flat` holds the areas of the regions' triangles,
-// mm^2. The gains add up to 0. A sliver along a limit or a seam may be thinner than the error of its arcs,
-// which would turn it inside out. Such a region keeps its chords: the result has none of its arcs. So no area
-// falls below 0. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Measures how the arcs change the areas of the regions. `flat` [region] holds the areas of the triangles,
+// mm^2. The gains add up to 0. A sliver along a limit or a seam may be thinner than the error of its arcs;
+// with them its area would be negative. Such a region keeps its chords, and the result has none of its arcs.
+// So no area falls below 0. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<BentBorders> BendAreas(const SplitSurface& split, const PerTriangle<RegionId>& region_of,
                                       const std::vector<double>& flat, BorderArcs arcs,
                                       const RunContext& run);

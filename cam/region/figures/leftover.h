@@ -1,6 +1,6 @@
-// Finds the deepest leftover of an area that no free ball touches. The leftover at a place is the distance to
-// the nearest centre where a ball may stand, less R ([verification, section 1], with all these centres as the
-// path).
+// Finds the deepest leftover of an unreachable area. The leftover at a place is its distance from the nearest
+// centre at which the ball is free and allowed, less R: what would stay there if the tool passed through all
+// such centres [regions, section 9].
 #pragma once
 
 #include <array>
@@ -17,15 +17,18 @@ namespace patchmill {
 
 struct Deepest {
   double leftover = 0.0;  // mm, >= 0
-  bool proven = true;     // no place is deeper by more than a twentieth and twice LeftoverParams::fine
+  bool proven =
+      true;  // false: some place may be deeper by more than a twentieth plus twice LeftoverParams::fine
 };
 
-// Finds the largest leftover over some area for a ball of locator.radius(). Leftover changes by no more than
-// the way along the surface, and a centre found for one place bounds the leftover of all places
-// [regions T16]. So the part with the largest bound is examined or quartered until no part may be deeper.
-// All centres used are free, so the leftover found for a place is never too small. It is too large if the
-// search for the nearest centre ends in another local minimum. Deterministic. Keeps references to the locator
-// and to params.operation_limits.
+// Finds the largest leftover over some area for a ball of locator.radius(). It works by branch and bound over
+// parts of the area. Two facts bound the leftover of a part [regions T16]: from one place to another it
+// changes by no more than their distance along the surface; and every free centre known gives an upper bound
+// for all places. The part with the largest bound is either examined at its middle (a search for the nearest
+// centre) or quartered, until no part may be deeper than the deepest place found. All centres used are free,
+// so the leftover found for a place is never too small. It is too large if the search for the nearest centre
+// ends in a local minimum that is not the nearest. Deterministic. Keeps references to the locator and to
+// params.operation_limits.
 //
 // Cost: two hundred heights for each place that may be the deepest when it is examined, more under limits.
 // These are some ten places of most areas, and hundreds where much of the area is equally deep, as along a
@@ -35,8 +38,8 @@ class LeftoverSearch {
  public:
   LeftoverSearch(const Locator& locator, const LeftoverParams& params) : locator_(locator), params_(params) {}
 
-  // Adds a point of the surface. On the side of `facing` a ball with hardly any room, as in a hole of its own
-  // size, is looked for, too; nullopt where the surface has no normal.
+  // Adds a point of the surface. `facing` is nullopt if the surface has no normal there. If it has one,
+  // centres in narrow room on the side of `facing`, as in a hole of the ball's own size, are searched, too.
   void AddPoint(const Vec3& p, const std::optional<Facing>& facing) { Add(PointElement(p, facing)); }
   // Adds a triangle in the parameters of a piece of locator.surface().
   void AddTriangle(std::size_t piece, const std::array<Vec2, 3>& uv);

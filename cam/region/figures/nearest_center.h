@@ -1,4 +1,5 @@
-// Finds the centre nearest to a place where a ball may stand: free, above the floor and allowed.
+// Finds, for a place p of the surface, the nearest centre at which the ball may stand: free, above the floor
+// and allowed.
 #pragma once
 
 #include <optional>
@@ -11,12 +12,12 @@ namespace patchmill {
 struct LeftoverParams {
   double floor_z = -kInfinity;                        // mm, lowest tip
   const OperationLimits* operation_limits = nullptr;  // null: allows all centres
-  double fine = 0.0;  // mm; depths are not determined more finely than this and R / 1000
+  double fine = 0.0;                                  // mm: accuracy of depths, or R / 1000 if that is more
 };
 
-// The best centre in a vertical column: the allowed one nearest to the place p of the search.
+// The best centre over one place in plan: of the free and allowed centres over it, the one nearest to p.
 struct Column {
-  Vec3 center = Vec3::Zero();   // if none is allowed: the lowest that the surface alone leaves free
+  Vec3 center = Vec3::Zero();   // if none is allowed: the lowest centre that is free of the surface
   Vec3 normal = Vec3::UnitZ();  // normal of the border of the free centres at `center`, towards them
   bool held = false;            // `center` lies on that border
   double distance = kInfinity;  // mm from p to `center`; infinite if none is allowed

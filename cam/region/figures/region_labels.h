@@ -17,10 +17,10 @@ struct RegionLabels {
   std::vector<std::vector<ComponentId>> components;
 };
 
-// Looks up the region of each cell's centre. There are at most 8 million labels, and at most 256 x 256 for a
-// piece. A region that contains no cell's centre takes the cell of one of its triangles from a region that
-// has others, so that it can be picked and switched off, too. Regions that share single cells may stay
-// without one.
+// Labels each cell with the region at its centre. There are at most 8 million labels in all, and at most 256
+// x 256 for a piece. A small region may contain no centre of a cell. It then gets a cell that one of its
+// triangles meets, if the region of that cell has other cells, so that it can be picked and switched off,
+// too. If several small regions meet the same cell, some may stay without one.
 //
 // The components of the cells follow in the same way if there are more components than regions. A cell that a
 // region took counts for the first component of that region. CANCELLED and DEADLINE_EXCEEDED from `run`.

@@ -8,10 +8,10 @@
 
 namespace patchmill {
 
-// Length of the pass in mm over each region. The key kNoRegion stands for places where the map has no region.
-// A move along one piece counts for the regions that it leads over. Any other move counts half for the
-// contact at either end. The first point counts 1e-9 mm, so that a pass of one point has a region. Points on
-// the floor have no contact and count nothing. The map may be empty.
+// Returns the length (mm) of the pass over each region. The key kNoRegion stands for places where the map has
+// no region. A move with both contacts on one piece counts for the regions between them. Any other move
+// counts half for the region at each of its ends. The first point counts 1e-9 mm, so that a pass of one point
+// has a region, too. Points on the floor have no contact and count nothing. The map may be empty.
 std::map<RegionId, double> LengthInRegions(const CutterPath& pass, const RegionMap& map);
 // The same for components of regions.
 std::map<ComponentId, double> LengthInComponents(const CutterPath& pass, const RegionMap& map);

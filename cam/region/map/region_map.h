@@ -101,7 +101,7 @@ struct RegionMap {
   std::vector<Region>
       regions;  // index = id; reachable regions first, then unreachable ones, each by falling area
   std::vector<BorderLine> border_lines;  // each once
-  std::vector<Vec3> nodes;  // where lines end: three or more lines meet, or two of different kinds
+  std::vector<Vec3> nodes;  // ends of border lines, where three or more lines meet, or two of different kinds
   // Labels for lookup. Each piece has a grid of cells x cells. The label of a cell is the region at its
   // centre, or kNoRegion.
   int cells = 0;

@@ -11,10 +11,11 @@ namespace patchmill {
 
 struct RawRegion {
   SplitLabel label;
-  double area = 0.0;         // mm^2
-  double curvature = 0.0;    // mm, integral of kappa_c: < 0 for a mountain, > 0 for a basin
-  double steepness = 0.0;    // rad mm^2, integral of slope - steep angle: > 0 for steep
-  int whole = -1;            // first raw region of the connected area of one label around it; -1: itself
+  double area = 0.0;       // mm^2
+  double curvature = 0.0;  // mm, integral of kappa_c: < 0 for a mountain, > 0 for a basin
+  double steepness = 0.0;  // rad mm^2, integral of slope - steep angle: > 0 for steep
+  int whole =
+      -1;  // first raw region of the connected area with the same label to which it belongs; -1: itself
   int summit = 0, pit = 0;   // the mountain and the basin that it belongs to, if any
   double open_border = 0.0;  // mm of its border where the surface ends
 };

@@ -28,8 +28,8 @@ class ObstacleCloud {
     std::int32_t piece = 0;
     float u = 0.0F, v = 0.0F;
   };
-  // Calls visit(first, last) for ranges of points that contain all points nearer to the ray than `reach`,
-  // until it returns true. `reach` may shrink meanwhile.
+  // Calls visit(first, last) for index ranges that together contain all points nearer to the upward ray at c
+  // than `reach` (mm), until visit returns true. `reach` may shrink meanwhile.
   template <class Visit>
   void Runs(const Vec3& c, const double& reach, const Visit& visit) const;
   Float4 Squared(double distance) const;

@@ -1,4 +1,4 @@
-// Finds obstacles: what is in the way of balls, one after the other.
+// Finds obstacles: surface points that are in the way of balls or their upward sweeps.
 #pragma once
 
 #include <array>
@@ -10,15 +10,15 @@
 
 namespace patchmill {
 
-// Tries the obstacles of the last balls first, because these mostly are in the way of the next ball, too.
-// Then it asks the cloud. Only for the balls that are left does it search the surface, for several at once.
-// Use it for balls near each other, one after the other.
+// First it tries the obstacles of the last balls, which are mostly in the way of the next ball, too. Then it
+// looks for a point of the cloud. Only for the remaining balls does it search the surface, for several balls
+// at once. Order the balls so that each is near the last.
 class ObstacleFinder {
  public:
   ObstacleFinder(const Locator& ball, const ObstacleCloud& cloud);
 
-  // Sets obstacles[k] to a point of the surface that lies in the ball at centers[k] or in its upward sweep by
-  // more than rounding. nullopt if the ball is free in the sense of Locator::Free.
+  // Sets obstacles[k] to a surface point that is in the ball at centers[k] or in its upward sweep by more
+  // than rounding; to nullopt if there is none, so that the ball is free (Locator::Free).
   void Find(std::span<const Vec3> centers, std::span<std::optional<SurfacePoint>> obstacles);
 
  private:

@@ -8,9 +8,10 @@
 
 namespace patchmill {
 
-// The ball must not be free at the start of each segment, and free at its end. limits[k] becomes the share of
-// segments[k] where this changes, to `exact` mm on the surface. Follows the obstacle to where it lets the
-// ball go. Cost: two or three searches per segment.
+// At the start of each segment the ball that touches the surface must not be free, at its end it must be.
+// Sets limits[k] to the share of segments[k] at which this changes, to `exact` mm on the surface. It follows
+// the obstacle to the place at which it ceases to block the ball. Cost: two or three searches for each
+// segment.
 void ReachLimits(const ReachTest& reach, const Piece& piece, std::span<const ZeroSegment> segments,
                  double exact, std::span<double> limits);
 

@@ -18,10 +18,11 @@ enum class Field {
   kTurn,       // SilhouetteField: > 0 where the normal looks up
   kSlope,      // SlopeField of the steep angle: > 0 gentle
   kCurvature,  // ContourCurvatureField: times the sign of kTurn it is < 0 on mountains
-  kAllowed,    // < 0 AVOIDED, OUTSIDE or SHANK; missing if the operation has no limits and no later field
-  kOutside,    // where the centre is not allowed: < 0 OUTSIDE; missing if kAllowed is
-  kShank,      // where it is not allowed: < 0 SHANK, > 0 AVOIDED; missing if no shank and no later field
-  kFinished,   // < 0 STRATEGY; missing if no strategy is forced
+  // A field that the operation does not need is absent if no later one is needed, either.
+  kAllowed,   // < 0 AVOIDED, OUTSIDE or SHANK: the centre is not allowed; needed if the operation has limits
+  kOutside,   // where the centre is not allowed: < 0 OUTSIDE; present if kAllowed is
+  kShank,     // where the centre is not allowed: < 0 SHANK, > 0 AVOIDED; needed for a wide shank
+  kFinished,  // < 0 STRATEGY; needed if a strategy is forced
 };
 inline constexpr int kFieldCount = 10;
 static_assert(kFieldCount <= kMaxZeroFields);
@@ -38,8 +39,8 @@ std::vector<ZeroField> ReachFields(const ReachTest& reach, const RegionParams& p
 ZeroMeshParams RegionMeshParams(const Surface& surface, const RegionParams& params, double part,
                                 const RunContext& run);
 
-// The label of a triangle. A triangle with a reason has no other label. Triangles that have equal labels and
-// share an edge belong to one raw region.
+// The label of a triangle. If it has a `reason`, the other members keep their defaults. Triangles that have
+// equal labels and share an edge belong to one raw region.
 struct SplitLabel {
   std::int8_t curvature = 0;  // -1 mountain, +1 basin, 0 flat along the contour (upward normal)
   bool steep = false;

@@ -81,19 +81,20 @@ struct AdjacencyList {
   }
 };
 
-// A surface split into triangles, as it goes from stage to stage. A stage that changes the meshes takes the
-// value over and returns another.
+// A surface split into triangles. It goes from stage to stage as a value: a stage that changes the meshes
+// takes it and returns a new one.
 struct SplitSurface {
-  const Surface* surface = nullptr;  // must live as long; never null after JoinMeshes
+  const Surface* surface = nullptr;  // must outlive this value; never null after JoinMeshes
   std::vector<SplitMesh> meshes;     // [piece]
   AdjacencyList adjacency;           // of the sides of the meshes
 };
 
 // Finds the neighbours of all triangles. meshes[piece] covers that piece of the surface.
 //
-// Sides on the border of a piece are matched by their place. The neighbour is the border side that passes
-// nearest to the middle of this one, within the network's join tolerance and twice both sagittas. It may
-// belong to the same piece if the piece is closed. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Sides on the border of a piece are matched by their places in space. The neighbour of such a side is the
+// border side that passes nearest to its middle, at most at the network's join tolerance plus twice the
+// sagittas of both sides. It may belong to the same piece if the piece is closed. CANCELLED and
+// DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<SplitSurface> JoinMeshes(const Surface& surface, std::vector<SplitMesh> meshes,
                                         const RunContext& run);
 

@@ -60,9 +60,9 @@ inline bool AlongBorder(const ZeroVertex& a, const ZeroVertex& b) {
   return (a.u == b.u && (a.u == 0.0 || a.u == 1.0)) || (a.v == b.v && (a.v == 0.0 || a.v == 1.0));
 }
 
-// `fields` are those of RegionFields, `steep_angle` is in rad. Areas are good to 1e-7 of their size. They
-// come from a rule of degree 5 on parts whose normals turn by less than 0.35 rad and whose area element is
-// nearly quadratic, or from a rule of degree 2 if the area element is nearly linear.
+// `fields` are those of RegionFields, `steep_angle` is in rad. The relative error of areas is 1e-7. They are
+// integrated by a quadrature rule of degree 5 on parts whose normals turn by less than 0.35 rad and on which
+// the area element |S_u x S_v| is nearly quadratic, or by a rule of degree 2 where it is nearly linear.
 SplitMesh BuildSplitMesh(const Piece& piece, std::span<const ZeroField> fields, double steep_angle,
                          const ZeroMeshParams& params);
 

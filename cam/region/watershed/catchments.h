@@ -10,12 +10,12 @@
 
 namespace patchmill {
 
-// Returns for each triangle an index into `tops`, or -1 if no top is connected with the triangle. The surface
-// is flooded from the summits down (for `sign` -1 from the pits up), over the highest sides of triangles
-// first (a spanning forest, [references: cousty2009]). It is flooded across the watershed lines of the meshes
-// (SplitMesh::lines) last, where nothing else leads. So these lines are the borders where they divide the
-// surface; elsewhere sides of triangles are. Deterministic. Cost: n log n in the worst case. CANCELLED and
-// DEADLINE_EXCEEDED from `run`.
+// Returns for each triangle an index into `tops`, or -1 if no top is connected with the triangle. The
+// triangles are flooded from the summits down, across the highest sides first (a spanning forest,
+// [references: cousty2009]); for `sign` -1 from the pits up, across the lowest sides first. Sides on
+// watershed lines (SplitMesh::lines) come last. So a flood crosses such a line only to triangles that it
+// cannot reach otherwise: wherever the lines divide the surface they are the borders, elsewhere sides of
+// triangles are. Deterministic. Cost: n log n in the worst case. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<PerTriangle<int>> Catchments(const SplitSurface& split, const std::vector<MeshVertex>& tops,
                                             double sign, const RunContext& run);
 

@@ -17,8 +17,9 @@ struct MeshVertex {
 };
 
 struct HeightExtrema {
-  std::vector<MeshVertex> tops;    // persisting summits of each connected sheet that has several of them
-  std::vector<MeshVertex> passes;  // highest vertices at which the ways up to two of them meet
+  std::vector<MeshVertex> tops;  // persisting summits of each connected sheet that has several of them
+  std::vector<MeshVertex>
+      passes;  // for each pair that meets: the highest vertex at which ways up to both meet
 };
 
 // The vertices of all meshes as a graph. Vertices that face each other across a seam are neighbours.
@@ -27,13 +28,15 @@ class HeightGraph {
   // CANCELLED and DEADLINE_EXCEEDED from `run`, here and below.
   static absl::StatusOr<HeightGraph> Make(const SplitSurface& split, const RunContext& run);
 
-  // Finds summits for `sign` +1, pits for -1. A summit persists if every way from it to a higher one leads
-  // down by at least `persistence` mm [references: edelsbrunner2002]; for pits up and down are exchanged.
-  // Each vertex climbs the steepest way to a summit. Vertices from which several summits are climbed to are
-  // taken from the highest down. Each joins its summits; all but the highest summit joined so far are the
-  // younger ones, and the height above this vertex is their persistence. The highest summit of each sheet
-  // always counts. Of the others at most `most` count, those with the largest persistence. Deterministic.
-  // Cost: n + m log m for n vertices, m of which join summits.
+  // Finds the summits that persist for `sign` +1, the pits for -1. A summit persists if every way from it to
+  // a higher summit leads down by at least `persistence` mm [references: edelsbrunner2002]. For pits up and
+  // down are exchanged.
+  //
+  // From each vertex the steepest way up leads to a summit. A vertex next to ways to several summits is a
+  // pass between these. Passes are taken from the highest down. Each joins its summits to one set; of the
+  // summits that it joins the highest lives on, and for each other one its height above the pass is its
+  // persistence. The highest summit of each connected sheet always counts. Of the others the `most` with the
+  // largest persistence count. Deterministic. Cost: n + m log m for n vertices with m passes.
   absl::StatusOr<HeightExtrema> Find(double sign, double persistence, std::size_t most,
                                      const RunContext& run) const;
 

@@ -13,8 +13,8 @@ namespace patchmill {
 
 class MeshCutter {
  public:
-  // Keeps references. The curves divide summits, or pits if `summits` is false (SplitMesh::Line). Vertices
-  // within `snap` mm of a curve become points of it.
+  // Keeps references. The curves are watershed lines between summits, or between pits if `summits` is false
+  // (SplitMesh::Line). A vertex within `snap` mm of a curve becomes a point of the curve.
   MeshCutter(const Piece& piece, SplitMesh& mesh, bool summits, std::span<const ZeroField> fields,
              double snap);
 
@@ -24,12 +24,14 @@ class MeshCutter {
 
   struct Next {
     int vertex = 0;
-    bool met = false;  // the vertex lay on a line already
+    bool met = false;  // the vertex lay on a watershed line already, so the curve ends there
   };
-  // Continues from vertex `at` along the curve. `places` are parameters of the curve after that vertex; the
-  // first `known` of them lie in the triangles around it. Returns the vertex where the curve leaves these
-  // triangles, and drops the places before it. nullopt while the curve stays in them; then add places. The
-  // side between the two vertices becomes a line (SplitMesh::lines) with the places in between.
+  // Follows the curve from the vertex `at` to the place where it leaves the triangles around that vertex.
+  // `places` are the next points of the curve in (u,v); of the first `known` of them it is known that they
+  // lie in these triangles. Returns the vertex at which the curve leaves the triangles, which may be a new
+  // one, and removes the places before it. The side between both vertices becomes a line (SplitMesh::lines)
+  // with the removed places. nullopt if the curve has not left the triangles; append more places and call
+  // again.
   std::optional<Next> Advance(int at, std::vector<Vec2>& places, std::size_t& known);
 
   // Makes the side from `at` to `to` a line with the places `between`.

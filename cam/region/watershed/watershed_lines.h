@@ -13,9 +13,10 @@
 namespace patchmill {
 
 struct WatershedParams {
-  double tolerance = 0.01;   // mm, sagitta of chords on the true lines; vertices this near become part of one
-  double spacing = 3.0;      // mm, about twice the longest chord
-  double steep_angle = 0.0;  // rad, for the steepness of the triangles that are cut
+  double tolerance =
+      0.01;  // mm: sagitta of chords on the true lines; a vertex this near to a line becomes part of it
+  double spacing = 3.0;               // mm, about twice the longest chord
+  double steep_angle = 0.0;           // rad, for the steepness of the triangles that are cut
   std::span<const ZeroField> fields;  // fields of the meshes
 };
 
@@ -24,10 +25,11 @@ struct WatershedPasses {
   std::vector<MeshVertex> summits, pits;
 };
 
-// Lines leave the saddle of the surface next to each pass, or the pass itself if there is no saddle, to both
-// sides. A line ends at the border of the surface, at another line of its kind, or in a pit (on a summit).
-// Where the flow has no direction, as along creases, it follows the steepest sides of triangles. CANCELLED
-// and DEADLINE_EXCEEDED from `run`.
+// From each pass lines start to both sides: at the saddle point of the surface next to the pass, or at the
+// pass itself if there is none. From a pass between summits they run down to a pit, from a pass between pits
+// up to a summit. A line ends earlier at the border of the surface and at another line of its kind. Where the
+// surface has no direction of steepest slope, as along creases, a line follows the steepest sides of
+// triangles. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<SplitSurface> CutWatersheds(SplitSurface split, const WatershedPasses& passes,
                                            const WatershedParams& params, const RunContext& run);
 

@@ -11,7 +11,8 @@
 
 namespace patchmill {
 
-// The flow from a place, step by step. It depends on that place alone. Keeps references.
+// The line of steepest slope from a place, step by step, computed on demand. It depends on that place alone.
+// Keeps references.
 class FlowTrack {
  public:
   struct Step {
@@ -27,7 +28,7 @@ class FlowTrack {
   const std::optional<FlowPlace>& Start() const { return start_; }
   // Step k, or null if the flow ends before it.
   const Step* At(std::size_t k);
-  // Computes as many steps in advance as most lines have.
+  // Computes as many steps in advance as most lines need.
   void GoAhead(const RunContext& run);
 
  private:
