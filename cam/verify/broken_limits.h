@@ -15,7 +15,7 @@ struct LimitCheck {
   const CenterLimits& limits;
   double radius = 0.0;         // mm, of the ball plus the stock to leave
   Vec3 offset = Vec3::Zero();  // that of CollectMoves; messages give places in the program frame
-  double slack = 0.0;          // mm; moves may go this far beyond a limit
+  double slack = 0.0;          // mm; moves may go so far beyond a limit
 };
 
 // Reports moves that go more than check.slack beyond a limit, to 1e-3 mm:
@@ -30,8 +30,9 @@ struct LimitCheck {
 Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, const LimitCheck& check,
                          const RunContext& run);
 
-// The parts of feed moves that count as cutting. A ball on the back of a wall (StripKind::kMaterial) finishes
-// nothing: on a thin wall it would be as near to the other side. Moves are divided down to 0.01 mm.
+// Returns the parts of feed moves that count as cutting: those outside of the areas behind walls
+// (StripKind::kMaterial). Otherwise, on a thin wall, a move behind the wall would count as finishing the
+// other side. Moves are divided down to 0.01 mm.
 std::vector<PathSegment> OutsideOfMaterial(const CenterLimits& limits, std::vector<PathSegment> moves);
 
 }  // namespace patchmill

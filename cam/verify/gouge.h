@@ -1,5 +1,5 @@
-// Finds how deep the surface lies inside moving bodies [verification P1, P3]: the ball and its upward sweep,
-// a wider shank, or the ball enlarged by the stock.
+// Finds how deep the surface lies inside a moving body [verification P1, P3]. The body is the ball with its
+// upward sweep, a wider shank, or the ball enlarged by the stock allowance.
 #pragma once
 
 #include "cam/toolpath/segment_tree.h"
@@ -14,11 +14,12 @@ struct GougeParams {
   double limit = kInfinity;  // mm; a deeper place is a violation
 };
 
-// Largest radius + chord_error - distance(p, moves) over the surface. The distance is that of the tree's
-// metric, which is not Metric::kPath [verification, section 4]. The distance to one move is convex in p. So
-// over a cell's hull it is nowhere below the smallest value that the tangent plane at the cell's middle takes
-// at the control points [verification T9]. Cells are halved until no move can be deeper than the value found
-// by more than `certainty`. The roots must cover the surface; `stage` names the progress.
+// Returns the largest value of radius + chord_error - distance(p, moves) over the surface points p. The
+// distance is that of the tree's metric, which is not Metric::kPath [verification, section 4]. For one move
+// it is a convex function of p. So over the hull of a cell it is bounded from below by its tangent plane at
+// the middle of the cell, whose smallest value is at a control point [verification T9]. Cells are halved
+// until no move can give a value that exceeds the largest one found by more than `certainty`. The roots must
+// cover the surface. `stage` is the name under which progress is reported.
 absl::StatusOr<Extremes> FindGouge(const RootedSurface& rooted, const SegmentTree& tree,
                                    const GougeParams& params, const RunContext& run, const char* stage);
 

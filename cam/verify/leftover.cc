@@ -135,7 +135,8 @@ class LeftoverSearch {
     if (!IsWantedAt(surface_, params_, {r.piece, r.u(), r.v(), cell.middle})) return false;
     const SurfaceJet jet = Evaluate(surface_, cell.rect.piece, cell.rect.u(), cell.rect.v());
     const auto facing = FacingAt(jet);
-    return facing && IsAskedOn(surface_, {r.piece, r.u(), r.v(), jet.p}, *facing, params_.reach, obstacles_);
+    return facing &&
+           IsRequiredOn(surface_, {r.piece, r.u(), r.v(), jet.p}, *facing, params_.reach, obstacles_);
   }
 
   // True if no point of the cell is reachable: all centres over it lie below the floor or above the top, or

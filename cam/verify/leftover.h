@@ -14,9 +14,9 @@ struct LeftoverParams {
   double chord_error = 0.0;            // mm, error of the segments
   double certainty = 1e-3;             // mm
   const SurfaceMask* where = nullptr;  // the part of the surface that is judged; null: all of it
-  double limit = kInfinity;            // mm; more is a violation. Infinity: the finish is not judged
+  double limit = kInfinity;            // mm; more leftover is a violation. Infinity: the finish is not judged
   double min_step_fraction = 0.25;     // of the centre step on a plane (BeyondStrategy)
-  double most = kInfinity;             // mm, upper limit of what is reported, if nothing is cut at all
+  double most = kInfinity;             // mm: no larger leftover is reported, even if nothing is cut at all
 };
 
 // How a point counts for the finish. kUnwanted means outside a contact boundary or outside the part. Patches
@@ -42,21 +42,24 @@ struct AreaReport {
   double highest_rise = -kInfinity;         // mm, largest RiseNeeded of places that only the shank blocks
 };
 
-// Measures areas by samples at the middle and the corners of each root cell. A cell whose samples differ is
-// quartered, at most five times, and less often if there are many such cells: about 60,000 cells are spent on
-// the border of the reachable set. From the lowest sample that only the floor forbids, a search in its piece
-// finds the lowest place; in the same way it finds the place that needs the highest shank. `tree` has
-// Metric::kPath and holds the feed moves.
+// Measures the area of each class by samples at the middle and the corners of each root cell. A cell whose
+// samples differ in class is quartered, at most five times, and less often if there are many such cells:
+// about 60,000 cells are spent along the borders of the classes. `lowest_center` is found by a search in the
+// piece of the lowest sample that only the floor forbids, `highest_rise` in the same way from the sample with
+// the largest RiseNeeded. `tree` has Metric::kPath and holds the feed moves.
 absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const SegmentTree& tree,
                                         const LeftoverParams& params, const RunContext& run);
 
-// Largest distance(p, feed moves) + chord_error - R over the reachable points. The distance to one segment is
-// convex in p, and so is every mean of two such distances. So over a cell's hull it is nowhere above its
-// largest value at the control points [verification T9]. With one segment on either side the bound is of
-// second order at the crest between two passes [verification T9a]. A cell counts as reachable if its middle
-// is. It is abandoned as unreachable if no centre over it can be free. At the border of the reachable set
-// this goes down to cells of 2.5 % of the radius, or 0.5 % where the leftover may still rise steeply. `known`
-// is a value that was found before (by MeasureAreas).
+// Returns the largest value of distance(p, feed moves) + chord_error - R over the reachable points p that
+// must be finished. The distance to one move is a convex function of p, and so is a mean of the distances to
+// two moves. So over the hull of a cell it is at most its largest value at the control points [verification
+// T9]. With the mean of two moves, one on either side of the crest between two passes, the bound is of second
+// order [verification T9a].
+//
+// The value of a cell is that at its middle, if the middle is reachable. A cell is abandoned as unreachable
+// if no centre over it can be free. At the border of the reachable set cells are halved down to 2.5 % of the
+// radius, or to 0.5 % where the leftover may still rise steeply. `known` is a value that was found before (by
+// MeasureAreas).
 absl::StatusOr<Extremes> FindLeftover(const RootedSurface& rooted, const SegmentTree& tree,
                                       const LeftoverParams& params, const Extreme& known,
                                       const RunContext& run);

@@ -13,9 +13,9 @@ namespace patchmill {
 // do not count.
 using LeftoverSpread = std::array<double, kLeftoverClasses>;
 
-// Takes one random point in each root cell, so that no grid of points coincides with a grid of passes. Shares
-// are good to 1 % on a part with passes all over it. params.scallop must be set. `tree` is that of
-// MeasureAreas.
+// Samples one random point in each root cell; a regular grid of points could coincide with the spacing of the
+// passes. On a part that is finished all over, the shares of the classes are exact to 1 %.
+// params.finish.scallop must be set. `tree` is that of MeasureAreas.
 absl::StatusOr<LeftoverSpread> MeasureSpread(const RootedSurface& rooted, const SegmentTree& tree,
                                              const LeftoverParams& params, const RunContext& run);
 

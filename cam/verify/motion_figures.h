@@ -20,11 +20,12 @@ struct MotionFigures {
 };
 MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool);
 
-// The stick-out that the tool needs, mm: the height of the highest material within the radius of tool or
-// shank around a move over the lowest tip of that move, largest over all moves. The material reaches up to
-// the surface plus the allowance, but no higher than the stock or the surface's highest point. It is taken
-// from a grid of squares in plan. So the result is an upper bound. It exceeds the true value by at most the
-// height that the surface gains within two grid steps. CANCELLED and DEADLINE_EXCEEDED from `run`.
+// Returns the stick-out (mm, from the tip to the holder) that the tool needs. For each move it is the height
+// of the highest material above the lowest tip of the move, within the radius of tool or shank in plan; the
+// result is the largest over all moves. The material reaches up to the surface plus the stock allowance, but
+// no higher than the top of the stock or the highest point of the surface, whichever is higher. Heights of
+// the material come from a grid of squares in plan, so the result is an upper bound. It exceeds the true
+// value by no more than the surface rises within two grid steps. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<double> RequiredStickout(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
                                         const VerifyParams& params, const RunContext& run);
 

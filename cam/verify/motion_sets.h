@@ -14,16 +14,18 @@ enum class MotionSet {
   kCut,          // feed moves: they remove material
   kSwept,        // all moves below machine zero: they must not gouge
   kSweptRapids,  // the rapids among them
-  // The parts of rapids below `clear_z`. Rapids straight up are left out, because they only leave through the
-  // space that the tool already fills.
+  // The parts of rapids below `clear_z`. Rapids straight up are left out: the tool rises through space that
+  // it occupied already, ball with upward sweep.
   kRapid,
-  kDogLegs,  // whole rapids that drive more than one axis and go below `clear_z`
+  kDogLegs,  // rapids that move more than one axis and go below `clear_z`, in full length
 };
 
-// Returns the moves of a set. `offset` is added to tips: the program zero plus the ball radius upwards.
-// Nothing stands at centres of height `clear_z` (kRapid and kDogLegs only). A move between machine zero and
-// another place is taken as level at the lower height, which contains whatever the control really does. Of a
-// feed move from or to machine zero only the lower end counts as cut.
+// Returns the moves of a set, as segments of ball centres. `offset` (mm) is added to the tips of the program:
+// the program zero plus the ball radius upwards. `clear_z` (mm, for kRapid and kDogLegs) is a height of the
+// centre from which on there is no material. A move between machine zero, whose height is unknown, and
+// another place is replaced by a level move at the height of the other place; with its upward sweep it
+// contains every way that the control may take. Of a feed move from or to machine zero only the other place
+// counts as cut.
 std::vector<PathSegment> CollectMoves(const ProgramMotion& motion, MotionSet set, const Vec3& offset,
                                       double clear_z = kInfinity);
 

@@ -226,8 +226,8 @@ ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing&
   return beside.value_or(own);
 }
 
-bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
-               const ReachParams& params, Obstacles& obstacles) {
+bool IsRequiredOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
+                  const ReachParams& params, Obstacles& obstacles) {
   if (ReachOn(surface, at, facing, params, obstacles) != ReachClass::kReachable) return false;
   const CenterLimits& limits = params.limits;
   if (limits.avoided == nullptr && !limits.shank &&

@@ -25,39 +25,43 @@ struct CenterLimits {
   std::optional<WideShank> shank = std::nullopt;
   double shank_keep = 0.0;  // mm between shank and surface (stock to leave); the margin to avoided patches
                             // follows from avoid_distance
-  double within = 0.0;      // mm; how far inside of all these limits, the shank's too, a centre must be
+  // mm: so far inside of all these limits, the shank's too, a centre must be. Negative: so far outside it may
+  // be.
+  double within = 0.0;
 };
 
 struct ReachParams {
   double radius = 0.0;  // mm, ball + stock to leave
-  double reach_tolerance =
-      0.0;  // mm; how deep the surface may lie inside the ball, and the centre below the floor
+  // mm: so deep may the surface lie inside a ball that counts as free, and a centre below the lowest one.
+  double reach_tolerance = 0.0;
   double floor_z = -kInfinity;  // mm, lowest centre height
   CenterLimits limits = {};
 };
 
-// Room inside boundary, obstacles and top (cam/limits/containment.h), mm: >= 0 where the centre is allowed.
+// Returns the room (mm) of the centre inside boundary, obstacles and top: >= 0 where these allow the centre.
+// Its slope is at most 1, so within this distance the answer stays the same (cam/limits/containment.h).
 double RoomAt(const CenterLimits& limits, const Vec3& center);
-// Room to the areas that are forbidden beside the part, mm.
+// The same for the areas beside the part that are closed to the tool.
 double BesideRoomAt(const CenterLimits& limits, const Vec3& center);
 
-// Room below the top alone, for any centre at this height, mm.
+// The same for the top alone: the room (mm) of any centre at the height `center_z`.
 double TopRoomAt(const CenterLimits& limits, double center_z);
 
-// The points of a surface that were in the way of ball or shank lately. Mostly they are in the way at
-// neighbouring places, too, which then need no search or a short one. Answers depend on them only within
-// their tolerances.
+// Remembers the surface points that were last found in the way of a ball, its upward sweep or the shank.
+// Mostly they are in the way at neighbouring places, too, where they replace or shorten a search. Within the
+// tolerance of an answer, the answer may depend on what is remembered.
 class Obstacles {
  public:
   struct Near {
     Vec3 at;
     double distance;
   };
-  // The point nearest to the upward ray at c; nullopt if none is nearer than `limit`.
+  // Returns the remembered point nearest to the upward ray at c, with its distance (mm); nullopt if none is
+  // nearer than `limit` (mm).
   std::optional<Near> NearestToRay(const Vec3& c, double limit) const;
-  // The same for the points above c.
+  // The same, but only points above c count (overhangs).
   std::optional<Near> NearestAbove(const Vec3& c, double limit) const;
-  // Distance from c to the nearest point; at most `limit`.
+  // Returns the distance (mm) from c to the nearest remembered point, or `limit` if that is less.
   double DistanceTo(const Vec3& c, double limit) const;
   void Add(const Vec3& p);
 
@@ -77,34 +81,36 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
                    Obstacles& obstacles);
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);
 
-// The same for a place of a piece. A place with two sides (Facing::both) counts as reachable only if a place
-// beside it does, 0.02 R away in both parameters (but at most a quarter of the piece). So a place that is
-// vertical only along a line gets the reason of the surface beside it. Where a sheet ends vertically and is
-// undercut behind its rim, there is nothing to cut, although the ball touches the rim. A point that two
-// pieces share may get different answers from them.
+// The same for a place of a piece. A place with two sides (Facing::both) counts as reachable only if another
+// place beside it is reachable, 0.02 R away along both parameters (at most a quarter of the piece). Otherwise
+// it gets the reason of the surface beside it. This matters where the surface is vertical along a line only,
+// such as the rim of a sheet that ends vertically and is undercut behind its rim: the ball touches the rim,
+// but there is nothing to cut. A point that two pieces share may get different answers from them.
 ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
                    const ReachParams& params, Obstacles& obstacles);
 
-// True if the place must be finished: it is reachable, and its centre is not within params.reach_tolerance of
-// a limit that crosses the surface. No pass gets to the end of a sharp corner between two limits. If a limit
-// runs along the surface, such as a boundary one radius beside a wall, the whole surface along it must be
-// finished.
-bool IsAskedOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
-               const ReachParams& params, Obstacles& obstacles);
+// True if the place must be finished. It must be reachable, and its centre may not be within
+// params.reach_tolerance of a limit of the operation, because no pass gets to the end of a sharp corner
+// between two limits. There is an exception: if a limit runs along the surface, such as a boundary one radius
+// beside a wall, so that all places beside this one are reachable, it must be finished, too.
+bool IsRequiredOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
+                  const ReachParams& params, Obstacles& obstacles);
 
-// How far above the ball's centre the shank would have to begin (WideShank::rise) to make a point reachable
-// that only the shank blocks, mm. `known` if this is not more than `known`, or if something else is in the
-// way, too. Exact to 0.02 of params.reach_tolerance.
+// For a point that only the shank makes unreachable: returns the least height (mm) above the ball's centre at
+// which the shank may begin (WideShank::rise) so that the point becomes reachable. Returns `known` if the
+// height is no more than `known` (mm), or if something else blocks the ball, too. Exact to 0.02 of
+// params.reach_tolerance.
 double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                   double known);
 
-// True if the surface stands in the shank for each centre within `beside` (mm) of `center` in plan that is no
-// higher than it. Exact to `proof` (mm).
+// True if the shank hits the surface (or an avoided patch with its margin) for every centre that is no higher
+// than `center` and within `beside` (mm) of it in plan. Exact to `proof` (mm).
 bool ShankHitsAll(const Surface& surface, const CenterLimits& limits, const Vec3& center, double beside,
                   double proof);
 
-// A lower bound for how far the centre may move without the point becoming reachable, mm. The shank does not
-// count. It is > 0 only for an unreachable point.
+// Returns a distance (mm): if the centre moves by less, the ball stays blocked. A lower bound, by what blocks
+// the ball most: the surface, the floor or a limit of the operation. The shank does not count. > 0 only for
+// an unreachable point.
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                     Obstacles& obstacles);
 

@@ -19,7 +19,7 @@ struct CellRect {
   double v() const { return 0.5 * (v0 + v1); }
 };
 
-// A surface with the root cells of what is judged on it. It refers to both.
+// A surface, and root cells that cover the part of it that is judged. Refers to both.
 struct RootedSurface {
   const Surface& surface;
   const std::vector<CellRect>& roots;

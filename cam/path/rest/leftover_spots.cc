@@ -95,7 +95,7 @@ class SpotFinder {
   bool SplitAlongU(const Vec3& du, const Vec3& dv, const Vec3& p, Hull hull, const NearMove& near) const;
   bool Covered(Hull hull, const NearMove& move) const;
   bool CoveredByTwo(Hull hull, const Vec3& e, const NearMove& move) const;
-  bool Asked(const SurfaceJet& jet, const Vec3& e) const;
+  bool Required(const SurfaceJet& jet, const Vec3& e) const;
   std::optional<Vec3> ReachableSide(const SurfaceJet& jet, const Vec3& e) const;
   bool Wanted(const SurfacePoint& at) const {
     return params_.operation_limits == nullptr || params_.operation_limits->Wants(at);
@@ -157,7 +157,7 @@ bool SpotFinder::CoveredByTwo(Hull hull, const Vec3& e, const NearMove& move) co
                           static_cast<int>(hull.size()), covered_) <= covered_;
 }
 
-bool SpotFinder::Asked(const SurfaceJet& jet, const Vec3& e) const {
+bool SpotFinder::Required(const SurfaceJet& jet, const Vec3& e) const {
   return NeededStepOfSides(params_.forced, jet, e, {radius_, params_.pass.scallop}) >=
          params_.pass.min_step_fraction;
 }
@@ -179,7 +179,7 @@ std::optional<LeftoverSpot> SpotFinder::SpotAt(const SurfaceRect& rect, const Su
                                                const SurfacePoint& at, const Vec3& e,
                                                const NearMove& nearest) const {
   const double leftover = std::min(nearest.distance - radius_, radius_);
-  if (!(leftover > params_.limit && Asked(jet, e) && Wanted(at))) return std::nullopt;
+  if (!(leftover > params_.limit && Required(jet, e) && Wanted(at))) return std::nullopt;
   if (!RemovedLeftLess(at.p, nearest)) return std::nullopt;
   const auto side = ReachableSide(jet, e);
   if (!side) return std::nullopt;
