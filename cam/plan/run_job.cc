@@ -239,14 +239,17 @@ absl::Status CheckMotion(const PathLimits& limits, const LinkResult& linked) {
 // Names what forbids most of what is wanted, and what to look at first.
 // `reached`: mm2, too little to be cut (VerifyReport::NothingToFinish); 0: there are no passes at all.
 Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool limited, double reached) {
-  double all = 0.0, off = 0.0, on = 0.0, avoided = 0.0, shank = 0.0;
+  double all = 0.0, off = 0.0, on = 0.0, outside = 0.0;
+  double avoided = 0.0, shank = 0.0, strategy = 0.0;
   for (const Region& region : report.regions) {
     const auto id = region.id.index();
     const double wanted = report.figures[id].selected_share * region.area;
     all += wanted;
     if (region.kind != RegionKind::kUnreachable) (report.choices[id].skip ? off : on) += wanted;
+    if (region.reason == UnreachableReason::kOutside) outside += wanted;
     if (region.reason == UnreachableReason::kAvoided) avoided += wanted;
     if (region.reason == UnreachableReason::kShank) shank += wanted;
+    if (region.reason == UnreachableReason::kStrategy) strategy += wanted;
   }
   const Vec3 size = resolved.box.max - resolved.box.min;
   const std::string scale = fmt::format("--scale ({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor",
@@ -264,12 +267,16 @@ Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool 
     if (!(area > 0.0)) return;
     shares += fmt::format("{}{:.0f} % of it is {}", shares.empty() ? " (" : ", ", 100.0 * area / all, reason);
   };
+  tell(outside, Name(UnreachableReason::kOutside));
   tell(avoided, Name(UnreachableReason::kAvoided));
   tell(shank, Name(UnreachableReason::kShank));
+  tell(strategy, Name(UnreachableReason::kStrategy));
   if (!shares.empty()) shares += ")";
   std::string look = limited ? scale + ", then " + limits : scale;
   if (avoided >= 0.5 * all) look = limits + ", then " + scale;
+  if (outside >= 0.5 * all) look = "--outside, or the walls' names in --only, then " + scale;
   if (shank > 0.5 * all) look = "the length of flutes and the shank, then " + scale;
+  if (strategy >= 0.5 * all) look = "the forced strategy, then " + scale;
   const char* of = limited ? "that is wanted" : "of the model";
   const std::string what =
       reached > 0.0
