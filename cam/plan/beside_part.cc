@@ -11,6 +11,7 @@
 #include "core/base/progress_throttle.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
+#include "core/surface/air_sides.h"
 #include "core/surface/highest.h"
 #include "core/surface/tessellate.h"
 
@@ -153,16 +154,17 @@ struct UprightGrid {
   std::vector<Vec3> points;    // (nu + 1) (nv + 1), v fastest
   std::vector<Vec2> middles;   // in plan, the point of the wall in the middle of each cell
   std::vector<Vec2> air_side;  // unit normal in plan on the side of du x dv, of each cell
-  int side = 0;  // the air side: Piece::air_side, or the upper side where all of it leans that way
+  int side = 0;  // the air side: FaceSides::air_side, or the upper side where all of it leans that way
   const Vec3& At(int i, int j) const { return points[static_cast<std::size_t>(i * (nv + 1) + j)]; }
 };
 
-// nullopt unless the piece leans by less than half the tolerance over its height wherever it is looked at.
+// nullopt unless the piece leans by less than half the tolerance over its height, and by kMostUprightSlope,
+// wherever it is looked at.
 std::optional<UprightGrid> GridOn(const Piece& piece, double tolerance, int nu, int nv) {
   UprightGrid grid;
   grid.nu = nu;
   grid.nv = nv;
-  grid.side = piece.air_side;
+  grid.side = piece.sides.air_side;
   double low = kInfinity, high = -kInfinity, steepest = 0.0;
   bool leans_over = true, leans_under = true;
   for (int i = 0; i <= nu; ++i) {
@@ -182,9 +184,10 @@ std::optional<UprightGrid> GridOn(const Piece& piece, double tolerance, int nu, 
         continue;
       }
       steepest = std::max(steepest, std::abs(normal->z()));
-      if (steepest * (high - low) > 0.5 * tolerance && steepest > piece.upright) return std::nullopt;
-      leans_over = leans_over && normal->z() > piece.upright;
-      leans_under = leans_under && normal->z() < -piece.upright;
+      const bool leans = steepest * (high - low) > 0.5 * tolerance || steepest > kMostUprightSlope;
+      if (leans && steepest > piece.sides.upright) return std::nullopt;
+      leans_over = leans_over && normal->z() > piece.sides.upright;
+      leans_under = leans_under && normal->z() < -piece.sides.upright;
       grid.air_side.push_back(Xy(*normal).normalized());
     }
   }

@@ -21,8 +21,7 @@ std::optional<Vec3> UnitNormal(const SurfaceJet& jet) {
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet) {
   std::optional<Vec3> normal = UnitNormal(jet);
   if (!normal) return normal;
-  const bool turn =
-      jet.air_side != 0 && std::abs(normal->z()) <= jet.upright ? jet.air_side < 0 : normal->z() < 0.0;
+  const bool turn = jet.sides.Decides(normal->z()) ? jet.sides.air_side < 0 : normal->z() < 0.0;
   if (turn) *normal = -*normal;
   return normal;
 }
@@ -30,7 +29,8 @@ std::optional<Vec3> UpwardNormal(const SurfaceJet& jet) {
 std::optional<Facing> FacingAt(const SurfaceJet& jet) {
   const std::optional<Vec3> normal = UpwardNormal(jet);
   if (!normal) return std::nullopt;
-  return Facing{*normal, HasTwoSides(jet, *normal), std::abs(normal->z()) <= jet.upright};
+  const bool upright = std::abs(normal->z()) <= jet.sides.upright;
+  return Facing{*normal, HasTwoSides(jet, *normal), upright, jet.sides.overhangs};
 }
 
 FundamentalForms Forms(const SurfaceJet& jet, const Vec3& normal) {

@@ -13,20 +13,22 @@ namespace patchmill {
 std::optional<Vec3> UnitNormal(const SurfaceJet& jet);
 
 // UnitNormal, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On a vertical face
-// (|e_z| <= SurfaceJet::upright) it points to the air side if that is known; else it may point either way.
+// (|e_z| <= FaceSides::upright) it points to the air side if that is known; else it may point either way. On a
+// face that overhangs (FaceSides::overhangs) it points to the air side everywhere, also where that is down.
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet);
 
 // The side from which a tool reaches a point of the surface.
 struct Facing {
   Vec3 e = Vec3::UnitZ();  // UpwardNormal
   bool both = false;  // a vertical face whose air side is unknown: the tool may stand on the side of -e, too
-  bool upright = false;  // the place counts as a vertical face: |e_z| <= SurfaceJet::upright
+  bool upright = false;    // the place counts as a vertical face: |e_z| <= FaceSides::upright
+  bool overhangs = false;  // the place belongs to a face that overhangs: FaceSides::overhangs
 };
 std::optional<Facing> FacingAt(const SurfaceJet& jet);
 
 // Whether the tool may stand on either side of the surface; `e` is its UpwardNormal.
 inline bool HasTwoSides(const SurfaceJet& jet, const Vec3& e) {
-  return jet.air_side == 0 && std::abs(e.z()) <= jet.upright;
+  return jet.sides.air_side == 0 && std::abs(e.z()) <= jet.sides.upright;
 }
 
 struct FundamentalForms {

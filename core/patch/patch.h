@@ -242,17 +242,36 @@ struct Patch {
 // Largest |e_z| of the unit normal of a vertical face. Neither of its sides is the upper one.
 inline constexpr double kUprightFace = 1e-6;
 
+// What is known of the two sides of a face (core/surface/air_sides.h).
+struct FaceSides {
+  // The side of a vertical or an overhanging face that is air: 1 the side of du x dv, -1 the other side, 0
+  // unknown.
+  int air_side = 0;
+  // Largest |e_z| with which a place of the face counts as vertical. It is larger than kUprightFace on a wall
+  // that leans a little (UprightOf).
+  double upright = kUprightFace;
+  // The face overhangs: `air_side` holds at every place of it, also where that side looks down, although the
+  // back of the face can be seen from above there.
+  bool overhangs = false;
+
+  // Whether `air_side` says where the tool stands, at a place whose unit normal has this z component.
+  bool Decides(double e_z) const {
+    return air_side != 0 && (overhangs || (e_z <= upright && -e_z <= upright));
+  }
+  // Whether no tool stands on a side of an area: the side looks down, or it is the back of the face. `side`: 1
+  // the side of du x dv, -1 the other. `highest`: the unit normals of that side have at most this z component.
+  bool RulesOut(double side, double highest) const {
+    if (overhangs) return side * air_side < 0.0;
+    return highest < -upright || (highest <= upright && side * air_side < 0.0);
+  }
+};
+
 // Position and derivatives with respect to the two parameters.
 struct SurfaceJet {
   Vec3 p = Vec3::Zero();
   Vec3 du = Vec3::Zero(), dv = Vec3::Zero();
   Vec3 duu = Vec3::Zero(), duv = Vec3::Zero(), dvv = Vec3::Zero();
-  // The air side of a vertical face: 1 the side of du x dv, -1 the other side, 0 unknown
-  // (core/surface/air_sides.h).
-  int air_side = 0;
-  // Largest |e_z| with which this place counts as a vertical face. It is larger than kUprightFace on a wall
-  // that leans a little (UprightOf).
-  double upright = kUprightFace;
+  FaceSides sides;  // of the face of this place
 };
 
 // Analytic evaluation in the native form of each kind. Error about 1e-15 of the patch's size. Corners of

@@ -30,7 +30,7 @@ SurfaceJet BicubicJet(const BernsteinNet& net, double u, double v) {
   internal::SumBicubic(net.points.front().data(), bu, bv, sums);
   if (!net.rational) {  // the most frequent case: avoid copies
     const auto three = [&](int k) { return Vec3(sums[k], sums[k + 1], sums[k + 2]); };
-    return {three(0), three(4), three(8), three(12), three(16), three(20)};
+    return {three(0), three(4), three(8), three(12), three(16), three(20), {}};
   }
   const auto four = [&](int k) { return Vec4(sums[k], sums[k + 1], sums[k + 2], sums[k + 3]); };
   return internal::RationalJet({four(0), four(4), four(8), four(12), four(16), four(20)});
@@ -115,8 +115,7 @@ std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape) {
 
 SurfaceJet Evaluate(const Piece& piece, double u, double v) {
   SurfaceJet jet = JetOf(piece, u, v);
-  jet.air_side = piece.air_side;
-  jet.upright = piece.upright;
+  jet.sides = piece.sides;
   return jet;
 }
 
@@ -134,8 +133,7 @@ SurfaceJet EvaluateSlopes(const Piece& piece, double u, double v) {
   jet.p = three(0);
   jet.du = three(4);
   jet.dv = three(8);
-  jet.air_side = piece.air_side;
-  jet.upright = piece.upright;
+  jet.sides = piece.sides;
   return jet;
 }
 

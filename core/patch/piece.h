@@ -53,8 +53,7 @@ struct Piece {
   // Native parameters of the piece's corners (0,0) (1,0) (0,1) (1,1). The map between them is exactly
   // bilinear.
   std::array<Vec2, 4> native;
-  int air_side = 0;               // as SurfaceJet::air_side, in the piece's own parameters
-  double upright = kUprightFace;  // as SurfaceJet::upright
+  FaceSides sides;  // in the piece's own parameters
 };
 
 // The pieces of a patch; never empty for a valid one. Pieces of a B-spline come in order of u span, then v

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
+#include "core/network/edge_contacts.h"
 #include "core/surface/highest.h"
 
 namespace patchmill {
@@ -21,6 +22,8 @@ constexpr std::size_t kMostPlaces = 2000;  // per component
 constexpr double kDecides = 0.9;           // share of the open area in plan that makes a side the air side
 constexpr double kLeastSlope = 0.02;       // e_z; steeper places say nothing of the sky
 constexpr double kColumn = 1e-6, kOver = 1e-4;  // share of the box's diagonal
+constexpr double kMostWallSlope = 0.1;  // |e_z| of walls, which overhang wherever their air side looks down
+constexpr int kMostWallPlaces = 9;      // each way: so many places of a wall are looked at
 
 // A patch that is joined by an edge. `turn` is 1 if both have the same orientation, -1 otherwise.
 struct Neighbor {
@@ -91,21 +94,48 @@ int OrientationOf(const Piece& piece) {
   return u.x() * v.y() - u.y() * v.x() < 0.0 ? -1 : 1;
 }
 
-bool HasUpright(const Piece& piece) {
-  for (const double u : kAt) {
-    for (const double v : kAt) {
-      const auto normal = UnitNormal(Evaluate(piece, u, v));
-      if (normal && std::abs(normal->z()) <= piece.upright) return true;
-    }
+// Which way the places of a piece look.
+struct Looks {
+  bool upright = false;              // somewhere
+  bool over = false, under = false;  // somewhere the side of du x dv of the patch looks up, or down
+  bool wall = true;                  // nowhere more than kMostWallSlope from vertical
+  void Add(double e_z, double most_upright) {
+    upright = upright || std::abs(e_z) <= most_upright;
+    over = over || e_z > most_upright;
+    under = under || e_z < -most_upright;
+    wall = wall && std::abs(e_z) <= kMostWallSlope;
   }
-  return false;
+  void Add(const Looks& other, int orientation) {
+    upright = upright || other.upright;
+    over = over || (orientation > 0 ? other.over : other.under);
+    under = under || (orientation > 0 ? other.under : other.over);
+  }
+};
+
+Looks LooksOf(const Piece& piece) {
+  Looks looks;
+  const int orientation = OrientationOf(piece);
+  const auto add = [&](double u, double v) {
+    const auto normal = UnitNormal(Evaluate(piece, u, v));
+    if (normal) looks.Add(orientation * normal->z(), piece.sides.upright);
+  };
+  for (const double u : kAt) {
+    for (const double v : kAt) add(u, v);
+  }
+  if (!looks.wall) return looks;
+  // Walls of files often wave by a micrometre or so: as often as their degree lets them.
+  const auto places = [](int degree) { return std::min(2 * degree + 1, kMostWallPlaces); };
+  const int nu = places(piece.net.degree_u), nv = places(piece.net.degree_v);
+  for (int i = 0; i < nu; ++i) {
+    for (int j = 0; j < nv; ++j) add((i + 0.5) / nu, (j + 0.5) / nv);
+  }
+  return looks;
 }
 
 // Files round coordinates: a wall whose coordinates have four decimals leans by some 1e-4 mm, which says
-// nothing about its sides. A piece that leans by no more than kMostLean over its height, and by no more than
-// kMostLeanShare of its height, counts as a vertical face all over.
-constexpr double kMostLean = 5e-3;  // mm, half of the default tolerance
-constexpr double kMostLeanShare = 0.01;
+// nothing about its sides. A piece that leans by no more than kMostLean over its height, and nowhere by more
+// than kMostUprightSlope, counts as a vertical face all over.
+constexpr double kMostLean = 5e-3;   // mm, half of the default tolerance
 constexpr double kLeanMargin = 1.5;  // factor: between the sampled places a wall may lean a little more
 
 bool IsOpenToTheSky(const Surface& surface, const Vec3& p) {
@@ -149,30 +179,104 @@ class SideFinder {
   SideFinder(const Surface& surface, const RunContext& run)
       : surface_(surface), run_(run), neighbors_(FindNeighbors(surface.network)) {}
 
-  absl::StatusOr<AirSides> Run(const std::vector<char>& upright) {
-    AirSides sides;
-    sides.of_patch.assign(upright.size(), 0);
-    pieces_of_.resize(upright.size());
-    for (std::size_t i = 0; i < surface_.pieces.size(); ++i)
-      pieces_of_[surface_.pieces[i].patch.index()].push_back(i);
-    for (const Component& component : FindComponents(neighbors_, orientation_)) {
-      const bool any = std::any_of(component.patches.begin(), component.patches.end(),
-                                   [&](std::size_t patch) { return upright[patch] != 0; });
-      if (!any) continue;
-      PM_RETURN_IF_ERROR(run_.Check());
-      const int side = component.one_sided ? 0 : SideOf(component);
-      for (const std::size_t patch : component.patches) {
-        if (upright[patch] == 0) continue;
-        const int own = side != 0 ? side * orientation_[patch] : SideByNeighbors(patch);
-        sides.of_patch[patch] = own;
-        if (own == 0) sides.undecided.push_back(PatchId(patch));
-      }
+  // `looks`, index: piece.
+  absl::StatusOr<AirSides> Run(const std::vector<Looks>& looks) {
+    const std::size_t patches = surface_.network.model.patches.size();
+    pieces_of_.resize(patches);
+    std::vector<Looks> of_patch(patches);
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      const std::size_t patch = surface_.pieces[i].patch.index();
+      pieces_of_[patch].push_back(i);
+      of_patch[patch].Add(looks[i], 1);
     }
-    std::sort(sides.undecided.begin(), sides.undecided.end());
+    PM_ASSIGN_OR_RETURN(Decided decided, Decide(of_patch));
+    if (!decided.undecided.empty() && AddContacts()) {
+      PM_ASSIGN_OR_RETURN(Decided loosely, Decide(of_patch));
+      decided = Merged(std::move(decided), loosely);
+    }
+    AirSides sides{std::move(decided.of_upright), {}, std::move(decided.undecided)};
+    sides.overhangs.assign(looks.size(), 0);
+    PM_RETURN_IF_ERROR(ParallelFor(run_, nullptr, looks.size(), [&](std::size_t i) {
+      const Piece& piece = surface_.pieces[i];
+      sides.overhangs[i] = Overhangs(piece, looks[i], decided.of_component[piece.patch.index()]) ? 1 : 0;
+    }));
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      const std::size_t patch = surface_.pieces[i].patch.index();
+      if (sides.overhangs[i] != 0) sides.of_patch[patch] = decided.of_component[patch];
+    }
     return sides;
   }
 
  private:
+  // Air sides in the patches' own parameters: 1, -1, or 0 if unknown.
+  struct Decided {
+    std::vector<int> of_upright;     // index: patch. Of patches with vertical faces
+    std::vector<int> of_component;   // index: patch. Of all patches of components that have an air side
+    std::vector<PatchId> undecided;  // with vertical faces, ascending
+  };
+
+  // `of_patch`, index: patch.
+  absl::StatusOr<Decided> Decide(const std::vector<Looks>& of_patch) {
+    Decided decided{std::vector<int>(of_patch.size(), 0), std::vector<int>(of_patch.size(), 0), {}};
+    for (const Component& component : FindComponents(neighbors_, orientation_)) {
+      Looks all;
+      for (const std::size_t patch : component.patches) all.Add(of_patch[patch], orientation_[patch]);
+      if (!all.upright && !(all.over && all.under)) continue;
+      PM_RETURN_IF_ERROR(run_.Check());
+      const int side = component.one_sided ? 0 : SideOf(component);
+      for (const std::size_t patch : component.patches) {
+        decided.of_component[patch] = side * orientation_[patch];
+        if (!of_patch[patch].upright) continue;
+        const int own = side != 0 ? decided.of_component[patch] : SideByNeighbors(patch);
+        decided.of_upright[patch] = own;
+        if (own == 0) decided.undecided.push_back(PatchId(patch));
+      }
+    }
+    std::sort(decided.undecided.begin(), decided.undecided.end());
+    return decided;
+  }
+
+  // Edges that overlap in part, or with a gap, join patches too. Returns whether there are any.
+  bool AddContacts() {
+    PatchModel model;  // the surface keeps the control points of its patches in the pieces
+    for (std::size_t i = 0; i < neighbors_.size(); ++i)
+      model.patches.push_back({surface_.network.model.patches[i].id, ShapeOf(surface_, PatchId(i))});
+    const std::vector<EdgeContact> contacts = FindEdgeContacts(model, surface_.network, run_);
+    for (const EdgeContact& contact : contacts) {
+      const int turn = TurnOf(contact.self, contact.other, contact.reversed);
+      neighbors_[contact.self.patch.index()].push_back({contact.other.patch.index(), turn});
+      neighbors_[contact.other.patch.index()].push_back({contact.self.patch.index(), turn});
+    }
+    return !contacts.empty();
+  }
+
+  // Takes from `other` what `first` did not decide.
+  static Decided Merged(Decided first, const Decided& other) {
+    for (const PatchId patch : first.undecided)
+      first.of_upright[patch.index()] = other.of_upright[patch.index()];
+    for (std::size_t i = 0; i < first.of_component.size(); ++i) {
+      if (first.of_component[i] == 0) first.of_component[i] = other.of_component[i];
+    }
+    std::erase_if(first.undecided, [&](PatchId patch) { return first.of_upright[patch.index()] != 0; });
+    return first;
+  }
+
+  // `air_side`: of the patch in its own parameters, 0 if unknown.
+  bool Overhangs(const Piece& piece, const Looks& looks, int air_side) const {
+    if (air_side == 0 || !(air_side > 0 ? looks.under : looks.over)) return false;
+    if (looks.wall) return true;
+    if (surface_.network.open_edge_count == 0) return false;  // no back of a closed body is open to the sky
+    const int back = -air_side * OrientationOf(piece);
+    for (const double u : kAt) {
+      for (const double v : kAt) {
+        const SurfaceJet jet = Evaluate(piece, u, v);
+        const auto normal = UnitNormal(jet);
+        if (normal && back * normal->z() >= kLeastSlope && IsOpenToTheSky(surface_, jet.p)) return true;
+      }
+    }
+    return false;
+  }
+
   OpenArea OpenOf(std::size_t patch) const {
     OpenArea open;
     for (const std::size_t piece : pieces_of_[patch])
@@ -204,7 +308,7 @@ class SideFinder {
 
   const Surface& surface_;
   const RunContext& run_;
-  const Neighbors neighbors_;
+  Neighbors neighbors_;
   std::vector<int> orientation_;
   std::vector<std::vector<std::size_t>> pieces_of_;
 };
@@ -212,19 +316,10 @@ class SideFinder {
 }  // namespace
 
 absl::StatusOr<AirSides> FindAirSides(const Surface& surface, const RunContext& run) {
-  std::vector<char> piece_upright(surface.pieces.size(), 0);
-  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, surface.pieces.size(), [&](std::size_t i) {
-    piece_upright[i] = HasUpright(surface.pieces[i]) ? 1 : 0;
-  }));
-  std::vector<char> upright(surface.network.model.patches.size(), 0);
-  bool any = false;
-  for (std::size_t i = 0; i < piece_upright.size(); ++i) {
-    if (piece_upright[i] == 0) continue;
-    upright[surface.pieces[i].patch.index()] = 1;
-    any = true;
-  }
-  if (!any) return AirSides{std::vector<int>(upright.size(), 0), {}};
-  return SideFinder(surface, run).Run(upright);
+  std::vector<Looks> looks(surface.pieces.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, surface.pieces.size(),
+                                 [&](std::size_t i) { looks[i] = LooksOf(surface.pieces[i]); }));
+  return SideFinder(surface, run).Run(looks);
 }
 
 double UprightOf(const Piece& piece) {
@@ -238,14 +333,17 @@ double UprightOf(const Piece& piece) {
       high = std::max(high, jet.p.z());
       const auto normal = UnitNormal(jet);
       if (normal) steepest = std::max(steepest, std::abs(normal->z()));
-      if (steepest > kMostLeanShare || steepest * (high - low) > kMostLean) return kUprightFace;
+      if (steepest > kMostUprightSlope || steepest * (high - low) > kMostLean) return kUprightFace;
     }
   }
   return std::max(kUprightFace, kLeanMargin * steepest);
 }
 
 void SetAirSides(const AirSides& sides, std::vector<Piece>& pieces) {
-  for (Piece& piece : pieces) piece.air_side = sides.of_patch[piece.patch.index()] * OrientationOf(piece);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    pieces[i].sides.air_side = sides.of_patch[pieces[i].patch.index()] * OrientationOf(pieces[i]);
+    pieces[i].sides.overhangs = sides.overhangs[i] != 0;
+  }
 }
 
 }  // namespace patchmill

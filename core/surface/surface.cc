@@ -283,7 +283,7 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
   surface.box = surface.nodes.front().box;
   surface.scale = std::max(surface.box.min.cwiseAbs().maxCoeff(), surface.box.max.cwiseAbs().maxCoeff());
   PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, surface.pieces.size(), [&](std::size_t i) {
-    surface.pieces[i].upright = UprightOf(surface.pieces[i]);
+    surface.pieces[i].sides.upright = UprightOf(surface.pieces[i]);
   }));
   PM_ASSIGN_OR_RETURN(AirSides sides, FindAirSides(surface, run));
   SetAirSides(sides, surface.pieces);

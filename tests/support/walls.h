@@ -26,6 +26,25 @@ inline PatchModel OpenBox(double x, double y, double z) {
   return Join({Level(-x, -y, x, y, 0), Walls(x, y, 0, z)});
 }
 
+// The open box with walls of degree 7 upwards. Their control points go in and out by `shift` (mm) by turns, and
+// the walls wave by a third of that.
+inline PatchModel WavingBox(double x, double y, double z, double shift) {
+  PatchModel model = Level(-x, -y, x, y, 0);
+  const Vec2 corners[] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}, {-x, -y}};
+  constexpr int kDegree = 7;
+  for (int wall = 0; wall < 4; ++wall) {
+    BezierPatch patch{1, kDegree, {}, {}};
+    for (const Vec2& corner : {corners[wall], corners[wall + 1]}) {
+      for (int j = 0; j <= kDegree; ++j) {
+        const double out = j == 0 || j == kDegree ? 0.0 : j % 2 == 0 ? shift : -shift;
+        patch.points.push_back(Lift(Vec2(corner.array() + out * corner.array().sign()), z * j / kDegree));
+      }
+    }
+    model = Join({std::move(model), Single(std::move(patch))});
+  }
+  return model;
+}
+
 // Closed all around.
 inline PatchModel ClosedBlock(double x, double y, double z) {
   return Join({Level(-x, -y, x, y, z), Level(-x, -y, x, y, 0), Walls(x, y, 0, z)});

@@ -186,7 +186,8 @@ class PieceSampler {
     node.p = jet.p;
     const std::optional<Vec3> n = UpwardNormal(jet);
     if (!n) return node;
-    node.slope = std::atan2(std::hypot(n->x(), n->y()), n->z());
+    // Where a wall overhangs a little, it is as steep as an upright one.
+    node.slope = std::atan2(std::hypot(n->x(), n->y()), std::max(n->z(), 0.0));
     const double radius = context_.locator.radius();
     node.normal = *n;
     node.turn = n->dot(jet.du.cross(jet.dv)) < 0.0 ? -1.0 : 1.0;

@@ -145,7 +145,7 @@ class Clipper {
   // unit vector from the contact `at` to the ball's axis. False if the air side is unknown.
   bool BehindWall(const SurfacePoint& at, const Vec3& e) const {
     const std::optional<Facing> facing = FacingAt(Evaluate(surface_, at.piece, at.u, at.v));
-    return facing && !facing->both && facing->upright && facing->e.dot(e) < 0.0;
+    return facing && !facing->both && (facing->upright || facing->overhangs) && facing->e.dot(e) < 0.0;
   }
 
   // True if the edge rule lets a pass touch the surface at `at` with a ball in the direction `e` (as for

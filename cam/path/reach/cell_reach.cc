@@ -29,8 +29,7 @@ std::optional<RectPlaces> PlacesOn(const Surface& surface, const SurfaceRect& re
     const SurfaceJet jet = Evaluate(surface, rect.piece, uv[k].x(), uv[k].y());
     const auto normal = UnitNormal(jet);
     at.p[k] = jet.p;
-    at.air_side = jet.air_side;
-    at.upright = jet.upright;
+    at.sides = jet.sides;
     at.n[k] = normal ? *normal : UpwardNormalNear(surface, {rect.piece, uv[k].x(), uv[k].y(), jet.p});
     if (!normal && at.n[k].dot(at.n[8]) < 0.0) at.n[k] = -at.n[k];
     if ((at.n[k] - at.n[8]).norm() > kMostTurn) return std::nullopt;
@@ -68,10 +67,10 @@ bool OutOfReach(const Surface& surface, const RectPlaces& at, const CellReachPar
       lowest_normal = std::min(lowest_normal, sign * at.n[k].z());
       highest_center = std::max(highest_center, c[k].z());
     }
-    // The side looks down, or does so but for a strip of this share of the diameter.
-    const double up = highest_normal + turn + at.upright;
-    if (up < 0.0 || up * at.size < params.narrow * (highest_normal - lowest_normal)) continue;
-    if (up <= 2.0 * at.upright && sign * at.air_side < 0.0) continue;  // the back of a wall
+    if (at.sides.RulesOut(sign, highest_normal + turn)) continue;
+    // The side looks down but for a strip of this share of the diameter.
+    const double up = highest_normal + turn + at.sides.upright;
+    if (!at.sides.overhangs && up * at.size < params.narrow * (highest_normal - lowest_normal)) continue;
     const double bend = BendOver(c);
     if (TooBent(c, at.size)) return false;
     if (highest_center + bend < params.floor_z - params.reach_tolerance) continue;

@@ -23,8 +23,7 @@ std::array<Vec2, 9> NineParameters(const SurfaceRect& rect);
 struct RectPlaces {
   std::array<Vec3, 9> p, n;
   double size = 0.0;  // mm, diameter of the rectangle
-  int air_side = 0;   // on a vertical face: 1 the side of n, -1 the other side, 0 unknown (SurfaceJet)
-  double upright = kUprightFace;  // SurfaceJet::upright
+  FaceSides sides;    // of the face; `air_side` 1 is the side of n
 };
 // `size` is that of the rectangle, or an upper bound. Returns nullopt where the normals turn by more than 0.7
 // rad, or have no direction.

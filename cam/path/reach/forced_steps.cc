@@ -79,9 +79,7 @@ bool NeedsShorterSteps(const ForcedSteps& forced, const Surface& surface, const 
       step[k] = Vec3(NeededStep(forced, jets[k], n, ball), 0.0, 0.0);
       most = std::max(most, step[k].x());
     }
-    if (highest_normal + turn < -jets.back().upright) continue;  // the side looks down
-    // This side is the back of a wall.
-    if (highest_normal + turn <= jets.back().upright && sign * jets.back().air_side < 0.0) continue;
+    if (jets.back().sides.RulesOut(sign, highest_normal + turn)) continue;
     if (most + BendOver(step) >= fraction) return false;
   }
   return true;

@@ -223,8 +223,7 @@ SidesRuledOut SpotFinder::ForbiddenSides(const RectPlaces& places) const {
     }
     const double bend = BendOver(c);
     ruled_out[side] =
-        highest_normal + turn < -places.upright ||
-        (highest_normal + turn <= places.upright && sign * places.air_side < 0.0) ||
+        places.sides.RulesOut(sign, highest_normal + turn) ||
         params_.operation_limits->TooHigh(lowest_center - bend) ||
         params_.operation_limits->Forbids(c[8], spread + bend, highest_center - c[8].z() + bend);
   }

@@ -87,8 +87,8 @@ PatchModel Leaning(PatchModel box, double out) {
   for (Patch& patch : box.patches) {
     for (Vec3& p : std::get<BezierPatch>(patch.shape).points) {
       if (p.z() < kZ) continue;
-      p.x() += std::copysign(out, p.x());
-      p.y() += std::copysign(out, p.y());
+      p.x() += out * std::copysign(1.0, p.x());
+      p.y() += out * std::copysign(1.0, p.y());
     }
   }
   return box;
@@ -103,6 +103,33 @@ TEST(Sides, AWallThatFilesRoundIsAWall) {
     EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0);
     EXPECT_EQ(AreaFor(result, UnreachableReason::kUndercut), 0.0);
     EXPECT_NEAR(result.report.verify.reachable_area, kReached, 0.01 * kReached);
+  }
+}
+
+// Walls that lean in are undercuts from inside. Their backs look up, but they are material.
+TEST(Sides, AWallThatLeansInIsAnUndercut) {
+  for (const double in : {0.02, 0.2, 0.5}) {
+    SCOPED_TRACE(in);
+    const JobResult result = Mill(PlacedSurface(Leaning(OpenBox(kX, kY, kZ), -in)), BoxJob());
+    ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+    EXPECT_GE(LowestTipBeyond(result.program, kX - in, kY - in, 0.01), kZ - 0.02);
+    // The reach tolerance lets the ball stand under the rim by half the tolerance, and finish so much of the
+    // walls.
+    const double rims = 4.0 * (kX + kY), walls = rims * kZ * std::min(1.0, 0.5 * 0.02 / in);
+    const double floor = 4.0 * (kX - in - kBall) * (kY - in - kBall);
+    EXPECT_GE(result.report.verify.reachable_area, floor);
+    EXPECT_LE(result.report.verify.reachable_area, floor + 0.05 * rims + 1.2 * walls);
+  }
+}
+
+// Splines through measured points wave. The walls are finished as upright ones are.
+TEST(Sides, AWallThatWavesIsAWall) {
+  for (const double shift : {4e-3, 0.012}) {
+    SCOPED_TRACE(shift);
+    const JobResult result = Mill(PlacedSurface(WavingBox(kX, kY, kZ, shift)), BoxJob());
+    ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+    EXPECT_GE(LowestTipBeyond(result.program, kX, kY, 0.02), kZ - 0.02);
+    EXPECT_NEAR(result.report.verify.reachable_area, kReached, 0.02 * kReached);
   }
 }
 
@@ -227,24 +254,42 @@ TEST(Outside, ABossOnAPlateKeepsItsFinish) {
   EXPECT_EQ(plain.program, Mill(surface, job).program);
 }
 
+// A core of half size `wide` at its top and `foot` at z = 0, with sides in so many rows of patches.
+PatchModel DraftedCore(double wide, double foot, double high, int rows) {
+  PatchModel model = Level(-wide, -wide, wide, wide, high);
+  for (int row = 0; row < rows; ++row) {
+    const auto corner = [&](int i, int level) {
+      const double share = static_cast<double>(level) / rows, r = foot + share * (wide - foot);
+      const double x[] = {-r, r, r, -r}, y[] = {-r, -r, r, r};
+      return Vec3(x[i % 4], y[i % 4], share * high);
+    };
+    for (int k = 0; k < 4; ++k) {
+      model = Join({std::move(model), Single(Bilinear(corner(k, row), corner(k + 1, row), corner(k, row + 1),
+                                                      corner(k + 1, row + 1)))});
+    }
+  }
+  return model;
+}
+
 // A drafted core leans. The tool goes down beside it, and a finding says so.
 TEST(Outside, ADraftedCoreKeepsItsFinishAndSaysHowDeep) {
   const double draft = Radians(5.0), wide = 10.0, high = 10.0, foot = wide + high * std::tan(draft);
-  const auto side = [&](int k) {
-    const auto corner = [&](int i, double r, double z) {
-      const double x[] = {-r, r, r, -r}, y[] = {-r, -r, r, r};
-      return Vec3(x[i % 4], y[i % 4], z);
-    };
-    return Single(Bilinear(corner(k, foot, 0), corner(k + 1, foot, 0), corner(k, wide, high),
-                           corner(k + 1, wide, high)));
-  };
-  const Surface surface =
-      PlacedSurface(Join({Level(-wide, -wide, wide, wide, high), side(0), side(1), side(2), side(3)}));
-  const JobResult result = Mill(surface, BoxJob());
+  const JobResult result = Mill(PlacedSurface(DraftedCore(wide, foot, high, 1)), BoxJob());
   ASSERT_FALSE(result.program.empty()) << Describe(result);
   EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0);
   EXPECT_TRUE(Warns(result, "TOOL_BESIDE_PART"));
   EXPECT_LT(LowestTipBeyond(result.program, foot, foot, 0.1), 0.1);
+}
+
+// Rows of patches that lean by less than the tolerance each are no upright wall.
+TEST(Outside, ADraftedCoreOfManyRowsKeepsItsFinish) {
+  const double wide = 10.0, high = 10.0, foot = wide + high * std::tan(Radians(0.25));
+  for (const int rows : {1, 40}) {
+    const JobResult result = Mill(PlacedSurface(DraftedCore(wide, foot, high, rows)), BoxJob());
+    ASSERT_FALSE(result.program.empty()) << Describe(result);
+    EXPECT_EQ(AreaFor(result, UnreachableReason::kOutside), 0.0) << rows;
+    EXPECT_LT(LowestTipBeyond(result.program, foot, foot, 0.1), 0.1) << rows;
+  }
 }
 
 TEST(Outside, ADomeKeepsItsFinish) {
@@ -370,6 +415,27 @@ TEST(BesideStrips, AreMaterialInsideAChannel) {
         EXPECT_FALSE(Covers(strips, r * way)) << r << " " << k;
     }
   }
+}
+
+// Only walls are wanted, and they stand outside: the message says what lets them be milled.
+TEST(Sides, NothingButWallsOutsideSaysWhatToDo) {
+  Job job = BoxJob();
+  job.operation.selection.avoid = {"#0"};  // the top
+  const JobResult result = Mill(PlacedSurface(ClosedBlock(kX, kY, kZ)), job);
+  ASSERT_EQ(result.report.outcome, Outcome::kNothingToCut) << Describe(result);
+  for (const Diagnostic& d : result.report.diagnostics) {
+    if (d.code != "NOTHING_TO_CUT") continue;
+    EXPECT_NE(d.message.find("--outside"), std::string::npos) << d.message;
+    EXPECT_NE(d.message.find("OUTSIDE"), std::string::npos) << d.message;
+  }
+}
+
+// A block that widens upwards is an undercut outside. The ball that rolls over its rim goes below the top.
+TEST(Sides, TheToolBesideARimIsTold) {
+  const JobResult result = Mill(PlacedSurface(Leaning(ClosedBlock(kX, kY, kZ), 0.1)), BoxJob());
+  ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+  const double lowest = LowestTipBeyond(result.program, kX + 0.1, kY + 0.1, 0.1 * kBall);
+  EXPECT_EQ(Warns(result, "TOOL_BESIDE_PART"), lowest < kZ - 0.1 * kBall) << lowest;
 }
 
 }  // namespace

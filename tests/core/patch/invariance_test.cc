@@ -49,7 +49,7 @@ TEST(Invariance, RotationAndTranslation) {
     for (int k = 0; k < 50; ++k) {
       const double u = random.Unit(), v = IsTriangle(shape) ? random.Uniform(0, 1 - u) : random.Unit();
       SurfaceJet s = Evaluate(shape, u, v);
-      s = {motion * s.p, turn * s.du, turn * s.dv, turn * s.duu, turn * s.duv, turn * s.dvv};
+      s = {motion * s.p, turn * s.du, turn * s.dv, turn * s.duu, turn * s.duv, turn * s.dvv, {}};
       ExpectSameJet(Evaluate(moved, u, v), s, 1e-12);
     }
   }
@@ -79,7 +79,7 @@ TEST(Invariance, AffineMapsAreReproduced) {
     Random random(2);
     for (int k = 0; k < 50; ++k) {
       const double u = random.Unit(), v = IsTriangle(shape) ? random.Uniform(0, 1 - u) : random.Unit();
-      ExpectSameJet(Evaluate(shape, u, v), {linear(u, v), a, b, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()},
+      ExpectSameJet(Evaluate(shape, u, v), {linear(u, v), a, b, Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), {}},
                     1e-12);
     }
   };
@@ -156,7 +156,7 @@ TEST(Invariance, TransposedAndReversedBezier) {
     for (int k = 0; k < 100; ++k) {
       const double u = random.Unit(), v = random.Unit();
       const SurfaceJet s = Evaluate(PatchShape(a), 1 - v, u);
-      ExpectSameJet(Evaluate(PatchShape(t), u, v), {s.p, s.dv, -s.du, s.dvv, -s.duv, s.duu}, 1e-12);
+      ExpectSameJet(Evaluate(PatchShape(t), u, v), {s.p, s.dv, -s.du, s.dvv, -s.duv, s.duu, {}}, 1e-12);
     }
   }
 }

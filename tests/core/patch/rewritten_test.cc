@@ -135,7 +135,7 @@ TEST_P(EveryKindOfPatch, RigidMotionsLeaveCurvatures) {
     const Vec2 q = NativeParameters(piece, u, v);
     SurfaceJet s = Evaluate(GetParam().shape, q.x(), q.y());
     const Eigen::Matrix3d turn = motion.linear();
-    s = {motion * s.p, turn * s.du, turn * s.dv, turn * s.duu, turn * s.duv, turn * s.dvv};
+    s = {motion * s.p, turn * s.du, turn * s.dv, turn * s.duu, turn * s.duv, turn * s.dvv, {}};
     ExpectSameShape(s, Evaluate(moved, q.x(), q.y()));
   });
 }

@@ -45,6 +45,59 @@ TEST(AirSides, WallsOfAClosedBlockLookOut) {
       1.0);
 }
 
+// The walls of a box that leans in look up from behind, those of a block that widens upwards from inside.
+TEST(AirSides, WallsThatOverhangHaveTheSideOfWhatTheyAreJoinedTo) {
+  for (const double lean : {1e-5, 1e-3, 0.02, 0.3, 1.0}) {
+    for (const bool block : {false, true}) {
+      SCOPED_TRACE(std::to_string(lean) + (block ? " block" : " box"));
+      PatchModel model = block ? ClosedBlock(30, 20, 25) : OpenBox(30, 20, 25);
+      const double out = block ? lean : -lean;
+      for (Patch& patch : model.patches) {
+        for (Vec3& p : std::get<BezierPatch>(patch.shape).points) {
+          if (p.z() < 12.0) continue;
+          p.x() += out * std::copysign(1.0, p.x());
+          p.y() += out * std::copysign(1.0, p.y());
+        }
+      }
+      const Surface surface = JoinedSurface(model);
+      EXPECT_TRUE(surface.two_sided_walls.empty());
+      for (std::size_t wall = block ? 2 : 1; wall < surface.first_piece.size(); ++wall) {
+        const Vec3 p = Evaluate(surface.piece(surface.first_piece[wall]), 0.5, 0.5).p;
+        const auto air = AirOf(surface, wall);
+        ASSERT_TRUE(air);
+        EXPECT_EQ(air->dot(p - Vec3(0, 0, p.z())) > 0.0, block) << wall;
+        EXPECT_LT(air->z(), 0.0) << wall;
+      }
+    }
+  }
+}
+
+TEST(AirSides, AWallThatWavesHasOneSide) {
+  for (const double shift : {1e-5, 1e-3, 0.05}) {
+    const Surface surface = JoinedSurface(WavingBox(30, 20, 25, shift));
+    for (std::size_t wall = 1; wall < 5; ++wall) {
+      const Piece& piece = surface.piece(surface.first_piece[wall]);
+      for (int k = 0; k <= 50; ++k) {
+        const SurfaceJet jet = Evaluate(piece, 0.5, k / 50.0);
+        const auto facing = FacingAt(jet);
+        ASSERT_TRUE(facing && !facing->both);
+        EXPECT_LT(facing->e.dot(jet.p - Vec3(0, 0, jet.p.z())), 0.0) << shift << " " << wall << " " << k;
+      }
+    }
+  }
+}
+
+// A bottle open at its neck: its shoulders decide. Its inner floor can be seen through the neck, from behind.
+TEST(AirSides, TheInsideOfABottleIsItsBack) {
+  const Surface surface = JoinedSurface(Join(
+      {Level(-8, -5, 8, 5, 0), Level(-30, -20, -8, 20, 0), Level(8, -20, 30, 20, 0), Level(-8, -20, 8, -5, 0),
+       Level(-8, 5, 8, 20, 0), Walls(30, 20, 0, 25), Level(-30, -20, -4, 20, 25), Level(4, -20, 30, 20, 25),
+       Level(-4, -20, 4, -4, 25), Level(-4, 4, 4, 20, 25)}));
+  const auto air = AirOf(surface, 0);
+  ASSERT_TRUE(air);
+  EXPECT_LT(air->z(), 0.0);
+}
+
 // Two steps: each wall between a lower and a higher level looks to the lower one.
 TEST(AirSides, AWallBetweenTwoLevelsLooksToTheLowerOne) {
   const Surface surface =
@@ -65,6 +118,28 @@ TEST(AirSides, AWallOnTwoFloorsHasTheirSide) {
   const auto air = AirOf(surface, 2);
   ASSERT_TRUE(air);
   EXPECT_LT((*air - Vec3(0, -1, 0)).norm(), 1e-9);
+}
+
+// The edges overlap in part: neither lies all along the other.
+TEST(AirSides, AWallAlongPartOfAFloorHasItsSide) {
+  for (const bool turned : {false, true}) {
+    const Surface surface =
+        JoinedSurface(Join({Level(-20, 0, 20, 10, 0), Wall({-25, 10}, {15, 10}, 0, 8, turned)}));
+    const auto air = AirOf(surface, 1);
+    ASSERT_TRUE(air);
+    EXPECT_LT((*air - Vec3(0, -1, 0)).norm(), 1e-9);
+    EXPECT_TRUE(surface.two_sided_walls.empty());
+  }
+}
+
+// A gap of some join tolerances decides, a wider one does not.
+TEST(AirSides, AWallBesideASmallGapHasTheSideOfTheFloor) {
+  const double tolerance = JoinedSurface(Level(-20, 0, 20, 10, 0)).network.join_tolerance;
+  for (const double gap : {3.0, 30.0}) {
+    const double y = 10.0 + gap * tolerance;
+    const Surface surface = JoinedSurface(Join({Level(-20, 0, 20, 10, 0), Wall({-20, y}, {20, y}, 0, 8)}));
+    EXPECT_EQ(AirOf(surface, 1).has_value(), gap < 10.0) << gap;
+  }
 }
 
 TEST(AirSides, AWallAloneHasTwo) {
@@ -109,7 +184,7 @@ TEST(AirSides, SilhouettesAreNoWalls) {
        {Sphere({0, 0, 0}, 10), Torus({0, 0, 0}, 20, 5), Cylinder({0, 0, 0}, 5, 20)}) {
     const Surface surface = JoinedSurface(model);
     EXPECT_TRUE(surface.two_sided_walls.empty());
-    for (const Piece& piece : surface.pieces) EXPECT_EQ(piece.air_side, 0);
+    for (const Piece& piece : surface.pieces) EXPECT_EQ(piece.sides.air_side, 0);
   }
 }
 
