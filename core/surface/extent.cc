@@ -9,6 +9,8 @@
 namespace patchmill {
 namespace {
 
+constexpr double kPlaceRounding = 1e-13;  // of the coordinates: a place may lie so far beyond its piece's bound
+
 // A sub-rectangle of a piece with a lower bound of sign * coordinate.
 struct Candidate {
   double bound;
@@ -40,15 +42,16 @@ SurfacePoint Extreme(const Surface& surface, int axis, double sign, double toler
       answer = {id, u, v, p};
     }
   };
+  std::vector<double> bounds;
+  for (const Piece& piece : surface.pieces) bounds.push_back(LowerBound(piece.net, axis, sign));
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
-    const PieceId id(i);
+    if (!(bounds[i] < best + kPlaceRounding * surface.scale)) continue;  // no place of the piece is better
     for (const double u : {0.0, 0.5, 1.0}) {
-      for (const double v : {0.0, 0.5, 1.0}) consider(id, u, v);
+      for (const double v : {0.0, 0.5, 1.0}) consider(PieceId(i), u, v);
     }
   }
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
-    const double bound = LowerBound(surface.pieces[i].net, axis, sign);
-    if (bound < best - tolerance) queue.push({bound, PieceId(i), 0, 1, 0, 1, surface.pieces[i].net});
+    if (bounds[i] < best - tolerance) queue.push({bounds[i], PieceId(i), 0, 1, 0, 1, surface.pieces[i].net});
   }
   while (!queue.empty() && queue.top().bound < best - tolerance) {
     const Candidate c = queue.top();
