@@ -10,7 +10,7 @@
 namespace patchmill {
 namespace {
 
-constexpr double kBeside = 0.1, kProof = 0.01;  // of the ball's radius
+constexpr double kBeside = 0.1, kLeastDepth = 0.5, kProof = 0.01;  // of the ball's radius
 
 }  // namespace
 
@@ -20,7 +20,7 @@ absl::StatusOr<std::optional<BesideDepth>> DeepestBeside(const Surface& surface,
   std::vector<Vec3> tips;
   for (const Move& move : toolpath.moves) {
     const Vec3 tip = move.to - Vec3(0.0, 0.0, radius);
-    if (tip.z() < top_z - kBeside * radius) tips.push_back(tip);
+    if (tip.z() < top_z - kLeastDepth * radius) tips.push_back(tip);
   }
   std::stable_sort(tips.begin(), tips.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
   for (const Vec3& tip : tips) {

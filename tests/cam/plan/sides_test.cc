@@ -435,7 +435,7 @@ TEST(Sides, TheToolBesideARimIsTold) {
   const JobResult result = Mill(PlacedSurface(Leaning(ClosedBlock(kX, kY, kZ), 0.1)), BoxJob());
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
   const double lowest = LowestTipBeyond(result.program, kX + 0.1, kY + 0.1, 0.1 * kBall);
-  EXPECT_EQ(Warns(result, "TOOL_BESIDE_PART"), lowest < kZ - 0.1 * kBall) << lowest;
+  EXPECT_EQ(Warns(result, "TOOL_BESIDE_PART"), lowest < kZ - 0.5 * kBall) << lowest;
 }
 
 }  // namespace
