@@ -238,6 +238,7 @@ class SideFinder {
 
   // Edges that overlap in part, or with a gap, join patches too. Returns whether there are any.
   bool AddContacts() {
+    if (surface_.network.edges.empty()) return false;  // a network without links, of which nothing is joined
     PatchModel model;  // the surface keeps the control points of its patches in the pieces
     for (std::size_t i = 0; i < neighbors_.size(); ++i)
       model.patches.push_back({surface_.network.model.patches[i].id, ShapeOf(surface_, PatchId(i))});
