@@ -115,7 +115,8 @@ class Locator {
   bool GougeWithin(const Vec3& a, const Vec3& b, double limit, double eps) const;
 
   // Checks a centre c that was found without this class, along a contour. nullopt if c is proven free to
-  // `gap` (CertifiedFree) and to 1e-9 mm, the accuracy of such centres. Otherwise returns the certified
+  // `gap` (CertifiedFree) and to 1e-9 mm, the accuracy of such centres, or if the ball and its upward sweep
+  // are proven to gouge by at most `gap` (GougeWithin). Otherwise returns the certified
   // height over c_xy, which is above c_z, and counts a defect.
   std::optional<CertifiedCenter> Correction(const Vec3& c, double gap,
                                             const SurfacePoint* hint = nullptr) const;

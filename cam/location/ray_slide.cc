@@ -12,6 +12,23 @@ constexpr int kMaxHalvings = 12;
 constexpr double kDescent = 1e-4;  // share of the promised decrease that a step must reach
 constexpr double kUnseen = 1e-13;  // share of f; rounding hides a smaller decrease, and the step is taken
 
+// Whether the place lies on that side of its piece (-1: none). A shortened step ends before the side that it
+// was aimed at.
+bool IsOn(int side, const SurfacePoint& at) {
+  switch (side) {
+    case 0:
+      return at.v <= 0.0;
+    case 1:
+      return at.u >= 1.0;
+    case 2:
+      return at.v >= 1.0;
+    case 3:
+      return at.u <= 0.0;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 RaySlide::RaySlide(const Surface& surface, const SurfacePoint& from)
@@ -37,7 +54,8 @@ double RaySlide::Step(const Vec3& c) {
   }
   const Box2 box{-at_.u, 1.0 - at_.u, -at_.v, 1.0 - at_.v};
   const BoxMinimum to = MinimizeOnBox(q, box);
-  held_by_ = to.y == box.y0 ? 0 : to.x == box.x1 ? 1 : to.y == box.y1 ? 2 : to.x == box.x0 ? 3 : -1;
+  const int aimed = to.y == box.y0 ? 0 : to.x == box.x1 ? 1 : to.y == box.y1 ? 2 : to.x == box.x0 ? 3 : -1;
+  held_by_ = IsOn(aimed, at_) ? aimed : -1;
   if (!(to.value < 0.0)) return 0.0;
   double t = 1.0;
   for (int k = 0; k < kMaxHalvings; ++k, t *= 0.5) {
@@ -51,6 +69,7 @@ double RaySlide::Step(const Vec3& c) {
     const double length = (next.p - at_.p).norm();
     at_ = next;
     jet_ = jet;
+    held_by_ = IsOn(aimed, at_) ? aimed : -1;
     return length;
   }
   return 0.0;

@@ -9,7 +9,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kPlaceRounding = 1e-13;  // of the coordinates: a place may lie so far beyond its piece's bound
+constexpr double kPlaceRounding =
+    1e-13;  // of the coordinates: a place may lie so far beyond its piece's bound
 
 // A sub-rectangle of a piece with a lower bound of sign * coordinate.
 struct Candidate {

@@ -8,6 +8,7 @@
 #include "core/surface/closest.h"
 #include "tests/cam/path/zlevel/level_checks.h"
 #include "tests/support/shapes.h"
+#include "tests/support/walls.h"
 
 namespace patchmill {
 namespace {
@@ -49,6 +50,22 @@ TEST(RaySlide, AboveTheCentreOnlyThePlanCounts) {
     Settle(slide, Vec3(7.0, 1.0, -4.0));
     EXPECT_NEAR(std::hypot(slide.at().p.x(), slide.at().p.z()), 5.0, 1e-12);
     EXPECT_NEAR(slide.at().p.x(), 5.0, 1e-9);
+  }
+}
+
+// The wall waves by some hundredths of a micrometre, so that steps aim at its ends and stop on the way. A side
+// holds a point only on that side.
+TEST(RaySlide, AShortenedStepIsNotHeld) {
+  const Surface surface = MakeSurface(testing::WavingBox(20.0, 15.0, 12.0, 1e-4));
+  for (int k = 0; k <= 40; ++k) {
+    RaySlide slide(surface, At(surface, PieceId(1), 0.38, k / 40.0));
+    for (int step = 0; step < 20; ++step) {
+      slide.Step(Vec3(-5.0, -12.0, 5.0));
+      const SurfacePoint& at = slide.at();
+      const bool on[] = {at.v == 0.0, at.u == 1.0, at.v == 1.0, at.u == 0.0};
+      EXPECT_TRUE(slide.held_by() < 0 || on[slide.held_by()]) << at.u << " " << at.v;
+    }
+    EXPECT_NEAR(slide.at().p.x(), -5.0, 1e-3);
   }
 }
 

@@ -115,8 +115,8 @@ inline int WrongNodes(const Surface& surface, double radius, const LevelContours
 }
 
 // A part with its levels, each of them checked.
-struct Level {
-  explicit Level(PatchModel model, double radius = 3.0)
+struct TracedModel {
+  explicit TracedModel(PatchModel model, double radius = 3.0)
       : surface(MakeSurface(std::move(model))), locator(surface, radius) {}
   // `excess`: what probes may find left over; in cells below the resolution it is half their diagonal
   // ([contours T8d]).

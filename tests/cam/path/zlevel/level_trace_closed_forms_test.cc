@@ -12,14 +12,14 @@ namespace {
 using testing::Block;
 using testing::CornerCount;
 using testing::LargestRadiusError;
-using testing::Level;
 using testing::SignedArea;
+using testing::TracedModel;
 using testing::WrongNodes;
 
 constexpr double kR = 3.0;
 
 TEST(ContourLevel, SphereIsOneCircle) {
-  const Level sphere(testing::Sphere(Vec3::Zero(), 10.0));
+  const TracedModel sphere(testing::Sphere(Vec3::Zero(), 10.0));
   for (const double c : {1.0, 6.0, 12.5, 12.999, 12.9999}) {
     SCOPED_TRACE(c);
     const LevelContours level = sphere.At(c);
@@ -38,7 +38,7 @@ TEST(ContourLevel, SphereIsOneCircle) {
 }
 
 TEST(ContourLevel, TorusHasAnInnerAndAnOuterCircle) {
-  const Level torus(testing::Torus(Vec3::Zero(), 20.0, 6.0));
+  const TracedModel torus(testing::Torus(Vec3::Zero(), 20.0, 6.0));
   for (const double c : {4.0, 8.999}) {
     SCOPED_TRACE(c);
     const LevelContours level = torus.At(c);
@@ -55,7 +55,7 @@ TEST(ContourLevel, TorusHasAnInnerAndAnOuterCircle) {
 }
 
 TEST(ContourLevel, TwoSpheresMeetInTwoExactCorners) {
-  const Level spheres(testing::TwoSpheres(5.0, 10.0));
+  const TracedModel spheres(testing::TwoSpheres(5.0, 10.0));
   // Discs of radius sqrt(64 - c^2) about x = +-5.
   for (const double c : {3.5, 5.0}) {
     SCOPED_TRACE(c);
@@ -86,7 +86,7 @@ double SquareDistance(const Vec2& q, double a) {
 }
 
 TEST(ContourLevel, BlockOnAFloorIsARoundedSquare) {
-  const Level block(Block(8.0, 5.0, 20.0));
+  const TracedModel block(Block(8.0, 5.0, 20.0));
   for (const double c : {3.5, 4.999, 6.5, 7.0}) {
     SCOPED_TRACE(c);
     const LevelContours level = block.At(c);
@@ -108,7 +108,7 @@ TEST(ContourLevel, BlockOnAFloorIsARoundedSquare) {
 
 // Just below a flat everything over it is forbidden, and that must not cost a cell per spot.
 TEST(ContourLevel, LevelsCloselyBelowAFlatTop) {
-  const Level block(Block(8.0, 5.0, 20.0));
+  const TracedModel block(Block(8.0, 5.0, 20.0));
   for (const double c : {7.9, 7.99}) {
     SCOPED_TRACE(c);
     const LevelContours level = block.At(c);
@@ -151,7 +151,7 @@ void CheckOnPlate(const LevelContours& level, double slope, double a) {
 
 TEST(ContourLevel, TiltedPlateWithOpenBorders) {
   const double slope = 0.4, a = 20.0;
-  const Level plate(testing::Plane(a, 0.0, slope, 0.0));
+  const TracedModel plate(testing::Plane(a, 0.0, slope, 0.0));
   for (const double c : {-4.0, 2.0, 5.0, 8.0, 10.9, 10.9999}) {
     SCOPED_TRACE(c);
     const LevelContours level = plate.At(c);
@@ -166,7 +166,7 @@ TEST(ContourLevel, WallsThatLeanBack) {
   const double a = 4.0;
   for (const double slope : {5.0, 20.0, 100.0}) {
     SCOPED_TRACE(slope);
-    const Level wall(testing::Plane(a, 0.0, slope, 0.0));
+    const TracedModel wall(testing::Plane(a, 0.0, slope, 0.0));
     for (const double c : {-0.5 * slope, 0.0, 0.3 * slope}) {
       const LevelContours level = wall.At(c);
       ASSERT_EQ(level.loops.size(), 1u);
@@ -187,15 +187,15 @@ TEST(ContourLevel, GapsAsWideAsTheTool) {
         {testing::Single(testing::Bilinear({-g, -10, 0}, {-g, 10, 0}, {-g, -10, 8}, {-g, 10, 8})),
          testing::Single(testing::Bilinear({g, -10, 0}, {g, 10, 0}, {g, -10, 8}, {g, 10, 8}))});
   };
-  EXPECT_EQ(Level(walls(2.0 * kR + 0.2)).At(5.0).loops.size(), 2u);  // the tool passes between
-  EXPECT_EQ(Level(walls(2.0 * kR - 1e-6)).At(5.0).loops.size(), 1u);
+  EXPECT_EQ(TracedModel(walls(2.0 * kR + 0.2)).At(5.0).loops.size(), 2u);  // the tool passes between
+  EXPECT_EQ(TracedModel(walls(2.0 * kR - 1e-6)).At(5.0).loops.size(), 1u);
   // Narrower than the resolution: either answer, but free vertices and sound chords (checked by At).
-  const std::size_t loops = Level(walls(2.0 * kR + 1e-6)).At(5.0).loops.size();
+  const std::size_t loops = TracedModel(walls(2.0 * kR + 1e-6)).At(5.0).loops.size();
   EXPECT_TRUE(loops == 1u || loops == 2u) << loops;
 }
 
 TEST(ContourLevel, PocketsAreCounterClockwise) {
-  const Level bowl(testing::Paraboloid(0.05, 15.0));
+  const TracedModel bowl(testing::Paraboloid(0.05, 15.0));
   // Inside the bowl the contact radius r obeys c = a r^2 + R / sqrt(1 + 4 a^2 r^2).
   const LevelContours level = bowl.At(6.0);
   ASSERT_EQ(level.loops.size(), 2u);
@@ -217,7 +217,7 @@ TEST(ContourLevel, PocketsAreCounterClockwise) {
 TEST(ContourLevel, SignsOfRandomSplines) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     SCOPED_TRACE(seed);
-    const Level part(testing::RandomBspline(seed));
+    const TracedModel part(testing::RandomBspline(seed));
     for (const double c : {2.0, 4.0}) {
       const LevelContours level = part.At(c);
       EXPECT_EQ(WrongNodes(part.surface, kR, level, 0.02, 0.31), 0);
@@ -228,14 +228,14 @@ TEST(ContourLevel, SignsOfRandomSplines) {
 TEST(ContourLevel, SignsOfFoldedSplines) {
   for (const std::uint64_t seed : {4u, 5u}) {
     SCOPED_TRACE(seed);
-    const Level part(testing::RandomBspline(seed, {.folds = true, .rational = seed == 5}));
+    const TracedModel part(testing::RandomBspline(seed, {.folds = true, .rational = seed == 5}));
     const LevelContours level = part.At(3.0);
     EXPECT_EQ(WrongNodes(part.surface, kR, level, 0.02, 0.37), 0);
   }
 }
 
 TEST(ContourLevel, SignsOfTheBumpyPart) {
-  const Level part(testing::Bumpy());
+  const TracedModel part(testing::Bumpy());
   for (const double c : {0.0, 4.5}) {
     SCOPED_TRACE(c);
     const LevelContours level = part.At(c, part.params.resolution / 8.0);
@@ -245,7 +245,7 @@ TEST(ContourLevel, SignsOfTheBumpyPart) {
 }
 
 TEST(ContourLevel, SameTwice) {
-  const Level part(testing::RandomBspline(7));
+  const TracedModel part(testing::RandomBspline(7));
   const RunContext run;
   const LevelContours a = TraceLevel(part.locator, 3.0, part.params, run);
   const LevelContours b = TraceLevel(part.locator, 3.0, part.params, run);
@@ -258,7 +258,7 @@ TEST(ContourLevel, SameTwice) {
 }
 
 TEST(ContourLevel, CancelStopsAtOnce) {
-  const Level part(testing::Bumpy());
+  const TracedModel part(testing::Bumpy());
   RunContext run;
   run.Cancel();
   const auto start = std::chrono::steady_clock::now();

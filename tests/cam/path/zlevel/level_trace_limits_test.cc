@@ -10,8 +10,8 @@ namespace patchmill {
 namespace {
 
 using testing::LargestRadiusError;
-using testing::Level;
 using testing::SignedArea;
+using testing::TracedModel;
 
 constexpr double kR = 3.0;
 
@@ -24,7 +24,7 @@ double RectangleDistance(const Vec2& q, double a, double b) {
 // grid line, or a hair to either side of it.
 TEST(ContourLimits, StraightBordersAlongTheGrid) {
   const double a = 10.0;
-  const Level plate(testing::Plane(a));
+  const TracedModel plate(testing::Plane(a));
   const double unit = plate.params.resolution / 8.0;
   // The grid starts at -a - R - 4 units - 0.38... units (level_cells.cc): all of that, and x = a + rho
   // whole.
@@ -55,7 +55,7 @@ TEST(ContourLimits, VerticalSheets) {
     SCOPED_TRACE(turn);
     Eigen::Affine3d motion = Eigen::Affine3d::Identity();
     motion.linear() = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
-    const Level wall(testing::Transformed(
+    const TracedModel wall(testing::Transformed(
         testing::Single(testing::Bilinear({-a, 0, 0}, {a, 0, 0}, {-a, 0, top}, {a, 0, top})), motion));
     for (const double c : {-2.0, 0.0, 5.0, top, top + 1.5, top + 2.999}) {
       SCOPED_TRACE(c);
@@ -74,7 +74,7 @@ TEST(ContourLimits, VerticalSheets) {
 
 // A level at the height of a flat under the ball moves up by so little that the dome on it keeps its circle.
 TEST(ContourLimits, FlatsExactlyAtTheLevel) {
-  const Level dome(
+  const TracedModel dome(
       testing::Join({testing::Sphere(Vec3::Zero(), 5.0, testing::Half::kUpper), testing::Plane(20.0)}));
   const LevelContours level = dome.At(kR);
   EXPECT_GE(level.z, kR);
@@ -94,7 +94,7 @@ TEST(ContourLimits, FlatsExactlyAtTheLevel) {
 TEST(ContourLimits, CoincidentPeaks) {
   const PatchModel outer = testing::Sphere(Vec3::Zero(), 5.0);
   for (const PatchModel& other : {outer, testing::Sphere(Vec3(0, 0, 3), 2.0)}) {
-    const Level both(testing::Join({outer, other}));
+    const TracedModel both(testing::Join({outer, other}));
     for (const double c : {1.0, 5.0, 7.5, 7.99, 7.9998}) {
       SCOPED_TRACE(c);
       const LevelContours level = both.At(c);
@@ -107,7 +107,7 @@ TEST(ContourLimits, CoincidentPeaks) {
 
 // Discs of radius rho about x = +-5 meet where rho = 5, at c = sqrt(39).
 TEST(ContourLimits, NecksAtTheSaddle) {
-  const Level spheres(testing::TwoSpheres(5.0, 10.0));
+  const TracedModel spheres(testing::TwoSpheres(5.0, 10.0));
   const double saddle = std::sqrt(39.0);
   for (const double below : {0.1, 1e-2, 1e-3}) {
     SCOPED_TRACE(below);
@@ -132,7 +132,7 @@ TEST(ContourLimits, HolesAsWideAsTheTool) {
     for (const double eye : {0.0501, 0.06, 0.3}) {
       SCOPED_TRACE(::testing::Message() << "eye " << eye << " shift " << shift);
       const Vec3 center(shift, 0.7 * shift, 0.0);
-      const Level torus(testing::Torus(center, reach + eye, minor, testing::Half::kUpper));
+      const TracedModel torus(testing::Torus(center, reach + eye, minor, testing::Half::kUpper));
       const LevelContours level = torus.At(c);
       ASSERT_EQ(level.loops.size(), 2u);
       for (const CutterPath& loop : level.loops) {
@@ -141,12 +141,13 @@ TEST(ContourLimits, HolesAsWideAsTheTool) {
       }
     }
     // No free place at all, by a nanometre: the outer circle alone.
-    const Level closed(testing::Torus(Vec3(shift, 0.0, 0.0), reach - 1e-6, minor, testing::Half::kUpper));
+    const TracedModel closed(
+        testing::Torus(Vec3(shift, 0.0, 0.0), reach - 1e-6, minor, testing::Half::kUpper));
     const LevelContours level = closed.At(c);
     ASSERT_EQ(level.loops.size(), 1u);
     EXPECT_LT(SignedArea(level.loops[0]), 0.0);
     // Free, but narrower than any cell: found or counted as material.
-    const Level open(testing::Torus(Vec3(shift, 0.0, 0.0), reach + 1e-6, minor, testing::Half::kUpper));
+    const TracedModel open(testing::Torus(Vec3(shift, 0.0, 0.0), reach + 1e-6, minor, testing::Half::kUpper));
     EXPECT_LE(open.At(c).loops.size(), 2u);
   }
 }
@@ -171,7 +172,7 @@ bool CountsAsMaterial(const LevelContours& level, const Vec2& q) {
 TEST(ContourLimits, WhatCannotBeDecidedCountsAsMaterial) {
   for (const double width : {-1e-6, 0.0, 1e-6, 1e-3}) {
     SCOPED_TRACE(width);
-    const Level gap(Gap(width, 10.0));
+    const TracedModel gap(Gap(width, 10.0));
     const double cell = gap.params.resolution / 8.0;
     const LevelContours level = gap.At(5.0, cell);
     EXPECT_EQ(level.cell, cell);
@@ -183,13 +184,13 @@ TEST(ContourLimits, WhatCannotBeDecidedCountsAsMaterial) {
     for (const double y : {-4.9, 0.0, 3.3}) EXPECT_TRUE(CountsAsMaterial(level, {0.0, y}));
   }
   // As wide as the resolution, the gap is free: two loops, and nothing is left undecided.
-  const Level open(Gap(0.1, 10.0));
+  const TracedModel open(Gap(0.1, 10.0));
   const LevelContours level = open.At(5.0);
   EXPECT_EQ(level.loops.size(), 2u);
   EXPECT_EQ(level.ambiguous_cells, 0);
   EXPECT_FALSE(CountsAsMaterial(level, Vec2::Zero()));
   // The neck between two spheres at the height of the saddle.
-  const Level spheres(testing::TwoSpheres(5.0, 10.0));
+  const TracedModel spheres(testing::TwoSpheres(5.0, 10.0));
   const double saddle = std::sqrt(39.0);
   for (const double off : {-1e-6, 0.0, 1e-6}) {
     const LevelContours neck = spheres.At(saddle + off, spheres.params.resolution / 8.0);
@@ -200,14 +201,14 @@ TEST(ContourLimits, WhatCannotBeDecidedCountsAsMaterial) {
 }
 
 // Passes between `bottom` and the rims of the sheets.
-absl::StatusOr<ContourResult> PassesOf(const Level& part) {
+absl::StatusOr<ContourResult> PassesOf(const TracedModel& part) {
   ContourParams params = part.params;
   params.pass.scallop = 0.1;
   return ContourPaths(part.locator, params, RunContext());
 }
 
 TEST(ContourLimits, FindingsTellWhatWasNotDecided) {
-  const Level gap(Gap(1e-6, 10.0));
+  const TracedModel gap(Gap(1e-6, 10.0));
   const auto result = PassesOf(gap);
   ASSERT_TRUE(result.ok()) << result.status();
   ASSERT_FALSE(result->paths.empty());
@@ -227,14 +228,14 @@ TEST(ContourLimits, FindingsTellWhatWasNotDecided) {
       EXPECT_FALSE(a.z() < 8.0 && std::abs(a.x()) < 1.0 && std::abs(a.y()) < 4.9) << a.transpose();
     }
   }
-  const auto open = PassesOf(Level(Gap(0.2, 10.0)));
+  const auto open = PassesOf(TracedModel(Gap(0.2, 10.0)));
   ASSERT_TRUE(open.ok());
   EXPECT_TRUE(open->findings.empty()) << open->findings[0].message;
 }
 
 // A gap so long that its undecided cells are too many: cells of twice the side, and that is said.
 TEST(ContourLimits, ALostResolutionIsSaid) {
-  const Level gap(Gap(1e-6, 80.0));
+  const TracedModel gap(Gap(1e-6, 80.0));
   const LevelContours level = gap.At(5.0, gap.params.resolution / 4.0);
   EXPECT_EQ(level.cell, gap.params.resolution / 4.0);
   EXPECT_GT(level.ambiguous_cells, 80.0 / level.cell);
@@ -295,7 +296,7 @@ TEST(ContourLimits, FindingsAreOneForAllLevels) {
 // flat.
 TEST(ContourLimits, LargePlatesKeepTheResolution) {
   const double a = 150.0, radius = 0.3, rho = 0.2;
-  const Level plate(testing::Plane(a), radius);
+  const TracedModel plate(testing::Plane(a), radius);
   const double c = std::sqrt(radius * radius - rho * rho);
   const LevelContours level = plate.At(c);
   EXPECT_EQ(level.cell, plate.params.resolution / 8.0);
