@@ -201,7 +201,8 @@ std::optional<CertifiedCenter> Locator::Correction(const Vec3& c, double gap,
   constexpr double kKnown = 1e-9;  // mm
   const auto lift = CertifiedFree(c + Vec3(0, 0, kKnown), gap);
   if (lift && *lift <= gap) return std::nullopt;
-  // Beside a wall that is nearly vertical a rounding of the place raises the ball by much more than it gouges.
+  // Beside a wall that is nearly vertical a rounding of the place raises the ball by much more than it
+  // gouges.
   if (GougeWithin(c, c, gap, 0.5 * gap)) return std::nullopt;
   const auto h = CertifiedHeight(Xy(c), gap, hint);
   if (!h || h->z + h->gap <= c.z()) return std::nullopt;

@@ -19,8 +19,8 @@ class RaySlide {
   // into the surface. c may change from step to step. Cost: one evaluation.
   double Step(const Vec3& c);
 
-  // The side of the piece (numbered as in PieceSides) on which the point lies and that held back the last step,
-  // or -1.
+  // The side of the piece (numbered as in PieceSides) on which the point lies and that held back the last
+  // step, or -1.
   int held_by() const { return held_by_; }
 
   const SurfacePoint& at() const { return at_; }

@@ -274,9 +274,9 @@ Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool 
   if (!shares.empty()) shares += ")";
   std::string look = limited ? scale + ", then " + limits : scale;
   if (avoided >= 0.5 * all) look = limits + ", then " + scale;
-  if (outside >= 0.5 * all) look = "--outside, or the walls' names in --only, then " + scale;
+  if (outside > 0.5 * all) look = "--outside, or the walls' names in --only, then " + scale;
   if (shank > 0.5 * all) look = "the length of flutes and the shank, then " + scale;
-  if (strategy >= 0.5 * all) look = "the forced strategy, then " + scale;
+  if (strategy > 0.5 * all) look = "the forced strategy, then " + scale;
   const char* of = limited ? "that is wanted" : "of the model";
   const std::string what =
       reached > 0.0

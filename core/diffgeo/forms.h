@@ -13,8 +13,9 @@ namespace patchmill {
 std::optional<Vec3> UnitNormal(const SurfaceJet& jet);
 
 // UnitNormal, turned so that its z component is >= 0, as a 3-axis tool sees the surface. On a vertical face
-// (|e_z| <= FaceSides::upright) it points to the air side if that is known; else it may point either way. On a
-// face that overhangs (FaceSides::overhangs) it points to the air side everywhere, also where that is down.
+// (|e_z| <= FaceSides::upright) it points to the air side if that is known; else it may point either way.
+// On a face that overhangs (FaceSides::overhangs) it points to the air side everywhere, also where that is
+// down.
 std::optional<Vec3> UpwardNormal(const SurfaceJet& jet);
 
 // The side from which a tool reaches a point of the surface.

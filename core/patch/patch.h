@@ -258,8 +258,9 @@ struct FaceSides {
   bool Decides(double e_z) const {
     return air_side != 0 && (overhangs || (e_z <= upright && -e_z <= upright));
   }
-  // Whether no tool stands on a side of an area: the side looks down, or it is the back of the face. `side`: 1
-  // the side of du x dv, -1 the other. `highest`: the unit normals of that side have at most this z component.
+  // Whether no tool stands on a side of an area: the side looks down, or it is the back of the face.
+  // `side`: 1 the side of du x dv, -1 the other. `highest`: the unit normals of that side have at most this
+  // z component.
   bool RulesOut(double side, double highest) const {
     if (overhangs) return side * air_side < 0.0;
     return highest < -upright || (highest <= upright && side * air_side < 0.0);

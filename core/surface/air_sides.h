@@ -4,7 +4,8 @@
 // so the surface that it is joined to decides. Patches joined by edges (T-junctions too) form a component.
 // The air side of a component is the side from which its surface is open to the sky.
 // The upper side of an overhanging face is its back: the wall of an open box that leans inwards is seen from
-// outside. Such a face takes the air side of its component too, and is an undercut where that side looks down.
+// outside. Such a face takes the air side of its component too, and is an undercut where that side looks
+// down.
 #pragma once
 
 #include <vector>
@@ -27,7 +28,8 @@ struct AirSides {
   std::vector<PatchId> undecided;
 };
 
-// A wall that leans by more than 0.1 degrees, as drafted walls do, is not vertical, however low its pieces are.
+// A wall that leans by more than 0.1 degrees, as drafted walls do, is not vertical, however low its pieces
+// are.
 inline constexpr double kMostUprightSlope = 0.002;
 
 // Returns FaceSides::upright, the largest |e_z| with which a place of the piece counts as a vertical face. It

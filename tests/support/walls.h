@@ -26,8 +26,8 @@ inline PatchModel OpenBox(double x, double y, double z) {
   return Join({Level(-x, -y, x, y, 0), Walls(x, y, 0, z)});
 }
 
-// The open box with walls of degree 7 upwards. Their control points go in and out by `shift` (mm) by turns, and
-// the walls wave by a third of that.
+// The open box with walls of degree 7 upwards. Their control points go in and out by `shift` (mm) by turns,
+// and the walls wave by a third of that.
 inline PatchModel WavingBox(double x, double y, double z, double shift) {
   PatchModel model = Level(-x, -y, x, y, 0);
   const Vec2 corners[] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}, {-x, -y}};

@@ -53,8 +53,8 @@ TEST(RaySlide, AboveTheCentreOnlyThePlanCounts) {
   }
 }
 
-// The wall waves by some hundredths of a micrometre, so that steps aim at its ends and stop on the way. A side
-// holds a point only on that side.
+// The wall waves by some hundredths of a micrometre, so that steps aim at its ends and stop on the way. A
+// side holds a point only on that side.
 TEST(RaySlide, AShortenedStepIsNotHeld) {
   const Surface surface = MakeSurface(testing::WavingBox(20.0, 15.0, 12.0, 1e-4));
   for (int k = 0; k <= 40; ++k) {
