@@ -15,8 +15,11 @@ namespace {
 
 // The places do not lie symmetrically, so that no seam of regular parts is met at its end.
 constexpr std::array kPlaces = {0.07, 0.28, 0.47, 0.71, 0.94};
-constexpr double kReach = 10.0;   // join tolerances
-constexpr int kMostTried = 32;    // edges at a place
+constexpr double kReach = 10.0;  // join tolerances
+constexpr int kMostTried = 32;   // edges at a place
+// Closest points that may be looked for. Hostile models whose open edges pile up reach this limit after some
+// seconds; real ones never come near it.
+constexpr int kMostFeet = 500'000;
 constexpr double kBeside = 1e-3;  // of the parameter: chord that has the direction of the edge
 const double kSameDirection = std::cos(Radians(10.0));
 
@@ -41,8 +44,9 @@ std::vector<EdgeContact> FindEdgeContacts(const PatchModel& model, const PatchNe
   const BoxTree tree(std::move(boxes));
   const double reach = kReach * network.join_tolerance;
   std::vector<EdgeContact> contacts;
+  int feet = 0;
   for (const int e : open) {
-    if (run.Cancelled()) break;
+    if (run.Cancelled() || feet > kMostFeet) break;
     for (const double place : kPlaces) {
       const Vec3 p = curves.Point(e, place);
       const Vec3 along = DirectionAt(curves, e, place);
@@ -50,6 +54,7 @@ std::vector<EdgeContact> FindEdgeContacts(const PatchModel& model, const PatchNe
       tree.Near(p, reach, [&](int slot) {
         const int other = open[At(slot)];
         if (curves.edge(other).patch == curves.edge(e).patch) return true;
+        ++feet;
         const EdgeFoot foot = ClosestOnEdge(curves, other, p);
         if (foot.distance <= reach && foot.t > 0.0 && foot.t < 1.0) {
           const double cosine = along.dot(DirectionAt(curves, other, foot.t));

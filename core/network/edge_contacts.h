@@ -18,8 +18,8 @@ struct EdgeContact {
 // open the edges that overlap in part, such as two circles whose seams are turned against each other, and
 // edges with a gap. This function looks for them at five places of each open edge: within ten join
 // tolerances, and within ten degrees of the same direction. Sorted by self, then by other. Incomplete if
-// `run` is cancelled meanwhile. `model`: of the network, with all its shapes. Cost O(n log n); at most 32
-// edges are tried at a place.
+// `run` is cancelled meanwhile, or after half a million closest points. `model`: of the network, with all its
+// shapes. Cost O(n log n); at most 32 edges are tried at a place.
 std::vector<EdgeContact> FindEdgeContacts(const PatchModel& model, const PatchNetwork& network,
                                           const RunContext& run);
 
