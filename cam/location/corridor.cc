@@ -55,8 +55,8 @@ struct LeafSet {
   const std::vector<std::int32_t>& leaves;
 };
 
-// How exactly a largest value is wanted: smaller values than `lower` do not matter, `gap` may remain open,
-// and no value above `enough` need be found.
+// Accuracy of a search for a largest value. Values below `lower` do not matter, the result may miss the
+// largest value by `gap`, and the search ends at the first value above `enough`.
 struct Sought {
   double lower, gap, enough;
 };
@@ -172,7 +172,7 @@ struct HeightOverRect {
   double At(const Vec3& p) const { return Height(p.z(), Off(Xy(p), Xy(p))); }
 };
 
-// How deep a point lies in a swept ball.
+// Quantity for Maximize: the depth (mm) of a surface point in a swept ball.
 struct SweptDepth {
   double radius;
   SweptBall swept;

@@ -94,9 +94,8 @@ class Locator {
   // except for the rare place where 20,000 parts do not suffice.
   bool Free(const Vec3& c, double slack = 0.0, double gap = kProofGap) const;
 
-  // The same with proof. Returns the height (mm) by which the ball must be lifted to be proven free. It is at
-  // most `eps` as for CertifiedHeight; if 20,000 parts do not suffice, it is larger. nullopt if the ball is
-  // not free.
+  // Free with proof. Returns the height (mm) by which the ball must be lifted to be proven free: at most
+  // `eps` as for CertifiedHeight, or more if 20,000 parts do not suffice. nullopt if the ball is not free.
   std::optional<double> CertifiedFree(const Vec3& c, double eps) const;
 
   // Returns an upper bound (mm) of h over a rectangle in plan with opposite corners a and b and sides along x
@@ -116,8 +115,8 @@ class Locator {
 
   // Checks a centre c that was found without this class, along a contour. nullopt if c is proven free to
   // `gap` (CertifiedFree) and to 1e-9 mm, the accuracy of such centres, or if the ball and its upward sweep
-  // are proven to gouge by at most `gap` (GougeWithin). Otherwise returns the certified
-  // height over c_xy, which is above c_z, and counts a defect.
+  // are proven to gouge by at most `gap` (GougeWithin). Otherwise returns the certified height over c_xy,
+  // which is above c_z, and counts a defect.
   std::optional<CertifiedCenter> Correction(const Vec3& c, double gap,
                                             const SurfacePoint* hint = nullptr) const;
   // The number of centres that Correction had to raise. Tests demand 0.

@@ -18,8 +18,8 @@ struct BesideDepth {
 
 // Returns the lowest tip beside the part at the end of a move. Here the tool is beside the part if its axis
 // is at least a tenth of the ball's radius outside of the area that the surface covers as seen from above;
-// holes count, too. nullopt if no such tip is lower than the part's top by more than half the ball's radius:
-// a ball that rolls over a low border is no news. `top_z` (mm) is the top of the part. Cost: some
+// holes count, too. nullopt if no such tip is lower than the part's top by more than half the ball's radius,
+// as a ball that rolls over a low border is not. `top_z` (mm) is the top of the part. Cost: some
 // microseconds for each end of a move that is lower than the answer.
 absl::StatusOr<std::optional<BesideDepth>> DeepestBeside(const Surface& surface, const Toolpath& toolpath,
                                                          double top_z, const RunContext& run);

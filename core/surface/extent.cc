@@ -9,8 +9,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kPlaceRounding =
-    1e-13;  // of the coordinates: a place may lie so far beyond its piece's bound
+// Share of the coordinates by which rounding may put a place beyond the bound of its piece.
+constexpr double kPlaceRounding = 1e-13;
 
 // A sub-rectangle of a piece with a lower bound of sign * coordinate.
 struct Candidate {

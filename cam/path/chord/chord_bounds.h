@@ -25,7 +25,7 @@ double ChordGouge(double radius, const Vec3& a, const Vec3& b, std::span<const V
 // The longest chord with ChordGouge <= tolerance. `tolerance` is clamped to [0, radius].
 double LongestChord(double radius, double tolerance);
 
-// What a ball rests on: a surface point, or, without a `contact`, the floor plane (PassParams::floor_z).
+// A ball rests on a support: a surface point or, without a contact, the floor plane (PassParams::floor_z).
 struct Support {
   std::optional<Vec3> contact;
   double floor_center = -kInfinity;  // mm: centre height of a ball on the floor, used if there is no contact

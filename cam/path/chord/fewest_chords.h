@@ -1,8 +1,8 @@
 // Replaces dense stations by few long chords [location, section 11]. From a vertex a funnel of directions is
 // narrowed from station to station, until no chord fits through it.
 //
-// Where the surface is concave along the path, a chord between two free centres lies above the surface. It
-// gouges nothing and leaves material, which the tolerances allow far less than gouging. There vertices are
+// A chord between two free centres lies above a surface that is concave along the path. Such a chord gouges
+// nothing and leaves material, which the tolerances allow far less than gouging. There vertices are
 // lowered into the surface, by at most half of the allowed gouge (DeepestVertex). Then chords become as long
 // as on a convex surface.
 #pragma once
@@ -20,8 +20,8 @@ namespace patchmill {
 struct ChordStation {
   Vec3 center = Vec3::Zero();
   Vec3 away = Vec3::UnitZ();  // unit vector away from the surface; vertices are lowered against it
-  // What the centre touches on the chord from the station before, and on the chord to the next station. They
-  // differ at a contact switch. Null: the floor.
+  // Contacts of the ball: `left` on the chord from the station before, `right` on the chord to the next
+  // station. The two differ at a contact switch. Null: the ball rests on the floor.
   const SurfacePoint* left = nullptr;
   const SurfacePoint* right = nullptr;
   bool keep = false;    // there must be a vertex exactly here

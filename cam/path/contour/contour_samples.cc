@@ -186,7 +186,7 @@ class PieceSampler {
     node.p = jet.p;
     const std::optional<Vec3> n = UpwardNormal(jet);
     if (!n) return node;
-    // Where a wall overhangs a little, it is as steep as an upright one.
+    // A wall that overhangs a little counts as steep as a vertical one.
     node.slope = std::atan2(std::hypot(n->x(), n->y()), std::max(n->z(), 0.0));
     const double radius = context_.locator.radius();
     node.normal = *n;

@@ -47,7 +47,7 @@ class LevelGroups {
 
   std::size_t size() const { return groups_.size(); }
   const ContourArea& operator[](LevelGroupId id) const { return groups_[id.index()]; }
-  // Where a branch stands: on the highest level of `group` at or below the height `below`.
+  // The level on which a branch stands: the highest one of `group` at or below the height `below`.
   struct BaseLevel {
     LevelGroupId group;
     double below = 0.0;  // mm, height of the centre
