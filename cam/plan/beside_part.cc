@@ -4,22 +4,18 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <optional>
 
+#include "cam/plan/footprint.h"
 #include "core/base/parallel.h"
-#include "core/base/progress_throttle.h"
 #include "core/base/status.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/air_sides.h"
 #include "core/surface/highest.h"
-#include "core/surface/tessellate.h"
 
 namespace patchmill {
 namespace {
 
-constexpr double kCells = 400.0;     // of the grid, along the longer side of the part
-constexpr int kBorderCells = 4;      // free around the part
 constexpr double kLookBeside = 2.0;  // cells: so far beside a wall the part must have ended
 constexpr double kPlaceStep = 4.0;   // cells: distance of the places of a wall that are looked at
 constexpr int kMostPlacesOfAStretch = 256;
@@ -35,106 +31,6 @@ constexpr double kNoTurn = 1e-3;      // rad
 // An area begins this far off its wall, mm. A ball that rolls over a sharp upper edge is half the tolerance
 // lower than that edge there.
 double GapOf(const BesidePartParams& params) { return std::sqrt(params.radius * params.tolerance); }
-
-// The area that the surface covers, as seen from above, in square cells; the other cells are outside or in
-// holes.
-class Footprint {
- public:
-  // Unusable when the run was cancelled meanwhile.
-  Footprint(const Surface& surface, const RunContext& run) {
-    const Vec3 size = surface.box.max - surface.box.min;
-    cell_ = std::max({size.x(), size.y(), 1e-6 * surface.box.Diagonal()}) / kCells;
-    low_ = Xy(surface.box.min).array() - kBorderCells * cell_;
-    nx_ = 1 + static_cast<int>(size.x() / cell_) + 2 * kBorderCells;
-    ny_ = 1 + static_cast<int>(size.y() / cell_) + 2 * kBorderCells;
-    covered_.assign(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_), 0);
-    ProgressThrottle throttle;
-    for (std::size_t k = 0; k < surface.pieces.size() && !run.Cancelled(); ++k) {
-      throttle.ReportIfDue(run, "seen from above", k, surface.pieces.size());
-      const Tessellation::PieceMesh mesh = TessellatePiece(surface, PieceId(k), 0.1 * cell_, kMostMeshCells);
-      const auto at = [&](int i, int j) -> Vec2 {
-        return Xy(mesh.vertices[static_cast<std::size_t>(i * (mesh.nv + 1) + j)].p);
-      };
-      for (int i = 0; i < mesh.nu; ++i) {
-        for (int j = 0; j < mesh.nv; ++j) {
-          Cover(at(i, j), at(i + 1, j), at(i, j + 1));
-          Cover(at(i + 1, j + 1), at(i + 1, j), at(i, j + 1));
-        }
-      }
-    }
-    FloodOutside();
-  }
-
-  double cell() const { return cell_; }
-  bool IsOutside(const Vec2& q) const {
-    const auto cell = At(q);
-    return !cell || outside_[*cell] != 0;
-  }
-  // True outside and in holes: the surface is nowhere above or below q.
-  bool IsBare(const Vec2& q) const {
-    const auto cell = At(q);
-    return !cell || covered_[*cell] == 0;
-  }
-
- private:
-  static constexpr int kMostMeshCells = 256;
-
-  int Cell(double d) const { return static_cast<int>(std::floor(d / cell_)); }
-  // nullopt beyond the grid.
-  std::optional<std::size_t> At(const Vec2& q) const {
-    const int x = Cell(q.x() - low_.x()), y = Cell(q.y() - low_.y());
-    if (x < 0 || y < 0 || x >= nx_ || y >= ny_) return std::nullopt;
-    return Index(x, y);
-  }
-  std::size_t Index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
-  }
-
-  // Marks every cell that the triangle meets, by the axes that may separate the two.
-  void Cover(const Vec2& a, const Vec2& b, const Vec2& c) {
-    const Vec2 low = a.cwiseMin(b).cwiseMin(c) - low_, high = a.cwiseMax(b).cwiseMax(c) - low_;
-    const std::array<Vec2, 3> corners = {a, b, c};
-    for (int y = std::max(0, Cell(low.y())); y <= std::min(ny_ - 1, Cell(high.y())); ++y) {
-      for (int x = std::max(0, Cell(low.x())); x <= std::min(nx_ - 1, Cell(high.x())); ++x) {
-        const Vec2 middle = low_ + cell_ * Vec2(x + 0.5, y + 0.5);
-        bool apart = false;
-        for (std::size_t k = 0; k < 3 && !apart; ++k) {
-          const Vec2 edge = corners[(k + 1) % 3] - corners[k];
-          const Vec2 normal(-edge.y(), edge.x());
-          const double here = normal.dot(middle - corners[k]);
-          const double third = normal.dot(corners[(k + 2) % 3] - corners[k]);
-          const double half = 0.5 * cell_ * normal.cwiseAbs().sum();
-          apart = here + half < std::min(0.0, third) || here - half > std::max(0.0, third);
-        }
-        if (!apart) covered_[Index(x, y)] = 1;
-      }
-    }
-  }
-
-  void FloodOutside() {
-    outside_.assign(covered_.size(), 0);
-    std::deque<std::array<int, 2>> open = {{0, 0}};
-    outside_[0] = 1;
-    while (!open.empty()) {
-      const auto [x, y] = open.front();
-      open.pop_front();
-      for (const auto& [dx, dy] :
-           {std::array{1, 0}, std::array{-1, 0}, std::array{0, 1}, std::array{0, -1}}) {
-        const int nx = x + dx, ny = y + dy;
-        if (nx < 0 || ny < 0 || nx >= nx_ || ny >= ny_) continue;
-        const std::size_t i = Index(nx, ny);
-        if (covered_[i] != 0 || outside_[i] != 0) continue;
-        outside_[i] = 1;
-        open.push_back({nx, ny});
-      }
-    }
-  }
-
-  double cell_ = 1.0;
-  Vec2 low_ = Vec2::Zero();
-  int nx_ = 0, ny_ = 0;
-  std::vector<char> covered_, outside_;
-};
 
 // A straight part of a wall seen from above, the part of the model on the left of a b.
 struct Stretch {
