@@ -1,0 +1,50 @@
+// Trimmed faces as patches that lie on the faces' surfaces exactly.
+//
+// Where a face ends is exact for edges along iso-parametric lines, and on planes for lines, conic sections and
+// splines. Elsewhere the border of the patches follows the edge within the border tolerance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "core/base/diagnostic.h"
+#include "core/base/run_context.h"
+#include "core/brep/brep_model.h"
+#include "core/network/patch_model.h"
+
+namespace patchmill {
+
+struct TrimParams {
+  double border_tolerance = 1e-4;  // mm, >= 1e-7
+};
+
+// What has become of one face of the file.
+struct TrimmedFace {
+  std::string id;       // "f12": the twelfth face of the file
+  int first_patch = 0;  // in TrimmedModel::model
+  int patch_count = 0;  // 0: lost; a finding says why
+  double area = 0.0;    // mm^2, of the patches
+  double gap = 0.0;     // mm, largest distance of the face's edges from its surface
+  double border_error =
+      0.0;  // mm, largest distance of the patches' border from the edges' feet on the surface
+};
+
+struct TrimmedModel {
+  PatchModel model;  // mm; u x v points out of the body. Patches are called "f12", or "f12.1" and so on
+  std::vector<TrimmedFace> faces;                // as BrepModel::faces
+  double largest_gap = 0.0, border_error = 0.0;  // of all faces
+  // FACE_LOST (error): the face has no patches. FACE_AREA_DIFFERS (error): patches and file disagree about
+  // the area by more than 1e-4 of it. BORDER_COARSE (warning): the border tolerance is not reached. GAP
+  // (warning): an edge lies farther from its surface than the border tolerance.
+  Diagnostics findings;
+};
+
+// Parallel over faces; the result does not depend on the number of threads. Coordinates are rounded to 2^-40
+// of the part's size, so that the last bits of the reader's arithmetic do not matter. Cancelled, or no face at
+// all (FAILED_PRECONDITION), is an error.
+absl::StatusOr<TrimmedModel> TrimFaces(const BrepModel& part, const TrimParams& params,
+                                       const RunContext& run);
+
+}  // namespace patchmill

@@ -1,0 +1,267 @@
+// Trimmed faces against closed forms: areas, borders, and both sides of a border.
+#include "core/trim/trim_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/base/status.h"
+#include "core/network/patch_network.h"
+#include "tests/support/brep_parts.h"
+
+namespace patchmill {
+namespace {
+
+using namespace testing;  // NOLINT: the support folder's
+
+TrimmedModel Trimmed(const BrepModel& part, const TrimParams& params = {}) {
+  auto trimmed = TrimFaces(part, params, RunContext());
+  PM_CHECK(trimmed.ok());
+  for (const Diagnostic& d : trimmed->findings) ADD_FAILURE() << d.code << " " << d.message;
+  return *std::move(trimmed);
+}
+
+double Area(const TrimmedModel& model) {
+  return std::accumulate(model.faces.begin(), model.faces.end(), 0.0,
+                         [](double sum, const TrimmedFace& face) { return sum + face.area; });
+}
+
+BrepLoop Rectangle(PartMaker& maker, const std::vector<Vec3>& p) {
+  BrepLoop loop;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    const Vec3 &a = p[k], &b = p[(k + 1) % p.size()];
+    loop.push_back(StraightUse(maker.Edge(StraightCurve(a, b)), true, Xy(a), Xy(b)));
+  }
+  return loop;
+}
+
+BrepLoop Circle(PartMaker& maker, const Vec3& center, double radius, bool counter_clockwise) {
+  const double side = counter_clockwise ? 1.0 : -1.0;
+  const int edge = maker.Edge(ArcCurve(center, {radius, 0, 0}, {0, side * radius, 0}, 4));
+  return {UseOf(edge, true, 0, 4, [=](double t) {
+    return Vec2(center.x() + radius * std::cos(t * kPi / 2),
+                center.y() + side * radius * std::sin(t * kPi / 2));
+  })};
+}
+
+TEST(TrimPlane, ARectangleIsOnePatch) {
+  PartMaker maker;
+  maker.Face(BrepPlane{}, {Rectangle(maker, {{0, 0, 0}, {40, 0, 0}, {40, 30, 0}, {0, 30, 0}})});
+  const TrimmedModel model = Trimmed(maker.part());
+  EXPECT_EQ(model.model.patches.size(), 1U);
+  EXPECT_NEAR(Area(model), 1200.0, 1e-9);
+  EXPECT_EQ(model.border_error, 0.0);
+}
+
+TEST(TrimPlane, PlatesWithRoundHolesAreExact) {
+  for (const int holes : {1, 2, 7}) {
+    PartMaker maker;
+    std::vector<BrepLoop> loops = {Rectangle(maker, {{0, 0, 0}, {100, 0, 0}, {100, 30, 0}, {0, 30, 0}})};
+    for (int k = 0; k < holes; ++k)
+      loops.push_back(Circle(maker, {10.0 + 12.5 * k, 13.0 + k % 3, 0}, 5, false));
+    maker.Face(BrepPlane{}, loops);
+    const TrimmedModel model = Trimmed(maker.part());
+    EXPECT_NEAR(Area(model), 3000.0 - holes * kPi * 25, 2e-8) << holes;
+    // Every corner of a patch lies outside the holes, and every circle is met exactly.
+    double nearest = 1e9;
+    for (const Patch& patch : model.model.patches) {
+      for (const double u : {0.0, 0.3, 1.0}) {
+        for (const double v : {0.0, 0.5, 1.0}) {
+          const Vec3 p = Position(patch.shape, u, v);
+          EXPECT_EQ(p.z(), 0.0);
+          for (int k = 0; k < holes; ++k) {
+            nearest = std::min(nearest, (Xy(p) - Vec2(10.0 + 12.5 * k, 13.0 + k % 3)).norm() - 5.0);
+          }
+        }
+      }
+    }
+    EXPECT_NEAR(nearest, 0.0, 1e-9);
+  }
+}
+
+TEST(TrimPlane, ADiscAndARing) {
+  PartMaker maker;
+  maker.Face(BrepPlane{}, {Circle(maker, {3, 4, 0}, 7, true)});
+  maker.Face(BrepPlane{}, {Circle(maker, {3, 4, 0}, 9, true), Circle(maker, {4, 4, 0}, 7, false)});
+  const TrimmedModel model = Trimmed(maker.part());
+  EXPECT_NEAR(model.faces[0].area, kPi * 49, 2e-9);
+  EXPECT_NEAR(model.faces[1].area, kPi * (81 - 49), 1e-8);
+}
+
+// A whole sphere, cut along its seam: eight carriers.
+TEST(TrimSphere, WholeAndWithoutItsCap) {
+  for (const double top : {kPi / 2, kPi / 4}) {
+    PartMaker maker;
+    const double r = 10;
+    const Vec3 c(1, 2, 3);
+    const double z = r * std::sin(top), rho = r * std::cos(top);
+    const int seam = maker.Edge([&] {
+      BrepCurve whole = ArcCurve(c, {0, 0, -r}, {r, 0, 0}, 2);
+      if (top == kPi / 2) return whole;
+      // From the south pole to the cap's rim: one quarter and 45 degrees.
+      BrepCurve arc = ArcCurve(c, {0, 0, -r}, {r, 0, 0}, 1);
+      const double w = std::cos(kPi / 8);
+      const Vec3 a = c + Vec3(r, 0, 0), b = c + Vec3(rho, 0, z);
+      arc.knots = {0, 0, 0, 1, 1, 1.5, 1.5, 1.5};
+      arc.points.push_back(c + r * Vec3(1, 0, std::tan(kPi / 8)));
+      arc.points.push_back(b);
+      arc.weights.push_back(w);
+      arc.weights.push_back(1);
+      (void)a;
+      return arc;
+    }());
+    const double last = top == kPi / 2 ? 2.0 : 1.5;
+    const int south = maker.Pole(c - Vec3(0, 0, r));
+    const auto latitude = [](double t) { return -kPi / 2 + t * kPi / 2; };
+    BrepLoop loop = {StraightUse(south, true, {0, -kPi / 2}, {2 * kPi, -kPi / 2}),
+                     UseOf(seam, true, 0, last, [&](double t) { return Vec2(2 * kPi, latitude(t)); })};
+    if (top == kPi / 2) {
+      loop.push_back(StraightUse(maker.Pole(c + Vec3(0, 0, r)), false, {0, kPi / 2}, {2 * kPi, kPi / 2}));
+    } else {
+      const int rim = maker.Edge(ArcCurve(c + Vec3(0, 0, z), {rho, 0, 0}, {0, rho, 0}, 4));
+      loop.push_back(UseOf(rim, false, 0, 4, [&](double t) { return Vec2(t * kPi / 2, top); }));
+    }
+    loop.push_back(UseOf(seam, false, 0, last, [&](double t) { return Vec2(0, latitude(t)); }));
+    BrepFrame frame;
+    frame.origin = c;
+    maker.Face(BrepSphere{frame, r}, {loop});
+    const TrimmedModel model = Trimmed(maker.part());
+    EXPECT_EQ(model.model.patches.size(), 8U) << top;
+    EXPECT_NEAR(Area(model), 2 * kPi * r * r * (1 + std::sin(top)), 1e-6) << top;
+    auto network = BuildNetwork(model.model);
+    ASSERT_TRUE(network.ok());
+    for (const Patch& patch : model.model.patches) {
+      const SurfaceJet jet = Evaluate(patch.shape, 0.4, 0.6);
+      EXPECT_NEAR((jet.p - c).norm(), r, 1e-9);
+      EXPECT_GT(jet.du.cross(jet.dv).dot(jet.p - c), 0.0);
+    }
+  }
+}
+
+// A cylinder between a level circle and a plane at 45 degrees.
+TEST(TrimCylinder, CutAskew) {
+  PartMaker maker;
+  const double r = 8, h = 20;
+  const int bottom = maker.Edge(ArcCurve({0, 0, 0}, {r, 0, 0}, {0, r, 0}, 4));
+  const int top = maker.Edge(ArcCurve({0, 0, h}, {r, 0, r}, {0, r, 0}, 4));
+  const int seam = maker.Edge(StraightCurve({r, 0, 0}, {r, 0, h + r}));
+  const auto turn = [](double t) { return t * kPi / 2; };
+  maker.Face(BrepCylinder{{}, r},
+             {{UseOf(bottom, true, 0, 4, [&](double t) { return Vec2(turn(t), 0); }),
+               UseOf(seam, true, 0, 1, [&](double t) { return Vec2(2 * kPi, t * (h + r)); }),
+               UseOf(top, false, 0, 4, [&](double t) { return Vec2(turn(t), h + r * std::cos(turn(t))); }),
+               UseOf(seam, false, 0, 1, [&](double t) { return Vec2(0, t * (h + r)); })}});
+  for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+    const TrimmedModel model = Trimmed(maker.part(), {tolerance});
+    EXPECT_NEAR(Area(model), 2 * kPi * r * h, 2 * kPi * r * tolerance) << tolerance;
+    EXPECT_LE(model.border_error, tolerance);
+  }
+}
+
+// A bicubic sheet, cut by a closed curve in its parameters: both sides together are the sheet.
+TEST(TrimSpline, BothSidesOfRandomLoops) {
+  std::mt19937 random(20261129);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 12; ++round) {
+    BsplinePatch sheet;
+    sheet.degree_u = sheet.degree_v = 3;
+    sheet.knots_u = {0, 0, 0, 0, 0.3 + 0.2 * unit(random), 1, 1, 1, 1};
+    sheet.knots_v = {0, 0, 0, 0, 1, 1, 1, 1};
+    for (int i = 0; i < 5; ++i) {
+      for (int j = 0; j < 4; ++j) sheet.points.push_back({15.0 * i, 18.0 * j, 12.0 * unit(random)});
+    }
+    const PatchShape shape = sheet;
+    PartMaker maker;
+    std::vector<BrepLoop> loops(1);
+    const Vec2 corner[5] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+    for (int k = 0; k < 4; ++k) {
+      const Vec2 a = corner[k], b = corner[k + 1];
+      BsplinePatch border = sheet;
+      // The border curve of a clamped spline is the spline of its border points.
+      BrepCurve curve;
+      curve.degree = 3;
+      curve.knots = k % 2 == 0 ? sheet.knots_u : sheet.knots_v;
+      for (int i = 0; i < (k % 2 == 0 ? 5 : 4); ++i) {
+        const int index = k == 0 ? 4 * i : (k == 2 ? 4 * i + 3 : (k == 1 ? 16 + i : i));
+        curve.points.push_back(sheet.points[At(index)]);
+      }
+      const Vec2 low = k < 2 ? a : b, high = k < 2 ? b : a;
+      loops[0].push_back(StraightUse(maker.Edge(curve), k < 2, low, high));
+    }
+    // A loop of quadratic arcs around a random place; their images have degree 12 within a span of the knots.
+    const int corners = 3 + round % 5;
+    const Vec2 middle(0.3 + 0.4 * unit(random), 0.3 + 0.4 * unit(random));
+    std::vector<Vec2> q;
+    for (int k = 0; k < 2 * corners; ++k) {
+      const double angle = 2 * kPi * (k + 0.4 * unit(random)) / (2 * corners);
+      const double rho = 0.08 + 0.18 * unit(random);
+      q.push_back(middle + rho * Vec2(std::cos(angle), std::sin(angle)));
+    }
+    BrepLoop inner, outer;
+    const double knot = sheet.knots_u[4];
+    for (int k = 0; k < corners; ++k) {
+      const Vec2 a = q[At(2 * k)], b = q[At(2 * k + 1)], c = q[At((2 * k + 2) % (2 * corners))];
+      const auto at = [=](double t) { return Vec2((1 - t) * (1 - t) * a + 2 * t * (1 - t) * b + t * t * c); };
+      // Cut where the arc crosses the knot.
+      std::vector<double> cuts = {0.0};
+      for (int i = 1; i <= 1000; ++i) {
+        double lo = (i - 1) / 1000.0, hi = i / 1000.0;
+        if ((at(lo).x() - knot) * (at(hi).x() - knot) >= 0.0) continue;
+        for (int n = 0; n < 60; ++n) {
+          const double m = 0.5 * (lo + hi);
+          ((at(m).x() - knot) * (at(hi).x() - knot) > 0.0 ? hi : lo) = m;
+        }
+        cuts.push_back(0.5 * (lo + hi));
+      }
+      cuts.push_back(1.0);
+      for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+        const double t0 = cuts[i], t1 = cuts[i + 1];
+        const auto part = [=](double t) { return at(t0 + t * (t1 - t0)); };
+        const int edge = maker.Edge(PolynomialCurve(12, [&](double t) {
+          const Vec2 p = part(t);
+          return Position(shape, p.x(), p.y());
+        }));
+        inner.push_back(UseOf(edge, true, 0, 1, part));
+        outer.insert(outer.begin(), UseOf(edge, false, 0, 1, part));
+      }
+    }
+    loops.push_back(outer);
+    maker.Face(BrepSpline{sheet}, {loops[0]});
+    maker.Face(BrepSpline{sheet}, loops);
+    maker.Face(BrepSpline{sheet}, {inner});
+    SCOPED_TRACE(round);
+    const TrimmedModel model = Trimmed(maker.part());
+    EXPECT_EQ(model.faces[0].patch_count, 2);
+    EXPECT_NEAR(model.faces[1].area + model.faces[2].area, model.faces[0].area, 2e-3);
+    EXPECT_GT(model.faces[2].area, 1.0);
+    // All places of the patches lie on the sheet.
+    for (const Patch& patch : model.model.patches) {
+      const Vec3 p = Position(patch.shape, unit(random), unit(random));
+      double nearest = 1e9;
+      Vec2 best(0.5, 0.5);
+      for (int i = 0; i <= 40; ++i) {
+        for (int j = 0; j <= 40; ++j) {
+          const double d = (Position(shape, i / 40.0, j / 40.0) - p).norm();
+          if (d < nearest) {
+            nearest = d;
+            best = {i / 40.0, j / 40.0};
+          }
+        }
+      }
+      for (int n = 0; n < 20; ++n) {
+        const SurfaceJet jet = Evaluate(shape, best.x(), best.y());
+        Eigen::Matrix2d m;
+        m << jet.du.dot(jet.du), jet.du.dot(jet.dv), jet.du.dot(jet.dv), jet.dv.dot(jet.dv);
+        best += m.inverse() * Vec2((p - jet.p).dot(jet.du), (p - jet.p).dot(jet.dv));
+        best = best.cwiseMax(0.0).cwiseMin(1.0);
+      }
+      EXPECT_LT((Position(shape, best.x(), best.y()) - p).norm(), 1e-8);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
