@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs one of the long tests of docs/long_tests.md, each in less than an hour, and writes its row of that page.
 #   scripts/long_tests.sh NAME
-# NAME: soak, whole, asan, tsan, random, certificates, fuzz, container, coverage.
+# NAME: soak, whole, asan, asan_jobs, tsan, random, certificates, fuzz, container, coverage.
 # SEED: of soak, random and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -29,7 +29,15 @@ whole() {  # the tests of CI with every value of their lists
   build release
   PATCHMILL_LONG=1 ctest --preset release -j "$(nproc)"
 }
-asan() { scripts/test.sh asan; }
+jobs='^(cam_plan|property|golden|job_)'  # tests of whole jobs take half of the time
+asan() {
+  build asan
+  ctest --preset asan -j "$(nproc)" -E "$jobs"
+}
+asan_jobs() {
+  build asan
+  ctest --preset asan -j "$(nproc)" -R "$jobs"
+}
 tsan() { scripts/test.sh tsan; }
 random() {  # a hundred parts of each kind
   local file failed=0
@@ -78,7 +86,7 @@ coverage() {  # lines of core, cam, server and clients that the tests reach, tho
 case "$name" in
   soak) command="MINUTES=$minutes SEED=$seed scripts/long_tests.sh soak" ;;
   random | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
-  whole | asan | tsan | fuzz | container | coverage) command="scripts/long_tests.sh $name" ;;
+  whole | asan | asan_jobs | tsan | fuzz | container | coverage) command="scripts/long_tests.sh $name" ;;
   *)
     sed -n '2,5s/^# \?//p' "$0" >&2
     exit 2

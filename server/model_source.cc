@@ -13,6 +13,7 @@
 #include "server/convert/fields.h"
 #include "server/convert/model.h"
 #include "server/digest.h"
+#include "server/importer.h"
 #include "server/limits.h"
 #include "server/unknown_fields.h"
 #include "server/wire_count.h"
@@ -142,6 +143,53 @@ absl::StatusOr<LoadedModel> LoadText(const v1::ModelFile& file, std::string_view
   return loaded;
 }
 
+Diagnostic FromProto(const v1::Diagnostic& proto) {
+  const Severity severity = proto.severity() == v1::SEVERITY_ERROR     ? Severity::kError
+                            : proto.severity() == v1::SEVERITY_WARNING ? Severity::kWarning
+                                                                       : Severity::kInfo;
+  return {proto.code(), severity, proto.message(), {.patch_id = proto.where().patch_id()}};
+}
+
+// What was read, in one sentence.
+Diagnostic ImportRemark(const v1::ImportReport& report, std::string_view format) {
+  std::vector<std::string> kinds;
+  for (const v1::ImportedKind& kind : report.kinds()) {
+    kinds.push_back(fmt::format("{} {}", kind.face_count(), kind.kind()));
+  }
+  std::string file = format == "step" ? "STEP" : "IGES";
+  if (!report.schema().empty()) file += fmt::format(" ({})", Utf8(report.schema()));
+  return MakeInfo(
+      "CAD_FILE",
+      fmt::format(
+          "{} in {}: {} bodies, {} of them solid, {} faces ({}), {:.6g} mm2; borders of faces lie within "
+          "{:.2g} mm of the file's edges, edges within {:.2g} mm of their surfaces, surfaces within {:.2g} "
+          "mm "
+          "of the file's",
+          file, report.length_unit().empty() ? "unknown unit" : Utf8(report.length_unit()),
+          report.body_count(), report.solid_count(), report.face_count(), fmt::join(kinds, ", "),
+          report.area_mm2(), report.border_error_mm(), report.largest_gap_mm(), report.surface_error_mm()));
+}
+
+// Loads a STEP or IGES file through the importer. Its answer is checked like any message.
+absl::StatusOr<LoadedModel> LoadCad(const v1::ModelFile& file, std::string_view format, const std::string& at,
+                                    const RunContext& run, InFlight* in_flight) {
+  if (file.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED) {
+    FieldErrors errors;
+    errors.Add(At(at, "length_unit"), "must be unset: a CAD file states its own unit");
+    return errors.ToStatus();
+  }
+  PM_ASSIGN_OR_RETURN(const v1::ImportResult result, ImportFile(file.content(), format, run));
+  PM_ASSIGN_OR_RETURN(const InFlight::Hold held,
+                      HoldModelWire(result.model().SerializeAsString(), true, in_flight));
+  PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadMessage(result.model(), At(at, "content"), run));
+  loaded.remarks.push_back(ImportRemark(result.report(), format));
+  for (const v1::Diagnostic& finding : result.report().findings()) {
+    Diagnostic remark = FromProto(finding);
+    (remark.severity == Severity::kError ? loaded.faults : loaded.remarks).push_back(std::move(remark));
+  }
+  return loaded;
+}
+
 bool IsText(const std::string& format) {
   return std::find(std::begin(kTextFormats), std::end(kTextFormats), format) != std::end(kTextFormats);
 }
@@ -152,8 +200,8 @@ absl::StatusOr<FileMessage> ParseMessage(const v1::ModelFile& file, std::string_
   if (!(file.format().empty() || file.format() == "json" || file.format() == "pb")) {
     FieldErrors errors;
     errors.Add(At(at, "format"),
-               fmt::format("= \"{}\"; must be one of {}, json, pb", Utf8(file.format().substr(0, 50)),
-                           fmt::join(kTextFormats, ", ")));
+               fmt::format("= \"{}\"; must be one of {}, step, iges, json, pb",
+                           Utf8(file.format().substr(0, 50)), fmt::join(kTextFormats, ", ")));
     return errors.ToStatus();
   }
   PM_ASSIGN_OR_RETURN(FileMessage message, LooksLikeJson(file.content()) || file.format() == "json"
@@ -176,6 +224,8 @@ absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::strin
                                      InFlight* in_flight) {
   PM_RETURN_IF_ERROR(RequireContent(file));
   if (IsText(file.format())) return LoadText(file, at);
+  const std::string_view cad = CadFormat(file.format());
+  if (!cad.empty()) return LoadCad(file, cad, at, run, in_flight);
   PM_ASSIGN_OR_RETURN(const FileMessage message, ParseMessage(file, at, run, in_flight));
   return LoadMessage(message.model, At(at, "content"), run);
 }

@@ -244,8 +244,10 @@ absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::string_view kTextEndings[] = {".bpt", ".bv", ".bez", ".patches"};  // others: by content
-  if (std::find(std::begin(kTextEndings), std::end(kTextEndings), ending) != std::end(kTextEndings)) {
+  // Others are known by their content.
+  constexpr std::string_view kStated[] = {".bpt", ".bv",  ".bez",  ".patches", ".step",
+                                          ".stp", ".p21", ".iges", ".igs"};
+  if (std::find(std::begin(kStated), std::end(kStated), ending) != std::end(kStated)) {
     file.set_format(ending.substr(1));
   }
   file.set_content(*std::move(bytes));

@@ -51,7 +51,8 @@ void AddShankOptions(CLI::App& app, ShankOptions& options);
 void AddSetupOptions(CLI::App& app, SetupOptions& options);
 void AddStockOptions(CLI::App& app, SetupOptions& options);
 
-inline constexpr char kModelHelp[] = "model file: .json, .pb, .bpt, .bv, .bez, .patches";
+inline constexpr char kModelHelp[] =
+    "model file: .step, .stp, .iges, .igs, .json, .pb, .bpt, .bv, .bez, .patches";
 
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options);
 void SetShank(const ShankOptions& options, v1::Tool& tool);

@@ -1,6 +1,6 @@
 // Where the edges of a face run on its surface: edge by edge in grid coordinates, and fitted by graphs.
 //
-// The curve in space is the truth. A place of the border is the foot of a point of that curve on the surface.
+// The curve in space is the truth. A place of the border is the foot of a point of that curve on the surface [trimming, section 3].
 #pragma once
 
 #include <vector>

@@ -42,8 +42,8 @@ GraphParts CutGraph(const GridGraph& graph, int axis, double at);
 // points. Absent if the ends do not differ in that coordinate.
 std::optional<GridGraph> TurnedGraph(const GridGraph& graph, int degree);
 
-// The Bernstein coefficients, kept between the ends' and monotonic, of the polynomial of degree 1 to 3 through
-// values at equal steps.
+// The Bernstein coefficients, kept between the ends' and monotonic, of the polynomial of degree 1 to 3
+// through values at equal steps.
 std::vector<double> ThroughValues(const std::vector<double>& values);
 
 }  // namespace patchmill

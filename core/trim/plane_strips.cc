@@ -239,8 +239,8 @@ class PlaneCutter {
     arcs_ = std::move(parts);
   }
 
-  // Corners that differ in x by rounding get the same x. Returns all x of corners; borders along a wall, which
-  // bound nothing above or below, are left out.
+  // Corners that differ in x by rounding get the same x. Returns all x of corners. Borders along a wall bound
+  // nothing above or below and are left out.
   std::vector<double> SnapWalls() {
     std::vector<double> xs;
     for (const Arc& arc : arcs_) {

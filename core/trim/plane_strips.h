@@ -1,9 +1,9 @@
-// A face on a plane as exact rational patches: trapezoids between its own borders.
+// A face on a plane as exact rational patches: trapezoids between its own borders [trimming, section 6].
 //
 // Lines, conic sections and splines stay what they are. The face is cut by walls, straight lines at right
-// angles to its longest straight edge, through every corner and every place where a border turns back. Between
-// two walls one border lies above the other. A patch reaches from a border to a straight line along parallel
-// rulings, so it never folds; where both borders are curved, a straight line is laid between them.
+// angles to its longest straight edge, through every corner and every place where a border turns back.
+// Between two walls one border lies above the other. A patch reaches from a border to a straight line along
+// parallel rulings, so it never folds. Where both borders are curved, a straight line is laid between them.
 #pragma once
 
 #include <vector>
@@ -24,8 +24,8 @@ struct PlanePatches {
   std::vector<std::vector<double>> breaks;
 };
 
-// FAILED_PRECONDITION if a loop is open by more than 0.05 mm, or borders cross. Cost O(n^2) in the spans of the
-// borders.
+// FAILED_PRECONDITION if a loop is open by more than 0.05 mm, or borders cross. Cost O(n^2) in the spans of
+// the borders.
 absl::StatusOr<PlanePatches> CutPlane(const BrepFrame& frame, const std::vector<BrepLoop>& loops,
                                       const EdgeCurveTable& curves, const RunContext& run);
 

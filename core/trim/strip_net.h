@@ -1,4 +1,5 @@
-// The exact patch over a strip of a carrier's parameters: the surface composed with the map of the strip.
+// The exact patch over a strip of a carrier's parameters: the surface composed with the map of the strip
+// [trimming (3)].
 #pragma once
 
 #include "core/patch/piece.h"

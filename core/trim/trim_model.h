@@ -1,7 +1,7 @@
 // Trimmed faces as patches that lie on the faces' surfaces exactly.
 //
-// Where a face ends is exact for edges along iso-parametric lines, and on planes for lines, conic sections and
-// splines. Elsewhere the border of the patches follows the edge within the border tolerance.
+// Where a face ends is exact for edges along iso-parametric lines, and on planes for lines, conic sections
+// and splines. Elsewhere the border of the patches follows the edge within the border tolerance [trimming].
 #pragma once
 
 #include <string>
@@ -42,7 +42,7 @@ struct TrimmedModel {
 };
 
 // Parallel over faces; the result does not depend on the number of threads. Coordinates are rounded to 2^-40
-// of the part's size, so that the last bits of the reader's arithmetic do not matter. Cancelled, or no face at
+// of the size of the part, so that the last bits of the reader do not matter. Cancelled, or no face at
 // all (FAILED_PRECONDITION), is an error.
 absl::StatusOr<TrimmedModel> TrimFaces(const BrepModel& part, const TrimParams& params,
                                        const RunContext& run);

@@ -52,6 +52,9 @@ SERVER = ["server", "server/convert", "server/handlers"]
 BELOW_SERVER = set(ALLOWED) | PROTO
 for name in SERVER:
     ALLOWED[name] = BELOW_SERVER | set(SERVER)
+# The importer reads CAD files in a process of its own: geometry and the contract, nothing of planning or serving.
+for name in ["import", "import/occt"]:
+    ALLOWED[name] = UP_TO_NETWORK | {"core/brep", "core/trim", "import", "import/occt"} | PROTO
 # Clients speak proto. The command line may start the server inside its own process, through these headers, and nothing else.
 ALLOWED["clients/cli"] = set(PROTO)
 EXTRA_FILES = {"clients/cli": {"server/server.h", "server/options.h", "server/serve_flags.h"}}
@@ -67,7 +70,7 @@ def folder(path):
 def main():
     root = pathlib.Path(sys.argv[1])
     faults, seen = [], 0
-    for top in ["core", "cam", "proto", "server", "clients"]:
+    for top in ["core", "cam", "proto", "server", "clients", "import"]:
         for source in sorted((root / top).rglob("*")):
             if source.suffix not in {".h", ".cc"}:
                 continue

@@ -1,0 +1,110 @@
+// patchmill-import: reads the bytes of a STEP or IGES file from its standard input and answers on its standard
+// output with frames (core/base/frames.h). The server starts one for each file.
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <iostream>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/base/error_details.h"
+#include "core/base/frames.h"
+#include "core/base/run_context.h"
+#include "core/trim/trim_model.h"
+#include "import/occt/read_part.h"
+#include "import/process_limits.h"
+#include "import/wire_result.h"
+
+namespace patchmill {
+namespace {
+
+std::string ReadInput() {
+  std::string bytes;
+  std::array<char, 1 << 16> block;
+  while (true) {
+    const ssize_t got = read(STDIN_FILENO, block.data(), block.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return bytes;
+    bytes.append(block.data(), static_cast<std::size_t>(got));
+  }
+}
+
+class Answers {
+ public:
+  explicit Answers(int fd) : fd_(fd) {}
+  void Send(FrameKind kind, std::string_view content) const {
+    Write(FrameHead(kind, static_cast<std::uint32_t>(content.size())));
+    Write(content);
+  }
+  void Error(std::string_view code, std::string_view sentence) const {
+    Send(FrameKind::kError, fmt::format("{} {}", code, sentence));
+  }
+
+ private:
+  void Write(std::string_view bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t wrote = write(fd_, bytes.data(), bytes.size());
+      if (wrote < 0 && errno == EINTR) continue;
+      if (wrote <= 0) _exit(3);  // nobody listens any more
+      bytes.remove_prefix(static_cast<std::size_t>(wrote));
+    }
+  }
+  int fd_;
+};
+
+int Import(std::string_view format, const Answers& answers) {
+  RunContext run;
+  run.set_progress([&answers](std::string_view stage, double fraction) {
+    // Reading takes the first half of the way, trimming the rest.
+    const double all = stage == "read" ? 0.5 * fraction : 0.5 + 0.5 * fraction;
+    answers.Send(FrameKind::kProgress, fmt::format("{:.3f} {}", all, stage));
+  });
+  run.set_threads(1);
+  const absl::StatusOr<ImportedPart> part = ReadPart(ReadInput(), format, run);
+  if (!part.ok()) {
+    const std::string code = CodeOf(part.status());
+    answers.Error(code.empty() ? "CAD_UNREADABLE" : code, std::string(part.status().message()));
+    return 1;
+  }
+  const absl::StatusOr<TrimmedModel> trimmed = TrimFaces(part->model, TrimParams(), run);
+  if (!trimmed.ok()) {
+    answers.Error("NO_FACE", std::string(trimmed.status().message()));
+    return 1;
+  }
+  v1::ImportResult result = ToWire(part->model, *trimmed);
+  AddFileFacts(part->facts, *result.mutable_report());
+  answers.Send(FrameKind::kResult, result.SerializeAsString());
+  return 0;
+}
+
+}  // namespace
+}  // namespace patchmill
+
+int main(int argc, char** argv) {
+  using namespace patchmill;
+  const bool understood = argc == 3 && std::string_view(argv[1]) == "--format" &&
+                          (std::string_view(argv[2]) == "step" || std::string_view(argv[2]) == "iges");
+  if (!understood) {
+    std::cerr << "usage: patchmill-import --format step|iges < FILE   (for the server; use patchmill convert)\n";
+    return 2;
+  }
+  // The reader writes to its standard output: the answers get a descriptor of their own.
+  const int fd = dup(STDOUT_FILENO);
+  if (fd < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
+  const Answers answers(fd);
+  if (!LimitThisProcess({})) {
+    answers.Error("IMPORT_LIMIT", "the importer's limits could not be set");
+    return 2;
+  }
+  std::set_new_handler([] { throw std::bad_alloc(); });
+  try {
+    return Import(argv[2], answers);
+  } catch (const std::bad_alloc&) {
+    answers.Error("IMPORT_LIMIT", "the CAD file needs more than 2 GiB of memory to be read");
+    return 1;
+  }
+}

@@ -1,0 +1,194 @@
+#include "import/occt/face_integrals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <GeomAdaptor_Surface.hxx>
+#include <TColStd_Array1OfReal.hxx>
+
+#include "core/base/index.h"
+#include "import/occt/convert.h"
+
+namespace patchmill {
+namespace {
+
+// Gauss's rule with eight points on [0,1].
+constexpr std::array<double, 8> kNodes = {0.019855071751231884, 0.101666761293186630, 0.237233795041835507,
+                                          0.408282678752175098, 0.591717321247824902, 0.762766204958164493,
+                                          0.898333238706813370, 0.980144928248768116};
+constexpr std::array<double, 8> kWeights = {0.050614268145188130, 0.111190517226687235, 0.156853322938943644,
+                                            0.181341891689180991, 0.181341891689180991, 0.156853322938943644,
+                                            0.111190517226687235, 0.050614268145188130};
+// The same with four points, for surfaces with many knots.
+constexpr std::array<double, 4> kFewNodes = {0.069431844202973712, 0.330009478207571868, 0.669990521792428132,
+                                             0.930568155797026288};
+constexpr std::array<double, 4> kFewWeights = {0.173927422568726929, 0.326072577431273071,
+                                               0.326072577431273071, 0.173927422568726929};
+constexpr std::size_t kManyBreaks = 64;
+constexpr double kAgreement = 1e-9;
+constexpr int kMostHalvings = 10;
+// Directions that turn are cut so that a step turns by little.
+constexpr double kLongestTurn = 0.25 * kPi;
+
+using Sums = Eigen::Vector2d;  // area and volume
+
+bool Turns(const Geom_Surface& s, bool along_u) {
+  return along_u ? s.IsUPeriodic() : s.IsVPeriodic();
+}
+
+// The smooth parts of [low, high] in one direction.
+std::vector<double> BreaksOf(const Handle(Geom_Surface) & bare, const NeededParameters& range, bool along_u) {
+  const NeededParameters::Range& own = along_u ? range.u : range.v;
+  if (!(own.low < own.high)) return {own.low, own.high};
+  std::vector<double> breaks = {own.low};
+  const GeomAdaptor_Surface adaptor(bare);
+  const int count = along_u ? adaptor.NbUIntervals(GeomAbs_CN) : adaptor.NbVIntervals(GeomAbs_CN);
+  TColStd_Array1OfReal at(1, count + 1);
+  if (along_u) {
+    adaptor.UIntervals(at, GeomAbs_CN);
+  } else {
+    adaptor.VIntervals(at, GeomAbs_CN);
+  }
+  const bool turns = Turns(*bare, along_u);
+  const double period = !turns ? 0.0 : (along_u ? bare->UPeriod() : bare->VPeriod());
+  for (int turn = turns ? -2 : 0; turn <= (turns ? 2 : 0); ++turn) {
+    for (const double x : at) {
+      const double moved = x + turn * period;
+      if (moved > own.low && moved < own.high) breaks.push_back(moved);
+    }
+  }
+  breaks.push_back(own.high);
+  std::sort(breaks.begin(), breaks.end());
+  if (!turns) return breaks;
+  std::vector<double> fine = {breaks.front()};
+  for (std::size_t k = 1; k < breaks.size(); ++k) {
+    const double from = breaks[k - 1], step = breaks[k] - from;
+    const double longest = kLongestTurn / (2.0 * kPi) * period;
+    const int parts = std::max(1, static_cast<int>(std::ceil(step / longest)));
+    for (int i = 1; i <= parts; ++i) fine.push_back(from + step * i / parts);
+  }
+  return fine;
+}
+
+class Integrator {
+ public:
+  Integrator(const Handle(Geom_Surface) & bare, const NeededParameters& range)
+      : surface_(bare), u_(BreaksOf(bare, range, true)), v_(BreaksOf(bare, range, false)) {}
+
+  Sums Along(const PlaceCurve& curve) const {
+    std::vector<double> breaks = curve.Breaks();
+    AddCrossings(curve, breaks);
+    std::vector<Sums> coarse;
+    double size = 0.0;
+    for (std::size_t k = 1; k < breaks.size(); ++k) {
+      coarse.push_back(Rule(curve, breaks[k - 1], breaks[k]));
+      size += coarse.back().x() < 0.0 ? -coarse.back().x() : coarse.back().x();
+    }
+    Sums sums = Sums::Zero();
+    if (size == 0.0) return sums;
+    for (std::size_t k = 1; k < breaks.size(); ++k) {
+      sums += Halved(curve, breaks[k - 1], breaks[k], coarse[k - 1], kAgreement * size, 0);
+    }
+    return sums;
+  }
+
+ private:
+  // The integrands of area and volume.
+  Sums Density(double u, double v) const {
+    gp_Pnt p;
+    gp_Vec du, dv;
+    surface_->D1(u, v, p, du, dv);
+    const gp_Vec normal = du.Crossed(dv);
+    return {normal.Magnitude(), gp_Vec(p.XYZ()).Dot(normal) / 3.0};
+  }
+
+  // From the lowest u to this one, at this v.
+  Sums UpTo(double u, double v) const {
+    Sums sums = Sums::Zero();
+    const bool few = u_.size() > kManyBreaks;
+    for (std::size_t k = 1; k < u_.size(); ++k) {
+      const bool last = k + 1 == u_.size() || u_[k] >= u;
+      const double from = u_[k - 1], step = (last ? u : u_[k]) - from;
+      if (few) {
+        for (std::size_t i = 0; i < kFewNodes.size(); ++i) {
+          sums += kFewWeights[i] * step * Density(from + step * kFewNodes[i], v);
+        }
+      } else {
+        for (std::size_t i = 0; i < kNodes.size(); ++i) {
+          sums += kWeights[i] * step * Density(from + step * kNodes[i], v);
+        }
+      }
+      if (last) break;
+    }
+    return sums;
+  }
+
+  Sums Rule(const PlaceCurve& curve, double from, double to) const {
+    Sums sums = Sums::Zero();
+    const double lowest = u_.front(), width = u_.back() - u_.front();
+    for (std::size_t i = 0; i < kNodes.size(); ++i) {
+      const PlaceJet jet = curve.At(from + (to - from) * kNodes[i]);
+      if (jet.d.y() == 0.0 || std::abs(jet.place.x() - lowest) <= 1e-15 * width) continue;
+      sums += kWeights[i] * (to - from) * jet.d.y() * UpTo(jet.place.x(), jet.place.y());
+    }
+    return sums;
+  }
+
+  Sums Halved(const PlaceCurve& curve, double from, double to, const Sums& whole, double slack,
+              int depth) const {
+    const double middle = 0.5 * (from + to);
+    const Sums a = Rule(curve, from, middle), b = Rule(curve, middle, to);
+    if (std::abs(a.x() + b.x() - whole.x()) <= slack || depth >= kMostHalvings) return a + b;
+    return Halved(curve, from, middle, a, slack, depth + 1) + Halved(curve, middle, to, b, slack, depth + 1);
+  }
+
+  // Where the curve crosses knots of the surface in v, between places a part of a span apart.
+  void AddCrossings(const PlaceCurve& curve, std::vector<double>& breaks) const {
+    if (v_.size() <= 2) return;
+    constexpr int kPlaces = 8;
+    const std::vector<double> own = breaks;
+    for (std::size_t k = 1; k < own.size(); ++k) {
+      for (int i = 0; i < kPlaces; ++i) {
+        const double a = own[k - 1] + (own[k] - own[k - 1]) * i / kPlaces,
+                     b = own[k - 1] + (own[k] - own[k - 1]) * (i + 1) / kPlaces;
+        const double va = curve.At(a).place.y(), vb = curve.At(b).place.y();
+        const auto first = std::upper_bound(v_.begin(), v_.end(), std::min(va, vb));
+        const auto last = std::lower_bound(v_.begin(), v_.end(), std::max(va, vb));
+        for (auto line = first; line < last; ++line) breaks.push_back(Crossing(curve, a, b, va, *line));
+      }
+    }
+    std::sort(breaks.begin(), breaks.end());
+  }
+
+  static double Crossing(const PlaceCurve& curve, double a, double b, double va, double line) {
+    for (int round = 0; round < 48; ++round) {
+      const double middle = 0.5 * (a + b);
+      if ((curve.At(middle).place.y() < line) == (va < line)) {
+        a = middle;
+      } else {
+        b = middle;
+      }
+    }
+    return 0.5 * (a + b);
+  }
+
+  const Handle(Geom_Surface) surface_;
+  std::vector<double> u_, v_;
+};
+
+}  // namespace
+
+FaceIntegrals IntegrateFace(const Handle(Geom_Surface) & bare, const std::vector<SampledLoop>& loops) {
+  const Integrator integrator(bare, ParametersOf(loops));
+  Sums sums = Sums::Zero();
+  for (const SampledLoop& loop : loops) {
+    for (const SampledUse& use : loop) {
+      sums += (use.forward ? 1.0 : -1.0) * integrator.Along(use.curve);
+    }
+  }
+  return {std::abs(sums.x()), sums.x() < 0.0 ? -sums.y() : sums.y()};
+}
+
+}  // namespace patchmill

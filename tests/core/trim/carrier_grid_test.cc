@@ -1,0 +1,111 @@
+// Carriers against the surfaces' own formulas, and feet of places beside them.
+#include "core/trim/carrier_grid.h"
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace patchmill {
+namespace {
+
+struct Case {
+  const char* name;
+  BrepSurface surface;
+  Vec2 low, high;
+  std::function<Vec3(double, double)> formula;  // in the frame of Turned
+};
+
+BrepFrame Turned() {
+  BrepFrame frame;
+  frame.origin = {3, -2, 7};
+  const Eigen::Matrix3d m = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  frame.x = m.col(0);
+  frame.y = m.col(1);
+  frame.z = m.col(2);
+  return frame;
+}
+
+std::vector<Case> Cases() {
+  const BrepFrame f = Turned();
+  const auto ring = [f](double u, double r, double h) {
+    return Vec3(f.origin + r * (std::cos(u) * f.x + std::sin(u) * f.y) + h * f.z);
+  };
+  const double a = 0.4;
+  return {
+      {"plane",
+       BrepPlane{f},
+       {-2, 1},
+       {5, 4},
+       [f](double u, double v) { return Vec3(f.origin + u * f.x + v * f.y); }},
+      {"cylinder",
+       BrepCylinder{f, 6},
+       {0.3, -2},
+       {5.9, 9},
+       [=](double u, double v) { return ring(u, 6, v); }},
+      {"cone",
+       BrepCone{f, 4, a},
+       {-1.0, 0},
+       {2.0, 5},
+       [=](double u, double v) { return ring(u, 4 + v * std::sin(a), v * std::cos(a)); }},
+      {"sphere",
+       BrepSphere{f, 5},
+       {0, -kPi / 2},
+       {2 * kPi, kPi / 2},
+       [=](double u, double v) { return ring(u, 5 * std::cos(v), 5 * std::sin(v)); }},
+      {"torus",
+       BrepTorus{f, 9, 2},
+       {0, 0},
+       {2 * kPi, 2 * kPi},
+       [=](double u, double v) { return ring(u, 9 + 2 * std::cos(v), 2 * std::sin(v)); }},
+  };
+}
+
+TEST(CarrierGrid, PlacesAreThoseOfTheFormulas) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (const Case& c : Cases()) {
+    const CarrierGrid grid = CarriersOf(c.surface, c.low, c.high);
+    for (int k = 0; k < 200; ++k) {
+      const Vec2 at(c.low.x() + (c.high.x() - c.low.x()) * unit(random),
+                    c.low.y() + (c.high.y() - c.low.y()) * unit(random));
+      const Vec3 expected = c.formula(at.x(), at.y());
+      EXPECT_LT((PositionAt(grid, GridCoordinates(grid, at)) - expected).norm(), 1e-12) << c.name;
+    }
+  }
+}
+
+TEST(CarrierGrid, FeetFromFarAwayStarts) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (const Case& c : Cases()) {
+    const CarrierGrid grid = CarriersOf(c.surface, c.low, c.high);
+    for (int k = 0; k < 200; ++k) {
+      const Vec2 at((0.1 + 0.8 * unit(random)) * grid.u.count(), (0.1 + 0.8 * unit(random)) * grid.v.count());
+      const Vec2 start = (at + 0.3 * Vec2(unit(random) - 0.5, unit(random) - 0.5)).cwiseMax(0.0);
+      const GridCell cell = CellAt(grid, at);
+      const SurfaceJet jet = JetAt(grid, cell, at);
+      const Vec3 normal = jet.du.cross(jet.dv).normalized();
+      const double off = 0.4 * (unit(random) - 0.5);
+      const auto foot =
+          FootOnGrid(grid, jet.p + off * normal, start.cwiseMin(Vec2(grid.u.count(), grid.v.count())));
+      ASSERT_TRUE(foot) << c.name;
+      EXPECT_NEAR(foot->distance, std::abs(off), 1e-12) << c.name;
+      EXPECT_LT((foot->point - jet.p).norm(), 1e-10) << c.name;
+    }
+  }
+}
+
+TEST(CarrierGrid, AConeEndsAtItsApex) {
+  const BrepCone cone{Turned(), 4, 0.4};
+  const double apex = -4 / std::sin(0.4);
+  const CarrierGrid grid = CarriersOf(cone, {0, apex}, {kPi, 3});
+  const Vec3 tip = PositionAt(grid, {0.3, 0.0});
+  EXPECT_LT((PositionAt(grid, {1.9, 0.0}) - tip).norm(), 1e-13);
+  EXPECT_LT((tip - (Turned().origin + apex * std::cos(0.4) * Turned().z)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace patchmill
