@@ -54,7 +54,9 @@ struct Places {
   }
   Vec3 Around(const BrepFrame& f) const { return std::cos(u) * f.x + std::sin(u) * f.y; }
 };
-Vec3 PointOn(const BrepSurface& surface, const Vec2& uv) { return std::visit(Places{uv.x(), uv.y()}, surface); }
+Vec3 PointOn(const BrepSurface& surface, const Vec2& uv) {
+  return std::visit(Places{uv.x(), uv.y()}, surface);
+}
 
 Vec3 PointOn(const BrepCurve& curve, double t) {
   const int span = FindSpan(curve.knots, curve.degree, t);
@@ -119,11 +121,11 @@ double FootDistance(const BrepSurface& surface, const Vec3& place, Vec2 at, cons
 }
 
 struct Worst {
-  double jump = 0.0;      // of the face's range of parameters, between neighbours in a loop
-  double jump_mm = 0.0;   // the same in space
-  double hint_mm = 0.0;   // of S(hint) from the curve at hint_at
-  double foot_mm = 0.0;   // of the curve from the surface
-  double area_sign = 1.0; // of the outer loop in the parameters
+  double jump = 0.0;       // of the face's range of parameters, between neighbours in a loop
+  double jump_mm = 0.0;    // the same in space
+  double hint_mm = 0.0;    // of S(hint) from the curve at hint_at
+  double foot_mm = 0.0;    // of the curve from the surface
+  double area_sign = 1.0;  // of the outer loop in the parameters
   void Add(const Worst& o) {
     jump = std::max(jump, o.jump);
     jump_mm = std::max(jump_mm, o.jump_mm);
@@ -186,7 +188,8 @@ void Dump(const std::string& path, bool loops) {
               file->written_by.c_str(), file->root_count, file->searched ? " (searched)" : "");
   for (const auto& [kind, count] : file->skipped) std::printf("  skipped %d %s\n", count, kind.c_str());
   for (const std::string& other : file->external_files) std::printf("  refers to %s\n", other.c_str());
-  for (const std::int64_t lost : file->lost_faces) std::printf("  lost face #%lld\n", static_cast<long long>(lost));
+  for (const std::int64_t lost : file->lost_faces)
+    std::printf("  lost face #%lld\n", static_cast<long long>(lost));
   std::printf("  free edges %d -> %d (sewn at %g)\n", file->sewing.free_edges_before,
               file->sewing.free_edges_after, file->sewing.tolerance);
   const auto convert = Clock::now();
@@ -235,8 +238,8 @@ void Dump(const std::string& path, bool loops) {
                   kKinds[face.surface.index()], face.reversed ? "reversed " : "", face.name.c_str(),
                   face.loops.size());
       for (const BrepLoop& loop : face.loops) std::printf(" %zu", loop.size());
-      std::printf(" area %.8g jump %.2g (%.2g mm) hint %.2g foot %.2g mm\n", face.area.value_or(-1.0), of_face.jump,
-                  of_face.jump_mm, of_face.hint_mm, of_face.foot_mm);
+      std::printf(" area %.8g jump %.2g (%.2g mm) hint %.2g foot %.2g mm\n", face.area.value_or(-1.0),
+                  of_face.jump, of_face.jump_mm, of_face.hint_mm, of_face.foot_mm);
     }
   }
   for (const BrepBody& body : model.bodies) {
@@ -251,16 +254,17 @@ void Dump(const std::string& path, bool loops) {
   const Vec3 size = box.Empty() ? Vec3::Zero() : Vec3(box.max - box.min);
   std::printf("  faces %zu:", model.faces.size());
   for (const auto& [kind, count] : kinds) std::printf(" %s %d", kind.c_str(), count);
-  std::printf("; loops %d, uses %d, edges %zu (%d degenerate), vertices %zu\n", loop_count, uses, model.edges.size(),
-              degenerate, model.vertices.size());
+  std::printf("; loops %d, uses %d, edges %zu (%d degenerate), vertices %zu\n", loop_count, uses,
+              model.edges.size(), degenerate, model.vertices.size());
   std::printf("  coloured %d, layers %zu, names %zu ('%s'), loops backward %d\n", coloured, layers.size(),
               names.size(), names.empty() ? "" : names.begin()->first.c_str(), backward);
-  std::printf("  box of edges %.6g x %.6g x %.6g, area %.10g, surface error %.2g\n", size.x(), size.y(), size.z(), area,
-              error);
-  std::printf("  worst: jump %.2g (%.2g mm), hint %.2g mm, foot %.2g mm; read %.2f s, convert %.2f s\n", all.jump,
-              all.jump_mm, all.hint_mm, all.foot_mm, read_s, convert_s);
+  std::printf("  box of edges %.6g x %.6g x %.6g, area %.10g, surface error %.2g\n", size.x(), size.y(),
+              size.z(), area, error);
+  std::printf("  worst: jump %.2g (%.2g mm), hint %.2g mm, foot %.2g mm; read %.2f s, convert %.2f s\n",
+              all.jump, all.jump_mm, all.hint_mm, all.foot_mm, read_s, convert_s);
   std::printf("ROW|%s|%zu|%zu|%d|%zu|%.2g|%.2g|%.2g|%.9g|%.2g|%.2f|%.2f\n", name.c_str(), model.faces.size(),
-              result->findings.size(), uses, model.bodies.size(), all.jump, all.hint_mm, all.foot_mm, area, error, read_s, convert_s);
+              result->findings.size(), uses, model.bodies.size(), all.jump, all.hint_mm, all.foot_mm, area,
+              error, read_s, convert_s);
 }
 
 }  // namespace

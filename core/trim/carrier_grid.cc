@@ -208,8 +208,17 @@ std::optional<GridFoot> FootOnGrid(const CarrierGrid& grid, const Vec3& place, c
     const double damping = 1e-13 * (uu + vv) + 1e-300;
     h(0, 0) += damping;
     h(1, 1) += damping;
-    Vec2 step = h.inverse() * Vec2(off.dot(jet.du), off.dot(jet.dv));
+    const Vec2 slope(off.dot(jet.du), off.dot(jet.dv));
+    Vec2 step = h.inverse() * slope;
     if (!step.allFinite()) return std::nullopt;
+    // At the border of the grid, and on the way out of it, only the other coordinate moves.
+    const auto leaves = [](double x, double dx, int count) {
+      return (x <= 0.0 && dx < 0.0) || (x >= count && dx > 0.0);
+    };
+    const bool out_u = leaves(at.x(), step.x(), grid.u.count()),
+               out_v = leaves(at.y(), step.y(), grid.v.count());
+    if (out_u) step = {0.0, out_v ? 0.0 : slope.y() / h(1, 1)};
+    if (out_v && !out_u) step = {slope.x() / h(0, 0), 0.0};
     const double most = step.cwiseAbs().maxCoeff();
     if (most > 0.5) step *= 0.5 / most;
     Vec2 next = at + step;

@@ -68,8 +68,10 @@ GraphParts CutGraph(const GridGraph& graph, int axis, double at) {
   const double x = own ? at : WhereValue(graph, at);
   const double s = std::clamp((x - graph.from) / (graph.to - graph.from), 0.0, 1.0);
   GridGraph before = graph, after = graph;
-  KeepLeft(before.c.data(), DegreeOf(graph), 1, s);
-  KeepRight(after.c.data(), DegreeOf(graph), 1, s);
+  if (!graph.level()) {  // a level graph stays exactly level
+    KeepLeft(before.c.data(), DegreeOf(graph), 1, s);
+    KeepRight(after.c.data(), DegreeOf(graph), 1, s);
+  }
   before.to = after.from = x;
   before.c.back() = after.c.front() = own ? before.c.back() : at;
   const bool rises = own || graph.c.back() > graph.c.front();

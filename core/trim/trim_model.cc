@@ -198,13 +198,16 @@ class Trimmer {
 
   void FitPart(std::size_t e, const std::vector<std::size_t>& fitted, double from, double to, int round) {
     std::vector<FittedGraph> fits;
-    double error = 0.0;
+    // An edge that is off its surfaces itself is followed to half of that.
+    double error = 0.0, tolerance = 0.5 * params_.border_tolerance;
     for (const std::size_t u : fitted) {
       const UseId& use = edges_[e].uses[u];
-      fits.push_back(FitGraph(*faces_[At(use.face)].grid, curves_[e], *TraceOf(use), from, to));
+      const UseTrace& trace = *TraceOf(use);
+      tolerance = std::max(tolerance, 0.5 * trace.gap);
+      fits.push_back(FitGraph(*faces_[At(use.face)].grid, curves_[e], trace, from, to));
       error = std::max(error, fits.back().error);
     }
-    if (error > 0.5 * params_.border_tolerance && round < kMaxRounds && !run_.Cancelled()) {
+    if (error > tolerance && round < kMaxRounds && !run_.Cancelled()) {
       const double middle = 0.5 * (from + to);
       FitPart(e, fitted, from, middle, round + 1);
       FitPart(e, fitted, middle, to, round + 1);
@@ -278,10 +281,8 @@ constexpr std::array<double, 8> kWeights = {0.050614268145188130, 0.111190517226
                                             0.181341891689180991, 0.181341891689180991, 0.156853322938943644,
                                             0.111190517226687235, 0.050614268145188130};
 
-// On quarters of a rational patch, and on the whole of a polynomial one.
-double AreaOf(const BezierPatch& patch) {
-  const PatchShape shape = patch;
-  const int parts = patch.weights.empty() ? 1 : 2;
+// The area by parts x parts Gauss squares.
+double AreaOf(const PatchShape& shape, int parts) {
   const auto nodes = static_cast<int>(kNodes.size());
   double area = 0.0;
   for (int i = 0; i < nodes * parts; ++i) {
@@ -293,6 +294,19 @@ double AreaOf(const BezierPatch& patch) {
     }
   }
   return area / (parts * parts);
+}
+
+// The area to about 1e-9 of it.
+double AreaOf(const BezierPatch& patch) {
+  const PatchShape shape = patch;
+  double area = AreaOf(shape, 1);
+  for (int parts = 2; parts <= 16; parts *= 2) {
+    const double finer = AreaOf(shape, parts);
+    const bool settled = std::abs(finer - area) <= 1e-9 * finer;
+    area = finer;
+    if (settled) break;
+  }
+  return area;
 }
 
 BezierPatch PatchOf(const BernsteinNet& net, bool reversed, double quantum) {
@@ -324,7 +338,13 @@ absl::StatusOr<TrimmedModel> Trimmer::Joined() {
       for (const Vec4& h : net.points) box.Add(Vec3(h.head<3>() / h.w()));
     }
   }
-  if (box.Empty()) return absl::FailedPreconditionError("no face of the part could be trimmed");
+  if (box.Empty()) {
+    const auto lost =
+        std::find_if(faces_.begin(), faces_.end(), [](const FaceWork& work) { return !work.failed.ok(); });
+    return absl::FailedPreconditionError(absl::StrCat("no face of the part could be trimmed",
+                                                      lost == faces_.end() ? "" : ": ",
+                                                      lost == faces_.end() ? "" : lost->failed.message()));
+  }
   const double quantum = std::exp2(std::ceil(std::log2(std::max(box.Diagonal(), 1e-6))) - 40.0);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const FaceWork& work = faces_[f];
@@ -349,14 +369,14 @@ absl::StatusOr<TrimmedModel> Trimmer::Joined() {
           MakeError("FACE_LOST", absl::StrFormat("face %s could not be trimmed: %s", face.id, why), where));
     } else if (stated && std::abs(face.area - *stated) >
                              1e-4 * std::abs(*stated) + 1e-3 + work.dropped_area +
-                                 std::sqrt(std::abs(*stated)) * (work.border_error + work.gap)) {
+                                 4.0 * std::sqrt(std::abs(*stated)) * (work.border_error + work.gap)) {
       result.findings.push_back(
           MakeError("FACE_AREA_DIFFERS",
                     absl::StrFormat("face %s has %.6g mm2 in the file and %.6g mm2 as patches", face.id,
                                     *stated, face.area),
                     where));
     }
-    if (work.border_error > params_.border_tolerance) {
+    if (work.border_error > std::max(params_.border_tolerance, work.gap)) {
       result.findings.push_back(MakeWarning(
           "BORDER_COARSE",
           absl::StrFormat("the border of face %s is off its edges by %.3g mm; %.3g mm were allowed", face.id,

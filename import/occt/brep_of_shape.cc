@@ -77,6 +77,8 @@ class Reader {
     const ShapeLabel whole = LabelOfBody(shape.shape);
     volume_ = 0.0;
     whole_ = true;
+    face_count_.clear();
+    for (const TopoDS_Face& face : shape.faces) ++face_count_[EntityOf(labels_, face)];
     for (const TopoDS_Face& face : shape.faces) AddFace(face, whole, number);
     if (result_.model.faces.size() == first_face) return;
     BrepBody body;
@@ -118,7 +120,8 @@ class Reader {
     face.entity = label.entity;
     if (!seen_.Add(shape)) {
       whole_ = false;
-      result_.findings.push_back({"FACE_SHARED", "a face belongs to two bodies", LastFace(), label.entity, {}});
+      result_.findings.push_back(
+          {"FACE_SHARED", "a face belongs to two bodies", LastFace(), label.entity, {}});
       return;
     }
     const absl::Status read = Guarded([&] { return Read(shape, face); });
@@ -136,13 +139,35 @@ class Reader {
         }
       }
       result_.findings.push_back({std::move(code), std::move(reason), index, label.entity, BoxOf(shape)});
-    } else if (label.loop_count > static_cast<int>(face.loops.size())) {
+    } else if (overlaps_) {
+      result_.findings.push_back({"FACE_OVERLAPS",
+                                  "the border runs over more than a whole turn of the surface", index,
+                                  label.entity, BoxOf(shape)});
+    } else if (face_count_[label.entity] == 1 && !HasSeam(face) &&
+               label.loop_count > static_cast<int>(face.loops.size())) {
       result_.findings.push_back(
           {"FACE_UNTRIMMED",
            absl::StrFormat("the file states %d loops, and %d were read", label.loop_count, face.loops.size()),
            index, label.entity, BoxOf(shape)});
     }
     result_.model.faces.push_back(std::move(face));
+  }
+
+  // Two loops of the file become one where the reader joins them by a seam.
+  static bool HasSeam(const BrepFace& face) {
+    return std::any_of(face.loops.begin(), face.loops.end(), [](const BrepLoop& loop) {
+      return std::any_of(loop.begin(), loop.end(), [](const BrepEdgeUse& use) { return use.seam; });
+    });
+  }
+
+  // Whether the border runs over more than a whole turn of the surface.
+  static bool Overlaps(const Geom_Surface& bare, const NeededParameters& needed) {
+    constexpr double kSlack = 1e-4;
+    const auto beyond = [](const NeededParameters::Range& r, double period) {
+      return r.high - r.low > (1.0 + kSlack) * period;
+    };
+    return (bare.IsUPeriodic() && beyond(needed.u, bare.UPeriod())) ||
+           (bare.IsVPeriodic() && beyond(needed.v, bare.VPeriod()));
   }
 
   int LastFace() const { return static_cast<int>(result_.model.faces.size()) - 1; }
@@ -156,7 +181,9 @@ class Reader {
     if (given.IsNull()) return absl::InvalidArgumentError("the face has no surface");
     const Handle(Geom_Surface) bare = BareSurface(given);
     PM_ASSIGN_OR_RETURN(const std::vector<SampledLoop> loops, SampleLoops(shape, bare, edges_));
-    PM_ASSIGN_OR_RETURN(SurfacePart surface, SurfaceOver(bare, ParametersOf(loops)));
+    const NeededParameters needed = ParametersOf(loops);
+    overlaps_ = Overlaps(*bare, needed);
+    PM_ASSIGN_OR_RETURN(SurfacePart surface, SurfaceOver(bare, needed));
     // A mirror turns the surface's own normal against the mirrored one.
     face.reversed = (shape.Orientation() == TopAbs_REVERSED) != placed.IsNegative();
     if (const FaceIntegrals figures = IntegrateFace(bare, loops); std::isfinite(figures.area)) {
@@ -227,8 +254,11 @@ class Reader {
     if (!body.volume || *body.volume >= 0.0) return;
     body.volume = -*body.volume;
     for (std::size_t f = first_face; f < faces.size(); ++f) faces[f].reversed = !faces[f].reversed;
-    result_.findings.push_back({"INSIDE_OUT", "the faces of a closed body looked inward",
-                                static_cast<int>(first_face), faces[first_face].entity, {}});
+    result_.findings.push_back({"INSIDE_OUT",
+                                "the faces of a closed body looked inward",
+                                static_cast<int>(first_face),
+                                faces[first_face].entity,
+                                {}});
   }
 
   // Bodies that have their name in common become "name.1", "name.2".
@@ -246,8 +276,10 @@ class Reader {
   const ShapeLabels& labels_;
   EdgeTable edges_;
   TopTools_MapOfShape seen_;
-  double volume_ = 0.0;  // of the faces of the body that is read
-  bool whole_ = true;    // all of them were read
+  std::map<std::int64_t, int> face_count_;  // by number in the file, of the body that is read
+  double volume_ = 0.0;                     // of the faces of the body that is read
+  bool whole_ = true;                       // all of them were read
+  bool overlaps_ = false;                   // the face that is read
   BrepOfShapeResult result_;
 };
 

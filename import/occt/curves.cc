@@ -61,8 +61,9 @@ CurvePart EllipseArcs(const Vec3& center, const Vec3& x, const Vec3& y, double f
   const auto on = [&](double t, double scale) {
     return Vec3(center + scale * (std::cos(t) * x + std::sin(t) * y));
   };
-  return Arcs({ParameterMap::Kind::kCircular, first, last, spans, 0.0}, [&](double t) { return on(t, 1.0); },
-              [&](double t) { return on(t, 1.0 / weight); }, weight);
+  return Arcs(
+      {ParameterMap::Kind::kCircular, first, last, spans, 0.0}, [&](double t) { return on(t, 1.0); },
+      [&](double t) { return on(t, 1.0 / weight); }, weight);
 }
 
 CurvePart HyperbolaArcs(const Vec3& center, const Vec3& x, const Vec3& y, double first, double last) {
@@ -71,8 +72,9 @@ CurvePart HyperbolaArcs(const Vec3& center, const Vec3& x, const Vec3& y, double
   const auto on = [&](double t, double scale) {
     return Vec3(center + scale * (std::cosh(t) * x + std::sinh(t) * y));
   };
-  return Arcs({ParameterMap::Kind::kHyperbolic, first, last, spans, 0.0},
-              [&](double t) { return on(t, 1.0); }, [&](double t) { return on(t, 1.0 / weight); }, weight);
+  return Arcs(
+      {ParameterMap::Kind::kHyperbolic, first, last, spans, 0.0}, [&](double t) { return on(t, 1.0); },
+      [&](double t) { return on(t, 1.0 / weight); }, weight);
 }
 
 // The polynomial quadratic between two parameters of the parabola: the middle control point lies where the
@@ -151,7 +153,8 @@ Handle(Kind) As(const Handle(Geom_Curve) & curve) {
 
 absl::StatusOr<CurvePart> CurveBetween(const Handle(Geom_Curve) & given, double first, double last) {
   Handle(Geom_Curve) curve = given;
-  while (const Handle(Geom_TrimmedCurve) trimmed = As<Geom_TrimmedCurve>(curve)) curve = trimmed->BasisCurve();
+  while (const Handle(Geom_TrimmedCurve) trimmed = As<Geom_TrimmedCurve>(curve))
+    curve = trimmed->BasisCurve();
   const double size = std::max({1.0, std::abs(first), std::abs(last)});
   if (!std::isfinite(first) || !std::isfinite(last) || !(last - first > kShortestRange * size)) {
     return absl::InvalidArgumentError("a curve has an empty or an infinite range");

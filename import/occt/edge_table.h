@@ -16,8 +16,8 @@
 namespace patchmill {
 
 struct TableEdge {
-  absl::Status status;       // why it cannot be used
-  CurvePart part;            // without points for a degenerate edge
+  absl::Status status;             // why it cannot be used
+  CurvePart part;                  // without points for a degenerate edge
   double first = 0.0, last = 1.0;  // range of the edge in the parameters of Open CASCADE
   int start = 0, end = 0;
   bool degenerate = false;

@@ -6,6 +6,9 @@
 #include <cstddef>
 
 #include <GeomAdaptor_Surface.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Geom_ElementarySurface.hxx>
+#include <Geom_Plane.hxx>
 #include <TColStd_Array1OfReal.hxx>
 
 #include "core/base/index.h"
@@ -27,16 +30,17 @@ constexpr std::array<double, 4> kFewNodes = {0.069431844202973712, 0.33000947820
 constexpr std::array<double, 4> kFewWeights = {0.173927422568726929, 0.326072577431273071,
                                                0.326072577431273071, 0.173927422568726929};
 constexpr std::size_t kManyBreaks = 64;
-constexpr double kAgreement = 1e-9;
-constexpr int kMostHalvings = 10;
-// Directions that turn are cut so that a step turns by little.
-constexpr double kLongestTurn = 0.25 * kPi;
+constexpr double kAgreement = 1e-8;
+constexpr int kMostHalvings = 5;
+// Into how many steps a direction is cut at least, so that eight points follow an arc or a high degree.
+int FewestSteps(const Geom_Surface& bare) {
+  if (bare.IsKind(STANDARD_TYPE(Geom_Plane))) return 1;
+  if (bare.IsKind(STANDARD_TYPE(Geom_ElementarySurface))) return 4;
+  const auto* spline = dynamic_cast<const Geom_BSplineSurface*>(&bare);
+  return spline == nullptr ? 12 : 2 + 2 * std::min(spline->UDegree(), 5);
+}
 
 using Sums = Eigen::Vector2d;  // area and volume
-
-bool Turns(const Geom_Surface& s, bool along_u) {
-  return along_u ? s.IsUPeriodic() : s.IsVPeriodic();
-}
 
 // The smooth parts of [low, high] in one direction.
 std::vector<double> BreaksOf(const Handle(Geom_Surface) & bare, const NeededParameters& range, bool along_u) {
@@ -51,7 +55,7 @@ std::vector<double> BreaksOf(const Handle(Geom_Surface) & bare, const NeededPara
   } else {
     adaptor.VIntervals(at, GeomAbs_CN);
   }
-  const bool turns = Turns(*bare, along_u);
+  const bool turns = along_u ? bare->IsUPeriodic() : bare->IsVPeriodic();
   const double period = !turns ? 0.0 : (along_u ? bare->UPeriod() : bare->VPeriod());
   for (int turn = turns ? -2 : 0; turn <= (turns ? 2 : 0); ++turn) {
     for (const double x : at) {
@@ -61,13 +65,14 @@ std::vector<double> BreaksOf(const Handle(Geom_Surface) & bare, const NeededPara
   }
   breaks.push_back(own.high);
   std::sort(breaks.begin(), breaks.end());
-  if (!turns) return breaks;
+  const auto spans = static_cast<int>(breaks.size()) - 1;
+  const int fewest = along_u ? FewestSteps(*bare) : 1;
+  if (spans >= fewest) return breaks;
+  const int parts = (fewest + spans - 1) / spans;
   std::vector<double> fine = {breaks.front()};
   for (std::size_t k = 1; k < breaks.size(); ++k) {
-    const double from = breaks[k - 1], step = breaks[k] - from;
-    const double longest = kLongestTurn / (2.0 * kPi) * period;
-    const int parts = std::max(1, static_cast<int>(std::ceil(step / longest)));
-    for (int i = 1; i <= parts; ++i) fine.push_back(from + step * i / parts);
+    for (int i = 1; i < parts; ++i) fine.push_back(breaks[k - 1] + (breaks[k] - breaks[k - 1]) * i / parts);
+    fine.push_back(breaks[k]);
   }
   return fine;
 }
@@ -77,19 +82,38 @@ class Integrator {
   Integrator(const Handle(Geom_Surface) & bare, const NeededParameters& range)
       : surface_(bare), u_(BreaksOf(bare, range, true)), v_(BreaksOf(bare, range, false)) {}
 
-  Sums Along(const PlaceCurve& curve) const {
-    std::vector<double> breaks = curve.Breaks();
-    AddCrossings(curve, breaks);
-    std::vector<Sums> coarse;
-    double size = 0.0;
-    for (std::size_t k = 1; k < breaks.size(); ++k) {
-      coarse.push_back(Rule(curve, breaks[k - 1], breaks[k]));
-      size += coarse.back().x() < 0.0 ? -coarse.back().x() : coarse.back().x();
+  // One use of an edge, cut where it is not smooth, with a first estimate for each part.
+  struct Run {
+    const SampledUse* use = nullptr;
+    std::vector<double> breaks;
+    std::vector<Sums> parts;
+  };
+  Run Estimate(const SampledUse& use) const {
+    Run run{&use, use.curve.Breaks(), {}};
+    AddCrossings(use.curve, run.breaks);
+    for (std::size_t k = 1; k < run.breaks.size(); ++k) {
+      run.parts.push_back(Rule(use.curve, run.breaks[k - 1], run.breaks[k]));
     }
+    return run;
+  }
+
+  // Along the straight line that closes a gap between neighbours in a loop.
+  Sums Between(const Vec2& from, const Vec2& to) const {
     Sums sums = Sums::Zero();
-    if (size == 0.0) return sums;
-    for (std::size_t k = 1; k < breaks.size(); ++k) {
-      sums += Halved(curve, breaks[k - 1], breaks[k], coarse[k - 1], kAgreement * size, 0);
+    const Vec2 step = to - from;
+    if (step.y() == 0.0) return sums;
+    for (std::size_t i = 0; i < kNodes.size(); ++i) {
+      const Vec2 place = from + kNodes[i] * step;
+      sums += kWeights[i] * step.y() * UpTo(place.x(), place.y());
+    }
+    return sums;
+  }
+
+  // Each part within `slack` of its area.
+  Sums Refine(const Run& run, double slack) const {
+    Sums sums = Sums::Zero();
+    for (std::size_t k = 0; k < run.parts.size(); ++k) {
+      sums += Halved(run.use->curve, run.breaks[k], run.breaks[k + 1], run.parts[k], slack, 0);
     }
     return sums;
   }
@@ -138,6 +162,7 @@ class Integrator {
 
   Sums Halved(const PlaceCurve& curve, double from, double to, const Sums& whole, double slack,
               int depth) const {
+    if (whole.x() == 0.0) return whole;
     const double middle = 0.5 * (from + to);
     const Sums a = Rule(curve, from, middle), b = Rule(curve, middle, to);
     if (std::abs(a.x() + b.x() - whole.x()) <= slack || depth >= kMostHalvings) return a + b;
@@ -182,11 +207,22 @@ class Integrator {
 
 FaceIntegrals IntegrateFace(const Handle(Geom_Surface) & bare, const std::vector<SampledLoop>& loops) {
   const Integrator integrator(bare, ParametersOf(loops));
-  Sums sums = Sums::Zero();
+  std::vector<Integrator::Run> runs;
+  double size = 0.0;
   for (const SampledLoop& loop : loops) {
     for (const SampledUse& use : loop) {
-      sums += (use.forward ? 1.0 : -1.0) * integrator.Along(use.curve);
+      runs.push_back(integrator.Estimate(use));
+      for (const Sums& part : runs.back().parts) size += std::abs(part.x());
     }
+  }
+  Sums sums = Sums::Zero();
+  for (const SampledLoop& loop : loops) {
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      sums += integrator.Between(loop[k].end(), loop[(k + 1) % loop.size()].begin());
+    }
+  }
+  for (const Integrator::Run& run : runs) {
+    sums += (run.use->forward ? 1.0 : -1.0) * integrator.Refine(run, kAgreement * size);
   }
   return {std::abs(sums.x()), sums.x() < 0.0 ? -sums.y() : sums.y()};
 }

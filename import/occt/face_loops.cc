@@ -131,7 +131,8 @@ class Turns {
   Vec2 Between(const Vec2& from, const Vec2& to) const {
     Vec2 shift = Vec2::Zero();
     for (int axis = 0; axis < 2; ++axis) {
-      if (length_[axis] > 0.0) shift[axis] = length_[axis] * std::round((to[axis] - from[axis]) / length_[axis]);
+      if (length_[axis] > 0.0)
+        shift[axis] = length_[axis] * std::round((to[axis] - from[axis]) / length_[axis]);
     }
     return shift;
   }
@@ -169,7 +170,8 @@ void Follow(SampledLoop& loop, const Turns& turns) {
         best = j;
       }
     }
-    std::rotate(loop.begin() + static_cast<std::ptrdiff_t>(k), loop.begin() + static_cast<std::ptrdiff_t>(best),
+    std::rotate(loop.begin() + static_cast<std::ptrdiff_t>(k),
+                loop.begin() + static_cast<std::ptrdiff_t>(best),
                 loop.begin() + static_cast<std::ptrdiff_t>(best) + 1);
   }
 }

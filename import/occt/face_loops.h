@@ -30,11 +30,12 @@ struct SampledUse {
 using SampledLoop = std::vector<SampledUse>;
 
 // The loops of the face taken as FORWARD: the face lies to the left of them. The outer one comes first. Each
-// edge is sampled at 17 places a span, but at most at 400 in all, or at its knots if there are more. `bare` is the face's surface (BareSurface). On
-// periodic and closed surfaces neighbours in a loop are shifted so that they meet, and loops so that they lie
-// beside the outer one. Errors name the edge that cannot be used. May throw Standard_Failure.
-absl::StatusOr<std::vector<SampledLoop>> SampleLoops(const TopoDS_Face& face, const Handle(Geom_Surface) & bare,
-                                                     EdgeTable& edges);
+// edge is sampled at 17 places a span, but at most at 400 in all, or at its knots if there are more. `bare`
+// is the face's surface (BareSurface). On periodic and closed surfaces neighbours in a loop are shifted so
+// that they meet, and loops so that they lie beside the outer one. Errors name the edge that cannot be used.
+// May throw Standard_Failure.
+absl::StatusOr<std::vector<SampledLoop>> SampleLoops(const TopoDS_Face& face,
+                                                     const Handle(Geom_Surface) & bare, EdgeTable& edges);
 
 // The parameters of all places of the loops.
 NeededParameters ParametersOf(const std::vector<SampledLoop>& loops);

@@ -76,8 +76,9 @@ void ReadIgesLabels(IGESControl_Reader& reader, CadFile& file) {
     label.loop_count = LoopCount(entity);
     return label;
   };
-  LabelShapes(*reader.WS()->TransferReader()->TransientProcess(), label_of,
-              [](const Entity& entity) { return !As<IGESData_IGESEntity>(entity).IsNull(); }, file.labels);
+  LabelShapes(
+      *reader.WS()->TransferReader()->TransientProcess(), label_of,
+      [](const Entity& entity) { return !As<IGESData_IGESEntity>(entity).IsNull(); }, file.labels);
   std::vector<std::pair<std::int64_t, bool>> faces;
   int hidden = 0;
   for (int k = 1; k <= model->NbEntities(); ++k) {

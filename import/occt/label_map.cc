@@ -43,7 +43,8 @@ std::vector<std::int64_t> LostFaces(const std::vector<std::pair<std::int64_t, bo
                                     const CadFile& file) {
   std::set<std::int64_t> kept;
   for (TopExp_Explorer it(file.shape, TopAbs_FACE); it.More(); it.Next()) {
-    if (const ShapeLabel* label = file.labels.Find(it.Current()); label != nullptr) kept.insert(label->entity);
+    if (const ShapeLabel* label = file.labels.Find(it.Current()); label != nullptr)
+      kept.insert(label->entity);
   }
   std::vector<std::int64_t> lost;
   for (const auto& [number, visible] : faces) {

@@ -10,8 +10,8 @@
 
 namespace patchmill {
 
-PlaceCurve::PlaceCurve(const Handle(Geom2d_Curve) & curve, double curve_first, double curve_last, double first,
-                       double last)
+PlaceCurve::PlaceCurve(const Handle(Geom2d_Curve) & curve, double curve_first, double curve_last,
+                       double first, double last)
     : flat_(curve),
       first_(first),
       last_(last),

@@ -7,8 +7,8 @@
 #include <Geom_Curve.hxx>
 #include <Standard_Handle.hxx>
 
-#include "core/brep/brep_model.h"
 #include "core/base/vec.h"
+#include "core/brep/brep_model.h"
 
 namespace patchmill {
 
@@ -17,8 +17,8 @@ struct PlaceJet {
   Vec2 d = Vec2::Zero();      // with respect to the edge's parameter
 };
 
-// Over the range [first, last] of the edge's parameter: a curve of the file between two of its own parameters,
-// or the projection of the edge's curve in space on a plane.
+// Over the range [first, last] of the edge's parameter: a curve of the file between two of its own
+// parameters, or the projection of the edge's curve in space on a plane.
 class PlaceCurve {
  public:
   PlaceCurve() = default;

@@ -23,8 +23,7 @@ int Count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnum out
 }
 
 void CountLooseParts(CadFile& file) {
-  const int wires =
-      Count(file.shape, TopAbs_WIRE, TopAbs_FACE) + Count(file.shape, TopAbs_EDGE, TopAbs_WIRE);
+  const int wires = Count(file.shape, TopAbs_WIRE, TopAbs_FACE) + Count(file.shape, TopAbs_EDGE, TopAbs_WIRE);
   const int points = Count(file.shape, TopAbs_VERTEX, TopAbs_EDGE);
   if (wires > 0) file.skipped["wires"] += wires;
   if (points > 0) file.skipped["points"] += points;

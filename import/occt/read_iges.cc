@@ -63,7 +63,8 @@ void ReadHeader(const IGESData_IGESModel& model, CadFile& file) {
     constexpr std::array<const char*, 12> kUnits = {"",  "INCH", "MM",  "",   "FT", "MI",
                                                     "M", "KM",   "MIL", "UM", "CM", "UIN"};
     const int flag = global.UnitFlag();
-    if (flag >= 1 && flag < static_cast<int>(kUnits.size())) file.unit = kUnits[static_cast<std::size_t>(flag)];
+    if (flag >= 1 && flag < static_cast<int>(kUnits.size()))
+      file.unit = kUnits[static_cast<std::size_t>(flag)];
   }
   file.written_by = TextOf(global.SystemId());
   if (file.written_by.empty()) file.written_by = TextOf(global.InterfaceVersion());
@@ -104,7 +105,8 @@ absl::Status ReadIges(std::string_view content, CadFile& file) {
   reader.SetReadVisible(true);
   const NamedBytes bytes(content);
   if (!bytes.complete()) return absl::ResourceExhaustedError("the file could not be kept in memory");
-  if (reader.ReadFile(bytes.name().c_str()) != IFSelect_RetDone) {
+  if (reader.ReadFile(bytes.name().c_str()) != IFSelect_RetDone || reader.IGESModel().IsNull() ||
+      reader.IGESModel()->NbEntities() == 0) {
     return absl::InvalidArgumentError("the file is no IGES file, or it is damaged");
   }
   ReadHeader(*reader.IGESModel(), file);

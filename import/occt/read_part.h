@@ -11,7 +11,7 @@
 namespace patchmill {
 
 // Reads the file with Open CASCADE and copies its numbers. `format`: "step" or "iges". Findings of the reader:
-//   error    FACE_UNREADABLE, OFFSET_FOLDS, NEGATIVE_WEIGHT, FACE_UNTRIMMED, FACE_LOST
+//   error    FACE_UNREADABLE, OFFSET_FOLDS, NEGATIVE_WEIGHT, FACE_UNTRIMMED, FACE_OVERLAPS, FACE_LOST
 //   warning  EXTERNAL_REFERENCE, FACE_SHARED, INSIDE_OUT
 //   info     SKIPPED_ENTITIES, SEWN
 // INVALID_ARGUMENT with a code: CAD_UNREADABLE, or TESSELLATED_ONLY for a file that holds triangles and no

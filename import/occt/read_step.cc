@@ -55,7 +55,8 @@ void ReadHeader(STEPControl_Reader& reader, CadFile& file) {
   reader.FileUnits(lengths, angles, solid_angles);
   for (const TCollection_AsciiString& unit : lengths) {
     const std::string text = ToUtf8(unit.ToCString());
-    if (file.unit.find(text) == std::string::npos) absl::StrAppend(&file.unit, file.unit.empty() ? "" : ", ", text);
+    if (file.unit.find(text) == std::string::npos)
+      absl::StrAppend(&file.unit, file.unit.empty() ? "" : ", ", text);
   }
 }
 
@@ -105,7 +106,8 @@ absl::Status ReadStep(std::string_view content, CadFile& file) {
     return absl::InvalidArgumentError("the file is no STEP file, or it is damaged");
   }
   ReadHeader(reader, file);
-  const int tessellated = CountWord(content, "TRIANGULATED_FACE(") + CountWord(content, "TRIANGULATED_FACE (");
+  const int tessellated =
+      CountWord(content, "TRIANGULATED_FACE(") + CountWord(content, "TRIANGULATED_FACE (");
   if (tessellated > 0) file.skipped["tessellated faces"] = tessellated;
 
   const int roots = reader.NbRootsForTransfer();

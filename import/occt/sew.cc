@@ -95,7 +95,8 @@ Sewing SewLooseFaces(TopoDS_Shape& shape, ShapeLabels& labels) {
     const TopoDS_Shape made = best_step->ModifiedSubShape(it.Current());
     if (const ShapeLabel* label = labels.Find(it.Current()); label != nullptr && !made.IsNull()) {
       const ShapeLabel copy = *label;
-      for (TopExp_Explorer part(made, TopAbs_FACE); part.More(); part.Next()) labels.Set(part.Current(), copy);
+      for (TopExp_Explorer part(made, TopAbs_FACE); part.More(); part.Next())
+        labels.Set(part.Current(), copy);
     }
   }
   BRep_Builder builder;

@@ -12,11 +12,11 @@
 namespace patchmill {
 
 struct ShapeLabel {
-  std::string name, layer;            // valid UTF-8
-  std::optional<std::uint32_t> rgb;   // 0xRRGGBB
-  std::int64_t entity = 0;            // STEP: the number after #; IGES: the number of the directory line
-  bool hidden = false;                // the file says that it is not to be seen
-  int loop_count = 0;                 // as the file has it; 0 unknown
+  std::string name, layer;           // valid UTF-8
+  std::optional<std::uint32_t> rgb;  // 0xRRGGBB
+  std::int64_t entity = 0;           // STEP: the number after #; IGES: the number of the directory line
+  bool hidden = false;               // the file says that it is not to be seen
+  int loop_count = 0;                // as the file has it; 0 unknown
 };
 
 // Labels by shape, wherever the shape is placed and however it is turned.

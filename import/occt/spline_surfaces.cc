@@ -70,8 +70,8 @@ RevolvedSpline Revolved(const BrepCurve& meridian, const Vec3& origin, const Vec
   return turned;
 }
 
-Handle(Geom_BSplineSurface) Cut(const Handle(Geom_BSplineSurface) & whole, double u_low, double u_high,
-                                double v_low, double v_high) {
+Handle(Geom_BSplineSurface)
+    Cut(const Handle(Geom_BSplineSurface) & whole, double u_low, double u_high, double v_low, double v_high) {
   Handle(Geom_BSplineSurface) part = Handle(Geom_BSplineSurface)::DownCast(whole->Copy());
   part->Segment(u_low, u_high, v_low, v_high);
   if (part->IsUPeriodic()) part->SetUNotPeriodic();

@@ -14,7 +14,8 @@ namespace patchmill {
 // basis(u) + v direction, for v in [low, high].
 BsplinePatch Extruded(const BrepCurve& basis, const Vec3& direction, double low, double high);
 
-// meridian(v) turned about the axis by u in [low, high], at most one turn. Spans of u have at most 90 degrees.
+// meridian(v) turned about the axis by u in [low, high], at most one turn. Spans of u have at most 90
+// degrees.
 struct RevolvedSpline {
   BsplinePatch patch;
   ParameterMap u;
@@ -23,8 +24,8 @@ RevolvedSpline Revolved(const BrepCurve& meridian, const Vec3& origin, const Vec
                         double high);
 
 // The rectangle of a spline, with clamped ends, not periodic. Knots may be shifted by whole periods.
-Handle(Geom_BSplineSurface) Cut(const Handle(Geom_BSplineSurface) & whole, double u_low, double u_high,
-                                double v_low, double v_high);
+Handle(Geom_BSplineSurface)
+    Cut(const Handle(Geom_BSplineSurface) & whole, double u_low, double u_high, double v_low, double v_high);
 
 // INVALID_ARGUMENT for knots that core/patch does not take.
 absl::StatusOr<BsplinePatch> Copied(const Geom_BSplineSurface& spline);

@@ -16,9 +16,11 @@
 #include <StepRepr_Representation.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <StepRepr_RepresentationRelationship.hxx>
+#include <StepShape_ConnectedFaceSet.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <StepShape_ManifoldSolidBrep.hxx>
 #include <StepShape_ShapeDefinitionRepresentation.hxx>
+#include <StepShape_ShellBasedSurfaceModel.hxx>
 #include <StepVisual_ColourRgb.hxx>
 #include <StepVisual_Invisibility.hxx>
 #include <StepVisual_InvisibleItem.hxx>
@@ -49,7 +51,8 @@ Handle(Kind) As(const Entity& entity) {
 }
 
 std::optional<std::uint32_t> RgbOf(const Handle(StepVisual_Colour) & colour) {
-  if (const auto rgb = As<StepVisual_ColourRgb>(colour)) return PackRgb(rgb->Red(), rgb->Green(), rgb->Blue());
+  if (const auto rgb = As<StepVisual_ColourRgb>(colour))
+    return PackRgb(rgb->Red(), rgb->Green(), rgb->Blue());
   const auto known = As<StepVisual_PreDefinedColour>(colour);
   if (known.IsNull() || known->GetPreDefinedItem().IsNull()) return std::nullopt;
   static const std::map<std::string, std::uint32_t> kColours = {
@@ -96,7 +99,7 @@ std::unordered_map<const Standard_Transient*, ShapeLabel> StylesOf(const StepDat
   return labels;
 }
 
-// The product whose shape a representation is, through at most two relations of representations.
+// The product whose shape a representation is, through a few relations of representations.
 std::string ProductName(const Interface_Graph& graph, const Entity& used, int depth) {
   for (Interface_EntityIterator it = graph.Sharings(used); it.More(); it.Next()) {
     const auto shape = As<StepShape_ShapeDefinitionRepresentation>(it.Value());
@@ -113,6 +116,7 @@ std::string ProductName(const Interface_Graph& graph, const Entity& used, int de
   if (depth == 0) return {};
   for (Interface_EntityIterator it = graph.Sharings(used); it.More(); it.Next()) {
     if (As<StepRepr_Representation>(it.Value()).IsNull() &&
+        As<StepShape_ShellBasedSurfaceModel>(it.Value()).IsNull() &&
         As<StepRepr_RepresentationRelationship>(it.Value()).IsNull()) {
       continue;
     }
@@ -140,14 +144,14 @@ void ReadStepLabels(STEPControl_Reader& reader, CadFile& file) {
     if (!item.IsNull()) label.name = TextOf(item->Name());
     if (label.name == "NONE") label.name.clear();
     if (const auto face = As<StepShape_FaceSurface>(entity)) label.loop_count = face->NbBounds();
-    if (const auto solid = As<StepShape_ManifoldSolidBrep>(entity); !solid.IsNull() && label.name.empty()) {
-      label.name = ProductName(reader.WS()->Graph(), entity, 3);
-    }
+    const bool body =
+        !As<StepShape_ManifoldSolidBrep>(entity).IsNull() || !As<StepShape_ConnectedFaceSet>(entity).IsNull();
+    if (body && label.name.empty()) label.name = ProductName(reader.WS()->Graph(), entity, 4);
     return label;
   };
-  LabelShapes(*reader.WS()->TransferReader()->TransientProcess(), label_of,
-              [](const Entity& entity) { return !As<StepRepr_RepresentationItem>(entity).IsNull(); },
-              file.labels);
+  LabelShapes(
+      *reader.WS()->TransferReader()->TransientProcess(), label_of,
+      [](const Entity& entity) { return !As<StepRepr_RepresentationItem>(entity).IsNull(); }, file.labels);
   std::vector<std::pair<std::int64_t, bool>> faces;
   for (int k = 1; k <= model->NbEntities(); ++k) {
     if (As<StepShape_FaceSurface>(model->Value(k)).IsNull()) continue;

@@ -7,7 +7,7 @@
 
 namespace patchmill {
 
-// After the transfer: fills labels and lost faces of the file, whose shape is complete. A solid without a name
+// After the transfer: fills labels and lost faces of the file, whose shape is complete. A body without a name
 // of its own gets that of its product.
 void ReadStepLabels(STEPControl_Reader& reader, CadFile& file);
 

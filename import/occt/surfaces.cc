@@ -116,8 +116,8 @@ absl::StatusOr<Handle(Geom_BSplineSurface)> Approximated(const Handle(Geom_Surfa
                                                          const CutRange& v, double& error) {
   if (const auto offset = As<Geom_OffsetSurface>(bare)) {
     if (Folds(*offset, u, v)) {
-      return absl::InvalidArgumentError(absl::StrFormat(
-          "OFFSET_FOLDS an offset by %g mm turns over on its surface", offset->Offset()));
+      return absl::InvalidArgumentError(
+          absl::StrFormat("OFFSET_FOLDS an offset by %g mm turns over on its surface", offset->Offset()));
     }
   }
   const Handle(Geom_Surface) cut =
@@ -153,8 +153,7 @@ absl::Status CheckSame(const Geom_Surface& bare, const SurfacePart& part, const 
                               std::clamp((own.y() - first_v) / (last_v - first_v), 0.0, 1.0));
       const double off = (p - ToVec3(bare.Value(a, b))).norm();
       if (!(off <= 1e-8 * size + 2.0 * part.error)) {
-        return absl::InvalidArgumentError(
-            absl::StrFormat("a surface differs from its spline by %g mm", off));
+        return absl::InvalidArgumentError(absl::StrFormat("a surface differs from its spline by %g mm", off));
       }
     }
   }
@@ -181,9 +180,7 @@ Handle(Geom_Surface) BareSurface(const Handle(Geom_Surface) & surface) {
   return bare;
 }
 
-bool IsElementary(const Geom_Surface& bare) {
-  return bare.IsKind(STANDARD_TYPE(Geom_ElementarySurface));
-}
+bool IsElementary(const Geom_Surface& bare) { return bare.IsKind(STANDARD_TYPE(Geom_ElementarySurface)); }
 
 absl::StatusOr<SurfacePart> SurfaceOver(const Handle(Geom_Surface) & bare, const NeededParameters& needed) {
   SurfacePart part;
@@ -217,7 +214,8 @@ absl::StatusOr<SurfacePart> SurfaceOver(const Handle(Geom_Surface) & bare, const
     part.error = meridian.error;
   } else {
     Handle(Geom_BSplineSurface) spline = As<Geom_BSplineSurface>(bare);
-    if (const auto bezier = As<Geom_BezierSurface>(bare)) spline = GeomConvert::SurfaceToBSplineSurface(bezier);
+    if (const auto bezier = As<Geom_BezierSurface>(bare))
+      spline = GeomConvert::SurfaceToBSplineSurface(bezier);
     if (spline.IsNull() || spline->UDegree() > kMaxSplineDegree || spline->VDegree() > kMaxSplineDegree) {
       PM_ASSIGN_OR_RETURN(spline, Approximated(bare, u, v, part.error));
     } else {

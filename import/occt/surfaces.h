@@ -38,8 +38,8 @@ struct SurfacePart {
 };
 
 // The part of the bare surface that covers the parameters, and a little more at ends that are not exact.
-// Splines are cut, extrusions and surfaces of revolution become the rational splines that they are. Offsets of
-// other surfaces, unknown kinds, and degrees above 15 are approximated within kApproximationError.
+// Splines are cut, extrusions and surfaces of revolution become the rational splines that they are. Offsets
+// of other surfaces, unknown kinds, and degrees above 15 are approximated within kApproximationError.
 // INVALID_ARGUMENT, with the reason, for what has no such part: an offset that folds ("OFFSET_FOLDS ..."),
 // weights that are not positive ("NEGATIVE_WEIGHT ..."). May throw Standard_Failure.
 absl::StatusOr<SurfacePart> SurfaceOver(const Handle(Geom_Surface) & bare, const NeededParameters& needed);

@@ -44,6 +44,17 @@ TEST(GridGraph, CutsShareTheirEndExactly) {
   }
 }
 
+TEST(GridGraph, PartsOfALevelGraphAreLevel) {
+  const double c = 0.99019607843137247;
+  GridGraph rest{true, 0.19787936834699157, 3.8946704425796188, {c, c}};
+  for (const double line : {1.0, 2.0, 3.0}) {
+    const GraphParts parts = CutGraph(rest, 0, line);
+    EXPECT_EQ(parts.low.c, (std::vector<double>{c, c}));
+    rest = parts.high;
+    EXPECT_EQ(rest.c, (std::vector<double>{c, c}));
+  }
+}
+
 TEST(GridGraph, TurnedHasTheSameEndsAndFollows) {
   const GridGraph graph = Cubic();
   const auto turned = TurnedGraph(graph, 3);
