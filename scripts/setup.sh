@@ -4,6 +4,7 @@
 #
 #   scripts/setup.sh            all that building and testing needs
 #   scripts/setup.sh build      compiler and libraries only (what scripts/demo.sh and the container's build stage use)
+#   scripts/setup.sh cad        the same with Open CASCADE, for STEP and IGES
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -17,10 +18,12 @@ test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libcgal-dev
   python3 clang-format-14 linuxcnc-uspace librsvg2-bin python3-grpcio python3-protobuf
 )
+cad_packages=(libocct-data-exchange-dev)  # Open CASCADE reads STEP and IGES; without it patchmill-import is not built
 case "$what" in
-  all) packages=("${build_packages[@]}" "${test_packages[@]}") ;;
+  all) packages=("${build_packages[@]}" "${cad_packages[@]}" "${test_packages[@]}") ;;
   build) packages=("${build_packages[@]}") ;;
-  *) echo "setup.sh: unknown argument '$what' (all, build)" >&2; exit 2 ;;
+  cad) packages=("${build_packages[@]}" "${cad_packages[@]}") ;;
+  *) echo "setup.sh: unknown argument '$what' (all, build, cad)" >&2; exit 2 ;;
 esac
 # Node.js and npm carry buf, the linter of the contract; a newer Node.js than Debian's brings its own npm.
 if [ "$what" = all ]; then

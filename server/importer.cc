@@ -175,16 +175,24 @@ std::string_view CadFormat(std::string_view ending) {
   return {};
 }
 
-absl::StatusOr<v1::ImportResult> ImportFile(std::string_view content, std::string_view format,
-                                            const RunContext& run) {
+std::string ImporterPath() {
   std::error_code error;
   const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", error);
   // Beside the running program; test programs lie in a folder beside that of the programs.
-  std::string program = (own.parent_path() / "patchmill-import").string();
-  if (access(program.c_str(), X_OK) != 0) {
-    program = (own.parent_path().parent_path() / "bin" / "patchmill-import").string();
-  }
-  if (error || access(program.c_str(), X_OK) != 0) return NotBuilt(program);
+  const std::string beside = (own.parent_path() / "patchmill-import").string();
+  if (access(beside.c_str(), X_OK) == 0) return beside;
+  const std::string in_bin = (own.parent_path().parent_path() / "bin" / "patchmill-import").string();
+  return access(in_bin.c_str(), X_OK) == 0 ? in_bin : beside;
+}
+
+absl::StatusOr<v1::ImportResult> ImportFile(std::string_view content, std::string_view format,
+                                            const RunContext& run) {
+  return ImportFileWith(ImporterPath(), content, format, run);
+}
+
+absl::StatusOr<v1::ImportResult> ImportFileWith(const std::string& program, std::string_view content,
+                                                std::string_view format, const RunContext& run) {
+  if (access(program.c_str(), X_OK) != 0) return NotBuilt(program);
   PM_ASSIGN_OR_RETURN(const Descriptor input, MemoryFile(content));
   PM_ASSIGN_OR_RETURN(Started started, Start(program, format, input.get()));
   Child child(started.pid);

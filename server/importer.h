@@ -22,5 +22,10 @@ std::string_view CadFormat(std::string_view ending);
 // memory; UNIMPLEMENTED where there is no importer.
 absl::StatusOr<v1::ImportResult> ImportFile(std::string_view content, std::string_view format,
                                             const RunContext& run);
+// The same with another program as importer.
+absl::StatusOr<v1::ImportResult> ImportFileWith(const std::string& program, std::string_view content,
+                                                std::string_view format, const RunContext& run);
+// Where the importer is looked for.
+std::string ImporterPath();
 
 }  // namespace patchmill

@@ -14,7 +14,9 @@ namespace {
 
 int Main(int argc, char** argv) {
   CLI::App app("patchmill: verified ball-end-mill programs from free-form patch models");
-  app.set_version_flag("--version", "patchmill " PATCHMILL_VERSION);
+  app.set_version_flag("--version",
+                       "patchmill " PATCHMILL_VERSION
+                       "\nSTEP and IGES are read by patchmill-import, which uses Open CASCADE Technology");
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 the command is done; 1 the job could not be done, or a verification failed; 2 the "

@@ -1,5 +1,5 @@
-// A part as CAD files give it: faces on surfaces, bounded by loops of edges. Plain values in millimetres, made
-// by a reader of foreign files and read by core/trim.
+// A part as CAD files give it: faces on surfaces, bounded by loops of edges. Plain values in millimetres,
+// made by a reader of foreign files and read by core/trim.
 //
 //   Face    a part of one surface, inside its loops
 //   Edge    a curve in space, shared by the faces that meet along it

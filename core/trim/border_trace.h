@@ -1,6 +1,7 @@
 // Where the edges of a face run on its surface: edge by edge in grid coordinates, and fitted by graphs.
 //
-// The curve in space is the truth. A place of the border is the foot of a point of that curve on the surface [trimming, section 3].
+// The curve in space is the truth. A place of the border is the foot of a point of that curve on the surface
+// [trimming, section 3].
 #pragma once
 
 #include <vector>
@@ -41,9 +42,9 @@ struct BorderTrace {
 // The edges' curves, as core/trim needs them; without spans for degenerate edges.
 using EdgeCurveTable = std::vector<SpannedCurve>;
 
-// An edge counts as iso-parametric where it leaves its line by at most `iso_tolerance` mm, or by twice its own
-// distance from the surface. FAILED_PRECONDITION, naming the edge: it has no foot on the surface, or the loop
-// is not closed there.
+// An edge counts as iso-parametric where it leaves its line by at most `iso_tolerance` mm, or by twice its
+// own distance from the surface. FAILED_PRECONDITION, naming the edge: it has no foot on the surface, or the
+// loop is not closed there.
 absl::StatusOr<BorderTrace> TraceBorder(const BrepFace& face, const EdgeCurveTable& curves,
                                         const CarrierGrid& grid, double iso_tolerance);
 

@@ -3,7 +3,8 @@
 //
 // Grid coordinates: (U, V) in [0, count_u] x [0, count_v]. The carrier (i, j) covers [i, i+1] x [j, j+1] with
 // its own parameters (U - i, V - j). Surfaces of revolution have one carrier for each quarter turn, which
-// begins at a multiple of 90 degrees; splines have one for each rectangle between knots [trimming, section 2].
+// begins at a multiple of 90 degrees; splines have one for each rectangle between knots [trimming, section
+// 2].
 #pragma once
 
 #include <optional>

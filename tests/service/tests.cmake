@@ -1,6 +1,9 @@
 if(PATCHMILL_SERVICE)
   patchmill_test(service DEPS cam/plan EXTERNAL pm_server)
   add_dependencies(service_tests patchmill_descriptors patchmill patchmilld)
+  if(TARGET patchmill-import)
+    add_dependencies(service_tests patchmill-import)
+  endif()
   target_compile_definitions(service_tests PRIVATE PATCHMILL_DESCRIPTORS="${CMAKE_BINARY_DIR}/patchmill_v1.binpb"
                                                    PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
   # These measure times or start processes; a neighbour would spoil them.

@@ -1,0 +1,235 @@
+// CAD files through the importer: areas and volumes, damaged files, an importer that fails, cancels.
+#include "server/importer.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "core/base/error_details.h"
+#include "server/model_source.h"
+#include "tests/service/status_matchers.h"
+#include "tests/support/files.h"
+#include "tests/support/fuzz.h"
+#include "tests/support/sanitized.h"
+
+namespace patchmill {
+namespace {
+
+using ::testing::_;
+using ::testing::HasSubstr;
+using testing::StatusIs;
+
+std::string CadFile(const std::string& name) {
+  std::ifstream in(std::string(PATCHMILL_SOURCE_DIR) + "/tests/models/cad/" + name, std::ios::binary);
+  EXPECT_TRUE(in) << name;
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+std::string_view FormatOf(const std::string& name) { return CadFormat(name.substr(name.rfind('.') + 1)); }
+
+bool HasImporter() { return access(ImporterPath().c_str(), X_OK) == 0; }
+#define NEEDS_IMPORTER() \
+  if (!HasImporter()) GTEST_SKIP() << "built without Open CASCADE"
+
+absl::StatusOr<LoadedModel> Load(const std::string& format, std::string content) {
+  v1::ModelSource source;
+  source.mutable_file()->set_format(format);
+  source.mutable_file()->set_content(std::move(content));
+  return LoadModel(source, "source");
+}
+
+// Area, and the volume that faces with outward normals enclose, by the divergence theorem.
+struct Measure {
+  double area = 0.0, volume = 0.0;
+};
+Measure MeasureOf(const PatchModel& model) {
+  constexpr int kSteps = 24;
+  // Gauss's rule with two points on each step.
+  const double offset = 0.5 / std::sqrt(3.0);
+  Measure sum;
+  for (const Patch& patch : model.patches) {
+    for (int i = 0; i < 2 * kSteps; ++i) {
+      for (int j = 0; j < 2 * kSteps; ++j) {
+        const double u = (i / 2 + 0.5 + (i % 2 == 0 ? -offset : offset)) / kSteps;
+        const double v = (j / 2 + 0.5 + (j % 2 == 0 ? -offset : offset)) / kSteps;
+        const SurfaceJet jet = Evaluate(patch.shape, u, v);
+        const Vec3 n = jet.du.cross(jet.dv) / (4.0 * kSteps * kSteps);
+        sum.area += n.norm();
+        sum.volume += jet.p.dot(n) / 3.0;
+      }
+    }
+  }
+  return sum;
+}
+
+struct Part {
+  const char* file;
+  double area, volume;  // mm^2 and mm^3
+};
+// The ring has closed forms, 4 pi^2 R r and 2 pi^2 R r^2. The figures of the others are those of the library
+// that made them, by its own integrals over its own surfaces.
+const Part kParts[] = {
+    {"ring.step", 4 * kPi* kPi * 20 * 6, 2 * kPi* kPi * 20 * 36},
+    {"block.step", 9871.040674695, 40420.923417430},
+    {"block-inch.step", 9871.040674695, 40420.923417430},
+    {"block.igs", 9871.040674695, 40420.923417430},
+    {"cross.step", 5422.012448579, 22094.646674330},
+};
+
+TEST(Importer, PartsHaveTheirAreaAndVolume) {
+  NEEDS_IMPORTER();
+  for (const Part& part : kParts) {
+    SCOPED_TRACE(part.file);
+    const auto loaded = Load(std::string(FormatOf(part.file)), CadFile(part.file));
+    ASSERT_TRUE(loaded.ok()) << loaded.status();
+    EXPECT_TRUE(loaded->faults.empty());
+    const Measure measure = MeasureOf(loaded->model);
+    EXPECT_NEAR(measure.area, part.area, 2e-6 * part.area);
+    EXPECT_NEAR(measure.volume, part.volume, 2e-6 * part.volume);
+    ASSERT_FALSE(loaded->remarks.empty());
+    EXPECT_EQ(loaded->remarks.front().code, "CAD_FILE");
+  }
+}
+
+TEST(Importer, EveryEndingInAnyCaseHasItsFormat) {
+  for (const char* ending : {"step", "STEP", "stp", "Stp", "p21"})
+    EXPECT_EQ(CadFormat(ending), "step") << ending;
+  for (const char* ending : {"iges", "IGS", "igs"}) EXPECT_EQ(CadFormat(ending), "iges") << ending;
+  for (const char* ending : {"", "stl", "json", "step2"}) EXPECT_EQ(CadFormat(ending), "") << ending;
+}
+
+TEST(Importer, TheSameBytesEachTime) {
+  NEEDS_IMPORTER();
+  const auto first = ImportFile(CadFile("block.step"), "step", RunContext());
+  ASSERT_TRUE(first.ok()) << first.status();
+  for (int round = 0; round < (testing::LongTests() ? 20 : 3); ++round) {
+    const auto again = ImportFile(CadFile("block.step"), "step", RunContext());
+    ASSERT_TRUE(again.ok());
+    EXPECT_EQ(again->SerializeAsString(), first->SerializeAsString());
+  }
+}
+
+TEST(Importer, AStatedUnitIsRefused) {
+  v1::ModelSource source;
+  source.mutable_file()->set_format("step");
+  source.mutable_file()->set_content(CadFile("ring.step"));
+  source.mutable_file()->set_length_unit(v1::LENGTH_UNIT_INCH);
+  EXPECT_THAT(
+      LoadModel(source, "source").status(),
+      StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("source.file.length_unit must be unset")));
+}
+
+TEST(Importer, WhatIsNoCadFile) {
+  NEEDS_IMPORTER();
+  for (const char* format : {"step", "iges"}) {
+    for (const std::string& content :
+         {std::string("hello"), std::string(1000, '\0'), std::string("ISO-10303-21;\n"),
+          CadFile("block.step").substr(0, 900)}) {
+      const absl::Status status = Load(format, content).status();
+      EXPECT_THAT(status, StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("CAD file: ")));
+    }
+  }
+}
+
+// Bytes and lines of good files changed: each answer is a model or a coded error, and nothing hangs.
+TEST(Importer, DamagedFiles) {
+  NEEDS_IMPORTER();
+  std::mt19937 random(static_cast<unsigned>(testing::FromEnvironment("PATCHMILL_FUZZ_SEED", 1)));
+  const int count = testing::FromEnvironment("PATCHMILL_FUZZ_JOBS", testing::kSanitized ? 10 : 100);
+  for (int round = 0; round < count; ++round) {
+    const Part& part = kParts[random() % std::size(kParts)];
+    std::string content = CadFile(part.file);
+    const int changes = 1 + static_cast<int>(random() % 40);
+    for (int k = 0; k < changes; ++k) {
+      const std::size_t at = random() % content.size();
+      switch (random() % 4) {
+        case 0:
+          content[at] = static_cast<char>(random());
+          break;
+        case 1:
+          content[at] = "0123456789.,-#$*()"[random() % 18];
+          break;
+        case 2:
+          content.erase(at, random() % 20);
+          break;
+        default:
+          content.insert(at, content.substr(random() % content.size(), random() % 80));
+      }
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const auto loaded = Load(std::string(FormatOf(part.file)), content);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(took.count(), 70.0);
+    if (!loaded.ok()) {
+      EXPECT_TRUE(absl::IsInvalidArgument(loaded.status()) || absl::IsResourceExhausted(loaded.status()))
+          << round << ": " << loaded.status();
+    }
+  }
+}
+
+// A shell script in place of the importer.
+class Script {
+ public:
+  explicit Script(const std::string& body)
+      : path_(::testing::TempDir() + "importer_" + std::to_string(getpid()) + ".sh") {
+    std::ofstream(path_) << "#!/bin/sh\n" << body << "\n";
+    chmod(path_.c_str(), 0755);
+  }
+  ~Script() { std::remove(path_.c_str()); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+TEST(Importer, AnImporterThatFails) {
+  const auto import = [](const std::string& body) {
+    return ImportFileWith(Script(body).path(), "content", "step", RunContext()).status();
+  };
+  EXPECT_THAT(import("kill -SEGV $$"),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("(signal 11)")));
+  EXPECT_THAT(import("exit 7"), StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("(exit status 7)")));
+  EXPECT_THAT(import("cat"), StatusIs(absl::StatusCode::kInvalidArgument, _));  // frames that are none
+  EXPECT_THAT(import("printf '\\003\\024\\000\\000\\000IMPORT_LIMIT too big'"),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("too big")));
+  EXPECT_THAT(import("printf '\\003\\014\\000\\000\\000NO_FACE none'"),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("none")));
+  EXPECT_THAT(import("printf '\\002\\004\\000\\000\\000abcd'"),
+              StatusIs(absl::StatusCode::kInvalidArgument, _));
+  EXPECT_THAT(ImportFileWith("/nowhere/patchmill-import", "", "step", RunContext()).status(),
+              StatusIs(absl::StatusCode::kUnimplemented, HasSubstr("reads no STEP or IGES")));
+}
+
+TEST(Importer, ACancelEndsItSoon) {
+  const Script sleeper("sleep 60");
+  for (const bool deadline : {false, true}) {
+    RunContext run;
+    const auto start = std::chrono::steady_clock::now();
+    std::thread canceller;
+    if (deadline) {
+      run.set_deadline(start + std::chrono::milliseconds(100));
+    } else {
+      canceller = std::thread([&run] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        run.Cancel();
+      });
+    }
+    const absl::Status status = ImportFileWith(sleeper.path(), "content", "step", run).status();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    if (canceller.joinable()) canceller.join();
+    EXPECT_THAT(status,
+                StatusIs(deadline ? absl::StatusCode::kDeadlineExceeded : absl::StatusCode::kCancelled, _));
+    EXPECT_LT(took.count(), 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
