@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <absl/strings/str_format.h>
 
 #include "core/math/bernstein.h"
+#include "core/trim/ruled_cells.h"
 #include "core/trim/strip_net.h"
 
 namespace patchmill {
@@ -274,10 +276,18 @@ absl::StatusOr<FacePatches> CutFace(const CarrierGrid& grid, const std::vector<G
     cells[static_cast<std::size_t>(at.i) * rows + static_cast<std::size_t>(at.j)].push_back(g);
   }
   FacePatches patches;
+  const bool ruled = IsRuled(grid);
   for (int i = 0; i < grid.u.count(); ++i) {
     if (const absl::Status status = run.Check(); !status.ok()) return status;
     for (int j = 0; j < grid.v.count(); ++j) {
       const auto index = static_cast<std::size_t>(i) * rows + static_cast<std::size_t>(j);
+      if (ruled) {
+        absl::StatusOr<std::vector<BernsteinNet>> nets =
+            CutRuledCarrier(grid, {i, j}, WithoutNeedlessEnds(std::move(cells[index])), run);
+        if (!nets.ok()) return nets.status();
+        std::move(nets->begin(), nets->end(), std::back_inserter(patches.nets));
+        continue;
+      }
       CarrierCells carrier(grid, {i, j}, columns[static_cast<std::size_t>(i)], tolerance);
       if (const absl::Status status = carrier.Run(std::move(cells[index]), patches); !status.ok())
         return status;

@@ -6,12 +6,16 @@
 
 #include "cam/location/locator.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/same_part.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
 namespace patchmill {
 namespace {
+
+// Sanitizers take ten times as long.
+constexpr int Queries(int usual) { return testing::kSanitized ? usual / 5 : usual; }
 
 using testing::Random;
 using testing::SurfaceOf;
@@ -52,7 +56,7 @@ void ExpectSameHeights(const Locator& one, const Locator& other, const Vec2& shi
   Random random(seed);
   const Box3& box = one.surface().box;
   int both = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < Queries(1500); ++i) {
     const Vec2 q(random.Uniform(box.min.x() - 2, box.max.x() + 2),
                  random.Uniform(box.min.y() - 2, box.max.y() + 2));
     const auto a = one.Height(q), b = other.Height(q + shift);
@@ -100,7 +104,7 @@ TEST(Invariance, CoarserAndFinerLeaves) {
       Random random(4);
       const Box3& box = surface.box;
       int gouges = 0;
-      for (int i = 0; i < 150; ++i) {
+      for (int i = 0; i < Queries(150); ++i) {
         const Vec2 p(random.Uniform(box.min.x(), box.max.x()), random.Uniform(box.min.y(), box.max.y()));
         const Vec2 q = p + Vec2(random.Uniform(-1, 1), random.Uniform(-1, 1));
         const auto a = locator.Height(p), b = locator.Height(q);
@@ -133,7 +137,7 @@ TEST(Invariance, TranslationAndRotationAboutZ) {
     const Eigen::Rotation2Dd rotation(angle);
     Random random(9);
     const Box3& box = surface.box;
-    for (int i = 0; i < 800; ++i) {
+    for (int i = 0; i < Queries(800); ++i) {
       const Vec2 q(random.Uniform(box.min.x(), box.max.x()), random.Uniform(box.min.y(), box.max.y()));
       const auto a = locator.Height(q), b = other.Height(rotation * q);
       ASSERT_EQ(a.has_value(), b.has_value());
@@ -150,7 +154,7 @@ TEST(Invariance, AnyHintGivesTheSameValue) {
     const Locator locator(surface, 2.5);
     Random random(12);
     const Box3& box = surface.box;
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < Queries(1500); ++i) {
       const Vec2 q(random.Uniform(box.min.x() - 2, box.max.x() + 2),
                    random.Uniform(box.min.y() - 2, box.max.y() + 2));
       const auto plain = locator.Height(q);
@@ -178,7 +182,7 @@ TEST(Invariance, LargerBallsRideHigher) {
     const Locator small(surface, r1), large(surface, r2);
     Random random(13);
     const Box3& box = surface.box;
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < Queries(1500); ++i) {
       const Vec2 q(random.Uniform(box.min.x(), box.max.x()), random.Uniform(box.min.y(), box.max.y()));
       const auto a = small.Height(q), b = large.Height(q);
       if (!a) continue;
@@ -197,7 +201,7 @@ TEST(Invariance, FreeIsTheSignOfHeight) {
     Random random(14);
     const Box3& box = surface.box;
     int free = 0, blocked = 0;
-    for (int i = 0; i < 4000; ++i) {
+    for (int i = 0; i < Queries(4000); ++i) {
       const Vec2 q(random.Uniform(box.min.x() - 3, box.max.x() + 3),
                    random.Uniform(box.min.y() - 3, box.max.y() + 3));
       const auto h = locator.Height(q);
