@@ -6,8 +6,8 @@
 
 #include "cam/location/locator.h"
 #include "tests/support/random.h"
-#include "tests/support/sanitized.h"
 #include "tests/support/same_part.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
 
