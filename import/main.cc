@@ -1,15 +1,15 @@
-// patchmill-import: reads the bytes of a STEP or IGES file from its standard input and answers on its standard
-// output with frames (core/base/frames.h). The server starts one for each file.
-#include <unistd.h>
-
+// patchmill-import: reads the bytes of a STEP or IGES file from its standard input and answers on its
+// standard output with frames (core/base/frames.h). The server starts one for each file.
 #include <array>
 #include <cerrno>
+#include <exception>
 #include <iostream>
 #include <new>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "core/base/error_details.h"
 #include "core/base/frames.h"
@@ -60,7 +60,11 @@ int Import(std::string_view format, const Answers& answers) {
   RunContext run;
   run.set_progress([&answers](std::string_view stage, double fraction) {
     // Reading takes the first half of the way, trimming the rest.
-    const double all = stage == "read" ? 0.5 * fraction : 0.5 + 0.5 * fraction;
+    const double from =
+        stage == "read" ? 0.0 : (stage == "trim.trace" ? 0.5 : (stage == "trim.fit" ? 0.65 : 0.8));
+    const double to =
+        stage == "read" ? 0.5 : (stage == "trim.trace" ? 0.65 : (stage == "trim.fit" ? 0.8 : 1.0));
+    const double all = from + fraction * (to - from);
     answers.Send(FrameKind::kProgress, fmt::format("{:.3f} {}", all, stage));
   });
   run.set_threads(1);
@@ -89,7 +93,8 @@ int main(int argc, char** argv) {
   const bool understood = argc == 3 && std::string_view(argv[1]) == "--format" &&
                           (std::string_view(argv[2]) == "step" || std::string_view(argv[2]) == "iges");
   if (!understood) {
-    std::cerr << "usage: patchmill-import --format step|iges < FILE   (for the server; use patchmill convert)\n";
+    std::cerr
+        << "usage: patchmill-import --format step|iges < FILE   (for the server; use patchmill convert)\n";
     return 2;
   }
   // The reader writes to its standard output: the answers get a descriptor of their own.
@@ -105,6 +110,9 @@ int main(int argc, char** argv) {
     return Import(argv[2], answers);
   } catch (const std::bad_alloc&) {
     answers.Error("IMPORT_LIMIT", "the CAD file needs more than 2 GiB of memory to be read");
+    return 1;
+  } catch (const std::exception& failure) {
+    answers.Error("CAD_UNREADABLE", fmt::format("the reader failed on this file: {}", failure.what()));
     return 1;
   }
 }

@@ -15,9 +15,9 @@ bool LimitThisProcess(const ProcessLimits& limits) {
   const auto seconds = static_cast<rlim_t>(limits.cpu_seconds);
   return limit(RLIMIT_AS, limits.memory_bytes, limits.memory_bytes) &&
          limit(RLIMIT_CPU, seconds, seconds + 2) &&  // SIGXCPU, then SIGKILL
-         limit(RLIMIT_CORE, 0, 0) && limit(RLIMIT_FSIZE, limits.memory_bytes, limits.memory_bytes) && limit(RLIMIT_NOFILE, 32, 32) &&
-         prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) == 0 &&
-         chdir("/") == 0;
+         limit(RLIMIT_CORE, 0, 0) && limit(RLIMIT_FSIZE, limits.memory_bytes, limits.memory_bytes) &&
+         limit(RLIMIT_NOFILE, 32, 32) && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         prctl(PR_SET_PDEATHSIG, SIGKILL, 0, 0, 0) == 0 && chdir("/") == 0;
 }
 
 }  // namespace patchmill

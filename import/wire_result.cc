@@ -9,8 +9,8 @@
 namespace patchmill {
 namespace {
 
-constexpr std::array<std::string_view, std::variant_size_v<BrepSurface>> kKinds = {"plane",  "cylinder", "cone",
-                                                                                   "sphere", "torus",    "spline"};
+constexpr std::array<std::string_view, std::variant_size_v<BrepSurface>> kKinds = {
+    "plane", "cylinder", "cone", "sphere", "torus", "spline"};
 
 v1::Severity SeverityOf(Severity severity) {
   switch (severity) {
@@ -56,8 +56,8 @@ v1::ImportResult ToWire(const BrepModel& part, const TrimmedModel& trimmed) {
   v1::ImportReport& report = *result.mutable_report();
   report.set_face_count(static_cast<int>(part.faces.size()));
   report.set_body_count(static_cast<int>(part.bodies.size()));
-  report.set_solid_count(static_cast<int>(
-      std::count_if(part.bodies.begin(), part.bodies.end(), [](const BrepBody& body) { return body.solid; })));
+  report.set_solid_count(static_cast<int>(std::count_if(part.bodies.begin(), part.bodies.end(),
+                                                        [](const BrepBody& body) { return body.solid; })));
   std::array<int, kKinds.size()> counts{};
   double surface_error = 0.0;
   for (const BrepFace& face : part.faces) {

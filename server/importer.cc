@@ -4,11 +4,14 @@
 #include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -21,6 +24,8 @@
 #include "core/base/status.h"
 #include "server/errors.h"
 #include "server/limits.h"
+#include "server/wire_count.h"
+#include "server/wire_limits.h"
 
 namespace patchmill {
 namespace {
@@ -80,8 +85,24 @@ class Child {
   Child& operator=(const Child&) = delete;
   ~Child() {
     if (pid_ <= 0) return;
+    kill(-pid_, SIGKILL);  // with all that it has started
     kill(pid_, SIGKILL);
     Wait();
+  }
+  // The status if it ends within a second; else it is killed.
+  absl::StatusOr<int> WaitSoon(const RunContext& run) {
+    for (int round = 0; round < 50; ++round) {
+      int status = 0;
+      if (waitpid(pid_, &status, WNOHANG) == pid_) {
+        pid_ = -1;
+        return status;
+      }
+      if (absl::Status over = run.Check(); !over.ok()) return over;
+      std::this_thread::sleep_for(std::chrono::milliseconds(kPollMs));
+    }
+    kill(-pid_, SIGKILL);
+    kill(pid_, SIGKILL);
+    return Wait();
   }
   // The status of waitpid.
   int Wait() {
@@ -110,6 +131,7 @@ absl::StatusOr<Started> Start(const std::string& program, std::string_view forma
   posix_spawn_file_actions_adddup2(&actions, input, 0);
   posix_spawn_file_actions_adddup2(&actions, writing.get(), 1);
   posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addclosefrom_np(&actions, 3);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none, all;
@@ -215,8 +237,15 @@ absl::StatusOr<v1::ImportResult> ImportFileWith(const std::string& program, std:
       if (frame.kind == FrameKind::kProgress) {
         Report(frame.content, run);
       } else if (frame.kind == FrameKind::kResult) {
+        google::protobuf::io::ArrayInputStream stream(frame.content.data(),
+                                                      static_cast<int>(frame.content.size()));
+        PM_RETURN_IF_ERROR(CountWire(stream, frame.content.size(), *v1::ImportResult::descriptor(),
+                                     ListLimits(limits::kMaxFileModelBytes))
+                               .status());
         v1::ImportResult result;
-        if (!result.ParseFromArray(frame.content.data(), static_cast<int>(frame.content.size()))) break;
+        if (!result.ParseFromArray(frame.content.data(), static_cast<int>(frame.content.size()))) {
+          return ModelUnreadableError("CAD file: the importer's answer is no message", "IMPORTER_DIED");
+        }
         return result;
       } else {
         return ImporterError(frame.content);
@@ -224,7 +253,8 @@ absl::StatusOr<v1::ImportResult> ImportFileWith(const std::string& program, std:
     }
     bytes.erase(0, bytes.size() - rest.size());
   }
-  return DeathOf(child.Wait(), format);
+  PM_ASSIGN_OR_RETURN(const int status, child.WaitSoon(run));
+  return DeathOf(status, format);
 }
 
 }  // namespace patchmill

@@ -40,6 +40,9 @@ absl::StatusOr<UseTrace> TraceUse(const CarrierGrid& grid, const SpannedCurve& c
   UseTrace trace;
   trace.edge = use.edge;
   trace.forward = use.forward;
+  if (use.hint.size() < 2 || use.hint.size() != use.hint_at.size()) {
+    return absl::FailedPreconditionError(absl::StrFormat("edge %d has no way on the surface", use.edge));
+  }
   std::vector<Vec2> hints;
   for (const Vec2& h : use.hint) hints.push_back(GridCoordinates(grid, h));
   std::vector<double> samples;
@@ -274,7 +277,13 @@ FittedGraph FitGraph(const CarrierGrid& grid, const SpannedCurve& curve, const U
   // The other coordinate where the way has this one.
   const auto value = [&](double x) {
     const auto beyond = [&](double t) { return PlaceAt(grid, curve, trace, t)[axis] - x; };
-    return PlaceAt(grid, curve, trace, ZeroBetween(from, a[axis] - x, to, b[axis] - x, beyond))[1 - axis];
+    const double t = ZeroBetween(from, a[axis] - x, to, b[axis] - x, beyond);
+    const Vec2 place = PlaceAt(grid, curve, trace, t);
+    // A place that is no foot of the edge counts as an error of the graph.
+    const double off = (PositionAt(grid, place) - PointAt(curve, t).p).norm();
+    if (!(off <= 2.0 * trace.gap + 1e-6))
+      fit.error = std::max(fit.error, std::isfinite(off) ? off : grid.size);
+    return place[1 - axis];
   };
   std::vector<double> values;
   for (int k = 0; k <= degree; ++k) {

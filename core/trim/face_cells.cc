@@ -66,7 +66,15 @@ class CarrierCells {
   absl::Status Run(std::vector<GridGraph> graphs, FacePatches& out) {
     out_ = &out;
     const double i = at_.i, j = at_.j;
-    return Divide({{i, j}, {i + 1.0, j + 1.0}}, std::move(graphs), 0);
+    const absl::Status done = Divide({{i, j}, {i + 1.0, j + 1.0}}, std::move(graphs), 0);
+    if (done.ok() && too_high_) {
+      const BernsteinNet& net = grid_.carrier(at_.i, at_.j).net;
+      return absl::FailedPreconditionError(absl::StrFormat(
+          "the surface has the degrees %d and %d, and a border that is no line of its parameters; "
+          "their sum may be at most %d",
+          net.degree_u, net.degree_v, kMaxDegree));
+    }
+    return done;
   }
 
  private:
@@ -204,6 +212,8 @@ class CarrierCells {
     if (strip.low.level() && strip.high.level()) {
       const double a0 = strip.low.from, a1 = strip.low.to, b0 = strip.low.c[0], b1 = strip.high.c[0];
       out_->nets.push_back(axis == 0 ? SubNet(carrier, a0, a1, b0, b1) : SubNet(carrier, b0, b1, a0, a1));
+    } else if (LargestStripDegree(carrier, axis == 0) == 0) {
+      too_high_ = true;
     } else {
       out_->nets.push_back(StripNet(carrier, strip));
     }
@@ -250,6 +260,7 @@ class CarrierCells {
   const double tolerance_;
   double per_unit_[2];
   int max_degree_[2];
+  bool too_high_ = false;  // a strip would have a degree above kMaxDegree
   FacePatches* out_ = nullptr;
 };
 

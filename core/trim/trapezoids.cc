@@ -186,7 +186,7 @@ std::vector<BorderArc> ArcsBetweenWalls(std::vector<BorderArc> arcs, double same
   };
   std::vector<Wall> walls;
   for (const double x : xs) {
-    if (walls.empty() || x - walls.back().to > same_x) {
+    if (walls.empty() || x - walls.back().from > same_x) {
       walls.push_back({x, x, x});
     } else {
       walls.back().to = x;

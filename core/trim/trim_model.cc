@@ -19,6 +19,7 @@
 #include "core/trim/face_cells.h"
 #include "core/trim/plane_strips.h"
 #include "core/trim/spanned_curve.h"
+#include "core/trim/strip_net.h"
 
 namespace patchmill {
 namespace {
@@ -85,6 +86,22 @@ std::vector<double> SharpKnots(const BrepCurve& curve) {
   return sharp;
 }
 
+// A border that is no line of the parameters needs strips, and their degrees have a limit.
+absl::Status DegreesFit(const CarrierGrid& grid, const BorderTrace& border) {
+  const BernsteinNet& net = grid.carriers.front().net;
+  if (LargestStripDegree(net, true) > 0 || LargestStripDegree(net, false) > 0) return absl::OkStatus();
+  for (const std::vector<UseTrace>& loop : border.loops) {
+    for (const UseTrace& trace : loop) {
+      if (trace.iso >= 0) continue;
+      return absl::FailedPreconditionError(absl::StrFormat(
+          "the surface has the degrees %d and %d, whose sum may be at most %d where a border is no "
+          "line of the parameters",
+          net.degree_u, net.degree_v, kMaxDegree));
+    }
+  }
+  return absl::OkStatus();
+}
+
 class Trimmer {
  public:
   Trimmer(const BrepModel& part, const TrimParams& params, const RunContext& run)
@@ -135,6 +152,10 @@ class Trimmer {
     }
     work.border = *std::move(border);
     work.gap = work.border.gap;
+    if (const absl::Status fits = DegreesFit(*work.grid, work.border); !fits.ok()) {
+      work.failed = fits;
+      return;
+    }
     std::size_t index = 0;
     for (const std::vector<UseTrace>& loop : work.border.loops) {
       for (const UseTrace& trace : loop) {
@@ -346,6 +367,8 @@ absl::StatusOr<TrimmedModel> Trimmer::Joined() {
                                                       lost == faces_.end() ? "" : lost->failed.message()));
   }
   const double quantum = std::exp2(std::ceil(std::log2(std::max(box.Diagonal(), 1e-6))) - 40.0);
+  // Edges farther off their surfaces say that the file is broken.
+  const double coarsest = std::max(0.05, 2e-3 * box.Diagonal());
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const FaceWork& work = faces_[f];
     TrimmedFace face;
@@ -367,9 +390,9 @@ absl::StatusOr<TrimmedModel> Trimmer::Joined() {
           work.failed.ok() ? "nothing lies inside its border" : std::string(work.failed.message());
       result.findings.push_back(
           MakeError("FACE_LOST", absl::StrFormat("face %s could not be trimmed: %s", face.id, why), where));
-    } else if (stated && std::abs(face.area - *stated) >
-                             1e-4 * std::abs(*stated) + 1e-3 + work.dropped_area +
-                                 4.0 * std::sqrt(std::abs(*stated)) * (work.border_error + work.gap)) {
+    } else if (stated && !(std::abs(face.area - *stated) <=
+                           1e-4 * std::abs(*stated) + 1e-3 + work.dropped_area +
+                               4.0 * std::sqrt(std::abs(*stated)) * (work.border_error + work.gap))) {
       result.findings.push_back(
           MakeError("FACE_AREA_DIFFERS",
                     absl::StrFormat("face %s has %.6g mm2 in the file and %.6g mm2 as patches", face.id,
@@ -383,7 +406,13 @@ absl::StatusOr<TrimmedModel> Trimmer::Joined() {
                           work.border_error, params_.border_tolerance),
           where));
     }
-    if (work.gap > params_.border_tolerance) {
+    if (work.gap > coarsest) {
+      result.findings.push_back(MakeError(
+          "GAP",
+          absl::StrFormat("an edge of face %s lies %.3g mm off its surface; at most %.3g mm are taken",
+                          face.id, work.gap, coarsest),
+          where));
+    } else if (work.gap > params_.border_tolerance) {
       result.findings.push_back(MakeWarning(
           "GAP", absl::StrFormat("edges of face %s lie up to %.3g mm off its surface", face.id, work.gap),
           where));

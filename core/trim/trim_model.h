@@ -37,7 +37,8 @@ struct TrimmedModel {
   double largest_gap = 0.0, border_error = 0.0;  // of all faces
   // FACE_LOST (error): the face has no patches. FACE_AREA_DIFFERS (error): patches and file disagree about
   // the area by more than 1e-4 of it. BORDER_COARSE (warning): the border tolerance is not reached. GAP
-  // (warning): an edge lies farther from its surface than the border tolerance.
+  // (warning): an edge lies farther from its surface than the border tolerance; (error): by more than 0.05 mm
+  // and 0.002 of the part's size.
   Diagnostics findings;
 };
 

@@ -29,13 +29,15 @@ bool IsPoint(const BrepCurve& curve) {
 int EdgeTable::NumberOf(const TopoDS_Edge& edge) {
   if (const int known = edge_map_.FindIndex(edge); known > 0) return known - 1;
   const int number = edge_map_.Add(edge) - 1;
+  // The place is taken first: numbers must fit even if reading ends with an exception.
+  edges_.emplace_back().status = absl::InvalidArgumentError("the edge could not be read");
   TableEdge read;
   try {
     read = Read(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)));
   } catch (const Standard_Failure& failure) {
     read.status = absl::InvalidArgumentError(TextOf(failure));
   }
-  edges_.push_back(std::move(read));
+  edges_[At(number)] = std::move(read);
   return number;
 }
 

@@ -10,9 +10,10 @@
 
 namespace patchmill {
 
-// Reads the file with Open CASCADE and copies its numbers. `format`: "step" or "iges". Findings of the reader:
+// Reads the file with Open CASCADE and copies its numbers. `format`: "step" or "iges". Findings of the
+// reader:
 //   error    FACE_UNREADABLE, OFFSET_FOLDS, NEGATIVE_WEIGHT, FACE_UNTRIMMED, FACE_OVERLAPS, FACE_LOST
-//   warning  EXTERNAL_REFERENCE, FACE_SHARED, INSIDE_OUT
+//   warning  EXTERNAL_REFERENCE, FACE_SHARED, INSIDE_OUT, HIDDEN_FACES
 //   info     SKIPPED_ENTITIES, SEWN
 // INVALID_ARGUMENT with a code: CAD_UNREADABLE, or TESSELLATED_ONLY for a file that holds triangles and no
 // face.

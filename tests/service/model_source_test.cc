@@ -112,8 +112,10 @@ TEST(LoadModel, NothingEmptyAndUnknown) {
   }
   EXPECT_THAT(
       LoadStatus(File("stl", "solid")),
-      StatusIs(kInvalid,
-               HasSubstr("source.file.format = \"stl\"; must be one of bpt, bv, bez, patches, json, pb")));
+      StatusIs(
+          kInvalid,
+          HasSubstr(
+              "source.file.format = \"stl\"; must be one of bpt, bv, bez, patches, step, iges, json, pb")));
 }
 
 TEST(LoadModel, WrongKindsSayWhatTheyAreNot) {

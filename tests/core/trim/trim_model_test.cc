@@ -161,6 +161,70 @@ TEST(TrimCylinder, CutAskew) {
   }
 }
 
+// A strip of a surface of degrees 8 and 8 would have the degree 16.
+TEST(TrimSpline, DegreesTooHighForASlantedBorderLoseTheFace) {
+  for (const int degree : {7, 8, 15}) {
+    BsplinePatch sheet;
+    sheet.degree_u = sheet.degree_v = degree;
+    for (int k = 0; k < 2 * (degree + 1); ++k) {
+      sheet.knots_u.push_back(k <= degree ? 0.0 : 1.0);
+      sheet.knots_v.push_back(k <= degree ? 0.0 : 1.0);
+    }
+    for (int i = 0; i <= degree; ++i) {
+      for (int j = 0; j <= degree; ++j) sheet.points.push_back({40.0 * i / degree, 40.0 * j / degree, 0.0});
+    }
+    PartMaker maker;
+    const int circle = maker.Edge(ArcCurve({20, 20, 0}, {10, 0, 0}, {0, 10, 0}, 4));
+    maker.Face(BrepSpline{sheet}, {{UseOf(circle, true, 0, 4, [](double t) {
+                 return Vec2(0.5 + 0.25 * std::cos(t * kPi / 2), 0.5 + 0.25 * std::sin(t * kPi / 2));
+               })}});
+    maker.Face(BrepPlane{}, {Rectangle(maker, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})});
+    const auto trimmed = TrimFaces(maker.part(), {}, RunContext());
+    ASSERT_TRUE(trimmed.ok());
+    if (degree == 7) {
+      EXPECT_NEAR(trimmed->faces[0].area, 100 * kPi, 1e-2);
+      continue;
+    }
+    EXPECT_EQ(trimmed->faces[0].patch_count, 0);
+    ASSERT_EQ(trimmed->findings.size(), 1U);
+    EXPECT_EQ(trimmed->findings[0].code, "FACE_LOST");
+  }
+}
+
+// Ends of borders that follow one another closely must not be drawn together one by one: a wall that leans by
+// 0.04 mm over 50 mm in steps of less than the width of a wall.
+TEST(TrimCylinder, AFineChainOfCornersKeepsItsLean) {
+  PartMaker maker;
+  const double r = 20, h = 50, turn = 0.5 * kPi, lean = 0.04 / r;
+  const int steps = 5000;
+  const auto place = [&](double u, double z) { return Vec3(r * std::cos(u), r * std::sin(u), z); };
+  const auto arc = [&](double z, double to) {
+    const double w = std::cos(to / 2);
+    return BrepCurve{2,
+                     {0, 0, 0, 1, 1, 1},
+                     {place(0, z), place(to / 2, z).cwiseProduct(Vec3(1 / w, 1 / w, 1)), place(to, z)},
+                     {1, w, 1}};
+  };
+  BrepCurve side;
+  side.degree = 1;
+  side.knots = {0};
+  for (int k = 0; k <= steps; ++k) {
+    const double t = static_cast<double>(k) / steps;
+    side.points.push_back(place(turn + t * lean, t * h));
+    side.knots.push_back(t);
+  }
+  side.knots.push_back(1);
+  maker.Face(BrepCylinder{{}, r},
+             {{UseOf(maker.Edge(arc(0, turn)), true, 0, 1, [&](double t) { return Vec2(t * turn, 0); }),
+               UseOf(maker.Edge(side), true, 0, 1, [&](double t) { return Vec2(turn + t * lean, t * h); }),
+               UseOf(maker.Edge(arc(h, turn + lean)), false, 0, 1,
+                     [&](double t) { return Vec2(t * (turn + lean), h); }),
+               UseOf(maker.Edge(StraightCurve(place(0, 0), place(0, h))), false, 0, 1,
+                     [&](double t) { return Vec2(0, t * h); })}});
+  const TrimmedModel model = Trimmed(maker.part());
+  EXPECT_NEAR(Area(model), r * h * (turn + 0.5 * lean), 1e-2);
+}
+
 // A bicubic sheet, cut by a closed curve in its parameters: both sides together are the sheet.
 TEST(TrimSpline, BothSidesOfRandomLoops) {
   std::mt19937 random(20261129);
