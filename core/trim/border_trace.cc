@@ -137,7 +137,7 @@ absl::Status CloseLoop(const CarrierGrid& grid, std::vector<UseTrace>& loop, con
     const double apart = (PositionAt(grid, a) - PositionAt(grid, b)).norm();
     const bool pole = one.degenerate || next.degenerate;
     const double slack = 1e-6 + 10.0 * (one.gap + next.gap) + 1e-7 * grid.size;
-    if (apart > std::max(slack, 0.05) || (!pole && (a - b).cwiseAbs().maxCoeff() > 0.25)) {
+    if (apart > std::max(slack, kOpenLoop) || (!pole && (a - b).cwiseAbs().maxCoeff() > 0.25)) {
       return absl::FailedPreconditionError(absl::StrFormat(
           "the loop is open between the edges %d and %d, by %g mm", one.edge, next.edge, apart));
     }
@@ -268,8 +268,7 @@ FittedGraph FitGraph(const CarrierGrid& grid, const SpannedCurve& curve, const U
   FittedGraph fit;
   GridGraph& graph = fit.graph;
   graph.along_u = run_u >= run_v;
-  if (LargestStripDegree(net, graph.along_u) == 0) graph.along_u = !graph.along_u;
-  const int degree = std::max(1, LargestStripDegree(net, graph.along_u));
+  const int degree = LargestStripDegree(net, graph.along_u);
   const int axis = graph.along_u ? 0 : 1;
   const bool rises = b[axis] > a[axis];
   graph.from = rises ? a[axis] : b[axis];

@@ -39,6 +39,9 @@ struct BorderTrace {
   double gap = 0.0;
 };
 
+// mm: a loop whose neighbours are farther apart is open.
+inline constexpr double kOpenLoop = 0.05;
+
 // The edges' curves, as core/trim needs them; without spans for degenerate edges.
 using EdgeCurveTable = std::vector<SpannedCurve>;
 
@@ -55,7 +58,8 @@ Vec2 PlaceAt(const CarrierGrid& grid, const SpannedCurve& curve, const UseTrace&
 // changes from flatter to steeper than 45 degrees, measured in mm. Sorted.
 std::vector<double> NaturalBreaks(const CarrierGrid& grid, const SpannedCurve& curve, const UseTrace& trace);
 
-// The part of an edge between two parameters as one graph within one carrier, in grid coordinates.
+// The part of an edge between two parameters as one graph within one carrier, in grid coordinates. The
+// degrees of the carrier must allow strips (LargestStripDegree).
 struct FittedGraph {
   GridGraph graph;
   double error = 0.0;  // mm, largest found at eight places

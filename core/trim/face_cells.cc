@@ -59,22 +59,14 @@ class CarrierCells {
     const BernsteinNet& net = grid.carrier(at.i, at.j).net;
     per_unit_[0] = std::max(jet.du.norm(), 1e-12 * grid.size);
     per_unit_[1] = std::max(jet.dv.norm(), 1e-12 * grid.size);
-    max_degree_[0] = std::max(1, LargestStripDegree(net, true));
-    max_degree_[1] = std::max(1, LargestStripDegree(net, false));
+    max_degree_[0] = LargestStripDegree(net, true);
+    max_degree_[1] = LargestStripDegree(net, false);
   }
 
   absl::Status Run(std::vector<GridGraph> graphs, FacePatches& out) {
     out_ = &out;
     const double i = at_.i, j = at_.j;
-    const absl::Status done = Divide({{i, j}, {i + 1.0, j + 1.0}}, std::move(graphs), 0);
-    if (done.ok() && too_high_) {
-      const BernsteinNet& net = grid_.carrier(at_.i, at_.j).net;
-      return absl::FailedPreconditionError(absl::StrFormat(
-          "the surface has the degrees %d and %d, and a border that is no line of its parameters; "
-          "their sum may be at most %d",
-          net.degree_u, net.degree_v, kMaxDegree));
-    }
-    return done;
+    return Divide({{i, j}, {i + 1.0, j + 1.0}}, std::move(graphs), 0);
   }
 
  private:
@@ -129,7 +121,8 @@ class CarrierCells {
         stack.push_back(g);
         continue;
       }
-      const std::optional<GridGraph> turned = TurnedGraph(g, max_degree_[axis]);
+      const std::optional<GridGraph> turned =
+          TurnedGraph(g, max_degree_[axis]);  // at least 1 here: g is no line
       if (!turned || TurningError(g, *turned) > tolerance_) return std::nullopt;
       stack.push_back(*turned);
     }
@@ -212,8 +205,6 @@ class CarrierCells {
     if (strip.low.level() && strip.high.level()) {
       const double a0 = strip.low.from, a1 = strip.low.to, b0 = strip.low.c[0], b1 = strip.high.c[0];
       out_->nets.push_back(axis == 0 ? SubNet(carrier, a0, a1, b0, b1) : SubNet(carrier, b0, b1, a0, a1));
-    } else if (LargestStripDegree(carrier, axis == 0) == 0) {
-      too_high_ = true;
     } else {
       out_->nets.push_back(StripNet(carrier, strip));
     }
@@ -260,7 +251,6 @@ class CarrierCells {
   const double tolerance_;
   double per_unit_[2];
   int max_degree_[2];
-  bool too_high_ = false;  // a strip would have a degree above kMaxDegree
   FacePatches* out_ = nullptr;
 };
 
@@ -293,10 +283,11 @@ absl::StatusOr<FacePatches> CutFace(const CarrierGrid& grid, const std::vector<G
     for (int j = 0; j < grid.v.count(); ++j) {
       const auto index = static_cast<std::size_t>(i) * rows + static_cast<std::size_t>(j);
       if (ruled) {
-        absl::StatusOr<std::vector<BernsteinNet>> nets =
+        absl::StatusOr<RuledPatches> cut =
             CutRuledCarrier(grid, {i, j}, WithoutNeedlessEnds(std::move(cells[index])), run);
-        if (!nets.ok()) return nets.status();
-        std::move(nets->begin(), nets->end(), std::back_inserter(patches.nets));
+        if (!cut.ok()) return cut.status();
+        std::move(cut->nets.begin(), cut->nets.end(), std::back_inserter(patches.nets));
+        patches.border_error = std::max(patches.border_error, cut->moved);
         continue;
       }
       CarrierCells carrier(grid, {i, j}, columns[static_cast<std::size_t>(i)], tolerance);

@@ -19,11 +19,13 @@ namespace patchmill {
 struct FacePatches {
   std::vector<BernsteinNet> nets;  // by carrier, then in the order of the cuts
   double dropped_area = 0.0;       // mm^2, of strips thinner than 1e-6 mm
+  double border_error = 0.0;       // mm, by how much the cuts moved the border
 };
 
 // `border`: closed curves in grid coordinates, each graph within one carrier. A place is inside if a ray from
 // it crosses them an odd number of times. `tolerance`: mm by which a graph may be moved when it is taken as a
-// graph of its other coordinate. FAILED_PRECONDITION if graphs cross each other.
+// graph of its other coordinate. Unless all graphs are level, LargestStripDegree of the carriers must be at
+// least 1. FAILED_PRECONDITION if graphs cross each other.
 absl::StatusOr<FacePatches> CutFace(const CarrierGrid& grid, const std::vector<GridGraph>& border,
                                     double tolerance, const RunContext& run);
 

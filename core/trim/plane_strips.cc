@@ -111,12 +111,11 @@ class PlaneCutter {
   }
 
  private:
-  // The borders' spans in the frame, neighbours closed.
+  // The borders' spans in the frame, along their loops. Neighbours meet exactly.
   absl::Status ReadLoops() {
     int use_index = 0;
     for (const BrepLoop& loop : loops_) {
       const std::size_t first = arcs_.size();
-      std::vector<std::size_t> ends;  // the arcs run in the loop's direction for now
       for (const BrepEdgeUse& use : loop) {
         const SpannedCurve& curve = curves_[At(use.edge)];
         result_.breaks.emplace_back();
@@ -148,7 +147,7 @@ class PlaneCutter {
         BorderArc& next = arcs_[k + 1 < arcs_.size() ? k + 1 : first];
         const Vec2 a = PointOn(arcs_[k], 1.0), b = PointOn(next, 0.0);
         const double apart = (a - b).norm();
-        if (apart > 0.05) {
+        if (apart > kOpenLoop) {
           return absl::FailedPreconditionError(absl::StrFormat("a loop is open by %g mm", apart));
         }
         result_.gap = std::max(result_.gap, apart);
@@ -197,7 +196,7 @@ class PlaneCutter {
       result_.breaks[At(arc.use)].push_back(arc.from);
       result_.breaks[At(arc.use)].push_back(arc.to);
     }
-    arcs_ = ArcsBetweenWalls(std::move(arcs_), kSameX);
+    arcs_ = ArcsBetweenWalls(std::move(arcs_), kSameX).arcs;
   }
 
   void AddPatch(const ArcPair& pair) {

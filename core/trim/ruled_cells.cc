@@ -89,9 +89,8 @@ bool IsRuled(const CarrierGrid& grid) {
          });
 }
 
-absl::StatusOr<std::vector<BernsteinNet>> CutRuledCarrier(const CarrierGrid& grid, GridCell cell,
-                                                          const std::vector<GridGraph>& border,
-                                                          const RunContext& run) {
+absl::StatusOr<RuledPatches> CutRuledCarrier(const CarrierGrid& grid, GridCell cell,
+                                             const std::vector<GridGraph>& border, const RunContext& run) {
   const BernsteinNet& carrier = grid.carrier(cell.i, cell.j).net;
   std::vector<BorderArc> arcs;
   for (const GridGraph& graph : border) {
@@ -99,11 +98,13 @@ absl::StatusOr<std::vector<BernsteinNet>> CutRuledCarrier(const CarrierGrid& gri
     if (arc.x0() < arc.x1()) arcs.push_back(std::move(arc));
   }
   const SurfaceJet jet = JetAt(grid, cell, {cell.i + 0.5, cell.j + 0.5});
-  arcs = ArcsBetweenWalls(std::move(arcs), kSameWall / std::max(jet.du.norm(), 1e-12 * grid.size));
+  const double per_u = std::max(jet.du.norm(), 1e-12 * grid.size);
+  const WalledArcs walled = ArcsBetweenWalls(std::move(arcs), kSameWall / per_u);
   const absl::StatusOr<Trapezoids> cut =
-      CutIntoTrapezoids(arcs, kThinnestRuled / std::max(jet.dv.norm(), 1e-12 * grid.size), run);
+      CutIntoTrapezoids(walled.arcs, kThinnestRuled / std::max(jet.dv.norm(), 1e-12 * grid.size), run);
   if (!cut.ok()) return cut.status();
-  std::vector<BernsteinNet> nets;
+  RuledPatches patches{{}, walled.moved * per_u};
+  std::vector<BernsteinNet>& nets = patches.nets;
   for (const ArcPair& pair : cut->pairs) {
     if (RunsEvenly(pair.below)) {
       const Strip strip{GraphOf(pair.below), GraphOf(pair.above)};
@@ -120,7 +121,7 @@ absl::StatusOr<std::vector<BernsteinNet>> CutRuledCarrier(const CarrierGrid& gri
     }
     nets.push_back(std::move(net));
   }
-  return nets;
+  return patches;
 }
 
 }  // namespace patchmill

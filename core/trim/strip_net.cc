@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/status.h"
 #include "core/math/bernstein.h"
 #include "core/math/tensor_bernstein.h"
 
@@ -81,7 +82,11 @@ int LargestStripDegree(const BernsteinNet& carrier, bool along_u) {
 }
 
 BernsteinNet StripNet(const BernsteinNet& carrier, const Strip& strip) {
-  if (strip.low.along_u) return AlongU(carrier, strip);
+  const bool along_u = strip.low.along_u;
+  const auto degree = static_cast<int>(std::max(strip.low.c.size(), strip.high.c.size())) - 1;
+  PM_CHECK((along_u ? carrier.degree_u + carrier.degree_v * degree
+                    : carrier.degree_v + carrier.degree_u * degree) <= kMaxDegree);
+  if (along_u) return AlongU(carrier, strip);
   return Transposed(AlongU(Transposed(carrier), strip));
 }
 

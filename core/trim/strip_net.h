@@ -18,7 +18,8 @@ int LargestStripDegree(const BernsteinNet& carrier, bool along_u);
 
 // S(u, (1-t) low(u) + t high(u)), with u = from + s (to - from), is a rational Bezier patch of the degrees
 // (p + q d, q) in (s, t), where d is the degree of the graphs; likewise along v. It lies on the carrier
-// exactly, to about 1e-15 of its size. Its u and v run as the carrier's. Cost O((p + q d) q p q).
+// exactly, to about 1e-15 of its size. Its u and v run as the carrier's. Both degrees must be at most
+// kMaxDegree. Cost O((p + q d) q p q).
 // New points are convex combinations of the old ones, so weights stay positive.
 BernsteinNet StripNet(const BernsteinNet& carrier, const Strip& strip);
 

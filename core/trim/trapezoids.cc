@@ -174,7 +174,7 @@ Vec2 PointOn(const BorderArc& arc, double s) {
 
 void MoveEnd(Vec3& end, const Vec2& to) { end.head<2>() = end.z() * to; }
 
-std::vector<BorderArc> ArcsBetweenWalls(std::vector<BorderArc> arcs, double same_x) {
+WalledArcs ArcsBetweenWalls(std::vector<BorderArc> arcs, double same_x) {
   std::vector<double> xs;
   for (const BorderArc& arc : arcs) {
     xs.push_back(arc.x0());
@@ -182,15 +182,14 @@ std::vector<BorderArc> ArcsBetweenWalls(std::vector<BorderArc> arcs, double same
   }
   std::sort(xs.begin(), xs.end());
   struct Wall {
-    double from, to, x;
+    double from, x;  // the first end of an arc in it, and where it stands
   };
   std::vector<Wall> walls;
   for (const double x : xs) {
     if (walls.empty() || x - walls.back().from > same_x) {
-      walls.push_back({x, x, x});
-    } else {
-      walls.back().to = x;
-      if (x == 0.0 || x == 1.0) walls.back().x = x;
+      walls.push_back({x, x});
+    } else if (x == 0.0 || x == 1.0) {
+      walls.back().x = x;
     }
   }
   const auto snapped = [&walls](double x) {
@@ -198,9 +197,10 @@ std::vector<BorderArc> ArcsBetweenWalls(std::vector<BorderArc> arcs, double same
         std::upper_bound(walls.begin(), walls.end(), x, [](double at, const Wall& w) { return at < w.from; });
     return after == walls.begin() ? after->x : (after - 1)->x;
   };
-  std::vector<BorderArc> kept;
+  WalledArcs walled;
   for (BorderArc& arc : arcs) {
     const double a = snapped(arc.x0()), b = snapped(arc.x1());
+    walled.moved = std::max({walled.moved, std::abs(a - arc.x0()), std::abs(b - arc.x1())});
     if (a == b) continue;
     arc.points.front().x() = a * arc.points.front().z();
     arc.points.back().x() = b * arc.points.back().z();
@@ -208,9 +208,9 @@ std::vector<BorderArc> ArcsBetweenWalls(std::vector<BorderArc> arcs, double same
       std::reverse(arc.points.begin(), arc.points.end());
       std::swap(arc.from, arc.to);
     }
-    kept.push_back(std::move(arc));
+    walled.arcs.push_back(std::move(arc));
   }
-  return kept;
+  return walled;
 }
 
 absl::StatusOr<Trapezoids> CutIntoTrapezoids(const std::vector<BorderArc>& arcs, double thinnest,

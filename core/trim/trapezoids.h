@@ -28,7 +28,11 @@ void MoveEnd(Vec3& end, const Vec2& to);
 
 // Ends of arcs that differ in x by at most `same_x` get the same x, that of the first of them, or 0 or 1
 // where that is among them. Arcs that then run along y are left out, the others turned so that x rises.
-std::vector<BorderArc> ArcsBetweenWalls(std::vector<BorderArc> arcs, double same_x);
+struct WalledArcs {
+  std::vector<BorderArc> arcs;
+  double moved = 0.0;  // the farthest that an end has moved in x
+};
+WalledArcs ArcsBetweenWalls(std::vector<BorderArc> arcs, double same_x);
 
 // Both have the same degree, weights and x coordinates, so that all rulings between them run along y.
 struct ArcPair {
