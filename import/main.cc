@@ -93,8 +93,8 @@ int main(int argc, char** argv) {
   const bool understood = argc == 3 && std::string_view(argv[1]) == "--format" &&
                           (std::string_view(argv[2]) == "step" || std::string_view(argv[2]) == "iges");
   if (!understood) {
-    std::cerr
-        << "usage: patchmill-import --format step|iges < FILE   (for the server; use patchmill convert)\n";
+    std::cerr << "usage: patchmill-import --format step|iges < FILE\n"
+                 "patchmill and patchmilld start it for each CAD file; its answer is not text.\n";
     return 2;
   }
   // The reader writes to its standard output: the answers get a descriptor of their own.

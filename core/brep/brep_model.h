@@ -67,7 +67,6 @@ struct BrepCurve {
 
 struct BrepEdge {
   BrepCurve curve;          // without points for a degenerate edge, which is one point of space
-  int start = 0, end = 0;   // vertices, at the begin and the end of the curve
   bool degenerate = false;  // a pole of its surface
 };
 
@@ -108,7 +107,6 @@ struct BrepBody {
 };
 
 struct BrepModel {
-  std::vector<Vec3> vertices;
   std::vector<BrepEdge> edges;
   std::vector<BrepFace> faces;  // in the order of the file
   std::vector<BrepBody> bodies;

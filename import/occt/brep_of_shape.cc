@@ -89,7 +89,6 @@ class Reader {
 
   BrepOfShapeResult Finish() {
     result_.model.edges = edges_.Edges();
-    result_.model.vertices = edges_.vertices();
     NumberInstances();
     return std::move(result_);
   }

@@ -11,6 +11,7 @@
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BezierCurve.hxx>
 #include <Geom_Circle.hxx>
+#include <Geom_Conic.hxx>
 #include <Geom_Ellipse.hxx>
 #include <Geom_Hyperbola.hxx>
 #include <Geom_Line.hxx>
@@ -159,6 +160,10 @@ absl::StatusOr<CurvePart> CurveBetween(const Handle(Geom_Curve) & given, double 
   if (!std::isfinite(first) || !std::isfinite(last) || !(last - first > kShortestRange * size)) {
     return absl::InvalidArgumentError("a curve has an empty or an infinite range");
   }
+  // Conic sections become as many spans as they have quarter turns.
+  constexpr double kLongestArc = 1000.0;
+  const bool conic = curve->IsKind(STANDARD_TYPE(Geom_Conic)) && !curve->IsKind(STANDARD_TYPE(Geom_Parabola));
+  if (conic && last - first > kLongestArc) return absl::InvalidArgumentError("an arc has hundreds of turns");
   if (const Handle(Geom_Line) line = As<Geom_Line>(curve)) {
     CurvePart part;
     part.map = {ParameterMap::Kind::kShift, first, last, 1, 0.0};

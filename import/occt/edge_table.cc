@@ -5,11 +5,9 @@
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
 #include <TopoDS.hxx>
 #include <absl/status/status.h>
 
-#include "import/occt/convert.h"
 #include "import/occt/failures.h"
 
 namespace patchmill {
@@ -43,8 +41,6 @@ int EdgeTable::NumberOf(const TopoDS_Edge& edge) {
 
 TableEdge EdgeTable::Read(const TopoDS_Edge& edge) {
   TableEdge read;
-  TopoDS_Vertex start, end;
-  TopExp::Vertices(edge, start, end);
   Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, read.first, read.last);
   if (curve.IsNull() && !BRep_Tool::Degenerated(edge)) {
     BRepLib::BuildCurve3d(edge);
@@ -54,7 +50,6 @@ TableEdge EdgeTable::Read(const TopoDS_Edge& edge) {
       return read;
     }
   }
-  Vec3 first = Vec3::Zero(), last = Vec3::Zero();
   if (BRep_Tool::Degenerated(edge)) {
     read.degenerate = true;
   } else {
@@ -63,37 +58,20 @@ TableEdge EdgeTable::Read(const TopoDS_Edge& edge) {
       read.status = part.status();
       return read;
     }
-    first = part->curve.points.front();
-    last = part->curve.points.back();
     read.part = *std::move(part);
     if (IsPoint(read.part.curve)) {
       read.degenerate = true;
       read.part.curve = {};
     }
   }
-  read.start = VertexOf(start, first);
-  read.end = VertexOf(end, last);
   return read;
-}
-
-int EdgeTable::VertexOf(const TopoDS_Vertex& vertex, const Vec3& otherwise) {
-  const auto added = static_cast<int>(vertices_.size());
-  if (vertex.IsNull()) {
-    vertices_.push_back(otherwise);
-    return added;
-  }
-  if (const int known = vertex_map_.FindIndex(vertex); known > 0) return vertex_numbers_[At(known - 1)];
-  vertex_map_.Add(vertex);
-  vertex_numbers_.push_back(added);
-  vertices_.push_back(ToVec3(BRep_Tool::Pnt(vertex)));
-  return added;
 }
 
 std::vector<BrepEdge> EdgeTable::Edges() const {
   std::vector<BrepEdge> edges;
   edges.reserve(edges_.size());
   for (const TableEdge& e : edges_) {
-    edges.push_back({e.part.curve, e.start, e.end, e.degenerate || !e.status.ok()});
+    edges.push_back({e.part.curve, e.degenerate || !e.status.ok()});
   }
   return edges;
 }

@@ -1,4 +1,4 @@
-// The edges and vertices of a shape, each once.
+// The edges of a shape, each once.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,6 @@
 
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Edge.hxx>
-#include <TopoDS_Vertex.hxx>
 #include <absl/status/statusor.h>
 
 #include "core/base/index.h"
@@ -19,7 +18,6 @@ struct TableEdge {
   absl::Status status;             // why it cannot be used
   CurvePart part;                  // without points for a degenerate edge
   double first = 0.0, last = 1.0;  // range of the edge in the parameters of Open CASCADE
-  int start = 0, end = 0;
   bool degenerate = false;
 };
 
@@ -32,16 +30,12 @@ class EdgeTable {
 
   // Edges that cannot be used are degenerate there, and no face has them.
   std::vector<BrepEdge> Edges() const;
-  const std::vector<Vec3>& vertices() const { return vertices_; }
 
  private:
-  int VertexOf(const TopoDS_Vertex& vertex, const Vec3& otherwise);
   TableEdge Read(const TopoDS_Edge& edge);
 
-  TopTools_IndexedMapOfShape edge_map_, vertex_map_;
+  TopTools_IndexedMapOfShape edge_map_;
   std::vector<TableEdge> edges_;
-  std::vector<int> vertex_numbers_;
-  std::vector<Vec3> vertices_;
 };
 
 }  // namespace patchmill

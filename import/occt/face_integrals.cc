@@ -1,9 +1,9 @@
 #include "import/occt/face_integrals.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
@@ -12,24 +12,13 @@
 #include <TColStd_Array1OfReal.hxx>
 
 #include "core/base/index.h"
+#include "core/math/gauss_rule.h"
 #include "import/occt/convert.h"
 
 namespace patchmill {
 namespace {
 
-// Gauss's rule with eight points on [0,1].
-constexpr std::array<double, 8> kNodes = {0.019855071751231884, 0.101666761293186630, 0.237233795041835507,
-                                          0.408282678752175098, 0.591717321247824902, 0.762766204958164493,
-                                          0.898333238706813370, 0.980144928248768116};
-constexpr std::array<double, 8> kWeights = {0.050614268145188130, 0.111190517226687235, 0.156853322938943644,
-                                            0.181341891689180991, 0.181341891689180991, 0.156853322938943644,
-                                            0.111190517226687235, 0.050614268145188130};
-// The same with four points, for surfaces with many knots.
-constexpr std::array<double, 4> kFewNodes = {0.069431844202973712, 0.330009478207571868, 0.669990521792428132,
-                                             0.930568155797026288};
-constexpr std::array<double, 4> kFewWeights = {0.173927422568726929, 0.326072577431273071,
-                                               0.326072577431273071, 0.173927422568726929};
-constexpr std::size_t kManyBreaks = 64;
+constexpr std::size_t kManyBreaks = 64;  // from so many knots on, four points between two of them do
 constexpr double kAgreement = 1e-8;
 constexpr int kMostHalvings = 5;
 // Into how many steps a direction is cut at least, so that eight points follow an arc or a high degree.
@@ -102,9 +91,9 @@ class Integrator {
     Sums sums = Sums::Zero();
     const Vec2 step = to - from;
     if (step.y() == 0.0) return sums;
-    for (std::size_t i = 0; i < kNodes.size(); ++i) {
-      const Vec2 place = from + kNodes[i] * step;
-      sums += kWeights[i] * step.y() * UpTo(place.x(), place.y());
+    for (const GaussPoint& g : kGauss8) {
+      const Vec2 place = from + g.at * step;
+      sums += g.weight * step.y() * UpTo(place.x(), place.y());
     }
     return sums;
   }
@@ -135,15 +124,8 @@ class Integrator {
     for (std::size_t k = 1; k < u_.size(); ++k) {
       const bool last = k + 1 == u_.size() || u_[k] >= u;
       const double from = u_[k - 1], step = (last ? u : u_[k]) - from;
-      if (few) {
-        for (std::size_t i = 0; i < kFewNodes.size(); ++i) {
-          sums += kFewWeights[i] * step * Density(from + step * kFewNodes[i], v);
-        }
-      } else {
-        for (std::size_t i = 0; i < kNodes.size(); ++i) {
-          sums += kWeights[i] * step * Density(from + step * kNodes[i], v);
-        }
-      }
+      const std::span<const GaussPoint> rule = few ? std::span<const GaussPoint>(kGauss4) : kGauss8;
+      for (const GaussPoint& g : rule) sums += g.weight * step * Density(from + step * g.at, v);
       if (last) break;
     }
     return sums;
@@ -152,10 +134,10 @@ class Integrator {
   Sums Rule(const PlaceCurve& curve, double from, double to) const {
     Sums sums = Sums::Zero();
     const double lowest = u_.front(), width = u_.back() - u_.front();
-    for (std::size_t i = 0; i < kNodes.size(); ++i) {
-      const PlaceJet jet = curve.At(from + (to - from) * kNodes[i]);
+    for (const GaussPoint& g : kGauss8) {
+      const PlaceJet jet = curve.At(from + (to - from) * g.at);
       if (jet.d.y() == 0.0 || std::abs(jet.place.x() - lowest) <= 1e-15 * width) continue;
-      sums += kWeights[i] * (to - from) * jet.d.y() * UpTo(jet.place.x(), jet.place.y());
+      sums += g.weight * (to - from) * jet.d.y() * UpTo(jet.place.x(), jet.place.y());
     }
     return sums;
   }

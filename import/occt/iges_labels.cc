@@ -22,13 +22,6 @@
 namespace patchmill {
 namespace {
 
-using Entity = Handle(Standard_Transient);
-
-template <class Kind>
-Handle(Kind) As(const Entity& entity) {
-  return Handle(Kind)::DownCast(entity);
-}
-
 std::optional<std::uint32_t> RgbOf(const IGESData_IGESEntity& entity) {
   if (const auto own = As<IGESGraph_Color>(entity.Color())) {
     double red = 0.0, green = 0.0, blue = 0.0;

@@ -15,11 +15,19 @@
 
 namespace patchmill {
 
+using Entity = Handle(Standard_Transient);  // of a file
+
+// The entity as one of a kind; null if it is none.
+template <class Kind>
+Handle(Kind) As(const Entity& entity) {
+  return Handle(Kind)::DownCast(entity);
+}
+
 // Labels faces, shells and solids with what `label_of` says of the entity that became them. Faces that are
 // parts of a larger result have its label, unless they have their own. Only entities that `wanted` accepts.
 void LabelShapes(const Transfer_TransientProcess& transfer,
-                 const std::function<ShapeLabel(const Handle(Standard_Transient) &)>& label_of,
-                 const std::function<bool(const Handle(Standard_Transient) &)>& wanted, ShapeLabels& labels);
+                 const std::function<ShapeLabel(const Entity&)>& label_of,
+                 const std::function<bool(const Entity&)>& wanted, ShapeLabels& labels);
 
 // Those of the faces (number, whether it is to be seen) that no face of the file's shape comes from.
 std::vector<std::int64_t> LostFaces(const std::vector<std::pair<std::int64_t, bool>>& faces,

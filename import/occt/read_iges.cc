@@ -7,7 +7,6 @@
 #include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <Interface_Static.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <absl/status/status.h>
 #include <absl/strings/str_cat.h>
@@ -70,10 +69,6 @@ void ReadHeader(const IGESData_IGESModel& model, CadFile& file) {
   if (file.written_by.empty()) file.written_by = TextOf(global.InterfaceVersion());
 }
 
-bool HasFace(const TopoDS_Shape& shape) {
-  return !shape.IsNull() && TopExp_Explorer(shape, TopAbs_FACE).More();
-}
-
 // Every surface that no other entity needs.
 TopoDS_Shape SearchShapes(IGESControl_Reader& reader) {
   const Handle(IGESData_IGESModel) model = reader.IGESModel();
@@ -97,10 +92,7 @@ TopoDS_Shape SearchShapes(IGESControl_Reader& reader) {
 
 absl::Status ReadIges(std::string_view content, CadFile& file) {
   IGESControl_Reader reader;
-  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-  Interface_Static::SetIVal("read.precision.mode", 0);  // that of the file
-  Interface_Static::SetIVal("read.maxprecision.mode", 0);
-  Interface_Static::SetIVal("read.surfacecurve.mode", 0);
+  SetReaderParameters();
   Interface_Static::SetIVal("read.iges.onlyvisible", 1);
   reader.SetReadVisible(true);
   const NamedBytes bytes(content);
@@ -114,13 +106,7 @@ absl::Status ReadIges(std::string_view content, CadFile& file) {
   if (roots > 0) reader.TransferRoots();
   file.root_count = roots;
   file.shape = reader.OneShape();
-  if (!HasFace(file.shape)) {
-    const TopoDS_Shape found = SearchShapes(reader);
-    if (HasFace(found) || file.shape.IsNull()) {
-      file.shape = found;
-      file.searched = true;
-    }
-  }
+  SearchWithoutRoots(file, [&reader] { return SearchShapes(reader); });
   ReadIgesLabels(reader, file);
   return absl::OkStatus();
 }

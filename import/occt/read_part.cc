@@ -82,7 +82,7 @@ absl::StatusOr<ImportedPart> ReadPart(std::string_view content, std::string_view
     if (!file->skipped.empty()) why += fmt::format(" (left out: {})", Listed(file->skipped));
     return CodedError(triangles ? "TESSELLATED_ONLY" : "CAD_UNREADABLE", why);
   }
-  if (brep->hidden_faces > 0) file->skipped["hidden faces"] = brep->hidden_faces;
+  if (brep->hidden_faces > 0) file->skipped["hidden faces"] += brep->hidden_faces;
   ImportedPart part;
   part.model = std::move(brep->model);
   part.facts = {file->schema, file->unit, file->written_by, FileFindings(*file)};

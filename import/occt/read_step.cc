@@ -4,7 +4,6 @@
 #include <BRep_Builder.hxx>
 #include <HeaderSection_FileName.hxx>
 #include <HeaderSection_FileSchema.hxx>
-#include <Interface_Static.hxx>
 #include <STEPConstruct_ExternRefs.hxx>
 #include <STEPControl_Reader.hxx>
 #include <StepData_StepModel.hxx>
@@ -13,7 +12,6 @@
 #include <StepShape_ManifoldSolidBrep.hxx>
 #include <StepShape_ShellBasedSurfaceModel.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <absl/status/status.h>
@@ -66,10 +64,6 @@ int CountWord(std::string_view text, std::string_view word) {
   return count;
 }
 
-bool HasFace(const TopoDS_Shape& shape) {
-  return !shape.IsNull() && TopExp_Explorer(shape, TopAbs_FACE).More();
-}
-
 // Every body and every face that no body has, where the file names no product.
 TopoDS_Shape SearchShapes(STEPControl_Reader& reader) {
   const Handle(StepData_StepModel) model = reader.StepModel();
@@ -96,10 +90,7 @@ TopoDS_Shape SearchShapes(STEPControl_Reader& reader) {
 
 absl::Status ReadStep(std::string_view content, CadFile& file) {
   STEPControl_Reader reader;
-  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-  Interface_Static::SetIVal("read.precision.mode", 0);  // that of the file
-  Interface_Static::SetIVal("read.maxprecision.mode", 0);
-  Interface_Static::SetIVal("read.surfacecurve.mode", 0);
+  SetReaderParameters();
   BytesBuffer buffer(content);
   std::istream stream(&buffer);
   if (reader.ReadStream("part", stream) != IFSelect_RetDone) {
@@ -113,13 +104,7 @@ absl::Status ReadStep(std::string_view content, CadFile& file) {
   const int roots = reader.NbRootsForTransfer();
   for (int k = 1; k <= roots; ++k) file.root_count += reader.TransferRoot(k) ? 1 : 0;
   file.shape = reader.OneShape();
-  if (!HasFace(file.shape)) {
-    const TopoDS_Shape found = SearchShapes(reader);
-    if (HasFace(found) || file.shape.IsNull()) {
-      file.shape = found;
-      file.searched = true;
-    }
-  }
+  SearchWithoutRoots(file, [&reader] { return SearchShapes(reader); });
   STEPConstruct_ExternRefs references(reader.WS());
   if (references.LoadExternRefs()) {
     for (int k = 1; k <= references.NbExternRefs(); ++k) {

@@ -43,13 +43,6 @@
 namespace patchmill {
 namespace {
 
-using Entity = Handle(Standard_Transient);
-
-template <class Kind>
-Handle(Kind) As(const Entity& entity) {
-  return Handle(Kind)::DownCast(entity);
-}
-
 std::optional<std::uint32_t> RgbOf(const Handle(StepVisual_Colour) & colour) {
   if (const auto rgb = As<StepVisual_ColourRgb>(colour))
     return PackRgb(rgb->Red(), rgb->Green(), rgb->Blue());

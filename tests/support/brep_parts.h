@@ -67,11 +67,11 @@ inline BrepCurve PolynomialCurve(int degree, const std::function<Vec3(double)>& 
 class PartMaker {
  public:
   int Edge(BrepCurve curve) {
-    part_.edges.push_back({std::move(curve), 0, 0, false});
+    part_.edges.push_back({std::move(curve), false});
     return static_cast<int>(part_.edges.size()) - 1;
   }
   int Pole(const Vec3&) {
-    part_.edges.push_back({{}, 0, 0, true});
+    part_.edges.push_back({{}, true});
     return static_cast<int>(part_.edges.size()) - 1;
   }
   BrepFace& Face(BrepSurface surface, std::vector<BrepLoop> loops) {
