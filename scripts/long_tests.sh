@@ -39,13 +39,15 @@ asan_jobs() {
   ctest --preset asan -j "$(nproc)" -R "$jobs"
 }
 tsan() { scripts/test.sh tsan; }
-random() {  # a hundred parts of each kind
+random() {  # a hundred parts of each kind, ten thousand loops on CAD faces, a thousand damaged CAD files
   local file failed=0
-  build release property_tests
+  build release property_tests core_trim_tests service_tests
   for file in tests/property/random_*_test.cc; do
     echo "$file"
     PATCHMILL_FUZZ_JOBS=100 PATCHMILL_FUZZ_SEED="$seed" build/release/tests/property_tests --file="$file" --gtest_brief=1 || failed=1
   done
+  PATCHMILL_FUZZ_JOBS=1700 PATCHMILL_FUZZ_SEED="$seed" build/release/tests/core_trim_tests --gtest_filter='BothSides.*' --gtest_brief=1 || failed=1
+  PATCHMILL_FUZZ_JOBS=1000 PATCHMILL_FUZZ_SEED="$seed" build/release/tests/service_tests --gtest_filter=Importer.DamagedFiles --gtest_brief=1 || failed=1
   return "$failed"
 }
 certificates() {  # ten million heights

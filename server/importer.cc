@@ -177,6 +177,22 @@ absl::Status ImporterError(std::string_view text) {
   return ModelUnreadableError(fmt::format("CAD file: {}", sentence), Utf8(code));
 }
 
+// The message in a result frame.
+absl::StatusOr<Imported> ParseResult(std::string_view content, InFlight* in_flight) {
+  google::protobuf::io::ArrayInputStream stream(content.data(), static_cast<int>(content.size()));
+  PM_ASSIGN_OR_RETURN(const WireCount count,
+                      CountWire(stream, content.size(), *v1::ImportResult::descriptor(),
+                                ListLimits(limits::kMaxFileModelBytes)));
+  Imported imported;
+  if (in_flight != nullptr) {
+    PM_ASSIGN_OR_RETURN(imported.held, in_flight->Take(count.memory_bytes + content.size()));
+  }
+  if (!imported.result.ParseFromArray(content.data(), static_cast<int>(content.size()))) {
+    return ModelUnreadableError("CAD file: the importer's answer is no message", "IMPORTER_DIED");
+  }
+  return imported;
+}
+
 absl::Status DeathOf(int status, std::string_view format) {
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
     return absl::ResourceExhaustedError("reading the CAD file took too long");
@@ -207,13 +223,13 @@ std::string ImporterPath() {
   return access(in_bin.c_str(), X_OK) == 0 ? in_bin : beside;
 }
 
-absl::StatusOr<v1::ImportResult> ImportFile(std::string_view content, std::string_view format,
-                                            const RunContext& run) {
-  return ImportFileWith(ImporterPath(), content, format, run);
+absl::StatusOr<Imported> ImportFile(std::string_view content, std::string_view format, const RunContext& run,
+                                    InFlight* in_flight) {
+  return ImportFileWith(ImporterPath(), content, format, run, in_flight);
 }
 
-absl::StatusOr<v1::ImportResult> ImportFileWith(const std::string& program, std::string_view content,
-                                                std::string_view format, const RunContext& run) {
+absl::StatusOr<Imported> ImportFileWith(const std::string& program, std::string_view content,
+                                        std::string_view format, const RunContext& run, InFlight* in_flight) {
   if (access(program.c_str(), X_OK) != 0) return NotBuilt(program);
   PM_ASSIGN_OR_RETURN(const Descriptor input, MemoryFile(content));
   PM_ASSIGN_OR_RETURN(Started started, Start(program, format, input.get()));
@@ -237,16 +253,7 @@ absl::StatusOr<v1::ImportResult> ImportFileWith(const std::string& program, std:
       if (frame.kind == FrameKind::kProgress) {
         Report(frame.content, run);
       } else if (frame.kind == FrameKind::kResult) {
-        google::protobuf::io::ArrayInputStream stream(frame.content.data(),
-                                                      static_cast<int>(frame.content.size()));
-        PM_RETURN_IF_ERROR(CountWire(stream, frame.content.size(), *v1::ImportResult::descriptor(),
-                                     ListLimits(limits::kMaxFileModelBytes))
-                               .status());
-        v1::ImportResult result;
-        if (!result.ParseFromArray(frame.content.data(), static_cast<int>(frame.content.size()))) {
-          return ModelUnreadableError("CAD file: the importer's answer is no message", "IMPORTER_DIED");
-        }
-        return result;
+        return ParseResult(frame.content, in_flight);
       } else {
         return ImporterError(frame.content);
       }

@@ -9,22 +9,30 @@
 
 #include "core/base/run_context.h"
 #include "patchmill/v1/import.pb.h"
+#include "server/in_flight.h"
 
 namespace patchmill {
 
 // "step" or "iges" for a file name's ending in any case, without the point (stp, p21, igs too); else empty.
 std::string_view CadFormat(std::string_view ending);
 
+struct Imported {
+  InFlight::Hold held;  // the memory that the message takes
+  v1::ImportResult result;
+};
+
 // Starts the importer, gives it the bytes of a file, and waits for its answer. It ends within 200 ms of a
 // cancel or a deadline of `run`, to which the importer's progress goes. The importer is the program
-// patchmill-import beside the running one. Errors: those of `run`; INVALID_ARGUMENT MODEL_UNREADABLE for a
-// file that cannot be read, or on which the importer died; RESOURCE_EXHAUSTED for its limits of time and
-// memory; UNIMPLEMENTED where there is no importer.
-absl::StatusOr<v1::ImportResult> ImportFile(std::string_view content, std::string_view format,
-                                            const RunContext& run);
+// patchmill-import beside the running one. The answer is counted before it is parsed, as any message, and held
+// in `in_flight` (may be null). Errors: those of `run`; INVALID_ARGUMENT MODEL_UNREADABLE for a file that
+// cannot be read, or on which the importer died; RESOURCE_EXHAUSTED for limits of time and memory;
+// UNIMPLEMENTED where there is no importer.
+absl::StatusOr<Imported> ImportFile(std::string_view content, std::string_view format, const RunContext& run,
+                                    InFlight* in_flight = nullptr);
 // The same with another program as importer.
-absl::StatusOr<v1::ImportResult> ImportFileWith(const std::string& program, std::string_view content,
-                                                std::string_view format, const RunContext& run);
+absl::StatusOr<Imported> ImportFileWith(const std::string& program, std::string_view content,
+                                        std::string_view format, const RunContext& run,
+                                        InFlight* in_flight = nullptr);
 // Where the importer is looked for.
 std::string ImporterPath();
 

@@ -162,9 +162,8 @@ Diagnostic ImportRemark(const v1::ImportReport& report, std::string_view format)
       "CAD_FILE",
       fmt::format(
           "{} in {}: {} bodies, {} of them solid, {} faces ({}), {:.6g} mm2; borders of faces lie within "
-          "{:.2g} mm of the file's edges, edges within {:.2g} mm of their surfaces, surfaces within {:.2g} "
-          "mm "
-          "of the file's",
+          "{:.2g} mm of the file's edges, edges within {:.2g} mm of their surfaces, surfaces within "
+          "{:.2g} mm of the file's",
           file, report.length_unit().empty() ? "unknown unit" : Utf8(report.length_unit()),
           report.body_count(), report.solid_count(), report.face_count(), fmt::join(kinds, ", "),
           report.area_mm2(), report.border_error_mm(), report.largest_gap_mm(), report.surface_error_mm()));
@@ -178,9 +177,8 @@ absl::StatusOr<LoadedModel> LoadCad(const v1::ModelFile& file, std::string_view 
     errors.Add(At(at, "length_unit"), "must be unset: a CAD file states its own unit");
     return errors.ToStatus();
   }
-  PM_ASSIGN_OR_RETURN(const v1::ImportResult result, ImportFile(file.content(), format, run));
-  PM_ASSIGN_OR_RETURN(const InFlight::Hold held,
-                      HoldModelWire(result.model().SerializeAsString(), true, in_flight));
+  PM_ASSIGN_OR_RETURN(const Imported imported, ImportFile(file.content(), format, run, in_flight));
+  const v1::ImportResult& result = imported.result;
   PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadMessage(result.model(), At(at, "content"), run));
   loaded.remarks.push_back(ImportRemark(result.report(), format));
   for (const v1::Diagnostic& finding : result.report().findings()) {

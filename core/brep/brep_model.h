@@ -66,8 +66,9 @@ struct BrepCurve {
 };
 
 struct BrepEdge {
-  BrepCurve curve;          // without points for a degenerate edge, which is one point of space
-  bool degenerate = false;  // a pole of its surface
+  BrepCurve curve;           // without points for a degenerate edge, which is one point of space
+  bool degenerate = false;   // a pole of its surface
+  double curve_error = 0.0;  // mm, by how much the curve differs at most from the file's
 };
 
 struct BrepEdgeUse {

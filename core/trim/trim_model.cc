@@ -178,6 +178,15 @@ Box3 BoxOf(const std::vector<CutOutcome>& faces) {
   return box;
 }
 
+// By how much the face's edges are not those of the file.
+double CurveError(const BrepModel& part, const BrepFace& face) {
+  double error = 0.0;
+  for (const BrepLoop& loop : face.loops) {
+    for (const BrepEdgeUse& use : loop) error = std::max(error, part.edges[At(use.edge)].curve_error);
+  }
+  return error;
+}
+
 // About: the edges as polygons.
 double BorderLength(const BrepFace& face, const EdgeCurveTable& curves) {
   double length = 0.0;
@@ -295,7 +304,7 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
     face.first_patch = static_cast<int>(result.model.patches.size());
     face.patch_count = static_cast<int>(cut[f].nets.size());
     face.gap = traced[f].gap();
-    face.border_error = cut[f].border_error;
+    face.border_error = cut[f].border_error + CurveError(part, part.faces[f]);
     double volume = 0.0;
     for (std::size_t k = 0; k < cut[f].nets.size(); ++k) {
       std::string id = cut[f].nets.size() == 1 ? face.id : absl::StrCat(face.id, ".", k + 1);

@@ -71,7 +71,7 @@ std::vector<BrepEdge> EdgeTable::Edges() const {
   std::vector<BrepEdge> edges;
   edges.reserve(edges_.size());
   for (const TableEdge& e : edges_) {
-    edges.push_back({e.part.curve, e.degenerate || !e.status.ok()});
+    edges.push_back({e.part.curve, e.degenerate || !e.status.ok(), e.part.error});
   }
   return edges;
 }

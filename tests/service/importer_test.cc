@@ -92,6 +92,7 @@ TEST(Importer, PartsHaveTheirAreaAndVolume) {
     ASSERT_TRUE(loaded.ok()) << loaded.status();
     EXPECT_TRUE(loaded->faults.empty());
     const Measure measure = MeasureOf(loaded->model);
+    // Borders follow the edges within 1e-4 mm, on either side of them.
     EXPECT_NEAR(measure.area, part.area, 2e-6 * part.area);
     EXPECT_NEAR(measure.volume, part.volume, 2e-6 * part.volume);
     ASSERT_FALSE(loaded->remarks.empty());
@@ -113,8 +114,16 @@ TEST(Importer, TheSameBytesEachTime) {
   for (int round = 0; round < (testing::LongTests() ? 20 : 3); ++round) {
     const auto again = ImportFile(CadFile("block.step"), "step", RunContext());
     ASSERT_TRUE(again.ok());
-    EXPECT_EQ(again->SerializeAsString(), first->SerializeAsString());
+    EXPECT_EQ(again->result.SerializeAsString(), first->result.SerializeAsString());
   }
+}
+
+TEST(Importer, TheAnswerIsHeldBeforeItIsParsed) {
+  NEEDS_IMPORTER();
+  InFlight narrow(std::size_t{64} << 10, {}), wide(std::size_t{8} << 20, {});
+  EXPECT_THAT(ImportFile(CadFile("block.step"), "step", RunContext(), &narrow).status(),
+              StatusIs(absl::StatusCode::kResourceExhausted, _));
+  EXPECT_TRUE(ImportFile(CadFile("block.step"), "step", RunContext(), &wide).ok());
 }
 
 TEST(Importer, AStatedUnitIsRefused) {
@@ -143,6 +152,7 @@ TEST(Importer, WhatIsNoCadFile) {
 TEST(Importer, DamagedFiles) {
   NEEDS_IMPORTER();
   std::mt19937 random(static_cast<unsigned>(testing::FromEnvironment("PATCHMILL_FUZZ_SEED", 1)));
+  // A thousand in the long tests (scripts/long_tests.sh random).
   const int count = testing::FromEnvironment("PATCHMILL_FUZZ_JOBS", testing::kSanitized ? 10 : 100);
   for (int round = 0; round < count; ++round) {
     const Part& part = kParts[random() % std::size(kParts)];
@@ -167,7 +177,7 @@ TEST(Importer, DamagedFiles) {
     const auto start = std::chrono::steady_clock::now();
     const auto loaded = Load(std::string(FormatOf(part.file)), content);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    EXPECT_LT(took.count(), 70.0);
+    EXPECT_LT(took.count(), 70.0);  // the importer's 60 s of processor time, and its start
     if (!loaded.ok()) {
       EXPECT_TRUE(absl::IsInvalidArgument(loaded.status()) || absl::IsResourceExhausted(loaded.status()))
           << round << ": " << loaded.status();
@@ -227,7 +237,7 @@ TEST(Importer, ACancelEndsItSoon) {
     if (canceller.joinable()) canceller.join();
     EXPECT_THAT(status,
                 StatusIs(deadline ? absl::StatusCode::kDeadlineExceeded : absl::StatusCode::kCancelled, _));
-    EXPECT_LT(took.count(), 0.3);
+    EXPECT_LT(took.count(), 0.1 + 0.2);  // the importer is asked to end after 0.1 s
   }
 }
 

@@ -67,10 +67,10 @@ inline BrepCurve PolynomialCurve(int degree, const std::function<Vec3(double)>& 
 class PartMaker {
  public:
   int Edge(BrepCurve curve) {
-    part_.edges.push_back({std::move(curve), false});
+    part_.edges.push_back({std::move(curve)});
     return static_cast<int>(part_.edges.size()) - 1;
   }
-  int Pole(const Vec3&) {
+  int Pole() {
     part_.edges.push_back({{}, true});
     return static_cast<int>(part_.edges.size()) - 1;
   }

@@ -109,8 +109,8 @@ BrepLoop Reversed(const BrepLoop& loop) {
 }
 
 TEST(BothSides, AreTheSurfaceAgain) {
-  // Ten thousand loops of each kind in the long tests.
-  const int rounds = LongTests() ? 10'000 : FromEnvironment("PATCHMILL_FUZZ_JOBS", 25);
+  // Ten thousand loops in all in the long tests (scripts/long_tests.sh random).
+  const int rounds = FromEnvironment("PATCHMILL_FUZZ_JOBS", 25);
   const auto seed = static_cast<unsigned>(FromEnvironment("PATCHMILL_FUZZ_SEED", 0));
   for (const Kind& kind : Kinds()) {
     for (int round = 0; round < rounds; ++round) {
@@ -159,8 +159,10 @@ TEST(BothSides, AreTheSurfaceAgain) {
       }
       const double whole = trimmed->faces[0].area, outside = trimmed->faces[1].area,
                    inside = trimmed->faces[2].area;
-      EXPECT_NEAR(outside + inside, whole,
-                  2e-6 * whole + 0.02 * trimmed->border_error * std::sqrt(whole) * 50);
+      // Both sides follow the loop with the same graphs. On one side a graph may be turned within half of the
+      // border tolerance, now to the left and now to the right of the other: 200 mm of border, 1e-6 mm in the
+      // mean.
+      EXPECT_NEAR(outside + inside, whole, 200.0 * 1e-6);
       EXPECT_GT(inside, 0.0);
       EXPECT_LE(trimmed->border_error, 1e-4);
     }

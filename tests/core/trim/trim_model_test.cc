@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +66,7 @@ TEST(TrimPlane, PlatesWithRoundHolesAreExact) {
       loops.push_back(Circle(maker, {10.0 + 12.5 * k, 13.0 + k % 3, 0}, 5, false));
     maker.Face(BrepPlane{}, loops);
     const TrimmedModel model = Trimmed(maker.part());
+    // Coordinates are rounded to 2^-33 mm here, along some 400 mm of border.
     EXPECT_NEAR(Area(model), 3000.0 - holes * kPi * 25, 2e-8) << holes;
     // Every corner of a patch lies outside the holes, and every circle is met exactly.
     double nearest = 1e9;
@@ -104,22 +107,21 @@ TEST(TrimSphere, WholeAndWithoutItsCap) {
       // From the south pole to the cap's rim: one quarter and 45 degrees.
       BrepCurve arc = ArcCurve(c, {0, 0, -r}, {r, 0, 0}, 1);
       const double w = std::cos(kPi / 8);
-      const Vec3 a = c + Vec3(r, 0, 0), b = c + Vec3(rho, 0, z);
+      const Vec3 b = c + Vec3(rho, 0, z);
       arc.knots = {0, 0, 0, 1, 1, 1.5, 1.5, 1.5};
       arc.points.push_back(c + r * Vec3(1, 0, std::tan(kPi / 8)));
       arc.points.push_back(b);
       arc.weights.push_back(w);
       arc.weights.push_back(1);
-      (void)a;
       return arc;
     }());
     const double last = top == kPi / 2 ? 2.0 : 1.5;
-    const int south = maker.Pole(c - Vec3(0, 0, r));
+    const int south = maker.Pole();
     const auto latitude = [](double t) { return -kPi / 2 + t * kPi / 2; };
     BrepLoop loop = {StraightUse(south, true, {0, -kPi / 2}, {2 * kPi, -kPi / 2}),
                      UseOf(seam, true, 0, last, [&](double t) { return Vec2(2 * kPi, latitude(t)); })};
     if (top == kPi / 2) {
-      loop.push_back(StraightUse(maker.Pole(c + Vec3(0, 0, r)), false, {0, kPi / 2}, {2 * kPi, kPi / 2}));
+      loop.push_back(StraightUse(maker.Pole(), false, {0, kPi / 2}, {2 * kPi, kPi / 2}));
     } else {
       const int rim = maker.Edge(ArcCurve(c + Vec3(0, 0, z), {rho, 0, 0}, {0, rho, 0}, 4));
       loop.push_back(UseOf(rim, false, 0, 4, [&](double t) { return Vec2(t * kPi / 2, top); }));
@@ -158,6 +160,76 @@ TEST(TrimCylinder, CutAskew) {
     const TrimmedModel model = Trimmed(maker.part(), {tolerance});
     EXPECT_NEAR(Area(model), 2 * kPi * r * h, 2 * kPi * r * tolerance) << tolerance;
     EXPECT_LE(model.border_error, tolerance);
+  }
+}
+
+std::vector<std::string> CodesOf(const BrepModel& part) {
+  const auto trimmed = TrimFaces(part, {}, RunContext());
+  PM_CHECK(trimmed.ok());
+  std::vector<std::string> codes;
+  for (const Diagnostic& finding : trimmed->findings) codes.push_back(finding.code);
+  return codes;
+}
+
+// A box of 40 x 30 x 20 with its area and volume as a reader would state them.
+PartMaker Box() {
+  PartMaker maker;
+  const Vec3 size(40, 30, 20);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool high : {false, true}) {
+      BrepFrame frame;
+      frame.origin = high ? Vec3(size[axis] * Vec3::Unit(axis)) : Vec3::Zero();
+      const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+      frame.x = Vec3::Unit(x);
+      frame.y = Vec3::Unit(y);
+      frame.z = Vec3::Unit(axis);
+      const Vec2 corner[5] = {{0, 0}, {size[x], 0}, {size[x], size[y]}, {0, size[y]}, {0, 0}};
+      BrepLoop loop;
+      for (int k = 0; k < 4; ++k) {
+        const auto at = [&](const Vec2& p) { return Vec3(frame.origin + p.x() * frame.x + p.y() * frame.y); };
+        loop.push_back(StraightUse(maker.Edge(StraightCurve(at(corner[k]), at(corner[k + 1]))), true,
+                                   corner[k], corner[k + 1]));
+      }
+      BrepFace& face = maker.Face(BrepPlane{frame}, {loop});
+      face.reversed = !high;
+      face.area = size[x] * size[y];
+    }
+  }
+  maker.part().bodies.push_back({"box", true, size.prod()});
+  return maker;
+}
+
+TEST(TrimJudges, ASoundBoxHasNoFinding) { EXPECT_EQ(CodesOf(Box().part()), std::vector<std::string>{}); }
+
+TEST(TrimJudges, PlantedFaultsAreFound) {
+  PartMaker area = Box();
+  area.part().faces[2].area = 1200.0 * 1.001;
+  EXPECT_EQ(CodesOf(area.part()), std::vector<std::string>{"FACE_AREA_DIFFERS"});
+  PartMaker turned = Box();
+  turned.part().faces[3].reversed = !turned.part().faces[3].reversed;
+  EXPECT_EQ(CodesOf(turned.part()), std::vector<std::string>{"VOLUME_DIFFERS"});
+  PartMaker lost = Box();
+  lost.part().faces[1].loops.clear();
+  EXPECT_EQ(CodesOf(lost.part()), std::vector<std::string>{"FACE_LOST"});
+  for (const double off : {2e-5, 1e-3, 0.2}) {
+    PartMaker gap = Box();
+    // One edge of the face x = 0 leaves its plane.
+    BrepCurve& curve = gap.part().edges[0].curve;
+    curve = {
+        2,
+        {0, 0, 0, 1, 1, 1},
+        {curve.points[0], 0.5 * (curve.points[0] + curve.points[1]) + Vec3(2 * off, 0, 0), curve.points[1]},
+        {}};
+    const auto trimmed = TrimFaces(gap.part(), {}, RunContext());
+    ASSERT_TRUE(trimmed.ok());
+    EXPECT_NEAR(trimmed->largest_gap, 2 * off, 1e-9);  // the control point bounds it
+    if (off < 1e-4) {                                  // below the border tolerance
+      EXPECT_TRUE(trimmed->findings.empty());
+      continue;
+    }
+    ASSERT_EQ(trimmed->findings.size(), 1U);
+    EXPECT_EQ(trimmed->findings[0].code, "GAP");
+    EXPECT_EQ(trimmed->findings[0].severity, off < 0.1 ? Severity::kWarning : Severity::kError);
   }
 }
 
@@ -299,7 +371,8 @@ TEST(TrimSpline, BothSidesOfRandomLoops) {
     SCOPED_TRACE(round);
     const TrimmedModel model = Trimmed(maker.part());
     EXPECT_EQ(model.faces[0].patch_count, 2);
-    EXPECT_NEAR(model.faces[1].area + model.faces[2].area, model.faces[0].area, 2e-3);
+    // The loop is at most 200 mm long, and both of its sides follow it with the same graphs.
+    EXPECT_NEAR(model.faces[1].area + model.faces[2].area, model.faces[0].area, 1e-6);
     EXPECT_GT(model.faces[2].area, 1.0);
     // All places of the patches lie on the sheet.
     for (const Patch& patch : model.model.patches) {
