@@ -23,9 +23,9 @@ struct Imported {
 
 // Starts the importer, gives it the bytes of a file, and waits for its answer. It ends within 200 ms of a
 // cancel or a deadline of `run`, to which the importer's progress goes. The importer is the program
-// patchmill-import beside the running one. The answer is counted before it is parsed, as any message, and held
-// in `in_flight` (may be null). Errors: those of `run`; INVALID_ARGUMENT MODEL_UNREADABLE for a file that
-// cannot be read, or on which the importer died; RESOURCE_EXHAUSTED for limits of time and memory;
+// patchmill-import beside the running one. The answer is counted before it is parsed, as any message, and
+// held in `in_flight` (may be null). Errors: those of `run`; INVALID_ARGUMENT MODEL_UNREADABLE for a file
+// that cannot be read, or on which the importer died; RESOURCE_EXHAUSTED for limits of time and memory;
 // UNIMPLEMENTED where there is no importer.
 absl::StatusOr<Imported> ImportFile(std::string_view content, std::string_view format, const RunContext& run,
                                     InFlight* in_flight = nullptr);

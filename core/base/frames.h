@@ -1,5 +1,5 @@
-// How the importer answers the process that started it: frames on a pipe, each a kind, a length and as many
-// bytes. The last frame is a result or an error.
+// The importer answers the process that started it with frames on a pipe. A frame is a kind, a length and as
+// many bytes. The last frame is a result or an error.
 #pragma once
 
 #include <cstdint>

@@ -91,10 +91,10 @@ struct BrepFace {
   bool reversed = false;  // the outer side of the body is that of -(S_u x S_v)
   std::vector<BrepLoop> loops;
   int body = 0;
-  // What the file says of the face.
+  // Name, layer, colour and number of the face in the file.
   std::string name, layer;
   std::optional<std::uint32_t> rgb;  // 0xRRGGBB
-  std::int64_t entity = 0;           // number of the face in the file; 0 unknown
+  std::int64_t entity = 0;           // 0 unknown
   // By how much the surface above differs at most from the file's, mm; 0 where it is the file's own.
   double surface_error = 0.0;
   // Area by the reader's own means, mm^2, for comparison; absent where unknown.

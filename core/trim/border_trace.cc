@@ -147,7 +147,8 @@ absl::Status CloseLoop(const CarrierGrid& grid, std::vector<UseTrace>& loop, con
   return absl::OkStatus();
 }
 
-// Where f changes its sign in [a, b], with f(a) = fa: false position with halving.
+// Finds a place between a and b at which f changes its sign, where fa = f(a) and fb = f(b). False position,
+// with a halving in every third round.
 template <class F>
 double ZeroBetween(double a, double fa, double b, double fb, const F& f) {
   for (int round = 0; round < 60 && b - a > 1e-14 * std::max(1.0, std::abs(b)); ++round) {

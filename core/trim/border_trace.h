@@ -1,4 +1,4 @@
-// Where the edges of a face run on its surface: edge by edge in grid coordinates, and fitted by graphs.
+// Traces the edges of a face on its surface, in grid coordinates, and fits graphs to them.
 //
 // The curve in space is the truth. A place of the border is the foot of a point of that curve on the surface
 // [trimming, section 3].

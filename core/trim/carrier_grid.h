@@ -3,8 +3,8 @@
 //
 // Grid coordinates: (U, V) in [0, count_u] x [0, count_v]. The carrier (i, j) covers [i, i+1] x [j, j+1] with
 // its own parameters (U - i, V - j). Surfaces of revolution have one carrier for each quarter turn, which
-// begins at a multiple of 90 degrees; splines have one for each rectangle between knots [trimming, section
-// 2].
+// begins at a multiple of 90 degrees; splines have one for each rectangle between knots
+// [trimming, section 2].
 #pragma once
 
 #include <optional>
@@ -31,19 +31,20 @@ struct CarrierGrid {
   const Piece& carrier(int i, int j) const { return carriers[static_cast<std::size_t>(i * v.count() + j)]; }
 };
 
-// The grid that covers the parameters in `range` (two corners, lowest and highest). Exact: quarter turns are
+// The grid that covers the file's parameters between two corners. Exact: quarter turns are
 // rational quadratics with the weights 1, cos 45 degrees, 1. Planes are bilinear. A cone ends at its apex.
 CarrierGrid CarriersOf(const BrepSurface& surface, const Vec2& lowest, const Vec2& highest);
 
 // Grid coordinates of the file's parameters, about: in quarter turns to 1e-12, in knot spans exact.
 Vec2 GridCoordinates(const CarrierGrid& grid, const Vec2& parameters);
 
-// Position and derivatives with respect to grid coordinates; the carrier is the one below and left of a grid
-// line's end, chosen by `cell`.
+// A carrier by its place in the grid.
 struct GridCell {
   int i = 0, j = 0;
 };
+// The carrier that has the place; on a grid line the one with the higher number.
 GridCell CellAt(const CarrierGrid& grid, const Vec2& at);
+// Position and derivatives with respect to grid coordinates. Beyond the given carrier it is extrapolated.
 SurfaceJet JetAt(const CarrierGrid& grid, GridCell cell, const Vec2& at);
 Vec3 PositionAt(const CarrierGrid& grid, const Vec2& at);
 

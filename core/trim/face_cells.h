@@ -2,8 +2,8 @@
 //
 // A carrier's square is halved at ends of border graphs until each cell holds either no graph, or only graphs
 // that run from one side of the cell to the opposite one, all along the same axis. What lies between two of
-// those, one above the other, is a strip
-// [trimming, section 4].
+// those, one above the other, is a strip [trimming,
+// section 4].
 #pragma once
 
 #include <vector>

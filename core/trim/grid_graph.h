@@ -1,4 +1,4 @@
-// A piece of a face's border in grid coordinates, as the graph of a polynomial, and what can be done with it.
+// A part of a face's border in grid coordinates, as the graph of a polynomial.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ GridGraph StraightGraph(const Vec2& a, const Vec2& b);
 
 // The other coordinate at `x`, between from and to.
 double ValueAt(const GridGraph& graph, double x);
-// Where the other coordinate is `value`, between those of the ends; to 1e-15.
+// Finds the place at which the other coordinate is `value`, which lies between those of the ends. To 1e-15.
 double WhereValue(const GridGraph& graph, double value);
 
 // The two parts beside the line on which coordinate `axis` is `at`, lower one first; `at` lies strictly
@@ -38,8 +38,8 @@ struct GraphParts {
 };
 GraphParts CutGraph(const GridGraph& graph, int axis, double at);
 
-// The same curve as a graph of the other coordinate, about: a cubic with the same ends, through two more
-// points. Absent if the ends do not differ in that coordinate.
+// Approximates the curve by a graph of the other coordinate: a polynomial of the degree with the same ends,
+// through points of the curve at equal steps. Absent if the ends do not differ in that coordinate.
 std::optional<GridGraph> TurnedGraph(const GridGraph& graph, int degree);
 
 // The Bernstein coefficients, kept between the ends' and monotonic, of the polynomial of degree 1 to 3

@@ -13,8 +13,7 @@ namespace patchmill {
 namespace {
 
 constexpr double kThinnestRuled = 1e-6;  // mm
-// mm: walls closer to each other become one. It moves ends of borders by a tenth of the border tolerance at
-// most.
+// mm: walls closer to each other become one. Ends of borders move by a tenth of the border tolerance at most.
 constexpr double kSameWall = 1e-5;
 
 // The graph as an arc in the carrier's parameters, from its lower end in U to the higher one.

@@ -1,7 +1,7 @@
 // Trimmed faces as patches that lie on the faces' surfaces exactly.
 //
-// Where a face ends is exact for edges along iso-parametric lines, and on planes for lines, conic sections
-// and splines. Elsewhere the border of the patches follows the edge within the border tolerance [trimming].
+// Borders are exact along iso-parametric lines, and on planes for lines, conic sections and splines.
+// Elsewhere the border of the patches follows the edge within the border tolerance [trimming].
 #pragma once
 
 #include <string>
@@ -20,25 +20,27 @@ struct TrimParams {
   double border_tolerance = 1e-4;  // mm, >= 1e-7
 };
 
-// What has become of one face of the file.
+// One face of the file after trimming.
 struct TrimmedFace {
   std::string id;       // "f12": the twelfth face of the file
   int first_patch = 0;  // in TrimmedModel::model
   int patch_count = 0;  // 0: lost; a finding says why
   double area = 0.0;    // mm^2, of the patches
   double gap = 0.0;     // mm, largest distance of the face's edges from its surface
-  double border_error =
-      0.0;  // mm, largest distance of the patches' border from the edges' feet on the surface
+  // mm, largest distance of the patches' border from the edges' feet on the surface, and of the edges from
+  // those of the file.
+  double border_error = 0.0;
 };
 
 struct TrimmedModel {
   PatchModel model;  // mm; u x v points out of the body. Patches are called "f12", or "f12.1" and so on
   std::vector<TrimmedFace> faces;                // as BrepModel::faces
   double largest_gap = 0.0, border_error = 0.0;  // of all faces
-  // FACE_LOST (error): the face has no patches. FACE_AREA_DIFFERS (error): patches and file disagree about
-  // the area by more than 1e-4 of it. BORDER_COARSE (warning): the border tolerance is not reached. GAP
-  // (warning): an edge lies farther from its surface than the border tolerance; (error): by more than 0.05 mm
-  // and 0.002 of the part's size.
+  // FACE_LOST (error): the face has no patches. FACE_AREA_DIFFERS, VOLUME_DIFFERS (error): patches and file
+  // disagree by more than 1e-4 of the area of a face or the volume of a closed body, and by more than its
+  // border may be off. BORDER_COARSE (warning): the border tolerance is not reached. GAP (warning): an edge
+  // lies farther from its surface than the border tolerance; (error): by more than 0.05 mm and 0.002 of the
+  // part's size.
   Diagnostics findings;
 };
 

@@ -12,6 +12,12 @@
 
 namespace patchmill::testing {
 
+// A frame whose axes are parallel to none of the coordinate axes.
+inline BrepFrame TiltedFrame() {
+  const Eigen::Matrix3d m = Eigen::AngleAxisd(1.1, Vec3(3, -1, 2).normalized()).toRotationMatrix();
+  return {{5, -3, 2}, m.col(0), m.col(1), m.col(2)};
+}
+
 inline BrepCurve StraightCurve(const Vec3& a, const Vec3& b) { return {1, {0, 0, 1, 1}, {a, b}, {}}; }
 
 // `quarters` quarter turns from center + x towards center + y; x and y have the length of the radius.

@@ -24,16 +24,6 @@ struct Kind {
   Vec2 low, high;  // parameters of the outer border
 };
 
-BrepFrame TiltedFrame() {
-  BrepFrame frame;
-  frame.origin = {5, -3, 2};
-  const Eigen::Matrix3d m = Eigen::AngleAxisd(1.1, Vec3(3, -1, 2).normalized()).toRotationMatrix();
-  frame.x = m.col(0);
-  frame.y = m.col(1);
-  frame.z = m.col(2);
-  return frame;
-}
-
 BsplinePatch Sheet() {
   BsplinePatch sheet;
   sheet.degree_u = 3;

@@ -8,28 +8,22 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/brep_parts.h"
+
 namespace patchmill {
 namespace {
+
+using testing::TiltedFrame;
 
 struct Case {
   const char* name;
   BrepSurface surface;
   Vec2 low, high;
-  std::function<Vec3(double, double)> formula;  // in the frame of Turned
+  std::function<Vec3(double, double)> formula;
 };
 
-BrepFrame Turned() {
-  BrepFrame frame;
-  frame.origin = {3, -2, 7};
-  const Eigen::Matrix3d m = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-  frame.x = m.col(0);
-  frame.y = m.col(1);
-  frame.z = m.col(2);
-  return frame;
-}
-
 std::vector<Case> Cases() {
-  const BrepFrame f = Turned();
+  const BrepFrame f = TiltedFrame();
   const auto ring = [f](double u, double r, double h) {
     return Vec3(f.origin + r * (std::cos(u) * f.x + std::sin(u) * f.y) + h * f.z);
   };
@@ -99,12 +93,12 @@ TEST(CarrierGrid, FeetFromFarAwayStarts) {
 }
 
 TEST(CarrierGrid, AConeEndsAtItsApex) {
-  const BrepCone cone{Turned(), 4, 0.4};
+  const BrepCone cone{TiltedFrame(), 4, 0.4};
   const double apex = -4 / std::sin(0.4);
   const CarrierGrid grid = CarriersOf(cone, {0, apex}, {kPi, 3});
   const Vec3 tip = PositionAt(grid, {0.3, 0.0});
   EXPECT_LT((PositionAt(grid, {1.9, 0.0}) - tip).norm(), 1e-13);
-  EXPECT_LT((tip - (Turned().origin + apex * std::cos(0.4) * Turned().z)).norm(), 1e-12);
+  EXPECT_LT((tip - (TiltedFrame().origin + apex * std::cos(0.4) * TiltedFrame().z)).norm(), 1e-12);
 }
 
 }  // namespace
