@@ -256,6 +256,34 @@ void SetErrorsOfBicubic(const double* points, LeafModel& m) {
   SetErrors({b.reach2, b.reach_a, b.reach_b, b.reach_uu, b.reach_uv, b.reach_vv, b.z_max}, derivatives, m);
 }
 
+// The lines of one parameter are nearly vertical.
+bool IsSteep(const LeafModel& m) {
+  constexpr double kSteep = 1e-3;  // squared slope from the vertical
+  const auto steep = [](const Vec3& x) { return x.head<2>().squaredNorm() < kSteep * x.z() * x.z(); };
+  return steep(m.a) || steep(m.b);
+}
+
+SurfaceJet Flat(SurfaceJet jet) {
+  for (Vec3* x : {&jet.p, &jet.du, &jet.dv, &jet.duu, &jet.duv, &jet.dvv}) x->z() = 0.0;
+  return jet;
+}
+
+// The errors of the projection of a net into the plan.
+LeafErrors PlanErrors(const PartNet& net, const SurfaceJet& middle, const Rect& rect) {
+  std::array<Vec4, kMaxNetPoints> points;
+  std::array<Vec3, kMaxNetPoints> hull;
+  const auto count = static_cast<std::size_t>(net.shape.count());
+  for (std::size_t k = 0; k < count; ++k) {
+    points[k] = net.points[k];
+    points[k].z() = 0.0;
+  }
+  for (std::size_t k = 0; k < net.hull.size(); ++k) hull[k] = Lift(Xy(net.hull[k]), 0.0);
+  LeafModel flat = MiddleModel(Flat(middle), rect);
+  const HullReach reach = ReachOf({hull.data(), net.hull.size()}, flat);
+  SetErrors(reach, BoundNetDerivatives({net.shape, points.data()}, net.rational, reach, flat), flat);
+  return flat;
+}
+
 }  // namespace
 
 LeafModel MakeLeafModel(const PartNet& net, const SurfaceJet& middle, const Rect& rect) {
@@ -266,6 +294,7 @@ LeafModel MakeLeafModel(const PartNet& net, const SurfaceJet& middle, const Rect
   }
   const HullReach reach = ReachOf(net.hull, m);
   SetErrors(reach, BoundNetDerivatives({net.shape, net.points}, net.rational, reach, m), m);
+  if (IsSteep(m)) m.plan = PlanErrors(net, middle, rect);
   return m;
 }
 

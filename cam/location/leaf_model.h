@@ -7,6 +7,7 @@
 // differs from its middle value by at most e_ij = gram_ij + (|s - c| + reach) drift_ij.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "cam/location/leaf_errors.h"
@@ -20,6 +21,9 @@ using Rect = ParameterBox;
 
 struct LeafModel : LeafErrors {
   Vec3 s, a, b, uu, uv, vv;
+  // For a rectangle that is steep along one parameter: the errors of its projection into the plan. Those
+  // above know the plan only as a part of space, and a wall is thin there.
+  std::optional<LeafErrors> plan = std::nullopt;
 };
 
 // The net of a part of a piece, already restricted to the part, and its points as from HullPoints. It refers

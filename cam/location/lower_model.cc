@@ -9,6 +9,17 @@ namespace {
 
 constexpr Box2 kUnit{-0.5, 0.5, -0.5, 0.5};
 
+// Whether half the squared distance in plan from c is convex on the rectangle, by the errors of its
+// projection.
+bool IsConvexInPlan(const LeafModel& m, const LeafErrors& errors, const Vec3& c) {
+  const Vec2 a = Xy(m.a), b = Xy(m.b), d = Xy(m.s) - Xy(c);
+  const double size = d.norm() + errors.reach;
+  const double uu = a.squaredNorm() + d.dot(Xy(m.uu)) - errors.gram_uu - size * errors.drift_uu;
+  const double vv = b.squaredNorm() + d.dot(Xy(m.vv)) - errors.gram_vv - size * errors.drift_vv;
+  const double uv = std::abs(a.dot(b) + d.dot(Xy(m.uv))) + errors.gram_uv + size * errors.drift_uv;
+  return uu > 0.0 && vv > 0.0 && uu * vv > uv * uv;
+}
+
 }  // namespace
 
 LowerModel BoundBelow(const LeafModel& m, const Vec3& c) {
@@ -28,6 +39,7 @@ LowerModel BoundBelow(const LeafModel& m, const Vec3& c) {
   low.minorant = m.z_max <= c.z();
   if (low.minorant || !low.convex) return low;
 
+  if (m.plan && IsConvexInPlan(m, *m.plan, c)) return low;
   // The part above c is measured horizontally. There the Hessian lacks z_i z_j + (z - c_z) z_ij. f is once
   // differentiable across the level of c, so it is convex if both Hessians are positive definite.
   const double az = std::abs(m.a.z()), bz = std::abs(m.b.z());

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cam/location/half_spaces.h"
+#include "cam/location/upright_sheet.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 #include "core/surface/leaf_tree.h"
@@ -21,6 +22,10 @@ constexpr int kMaxLevel = 24;  // halvings of one piece, in both directions toge
 // are small.
 constexpr double kConvexThickness = 1.0 / 15.0, kHollowThickness = 1.0 / 150.0;
 constexpr double kOpenReach = 1.0 / 9.0;
+// Rad from the vertical. Leaves of walls that lean less may be as high as the wall: low leaves above a
+// contact are hardly farther from the ball than the contact itself. Walls that lean more are quicker with low
+// leaves.
+constexpr double kWallSlope = 1e-4;
 // Bounds the memory. If a piece needs more leaves, its limits are doubled until it does not.
 constexpr std::size_t kMaxLeaves = 1'000'000, kMinLeavesPerPiece = 16;
 constexpr std::size_t kBatch = 2048;  // pieces per batch
@@ -83,11 +88,25 @@ Proof ProofOf(const LeafModel& m, const Vec3& n, double radius) {
   return flat_enough ? Proof::kConvex : Proof::kOpen;
 }
 
+// Whether the distance is proven convex to balls beside a leaf that is nearly vertical, at any height and on
+// both sides. The leaf may then be as high as the wall.
+bool IsConvexBeside(const LeafModel& m, const Vec2& n, double radius) {
+  for (const double side : {radius, -radius}) {
+    const Vec2 q = Xy(m.s) + side * n;
+    for (const double z : {m.z_max, m.s.z(), m.s.z() - m.reach}) {
+      if (!BoundBelow(m, Lift(q, z)).convex) return false;
+    }
+  }
+  return true;
+}
+
 // The proof for all sides on which the ball may rest: both sides if the leaf may be vertical somewhere.
 Proof ProofOf(const LeafModel& m, double radius) {
   Vec3 n = m.a.cross(m.b);
   const double length = n.norm();
   if (!(length > 0.0)) return Proof::kOpen;
+  const bool wall = std::abs(n.z()) < kWallSlope * length;
+  if (wall && m.plan && IsConvexBeside(m, Xy(n).normalized(), radius)) return Proof::kConvex;
   const double turn = m.drift_a * (m.b.norm() + m.drift_b) + m.drift_b * m.a.norm();  // turn of S_u x S_v
   const bool upright = !(std::abs(n.z()) > turn);
   n *= (n.z() < 0.0 ? -1.0 : 1.0) / length;
@@ -111,6 +130,7 @@ class PieceSplitter {
         grid_(grid),
         shape_{piece_.net.degree_u, piece_.net.degree_v},
         radius_(radius),
+        upright_(UprightLinesOf(shape_, piece_.net.points.data(), 4e-14 * surface.scale)),
         max_leaves_(MostLeavesPerPiece(surface)),
         run_(run),
         buffer_(static_cast<std::size_t>(2 * kMaxLevel * shape_.count())) {}
@@ -140,8 +160,15 @@ class PieceSplitter {
     return small ? kInfinity : -1.0;
   }
 
+  // Of a wall only the upper edge decides where the ball may be. The lower edge is kept, too: contacts that
+  // wander over the surface (Locator::Follow) come onto the wall there.
+  bool InsideWall(const Rect& r) const {
+    return (upright_ == Upright::kAlongV && r.v0 > 0.0 && r.v1 < 1.0) ||
+           (upright_ == Upright::kAlongU && r.u0 > 0.0 && r.u1 < 1.0);
+  }
+
   void Split(const Vec4* points, const Rect& rect, int level) {
-    if (out_.leaves.size() > max_leaves_ || stopped_) return;
+    if (out_.leaves.size() > max_leaves_ || stopped_ || InsideWall(rect)) return;
     std::array<Vec3, kMaxNetPoints> hull;
     const int hull_count = HullPoints(shape_, points, hull.data());
     const std::span<const Vec3> hull_points(hull.data(), static_cast<std::size_t>(hull_count));
@@ -172,6 +199,7 @@ class PieceSplitter {
   const LeafGrid& grid_;
   NetShape shape_;
   double radius_;
+  Upright upright_;
   std::size_t max_leaves_;
   const RunContext& run_;
   std::vector<Vec4> buffer_;  // two halves per level

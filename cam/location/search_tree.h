@@ -28,6 +28,9 @@ class SearchLeaves {
     return blocks_[i / kBlock][i % kBlock];
   }
   void Append(const std::vector<SearchLeaf>& leaves);
+  std::size_t size() const {
+    return blocks_.empty() ? 0 : (blocks_.size() - 1) * kBlock + blocks_.back().size();
+  }
 
  private:
   static constexpr std::size_t kBlock = 4096;

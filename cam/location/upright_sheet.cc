@@ -37,7 +37,32 @@ std::optional<XyCurve> Swept(const Vec4* points, const UprightRows& rows, double
   return curve;
 }
 
+// Whether z rises along all rows, or falls along all of them.
+bool Monotone(const Vec4* points, const UprightRows& rows) {
+  bool rises = true, falls = true;
+  for (int i = 0; i < rows.along; ++i) {
+    const Vec4* row = points + i * rows.stride;
+    for (int j = 1; j < rows.across; ++j) {
+      const Vec4 &p = row[(j - 1) * rows.step], &q = row[j * rows.step];
+      const double step = q.z() / q.w() - p.z() / p.w();
+      rises = rises && step >= 0.0;
+      falls = falls && step <= 0.0;
+    }
+  }
+  return rises || falls;
+}
+
 }  // namespace
+
+// The weights of a row are equal, so the derivative of z along it is a sum of the steps with positive
+// factors.
+Upright UprightLinesOf(NetShape shape, const Vec4* points, double rounding) {
+  const int rows = shape.degree_u + 1, columns = shape.degree_v + 1;
+  const UprightRows along_v{rows, columns, columns, 1}, along_u{columns, 1, rows, columns};
+  if (Swept(points, along_v, rounding) && Monotone(points, along_v)) return Upright::kAlongV;
+  if (Swept(points, along_u, rounding) && Monotone(points, along_u)) return Upright::kAlongU;
+  return Upright::kNo;
+}
 
 std::optional<XyCurve> XyCurveOf(NetShape shape, const Vec4* points, double rounding) {
   const int rows = shape.degree_u + 1, columns = shape.degree_v + 1;

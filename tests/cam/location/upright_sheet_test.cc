@@ -9,9 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "cam/location/locator.h"
+#include "cam/location/search_tree.h"
 #include "tests/support/random.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_of.h"
+#include "tests/support/walls.h"
 
 namespace patchmill {
 namespace {
@@ -62,6 +64,82 @@ TEST(XyCurveOf, KnowsUprightSheetsEitherWay) {
   ASSERT_TRUE(other);
   EXPECT_EQ(other->degree, 2);
   for (const double t : {0.0, 0.3, 1.0}) EXPECT_NEAR((At(*curve, t) - At(*other, t)).norm(), 0.0, 1e-15);
+}
+
+TEST(UprightLines, AreFoundEitherWay) {
+  using internal::Upright;
+  using internal::UprightLinesOf;
+  Random random(5);
+  const std::vector<Vec4> net = Sweep(Quarter(5.0), 4, random);
+  EXPECT_EQ(UprightLinesOf({2, 3}, net.data(), kRounding), Upright::kAlongV);
+  std::vector<Vec4> turned(net.size()), down = net, bent = net, slanted = net, mixed = net;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) turned[j * 3 + i] = net[i * 4 + j];
+    for (std::size_t j = 0; j < 4; ++j) down[i * 4 + j] = net[i * 4 + 3 - j];
+  }
+  EXPECT_EQ(UprightLinesOf({3, 2}, turned.data(), kRounding), Upright::kAlongU);
+  EXPECT_EQ(UprightLinesOf({2, 3}, down.data(), kRounding), Upright::kAlongV);
+  bent[5].z() = 20.0;  // above the end of its line
+  EXPECT_EQ(UprightLinesOf({2, 3}, bent.data(), kRounding), Upright::kNo);
+  slanted[5].x() += 1e-9;
+  EXPECT_EQ(UprightLinesOf({2, 3}, slanted.data(), kRounding), Upright::kNo);
+  for (std::size_t j = 0; j < 4; ++j) mixed[j].z() *= -1.0;  // one line falls, the others rise
+  EXPECT_EQ(UprightLinesOf({2, 3}, mixed.data(), kRounding), Upright::kNo);
+}
+
+// Only the upper edge of a wall decides: its height costs nothing.
+TEST(UprightLines, AHighWallHasAsManyLeavesAsALowOne) {
+  const auto leaves = [](double height) {
+    const Surface surface = SurfaceOf(Walls(20.0, 15.0, 0.0, height));
+    const auto tree = internal::BuildSearchTree(surface, 3.0, RunContext());
+    PM_CHECK(tree.ok());
+    return tree->leaves.size();
+  };
+  const std::size_t low = leaves(10.0);
+  EXPECT_LE(leaves(1000.0), 3 * low);
+  EXPECT_GE(leaves(1000.0), low / 3);
+}
+
+// Walls whose highest points are inside: z does not rise along all vertical lines. Heights against dense
+// samples.
+TEST(UprightLines, AWallWithAHumpKeepsItsInside) {
+  BezierPatch wall{1, 2, {}, {}};
+  for (const double x : {0.0, 10.0}) {
+    for (const double z : {0.0, 20.0, 2.0}) wall.points.emplace_back(x, 0.0, z);
+  }
+  const Surface surface = SurfaceOf(Single(wall));
+  const Locator locator(surface, 3.0);
+  double highest = 0.0;
+  for (int k = 0; k <= 1000; ++k) {
+    const double t = k / 1000.0;
+    highest = std::max(highest, 2 * t * (1 - t) * 20.0 + t * t * 2.0);
+  }
+  for (const double y : {0.0, 1.0, 2.9}) {
+    const auto h = locator.Height(Vec2(5.0, y));
+    ASSERT_TRUE(h);
+    EXPECT_NEAR(h->z, highest + std::sqrt(9.0 - y * y), 1e-4);
+  }
+}
+
+// Balls low beside a high wall, at every height: free at the radius, not free nearer.
+TEST(UprightLines, BallsLowBesideAHighWall) {
+  const Surface surface = SurfaceOf(Walls(20.0, 15.0, 0.0, 100.0));
+  const Locator locator(surface, 3.0);
+  for (const double z : {-10.0, 3.0, 50.0, 96.9}) {
+    EXPECT_TRUE(locator.Free(Vec3(17.0 - 1e-7, 0.0, z)));
+    EXPECT_FALSE(locator.Free(Vec3(17.0 + 1e-4, 0.0, z)));
+    EXPECT_FALSE(locator.GougeWithin(Vec3(17.01, -5, z), Vec3(17.01, 5, z), 0.009, 1e-4));
+    EXPECT_TRUE(locator.GougeWithin(Vec3(17.01, -5, z), Vec3(17.01, 5, z), 0.011, 1e-4));
+  }
+}
+
+// A contact that leaves a floor at the foot of a wall wanders up to the wall's edge.
+TEST(UprightLines, ContactsComeOntoAWallAtItsFoot) {
+  const Surface surface = SurfaceOf(OpenBox(20.0, 15.0, 5.0));
+  const Locator locator(surface, 3.0);
+  const auto up = locator.Follow({PieceId(0), 0.99, 0.5, Vec3(19.6, 0, 0)}, Vec2(21.0, 0.0));
+  ASSERT_TRUE(up);
+  EXPECT_NEAR(up->z, 5.0 + std::sqrt(8.0), 1e-9);
 }
 
 TEST(XyCurveOf, KnowsOthers) {
