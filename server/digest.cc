@@ -81,6 +81,18 @@ void AddShape(const BezierTriangle& p, Canonical& out) {
   AddNumbers(p.weights, out);
 }
 
+// A model without faces keeps the digest of the time before faces existed.
+void AddFaces(const PatchModel& model, Canonical& out) {
+  if (model.faces.empty()) return;
+  out.Add("faces").Add(static_cast<std::int64_t>(model.faces.size()));
+  for (const ModelFace& face : model.faces) {
+    out.Add(face.id).Add(face.name).Add(face.body).Add(face.layer);
+    out.Add(face.rgb ? std::int64_t{*face.rgb} : -1).Add(static_cast<std::int64_t>(face.kind));
+    out.Add(face.radius).Add(std::int64_t{face.hollow}).Add(face.entity);
+  }
+  for (const Patch& patch : model.patches) out.Add(patch.face ? std::int64_t{patch.face->value} : -1);
+}
+
 void AddRing(const Ring& ring, Canonical& out) {
   out.Add(static_cast<std::int64_t>(ring.size()));
   for (const Vec2& p : ring) out.Add(p.x()).Add(p.y());
@@ -142,6 +154,7 @@ std::string ModelDigest(const PatchModel& model) {
     out.Add(patch.id);
     std::visit([&](const auto& shape) { AddShape(shape, out); }, patch.shape);
   }
+  AddFaces(model, out);
   return out.Digest();
 }
 

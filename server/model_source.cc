@@ -147,7 +147,7 @@ Diagnostic FromProto(const v1::Diagnostic& proto) {
   const Severity severity = proto.severity() == v1::SEVERITY_ERROR     ? Severity::kError
                             : proto.severity() == v1::SEVERITY_WARNING ? Severity::kWarning
                                                                        : Severity::kInfo;
-  return {proto.code(), severity, proto.message(), {.patch_id = proto.where().patch_id()}};
+  return {proto.code(), severity, proto.message(), {.face_id = proto.where().face_id()}};
 }
 
 // What was read, in one sentence.

@@ -19,7 +19,7 @@ class Legend {
  public:
   Legend(const Vec2& corner, SvgWriter& svg) : at_(corner), svg_(svg) {}
 
-  void Heading(const char* text) {
+  void Heading(const std::string& text) {
     svg_.Text(at_, 13, text, "font-weight=\"bold\"");
     at_.y() += 19;
   }
@@ -112,14 +112,14 @@ void DrawNode(const Vec2& at, SvgWriter& svg) {
 void DrawLegend(const PreviewInput& input, const Vec2& corner, SvgWriter& svg) {
   Legend legend(corner, svg);
   if (!input.regions.empty()) {
-    legend.Heading("regions");
+    legend.Heading(input.region_title);
     for (const std::size_t i : RowsOf(input.regions))
       legend.Area(input.regions[i].color, input.regions[i].name);
     legend.More(input.regions.size());
     legend.Gap();
   }
   if (!input.borders.empty()) {
-    legend.Heading("borders of regions");
+    legend.Heading("borders of " + input.region_title);
     for (const PreviewLines& lines : input.borders) legend.Line(lines.color, "", lines.name);
     if (!input.nodes.empty()) legend.Dot(fmt::format("nodes: {}", input.nodes.size()));
     legend.Gap();

@@ -30,9 +30,10 @@ struct PreviewLines {
 };
 
 struct PreviewInput {
-  const Surface* surface = nullptr;    // required
-  const Toolpath* toolpath = nullptr;  // optional
-  std::vector<PassKind> pass_kinds;    // index: Move::pass
+  const Surface* surface = nullptr;      // required
+  const Toolpath* toolpath = nullptr;    // optional
+  std::vector<PassKind> pass_kinds;      // index: Move::pass
+  std::string region_title = "regions";  // what the legend calls them
   std::vector<PreviewRegion> regions;
   // The region of a surface point (index into `regions`, or -1). If empty, the surface is only shaded.
   std::function<int(const SurfacePoint&)> region_of;

@@ -1,3 +1,5 @@
+#include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,13 +29,18 @@ absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup,
 }
 
 Diagnostics WallsWithoutSide(const Surface& surface) {
+  const PatchModel& model = surface.network.model;
   Diagnostics found;
+  std::set<FaceId> reported;
   for (const PatchId id : surface.two_sided_walls) {
+    const std::optional<FaceId>& face = model.patches[id.index()].face;
+    if (face && !reported.insert(*face).second) continue;  // one finding for all patches of a face
     found.push_back(MakeWarning(
         "WALL_WITHOUT_SIDE",
-        "the patch stands upright, and nothing that it is joined to says which of its sides is air: both are "
-        "milled",
-        {.patch_id = surface.network.model.patches[id.index()].id, .patch_index = id.value}));
+        fmt::format("the {} stands upright, and nothing that it is joined to says which of its sides is air: "
+                    "both are milled",
+                    face ? "face" : "patch"),
+        WhereOf(model, id)));
   }
   return found;
 }
@@ -50,15 +57,15 @@ absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optiona
   check.min_concave_radius = spot.radius;
   if (tool && spot.radius < BallRadius(*tool) - reach_tolerance) {
     const Piece& piece = surface.piece(spot.at.piece);
+    Where where = WhereOf(surface.network.model, piece.patch);
+    where.uv = NativeParameters(piece, spot.at.u, spot.at.v);
+    where.point = spot.at.p;
     check.findings.push_back(MakeWarning(
         "CONCAVE_RADIUS_BELOW_TOOL",
         fmt::format(
             "smallest concave radius {:.4g} mm is below the ball radius {:.4g} mm: what lies there is left",
             spot.radius, BallRadius(*tool)),
-        {.patch_id = surface.network.model.patches[piece.patch.index()].id,
-         .patch_index = piece.patch.value,
-         .uv = NativeParameters(piece, spot.at.u, spot.at.v),
-         .point = spot.at.p}));
+        std::move(where)));
   }
   return check;
 }

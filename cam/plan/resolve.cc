@@ -1,12 +1,10 @@
 #include "cam/plan/resolve.h"
 
-#include <unordered_map>
-
-#include <absl/strings/numbers.h>
 #include <fmt/format.h>
 
 #include "cam/limits/reach_tolerance.h"
 #include "cam/plan/beside_part.h"
+#include "cam/plan/patch_selection.h"
 #include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"
@@ -28,34 +26,6 @@ Budget SplitBudget(double tolerance) {
 
 namespace {
 
-// The patches named by `names`, as flags; empty when none is named.
-absl::StatusOr<std::vector<bool>> FindPatches(const PatchModel& model, const std::vector<std::string>& names,
-                                              const char* field) {
-  std::vector<bool> found;
-  if (names.empty()) return found;
-  std::unordered_map<std::string, std::size_t> known;
-  for (std::size_t i = 0; i < model.patches.size(); ++i) {
-    if (!model.patches[i].id.empty()) known.emplace(model.patches[i].id, i);
-  }
-  found.resize(model.patches.size(), false);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::string& name = names[k];
-    int index = -1;
-    if (const auto it = known.find(name); it != known.end()) {
-      index = static_cast<int>(it->second);
-    } else if (!name.starts_with('#') || !absl::SimpleAtoi(name.substr(1), &index)) {
-      index = -1;
-    }
-    if (index < 0 || index >= static_cast<int>(found.size())) {
-      return FieldError(fmt::format("selection.{}[{}]", field, k),
-                        fmt::format("= \"{}\"; must be a patch id of the model or #0 to #{}",
-                                    name.substr(0, 50), found.size() - 1));
-    }
-    found[static_cast<std::size_t>(index)] = true;
-  }
-  return found;
-}
-
 Outline Shifted(const std::vector<Ring>& rings, const Vec3& by) {
   std::vector<Ring> moved = rings;
   for (Ring& ring : moved) {
@@ -66,11 +36,10 @@ Outline Shifted(const std::vector<Ring>& rings, const Vec3& by) {
 
 absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job& job, const Vec3& zero,
                                                const RunContext& run) {
-  const PatchModel& model = surface.network.model;
   const Selection& selection = job.operation.selection;
   Containment c;
-  PM_ASSIGN_OR_RETURN(c.selected, FindPatches(model, selection.patches, "patch_ids"));
-  PM_ASSIGN_OR_RETURN(c.avoided, FindPatches(model, selection.avoid, "avoid_patch_ids"));
+  PM_ASSIGN_OR_RETURN(c.selected, SelectPatches(surface, selection.patches, "selection.patch_ids", run));
+  PM_ASSIGN_OR_RETURN(c.avoided, SelectPatches(surface, selection.avoid, "selection.avoid_patch_ids", run));
   c.avoid_margin = selection.avoid_margin;
   if (!selection.boundary.empty()) {
     c.boundary = {Shifted(selection.boundary, zero), selection.boundary_mode, selection.boundary_offset};

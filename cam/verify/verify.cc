@@ -58,8 +58,11 @@ class Verifier {
     VerifyPlace place;
     if (e.value <= 0.0) return place;
     place.point = e.point;
-    place.patch_index = surface_.piece(e.piece).patch.value;
-    place.patch_id = surface_.network.model.patches[static_cast<std::size_t>(place.patch_index)].id;
+    const PatchId patch = surface_.piece(e.piece).patch;
+    const Where where = WhereOf(surface_.network.model, patch);
+    place.patch_index = patch.value;
+    place.patch_id = where.patch_id;
+    place.face_id = where.face_id;
     place.line = Line(e.move);
     return place;
   }
@@ -93,6 +96,7 @@ class Verifier {
                          e.point.z() - params_.program_zero.z()));
       Where& where = report_.findings.back().where;
       where.patch_id = place.patch_id;
+      where.face_id = place.face_id;
       where.patch_index = place.patch_index;
       where.point = e.point;
       where.line = place.line;

@@ -63,7 +63,7 @@ struct VerifyParams {
 struct VerifyPlace {
   Vec3 point = Vec3::Zero();  // on the surface, placed frame
   int patch_index = -1;
-  std::string patch_id;
+  std::string patch_id, face_id;
   int line = 0;  // program line of the move that caused it, or of the nearest move
 };
 

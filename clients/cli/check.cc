@@ -21,7 +21,18 @@ struct CheckOptions {
   int continuity = 0;
 };
 
+// A line for each axis of the model that could point up.
+void PrintUpDirections(const v1::CheckModelResponse& response) {
+  for (const v1::UpDirection& direction : response.up_directions()) {
+    fmt::print("--up {:<7} {:>10.1f} mm2 look up, {:.1f} of them are hidden; {} level face{}{}\n",
+               Short(direction.up()), direction.facing_area_mm2(), direction.hidden_area_mm2(),
+               direction.level_face_count(), direction.level_face_count() == 1 ? "" : "s",
+               direction.up() == response.best_up() ? "; shows most" : "");
+  }
+}
+
 void Print(const CheckOptions& options, const v1::CheckModelResponse& response) {
+  if (response.face_count() > 0) fmt::print("faces        {}\n", response.face_count());
   fmt::print("patches      {}\n", response.patch_count());
   if (response.has_box()) {
     fmt::print("box          {} to {} mm\n", Line(response.box().min()), Line(response.box().max()));
@@ -29,6 +40,10 @@ void Print(const CheckOptions& options, const v1::CheckModelResponse& response) 
                response.open_edge_count(), response.join_tolerance_mm());
     fmt::print("continuity   gaps up to {:.3g} mm, normals up to {:.3f} degrees apart\n",
                response.max_gap_mm(), response.max_angle_deg());
+    if (response.face_count() > 0) {
+      fmt::print("sharp edges  {:.4g} mm stick out, {:.4g} mm are inner corners\n",
+                 response.convex_edge_length_mm(), response.concave_edge_length_mm());
+    }
     const double radius = 0.5 * options.tool_diameter;
     if (!response.has_min_concave_radius_mm()) {
       fmt::print("concave      nowhere\n");
@@ -38,6 +53,7 @@ void Print(const CheckOptions& options, const v1::CheckModelResponse& response) 
                  response.min_concave_radius_mm() < radius ? "TIGHTER than" : "not tighter than", radius);
     }
   }
+  PrintUpDirections(response);
   // The largest angles come first.
   std::vector<v1::EdgeContinuity> joints(response.joints().begin(), response.joints().end());
   std::stable_sort(joints.begin(), joints.end(),

@@ -77,9 +77,11 @@ v1::BoundaryMode MakeMode(const std::string& name) {
 
 void AddLimitOptions(CLI::App& app, LimitOptions& options) {
   app.add_option("--only", options.only,
-                 "cut only these patches: ids, or #INDEX from #0, separated by commas")
+                 "cut only these, separated by commas: patches by id or #INDEX from #0; faces by id (f12, "
+                 "face:f12; f12+ with smooth neighbours), name=, body=, layer=, color=#rrggbb, kind=, "
+                 "radius<=MM, radius>=MM, joined by &")
       ->delimiter(',');
-  app.add_option("--avoid", options.avoid, "do not cut these patches (check surfaces), separated by commas")
+  app.add_option("--avoid", options.avoid, "do not cut these (check surfaces), named as by --only")
       ->delimiter(',');
   AddNumber(app, "--avoid-margin", options.avoid_margin, "distance between tool and avoided patches, mm");
   CLI::Option* boundary = app.add_option("--boundary", options.boundary,

@@ -93,6 +93,16 @@ std::string HowItIsCut(const v1::Region& region) {
   return text;
 }
 
+// "; on f1, f3 and 5 more"; empty if the model has no faces.
+std::string FacesOf(const v1::Region& region) {
+  constexpr int kMostListed = 4;
+  std::string text;
+  const int listed = region.face_ids_size() > kMostListed + 1 ? kMostListed : region.face_ids_size();
+  for (int k = 0; k < listed; ++k) text += (k == 0 ? "; on " : ", ") + Printable(region.face_ids(k));
+  if (listed < region.face_ids_size()) text += fmt::format(" and {} more", region.face_ids_size() - listed);
+  return text;
+}
+
 double Length(const v1::BorderLine& line) {
   const auto& p = line.points_mm();
   double sum = 0.0;
@@ -121,8 +131,9 @@ void Print(const v1::RegionMap& map) {
     std::string name = Short(region.kind());
     if (region.slope() != v1::SLOPE_UNSPECIFIED) name += ", " + Short(region.slope());
     const v1::Point3& p = region.inside_point();
-    fmt::print("{:>4} {:<18} {:>12.3f}  {:<27} {}\n", region.id(), name, region.area_mm2(),
-               fmt::format("{:.3f},{:.3f},{:.3f}", p.x_mm(), p.y_mm(), p.z_mm()), HowItIsCut(region));
+    fmt::print("{:>4} {:<18} {:>12.3f}  {:<27} {}{}\n", region.id(), name, region.area_mm2(),
+               fmt::format("{:.3f},{:.3f},{:.3f}", p.x_mm(), p.y_mm(), p.z_mm()), HowItIsCut(region),
+               FacesOf(region));
   }
   PrintBorders(map);
 }

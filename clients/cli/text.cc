@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
@@ -14,7 +15,8 @@ std::string Without(const std::string& name, std::string_view prefix) {
   return name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
 }
 
-// Names come from files. No character in them may move the cursor of a terminal or begin a line.
+}  // namespace
+
 std::string Printable(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -23,8 +25,6 @@ std::string Printable(const std::string& text) {
   }
   return out;
 }
-
-}  // namespace
 
 std::string Short(v1::Outcome value) { return Without(v1::Outcome_Name(value), "OUTCOME_"); }
 std::string Short(v1::UnreachableReason value) {
@@ -35,6 +35,14 @@ std::string Short(v1::BorderKind value) { return Without(v1::BorderKind_Name(val
 std::string Short(v1::RegionKind value) { return Without(v1::RegionKind_Name(value), "REGION_KIND_"); }
 std::string Short(v1::Slope value) { return Without(v1::Slope_Name(value), "SLOPE_"); }
 std::string Short(v1::Strategy value) { return Without(v1::Strategy_Name(value), "STRATEGY_"); }
+std::string Short(v1::SurfaceKind value) {
+  std::string name = Without(v1::SurfaceKind_Name(value), "SURFACE_KIND_");
+  return value == v1::SURFACE_KIND_UNSPECIFIED ? "unknown" : absl::AsciiStrToLower(name);
+}
+std::string Short(v1::UpAxis value) {
+  const std::string name = absl::AsciiStrToLower(Without(v1::UpAxis_Name(value), "UP_AXIS_"));
+  return name.rfind("neg_", 0) == 0 ? fmt::format("-{}", name.substr(4)) : name;
+}
 std::string Short(v1::CheckState value) { return Without(v1::CheckState_Name(value), "CHECK_STATE_"); }
 
 std::string Line(const v1::Point3& p) {
@@ -43,7 +51,9 @@ std::string Line(const v1::Point3& p) {
 
 std::string Line(const v1::Place& place) {
   std::string text = Line(place.point());
-  if (!place.patch_id().empty()) {
+  if (!place.face_id().empty()) {
+    text += fmt::format(", face {}", Printable(place.face_id()));
+  } else if (!place.patch_id().empty()) {
     text += fmt::format(", patch {}", Printable(place.patch_id()));
   } else if (place.patch_index() >= 0) {
     text += fmt::format(", patch {}", place.patch_index());
@@ -55,7 +65,9 @@ std::string Line(const v1::Place& place) {
 std::string Line(const v1::Diagnostic& finding) {
   const v1::Where& where = finding.where();
   std::string text = Without(v1::Severity_Name(finding.severity()), "SEVERITY_") + " " + finding.code();
-  if (!where.patch_id().empty()) {
+  if (!where.face_id().empty()) {
+    text += " face " + Printable(where.face_id());
+  } else if (!where.patch_id().empty()) {
     text += " patch " + Printable(where.patch_id());
   } else if (where.has_patch_index()) {
     text += fmt::format(" patch {}", where.patch_index());

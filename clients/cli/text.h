@@ -8,7 +8,9 @@
 
 #include "patchmill/v1/diagnostic.pb.h"
 #include "patchmill/v1/lines.pb.h"
+#include "patchmill/v1/model.pb.h"
 #include "patchmill/v1/report.pb.h"
+#include "patchmill/v1/setup.pb.h"
 
 namespace patchmill::cli {
 
@@ -21,6 +23,12 @@ std::string Short(v1::BorderKind value);
 std::string Short(v1::RegionKind value);
 std::string Short(v1::Slope value);
 std::string Short(v1::Strategy value);
+std::string Short(v1::SurfaceKind value);  // "cylinder"
+std::string Short(v1::UpAxis value);       // "-z", as --up takes it
+
+// Names come from files. No character in them may move the cursor of a terminal or begin a line: control
+// characters become "\\x0a".
+std::string Printable(const std::string& text);
 
 // "WARNING OPEN_EDGE patch 3: ...".
 std::string Line(const v1::Diagnostic& finding);

@@ -17,6 +17,7 @@ enum class Severity { kInfo, kWarning, kError };
 struct Where {
   std::string patch_id = {};            // the client's own id
   std::optional<int> patch_index = {};  // 0-based, order of the model
+  std::string face_id = {};             // ModelFace::id of the face that the patch is a part of
   std::optional<Vec2> uv = {};          // native parameters of that patch
   std::optional<Vec3> point = {};       // mm, frame of the stage that found it
   std::optional<int> region_id = {};

@@ -19,6 +19,7 @@ struct TypedId {
 };
 
 using PatchId = TypedId<struct PatchTag>;          // a patch as given, in the order of the model
+using FaceId = TypedId<struct FaceTag>;            // a face of a PatchModel, in its order
 using PieceId = TypedId<struct PieceTag>;          // a rational Bernstein rectangle of a Surface
 using RegionId = TypedId<struct RegionTag>;        // a region of a RegionMap
 using ComponentId = TypedId<struct ComponentTag>;  // a connected component of a region of a RegionMap

@@ -23,7 +23,9 @@ bool Forward(int edge) { return edge <= 1; }  // the parameter runs counter-cloc
 
 double Angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-double MaxAngle(const EdgeCurves& curves, int e, int f, bool reversed) {
+}  // namespace
+
+double AngleAlong(const EdgeCurves& curves, int e, int f, bool reversed) {
   const int e_edge = curves.edge(e).edge, f_edge = curves.edge(f).edge;
   // If both patches run counter-clockwise with the same orientation, they pass a shared edge in opposite
   // directions.
@@ -47,8 +49,6 @@ double MaxAngle(const EdgeCurves& curves, int e, int f, bool reversed) {
   return largest;
 }
 
-}  // namespace
-
 std::optional<Vec3> PatchNormal(const PatchShape& shape, const Vec2& uv) {
   if (const auto n = RawNormal(shape, uv)) return n;
   const Vec2 middle = IsTriangle(shape) ? Vec2::Constant(1.0 / 3.0) : Vec2::Constant(0.5);
@@ -68,7 +68,7 @@ void MeasureAngles(const EdgeCurves& curves, const RunContext& run, std::vector<
   (void)ParallelFor(run, "joins: angles", links.size(), [&](std::size_t k) {
     const int e = static_cast<int>(k);
     if (!measures(e)) return;
-    links[k].max_angle = MaxAngle(curves, e, index(*links[k].neighbor), links[k].reversed);
+    links[k].max_angle = AngleAlong(curves, e, index(*links[k].neighbor), links[k].reversed);
   });
   for (std::size_t k = 0; k < links.size(); ++k) {
     if (!links[k].neighbor || measures(static_cast<int>(k))) continue;

@@ -13,6 +13,11 @@ namespace patchmill {
 // if it vanishes there, too.
 std::optional<Vec3> PatchNormal(const PatchShape& shape, const Vec2& uv);
 
+// The largest angle between the normals of two patches along edge `e`, at its samples, both turned to one
+// side of the sheet. Edge `f` of the other patch is the same, or longer. `reversed`: the parameters run in
+// opposite directions.
+double AngleAlong(const EdgeCurves& curves, int e, int f, bool reversed);
+
 // Fills max_angle of every linked edge from the sampled points of its lower-numbered partner. Exact at those
 // points. The error is 1e-3 rad or less where an edge ends in a pole.
 void MeasureAngles(const EdgeCurves& curves, const RunContext& run, std::vector<EdgeLink>& links);

@@ -9,21 +9,17 @@ namespace {
 constexpr std::size_t kMaxPerCode = 1000;
 }
 
-std::string NetworkFindings::Name(PatchId patch) const {
-  const std::string& id = model_.patches[patch.index()].id;
-  return id.empty() ? fmt::format("patch {}", patch.value) : fmt::format("patch {} ({})", patch.value, id);
-}
+std::string NetworkFindings::Name(PatchId patch) const { return Title(model_, patch); }
 
 std::string NetworkFindings::Name(int edge) const {
   const PatchEdge e = curves_.edge(edge);
+  if (model_.patches[e.patch.index()].face) return "an edge of " + Name(e.patch);
   return fmt::format("edge {} of {}", e.edge, Name(e.patch));
 }
 
 Where NetworkFindings::WhereIs(int edge) const {
   const PatchEdge e = curves_.edge(edge);
-  Where where;
-  where.patch_id = model_.patches[e.patch.index()].id;
-  where.patch_index = e.patch.value;
+  Where where = WhereOf(model_, e.patch);
   where.uv = EdgeParameters(curves_.shape(edge), e.edge, 0.5);
   where.point = curves_.Point(edge, 0.5);
   return where;
@@ -31,9 +27,7 @@ Where NetworkFindings::WhereIs(int edge) const {
 
 Where NetworkFindings::WhereIs(PatchId patch) const {
   const Patch& p = model_.patches[patch.index()];
-  Where where;
-  where.patch_id = p.id;
-  where.patch_index = patch.value;
+  Where where = WhereOf(model_, patch);
   where.uv = IsTriangle(p.shape) ? Vec2::Constant(1.0 / 3.0) : Vec2::Constant(0.5);
   where.point = Position(p.shape, where.uv->x(), where.uv->y());
   return where;

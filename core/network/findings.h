@@ -14,7 +14,7 @@ class NetworkFindings {
  public:
   NetworkFindings(const PatchModel& model, const EdgeCurves& curves) : model_(model), curves_(curves) {}
 
-  // "edge 2 of patch 7" or, with an id, "edge 2 of patch 7 (lid)".
+  // "edge 2 of patch 7" or, with an id, "edge 2 of patch 7 (lid)"; "an edge of face f12 (pocket floor)".
   std::string Name(int edge) const;
   std::string Name(PatchId patch) const;
   // `message` is a function that makes the text. It is called only while there is room.

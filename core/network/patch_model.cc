@@ -2,9 +2,27 @@
 
 #include <span>
 
+#include <fmt/format.h>
+
 #include "core/network/control_points.h"
 
 namespace patchmill {
+
+Where WhereOf(const PatchModel& model, PatchId patch) {
+  const Patch& p = model.patches[patch.index()];
+  Where where;
+  where.patch_id = p.id;
+  where.patch_index = patch.value;
+  if (p.face) where.face_id = model.faces[p.face->index()].id;
+  return where;
+}
+
+std::string Title(const PatchModel& model, PatchId patch) {
+  const Patch& p = model.patches[patch.index()];
+  if (p.face) return "face " + Title(model.faces[p.face->index()]);
+  return p.id.empty() ? fmt::format("patch {}", patch.value)
+                      : fmt::format("patch {} ({})", patch.value, p.id);
+}
 
 Vec3 Place(const Placement& placement, const Vec3& p) {
   const Vec3 q = placement.scale * p;
@@ -39,6 +57,7 @@ PatchModel Place(const Placement& placement, PatchModel model) {
     for (Vec3& p : ControlPoints(patch.shape)) p = Place(placement, p);
   }
   if (model.join_tolerance) *model.join_tolerance *= placement.scale;
+  for (ModelFace& face : model.faces) face.radius *= placement.scale;
   return model;
 }
 

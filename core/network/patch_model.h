@@ -2,9 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/base/diagnostic.h"
+#include "core/base/typed_id.h"
+#include "core/network/model_face.h"
 #include "core/patch/patch.h"
 
 namespace patchmill {
@@ -24,7 +27,13 @@ inline constexpr double kMinKnotSpan = 1e-9;  // of the domain: distinct knots c
 struct PatchModel {
   std::vector<Patch> patches;
   std::optional<double> join_tolerance;  // length unit of the points; default kDefaultJoinTolerance
+  std::vector<ModelFace> faces;          // that patches are parts of; may be empty
 };
+
+// Where a finding about a patch is: its id, its index and the id of its face.
+Where WhereOf(const PatchModel& model, PatchId patch);
+// "face f12 (pocket floor)" or "face f12" for a part of a face, else "patch 7 (lid)" or "patch 7".
+std::string Title(const PatchModel& model, PatchId patch);
 
 // How the model lies on the machine: it is scaled, then turned by `up`, then translated ([machining M3]).
 enum class UpAxis { kZ, kY, kX, kNegZ, kNegY, kNegX };
@@ -36,14 +45,15 @@ struct Placement {
 Vec3 Place(const Placement& placement, const Vec3& p);
 Box3 Place(const Placement& placement, const Box3& box);  // exactly the box of the placed points
 // All control points placed, and join_tolerance scaled with them. This is exact, because all kinds are
-// affine-invariant. A model that is moved in is placed in its own memory.
+// affine-invariant. Radii of faces are scaled. A model that is moved in is placed in its own memory.
 PatchModel Place(const Placement& placement, PatchModel model);
 
 // Finds everything that makes a single patch unusable: sizes, degrees, knots, weights, finite numbers,
 // magnitude. There is one error diagnostic per kind of fault and patch, with patch index, field path and
 // reason (the first bad point of a patch stands for all of them), at most 1000. It is empty if the model is
 // sound. Cost O(points). Codes: PATCH_COUNT, POINT_COUNT, WEIGHT_COUNT, INVALID_DEGREE, INVALID_KNOTS,
-// INVALID_WEIGHT, NOT_FINITE, TOO_LARGE, ZERO_EXTENT, DUPLICATE_ID, INVALID_JOIN_TOLERANCE, INVALID_BREAKS.
+// INVALID_WEIGHT, NOT_FINITE, TOO_LARGE, ZERO_EXTENT, DUPLICATE_ID, INVALID_JOIN_TOLERANCE, INVALID_BREAKS,
+// INVALID_FACE.
 Diagnostics ValidateModel(const PatchModel& model);
 
 Box3 ControlBox(const PatchModel& model);  // of all control points

@@ -1,6 +1,9 @@
 #include "core/network/patch_network.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include <absl/strings/str_cat.h>
@@ -11,6 +14,7 @@
 #include "core/network/corner_vertices.h"
 #include "core/network/edge_angles.h"
 #include "core/network/edge_links.h"
+#include "core/network/face_edges.h"
 #include "core/network/findings.h"
 #include "core/network/half_edges.h"
 #include "core/network/open_edges.h"
@@ -55,29 +59,26 @@ void Join(const EdgeCurves& curves, const EdgeGap& match, std::vector<EdgeLink>&
   }
 }
 
-// Nearly collapsed edges are not reported as open, but lines cross them. So they count where anything lies
-// along another edge.
+// Nearly collapsed edges are not reported as open, but lines cross them, and they cover the last bit of a
+// longer edge. So they count where anything lies along another edge.
 struct LinkedEdges {
   const EdgeCurves& curves;
   const std::vector<EdgeEnds>& ends;
   const std::vector<bool>& nearly_collapsed;
   const std::vector<EdgeLink>& links;
 };
-std::vector<PartLink> LinkParts(const LinkedEdges& edges, const OpenEdgeReport& meetings, double tolerance,
-                                const RunContext& run) {
-  const EdgeCurves& curves = edges.curves;
-  const std::vector<EdgeLink>& links = edges.links;
-  if (std::ranges::none_of(links, &EdgeLink::on_t_junction)) return {};
+std::optional<OpenEdgeReport> InspectWithNearlyCollapsed(const LinkedEdges& edges, double tolerance,
+                                                         const RunContext& run) {
   std::vector<int> open;
-  bool more = false;
-  for (int e = 0; e < curves.count(); ++e) {
-    if (links[At(e)].neighbor || links[At(e)].collapsed) continue;
+  bool more = false, any = false;
+  for (int e = 0; e < edges.curves.count(); ++e) {
+    const EdgeLink& link = edges.links[At(e)];
+    if (link.neighbor || link.collapsed) continue;
     open.push_back(e);
-    more = more || edges.nearly_collapsed[At(e)];
+    (edges.nearly_collapsed[At(e)] ? more : any) = true;
   }
-  if (!more) return FindPartLinks(curves, links, meetings.t_junctions, run);
-  const OpenEdgeReport all = InspectOpenEdges(curves, edges.ends, open, {tolerance, 0.0}, run);
-  return FindPartLinks(curves, links, all.t_junctions, run);
+  if (!more || !any) return std::nullopt;
+  return InspectOpenEdges(edges.curves, edges.ends, open, {tolerance, 0.0}, run);
 }
 
 // All results of BuildNetwork from which its findings are made.
@@ -90,11 +91,16 @@ struct Facts {
   const std::vector<bool>& nearly_collapsed;
   const OpenEdgeReport& open;
   const Topology& topology;
+  const PatchModel& model;
+
+  std::optional<FaceId> FaceOf(PatchId patch) const { return model.patches[patch.index()].face; }
+  std::optional<FaceId> FaceOf(int edge) const { return FaceOf(curves.edge(edge).patch); }
 };
 
 void ReportEdges(const Facts& facts, PatchNetwork& network, NetworkFindings& findings) {
   for (int e = 0; e < facts.curves.count(); ++e) {
     const EdgeLink& link = network.edges[At(e)];
+    if (IsOfFaces(network.model, link)) continue;
     if (link.collapsed) {
       findings.AtEdge("COLLAPSED_EDGE", Severity::kInfo, e, [&] { return findings.Name(e) + " is a point"; });
     } else if (facts.nearly_collapsed[At(e)]) {
@@ -120,8 +126,39 @@ void ReportEdges(const Facts& facts, PatchNetwork& network, NetworkFindings& fin
   }
 }
 
+// Nobody who speaks of faces knows the edges of their patches: one finding for each face and for each two.
+void ReportFaceEdges(const Facts& facts, PatchNetwork& network, NetworkFindings& findings) {
+  std::vector<bool> left_out = facts.nearly_collapsed;
+  for (int e = 0; e < facts.curves.count(); ++e) {  // the original of a duplicate stands for both
+    if (facts.duplicate_of[facts.curves.edge(e).patch.index()]) left_out[At(e)] = true;
+  }
+  const FaceEdges edges =
+      EdgesOfFaces(network.model, facts.curves, {network.edges, network.part_links}, left_out);
+  const auto title = [&](FaceId face) { return Title(network.model.faces[face.index()]); };
+  for (const OpenFaceEdges& open : edges.open) {
+    network.open_edge_count += open.count;
+    findings.AtEdge("OPEN_EDGE", Severity::kInfo, open.longest, [&] {
+      return fmt::format("face {} has no neighbour along {} edge{}, {:.4g} mm in all", title(open.face),
+                         open.count, open.count > 1 ? "s" : "", open.length);
+    });
+  }
+  for (const FaceCrease& crease : edges.creases) {
+    network.convex_length += crease.convex_length;
+    network.concave_length += crease.concave_length;
+    findings.AtEdge("TANGENT_BREAK", Severity::kInfo, crease.sharpest, [&] {
+      return fmt::format("face {} meets face {} at an angle of up to {:.4g} degrees, along {:.4g} mm{}",
+                         title(crease.face), title(crease.other), Degrees(crease.max_angle), crease.length,
+                         crease.concave_length > 0.0
+                             ? fmt::format(", of which {:.4g} mm are an inner corner", crease.concave_length)
+                             : std::string());
+    });
+  }
+}
+
 void ReportMeetings(const Facts& facts, PatchNetwork& network, NetworkFindings& findings) {
   for (const TJunction& t : facts.open.t_junctions) {
+    const auto of_face = [&](int e) { return IsOfFaces(network.model, network.edges[At(e)]); };
+    if (of_face(t.long_edge) && std::ranges::all_of(t.short_edges, of_face)) continue;
     ++network.t_junction_count;
     findings.AtEdge("T_JUNCTION", Severity::kInfo, t.long_edge, [&] {
       const bool alone = t.short_edges.empty();
@@ -133,17 +170,36 @@ void ReportMeetings(const Facts& facts, PatchNetwork& network, NetworkFindings& 
   }
   for (const EdgeGap& gap : facts.open.gaps) {
     if (gap.distance <= network.join_tolerance) continue;
+    if (const auto face = facts.FaceOf(gap.edge); face && face == facts.FaceOf(gap.other)) continue;
     findings.AtEdge("GAP", Severity::kWarning, gap.edge, [&] {
       return fmt::format("{} and {} are up to {:.4g} mm apart; the join tolerance is {:.4g} mm",
                          findings.Name(gap.edge), findings.Name(gap.other), gap.distance,
                          network.join_tolerance);
     });
   }
+  std::map<FaceId, int> folded;  // how often a face is joined to itself by more than two of its edges
   for (const std::vector<int>& members : facts.clusters.members) {
     if (members.size() < 3) continue;
+    const std::optional<FaceId> face = facts.FaceOf(members[0]);
+    if (face && std::ranges::all_of(members, [&](int e) { return facts.FaceOf(e) == face; })) {
+      ++folded[*face];
+      continue;
+    }
     findings.AtEdge("NON_MANIFOLD_EDGE", Severity::kWarning, members[2], [&] {
       return fmt::format("{} is shared by {} edges, first {}", findings.Name(members[2]), members.size(),
                          findings.Name(members[0]));
+    });
+  }
+  for (const std::vector<int>& members : facts.clusters.members) {
+    const std::optional<FaceId> face =
+        members.size() < 3 ? std::optional<FaceId>() : facts.FaceOf(members[0]);
+    if (!face || !folded.contains(*face)) continue;
+    const int count = folded.extract(*face).mapped();
+    findings.AtEdge("NON_MANIFOLD_EDGE", Severity::kWarning, members[2], [&] {
+      return fmt::format(
+          "face {} is folded, or has needles narrower than the join tolerance: {} edge{} inside it "
+          "{} shared by more than two of its patches",
+          Title(network.model.faces[face->index()]), count, count > 1 ? "s" : "", count > 1 ? "are" : "is");
     });
   }
   if (facts.open.limited) {
@@ -173,8 +229,17 @@ void ReportVertices(const Facts& facts, const PatchNetwork& network, NetworkFind
 }
 
 void ReportPatches(const Facts& facts, NetworkFindings& findings) {
+  std::set<FaceId> doubled, turned;  // one finding for each face
   for (std::size_t k = 0; k < facts.duplicate_of.size(); ++k) {
     if (!facts.duplicate_of[k]) continue;
+    const std::optional<FaceId> face = facts.FaceOf(PatchId(k));
+    if (face && face == facts.FaceOf(*facts.duplicate_of[k])) {
+      if (!doubled.insert(*face).second) continue;
+      findings.AtPatch("DUPLICATE_PATCH", Severity::kWarning, PatchId(k), [&] {
+        return fmt::format("a part of {} lies twice in the same place", findings.Name(PatchId(k)));
+      });
+      continue;
+    }
     findings.AtPatch("DUPLICATE_PATCH", Severity::kWarning, PatchId(k), [&] {
       return fmt::format("{} is the same surface as {}", findings.Name(PatchId(k)),
                          findings.Name(*facts.duplicate_of[k]));
@@ -187,6 +252,8 @@ void ReportPatches(const Facts& facts, NetworkFindings& findings) {
                            findings.Name(c.first));
       });
     } else if (c.odd) {
+      const std::optional<FaceId> face = facts.FaceOf(*c.odd);
+      if (face && face == facts.FaceOf(c.first) && !turned.insert(*face).second) continue;
       findings.AtPatch("INCONSISTENT_ORIENTATION", Severity::kInfo, *c.odd, [&] {
         return fmt::format("{} of the {} patches joined to {} look to the other side, first {}", c.turned,
                            c.patches, findings.Name(c.first), findings.Name(*c.odd));
@@ -250,7 +317,13 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
       network.edges[At(gap.edge)].gap = network.edges[At(gap.other)].gap = gap.distance;
     }
   }
-  network.part_links = LinkParts({curves, ends, nearly, network.edges}, meetings, tolerance, run);
+  const auto all = InspectWithNearlyCollapsed({curves, ends, nearly, network.edges}, tolerance, run);
+  if (all) {
+    for (const int e : open) network.edges[At(e)].on_t_junction |= all->covered[At(e)];
+  }
+  if (std::ranges::any_of(network.edges, &EdgeLink::on_t_junction)) {
+    network.part_links = FindPartLinks(curves, network.edges, (all ? *all : meetings).t_junctions, run);
+  }
   PM_RETURN_IF_ERROR(done(0.75));
   MeasureAngles(curves, run, network.edges);
   PM_RETURN_IF_ERROR(done(0.8));
@@ -265,9 +338,10 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
   network.component_count = static_cast<int>(topology.components.size());
   network.euler_characteristic = topology.euler_characteristic;
 
-  const Facts facts{curves, ends, corners, clusters, duplicate_of, nearly, meetings, topology};
+  const Facts facts{curves, ends, corners, clusters, duplicate_of, nearly, meetings, topology, network.model};
   NetworkFindings findings(network.model, curves);
   ReportEdges(facts, network, findings);
+  ReportFaceEdges(facts, network, findings);
   ReportMeetings(facts, network, findings);
   ReportVertices(facts, network, findings);
   ReportPatches(facts, findings);

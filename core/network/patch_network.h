@@ -51,7 +51,9 @@ struct PatchNetwork {
   double join_tolerance = 0.0;       // mm, resolved
   std::vector<EdgeLink> edges;       // 4 (triangle 3) per patch, in order of patch, then edge index
   std::vector<PartLink> part_links;  // by whole, then by part: the edges that T_JUNCTION findings report
-  // Ordered by code, then by edge; at most 1000 of a code and one line that counts the rest.
+  // Ordered by code, then by edge; at most 1000 of a code and one line that counts the rest. Patches that are
+  // parts of faces have findings about their faces: one OPEN_EDGE for each face, one TANGENT_BREAK for each
+  // two that meet, and none about edges inside a face.
   //   OPEN_EDGE                 no neighbour: a border (info)
   //   COLLAPSED_EDGE            a point, a pole (info)
   //   NEARLY_COLLAPSED_EDGE     longer than the join tolerance, but negligible beside its patch; kept so
@@ -64,6 +66,9 @@ struct PatchNetwork {
   //   INCONSISTENT_ORIENTATION  neighbours run u x v to opposite sides (info; no algorithm needs a side)
   //   SEARCH_LIMITED            too many open edges lie together for a search of all gaps and T-junctions
   Diagnostics findings;
+  // mm, of the edges between faces that TANGENT_BREAK findings report: those that stick out, and inner
+  // corners.
+  double convex_length = 0.0, concave_length = 0.0;
   int open_edge_count = 0;      // edges with an OPEN_EDGE finding
   int t_junction_count = 0;     // long edges with a T_JUNCTION finding
   int vertex_count = 0;         // corners after joining

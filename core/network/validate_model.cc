@@ -312,6 +312,31 @@ void CheckIds(const PatchModel& model, Faults& faults) {
   }
 }
 
+void CheckFaces(const PatchModel& model, Faults& faults) {
+  std::unordered_map<std::string_view, std::size_t> first;
+  for (std::size_t f = 0; f < model.faces.size() && !faults.full(); ++f) {
+    const ModelFace& face = model.faces[f];
+    const std::string at = fmt::format("faces[{}]", f);
+    if (face.id.empty()) faults.AddToModel("INVALID_FACE", at + ".id", "is missing");
+    if (!std::isfinite(face.radius) || face.radius < 0.0) {
+      faults.AddToModel("INVALID_FACE", at + ".radius_mm",
+                        fmt::format("= {:g}; must be finite and at least 0", face.radius));
+    }
+    const auto [it, fresh] = first.emplace(face.id, f);
+    if (fresh || face.id.empty()) continue;
+    faults.AddToModel(
+        "DUPLICATE_ID", at + ".id",
+        fmt::format("= \"{}\" is also the id of faces[{}]; must be unique", face.id, it->second));
+  }
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    const std::optional<FaceId>& face = model.patches[i].face;
+    if (!face || (face->value >= 0 && face->index() < model.faces.size())) continue;
+    faults.Enter(model.patches[i], i, "face_index");
+    faults.Add("INVALID_FACE", "",
+               fmt::format("= {}; the model has {} faces", face->value, model.faces.size()));
+  }
+}
+
 void CheckExtent(const PatchModel& model, Faults& faults) {
   const Box3 box = ControlBox(model);
   const double diagonal = box.Diagonal();
@@ -356,6 +381,7 @@ Diagnostics ValidateModel(const PatchModel& model) {
     std::visit([&](const auto& shape) { CheckShape(shape, faults); }, patch.shape);
   }
   CheckIds(model, faults);
+  CheckFaces(model, faults);
   Diagnostics found = faults.Take();
   if (!found.empty()) return found;
   Faults extent;  // only sound numbers have an extent

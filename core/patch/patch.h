@@ -9,10 +9,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "core/base/typed_id.h"
 #include "core/base/vec.h"
 
 namespace patchmill {
@@ -235,8 +237,9 @@ using PatchShape = std::variant<BezierPatch, BsplinePatch, GregoryPatch, BezierT
                                 GregoryTriangle, LoftTriangle, G2GregoryPatch, HosakaPatch>;
 
 struct Patch {
-  std::string id;  // the client's face id, unique or empty
+  std::string id;  // the client's own id, unique or empty
   PatchShape shape;
+  std::optional<FaceId> face = {};  // of PatchModel::faces, that the patch is a part of
 };
 
 // Largest |e_z| of the unit normal of a vertical face. Neither of its sides is the upper one.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -14,11 +15,11 @@
 #include "core/base/index.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
+#include "core/patch/patch_figures.h"
 #include "core/trim/border_trace.h"
 #include "core/trim/edge_fit.h"
 #include "core/trim/face_cells.h"
 #include "core/trim/face_trace.h"
-#include "core/trim/patch_figures.h"
 #include "core/trim/spanned_curve.h"
 
 namespace patchmill {
@@ -204,44 +205,52 @@ double BorderLength(const BrepFace& face, const EdgeCurveTable& curves) {
   return length;
 }
 
-// What is wrong with one trimmed face. `slack`: mm^2 by which its area may differ because of its border.
-Diagnostics FaceFindings(const TrimmedFace& face, const CutOutcome& outcome,
-                         const std::optional<double>& stated, double slack, const TrimParams& params) {
+// What the area of a face is compared with.
+struct JudgedArea {
+  std::optional<double> stated;  // mm^2, of the file
+  double slack = 0.0;            // mm^2 by which it may differ because of the face's border
+};
+
+// What is wrong with one trimmed face.
+Diagnostics FaceFindings(const ModelFace& of, const TrimmedFace& face, const CutOutcome& outcome,
+                         const JudgedArea& judged, const TrimParams& params) {
   Diagnostics findings;
-  const Where where{.patch_id = face.id};
+  const Where where{.face_id = of.id};
+  const std::string title = Title(of);
   if (face.patch_count == 0) {
     const std::string why =
         outcome.status.ok() ? "nothing lies inside its border" : std::string(outcome.status.message());
     findings.push_back(
-        MakeError("FACE_LOST", absl::StrFormat("face %s could not be trimmed: %s", face.id, why), where));
-  } else if (stated && !(std::abs(face.area - *stated) <= kAreaAgreement * std::abs(*stated) + slack)) {
+        MakeError("FACE_LOST", absl::StrFormat("face %s could not be trimmed: %s", title, why), where));
+  } else if (judged.stated && !(std::abs(face.area - *judged.stated) <=
+                                kAreaAgreement * std::abs(*judged.stated) + judged.slack)) {
     findings.push_back(MakeError("FACE_AREA_DIFFERS",
                                  absl::StrFormat("face %s has %.6g mm2 in the file and %.6g mm2 as patches",
-                                                 face.id, *stated, face.area),
+                                                 title, *judged.stated, face.area),
                                  where));
   }
   if (face.border_error > std::max(params.border_tolerance, face.gap)) {
     findings.push_back(
         MakeWarning("BORDER_COARSE",
                     absl::StrFormat("the border of face %s is off its edges by %.3g mm; %.3g mm were allowed",
-                                    face.id, face.border_error, params.border_tolerance),
+                                    title, face.border_error, params.border_tolerance),
                     where));
   }
   return findings;
 }
 
-Diagnostics GapFindings(const TrimmedFace& face, double largest, double tolerance) {
-  const Where where{.patch_id = face.id};
+Diagnostics GapFindings(const ModelFace& of, const TrimmedFace& face, double largest, double tolerance) {
+  const Where where{.face_id = of.id};
   if (face.gap > largest) {
     return {MakeError(
         "GAP",
-        absl::StrFormat("an edge of face %s lies %.3g mm off its surface; at most %.3g mm are taken", face.id,
-                        face.gap, largest),
+        absl::StrFormat("an edge of face %s lies %.3g mm off its surface; at most %.3g mm are taken",
+                        Title(of), face.gap, largest),
         where)};
   }
   if (face.gap <= tolerance) return {};
   return {MakeWarning(
-      "GAP", absl::StrFormat("edges of face %s lie up to %.3g mm off its surface", face.id, face.gap),
+      "GAP", absl::StrFormat("edges of face %s lie up to %.3g mm off its surface", Title(of), face.gap),
       where)};
 }
 
@@ -281,6 +290,55 @@ class Volumes {
   std::vector<Sum> sums_;
 };
 
+struct RoundSurface {
+  double radius = 0.0;  // mm; 0 for a cone
+  BrepFrame frame;
+};
+std::optional<RoundSurface> RoundSurfaceOf(const BrepSurface& surface) {
+  if (const auto* s = std::get_if<BrepCylinder>(&surface)) return RoundSurface{s->radius, s->frame};
+  if (const auto* s = std::get_if<BrepCone>(&surface)) return RoundSurface{0.0, s->frame};
+  if (const auto* s = std::get_if<BrepSphere>(&surface)) return RoundSurface{s->radius, s->frame};
+  if (const auto* s = std::get_if<BrepTorus>(&surface)) return RoundSurface{s->minor, s->frame};
+  return std::nullopt;
+}
+
+SurfaceKind KindOf(const BrepSurface& surface) {
+  constexpr SurfaceKind kKinds[] = {SurfaceKind::kPlane,  SurfaceKind::kCylinder, SurfaceKind::kCone,
+                                    SurfaceKind::kSphere, SurfaceKind::kTorus,    SurfaceKind::kSpline};
+  static_assert(std::size(kKinds) == std::variant_size_v<BrepSurface>);
+  return kKinds[surface.index()];
+}
+
+// What the file says of a face.
+ModelFace FaceOf(const BrepModel& part, std::size_t index) {
+  const BrepFace& from = part.faces[index];
+  ModelFace face;
+  face.id = absl::StrCat("f", index + 1);
+  face.name = from.name;
+  if (from.body >= 0 && At(from.body) < part.bodies.size()) face.body = part.bodies[At(from.body)].name;
+  face.layer = from.layer;
+  face.rgb = from.rgb;
+  face.kind = KindOf(from.surface);
+  face.entity = from.entity;
+  if (const std::optional<RoundSurface> round = RoundSurfaceOf(from.surface)) {
+    face.radius = round->radius;
+    // The normal u x v of these surfaces points away from their axis or centre, or towards it in a mirrored
+    // frame.
+    const bool mirrored = round->frame.x.cross(round->frame.y).dot(round->frame.z) < 0.0;
+    face.hollow = from.reversed != mirrored;
+  }
+  return face;
+}
+
+// The borders of two faces along one edge are apart by the errors of both. Needles between two edges of one
+// face may be hardly wider.
+double JoinTolerance(double error, double size) {
+  constexpr double kMargin = 1.2;
+  constexpr double kLeastShare = 1e-6, kMostShare = 1e-3, kMost = 0.05;  // of the size; mm
+  const double most = std::max(std::min(kMost, kMostShare * size), kDefaultJoinTolerance * size);
+  return std::clamp(2.0 * kMargin * error, kLeastShare * size, most);
+}
+
 // All faces one after the other, judged.
 absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& curves,
                                   const std::vector<TracedFace>& traced, const std::vector<CutOutcome>& cut,
@@ -300,16 +358,18 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
   const double largest_gap = std::max(kLargestGap, kLargestGapShare * size);
   for (std::size_t f = 0; f < cut.size(); ++f) {
     TrimmedFace face;
-    face.id = absl::StrCat("f", f + 1);
+    result.model.faces.push_back(FaceOf(part, f));
+    const ModelFace& named = result.model.faces.back();
     face.first_patch = static_cast<int>(result.model.patches.size());
     face.patch_count = static_cast<int>(cut[f].nets.size());
     face.gap = traced[f].gap();
     face.border_error = cut[f].border_error + CurveError(part, part.faces[f]);
     double volume = 0.0;
     for (std::size_t k = 0; k < cut[f].nets.size(); ++k) {
-      std::string id = cut[f].nets.size() == 1 ? face.id : absl::StrCat(face.id, ".", k + 1);
-      Patch patch{std::move(id), PatchOf(cut[f].nets[k], part.faces[f].reversed, quantum)};
-      const PatchFigures figures = FiguresOf(patch.shape, box.Center());
+      std::string id = cut[f].nets.size() == 1 ? named.id : absl::StrCat(named.id, ".", k + 1);
+      Patch patch{std::move(id), PatchOf(cut[f].nets[k], part.faces[f].reversed, quantum), FaceId(f)};
+      const PatchFigures figures =
+          FiguresOf([&patch](double u, double v) { return Evaluate(patch.shape, u, v); }, box.Center());
       face.area += figures.area;
       volume += figures.volume;
       result.model.patches.push_back(std::move(patch));
@@ -317,10 +377,10 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
     // The border may be off by as much, all along.
     const double slack =
         1e-3 + cut[f].dropped_area + BorderLength(part.faces[f], curves) * (face.border_error + face.gap);
-    for (Diagnostic& finding : FaceFindings(face, cut[f], part.faces[f].area, slack, params)) {
+    for (Diagnostic& finding : FaceFindings(named, face, cut[f], {part.faces[f].area, slack}, params)) {
       result.findings.push_back(std::move(finding));
     }
-    for (Diagnostic& finding : GapFindings(face, largest_gap, params.border_tolerance)) {
+    for (Diagnostic& finding : GapFindings(named, face, largest_gap, params.border_tolerance)) {
       result.findings.push_back(std::move(finding));
     }
     volumes.Add(part.faces[f], face, volume, slack, 0.5 * size);
@@ -328,6 +388,7 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
     result.border_error = std::max(result.border_error, face.border_error);
     result.faces.push_back(std::move(face));
   }
+  result.model.join_tolerance = JoinTolerance(result.largest_gap + result.border_error, size);
   for (Diagnostic& finding : volumes.Findings(part.bodies)) result.findings.push_back(std::move(finding));
   return result;
 }

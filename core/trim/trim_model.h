@@ -22,7 +22,6 @@ struct TrimParams {
 
 // One face of the file after trimming.
 struct TrimmedFace {
-  std::string id;       // "f12": the twelfth face of the file
   int first_patch = 0;  // in TrimmedModel::model
   int patch_count = 0;  // 0: lost; a finding says why
   double area = 0.0;    // mm^2, of the patches
@@ -33,7 +32,10 @@ struct TrimmedFace {
 };
 
 struct TrimmedModel {
-  PatchModel model;  // mm; u x v points out of the body. Patches are called "f12", or "f12.1" and so on
+  // Mm; u x v points out of the body. Its faces are those of the BrepModel, lost ones too, called "f1", "f2"
+  // and so on; the patches of the twelfth are "f12", or "f12.1", "f12.2" and so on.
+  // The join tolerance follows from the gaps and border errors found.
+  PatchModel model;
   std::vector<TrimmedFace> faces;                // as BrepModel::faces
   double largest_gap = 0.0, border_error = 0.0;  // of all faces
   // FACE_LOST (error): the face has no patches. FACE_AREA_DIFFERS, VOLUME_DIFFERS (error): patches and file

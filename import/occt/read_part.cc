@@ -90,7 +90,7 @@ absl::StatusOr<ImportedPart> ReadPart(std::string_view content, std::string_view
     const std::string id = fmt::format("f{}", finding.face + 1);
     part.facts.findings.push_back(MakeDiagnostic(
         SeverityOfFinding(finding.code), finding.code,
-        fmt::format("face {} (entity {}): {}", id, finding.entity, finding.reason), {.patch_id = id}));
+        fmt::format("face {} (entity {}): {}", id, finding.entity, finding.reason), {.face_id = id}));
   }
   run.Progress("read", 1.0);
   return part;

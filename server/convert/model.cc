@@ -5,6 +5,7 @@
 #include "core/base/status.h"
 #include "core/joining/join_network.h"
 #include "core/joining/network_findings.h"
+#include "server/convert/faces.h"
 #include "server/convert/fields.h"
 #include "server/convert/model_limits.h"
 #include "server/convert/network.h"
@@ -45,6 +46,9 @@ absl::StatusOr<ModelHead> HeadOf(const v1::PatchModel& proto, std::string_view a
   }
   if (proto.has_network() && !proto.patches().empty()) {
     errors.Add(At(at, "network"), "is set together with patches; set one of them");
+  }
+  if (proto.has_network() && !proto.faces().empty()) {
+    errors.Add(At(at, "faces"), "are set together with a network; they belong to patches");
   }
   if (proto.patches().empty() && !proto.has_network()) errors.Missing(At(at, "patches"));
   ModelHead head;
@@ -97,9 +101,15 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
   for (int i = 0; i < proto.patches_size(); ++i) {
     checked.model.patches.push_back(FromProto(proto.patches(i), head.unit, i, checked.faults));
   }
+  checked.model.faces.reserve(static_cast<std::size_t>(proto.faces_size()));
+  for (int f = 0; f < proto.faces_size(); ++f) {
+    checked.model.faces.push_back(FromProto(proto.faces(f), f, checked.faults));
+  }
   // A patch with a fault of the message is not reported twice.
   std::set<int> reported;
-  for (const Diagnostic& fault : checked.faults) reported.insert(fault.where.patch_index.value_or(-1));
+  for (const Diagnostic& fault : checked.faults) {
+    if (fault.where.patch_index) reported.insert(*fault.where.patch_index);
+  }
   for (Diagnostic& fault : ValidateModel(checked.model)) {
     if (fault.where.patch_index && reported.contains(*fault.where.patch_index)) continue;
     checked.faults.push_back(std::move(fault));
@@ -113,6 +123,7 @@ v1::PatchModel ToProto(const PatchModel& model) {
   if (model.join_tolerance) proto.set_join_tolerance_mm(*model.join_tolerance);
   proto.mutable_patches()->Reserve(static_cast<int>(model.patches.size()));
   for (const Patch& patch : model.patches) *proto.add_patches() = ToProto(patch);
+  for (const ModelFace& face : model.faces) *proto.add_faces() = ToProto(face);
   return proto;
 }
 

@@ -19,6 +19,7 @@ class PatchReader {
   Patch Read(const v1::Patch& proto) {
     Patch patch;
     patch.id = id_ = proto.id();
+    if (proto.has_face_index()) patch.face = FaceId(proto.face_index());
     if (proto.id().size() > limits::kMaxIdBytes) {
       Fault("INVALID_ID", "id",
             fmt::format("has {} bytes; must have at most {}", proto.id().size(), limits::kMaxIdBytes));
@@ -257,6 +258,7 @@ Patch FromProto(const v1::Patch& proto, double unit, int index, Diagnostics& fau
 v1::Patch ToProto(const Patch& patch) {
   v1::Patch to;
   to.set_id(Utf8(patch.id));
+  if (patch.face) to.set_face_index(patch.face->value);
   std::visit([&](const auto& shape) { Fill(shape, to); }, patch.shape);
   return to;
 }

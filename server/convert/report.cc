@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,7 @@ v1::Place PlaceToProto(const VerifyPlace& place, const Vec3& zero) {
   v1::Place proto;
   *proto.mutable_point() = ToProto(Vec3(place.point - zero));
   proto.set_patch_id(Utf8(place.patch_id));
+  proto.set_face_id(Utf8(place.face_id));
   proto.set_patch_index(place.patch_index);
   proto.set_line(place.line);
   return proto;
@@ -95,6 +97,15 @@ void SetChoice(const RegionChoice& choice, SlopeClass slope, const Vec3& zero, v
   proto.set_one_way_lines(choice.one_way);
 }
 
+// The faces that the region has a part of, in the order of the patches.
+void AddFaceIds(const Region& region, const std::vector<std::string>& face_ids, v1::Region& proto) {
+  std::unordered_set<std::string_view> met;
+  for (const PatchId patch : region.patches) {
+    const std::string& id = face_ids[patch.index()];
+    if (!id.empty() && met.insert(id).second) proto.add_face_ids(Utf8(id));
+  }
+}
+
 }  // namespace
 
 v1::Diagnostic ToProto(const Diagnostic& diagnostic, const Vec3& zero) {
@@ -114,6 +125,7 @@ v1::Diagnostic ToProto(const Diagnostic& diagnostic, const Vec3& zero) {
   if (from.region_id) where.set_region_id(*from.region_id);
   if (from.line) where.set_line(*from.line);
   where.set_field(Utf8(from.field));
+  where.set_face_id(Utf8(from.face_id));
   return proto;
 }
 
@@ -183,12 +195,23 @@ google::protobuf::RepeatedPtrField<std::string> PatchIds(const PatchModel& model
   return ids;
 }
 
+std::vector<std::string> FaceIds(const PatchModel& model) {
+  std::vector<std::string> ids;
+  if (model.faces.empty()) return ids;
+  for (const Patch& patch : model.patches)
+    ids.push_back(patch.face ? model.faces[patch.face->index()].id : std::string());
+  return ids;
+}
+
 v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& choices,
-                      const std::vector<RegionFigures>& figures, const Vec3& zero) {
+                      const std::vector<RegionFigures>& figures, const Vec3& zero,
+                      const std::vector<std::string>& face_ids) {
   v1::RegionMap proto;
   proto.set_regions_sha256(RegionsDigest(map));
   for (std::size_t id = 0; id < map.regions.size(); ++id) {
-    *proto.add_regions() = ToProto(map.regions[id], choices[id], figures[id], zero, Detail::kAll);
+    v1::Region& region = *proto.add_regions();
+    region = ToProto(map.regions[id], choices[id], figures[id], zero, Detail::kAll);
+    if (!face_ids.empty()) AddFaceIds(map.regions[id], face_ids, region);
   }
   for (const BorderLine& line : map.border_lines) {
     v1::BorderLine& border = *proto.add_border_lines();

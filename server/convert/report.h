@@ -3,7 +3,9 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "cam/plan/job.h"
 #include "cam/plan/resolve.h"
@@ -29,9 +31,14 @@ v1::Region ToProto(const Region& region, const RegionChoice& choice, const Regio
 // The client's own id of each patch, in the order of the model. Empty if no patch has an id.
 google::protobuf::RepeatedPtrField<std::string> PatchIds(const PatchModel& model);
 
-// `choices` and `figures` have one element for each region.
+// The id of each patch's face, in the order of the model; empty for a patch of no face. Empty if the model
+// has no faces.
+std::vector<std::string> FaceIds(const PatchModel& model);
+
+// `choices` and `figures` have one element for each region; `face_ids` is as FaceIds gives it.
 v1::RegionMap ToProto(const RegionMap& map, const std::vector<RegionChoice>& choices,
-                      const std::vector<RegionFigures>& figures, const Vec3& zero);
+                      const std::vector<RegionFigures>& figures, const Vec3& zero,
+                      const std::vector<std::string>& face_ids);
 
 v1::SetupSheet ToProto(const Resolved& resolved, const Job& job);
 

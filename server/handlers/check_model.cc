@@ -4,10 +4,16 @@
 #include <fmt/format.h>
 
 #include "cam/limits/reach_tolerance.h"
+#include "cam/plan/face_preview.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
+#include "cam/plan/up_directions.h"
 #include "core/base/status.h"
 #include "core/joining/continuity.h"
+#include "core/network/face_edges.h"
+#include "core/surface/face_figures.h"
+#include "server/convert/enums.h"
+#include "server/convert/faces.h"
 #include "server/convert/joints.h"
 #include "server/convert/report.h"
 #include "server/convert/setup.h"
@@ -33,17 +39,58 @@ void FillNetwork(const PatchNetwork& network, v1::CheckModelResponse* response) 
   int joined = 0;
   double gap = 0.0, angle = 0.0;
   for (const EdgeLink& link : network.edges) {
-    if (!link.neighbor) continue;
+    if (!link.neighbor || IsInsideFace(network.model, link)) continue;
     if (link.self < *link.neighbor) ++joined;
     gap = std::max(gap, link.gap);
     angle = std::max(angle, link.max_angle);
   }
   response->set_patch_count(static_cast<int>(network.model.patches.size()));
+  response->set_face_count(static_cast<int>(network.model.faces.size()));
+  response->set_convex_edge_length_mm(network.convex_length);
+  response->set_concave_edge_length_mm(network.concave_length);
   response->set_open_edge_count(network.open_edge_count);
   response->set_joined_edge_count(joined);
   response->set_max_gap_mm(std::isfinite(gap) ? gap : 0.0);
   response->set_max_angle_deg(std::isfinite(angle) ? Degrees(angle) : 0.0);
   response->set_join_tolerance_mm(network.join_tolerance);
+}
+
+absl::Status FillFaces(const v1::CheckModelRequest& request, const Surface& surface, const Vec3& zero,
+                       const RunContext& run, v1::CheckModelResponse* response) {
+  const std::vector<ModelFace>& faces = surface.network.model.faces;
+  if (faces.empty() || !(request.with_faces() || request.with_faces_picture())) return absl::OkStatus();
+  PM_ASSIGN_OR_RETURN(const std::vector<FaceFigures> figures, MeasureFaces(surface, run));
+  for (std::size_t f = 0; request.with_faces() && f < faces.size(); ++f) {
+    v1::FaceInfo& info = *response->add_faces();
+    *info.mutable_face() = ToProto(faces[f]);
+    info.set_patch_count(figures[f].patch_count);
+    if (figures[f].patch_count == 0) continue;
+    info.set_area_mm2(figures[f].area);
+    info.set_min_tilt_deg(Degrees(figures[f].tilt_min));
+    info.set_max_tilt_deg(Degrees(figures[f].tilt_max));
+    *info.mutable_box() = ToProto(figures[f].box, zero);
+  }
+  if (!request.with_faces_picture()) return absl::OkStatus();
+  v1::ArtifactChunk& picture = *response->mutable_picture();
+  picture.set_name("faces.svg");
+  picture.set_media_type("image/svg+xml");
+  picture.set_data(DrawFaces(surface, figures, fmt::format("{} faces", faces.size())));
+  return absl::OkStatus();
+}
+
+absl::Status FillUpDirections(const Surface& surface, const Placement& placement, const RunContext& run,
+                              v1::CheckModelResponse* response) {
+  PM_ASSIGN_OR_RETURN(const std::vector<UpDirection> directions,
+                      MeasureUpDirections(surface, placement, run));
+  for (const UpDirection& direction : directions) {
+    v1::UpDirection& to = *response->add_up_directions();
+    to.set_up(ToProto(direction.up));
+    to.set_facing_area_mm2(direction.facing_area);
+    to.set_hidden_area_mm2(direction.hidden_area);
+    to.set_level_face_count(direction.level_face_count);
+  }
+  if (!directions.empty()) response->set_best_up(ToProto(BestUp(directions)));
+  return absl::OkStatus();
 }
 
 }  // namespace
@@ -77,6 +124,12 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
     ContinuityReport continuity;
     if (steps > 0) {
       PM_ASSIGN_OR_RETURN(continuity, MeasureContinuity(network, steps, run));
+      const auto face_of = [&](const PatchEdge& edge) {
+        return network.model.patches[edge.patch.index()].face;
+      };
+      std::erase_if(continuity.edges, [&](const EdgeContinuity& joint) {
+        return face_of(joint.a) && face_of(joint.a) == face_of(joint.b);
+      });
     }
     PM_ASSIGN_OR_RETURN(const Surface surface, BuildSurface(std::move(network), SurfaceParams{}, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
@@ -91,6 +144,8 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
       response->set_min_concave_radius_mm(check.min_concave_radius);
     FillNetwork(surface.network, response);
     if (steps > 0) AddJoints(continuity, response->mutable_joints());
+    PM_RETURN_IF_ERROR(FillUpDirections(surface, job.setup.placement, run, response));
+    PM_RETURN_IF_ERROR(FillFaces(request, surface, resolved.program_zero, run, response));
     return absl::OkStatus();
   });
 }

@@ -50,12 +50,14 @@ struct Made {
   Resolved resolved;
   JobResult result;
   std::string picture;
+  std::vector<std::string> face_ids;  // as FaceIds gives them
 };
 
 // Moves the model out of `prepared`; nothing else needs it.
 absl::Status Make(PreparedJob& prepared, bool with_picture, const RunContext& run, Made* made) {
   PM_ASSIGN_OR_RETURN(const Surface surface,
                       BuildPlacedSurface(std::move(prepared.model.model), prepared.job.setup, run));
+  made->face_ids = FaceIds(surface.network.model);
   PM_ASSIGN_OR_RETURN(made->resolved, Resolve(surface, prepared.job, run));
   PM_ASSIGN_OR_RETURN(made->result, RunJob(surface, prepared.job, run));
   if (made->result.program.size() > limits::kMaxProgramBytes) {
@@ -119,8 +121,8 @@ bool SendResult(const PreparedJob& prepared, const Made& made, const Outputs& ou
   const bool verified = !result.program.empty();
   if (outputs.contains(v1::OUTPUT_REGIONS)) {
     Response response;
-    *response.mutable_regions() =
-        ToProto(result.regions, result.report.choices, result.report.figures, made.resolved.program_zero);
+    *response.mutable_regions() = ToProto(result.regions, result.report.choices, result.report.figures,
+                                          made.resolved.program_zero, made.face_ids);
     if (!sink(response)) return false;
   }
   if (outputs.contains(v1::OUTPUT_PATHS) && verified && !SendPaths(result, sink)) return false;

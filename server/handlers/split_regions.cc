@@ -34,8 +34,8 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
     AddDiagnostics(job.model_remarks, resolved.program_zero, response->mutable_diagnostics());
     AddDiagnostics(surface.network.findings, resolved.program_zero, response->mutable_diagnostics());
     if (outputs.contains(v1::OUTPUT_REGIONS)) {
-      *response->mutable_regions() =
-          ToProto(regions.map, regions.chosen.choices, regions.figures, resolved.program_zero);
+      *response->mutable_regions() = ToProto(regions.map, regions.chosen.choices, regions.figures,
+                                             resolved.program_zero, FaceIds(surface.network.model));
       *response->mutable_patch_ids() = PatchIds(surface.network.model);
     }
     if (outputs.contains(v1::OUTPUT_PICTURE)) {

@@ -8,9 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "patchmill/v1/analysis_service.pb.h"
+#include "server/convert/model.h"
 #include "tests/service/daemon.h"
 #include "tests/service/process.h"
 #include "tests/service/requests.h"
+#include "tests/support/faced_box.h"
 
 namespace patchmill {
 namespace {
@@ -316,6 +318,40 @@ TEST_F(Cli, CheckPrintsTheModelAndFailsOnErrors) {
   const Finished bad = Patchmill({"check", in_.Write("bad.pb", model.SerializeAsString())});
   EXPECT_EQ(bad.status, 1);
   EXPECT_THAT(bad.out, HasSubstr("ERROR TOO_LARGE patch bump"));
+}
+
+// A box of faces with several patches each. Every command speaks of the faces.
+TEST_F(Cli, FacesAreListedSelectedAndNamed) {
+  const std::string box = in_.Write("box.json", Json(ToProto(testing::FacedBox(10.0, 2))));
+  const Finished list = Patchmill({"faces", box, "-o", out_ / "faces.svg"});
+  ASSERT_EQ(list.status, 0) << list.err;
+  EXPECT_THAT(list.out, AllOf(HasSubstr("f1"), HasSubstr("plane"), HasSubstr("100.0000"), HasSubstr("180.0"),
+                              HasSubstr("\"lid\", body BOX"), HasSubstr("#ff0000")));
+  EXPECT_EQ(std::count(list.out.begin(), list.out.end(), '\n'), 7);
+  EXPECT_THAT(Slurp(out_ / "faces.svg"), AllOf(HasSubstr("<svg"), HasSubstr(">f2<")));
+  const Finished check = Patchmill({"check", box});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_THAT(
+      check.out,
+      AllOf(
+          HasSubstr("faces        6"), HasSubstr("24 joined, 0 open"), HasSubstr("findings     12"),
+          HasSubstr("120 mm stick out, 0 mm are inner corners"),
+          HasSubstr("--up z            100.0 mm2 look up, 0.0 of them are hidden; 1 level face; shows most"),
+          HasSubstr("--up -x "), HasSubstr("TANGENT_BREAK face f1: face f1 meets face f3 (wall)")));
+  const Finished regions = Patchmill({"regions", box, "--only", "name=lid", "-o", out_ / "regions.json"});
+  EXPECT_EQ(regions.status, 0) << regions.err;
+  EXPECT_THAT(regions.out, HasSubstr("; on f2"));
+  EXPECT_THAT(Slurp(out_ / "regions.json"), HasSubstr("face_ids"));
+  const Finished mill = Mill(box, {"--only", "f2", "--report", out_ / "part.json"});
+  EXPECT_EQ(mill.status, 0) << mill.err;
+  EXPECT_THAT(Slurp(out_ / "part.json"), HasSubstr("\"face_id\": \"f2\""));
+  const Finished wrong = Mill(box, {"--only", "kind=cone"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("--only"));
+  EXPECT_THAT(wrong.err, HasSubstr("kind is one of plane"));
+  const Finished none = Patchmill({"faces", bump_});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.err, HasSubstr("the model has patches, but no faces"));
 }
 
 TEST_F(Cli, ANetworkIsCheckedJointByJointAndMilled) {

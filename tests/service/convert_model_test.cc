@@ -84,6 +84,69 @@ TEST(ModelRoundTrip, EveryKindComesBackAsItWent) {
   EXPECT_TRUE(differencer.Compare(ToProto(checked->model), model)) << difference;
 }
 
+TEST(ModelRoundTrip, FacesComeBackAsTheyWent) {
+  v1::PatchModel model = Bump();
+  v1::Face& face = *model.add_faces();
+  face.set_id("f1");
+  face.set_name("pocket floor");
+  face.set_body("PLATE");
+  face.set_layer("3");
+  face.set_rgb(0x00FF7F);
+  face.set_kind(v1::SURFACE_KIND_TORUS);
+  face.set_radius_mm(2.5);
+  face.set_hollow(true);
+  face.set_entity(1234567890123);
+  model.mutable_patches(0)->set_face_index(0);
+  const auto read = FromProto(model, "model");
+  ASSERT_TRUE(read.ok());
+  EXPECT_TRUE(read->faults.empty());
+  EXPECT_TRUE(MessageDifferencer::Equals(ToProto(read->model), model));
+  model.set_length_unit(v1::LENGTH_UNIT_INCH);
+  EXPECT_EQ(FromProto(model, "model")->model.faces[0].radius, 2.5);  // its name says mm
+}
+
+TEST(ModelDigestTest, DependsOnFacesWhereThereAreAny) {
+  v1::PatchModel model = Bump();
+  const auto digest = [&] { return ModelDigest(FromProto(model, "model")->model); };
+  const std::string bare = digest();
+  model.add_faces()->set_id("f1");
+  const std::string unused = digest();
+  model.mutable_patches(0)->set_face_index(0);
+  const std::string used = digest();
+  model.mutable_faces(0)->set_name("lid");
+  EXPECT_NE(bare, unused);
+  EXPECT_NE(unused, used);
+  EXPECT_NE(used, digest());
+}
+
+TEST(FaceFaults, OfTheMessageAreAllReported) {
+  v1::PatchModel model = Bump();
+  v1::Face& face = *model.add_faces();
+  face.set_id("f1");
+  face.set_name(std::string(201, 'x'));
+  face.set_rgb(0x1000000);
+  face.set_kind(static_cast<v1::SurfaceKind>(99));
+  model.mutable_patches(0)->set_face_index(7);
+  const auto read = FromProto(model, "model");
+  ASSERT_TRUE(read.ok());
+  std::vector<std::string> fields;
+  for (const Diagnostic& fault : read->faults) {
+    EXPECT_EQ(fault.code, "INVALID_FACE");
+    fields.push_back(fault.where.field);
+  }
+  EXPECT_THAT(fields, ::testing::ElementsAre("faces[0].name", "faces[0].rgb", "faces[0].kind",
+                                             "patches[0].face_index"));
+}
+
+TEST(FaceFaults, ANetworkHasNoFaces) {
+  v1::PatchModel model;
+  model.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  model.mutable_network();
+  model.add_faces()->set_id("f1");
+  EXPECT_THAT(FromProto(model, "model").status(),
+              StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("model.faces")));
+}
+
 TEST(ModelUnits, EveryUnitBecomesMillimeters) {
   v1::PatchModel model = Bump(1.0);
   for (const auto& [unit, factor] : {std::pair{v1::LENGTH_UNIT_MILLIMETER, 1.0},

@@ -1,6 +1,7 @@
 // CAD files through the importer: areas and volumes, damaged files, an importer that fails, cancels.
 #include "server/importer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +16,8 @@
 #include <unistd.h>
 
 #include "core/base/error_details.h"
+#include "core/base/status.h"
+#include "core/network/patch_network.h"
 #include "server/model_source.h"
 #include "tests/service/status_matchers.h"
 #include "tests/support/files.h"
@@ -98,6 +101,90 @@ TEST(Importer, PartsHaveTheirAreaAndVolume) {
     ASSERT_FALSE(loaded->remarks.empty());
     EXPECT_EQ(loaded->remarks.front().code, "CAD_FILE");
   }
+}
+
+int CountKind(const PatchModel& model, SurfaceKind kind) {
+  return static_cast<int>(std::count_if(model.faces.begin(), model.faces.end(),
+                                        [&](const ModelFace& face) { return face.kind == kind; }));
+}
+
+// The part is the same in all three files.
+TEST(Importer, FacesHaveTheirKindsRadiiAndBodies) {
+  NEEDS_IMPORTER();
+  for (const char* file : {"block.step", "block-inch.step", "block.igs"}) {
+    SCOPED_TRACE(file);
+    const auto loaded = Load(std::string(FormatOf(file)), CadFile(file));
+    ASSERT_TRUE(loaded.ok()) << loaded.status();
+    const PatchModel& model = loaded->model;
+    ASSERT_FALSE(model.faces.empty());
+    EXPECT_EQ(model.faces.front().id, "f1");
+    EXPECT_GT(CountKind(model, SurfaceKind::kPlane), 5);
+    EXPECT_GT(CountKind(model, SurfaceKind::kCylinder), 0);
+    EXPECT_EQ(CountKind(model, SurfaceKind::kUnknown), 0);
+    for (const ModelFace& face : model.faces) {
+      const bool round = face.kind == SurfaceKind::kCylinder || face.kind == SurfaceKind::kSphere ||
+                         face.kind == SurfaceKind::kTorus;
+      EXPECT_EQ(round, face.radius > 0.0) << face.id;
+      if (face.kind == SurfaceKind::kPlane) {
+        EXPECT_FALSE(face.hollow) << face.id;
+      }
+      EXPECT_GT(face.entity, 0) << face.id;
+    }
+    // Radius and side agree with the patches themselves: a point of a sphere, its normal and the radius
+    // give its centre.
+    for (const Patch& patch : model.patches) {
+      ASSERT_TRUE(patch.face.has_value());
+      const ModelFace& face = model.faces[patch.face->index()];
+      EXPECT_EQ(patch.id.substr(0, patch.id.find('.')), face.id);
+      if (face.kind != SurfaceKind::kSphere) continue;
+      const double inward = face.hollow ? face.radius : -face.radius;
+      const auto center = [&](double u, double v) {
+        const SurfaceJet jet = Evaluate(patch.shape, u, v);
+        return Vec3(jet.p + inward * jet.du.cross(jet.dv).normalized());
+      };
+      EXPECT_LT((center(0.3, 0.4) - center(0.6, 0.7)).norm(), 1e-6) << face.id;
+    }
+  }
+}
+
+// A closed body has no border, and its edges are those between its faces.
+TEST(Importer, ClosedBodiesHaveNoOpenEdge) {
+  NEEDS_IMPORTER();
+  for (const char* file : {"ring.step", "block.step", "block.igs", "cross.step"}) {
+    SCOPED_TRACE(file);
+    auto loaded = Load(std::string(FormatOf(file)), CadFile(file));
+    ASSERT_TRUE(loaded.ok()) << loaded.status();
+    const auto network = BuildNetwork(std::move(loaded->model));
+    ASSERT_TRUE(network.ok());
+    const std::size_t faces = network->model.faces.size();
+    EXPECT_EQ(network->open_edge_count, 0);
+    EXPECT_LE(network->findings.size(), 4 * faces);
+    for (const Diagnostic& finding : network->findings) {
+      EXPECT_TRUE(finding.code == "TANGENT_BREAK" || finding.code == "NON_MANIFOLD_VERTEX")
+          << finding.code << " " << finding.message;
+      EXPECT_THAT(finding.message, ::testing::Not(HasSubstr("patch "))) << finding.code;
+    }
+  }
+}
+
+// Two crossing cylinders of radius 10 and 8: their end circles stick out, and the curve along which they meet
+// is an inner corner. The block has two rims of 2 (48 + 28) + 2 pi 6 mm, and more.
+TEST(Importer, SharpEdgesHaveTheirLength) {
+  NEEDS_IMPORTER();
+  const auto network_of = [](const char* file) {
+    auto loaded = Load("step", CadFile(file));
+    PM_CHECK(loaded.ok());
+    auto network = BuildNetwork(std::move(loaded->model));
+    PM_CHECK(network.ok());
+    return *std::move(network);
+  };
+  const PatchNetwork cross = network_of("cross.step");
+  EXPECT_NEAR(cross.convex_length, 2 * 2 * kPi * (10 + 8), 0.5);
+  EXPECT_GT(cross.concave_length, 2 * 2 * kPi * 8);  // longer than two plane cuts across the narrow cylinder
+  const PatchNetwork block = network_of("block.step");
+  EXPECT_GT(block.convex_length, 2 * (2 * (48 + 28) + 2 * kPi * 6));
+  const PatchNetwork ring = network_of("ring.step");
+  EXPECT_EQ(ring.convex_length + ring.concave_length, 0.0);
 }
 
 TEST(Importer, EveryEndingInAnyCaseHasItsFormat) {

@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 Patch Flat(double x0 = 0.0) {
   return {"", BezierPatch{1, 1, {{x0, 0, 0}, {x0, 1, 0}, {x0 + 1, 0, 0}, {x0 + 1, 1, 0}}, {}}};
 }
-PatchModel One(PatchShape shape) { return {{{"", std::move(shape)}}, {}}; }
+PatchModel One(PatchShape shape) { return {{{"", std::move(shape)}}, {}, {}}; }
 
 BsplinePatch Biquadratic(std::vector<double> knots) {
   const std::size_t n = knots.size() - 3;
@@ -65,14 +65,14 @@ TEST(Place, FollowsTheTableOfTheDesign) {
 TEST(Place, ScalesBeforeItTurnsAndMoves) {
   const Placement placement{2.0, UpAxis::kY, Vec3(10, 20, 30)};
   EXPECT_EQ(Place(placement, Vec3(1, 2, 3)), Vec3(12, 14, 34));
-  PatchModel model{{Flat()}, 1e-3};
+  PatchModel model{{Flat()}, 1e-3, {}};
   const PatchModel placed = Place(placement, model);
   EXPECT_EQ(placed.join_tolerance, 2e-3);
   EXPECT_EQ(ControlPoints(placed.patches[0].shape)[3], Vec3(12, 20, 32));
 }
 
 TEST(ControlBox, HoldsEveryControlPoint) {
-  const Box3 box = ControlBox({{Flat(), Flat(5)}, {}});
+  const Box3 box = ControlBox({{Flat(), Flat(5)}, {}, {}});
   EXPECT_EQ(box.min, Vec3(0, 0, 0));
   EXPECT_EQ(box.max, Vec3(6, 1, 0));
   EXPECT_TRUE(ControlBox({}).Empty());
@@ -82,8 +82,8 @@ TEST(ValidateModel, AcceptsEveryKind) {
   GregoryPatch gregory;
   for (std::size_t i = 0; i < 20; ++i) gregory.points[i] = Vec3(static_cast<double>(i), 0, 1);
   BezierTriangle triangle{1, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {1, 2, 3}};
-  PatchModel model{{Flat(), {"b", Biquadratic({0, 0, 0, 1, 1, 2, 2, 2})}, {"g", gregory}, {"t", triangle}},
-                   {}};
+  PatchModel model{
+      {Flat(), {"b", Biquadratic({0, 0, 0, 1, 1, 2, 2, 2})}, {"g", gregory}, {"t", triangle}}, {}, {}};
   EXPECT_THAT(ValidateModel(model), IsEmpty());
 }
 
@@ -100,7 +100,7 @@ TEST(ValidateModel, WantsOneToAHundredThousandPatches) {
 }
 
 TEST(ValidateModel, LimitsControlPointsOfAllPatchesTogether) {
-  PatchModel model{{Flat(), Flat()}, {}};
+  PatchModel model{{Flat(), Flat()}, {}, {}};
   std::get<BezierPatch>(model.patches[0].shape).points.resize(kMaxControlPoints, Vec3::Zero());
   EXPECT_THAT(OnlyFault(model), HasSubstr("POINT_COUNT patches have 10000004 control points together"));
 }
@@ -139,19 +139,19 @@ TEST(ValidateModel, RefusesWrongCounts) {
 
 TEST(ValidateModel, RefusesNumbersThatAreNotFiniteOrTooLarge) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
-    PatchModel model{{Flat(), Flat(1)}, {}};
+    PatchModel model{{Flat(), Flat(1)}, {}, {}};
     ControlPoints(model.patches[1].shape)[2].y() = bad;
     EXPECT_THAT(OnlyFault(model), HasSubstr("NOT_FINITE patches[1].bezier.points"));
     EXPECT_EQ(ValidateModel(model)[0].where.patch_index, 1);
   }
-  PatchModel model{{Flat()}, {}};
+  PatchModel model{{Flat()}, {}, {}};
   ControlPoints(model.patches[0].shape)[2].z() = -1.1e9;
   EXPECT_THAT(OnlyFault(model), HasSubstr("TOO_LARGE patches[0].bezier.points"));
 }
 
 TEST(ValidateModel, RefusesWeightsThatAreNotPositive) {
   for (const double bad : {0.0, -1.0, 1e-300, 1e300, kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
-    PatchModel model{{Flat()}, {}};
+    PatchModel model{{Flat()}, {}, {}};
     std::get<BezierPatch>(model.patches[0].shape).weights = {1, 1, bad, 1};
     EXPECT_THAT(OnlyFault(model), HasSubstr("INVALID_WEIGHT patches[0].bezier.weights")) << bad;
   }
@@ -176,16 +176,16 @@ TEST(ValidateModel, RefusesKnotsThatMakeNoBasis) {
 TEST(ValidateModel, RefusesAModelWithoutExtent) {
   EXPECT_THAT(OnlyFault(One(BezierPatch{1, 1, std::vector<Vec3>(4, Vec3(1, 2, 3)), {}})),
               HasSubstr("ZERO_EXTENT patches[0].bezier.points"));
-  PatchModel far{{Flat()}, {}};
+  PatchModel far{{Flat()}, {}, {}};
   for (Vec3& p : ControlPoints(far.patches[0].shape)) p = p * 1e-3 + Vec3::Constant(9e8);
   EXPECT_THAT(OnlyFault(far), HasSubstr("ZERO_EXTENT"));
-  PatchModel speck{{Flat()}, {}};
+  PatchModel speck{{Flat()}, {}, {}};
   for (Vec3& p : ControlPoints(speck.patches[0].shape)) p *= 1e-10;
   EXPECT_THAT(OnlyFault(speck), HasSubstr("ZERO_EXTENT patches extend over 1.41421e-10 only"));
 }
 
 TEST(ValidateModel, RefusesIdsUsedTwiceButNotEmptyOnes) {
-  PatchModel model{{Flat(), Flat(1), Flat(2), Flat(3)}, {}};
+  PatchModel model{{Flat(), Flat(1), Flat(2), Flat(3)}, {}, {}};
   EXPECT_THAT(ValidateModel(model), IsEmpty());
   model.patches[1].id = model.patches[3].id = "lid";
   EXPECT_THAT(OnlyFault(model),
@@ -194,9 +194,9 @@ TEST(ValidateModel, RefusesIdsUsedTwiceButNotEmptyOnes) {
 
 TEST(ValidateModel, WantsAJoinToleranceThatFitsTheModel) {
   for (const double bad : {0.0, -1.0, 1e-10, 1.0, kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_THAT(OnlyFault({{Flat()}, bad}), HasSubstr("INVALID_JOIN_TOLERANCE join_tolerance"));
+    EXPECT_THAT(OnlyFault({{Flat()}, bad, {}}), HasSubstr("INVALID_JOIN_TOLERANCE join_tolerance"));
   }
-  EXPECT_THAT(ValidateModel({{Flat()}, 1e-3}), IsEmpty());
+  EXPECT_THAT(ValidateModel({{Flat()}, 1e-3, {}}), IsEmpty());
 }
 
 TEST(ValidateModel, ReportsEveryPatchOnceAndNeverMoreThanAThousandFaults) {

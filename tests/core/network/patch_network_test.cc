@@ -511,5 +511,21 @@ TEST(BuildNetwork, HelmetOfTwoPatchSizes) {
             48);
 }
 
+// A long edge meets a shorter one and the end of a needle. The needle's end is nearly a point and wider than
+// the join tolerance: the long edge is no border.
+TEST(TJunctions, TheEndOfANeedleCoversTheRestOfAnEdge) {
+  const double needle = 6e-4;
+  const auto level = [](double x0, double x1, double y0, double y1) {
+    return Single(Bilinear({x0, y0, 0}, {x1, y0, 0}, {x0, y1, 0}, {x1, y1, 0}));
+  };
+  PatchModel model =
+      Join({level(0, 10, 0, 10), level(0, 10 - needle, -10, 0), level(10 - needle, 10, -10, 0)});
+  model.join_tolerance = 1e-4;
+  const PatchNetwork network = Build(std::move(model));
+  EXPECT_TRUE(network.edges[0].on_t_junction);
+  EXPECT_EQ(network.open_edge_count, 6);
+  EXPECT_EQ(network.part_links.size(), 2u);
+}
+
 }  // namespace
 }  // namespace patchmill

@@ -56,6 +56,40 @@ TEST(TrimPlane, ARectangleIsOnePatch) {
   EXPECT_EQ(model.model.patches.size(), 1U);
   EXPECT_NEAR(Area(model), 1200.0, 1e-9);
   EXPECT_EQ(model.border_error, 0.0);
+  EXPECT_NEAR(model.model.join_tolerance.value_or(0.0), 1e-6 * 50.0, 1e-12);
+  ASSERT_EQ(model.model.faces.size(), 1U);
+  EXPECT_EQ(model.model.faces[0].id, "f1");
+  EXPECT_EQ(model.model.faces[0].kind, SurfaceKind::kPlane);
+  EXPECT_EQ(model.model.patches[0].face, FaceId(std::size_t{0}));
+}
+
+// What a cylinder surrounds: air where its outer side is turned in, or where its frame is mirrored.
+TEST(TrimFaces, RoundFacesAreHollowOrNot) {
+  for (const bool reversed : {false, true}) {
+    for (const bool mirrored : {false, true}) {
+      PartMaker maker;
+      BrepCylinder cylinder;
+      cylinder.radius = 4.0;
+      if (mirrored) cylinder.frame.z = -cylinder.frame.z;
+      maker.Face(cylinder, {});
+      BrepModel part = maker.part();
+      part.faces[0].reversed = reversed;
+      part.faces[0].name = "bore";
+      const BrepModel with_plane = [&] {
+        PartMaker plane;
+        plane.Face(BrepPlane{}, {Rectangle(plane, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})});
+        BrepModel both = plane.part();
+        both.faces.push_back(part.faces[0]);
+        return both;
+      }();
+      const auto trimmed = TrimFaces(with_plane, TrimParams(), RunContext());
+      ASSERT_TRUE(trimmed.ok());
+      const ModelFace& face = trimmed->model.faces[1];
+      EXPECT_EQ(face.hollow, reversed != mirrored);
+      EXPECT_EQ(face.radius, 4.0);
+      EXPECT_EQ(Title(face), "f2 (bore)");
+    }
+  }
 }
 
 TEST(TrimPlane, PlatesWithRoundHolesAreExact) {

@@ -1,0 +1,74 @@
+#include "server/convert/faces.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/enum_array.h"
+#include "server/errors.h"
+#include "server/limits.h"
+
+namespace patchmill {
+namespace {
+
+constexpr EnumArray<SurfaceKind, v1::SurfaceKind> kKinds = {
+    {v1::SURFACE_KIND_UNSPECIFIED, v1::SURFACE_KIND_PLANE, v1::SURFACE_KIND_CYLINDER, v1::SURFACE_KIND_CONE,
+     v1::SURFACE_KIND_SPHERE, v1::SURFACE_KIND_TORUS, v1::SURFACE_KIND_SPLINE}};
+
+}  // namespace
+
+ModelFace FromProto(const v1::Face& proto, int index, Diagnostics& faults) {
+  const auto fault = [&](std::string_view field, std::string_view text) {
+    std::string path = fmt::format("faces[{}].{}", index, field);
+    std::string message = fmt::format("{} {}", path, text);
+    faults.push_back(MakeError("INVALID_FACE", std::move(message), {.field = std::move(path)}));
+  };
+  const std::pair<const char*, const std::string&> texts[] = {
+      {"id", proto.id()}, {"name", proto.name()}, {"body", proto.body()}, {"layer", proto.layer()}};
+  for (const auto& [field, text] : texts) {
+    if (text.size() > limits::kMaxIdBytes)
+      fault(field, fmt::format("has {} bytes; must have at most {}", text.size(), limits::kMaxIdBytes));
+  }
+  ModelFace face;
+  face.id = proto.id();
+  face.name = proto.name();
+  face.body = proto.body();
+  face.layer = proto.layer();
+  if (proto.has_rgb()) {
+    if (proto.rgb() < 0 || proto.rgb() > 0xFFFFFF)
+      fault("rgb", fmt::format("= {}; must be in [0, 0xffffff]", proto.rgb()));
+    face.rgb = static_cast<std::uint32_t>(proto.rgb());
+  }
+  bool known = false;
+  for (const SurfaceKind kind : Enumerators<SurfaceKind>()) {
+    if (kKinds[kind] != proto.kind()) continue;
+    face.kind = kind;
+    known = true;
+  }
+  if (!known) {
+    fault("kind", fmt::format("= {}; this server does not know that value", static_cast<int>(proto.kind())));
+  }
+  face.radius = proto.radius_mm();
+  face.hollow = proto.hollow();
+  face.entity = proto.entity();
+  return face;
+}
+
+v1::Face ToProto(const ModelFace& face) {
+  v1::Face proto;
+  proto.set_id(Utf8(face.id));
+  proto.set_name(Utf8(face.name));
+  proto.set_body(Utf8(face.body));
+  proto.set_layer(Utf8(face.layer));
+  if (face.rgb) proto.set_rgb(static_cast<int>(*face.rgb));
+  proto.set_kind(kKinds[face.kind]);
+  proto.set_radius_mm(face.radius);
+  proto.set_hollow(face.hollow);
+  proto.set_entity(face.entity);
+  return proto;
+}
+
+}  // namespace patchmill
