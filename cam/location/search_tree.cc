@@ -22,9 +22,8 @@ constexpr int kMaxLevel = 24;  // halvings of one piece, in both directions toge
 // are small.
 constexpr double kConvexThickness = 1.0 / 15.0, kHollowThickness = 1.0 / 150.0;
 constexpr double kOpenReach = 1.0 / 9.0;
-// Rad from the vertical. Leaves of walls that lean less may be as high as the wall: low leaves above a
-// contact are hardly farther from the ball than the contact itself. Walls that lean more are quicker with low
-// leaves.
+// Rad from the vertical. Walls that lean less have high leaves: low leaves above a contact are hardly farther
+// from the ball than the contact itself. Walls that lean more are quicker with low leaves.
 constexpr double kWallSlope = 1e-4;
 // Bounds the memory. If a piece needs more leaves, its limits are doubled until it does not.
 constexpr std::size_t kMaxLeaves = 1'000'000, kMinLeavesPerPiece = 16;
@@ -89,7 +88,7 @@ Proof ProofOf(const LeafModel& m, const Vec3& n, double radius) {
 }
 
 // Whether the distance is proven convex to balls beside a leaf that is nearly vertical, at any height and on
-// both sides. The leaf may then be as high as the wall.
+// both sides. Such a leaf need not be low.
 bool IsConvexBeside(const LeafModel& m, const Vec2& n, double radius) {
   for (const double side : {radius, -radius}) {
     const Vec2 q = Xy(m.s) + side * n;
@@ -160,8 +159,8 @@ class PieceSplitter {
     return small ? kInfinity : -1.0;
   }
 
-  // Of a wall only the upper edge decides where the ball may be. The lower edge is kept, too: contacts that
-  // wander over the surface (Locator::Follow) come onto the wall there.
+  // The upper edge of a wall decides alone where the ball may be. The tree keeps the lower edge, too:
+  // contacts that wander over the surface (Locator::Follow) come onto the wall there.
   bool InsideWall(const Rect& r) const {
     return (upright_ == Upright::kAlongV && r.v0 > 0.0 && r.v1 < 1.0) ||
            (upright_ == Upright::kAlongU && r.u0 > 0.0 && r.u1 < 1.0);

@@ -61,26 +61,8 @@ constexpr std::array<Property, 5> kProperties = {{
     {"kind=", [](const ModelFace& face) { return std::string(Name(face.kind)); }},
 }};
 
-// The largest angle between the tangent planes of two patches along the part of an edge where they meet.
-double AngleAlong(const Surface& surface, const PartLink& link) {
-  constexpr int kSteps = 4;
-  const auto normal = [&](const PatchEdge& edge, double t) {
-    const Vec2 uv = EdgeParameters(surface.network.model.patches[edge.patch.index()].shape, edge.edge, t);
-    const SurfaceJet jet = Evaluate(surface, edge.patch, uv.x(), uv.y());
-    return Vec3(jet.du.cross(jet.dv).normalized());
-  };
-  double largest = 0.0;
-  for (int k = 0; k <= kSteps; ++k) {
-    const double t = (0.5 + k) / (kSteps + 1.0);  // at its ends an edge may be singular
-    const Vec3 a = normal(link.part, t), b = normal(link.whole, link.from + t * (link.to - link.from));
-    largest = std::max(largest, std::atan2(a.cross(b).norm(), std::abs(a.dot(b))));
-  }
-  return largest;
-}
-
 // For each face the faces beside it across smooth edges.
-std::vector<std::vector<std::size_t>> SmoothNeighbors(const Surface& surface) {
-  const PatchNetwork& network = surface.network;
+std::vector<std::vector<std::size_t>> SmoothNeighbors(const PatchNetwork& network) {
   std::vector<std::vector<std::size_t>> beside(network.model.faces.size());
   const auto join = [&](PatchId one, PatchId two) {
     const std::optional<FaceId> a = network.model.patches[one.index()].face;
@@ -93,15 +75,14 @@ std::vector<std::vector<std::size_t>> SmoothNeighbors(const Surface& surface) {
     if (link.neighbor && link.max_angle <= kTangentBreak) join(link.self.patch, link.neighbor->patch);
   }
   for (const PartLink& link : network.part_links) {
-    if (AngleAlong(surface, link) <= kTangentBreak) join(link.part.patch, link.whole.patch);
+    if (link.max_angle <= kTangentBreak) join(link.part.patch, link.whole.patch);
   }
   return beside;
 }
 
 class Selector {
  public:
-  explicit Selector(const Surface& surface)
-      : model_(surface.network.model), beside_(SmoothNeighbors(surface)) {
+  explicit Selector(const PatchNetwork& network) : model_(network.model), beside_(SmoothNeighbors(network)) {
     for (std::size_t i = 0; i < model_.patches.size(); ++i) {
       if (!model_.patches[i].id.empty()) patches_.emplace(model_.patches[i].id, i);
     }
@@ -231,12 +212,13 @@ class Selector {
 
 }  // namespace
 
-absl::StatusOr<std::vector<bool>> SelectPatches(const Surface& surface, const std::vector<std::string>& names,
-                                                std::string_view field, const RunContext& run) {
+absl::StatusOr<std::vector<bool>> SelectPatches(const PatchNetwork& network,
+                                                const std::vector<std::string>& names, std::string_view field,
+                                                const RunContext& run) {
   std::vector<bool> selected;
   if (names.empty()) return selected;
-  const Selector selector(surface);
-  selected.resize(surface.network.model.patches.size(), false);
+  const Selector selector(network);
+  selected.resize(network.model.patches.size(), false);
   for (std::size_t k = 0; k < names.size(); ++k) {
     PM_RETURN_IF_ERROR(run.Check());
     if (const auto wrong = selector.Add(names[k], selected)) {

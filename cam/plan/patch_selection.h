@@ -20,14 +20,15 @@
 #include <absl/status/statusor.h>
 
 #include "core/base/run_context.h"
-#include "core/surface/surface.h"
+#include "core/network/patch_network.h"
 
 namespace patchmill {
 
-// One flag for each patch of the surface's model; empty when `names` is. INVALID_ARGUMENT for a name that
+// One flag for each patch of the network's model; empty when `names` is. INVALID_ARGUMENT for a name that
 // cannot be read, or that nothing in the model has; it names `field` (a path of the request) and its index.
 // Else the errors of `run`. Cost: names times faces.
-absl::StatusOr<std::vector<bool>> SelectPatches(const Surface& surface, const std::vector<std::string>& names,
-                                                std::string_view field, const RunContext& run);
+absl::StatusOr<std::vector<bool>> SelectPatches(const PatchNetwork& network,
+                                                const std::vector<std::string>& names, std::string_view field,
+                                                const RunContext& run);
 
 }  // namespace patchmill

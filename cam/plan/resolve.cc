@@ -38,8 +38,10 @@ absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job
                                                const RunContext& run) {
   const Selection& selection = job.operation.selection;
   Containment c;
-  PM_ASSIGN_OR_RETURN(c.selected, SelectPatches(surface, selection.patches, "selection.patch_ids", run));
-  PM_ASSIGN_OR_RETURN(c.avoided, SelectPatches(surface, selection.avoid, "selection.avoid_patch_ids", run));
+  PM_ASSIGN_OR_RETURN(c.selected,
+                      SelectPatches(surface.network, selection.patches, "selection.patch_ids", run));
+  PM_ASSIGN_OR_RETURN(c.avoided,
+                      SelectPatches(surface.network, selection.avoid, "selection.avoid_patch_ids", run));
   c.avoid_margin = selection.avoid_margin;
   if (!selection.boundary.empty()) {
     c.boundary = {Shifted(selection.boundary, zero), selection.boundary_mode, selection.boundary_offset};

@@ -1,4 +1,4 @@
-// How much of a part each of the six axes of its model shows to a tool that comes along this axis.
+// Measures how much of a part a tool sees that comes along one of the six axes of its model.
 #pragma once
 
 #include <vector>

@@ -19,8 +19,6 @@ std::optional<Vec3> RawNormal(const PatchShape& shape, const Vec2& uv) {
   return Vec3(n / length);
 }
 
-bool Forward(int edge) { return edge <= 1; }  // the parameter runs counter-clockwise around the patch
-
 double Angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 }  // namespace
@@ -29,7 +27,7 @@ double AngleAlong(const EdgeCurves& curves, int e, int f, bool reversed) {
   const int e_edge = curves.edge(e).edge, f_edge = curves.edge(f).edge;
   // If both patches run counter-clockwise with the same orientation, they pass a shared edge in opposite
   // directions.
-  const double sign = (Forward(e_edge) == Forward(f_edge)) != reversed ? -1.0 : 1.0;
+  const double sign = (RunsAroundPatch(e_edge) == RunsAroundPatch(f_edge)) != reversed ? -1.0 : 1.0;
   const std::span<const Vec3> samples = curves.samples(e);
   const double last = static_cast<double>(samples.size() - 1);
   const bool aligned = samples.size() == curves.samples(f).size();

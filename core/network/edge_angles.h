@@ -13,6 +13,9 @@ namespace patchmill {
 // if it vanishes there, too.
 std::optional<Vec3> PatchNormal(const PatchShape& shape, const Vec2& uv);
 
+// Whether an edge runs counter-clockwise around its patch, in the plane of u and v, as its parameter grows.
+inline bool RunsAroundPatch(int edge) { return edge <= 1; }
+
 // The largest angle between the normals of two patches along edge `e`, at its samples, both turned to one
 // side of the sheet. Edge `f` of the other patch is the same, or longer. `reversed`: the parameters run in
 // opposite directions.

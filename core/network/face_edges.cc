@@ -14,8 +14,6 @@ std::optional<FaceId> FaceOf(const PatchModel& model, PatchId patch) {
   return model.patches[patch.index()].face;
 }
 
-bool RunsAroundPatch(int edge) { return edge <= 1; }  // counter-clockwise, as its parameter grows
-
 // > 0 where the edge sticks out, < 0 in an inner corner, 0 where the normals of its faces look to different
 // sides of the sheet. Taken in the middle of the edge.
 double Convexity(const EdgeCurves& curves, int e, int other, bool reversed) {
@@ -50,7 +48,7 @@ FaceEdges EdgesOfFaces(const PatchModel& model, const EdgeCurves& curves, const 
     const std::optional<FaceId> one = FaceOf(model, curves.edge(e).patch);
     const std::optional<FaceId> two = FaceOf(model, curves.edge(f).patch);
     if (!one || !two || one == two || angle <= kTangentBreak) return;
-    const std::pair pair = std::minmax(*one, *two);
+    const std::pair<FaceId, FaceId> pair = std::minmax(*one, *two);
     FaceCrease& sum =
         creases.try_emplace(pair, FaceCrease{pair.first, pair.second, e, 0.0, 0.0}).first->second;
     if (angle > sum.max_angle) {
@@ -83,8 +81,7 @@ FaceEdges EdgesOfFaces(const PatchModel& model, const EdgeCurves& curves, const 
   for (const PartLink& link : joints.parts) {
     const int part = index(link.part), whole = index(link.whole);
     if (left_out[At(part)] || joints.edges[At(part)].neighbor) continue;
-    const bool reversed = link.to < link.from;
-    meet(part, whole, reversed, AngleAlong(curves, part, whole, reversed));
+    meet(part, whole, link.to < link.from, link.max_angle);
   }
   FaceEdges edges;
   for (const auto& [face, sum] : open) edges.open.push_back(sum);

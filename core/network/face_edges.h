@@ -15,7 +15,7 @@ struct OpenFaceEdges {
   double length = 0.0;  // mm, of all
 };
 
-// Where two faces meet at an angle.
+// Two faces meet at an angle.
 struct FaceCrease {
   FaceId face, other;    // face < other
   int sharpest = 0;      // edge with the largest angle

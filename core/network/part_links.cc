@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/network/edge_angles.h"
+
 namespace patchmill {
 
 std::vector<PartLink> FindPartLinks(const EdgeCurves& curves, const std::vector<EdgeLink>& edges,
@@ -19,6 +21,7 @@ std::vector<PartLink> FindPartLinks(const EdgeCurves& curves, const std::vector<
       for (const Vec3& p : curves.samples(e)) {
         link.gap = std::max(link.gap, ClosestOnEdge(curves, t.long_edge, p).distance);
       }
+      link.max_angle = AngleAlong(curves, e, t.long_edge, link.to < link.from);
       links.push_back(link);
     }
   }

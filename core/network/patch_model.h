@@ -30,7 +30,7 @@ struct PatchModel {
   std::vector<ModelFace> faces;          // that patches are parts of; may be empty
 };
 
-// Where a finding about a patch is: its id, its index and the id of its face.
+// The place of a finding about a patch: the patch's id, its index and the id of its face.
 Where WhereOf(const PatchModel& model, PatchId patch);
 // "face f12 (pocket floor)" or "face f12" for a part of a face, else "patch 7 (lid)" or "patch 7".
 std::string Title(const PatchModel& model, PatchId patch);

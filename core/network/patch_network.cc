@@ -177,12 +177,16 @@ void ReportMeetings(const Facts& facts, PatchNetwork& network, NetworkFindings& 
                          network.join_tolerance);
     });
   }
-  std::map<FaceId, int> folded;  // how often a face is joined to itself by more than two of its edges
+  struct Fold {
+    int edge = 0;   // one of them
+    int count = 0;  // edges inside the face that more than two of its patches share
+  };
+  std::map<FaceId, Fold> folds;
   for (const std::vector<int>& members : facts.clusters.members) {
     if (members.size() < 3) continue;
     const std::optional<FaceId> face = facts.FaceOf(members[0]);
     if (face && std::ranges::all_of(members, [&](int e) { return facts.FaceOf(e) == face; })) {
-      ++folded[*face];
+      ++folds.try_emplace(*face, Fold{members[2], 0}).first->second.count;
       continue;
     }
     findings.AtEdge("NON_MANIFOLD_EDGE", Severity::kWarning, members[2], [&] {
@@ -190,16 +194,13 @@ void ReportMeetings(const Facts& facts, PatchNetwork& network, NetworkFindings& 
                          findings.Name(members[0]));
     });
   }
-  for (const std::vector<int>& members : facts.clusters.members) {
-    const std::optional<FaceId> face =
-        members.size() < 3 ? std::optional<FaceId>() : facts.FaceOf(members[0]);
-    if (!face || !folded.contains(*face)) continue;
-    const int count = folded.extract(*face).mapped();
-    findings.AtEdge("NON_MANIFOLD_EDGE", Severity::kWarning, members[2], [&] {
+  for (const auto& [face, fold] : folds) {
+    findings.AtEdge("NON_MANIFOLD_EDGE", Severity::kWarning, fold.edge, [&] {
+      const bool one = fold.count == 1;
       return fmt::format(
-          "face {} is folded, or has needles narrower than the join tolerance: {} edge{} inside it "
-          "{} shared by more than two of its patches",
-          Title(network.model.faces[face->index()]), count, count > 1 ? "s" : "", count > 1 ? "are" : "is");
+          "face {} is folded, or has needles narrower than the join tolerance: {} edge{} inside it {} shared "
+          "by more than two of its patches",
+          Title(network.model.faces[face.index()]), fold.count, one ? "" : "s", one ? "is" : "are");
     });
   }
   if (facts.open.limited) {

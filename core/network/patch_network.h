@@ -44,6 +44,7 @@ struct PartLink {
   PatchEdge part, whole;
   double from = 0.0, to = 1.0;  // parameters of the whole at the start and end of the part; may run backwards
   double gap = 0.0;             // mm, largest distance found of the part from the whole
+  double max_angle = 0.0;       // rad, as EdgeLink::max_angle, along the part
 };
 
 struct PatchNetwork {

@@ -205,13 +205,13 @@ double BorderLength(const BrepFace& face, const EdgeCurveTable& curves) {
   return length;
 }
 
-// What the area of a face is compared with.
+// The area that a trimmed face should have.
 struct JudgedArea {
   std::optional<double> stated;  // mm^2, of the file
   double slack = 0.0;            // mm^2 by which it may differ because of the face's border
 };
 
-// What is wrong with one trimmed face.
+// The faults of one trimmed face.
 Diagnostics FaceFindings(const ModelFace& of, const TrimmedFace& face, const CutOutcome& outcome,
                          const JudgedArea& judged, const TrimParams& params) {
   Diagnostics findings;
@@ -309,7 +309,7 @@ SurfaceKind KindOf(const BrepSurface& surface) {
   return kKinds[surface.index()];
 }
 
-// What the file says of a face.
+// A face of the part with its name, body, colour, kind and radius.
 ModelFace FaceOf(const BrepModel& part, std::size_t index) {
   const BrepFace& from = part.faces[index];
   ModelFace face;

@@ -109,7 +109,7 @@ int CountKind(const PatchModel& model, SurfaceKind kind) {
 }
 
 // The part is the same in all three files.
-TEST(Importer, FacesHaveTheirKindsRadiiAndBodies) {
+TEST(Importer, FacesHaveTheirKindsRadiiAndSides) {
   NEEDS_IMPORTER();
   for (const char* file : {"block.step", "block-inch.step", "block.igs"}) {
     SCOPED_TRACE(file);

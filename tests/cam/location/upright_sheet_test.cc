@@ -133,6 +133,55 @@ TEST(UprightLines, BallsLowBesideAHighWall) {
   }
 }
 
+// A cone that stands upright but for its lean (rad), from radius `foot` at z = 0 up to `height`.
+PatchModel Cone(double foot, double height, double lean) {
+  PatchModel model;
+  const double top = foot - height * std::tan(lean), w = std::sqrt(0.5);
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const double t = quarter * kPi / 2;
+    const Vec2 a(std::cos(t), std::sin(t)), c(-a.y(), a.x()), b = a + c;
+    BezierPatch patch{2, 1, {}, {1, 1, w, w, 1, 1}};
+    for (const Vec2& p : {a, b, c}) {
+      patch.points.push_back(Lift(foot * p, 0.0));
+      patch.points.push_back(Lift(top * p, height));
+    }
+    model.patches.push_back({"", std::move(patch)});
+  }
+  return model;
+}
+
+// Balls that rest on the side of a cone, low and high, against the closed form of a ball beside a straight
+// line: free where they rest and outside of it, not free a little inside.
+TEST(LeaningWalls, BallsRestOnTheSideOfACone) {
+  constexpr double kFoot = 15.0, kHeight = 30.0, kRadius = 3.0;
+  for (const double lean : {1e-2, 1e-3, 2e-4, 5e-5, 1e-6, 1e-8}) {
+    SCOPED_TRACE(lean);
+    const Surface surface = SurfaceOf(Cone(kFoot, kHeight, lean));
+    const Locator locator(surface, kRadius);
+    for (const double contact : {0.5, 11.0, 29.5}) {
+      for (const double angle : {0.3, 2.0, kPi / 2}) {
+        const Vec2 out(std::cos(angle), std::sin(angle));
+        const double z = contact + kRadius * std::sin(lean);
+        const double axis = kFoot - contact * std::tan(lean) + kRadius * std::cos(lean);
+        EXPECT_TRUE(locator.Free(Lift((axis + 1e-7) * out, z))) << contact << " " << angle;
+        EXPECT_FALSE(locator.Free(Lift((axis - 1e-6) * out, z))) << contact << " " << angle;
+        EXPECT_TRUE(locator.Free(Lift((axis - 1e-6) * out, z + 2e-6 / std::tan(lean)))) << contact;
+      }
+    }
+  }
+}
+
+// A wall that leans by less than kWallSlope has few and high leaves, one that leans more many low ones.
+TEST(LeaningWalls, LeavesAreHighWhereTheLeanIsSmall) {
+  const auto leaves = [](double height, double lean) {
+    const Surface surface = SurfaceOf(Cone(15.0, height, lean));
+    const auto tree = internal::BuildSearchTree(surface, 3.0, RunContext());
+    PM_CHECK(tree.ok());
+    return tree->leaves.size();
+  };
+  for (const double lean : {5e-5, 1e-6}) EXPECT_LE(5 * leaves(60.0, lean), leaves(60.0, 1e-3)) << lean;
+}
+
 // A contact that leaves a floor at the foot of a wall wanders up to the wall's edge.
 TEST(UprightLines, ContactsComeOntoAWallAtItsFoot) {
   const Surface surface = SurfaceOf(OpenBox(20.0, 15.0, 5.0));

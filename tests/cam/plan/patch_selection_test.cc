@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/status.h"
-#include "core/surface/surface.h"
 #include "tests/support/faced_box.h"
 
 namespace patchmill {
@@ -16,15 +15,13 @@ namespace {
 using testing::FacedBox;
 using ::testing::HasSubstr;
 
-Surface Joined(PatchModel model) {
+PatchNetwork Joined(PatchModel model) {
   auto network = BuildNetwork(std::move(model));
   PM_CHECK(network.ok());
-  auto surface = BuildSurface(*std::move(network), SurfaceParams(), RunContext());
-  PM_CHECK(surface.ok());
-  return *std::move(surface);
+  return *std::move(network);
 }
 
-Surface Box() {
+PatchNetwork Box() {
   PatchModel model = FacedBox(10.0, 2);
   model.faces[3].kind = model.faces[4].kind = SurfaceKind::kCylinder;
   model.faces[3].radius = 2.0;
@@ -34,9 +31,8 @@ Surface Box() {
 }
 
 // The faces of which all patches are selected, as digits, and "!" if a part of another face is.
-std::string Faces(const Surface& surface, const std::vector<std::string>& names) {
-  const PatchNetwork& network = surface.network;
-  const auto selected = SelectPatches(surface, names, "selection.patch_ids", RunContext());
+std::string Faces(const PatchNetwork& network, const std::vector<std::string>& names) {
+  const auto selected = SelectPatches(network, names, "selection.patch_ids", RunContext());
   if (!selected.ok()) return std::string(selected.status().message());
   std::string text;
   for (std::size_t f = 0; f < network.model.faces.size(); ++f) {
@@ -53,7 +49,7 @@ std::string Faces(const Surface& surface, const std::vector<std::string>& names)
 }
 
 TEST(PatchSelection, ByEveryName) {
-  const Surface box = Box();
+  const PatchNetwork box = Box();
   EXPECT_EQ(Faces(box, {"f2"}), "2");
   EXPECT_EQ(Faces(box, {"f2", "f3"}), "23");
   EXPECT_EQ(Faces(box, {"name=wall"}), "3456");
@@ -89,7 +85,7 @@ TEST(PatchSelection, SmoothNeighbours) {
                              : testing::Bilinear({x, 0, 0}, {x, 0, 9}, {x, 5, 0}, {x, 5, 9});
     model.patches.push_back({"", std::move(shape), FaceId(static_cast<std::size_t>(k))});
   }
-  const Surface strip = Joined(std::move(model));
+  const PatchNetwork strip = Joined(std::move(model));
   EXPECT_EQ(Faces(strip, {"s1+"}), "1234");
   EXPECT_EQ(Faces(strip, {"face:s3+"}), "1234");
   EXPECT_EQ(Faces(strip, {"s5+"}), "5");
@@ -107,7 +103,7 @@ TEST(PatchSelection, SmoothNeighboursAcrossTJunctions) {
   add({10, 5, 0}, {10, 0, 0}, {0, 5, 0}, 1);
   add({0, 10, 0}, {5, 0, 0}, {0, 0, 5}, 2);
   add({5, 10, 0}, {5, 0, 0}, {0, 0, 5}, 2);
-  const Surface surface = Joined(std::move(model));
+  const PatchNetwork surface = Joined(std::move(model));
   EXPECT_EQ(Faces(surface, {"a+"}), "12");
   EXPECT_EQ(Faces(surface, {"b+"}), "12");
   EXPECT_EQ(Faces(surface, {"wall+"}), "3");
@@ -125,7 +121,7 @@ TEST(PatchSelection, MessagesHoldNoControlCharacters) {
 }
 
 TEST(PatchSelection, ACancelEndsIt) {
-  const Surface box = Box();
+  const PatchNetwork box = Box();
   RunContext run;
   run.Cancel();
   EXPECT_EQ(SelectPatches(box, {"f2"}, "selection.patch_ids", run).status().code(),
@@ -133,7 +129,7 @@ TEST(PatchSelection, ACancelEndsIt) {
 }
 
 TEST(PatchSelection, WhatIsWrongIsSaid) {
-  const Surface box = Box();
+  const PatchNetwork box = Box();
   EXPECT_THAT(Faces(box, {"f2", "f9"}), HasSubstr("selection.patch_ids[1] = \"f9\"; must be a patch id"));
   EXPECT_THAT(Faces(box, {"f9"}), HasSubstr("a face id (f1 to f6"));
   EXPECT_THAT(Faces(box, {"#24"}), HasSubstr("#0 to #23"));

@@ -127,6 +127,24 @@ TEST(FaceEdges, APatchOfNoFaceBesideFaces) {
             4);
 }
 
+// The face has a fin: three of its patches share an edge. One finding says so, whatever their number.
+TEST(FaceEdges, AFaceThatIsFoldedIsOneFinding) {
+  PatchModel model;
+  model.faces.emplace_back().id = "f1";
+  const auto add = [&](const Vec3& o, const Vec3& u, const Vec3& v) {
+    model.patches.push_back({"", testing::Bilinear(o, o + u, o + v, o + u + v), FaceId(std::size_t{0})});
+  };
+  for (const double y : {0.0, 10.0}) {
+    add({0, y, 0}, {10, 0, 0}, {0, 10, 0});
+    add({10, y, 0}, {10, 0, 0}, {0, 10, 0});
+    add({10, y, 0}, {0, 0, 10}, {0, 10, 0});
+  }
+  EXPECT_THAT(
+      Messages(Build(std::move(model)), "NON_MANIFOLD_EDGE"),
+      ElementsAre("face f1 is folded, or has needles narrower than the join tolerance: 2 edges inside it "
+                  "are shared by more than two of its patches"));
+}
+
 TEST(FaceFaults, AreAllFound) {
   PatchModel model = FacedBox(10.0, 1);
   model.faces[2].id = "f1";
