@@ -6,6 +6,7 @@
 
 #include "cam/location/locator_impl.h"
 #include "cam/location/upright_sheet.h"
+#include "core/base/polled_run.h"
 #include "core/surface/form_sign.h"
 
 namespace patchmill {
@@ -18,6 +19,8 @@ using internal::LowerModel;
 using internal::Rect;
 
 constexpr int kBudget = 20000;  // parts per query
+// After so many parts a proof asks whether its result is still wanted. If not, its budget is used up.
+constexpr int kPartsBetweenPolls = 64;
 // Halvings of one leaf. Beside a singular corner no model helps. There a part is divided until it is smaller
 // than the gap, which takes 2 log2(leaf / gap) halvings. 100 halvings take a leaf of 100 m below 1e-7 mm.
 constexpr int kMaxLevel = 100;
@@ -94,7 +97,8 @@ struct Prover {
     const int hull_count = HullPoints(shape, points, hull.data());
     const RectBounds bounds = BoundPoints(shape, points, hull.data(), hull_count);
     if (Excluded(bounds, best.z) || Excluded(bounds, best.z + eps) || Beside(shape, points)) return;
-    if (--budget < 0 || level >= kMaxLevel) {
+    if (--budget % kPartsBetweenPolls == 0 && ThisThreadCancelled()) budget = -1;
+    if (budget < 0 || level >= kMaxLevel) {
       const double rim2 = ball.radius * ball.radius - internal::XyDistance2(bounds.box, ball.q);
       if (rim2 > 0.0) top = std::max(top, bounds.box.max.z() + std::sqrt(rim2));
       return;
@@ -132,7 +136,7 @@ struct Prover {
       return;
     }
 
-    const bool along_u = model.a.squaredNorm() >= model.b.squaredNorm();
+    const bool along_u = internal::IsLongerAlongU(model);
     Vec4* low_half = buffer.data() + 2 * level * kMaxNetPoints;
     Vec4* high_half = low_half + kMaxNetPoints;
     HalveNet(shape, points, along_u, low_half, high_half);

@@ -9,6 +9,7 @@
 #include "cam/location/locator_impl.h"
 #include "cam/location/swept_ball.h"
 #include "cam/location/swept_leaves.h"
+#include "core/base/polled_run.h"
 
 namespace patchmill {
 namespace {
@@ -17,6 +18,8 @@ using internal::Rect;
 using internal::SweptBall;
 
 constexpr int kBudget = 200000;  // parts visited; then the bound reached so far is returned
+// After so many parts the search asks whether its result is still wanted. If not, its budget is used up.
+constexpr int kPartsBetweenPolls = 64;
 
 // A node of the tree, or a part of a leaf with its own net.
 struct Part {
@@ -121,6 +124,7 @@ double Maximize(const Surface& surface, const LeafSet* among, const Sought& soug
     }
   }
   for (int budget = kBudget; !heap.empty(); --budget) {
+    if (budget % kPartsBetweenPolls == 0 && ThisThreadCancelled()) budget = 0;
     std::pop_heap(heap.begin(), heap.end(), worse);
     Part top = heap.back();
     heap.pop_back();

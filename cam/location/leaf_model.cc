@@ -311,4 +311,14 @@ LeafModel MakeLeafModel(const Piece& piece, const Vec4* points, std::span<const 
   return m;
 }
 
+bool IsLongerAlongU(const LeafModel& model) {
+  // Of its drift: a derivative below this vanishes near the middle, and says nothing about the length.
+  constexpr double kVanishing = 1e-3;
+  const double a = model.a.norm(), b = model.b.norm();
+  if (a < kVanishing * model.drift_a || b < kVanishing * model.drift_b) {
+    return a + model.drift_a >= b + model.drift_b;
+  }
+  return model.a.squaredNorm() >= model.b.squaredNorm();
+}
+
 }  // namespace patchmill::internal

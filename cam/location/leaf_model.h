@@ -77,6 +77,9 @@ struct LocalJet {
 double LeastFrom(const LeafModel& model, const LowerModel& low, const Vec3& c, const LocalJet& at,
                  const Box2& part = {-0.5, 0.5, -0.5, 0.5});
 
+// True if the rectangle is to be halved along u, not along v: it is longer that way.
+bool IsLongerAlongU(const LeafModel& model);
+
 // The minimiser of the middle model, as a start for a search.
 BoxMinimum GuessMinimum(const LeafModel& model, const Vec3& c);
 

@@ -182,7 +182,7 @@ class PieceSplitter {
         return;
       }
     }
-    const bool along_u = model.a.squaredNorm() >= model.b.squaredNorm();
+    const bool along_u = IsLongerAlongU(model);
     Vec4* low = buffer_.data() + 2 * level * shape_.count();
     Vec4* high = low + shape_.count();
     HalveNet(shape_, points, along_u, low, high);

@@ -24,6 +24,7 @@
 #include "cam/post/program_reader.h"
 #include "cam/region/split_regions.h"
 #include "core/base/error_details.h"
+#include "core/base/polled_run.h"
 #include "core/base/status.h"
 #include "core/surface/extent.h"
 
@@ -217,8 +218,8 @@ absl::StatusOr<std::vector<RegionChoice>> WithQuickestAngles(const JobContext& c
 }
 
 // Ends a job that is far above the limit before its passes are made: the lines and levels that they are made
-// from would fill the memory. LeastCutLength counts patches that coincide once each, although they are milled
-// once; hence far above.
+// from would fill the memory. LeastCutLength counts patches that overlap in part once each, although they are
+// milled once; hence far above.
 absl::Status CheckLeastFeed(const PathLimits& limits, double least_cut_length) {
   constexpr double kFarAbove = 10.0;
   if (!(least_cut_length > kFarAbove * limits.length)) return absl::OkStatus();
@@ -312,14 +313,9 @@ absl::StatusOr<std::vector<PlanPart>> VerifiedParts(const Surface& surface, cons
   return PartsOf(regions.map, regions.chosen.choices);
 }
 
-absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
-                                               std::string_view text, const VerifyParams& params,
-                                               const RunContext& run) {
-  PM_ASSIGN_OR_RETURN(const ProgramMotion motion, ReadProgram(text, {.run = &run}));
-  return Verify(surface, tool, motion, params, run);
-}
+namespace {
 
-absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run) {
+absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
   JobResult result;
@@ -427,6 +423,22 @@ absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const R
   for (const double area : report.verify.unreachable_area) unreachable += area;
   report.outcome = unreachable > 0.0 ? Outcome::kCompleteWhereReachable : Outcome::kComplete;
   result.program = std::move(program);
+  return result;
+}
+
+}  // namespace
+
+absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
+                                               std::string_view text, const VerifyParams& params,
+                                               const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(const ProgramMotion motion, ReadProgram(text, {.run = &run}));
+  return Verify(surface, tool, motion, params, run);
+}
+
+absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run) {
+  const PolledRun polled(run);
+  absl::StatusOr<JobResult> result = PlanAndJudge(surface, job, run);
+  PM_RETURN_IF_ERROR(run.Check());
   return result;
 }
 

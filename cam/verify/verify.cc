@@ -16,6 +16,7 @@
 #include "cam/verify/motion_sets.h"
 #include "cam/verify/validate.h"
 #include "cam/verify/verify_limits.h"
+#include "core/base/polled_run.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -390,7 +391,10 @@ class Verifier {
 absl::StatusOr<VerifyReport> Verify(const Surface& surface, const Tool& tool, const ProgramMotion& motion,
                                     const VerifyParams& params, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateVerifyInput(surface, tool, motion, params));
-  return Verifier(surface, tool, motion, params, run).Run();
+  const PolledRun polled(run);
+  absl::StatusOr<VerifyReport> report = Verifier(surface, tool, motion, params, run).Run();
+  PM_RETURN_IF_ERROR(run.Check());
+  return report;
 }
 
 }  // namespace patchmill

@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/base/polled_run.h"
 #include "core/base/progress_throttle.h"
 
 namespace patchmill {
@@ -54,6 +55,7 @@ absl::Status ParallelFor(const RunContext& run, const char* stage, const LoopPar
   ProgressThrottle throttle;
   const auto one = [&](std::size_t i) {
     if (run.Cancelled()) return;
+    const PolledRun polled(run);
     body(i);
     const std::size_t n = done.fetch_add(1, std::memory_order_relaxed) + 1;
     if (stage != nullptr && (n % report_every == 0 || n == count || throttle.Due())) {

@@ -1,0 +1,35 @@
+// The run that a thread works for. A proof deep inside a query asks it whether the result is still wanted.
+#pragma once
+
+#include "core/base/run_context.h"
+
+namespace patchmill {
+
+// While it lives, the thread works for `run`; then again for the run before. ParallelFor makes one for the
+// time of each body, RunJob and Verify for what they compute between their loops.
+//
+// A function that stops early because of ThisThreadCancelled() returns a result without meaning. So whoever
+// makes a PolledRun must call run.Check() before a result is used. A cancel is never taken back, and a
+// deadline never moves, so that Check() fails then.
+class PolledRun {
+ public:
+  explicit PolledRun(const RunContext& run) : before_(current_) { current_ = &run; }
+  ~PolledRun() { current_ = before_; }
+  PolledRun(const PolledRun&) = delete;
+  PolledRun& operator=(const PolledRun&) = delete;
+
+  // The run of the innermost PolledRun on this thread; null outside of any.
+  static const RunContext* current() { return current_; }
+
+ private:
+  static inline thread_local const RunContext* current_ = nullptr;
+  const RunContext* before_;
+};
+
+// True if the work of this thread is cancelled or its deadline has passed.
+inline bool ThisThreadCancelled() {
+  const RunContext* run = PolledRun::current();
+  return run != nullptr && run->Cancelled();
+}
+
+}  // namespace patchmill
