@@ -149,6 +149,10 @@ Vec3 Position(const Piece& piece, double u, double v) {
 
 Vec2 NativeParameters(const Piece& piece, double u, double v) {
   const auto& c = piece.native;
+  if (piece.speed != Vec2(1.0, 1.0)) {
+    u = Eased(u, piece.speed.x());
+    v = Eased(v, piece.speed.y());
+  }
   return (1.0 - v) * ((1.0 - u) * c[0] + u * c[1]) + v * ((1.0 - u) * c[2] + u * c[3]);
 }
 

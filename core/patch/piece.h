@@ -2,8 +2,8 @@
 // rational Bernstein rectangle.
 //
 //   kind              pieces
-//   Bezier            1 of its own degrees
-//   B-spline          1 of its own degrees per non-empty knot rectangle
+//   Bezier            1 of its own degrees; more, in a grid, if weights are far apart (ConditionPieces)
+//   B-spline          1 of its own degrees per non-empty knot rectangle, or more as above
 //   Gregory quad      1, rational of degree 5 (edge blend) or 7 each way
 //   triangle          of degree n: 3 of degree n each way around its centroid (a bilinear map of the
 //                     rectangle into the triangle; no collapsed edge)
@@ -51,10 +51,15 @@ struct Piece {
   // then evaluated through `native`.
   const PatchShape* shape = nullptr;
   // Native parameters of the piece's corners (0,0) (1,0) (0,1) (1,1). The map between them is exactly
-  // bilinear.
+  // bilinear in Eased(u, speed.x()) and Eased(v, speed.y()).
   std::array<Vec2, 4> native;
+  Vec2 speed = Vec2(1.0, 1.0);
   FaceSides sides;  // in the piece's own parameters
 };
+
+// A linear fractional map of [0, 1] onto itself. It begins at this speed (> 0) and ends at 1 / speed. The map
+// of the inverse speed is its inverse.
+inline double Eased(double t, double speed) { return speed * t / ((1.0 - t) + speed * t); }
 
 // The pieces of a patch; never empty for a valid one. Pieces of a B-spline come in order of u span, then v
 // span. They may point to `shape`, which must outlive them in its place.

@@ -1,5 +1,6 @@
 #include "core/patch/split_pieces.h"
 
+#include "core/patch/condition_pieces.h"
 #include "core/patch/kinds.h"
 
 namespace patchmill {
@@ -27,6 +28,8 @@ std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape, const Ru
         }
       },
       shape);
+  if (std::holds_alternative<BezierPatch>(shape) || std::holds_alternative<BsplinePatch>(shape))
+    pieces = internal::ConditionPieces(std::move(pieces));
   const bool singular = std::visit([](const auto& s) { return internal::HasSingularNet(s); }, shape);
   for (Piece& piece : pieces) {
     piece.patch = id;

@@ -157,11 +157,17 @@ absl::Status CheckParams(const PatchNetwork& network, const SurfaceParams& param
 
 // Empties a patch whose points are the net of its one piece. So no net is kept twice.
 void LeavePointsTo(const std::vector<Piece>& pieces, PatchShape& shape) {
+  if (pieces.size() != 1 || pieces[0].speed != Vec2(1.0, 1.0)) return;
   const bool bezier = std::holds_alternative<BezierPatch>(shape);
   const auto* spline = std::get_if<BsplinePatch>(&shape);
-  const bool one_span =
-      spline != nullptr && pieces.size() == 1 && spline->points.size() == pieces[0].net.points.size();
+  const bool one_span = spline != nullptr && spline->points.size() == pieces[0].net.points.size();
   if (bezier || one_span) shape = BezierPatch{pieces[0].net.degree_u, pieces[0].net.degree_v, {}, {}};
+}
+
+// True for a patch that LeavePointsTo has emptied.
+bool IsHeldByPiece(const PatchShape& shape) {
+  const auto* bezier = std::get_if<BezierPatch>(&shape);
+  return bezier != nullptr && bezier->points.empty();
 }
 
 absl::Status MakePieces(Surface& surface, const RunContext& run) {
@@ -293,13 +299,13 @@ absl::StatusOr<Surface> BuildSurface(PatchNetwork network, const SurfaceParams& 
 
 SurfaceJet Evaluate(const Surface& s, PatchId id, double u, double v) {
   const PatchShape& shape = s.network.model.patches[id.index()].shape;
-  if (std::holds_alternative<BezierPatch>(shape)) return Evaluate(s, s.first_piece[id.index()], u, v);
+  if (IsHeldByPiece(shape)) return Evaluate(s, s.first_piece[id.index()], u, v);
   return Evaluate(shape, u, v);
 }
 
 PatchShape ShapeOf(const Surface& s, PatchId id) {
   const PatchShape& shape = s.network.model.patches[id.index()].shape;
-  if (!std::holds_alternative<BezierPatch>(shape)) return shape;
+  if (!IsHeldByPiece(shape)) return shape;
   const BernsteinNet& net = s.piece(s.first_piece[id.index()]).net;
   BezierPatch whole{net.degree_u, net.degree_v, {}, {}};
   for (const Vec4& p : net.points) {

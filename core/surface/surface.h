@@ -37,8 +37,8 @@ struct Surface {
   Surface& operator=(Surface&&) = default;
 
   // The model must not change, because pieces of some kinds are evaluated by it. No net is kept twice: a
-  // BezierPatch in the model has its degrees but no points; its piece's net has the points. Use Evaluate and
-  // ShapeOf for a whole patch of any kind.
+  // BezierPatch of one piece in its own parameters has degrees here, but no points; the piece's net has them.
+  // Use Evaluate and ShapeOf for a whole patch of any kind.
   PatchNetwork network;
   std::vector<Piece> pieces;
   std::vector<PieceId> first_piece;  // index: patch

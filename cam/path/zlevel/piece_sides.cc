@@ -38,6 +38,15 @@ Vec2 SideEnd(const Piece& piece, int side) {
   return piece.native[static_cast<std::size_t>(kCorner[side])];
 }
 
+// The place between SideStart (0) and SideEnd (1), linear in native parameters, for the place t of a side.
+double NativeShare(const Piece& piece, int side, double t) {
+  return Eased(t, side % 2 == 0 ? piece.speed.x() : piece.speed.y());
+}
+// Its inverse.
+double SideShare(const Piece& piece, int side, double share) {
+  return Eased(share, 1.0 / (side % 2 == 0 ? piece.speed.x() : piece.speed.y()));
+}
+
 SurfacePoint AtSide(const Surface& surface, PieceId piece, int side, double t) {
   const Vec2 uv = SideParameters(side, t);
   return {piece, uv.x(), uv.y(), Position(surface.piece(piece), uv.x(), uv.y())};
@@ -103,8 +112,8 @@ PieceSides::PieceSides(const Surface& surface, const RunContext& run) : surface_
 }
 
 PieceSides::Place PieceSides::MiddleOf(PieceId id, int side) const {
-  // Units per native parameter in which middles are compared.
-  constexpr double kUnits = 1e9;
+  // Units per native parameter in which middles are compared: finer than the spans of uneven weights.
+  constexpr double kUnits = 1e12;
   const Piece& piece = surface_->piece(id);
   const Vec2 middle = 0.5 * (SideStart(piece, side) + SideEnd(piece, side));
   return {piece.patch.value, std::llround(middle.x() * kUnits), std::llround(middle.y() * kUnits)};
@@ -118,8 +127,9 @@ std::optional<PieceSides::SidePoint> PieceSides::OnEdge(PatchEdge edge, double t
   auto part = std::upper_bound(parts.begin(), parts.end(), t,
                                [](double x, const EdgePart& p) { return x < std::min(p.t0, p.t1); });
   if (part != parts.begin()) --part;
-  const double s = (t - part->t0) / (part->t1 - part->t0);
-  return SidePoint{AtSide(*surface_, part->piece, part->side, std::clamp(s, 0.0, 1.0)), part->side};
+  const double share = std::clamp((t - part->t0) / (part->t1 - part->t0), 0.0, 1.0);
+  const double s = SideShare(surface_->piece(part->piece), part->side, share);
+  return SidePoint{AtSide(*surface_, part->piece, part->side, s), part->side};
 }
 
 // Goes from an edge to the longer edge along which it lies, or to the shorter edge that lies along it there.
@@ -144,13 +154,14 @@ std::optional<PieceSides::SidePoint> PieceSides::Beyond(PieceId id, int side, do
     if (!s0 || !s1 || *s0 == *s1) continue;
     const EdgeLink& link = surface_->network.Link({piece.patch, edge});
     if (link.collapsed) return std::nullopt;
-    const double s = *s0 + t * (*s1 - *s0);
+    const double s = *s0 + NativeShare(piece, side, t) * (*s1 - *s0);
     if (!link.neighbor) return AcrossJunction({piece.patch, edge}, s);
     return OnEdge(*link.neighbor, link.reversed ? 1.0 - s : s);
   }
   for (const auto& [other, other_side] : inner_.at(MiddleOf(id, side))) {
     if (other == id) continue;
-    const bool same = (SideStart(surface_->piece(other), other_side) - a).norm() < kNativeTolerance;
+    const Piece& there = surface_->piece(other);
+    const bool same = (SideStart(there, other_side) - a).norm() < (SideEnd(there, other_side) - a).norm();
     return SidePoint{AtSide(*surface_, other, other_side, same ? t : 1.0 - t), other_side};
   }
   return std::nullopt;
