@@ -109,6 +109,13 @@ absl::StatusOr<std::vector<double>> SelectedShares(const JobContext& context, co
   return shares;
 }
 
+// True at a place of a patch that the same pass finishes as the patch whose copy it is.
+bool IsCopyOfWanted(const JobContext& context, PatchId patch, const Vec3& p) {
+  const auto& originals = context.surface.network.duplicate_of;
+  if (originals.empty() || !originals[patch.index()]) return false;  // a network joined by hand has none
+  return IsWanted(context.resolved.containment, *originals[patch.index()], p);
+}
+
 }  // namespace
 
 absl::StatusOr<std::vector<RegionFigures>> MeasureRegions(const JobContext& context, const RegionMap& map,
@@ -175,11 +182,13 @@ absl::StatusOr<double> LeastCutLength(const JobContext& context, const Locator& 
   std::vector<double> pieces(surface.pieces.size(), 0.0);
   PM_RETURN_IF_ERROR(ParallelFor(context.run, nullptr, pieces.size(), [&](std::size_t i) {
     std::map<RegionId, VerticalFaces> upright;
+    const PatchId patch = surface.pieces[i].patch;
     points.VisitPiece(i, reachable, [&](const RegionPoint& at) {
       const SurfaceJet& jet = at.jet;
       const Vec3& e = at.normal;
       const RegionChoice& choice = choices[at.region.index()];
-      if (choice.skip || !IsWanted(resolved.containment, surface.pieces[i].patch, jet.p)) return;
+      if (choice.skip || !IsWanted(resolved.containment, patch, jet.p)) return;
+      if (IsCopyOfWanted(context, patch, jet.p)) return;
       // Forced passes leave that as STRATEGY.
       if (NeededStepOfSides(ForcedOf(choice), jet, e, {radius, choice.scallop}) <
           PassParams().min_step_fraction)

@@ -21,10 +21,11 @@ absl::StatusOr<std::vector<RegionFigures>> MeasureRegions(const JobContext& cont
 
 // mm: no passes of this finish are shorter together. The integral of the area of the centre surface over the
 // widest step at each place, which is CenterStep across the most convex direction. It runs over the reachable
-// surface that is selected and not skipped, without places that forced passes leave as STRATEGY. A millimetre
-// of a pass finishes no more than the widest step beside it, hence the bound. A vertical face counts from the
-// side on which the ball finds room, found at a few places of each piece in a region; else from the side with
-// the shorter passes. The same points as MeasureRegions. `locator`: of resolved.plan_radius. CANCELLED,
+// surface that is selected and not skipped, without places that forced passes leave as STRATEGY, and once
+// over patches that coincide. A millimetre of a pass finishes no more than the widest step beside it, hence
+// the bound. A vertical face counts from the side on which the ball finds room, found at a few places of each
+// piece in a region; else from the side with the shorter passes. The same points as MeasureRegions.
+// `locator`: of resolved.plan_radius. CANCELLED,
 // DEADLINE_EXCEEDED from the run.
 absl::StatusOr<double> LeastCutLength(const JobContext& context, const Locator& locator, const RegionMap& map,
                                       const std::vector<RegionChoice>& choices);

@@ -33,8 +33,9 @@ struct Sample {
 
 struct Sums {
   AreaReport report;
-  // Places of report.lowest_center and report.highest_rise, as rectangles without size.
+  // Places of report.lowest_center, report.highest_rise and report.deepest, as rectangles without size.
   CellRect lowest, highest;
+  EnumArray<FinishClass, CellRect> deepest;
 };
 
 // A place on a piece. Cells share corners. Halving is exact, so equal places have equal parameters.
@@ -171,6 +172,19 @@ class AreaSampler {
     return limits;
   }
 
+  // The largest leftover of a class around a sample with much of it.
+  Extreme DeepestAround(FinishClass kind, const Extreme& sample, const CellRect& place) {
+    Extreme deepest = sample;
+    LeastAround(place, -sample.value, [&](const PiecePlace& at, double best) {
+      Sums here;
+      if (Classify(EvaluateAt(surface_, at), at, here) != kind) return best;
+      const Extreme& found = here.report.deepest[kind];
+      if (found.value > deepest.value) deepest = found;
+      return std::min(best, -found.value);
+    });
+    return deepest;
+  }
+
  private:
   const Sample& At(const PiecePlace& place, Sums& sums) {
     const auto [at, added] = samples_.try_emplace(place);
@@ -243,6 +257,7 @@ class AreaSampler {
     Extreme& deepest = sums.report.deepest[kind];
     if (left > deepest.value) {
       deepest = {left, jet.p, place.piece, nearest.segment < 0 ? -1 : tree_.segment(nearest.segment).move};
+      sums.deepest[kind] = {place.piece, place.u, place.u, place.v, place.v};
     }
     return kind;
   }
@@ -316,6 +331,7 @@ absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const Segme
       sums.report.area[kind] += part.report.area[kind];
       if (part.report.deepest[kind].value > sums.report.deepest[kind].value) {
         sums.report.deepest[kind] = part.report.deepest[kind];
+        sums.deepest[kind] = part.deepest[kind];
       }
     }
     if (part.report.lowest_center < sums.report.lowest_center) {
@@ -326,6 +342,13 @@ absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const Segme
       sums.report.highest_rise = part.report.highest_rise;
       sums.highest = part.highest;
     }
+  }
+  for (const FinishClass kind : Enumerators<FinishClass>()) {
+    const Extreme& sample = sums.report.deepest[kind];
+    if (!(sample.value > 0.0) || !(Unreachable(kind) || kind == FinishClass::kStrategy)) continue;
+    PM_RETURN_IF_ERROR(run.Check());
+    sums.report.deepest[kind] =
+        AreaSampler(surface, tree, params, 0, 0).DeepestAround(kind, sample, sums.deepest[kind]);
   }
   sums.report.lowest_center =
       LeastAround(sums.lowest, sums.report.lowest_center,

@@ -347,6 +347,7 @@ absl::StatusOr<PatchNetwork> BuildNetwork(PatchModel model, const RunContext& ru
   ReportVertices(facts, network, findings);
   ReportPatches(facts, findings);
   network.findings = findings.Take();
+  network.duplicate_of = duplicate_of;
   return network;
 }
 

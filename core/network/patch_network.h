@@ -67,6 +67,8 @@ struct PatchNetwork {
   //   INCONSISTENT_ORIENTATION  neighbours run u x v to opposite sides (info; no algorithm needs a side)
   //   SEARCH_LIMITED            too many open edges lie together for a search of all gaps and T-junctions
   Diagnostics findings;
+  // By patch: the earlier patch whose copy it is, see DUPLICATE_PATCH.
+  std::vector<std::optional<PatchId>> duplicate_of;
   // mm, of the edges between faces that TANGENT_BREAK findings report: those that stick out, and inner
   // corners.
   double convex_length = 0.0, concave_length = 0.0;
