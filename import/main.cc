@@ -2,11 +2,14 @@
 // standard output with frames (core/base/frames.h). The server starts one for each file.
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -56,7 +59,32 @@ class Answers {
   int fd_;
 };
 
-int Import(std::string_view format, const Answers& answers) {
+// What the command line asks for.
+struct ImportOrder {
+  std::string format;
+  TrimParams trim;
+};
+
+std::optional<ImportOrder> ReadOrder(const std::vector<std::string_view>& arguments) {
+  ImportOrder order;
+  if (arguments.size() % 2 != 0) return std::nullopt;
+  for (std::size_t k = 0; k < arguments.size(); k += 2) {
+    const std::string_view option = arguments[k], value = arguments[k + 1];
+    if (option == "--format" && (value == "step" || value == "iges")) {
+      order.format = value;
+    } else if (option == "--border-tolerance") {
+      const char* end = value.data() + value.size();
+      if (std::from_chars(value.data(), end, order.trim.border_tolerance).ptr != end) return std::nullopt;
+      if (!(order.trim.border_tolerance >= 1e-7 && order.trim.border_tolerance <= 1.0)) return std::nullopt;
+    } else {
+      return std::nullopt;
+    }
+  }
+  if (order.format.empty()) return std::nullopt;
+  return order;
+}
+
+int Import(const ImportOrder& order, const Answers& answers) {
   RunContext run;
   run.set_progress([&answers](std::string_view stage, double fraction) {
     // Reading takes the first half of the way, trimming the rest.
@@ -68,13 +96,13 @@ int Import(std::string_view format, const Answers& answers) {
     answers.Send(FrameKind::kProgress, fmt::format("{:.3f} {}", all, stage));
   });
   run.set_threads(1);
-  const absl::StatusOr<ImportedPart> part = ReadPart(ReadInput(), format, run);
+  const absl::StatusOr<ImportedPart> part = ReadPart(ReadInput(), order.format, run);
   if (!part.ok()) {
     const std::string code = CodeOf(part.status());
     answers.Error(code.empty() ? "CAD_UNREADABLE" : code, std::string(part.status().message()));
     return 1;
   }
-  const absl::StatusOr<TrimmedModel> trimmed = TrimFaces(part->model, TrimParams(), run);
+  const absl::StatusOr<TrimmedModel> trimmed = TrimFaces(part->model, order.trim, run);
   if (!trimmed.ok()) {
     answers.Error("NO_FACE", std::string(trimmed.status().message()));
     return 1;
@@ -90,10 +118,9 @@ int Import(std::string_view format, const Answers& answers) {
 
 int main(int argc, char** argv) {
   using namespace patchmill;
-  const bool understood = argc == 3 && std::string_view(argv[1]) == "--format" &&
-                          (std::string_view(argv[2]) == "step" || std::string_view(argv[2]) == "iges");
-  if (!understood) {
-    std::cerr << "usage: patchmill-import --format step|iges < FILE\n"
+  const std::optional<ImportOrder> order = ReadOrder({argv + 1, argv + argc});
+  if (!order) {
+    std::cerr << "usage: patchmill-import --format step|iges [--border-tolerance MM] < FILE\n"
                  "patchmill and patchmilld start it for each CAD file; its answer is not text.\n";
     return 2;
   }
@@ -107,7 +134,7 @@ int main(int argc, char** argv) {
   }
   std::set_new_handler([] { throw std::bad_alloc(); });
   try {
-    return Import(argv[2], answers);
+    return Import(*order, answers);
   } catch (const std::bad_alloc&) {
     answers.Error("IMPORT_LIMIT", "the CAD file needs more than 2 GiB of memory to be read");
     return 1;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -122,7 +123,16 @@ struct Started {
   Descriptor answers;
 };
 
-absl::StatusOr<Started> Start(const std::string& program, std::string_view format, int input) {
+// The command line of the importer.
+std::vector<std::string> ArgumentsOf(const std::string& program, const ImportParams& params) {
+  std::vector<std::string> arguments = {program, "--format", std::string(params.format)};
+  if (params.border_tolerance) {
+    arguments.insert(arguments.end(), {"--border-tolerance", fmt::format("{}", *params.border_tolerance)});
+  }
+  return arguments;
+}
+
+absl::StatusOr<Started> Start(const std::string& program, const ImportParams& params, int input) {
   std::array<int, 2> ends;
   if (pipe2(ends.data(), O_CLOEXEC) != 0) return NoResources("pipe");
   Descriptor reading(ends[0]), writing(ends[1]);
@@ -142,14 +152,16 @@ absl::StatusOr<Started> Start(const std::string& program, std::string_view forma
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes,
                            POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  std::string path = program, option = "--format", value(format);
-  char* argv[] = {path.data(), option.data(), value.data(), nullptr};
+  std::vector<std::string> arguments = ArgumentsOf(program, params);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
   // The reader must not see another locale, and its arithmetic must not depend on the processor.
   std::string locale = "LC_ALL=C",
               tunables = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2_Usable,-FMA_Usable,-AVX2,-FMA,-FMA4";
   char* environment[] = {locale.data(), tunables.data(), nullptr};
   pid_t pid = -1;
-  const int failed = posix_spawn(&pid, program.c_str(), &actions, &attributes, argv, environment);
+  const int failed = posix_spawn(&pid, program.c_str(), &actions, &attributes, argv.data(), environment);
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   if (failed != 0) {
@@ -223,16 +235,17 @@ std::string ImporterPath() {
   return access(in_bin.c_str(), X_OK) == 0 ? in_bin : beside;
 }
 
-absl::StatusOr<Imported> ImportFile(std::string_view content, std::string_view format, const RunContext& run,
-                                    InFlight* in_flight) {
-  return ImportFileWith(ImporterPath(), content, format, run, in_flight);
+absl::StatusOr<Imported> ImportFile(std::string_view content, const ImportParams& params,
+                                    const RunContext& run, InFlight* in_flight) {
+  return ImportFileWith(ImporterPath(), content, params, run, in_flight);
 }
 
 absl::StatusOr<Imported> ImportFileWith(const std::string& program, std::string_view content,
-                                        std::string_view format, const RunContext& run, InFlight* in_flight) {
+                                        const ImportParams& params, const RunContext& run,
+                                        InFlight* in_flight) {
   if (access(program.c_str(), X_OK) != 0) return NotBuilt(program);
   PM_ASSIGN_OR_RETURN(const Descriptor input, MemoryFile(content));
-  PM_ASSIGN_OR_RETURN(Started started, Start(program, format, input.get()));
+  PM_ASSIGN_OR_RETURN(Started started, Start(program, params, input.get()));
   Child child(started.pid);
   std::string bytes;
   std::array<char, 1 << 16> block;
@@ -261,7 +274,7 @@ absl::StatusOr<Imported> ImportFileWith(const std::string& program, std::string_
     bytes.erase(0, bytes.size() - rest.size());
   }
   PM_ASSIGN_OR_RETURN(const int status, child.WaitSoon(run));
-  return DeathOf(status, format);
+  return DeathOf(status, params.format);
 }
 
 }  // namespace patchmill

@@ -2,6 +2,7 @@
 // or exhaust memory on a damaged file, and then only that process ends.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,17 +22,23 @@ struct Imported {
   v1::ImportResult result;
 };
 
+// How a file is read.
+struct ImportParams {
+  std::string_view format;                      // "step" or "iges"
+  std::optional<double> border_tolerance = {};  // mm; default that of TrimParams (core/trim/trim_model.h)
+};
+
 // Starts the importer, gives it the bytes of a file, and waits for its answer. It ends within 200 ms of a
 // cancel or a deadline of `run`, to which the importer's progress goes. The importer is the program
 // patchmill-import beside the running one. The answer is counted before it is parsed, as any message, and
 // held in `in_flight` (may be null). Errors: those of `run`; INVALID_ARGUMENT MODEL_UNREADABLE for a file
 // that cannot be read, or on which the importer died; RESOURCE_EXHAUSTED for limits of time and memory;
 // UNIMPLEMENTED where there is no importer.
-absl::StatusOr<Imported> ImportFile(std::string_view content, std::string_view format, const RunContext& run,
-                                    InFlight* in_flight = nullptr);
+absl::StatusOr<Imported> ImportFile(std::string_view content, const ImportParams& params,
+                                    const RunContext& run, InFlight* in_flight = nullptr);
 // The same with another program as importer.
 absl::StatusOr<Imported> ImportFileWith(const std::string& program, std::string_view content,
-                                        std::string_view format, const RunContext& run,
+                                        const ImportParams& params, const RunContext& run,
                                         InFlight* in_flight = nullptr);
 // Where the importer is looked for.
 std::string ImporterPath();

@@ -37,6 +37,8 @@ inline constexpr std::size_t kMaxNetworkReferences = 16 * kMaxPatches;  // verti
 // Numbers in all lists of a request together: coordinates, weights and knots.
 inline constexpr std::size_t kMaxRequestNumbers = 4 * kMaxControlPoints + kMaxKnots;
 inline constexpr std::size_t kMaxIdBytes = 200;
+inline constexpr int kMaxModelFindings = 5000;         // that a model brings along
+inline constexpr std::size_t kMaxFindingBytes = 4000;  // of the message of one
 inline constexpr std::size_t kMaxNameBytes = 100;
 inline constexpr std::size_t kMaxRequestIdBytes = 128;
 
@@ -85,6 +87,7 @@ inline constexpr double kMinSteepDeg = 5.0, kMaxSteepDeg = 85.0;
 inline constexpr double kMinRpm = 1.0, kMaxRpm = 1e6;
 inline constexpr double kMinFeed = 0.1, kMaxFeed = 1e6;  // mm/min
 inline constexpr int kMaxToolNumber = 99'999;
+inline constexpr double kMinBorderToleranceMm = 1e-6, kMaxBorderToleranceMm = 0.05;
 inline constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
 inline constexpr double kMaxJoinToleranceMm = 10.0;
 inline constexpr int kMaxContinuitySteps = 10'000;

@@ -105,8 +105,40 @@ absl::StatusOr<FileMessage> ParseBinary(const std::string& content, std::string_
       fmt::join(kTextFormats, ", .")));
 }
 
+Diagnostic FromProto(const v1::Diagnostic& proto) {
+  const Severity severity = proto.severity() == v1::SEVERITY_ERROR     ? Severity::kError
+                            : proto.severity() == v1::SEVERITY_WARNING ? Severity::kWarning
+                                                                       : Severity::kInfo;
+  return {proto.code(), severity, proto.message(), {.face_id = proto.where().face_id()}};
+}
+
+// What is wrong with a finding that a model brings along; nothing if it may be repeated.
+std::optional<Diagnostic> FaultOfFinding(const v1::Diagnostic& proto, int index) {
+  const std::string path = fmt::format("findings[{}]", index);
+  const auto fault = [&](std::string_view text) {
+    return MakeError("INVALID_FINDING", fmt::format("{}.{}", path, text), {.field = path});
+  };
+  if (proto.severity() != v1::SEVERITY_INFO && proto.severity() != v1::SEVERITY_WARNING)
+    return fault("severity must be SEVERITY_INFO or SEVERITY_WARNING");
+  if (proto.code().empty() || proto.code().size() > limits::kMaxIdBytes)
+    return fault(
+        fmt::format("code has {} bytes; must have 1 to {}", proto.code().size(), limits::kMaxIdBytes));
+  if (proto.message().size() > limits::kMaxFindingBytes) {
+    return fault(fmt::format("message has {} bytes; must have at most {}", proto.message().size(),
+                             limits::kMaxFindingBytes));
+  }
+  if (proto.where().face_id().size() > limits::kMaxIdBytes)
+    return fault(fmt::format("where.face_id has {} bytes; must have at most {}",
+                             proto.where().face_id().size(), limits::kMaxIdBytes));
+  return std::nullopt;
+}
+
 absl::StatusOr<LoadedModel> LoadMessage(const v1::PatchModel& model, const std::string& at,
                                         const RunContext& run) {
+  if (model.findings_size() > limits::kMaxModelFindings) {
+    return LimitError("model.finding_count", limits::kMaxModelFindings,
+                      static_cast<double>(model.findings_size()));
+  }
   absl::StatusOr<CheckedModel> checked = FromProto(model, at, run);
   PM_RETURN_IF_ERROR(checked.status());
   LoadedModel loaded;
@@ -114,6 +146,14 @@ absl::StatusOr<LoadedModel> LoadMessage(const v1::PatchModel& model, const std::
   loaded.model = std::move(checked->model);
   loaded.faults = std::move(checked->faults);
   loaded.remarks = std::move(checked->remarks);
+  loaded.network = model.has_network();
+  for (int k = 0; k < model.findings_size(); ++k) {
+    if (auto wrong = FaultOfFinding(model.findings(k), k)) {
+      loaded.faults.push_back(*std::move(wrong));
+    } else {
+      loaded.remarks.push_back(FromProto(model.findings(k)));
+    }
+  }
   return loaded;
 }
 
@@ -143,13 +183,6 @@ absl::StatusOr<LoadedModel> LoadText(const v1::ModelFile& file, std::string_view
   return loaded;
 }
 
-Diagnostic FromProto(const v1::Diagnostic& proto) {
-  const Severity severity = proto.severity() == v1::SEVERITY_ERROR     ? Severity::kError
-                            : proto.severity() == v1::SEVERITY_WARNING ? Severity::kWarning
-                                                                       : Severity::kInfo;
-  return {proto.code(), severity, proto.message(), {.face_id = proto.where().face_id()}};
-}
-
 // What was read, in one sentence.
 Diagnostic ImportRemark(const v1::ImportReport& report, std::string_view format) {
   std::vector<std::string> kinds;
@@ -169,15 +202,40 @@ Diagnostic ImportRemark(const v1::ImportReport& report, std::string_view format)
           report.area_mm2(), report.border_error_mm(), report.largest_gap_mm(), report.surface_error_mm()));
 }
 
+// How a CAD file is read, as the request says.
+ImportParams ReadImportParams(const v1::ModelFile& file, std::string_view format, std::string_view at,
+                              FieldErrors& errors) {
+  ImportParams params{.format = format};
+  const v1::ImportOptions& options = file.import_options();
+  if (options.has_border_tolerance_mm()) {
+    params.border_tolerance = options.border_tolerance_mm();
+    Require(errors, At(at, "import_options.border_tolerance_mm"), options.border_tolerance_mm(),
+            options.border_tolerance_mm() >= limits::kMinBorderToleranceMm &&
+                options.border_tolerance_mm() <= limits::kMaxBorderToleranceMm,
+            fmt::format("in [{:g}, {:g}]", limits::kMinBorderToleranceMm, limits::kMaxBorderToleranceMm));
+  }
+  return params;
+}
+
+// OK if nothing is asked of a file that only CAD files have.
+absl::Status RefuseImportOptions(const v1::ModelFile& file, std::string_view at) {
+  FieldErrors errors;
+  if (file.import_options().has_border_tolerance_mm()) {
+    errors.Add(At(at, "import_options.border_tolerance_mm"),
+               "is set; only CAD files (step, iges) are read with it");
+  }
+  return errors.ToStatus();
+}
+
 // Loads a STEP or IGES file through the importer. Its answer is checked like any message.
 absl::StatusOr<LoadedModel> LoadCad(const v1::ModelFile& file, std::string_view format, const std::string& at,
                                     const RunContext& run, InFlight* in_flight) {
-  if (file.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED) {
-    FieldErrors errors;
+  FieldErrors errors;
+  if (file.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED)
     errors.Add(At(at, "length_unit"), "must be unset: a CAD file states its own unit");
-    return errors.ToStatus();
-  }
-  PM_ASSIGN_OR_RETURN(const Imported imported, ImportFile(file.content(), format, run, in_flight));
+  const ImportParams params = ReadImportParams(file, format, at, errors);
+  PM_RETURN_IF_ERROR(errors.ToStatus());
+  PM_ASSIGN_OR_RETURN(const Imported imported, ImportFile(file.content(), params, run, in_flight));
   const v1::ImportResult& result = imported.result;
   PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadMessage(result.model(), At(at, "content"), run));
   loaded.remarks.push_back(ImportRemark(result.report(), format));
@@ -221,9 +279,10 @@ absl::Status RequireContent(const v1::ModelFile& file) {
 absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::string& at, const RunContext& run,
                                      InFlight* in_flight) {
   PM_RETURN_IF_ERROR(RequireContent(file));
-  if (IsText(file.format())) return LoadText(file, at);
   const std::string_view cad = CadFormat(file.format());
   if (!cad.empty()) return LoadCad(file, cad, at, run, in_flight);
+  PM_RETURN_IF_ERROR(RefuseImportOptions(file, at));
+  if (IsText(file.format())) return LoadText(file, at);
   PM_ASSIGN_OR_RETURN(const FileMessage message, ParseMessage(file, at, run, in_flight));
   return LoadMessage(message.model, At(at, "content"), run);
 }
@@ -270,6 +329,7 @@ absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::st
     case v1::ModelSource::kFile: {
       PM_RETURN_IF_ERROR(RequireContent(source.file()));
       path = At(at, "file");
+      PM_RETURN_IF_ERROR(RefuseImportOptions(source.file(), path));
       if (IsText(source.file().format())) {
         FieldErrors errors;
         errors.Add(At(path, "format"),

@@ -20,6 +20,7 @@ struct LoadedModel {
   Diagnostics faults;     // of the patches; the model may be used only if empty
   Diagnostics remarks;    // warnings about a usable model; points in its own frame, mm
   bool unitless = false;  // neither the file nor the request states a unit
+  bool network = false;   // the patches are those of a curve network
   std::string digest;     // SHA-256, 32 bytes
   std::string path;       // of the model in the request; for a file, of its content
 };

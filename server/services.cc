@@ -150,6 +150,7 @@ std::vector<NamedService> MakeServices(ServerEnv* env) {
   std::vector<NamedService> services;
   services.push_back(ServiceBuilder(env, v1::ModelService::service_full_name())
                          .Add("CheckModel", HandleCheckModel)
+                         .Add("ConvertModel", HandleConvertModel)
                          .Add("BuildModel", HandleBuildModel)
                          .Add("EditModel", HandleEditModel)
                          .Add("FairNet", HandleFairNet)

@@ -16,6 +16,7 @@ namespace {
 struct CheckOptions {
   CommonOptions common;
   SetupOptions setup;
+  ReadingOptions reading;
   std::string model;
   double tool_diameter = 6.0;
   int continuity = 0;
@@ -74,7 +75,7 @@ void Print(const CheckOptions& options, const v1::CheckModelResponse& response) 
 
 absl::Status Run(const CheckOptions& options, InterruptWatch& watch) {
   v1::CheckModelRequest request;
-  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
   absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
   if (!setup.ok()) return setup.status();
@@ -103,6 +104,7 @@ Command AddCheck(CLI::App& app) {
   app.add_option("--continuity", options->continuity,
                  "list every joint, measured at this many equal steps of its edge")
       ->check(CLI::Range(0, 10000));
+  AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

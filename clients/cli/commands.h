@@ -16,6 +16,7 @@ using Command = std::function<absl::Status(InterruptWatch&)>;
 Command AddMill(CLI::App& app);
 Command AddCheck(CLI::App& app);
 Command AddFaces(CLI::App& app);
+Command AddConvert(CLI::App& app);
 Command AddRegions(CLI::App& app);
 Command AddReach(CLI::App& app);
 Command AddVerify(CLI::App& app);

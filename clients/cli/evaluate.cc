@@ -17,6 +17,7 @@ namespace {
 struct EvaluateOptions {
   CommonOptions common;
   SetupOptions setup;
+  ReadingOptions reading;
   std::string model, output;
   std::vector<std::string> at;
 };
@@ -42,7 +43,7 @@ absl::StatusOr<v1::EvaluateSurfaceRequest> MakeRequest(const EvaluateOptions& op
   for (const std::string& text : options.at) {
     if (const absl::Status added = AddPlace(text, request); !added.ok()) return added;
   }
-  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
   absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
   if (!setup.ok()) return setup.status();
@@ -94,6 +95,7 @@ Command AddEvaluate(CLI::App& app) {
          "PATCH,U,V: index of the patch, from 0, and parameters in [0,1]; several are separated by blanks")
       ->required();
   app.add_option("-o,--output", options->output, "write the values, too: .json");
+  AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

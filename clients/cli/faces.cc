@@ -18,6 +18,7 @@ namespace {
 struct FacesOptions {
   CommonOptions common;
   SetupOptions setup;
+  ReadingOptions reading;
   std::string model, output;
 };
 
@@ -65,7 +66,7 @@ void Print(const v1::CheckModelResponse& response) {
 absl::Status Run(const FacesOptions& options, InterruptWatch& watch) {
   OutputFile output(options.output, {".json", ".svg"});
   v1::CheckModelRequest request;
-  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
   absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
   if (!setup.ok()) return setup.status();
@@ -99,6 +100,7 @@ Command AddFaces(CLI::App& app) {
   app.add_option("MODEL", options->model, kModelHelp)->required();
   app.add_option("-o,--output", options->output,
                  "the faces: .json with their figures, or .svg, a picture with their ids");
+  AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

@@ -236,7 +236,14 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   return op;
 }
 
-absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path) {
+void AddReadingOptions(CLI::App& app, ReadingOptions& options) {
+  AddNumber(
+      app, "--border-tolerance", options.border_tolerance,
+      "CAD files: how far the borders of patches may lie from the edges of faces where they cannot follow "
+      "them\nexactly, mm in the file; default 0.0001");
+}
+
+absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const ReadingOptions& options) {
   absl::StatusOr<std::string> bytes = ReadWholeFile(path);
   if (!bytes.ok()) return bytes.status();
   v1::ModelSource source;
@@ -251,6 +258,9 @@ absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path) {
     file.set_format(ending.substr(1));
   }
   file.set_content(*std::move(bytes));
+  if (options.border_tolerance) {
+    file.mutable_import_options()->set_border_tolerance_mm(*options.border_tolerance);
+  }
   return source;
 }
 

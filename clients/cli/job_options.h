@@ -62,8 +62,14 @@ bool ReadFinite(const std::string& text, double& value);
 // Reads "X,Y,Z". INVALID_ARGUMENT names the option.
 absl::StatusOr<v1::Point3> ReadPoint(const std::string& text, const char* option);
 
-// The bytes of a model file and its format. The ending of the path gives the text formats. The server
-// distinguishes JSON from protobuf by content.
-absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path);
+// How a CAD file is read.
+struct ReadingOptions {
+  std::optional<double> border_tolerance;
+};
+void AddReadingOptions(CLI::App& app, ReadingOptions& options);
+
+// The bytes of a model file, its format and how it is read. The ending of the path gives the text formats.
+// The server distinguishes JSON from protobuf by content.
+absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const ReadingOptions& options = {});
 
 }  // namespace patchmill::cli

@@ -30,6 +30,7 @@ const std::map<std::string, v1::LineKind> kKinds = {
 struct LinesOptions {
   CommonOptions common;
   SetupOptions setup;
+  ReadingOptions reading;
   std::string model, output;
   std::vector<std::string> kinds = {"contour"};
   std::vector<double> levels, direction, across, eye;
@@ -46,7 +47,7 @@ void SetPoint(const std::vector<double>& xyz, v1::Point3* point) {
 
 absl::StatusOr<v1::TraceLinesRequest> MakeRequest(const LinesOptions& options, bool picture) {
   v1::TraceLinesRequest request;
-  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
   absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
   if (!setup.ok()) return setup.status();
@@ -126,6 +127,7 @@ Command AddLines(CLI::App& app) {
   AddVector(app, "--eye", options->eye, "X,Y,Z, for --kind eye: place of the eye, mm, program frame");
   AddNumber(app, "--tolerance", options->tolerance, "chord tolerance, mm");
   AddNumber(app, "--min-loop", options->min_loop, "every loop wider than this is found, mm");
+  AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

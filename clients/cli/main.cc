@@ -30,6 +30,7 @@ int Main(int argc, char** argv) {
   add("mill", "plan, write and verify a program", AddMill);
   add("check", "check a model: patches, joints, curvature against the tool", AddCheck);
   add("faces", "list the faces of a CAD file: ids, names, kinds, sizes", AddFaces);
+  add("convert", "write a model of any format, CAD files too, as a .pb or .json file", AddConvert);
   add("regions", "split the surface into regions: steep and gentle, mountain and basin, unreachable",
       AddRegions);
   add("reach", "how much of the surface each of several balls does not reach", AddReach);

@@ -24,6 +24,7 @@ constexpr int kMaxReasons = 5;  // lines on the terminal
 struct MillOptions {
   CommonOptions common;
   SetupOptions setup;
+  ReadingOptions reading;
   OperationOptions operation;
   LimitOptions limits;
   RegionChangeOptions regions;
@@ -39,7 +40,7 @@ struct Received {
 
 absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& options) {
   v1::GenerateProgramRequest request;
-  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
   absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
   if (!setup.ok()) return setup.status();
@@ -271,6 +272,7 @@ Command AddMill(CLI::App& app) {
   AddOperationOptions(app, options->operation);
   AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
+  AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
   app.add_flag(

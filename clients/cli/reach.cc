@@ -16,6 +16,7 @@ namespace {
 struct ReachOptions {
   CommonOptions common;
   SetupOptions setup;
+  ReadingOptions reading;
   OperationOptions operation;
   std::string model, output;
   std::vector<double> diameters = {1, 2, 3, 4, 6, 8, 10, 12};
@@ -23,7 +24,7 @@ struct ReachOptions {
 
 absl::StatusOr<v1::TabulateReachRequest> MakeRequest(const ReachOptions& options) {
   v1::TabulateReachRequest request;
-  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
   absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
   if (!setup.ok()) return setup.status();
@@ -75,6 +76,7 @@ Command AddReach(CLI::App& app) {
   AddNumber(app, "--tolerance", op.tolerance, "whole error budget of the job, mm");
   AddNumber(app, "--leave", op.leave, "stock to leave along the normal, mm");
   AddNumber(app, "--floor", op.floor, "lowest tip, mm, program frame; default: lowest point of the model");
+  AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

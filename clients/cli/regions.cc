@@ -23,6 +23,7 @@ constexpr double kFew = 0.005;   // share of the area; a smaller share cut in an
 struct RegionsOptions {
   CommonOptions common;
   SetupOptions setup;
+  ReadingOptions reading;
   OperationOptions operation;
   LimitOptions limits;
   RegionChangeOptions regions;
@@ -31,7 +32,7 @@ struct RegionsOptions {
 
 absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& options, bool picture) {
   v1::SplitRegionsRequest request;
-  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
   absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
   if (!setup.ok()) return setup.status();
@@ -175,6 +176,7 @@ Command AddRegions(CLI::App& app) {
                "straight lines on rims and shoulders, too, where circular lines would be a tenth shorter");
   AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
+  AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

@@ -19,6 +19,7 @@ namespace {
 struct VerifyOptions {
   CommonOptions common;
   SetupOptions setup;
+  ReadingOptions reading;
   LimitOptions limits;
   RegionChangeOptions regions;
   std::string model, program, report, strategy = "auto";
@@ -31,7 +32,7 @@ struct VerifyOptions {
 
 absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& options) {
   v1::VerifyProgramRequest request;
-  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
+  absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
   absl::StatusOr<std::string> program = ReadWholeFile(options.program);
   if (!program.ok()) return program.status();
@@ -180,6 +181,7 @@ Command AddVerify(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0));
   AddRegionChangeOptions(app, options->regions);
   AddLimitOptions(app, options->limits);
+  AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
   app.add_option("--report", options->report, "write the report here (.json)");

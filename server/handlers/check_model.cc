@@ -24,17 +24,6 @@
 namespace patchmill {
 namespace {
 
-// The finding for a file without a unit, which is read as millimetres: an info, or a warning if the size
-// looks wrong [machining M14].
-Diagnostic UnitFinding(const Box3& box, const std::optional<Tool>& tool) {
-  const double extent = (box.max - box.min).maxCoeff();
-  const bool wrong = extent > 2000.0 || (tool && extent < 4.0 * BallRadius(*tool));
-  std::string message =
-      fmt::format("the file states no unit, millimetres are assumed: the model is {:.4g} mm large", extent);
-  if (!wrong) return MakeInfo("UNIT_ASSUMED", std::move(message));
-  return MakeWarning("SUSPICIOUS_SIZE", message + "; is the scale right?");
-}
-
 void FillNetwork(const PatchNetwork& network, v1::CheckModelResponse* response) {
   int joined = 0;
   double gap = 0.0, angle = 0.0;

@@ -14,6 +14,9 @@ namespace patchmill {
 absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& request,
                               v1::CheckModelResponse* response);
 
+absl::Status HandleConvertModel(const Call& call, const v1::ConvertModelRequest& request,
+                                v1::ConvertModelResponse* response);
+
 absl::Status HandleBuildModel(const Call& call, const v1::BuildModelRequest& request,
                               v1::BuildModelResponse* response);
 

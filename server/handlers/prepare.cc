@@ -30,6 +30,15 @@ Diagnostics Placed(Diagnostics remarks, const Placement& placement) {
   return remarks;
 }
 
+Diagnostic UnitFinding(const Box3& box, const std::optional<Tool>& tool) {
+  const double extent = (box.max - box.min).maxCoeff();
+  const bool wrong = extent > 2000.0 || (tool && extent < 4.0 * BallRadius(*tool));
+  std::string message =
+      fmt::format("the file states no unit, millimetres are assumed: the model is {:.4g} mm large", extent);
+  if (!wrong) return MakeInfo("UNIT_ASSUMED", std::move(message));
+  return MakeWarning("SUSPICIOUS_SIZE", message + "; is the scale right?");
+}
+
 absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run,
                                        InFlight& in_flight) {
   PreparedJob prepared;

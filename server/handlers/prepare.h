@@ -1,6 +1,7 @@
 // Steps that the handlers share: they check the job of a request, load its model and set its limits.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <absl/status/statusor.h>
@@ -29,6 +30,10 @@ absl::Status RefuseUnknownFields(const google::protobuf::Message& request);
 
 // The remarks with their points in the placed frame.
 Diagnostics Placed(Diagnostics remarks, const Placement& placement);
+
+// The finding for a file without a unit, which is read as millimetres: an info, or a warning if the size
+// looks wrong [machining M14].
+Diagnostic UnitFinding(const Box3& box, const std::optional<Tool>& tool);
 
 // OK for a model without faults, else MODEL_INVALID with the faults.
 absl::Status RequireSound(const LoadedModel& model);

@@ -205,7 +205,7 @@ TEST(Contract, EveryCallListsItsErrors) {
       }
     }
   });
-  EXPECT_EQ(seen, 11);
+  EXPECT_EQ(seen, 12);
 }
 
 }  // namespace

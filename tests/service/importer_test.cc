@@ -196,10 +196,10 @@ TEST(Importer, EveryEndingInAnyCaseHasItsFormat) {
 
 TEST(Importer, TheSameBytesEachTime) {
   NEEDS_IMPORTER();
-  const auto first = ImportFile(CadFile("block.step"), "step", RunContext());
+  const auto first = ImportFile(CadFile("block.step"), {"step"}, RunContext());
   ASSERT_TRUE(first.ok()) << first.status();
   for (int round = 0; round < (testing::LongTests() ? 20 : 3); ++round) {
-    const auto again = ImportFile(CadFile("block.step"), "step", RunContext());
+    const auto again = ImportFile(CadFile("block.step"), {"step"}, RunContext());
     ASSERT_TRUE(again.ok());
     EXPECT_EQ(again->result.SerializeAsString(), first->result.SerializeAsString());
   }
@@ -208,9 +208,9 @@ TEST(Importer, TheSameBytesEachTime) {
 TEST(Importer, TheAnswerIsHeldBeforeItIsParsed) {
   NEEDS_IMPORTER();
   InFlight narrow(std::size_t{64} << 10, {}), wide(std::size_t{8} << 20, {});
-  EXPECT_THAT(ImportFile(CadFile("block.step"), "step", RunContext(), &narrow).status(),
+  EXPECT_THAT(ImportFile(CadFile("block.step"), {"step"}, RunContext(), &narrow).status(),
               StatusIs(absl::StatusCode::kResourceExhausted, _));
-  EXPECT_TRUE(ImportFile(CadFile("block.step"), "step", RunContext(), &wide).ok());
+  EXPECT_TRUE(ImportFile(CadFile("block.step"), {"step"}, RunContext(), &wide).ok());
 }
 
 TEST(Importer, AStatedUnitIsRefused) {
@@ -289,7 +289,7 @@ class Script {
 
 TEST(Importer, AnImporterThatFails) {
   const auto import = [](const std::string& body) {
-    return ImportFileWith(Script(body).path(), "content", "step", RunContext()).status();
+    return ImportFileWith(Script(body).path(), "content", {"step"}, RunContext()).status();
   };
   EXPECT_THAT(import("kill -SEGV $$"),
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("(signal 11)")));
@@ -301,7 +301,7 @@ TEST(Importer, AnImporterThatFails) {
               StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("none")));
   EXPECT_THAT(import("printf '\\002\\004\\000\\000\\000abcd'"),
               StatusIs(absl::StatusCode::kInvalidArgument, _));
-  EXPECT_THAT(ImportFileWith("/nowhere/patchmill-import", "", "step", RunContext()).status(),
+  EXPECT_THAT(ImportFileWith("/nowhere/patchmill-import", "", {"step"}, RunContext()).status(),
               StatusIs(absl::StatusCode::kUnimplemented, HasSubstr("reads no STEP or IGES")));
 }
 
@@ -319,7 +319,7 @@ TEST(Importer, ACancelEndsItSoon) {
         run.Cancel();
       });
     }
-    const absl::Status status = ImportFileWith(sleeper.path(), "content", "step", run).status();
+    const absl::Status status = ImportFileWith(sleeper.path(), "content", {"step"}, run).status();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     if (canceller.joinable()) canceller.join();
     EXPECT_THAT(status,
