@@ -131,6 +131,8 @@ void AddLimits(const Job& job, Canonical& out) {
     AddOptional(change.scallop, out);
     if (change.one_way) out.Add("one way").Add(std::int64_t{*change.one_way});
   }
+  if (job.setup.up_auto) out.Add("up auto");
+  if (!job.setup.up_face.empty()) out.Add("up face").Add(job.setup.up_face);
   if (job.operation.one_way) out.Add("one way");
   if (job.operation.low_rapids) out.Add("low rapids");
   if (job.operation.spirals) out.Add("spirals");

@@ -38,6 +38,10 @@ struct Setup {
   std::optional<double> stock_top_z;  // PROGRAM frame, default model top + allowance
   double allowance = 0.5;
   std::vector<ObstacleOutline> obstacles;
+  // What the turn of the placement follows from, once the model is known (ChooseUp in cam/plan/choose_up.h):
+  // the axis that shows most, or the outer normal of a plane face. At most one is set.
+  bool up_auto = false;
+  std::string up_face = {};  // id
 };
 
 // Which part of the model is cut. A patch is named by its id, or by "#" and its index (0-based, in the order

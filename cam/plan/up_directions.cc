@@ -61,13 +61,17 @@ Vec3 DirectionOf(UpAxis axis, const Placement& placement) {
   constexpr std::array<std::array<double, 3>, 6> kAxes = {
       {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}, {0, -1, 0}, {-1, 0, 0}}};
   const auto& [x, y, z] = kAxes[static_cast<std::size_t>(axis)];
-  return Place(Placement{.scale = 1.0, .up = placement.up, .translation = Vec3::Zero()}, Vec3(x, y, z));
+  Placement turn = placement;
+  turn.scale = 1.0;
+  turn.translation = Vec3::Zero();
+  return Place(turn, Vec3(x, y, z));
 }
 
 View Along(const Vec3& toward, const Box3& box) {
   View view;
   view.toward = toward;
-  view.right = std::abs(toward.x()) > 0.5 ? Vec3::UnitY() : Vec3::UnitX();
+  const Vec3 beside = std::abs(toward.x()) > 0.5 ? Vec3::UnitY() : Vec3::UnitX();
+  view.right = (beside - beside.dot(toward) * toward).normalized();
   view.up = view.toward.cross(view.right);
   return FitView(view, box, Vec2::Zero(), kDots, kDots);
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "clients/cli/input_file.h"
+#include "clients/cli/text.h"
 
 namespace patchmill::cli {
 namespace {
@@ -27,13 +28,16 @@ CLI::Option* AddNumberOf(CLI::App& app, const std::string& name, Value& value, c
   return option->check(kFinite)->capture_default_str();
 }
 
-v1::UpAxis MakeUp(const std::string& name) {
+// The axis of this name; nothing for any other text.
+std::optional<v1::UpAxis> MakeUp(const std::string& name) {
+  if (name == "auto") return v1::UP_AXIS_AUTO;
+  if (name == "z") return v1::UP_AXIS_Z;
   if (name == "y") return v1::UP_AXIS_Y;
   if (name == "x") return v1::UP_AXIS_X;
   if (name == "-z") return v1::UP_AXIS_NEG_Z;
   if (name == "-y") return v1::UP_AXIS_NEG_Y;
   if (name == "-x") return v1::UP_AXIS_NEG_X;
-  return v1::UP_AXIS_Z;
+  return std::nullopt;
 }
 
 v1::CutDirection MakeDirection(const std::string& name) {
@@ -143,8 +147,10 @@ void AddShankOptions(CLI::App& app, ShankOptions& options) {
 
 void AddSetupOptions(CLI::App& app, SetupOptions& options) {
   AddNumber(app, "--scale", options.scale, "scale factor of the model");
-  app.add_option("--up", options.up, "axis of the model that points up on the machine")
-      ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+  app.add_option(
+         "--up", options.up,
+         "what points up on the machine: an axis of the model (x, y, z, -x, -y, -z), auto (the axis that "
+         "shows most),\nor a plane face (f12), with its outer side")
       ->capture_default_str();
   app.add_option("--translate", options.translate, "translation X,Y,Z after scaling and turning, mm")
       ->delimiter(',')
@@ -163,7 +169,11 @@ void AddStockOptions(CLI::App& app, SetupOptions& options) {
 
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
   v1::Setup setup;
-  setup.set_up(MakeUp(options.up));
+  if (const std::optional<v1::UpAxis> up = MakeUp(options.up)) {
+    setup.set_up(*up);
+  } else {
+    setup.set_up_face(WireText(options.up, 200));
+  }
   setup.set_scale(options.scale);
   if (!options.translate.empty()) {
     setup.mutable_translation()->set_x_mm(options.translate[0]);

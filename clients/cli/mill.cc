@@ -142,6 +142,8 @@ void PrintWarnings(const v1::Report& report, bool assumptions) {
       ++of_patches[finding.code()];
   }
   for (const v1::Diagnostic& finding : report.diagnostics()) {
+    const bool answers = finding.code() == "UP_CHOSEN" && assumptions;  // what the options left open
+    if (answers) fmt::print(stderr, "  {}\n", Line(finding));
     if (finding.severity() == v1::SEVERITY_INFO || (!assumptions && IsAssumption(finding))) continue;
     if (!finding.where().has_patch_index()) {
       fmt::print(stderr, "  {}\n", Line(finding));

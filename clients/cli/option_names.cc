@@ -33,6 +33,8 @@ constexpr Entry kOptions[] = {
     {"zigzag_bend_deg", "--bend"},
     {"operations[0].detail", "--detail"},
     {"regions_sha256", "--regions"},
+    {"setup.up", "--up"},
+    {"up_face", "--up"},
     {"border_tolerance_mm", "--border-tolerance"},
     {"scale", "--scale"},
     {"setup.translation.x_mm", "--translate"},

@@ -12,6 +12,7 @@ namespace patchmill {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Vec4 = Eigen::Vector4d;
+using Mat3 = Eigen::Matrix3d;
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();

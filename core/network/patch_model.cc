@@ -24,31 +24,63 @@ std::string Title(const PatchModel& model, PatchId patch) {
                       : fmt::format("patch {} ({})", patch.value, p.id);
 }
 
-Vec3 Place(const Placement& placement, const Vec3& p) {
-  const Vec3 q = placement.scale * p;
-  const Vec3& t = placement.translation;
+const char* Name(UpAxis axis) {
+  switch (axis) {
+    case UpAxis::kZ:
+      return "z";
+    case UpAxis::kY:
+      return "y";
+    case UpAxis::kX:
+      return "x";
+    case UpAxis::kNegZ:
+      return "-z";
+    case UpAxis::kNegY:
+      return "-y";
+    case UpAxis::kNegX:
+      return "-x";
+  }
+  return "";
+}
+
+namespace {
+
+Vec3 TurnedUp(const Placement& placement, const Vec3& q) {
+  if (placement.turn) {
+    // Written out: the order of the sums must not depend on the machine.
+    const Mat3& m = *placement.turn;
+    const auto row = [&](int k) { return m(k, 0) * q.x() + m(k, 1) * q.y() + m(k, 2) * q.z(); };
+    return {row(0), row(1), row(2)};
+  }
   switch (placement.up) {
     case UpAxis::kZ:
-      return t + q;
+      return q;
     case UpAxis::kY:
-      return t + Vec3(q.x(), -q.z(), q.y());
+      return {q.x(), -q.z(), q.y()};
     case UpAxis::kX:
-      return t + Vec3(-q.z(), q.y(), q.x());
+      return {-q.z(), q.y(), q.x()};
     case UpAxis::kNegZ:
-      return t + Vec3(q.x(), -q.y(), -q.z());
+      return {q.x(), -q.y(), -q.z()};
     case UpAxis::kNegY:
-      return t + Vec3(q.x(), q.z(), -q.y());
+      return {q.x(), q.z(), -q.y()};
     case UpAxis::kNegX:
-      return t + Vec3(q.z(), q.y(), -q.x());
+      return {q.z(), q.y(), -q.x()};
   }
-  return t + q;
+  return q;
+}
+
+}  // namespace
+
+Vec3 Place(const Placement& placement, const Vec3& p) {
+  return placement.translation + TurnedUp(placement, placement.scale * p);
 }
 
 Box3 Place(const Placement& placement, const Box3& box) {
-  Box3 placed;  // axes go to axes, and rounding keeps their order
+  Box3 placed;
   if (box.Empty()) return placed;
-  placed.Add(Place(placement, box.min));
-  placed.Add(Place(placement, box.max));
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto of = [&](int k) { return (corner >> k) % 2 == 0 ? box.min[k] : box.max[k]; };
+    placed.Add(Place(placement, Vec3(of(0), of(1), of(2))));
+  }
   return placed;
 }
 

@@ -35,17 +35,21 @@ Where WhereOf(const PatchModel& model, PatchId patch);
 // "face f12 (pocket floor)" or "face f12" for a part of a face, else "patch 7 (lid)" or "patch 7".
 std::string Title(const PatchModel& model, PatchId patch);
 
-// How the model lies on the machine: it is scaled, then turned by `up`, then translated ([machining M3]).
+// How the model lies on the machine: it is scaled, then turned, then translated ([machining M3]).
 enum class UpAxis { kZ, kY, kX, kNegZ, kNegY, kNegX };
+const char* Name(UpAxis axis);  // "z", "-y"
 struct Placement {
   double scale = 1.0;  // > 0
   UpAxis up = UpAxis::kZ;
   Vec3 translation = Vec3::Zero();
+  std::optional<Mat3> turn = std::nullopt;  // a rotation, in place of `up`
 };
 Vec3 Place(const Placement& placement, const Vec3& p);
-Box3 Place(const Placement& placement, const Box3& box);  // exactly the box of the placed points
-// All control points placed, and join_tolerance scaled with them. This is exact, because all kinds are
-// affine-invariant. Radii of faces are scaled. A model that is moved in is placed in its own memory.
+// The box of the placed box: exactly that of the placed points, unless they are turned by a rotation.
+Box3 Place(const Placement& placement, const Box3& box);
+// All control points placed, and join_tolerance scaled with them. This is exact but for rounding, because
+// all kinds are affine-invariant. Radii of faces are scaled. A model that is moved in is placed in its own
+// memory.
 PatchModel Place(const Placement& placement, PatchModel model);
 
 // Finds everything that makes a single patch unusable: sizes, degrees, knots, weights, finite numbers,

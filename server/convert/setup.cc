@@ -80,7 +80,12 @@ v1::Point3 ToProto(const Vec3& p) {
 
 Setup FromProto(const v1::Setup& proto, std::string_view at, FieldErrors& errors) {
   Setup setup;
-  setup.placement.up = FromProto(proto.up(), At(at, "up"), errors);
+  setup.up_auto = proto.up() == v1::UP_AXIS_AUTO;
+  if (!setup.up_auto) setup.placement.up = FromProto(proto.up(), At(at, "up"), errors);
+  RequireBytes(errors, At(at, "up_face"), proto.up_face(), limits::kMaxIdBytes);
+  setup.up_face = proto.up_face();
+  if (!setup.up_face.empty() && proto.up() != v1::UP_AXIS_UNSPECIFIED)
+    errors.Add(At(at, "up"), "is set together with up_face; set one of them");
   if (proto.has_scale()) {
     setup.placement.scale = proto.scale();
     Require(errors, At(at, "scale"), proto.scale(),
@@ -155,7 +160,11 @@ Tool FromProto(const v1::Tool& proto, std::string_view at, CuttingData cutting_d
 
 v1::Setup ToProto(const Setup& setup) {
   v1::Setup proto;
-  proto.set_up(ToProto(setup.placement.up));
+  if (setup.up_face.empty()) {
+    proto.set_up(ToProto(setup.placement.up));
+  } else {
+    proto.set_up_face(Utf8(setup.up_face));
+  }
   proto.set_scale(setup.placement.scale);
   *proto.mutable_translation() = ToProto(setup.placement.translation);
   if (setup.zero == Setup::Zero::kPoint) {

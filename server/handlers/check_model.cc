@@ -109,6 +109,9 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
       return absl::OkStatus();
     }
     PM_RETURN_IF_ERROR(run.Check());
+    PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
+    model = std::move(upright.model);
+    job.setup = std::move(upright.setup);
     PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildPlacedNetwork(std::move(model.model), job.setup, run));
     ContinuityReport continuity;
     if (steps > 0) {

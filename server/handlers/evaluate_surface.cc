@@ -82,7 +82,10 @@ absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRe
     PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
     PM_RETURN_IF_ERROR(RequireSound(model));
     PM_RETURN_IF_ERROR(CheckPoints(request, model.model));
-    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
+    PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
+    job.setup = std::move(upright.setup);
+    PM_ASSIGN_OR_RETURN(const Surface surface,
+                        BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
     for (int k = 0; k < count; ++k) {
       const PatchId patch(request.patch_index(k));

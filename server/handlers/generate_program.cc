@@ -143,7 +143,9 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
   PM_ASSIGN_OR_RETURN(const Outputs outputs, ReadOutputs(request.outputs(), kPossible, kDefaults));
   PreparedJob prepared;
   const auto prepare = [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(prepared, PrepareJob(request.job(), request.post(), run, call.env->in_flight));
+    absl::StatusOr<PreparedJob> made = PrepareJob(request.job(), request.post(), run, call.env->in_flight);
+    if (!made.ok()) return InJob(made.status());
+    prepared = *std::move(made);
     PM_RETURN_IF_ERROR(run.Check());
     return request.validate_only() ? InJob(Validate(prepared, run)) : absl::OkStatus();
   };

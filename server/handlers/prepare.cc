@@ -1,7 +1,10 @@
 #include "server/handlers/prepare.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
+#include "cam/plan/choose_up.h"
 #include "core/base/status.h"
 #include "server/call.h"
 #include "server/convert/job.h"
@@ -21,6 +24,20 @@ absl::Status RefuseUnknownFields(const google::protobuf::Message& request) {
 
 absl::Status RequireSound(const LoadedModel& model) {
   return model.faults.empty() ? absl::OkStatus() : ModelInvalidError(model.faults, model.path);
+}
+
+absl::StatusOr<UprightModel> MakeUpright(LoadedModel model, const Setup& setup, const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(ChosenUp chosen, ChooseUp(model.model, setup, run));
+  for (Diagnostic& finding : chosen.findings) model.remarks.push_back(std::move(finding));
+  return UprightModel{std::move(model), std::move(chosen.setup)};
+}
+
+Diagnostics HeaderRemarks(const Diagnostics& remarks) {
+  Diagnostics stated;
+  for (const Diagnostic& remark : remarks) {
+    if (remark.code == "UP_CHOSEN") stated.push_back(remark);
+  }
+  return stated;
 }
 
 Diagnostics Placed(Diagnostics remarks, const Placement& placement) {
@@ -46,8 +63,12 @@ absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post,
   prepared.job = FromProto(job, post, "job", errors);
   prepared.name = job.name();
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  PM_ASSIGN_OR_RETURN(prepared.model, LoadModel(job.source(), "job.source", run, &in_flight));
-  PM_RETURN_IF_ERROR(RequireSound(prepared.model));
+  PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadModel(job.source(), "job.source", run, &in_flight));
+  PM_RETURN_IF_ERROR(RequireSound(loaded));
+  PM_RETURN_IF_ERROR(run.Check());
+  PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(loaded), prepared.job.setup, run));
+  prepared.model = std::move(upright.model);
+  prepared.job.setup = std::move(upright.setup);
   prepared.job.unitless_file = prepared.model.unitless;
   prepared.job.model_remarks = Placed(prepared.model.remarks, prepared.job.setup.placement);
   prepared.job.path_limits = {.length = limits::kMaxCutLengthMm, .points = limits::kMaxPathPoints};
@@ -55,6 +76,9 @@ absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post,
   if (!prepared.name.empty()) prepared.job.header.push_back("part: " + prepared.name);
   prepared.job.header.push_back(fmt::format("made by Patchmill {}", ServerVersion()));
   prepared.job.header.push_back("request sha256: " + Hex(prepared.digest));
+  for (const Diagnostic& remark : HeaderRemarks(prepared.model.remarks)) {
+    prepared.job.header.push_back(remark.code + ": " + remark.message);
+  }
   return prepared;
 }
 

@@ -28,6 +28,16 @@ absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post,
 // INVALID_ARGUMENT for a field that this version does not know. Such a field is never ignored silently.
 absl::Status RefuseUnknownFields(const google::protobuf::Message& request);
 
+// A model, and the set-up that its turn follows from (ChooseUp). What points up and why is among its remarks.
+struct UprightModel {
+  LoadedModel model;
+  Setup setup;
+};
+absl::StatusOr<UprightModel> MakeUpright(LoadedModel model, const Setup& setup, const RunContext& run);
+
+// Those of the remarks that the header of a program states and every answer repeats. Without points.
+Diagnostics HeaderRemarks(const Diagnostics& remarks);
+
 // The remarks with their points in the placed frame.
 Diagnostics Placed(Diagnostics remarks, const Placement& placement);
 

@@ -170,9 +170,12 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
   return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
     PM_RETURN_IF_ERROR(RequireSound(model));
+    PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), order.job.setup, run));
+    Job job = order.job;
+    job.setup = std::move(upright.setup);
     PM_ASSIGN_OR_RETURN(const Surface surface,
-                        BuildPlacedSurface(std::move(model.model), order.job.setup, run));
-    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, order.job, run));
+                        BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
+    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
     const Vec3& zero = resolved.program_zero;
     std::vector<LineOrder> lines;
     for (const LineOrder& line : order.lines) lines.push_back(Placed(line, zero));
@@ -190,6 +193,7 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
       }
       set.set_length_mm(length);
     }
+    AddDiagnostics(HeaderRemarks(upright.model.remarks), zero, response->mutable_diagnostics());
     AddDiagnostics(surface.network.findings, zero, response->mutable_diagnostics());
     *response->mutable_patch_ids() = PatchIds(surface.network.model);
     if (request.picture()) {

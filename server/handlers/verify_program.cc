@@ -104,8 +104,8 @@ int RetractCount(const ProgramMotion& motion) {
   return count;
 }
 
-absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, const Job& job,
-                  const RunContext& run, v1::Report* report) {
+absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, Job job, const RunContext& run,
+                  v1::Report* report) {
   run.Progress("model", 0.0);
   PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
   PM_RETURN_IF_ERROR(RequireSound(model));
@@ -116,7 +116,10 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
     return ProgramUnreadableError("program: " + std::string(motion.status().message()));
   }
   PM_RETURN_IF_ERROR(run.Check());
-  PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model.model), job.setup, run));
+  PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
+  job.setup = std::move(upright.setup);
+  PM_ASSIGN_OR_RETURN(const Surface surface,
+                      BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
   PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, VerifiedParts(surface, job, resolved, run));
   VerifyParams params = MakeVerifyParams(job, resolved, parts);
@@ -142,6 +145,7 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
                      {.field = "scallop_mm"})},
         resolved.program_zero, report->mutable_diagnostics());
   }
+  AddDiagnostics(HeaderRemarks(upright.model.remarks), resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(WallsWithoutSide(surface), resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(verify.findings, resolved.program_zero, report->mutable_diagnostics());
   return absl::OkStatus();

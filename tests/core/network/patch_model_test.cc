@@ -62,6 +62,21 @@ TEST(Place, FollowsTheTableOfTheDesign) {
   EXPECT_EQ(placed(UpAxis::kNegX), Vec3(3, 2, -1));
 }
 
+TEST(Place, TurnsByARotationInPlaceOfAnAxis) {
+  Placement placement{2.0, UpAxis::kY, Vec3(10, 20, 30)};
+  placement.turn = Eigen::AngleAxisd(kPi / 2.0, Vec3::UnitZ()).matrix();
+  EXPECT_LE((Place(placement, Vec3(1, 2, 3)) - Vec3(6, 22, 36)).norm(), 1e-14);
+  placement.turn = Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).matrix();
+  Box3 box;
+  box.Add(Vec3(-1, 0, 2));
+  box.Add(Vec3(3, 1, 4));
+  const Box3 placed = Place(placement, box);
+  for (const Vec3& p : {Vec3(-1, 0, 2), Vec3(3, 1, 4), Vec3(3, 0, 2), Vec3(-1, 1, 4), Vec3(0, 0.5, 3)}) {
+    const Vec3 q = Place(placement, p);
+    EXPECT_TRUE((q.array() >= placed.min.array()).all() && (q.array() <= placed.max.array()).all());
+  }
+}
+
 TEST(Place, ScalesBeforeItTurnsAndMoves) {
   const Placement placement{2.0, UpAxis::kY, Vec3(10, 20, 30)};
   EXPECT_EQ(Place(placement, Vec3(1, 2, 3)), Vec3(12, 14, 34));
